@@ -1,0 +1,33 @@
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+
+.PHONY: help derive test bench lint clean
+
+help:            ## this list
+	@sed -n 's/^\([a-z]*\):.*## /  make \1  \t/p' Makefile
+
+derive: $(STAMP) ## walk SO(3), SE(3), SL(3): print every equation, regenerate generated/
+	$(BIN)/derive build --print
+
+test: $(STAMP)   ## lint, types and all tests
+	@command -v gcc >/dev/null || { echo "make test: gcc is not on the path; install a C compiler" >&2; exit 2; }
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/python -m pytest -n 2
+
+lint: $(STAMP)   ## ruff and mypy alone
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+
+bench: $(STAMP)  ## whole-process times beside `import sympy`
+	$(BIN)/python -m benchmarks.road
+
+clean:           ## remove the virtual environment and caches
+	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache
+
+$(STAMP): pyproject.toml
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[test]"
+	touch $(STAMP)

@@ -1,0 +1,1 @@
+"""Words, groups, forms, trees: the mathematics without mechanics."""

@@ -1,0 +1,192 @@
+"""Calculus on words: derivations, substitutions and the relations of a group.
+
+Three operations, each the extension of its value on letters: a derivation by the product rule
+(:func:`derivation`), a homomorphism (:func:`substitute`), and rewriting by relations between
+adjacent letters (:func:`reduce`).  :func:`gradient` reads off the coefficient of a letter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+
+from .words import (
+    Expr,
+    Factor,
+    Letter,
+    Traces,
+    Word,
+    col_dim,
+    expr_of_word,
+    number,
+    one,
+    rotations,
+    row_dim,
+    trace,
+    transpose_word,
+    zero,
+)
+
+Image = Callable[[Letter], Expr | None]
+
+
+def _apply_at(w: Word, k: int, image: Expr) -> Expr:
+    """The word with its k-th factor replaced (image given for the plain letter)."""
+    middle = image.bar if w[k][1] else image
+    result = middle
+    if w[:k]:
+        result = expr_of_word(w[:k], row_dim(w[0]), col_dim(w[k - 1])) * result
+    if w[k + 1 :]:
+        result = result * expr_of_word(w[k + 1 :], row_dim(w[k + 1]), col_dim(w[-1]))
+    return result
+
+
+def leibniz(w: Word, delta: Image) -> Expr | None:
+    """The product rule on a word, one factor at a time; ``None`` when all are constant."""
+    total: Expr | None = None
+    for k, (letter, _) in enumerate(w):
+        image = delta(letter)
+        if image is not None:
+            term = _apply_at(w, k, image)
+            total = term if total is None else total + term
+    return total
+
+
+def derivation(e: Expr, delta: Image) -> Expr:
+    """``δe`` for the derivation whose value on letters is ``delta`` (``None`` for constants)."""
+    total = zero(e.rows, e.cols)
+    for (traces, w), c in e.terms.items():
+        for k, cycle in enumerate(traces):
+            varied = leibniz(cycle, delta)
+            if varied is not None:
+                others = Expr(e.rows, e.cols, {(traces[:k] + traces[k + 1 :], w): c})
+                total = total + trace(varied) * others
+        if w:
+            varied = leibniz(w, delta)
+            if varied is not None:
+                total = total + Expr(1, 1, {(traces, ()): c}) * varied
+    return total
+
+
+def substitute(e: Expr, images: Mapping[Letter, Expr]) -> Expr:
+    """The homomorphism that sends letters to expressions (bars go along)."""
+
+    def of(w: Word) -> Expr:
+        result: Expr | None = None
+        for letter, bar in w:
+            image = images.get(letter)
+            piece = (
+                expr_of_word(((letter, False),), letter.rows, letter.cols)
+                if image is None
+                else image
+            )
+            piece = piece.bar if bar else piece
+            result = piece if result is None else result * piece
+        assert result is not None
+        return result
+
+    total = zero(e.rows, e.cols)
+    for (traces, w), c in e.terms.items():
+        product = number(c)
+        for cycle in traces:
+            product = product * trace(of(cycle))
+        total = total + (product * of(w) if w else product * _unit(e))
+    return total
+
+
+def _unit(e: Expr) -> Expr:
+    return number(1) if e.is_scalar else one(e.rows)
+
+
+PairRule = Callable[[Factor, Factor], Expr | None]
+"""A relation: what an adjacent pair of factors is equal to, or ``None``."""
+
+
+def reduce(e: Expr, *rules: PairRule) -> Expr:
+    """Rewrite adjacent pairs, also across the seam of a trace, until no rule applies."""
+    work = e
+    while True:
+        total, changed = zero(e.rows, e.cols), False
+        for (traces, w), c in work.terms.items():
+            rewritten = _rewrite_term(traces, w, c, rules, work)
+            changed = changed or rewritten is not None
+            total = total + (
+                rewritten if rewritten is not None else Expr(e.rows, e.cols, {(traces, w): c})
+            )
+        if not changed:
+            return work
+        work = total
+
+
+def _rewrite_term(
+    traces: Traces, w: Word, c: Fraction, rules: tuple[PairRule, ...], shape: Expr
+) -> Expr | None:
+    for k, cycle in enumerate(traces):
+        closed = _rewrite_cycle(cycle, rules)
+        if closed is not None:
+            return closed * Expr(shape.rows, shape.cols, {(traces[:k] + traces[k + 1 :], w): c})
+    opened = _rewrite_word(w, rules)
+    return None if opened is None else Expr(1, 1, {(traces, ()): c}) * opened
+
+
+def _rewrite_word(w: Word, rules: tuple[PairRule, ...]) -> Expr | None:
+    for k in range(len(w) - 1):
+        for rule in rules:
+            image = rule(w[k], w[k + 1])
+            if image is not None:
+                result = image
+                if w[:k]:
+                    result = expr_of_word(w[:k], row_dim(w[0]), col_dim(w[k - 1])) * result
+                if w[k + 2 :]:
+                    result = result * expr_of_word(w[k + 2 :], row_dim(w[k + 2]), col_dim(w[-1]))
+                return result
+    return None
+
+
+def _rewrite_cycle(cycle: Word, rules: tuple[PairRule, ...]) -> Expr | None:
+    if len(cycle) < 2:
+        return None
+    for turned in rotations(cycle):
+        image = _rewrite_word(turned, rules)
+        if image is not None:
+            return trace(image)
+    return None
+
+
+def gradient(e: Expr, letter: Letter) -> Expr:
+    """``G`` with ``e = Tr x̄ G + (terms without x)``, for a scalar ``e`` linear in the letter x.
+
+    For a symmetric or skew letter only that part of G is determined, and it is what is returned.
+    """
+    total = zero(letter.rows, letter.cols)
+    for (traces, _), c in e.terms.items():
+        for k, cycle in enumerate(traces):
+            places = [i for i, (x, _) in enumerate(cycle) if x == letter]
+            if not places:
+                continue
+            if len(places) > 1:
+                raise ValueError(f"not linear in {letter.name}")
+            rest = cycle[places[0] + 1 :] + cycle[: places[0]]
+            sign = 1
+            if not cycle[places[0]][1]:
+                sign, rest = transpose_word(rest)
+            others = Expr(1, 1, {(traces[:k] + traces[k + 1 :], ()): c * sign})
+            shape = expr_of_word(rest, letter.rows, letter.cols) if rest else _unit_like(letter)
+            total = total + others * shape
+    if letter.symmetry and total.rows == total.cols:
+        return Fraction(1, 2) * (total + letter.symmetry * total.bar)
+    return total
+
+
+def _unit_like(letter: Letter) -> Expr:
+    return number(1) if letter.rows == 1 == letter.cols else one(letter.rows)
+
+
+def without(e: Expr, *letters: Letter) -> Expr:
+    """The terms in which none of the letters occurs."""
+    gone = set(letters)
+
+    def kept(traces: Traces, w: Word) -> bool:
+        return not any(x in gone for part in (*traces, w) for x, _ in part)
+
+    return Expr(e.rows, e.cols, {(t, w): c for (t, w), c in e.terms.items() if kept(t, w)})

@@ -1,0 +1,45 @@
+"""Forms on a group: the structure equation and the exterior derivative, on words.
+
+Convention, fixed here once:  ``dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)]``  for two commuting variations,
+and the left trivialisation ``δg = g ξ``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from .calculus import Image, derivation, substitute
+from .words import Expr, Letter, word
+
+
+def exterior(form: Expr, prime: Mapping[Letter, Letter], delta: Image, delta_prime: Image) -> Expr:
+    """``dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)]`` of a one-form given as the scalar ϖ(δ).
+
+    ``prime`` sends each variation letter (δA) to its primed twin (δ′A); the two derivations must
+    agree on second variations, δ(δ′A) = δ′(δA), or differ by the structure equation.
+    """
+    primed = substitute(form, {x: word(y) for x, y in prime.items()})
+    return derivation(primed, delta) - derivation(form, delta_prime)
+
+
+def structure_equation(
+    frame: Letter, xi: Letter, xi_prime: Letter, eta: Letter, eta_prime: Letter
+) -> Expr:
+    """``δη′ − δ′η`` when  δg = g ξ  and  δx = g η  (so ``[ξ′, ξ]`` for η = ξ).
+
+    From δ(δ′x) = δ′(δx): the terms in which the frame g is varied must balance it.
+    """
+    g = word(frame)
+    delta = derivation(g * word(eta_prime), {frame: g * word(xi)}.get)
+    delta_prime = derivation(g * word(eta), {frame: g * word(xi_prime)}.get)
+    return strip_left(delta_prime - delta, frame)
+
+
+def strip_left(e: Expr, frame: Letter) -> Expr:
+    """The expression y with e = g y, for an invertible first letter g."""
+    terms = {}
+    for (traces, w), c in e.terms.items():
+        if not w or w[0] != (frame, False):
+            raise ValueError(f"{frame.name} is not a common left factor")
+        terms[traces, w[1:]] = c
+    return Expr(e.rows, e.cols, terms)

@@ -1,0 +1,193 @@
+"""A tree as one line of text, as the paper prints: Tr, bars, ⟨·, ·⟩_J, ∧."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+
+from .tree import Tree, coefficient
+
+SUBSCRIPTS = str.maketrans("0123456789ije", "₀₁₂₃₄₅₆₇₈₉ᵢⱼₑ")
+FRACTIONS = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(1, 4): "¼", Fraction(2, 3): "⅔"}
+SUM, PRODUCT, ATOM = 1, 2, 3
+
+
+def show(t: Tree) -> str:
+    """The tree in one line."""
+    return _show(t)[0]
+
+
+def parts(t: Tree) -> list[tuple[str, str]]:
+    """The terms of a sum as (sign, text) pairs; a single one for any other tree."""
+    shown = []
+    for sign, term in signed(t):
+        text, level = _show(term)
+        shown.append((sign, f"({text})" if level == SUM else text))
+    return shown
+
+
+def signed(t: Tree) -> list[tuple[str, Tree]]:
+    """The terms of a sum as (sign, tree) pairs, the trees without their sign."""
+    terms = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
+    found = []
+    for term in terms:
+        c, rest = coefficient(term)
+        found.append(("−", _scaled(-c, rest)) if c < 0 else ("+", term))
+    return found
+
+
+def _scaled(c: Fraction, rest: Tree) -> Tree:
+    if rest == 1:
+        return c
+    if c == 1:
+        return rest
+    return (
+        ("mul", c, *rest[1:]) if isinstance(rest, tuple) and rest[0] == "mul" else ("mul", c, rest)
+    )
+
+
+def show_name(name: str) -> str:
+    """``J_11`` as ``J₁₁``, ``I_c`` as it is."""
+    base, _, index = name.partition("_")
+    return base + index.translate(SUBSCRIPTS) if re.fullmatch(r"[0-9]+", index) else name
+
+
+def _index(i: object) -> str:
+    return str(i).translate(SUBSCRIPTS)
+
+
+def _atom(t: Tree) -> str:
+    text, level = _show(t)
+    return text if level == ATOM else f"({text})"
+
+
+def _letter(text: str) -> bool:
+    """One mathematical letter with its marks, so that a product needs no space."""
+    return re.fullmatch(r"[^\W\d_][\u0300-\u036f]*′?(⁻¹|²)?", text) is not None
+
+
+def bar(text: str) -> str:
+    """The transpose of a letter: a bar over its base."""
+    match = re.fullmatch(r"(δ?′?)([^\W\d_][\u0300-\u036f]*)(′?)", text)
+    return f"{match[1]}{match[2]}\u0304{match[3]}" if match else f"{text}‾"
+
+
+def _product(factors: tuple[Tree, ...]) -> str:
+    if len(factors) > 1 and factors[0] == -1:
+        return "−" + _product(factors[1:])
+    text, last = "", ""
+    for k, f in enumerate(factors):
+        shown, level = _show(f)
+        inside = k < len(factors) - 1 and level == PRODUCT and (text or _spreads(f))
+        piece = f"({shown})" if level == SUM or inside or (text and _spread(f)) else shown
+        text += _glue(last, piece) + piece
+        last = piece
+    return text
+
+
+def _spreads(f: Tree) -> bool:
+    return isinstance(f, tuple) and f[0] in ("tr", "sum", "wedge")
+
+
+def _spread(f: Tree) -> bool:
+    return isinstance(f, tuple) and f[0] in ("wedge", "div")
+
+
+def _glue(last: str, piece: str) -> str:
+    if not last or piece.startswith("(") or (_letter(last) and _letter(piece)):
+        return ""
+    if last in FRACTIONS.values() and _letter(piece):
+        return ""
+    if last.isdigit() and piece[0].isdigit():
+        return "·"
+    return "" if last.isdigit() and _letter(piece) else " "
+
+
+def _show(t: Tree) -> tuple[str, int]:
+    if isinstance(t, str):
+        return show_name(t), ATOM
+    if isinstance(t, int):
+        return (str(t), ATOM) if t >= 0 else (f"−{-t}", SUM)
+    if isinstance(t, Fraction):
+        text = FRACTIONS.get(abs(t), f"{abs(t.numerator)}/{t.denominator}")
+        return (text, ATOM) if t > 0 else (f"−{text}", SUM)
+    return _node(t)
+
+
+def _node(t: tuple[object, ...]) -> tuple[str, int]:
+    op = t[0]
+    arguments: tuple[Tree, ...] = t[1:]  # type: ignore[assignment]
+    if op == "add":
+        first, *others = parts(t)
+        text = ("−" if first[0] == "−" else "") + first[1]
+        return text + "".join(f" {sign} {term}" for sign, term in others), SUM
+    if op == "mul":
+        negative = coefficient(t)[0] < 0
+        return _product(arguments) if not negative else _negative(t), SUM if negative else PRODUCT
+    if op == "div":
+        return f"{_atom(arguments[0])}/{_atom(arguments[1])}", PRODUCT
+    if op == "wedge":
+        return " ∧ ".join(_operand(a) for a in arguments), PRODUCT
+    if op == "tr":
+        text, level = _show(arguments[0])
+        if isinstance(arguments[0], tuple) and arguments[0][0] == "bracket":
+            return f"Tr {text}", PRODUCT
+        return (f"Tr {text}" if level >= PRODUCT else f"Tr({text})"), PRODUCT
+    if op == "sum":
+        text, level = _show(arguments[1])
+        return f"Σ{_index(arguments[0])} " + (f"({text})" if level == SUM else text), PRODUCT
+    return _atomic(op, arguments), ATOM
+
+
+def _negative(t: Tree) -> str:
+    sign, text = parts(t)[0]
+    return sign + text
+
+
+def _operand(t: Tree) -> str:
+    """An operand of ∧: products stay bare, sums and other wedges get parentheses."""
+    text, level = _show(t)
+    wedge = isinstance(t, tuple) and t[0] == "wedge"
+    return f"({text})" if level == SUM or wedge else text
+
+
+def _barred(t: Tree) -> str:
+    if isinstance(t, tuple) and t[0] == "at" and isinstance(t[1], str):
+        return bar(show(t[1])) + "".join(_index(i) for i in t[2:])
+    return bar(show(t)) if isinstance(t, str) else f"{_atom(t)}‾"
+
+
+def _atomic(op: object, a: tuple[Tree, ...]) -> str:
+    if op == "T":
+        return _barred(a[0])
+    if op == "inv":
+        return f"{_atom(a[0])}⁻¹"
+    if op == "det":
+        return f"det({show(a[0])})"
+    if op == "one":
+        return "1"
+    if op == "pow":
+        return _atom(a[0]) + str(a[1]).translate(str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"))
+    if op == "inner":
+        return f"⟨{show(a[0])}, {show(a[1])}⟩"
+    if op == "metric":
+        return f"⟨{show(a[1])}, {show(a[2])}⟩_{show(a[0])}"
+    if op == "norm2":
+        return f"‖{show(a[-1])}‖²" + (f"_{show(a[0])}" if len(a) == 2 else "")
+    if op == "bracket":
+        return f"[{show(a[0])}, {show(a[1])}]"
+    if op == "hat":
+        return f"j({show(a[0])})"
+    if op == "entry":
+        return _atom(a[0]) + "".join(_index(i) for i in a[1:])
+    if op == "at":
+        return show(a[0]) + "".join(_index(i) for i in a[1:])
+    if op == "par":
+        return show(a[0])
+    if op == "matrix":
+        return "[" + "; ".join(show(row) for row in a) + "]"
+    if op == "row":
+        return ", ".join(show(x) for x in a)
+    if op == "call":
+        return f"{_atom(a[0])}({', '.join(show(x) for x in a[1:])})"
+    raise ValueError(f"unknown operator {op!r}")

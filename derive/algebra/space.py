@@ -1,0 +1,72 @@
+"""R³ ≅ so(3): the relations of the operator j on words.
+
+``j(X) Y = X ∧ Y`` is the paper's footnote.  The rules bring every word to a normal form without
+two neighbouring j's, so that identities of the vector product are decided by comparison.
+"""
+
+from __future__ import annotations
+
+from .calculus import PairRule, reduce
+from .words import Expr, Factor, Letter, inner, number, one, word, zero
+
+
+def hat(vector: Letter) -> Letter:
+    """The skew letter j(X) of a vector letter X."""
+    return Letter(f"j({vector.name})", 3, 3, symmetry=-1, axis=vector)
+
+
+def _is_vector(letter: Letter) -> bool:
+    return letter.cols == 1 and letter.rows != 1
+
+
+def antisymmetry(left: Factor, right: Factor) -> Expr | None:
+    """``x ∧ y = −y ∧ x``: the lesser name goes inside j, from the left and from the right alike.
+
+    Both sides must choose the same way: a transpose turns one into the other.
+    """
+    (a, a_bar), (b, b_bar) = left, right
+    if a.axis is not None and _is_vector(b) and not b_bar:
+        if a.axis == b:
+            return zero(3, 1)
+        if b.name < a.axis.name:
+            return -(word(hat(b)) * word(a.axis))
+    if b.axis is not None and _is_vector(a) and a_bar:
+        if b.axis == a:
+            return zero(1, 3)
+        if a.name < b.axis.name:
+            return -(word(b.axis).bar * word(hat(a)))
+    return None
+
+
+def double(left: Factor, right: Factor) -> Expr | None:
+    """``j(x) j(y) = y x̄ − ⟨x, y⟩ 1``: the double vector product."""
+    x, y = left[0].axis, right[0].axis
+    if x is None or y is None:
+        return None
+    return word(y) * word(x).bar - inner(word(x), word(y)) * one(3)
+
+
+RULES: tuple[PairRule, ...] = (antisymmetry, double)
+
+
+def normal_form(e: Expr) -> Expr:
+    """The normal form of an expression with j's and vectors."""
+    return reduce(e, *RULES)
+
+
+def fold_inertia(e: Expr, moments: Letter, inertia: Letter) -> Expr:
+    """``Tr j(x) J j(y)‾ = ⟨x, y⟩_I`` wherever the left side stands as a trace."""
+    total = zero(e.rows, e.cols)
+    for (traces, w), c in e.terms.items():
+        term = Expr(e.rows, e.cols, {((), w): c}) if w or e.is_scalar else one(e.rows) * c
+        for cycle in traces:
+            term = _metric_of(cycle, moments, inertia) * term
+        total = total + term
+    return total
+
+
+def _metric_of(cycle: tuple[Factor, ...], moments: Letter, inertia: Letter) -> Expr:
+    axes = [x.axis for x, _ in cycle if x.axis is not None]
+    if len(cycle) == 3 and len(axes) == 2 and any(x == moments for x, _ in cycle):
+        return -inner(word(axes[0]), word(axes[1]), word(inertia))
+    return Expr(1, 1, {((cycle,), ()): number(1).terms[(), ()]})

@@ -1,0 +1,118 @@
+"""Operator trees: the one language in which equations are recorded, shown, checked and lowered.
+
+A tree is a leaf (a name, an integer, a fraction) or a tuple ``(operator, operand, …)``.  The
+operators and the number of operands they take are in :data:`OPERATORS`; nothing else is a tree.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from fractions import Fraction
+from typing import Any
+
+Tree = str | int | Fraction | tuple[Any, ...]
+
+OPERATORS: dict[str, tuple[int, int | None]] = {
+    "add": (2, None),  # sum
+    "mul": (2, None),  # product, in this order
+    "div": (2, 2),  # quotient by a scalar
+    "pow": (2, 2),  # integer power
+    "T": (1, 1),  # transpose, a bar in the paper
+    "tr": (1, 1),  # trace
+    "det": (1, 1),  # determinant
+    "inv": (1, 1),  # inverse
+    "one": (0, 0),  # identity matrix
+    "inner": (2, 2),  # ⟨a, b⟩
+    "metric": (3, 3),  # ⟨a, b⟩_M = Tr a M b̄, for vectors ā M b
+    "norm2": (1, 2),  # ‖a‖², or ‖a‖²_M with the metric first
+    "bracket": (2, 2),  # [a, b] = ab − ba
+    "wedge": (2, 2),  # a ∧ b in R³
+    "hat": (1, 1),  # j(a)
+    "sum": (2, 2),  # sum over an index
+    "at": (2, 3),  # an indexed family: r_i, k_ij
+    "entry": (2, 3),  # entry of a vector or a matrix, counted from 1
+    "matrix": (1, None),  # rows
+    "row": (1, None),  # entries of a row
+    "call": (2, None),  # a function at arguments
+    "par": (1, 1),  # a parameter of the problem, by its own name
+}
+
+
+def add(*terms: Tree) -> Tree:
+    """Sum, flattened, with zeros dropped."""
+    flat = [x for t in terms for x in (t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,))]
+    kept = [t for t in flat if t != 0]
+    return 0 if not kept else kept[0] if len(kept) == 1 else ("add", *kept)
+
+
+def mul(*factors: Tree) -> Tree:
+    """Product in order, with ones dropped, products flattened and a zero absorbing."""
+    flat: list[Tree] = []
+    for f in factors:
+        flat.extend(f[1:] if isinstance(f, tuple) and f[0] == "mul" else (f,))
+    if any(f == 0 for f in flat):
+        return 0
+    numeric = Fraction(1)
+    rest: list[Tree] = []
+    for f in flat:
+        if isinstance(f, (int, Fraction)):
+            numeric *= f
+        else:
+            rest.append(f)
+    lead: list[Tree] = [] if numeric == 1 and rest else [_plain(numeric)]
+    kept = lead + rest
+    return kept[0] if len(kept) == 1 else ("mul", *kept)
+
+
+def _plain(q: Fraction) -> Tree:
+    return int(q) if q.denominator == 1 else q
+
+
+def neg(t: Tree) -> Tree:
+    """The opposite, as a product with −1."""
+    return mul(-1, t)
+
+
+def coefficient(t: Tree) -> tuple[Fraction, Tree]:
+    """A tree as rational number · rest."""
+    if isinstance(t, (int, Fraction)):
+        return Fraction(t), 1
+    if isinstance(t, tuple) and t[0] == "mul" and isinstance(t[1], (int, Fraction)):
+        rest = t[2:]
+        return Fraction(t[1]), rest[0] if len(rest) == 1 else ("mul", *rest)
+    return Fraction(1), t
+
+
+def names(t: Tree) -> Iterator[str]:
+    """Every name that occurs in a tree, in reading order, with repetitions."""
+    if isinstance(t, str):
+        yield t
+    elif isinstance(t, tuple):
+        for part in t[1:]:
+            yield from names(part)
+
+
+def rename(t: Tree, images: Mapping[str, Tree]) -> Tree:
+    """The tree with names replaced by trees."""
+    if isinstance(t, str):
+        return images.get(t, t)
+    if isinstance(t, tuple):
+        return (t[0], *(rename(part, images) for part in t[1:]))
+    return t
+
+
+def subtrees(t: Tree, path: tuple[int, ...] = ()) -> Iterator[tuple[tuple[int, ...], Tree]]:
+    """Every subtree with the path that leads to it."""
+    yield path, t
+    if isinstance(t, tuple):
+        for k, part in enumerate(t[1:], 1):
+            yield from subtrees(part, (*path, k))
+
+
+def replace_at(t: Tree, path: tuple[int, ...], change: Callable[[Tree], Tree]) -> Tree:
+    """The tree with the subtree at ``path`` changed."""
+    if not path:
+        return change(t)
+    assert isinstance(t, tuple)
+    k = path[0]
+    return (*t[:k], replace_at(t[k], path[1:], change), *t[k + 1 :])

@@ -1,0 +1,241 @@
+"""The command line: ``derive list | walk | emit | check | paper | build``."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from importlib import resources
+from pathlib import Path
+
+from . import __version__
+from .mechanics.problem import Problem, ProblemError
+from .record.record import Derivation, RecordError
+
+FORMATS = ("text", "latex", "markdown", "json")
+READY = resources.files("derive") / "problems"
+
+
+class UsageError(Exception):
+    """Bad input: one clear line, exit 2."""
+
+
+def ready_made() -> list[str]:
+    """The names of the ready-made problems."""
+    return sorted(f.name.removesuffix(".toml") for f in READY.iterdir() if f.name.endswith(".toml"))
+
+
+def load_problem(name: str) -> Problem:
+    """A ready-made problem by name, or a TOML file by path."""
+    from .mechanics.toml import load
+
+    if name in ready_made():
+        return load(Path(str(READY / f"{name}.toml")))
+    path = Path(name)
+    if path.suffix == ".toml" or path.exists():
+        return load(path)
+    raise UsageError(
+        f"unknown problem {name[:60]!r}; ready-made: {', '.join(ready_made())}; "
+        "or give a .toml file"
+    )
+
+
+def derive(name: str) -> tuple[Problem, Derivation]:
+    """A problem and its record."""
+    from .pipeline import walk
+
+    problem = load_problem(name)
+    return problem, walk(problem)
+
+
+def render(d: Derivation, form: str) -> str:
+    """A record in one of the formats."""
+    if form == "json":
+        from .record.record import to_json
+
+        return to_json(d)
+    if form == "latex":
+        from .views.latex import latex
+
+        return latex(d)
+    if form == "markdown":
+        from .views.markdown import markdown
+
+        return markdown(d)
+    from .views.text import text
+
+    return text(d)
+
+
+def save(text: str, out: str | None) -> None:
+    """To stdout, or whole to a file."""
+    from .writing import write
+
+    if out is None:
+        sys.stdout.write(text if text.endswith("\n") else text + "\n")
+    else:
+        path = Path(out)
+        write({path.name: text}, path.parent)
+
+
+def command_list(_: argparse.Namespace) -> int:
+    """Groups and ready-made problems."""
+    from .algebra.groups import FAMILIES
+
+    print("groups")
+    for name, (_make, least, meaning) in FAMILIES.items():
+        print(f"  {name + '(n)':8} n ≥ {least}  {meaning}")
+    print("problems")
+    for name in ready_made():
+        p = load_problem(name)
+        print(f"  {name:8} {p.group.name if p.group else 'any group':9}  {p.title}")
+    return 0
+
+
+def command_walk(args: argparse.Namespace) -> int:
+    """Print the walk of a problem."""
+    save(render(derive(args.problem)[1], args.format), args.out)
+    return 0
+
+
+def command_emit(args: argparse.Namespace) -> int:
+    """Write the numeric code of a problem."""
+    from .code.emit import emit
+    from .writing import write
+
+    problem, record = derive(args.problem)
+    program = programs(problem, record)
+    languages = tuple(dict.fromkeys(args.lang or ("c", "python")))
+    files = emit(program, record, languages, args.prefix or problem.name, args.real)
+    for path in write(files, Path(args.out or ".")):
+        print(path)
+    return 0
+
+
+def programs(problem: Problem, record: Derivation):  # type: ignore[no-untyped-def]
+    """The program of a record; the general texts have none."""
+    from .code.assemble import assemble
+
+    if problem.group is None:
+        raise UsageError(f"{problem.name}: a text about any group has nothing to emit")
+    return assemble(record, problem.group)
+
+
+def command_check(args: argparse.Namespace) -> int:
+    """Re-check every recorded step, independently of the code that derived it."""
+    from .record.check import check
+
+    failed = 0
+    for name in args.problem:
+        record = read_record(name) if name.endswith(".json") else derive(name)[1]
+        verdicts = check(record)
+        for v in verdicts:
+            print(
+                f"{'holds' if v.holds else 'FAILS'}  {v.label}"
+                + (f": {v.reason}" if v.reason else "")
+            )
+        bad = sum(not v.holds for v in verdicts)
+        bound = max(v.bound for v in verdicts)
+        print(
+            f"{name}: {len(verdicts) - bad} of {len(verdicts)} steps hold exactly"
+            + ("" if bad else f"; a false one passes with probability below {bound:.0e}")
+        )
+        failed += bad
+    return 1 if failed else 0
+
+
+def read_record(name: str) -> Derivation:
+    """A record from a JSON file."""
+    from .record.record import from_json
+
+    try:
+        text = Path(name).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise UsageError(
+            f"{name}: {getattr(error, 'strerror', None) or 'not UTF-8 text'}"
+        ) from None
+    try:
+        return from_json(text)
+    except RecordError as error:
+        raise UsageError(f"{name}: {error}") from None
+
+
+def command_paper(args: argparse.Namespace) -> int:
+    """The paper's numbered equations against the derivation."""
+    from .record import paper
+    from .views.paper import as_json, as_text
+
+    findings = paper.compare([derive(name)[1] for name in paper.PROBLEMS])
+    save(as_json(findings) if args.format == "json" else as_text(findings), args.out)
+    return 0
+
+
+def command_build(args: argparse.Namespace) -> int:
+    """Make all of generated/ again."""
+    from .code.emit import emit
+    from .writing import write
+
+    for name in ("so3", "se3", "sl3"):
+        problem, record = derive(name)
+        files = {f"walk.{end}": render(record, form) for form, end in FILES.items()}
+        files |= emit(programs(problem, record), record, ("c", "python"), name)
+        for path in write(files, Path(args.out) / name):
+            print(path, file=sys.stderr)
+        if args.print:
+            print(files["walk.txt"])
+    return 0
+
+
+FILES = {"text": "txt", "latex": "tex", "json": "json"}
+
+
+def parser() -> argparse.ArgumentParser:
+    """The options of every command."""
+    top = argparse.ArgumentParser(prog="derive", description=__doc__)
+    top.add_argument("--version", action="version", version=f"derive {__version__}")
+    commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    def command(name: str, run: Callable[[argparse.Namespace], int]) -> argparse.ArgumentParser:
+        made = commands.add_parser(name, help=run.__doc__, description=run.__doc__)
+        made.set_defaults(run=run)
+        return made
+
+    command("list", command_list)
+    walk = command("walk", command_walk)
+    walk.add_argument("problem", help="a ready-made name or a .toml file")
+    walk.add_argument("--format", choices=FORMATS, default="text")
+    walk.add_argument("--out", metavar="FILE")
+    emit = command("emit", command_emit)
+    emit.add_argument("problem", help="a ready-made name or a .toml file")
+    emit.add_argument("--lang", action="append", choices=("c", "python"))
+    emit.add_argument("--out", metavar="DIR")
+    emit.add_argument("--prefix", metavar="NAME")
+    emit.add_argument("--real", choices=("double", "float"), default="double")
+    check = command("check", command_check)
+    check.add_argument("problem", nargs="+", help="ready-made names, .toml files or .json records")
+    paper = command("paper", command_paper)
+    paper.add_argument("--format", choices=("text", "json"), default="text")
+    paper.add_argument("--out", metavar="FILE")
+    build = command("build", command_build)
+    build.add_argument("--out", metavar="DIR", default="generated")
+    build.add_argument("--print", action="store_true", help="print the walks as well")
+    return top
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command: 0, 1 when a check failed, 2 for bad input."""
+    from .code.emit import EmitError
+    from .code.reader import LoweringError
+    from .writing import WriteError
+
+    args = parser().parse_args(argv)
+    try:
+        return int(args.run(args))
+    except (UsageError, ProblemError, RecordError, EmitError, LoweringError, WriteError) as error:
+        print(f"derive: {error}", file=sys.stderr)
+        return 2
+    except BrokenPipeError:
+        sys.stderr.close()
+        return 0
+    except KeyboardInterrupt:
+        return 130

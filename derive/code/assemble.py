@@ -1,0 +1,130 @@
+"""From a record to its program: state, parameters, constants, right-hand side, energy."""
+
+from __future__ import annotations
+
+from ..algebra.groups import Group
+from ..algebra.show import show
+from ..record.record import Derivation
+from .graph import PARAMETER, Node
+from .lower import Lowering
+from .naming import Names, suffixed
+from .program import Function, Program
+from .reader import LoweringError, equation_key
+from .schedule import Scheduler, frontier
+
+
+def assemble(d: Derivation, group: Group) -> Program:
+    """The program of a record; ``LoweringError`` when the record has no solved equations."""
+    lowering = Lowering(d, group)
+    state, rates = _state(lowering)
+    energy = lowering.name("h̃")
+    if not isinstance(energy, Node):
+        raise LoweringError("the energy is not a number")
+    names = Names()
+    inputs = _input_names(lowering)
+    for name in (*state, *inputs):
+        names.claim(name, name)
+    scheduler = Scheduler(names, _equations(d))
+    fixed = frontier([*rates, energy])
+    checked = [x for test in lowering.checks for x in test if x is not None]
+    parameters = _used_parameters(d, [*fixed, *checked])
+    compute = _constants(scheduler, lowering, fixed, parameters)
+    constants = [_constant_name(names, x, i) for i, x in enumerate(fixed)]
+    places = _places(lowering, names, state, inputs)
+    places |= {
+        x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))
+    }
+    return Program(
+        d.name,
+        str(d.problem.get("title", "")),
+        group.name,
+        group.dimension,
+        tuple(state),
+        tuple(_parameter(d, name) for name in parameters),
+        tuple(inputs),
+        tuple(constants),
+        group.basis,
+        compute,
+        scheduler.function(rates, places),
+        scheduler.function([energy], places),
+    )
+
+
+def _state(lowering: Lowering) -> tuple[list[str], list[Node]]:
+    """Names of the state and the nodes of its rate, in the order of the contract."""
+    group, n = lowering.group, lowering.n
+    span = range(1, n + 1)
+    A_dot = lowering.name("Ȧ")
+    state = [suffixed("A", i, j) for i in span for j in span]
+    rates = [x for row in A_dot for x in row]  # type: ignore[union-attr]
+    d = group.dimension - n if group.affine else group.dimension
+    if group.affine:
+        state += [suffixed("T", i) for i in span]
+        rates += [row[0] for row in lowering.name("Ṫ")]  # type: ignore[union-attr]
+    state += [suffixed("zeta", a) for a in range(1, d + 1)]
+    rates += [lowering.component("ζ̇", a) for a in range(1, d + 1)]
+    if group.affine:
+        state += [suffixed("w", i) for i in span]
+        rates += [lowering.component("ẇ", i) for i in span]
+    return state, rates
+
+
+def _input_names(lowering: Lowering) -> list[str]:
+    vectors = [lowering.state[x] for x in ("u", "f_u") if x in lowering.state]
+    return [row[0].data for v in vectors for row in v]  # type: ignore[union-attr]
+
+
+def _places(
+    lowering: Lowering, names: Names, state: list[str], inputs: list[str]
+) -> dict[Node, tuple[str, tuple[str, int]]]:
+    """Where each leaf is read from, and the name it has there (never a reserved word)."""
+    arrays = (("x", state), ("u", inputs))
+    return {
+        lowering.leaf(x): (names.claim(x, x), (array, i))
+        for array, members in arrays
+        for i, x in enumerate(members)
+    }
+
+
+def _used_parameters(d: Derivation, nodes: list[Node]) -> list[str]:
+    """The parameters that the equations contain, in the order of the problem."""
+    used: set[str] = set()
+    seen: set[Node] = set()
+    stack = list(nodes)
+    while stack:
+        x = stack.pop()
+        if x not in seen:
+            seen.add(x)
+            stack.extend(x.args)
+            if x.op == "leaf":
+                used.add(x.data)
+    return [name for name in d.problem["parameters"] if name in used]
+
+
+def _constants(
+    scheduler: Scheduler, lowering: Lowering, fixed: list[Node], parameters: list[str]
+) -> Function:
+    places = {
+        lowering.graph.leaf(x, PARAMETER): (scheduler.names.claim(x, f"parameter {x}"), ("p", i))
+        for i, x in enumerate(parameters)
+    }
+    return scheduler.function(fixed, places, lowering.checks)
+
+
+def _constant_name(names: Names, x: Node, i: int) -> str:
+    if x.op == "leaf":
+        return names.claim(str(x.data), f"parameter {x.data}")
+    wanted = x.graph.titles[x][0] if x.op == "value" else suffixed("constant", i)
+    return names.claim(wanted, f"node {x.id}")
+
+
+def _parameter(d: Derivation, name: str) -> tuple[str, float | None, str, str]:
+    p = d.problem["parameters"][name]
+    return name, p["default"], p["unit"], p["meaning"]
+
+
+def _equations(d: Derivation) -> dict[str, str]:
+    """Label of an equation → its text, for comments."""
+    return {
+        equation_key(s, e): f"{show(e.lhs)} = {show(e.rhs)}" for s in d.steps for e in s.equations
+    }

@@ -1,0 +1,207 @@
+"""Scalar expressions as a graph: every distinct value is one node.
+
+Nodes are interned, so equal expressions are the same object; sums and products are flat, sorted and
+folded (0, 1, repeated terms).  ``stage`` is 0 for what depends on parameters alone and 1 for the
+rest.  A ``value`` node is a node that has a name; nothing is flattened through a name.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from math import gcd
+from typing import Any
+
+PARAMETER, STATE = 0, 1
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """``op`` is one of num, leaf, add, mul, recip, abs, value.
+
+    ``data``: the number, the leaf's name, or the coefficients of a sum.
+    """
+
+    graph: Graph
+    id: int
+    op: str
+    data: Any
+    args: tuple[Node, ...]
+    stage: int
+
+    def __add__(self, other: Node | int | Fraction) -> Node:
+        return self.graph.sum([self, self.graph.of(other)])
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Node:
+        return self.graph.linear([(Fraction(-1), self)])
+
+    def __sub__(self, other: Node | int | Fraction) -> Node:
+        return self + (-self.graph.of(other))
+
+    def __mul__(self, other: Node | int | Fraction) -> Node:
+        return self.graph.product([self, self.graph.of(other)])
+
+    __rmul__ = __mul__
+
+    @property
+    def is_zero(self) -> bool:
+        """Is it the number 0?"""
+        return self.op == "num" and self.data == 0
+
+    @property
+    def is_atom(self) -> bool:
+        """A number or a leaf: nothing to compute."""
+        return self.op in ("num", "leaf")
+
+
+class Graph:
+    """The nodes of one program."""
+
+    def __init__(self) -> None:
+        self._nodes: dict[tuple[Any, ...], Node] = {}
+        self.titles: dict[Node, tuple[str, str, bool]] = {}
+        """Value node → name, label of the equation, and whether the record gave the name."""
+
+    def _intern(self, op: str, data: Any, args: tuple[Node, ...], stage: int) -> Node:
+        key = (op, data, *(a.id for a in args))
+        if key not in self._nodes:
+            self._nodes[key] = Node(self, len(self._nodes), op, data, args, stage)
+        return self._nodes[key]
+
+    def num(self, value: int | Fraction) -> Node:
+        """A rational number."""
+        return self._intern("num", Fraction(value), (), PARAMETER)
+
+    def of(self, x: Node | int | Fraction) -> Node:
+        """A node, from a node or a number."""
+        return x if isinstance(x, Node) else self.num(x)
+
+    def leaf(self, name: str, stage: int) -> Node:
+        """An input of the program."""
+        return self._intern("leaf", name, (), stage)
+
+    def value(self, node: Node, name: str, label: str, *, given: bool = False) -> Node:
+        """A node with a name; a name given by the record replaces one made from a tree."""
+        if node.is_atom:
+            return node
+        value = node if node.op == "value" else self._intern("value", None, (node,), node.stage)
+        if value not in self.titles or (given and not self.titles[value][2]):
+            self.titles[value] = (name, label, given)
+        return value
+
+    def recip(self, x: Node) -> Node:
+        """1 / x."""
+        if x.op == "num":
+            return self.num(1 / x.data)
+        coefficient, core = self._split(x)
+        return self.linear([(1 / coefficient, self._intern("recip", None, (core,), core.stage))])
+
+    def magnitude(self, x: Node) -> Node:
+        """The size of a value before its terms cancel: what its rounding error is measured by."""
+        if x.op == "num":
+            return self.num(abs(x.data))
+        if x.op == "add":
+            terms = zip(x.data, x.args, strict=True)
+            return self.linear((abs(c), self.magnitude(y)) for c, y in terms)
+        if x.op == "mul":
+            # a square needs no absolute value
+            odd = [y for y, k in Counter(x.args).items() if k % 2]
+            even = [y for y, k in Counter(x.args).items() for _ in range(k - k % 2)]
+            return self.product([*even, *(self.magnitude(y) for y in odd)])
+        if x.op == "value" and x.args[0].op in ("add", "mul"):
+            return self.magnitude(x.args[0])
+        return self._intern("abs", None, (x,), x.stage)
+
+    def sum(self, nodes: Iterable[Node]) -> Node:
+        """Their sum."""
+        return self.linear((Fraction(1), x) for x in nodes)
+
+    def linear(self, terms: Iterable[tuple[Fraction, Node]]) -> Node:
+        """Σ c · x, flattened; a common rational factor is taken out in front."""
+        gathered: dict[Node, Fraction] = {}
+        constant = Fraction(0)
+        for c, x in terms:
+            for k, y in self._terms(c, x):
+                if y.op == "num":
+                    constant += k * y.data
+                else:
+                    gathered[y] = gathered.get(y, Fraction(0)) + k
+        parts = [(c, x) for x, c in sorted(gathered.items(), key=lambda i: i[0].id) if c]
+        if constant:
+            parts.append((constant, self.num(1)))
+        if not parts:
+            return self.num(0)
+        if len(parts) == 1 and parts[0][1].op == "num":
+            return self.num(parts[0][0])
+        content = _content([c for c, _ in parts])
+        core = self._sum_of([(c / content, x) for c, x in parts])
+        return core if content == 1 else self._intern("add", (content,), (core,), core.stage)
+
+    def _terms(self, c: Fraction, x: Node) -> list[tuple[Fraction, Node]]:
+        if x.op != "add":
+            return [(c, x)]
+        return [
+            term
+            for k, y in zip(x.data, x.args, strict=True)
+            for term in (self._terms(c * k, y) if y.op == "add" else [(c * k, y)])
+        ]
+
+    def _sum_of(self, parts: list[tuple[Fraction, Node]]) -> Node:
+        """A sum in which what depends on parameters alone is one term."""
+        if len(parts) == 1 and parts[0][0] == 1:
+            return parts[0][1]
+        fixed = [(c, x) for c, x in parts if x.stage == PARAMETER]
+        moving = [(c, x) for c, x in parts if x.stage != PARAMETER]
+        if len(fixed) > 1 and moving:
+            parts = [(Fraction(1), self.linear(fixed)), *moving]
+        coefficients = tuple(c for c, _ in parts)
+        args = tuple(x for _, x in parts)
+        return self._intern("add", coefficients, args, max(x.stage for x in args))
+
+    def _split(self, x: Node) -> tuple[Fraction, Node]:
+        """A node as rational · node."""
+        if x.op == "add" and len(x.args) == 1:
+            return x.data[0], x.args[0]
+        return Fraction(1), x
+
+    def product(self, nodes: Iterable[Node]) -> Node:
+        """Their product, flattened; what depends on parameters alone is one factor."""
+        coefficient = Fraction(1)
+        factors: list[Node] = []
+        for x in nodes:
+            k, core = self._split(x)
+            coefficient *= k
+            if core.op == "num":
+                coefficient *= core.data
+            else:
+                factors.extend(core.args if core.op == "mul" else (core,))
+        if not coefficient:
+            return self.num(0)
+        if not factors:
+            return self.num(coefficient)
+        return self.linear([(coefficient, self._product_of(factors))])
+
+    def _product_of(self, factors: list[Node]) -> Node:
+        fixed = sorted((x for x in factors if x.stage == PARAMETER), key=lambda x: x.id)
+        moving = sorted((x for x in factors if x.stage != PARAMETER), key=lambda x: x.id)
+        if len(fixed) > 1 and moving:
+            fixed = [self._intern("mul", None, tuple(fixed), PARAMETER)]
+        args = (*fixed, *moving)
+        return args[0] if len(args) == 1 else self._intern("mul", None, args, args[-1].stage)
+
+
+def _content(coefficients: list[Fraction]) -> Fraction:
+    """The rational factor to take out: common to all, with the sign of the first."""
+    numerator = gcd(*(c.numerator for c in coefficients))
+    denominator = 1
+    for c in coefficients:
+        denominator = denominator * c.denominator // gcd(denominator, c.denominator)
+    common = Fraction(numerator, denominator)
+    if len({abs(c) for c in coefficients}) > 1:
+        common = Fraction(1)  # ½a + b stays as it is
+    negative = all(c < 0 for c in coefficients)
+    return -common if negative else common

@@ -1,0 +1,270 @@
+"""Lowering: the recorded equations become matrices of scalar nodes.
+
+A name is an input (state, parameter) or is looked up in the record, where the last equation with
+that left side defines it; so the code is the record, not a second derivation.  Matrices stay
+matrices: a product is formed whole, in the cheapest order, and its entries are named.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.groups import Group
+from ..algebra.rational import Matrix
+from ..algebra.tree import Tree, mul
+from ..record.evaluate import hat, wedge
+from ..record.record import Derivation
+from . import dense
+from .graph import PARAMETER, Graph, Node
+from .naming import name_of
+from .reader import LoweringError, Reader, Value
+
+
+class Lowering(Reader):
+    """The graph of one record.  ``checks``: what must not vanish in constants, and its scale."""
+
+    def __init__(self, d: Derivation, group: Group):
+        super().__init__(d, group)
+        self.checks: list[tuple[Node, Node | None]] = []
+        self._products: set[Tree] = set()
+        self._scan()
+
+    def _scan(self) -> None:
+        """The matrix products that stand alone in the record's motion: their traces come free."""
+        for step in self.record.steps:
+            if step.rule == "solution":
+                for equation in step.equations:
+                    self._products |= set(standalone(equation.rhs))
+
+    def tree(self, t: Tree, index: dict[str, int] | None = None) -> Value:
+        """The value of a tree."""
+        if isinstance(t, str):
+            return self.name(t)
+        if isinstance(t, (int, Fraction)):
+            return self.graph.num(t)
+        if index is None and t in self.memo:
+            return self.memo[t]
+        value = self._node(t, index)
+        if index is None and isinstance(value, Node) and t[0] in ("inner", "norm2", "metric"):
+            value = self.graph.value(value, name_of(t), self.label)
+        if index is None:
+            self.memo[t] = value
+        return value
+
+    def _node(self, t: tuple[Any, ...], index: dict[str, int] | None) -> Value:
+        op = t[0]
+        if op == "par":
+            return self.graph.leaf(t[1], PARAMETER)
+        if op == "at":
+            return self.member(
+                (op, t[1], *(index[i] if index and i in index else i for i in t[2:]))
+            )
+        if op == "sum":
+            return self._sum(t)
+        if op == "mul":
+            return self._product(t, index)
+        if op == "tr" and index is None:
+            return self._trace(t[1])
+        if op == "inv":
+            return self._inverse(t[1])
+        if op in ("metric", "norm2"):
+            return self._metric(t, index)
+        if op == "entry":
+            value = self.tree(t[1])
+            assert not isinstance(value, Node)
+            return value[t[2] - 1][t[3] - 1 if len(t) == 4 else 0]  # type: ignore[no-any-return]
+        return self._simple(op, [self.tree(x, index) for x in t[1:] if op != "pow" or x != t[2]], t)
+
+    def _simple(self, op: str, a: list[Any], t: tuple[Any, ...]) -> Value:
+        g = self.graph
+        if op == "add":
+            if isinstance(a[0], Node):
+                return g.sum(a)
+            return tuple(
+                tuple(g.sum(entries) for entries in zip(*rows, strict=True))
+                for rows in zip(*a, strict=True)
+            )
+        if op == "pow":
+            return self._power(t, a[0])
+        if op == "T":
+            return a[0] if isinstance(a[0], Node) else q.transposed(a[0])
+        if op == "div":
+            return g.product((a[0], g.recip(a[1])))
+        if op == "one":
+            return tuple(tuple(g.num(int(i == j)) for j in range(self.n)) for i in range(self.n))
+        if op == "inner":
+            return g.product(a) if isinstance(a[0], Node) else dense.dot(g, a[0], a[1])
+        if op == "wedge":
+            return wedge(a[0], a[1])  # type: ignore[no-any-return]
+        if op == "hat":
+            return hat(a[0])  # type: ignore[no-any-return]
+        if op == "tr":
+            return _diagonal(g, a[0])
+        if op == "matrix":
+            return tuple(tuple(row) for row in a)
+        if op == "row":
+            return tuple(a)
+        raise LoweringError(f"no code for the operator {op!r}")
+
+    def _power(self, t: tuple[Any, ...], base: Value) -> Value:
+        if isinstance(base, Node):
+            factor = base if t[2] > 0 else self.graph.recip(base)
+            return self.graph.product([factor] * abs(t[2]))
+        value = dense.chain(self.graph, [base] * t[2], lambda m, i, j: m)
+        return self.named(value, name_of(t))
+
+    def _sum(self, t: tuple[Any, ...]) -> Value:
+        _, index, body = t
+        terms = [self.tree(body, {index: i}) for i in self.members(body, index)]
+        return self._simple("add", terms, t)
+
+    def _product(self, t: tuple[Any, ...], index: dict[str, int] | None) -> Value:
+        factors = [(x, self.tree(x, index)) for x in t[1:]]
+        scalars = [v for _, v in factors if isinstance(v, Node)]
+        matrices = [(x, v) for x, v in factors if not isinstance(v, Node)]
+        if not matrices:
+            return self.graph.product(scalars)
+        whole = self._chain(matrices, index)
+        if not scalars:
+            return whole
+        if len(whole) == 1 == len(whole[0]):
+            return self.graph.product([*scalars, whole[0][0]])
+        return tuple(tuple(self.graph.product([*scalars, x]) for x in row) for row in whole)
+
+    def _chain(self, factors: list[tuple[Tree, Matrix]], index: dict[str, int] | None) -> Matrix:
+        if len(factors) == 1:
+            return factors[0][1]
+        factors = [(x, self._operand(x, v)) for x, v in factors]
+        trees = [x for x, _ in factors]
+        key: Tree = ("mul", *trees)
+        if index is None and key in self.memo:
+            return self.memo[key]  # type: ignore[return-value]
+
+        def named(m: Matrix, i: int, j: int) -> Matrix:
+            return self.named(m, name_of(mul(*trees[i : j + 1])))  # type: ignore[return-value]
+
+        value = dense.chain(self.graph, [v for _, v in factors], named)
+        if index is None:
+            value = self.named(value, name_of(key))  # type: ignore[assignment]
+            self.memo[key] = value
+        return value
+
+    def _operand(self, t: Tree, value: Matrix) -> Matrix:
+        """A sum that is multiplied is computed once, under a name."""
+        if isinstance(t, tuple) and t[0] == "add":
+            return self.named(value, name_of(t))  # type: ignore[return-value]
+        return value
+
+    def _trace(self, t: Tree) -> Node:
+        """Tr of a product: its diagonal when the product is wanted anyway, else Σ P_ij Q_ji."""
+        g, name = self.graph, name_of(("tr", t))
+        factors = [x for x in t[1:] if not is_scalar(x)] if isinstance(t, tuple) else []
+        if isinstance(t, tuple) and t[0] == "mul" and len(factors) > 1:
+            matrices = [(x, self._matrix(x)) for x in factors]
+            scalars = [self.tree(x) for x in t[1:] if is_scalar(x)]
+            if ("mul", *factors) in self._products:
+                traced = _diagonal(g, self._chain(matrices, None))
+            else:
+                half = len(matrices) // 2
+                left, right = self._chain(matrices[:half], None), self._chain(matrices[half:], None)
+                traced = dense.dot(g, left, q.transposed(right))
+            whole = g.product([*scalars, traced])  # type: ignore[list-item]
+            return g.value(whole, name, self.label)
+        if isinstance(t, tuple) and t[0] == "pow" and t not in self._products and t[2] == 2:
+            base = self._matrix(t[1])
+            return g.value(dense.dot(g, base, q.transposed(base)), name, self.label)
+        # a bare trace has no name: in (Tr J)1 − J its terms must cancel before they are rounded
+        return _diagonal(g, self._matrix(t))
+
+    def _matrix(self, t: Tree, index: dict[str, int] | None = None) -> Matrix:
+        value = self.tree(t, index)
+        assert not isinstance(value, Node)
+        return value
+
+    def _metric(self, t: tuple[Any, ...], index: dict[str, int] | None) -> Value:
+        if t[0] == "norm2":
+            if len(t) == 2:
+                value = self._matrix(t[1], index)
+                return dense.dot(self.graph, value, value)
+            t = ("metric", t[1], t[2], t[2])
+        _, metric, a, b = t
+        left, right = self._matrix(a, index), self._matrix(mul(metric, b), index)
+        return dense.dot(self.graph, left, right)
+
+    # -- inverses ----------------------------------------------------------------------------
+
+    def _inverse(self, t: Tree) -> Value:
+        value, name = self.tree(t), name_of(("inv", t))
+        g = self.graph
+        if isinstance(value, Node):
+            if value.stage == PARAMETER:
+                self.checks.append((value, None))
+            return g.value(g.recip(value), name, self.label)
+        if self._unit_determinant(t):
+            if len(value) <= 3:
+                return self.named(dense.adjugate(g, value), name)
+        elif len(value) <= 3:
+            return self._by_adjugate(value, name, name_of(t))
+        inverse, pivots = dense.symmetric_inverse(
+            g, value, lambda part, x: g.value(x, f"{name}_{part}", self.label)
+        )
+        if dense.stage_of(value) == PARAMETER:
+            scale = g.magnitude(_diagonal(g, value))
+            self.checks += [(d, scale) for d in pivots]
+        return self.named(inverse, name)
+
+    def _by_adjugate(self, value: Matrix, name: str, base: str) -> Value:
+        g = self.graph
+        adjugate = self.named(dense.adjugate(g, value), f"adj_{base}")
+        assert not isinstance(adjugate, Node)
+        row = [(x, adjugate[j][0]) for j, x in enumerate(value[0])]
+        det = g.value(g.sum(g.product(pair) for pair in row), f"det_{base}", self.label)
+        if det.stage == PARAMETER:
+            # det ≤ λ_min (Tr)ⁿ⁻¹, and λ_min is known to rounding in the terms of the trace
+            trace = _diagonal(g, value)
+            size = g.value(g.magnitude(trace), f"size_{base}", self.label)
+            rest = [g.value(trace, f"tr_{base}", self.label)] * (len(value) - 1)
+            self.checks.append((det, g.product([size, *rest])))
+        scale = g.value(g.recip(det), f"inv_det_{base}", self.label)
+        return self.named(tuple(tuple(g.product((scale, x)) for x in r) for r in adjugate), name)
+
+    def _unit_determinant(self, t: Tree) -> bool:
+        """A and C = ĀA where the record says det A = 1."""
+        unimodular = any(
+            e.lhs == ("det", "A") and e.rhs == 1 for s in self.record.steps for e in s.equations
+        )
+        return unimodular and t in ("A", "C")
+
+
+def _diagonal(g: Graph, m: Matrix) -> Node:
+    return g.sum(m[i][i] for i in range(len(m)))
+
+
+SCALARS = {"m", "λ", "t", "h̃", "Ũ", "L̃"}
+SCALAR_OPERATORS = {"tr", "inner", "metric", "norm2", "det", "par", "entry"}
+
+
+def is_scalar(t: Tree) -> bool:
+    """Is a tree's value a number, whatever the sizes?"""
+    if isinstance(t, str):
+        return t in SCALARS
+    if isinstance(t, tuple):
+        return t[0] in SCALAR_OPERATORS or (t[0] in ("inv", "pow", "div") and is_scalar(t[1]))
+    return True
+
+
+def standalone(t: Tree) -> Iterator[Tree]:
+    """The matrix products in a tree that are not merely traced."""
+    if not isinstance(t, tuple):
+        return
+    if t[0] == "pow":
+        yield t
+    elif t[0] == "mul":
+        yield ("mul", *(x for x in t[1:] if not is_scalar(x)))
+    for part in t[1:]:
+        inside = t[0] == "tr" and isinstance(part, tuple) and part[0] in ("mul", "pow")
+        for x in part[1:] if inside else (part,):
+            yield from standalone(x)

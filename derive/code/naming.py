@@ -1,0 +1,84 @@
+"""Names for emitted values: what the paper calls them, in letters that every language has."""
+
+from __future__ import annotations
+
+import keyword
+import unicodedata
+
+from ..algebra.tree import Tree
+
+GREEK = {
+    "ζ": "zeta", "Ω": "omega", "φ": "phi", "λ": "lambda", "γ": "gravity", "ξ": "xi", "η": "eta",
+    "μ": "moment", "α": "alpha", "τ": "tau",
+}  # fmt: skip
+MARKS = {"\u0307": "_dot", "\u0303": "_tilde", "′": "_prime"}
+_C_WORDS = """
+    alignas alignof and asm auto bool break case catch char class compl const constexpr
+    continue decltype default delete do double dx else enum explicit export extern fabs
+    false float for friend goto if inline int isfinite k long main mutable n namespace new
+    noexcept not nullptr operator or p private protected public register restrict return
+    short signed sizeof sqrt static static_assert struct switch t template this thread_local
+    throw true try typedef typename u union unsigned using virtual void volatile wchar_t
+    while x xor xp
+    """
+RESERVED = (
+    set(_C_WORDS.split())
+    | set(keyword.kwlist)
+    | {"stack", "asarray", "BASIS", "STATE", "PARAMETERS"}
+)
+
+
+def ascii_name(name: str) -> str:
+    """``ζ̇`` as ``zeta_dot``, ``I_c`` as ``I_c``."""
+    out = ""
+    for ch in unicodedata.normalize("NFD", name):
+        out += GREEK.get(ch, MARKS.get(ch, ch if ch.isalnum() or ch == "_" else ""))
+    return out
+
+
+def name_of(t: Tree) -> str:
+    """A name for an unnamed value, from the tree that makes it: ``inv_J``, ``A_T_gravity``."""
+    if isinstance(t, str):
+        return ascii_name(t)
+    if not isinstance(t, tuple):
+        return ""
+    if t[0] == "at":
+        return "_".join(str(x) for x in t[1:])
+    if t[0] == "add":
+        return "balance"
+    if t[0] in ("par", "entry"):
+        return "_".join(name_of(x) or str(x) for x in t[1:])
+    words = {
+        "inv": "inv",
+        "tr": "tr",
+        "hat": "hat",
+        "inner": "inner",
+        "norm2": "norm2",
+        "metric": "inner",
+    }
+    prefix = [words[t[0]]] if words.get(t[0]) else []
+    suffix = ["T"] if t[0] == "T" else [str(t[2])] if t[0] == "pow" else []
+    inside = [name_of(x) for x in t[1:] if not (t[0] == "pow" and x == t[2])]
+    glue = ["x"] * (t[0] == "wedge")
+    body = [inside[0], *glue, *inside[1:]] if inside else []
+    return "_".join(x for x in (*prefix, *body, *suffix) if x)
+
+
+def suffixed(name: str, *index: int) -> str:
+    """An entry: ``I_12``; indices above 9 are kept apart."""
+    digits = "".join(map(str, index)) if max(index) < 10 else "_".join(map(str, index))
+    return f"{name}_{digits}"
+
+
+class Names:
+    """Names already given in one program; a second claim gets an underscore."""
+
+    def __init__(self) -> None:
+        self._taken = dict.fromkeys(RESERVED, "")
+
+    def claim(self, wanted: str, owner: str) -> str:
+        """The name for an owner (the same owner gets the same name)."""
+        name = wanted
+        while self._taken.setdefault(name, owner) != owner:
+            name += "_"
+        return name

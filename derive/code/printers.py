@@ -1,0 +1,80 @@
+"""Expressions in C and in Python: precedence and numbers, nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+from .program import Expression
+
+SUM, PRODUCT, ATOM = 1, 2, 3
+
+
+@dataclass(frozen=True)
+class Printer:
+    """How a language writes a number and |x|; the rest is common to all that have + − * /."""
+
+    number: Callable[[Fraction], str]
+    absolute: str = "abs"
+
+    def __call__(self, e: Expression) -> str:
+        """An expression as source text."""
+        return self._print(e)[0]
+
+    def _print(self, e: Expression) -> tuple[str, int]:
+        if e[0] == "num":
+            text = self.number(e[1])
+            return text, ATOM if e[1] >= 0 and "/" not in text else SUM
+        if e[0] == "var":
+            return e[1], ATOM
+        if e[0] == "abs":
+            return f"{self.absolute}({self(e[1])})", ATOM
+        if e[0] == "add":
+            return self._sum(e[1]), SUM
+        if e[0] == "mul":
+            return "*".join(self._at(x, PRODUCT) for x in e[1]), PRODUCT
+        return f"{self._at(e[1], PRODUCT)}/{self._at(e[2], ATOM)}", PRODUCT
+
+    def _at(self, e: Expression, level: int) -> str:
+        text, own = self._print(e)
+        return text if own >= level else f"({text})"
+
+    def _sum(self, terms: tuple[tuple[int, Expression], ...]) -> str:
+        text = ""
+        for sign, term in terms:
+            shown = self._at(term, PRODUCT)
+            if not text:
+                text = shown if sign > 0 else f"-{shown}"
+            else:
+                text += f" {'+' if sign > 0 else '-'} {shown}"
+        return text
+
+
+def decimal(q: Fraction, suffix: str = "") -> str:
+    """A literal that reads back exactly, or a quotient of two."""
+    value = float(q)
+    if Fraction(value) == q:
+        return f"{value!r}{suffix}"
+    return f"{float(q.numerator)!r}{suffix}/{float(q.denominator)!r}{suffix}"
+
+
+PYTHON = Printer(decimal)
+
+
+def c_printer(real: str) -> Printer:
+    """C for ``double`` or ``float``."""
+    suffix = "f" if real == "float" else ""
+    return Printer(lambda q: decimal(q, suffix), "fabs" + suffix)
+
+
+def wrapped(text: str, width: int, indent: str) -> str:
+    """A long statement broken at ' + ' and ' - ' outside its first line."""
+    lines, line = [], ""
+    for word in text.split(" "):
+        if line and len(line) + 1 + len(word) > width and word in ("+", "-"):
+            lines.append(line)
+            line = indent + word
+        else:
+            line = f"{line} {word}" if line else word
+    return "\n".join([*lines, line])

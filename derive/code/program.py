@@ -1,0 +1,126 @@
+"""The neutral program: what every language prints.
+
+An expression is a tuple ``(operator, operand, …)``: ``num``, ``var``, ``add`` (signed terms),
+``mul``, ``div``, ``abs``.  A function loads inputs, computes sections of named values and stores
+outputs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+Expression = tuple[Any, ...]
+"""("num", q), ("var", name), ("add", ((sign, e), …)), ("mul", (e, …)), ("div", e, f), ("abs", e)"""
+
+
+@dataclass(frozen=True)
+class Load:
+    """``name`` = ``array[index]``."""
+
+    name: str
+    array: str
+    index: int
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """``name`` = ``expression``."""
+
+    name: str
+    expression: Expression
+
+
+@dataclass(frozen=True)
+class Section:
+    """Consecutive values that come from one equation of the record."""
+
+    label: str
+    equation: str
+    values: tuple[Assignment, ...]
+
+
+@dataclass(frozen=True)
+class Check:
+    """``value`` must exceed ``TOLERANCE · scale`` in size, else the body is singular."""
+
+    value: Expression
+    scale: Expression | None
+
+
+TOLERANCE = {"double": 1e-13, "float": 1e-5}
+"""Relative to what rounding can make of a singular matrix: some hundred units in the last place."""
+
+
+@dataclass(frozen=True)
+class Function:
+    """One emitted function."""
+
+    loads: tuple[Load, ...]
+    sections: tuple[Section, ...]
+    outputs: tuple[Expression, ...]
+    checks: tuple[Check, ...] = ()
+
+    def expressions(self) -> Iterator[Expression]:
+        """Everything that is computed."""
+        for section in self.sections:
+            yield from (v.expression for v in section.values)
+        yield from self.outputs
+        for check in self.checks:
+            yield check.value
+            if check.scale is not None:
+                yield check.scale
+
+    def operations(self) -> dict[str, int]:
+        """Counts of mul, add and div in sections and outputs."""
+        total = {"mul": 0, "add": 0, "div": 0}
+        for section in self.sections:
+            for v in section.values:
+                _count(v.expression, total)
+        for e in self.outputs:
+            _count(e, total)
+        return total
+
+
+@dataclass(frozen=True)
+class Program:
+    """All that is emitted for one problem, without a word of any language."""
+
+    name: str
+    title: str
+    group: str
+    dimension: int
+    state: tuple[str, ...]
+    parameters: tuple[tuple[str, float | None, str, str], ...]
+    inputs: tuple[str, ...]
+    constants: tuple[str, ...]
+    basis: tuple[tuple[tuple[Fraction, ...], ...], ...]
+    compute_constants: Function
+    rhs: Function
+    energy: Function
+
+
+def count(e: Expression) -> dict[str, int]:
+    """Operations of one expression."""
+    total = {"mul": 0, "add": 0, "div": 0}
+    _count(e, total)
+    return total
+
+
+def _count(e: Expression, total: dict[str, int]) -> None:
+    if e[0] == "abs":
+        _count(e[1], total)
+    elif e[0] == "add":
+        total["add"] += len(e[1]) - 1
+        for _, x in e[1]:
+            _count(x, total)
+    elif e[0] == "mul":
+        total["mul"] += len(e[1]) - 1
+        for x in e[1]:
+            _count(x, total)
+    elif e[0] == "div":
+        total["div"] += 1
+        _count(e[1], total)
+        _count(e[2], total)

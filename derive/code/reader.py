@@ -1,0 +1,143 @@
+"""Reading a record for code: which names are inputs, and which equation defines the others."""
+
+from __future__ import annotations
+
+from ..algebra.groups import Group
+from ..algebra.rational import Matrix
+from ..algebra.tree import Tree, subtrees
+from ..record.record import Derivation, Equation, Step
+from .graph import STATE, Graph, Node
+from .naming import name_of, suffixed
+
+Value = Node | Matrix
+
+
+class LoweringError(ValueError):
+    """The record does not say how to compute something: the message names it."""
+
+
+class Reader:
+    """The values of the names of one record; how a tree is computed is left to ``tree``."""
+
+    def __init__(self, d: Derivation, group: Group):
+        self.record, self.group, self.n = d, group, group.n
+        self.graph = Graph()
+        self.label = ""
+        self.state: dict[str, Value] = {}
+        self.memo: dict[Tree, Value] = {}
+        self._inputs()
+
+    def tree(self, t: Tree, index: dict[str, int] | None = None) -> Value:
+        """The value of a tree."""
+        raise NotImplementedError
+
+    # -- inputs ------------------------------------------------------------------------------
+
+    def _inputs(self) -> None:
+        n, d = self.n, self.group.dimension
+        self.state["A"] = tuple(
+            tuple(self.leaf(suffixed("A", i, j)) for j in range(1, n + 1)) for i in range(1, n + 1)
+        )
+        if self.group.affine:
+            self.state["T"] = self.column("T", n)
+            self.state["ζ"] = self.column("zeta", d - n)
+            self.state["w"] = self.column("w", n)
+        else:
+            self.state["ζ"] = self.column("zeta", d)
+        self.state["t"] = self.leaf("t")
+        for given in self.record.problem.get("inputs", []):
+            size = d - n if self.group.affine else d
+            self.state["u"] = tuple(
+                (self.leaf(suffixed(given["name"], i)),) for i in range(1, size + 1)
+            )
+            if self.group.affine:
+                self.state["f_u"] = tuple(
+                    (self.leaf(suffixed(given["name"], size + i)),) for i in range(1, n + 1)
+                )
+
+    def leaf(self, name: str) -> Node:
+        """A state variable or an input."""
+        return self.graph.leaf(name, STATE)
+
+    def column(self, name: str, size: int) -> Matrix:
+        """A column of state variables."""
+        return tuple((self.leaf(suffixed(name, i)),) for i in range(1, size + 1))
+
+    # -- names -------------------------------------------------------------------------------
+
+    def name(self, name: str) -> Value:
+        """The value of a name: an input, or what the record defines."""
+        if name in self.state:
+            return self.state[name]
+        if name not in self.memo:
+            found = self.record.definition(name)
+            if found is None:
+                raise LoweringError(f"the record does not define {name!r}")
+            self.memo[name] = self._defined(found, name_of(name))
+        return self.memo[name]
+
+    def _defined(self, found: tuple[Step, Equation], name: str) -> Value:
+        step, equation = found
+        outer, self.label = self.label, equation_key(step, equation)
+        value = self.named(self.tree(equation.rhs), name, given=True)
+        self.label = outer
+        return value
+
+    def named(self, value: Value, name: str, *, given: bool = False) -> Value:
+        """Give names to the entries of a value."""
+        if isinstance(value, Node):
+            return self.graph.value(value, name, self.label, given=given)
+        column = len(value[0]) == 1
+        return tuple(
+            tuple(
+                self.graph.value(
+                    x,
+                    suffixed(name, i) if column else suffixed(name, i, j),
+                    self.label,
+                    given=given,
+                )
+                for j, x in enumerate(row, 1)
+            )
+            for i, row in enumerate(value, 1)
+        )
+
+    def member(self, t: Tree) -> Value:
+        """A member of an indexed family: the equation that has it on the left."""
+        if t not in self.memo:
+            found = self.record.definition(t)
+            if found is None:
+                raise LoweringError(f"the record does not define {t!r}")
+            self.memo[t] = self._defined(found, name_of(t))
+        return self.memo[t]
+
+    def component(self, name: str, index: int) -> Node:
+        """An output: an entry that the record defines by itself, or an entry of a vector."""
+        found = self.record.definition(("entry", name, index))
+        if found is not None:
+            value = self._defined(found, suffixed(name_of(name), index))
+            assert isinstance(value, Node)
+            return value
+        vector = self.name(name)
+        assert not isinstance(vector, Node)
+        return vector[index - 1][0]  # type: ignore[no-any-return]
+
+    def members(self, body: Tree, index: str) -> list[int]:
+        """The values that an index takes: the members that the record defines."""
+        families = {x[1] for _, x in subtrees(body) if isinstance(x, tuple) and x[0] == "at"}
+        found = {
+            e.lhs[2]
+            for step in self.record.steps
+            for e in step.equations
+            if isinstance(e.lhs, tuple)
+            and e.lhs[0] == "at"
+            and e.lhs[1] in families
+            and isinstance(e.lhs[2], int)
+        }
+        if not found:
+            raise LoweringError(f"the record does not list the members of {sorted(families)}")
+        return sorted(found)
+
+
+def equation_key(step: Step, equation: Equation) -> str:
+    """The label of an equation: that of its step and its number in it, ``so3.motion#2``."""
+    return f"{step.label}#{step.equations.index(equation) + 1}"

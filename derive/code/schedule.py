@@ -1,0 +1,209 @@
+"""From a graph to functions: what is computed where, in which order, under which name.
+
+Whatever depends on parameters alone and is used by the rest becomes an entry of ``k``, computed
+once in ``constants``.  In each function a value is a statement when it is used more than once;
+otherwise it stands where it is used.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from .graph import PARAMETER, Node
+from .naming import Names, suffixed
+from .program import Assignment, Check, Expression, Function, Load, Section
+
+Source = tuple[str, int]
+"""Array and index of an input."""
+
+
+@dataclass(frozen=True)
+class Scheduler:
+    """Names and equations shared by the functions of one program."""
+
+    names: Names
+    equations: Mapping[str, str]
+
+    def function(
+        self,
+        outputs: list[Node],
+        inputs: Mapping[Node, tuple[str, Source]],
+        checks: Iterable[tuple[Node, Node | None]] = (),
+    ) -> Function:
+        """The function that computes ``outputs`` from ``inputs`` (node → name and place)."""
+        tests = list(checks)
+        roots = outputs + [x for test in tests for x in test if x is not None]
+        order = _reachable(roots, inputs)
+        uses = Counter(a for x in order if x not in inputs for a in x.args)
+        uses.update(roots)
+        builder = _Builder(self, inputs, uses)
+        builder.build(order)
+        loads = [Load(name, *place) for x, (name, place) in inputs.items() if x in order]
+        return Function(
+            tuple(sorted(loads, key=lambda item: (item.array, item.index))),
+            builder.sections(),
+            tuple(builder.expression(x) for x in outputs),
+            tuple(
+                Check(
+                    builder.expression(value), None if scale is None else builder.expression(scale)
+                )
+                for value, scale in tests
+            ),
+        )
+
+
+def frontier(outputs: Iterable[Node]) -> list[Node]:
+    """What depends on parameters alone and is used by something that does not, or is an output."""
+    found: set[Node] = set()
+    seen: set[Node] = set()
+    stack = list(outputs)
+    while stack:
+        x = stack.pop()
+        if x in seen:
+            continue
+        seen.add(x)
+        if x.stage == PARAMETER:
+            if x.op != "num":
+                found.add(x)
+        else:
+            stack.extend(x.args)
+    return sorted(found, key=lambda x: x.id)
+
+
+def _reachable(roots: Iterable[Node], inputs: Mapping[Node, object]) -> list[Node]:
+    seen: set[Node] = set()
+    stack = list(roots)
+    while stack:
+        x = stack.pop()
+        if x not in seen:
+            seen.add(x)
+            if x not in inputs:
+                stack.extend(x.args)
+    return sorted(seen, key=lambda x: x.id)
+
+
+class _Builder:
+    def __init__(
+        self,
+        scheduler: Scheduler,
+        inputs: Mapping[Node, tuple[str, Source]],
+        uses: Mapping[Node, int],
+    ):
+        self.scheduler, self.inputs, self.uses = scheduler, inputs, uses
+        self.local: dict[Node, str] = {}
+        self.statements: list[tuple[str, Assignment]] = []
+
+    def build(self, order: list[Node]) -> None:
+        """Statements in the order of creation: operands come before what uses them."""
+        for x in order:
+            if x in self.inputs or x.is_atom:
+                continue
+            label = x.graph.titles[x][1] if x.op == "value" else ""
+            if self._stands_alone(x):
+                name = self.scheduler.names.claim(self._wanted(x), f"node {x.id}")
+                inner = x.args[0] if x.op == "value" else x
+                self.statements.append((label, Assignment(name, self._operation(inner))))
+                self.local[x] = name
+
+    def _stands_alone(self, x: Node) -> bool:
+        if x.op == "value":
+            return self.uses[x] > 1 or _weight(x.args[0]) > 6
+        shared = self.uses[x] > 1 and not _negation(x)
+        return shared and not (x.op == "mul" and _weight(x) < 1)
+
+    def _wanted(self, x: Node) -> str:
+        if x.op == "value":
+            return x.graph.titles[x][0]
+        parts = [self._short(a) for a in x.args]
+        if x.op in ("mul", "recip") and all(parts) and len(parts) <= 3:
+            return ("inv_" if x.op == "recip" else "") + "_".join(parts)
+        if x.op == "add" and all(parts) and len(parts) == 2:
+            signs = ["minus" if c < 0 else "plus" for c in x.data]
+            return f"{parts[0]}_{signs[1]}_{parts[1]}"
+        return suffixed("part", len(self.statements) + 1)
+
+    def _short(self, x: Node) -> str:
+        if x in self.inputs:
+            return self.inputs[x][0]
+        return self.local.get(x, "")
+
+    def sections(self) -> tuple[Section, ...]:
+        """Consecutive statements of one label; unnamed ones go with what follows."""
+        labelled: list[tuple[str, Assignment]] = []
+        following = self.statements[-1][0] if self.statements else ""
+        for label, statement in reversed(self.statements):
+            following = label or following
+            labelled.append((following, statement))
+        groups: list[tuple[str, list[Assignment]]] = []
+        for label, statement in reversed(labelled):
+            if not groups or groups[-1][0] != label:
+                groups.append((label, []))
+            groups[-1][1].append(statement)
+        equations = self.scheduler.equations
+        return tuple(Section(label, equations.get(label, ""), tuple(v)) for label, v in groups)
+
+    # -- expressions -------------------------------------------------------------------------
+
+    def expression(self, x: Node) -> Expression:
+        """How a node is written where it is used."""
+        if x in self.inputs:
+            return ("var", self.inputs[x][0])
+        if x in self.local:
+            return ("var", self.local[x])
+        return self._operation(x)
+
+    def _operation(self, x: Node) -> Expression:
+        if x.op == "num":
+            return ("num", x.data)
+        if x.op == "value":
+            return self.expression(x.args[0])
+        if x.op == "recip":
+            return ("div", ("num", Fraction(1)), self.expression(x.args[0]))
+        if x.op == "abs":
+            return ("abs", self.expression(x.args[0]))
+        if x.op == "mul":
+            return self._product(x.args)
+        if x.op == "add":
+            return self._sum(x)
+        raise ValueError(f"no place for the input {x.data!r}")
+
+    def _product(self, factors: tuple[Node, ...]) -> Expression:
+        above = [x for x in factors if x.op != "recip" or x in self.local or x in self.inputs]
+        below = [x.args[0] for x in factors if x not in above]
+        top = tuple(self.expression(x) for x in above) or (("num", Fraction(1)),)
+        numerator = top[0] if len(top) == 1 else ("mul", top)
+        if not below:
+            return numerator
+        bottom = tuple(self.expression(x) for x in below)
+        return ("div", numerator, bottom[0] if len(bottom) == 1 else ("mul", bottom))
+
+    def _sum(self, x: Node) -> Expression:
+        terms = []
+        for c, y in zip(x.data, x.args, strict=True):
+            term = self.expression(y)
+            size = abs(c)
+            if size != 1:
+                term = _scaled(size, term)
+            terms.append((1 if c > 0 else -1, term))
+        terms.sort(key=lambda item: -item[0])
+        return ("add", tuple(terms))
+
+
+def _scaled(c: Fraction, e: Expression) -> Expression:
+    if e == ("num", Fraction(1)):
+        return ("num", c)
+    return ("mul", (("num", c), *(e[1] if e[0] == "mul" else (e,))))
+
+
+def _negation(x: Node) -> bool:
+    return x.op == "add" and len(x.args) == 1 and x.data[0] == -1
+
+
+def _weight(x: Node) -> int:
+    """How much there is to compute at a node itself."""
+    if x.op == "add":
+        return sum(1 + (y.op == "mul") * (len(y.args) - 1) for y in x.args)
+    return len(x.args) - 1 if x.op == "mul" else 1

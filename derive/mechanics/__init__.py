@@ -1,0 +1,1 @@
+"""Bodies, potentials, problem files."""

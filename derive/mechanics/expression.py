@@ -1,0 +1,142 @@
+"""The small grammar of expressions in problem files: numbers, names, + − * / ^ and parentheses.
+
+Text is turned into a tree by this parser alone; it never reaches Python's or SymPy's.
+"""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+
+from ..algebra.tree import Tree, add, mul, neg
+
+LENGTH, NESTING, EXPONENT, DIGITS = 10_000, 100, 64, 40
+TOKEN = re.compile(
+    r"\s*(?:(\d+\.?\d*(?:[eE][+-]?\d{1,3})?|\.\d+)|([A-Za-z][A-Za-z0-9_]*)|(.))", re.S
+)
+
+
+class ExpressionError(ValueError):
+    """What is wrong with the text, and where in it."""
+
+
+def parse(text: str) -> Tree:
+    """The tree of an expression; names become parameters."""
+    if len(text) > LENGTH:
+        raise ExpressionError(f"an expression of {len(text)} characters; at most {LENGTH}")
+    parser = _Parser(_tokens(text))
+    tree = parser.sum(0)
+    if parser.peek():
+        raise ExpressionError(f"unexpected {parser.peek()[:20]!r}")
+    return tree
+
+
+def names(tree: Tree) -> list[str]:
+    """The parameters that occur, in reading order."""
+    if isinstance(tree, tuple):
+        if tree[0] == "par":
+            return [tree[1]]
+        return [name for part in tree[1:] for name in names(part)]
+    return []
+
+
+def _tokens(text: str) -> list[str]:
+    found = []
+    for match in TOKEN.finditer(text.rstrip()):
+        number, name, other = match.groups()
+        if other is not None and other not in "+-*/^()":
+            raise ExpressionError(f"character {other!r} is not part of an expression")
+        found.append(number or name or other)
+    return found
+
+
+class _Parser:
+    """Recursive descent; the depth of nesting is bounded."""
+
+    def __init__(self, tokens: list[str]):
+        self.tokens = tokens
+        self.at = 0
+
+    def peek(self) -> str:
+        return self.tokens[self.at] if self.at < len(self.tokens) else ""
+
+    def take(self) -> str:
+        token = self.peek()
+        self.at += 1
+        return token
+
+    def sum(self, depth: int) -> Tree:
+        if depth > NESTING:
+            raise ExpressionError(f"parentheses nested deeper than {NESTING}")
+        terms = [self.product(depth)]
+        while self.peek() in ("+", "-") and self.peek():
+            sign = self.take()
+            term = self.product(depth)
+            terms.append(neg(term) if sign == "-" else term)
+        return add(*terms)
+
+    def product(self, depth: int) -> Tree:
+        result = self.signed(depth)
+        while self.peek() in ("*", "/") and self.peek():
+            operator = self.take()
+            factor = self.signed(depth)
+            if operator == "*":
+                result = mul(result, factor)
+            elif factor == 0:
+                raise ExpressionError("division by zero")
+            else:
+                result = _quotient(result, factor)
+        return result
+
+    def signed(self, depth: int) -> Tree:
+        sign = 1
+        while self.peek() in ("+", "-") and self.peek():
+            sign *= -1 if self.take() == "-" else 1
+        power = self.power(depth)
+        return neg(power) if sign < 0 else power
+
+    def power(self, depth: int) -> Tree:
+        base = self.atom(depth)
+        if self.peek() != "^":
+            return base
+        self.take()
+        negative = self.peek() == "-" and bool(self.take())
+        exponent = self.take()
+        if self.peek() == "^":
+            raise ExpressionError("write parentheses in a power of a power")
+        if not exponent.isdigit() or int(exponent[:9]) > EXPONENT or len(exponent) > 9:
+            raise ExpressionError(f"an exponent must be an integer up to {EXPONENT}")
+        return _powered(base, -int(exponent) if negative else int(exponent))
+
+    def atom(self, depth: int) -> Tree:
+        token = self.take()
+        if token == "(":
+            inside = self.sum(depth + 1)
+            if self.take() != ")":
+                raise ExpressionError("a parenthesis is not closed")
+            return inside
+        if token[:1].isdigit() or token[:1] == ".":
+            if len(token) > DIGITS:
+                raise ExpressionError(f"a number of more than {DIGITS} characters")
+            value = Fraction(token)
+            return int(value) if value.denominator == 1 else value
+        if token[:1].isalpha():
+            return ("par", token)
+        raise ExpressionError(f"unexpected {token!r}" if token else "unexpected end")
+
+
+def _quotient(a: Tree, b: Tree) -> Tree:
+    if isinstance(b, (int, Fraction)):
+        return mul(Fraction(1) / b, a)
+    return ("div", a, b)
+
+
+def _powered(base: Tree, n: int) -> Tree:
+    if n == 0:
+        return 1
+    if isinstance(base, (int, Fraction)):
+        if base == 0 and n < 0:
+            raise ExpressionError("division by zero")
+        value = Fraction(base) ** n
+        return int(value) if value.denominator == 1 else value
+    return base if n == 1 else ("pow", base, n)

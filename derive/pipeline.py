@@ -1,0 +1,147 @@
+"""The whole road on one screen: from a problem to its record.
+
+    stage       input                 output        module
+    ----------  --------------------  ------------  ----------------
+    lagrangian  letters               Lagrangian    walk.lagrangian
+    pull-back   Lagrangian            Pullback      walk.pullback
+    Cartan      Pullback              Cartan        walk.cartan
+    exterior    Cartan                Exterior      walk.exterior
+    kernel      Exterior              Kernel        walk.kernel
+    isometry    Cartan                Isometry      walk.isometry      SO(n), SE(n)
+    vectors     Isometry              VectorForm    walk.vector        n = 3
+    elimination VectorForm            Eliminated    walk.elimination   SE(3)
+    volume      Kernel                steps         walk.volume        SL(n)
+    motion      all of these          steps         walk.rotation
+
+Every stage returns its value together with the steps it took; the record is their sequence.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from .algebra.groups import Group
+from .algebra.tree import names
+from .mechanics.problem import Problem, ProblemError
+from .record.record import Derivation, Step, Symbol, encode
+from .record.vocabulary import VOCABULARY
+from .walk.alphabet import Alphabet
+from .walk.cartan import Cartan, cartan, trivialise
+from .walk.elimination import eliminate
+from .walk.exterior import exterior, exterior_trivialised
+from .walk.isometry import Isometry, isometry
+from .walk.kernel import Kernel, kernel, kernel_trivialised
+from .walk.lagrangian import lagrangian
+from .walk.potential import body_step, potentials
+from .walk.pullback import pullback
+from .walk.rotation import (
+    displacement_motion,
+    energy_step,
+    euler_step,
+    principal_step,
+    spherical_motion,
+    torque_step,
+)
+from .walk.vector import vector_form
+from .walk.volume import volume_steps
+
+Steps = tuple[Step, ...]
+
+
+def walk(problem: Problem) -> Derivation:
+    """Derive the equations of motion of a problem; ``ProblemError`` where there is no road yet."""
+    a = Alphabet("n", affine=problem.affine)
+    general = "affine" if problem.affine else "linear"
+    form, motion, steps = road_of_any_group(a, general)
+    if problem.group is not None:
+        steps += road_of(problem, problem.group, a, form, motion, general)
+    return Derivation(_data(problem), _symbols(steps), steps)
+
+
+def road_of_any_group(a: Alphabet, name: str) -> tuple[Cartan, Kernel, Steps]:
+    """Exercise 1: L → L̃ → ϖ → dϖ → kernel for every matrix group, in space and trivialised."""
+    L = lagrangian(a, name)
+    pulled = pullback(L, a, name)
+    form = cartan(pulled, a, name)
+    derivative = exterior(form, a, name)
+    ambient = kernel(derivative, a, name)
+    trivial = trivialise(form, a, name)
+    trivial_derivative = exterior_trivialised(derivative, trivial, a, name)
+    motion = kernel_trivialised(trivial_derivative, a, name)
+    stages = (L, pulled, form, derivative, ambient, trivial, trivial_derivative, motion)
+    return trivial, motion, tuple(step for stage in stages for step in stage.steps)
+
+
+def road_of(
+    problem: Problem, group: Group, a: Alphabet, form: Cartan, motion: Kernel, general: str
+) -> Steps:
+    """The specialisation to the group, the body and the potentials of the problem."""
+    name, scope = problem.name, group.name
+    body = body_step(problem, name, scope)
+    first = (body,) if body else ()
+    if "orthogonal" in group.relations and group.n == 3:
+        stage = isometry(form, a, group.n, name, general, scope)
+        road = road_of_displacements if group.affine else road_of_rotations
+        return first + stage.steps + road(problem, stage, general)
+    if group.relations == {"unimodular"} and not group.affine:
+        v = potentials(problem, Alphabet(group.n, affine=False), name, general, scope)
+        return first + v.steps + volume_steps(motion, form, v, a, problem, name, general)
+    raise ProblemError(
+        f"key 'group': the road for {group.name} is not built yet; known: SO(3), SE(3), SL(n)"
+    )
+
+
+def road_of_rotations(problem: Problem, stage: Isometry, general: str) -> Steps:
+    """SO(3): vectors, Euler's equations, principal axes, gravity and input."""
+    name, scope = problem.name, "SO(3)"
+    vectors = vector_form(stage, name, general, scope)
+    euler = euler_step(vectors, name, scope)
+    v = potentials(problem, stage.letters, name, general, scope)
+    return (
+        *vectors.steps,
+        euler,
+        principal_step(name, scope, euler.equations[0].rhs),
+        *v.steps,
+        torque_step(v, stage.letters, name, general, scope),
+        spherical_motion(vectors, v, stage, problem, name, scope),
+        energy_step(stage, v, name, scope),
+    )
+
+
+def road_of_displacements(problem: Problem, stage: Isometry, general: str) -> Steps:
+    """SE(3): vectors, elimination of the translation, gravity and input."""
+    name, scope = problem.name, "SE(3)"
+    vectors = vector_form(stage, name, general, scope)
+    eliminated = eliminate(vectors, stage.letters, name, scope)
+    v = potentials(problem, stage.letters, name, general, scope)
+    return (
+        *vectors.steps,
+        *eliminated.steps,
+        *v.steps,
+        torque_step(v, stage.letters, name, general, scope),
+        displacement_motion(eliminated, v, stage.letters, problem, name, scope),
+        energy_step(stage, v, name, scope),
+    )
+
+
+def _data(problem: Problem) -> dict[str, object]:
+    """The problem as JSON data: trees encoded."""
+
+    def plain(x: object) -> object:
+        if isinstance(x, dict):
+            return {k: plain(v) for k, v in x.items()}
+        if isinstance(x, list):
+            return [plain(v) for v in x]
+        return encode(x) if isinstance(x, (tuple, Fraction)) else x
+
+    return {k: plain(v) for k, v in problem.data().items()}
+
+
+def _symbols(steps: Steps) -> tuple[Symbol, ...]:
+    """The names that the steps use, in the order in which they appear."""
+    used: dict[str, None] = {}
+    for step in steps:
+        for equation in step.equations:
+            for side in (equation.lhs, equation.rhs):
+                used |= dict.fromkeys(names(side))
+    return tuple(Symbol(x, *VOCABULARY[x]) for x in used if x in VOCABULARY)

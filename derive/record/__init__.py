@@ -1,0 +1,1 @@
+"""The record of a walk, its checker, and the paper as printed."""

@@ -1,0 +1,141 @@
+"""The checker: every equation of a record, put to the test in exact rational arithmetic.
+
+The names of a step are given the values that they mean (:mod:`derive.record.meaning`) at random
+exact points of the group, and both sides must agree, with no tolerance.  A false equation survives
+with probability at most  degree / size  (Schwartz–Zippel), which is computed and reported.
+Nothing is imported from the walk.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from random import Random
+from typing import Any
+
+from ..algebra.groups import Group, group
+from . import degree
+from .evaluate import Environment, EvaluationError, evaluate, free_indices, index_values
+from .meaning import environment
+from .model import Model
+from .record import Derivation, Equation, RecordError, Step
+from .vocabulary import ANY_GROUP
+
+SIZE = 2**128
+"""Random parameters are integers of at most this absolute value."""
+
+PANELS = {"linear": ("GL(2)", "SL(2)", "SO(3)"), "affine": ("Aff(2)", "SE(3)")}
+"""Groups on which a claim about any group is tried; one without relations comes first."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """``holds``, with ``reason`` when it does not; ``bound`` on the probability of a false pass."""
+
+    label: str
+    holds: bool
+    reason: str
+    bound: float
+
+
+class Checker:
+    """Exact models for the scopes of one record, made once and shared by its steps."""
+
+    def __init__(self, problem: Mapping[str, Any], seed: int = 20):
+        self.problem, self.seed = problem, seed
+        self._environments: dict[tuple[str, tuple[str, ...]], Environment] = {}
+
+    def groups(self, scope: str) -> list[Group]:
+        """The groups on which a step of this scope is tried."""
+        if scope == ANY_GROUP:
+            return [group(x) for x in PANELS[_action(self.problem)]]
+        if scope != self.problem.get("group"):
+            raise RecordError(f"scope {scope!r} is neither {ANY_GROUP!r} nor the problem's group")
+        return [group(scope)]
+
+    def environments(self, step: Step) -> Iterator[tuple[Group, Environment]]:
+        """The exact points at which a step is tried."""
+        for g in self.groups(step.scope):
+            key = (g.name + step.scope, step.given)
+            if key not in self._environments:
+                self._environments[key] = environment(self.model(g, step.scope, step.given))
+            yield g, self._environments[key]
+
+    def model(self, g: Group, scope: str, given: tuple[str, ...]) -> Model:
+        """A random exact point."""
+        seed = f"{self.seed} {g.name} {scope} {given}"
+        return Model(
+            self.problem,
+            g,
+            Random(seed),
+            SIZE,
+            principal="principal axes" in given,
+            driven="input" in given,
+            coasting="any acceleration" in given,
+            opaque=scope == ANY_GROUP,
+        )
+
+    def check(self, step: Step) -> Verdict:
+        """One step."""
+        bound = 0.0
+        try:
+            for g, env in self.environments(step):
+                for k, equation in enumerate(step.equations, 1):
+                    reason = difference(equation, env)
+                    if reason:
+                        return Verdict(
+                            step.label, False, f"equation {k} on {g.name}: {reason}", 1.0
+                        )
+                    bound = max(bound, degree.bound(equation, g, self.problem) / SIZE)
+        except (RecordError, ValueError, ZeroDivisionError, RecursionError) as error:
+            return Verdict(step.label, False, str(error), 1.0)
+        return Verdict(step.label, True, "", bound)
+
+
+def difference(equation: Equation, env: Environment) -> str:
+    """Empty when both sides agree, for every value of a free index; else what differs."""
+    both = ("add", equation.lhs, equation.rhs)
+    for index in sorted(free_indices(both)):
+        for value in index_values(both, index, env):
+            reason = _difference(equation, env.with_index(index, value))
+            if reason:
+                return reason
+        return ""
+    return _difference(equation, env)
+
+
+def _difference(equation: Equation, env: Environment) -> str:
+    try:
+        left, right = evaluate(equation.lhs, env), evaluate(equation.rhs, env)
+    except EvaluationError as error:
+        return str(error)
+    if _same(left, right):
+        return ""
+    return f"the sides differ: {_brief(left)} and {_brief(right)}"
+
+
+def _same(a: Any, b: Any) -> bool:
+    if isinstance(a, tuple) != isinstance(b, tuple):
+        matrix, number = (a, b) if isinstance(a, tuple) else (b, a)
+        return number == 0 and all(x == 0 for row in matrix for x in row)
+    return bool(a == b)
+
+
+def _brief(x: Any) -> str:
+    if isinstance(x, tuple):
+        return f"a {len(x)}×{len(x[0])} matrix with first entry {_brief(x[0][0])}"
+    return f"{float(x):.6g}" if abs(x) < Fraction(10) ** 300 else "a large number"
+
+
+def _action(problem: Mapping[str, Any]) -> str:
+    action = problem.get("action")
+    if action not in PANELS:
+        raise RecordError("record, problem: key 'action' must be linear or affine")
+    return str(action)
+
+
+def check(d: Derivation, seed: int = 20) -> list[Verdict]:
+    """A verdict for every step; the random points are fixed by the seed."""
+    checker = Checker(d.problem, seed)
+    return [checker.check(step) for step in d.steps]

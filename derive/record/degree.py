@@ -1,0 +1,182 @@
+"""How large the degree of a claim is, as a rational function of the random parameters.
+
+Both sides of an equation are rational functions of the parameters of the random point.  A name has
+a numerator degree and a denominator: powers of a few fixed polynomials (the Cayley determinant, the
+determinant of the kinetic metric, the mass).  Sums go over the least common denominator, so the
+bound stays small; it is what Schwartz–Zippel asks for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..algebra.groups import Group
+from ..algebra.tree import Tree
+from .record import Equation, decode
+
+
+@dataclass(frozen=True)
+class Degree:
+    """Numerator degree over  Π poly^power; ``den``: a polynomial's (name, degree) → power."""
+
+    num: int
+    den: tuple[tuple[tuple[str, int], int], ...] = ()
+
+    @property
+    def denominator(self) -> int:
+        """The degree of the denominator."""
+        return sum(p[1] * k for p, k in self.den)
+
+    def __mul__(self, other: Degree) -> Degree:
+        powers = dict(self.den)
+        for p, k in other.den:
+            powers[p] = powers.get(p, 0) + k
+        return Degree(self.num + other.num, tuple(sorted(powers.items())))
+
+    def __add__(self, other: Degree) -> Degree:
+        powers = dict(self.den)
+        for p, k in other.den:
+            powers[p] = max(powers.get(p, 0), k)
+        den = tuple(sorted(powers.items()))
+        whole = sum(p[1] * k for p, k in den)
+        lifted = (x.num + whole - x.denominator for x in (self, other))
+        return Degree(max(lifted), den)
+
+    def inverse(self, size: int, tag: str) -> Degree:
+        """The inverse of a matrix of this degree, by cofactors; its determinant is a polynomial."""
+        whole = (f"det {tag}", self.num * size)
+        return Degree(self.num * max(size - 1, 0), ((whole, 1),)) * Degree(self.denominator)
+
+
+def bound(equation: Equation, group: Group, problem: Mapping[str, Any]) -> int:
+    """The degree of the numerator of  lhs − rhs."""
+    table = _table(group, _body_degree(problem))
+    total = _degree(equation.lhs, table, group) + _degree(equation.rhs, table, group)
+    return total.num + total.denominator
+
+
+def _body_degree(problem: Mapping[str, Any]) -> int:
+    """The largest degree of a mass, a coordinate or a stiffness in the parameters."""
+    body, potentials = problem.get("body", {}), problem.get("potentials", [])
+    trees = [x for p in body.get("points", []) for x in (p["mass"], *p["at"])]
+    trees += [x for p in potentials for x in (*p.get("g", ()), p.get("stiffness", 1))]
+    return max([1, *(_size(decode(x, "problem")) for x in trees)])
+
+
+def _size(t: Tree) -> int:
+    """A bound on numerator plus denominator degree of an expression of parameters."""
+    if not isinstance(t, tuple):
+        return 0
+    if t[0] == "par":
+        return 1
+    if t[0] == "pow":
+        return _size(t[1]) * abs(int(t[2]))
+    return sum(_size(x) for x in t[1:])
+
+
+def _table(group: Group, body: int) -> dict[str, Degree]:
+    """Degrees of the names, from the degrees of mass, place, group element and algebra element."""
+    n, d = group.n, group.dimension
+    orthogonal = "orthogonal" in group.relations
+    A = Degree(n, ((("cayley", n), 1),)) if orthogonal else Degree(3)
+    mass = place = Degree(body)
+    one = Degree(1)
+    velocity, variation = A * one, A * one * one
+    J = mass * place * place
+    force = (A * place + one) * (A * place + one) * (A * place + one) * place
+    entry = A * A * J
+    metric = (("metric", entry.num * d), 1)
+    covector = entry * one * one + force * A * place + one
+    solved = Degree(entry.num * (d - 1) + covector.num, ((metric[0], 1), *covector.den))
+    twice = solved * one + one * one
+    energy = mass * velocity * velocity * place * place + force * place
+    scalars = {"t": one, "δt": one, "δ′t": one, "m": mass, "c": mass * place, "J": J}
+    group_names = {"A": A, "T": one, "Ȧ": velocity, "Ṫ": velocity, "C": A * A}
+    group_names |= dict.fromkeys(("α", "τ"), velocity)
+    algebra = dict.fromkeys(
+        [
+            "Z",
+            "w",
+            "ξ",
+            "ξ′",
+            "η",
+            "η′",
+            "δZ",
+            "δ′Z",
+            "δw",
+            "δ′w",
+            "ζ",
+            "Ω",
+            "Ω′",
+            "δζ",
+            "δ′ζ",
+            "u",
+            "f_u",
+        ],
+        one,
+    )
+    spatial = dict.fromkeys(["δA", "δ′A", "δT", "δ′T", "δα", "δ′α", "δτ", "δ′τ"], variation)
+    forces = dict.fromkeys(["N", "F", "N_b", "F_b", "μ", "γ", "K", "k", "s"], force * A)
+    motion = dict.fromkeys(["Ż", "ẇ", "ζ̇", "f", "φ"], solved)
+    motion |= dict.fromkeys(("α̇", "τ̇", "F̃"), A * twice)
+    energies = dict.fromkeys(["L", "L̃", "U", "Ũ", "h̃"], energy)
+    inertia = {
+        "I": J,
+        **dict.fromkeys(("I_c", "J_c"), J + Degree(2 * J.num, ((("mass", mass.num), 2),))),
+    }
+    multiplier = {"λ": A * A * twice * J + force * A * place}
+    values = scalars | group_names | algebra | spatial | forces | motion | energies | inertia
+    values |= multiplier
+    values["par"] = J
+    values[""] = energy * A * twice * one * one  # the value of a form or a function
+    return values
+
+
+def _degree(t: Tree, table: Mapping[str, Degree], group: Group) -> Degree:
+    if isinstance(t, str):
+        return table.get(t, table[""])
+    if not isinstance(t, tuple):
+        return Degree(0)
+    op = t[0]
+    if op in ("call", "par", "at"):
+        return table["par"] if op == "par" else table.get(str(t[1]), table[""])
+    if op == "pow":
+        base = _degree(t[1], table, group)
+        result = base
+        for _ in range(abs(int(t[2])) - 1):
+            result = result * base
+        return result if int(t[2]) > 0 else result.inverse(1, str(t[1]))
+    parts = [_degree(x, table, group) for x in t[1:] if op != "sum" or x != t[1]]
+    return _combined(op, t, parts or [Degree(0)], group)
+
+
+def _combined(op: str, t: tuple[Any, ...], parts: list[Degree], group: Group) -> Degree:
+    if op in ("add", "matrix", "row"):
+        total = parts[0]
+        for x in parts[1:]:
+            total = total + x
+        return total
+    if op == "inv":
+        return parts[0].inverse(group.n, repr(t[1]))
+    if op == "div":
+        return parts[0] * parts[1].inverse(1, repr(t[2]))
+    if op == "det":
+        return _power(parts[0], group.n)
+    if op == "norm2":
+        return _product([*parts, parts[-1]])
+    if op == "entry":
+        return parts[0]
+    return _product(parts)
+
+
+def _power(x: Degree, n: int) -> Degree:
+    return _product([x] * n)
+
+
+def _product(parts: list[Degree]) -> Degree:
+    total = parts[0]
+    for x in parts[1:]:
+        total = total * x
+    return total

@@ -1,0 +1,289 @@
+"""What the names of a record mean, computed from equation (3) alone, at one exact random point.
+
+The checker's other road: points with masses and places, a Lagrangian, a group element, two
+variations, all in rational numbers.  Derivatives come from nilpotent numbers, accelerations from
+d'Alembert's principle on the points.  No word of the algebra and no code of the walk is used.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from random import Random
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.groups import Group
+from ..algebra.rational import Matrix
+from .evaluate import Environment, evaluate
+from .nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, nilpotent, part
+from .record import decode
+
+Vector = tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A tangent vector of the evolution space: δt, ξ̂ = g⁻¹δg and δẐ in 𝔤 (matrices)."""
+
+    time: Any
+    xi: Matrix
+    velocity: Matrix
+
+
+class Model:
+    """One random point of the evolution space of a problem, with two variations and the motion.
+
+    ``principal``: the body has a diagonal J; ``driven``: the input does not vanish; ``coasting``: X
+    has any acceleration, not that of the motion; ``opaque``: the potential is any polynomial.
+    """
+
+    def __init__(
+        self,
+        problem: Mapping[str, Any],
+        group: Group,
+        random: Random,
+        size: int,
+        *,
+        principal: bool = False,
+        driven: bool = False,
+        coasting: bool = False,
+        opaque: bool = False,
+    ):
+        self.problem, self.group, self.random, self.size = problem, group, random, size
+        self.coasting, self.opaque = coasting, opaque
+        self.n, self.s = group.n, group.size
+        self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
+        self.masses, self.points = self._principal() if principal else self._body()
+        self._moments_as_parameters()
+        self._opaque = [[self.draw() for _ in range(self.n + 2)] for _ in self.points]
+        self.t = self.draw()
+        self.g = group.sample(random, size)
+        self.Z = self.algebra()
+        self.first, self.second, self.mixed = (
+            Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
+        )
+        self.input = [self.draw() if driven else Fraction(0) for _ in group.basis]
+
+    def draw(self, *, positive: bool = False) -> Fraction:
+        """A random integer, as a fraction."""
+        return Fraction(self.random.randint(1 if positive else -self.size, self.size))
+
+    def algebra(self) -> Matrix:
+        """A random element of the Lie algebra."""
+        return self.group.hat([self.draw() for _ in self.group.basis])
+
+    # -- body and potential ------------------------------------------------------------------
+
+    def _body(self) -> tuple[list[Fraction], list[Vector]]:
+        body = self.problem.get("body", {})
+        if body.get("kind") == "points" and not self.opaque:
+            env = Environment(self.n, {}, parameters=self.parameters)
+            masses, points = [], []
+            for p in body["points"]:
+                masses.append(evaluate(decode(p["mass"], "mass"), env))
+                points.append(tuple(evaluate(decode(x, "at"), env) for x in p["at"]))
+            return masses, points
+        count = self.n + 1
+        masses = [self.draw(positive=True) for _ in range(count)]
+        return masses, [tuple(self.draw() for _ in range(self.n)) for _ in range(count)]
+
+    def _principal(self) -> tuple[list[Fraction], list[Vector]]:
+        """Points on the axes: J is diagonal, c is not zero."""
+        masses = [self.draw(positive=True) for _ in range(self.n)]
+        axes = [
+            tuple(self.draw() if i == j else Fraction(0) for j in range(self.n))
+            for i in range(self.n)
+        ]
+        return masses, axes
+
+    def _moments_as_parameters(self) -> None:
+        if self.problem.get("body", {}).get("kind") != "moments":
+            return
+        m, c, J = self.moments
+        self.parameters |= {"m": m} | {f"c_{i + 1}": c[i][0] for i in range(self.n)}
+        self.parameters |= {
+            f"J_{i + 1}{j + 1}": J[i][j] for i in range(self.n) for j in range(i, self.n)
+        }
+
+    @cached_property
+    def moments(self) -> tuple[Fraction, Matrix, Matrix]:
+        """m, c, J as sums over the points."""
+        total = sum(self.masses, Fraction(0))
+        span = range(self.n)
+        pairs = list(zip(self.masses, self.points, strict=True))
+        first = tuple((sum((m * r[i] for m, r in pairs), Fraction(0)),) for i in span)
+        second = tuple(
+            tuple(sum((m * r[i] * r[j] for m, r in pairs), Fraction(0)) for j in span) for i in span
+        )
+        return total, first, second
+
+    def homogeneous(self, r: Vector) -> Matrix:
+        """r, or (r, 1) for an affine action, as a column."""
+        return tuple((x,) for x in (*r, *((Fraction(1),) if self.group.affine else ())))
+
+    def moved(self, g: Matrix) -> list[Vector]:
+        """g applied to the points (also a tangent matrix)."""
+        return [tuple(x[0] for x in q.times(g, self.homogeneous(r))[: self.n]) for r in self.points]
+
+    def potential(self, t: Any, r: list[Vector]) -> Any:
+        """U(t, r): that of the problem, or any polynomial where the walk leaves it open."""
+        if self.opaque:
+            return self._arbitrary(t, r)
+        env = Environment(self.n, {}, parameters=self.parameters)
+        total: Any = Fraction(0)
+        for p in self.problem.get("potentials", []):
+            if p["kind"] == "gravity":
+                gravity = [evaluate(decode(x, "g"), env) for x in p["g"]]
+                for m, point in zip(self.masses, r, strict=True):
+                    total = total - sum(
+                        (m * a * x for a, x in zip(gravity, point, strict=True)), Fraction(0)
+                    )
+            else:
+                i, j = p["between"]
+                k = evaluate(decode(p["stiffness"], "stiffness"), env)
+                stretch = [a - b for a, b in zip(r[i - 1], r[j - 1], strict=True)]
+                total = total + k * sum((x * x for x in stretch), Fraction(0)) * Fraction(1, 2)
+        return total
+
+    def _arbitrary(self, t: Any, r: list[Vector]) -> Any:
+        total = t * t
+        for weights, point in zip(self._opaque, r, strict=True):
+            square = sum((x * x for x in point), Fraction(0))
+            linear = sum((a * x for a, x in zip(weights, point, strict=False)), Fraction(0))
+            total = total + linear + weights[-2] * square + weights[-1] * (linear * t)
+        return total
+
+    # -- Lagrangian, Cartan form and its derivative --------------------------------------------
+
+    def lagrangian(self, t: Any, g: Matrix, nu: Matrix) -> Any:
+        """L̃(t, g, ν) = L at the moved points: equation (3)."""
+        kinetic = sum(
+            (
+                m * Fraction(1, 2) * sum((x * x for x in v), Fraction(0))
+                for m, v in zip(self.masses, self.moved(nu), strict=True)
+            ),
+            Fraction(0),
+        )
+        return kinetic - self.potential(t, self.moved(g))
+
+    def momentum(self, t: Any, g: Matrix, nu: Matrix, w: Matrix) -> Any:
+        """p̃(w): the derivative of L̃ along the velocity."""
+        shifted = q.plus(nu, q.scaled(nilpotent(ETA), w))
+        value = Nilpotent.of(self.lagrangian(t, g, shifted))
+        return Nilpotent({k ^ ETA: x for k, x in value.parts.items() if k & ETA})
+
+    def energy(self, t: Any, g: Matrix, nu: Matrix) -> Any:
+        """h̃ = p̃(ν) − L̃."""
+        return self.momentum(t, g, nu, nu) - self.lagrangian(t, g, nu)
+
+    def family(self, a: Direction, b: Direction) -> tuple[Any, Matrix, Matrix]:
+        """t, g and Z on a two-parameter family with the given directions, to first order in each.
+
+        The mixed part is arbitrary: dϖ does not depend on it, but δξ′ and δ′ξ do.
+        """
+        e, f = nilpotent(EPS), nilpotent(EPS_PRIME)
+        one = q.identity(self.s)
+        factors = ((e, a.xi), (f, b.xi), (e * f, self.mixed.xi))
+        g = self.g
+        for weight, xi in factors:
+            g = q.times(g, q.plus(one, q.scaled(weight, xi)))
+        t = self.t + e * a.time + f * b.time + e * f * self.mixed.time
+        Z = self.Z
+        for weight, x in ((e, a.velocity), (f, b.velocity), (e * f, self.mixed.velocity)):
+            Z = q.plus(Z, q.scaled(weight, x))
+        return t, g, Z
+
+    def cartan(self, a: Direction) -> Fraction:
+        """ϖ(δ) at the point."""
+        nu = q.times(self.g, self.Z)
+        momentum = self.momentum(self.t, self.g, nu, q.times(self.g, a.xi))
+        return Fraction(part(momentum - self.energy(self.t, self.g, nu) * a.time, 0))
+
+    def exterior(self, a: Direction, b: Direction) -> Fraction:
+        """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family."""
+        t, g, Z = self.family(a, b)
+        nu = q.times(g, Z)
+        along_b = self._form(t, g, nu, EPS_PRIME)
+        along_a = self._form(t, g, nu, EPS)
+        return Fraction(part(along_b, EPS) - part(along_a, EPS_PRIME))
+
+    def _form(self, t: Any, g: Matrix, nu: Matrix, mask: int) -> Any:
+        """ϖ on the derivative of the family in one parameter, a function of the other."""
+        dt, dg = derivative_in(t, mask), _derivative_matrix(g, mask)
+        return self.momentum(t, g, nu, dg) - self.energy(t, g, nu) * dt
+
+    # -- forces and the motion -------------------------------------------------------------------
+
+    def work(self, w: Matrix) -> Fraction:
+        """dŨ(w) for a tangent matrix w."""
+        shifted = q.plus(self.g, q.scaled(nilpotent(ETA), w))
+        value = self.potential(self.t, self.moved(shifted))
+        return Nilpotent.of(value).part(ETA)
+
+    @cached_property
+    def forces(self) -> list[Vector]:
+        """F_i = −∂U/∂r_i."""
+        places = self.moved(self.g)
+        eta = nilpotent(ETA)
+        found = []
+        for i, r in enumerate(places):
+            force = []
+            for k in range(self.n):
+                shifted = tuple(x + eta if j == k else x for j, x in enumerate(r))
+                value = self.potential(self.t, [*places[:i], shifted, *places[i + 1 :]])
+                force.append(-part(Nilpotent.of(value), ETA))
+            found.append(tuple(force))
+        return found
+
+    def pairing(self, a: Matrix, b: Matrix) -> Fraction:
+        """Σ m_i ⟨a r_i, b r_i⟩ for tangent matrices at g."""
+        return sum(
+            (
+                m * sum((x * y for x, y in zip(u, v, strict=True)), Fraction(0))
+                for m, u, v in zip(self.masses, self.moved(a), self.moved(b), strict=True)
+            ),
+            Fraction(0),
+        )
+
+    def solve_metric(self, covector: list[Fraction]) -> Matrix:
+        """The element of 𝔤 that the kinetic metric at g sends to a covector."""
+        frames = [q.times(self.g, e) for e in self.group.basis]
+        table = tuple(tuple(self.pairing(a, b) for b in frames) for a in frames)
+        solution = q.solve(table, tuple((x,) for x in covector))
+        if solution is None:
+            raise ZeroDivisionError("the kinetic metric is singular at this point")
+        return self.group.hat([row[0] for row in solution])
+
+    @cached_property
+    def acceleration(self) -> Matrix:
+        """Ż by d'Alembert: Σ ⟨m_i a_i − F_i, v′_i⟩ = u(ξ′) for every ξ′, with a = g(Ż + Z²)r."""
+        if self.coasting:
+            return self.mixed.velocity
+        centripetal = q.times(self.g, q.times(self.Z, self.Z))
+        covector = []
+        for u, e in zip(self.input, self.group.basis, strict=True):
+            frame = q.times(self.g, e)
+            covector.append(u - self.work(frame) - self.pairing(centripetal, frame))
+        return self.solve_metric(covector)
+
+    @cached_property
+    def gradient(self) -> Matrix:
+        """f in 𝔤: the metric sends A f to −dŨ."""
+        return self.solve_metric([-self.work(q.times(self.g, e)) for e in self.group.basis])
+
+    @property
+    def motion(self) -> Direction:
+        """X: the direction of the motion, with δt = 1."""
+        return Direction(Fraction(1), self.Z, self.acceleration)
+
+
+def derivative_in(x: Any, mask: int) -> Any:
+    """The derivative in one parameter, at zero, as a function of the others."""
+    return Nilpotent({k ^ mask: v for k, v in Nilpotent.of(x).parts.items() if k & mask})
+
+
+def _derivative_matrix(x: Matrix, mask: int) -> Matrix:
+    return tuple(tuple(derivative_in(y, mask) for y in row) for row in x)

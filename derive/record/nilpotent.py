@@ -1,0 +1,70 @@
+"""Numbers with nilpotent parts ε, ε′, η (each squares to zero): exact first and mixed derivatives.
+
+A number is a map  subset of {ε, ε′, η} → fraction,  the subset as a bit mask.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+EPS, EPS_PRIME, ETA = 1, 2, 4
+
+
+class Nilpotent:
+    """Element of Q[ε, ε′, η] / (ε², ε′², η²)."""
+
+    __slots__ = ("parts",)
+
+    def __init__(self, parts: dict[int, Fraction]):
+        self.parts = parts
+
+    @staticmethod
+    def of(x: Any) -> Nilpotent:
+        """A plain number as a nilpotent one."""
+        return x if isinstance(x, Nilpotent) else Nilpotent({0: Fraction(x)})
+
+    def part(self, mask: int) -> Fraction:
+        """The coefficient of a product of nilpotents."""
+        return self.parts.get(mask, Fraction(0))
+
+    def __add__(self, other: Any) -> Nilpotent:
+        parts = dict(self.parts)
+        for mask, x in Nilpotent.of(other).parts.items():
+            parts[mask] = parts.get(mask, Fraction(0)) + x
+        return Nilpotent(parts)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Nilpotent:
+        return Nilpotent({mask: -x for mask, x in self.parts.items()})
+
+    def __sub__(self, other: Any) -> Nilpotent:
+        return self + (-Nilpotent.of(other))
+
+    def __rsub__(self, other: Any) -> Nilpotent:
+        return Nilpotent.of(other) - self
+
+    def __mul__(self, other: Any) -> Nilpotent:
+        if not isinstance(other, Nilpotent):
+            return Nilpotent({mask: x * other for mask, x in self.parts.items()})
+        parts: dict[int, Fraction] = {}
+        for a, x in self.parts.items():
+            for b, y in other.parts.items():
+                if not a & b:
+                    parts[a | b] = parts.get(a | b, Fraction(0)) + x * y
+        return Nilpotent(parts)
+
+    __rmul__ = __mul__
+
+
+def part(x: Any, mask: int) -> Any:
+    """The coefficient of ``mask`` in a scalar or, entry by entry, in a matrix."""
+    if isinstance(x, tuple):
+        return tuple(tuple(part(y, mask) for y in row) for row in x)
+    return x.part(mask) if isinstance(x, Nilpotent) else (x if mask == 0 else Fraction(0))
+
+
+def nilpotent(mask: int) -> Nilpotent:
+    """ε, ε′ or η itself."""
+    return Nilpotent({mask: Fraction(1)})

@@ -1,0 +1,239 @@
+"""The record: a derivation as data, and its JSON.
+
+``Derivation`` = the problem, the declared symbols and the ordered steps.  A step names the rule it
+used and the earlier steps it rests on; its equations are pairs of trees.  Nothing here computes.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+from ..algebra.tree import OPERATORS, Tree
+from .rules import RULES
+from .vocabulary import ANY_GROUP, GIVENS
+
+DEPTH = 200
+"""Trees deeper than this are refused on reading."""
+
+
+class RecordError(ValueError):
+    """A record that is not well formed: the message says where."""
+
+
+@dataclass(frozen=True)
+class Equation:
+    """lhs = rhs, for every value of the names in ``for_all``."""
+
+    lhs: Tree
+    rhs: Tree
+    for_all: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of the walk.
+
+    ``scope`` is ``"any group"`` or the name of the group on which the equations hold; ``given``
+    lists further assumptions (``"principal axes"``, ``"input"``).
+    """
+
+    label: str
+    rule: str
+    uses: tuple[str, ...]
+    equations: tuple[Equation, ...]
+    prose: str
+    paper: tuple[int, ...] = ()
+    scope: str = ANY_GROUP
+    given: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Symbol:
+    """A declared name: what it means and how LaTeX writes it."""
+
+    name: str
+    meaning: str
+    latex: str
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """The whole record of one problem."""
+
+    problem: Mapping[str, Any]
+    symbols: tuple[Symbol, ...]
+    steps: tuple[Step, ...]
+
+    @property
+    def name(self) -> str:
+        """The problem's name, which prefixes its labels."""
+        return str(self.problem["name"])
+
+    def __getitem__(self, label: str) -> Step:
+        """A step by its label, with or without the problem's name."""
+        wanted = {label, f"{self.name}.{label}"}
+        for step in self.steps:
+            if step.label in wanted:
+                return step
+        raise KeyError(label)
+
+    def definition(self, lhs: Tree) -> tuple[Step, Equation] | None:
+        """The last equation with that left side, in the axes of the record, and its step."""
+        for step in reversed(self.steps):
+            for equation in reversed(step.equations):
+                if equation.lhs == lhs and "principal axes" not in step.given:
+                    return step, equation
+        return None
+
+    def with_step(self, index: int, step: Step) -> Derivation:
+        """A copy with one step exchanged."""
+        return replace(self, steps=(*self.steps[:index], step, *self.steps[index + 1 :]))
+
+
+def encode(t: Tree) -> Any:
+    """A tree for JSON: names, integers, fractions as strings, lists."""
+    if isinstance(t, Fraction):
+        return f"{t.numerator}/{t.denominator}"
+    return [t[0], *(encode(x) for x in t[1:])] if isinstance(t, tuple) else t
+
+
+def decode(data: Any, where: str, depth: int = 0) -> Tree:
+    """The inverse of :func:`encode`; :class:`RecordError` for anything that is not a tree."""
+    if depth > DEPTH:
+        raise RecordError(f"{where}: tree deeper than {DEPTH}")
+    if isinstance(data, str):
+        if re.fullmatch(r"-?[0-9]{1,4000}/0*[1-9][0-9]{0,4000}", data):
+            return Fraction(data)
+        return data
+    if isinstance(data, int) and not isinstance(data, bool):
+        return data
+    if isinstance(data, list) and data and isinstance(data[0], str):
+        arity = OPERATORS.get(data[0])
+        if arity is None:
+            raise RecordError(f"{where}: unknown operator {data[0][:20]!r}")
+        least, most = arity
+        if len(data) - 1 < least or (most is not None and len(data) - 1 > most):
+            raise RecordError(f"{where}: {data[0]!r} with {len(data) - 1} operands")
+        return (data[0], *(decode(x, where, depth + 1) for x in data[1:]))
+    raise RecordError(f"{where}: not an operator tree: {json.dumps(data)[:40]}")
+
+
+def to_data(d: Derivation) -> dict[str, Any]:
+    """The record as plain data."""
+    return {
+        "problem": dict(d.problem),
+        "symbols": [{"name": s.name, "meaning": s.meaning, "latex": s.latex} for s in d.symbols],
+        "steps": [_step_data(s) for s in d.steps],
+    }
+
+
+def _step_data(s: Step) -> dict[str, Any]:
+    return {
+        "label": s.label,
+        "rule": s.rule,
+        "uses": list(s.uses),
+        "paper": list(s.paper),
+        "scope": s.scope,
+        "given": list(s.given),
+        "prose": s.prose,
+        "equations": [_equation_data(e) for e in s.equations],
+    }
+
+
+def _equation_data(e: Equation) -> dict[str, Any]:
+    data: dict[str, Any] = {"lhs": encode(e.lhs), "rhs": encode(e.rhs)}
+    if e.for_all:
+        data["for_all"] = list(e.for_all)
+    return data
+
+
+def to_json(d: Derivation) -> str:
+    """The record as JSON text: objects over several lines, trees in one."""
+    return _laid_out(to_data(d), "") + "\n"
+
+
+def _laid_out(data: Any, indent: str) -> str:
+    inner = indent + " "
+    if isinstance(data, dict) and data:
+        items = (
+            f"{inner}{json.dumps(k, ensure_ascii=False)}: {_laid_out(v, inner)}"
+            for k, v in data.items()
+        )
+        return "{\n" + ",\n".join(items) + f"\n{indent}}}"
+    if isinstance(data, list) and data and isinstance(data[0], dict):
+        return "[\n" + ",\n".join(inner + _laid_out(x, inner) for x in data) + f"\n{indent}]"
+    return json.dumps(data, ensure_ascii=False)
+
+
+def _field(data: Any, key: str, kind: type, where: str) -> Any:
+    if not isinstance(data, dict):
+        raise RecordError(f"{where}: expected an object")
+    if key not in data:
+        raise RecordError(f"{where}: key {key!r} is missing")
+    if not isinstance(data[key], kind):
+        raise RecordError(f"{where}: key {key!r} must be a {kind.__name__}")
+    return data[key]
+
+
+def _strings(data: Any, key: str, where: str) -> tuple[str, ...]:
+    items = _field(data, key, list, where)
+    if not all(isinstance(x, str) for x in items):
+        raise RecordError(f"{where}: key {key!r} must list strings")
+    return tuple(items)
+
+
+def _step(data: Any, where: str, earlier: set[str]) -> Step:
+    label = _field(data, "label", str, where)
+    where = f"{where} ({label[:40]})"
+    rule = _field(data, "rule", str, where)
+    if rule not in RULES:
+        raise RecordError(f"{where}: unknown rule {rule[:40]!r}")
+    uses = _strings(data, "uses", where)
+    missing = [u for u in uses if u not in earlier]
+    if missing:
+        raise RecordError(f"{where}: uses {missing[0][:40]!r}, which is no earlier step")
+    given = _strings(data, "given", where) if "given" in data else ()
+    if not set(given) <= set(GIVENS):
+        raise RecordError(f"{where}: 'given' may list {', '.join(GIVENS)}")
+    equations = []
+    for k, item in enumerate(_field(data, "equations", list, where)):
+        place = f"{where}, equation {k + 1}"
+        _field(item, "lhs", object, place), _field(item, "rhs", object, place)
+        for_all = _strings(item, "for_all", place) if "for_all" in item else ()
+        equations.append(Equation(decode(item["lhs"], place), decode(item["rhs"], place), for_all))
+    if not equations:
+        raise RecordError(f"{where}: no equation")
+    paper = tuple(x for x in _field(data, "paper", list, where) if isinstance(x, int))
+    scope = str(data.get("scope", ANY_GROUP))
+    prose = _field(data, "prose", str, where)
+    return Step(label, rule, uses, tuple(equations), prose, paper, scope, given)
+
+
+def from_json(text: str) -> Derivation:
+    """Read a record; :class:`RecordError` says what is wrong and where."""
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise RecordError(f"not JSON: {error}") from None
+    problem = _field(data, "problem", dict, "record")
+    _field(problem, "name", str, "record, problem")
+    symbols = []
+    for k, item in enumerate(_field(data, "symbols", list, "record")):
+        where = f"symbol {k + 1}"
+        symbols.append(
+            Symbol(*(_field(item, key, str, where) for key in ("name", "meaning", "latex")))
+        )
+    steps: list[Step] = []
+    for k, item in enumerate(_field(data, "steps", list, "record")):
+        step = _step(item, f"step {k + 1}", {s.label for s in steps})
+        if any(s.label == step.label for s in steps):
+            raise RecordError(f"step {k + 1}: label {step.label[:40]!r} stands twice")
+        steps.append(step)
+    if not steps:
+        raise RecordError("record: no step")
+    return Derivation(problem, tuple(symbols), tuple(steps))

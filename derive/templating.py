@@ -1,0 +1,32 @@
+"""Where templates are, and how they are read: dumb fields, and an undefined one is an error."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+
+def folder(name: str) -> Path:
+    """The folder of a language: inside the package when installed, beside it in a checkout."""
+    here = Path(__file__).parent
+    for root in (here / "templates", here.parent / "templates"):
+        if (root / name).is_dir():
+            return root / name
+    raise FileNotFoundError(f"no templates for {name!r} beside the package")
+
+
+def environment(name: str, **delimiters: Any) -> Environment:
+    """The Jinja environment of one folder of templates."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    return Environment(
+        loader=FileSystemLoader(folder(name)),
+        undefined=StrictUndefined,
+        keep_trailing_newline=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        **delimiters,
+    )

@@ -1,0 +1,84 @@
+"""The equations of a step as rows of an alignment, none wider than the page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ..record.record import Equation
+from .measure import measure
+from .tex import guarded, latex_tree, marked, pieces, plain
+from .wrap import Line, fill
+
+ROOM = 38.0
+"""Width of an equation in em, its number aside."""
+EQUALS, INDENT = 1.4, 1.5
+
+Rows = list[str]
+
+
+def blocks(equations: Sequence[Equation], names: Mapping[str, str]) -> list[list[Rows]]:
+    """Alignments, each a list of equations, each a list of rows ``left & right``.
+
+    The equations of a step share one alignment unless a long left side forbids it.
+    """
+    left = [measure(latex_tree(e.lhs, names)) for e in equations]
+    right = [measure(latex_tree(e.rhs, names)) + clause_width(e, names) for e in equations]
+    column = max(left)
+    if column <= 0.4 * ROOM or column + EQUALS + max(right) <= ROOM:
+        return [[aligned(e, names, column) for e in equations]]
+    return [[alone(e, names)] for e in equations]
+
+
+def aligned(e: Equation, names: Mapping[str, str], column: float) -> Rows:
+    """An equation whose left side has a column of the given width."""
+    lines = broken(marked(e.rhs, names), ROOM - column - EQUALS)
+    head = guarded(latex_tree(e.lhs, names))
+    rows = [f"{head} &= {lines[0].text}", *("&" + indented(x, 1) for x in lines[1:])]
+    return closed(rows, e, names, measure(lines[-1].text) + column + EQUALS)
+
+
+def alone(e: Equation, names: Mapping[str, str]) -> Rows:
+    """An equation by itself; a left side that leaves no room has lines of its own."""
+    head = latex_tree(e.lhs, names)
+    column = measure(head)
+    whole = column + EQUALS + measure(latex_tree(e.rhs, names)) + clause_width(e, names)
+    if column <= 0.4 * ROOM or whole <= ROOM:
+        return aligned(e, names, column)
+    first, *others = broken(marked(e.lhs, names), ROOM)
+    rows = ["&" + guarded(first.text), *("&" + indented(x, 1) for x in others)]
+    first, *others = broken(marked(e.rhs, names), ROOM - EQUALS - INDENT)
+    rows += [rf"&\quad = {first.text}", *("&" + indented(x, 2) for x in others)]
+    return closed(rows, e, names, ROOM if others else measure(first.text) + EQUALS + INDENT)
+
+
+def broken(tex: str, room: float) -> list[Line]:
+    """Marked LaTeX in lines."""
+    lines = fill(pieces(tex), room, lambda x: measure(plain(x)), INDENT)
+    return [Line(plain(x.text), x.inside) for x in lines]
+
+
+def indented(line: Line, quads: int) -> str:
+    """A line that continues a formula."""
+    sign = "{}" if line.text[:1] in "+-" else ""
+    return r"\quad" * (quads + line.inside) + " " + sign + line.text
+
+
+def clause(e: Equation, names: Mapping[str, str]) -> str:
+    """For which names the equation holds."""
+    shown = ", ".join(latex_tree(x, names) for x in e.for_all)
+    return rf"\text{{for every }} {shown}" if shown else ""
+
+
+def clause_width(e: Equation, names: Mapping[str, str]) -> float:
+    """The room that the clause takes."""
+    return INDENT + 4.5 + measure(clause(e, names)[22:]) if e.for_all else 0.0
+
+
+def closed(rows: Rows, e: Equation, names: Mapping[str, str], last: float) -> Rows:
+    """The rows with the clause at their end, or below."""
+    words = clause(e, names)
+    if not words:
+        return rows
+    if last + clause_width(e, names) <= ROOM:
+        return [*rows[:-1], rf"{rows[-1]} \quad {words}"]
+    return [*rows, rf"&\quad {words}"]

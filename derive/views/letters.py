@@ -1,0 +1,49 @@
+"""How names are written in LaTeX: those of the walk, those of the user, and their bars."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from ..record.record import Symbol
+from ..record.vocabulary import VOCABULARY
+from .escape import GREEK, tex_text
+
+NAMES = {name: latex for name, (_, latex) in VOCABULARY.items()}
+HARMLESS = re.compile(
+    r"(?:(?:\\delta|\\partial_t|\\mathrm\{d\})(?![A-Za-z])'?\s*)?"
+    r"(?:\\(?:tilde|bar|dot|hat|mathrm|mathbf)(?![A-Za-z])\s*)?"
+    rf"(?:\\(?:{'|'.join(GREEK)}|lambda|Lambda|varphi|varpi)(?![A-Za-z])|[A-Za-z])'*"
+    r"(?:_(?:[A-Za-z0-9]|\{[A-Za-z0-9]+\}))?"
+)
+
+
+def names_of(symbols: Iterable[Symbol]) -> dict[str, str]:
+    """How the names of a record are written: its own LaTeX where that is one harmless letter."""
+    own = {s.name: s.latex for s in symbols if HARMLESS.fullmatch(s.latex)}
+    return NAMES | own
+
+
+def parameter(name: str) -> str:
+    """A name that the user gave, upright and sans serif; a short end after _ is an index."""
+    match = re.fullmatch(r"([A-Za-z][A-Za-z0-9]*)_([A-Za-z0-9]{1,3})", name)
+    if match:
+        return rf"\mathsf{{{match[1]}}}_{{\mathsf{{{match[2]}}}}}"
+    if re.fullmatch(r"[A-Za-z0-9_]+", name):
+        return rf"\mathsf{{{name.replace('_', chr(92) + '_')}}}"
+    return rf"\text{{\textsf{{{tex_text(name)}}}}}"
+
+
+def paren(tex: str) -> str:
+    """In parentheses."""
+    return f"({tex})"
+
+
+def bar(tex: str) -> str:
+    """The bar of a transpose, over the letter that bears the name and not its prime or index."""
+    match = re.fullmatch(r"((?:\\delta'?\s*)?)(\\[a-z]+|[A-Za-z])('*)((?:_.+)?)", tex)
+    if match:
+        return rf"{match[1]}\bar{{{match[2]}}}{match[3]}{match[4]}"
+    match = re.fullmatch(r"(\\delta'?\s*)(\\[a-z]+\s*(?:\\[a-z]+|[A-Za-z]))", tex)
+    prefix, core = (match[1], match[2]) if match else ("", tex)
+    return rf"{prefix}\overline{{{core}}}"

@@ -1,0 +1,69 @@
+"""What every view says about a record, whatever its language: title, sections, labels, notes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import groupby
+
+from ..record.record import Derivation, Step
+from ..record.vocabulary import ANY_GROUP
+
+CONVENTIONS = (
+    "Bars are transposes. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for vectors. "
+    "[a, b] = ab − ba. Numbers beside a rule are those of the paper."
+)
+FORMULAS_CONVENTIONS = (
+    r"Bars are transposes. For matrices $\langle a, b\rangle_M = \operatorname{Tr} a M \bar b$, "
+    r"for vectors $\langle a, b\rangle_M = \bar a M b$; $[a, b] = ab - ba$ and "
+    r"$j(X)Y = X \wedge Y$. Numbers beside a rule are those of the paper; parameters of the "
+    r"problem are set in $\mathsf{sans\ serif}$."
+)
+"""The same with formulas between dollars, for LaTeX and Markdown."""
+
+GIVEN = {
+    "principal axes": "in principal axes",
+    "input": "with input",
+    "any acceleration": "for any acceleration",
+}
+
+
+def title(d: Derivation) -> str:
+    """The title of the problem, or its name."""
+    return " ".join(str(d.problem.get("title") or d.name).split())
+
+
+def group(d: Derivation) -> str:
+    """The name of the group."""
+    return " ".join(str(d.problem.get("group", ANY_GROUP)).split())
+
+
+def subtitle(d: Derivation) -> str:
+    """The name of the group, unless the title says it."""
+    return "" if group(d).casefold() in title(d).casefold() else group(d)
+
+
+def heading(scope: str) -> str:
+    """The heading of the steps that hold in a scope."""
+    return f"For {scope}"
+
+
+def sections(d: Derivation) -> Iterator[tuple[str, list[Step]]]:
+    """The steps under headings: those of any group, then those of the group."""
+    for scope, steps in groupby(d.steps, key=lambda step: step.scope):
+        yield heading(scope), list(steps)
+
+
+def notes(step: Step) -> list[str]:
+    """What stands beside a rule: the numbers of the paper, further assumptions."""
+    numbers = ", ".join(f"({n})" for n in step.paper)
+    return [*([f"paper {numbers}"] if numbers else []), *(GIVEN.get(x, x) for x in step.given)]
+
+
+def equation_label(step: Step, k: int) -> str:
+    """The label of equation k (counted from 0): the step's own for the first one."""
+    return step.label if k == 0 else f"{step.label}.{k + 1}"
+
+
+def capitalised(text: str) -> str:
+    """The text with a capital first letter, the rest as it is."""
+    return text[:1].upper() + text[1:]

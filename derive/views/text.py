@@ -1,0 +1,130 @@
+"""The walk as text for a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..algebra.show import show, show_name
+from ..record.record import Derivation, Equation, Step
+from .outline import CONVENTIONS, notes, sections, subtitle, title
+from .wrap import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
+
+MARGIN, EQUATION, INSIDE = 2, 6, 4
+OPENING, CLOSING = "([⟨", ")]⟩"
+BREAKS = {" + ": SUM, " − ": SUM, " ∧ ": WEDGE}
+
+
+def text(d: Derivation, width: int = 100) -> str:
+    """The record as text, no line longer than ``width`` columns (at least 40)."""
+    width = max(width, 40)
+    heading = " — ".join(filter(None, (title(d), subtitle(d))))
+    blocks = [[*_underlined(heading, "=", width)], [*_paragraph(CONVENTIONS, 0, width)]]
+    for section, steps in sections(d):
+        blocks.append([*_underlined(section, "-", width)])
+        blocks.extend([*_step(step, width)] for step in steps)
+    lines = "\n\n".join("\n".join(line.rstrip() for line in block) for block in blocks)
+    return "".join(c for c in lines if c == "\n" or c.isprintable()) + "\n"
+
+
+def _step(step: Step, width: int) -> Iterator[str]:
+    yield from _paragraph("  ·  ".join([step.label, step.rule, *notes(step)]), 0, width)
+    yield from _paragraph(step.prose, MARGIN, width)
+    if step.uses:
+        yield from _paragraph(f"From {', '.join(step.uses)}.", MARGIN, width)
+    yield from _equations(step.equations, width - EQUATION)
+
+
+def _equations(equations: tuple[Equation, ...], room: int) -> Iterator[str]:
+    """The equations of a step, aligned at their signs where the left sides are short."""
+    left = [show(e.lhs) for e in equations]
+    widest = max(map(display_width, left))
+    column = widest if widest <= room * 2 // 5 else 0
+    for lhs, e in zip(left, equations, strict=True):
+        for line in _equation(lhs, e, column, room):
+            yield " " * EQUATION + line
+
+
+def _equation(lhs: str, e: Equation, column: int, room: int) -> Iterator[str]:
+    right = show(e.rhs)
+    if isinstance(e.rhs, tuple) and e.rhs[0] == "par" and right == lhs:
+        right += "  (a parameter)"
+    lead = " " * (column - display_width(lhs)) + lhs
+    if column == 0 and display_width(f"{lhs} = {right}") > room:
+        *before, lead = _broken(lhs, room, 0)
+        yield from before
+        if display_width(lead) > room // 2:
+            yield lead
+            lead = " " * INSIDE
+    indent = display_width(lead) + 3
+    first, *others = [*_broken(right, room - indent, indent)]
+    lines = [f"{lead} = {first[indent:]}", *others]
+    clause = _clause(e)
+    if clause and display_width(f"{lines[-1]}  {clause}") <= room:
+        lines[-1] += f"  {clause}"
+        clause = ""
+    yield from lines
+    if clause:
+        yield from _paragraph(clause, indent, room)
+
+
+def _clause(e: Equation) -> str:
+    return f"for every {', '.join(map(show_name, e.for_all))}" if e.for_all else ""
+
+
+def _broken(formula: str, room: int, indent: int) -> list[str]:
+    """The lines of a formula, which start at column ``indent`` or deeper."""
+    lines = fill(pieces(formula), room, display_width, INSIDE)
+    shown = [" " * (indent + INSIDE * line.inside) + line.text for line in lines]
+    return [part for line in shown for part in _cut(line, room + indent)]
+
+
+def pieces(formula: str) -> list[Piece]:
+    """A formula cut before its operators and after its commas, with the depth of each cut."""
+    found, start, depth, strength = [], 0, 0, 0.0
+    norm = 0
+    for k, c in enumerate(formula):
+        if c in OPENING:
+            depth += 1
+        elif c in CLOSING:
+            depth -= 1
+        elif c == "‖":
+            norm = 1 - norm
+        elif c == " " and k > start:
+            after = formula[k - 1] in ",;"
+            here = COMMA if after else BREAKS.get(formula[k : k + 3], FACTOR)
+            if formula[max(k - 2, 0) : k + 1] in BREAKS:
+                continue
+            found.append(Piece(formula[start:k], strength))
+            start, strength = k, depth + norm + here
+    return [*found, Piece(formula[start:], strength)]
+
+
+def _cut(line: str, width: int) -> list[str]:
+    """A line cut by force where nothing else made it short enough."""
+    if display_width(line) <= width:
+        return [line]
+    columns = 0
+    for k, c in enumerate(line):
+        columns += 0 if MARK.match(c) else 1
+        if columns > width:
+            return [line[:k], *_cut(line[k:], width)]
+    return [line]
+
+
+def _paragraph(words: str, margin: int, width: int) -> Iterator[str]:
+    """Words filled into lines; runs of spaces inside a line stay."""
+    line = ""
+    for word in words.strip().split(" "):
+        if line.strip() and display_width(f"{line} {word}") > width - margin:
+            yield " " * margin + line.strip()
+            line = word
+        else:
+            line = f"{line} {word}" if line else word
+        *whole, line = _cut(line, width - margin)
+        yield from (" " * margin + part for part in whole)
+    yield " " * margin + line.strip()
+
+
+def _underlined(heading: str, mark: str, width: int) -> list[str]:
+    lines = [*_paragraph(heading, 0, width)]
+    return [*lines, mark * max(map(display_width, lines))]

@@ -1,0 +1,121 @@
+"""The letters of the walk.
+
+A *part* of the configuration is A, or T when the group also translates.  Each part has a velocity
+and its variations, in space (``Part``) and carried to the identity (``Frame``).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra.calculus import substitute
+from ..algebra.words import Dim, Expr, Letter, one, word
+
+
+@dataclass(frozen=True)
+class Part:
+    """x, ẋ, δx, δ′x, δẋ, δ′ẋ, ẍ and second variations δδ′x, δδ′ẋ, for one part of g.
+
+    ``rate`` is the name of dx/dt along the motion.
+    """
+
+    rate: str
+    position: Letter
+    velocity: Letter
+    d_position: Letter
+    dp_position: Letter
+    d_velocity: Letter
+    dp_velocity: Letter
+    acceleration: Letter
+    second: Letter
+    second_velocity: Letter
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The same part carried to the identity: Z, ξ, ξ′, δZ, δ′Z, Ż."""
+
+    velocity: Letter
+    xi: Letter
+    xi_prime: Letter
+    d_velocity: Letter
+    dp_velocity: Letter
+    acceleration: Letter
+    second: Letter
+    second_velocity: Letter
+
+
+class Alphabet:
+    """Letters for points of Rⁿ moved linearly or affinely.
+
+    ``skew``: Z and its kin are skew, as in so(n); ``traceless``: their trace vanishes, as in sl(n).
+    """
+
+    def __init__(self, n: Dim, *, affine: bool, skew: bool = False, traceless: bool = False):
+        self.n = n
+        self.affine = affine
+        self.t, self.dt, self.dpt = (Letter(x) for x in ("t", "δt", "δ′t"))
+        self.m, self.c, self.J = Letter("m"), Letter("c", n), Letter("J", n, n, 1)
+        self.m_i, self.r_i = Letter("m_i"), Letter("r_i", n)
+        self.U, self.dU_dt = Letter("Ũ"), Letter("∂ₜŨ")
+        self.F_group, self.f = Letter("F̃", n, n), self._algebra("f", skew, traceless)
+        self.N, self.F = Letter("N", n, n), Letter("F", n)
+        self.N_body, self.F_body = Letter("N_b", n, n), Letter("F_b", n)
+        self.C = Letter("C", n, n, 1)
+        self.bracket = self._algebra("[ξ′, ξ]", skew, True)
+        self.bracket_w = Letter("ξ′η − ξη′", n)
+        linear = (Letter(x, n, n) for x in self._part("A", "α"))
+        vector = (Letter(x, n) for x in self._part("T", "τ"))
+        self.A, self.T = Part("Ȧ", *linear), Part("Ṫ", *vector)
+        names = ("Z", "ξ", "ξ′", "δZ", "δ′Z", "Ż", "δδ′ξ", "δδ′Z")
+        self.Z = Frame(*(self._algebra(x, skew, traceless) for x in names))
+        names = ("w", "η", "η′", "δw", "δ′w", "ẇ", "δδ′η", "δδ′w")
+        self.w = Frame(*(Letter(x, n) for x in names))
+
+    @staticmethod
+    def _part(x: str, v: str) -> tuple[str, ...]:
+        return x, v, "δ" + x, "δ′" + x, "δ" + v, "δ′" + v, v + "\u0307", "δδ′" + x, "δδ′" + v
+
+    def _algebra(self, name: str, skew: bool, traceless: bool) -> Letter:
+        return Letter(name, self.n, self.n, -1 if skew else 0, traceless)
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """A, and T for an affine action."""
+        return (self.A, self.T) if self.affine else (self.A,)
+
+    @property
+    def frames(self) -> tuple[Frame, ...]:
+        """Z, and w for an affine action, in the order of :attr:`parts`."""
+        return (self.Z, self.w) if self.affine else (self.Z,)
+
+    def moved(self, linear: Expr, translation: Expr) -> Expr:
+        """``A r_i + T`` with the given A and T."""
+        image = linear * word(self.r_i)
+        return image + translation if self.affine else image
+
+    def letters(self) -> dict[str, Letter]:
+        """Every letter of the alphabet by its name."""
+        found: dict[str, Letter] = {}
+        for value in vars(self).values():
+            members = vars_of(value) if isinstance(value, (Part, Frame)) else [value]
+            found |= {x.name: x for x in members if isinstance(x, Letter)}
+        return found
+
+    def respell(self, e: Expr, gram: Expr | None = None) -> Expr:
+        """A scalar of another alphabet in these letters, which know more (and C = gram)."""
+        mine = self.letters()
+        images = {x: word(mine[x.name]) for x in e.letters() if x.name in mine}
+        if gram is not None:
+            images |= {x: gram for x in e.letters() if x.name == self.C.name}
+        return substitute(e, images)
+
+    @property
+    def unit(self) -> Expr:
+        """The identity matrix."""
+        return one(self.n)
+
+
+def vars_of(value: Part | Frame) -> list[object]:
+    """The fields of a part or a frame."""
+    return [getattr(value, name) for name in value.__dataclass_fields__]

@@ -1,0 +1,112 @@
+"""SE(3): the translation is eliminated; the inertia about the centre of mass appears.
+
+The equations of :mod:`derive.walk.vector` hold for any origin in the body.  The coefficient of ẇ is
+the scalar m, so ẇ is solved for and put into the other equation; what then multiplies ζ̇ is the
+tensor of inertia about the centre of mass.  Nothing is assumed about c.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra.calculus import gradient, reduce, substitute, without
+from ..algebra.notation import Notation, tree_of
+from ..algebra.space import normal_form
+from ..algebra.tree import Tree, add, mul
+from ..algebra.words import Expr, Letter, number, word
+from ..record.record import Equation, Step
+from .alphabet import Alphabet
+from .inverse import cancel_scalar, inverse_letter, inverse_tree
+from .vector import INERTIA, OMEGA_P, ZETA_DOT, VectorForm, flip_wedge, isolate
+
+CENTRAL = Letter("I_c", 3, 3, 1)
+MOMENTS = Letter("J_c", 3, 3, 1)
+
+
+@dataclass(frozen=True)
+class Eliminated:
+    """``torque`` = I_c ζ̇ and ``acceleration`` = ẇ on words, in ζ, w, c, m⁻¹, μ, F_b."""
+
+    torque: Expr
+    acceleration: Expr
+    steps: tuple[Step, ...]
+
+
+def notation(a: Alphabet) -> Notation:
+    """m⁻¹ as an inverse."""
+    return Notation(display={inverse_letter(a.m): inverse_tree(a.m)})
+
+
+def eliminate(stage: VectorForm, a: Alphabet, prefix: str, scope: str) -> Eliminated:
+    """Solve the balance of forces for ẇ, then put it into the balance of moments."""
+    w_dot = a.w.acceleration
+    forces, moments = stage.balance[a.w.xi_prime], stage.balance[OMEGA_P]
+    acceleration = -simplified(word(inverse_letter(a.m)) * without(forces, w_dot), a)
+    reduced = simplified(substitute(moments, {w_dot: acceleration}), a)
+    tensor = coefficient_matrix(reduce(reduced, isolate(ZETA_DOT)), ZETA_DOT)
+    first = word(a.c)
+    moments_c = word(a.J) - word(inverse_letter(a.m)) * first * first.bar
+    by_moments = substitute(tensor, {INERTIA: stage.inertia})
+    central = substitute(by_moments, {a.J: word(MOMENTS) + word(a.J) - moments_c})
+    rest = -simplified(reduced - tensor * word(ZETA_DOT), a)
+    shift = {INERTIA: word(CENTRAL) + word(INERTIA) - tensor}
+    torque = simplified(substitute(rest, shift), a)
+    step = Step(
+        f"{prefix}.elimination",
+        "elimination",
+        (f"{prefix}.kernel",),
+        (
+            Equation(w_dot.name, vector_tree(acceleration, a)),
+            Equation(CENTRAL.name, tree_of(tensor, notation(a))),
+            Equation(MOMENTS.name, tree_of(moments_c, notation(a))),
+            Equation(CENTRAL.name, tree_of(central, notation(a))),
+            Equation(("mul", CENTRAL.name, "ζ̇"), vector_tree(torque, a)),
+        ),
+        "The balance of forces gives ẇ; put into the balance of moments, it leaves the inertia "
+        "about the centre of mass, which is that of the central moments.",
+        (),
+        scope,
+    )
+    return Eliminated(torque, acceleration, (step,))
+
+
+def simplified(e: Expr, a: Alphabet) -> Expr:
+    """Normal form with m m⁻¹ = 1."""
+    return cancel_scalar(normal_form(e), a.m)
+
+
+def coefficient_matrix(e: Expr, v: Letter) -> Expr:
+    """M with e = M v + (terms without v), for a vector expression linear in v."""
+    total = Expr(v.rows, v.rows, {})
+    for (traces, w), c in e.terms.items():
+        if w and w[-1] == (v, False):
+            body = Expr(v.rows, v.rows, {(traces, w[:-1]): c})
+            total = total + body
+            continue
+        for k, cycle in enumerate(traces):
+            if any(x == v for x, _ in cycle):
+                covector = gradient(Expr(1, 1, {((cycle,), ()): number(1).terms[(), ()]}), v).bar
+                others = Expr(v.rows, 1, {(traces[:k] + traces[k + 1 :], w): c})
+                total = total + others * covector
+    return total
+
+
+def vector_tree(e: Expr, a: Alphabet) -> Tree:
+    """A sum of vectors, the terms with m⁻¹ gathered behind it."""
+    inverse = ((inverse_letter(a.m), False),)
+    light = {k: c for k, c in e.terms.items() if inverse not in k[0]}
+    heavy = {
+        (tuple(t for t in k[0] if t != inverse), k[1]): c
+        for k, c in e.terms.items()
+        if inverse in k[0]
+    }
+    parts = [_flipped(Expr(e.rows, e.cols, light), a)] if light else []
+    if heavy:
+        parts.append(mul(inverse_tree(a.m), _flipped(Expr(e.rows, e.cols, heavy), a)))
+    return add(*parts)
+
+
+def _flipped(e: Expr, a: Alphabet) -> Tree:
+    t = tree_of(e, notation(a))
+    terms = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
+    return add(*(flip_wedge(x) for x in terms))

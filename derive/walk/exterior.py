@@ -1,0 +1,200 @@
+"""Step 4.  The exterior derivative dϖ: (25), (26), and in the trivialisation, the general (29)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra import forms
+from ..algebra.calculus import Image, PairRule, derivation, gradient, reduce, substitute, without
+from ..algebra.notation import Notation, metrics, tree_of
+from ..algebra.tree import Tree
+from ..algebra.words import Expr, Letter, inner, word
+from ..record.record import Equation, Step
+from .alphabet import Alphabet
+from .cartan import Cartan, frame_rule, trivial_images
+from .gather import at_constant_time, gathered, solve_for, terms_with
+
+DOMEGA: Tree = ("call", "dϖ", "δy", "δ′y")
+
+
+@dataclass(frozen=True)
+class Exterior:
+    """``form`` = dϖ(δ, δ′) on words; ``images`` the horizontal variations it is written with."""
+
+    form: Expr
+    images: dict[Letter, Expr]
+    steps: tuple[Step, ...]
+
+
+def primes(a: Alphabet) -> dict[Letter, Letter]:
+    """Each variation letter and its primed twin."""
+    table = {a.dt: a.dpt}
+    for part, frame in zip(a.parts, a.frames, strict=True):
+        table[part.d_position] = part.dp_position
+        table[part.d_velocity] = part.dp_velocity
+        table[frame.xi] = frame.xi_prime
+        table[frame.d_velocity] = frame.dp_velocity
+    return table
+
+
+def primed(e: Expr, a: Alphabet) -> Expr:
+    """δ turned into δ′."""
+    return substitute(e, {x: word(y) for x, y in primes(a).items()})
+
+
+def work(a: Alphabet) -> Expr:
+    """−dŨ(δg): ⟨F̃, δA⟩_J, or by the moments of the forces for an affine action."""
+    if not a.affine:
+        return inner(word(a.F_group), word(a.A.d_position), word(a.J))
+    return inner(word(a.N), word(a.A.d_position)) + inner(word(a.F), word(a.T.d_position))
+
+
+def natural_variations(a: Alphabet) -> tuple[Image, Image]:
+    """δ and δ′ on the letters t, A, α, (T, τ), Ũ; second variations commute."""
+    delta: dict[Letter, Expr] = {a.U: word(a.dU_dt) * word(a.dt) - work(a)}
+    delta_prime: dict[Letter, Expr] = {a.U: primed(delta[a.U], a)}
+    for p in a.parts:
+        delta |= {p.position: word(p.d_position), p.velocity: word(p.d_velocity)}
+        delta |= {p.dp_position: word(p.second), p.dp_velocity: word(p.second_velocity)}
+        delta_prime |= {p.position: word(p.dp_position), p.velocity: word(p.dp_velocity)}
+        delta_prime |= {p.d_position: word(p.second), p.d_velocity: word(p.second_velocity)}
+    return delta.get, delta_prime.get
+
+
+def exterior(stage: Cartan, a: Alphabet, prefix: str) -> Exterior:
+    """dϖ in the variables (t, g, ν)."""
+    form = forms.exterior(stage.form(a), primes(a), *natural_variations(a))
+    images = horizontal_images(form, a)
+    static = at_constant_time(form, a.dt, a.dpt)
+    notation = metrics() if a.affine else metrics("J")
+    steps = (
+        Step(
+            f"{prefix}.exterior",
+            "exterior derivative",
+            (f"{prefix}.cartan", f"{prefix}.energy", f"{prefix}.force")
+            + (() if a.affine else (f"{prefix}.gradient",)),
+            (Equation(DOMEGA, gathered(form, static, images, notation)),),
+            "The exterior derivative of the Cartan form.",
+            (25,),
+        ),
+        Step(
+            f"{prefix}.symplectic",
+            "restriction",
+            (f"{prefix}.exterior",),
+            (Equation(("call", "ω", "δx", "δ′x"), tree_of(static, notation)),),
+            "At constant time it is the symplectic form of the tangent bundle of the group.",
+            (26,),
+        ),
+    )
+    return Exterior(form, images, steps)
+
+
+def horizontal_images(form: Expr, a: Alphabet) -> dict[Letter, Expr]:
+    """δx ↦ δx − X δt where the kernel X of the ambient form can be read off dϖ (and for δ′)."""
+    images: dict[Letter, Expr] = {}
+    for x in [p.d_position for p in a.parts]:
+        for p in a.parts:
+            solution = solve_for(gradient(form, p.dp_velocity), x)
+            if solution is not None and solution:
+                images[x] = word(x) - solution
+                break
+    if not a.affine:
+        solution = solve_for(gradient(form, a.A.dp_position), a.A.d_velocity)
+        if solution is not None and solution:
+            images[a.A.d_velocity] = word(a.A.d_velocity) - solution
+    table = primes(a)
+    return images | {table[x]: primed(y, a) for x, y in images.items()}
+
+
+def structure(a: Alphabet, prefix: str) -> tuple[dict[Letter, Expr], Step]:
+    """δξ′ − δ′ξ (and δη′ − δ′η), with the step that records it."""
+    brackets = {
+        f.xi_prime: forms.structure_equation(a.A.position, a.Z.xi, a.Z.xi_prime, f.xi, f.xi_prime)
+        for f in a.frames
+    }
+    bracket = brackets[a.Z.xi_prime]
+    display = ("bracket", "ξ′", "ξ") if bracket == _bracket(a) else tree_of(bracket)
+    shown = [display, *(tree_of(brackets[f.xi_prime]) for f in a.frames[1:])]
+    equations = tuple(
+        Equation(("add", ("call", "δ", f.xi_prime.name), ("mul", -1, ("call", "δ′", f.xi.name))), t)
+        for f, t in zip(a.frames, shown, strict=True)
+    )
+    step = Step(
+        f"{prefix}.structure",
+        "structure equation",
+        (f"{prefix}.trivialisation",),
+        equations,
+        "Two variations of the group commute; their images in the Lie algebra do so up to a "
+        "bracket.",
+    )
+    return brackets, step
+
+
+def _bracket(a: Alphabet) -> Expr:
+    return word(a.Z.xi_prime) * word(a.Z.xi) - word(a.Z.xi) * word(a.Z.xi_prime)
+
+
+def trivial_variations(
+    a: Alphabet, brackets: dict[Letter, Expr], relations: tuple[PairRule, ...]
+) -> tuple[Image, Image]:
+    """δ and δ′ on Z, ξ, C, Ũ, with the structure equation for the second variations."""
+    g = a.A.position
+    images = trivial_images(a)
+    potential = reduce(word(a.dU_dt) * word(a.dt) - substitute(work(a), images), *relations)
+    delta: dict[Letter, Expr] = {a.U: potential, a.C: _varied_metric(a, a.Z.xi)}
+    delta_prime: dict[Letter, Expr] = {
+        a.U: primed(potential, a),
+        a.C: _varied_metric(a, a.Z.xi_prime),
+    }
+    delta[g], delta_prime[g] = word(g) * word(a.Z.xi), word(g) * word(a.Z.xi_prime)
+    for f in a.frames:
+        delta[f.velocity], delta_prime[f.velocity] = word(f.d_velocity), word(f.dp_velocity)
+        delta[f.xi_prime] = word(f.second) + brackets[f.xi_prime]
+        delta_prime[f.xi] = word(f.second)
+        delta[f.dp_velocity] = delta_prime[f.d_velocity] = word(f.second_velocity)
+    return delta.get, delta_prime.get
+
+
+def _varied_metric(a: Alphabet, xi: Letter) -> Expr:
+    """δC for C = ĀA and δA = Aξ."""
+    g = word(a.A.position)
+    return reduce(derivation(g.bar * g, {a.A.position: g * word(xi)}.get), frame_rule(a, word(a.C)))
+
+
+def trivialised_images(stage: Exterior, a: Alphabet) -> dict[Letter, Expr]:
+    """The horizontal variations carried to the identity: ξ − Z δt, δZ + ξZ − f δt."""
+    carried = trivial_images(a)
+    g = a.A.position
+    images: dict[Letter, Expr] = {}
+    for part, frame in zip(a.parts, a.frames, strict=True):
+        for x, y in (
+            (part.d_position, frame.xi),
+            (part.dp_position, frame.xi_prime),
+            (part.d_velocity, frame.d_velocity),
+            (part.dp_velocity, frame.dp_velocity),
+        ):
+            shift = stage.images.get(x, word(x))
+            images[y] = forms.strip_left(substitute(shift, carried), g)
+    return images
+
+
+def exterior_trivialised(natural: Exterior, stage: Cartan, a: Alphabet, prefix: str) -> Exterior:
+    """dϖ in the variables (t, g, Z), for any group, with C = ĀA."""
+    brackets, step = structure(a, prefix)
+    relations = (frame_rule(a, word(a.C)),)
+    delta, delta_prime = trivial_variations(a, brackets, relations)
+    form = reduce(forms.exterior(stage.form(a), primes(a), delta, delta_prime), *relations)
+    images = trivialised_images(natural, a)
+    variations = [x for f in a.frames for x in (f.d_velocity, f.dp_velocity)]
+    core = terms_with(without(form, a.dt, a.dpt), *variations)
+    steps = (
+        step,
+        Step(
+            f"{prefix}.exterior_trivialised",
+            "exterior derivative",
+            (f"{prefix}.cartan_trivialised", f"{prefix}.structure"),
+            (Equation(DOMEGA, gathered(form, core, images, Notation())),),
+            "The exterior derivative in the trivialisation, for any group.",
+        ),
+    )
+    return Exterior(form, images, steps)

@@ -1,0 +1,45 @@
+"""Inverse letters: x⁻¹ as a letter with the relation x⁻¹x = xx⁻¹ = 1."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from ..algebra.calculus import PairRule
+from ..algebra.tree import Tree
+from ..algebra.words import Expr, Factor, Letter, Traces, Word, one
+
+
+def inverse_letter(x: Letter) -> Letter:
+    """The letter x⁻¹, with the symmetry of x."""
+    return Letter(f"{x.name}⁻¹", x.rows, x.cols, x.symmetry)
+
+
+def inverse_tree(x: Letter) -> Tree:
+    """How x⁻¹ is written in a tree."""
+    return ("inv", x.name)
+
+
+def cancelling(*letters: Letter) -> PairRule:
+    """x⁻¹x = 1 and xx⁻¹ = 1 for matrix letters."""
+    inverses = {inverse_letter(x): x for x in letters}
+
+    def rule(left: Factor, right: Factor) -> Expr | None:
+        pair = (left[0], right[0])
+        inverse = any(inverses.get(x) == y for x, y in (pair, pair[::-1]))
+        return one(left[0].rows) if inverse and left[1] == right[1] else None
+
+    return rule
+
+
+def cancel_scalar(e: Expr, x: Letter) -> Expr:
+    """m m⁻¹ = 1 for a scalar letter."""
+    up, down = ((x, False),), ((inverse_letter(x), False),)
+    total: dict[tuple[Traces, Word], Fraction] = {}
+    for (traces, w), c in e.terms.items():
+        kept = list(traces)
+        while up in kept and down in kept:
+            kept.remove(up)
+            kept.remove(down)
+        key = (tuple(kept), w)
+        total[key] = total.get(key, Fraction(0)) + c
+    return Expr(e.rows, e.cols, {key: c for key, c in total.items() if c})

@@ -1,0 +1,79 @@
+"""Step 1.  The Lagrangian of the points (3) and the motion that the group gives them (7)–(14)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ..algebra.calculus import derivation, substitute
+from ..algebra.notation import metrics, tree_of
+from ..algebra.tree import Tree, add, neg
+from ..algebra.words import Expr, Letter, inner, word
+from ..record.record import Equation, Step
+from .alphabet import Alphabet
+
+POINT: Tree = ("call", ("at", "r", "i"), "t")
+"""r_i(t), the point in space; r_i alone is the point in the body."""
+
+
+@dataclass(frozen=True)
+class Lagrangian:
+    """``kinetic``: the summand ½ m_i ⟨v_i, v_i⟩ on words, with v_i given by ``velocity``."""
+
+    kinetic: Expr
+    v_i: Letter
+    velocity: Expr
+    position: Expr
+    steps: tuple[Step, ...]
+
+
+def lagrangian(a: Alphabet, prefix: str) -> Lagrangian:
+    """L, and the points and velocities that an element of the group and a tangent vector give."""
+    v_i = Letter("v_i", a.n)
+    kinetic = Fraction(1, 2) * word(a.m_i) * inner(word(v_i), word(v_i))
+    position = a.moved(word(a.A.position), word(a.T.position))
+    velocity = derivation(position, {p.position: word(p.velocity) for p in a.parts}.get)
+    variation = derivation(position, {p.position: word(p.d_position) for p in a.parts}.get)
+    summand = indexed_tree(kinetic, v_i, a)
+    steps = (
+        Step(
+            f"{prefix}.lagrangian",
+            "definition",
+            (),
+            (Equation("L", add(("sum", "i", summand), neg("U"))),),
+            "The Lagrangian of the points is their kinetic energy less their potential.",
+            (3,),
+        ),
+        Step(
+            f"{prefix}.action",
+            "definition",
+            (),
+            (Equation(POINT, indexed_tree(position, v_i, a)),),
+            "The body is moved by the group: every point is the image of its place in the body.",
+            (7, 8),
+        ),
+        Step(
+            f"{prefix}.velocity",
+            "variation",
+            (f"{prefix}.action",),
+            (
+                Equation(("at", "v", "i"), indexed_tree(velocity, v_i, a)),
+                Equation(("call", "δ", POINT), indexed_tree(variation, v_i, a)),
+            ),
+            "Differentiating the motion gives the velocities; varying it, the displacements that "
+            "respect the constraint.",
+            (9, 10, 14),
+        ),
+    )
+    return Lagrangian(kinetic, v_i, velocity, position, steps)
+
+
+def indexed_tree(e: Expr, v_i: Letter, a: Alphabet) -> Tree:
+    """The tree of a summand, with m_i, r_i, v_i as members of indexed families."""
+    letters = {a.m_i: "m", a.r_i: "r", v_i: "v"}
+    return tree_of(e, metrics(display={x: ("at", name, "i") for x, name in letters.items()}))
+
+
+def kinetic_of_motion(stage: Lagrangian) -> Expr:
+    """½ m_i ⟨v_i, v_i⟩ with the velocity of the motion put in."""
+    return substitute(stage.kinetic, {stage.v_i: stage.velocity})

@@ -1,0 +1,266 @@
+"""so(3) ≅ R³: the vector form (31)–(34) of the equations of SO(3) and SE(3)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra.calculus import PairRule, gradient, reduce, substitute, without
+from ..algebra.notation import Notation, metrics, tree_of
+from ..algebra.space import double, fold_inertia, hat, normal_form
+from ..algebra.tree import Tree, add
+from ..algebra.words import Expr, Factor, Letter, inner, number, trace, word
+from ..record.record import Equation, Step
+from .exterior import DOMEGA
+from .gather import gathered
+from .isometry import Isometry
+from .kernel import CONTRACTION
+
+
+def _vector(name: str) -> Letter:
+    return Letter(name, 3)
+
+
+ZETA, OMEGA, OMEGA_P = _vector("ζ"), _vector("Ω"), _vector("Ω′")
+D_ZETA, DP_ZETA, ZETA_DOT = _vector("δζ"), _vector("δ′ζ"), _vector("ζ̇")
+PHI, MU, BRACKET = _vector("φ"), _vector("μ"), _vector("Ω′ ∧ Ω")
+INERTIA = Letter("I", 3, 3, 1)
+AXES = {"Z": ZETA, "ξ": OMEGA, "ξ′": OMEGA_P, "δZ": D_ZETA, "δ′Z": DP_ZETA, "f": PHI}
+CROSS: Tree = ("wedge", "Ω′", "Ω")
+
+
+@dataclass(frozen=True)
+class VectorForm:
+    """The kernel in vectors: ``balance[v]`` = 0 for each free v of δ′; ``inertia`` = I by J."""
+
+    balance: dict[Letter, Expr]
+    inertia: Expr
+    steps: tuple[Step, ...]
+
+
+def vector_form(stage: Isometry, prefix: str, general: str, scope: str) -> VectorForm:
+    """Write ϖ's derivative by vectors and read the kernel off it."""
+    b = stage.letters
+    domega = to_vectors(stage.exterior.form, stage)
+    images = {
+        _axis(x): _flat(to_vectors_matrix(y, stage)) for x, y in stage.exterior.images.items()
+    }
+    display = {BRACKET: CROSS, b.bracket_w: tree_of(_bracket_w(stage))}
+    notation = metrics("I", display=display)
+    flat = gathered(domega, without(domega, b.dt, b.dpt), images, notation)
+    steps = [
+        _identification(stage, prefix, scope),
+        _inertia(stage, prefix, scope),
+        Step(
+            f"{prefix}.exterior_vector",
+            "identification",
+            (f"{prefix}.exterior", f"{prefix}.hat", f"{prefix}.inertia"),
+            (Equation(DOMEGA, flat),),
+            "The exterior derivative in vectors.",
+            () if b.affine else (31,),
+            scope,
+        ),
+    ]
+    contracted = contraction(domega, stage)
+    balance = {
+        v: normal_form(gradient(reduce(without(contracted, b.dpt), isolate(v)), v))
+        for v in ((OMEGA_P, b.w.xi_prime) if b.affine else (OMEGA_P,))
+    }
+    steps.append(
+        Step(
+            f"{prefix}.contraction",
+            "contraction",
+            (f"{prefix}.exterior_vector",),
+            (
+                *_velocities(images, stage),
+                Equation(CONTRACTION, tree_of(contracted, metrics("I"))),
+            ),
+            "A vector X with δt = 1 and the velocity of the motion is put into dϖ.",
+            () if b.affine else (34,),
+            scope,
+            ("any acceleration",),
+        )
+    )
+    steps.append(_kernel(balance, stage, prefix, scope))
+    return VectorForm(balance, inertia_of(b.J), tuple(steps))
+
+
+def isolate(v: Letter) -> PairRule:
+    """``v ∧ y = −y ∧ v``: carry the vector v out of every j(v)."""
+
+    def rule(left: Factor, right: Factor) -> Expr | None:
+        (a, a_bar), (b, b_bar) = left, right
+        if a.axis == v and b.cols == 1 and not b_bar:
+            return -(word(hat(b)) * word(v))
+        if b.axis == v and a.cols == 1 and a_bar:
+            return -(word(v).bar * word(hat(a)))
+        return None
+
+    return rule
+
+
+def to_vectors(e: Expr, stage: Isometry) -> Expr:
+    """A scalar on so(3) by vectors: Z → j(ζ), traces with J by the inertia, N_b by the moment μ."""
+    b = stage.letters
+    images = {x: word(hat(_axis(x))) for x in e.letters() if x.name in AXES}
+    images[b.bracket] = word(hat(BRACKET))
+    work = fold_inertia(substitute(e, images), b.J, INERTIA)
+    return normal_form(_fold_moment(work, b.N_body))
+
+
+def to_vectors_matrix(e: Expr, stage: Isometry) -> Expr:
+    """A combination of skew letters as the combination of their hats (vectors stay)."""
+    images = {x: word(hat(_axis(x))) for x in e.letters() if x.name in AXES}
+    return substitute(e, images) if images else e
+
+
+def _axis(x: Letter) -> Letter:
+    return AXES.get(x.name, x)
+
+
+def _flat(e: Expr) -> Expr:
+    """j(a) + j(b) ↦ a + b for a sum of single hats; sums of vectors stay."""
+    terms = {}
+    for (traces, w), c in e.terms.items():
+        axis = w[0][0].axis
+        terms[traces, w if axis is None else ((axis, False),)] = c
+    return Expr(e.rows, 1, terms)
+
+
+def _fold_moment(e: Expr, moment: Letter) -> Expr:
+    """``Tr N_b j(x)‾ = ⟨μ, x⟩``: what defines the moment of the forces."""
+    total = number(0)
+    for (traces, _), c in e.terms.items():
+        term = number(c)
+        for cycle in traces:
+            axes = [x.axis for x, _ in cycle if x.axis is not None]
+            if len(cycle) == 2 and axes and any(x == moment for x, _ in cycle):
+                barred = any(bar for x, bar in cycle if x == moment)
+                folded = inner(word(MU), word(axes[0])) * (1 if barred else -1)
+            else:
+                folded = Expr(1, 1, {((cycle,), ()): number(1).terms[(), ()]})
+            term = term * folded
+        total = total + term
+    return total
+
+
+def _bracket_w(stage: Isometry) -> Expr:
+    b = stage.letters
+    w, x = word(b.w.xi), word(b.w.xi_prime)
+    return normal_form(word(hat(OMEGA_P)) * w - word(hat(OMEGA)) * x)
+
+
+def contraction(domega: Expr, stage: Isometry) -> Expr:
+    """dϖ(X, δ′) with δt = 1, Ω = ζ, δζ = ζ̇ (and η = w, δw = ẇ)."""
+    b = stage.letters
+    opened = substitute(
+        domega,
+        {BRACKET: word(hat(OMEGA_P)) * word(OMEGA), b.bracket_w: _bracket_w(stage)},
+    )
+    along = {b.dt: number(1), OMEGA: word(ZETA), D_ZETA: word(ZETA_DOT)}
+    along |= {hat(OMEGA): word(hat(ZETA)), hat(D_ZETA): word(hat(ZETA_DOT))}
+    if b.affine:
+        along |= {b.w.xi: word(b.w.velocity), b.w.d_velocity: word(b.w.acceleration)}
+    return normal_form(substitute(opened, along))
+
+
+def _identification(stage: Isometry, prefix: str, scope: str) -> Step:
+    affine = stage.letters.affine
+    pairs = [("Z", "ζ"), ("ξ", "Ω"), ("ξ′", "Ω′")] + ([] if affine else [("f", "φ")])
+    equations = [Equation(x, ("hat", y)) for x, y in pairs]
+    equations.append(Equation(("bracket", "ξ′", "ξ"), ("hat", CROSS)))
+    if affine:
+        pairing: Tree = ("tr", ("mul", "N_b", ("T", ("hat", "Ω′"))))
+        equations.append(Equation(pairing, ("inner", "μ", "Ω′"), ("Ω′",)))
+    return Step(
+        f"{prefix}.hat",
+        "identification",
+        (f"{prefix}.relation",),
+        tuple(equations),
+        "The Lie algebra so(3) is R³ by the operator j, j(X)Y = X ∧ Y; the bracket is the vector "
+        "product.",
+        () if affine else (33,),
+        scope,
+    )
+
+
+def _inertia(stage: Isometry, prefix: str, scope: str) -> Step:
+    tensor = inertia_of(stage.letters.J)
+    traced: Tree = ("tr", ("mul", ("hat", "ζ"), "J", ("T", ("hat", "Ω"))))
+    return Step(
+        f"{prefix}.inertia",
+        "identification",
+        (f"{prefix}.hat", f"{prefix}.cartan"),
+        (Equation(traced, ("metric", "I", "ζ", "Ω")), Equation("I", tree_of(tensor))),
+        "The metric of J on so(3) is that of the tensor of inertia on R³.",
+        () if stage.letters.affine else (32,),
+        scope,
+    )
+
+
+def inertia_of(J: Letter) -> Expr:
+    """I with  Tr j(ζ) J j(Ω)‾ = ⟨ζ, IΩ⟩,  by the double vector product under the trace."""
+    pairing = reduce(trace(word(hat(ZETA)) * word(J) * word(hat(OMEGA)).bar), double)
+    return strip_right(gradient(pairing, ZETA), OMEGA)
+
+
+def strip_right(e: Expr, vector: Letter) -> Expr:
+    """The matrix M with e = M x, for a last letter x common to every term."""
+    terms = {}
+    for (traces, w), c in e.terms.items():
+        if not w or w[-1] != (vector, False):
+            raise ValueError(f"{vector.name} is not a common right factor")
+        terms[traces, w[:-1]] = c
+    return Expr(e.rows, vector.rows, terms)
+
+
+def _velocities(images: dict[Letter, Expr], stage: Isometry) -> list[Equation]:
+    """Ω(X) and η(X): what makes Ω − ζ δt vanish for δt = 1."""
+    b = stage.letters
+    return [
+        Equation(("call", x.name, "X"), tree_of(substitute(word(x) - y, {b.dt: number(1)})))
+        for x, y in images.items()
+        if x in (OMEGA, b.w.xi)
+    ]
+
+
+def _kernel(balance: dict[Letter, Expr], stage: Isometry, prefix: str, scope: str) -> Step:
+    b = stage.letters
+    inertial = {OMEGA_P: word(INERTIA) * word(ZETA_DOT)}
+    equations = []
+    for v, e in balance.items():
+        left = inertial[v] if not b.affine else _accelerations(e, b.w.acceleration)
+        equations.append(Equation(tree_of(left), _forces(left - e)))
+    return Step(
+        f"{prefix}.kernel",
+        "kernel",
+        (f"{prefix}.contraction",),
+        tuple(equations),
+        "The kernel: the coefficient of each free variation vanishes.",
+        () if b.affine else (34,),
+        scope,
+    )
+
+
+def _accelerations(e: Expr, w_dot: Letter) -> Expr:
+    terms = {
+        key: c
+        for key, c in e.terms.items()
+        if any(x in (ZETA_DOT, hat(ZETA_DOT), w_dot) for part in (*key[0], key[1]) for x, _ in part)
+    }
+    return Expr(e.rows, e.cols, terms)
+
+
+def _forces(e: Expr) -> Tree:
+    """A sum of vectors, with  −ζ ∧ Iζ  written  Iζ ∧ ζ  as the paper does."""
+    t = tree_of(e, Notation())
+    terms = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
+    return add(*(flip_wedge(x) for x in terms))
+
+
+def flip_wedge(t: Tree) -> Tree:
+    """−(a ∧ b) as b ∧ a when the second factor is a product."""
+    if isinstance(t, tuple) and t[0] == "mul" and len(t) == 3 and t[1] == -1:
+        inside = t[2]
+        if isinstance(inside, tuple) and inside[0] == "wedge" and isinstance(inside[2], tuple):
+            return ("wedge", inside[2], inside[1])
+    return t

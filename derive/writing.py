@@ -1,0 +1,37 @@
+"""Files are written whole or not at all: under a temporary name, then renamed."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+
+class WriteError(OSError):
+    """Output that cannot be written: the message says where and why."""
+
+
+def write(files: Mapping[str, str], out: Path) -> list[Path]:
+    """Write each file under a temporary name, then rename; ``WriteError`` when that fails."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        return [write_file(out / name, text) for name, text in files.items()]
+    except OSError as error:
+        raise WriteError(
+            f"{error.filename or out}: {error.strerror}; choose another --out"
+        ) from None
+
+
+def write_file(path: Path, text: str) -> Path:
+    """One file, whole or not at all."""
+    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
+            stream.write(text)
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+    return path

@@ -1,0 +1,129 @@
+"""Load emitted code: compile NAME.c and call it, import NAME.py, integrate, refine the step."""
+
+import ctypes
+import importlib.util
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+
+GENERATED = Path(__file__).resolve().parents[1] / "generated"
+STRICT = ["-Wall", "-Wextra", "-Werror", "-O2", "-shared", "-fPIC"]
+C99 = ["-std=c99", "-pedantic", *STRICT]
+BUILDS = {
+    "gcc": ["gcc", *C99],
+    "clang": ["clang", *C99],
+    "g++": ["g++", "-std=c++11", *STRICT, "-x", "c++"],
+}
+SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS")
+
+# The sizes are an enum, which no library exports: a second file hands them out, and shows that
+# the header stands alone, may be included twice, and declares its functions for C from C++.
+PROBE = """\
+#include "{name}.h"
+#include "{name}.h"
+#ifdef __cplusplus
+extern "C"
+#endif
+void probe_sizes(int *sizes);
+void probe_sizes(int *sizes)
+{{
+{lines}
+}}
+"""
+
+
+def present(build):
+    """Whether the compiler of ``build`` is on the path."""
+    return shutil.which(BUILDS[build][0]) is not None
+
+
+def vector(values):
+    """A contiguous array of doubles."""
+    return np.ascontiguousarray(values, dtype=np.float64)
+
+
+class CLibrary:
+    """The functions of a compiled ``NAME.c`` on NumPy vectors; ``sizes`` holds its enum."""
+
+    def __init__(self, path, name):
+        self.library = ctypes.CDLL(str(path))
+        array = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
+        numbers = np.ctypeslib.ndpointer(np.intc, flags="C_CONTIGUOUS")
+        real = ctypes.c_double
+        self._probe = self._function("probe_sizes", None, [numbers])
+        self._constants = self._function(f"{name}_constants", ctypes.c_int, [array, array])
+        self._rhs = self._function(f"{name}_rhs", None, [real, array, array, array, array])
+        self._energy = self._function(f"{name}_energy", real, [real, array, array])
+        values = np.zeros(len(SIZES), np.intc)
+        self._probe(values)
+        self.sizes = {key: int(value) for key, value in zip(SIZES, values, strict=True)}
+
+    def _function(self, symbol, result, arguments):
+        function = getattr(self.library, symbol)
+        function.restype, function.argtypes = result, arguments
+        return function
+
+    def constants(self, p):
+        """The status and the constants made of the parameters ``p``."""
+        k = np.full(self.sizes["CONSTANTS"], np.nan)
+        return self._constants(vector(p), k), k
+
+    def rhs(self, t, x, k, u=None):
+        """dx/dt; without ``u`` the inputs are zeros."""
+        dx = np.full(self.sizes["STATE"], np.nan)
+        u = np.zeros(self.sizes["INPUTS"]) if u is None else vector(u)
+        self._rhs(t, vector(x), k, u, dx)
+        return dx
+
+    def energy(self, t, x, k):
+        """The energy in the state ``x``."""
+        return self._energy(t, vector(x), k)
+
+
+def compile_c(build, name, folder):
+    """Compile generated/NAME/NAME.c into ``folder`` and load it; a diagnostic is an error."""
+    source = GENERATED / name
+    lines = [f"    sizes[{i}] = {name}_N_{key};" for i, key in enumerate(SIZES)]
+    probe = Path(folder) / "probe.c"
+    probe.write_text(PROBE.format(name=name, lines="\n".join(lines)))
+    library = Path(folder) / f"{name}-{build}.so"
+    command = [*BUILDS[build], f"-I{source}", str(source / f"{name}.c"), str(probe)]
+    done = subprocess.run([*command, "-o", str(library), "-lm"], capture_output=True, text=True)
+    if done.returncode or done.stderr:
+        raise AssertionError(f"{' '.join(command)}\n{done.stderr}")
+    return CLibrary(library, name)
+
+
+def import_python(name):
+    """The module generated/NAME/NAME.py, imported from its path."""
+    path = GENERATED / name / f"{name}.py"
+    spec = importlib.util.spec_from_file_location(f"emitted_{name}", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def arrange(module, values):
+    """The parameters, named in ``values``, in the order that the module states."""
+    return np.array([values[key] for key in module.PARAMETERS], float)
+
+
+def rk4(field, x, duration, steps):
+    """States (steps + 1, N) of the classical Runge-Kutta method for dx/dt = field(t, x)."""
+    h, states = duration / steps, [np.asarray(x, float)]
+    for i in range(steps):
+        t, y = i * h, states[-1]
+        k1 = field(t, y)
+        k2 = field(t + h / 2, y + h / 2 * k1)
+        k3 = field(t + h / 2, y + h / 2 * k2)
+        k4 = field(t + h, y + h * k3)
+        states.append(y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4))
+    return np.array(states)
+
+
+def observed_order(error, steps):
+    """log2 of error(steps) / error(2 steps), and both errors."""
+    coarse, fine = error(steps), error(2 * steps)
+    return np.log2(coarse / fine), coarse, fine

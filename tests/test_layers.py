@@ -1,0 +1,72 @@
+"""The direction of the house: algebra ← mechanics ← walk → record ← views, walk → code."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1] / "derive"
+ALLOWED = {
+    "algebra": {"algebra"},
+    "mechanics": {"mechanics", "algebra"},
+    "record": {"record", "algebra"},
+    "walk": {"walk", "record", "mechanics", "algebra"},
+    "views": {"views", "record", "algebra", "templating"},
+    "code": {"code", "record", "algebra", "templating", "__init__"},
+    "templating.py": set(),
+    "writing.py": set(),
+}
+BOTH_SIDES = {"pipeline.py", "cli.py", "__init__.py", "__main__.py"}
+FILES = sorted(p for p in ROOT.rglob("*.py"))
+
+
+def rooms_of(path):
+    """The rooms that a file imports from, also inside functions."""
+    package = path.relative_to(ROOT).parts[:-1]
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            base = package[: len(package) - node.level + 1]
+            target = (*base, *(node.module.split(".") if node.module else ()))
+            yield target[0] if target else "__init__"
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith("derive"):
+            yield [*node.module.split("."), "__init__"][1]
+        elif isinstance(node, ast.Import):
+            assert not any(a.name.split(".")[0] == "derive" for a in node.names)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
+def test_imports_go_one_way(path):
+    room = path.relative_to(ROOT).parts[0]
+    if room in BOTH_SIDES:
+        return
+    assert set(rooms_of(path)) <= ALLOWED[room]
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(ROOT)))
+def test_files_and_functions_are_small(path):
+    source = path.read_text(encoding="utf-8")
+    assert len(source.splitlines()) <= 310
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.FunctionDef):
+            assert node.end_lineno - node.lineno < 60, node.name
+
+
+def test_the_checker_knows_no_walk_and_no_words():
+    """Neither directly nor through what it imports."""
+    seen, stack = set(), [ROOT / "record" / "check.py"]
+    while stack:
+        path = stack.pop()
+        if path in seen:
+            continue
+        seen.add(path)
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.level:
+                base = path.parents[node.level - 1]
+                folder = base.joinpath(*(node.module or "").split("."))
+                candidates = [folder.with_suffix(".py")]
+                candidates += [folder / f"{a.name}.py" for a in node.names]
+                stack += [c for c in candidates if c.is_file()]
+    names = {str(p.relative_to(ROOT)) for p in seen}
+    assert "record/model.py" in names
+    assert not any(n.startswith(("walk/", "code/", "views/", "mechanics/")) for n in names)
+    assert not names & {"algebra/words.py", "algebra/calculus.py", "algebra/forms.py"}

@@ -1,0 +1,140 @@
+"""The checker can fail: every corruption of every step, and every wrong rule, is refused."""
+
+from dataclasses import replace
+from functools import cache
+
+import pytest
+
+from derive.algebra import calculus, forms, notation, words
+from derive.algebra.tree import mul, neg, replace_at, subtrees
+from derive.cli import load_problem
+from derive.pipeline import walk
+from derive.record.check import Checker, check
+from derive.record.record import Equation
+from derive.walk import pullback
+from tests.walks import NAMES, record
+
+
+def without_term(k):
+    def change(t):
+        rest = t[1:k] + t[k + 1 :]
+        return rest[0] if len(rest) == 1 else ("add", *rest)
+
+    return change
+
+
+def corruptions(equation):
+    """Every change of sign, factor, term and bar on either side: (kind, equation)."""
+    for side in ("lhs", "rhs"):
+        tree = getattr(equation, side)
+        for path, t in subtrees(tree):
+            for kind, change in changes(t, side, path, equation):
+                yield kind, replace(equation, **{side: replace_at(tree, path, change)})
+
+
+def changes(t, side, path, equation):
+    if path == () and side == "rhs":
+        if t == 0:
+            yield "zero", lambda _: 1
+            return
+        yield "sign", neg
+        yield "factor", lambda x: mul(2, x)
+    if not isinstance(t, tuple):
+        return
+    if t[0] == "T":
+        yield "bar", lambda x: x[1]
+    if t[0] == "add":
+        for k in range(1, len(t)):
+            yield "term", without_term(k)
+            yield "sign", lambda x, k=k: (*x[:k], neg(x[k]), *x[k + 1 :])
+            yield "factor", lambda x, k=k: (*x[:k], mul(2, x[k]), *x[k + 1 :])
+
+
+@cache
+def checker(name):
+    return Checker(record(name).problem)
+
+
+CASES = [(name, k) for name in NAMES for k in range(len(record(name).steps))]
+
+
+@pytest.mark.parametrize(("name", "k"), CASES, ids=lambda x: str(x))
+def test_every_corruption_of_a_step_is_refused(name, k):
+    step = record(name).steps[k]
+    kinds = set()
+    for i, equation in enumerate(step.equations):
+        for kind, wrong in corruptions(equation):
+            equations = (*step.equations[:i], wrong, *step.equations[i + 1 :])
+            verdict = checker(name).check(replace(step, equations=equations))
+            assert not verdict.holds, (step.label, kind, wrong)
+            assert verdict.reason
+            kinds.add(kind)
+    assert {"sign", "factor"} <= kinds or kinds == {"zero"}
+
+
+def test_corruptions_are_of_every_kind():
+    kinds = {kind for s in record("so3").steps for e in s.equations for kind, _ in corruptions(e)}
+    assert kinds == {"sign", "factor", "term", "bar", "zero"}
+
+
+def test_a_wrong_scope_is_refused():
+    step = record("so3")["so3.exterior"]
+    assert not checker("so3").check(replace(step, scope="any group")).holds
+    assert not checker("so3").check(replace(step, scope="SL(3)")).holds
+
+
+def test_an_unknown_name_is_refused():
+    step = record("so3")["so3.exterior"]
+    wrong = replace(step, equations=(Equation("Q", "Z"),))
+    assert "no value" in checker("so3").check(wrong).reason
+
+
+# -- wrong rules in the engine ------------------------------------------------------------------
+
+
+def wrong_structure(monkeypatch):
+    right = forms.structure_equation
+    monkeypatch.setattr(forms, "structure_equation", lambda *a: -right(*a))
+
+
+def wrong_product_rule(monkeypatch):
+    right = calculus.leibniz
+
+    def wrong(w, delta):
+        """Leave out the last factor's turn whenever an earlier factor varies."""
+        kept = right(w[:-1], delta) if len(w) > 1 else None
+        if kept is None:
+            return right(w, delta)
+        return kept * words.expr_of_word(w[-1:], words.row_dim(w[-1]), words.col_dim(w[-1]))
+
+    monkeypatch.setattr(calculus, "leibniz", wrong)
+
+
+def wrong_transpose(monkeypatch):
+    right = words.transpose_word
+
+    def wrong(w):
+        """Bar each factor of a product of square letters (no j's) without turning the order."""
+        sign, turned = right(w)
+        square = all(x.rows == x.cols and x.axis is None for x, _ in w)
+        return sign, turned[::-1] if square else turned
+
+    for module in (words, calculus, notation, pullback):
+        if hasattr(module, "transpose_word"):
+            monkeypatch.setattr(module, "transpose_word", wrong)
+
+
+@pytest.mark.parametrize("name", ["linear", "affine", "so3", "se3", "sl3"])
+@pytest.mark.parametrize("rule", [wrong_structure, wrong_product_rule, wrong_transpose])
+def test_a_wrong_rule_changes_the_equations_and_is_refused(name, rule, monkeypatch):
+    right = record(name)
+    with monkeypatch.context() as patched:
+        rule(patched)
+        wrong = walk(load_problem(name))
+    changed = {
+        s.label for s, r in zip(wrong.steps, right.steps, strict=True) if s.equations != r.equations
+    }
+    refused = {v.label for v in check(wrong) if not v.holds}
+    assert changed
+    assert refused
+    assert refused <= changed

@@ -1,0 +1,91 @@
+"""The paper's numbered equations: what is misprinted, and that nothing else is."""
+
+import json
+from functools import cache
+
+import pytest
+
+from derive.cli import main
+from derive.record import paper
+from derive.record.paper import PAPER
+from tests.walks import record
+
+MISPRINTED = {20, 25, 26, 29, 31, 32, 35}
+
+
+@cache
+def findings():
+    return {f.number: f for f in paper.compare([record(name) for name in paper.PROBLEMS])}
+
+
+def test_all_numbers():
+    assert list(findings()) == list(range(1, 40))
+    assert [p.number for p in PAPER] == list(range(1, 40))
+
+
+def test_verdicts():
+    assert {n for n, f in findings().items() if f.verdict == "misprinted"} == MISPRINTED
+    assert {f.verdict for f in findings().values()} == {"confirmed", "misprinted", "definition"}
+    for p in PAPER:
+        if not p.claim:
+            assert findings()[p.number].verdict == "definition"
+
+
+@pytest.mark.parametrize("number", sorted(MISPRINTED))
+def test_misprints_have_a_correction_and_a_counterexample(number):
+    f = findings()[number]
+    assert f.derived
+    assert f.remark
+    left, right = list(f.counterexample.values())[-2:]
+    assert left != right
+
+
+CORRECTIONS = {
+    20: lambda t: replace_all(t, ("mul", "τ", ("T", "c")), ("mul", "c", ("T", "τ"))),
+    29: lambda t: replace_all(replace_all(t, "f′", ("T", "f")), "δ′Z", ("T", "δ′Z")),
+    31: lambda t: replace_all(t, "φ′", "φ"),
+}
+
+
+def replace_all(t, old, new):
+    if t == old:
+        return new
+    return tuple(replace_all(x, old, new) for x in t) if isinstance(t, tuple) else t
+
+
+def corrected(p, e):
+    from derive.algebra.tree import add, neg
+    from derive.record.record import Equation
+
+    if p.number in (25, 26, 32):
+        return Equation(e.lhs, neg(e.rhs))
+    if p.number == 35:
+        return Equation(e.lhs, add(("entry", "φ", e.lhs[2]), e.rhs))
+    return Equation(e.lhs, CORRECTIONS[p.number](e.rhs))
+
+
+@pytest.mark.parametrize("number", sorted(MISPRINTED))
+def test_the_print_with_the_misprint_mended_holds(number):
+    """Each misprint is exactly what the remark says: mending it makes the print true."""
+    p = PAPER[number - 1]
+    assert any(not paper.holds(p, e) for e in p.equations)
+    assert all(paper.holds(p, corrected(p, e)) for e in p.equations)
+
+
+def test_the_two_signs_contradict_each_other():
+    """(25) against (29) with its bars mended: one of them has the wrong sign, whatever dϖ is."""
+    from derive.record.evaluate import evaluate
+
+    p25, p29 = PAPER[24], PAPER[28]
+    env = paper.point(p29, 9, 1)
+    a = evaluate(p25.equations[0].rhs, env)
+    b = evaluate(corrected(p29, p29.equations[0]).rhs, env)
+    assert a == -b != 0
+
+
+def test_json(capsys):
+    assert main(["paper", "--format", "json"]) == 0
+    data = json.loads(capsys.readouterr().out)
+    assert [x["number"] for x in data] == list(range(1, 40))
+    keys = {"number", "verdict", "printed", "derived", "counterexample"}
+    assert all(keys <= set(x) for x in data)

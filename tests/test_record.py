@@ -1,0 +1,95 @@
+"""The record: JSON in and out, the checker's verdicts, and what it refuses to read."""
+
+import json
+import re
+
+import pytest
+
+from derive.record.check import SIZE, check
+from derive.record.record import RecordError, from_json, to_data, to_json
+from derive.record.rules import RULES
+from tests.walks import NAMES, record
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_json_round_trip(name):
+    d = record(name)
+    text = to_json(d)
+    assert from_json(text) == d
+    assert to_json(from_json(text)) == text
+    data = json.loads(text)
+    assert set(data) == {"problem", "symbols", "steps"}
+    for step in data["steps"]:
+        assert {"label", "rule", "uses", "paper", "prose", "equations"} <= set(step)
+        assert step["rule"] in RULES
+        assert step["equations"]
+        assert step["prose"].endswith(".")
+    assert not re.search(r"Symbol|Rational|Matrix\(|lambda |import|__", text)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_steps_rest_on_earlier_ones(name):
+    seen = set()
+    for step in record(name).steps:
+        assert set(step.uses) <= seen
+        assert step.label not in seen
+        seen.add(step.label)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_step_holds(name):
+    verdicts = check(from_json(to_json(record(name))))
+    assert [v.reason for v in verdicts if not v.holds] == []
+    assert max(v.bound for v in verdicts) < 1e-30
+    assert min(v.bound for v in verdicts) > 1 / SIZE
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_another_seed_holds_too(name):
+    assert all(v.holds for v in check(record(name), seed=7))
+
+
+def damaged(change):
+    data = to_data(record("so3"))
+    data = json.loads(json.dumps(data))
+    change(data)
+    return json.dumps(data)
+
+
+def delete(key):
+    def change(data):
+        del data[key]
+
+    return change
+
+
+def set_step(key, value):
+    def change(data):
+        data["steps"][3][key] = value
+
+    return change
+
+
+BROKEN = {
+    "not JSON": "{",
+    "a list": "[]",
+    "deep": "[" * 100_000,
+    "no problem": damaged(delete("problem")),
+    "no steps": damaged(delete("steps")),
+    "empty steps": damaged(lambda d: d.update(steps=[])),
+    "unknown rule": damaged(set_step("rule", "magic")),
+    "later use": damaged(set_step("uses", ["so3.motion"])),
+    "label twice": damaged(set_step("label", "linear.action")),
+    "no equation": damaged(set_step("equations", [])),
+    "unknown operator": damaged(set_step("equations", [{"lhs": ["eval", "x"], "rhs": 1}])),
+    "wrong arity": damaged(set_step("equations", [{"lhs": ["inv", "x", "y"], "rhs": 1}])),
+    "not a tree": damaged(set_step("equations", [{"lhs": {"a": 1}, "rhs": 1}])),
+    "a number with a point": damaged(set_step("equations", [{"lhs": "L", "rhs": 1.5}])),
+}
+
+
+@pytest.mark.parametrize("case", BROKEN)
+def test_broken_records_are_refused(case):
+    with pytest.raises(RecordError) as caught:
+        from_json(BROKEN[case])
+    assert "\n" not in str(caught.value)
