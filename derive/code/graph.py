@@ -48,11 +48,6 @@ class Node:
     __rmul__ = __mul__
 
     @property
-    def is_zero(self) -> bool:
-        """Is it the number 0?"""
-        return self.op == "num" and self.data == 0
-
-    @property
     def is_atom(self) -> bool:
         """A number or a leaf: nothing to compute."""
         return self.op in ("num", "leaf")

@@ -7,7 +7,6 @@ outputs.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -62,16 +61,6 @@ class Function:
     sections: tuple[Section, ...]
     outputs: tuple[Expression, ...]
     checks: tuple[Check, ...] = ()
-
-    def expressions(self) -> Iterator[Expression]:
-        """Everything that is computed."""
-        for section in self.sections:
-            yield from (v.expression for v in section.values)
-        yield from self.outputs
-        for check in self.checks:
-            yield check.value
-            if check.scale is not None:
-                yield check.scale
 
     def operations(self) -> dict[str, int]:
         """Counts of mul, add and div in sections and outputs."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -89,10 +89,6 @@ class Derivation:
                 if equation.lhs == lhs and "principal axes" not in step.given:
                     return step, equation
         return None
-
-    def with_step(self, index: int, step: Step) -> Derivation:
-        """A copy with one step exchanged."""
-        return replace(self, steps=(*self.steps[:index], step, *self.steps[index + 1 :]))
 
 
 def encode(t: Tree) -> Any:

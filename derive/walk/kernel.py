@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..algebra import forms
-from ..algebra.calculus import derivation, gradient, substitute, without
+from ..algebra.calculus import gradient, substitute, without
 from ..algebra.notation import Notation, metrics, tree_of
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, number, word
@@ -136,14 +135,3 @@ def _equations(core: Expr, images: dict[Letter, Expr], a: Alphabet, prefix: str)
 
 def _without_force(e: Expr, a: Alphabet) -> Expr:
     return without(e, a.f)
-
-
-def motion_acceleration(a: Alphabet) -> dict[Letter, Expr]:
-    """α̇ = A(Ż + Z²), τ̇ = A(ẇ + Zw), by varying α = AZ, τ = Aw along the motion."""
-    g = word(a.A.position)
-    delta = {a.A.position: g * word(a.Z.velocity)}
-    delta |= {f.velocity: word(f.acceleration) for f in a.frames}
-    return {
-        p.acceleration: forms.strip_left(derivation(g * word(f.velocity), delta.get), a.A.position)
-        for p, f in zip(a.parts, a.frames, strict=True)
-    }

@@ -1,0 +1,86 @@
+"""Other sizes and bodies: the emitted Python at exact points, against d'Alembert on the points."""
+
+from random import Random
+
+import numpy as np
+import pytest
+
+from derive.algebra import rational as q
+from derive.code.assemble import assemble
+from derive.code.emit import emit
+from derive.mechanics.toml import problem_of
+from derive.pipeline import walk
+from derive.record.check import check
+from derive.record.model import Model
+
+
+def points(n, count):
+    """Point tables with a parameter in every mass and some coordinates."""
+    names = {f"m{i}": {} for i in range(count)} | {f"x{i}": {} for i in range(count)}
+    tables = [
+        {"mass": f"m{i}^2" if i else "m0", "at": [f"x{i}", *((i - 1) ** j for j in range(1, n))]}
+        for i in range(count)
+    ]
+    return names, tables
+
+
+def problem(group, n, count, wrench=False):
+    parameters, tables = points(n, count)
+    parameters |= {"k": {}, "g": {}}
+    data = {
+        "name": "test",
+        "group": group,
+        "parameters": parameters,
+        "point": tables,
+        "potential": [{"kind": "gravity", "g": [0] * (n - 1) + ["-g"]}],
+    }
+    data["potential"].append({"kind": "spring", "between": [1, 2], "stiffness": "k/2"})
+    if wrench:
+        data["input"] = [{"name": "push", "kind": "covector"}]
+    return problem_of(data)
+
+
+def module(d, p):
+    source = emit(assemble(d, p.group), d, ("python",), "test")["test.py"]
+    space = {}
+    exec(compile(source, "test.py", "exec"), space)
+    return space
+
+
+CASES = {
+    "SL(2)": problem("SL(2)", 2, 4),
+    "SL(3)": problem("SL(3)", 3, 5),
+    "SL(4)": problem("SL(4)", 4, 6),
+    "SO(3)": problem("SO(3)", 3, 4, wrench=True),
+    "SE(3)": problem("SE(3)", 3, 4, wrench=True),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_record_holds(name):
+    assert [v.reason for v in check(walk(CASES[name])) if not v.holds] == []
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("name", CASES)
+def test_code_against_points(name, seed):
+    p = CASES[name]
+    d, g = walk(p), p.group
+    code = module(d, p)
+    model = Model(d.problem, g, Random(seed), 2, driven=bool(p.inputs))
+    n = g.n
+    A = [float(x) for row in model.g[:n] for x in row[:n]]
+    zeta = [float(x) for x in g.vee(model.Z)]
+    T = [float(row[n]) for row in model.g[:n]] if g.affine else []
+    x = np.array([*A, *T, *zeta])
+    k = code["constants"]([float(model.parameters[name]) for name in code["PARAMETERS"]])
+    u = [float(x) for x in model.input] if p.inputs else None
+    dx = code["rhs"](0.0, x, k, u)
+    rate = [float(x) for x in g.vee(model.acceleration)]
+    scale = max(map(abs, rate))
+    assert np.abs(dx[-g.dimension :] - rate).max() <= 1e-9 * scale
+    motion = q.times(model.g, model.Z)
+    assert np.allclose(dx[: n * n], [float(x) for row in motion[:n] for x in row[:n]])
+    nu = q.times(model.g, model.Z)
+    energy = float(model.energy(model.t, model.g, nu).part(0))
+    assert code["energy"](0.0, x, k) == pytest.approx(energy, rel=1e-9)
