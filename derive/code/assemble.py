@@ -5,6 +5,7 @@ from __future__ import annotations
 from ..algebra.groups import Group
 from ..algebra.show import show
 from ..record.record import Derivation
+from .conventions import conventions
 from .graph import PARAMETER, Node
 from .lower import Lowering
 from .naming import Names, suffixed
@@ -39,6 +40,7 @@ def assemble(d: Derivation, group: Group) -> Program:
         str(d.problem.get("title", "")),
         group.name,
         group.dimension,
+        conventions(group, inputs),
         tuple(state),
         tuple(_parameter(d, name) for name in parameters),
         tuple(inputs),

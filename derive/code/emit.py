@@ -55,6 +55,7 @@ def _fields(
         "fabs": "fabsf" if real == "float" else "fabs",
         "title": comment(p.title),
         "group": p.group,
+        "conventions": p.conventions,
         "version": __version__,
         "hash": problem_hash(d),
         "state": p.state,

@@ -81,6 +81,7 @@ class Program:
     title: str
     group: str
     dimension: int
+    conventions: tuple[str, ...]
     state: tuple[str, ...]
     parameters: tuple[tuple[str, float | None, str, str], ...]
     inputs: tuple[str, ...]
