@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import io
 import sys
 from collections.abc import Callable, Sequence
 from importlib import resources
@@ -45,7 +46,10 @@ def derive(name: str) -> tuple[Problem, Derivation]:
     from .pipeline import walk
 
     problem = load_problem(name)
-    return problem, walk(problem)
+    try:
+        return problem, walk(problem)
+    except ProblemError as error:
+        raise UsageError(f"{name}: {error}") from None
 
 
 def render(d: Derivation, form: str) -> str:
@@ -84,7 +88,9 @@ def command_list(_: argparse.Namespace) -> int:
 
     print("groups")
     for name, (_make, least, meaning) in FAMILIES.items():
-        print(f"  {name + '(n)':8} n ≥ {least}  {meaning}")
+        note = "" if name in ROADS else " (as data only)"
+        print(f"  {name + '(n)':8} n ≥ {least}  {meaning}{note}")
+    print(f"  a whole road, from L to code, today: {', '.join(ROADS.values())}")
     print("problems")
     for name in ready_made():
         p = load_problem(name)
@@ -106,7 +112,8 @@ def command_emit(args: argparse.Namespace) -> int:
     problem, record = derive(args.problem)
     program = programs(problem, record)
     languages = tuple(dict.fromkeys(args.lang or ("c", "python")))
-    files = emit(program, record, languages, args.prefix or problem.name, args.real)
+    prefix = problem.name if args.prefix is None else args.prefix
+    files = emit(program, record, languages, prefix, args.real)
     for path in write(files, Path(args.out or ".")):
         print(path)
     return 0
@@ -186,6 +193,7 @@ def command_build(args: argparse.Namespace) -> int:
     return 0
 
 
+ROADS = {"SO": "SO(3)", "SE": "SE(3)", "SL": "SL(n)"}
 FILES = {"text": "txt", "latex": "tex", "json": "json"}
 
 
@@ -207,10 +215,12 @@ def parser() -> argparse.ArgumentParser:
     walk.add_argument("--out", metavar="FILE")
     emit = command("emit", command_emit)
     emit.add_argument("problem", help="a ready-made name or a .toml file")
-    emit.add_argument("--lang", action="append", choices=("c", "python"))
-    emit.add_argument("--out", metavar="DIR")
-    emit.add_argument("--prefix", metavar="NAME")
-    emit.add_argument("--real", choices=("double", "float"), default="double")
+    lang = "may be repeated; both when left out"
+    emit.add_argument("--lang", action="append", choices=("c", "python"), help=lang)
+    emit.add_argument("--out", metavar="DIR", help="default: the current directory")
+    emit.add_argument("--prefix", metavar="NAME", help="default: the problem's name")
+    real = "the numbers of the C files (default: double)"
+    emit.add_argument("--real", choices=("double", "float"), default="double", help=real)
     check = command("check", command_check)
     check.add_argument("problem", nargs="+", help="ready-made names, .toml files or .json records")
     paper = command("paper", command_paper)
@@ -229,6 +239,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     from .writing import WriteError
 
     args = parser().parse_args(argv)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="replace")  # a terminal without these letters shows ?
     try:
         return int(args.run(args))
     except (UsageError, ProblemError, RecordError, EmitError, LoweringError, WriteError) as error:

@@ -6,7 +6,7 @@ from ..algebra.groups import Group
 from ..algebra.show import show
 from ..record.record import Derivation
 from .conventions import conventions
-from .graph import PARAMETER, Node
+from .graph import Node
 from .lower import Lowering
 from .naming import Names, suffixed
 from .program import Function, Program
@@ -17,14 +17,21 @@ from .schedule import Scheduler, frontier
 def assemble(d: Derivation, group: Group) -> Program:
     """The program of a record; ``LoweringError`` when the record has no solved equations."""
     lowering = Lowering(d, group)
-    state, rates = _state(lowering)
-    energy = lowering.name("h̃")
+    try:
+        state, rates = _state(lowering)
+        energy = lowering.name("h̃")
+    except ZeroDivisionError:
+        raise LoweringError(
+            f"{d.name}: the kinetic metric is singular: a direction of the group moves no mass of "
+            "this body; add points that are not aligned (or, for SL(n), not coplanar)"
+        ) from None
     if not isinstance(energy, Node):
         raise LoweringError("the energy is not a number")
     names = Names()
     inputs = _input_names(lowering)
-    for name in (*state, *inputs):
-        names.claim(name, name)
+    for kind, members in (("state", state), ("input", inputs)):
+        for name in members:
+            names.claim(name, f"{kind} {name}")
     scheduler = Scheduler(names, _equations(d))
     fixed = frontier([*rates, energy])
     checked = [x for test in lowering.checks for x in test if x is not None]
@@ -73,17 +80,17 @@ def _state(lowering: Lowering) -> tuple[list[str], list[Node]]:
 
 def _input_names(lowering: Lowering) -> list[str]:
     vectors = [lowering.state[x] for x in ("u", "f_u") if x in lowering.state]
-    return [row[0].data for v in vectors for row in v]  # type: ignore[union-attr]
+    return [row[0].data[1] for v in vectors for row in v]  # type: ignore[union-attr]
 
 
 def _places(
     lowering: Lowering, names: Names, state: list[str], inputs: list[str]
 ) -> dict[Node, tuple[str, tuple[str, int]]]:
     """Where each leaf is read from, and the name it has there (never a reserved word)."""
-    arrays = (("x", state), ("u", inputs))
+    arrays = (("x", "state", state), ("u", "input", inputs))
     return {
-        lowering.leaf(x): (names.claim(x, x), (array, i))
-        for array, members in arrays
+        lowering.leaf(x, kind): (names.claim(x, f"{kind} {x}"), (array, i))
+        for array, kind, members in arrays
         for i, x in enumerate(members)
     }
 
@@ -99,7 +106,7 @@ def _used_parameters(d: Derivation, nodes: list[Node]) -> list[str]:
             seen.add(x)
             stack.extend(x.args)
             if x.op == "leaf":
-                used.add(x.data)
+                used.add(x.data[1])
     return [name for name in d.problem["parameters"] if name in used]
 
 
@@ -107,7 +114,7 @@ def _constants(
     scheduler: Scheduler, lowering: Lowering, fixed: list[Node], parameters: list[str]
 ) -> Function:
     places = {
-        lowering.graph.leaf(x, PARAMETER): (scheduler.names.claim(x, f"parameter {x}"), ("p", i))
+        lowering.graph.leaf(x, "parameter"): (scheduler.names.claim(x, f"parameter {x}"), ("p", i))
         for i, x in enumerate(parameters)
     }
     return scheduler.function(fixed, places, lowering.checks)
@@ -115,7 +122,7 @@ def _constants(
 
 def _constant_name(names: Names, x: Node, i: int) -> str:
     if x.op == "leaf":
-        return names.claim(str(x.data), f"parameter {x.data}")
+        return names.claim(x.data[1], f"parameter {x.data[1]}")
     wanted = x.graph.titles[x][0] if x.op == "value" else suffixed("constant", i)
     return names.claim(wanted, f"node {x.id}")
 

@@ -27,7 +27,10 @@ def emit(
 ) -> dict[str, str]:
     """File name → text, for each language; ``EmitError`` for a prefix that is no name."""
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,63}", prefix) or prefix in RESERVED:
-        raise EmitError(f"--prefix {prefix[:40]!r}: letters, digits and _, not a keyword")
+        raise EmitError(
+            f"--prefix {prefix[:40]!r}: give letters, digits and _, starting with a letter, at "
+            "most 64, and no word that the emitted code needs"
+        )
     files = {}
     for language in languages:
         templates = environment(language)

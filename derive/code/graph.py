@@ -21,7 +21,7 @@ PARAMETER, STATE = 0, 1
 class Node:
     """``op`` is one of num, leaf, add, mul, recip, abs, value.
 
-    ``data``: the number, the leaf's name, or the coefficients of a sum.
+    ``data``: the number, the leaf's (kind, name), or the coefficients of a sum.
     """
 
     graph: Graph
@@ -46,6 +46,11 @@ class Node:
         return self.graph.product([self, self.graph.of(other)])
 
     __rmul__ = __mul__
+
+    @property
+    def is_zero(self) -> bool:
+        """Is it the number 0?"""
+        return self.op == "num" and self.data == 0
 
     @property
     def is_atom(self) -> bool:
@@ -75,9 +80,10 @@ class Graph:
         """A node, from a node or a number."""
         return x if isinstance(x, Node) else self.num(x)
 
-    def leaf(self, name: str, stage: int) -> Node:
-        """An input of the program."""
-        return self._intern("leaf", name, (), stage)
+    def leaf(self, name: str, kind: str) -> Node:
+        """An input of the program: of the ``state``, a ``parameter``, or an ``input``."""
+        stage = PARAMETER if kind == "parameter" else STATE
+        return self._intern("leaf", (kind, name), (), stage)
 
     def value(self, node: Node, name: str, label: str, *, given: bool = False) -> Node:
         """A node with a name; a name given by the record replaces one made from a tree."""
@@ -90,6 +96,8 @@ class Graph:
 
     def recip(self, x: Node) -> Node:
         """1 / x."""
+        if x.is_zero:
+            raise ZeroDivisionError("1/0 in the equations of this problem")
         if x.op == "num":
             return self.num(1 / x.data)
         coefficient, core = self._split(x)

@@ -57,7 +57,7 @@ class Lowering(Reader):
     def _node(self, t: tuple[Any, ...], index: dict[str, int] | None) -> Value:
         op = t[0]
         if op == "par":
-            return self.graph.leaf(t[1], PARAMETER)
+            return self.graph.leaf(t[1], "parameter")
         if op == "at":
             return self.member(
                 (op, t[1], *(index[i] if index and i in index else i for i in t[2:]))

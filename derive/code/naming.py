@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import keyword
+import re
 import unicodedata
 
 from ..algebra.tree import Tree
@@ -21,11 +22,10 @@ _C_WORDS = """
     throw true try typedef typename u union unsigned using virtual void volatile wchar_t
     while x xor xp
     """
-RESERVED = (
-    set(_C_WORDS.split())
-    | set(keyword.kwlist)
-    | {"stack", "asarray", "BASIS", "STATE", "PARAMETERS"}
-)
+_EMITTED = """
+    abs all regular numpy math i NULL signgam STATE PARAMETERS INPUTS CONSTANTS BASIS
+    """
+RESERVED = set(_C_WORDS.split()) | set(keyword.kwlist) | set(_EMITTED.split())
 
 
 def ascii_name(name: str) -> str:
@@ -79,6 +79,8 @@ class Names:
     def claim(self, wanted: str, owner: str) -> str:
         """The name for an owner (the same owner gets the same name)."""
         name = wanted
+        if re.search(r"_N_|_RESTRICT|_names|_H$|_rhs|_energy|_constants", name):
+            name += "_"  # the pattern of the emitted files' own names
         while self._taken.setdefault(name, owner) != owner:
             name += "_"
         return name

@@ -54,7 +54,7 @@ class Printer:
 def decimal(q: Fraction, suffix: str = "") -> str:
     """A literal that reads back exactly, or a quotient of two."""
     value = float(q)
-    if Fraction(value) == q:
+    if Fraction(value) == q or max(abs(q.numerator), q.denominator) >= 2**53:
         return f"{value!r}{suffix}"
     return f"{float(q.numerator)!r}{suffix}/{float(q.denominator)!r}{suffix}"
 

@@ -49,8 +49,8 @@ class Check:
     scale: Expression | None
 
 
-TOLERANCE = {"double": 1e-13, "float": 1e-5}
-"""Relative to what rounding can make of a singular matrix: some hundred units in the last place."""
+TOLERANCE = {"double": 1e-13, "float": 1e-6}
+"""Relative to what rounding can make of a singular matrix; float leaves room for slender bodies."""
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree, subtrees
 from ..record.record import Derivation, Equation, Step
-from .graph import STATE, Graph, Node
+from .graph import Graph, Node
 from .naming import name_of, suffixed
 
 Value = Node | Matrix
@@ -47,21 +47,19 @@ class Reader:
         self.state["t"] = self.leaf("t")
         for given in self.record.problem.get("inputs", []):
             size = d - n if self.group.affine else d
-            self.state["u"] = tuple(
-                (self.leaf(suffixed(given["name"], i)),) for i in range(1, size + 1)
-            )
+            name = given["name"]
+            self.state["u"] = self.column(name, size, "input")
             if self.group.affine:
-                self.state["f_u"] = tuple(
-                    (self.leaf(suffixed(given["name"], size + i)),) for i in range(1, n + 1)
-                )
+                self.state["f_u"] = self.column(name, n, "input", size)
 
-    def leaf(self, name: str) -> Node:
+    def leaf(self, name: str, kind: str = "state") -> Node:
         """A state variable or an input."""
-        return self.graph.leaf(name, STATE)
+        return self.graph.leaf(name, kind)
 
-    def column(self, name: str, size: int) -> Matrix:
-        """A column of state variables."""
-        return tuple((self.leaf(suffixed(name, i)),) for i in range(1, size + 1))
+    def column(self, name: str, size: int, kind: str = "state", after: int = 0) -> Matrix:
+        """A column of state variables or inputs, counted from ``after`` + 1."""
+        span = range(after + 1, after + size + 1)
+        return tuple((self.leaf(suffixed(name, i), kind),) for i in span)
 
     # -- names -------------------------------------------------------------------------------
 

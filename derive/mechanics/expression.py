@@ -11,6 +11,7 @@ from fractions import Fraction
 from ..algebra.tree import Tree, add, mul, neg
 
 LENGTH, NESTING, EXPONENT, DIGITS = 10_000, 100, 64, 40
+SMALLEST, LARGEST = Fraction(1, 10**300), Fraction(10**300)
 TOKEN = re.compile(
     r"\s*(?:(\d+\.?\d*(?:[eE][+-]?\d{1,3})?|\.\d+)|([A-Za-z][A-Za-z0-9_]*)|(.))", re.S
 )
@@ -27,7 +28,8 @@ def parse(text: str) -> Tree:
     parser = _Parser(_tokens(text))
     tree = parser.sum(0)
     if parser.peek():
-        raise ExpressionError(f"unexpected {parser.peek()[:20]!r}")
+        hint = "; there are no functions" if parser.peek() == "(" else ""
+        raise ExpressionError(f"unexpected {parser.peek()[:20]!r}{hint}")
     return tree
 
 
@@ -73,7 +75,8 @@ class _Parser:
             sign = self.take()
             term = self.product(depth)
             terms.append(neg(term) if sign == "-" else term)
-        return add(*terms)
+        numbers = [t for t in terms if isinstance(t, (int, Fraction))]
+        return _number(sum(map(Fraction, numbers))) if len(numbers) == len(terms) else add(*terms)
 
     def product(self, depth: int) -> Tree:
         result = self.signed(depth)
@@ -118,11 +121,18 @@ class _Parser:
         if token[:1].isdigit() or token[:1] == ".":
             if len(token) > DIGITS:
                 raise ExpressionError(f"a number of more than {DIGITS} characters")
-            value = Fraction(token)
-            return int(value) if value.denominator == 1 else value
+            return _number(Fraction(token))
         if token[:1].isalpha():
             return ("par", token)
         raise ExpressionError(f"unexpected {token!r}" if token else "unexpected end")
+
+
+def _number(value: Fraction | int) -> Tree:
+    """A number as a leaf; ``ExpressionError`` when a floating-point number cannot hold it."""
+    q = Fraction(value)
+    if q and not SMALLEST < abs(q) < LARGEST:
+        raise ExpressionError("a number outside 1e-300 … 1e300")
+    return int(q) if q.denominator == 1 else q
 
 
 def _quotient(a: Tree, b: Tree) -> Tree:
@@ -137,6 +147,5 @@ def _powered(base: Tree, n: int) -> Tree:
     if isinstance(base, (int, Fraction)):
         if base == 0 and n < 0:
             raise ExpressionError("division by zero")
-        value = Fraction(base) ** n
-        return int(value) if value.denominator == 1 else value
+        return _number(Fraction(base) ** n)
     return base if n == 1 else ("pow", base, n)

@@ -35,7 +35,7 @@ def load(path: Path) -> Problem:
     try:
         if path.stat().st_size > LARGEST_FILE:
             raise ProblemError(f"{path}: larger than {LARGEST_FILE} bytes")
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
+        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise ProblemError(f"{path}: {error.strerror}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
@@ -53,11 +53,15 @@ def problem_of(data: Mapping[str, Any]) -> Problem:
     if not NAME.fullmatch(name) or keyword.iskeyword(name):
         raise ProblemError("key 'name': letters, digits and _ only, starting with a letter")
     try:
-        which = data.get("group")
-        moved = None if which == "any" else group(_text(data, "group", "file"))
+        which = _text(data, "group", "file")
+        moved = None if which == "any" else group(which)
+    except ProblemError:
+        raise
     except ValueError as error:
         raise ProblemError(f"key 'group': {error}") from None
-    action = moved.action if moved else _choice(data, "action", ("linear", "affine"), "file")
+    action = _choice(data, "action", ("linear", "affine"), "file", moved.action if moved else "")
+    if moved and action != moved.action:
+        raise ProblemError(f"key 'action': {moved.name} acts by {moved.action} maps")
     parameters = _parameters(data.get("parameters", {}))
     body = _body(data, moved.n if moved else 0)
     if moved and body is None:
@@ -66,16 +70,17 @@ def problem_of(data: Mapping[str, Any]) -> Problem:
         own = {x: parameters.get(x, Parameter()) for x in body.names()}
         parameters = {**own, **{k: p for k, p in parameters.items() if k not in own}}
     points = len(body.masses) if isinstance(body, PointBody) else 0
+    if inputs_of(data) and moved and "orthogonal" not in moved.relations:
+        raise ProblemError(f"key 'input': there are no inputs on {moved.name} yet; leave it out")
     potentials = tuple(
         _potential(p, f"potential {k}", moved.n if moved else 0, points)
         for k, p in enumerate(_tables(data, "potential"), 1)
     )
-    inputs = tuple(_input(i, f"input {k}") for k, i in enumerate(_tables(data, "input"), 1))
+    inputs = tuple(_input(i, f"input {k}") for k, i in enumerate(inputs_of(data), 1))
     if len(inputs) > 1:
         raise ProblemError("key 'input': one covector holds every component; give one table")
-    problem = Problem(
-        name, moved, action, str(data.get("title", "")), parameters, body, potentials, inputs
-    )
+    title = _text(data, "title", "file") if "title" in data else name
+    problem = Problem(name, moved, action, title, parameters, body, potentials, inputs)
     _declared(problem)
     return problem
 
@@ -96,7 +101,11 @@ def _text(data: Mapping[str, Any], key: str, where: str) -> str:
     return str(data[key])
 
 
-def _choice(data: Mapping[str, Any], key: str, allowed: tuple[str, ...], where: str) -> str:
+def _choice(
+    data: Mapping[str, Any], key: str, allowed: tuple[str, ...], where: str, default: str = ""
+) -> str:
+    if default and key not in data:
+        return default
     value = _text(data, key, where)
     if value not in allowed:
         raise ProblemError(f"{where}: key {key!r} must be one of {', '.join(allowed)}")
@@ -179,6 +188,8 @@ def _potential(data: Mapping[str, Any], where: str, n: int, points: int) -> Pote
         return Gravity(_vector(data.get("g"), n, f"{where}, g"))
     _known(data, {"kind", "between", "stiffness", "length"}, where)
     ends = data.get("between")
+    if not points:
+        raise ProblemError(f"{where}: a spring needs [[point]] tables to act between")
     integers = isinstance(ends, list) and all(type(i) is int for i in ends)
     if not integers or len(ends or []) != 2 or not all(1 <= i <= points for i in ends or []):
         raise ProblemError(f"{where}: key 'between' must be two points from 1 to {points}")
@@ -190,6 +201,11 @@ def _potential(data: Mapping[str, Any], where: str, n: int, points: int) -> Pote
         raise ProblemError(f"{where}: key 'stiffness' is missing")
     assert ends is not None
     return Spring((ends[0], ends[1]), _expression(data["stiffness"], f"{where}, stiffness"))
+
+
+def inputs_of(data: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """The [[input]] tables."""
+    return _tables(data, "input")
 
 
 def _input(data: Mapping[str, Any], where: str) -> CovectorInput:
