@@ -102,7 +102,7 @@ def road_of_rotations(problem: Problem, stage: Isometry, general: str) -> Steps:
         euler,
         principal_step(name, scope, euler.equations[0].rhs),
         *v.steps,
-        torque_step(v, stage.letters, name, general, scope),
+        torque_step(v, stage, name, general, scope),
         spherical_motion(vectors, v, stage, problem, name, scope),
         energy_step(stage, v, name, scope),
     )
@@ -118,7 +118,7 @@ def road_of_displacements(problem: Problem, stage: Isometry, general: str) -> St
         *vectors.steps,
         *eliminated.steps,
         *v.steps,
-        torque_step(v, stage.letters, name, general, scope),
+        torque_step(v, stage, name, general, scope),
         displacement_motion(eliminated, v, stage.letters, problem, name, scope),
         energy_step(stage, v, name, scope),
     )

@@ -138,3 +138,95 @@ def test_a_wrong_rule_changes_the_equations_and_is_refused(name, rule, monkeypat
     assert changed
     assert refused
     assert refused <= changed
+
+
+# the steps in which the bracket must be seen: it makes Euler's equations what they are
+BRACKETS = {
+    "linear": {"linear.structure", "linear.exterior_trivialised"},
+    "so3": {"so3.exterior", "so3.hat", "so3.exterior_vector", "so3.kernel", "so3.euler",
+            "so3.principal", "so3.motion"},
+    "se3": {"se3.exterior", "se3.hat", "se3.exterior_vector", "se3.kernel", "se3.motion"},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", BRACKETS)
+def test_the_bracket_comes_from_the_structure_equation(name, monkeypatch):
+    with monkeypatch.context() as patched:
+        wrong_structure(patched)
+        wrong = walk(load_problem(name))
+    refused = {v.label for v in check(wrong) if not v.holds}
+    assert BRACKETS[name] <= refused
+
+
+def test_a_wrong_work_of_the_forces_is_seen(monkeypatch):
+    from derive.walk import exterior
+
+    right = exterior.work
+    with monkeypatch.context() as patched:
+        patched.setattr(exterior, "work", lambda a: -right(a))
+        wrong = walk(load_problem("so3"))
+    refused = {v.label for v in check(wrong) if not v.holds}
+    assert {"linear.exterior", "linear.kernel", "so3.exterior", "so3.kernel"} <= refused
+
+
+# -- records that say something else ------------------------------------------------------------
+
+
+def equations(*pairs):
+    return tuple(Equation(*pair) for pair in pairs)
+
+
+EMPTY = {
+    "nothing": ((0, 0),),
+    "itself": (("ζ̇", "ζ̇"),),
+    "zeroth power": ((("pow", "t", 0), "t"),),
+    "half power": ((("pow", "t", "5/2"), ("pow", "t", 2)),),
+    "a great power": ((("pow", "t", 10**9), 0),),
+    "entry zero": ((("entry", "ζ", 0), ("entry", "ζ", 3)),),
+    "not square": ((("det", ("matrix", ("row", 1, 2))), 1),),
+    "a large determinant": ((("det", ("matrix", *[("row", *[1] * 10)] * 10)), 0),),
+    "ragged": ((("matrix", ("row", 1, 2), ("row", 3)), "J"),),
+    "an input that is not there": ((("mul", 0, "u"), 0),),
+    "a tangent vector too long": ((("call", "dŨ", "δA", "δA"), ("call", "dŨ", "δA")),),
+    "the old point of the checker": (
+        ("t", -206326987298605446459281344587612813226),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", EMPTY)
+def test_meaningless_claims_are_refused(case):
+    d = record("so3")
+    wrong = replace(d["so3.euler"], equations=equations(*EMPTY[case]))
+    index = d.steps.index(d["so3.euler"])
+    changed = replace(d, steps=(*d.steps[:index], wrong, *d.steps[index + 1 :]))
+    verdict = check(changed)[index]
+    assert not verdict.holds
+    assert "\n" not in verdict.reason
+
+
+def test_the_input_cannot_be_dropped_with_its_assumption():
+    d = record("so3")
+    step = replace(d["so3.motion"], given=())
+    assert not checker("so3").check(step).holds
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_identities_of_small_matrices_are_no_claims_about_any_group(dimension):
+    """Cayley–Hamilton for 2 × 2 and 3 × 3 matrices is false for some group."""
+    square = ("pow", "Z", 2)
+    trace, half = ("tr", "Z"), ("div", ("add", ("pow", ("tr", "Z"), 2), neg(("tr", square))), 2)
+    small = ("add", mul(trace, "Z"), neg(mul(half, ("one",))))
+    large = ("add", mul(trace, square), neg(mul(half, "Z")), mul(("det", "Z"), ("one",)))
+    claim = Equation(*((square, small) if dimension == 2 else (("pow", "Z", 3), large)))
+    step = replace(record("linear")["linear.kernel"], equations=(claim,))
+    assert not checker("linear").check(step).holds
+
+
+def test_translations_that_are_not_free_are_on_the_panel():
+    """The equations of an affine group hold jointly, not one for A and one for T."""
+    step = record("affine")["affine.kernel"]
+    whole = step.equations[-1]
+    assert whole.for_all == ("δ′A", "δ′T")
+    for part in whole.lhs[1:]:
+        assert not checker("affine").check(replace(step, equations=(Equation(part, 0),))).holds

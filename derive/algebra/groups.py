@@ -228,6 +228,24 @@ def _affine(n: int) -> Group:
     return Group(f"Aff({n})", n, "affine", affine_basis(gl_basis(n), n), frozenset(), sampler)
 
 
+def turning_about_a_point() -> Group:
+    """The rotations of R³ about (1, 2, 3): affine maps whose translations are not free."""
+    place: Matrix = ((Fraction(1),), (Fraction(2),), (Fraction(3),))
+    turn = sample_so(3)
+    zero = (Fraction(0),) * 4
+
+    def moved(linear: Matrix, translation: Matrix, last: tuple[Fraction, ...]) -> Matrix:
+        return (*((*row, *x) for row, x in zip(linear, translation, strict=True)), last)
+
+    def sample(random: Random, size: int) -> Matrix:
+        a = turn(random, size)
+        return moved(a, q.minus(place, q.times(a, place)), (*zero[:3], Fraction(1)))
+
+    basis = tuple(moved(e, q.scaled(-1, q.times(e, place)), zero) for e in so_basis(3))
+    relations: frozenset[Relation] = frozenset({"orthogonal", "unimodular"})
+    return Group("SO(3) about a point", 3, "affine", basis, relations, sample)
+
+
 FAMILIES: dict[str, tuple[Callable[[int], Group], int, str]] = {
     "SO": (_orthogonal, 2, "rotations, ĀA = 1"),
     "SE": (_euclidean, 2, "displacements, r ↦ A r + T with ĀA = 1"),

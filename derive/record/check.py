@@ -8,25 +8,31 @@ Nothing is imported from the walk.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import hashlib
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from random import Random
 from typing import Any
 
-from ..algebra.groups import Group, group
+from ..algebra.groups import Group, group, turning_about_a_point
 from . import degree
 from .evaluate import Environment, EvaluationError, evaluate, free_indices, index_values
 from .meaning import environment
 from .model import Model
-from .record import Derivation, Equation, RecordError, Step
+from .record import Derivation, Equation, RecordError, Step, to_json
 from .vocabulary import ANY_GROUP
 
 SIZE = 2**128
 """Random parameters are integers of at most this absolute value."""
 
-PANELS = {"linear": ("GL(2)", "SL(2)", "SO(3)"), "affine": ("Aff(2)", "SE(3)")}
-"""Groups on which a claim about any group is tried; one without relations comes first."""
+PANELS: dict[str, tuple[Callable[[], Group], ...]] = {
+    "linear": tuple(partial(group, x) for x in ("GL(4)", "SL(2)", "SO(3)")),
+    "affine": (*(partial(group, x) for x in ("Aff(3)", "SE(2)")), turning_about_a_point),
+}
+"""Groups on which a claim about any group is tried: one without relations, one with, and one whose
+translations are not free."""
 
 
 @dataclass(frozen=True)
@@ -42,14 +48,14 @@ class Verdict:
 class Checker:
     """Exact models for the scopes of one record, made once and shared by its steps."""
 
-    def __init__(self, problem: Mapping[str, Any], seed: int = 20):
+    def __init__(self, problem: Mapping[str, Any], seed: int | str = 20):
         self.problem, self.seed = problem, seed
         self._environments: dict[tuple[str, tuple[str, ...]], Environment] = {}
 
     def groups(self, scope: str) -> list[Group]:
         """The groups on which a step of this scope is tried."""
         if scope == ANY_GROUP:
-            return [group(x) for x in PANELS[_action(self.problem)]]
+            return [make() for make in PANELS[_action(self.problem)]]
         if scope != self.problem.get("group"):
             raise RecordError(f"scope {scope!r} is neither {ANY_GROUP!r} nor the problem's group")
         return [group(scope)]
@@ -88,13 +94,20 @@ class Checker:
                             step.label, False, f"equation {k} on {g.name}: {reason}", 1.0
                         )
                     bound = max(bound, degree.bound(equation, g, self.problem) / SIZE)
-        except (RecordError, ValueError, ZeroDivisionError, RecursionError) as error:
+        except (EvaluationError, RecordError, ZeroDivisionError) as error:
             return Verdict(step.label, False, str(error), 1.0)
+        except (ArithmeticError, AssertionError, LookupError, TypeError, ValueError) as error:
+            reason = f"the problem or the step makes no sense: {type(error).__name__}: {error}"
+            return Verdict(step.label, False, reason.splitlines()[0], 1.0)
+        except (AttributeError, RecursionError) as error:
+            return Verdict(step.label, False, f"not a claim: {type(error).__name__}", 1.0)
         return Verdict(step.label, True, "", bound)
 
 
 def difference(equation: Equation, env: Environment) -> str:
     """Empty when both sides agree, for every value of a free index; else what differs."""
+    if equation.lhs == equation.rhs:
+        return "both sides are the same tree: it claims nothing"
     both = ("add", equation.lhs, equation.rhs)
     for index in sorted(free_indices(both)):
         for value in index_values(both, index, env):
@@ -136,6 +149,11 @@ def _action(problem: Mapping[str, Any]) -> str:
 
 
 def check(d: Derivation, seed: int = 20) -> list[Verdict]:
-    """A verdict for every step; the random points are fixed by the seed."""
-    checker = Checker(d.problem, seed)
+    """A verdict for every step.
+
+    The points are drawn from a hash of the whole record and the seed: they are the same at every
+    run, and whoever writes a record cannot aim it at them.
+    """
+    digest = hashlib.sha256(to_json(d).encode("utf-8", "surrogatepass")).hexdigest()
+    checker = Checker(d.problem, f"{seed} {digest}")
     return [checker.check(step) for step in d.steps]

@@ -14,6 +14,7 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..algebra.tree import Tree
+from .evaluate import LARGEST_POWER
 from .record import Equation, decode
 
 
@@ -145,7 +146,7 @@ def _degree(t: Tree, table: Mapping[str, Degree], group: Group) -> Degree:
     if op == "pow":
         base = _degree(t[1], table, group)
         result = base
-        for _ in range(abs(int(t[2])) - 1):
+        for _ in range(min(abs(int(t[2])), LARGEST_POWER) - 1):
             result = result * base
         return result if int(t[2]) > 0 else result.inverse(1, str(t[1]))
     parts = [_degree(x, table, group) for x in t[1:] if op != "sum" or x != t[1]]

@@ -15,6 +15,8 @@ from ..algebra.tree import Tree
 
 Value = Any
 
+LARGEST_POWER, LARGEST_MATRIX = 64, 8
+
 
 class EvaluationError(ValueError):
     """A tree that has no value: an unknown name, or shapes that do not fit."""
@@ -145,21 +147,28 @@ def inverse(x: Value) -> Value:
 
 def determinant(x: Value) -> Value:
     """det x, by expansion along the first row."""
+    if not is_matrix(x) or any(len(row) != len(x) for row in x) or len(x) > LARGEST_MATRIX:
+        raise EvaluationError(f"determinant of a square matrix of size up to {LARGEST_MATRIX} only")
+    return _expanded(x)
+
+
+def _expanded(x: Value) -> Value:
     if len(x) == 1:
         return x[0][0]
     minors = (
-        (-1) ** j * x[0][j] * determinant(tuple(row[:j] + row[j + 1 :] for row in x[1:]))
+        (-1) ** j * x[0][j] * _expanded(tuple(row[:j] + row[j + 1 :] for row in x[1:]))
         for j in range(len(x))
     )
     return sum(minors, Fraction(0))
 
 
 def power(x: Value, n: Value) -> Value:
-    """x to an integer power."""
-    exponent = int(n)
-    base = inverse(x) if exponent < 0 else x
+    """x to a small integer power that is not zero."""
+    if not isinstance(n, Fraction) or n.denominator != 1 or not 0 < abs(n) <= LARGEST_POWER:
+        raise EvaluationError(f"the exponent must be an integer up to ±{LARGEST_POWER}, not 0")
+    base = inverse(x) if n < 0 else x
     result = base
-    for _ in range(abs(exponent) - 1):
+    for _ in range(abs(int(n)) - 1):
         result = times(result, base)
     return result
 
@@ -200,9 +209,15 @@ OPERATIONS: dict[str, Callable[..., Value]] = {
     "wedge": lambda a, b, env: wedge(a, b),
     "hat": lambda a, env: hat(a),
     "row": lambda *x, env: tuple(scalar(v) for v in x),
-    "matrix": lambda *rows, env: tuple(rows),
+    "matrix": lambda *rows, env: _matrix(rows),
     "pow": lambda x, n, env: power(x, n),
 }
+
+
+def _matrix(rows: tuple[Any, ...]) -> Value:
+    if len({len(row) for row in rows}) != 1:
+        raise EvaluationError("the rows of a matrix must be of one length")
+    return rows
 
 
 def _sum(t: tuple[Any, ...], env: Environment) -> Value:
@@ -262,8 +277,11 @@ def _at(t: tuple[Any, ...], env: Environment) -> Value:
 
 def _entry(t: tuple[Any, ...], env: Environment) -> Value:
     value = evaluate(t[1], env)
-    row = value[_index(t[2], env) - 1]
-    return row[_index(t[3], env) - 1] if len(t) == 4 else row[0]
+    places = [_index(i, env) for i in t[2:]]
+    if min(places) < 1 or not is_matrix(value):
+        raise EvaluationError("entries of matrices and vectors are counted from 1")
+    row = value[places[0] - 1]
+    return row[places[1] - 1] if len(t) == 4 else scalar((row,))
 
 
 def _call(t: tuple[Any, ...], env: Environment) -> Value:

@@ -121,7 +121,8 @@ def _motion(model: Model) -> Values:
         coordinates = model.group.vee(element)
         assert coordinates is not None
         values[name] = tuple((x,) for x in coordinates)
-    values["u"] = tuple((x,) for x in model.input[:d])
+    if model.driven:
+        values["u"] = tuple((x,) for x in model.input[:d])
     return values
 
 
@@ -144,8 +145,9 @@ def _space(model: Model) -> Values:
     for name, x in named.items():
         values[name] = _axial(x)
     values["μ"] = tuple((-model.work(q.times(model.g, e)),) for e in basis[:3])
-    values["u"] = tuple((x,) for x in model.input[:3])
-    values["f_u"] = tuple((x,) for x in model.input[3:])
+    if model.driven:
+        values["u"] = tuple((x,) for x in model.input[:3])
+        values["f_u"] = tuple((x,) for x in model.input[3:])
     m, c, _ = model.moments
     centre = tuple(x[0] / m for x in c)
     values["I"] = _tensor(model, (Fraction(0),) * 3)
@@ -239,6 +241,10 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
     def tangent(arguments: tuple[Tree, ...], env: Environment) -> Matrix:
         blocks = [evaluate(x, env) for x in arguments]
         n = model.n
+        if len(blocks) != 1 + model.group.affine:
+            raise EvaluationError("a tangent vector has one part for A and one for T")
+        if any(not is_matrix(x) and x != 0 for x in blocks):
+            raise EvaluationError("a part of a tangent vector is a matrix, or 0")
         linear = blocks[0] if is_matrix(blocks[0]) else ((Fraction(0),) * n,) * n
         if not model.group.affine:
             return linear

@@ -53,7 +53,7 @@ class Model:
         opaque: bool = False,
     ):
         self.problem, self.group, self.random, self.size = problem, group, random, size
-        self.coasting, self.opaque = coasting, opaque
+        self.driven, self.coasting, self.opaque = driven, coasting, opaque
         self.n, self.s = group.n, group.size
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
         self.masses, self.points = self._principal() if principal else self._body()

@@ -192,7 +192,13 @@ def exterior_trivialised(natural: Exterior, stage: Cartan, a: Alphabet, prefix: 
         Step(
             f"{prefix}.exterior_trivialised",
             "exterior derivative",
-            (f"{prefix}.cartan_trivialised", f"{prefix}.structure"),
+            (
+                f"{prefix}.cartan_trivialised",
+                f"{prefix}.structure",
+                f"{prefix}.exterior",
+                f"{prefix}.trivialisation",
+                f"{prefix}.force" if a.affine else f"{prefix}.gradient",
+            ),
             (Equation(DOMEGA, gathered(form, core, images, Notation())),),
             "The exterior derivative in the trivialisation, for any group.",
         ),

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..algebra import forms
 from ..algebra.calculus import gradient, without
-from ..algebra.notation import Notation, tree_of
+from ..algebra.notation import Notation
 from ..algebra.words import Expr, Letter, word
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
@@ -17,11 +17,12 @@ from .gather import gathered, solve_for
 
 @dataclass(frozen=True)
 class Isometry:
-    """ϖ and dϖ in skew letters, with the bracket [ξ′, ξ] kept as one letter."""
+    """ϖ and dϖ in skew letters; ``brackets``: their letters' values."""
 
     letters: Alphabet
     cartan: Cartan
     exterior: Exterior
+    brackets: dict[Letter, Expr]
     steps: tuple[Step, ...]
 
 
@@ -51,19 +52,22 @@ def isometry(stage: Cartan, a: Alphabet, n: int, prefix: str, general: str, scop
         () if a.affine else (28,),
         scope,
     )
-    exterior, step = _exterior(form, b, prefix, general, scope)
-    return Isometry(b, form, exterior, (relation, cartan, step))
+    exterior, brackets, step = _exterior(form, b, prefix, general, scope)
+    return Isometry(b, form, exterior, brackets, (relation, cartan, step))
 
 
 def _exterior(
     form: Cartan, b: Alphabet, prefix: str, general: str, scope: str
-) -> tuple[Exterior, Step]:
-    bracket_w = tree_of(structure(b, prefix)[0][b.w.xi_prime]) if b.affine else 0
-    brackets = {b.Z.xi_prime: word(b.bracket), b.w.xi_prime: word(b.bracket_w)}
+) -> tuple[Exterior, dict[Letter, Expr], Step]:
+    derived, recorded = structure(b, prefix)
+    abbreviation = {b.Z.xi_prime: b.bracket, b.w.xi_prime: b.bracket_w}
+    brackets = {x: word(abbreviation[x]) for x in derived}
     delta, delta_prime = trivial_variations(b, brackets, (frame_rule(b, b.unit),))
     domega = forms.exterior(form.form(b), primes(b), delta, delta_prime)
     images = horizontal(domega, b)
-    display = Notation(display={b.bracket: ("bracket", "ξ′", "ξ"), b.bracket_w: bracket_w})
+    letters = (abbreviation[x] for x in derived)
+    shown_as = (e.rhs for e in recorded.equations)
+    display = Notation(display=dict(zip(letters, shown_as, strict=True)))
     shown = gathered(domega, without(domega, b.dt, b.dpt), images, display)
     step = Step(
         f"{prefix}.exterior",
@@ -74,7 +78,8 @@ def _exterior(
         () if b.affine else (29,),
         scope,
     )
-    return Exterior(domega, images, ()), step
+    values = {abbreviation[x]: e for x, e in derived.items()}
+    return Exterior(domega, images, ()), values, step
 
 
 def horizontal(domega: Expr, b: Alphabet) -> dict[Letter, Expr]:

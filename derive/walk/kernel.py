@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, substitute, without
 from ..algebra.notation import Notation, metrics, tree_of
-from ..algebra.tree import Tree
+from ..algebra.tree import Tree, add
 from ..algebra.words import Expr, Letter, number, word
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
-from .exterior import Exterior
+from .cartan import carry
+from .exterior import Exterior, primed, work
 from .gather import gathered, terms_with
 
 CONTRACTION: Tree = ("call", "dϖ", "X", "δ′y")
@@ -28,18 +29,25 @@ def kernel(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
     """The kernel in the variables (t, g, ν): the motion in the ambient matrices."""
     along: dict[Letter, Expr] = {a.dt: number(1)}
     for p in a.parts:
-        along |= {p.d_position: word(p.velocity), p.d_velocity: word(p.acceleration)}
+        along[p.d_position] = along_motion(stage, p.d_position, a)
+        along[p.d_velocity] = word(p.acceleration)
     form = substitute(stage.form, along)
-    shown = gathered(form, *_contracted(stage, form, a), metrics() if a.affine else metrics("J"))
-    equations = []
-    for part in a.parts:
-        variation = part.dp_position.name
-        virtual = gradient(without(form, a.dpt), part.dp_position)
-        pairing: Tree = ("inner", tree_of(virtual), variation)
-        if not a.affine:
-            pairing = tree_of(without(_core(form, a), a.dpt), _ambient_notation(stage, a))
-        equations.append(Equation(pairing, 0, (variation,)))
-    velocity = tuple(Equation(p.rate, p.velocity.name) for p in a.parts)
+    notation = metrics() if a.affine else metrics("J")
+    shown = gathered(form, *_contracted(stage, form, a), notation)
+    velocity = tuple(Equation(p.rate, tree_of(along[p.d_position])) for p in a.parts)
+    virtual = without(form, a.dpt)
+    if a.affine:
+        pairs = [
+            ("inner", tree_of(gradient(virtual, p.dp_position)), p.dp_position.name)
+            for p in a.parts
+        ]
+        balance = add(*pairs)
+    else:
+        core, images = _contracted(stage, form, a)
+        kept = {a.A.acceleration: images[a.A.acceleration]}
+        balance = gathered(virtual, core, kept, notation)
+    variations = tuple(p.dp_position.name for p in a.parts)
+    equations = (Equation(balance, 0, variations),)
     steps = (
         Step(
             f"{prefix}.contraction",
@@ -77,26 +85,23 @@ def _contracted(stage: Exterior, form: Expr, a: Alphabet) -> tuple[Expr, dict[Le
     return without(_core(form, a), a.dpt), images
 
 
-def _ambient_notation(stage: Exterior, a: Alphabet) -> Notation:
-    images = _contracted(stage, number(0), a)[1]
-    return metrics("J", display={a.A.acceleration: tree_of(images[a.A.acceleration])})
+def along_motion(stage: Exterior, x: Letter, a: Alphabet) -> Expr:
+    """δx(X) for δt = 1: what makes the horizontal variation δx − X δt vanish."""
+    return substitute(word(x) - stage.images.get(x, word(x)), {a.dt: number(1)})
 
 
 def kernel_trivialised(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
     """The kernel in the variables (t, g, Z): Exercise 1 for every group that moves points."""
     along: dict[Letter, Expr] = {a.dt: number(1)}
     for f in a.frames:
-        along |= {f.xi: word(f.velocity), f.d_velocity: word(f.acceleration)}
+        along[f.xi] = along_motion(stage, f.xi, a)
+        along[f.d_velocity] = word(f.acceleration)
     form = substitute(stage.form, along)
     images: dict[Letter, Expr] = {f.xi_prime: stage.images[f.xi_prime] for f in a.frames}
     for f in a.frames:
         images[f.acceleration] = substitute(stage.images[f.d_velocity], along)
     core = without(terms_with(form, *(f.acceleration for f in a.frames)), a.dpt)
-    first = tuple(
-        Equation(("call", f.xi.name, "X"), tree_of(substitute(word(f.xi) - shift, along_time)))
-        for f in a.frames
-        for shift, along_time in ((stage.images[f.xi], {a.dt: number(1)}),)
-    )
+    first = tuple(Equation(("call", f.xi.name, "X"), tree_of(along[f.xi])) for f in a.frames)
     steps = (
         Step(
             f"{prefix}.contraction_trivialised",
@@ -106,32 +111,27 @@ def kernel_trivialised(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
             "The same in the trivialisation.",
             given=("any acceleration",),
         ),
-        _equations(core, images, a, prefix),
+        _equations(form, core, images, a, prefix),
     )
     return Kernel(form, steps)
 
 
-def _equations(core: Expr, images: dict[Letter, Expr], a: Alphabet, prefix: str) -> Step:
-    """∂²L̃ (Ż + Z², ξ′) = −dŨ(gξ′) for every ξ′ in 𝔤, one equation for each part of ξ′."""
-    equations = []
-    quadratic = {f.acceleration: _without_force(images[f.acceleration], a) for f in a.frames}
-    for k, f in enumerate(a.frames):
-        others = {g.xi_prime: word(g.xi_prime) * 0 for j, g in enumerate(a.frames) if j != k}
-        virtual = substitute(core, others) if others else core
-        lhs = tree_of(virtual, Notation(display={x: tree_of(y) for x, y in quadratic.items()}))
-        variations = [
-            ("mul", "A", g.xi_prime.name) if j == k else 0 for j, g in enumerate(a.frames)
-        ]
-        rhs: Tree = ("mul", -1, ("call", "dŨ", *variations))
-        equations.append(Equation(lhs, rhs, (f.xi_prime.name,)))
+def _equations(
+    form: Expr, core: Expr, images: dict[Letter, Expr], a: Alphabet, prefix: str
+) -> Step:
+    """dϖ(X, δ′) = 0 with the work of the forces carried to the right: −dŨ(gξ′)."""
+    force = without(primed(carry(work(a), a), a), a.dpt)
+    inertial = without(form, a.dpt) + force
+    quadratic = {f.acceleration: without(images[f.acceleration], a.f) for f in a.frames}
+    shown = gathered(inertial, core, quadratic, Notation())
+    g = word(a.A.position)
+    variations = [tree_of(g * word(f.xi_prime)) for f in a.frames]
+    rhs: Tree = ("mul", -1, ("call", "dŨ", *variations))
     return Step(
         f"{prefix}.equations",
         "kernel",
         (f"{prefix}.contraction_trivialised", f"{prefix}.force"),
-        tuple(equations),
-        "The equations of motion of any group that moves points (Exercise 1).",
+        (Equation(shown, rhs, tuple(f.xi_prime.name for f in a.frames)),),
+        "The equations of motion of any group that moves points (Exercise 1), for every element "
+        "of its Lie algebra.",
     )
-
-
-def _without_force(e: Expr, a: Alphabet) -> Expr:
-    return without(e, a.f)

@@ -10,13 +10,40 @@ from ..algebra.words import Expr, Letter, word
 from ..mechanics.problem import Problem
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
+from .cartan import frame_rule, trivial_images
 from .elimination import CENTRAL, Eliminated, simplified, vector_tree
+from .exterior import primed, work
 from .isometry import Isometry
 from .potential import Potentials, virtual_work
-from .vector import INERTIA, MU, OMEGA_P, PHI, ZETA_DOT, VectorForm, flip_wedge, isolate, to_vectors
+from .vector import (
+    INERTIA,
+    MU,
+    OMEGA_P,
+    PHI,
+    ZETA,
+    ZETA_DOT,
+    VectorForm,
+    flip_wedge,
+    isolate,
+    to_vectors,
+)
 
 INPUT, INPUT_FORCE = Letter("u", 3), Letter("f_u", 3)
-ROTATION = Equation("Ȧ", ("mul", "A", ("hat", "ζ")))
+
+
+def rates(b: Alphabet) -> list[Equation]:
+    """Ȧ = α and Ṫ = τ in the trivialisation, with Z = j(ζ)."""
+    images = trivial_images(b)
+    turned = {b.Z.velocity: word(hat(ZETA))}
+    return [Equation(p.rate, tree_of(substitute(images[p.velocity], turned))) for p in b.parts]
+
+
+def pairing(stage: Isometry) -> dict[Letter, Expr]:
+    """The force of the walk in vectors, read off −dŨ(AΩ′, Aη′): Iφ, or μ and F_b."""
+    b = stage.letters
+    carried = reduce(substitute(work(b), trivial_images(b)), frame_rule(b, b.unit))
+    virtual = to_vectors(primed(carried, b), stage)
+    return {v: gradient(virtual, v) for v in (OMEGA_P, *((b.w.xi_prime,) if b.affine else ()))}
 
 
 def torque(v: Potentials, b: Alphabet) -> dict[Letter, Expr]:
@@ -30,11 +57,12 @@ def torque(v: Potentials, b: Alphabet) -> dict[Letter, Expr]:
     return forces
 
 
-def torque_step(v: Potentials, b: Alphabet, prefix: str, general: str, scope: str) -> Step:
+def torque_step(v: Potentials, stage: Isometry, prefix: str, general: str, scope: str) -> Step:
     """The forces of this problem, from Ũ by varying A by A j(Ω′) (and T by A η′)."""
-    forces = torque(v, b)
-    left: list[Tree] = ["μ", "F_b"] if b.affine else [("mul", "I", "φ")]
-    equations = tuple(Equation(x, tree_of(e)) for x, e in zip(left, forces.values(), strict=True))
+    forces = torque(v, stage.letters).values()
+    left = pairing(stage).values()
+    pairs = zip(left, forces, strict=True)
+    equations = tuple(Equation(tree_of(x), tree_of(e)) for x, e in pairs)
     return Step(
         f"{prefix}.torque",
         "variation",
@@ -62,7 +90,7 @@ def spherical_motion(
         f"{prefix}.motion",
         "solution",
         (f"{prefix}.kernel", f"{prefix}.torque", f"{prefix}.hat"),
-        (ROTATION, Equation("ζ̇", mul(("inv", "I"), right))),
+        (*rates(b), Equation("ζ̇", mul(("inv", "I"), right))),
         _prose(problem),
         (),
         scope,
@@ -87,8 +115,7 @@ def displacement_motion(
         "solution",
         (f"{prefix}.elimination", f"{prefix}.torque", f"{prefix}.hat"),
         (
-            ROTATION,
-            Equation("Ṫ", ("mul", "A", "w")),
+            *rates(b),
             Equation("ζ̇", mul(("inv", CENTRAL.name), vector_tree(rotation, b))),
             Equation("ẇ", vector_tree(translation, b)),
         ),

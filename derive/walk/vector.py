@@ -8,7 +8,7 @@ from ..algebra.calculus import PairRule, gradient, reduce, substitute, without
 from ..algebra.notation import Notation, metrics, tree_of
 from ..algebra.space import double, fold_inertia, hat, normal_form
 from ..algebra.tree import Tree, add
-from ..algebra.words import Expr, Factor, Letter, inner, number, trace, word
+from ..algebra.words import Expr, Factor, Letter, inner, number, trace, word, zero
 from ..record.record import Equation, Step
 from .exterior import DOMEGA
 from .gather import gathered
@@ -25,7 +25,6 @@ D_ZETA, DP_ZETA, ZETA_DOT = _vector("δζ"), _vector("δ′ζ"), _vector("ζ̇")
 PHI, MU, BRACKET = _vector("φ"), _vector("μ"), _vector("Ω′ ∧ Ω")
 INERTIA = Letter("I", 3, 3, 1)
 AXES = {"Z": ZETA, "ξ": OMEGA, "ξ′": OMEGA_P, "δZ": D_ZETA, "δ′Z": DP_ZETA, "f": PHI}
-CROSS: Tree = ("wedge", "Ω′", "Ω")
 
 
 @dataclass(frozen=True)
@@ -44,7 +43,9 @@ def vector_form(stage: Isometry, prefix: str, general: str, scope: str) -> Vecto
     images = {
         _axis(x): _flat(to_vectors_matrix(y, stage)) for x, y in stage.exterior.images.items()
     }
-    display = {BRACKET: CROSS, b.bracket_w: tree_of(_bracket_w(stage))}
+    display = {BRACKET: tree_of(axis_of_bracket(stage))}
+    if b.affine:
+        display[b.bracket_w] = tree_of(_bracket_w(stage))
     notation = metrics("I", display=display)
     flat = gathered(domega, without(domega, b.dt, b.dpt), images, notation)
     steps = [
@@ -143,19 +144,33 @@ def _fold_moment(e: Expr, moment: Letter) -> Expr:
     return total
 
 
+def axis_of_bracket(stage: Isometry) -> Expr:
+    """The vector of the bracket [ξ′, ξ], from the structure equation with ξ = j(Ω), ξ′ = j(Ω′)."""
+    bracket = to_vectors_matrix(stage.brackets[stage.letters.bracket], stage)
+    return reduce(axial(normal_form(bracket)), isolate(OMEGA))
+
+
+def axial(e: Expr) -> Expr:
+    """X with j(X) the given skew sum of words y x̄: from  j(x ∧ y) = y x̄ − x ȳ."""
+    total = zero(3, 1)
+    for (traces, w), c in e.terms.items():
+        (y, _), (x, _) = w
+        term = Expr(1, 1, {(traces, ()): c / 2})
+        total = total + term * (word(hat(x)) * word(y))
+    return normal_form(total)
+
+
 def _bracket_w(stage: Isometry) -> Expr:
-    b = stage.letters
-    w, x = word(b.w.xi), word(b.w.xi_prime)
-    return normal_form(word(hat(OMEGA_P)) * w - word(hat(OMEGA)) * x)
+    """The translation part of the bracket in vectors."""
+    return normal_form(to_vectors_matrix(stage.brackets[stage.letters.bracket_w], stage))
 
 
 def contraction(domega: Expr, stage: Isometry) -> Expr:
     """dϖ(X, δ′) with δt = 1, Ω = ζ, δζ = ζ̇ (and η = w, δw = ẇ)."""
     b = stage.letters
-    opened = substitute(
-        domega,
-        {BRACKET: word(hat(OMEGA_P)) * word(OMEGA), b.bracket_w: _bracket_w(stage)},
-    )
+    opened = substitute(domega, {BRACKET: axis_of_bracket(stage)})
+    if b.affine:
+        opened = substitute(opened, {b.bracket_w: _bracket_w(stage)})
     along = {b.dt: number(1), OMEGA: word(ZETA), D_ZETA: word(ZETA_DOT)}
     along |= {hat(OMEGA): word(hat(ZETA)), hat(D_ZETA): word(hat(ZETA_DOT))}
     if b.affine:
@@ -167,7 +182,8 @@ def _identification(stage: Isometry, prefix: str, scope: str) -> Step:
     affine = stage.letters.affine
     pairs = [("Z", "ζ"), ("ξ", "Ω"), ("ξ′", "Ω′")] + ([] if affine else [("f", "φ")])
     equations = [Equation(x, ("hat", y)) for x, y in pairs]
-    equations.append(Equation(("bracket", "ξ′", "ξ"), ("hat", CROSS)))
+    cross = tree_of(axis_of_bracket(stage))
+    equations.append(Equation(("bracket", "ξ′", "ξ"), ("hat", cross)))
     if affine:
         pairing: Tree = ("tr", ("mul", "N_b", ("T", ("hat", "Ω′"))))
         equations.append(Equation(pairing, ("inner", "μ", "Ω′"), ("Ω′",)))

@@ -15,7 +15,7 @@ from ..algebra.words import Expr, Letter, number, one, trace, word
 from ..mechanics.problem import Problem
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
-from .cartan import Cartan, frame_rule
+from .cartan import Cartan, frame_rule, trivial_images
 from .gather import terms_with
 from .inverse import cancelling, inverse_letter
 from .kernel import Kernel
@@ -144,7 +144,7 @@ def _motion_step(
         "solution",
         (f"{prefix}.multiplier", f"{prefix}.relation"),
         (
-            Equation("Ȧ", ("mul", "A", "Z")),
+            Equation("Ȧ", tree_of(trivial_images(b)[b.A.velocity])),
             Equation("λ", ("div", numerator, denominator)),
             Equation("Ż", tree_of(solved, notation)),
         ),
