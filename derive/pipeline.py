@@ -24,7 +24,7 @@ from .algebra.groups import Group
 from .algebra.tree import names
 from .mechanics.problem import Problem, ProblemError
 from .record.record import Derivation, Step, Symbol, encode
-from .record.vocabulary import VOCABULARY
+from .record.vocabulary import CONVENTIONS, VOCABULARY
 from .walk.alphabet import Alphabet
 from .walk.cartan import Cartan, cartan, trivialise
 from .walk.elimination import eliminate
@@ -134,7 +134,10 @@ def _data(problem: Problem) -> dict[str, object]:
             return [plain(v) for v in x]
         return encode(x) if isinstance(x, (tuple, Fraction)) else x
 
-    return {k: plain(v) for k, v in problem.data().items()}
+    basis = problem.group.basis if problem.group else ()
+    rows = [[[str(x) for x in row] for row in e] for e in basis]
+    data = problem.data() | {"basis": rows, "conventions": list(CONVENTIONS)}
+    return {k: plain(v) for k, v in data.items()}
 
 
 def _symbols(steps: Steps) -> tuple[Symbol, ...]:

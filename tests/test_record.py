@@ -93,3 +93,61 @@ def test_broken_records_are_refused(case):
     with pytest.raises(RecordError) as caught:
         from_json(BROKEN[case])
     assert "\n" not in str(caught.value)
+
+
+def problem_with(**changes):
+    data = json.loads(json.dumps(to_data(record("sl3"))))
+    data["problem"].update(changes)
+    return from_json(json.dumps(data))
+
+
+def claim(lhs, rhs):
+    data = json.loads(json.dumps(to_data(record("sl3"))))
+    data["steps"] = data["steps"][:1]
+    data["steps"][0]["equations"] = [{"lhs": lhs, "rhs": rhs}]
+    return from_json(json.dumps(data))
+
+
+def nested(operator, depth):
+    tree = "t"
+    for _ in range(depth):
+        tree = (
+            ["pow", tree, 64]
+            if operator == "pow"
+            else ["sum", "i", ["mul", ["at", "m", "i"], tree]]
+        )
+    return tree
+
+
+HOSTILE = {
+    "action": problem_with(action=[]),
+    "parameters": problem_with(parameters=5),
+    "body": problem_with(body="x"),
+    "no points": problem_with(body={"kind": "points"}),
+    "no place": problem_with(body={"kind": "points", "points": [{"mass": 1, "at": 5}]}),
+    "potentials": problem_with(potentials=[{}]),
+    "spring": problem_with(potentials=[{"kind": "spring", "between": [1, 9], "stiffness": 1}]),
+    "mass": problem_with(
+        body={"kind": "points", "points": [{"mass": ["pow", 2, 10**8], "at": [1, 2, 3]}] * 4}
+    ),
+    "group": problem_with(group=5),
+    "powers": claim(nested("pow", 4), 0),
+    "sums": claim(nested("sum", 31), 0),
+    "a long product": claim(["mul", *["Z"] * 5000], 0),
+    "a row": claim(["row", 1, 2], 0),
+    "a call": claim(["call", ["mul", "r", "q"], "t"], 0),
+}
+
+
+@pytest.mark.parametrize("case", HOSTILE)
+def test_hostile_records_fail_in_one_line(case):
+    verdicts = check(HOSTILE[case])
+    assert not all(v.holds for v in verdicts)
+    assert all("\n" not in v.reason for v in verdicts)
+
+
+def test_a_label_cannot_forge_a_line():
+    data = json.loads(json.dumps(to_data(record("so3"))))
+    data["steps"][0]["label"] = "a\nholds  b"
+    with pytest.raises(RecordError, match="label"):
+        from_json(json.dumps(data))

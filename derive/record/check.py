@@ -27,6 +27,9 @@ from .vocabulary import ANY_GROUP
 SIZE = 2**128
 """Random parameters are integers of at most this absolute value."""
 
+LARGEST_DEGREE = 2000
+"""Claims of a larger degree are refused before they are evaluated."""
+
 PANELS: dict[str, tuple[Callable[[], Group], ...]] = {
     "linear": tuple(partial(group, x) for x in ("GL(4)", "SL(2)", "SO(3)")),
     "affine": (*(partial(group, x) for x in ("Aff(3)", "SE(2)")), turning_about_a_point),
@@ -84,16 +87,20 @@ class Checker:
 
     def check(self, step: Step) -> Verdict:
         """One step."""
-        bound = 0.0
         try:
+            bound = max(
+                degree.bound(e, g, self.problem)
+                for g in self.groups(step.scope)
+                for e in step.equations
+            )
+            if bound > LARGEST_DEGREE:
+                raise RecordError(f"a claim of degree {bound}, more than {LARGEST_DEGREE}")
             for g, env in self.environments(step):
                 for k, equation in enumerate(step.equations, 1):
                     reason = difference(equation, env)
                     if reason:
-                        return Verdict(
-                            step.label, False, f"equation {k} on {g.name}: {reason}", 1.0
-                        )
-                    bound = max(bound, degree.bound(equation, g, self.problem) / SIZE)
+                        where = f"equation {k} on {g.name}"
+                        return Verdict(step.label, False, f"{where}: {reason}", 1.0)
         except (EvaluationError, RecordError, ZeroDivisionError) as error:
             return Verdict(step.label, False, str(error), 1.0)
         except (ArithmeticError, AssertionError, LookupError, TypeError, ValueError) as error:
@@ -101,7 +108,7 @@ class Checker:
             return Verdict(step.label, False, reason.splitlines()[0], 1.0)
         except (AttributeError, RecursionError) as error:
             return Verdict(step.label, False, f"not a claim: {type(error).__name__}", 1.0)
-        return Verdict(step.label, True, "", bound)
+        return Verdict(step.label, True, "", bound / SIZE)
 
 
 def difference(equation: Equation, env: Environment) -> str:

@@ -15,7 +15,7 @@ from ..algebra.tree import Tree
 
 Value = Any
 
-LARGEST_POWER, LARGEST_MATRIX = 64, 8
+LARGEST_POWER, LARGEST_MATRIX, LARGEST_NESTING = 64, 8, 3
 
 
 class EvaluationError(ValueError):
@@ -222,6 +222,8 @@ def _matrix(rows: tuple[Any, ...]) -> Value:
 
 def _sum(t: tuple[Any, ...], env: Environment) -> Value:
     _, index, body = t
+    if index in env.indices or len(env.indices) >= LARGEST_NESTING:
+        raise EvaluationError(f"sums nested deeper than {LARGEST_NESTING}, or an index bound twice")
     members = _range(body, index, env)
     total = evaluate(body, env.with_index(index, members[0]))
     for i in members[1:]:

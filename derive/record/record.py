@@ -185,7 +185,9 @@ def _strings(data: Any, key: str, where: str) -> tuple[str, ...]:
 
 def _step(data: Any, where: str, earlier: set[str]) -> Step:
     label = _field(data, "label", str, where)
-    where = f"{where} ({label[:40]})"
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_.]{0,99}", label):
+        raise RecordError(f"{where}: key 'label' must be letters, digits, _ and dots")
+    where = f"{where} ({label})"
     rule = _field(data, "rule", str, where)
     if rule not in RULES:
         raise RecordError(f"{where}: unknown rule {rule[:40]!r}")

@@ -10,6 +10,17 @@ ANY_GROUP = "any group"
 GIVENS = ("principal axes", "input", "any acceleration")
 """What a step may assume: a body with diagonal J; an input that acts; X with any acceleration."""
 
+CONVENTIONS = (
+    "T is the transpose, a bar in the paper; names are compared letter by letter, as written",
+    "inner(a, b) and metric(M, a, b) are Tr a M b̄ for matrices and ā M b for vectors",
+    "bracket(a, b) = ab − ba; hat(X) = j(X), j(X)Y = X ∧ Y; entries are counted from 1",
+    "dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] for commuting variations; ξ = g⁻¹δg, Z = g⁻¹ν",
+    "par(name) is a parameter; at(name, i) a member of a family, over which sum(i, x) runs",
+    "an equation holds for every value of a free index and of the names in for_all; ζ are the "
+    "coordinates of Z in the basis of the group (Z = j(ζ) for rotations)",
+)
+"""What another reader of the JSON must know."""
+
 VOCABULARY: dict[str, tuple[str, str]] = {
     "t": ("time", "t"),
     "δt": ("variation of the time", r"\delta t"),

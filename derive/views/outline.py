@@ -10,12 +10,16 @@ from ..record.vocabulary import ANY_GROUP
 
 CONVENTIONS = (
     "Bars are transposes. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for vectors. "
-    "[a, b] = ab − ba. Numbers beside a rule are those of the paper."
+    "[a, b] = ab − ba and j(X)Y = X ∧ Y. Variations commute; dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)]; the "
+    "group is trivialised on the left, ξ = g⁻¹δg. Numbers beside a rule are those of the paper."
 )
 FORMULAS_CONVENTIONS = (
     r"Bars are transposes. For matrices $\langle a, b\rangle_M = \operatorname{Tr} a M \bar b$, "
     r"for vectors $\langle a, b\rangle_M = \bar a M b$; $[a, b] = ab - ba$ and "
-    r"$j(X)Y = X \wedge Y$. Numbers beside a rule are those of the paper; parameters of the "
+    r"$j(X)Y = X \wedge Y$. Variations commute, "
+    r"$\mathrm{d}\varpi(\delta, \delta') = \delta[\varpi(\delta')] - \delta'[\varpi(\delta)]$, "
+    r"and the group is trivialised on the left, $\xi = g^{-1}\delta g$. Numbers beside a rule "
+    r"are those of the paper; parameters of the "
     r"problem are set in $\mathsf{sans\ serif}$."
 )
 """The same with formulas between dollars, for LaTeX and Markdown."""

@@ -62,8 +62,9 @@ def kernel(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
             "kernel",
             (f"{prefix}.contraction",),
             (*velocity, *equations),
-            "X lies in the kernel when this vanishes for all displacements δ′ that the group "
-            "allows: the equations of motion in the ambient space of matrices.",
+            "X spans the kernel when this vanishes for all displacements δ′ that the group allows: "
+            "the equations of motion. They have one solution when the metric is not degenerate, "
+            "that is, when no direction of the group leaves every mass in its place.",
         ),
     )
     return Kernel(form, steps)

@@ -146,6 +146,7 @@ def _gradient(a: Alphabet, prefix: str) -> Step:
         "definition",
         (f"{prefix}.force",),
         (Equation(tree_of(pairing, metrics("J")), neg(("call", "dŨ", "δA")), ("δA",)),),
-        "The force on the group is the opposite of the gradient of Ũ in the metric of J.",
+        "The force F̃, tangent to the group, is the opposite of the gradient of Ũ in the metric "
+        "of J.",
         (24,),
     )
