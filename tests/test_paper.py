@@ -42,7 +42,7 @@ def test_misprints_have_a_correction_and_a_counterexample(number):
 
 CORRECTIONS = {
     20: lambda t: replace_all(t, ("mul", "τ", ("T", "c")), ("mul", "c", ("T", "τ"))),
-    29: lambda t: replace_all(replace_all(t, "f′", ("T", "f")), "δ′Z", ("T", "δ′Z")),
+    29: lambda t: replace_all(replace_all(t, "f′", "f"), "δ′Z", ("T", "δ′Z")),
     31: lambda t: replace_all(t, "φ′", "φ"),
 }
 

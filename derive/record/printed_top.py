@@ -118,18 +118,18 @@ TOP: tuple[Printed, ...] = (
         29,
         True,
         "SO(3)",
-        "dϖ(δx, δ′x) = Tr(ξ′ − Zδ′t)J(δZ̄ − f̄δt) − Tr(ξ − Zδt)J(δ′Z − f′δ′t) + Tr[ξ′, ξ]JZ̄",
+        "dϖ(δx, δ′x) = Tr(ξ′ − Zδ′t)J(δZ̄ − f̄δt) − Tr(ξ − Zδt)J(δ′Z − f̄′δ′t) + Tr[ξ′, ξ]JZ̄",
         (
             Equation(
                 DOMEGA,
                 add(
                     tr(minus("ξ′", "Z", "δ′t"), "J", minus(bar("δZ"), bar("f"), "δt")),
-                    neg(tr(minus("ξ", "Z", "δt"), "J", minus("δ′Z", "f′", "δ′t"))),
+                    neg(tr(minus("ξ", "Z", "δt"), "J", minus("δ′Z", bar("f′"), "δ′t"))),
                     tr(("bracket", "ξ′", "ξ"), "J", bar("Z")),
                 ),
             ),
         ),
-        "The bars are missing on δ′Z and f in the second term. " + SAME_FORCE,
+        "The bar is missing on δ′Z in the second term. " + SAME_FORCE,
     ),
     Printed(
         30,
