@@ -52,11 +52,9 @@ def problem_of(data: Mapping[str, Any]) -> Problem:
     name = _text(data, "name", "file")
     if not NAME.fullmatch(name) or keyword.iskeyword(name):
         raise ProblemError("key 'name': letters, digits and _ only, starting with a letter")
+    which = _text(data, "group", "file")
     try:
-        which = _text(data, "group", "file")
         moved = None if which == "any" else group(which)
-    except ProblemError:
-        raise
     except ValueError as error:
         raise ProblemError(f"key 'group': {error}") from None
     action = _choice(data, "action", ("linear", "affine"), "file", moved.action if moved else "")
@@ -70,13 +68,13 @@ def problem_of(data: Mapping[str, Any]) -> Problem:
         own = {x: parameters.get(x, Parameter()) for x in body.names()}
         parameters = {**own, **{k: p for k, p in parameters.items() if k not in own}}
     points = len(body.masses) if isinstance(body, PointBody) else 0
-    if inputs_of(data) and moved and "orthogonal" not in moved.relations:
+    if _tables(data, "input") and moved and "orthogonal" not in moved.relations:
         raise ProblemError(f"key 'input': there are no inputs on {moved.name} yet; leave it out")
     potentials = tuple(
         _potential(p, f"potential {k}", moved.n if moved else 0, points)
         for k, p in enumerate(_tables(data, "potential"), 1)
     )
-    inputs = tuple(_input(i, f"input {k}") for k, i in enumerate(inputs_of(data), 1))
+    inputs = tuple(_input(i, f"input {k}") for k, i in enumerate(_tables(data, "input"), 1))
     if len(inputs) > 1:
         raise ProblemError("key 'input': one covector holds every component; give one table")
     title = _text(data, "title", "file") if "title" in data else name
@@ -201,11 +199,6 @@ def _potential(data: Mapping[str, Any], where: str, n: int, points: int) -> Pote
         raise ProblemError(f"{where}: key 'stiffness' is missing")
     assert ends is not None
     return Spring((ends[0], ends[1]), _expression(data["stiffness"], f"{where}, stiffness"))
-
-
-def inputs_of(data: Mapping[str, Any]) -> list[Mapping[str, Any]]:
-    """The [[input]] tables."""
-    return _tables(data, "input")
 
 
 def _input(data: Mapping[str, Any], where: str) -> CovectorInput:
