@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import difflib
 import io
 import sys
 from collections.abc import Callable, Sequence
@@ -35,8 +36,10 @@ def load_problem(name: str) -> Problem:
     path = Path(name)
     if path.suffix == ".toml" or path.exists():
         return load(path)
+    near = difflib.get_close_matches(name.lower(), ready_made(), 1)
+    hint = f"did you mean {near[0]!r}? " if near else ""
     raise UsageError(
-        f"unknown problem {name[:60]!r}; ready-made: {', '.join(ready_made())}; "
+        f"unknown problem {name[:60]!r}; {hint}ready-made: {', '.join(ready_made())}; "
         "or give a .toml file"
     )
 
@@ -124,7 +127,10 @@ def programs(problem: Problem, record: Derivation):  # type: ignore[no-untyped-d
     from .code.assemble import assemble
 
     if problem.group is None:
-        raise UsageError(f"{problem.name}: a text about any group has nothing to emit")
+        raise UsageError(
+            f"{problem.name}: this text is about any group, so it has nothing to emit; choose a "
+            "problem with a group and a body"
+        )
     return assemble(record, problem.group)
 
 
@@ -242,12 +248,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="replace")  # a terminal without these letters shows ?
     try:
-        return int(args.run(args))
+        status = int(args.run(args))
+        sys.stdout.flush()
+        return status
     except (UsageError, ProblemError, RecordError, EmitError, LoweringError, WriteError) as error:
         print(f"derive: {error}", file=sys.stderr)
         return 2
     except BrokenPipeError:
         sys.stderr.close()
         return 0
+    except OSError as error:
+        print(f"derive: {error.filename or 'standard output'}: {error.strerror}", file=sys.stderr)
+        return 2
     except KeyboardInterrupt:
         return 130

@@ -18,17 +18,18 @@ Every stage returns its value together with the steps it took; the record is the
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 
 from .algebra.groups import Group
 from .algebra.tree import names
 from .mechanics.problem import Problem, ProblemError
 from .record.record import Derivation, Step, Symbol, encode
-from .record.vocabulary import CONVENTIONS, VOCABULARY
+from .record.vocabulary import CONVENTIONS, VOCABULARY, meaning
 from .walk.alphabet import Alphabet
 from .walk.cartan import Cartan, cartan, trivialise
 from .walk.elimination import eliminate
-from .walk.exterior import exterior, exterior_trivialised
+from .walk.exterior import Exterior, exterior, exterior_trivialised
 from .walk.isometry import Isometry, isometry
 from .walk.kernel import Kernel, kernel, kernel_trivialised
 from .walk.lagrangian import lagrangian
@@ -52,13 +53,27 @@ def walk(problem: Problem) -> Derivation:
     """Derive the equations of motion of a problem; ``ProblemError`` where there is no road yet."""
     a = Alphabet("n", affine=problem.affine)
     general = "affine" if problem.affine else "linear"
-    form, motion, steps = road_of_any_group(a, general)
+    road = road_of_any_group(a, general)
+    steps = road.steps
     if problem.group is not None:
-        steps += road_of(problem, problem.group, a, form, motion, general)
-    return Derivation(_data(problem), _symbols(steps), steps)
+        steps += road_of(problem, problem.group, road)
+    group = problem.group.name if problem.group else ""
+    return Derivation(_data(problem), _symbols(steps, group), steps)
 
 
-def road_of_any_group(a: Alphabet, name: str) -> tuple[Cartan, Kernel, Steps]:
+@dataclass(frozen=True)
+class General:
+    """What is known of every group of one action: its letters, trivialised forms and kernel."""
+
+    name: str
+    letters: Alphabet
+    cartan: Cartan
+    exterior: Exterior
+    kernel: Kernel
+    steps: Steps
+
+
+def road_of_any_group(a: Alphabet, name: str) -> General:
     """Exercise 1: L → L̃ → ϖ → dϖ → kernel for every matrix group, in space and trivialised."""
     L = lagrangian(a, name)
     pulled = pullback(L, a, name)
@@ -69,23 +84,23 @@ def road_of_any_group(a: Alphabet, name: str) -> tuple[Cartan, Kernel, Steps]:
     trivial_derivative = exterior_trivialised(derivative, trivial, a, name)
     motion = kernel_trivialised(trivial_derivative, a, name)
     stages = (L, pulled, form, derivative, ambient, trivial, trivial_derivative, motion)
-    return trivial, motion, tuple(step for stage in stages for step in stage.steps)
+    steps = tuple(step for stage in stages for step in stage.steps)
+    return General(name, a, trivial, trivial_derivative, motion, steps)
 
 
-def road_of(
-    problem: Problem, group: Group, a: Alphabet, form: Cartan, motion: Kernel, general: str
-) -> Steps:
+def road_of(problem: Problem, group: Group, road: General) -> Steps:
     """The specialisation to the group, the body and the potentials of the problem."""
     name, scope = problem.name, group.name
     body = body_step(problem, name, scope)
     first = (body,) if body else ()
     if "orthogonal" in group.relations and group.n == 3:
-        stage = isometry(form, a, group.n, name, general, scope)
-        road = road_of_displacements if group.affine else road_of_rotations
-        return first + stage.steps + road(problem, stage, general)
+        stage = isometry(road.cartan, road.letters, group.n, name, road.name, scope)
+        special = road_of_displacements if group.affine else road_of_rotations
+        return first + stage.steps + special(problem, stage, road.name)
     if group.relations == {"unimodular"} and not group.affine:
-        v = potentials(problem, Alphabet(group.n, affine=False), name, general, scope)
-        return first + v.steps + volume_steps(motion, form, v, a, problem, name, general)
+        v = potentials(problem, Alphabet(group.n, affine=False), name, road.name, scope)
+        forms = (road.cartan, road.exterior, road.kernel)
+        return first + volume_steps(*forms, v, road.letters, problem, name, road.name)
     raise ProblemError(
         f"key 'group': the road for {group.name} is not built yet; known: SO(3), SE(3), SL(n)"
     )
@@ -140,11 +155,12 @@ def _data(problem: Problem) -> dict[str, object]:
     return {k: plain(v) for k, v in data.items()}
 
 
-def _symbols(steps: Steps) -> tuple[Symbol, ...]:
+def _symbols(steps: Steps, group: str) -> tuple[Symbol, ...]:
     """The names that the steps use, in the order in which they appear."""
     used: dict[str, None] = {}
     for step in steps:
         for equation in step.equations:
             for side in (equation.lhs, equation.rhs):
                 used |= dict.fromkeys(names(side))
-    return tuple(Symbol(x, *VOCABULARY[x]) for x in used if x in VOCABULARY)
+    known = (x for x in used if x in VOCABULARY)
+    return tuple(Symbol(x, meaning(x, group), VOCABULARY[x][1]) for x in known)

@@ -15,13 +15,16 @@ class WriteError(OSError):
 
 def write(files: Mapping[str, str], out: Path) -> list[Path]:
     """Write each file under a temporary name, then rename; ``WriteError`` when that fails."""
+    place = out
     try:
         out.mkdir(parents=True, exist_ok=True)
-        return [write_file(out / name, text) for name, text in files.items()]
+        written = []
+        for name, text in files.items():
+            place = out / name
+            written.append(write_file(place, text))
+        return written
     except OSError as error:
-        raise WriteError(
-            f"{error.filename or out}: {error.strerror}; choose another --out"
-        ) from None
+        raise WriteError(f"{place}: {error.strerror}; choose another --out") from None
 
 
 def write_file(path: Path, text: str) -> Path:

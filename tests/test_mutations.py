@@ -12,6 +12,7 @@ from derive.pipeline import walk
 from derive.record.check import Checker, check
 from derive.record.record import Equation
 from derive.walk import pullback
+from derive.walk.contraction import NoKernelError
 from tests.walks import NAMES, record
 
 
@@ -130,7 +131,10 @@ def test_a_wrong_rule_changes_the_equations_and_is_refused(name, rule, monkeypat
     right = record(name)
     with monkeypatch.context() as patched:
         rule(patched)
-        wrong = walk(load_problem(name))
+        try:
+            wrong = walk(load_problem(name))
+        except NoKernelError:
+            return  # the equations became such that no kernel can be read off them
     changed = {
         s.label for s, r in zip(wrong.steps, right.steps, strict=True) if s.equations != r.equations
     }

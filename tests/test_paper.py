@@ -8,9 +8,9 @@ import pytest
 from derive.cli import main
 from derive.record import paper
 from derive.record.paper import PAPER
+from derive.record.vocabulary import MISPRINTED
+from derive.views.text import text
 from tests.walks import record
-
-MISPRINTED = {20, 25, 26, 29, 31, 32, 35}
 
 
 @cache
@@ -89,3 +89,9 @@ def test_json(capsys):
     assert [x["number"] for x in data] == list(range(1, 40))
     keys = {"number", "verdict", "printed", "derived", "counterexample"}
     assert all(keys <= set(x) for x in data)
+
+
+def test_the_views_mark_what_is_misprinted():
+    shown = text(record("so3"))
+    assert "paper (29)*" in shown
+    assert "paper (28)\n" in shown

@@ -93,7 +93,7 @@ def test_every_equation_has_one_label_in_latex(name: str) -> None:
 def test_steps_of_any_group_stand_before_those_of_the_group(name: str) -> None:
     headings = re.findall(r"^For (.*)\n-+$", text(record(name)), re.M)
     special = [] if name in ("linear", "affine") else [str(record(name).problem["group"])]
-    assert headings == ["any group", *special]
+    assert headings == ["any group of matrices", *special]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -168,7 +168,7 @@ def test_prose_has_its_formulas_between_dollars() -> None:
 
 def test_parameters_keep_their_own_names() -> None:
     assert parameter("J_11") == r"\mathsf{J}_{\mathsf{11}}"
-    assert parameter("k12") == r"\mathsf{k12}"
+    assert parameter("k12") == r"\mathsf{k}_{\mathsf{12}}"
     assert parameter("mass_of_rod") == r"\mathsf{mass\_of\_rod}"
 
 
@@ -235,7 +235,7 @@ def test_euler_in_every_view() -> None:
 
 def test_clauses_name_their_variables() -> None:
     d = record("linear")
-    assert "Tr ξ′J(Z² + Ż)‾ C = −dŨ(Aξ′)  for every ξ′\n" in text(d)
+    assert "Tr ξ′J(Z² + Ż)‾ C = −dŨ(Aξ′)  for every ξ′ ∈ 𝔤\n" in text(d)
     assert r"\quad \text{for every } \xi'" in latex(d)
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from derive.algebra import rational as q
 from derive.algebra.calculus import derivation, gradient, reduce, substitute
-from derive.algebra.space import double, hat, normal_form
+from derive.algebra.space import double, fold_double, hat, normal_form
 from derive.algebra.words import Expr, Letter, inner, number, one, trace, word, zero
 
 N = 3
@@ -168,6 +168,10 @@ def test_vector_product_rules(seed):
     assert normal_form(inner(ju * v, w) - inner(jv * w, u)) == number(0)
     for e in (ju * jv * w, jw * word(S) * ju * v, ju * jv * jw):
         assert value(normal_form(e), table) == value(e, table)
+    twice = ju * jv * w * 2 + jw * ju * w - ju * v
+    folded = fold_double(normal_form(twice))
+    assert value(folded, table) == value(twice, table)
+    assert len(folded.terms) == 3
     assert reduce(ju * jv, double) == v * u.bar - inner(u, v) * one(N)
 
 

@@ -7,7 +7,7 @@ two neighbouring j's, so that identities of the vector product are decided by co
 from __future__ import annotations
 
 from .calculus import PairRule, reduce
-from .words import Expr, Factor, Letter, inner, number, one, word, zero
+from .words import Expr, Factor, Key, Letter, Traces, inner, number, one, word, zero
 
 
 def hat(vector: Letter) -> Letter:
@@ -70,3 +70,33 @@ def _metric_of(cycle: tuple[Factor, ...], moments: Letter, inertia: Letter) -> E
     if len(cycle) == 3 and len(axes) == 2 and any(x == moments for x, _ in cycle):
         return -inner(word(axes[0]), word(axes[1]), word(inertia))
     return Expr(1, 1, {((cycle,), ()): number(1).terms[(), ()]})
+
+
+def fold_double(e: Expr) -> Expr:
+    """``⟨x, y⟩ z − ⟨x, z⟩ y = x ∧ (z ∧ y)`` wherever two terms of a vector allow it."""
+    terms = dict(e.terms)
+    folded = zero(e.rows, e.cols)
+    for key, c in e.terms.items():
+        for x, y, others in _inner_factors(key) if c > 0 and key in terms else ():
+            (z, _) = key[1][0]
+            twin = next(iter((word(x).bar * word(z) * others * word(y)).terms))
+            if y != z and terms.get(twin) == -c:
+                del terms[key], terms[twin]
+                folded = folded + others * c * word(hat(x)) * word(hat(z)) * word(y)
+                break
+    return Expr(e.rows, e.cols, terms) + folded
+
+
+def _inner_factors(key: Key) -> list[tuple[Letter, Letter, Expr]]:
+    """The ways to read  ⟨x, y⟩ · others · z  in a term that ends in one vector."""
+    traces, w = key
+    if len(w) != 1:
+        return []
+    found = []
+    for k, cycle in enumerate(traces):
+        letters = [letter for letter, _ in cycle]
+        if len(cycle) == 2 and all(map(_is_vector, letters)):
+            rest: Traces = traces[:k] + traces[k + 1 :]
+            others = Expr(1, 1, {(rest, ()): number(1).terms[(), ()]})
+            found += [(x, y, others) for x, y in (letters, letters[::-1])]
+    return found

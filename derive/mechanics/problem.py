@@ -50,10 +50,17 @@ class MomentBody:
         span = range(1, self.n + 1)
         return tuple(tuple(("par", f"J_{min(i, j)}{max(i, j)}") for j in span) for i in span)
 
-    def names(self) -> list[str]:
+    def parameters(self) -> dict[str, Parameter]:
         """All the moments, in the order of the emitted parameters."""
-        upper = [f"J_{i}{j}" for i in range(1, self.n + 1) for j in range(i, self.n + 1)]
-        return ["m", *(f"c_{i}" for i in range(1, self.n + 1)), *upper]
+        span = range(1, self.n + 1)
+        meanings = {"m": "total mass"}
+        meanings |= {f"c_{i}": f"first moment, sum of m r_{i}" for i in span}
+        meanings |= {
+            f"J_{i}{j}": f"matrix of moments, sum of m r_{i} r_{j}"
+            for i in span
+            for j in span[i - 1 :]
+        }
+        return {name: Parameter(meaning=meaning) for name, meaning in meanings.items()}
 
 
 @dataclass(frozen=True)

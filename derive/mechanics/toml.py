@@ -65,7 +65,7 @@ def problem_of(data: Mapping[str, Any]) -> Problem:
     if moved and body is None:
         raise ProblemError('no body: give [[point]] tables, or [body] with moments = "symbolic"')
     if isinstance(body, MomentBody):
-        own = {x: parameters.get(x, Parameter()) for x in body.names()}
+        own = {x: parameters.get(x, p) for x, p in body.parameters().items()}
         parameters = {**own, **{k: p for k, p in parameters.items() if k not in own}}
     points = len(body.masses) if isinstance(body, PointBody) else 0
     if _tables(data, "input") and moved and "orthogonal" not in moved.relations:

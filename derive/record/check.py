@@ -81,7 +81,8 @@ class Checker:
             SIZE,
             principal="principal axes" in given,
             driven="input" in given,
-            coasting="any acceleration" in given,
+            motion="any" if "any X" in given else "coasting" if "any acceleration" in given else "",
+            vertical="vertical" in given,
             opaque=scope == ANY_GROUP,
         )
 

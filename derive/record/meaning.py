@@ -269,6 +269,8 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         "dϖ": lambda _, a, env: model.exterior(direction(a[0]), direction(a[1])),
         "ω": lambda _, a, env: model.exterior(direction(a[0]), direction(a[1])),
         "r": point,
+        "δA": lambda _, a, env: _linear(model, q.times(model.g, direction(a[0]).xi)),
+        "δT": lambda _, a, env: _translation(model, q.times(model.g, direction(a[0]).xi)),
         "ξ": lambda _, a, env: _linear(model, direction(a[0]).xi),
         "η": lambda _, a, env: _translation(model, direction(a[0]).xi),
         "Ω": lambda _, a, env: _axial(direction(a[0]).xi),

@@ -8,7 +8,7 @@ d'Alembert's principle on the points.  No word of the algebra and no code of the
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from random import Random
@@ -36,8 +36,10 @@ class Direction:
 class Model:
     """One random point of the evolution space of a problem, with two variations and the motion.
 
-    ``principal``: the body has a diagonal J; ``driven``: the input does not vanish; ``coasting``: X
-    has any acceleration, not that of the motion; ``opaque``: the potential is any polynomial.
+    ``principal``: the body has a diagonal J; ``driven``: the input does not vanish; ``opaque``: the
+    potential is any polynomial.  X is the motion, or a vector with δt = 1: ``motion`` "any" for the
+    first variation, "coasting" for the velocity of the motion with any acceleration.  ``vertical``:
+    the second variation moves the velocity alone.
     """
 
     def __init__(
@@ -49,11 +51,12 @@ class Model:
         *,
         principal: bool = False,
         driven: bool = False,
-        coasting: bool = False,
+        motion: str = "",
+        vertical: bool = False,
         opaque: bool = False,
     ):
         self.problem, self.group, self.random, self.size = problem, group, random, size
-        self.driven, self.coasting, self.opaque = driven, coasting, opaque
+        self.driven, self.along, self.opaque = driven, motion, opaque
         self.n, self.s = group.n, group.size
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
         self.masses, self.points = self._principal() if principal else self._body()
@@ -65,6 +68,12 @@ class Model:
         self.first, self.second, self.mixed = (
             Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
         )
+        if motion == "any":
+            self.first = replace(self.first, time=Fraction(1))
+        if vertical:
+            self.second = replace(
+                self.second, time=Fraction(0), xi=q.scaled(Fraction(0), self.second.xi)
+            )
         self.input = [self.draw() if driven else Fraction(0) for _ in group.basis]
 
     def draw(self, *, positive: bool = False) -> Fraction:
@@ -260,7 +269,7 @@ class Model:
     @cached_property
     def acceleration(self) -> Matrix:
         """Ż by d'Alembert: Σ ⟨m_i a_i − F_i, v′_i⟩ = u(ξ′) for every ξ′, with a = g(Ż + Z²)r."""
-        if self.coasting:
+        if self.along == "coasting":
             return self.mixed.velocity
         centripetal = q.times(self.g, q.times(self.Z, self.Z))
         covector = []
@@ -276,7 +285,9 @@ class Model:
 
     @property
     def motion(self) -> Direction:
-        """X: the direction of the motion, with δt = 1."""
+        """X, with δt = 1: the direction of the motion, unless it is to be any."""
+        if self.along == "any":
+            return self.first
         return Direction(Fraction(1), self.Z, self.acceleration)
 
 

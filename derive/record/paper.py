@@ -88,7 +88,7 @@ def _derived(p: Printed, records: Iterable[Derivation]) -> str | None:
     """
     steps = [s for record in records if _suits(record, p) for s in record.steps]
     numbered = [s for s in steps if p.number in s.paper]
-    wanted = [e.lhs for e in p.equations]
+    wanted = [*(e.lhs for e in p.equations), *p.answers]
     choices = (
         [e for s in numbered for e in s.equations if e.lhs in wanted],
         [e for s in numbered[:1] for e in s.equations],
@@ -112,10 +112,11 @@ def _counterexample(p: Printed, equation: Equation) -> dict[str, str]:
             continue
         if difference(equation, env):
             used = dict.fromkeys(x for side in (equation.lhs, equation.rhs) for x in names(side))
+            used = dict.fromkeys(["A"] * ("α" in used) + list(used))
             values = {x: text(env.names[x]) for x in used if x in env.names}
             sides = {
-                f"printed: {show(equation.lhs)}": text(evaluate(equation.lhs, env)),
-                "printed right side": text(evaluate(equation.rhs, env)),
+                f"true value of {show(equation.lhs)}": text(evaluate(equation.lhs, env)),
+                "value of the printed right side": text(evaluate(equation.rhs, env)),
             }
             return values | sides
     raise AssertionError(f"({p.number}) differs, but not at small values")

@@ -80,6 +80,7 @@ SOLID: tuple[Printed, ...] = (
         "SE(3)",
         "p̃ = dL̃_g ∈ T*_g E,  h̃(t, g, ν) = h(t, g(r), ν(r))",
         (Equation("h̃", add(("call", "p̃", "α", "τ"), neg("L̃"))), Equation("h̃", add(KINETIC, "U"))),
+        "dL̃_g is the derivative of L̃ along the fibre T_g E, t and g being fixed.",
     ),
     Printed(
         17,
@@ -114,6 +115,7 @@ SOLID: tuple[Printed, ...] = (
         ),
         "⟨δA c, τ⟩ = Tr cτ̄ δA: the factors are exchanged; and the displacement that the second "
         "part measures is δT, not δτ.",
+        answers=(("call", "p̃", 0, "δT"),),
     ),
     Printed(
         36,

@@ -7,8 +7,9 @@ value by its meaning alone.  Bars are transposes; a prime belongs to the second 
 from __future__ import annotations
 
 ANY_GROUP = "any group"
-GIVENS = ("principal axes", "input", "any acceleration")
-"""What a step may assume: a body with diagonal J; an input that acts; X with any acceleration."""
+GIVENS = ("principal axes", "input", "any X", "vertical", "any acceleration")
+"""What a step may assume: a body with diagonal J; an input that acts; X any vector with δt = 1, its
+components those of δ; δ′t = 0 and δ′g = 0; X with the velocity of the motion, any acceleration."""
 
 CONVENTIONS = (
     "T is the transpose, a bar in the paper; names are compared letter by letter, as written",
@@ -24,7 +25,7 @@ CONVENTIONS = (
 VOCABULARY: dict[str, tuple[str, str]] = {
     "t": ("time", "t"),
     "δt": ("variation of the time", r"\delta t"),
-    "δ′t": ("second variation of the time", r"\delta' t"),
+    "δ′t": ("variation δ′ of the time", r"\delta' t"),
     "m": ("total mass", "m"),
     "c": ("first moment Σ m_i r_i (the centre of mass is c/m)", "c"),
     "J": ("matrix of moments Σ m_i r_i r̄_i", "J"),
@@ -46,12 +47,15 @@ VOCABULARY: dict[str, tuple[str, str]] = {
     "ϖ": ("Cartan form", r"\varpi"),
     "dϖ": ("exterior derivative of the Cartan form", r"\mathrm{d}\varpi"),
     "ω": ("dϖ at constant time", r"\omega"),
-    "y": ("point (t, g, ν) of the evolution space", "y"),
-    "δy": ("a variation of y", r"\delta y"),
-    "δ′y": ("a second variation of y", r"\delta' y"),
+    "y": ("point (t, g, ν) of the evolution space: time, element of the group, velocity", "y"),
+    "δy": (
+        "a variation of y = (t, g, ν): time, element of the group, velocity",
+        r"\delta y",
+    ),
+    "δ′y": ("another variation of y", r"\delta' y"),
     "δx": ("a variation at constant time", r"\delta x"),
-    "δ′x": ("a second variation at constant time", r"\delta' x"),
-    "X": ("a vector with δt = 1 along the velocity; that of the kernel for the motion", "X"),
+    "δ′x": ("another variation at constant time", r"\delta' x"),
+    "X": ("a vector with δt = 1; the one of the kernel of dϖ gives the motion", "X"),
     "g": ("element of the group", "g"),
     "ν": ("velocity in the group", r"\nu"),
     "δg": ("variation of g", r"\delta g"),
@@ -60,49 +64,71 @@ VOCABULARY: dict[str, tuple[str, str]] = {
     "α": ("velocity of A", r"\alpha"),
     "τ": ("velocity of T", r"\tau"),
     "δA": ("variation of A", r"\delta A"),
-    "δ′A": ("second variation of A", r"\delta' A"),
+    "δ′A": ("variation δ′ of A", r"\delta' A"),
     "δT": ("variation of T", r"\delta T"),
-    "δ′T": ("second variation of T", r"\delta' T"),
+    "δ′T": ("variation δ′ of T", r"\delta' T"),
     "δα": ("variation of α", r"\delta\alpha"),
-    "δ′α": ("second variation of α", r"\delta'\alpha"),
+    "δ′α": ("variation δ′ of α", r"\delta'\alpha"),
     "δτ": ("variation of τ", r"\delta\tau"),
-    "δ′τ": ("second variation of τ", r"\delta'\tau"),
+    "δ′τ": ("variation δ′ of τ", r"\delta'\tau"),
     "α̇": ("acceleration of A", r"\dot\alpha"),
     "τ̇": ("acceleration of T", r"\dot\tau"),
     "Ȧ": ("dA/dt along the motion", r"\dot A"),
     "Ṫ": ("dT/dt along the motion", r"\dot T"),
-    "Z": ("linear part of g⁻¹ν, in the Lie algebra", "Z"),
-    "w": ("translation part of g⁻¹ν", "w"),
-    "ξ": ("linear part of g⁻¹δg", r"\xi"),
-    "ξ′": ("linear part of g⁻¹δ′g", r"\xi'"),
-    "η": ("translation part of g⁻¹δg", r"\eta"),
-    "η′": ("translation part of g⁻¹δ′g", r"\eta'"),
+    "Z": ("A⁻¹α, in the Lie algebra", "Z"),
+    "w": ("A⁻¹τ", "w"),
+    "ξ": ("A⁻¹δA, in the Lie algebra", r"\xi"),
+    "ξ′": ("A⁻¹δ′A, in the Lie algebra", r"\xi'"),
+    "η": ("A⁻¹δT", r"\eta"),
+    "η′": ("A⁻¹δ′T", r"\eta'"),
     "δZ": ("variation of Z", r"\delta Z"),
-    "δ′Z": ("second variation of Z", r"\delta' Z"),
+    "δ′Z": ("variation δ′ of Z", r"\delta' Z"),
     "δw": ("variation of w", r"\delta w"),
-    "δ′w": ("second variation of w", r"\delta' w"),
+    "δ′w": ("variation δ′ of w", r"\delta' w"),
     "Ż": ("dZ/dt along the motion", r"\dot Z"),
     "ẇ": ("dw/dt along the motion", r"\dot w"),
     "C": ("Cauchy–Green matrix ĀA", "C"),
     "f": ("A⁻¹F̃, in the Lie algebra", "f"),
-    "ζ": ("angular velocity in the body, Z = j(ζ); coordinates of Z", r"\zeta"),
+    "ζ": ("coordinates of Z in the basis of the Lie algebra", r"\zeta"),
     "Ω": ("ξ = j(Ω)", r"\Omega"),
     "Ω′": ("ξ′ = j(Ω′)", r"\Omega'"),
     "δζ": ("variation of ζ", r"\delta\zeta"),
-    "δ′ζ": ("second variation of ζ", r"\delta'\zeta"),
+    "δ′ζ": ("variation δ′ of ζ", r"\delta'\zeta"),
     "ζ̇": ("dζ/dt along the motion", r"\dot\zeta"),
     "φ": ("f = j(φ)", r"\varphi"),
     "I": ("tensor of inertia", "I"),
     "I_c": ("tensor of inertia about the centre of mass", "I_c"),
     "J_c": ("matrix of moments about the centre of mass", "J_c"),
-    "λ": ("multiplier of the volume; with an index, a principal moment of inertia", r"\lambda"),
+    "λ": ("multiplier of the volume", r"\lambda"),
     "K": ("stiffness matrix of the springs, Σ k_e s_e s̄_e", "K"),
-    "k": ("stiffness of a spring", "k"),
-    "s": ("difference r_i − r_j of the ends of a spring, in the body", "s"),
+    "k": ("stiffness of a spring, k_e of spring e", "k"),
+    "s": ("difference r_i − r_j of the ends of a spring in the body, s_e of spring e", "s"),
     "γ": ("acceleration of gravity", r"\gamma"),
-    "u": ("input: a covector of the Lie algebra (for SE, its moment part)", "u"),
+    "u": ("input: a covector of the Lie algebra", "u"),
     "f_u": ("input: the force part of a body wrench", "f_u"),
     "δ": ("first variation", r"\delta"),
-    "δ′": ("second variation", r"\delta'"),
+    "δ′": ("another variation, which commutes with δ", r"\delta'"),
     "∂ₜŨ": ("partial derivative of Ũ in time", r"\partial_t\tilde U"),
 }
+
+ROTATIONS: dict[str, str] = {
+    "Z": "A⁻¹α, skew: Z = j(ζ)",
+    "ζ": "angular velocity in the body",
+    "λ": "principal moments of inertia, the eigenvalues of I",
+    "u": "input: a torque about the fixed point, in the body frame",
+}
+DISPLACEMENTS: dict[str, str] = ROTATIONS | {
+    "w": "velocity of the body's origin in the body frame, A⁻¹τ",
+    "u": "input: a moment about the body's origin, in the body frame",
+    "f_u": "input: a force on the body's origin, in the body frame",
+}
+"""What names mean more precisely for rotations and displacements of R³."""
+
+MISPRINTED = frozenset({20, 25, 26, 29, 31, 32, 35})
+"""The numbered equations whose print the derivation corrects; ``derive paper`` finds them."""
+
+
+def meaning(name: str, group: str) -> str:
+    """What a name means in a record of that group."""
+    special = {"SO(3)": ROTATIONS, "SE(3)": DISPLACEMENTS}.get(group, {})
+    return special.get(name, VOCABULARY[name][0])

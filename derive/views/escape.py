@@ -36,7 +36,7 @@ SYMBOLS = {letter: rf"\{name}" for name, letter in GREEK.items()} | {
     "λ": r"\lambda", "Λ": r"\Lambda", "φ": r"\varphi", "ϕ": r"\phi", "ϖ": r"\varpi",
     "Σ": r"\sum", "∂": r"\partial", "−": "-", "∧": r"\wedge", "⟨": r"\langle", "⟩": r"\rangle",
     "‖": r"\Vert", "≅": r"\cong", "≠": r"\neq", "≤": r"\le", "≥": r"\ge", "∈": r"\in", "→": r"\to",
-    "×": r"\times", "′": "'", "½": r"\tfrac12", "∇": r"\nabla", "∘": r"\circ",
+    "×": r"\times", "𝔤": r"\mathfrak{g}", "′": "'", "½": r"\tfrac12", "∇": r"\nabla", "∘": r"\circ",
 }  # fmt: skip
 RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
 LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ", "0123456789ijet", strict=True))

@@ -12,6 +12,7 @@ from .layout import blocks
 from .letters import names_of, parameter
 from .outline import (
     FORMULAS_CONVENTIONS,
+    PAPER,
     capitalised,
     equation_label,
     notes,
@@ -37,23 +38,31 @@ def latex(d: Derivation) -> str:
     return template.render(
         title=tex_text(title(d)),
         subtitle=tex_text(capitalised(subtitle(d))),
-        conventions=FORMULAS_CONVENTIONS,
+        conventions=f"{FORMULAS_CONVENTIONS} {tex_text(PAPER)}",
         walk="\n".join(line for part in _walk(d, names) for line in part),
         names="\n".join(_names(d, names)),
     )
 
 
 def _walk(d: Derivation, names: Mapping[str, str]) -> Iterator[list[str]]:
+    last = {step.label: equation_label(step, len(step.equations) - 1) for step in d.steps}
     for heading, steps in sections(d):
         yield [rf"\section{{{tex_text(heading)}}}", ""]
         for step in steps:
-            yield [*_step(step, names), ""]
+            yield [*_step(step, names, last), ""]
 
 
-def _step(step: Step, names: Mapping[str, str]) -> Iterator[str]:
+def reference(label: str, last: Mapping[str, str]) -> str:
+    """The numbers of all the equations of a step."""
+    first, final = anchor(label), anchor(last[label])
+    span = "" if first == final else rf"--\eqref{{{final}}}"
+    return rf"\eqref{{{first}}}{span}"
+
+
+def _step(step: Step, names: Mapping[str, str], last: Mapping[str, str]) -> Iterator[str]:
     beside = "".join(f", {tex_text(note)}" for note in notes(step))
     yield rf"\step{{{tex_text(capitalised(step.rule))}}}{{{beside}}}{{{spelt(step.label)}}}"
-    used = ", ".join(rf"\eqref{{{anchor(label)}}}" for label in step.uses)
+    used = ", ".join(reference(label, last) for label in step.uses)
     yield prose(step.prose) + (rf" \from{{{used}}}" if used else "")
     k = 0
     for block in blocks(step.equations, names):

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ..record.record import Equation
+from .escape import math_text
 from .measure import measure
+from .outline import domain
 from .tex import guarded, latex_tree, marked, pieces, plain
 from .wrap import Line, fill
 
@@ -65,8 +67,12 @@ def indented(line: Line, quads: int) -> str:
 
 def clause(e: Equation, names: Mapping[str, str]) -> str:
     """For which names the equation holds."""
-    shown = ", ".join(latex_tree(x, names) for x in e.for_all)
-    return rf"\text{{for every }} {shown}" if shown else ""
+    if not e.for_all:
+        return ""
+    shown, space = ", ".join(latex_tree(x, names) for x in e.for_all), domain(e.for_all)
+    shown = f"({shown})" if len(e.for_all) > 1 and space else shown
+    within = rf" \in {math_text(space)}" if space else ""
+    return rf"\text{{for every }} {shown}{within}"
 
 
 def clause_width(e: Equation, names: Mapping[str, str]) -> float:

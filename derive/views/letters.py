@@ -25,8 +25,10 @@ def names_of(symbols: Iterable[Symbol]) -> dict[str, str]:
 
 
 def parameter(name: str) -> str:
-    """A name that the user gave, upright and sans serif; a short end after _ is an index."""
-    match = re.fullmatch(r"([A-Za-z][A-Za-z0-9]*)_([A-Za-z0-9]{1,3})", name)
+    """A name that the user gave, sans serif; a short end after _, or digits, is an index."""
+    match = re.fullmatch(r"([A-Za-z][A-Za-z0-9]*)_([A-Za-z0-9]{1,3})", name) or re.fullmatch(
+        r"([A-Za-z]+)([0-9]{1,3})", name
+    )
     if match:
         return rf"\mathsf{{{match[1]}}}_{{\mathsf{{{match[2]}}}}}"
     if re.fullmatch(r"[A-Za-z0-9_]+", name):

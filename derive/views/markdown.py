@@ -8,14 +8,14 @@ from ..record.record import Derivation, Step
 from .escape import markdown_text, prose
 from .layout import blocks
 from .letters import names_of
-from .outline import FORMULAS_CONVENTIONS, capitalised, notes, sections, subtitle, title
+from .outline import FORMULAS_CONVENTIONS, PAPER, capitalised, notes, sections, subtitle, title
 
 
 def markdown(d: Derivation) -> str:
     """Headings, prose and display formulas; no raw HTML."""
     names = names_of(d.symbols)
     heading = " — ".join(filter(None, (title(d), subtitle(d))))
-    parts = [f"# {markdown_text(heading)}", FORMULAS_CONVENTIONS]
+    parts = [f"# {markdown_text(heading)}", f"{FORMULAS_CONVENTIONS} {markdown_text(PAPER)}"]
     for section, steps in sections(d):
         parts.append(f"## {markdown_text(section)}")
         for step in steps:

@@ -6,27 +6,35 @@ from collections.abc import Iterator
 from itertools import groupby
 
 from ..record.record import Derivation, Step
-from ..record.vocabulary import ANY_GROUP
+from ..record.vocabulary import ANY_GROUP, MISPRINTED
 
 CONVENTIONS = (
     "Bars are transposes. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for vectors. "
     "[a, b] = ab − ba and j(X)Y = X ∧ Y. Variations commute; dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)]; the "
-    "group is trivialised on the left, ξ = g⁻¹δg. Numbers beside a rule are those of the paper."
+    "group is trivialised on the left, ξ = g⁻¹δg. The point y = (t, g, ν) is a time, an element of "
+    "the group and a velocity; 𝔤 is the Lie algebra."
 )
 FORMULAS_CONVENTIONS = (
     r"Bars are transposes. For matrices $\langle a, b\rangle_M = \operatorname{Tr} a M \bar b$, "
     r"for vectors $\langle a, b\rangle_M = \bar a M b$; $[a, b] = ab - ba$ and "
     r"$j(X)Y = X \wedge Y$. Variations commute, "
     r"$\mathrm{d}\varpi(\delta, \delta') = \delta[\varpi(\delta')] - \delta'[\varpi(\delta)]$, "
-    r"and the group is trivialised on the left, $\xi = g^{-1}\delta g$. Numbers beside a rule "
-    r"are those of the paper; parameters of the "
-    r"problem are set in $\mathsf{sans\ serif}$."
+    r"and the group is trivialised on the left, $\xi = g^{-1}\delta g$. The point "
+    r"$y = (t, g, \nu)$ is a time, an element of the group and a velocity; $\mathfrak{g}$ is the "
+    r"Lie algebra. Parameters of the problem are set in $\mathsf{sans\ serif}$."
 )
 """The same with formulas between dollars, for LaTeX and Markdown."""
+PAPER = (
+    "Numbers beside a rule are those of the paper, P. Iglesias-Zemmour, “D’où viennent les "
+    "équations du mouvement des solides ?”; one marked * is misprinted there; "
+    "derive paper says how."
+)
 
 GIVEN = {
     "principal axes": "in principal axes",
     "input": "with input",
+    "any X": "for any X with δt = 1",
+    "vertical": "for δ′t = 0, δ′g = 0",
     "any acceleration": "for any acceleration",
 }
 
@@ -48,7 +56,7 @@ def subtitle(d: Derivation) -> str:
 
 def heading(scope: str) -> str:
     """The heading of the steps that hold in a scope."""
-    return f"For {scope}"
+    return "For any group of matrices" if scope == ANY_GROUP else f"For {scope}"
 
 
 def sections(d: Derivation) -> Iterator[tuple[str, list[Step]]]:
@@ -59,8 +67,17 @@ def sections(d: Derivation) -> Iterator[tuple[str, list[Step]]]:
 
 def notes(step: Step) -> list[str]:
     """What stands beside a rule: the numbers of the paper, further assumptions."""
-    numbers = ", ".join(f"({n})" for n in step.paper)
+    numbers = ", ".join(f"({n})" + "*" * (n in MISPRINTED) for n in step.paper)
     return [*([f"paper {numbers}"] if numbers else []), *(GIVEN.get(x, x) for x in step.given)]
+
+
+DOMAINS = {"δA": "T_A G", "δ′A": "T_A G", "ξ′": "𝔤", "Ω′": "R³"}
+PAIRS = {"δ′A": "T_g G", "ξ′": "𝔤"}
+
+
+def domain(for_all: tuple[str, ...]) -> str:
+    """The space in which the names of "for every …" vary; empty when it is not known."""
+    return (DOMAINS if len(for_all) == 1 else PAIRS).get(for_all[0], "")
 
 
 def equation_label(step: Step, k: int) -> str:

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
+from itertools import groupby
 
 from ..algebra.show import show, show_name
 from ..record.record import Derivation, Equation, Step
-from .outline import CONVENTIONS, notes, sections, subtitle, title
+from .outline import CONVENTIONS, PAPER, domain, notes, sections, subtitle, title
 from .wrap import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
 
 MARGIN, EQUATION, INSIDE = 2, 6, 4
+TABLE, CELL = 4, 24
+SIMPLE = ("par", "entry", "matrix", "add")
 OPENING, CLOSING = "([⟨", ")]⟩"
 BREAKS = {" + ": SUM, " − ": SUM, " ∧ ": WEDGE}
 
@@ -18,7 +22,10 @@ def text(d: Derivation, width: int = 100) -> str:
     """The record as text, no line longer than ``width`` columns (at least 40)."""
     width = max(width, 40)
     heading = " — ".join(filter(None, (title(d), subtitle(d))))
-    blocks = [[*_underlined(heading, "=", width)], [*_paragraph(CONVENTIONS, 0, width)]]
+    blocks = [
+        [*_underlined(heading, "=", width)],
+        [*_paragraph(f"{CONVENTIONS} {PAPER}", 0, width)],
+    ]
     for section, steps in sections(d):
         blocks.append([*_underlined(section, "-", width)])
         blocks.extend([*_step(step, width)] for step in steps)
@@ -35,13 +42,38 @@ def _step(step: Step, width: int) -> Iterator[str]:
 
 
 def _equations(equations: tuple[Equation, ...], room: int) -> Iterator[str]:
-    """The equations of a step, aligned at their signs where the left sides are short."""
+    """The equations of a step, aligned at their signs; many short ones stand side by side."""
+    runs = [[*run] for _, run in groupby(equations, key=lambda e: bool(_cell(e)))]
+    if len(runs) > 1 and any(len(run) > TABLE and _cell(run[0]) for run in runs):
+        for run in runs:
+            yield from _equations(tuple(run), room)
+        return
+    if len(equations) > TABLE and _cell(equations[0]) and len(runs) == 1:
+        yield from _table([_cell(e) for e in equations], room)
+        return
     left = [show(e.lhs) for e in equations]
     widest = max(map(display_width, left))
     column = widest if widest <= room * 2 // 5 else 0
     for lhs, e in zip(left, equations, strict=True):
         for line in _equation(lhs, e, column, room):
             yield " " * EQUATION + line
+
+
+def _cell(e: Equation) -> str:
+    """An equation that names a number or an entry; empty for others."""
+    named = isinstance(e.lhs, tuple) and e.lhs[0] in ("at", "entry")
+    simple = isinstance(e.rhs, (str, int, Fraction)) or e.rhs[0] in SIMPLE
+    cell = f"{show(e.lhs)} = {show(e.rhs)}"
+    return cell if named and simple and not e.for_all and display_width(cell) <= CELL else ""
+
+
+def _table(cells: list[str], room: int) -> Iterator[str]:
+    """Cells in columns, row by row."""
+    widest = max(map(display_width, cells)) + 4
+    columns = max(1, min(4, room // widest))
+    for k in range(0, len(cells), columns):
+        row = (x + " " * (widest - display_width(x)) for x in cells[k : k + columns])
+        yield " " * EQUATION + "".join(row)
 
 
 def _equation(lhs: str, e: Equation, column: int, room: int) -> Iterator[str]:
@@ -68,7 +100,11 @@ def _equation(lhs: str, e: Equation, column: int, room: int) -> Iterator[str]:
 
 
 def _clause(e: Equation) -> str:
-    return f"for every {', '.join(map(show_name, e.for_all))}" if e.for_all else ""
+    if not e.for_all:
+        return ""
+    names, space = ", ".join(map(show_name, e.for_all)), domain(e.for_all)
+    names = f"({names})" if len(e.for_all) > 1 and space else names
+    return f"for every {names} ∈ {space}" if space else f"for every {names}"
 
 
 def _broken(formula: str, room: int, indent: int) -> list[str]:

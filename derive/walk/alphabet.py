@@ -103,12 +103,13 @@ class Alphabet:
         return found
 
     def respell(self, e: Expr, gram: Expr | None = None) -> Expr:
-        """A scalar of another alphabet in these letters, which know more (and C = gram)."""
+        """An expression of another alphabet in these letters, which know more (and C = gram)."""
         mine = self.letters()
         images = {x: word(mine[x.name]) for x in e.letters() if x.name in mine}
         if gram is not None:
             images |= {x: gram for x in e.letters() if x.name == self.C.name}
-        return substitute(e, images)
+        rows, cols = (self.n if isinstance(x, str) else x for x in (e.rows, e.cols))
+        return substitute(Expr(rows, cols, e.terms), images)
 
     @property
     def unit(self) -> Expr:

@@ -43,7 +43,7 @@ def cartan(stage: Pullback, a: Alphabet, prefix: str) -> Cartan:
             (f"{prefix}.pullback",),
             tuple(_momentum_equations(momentum, momentum_tree, a, variations)),
             "The momentum is the derivative of the Lagrangian along the velocity.",
-            (16, 20),
+            (16, 20) if a.affine else (16,),
         ),
         Step(
             f"{prefix}.energy",
@@ -80,14 +80,14 @@ def _momentum_equations(
     if a.affine:
         # part by part, with the coefficient of each displacement gathered: the form of (20)
         for part in a.parts:
-            covector = tree_of(gradient(momentum, part.d_position))
+            covector = gradient(momentum, part.d_position)
             zeros = tuple(x if x == part.d_position.name else 0 for x in variations)
             equations.append(
                 Equation(
                     ("call", "p̃", *zeros),
-                    ("tr", ("mul", ("T", covector), part.d_position.name))
+                    ("tr", ("mul", tree_of(covector.bar), part.d_position.name))
                     if part is a.A
-                    else ("inner", covector, part.d_position.name),
+                    else ("inner", tree_of(covector), part.d_position.name),
                 )
             )
     return equations

@@ -17,7 +17,8 @@ from ..algebra.words import Expr, Letter, number, word
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .inverse import cancel_scalar, inverse_letter, inverse_tree
-from .vector import INERTIA, OMEGA_P, ZETA_DOT, VectorForm, flip_wedge, isolate
+from .vector import INERTIA, OMEGA_P, ZETA_DOT, VectorForm, isolate
+from .wedge import vector_sum
 
 CENTRAL = Letter("I_c", 3, 3, 1)
 MOMENTS = Letter("J_c", 3, 3, 1)
@@ -57,8 +58,8 @@ def eliminate(stage: VectorForm, a: Alphabet, prefix: str, scope: str) -> Elimin
         (f"{prefix}.kernel",),
         (
             Equation(w_dot.name, vector_tree(acceleration, a)),
-            Equation(CENTRAL.name, tree_of(tensor, notation(a))),
             Equation(MOMENTS.name, tree_of(moments_c, notation(a))),
+            Equation(CENTRAL.name, tree_of(tensor, notation(a))),
             Equation(CENTRAL.name, tree_of(central, notation(a))),
             Equation(("mul", CENTRAL.name, "ζ̇"), vector_tree(torque, a)),
         ),
@@ -100,13 +101,7 @@ def vector_tree(e: Expr, a: Alphabet) -> Tree:
         for k, c in e.terms.items()
         if inverse in k[0]
     }
-    parts = [_flipped(Expr(e.rows, e.cols, light), a)] if light else []
+    parts = [vector_sum(Expr(e.rows, e.cols, light), notation(a))] if light else []
     if heavy:
-        parts.append(mul(inverse_tree(a.m), _flipped(Expr(e.rows, e.cols, heavy), a)))
+        parts.append(mul(inverse_tree(a.m), vector_sum(Expr(e.rows, e.cols, heavy), notation(a))))
     return add(*parts)
-
-
-def _flipped(e: Expr, a: Alphabet) -> Tree:
-    t = tree_of(e, notation(a))
-    terms = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
-    return add(*(flip_wedge(x) for x in terms))

@@ -11,10 +11,9 @@ from ..algebra.words import Expr, Letter, number, word
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .cartan import carry
+from .contraction import CONTRACTION, Contraction, steps_of, velocities
 from .exterior import Exterior, primed, work
-from .gather import gathered, terms_with
-
-CONTRACTION: Tree = ("call", "dϖ", "X", "δ′y")
+from .gather import at_constant_time, gathered, terms_with
 
 
 @dataclass(frozen=True)
@@ -27,15 +26,18 @@ class Kernel:
 
 def kernel(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
     """The kernel in the variables (t, g, ν): the motion in the ambient matrices."""
-    along: dict[Letter, Expr] = {a.dt: number(1)}
-    for p in a.parts:
-        along[p.d_position] = along_motion(stage, p.d_position, a)
-        along[p.d_velocity] = word(p.acceleration)
-    form = substitute(stage.form, along)
     notation = metrics() if a.affine else metrics("J")
-    shown = gathered(form, *_contracted(stage, form, a), notation)
-    velocity = tuple(Equation(p.rate, tree_of(along[p.d_position])) for p in a.parts)
-    virtual = without(form, a.dpt)
+    c = Contraction(
+        stage.form,
+        at_constant_time(stage.form, a.dt, a.dpt),
+        stage.images,
+        {p.d_position: along_motion(stage, p.d_position, a) for p in a.parts},
+        {p.d_velocity: p.acceleration for p in a.parts},
+        tuple(p.dp_velocity for p in a.parts),
+        (a.dt, a.dpt),
+        notation,
+    )
+    virtual = without(c.second_order, a.dpt)
     if a.affine:
         pairs = [
             ("inner", tree_of(gradient(virtual, p.dp_position)), p.dp_position.name)
@@ -43,47 +45,29 @@ def kernel(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
         ]
         balance = add(*pairs)
     else:
-        core, images = _contracted(stage, form, a)
-        kept = {a.A.acceleration: images[a.A.acceleration]}
-        balance = gathered(virtual, core, kept, notation)
+        kept = {a.A.acceleration: c.shifts[a.A.acceleration]}
+        balance = gathered(virtual, c.remaining_core, kept, notation)
+    rates = tuple(Equation(p.rate, tree_of(c.velocity[p.d_position])) for p in a.parts)
     variations = tuple(p.dp_position.name for p in a.parts)
-    equations = (Equation(balance, 0, variations),)
-    steps = (
-        Step(
-            f"{prefix}.contraction",
-            "contraction",
-            (f"{prefix}.exterior",),
-            (Equation(CONTRACTION, shown),),
-            "A vector X with δt = 1 and the velocity of the motion is put into dϖ.",
-            given=("any acceleration",),
-        ),
-        Step(
-            f"{prefix}.kernel",
-            "kernel",
-            (f"{prefix}.contraction",),
-            (*velocity, *equations),
-            "X spans the kernel when this vanishes for all displacements δ′ that the group allows: "
-            "the equations of motion. They have one solution when the metric is not degenerate, "
-            "that is, when no direction of the group leaves every mass in its place.",
-        ),
+    velocity = ", ".join(f"{p.dp_position.name} = {p.velocity.name}" for p in a.parts)
+    last = Step(
+        f"{prefix}.kernel",
+        "kernel",
+        (f"{prefix}.second_order",),
+        (*rates, Equation(balance, 0, variations)),
+        "X is in the kernel when this vanishes for every displacement tangent to the group: the "
+        "equations of motion. The same hypothesis gives them one solution. The coefficient of δ′t "
+        f"then vanishes as well, for {velocity} is such a displacement.",
     )
-    return Kernel(form, steps)
+    unknown = tuple(x.name for p in a.parts for x in (p.d_position, p.d_velocity))
+    first = velocities(c.velocity, c.velocity)
+    steps = steps_of(c, first, _and(unknown), prefix, f"{prefix}.exterior")
+    return Kernel(c.second_order, (*steps, last))
 
 
-def _core(form: Expr, a: Alphabet) -> Expr:
-    return terms_with(form, *(p.acceleration for p in a.parts))
-
-
-def _contracted(stage: Exterior, form: Expr, a: Alphabet) -> tuple[Expr, dict[Letter, Expr]]:
-    """The terms with accelerations, and  ẍ ↦ ẍ − F̃,  δ′x ↦ δ′x − ẋ δ′t  to gather the rest."""
-    images: dict[Letter, Expr] = {}
-    for p in a.parts:
-        images[p.dp_position] = stage.images.get(p.dp_position, word(p.dp_position))
-        shift = stage.images.get(p.d_velocity, word(p.d_velocity))
-        images[p.acceleration] = substitute(
-            shift, {p.d_velocity: word(p.acceleration), a.dt: number(1)}
-        )
-    return without(_core(form, a), a.dpt), images
+def _and(names: tuple[str, ...]) -> str:
+    """a, b and c."""
+    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
 
 def along_motion(stage: Exterior, x: Letter, a: Alphabet) -> Expr:
@@ -93,46 +77,50 @@ def along_motion(stage: Exterior, x: Letter, a: Alphabet) -> Expr:
 
 def kernel_trivialised(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
     """The kernel in the variables (t, g, Z): Exercise 1 for every group that moves points."""
-    along: dict[Letter, Expr] = {a.dt: number(1)}
-    for f in a.frames:
-        along[f.xi] = along_motion(stage, f.xi, a)
-        along[f.d_velocity] = word(f.acceleration)
-    form = substitute(stage.form, along)
-    images: dict[Letter, Expr] = {f.xi_prime: stage.images[f.xi_prime] for f in a.frames}
-    for f in a.frames:
-        images[f.acceleration] = substitute(stage.images[f.d_velocity], along)
-    core = without(terms_with(form, *(f.acceleration for f in a.frames)), a.dpt)
-    first = tuple(Equation(("call", f.xi.name, "X"), tree_of(along[f.xi])) for f in a.frames)
+    variations = [x for f in a.frames for x in (f.d_velocity, f.dp_velocity)]
+    c = Contraction(
+        stage.form,
+        terms_with(without(stage.form, a.dt, a.dpt), *variations),
+        stage.images,
+        {f.xi: along_motion(stage, f.xi, a) for f in a.frames},
+        {f.d_velocity: f.acceleration for f in a.frames},
+        tuple(f.dp_velocity for f in a.frames),
+        (a.dt, a.dpt),
+        Notation(),
+    )
     steps = (
         Step(
-            f"{prefix}.contraction_trivialised",
-            "contraction",
-            (f"{prefix}.exterior_trivialised",),
-            (*first, Equation(CONTRACTION, gathered(form, core, images, Notation()))),
-            "The same in the trivialisation.",
+            f"{prefix}.second_order_trivialised",
+            "trivialisation",
+            (
+                f"{prefix}.exterior_trivialised",
+                f"{prefix}.second_order",
+                f"{prefix}.trivialisation",
+            ),
+            (*velocities(c.velocity, c.velocity), Equation(CONTRACTION, c.remaining())),
+            "The velocity of X is carried to the Lie algebra, and put into this form of dϖ.",
             given=("any acceleration",),
         ),
-        _equations(form, core, images, a, prefix),
+        _equations(c, a, prefix),
     )
-    return Kernel(form, steps)
+    return Kernel(c.second_order, steps)
 
 
-def _equations(
-    form: Expr, core: Expr, images: dict[Letter, Expr], a: Alphabet, prefix: str
-) -> Step:
+def _equations(c: Contraction, a: Alphabet, prefix: str) -> Step:
     """dϖ(X, δ′) = 0 with the work of the forces carried to the right: −dŨ(gξ′)."""
     force = without(primed(carry(work(a), a), a), a.dpt)
-    inertial = without(form, a.dpt) + force
-    quadratic = {f.acceleration: without(images[f.acceleration], a.f) for f in a.frames}
-    shown = gathered(inertial, core, quadratic, Notation())
+    inertial = without(c.second_order, a.dpt) + force
+    quadratic = {f.acceleration: without(c.shifts[f.acceleration], a.f) for f in a.frames}
+    shown = gathered(inertial, without(c.remaining_core, a.dpt), quadratic, Notation())
     g = word(a.A.position)
     variations = [tree_of(g * word(f.xi_prime)) for f in a.frames]
     rhs: Tree = ("mul", -1, ("call", "dŨ", *variations))
+    names = tuple(f.xi_prime.name for f in a.frames)
     return Step(
         f"{prefix}.equations",
         "kernel",
-        (f"{prefix}.contraction_trivialised", f"{prefix}.force"),
-        (Equation(shown, rhs, tuple(f.xi_prime.name for f in a.frames)),),
-        "The equations of motion of any group that moves points (Exercise 1), for every element "
-        "of its Lie algebra.",
+        (f"{prefix}.second_order_trivialised", f"{prefix}.force"),
+        (Equation(shown, rhs, names),),
+        "The equations of motion of any group of matrices that moves points (Exercise 1), one for "
+        "each direction of its Lie algebra.",
     )

@@ -85,7 +85,8 @@ def potentials(problem: Problem, a: Alphabet, prefix: str, general: str, scope: 
                 Equation("U", add(*over_points)),
                 Equation("Ũ", tree_of(energy)),
             ),
-            "The potential of the problem, on the points and pulled back to the group.",
+            "The potential of the problem, on the points and pulled back to the group."
+            + (" The springs have natural length 0." if problem.springs else ""),
             (),
             scope,
         ),

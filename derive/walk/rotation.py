@@ -23,10 +23,10 @@ from .vector import (
     ZETA,
     ZETA_DOT,
     VectorForm,
-    flip_wedge,
     isolate,
     to_vectors,
 )
+from .wedge import vector_sum
 
 INPUT, INPUT_FORCE = Letter("u", 3), Letter("f_u", 3)
 
@@ -85,7 +85,7 @@ def spherical_motion(
     balance = kernel.balance[OMEGA_P] + word(INERTIA) * word(PHI) - torques
     if problem.inputs:
         balance = balance - word(INPUT)
-    right = _flipped(inertial - balance)
+    right = vector_sum(inertial - balance)
     return Step(
         f"{prefix}.motion",
         "solution",
@@ -131,12 +131,6 @@ def _prose(problem: Problem) -> str:
     return text + ("; the input is a given covector, outside dϖ." if problem.inputs else ".")
 
 
-def _flipped(e: Expr) -> Tree:
-    t = tree_of(e)
-    terms = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
-    return add(*(flip_wedge(x) for x in terms))
-
-
 def energy_step(stage: Isometry, v: Potentials, prefix: str, scope: str) -> Step:
     """h̃ in vectors, with the potential of the problem."""
     b = stage.letters
@@ -177,7 +171,7 @@ def euler_step(kernel: VectorForm, prefix: str, scope: str) -> Step:
         f"{prefix}.euler",
         "solution",
         (f"{prefix}.kernel",),
-        (Equation("ζ̇", add("φ", mul(("inv", "I"), _flipped(rest)))),),
+        (Equation("ζ̇", add("φ", mul(("inv", "I"), vector_sum(rest)))),),
         "Euler's equations, solved for the angular acceleration.",
         (34,),
         scope,

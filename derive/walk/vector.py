@@ -6,14 +6,15 @@ from dataclasses import dataclass
 
 from ..algebra.calculus import PairRule, gradient, reduce, substitute, without
 from ..algebra.notation import Notation, metrics, tree_of
-from ..algebra.space import double, fold_inertia, hat, normal_form
-from ..algebra.tree import Tree, add
+from ..algebra.space import antisymmetry, double, fold_inertia, hat, normal_form
+from ..algebra.tree import Tree
 from ..algebra.words import Expr, Factor, Letter, inner, number, trace, word, zero
 from ..record.record import Equation, Step
+from .contraction import Contraction, NoKernelError, steps_of, velocities
 from .exterior import DOMEGA
 from .gather import gathered
 from .isometry import Isometry
-from .kernel import CONTRACTION
+from .wedge import vector_sum
 
 
 def _vector(name: str) -> Letter:
@@ -61,28 +62,62 @@ def vector_form(stage: Isometry, prefix: str, general: str, scope: str) -> Vecto
             scope,
         ),
     ]
-    contracted = contraction(domega, stage)
+    c = _contraction(domega, images, notation, stage)
+    bracket = {BRACKET: substitute(axis_of_bracket(stage), c.velocity)}
+    opened = substitute(without(c.second_order, b.dpt), bracket)
     balance = {
-        v: normal_form(gradient(reduce(without(contracted, b.dpt), isolate(v)), v))
+        v: normal_form(gradient(reduce(opened, isolate(v)), v))
         for v in ((OMEGA_P, b.w.xi_prime) if b.affine else (OMEGA_P,))
     }
-    steps.append(
-        Step(
-            f"{prefix}.contraction",
-            "contraction",
-            (f"{prefix}.exterior_vector",),
-            (
-                *_velocities(images, stage),
-                Equation(CONTRACTION, tree_of(contracted, metrics("I"))),
-            ),
-            "A vector X with δt = 1 and the velocity of the motion is put into dϖ.",
-            () if b.affine else (34,),
-            scope,
-            ("any acceleration",),
-        )
+    known = [x for x in c.velocity if x.axis is None]
+    steps += steps_of(
+        c,
+        velocities(c.velocity, known),
+        "Ω, η, δζ and δw" if b.affine else "Ω and δζ",
+        prefix,
+        f"{prefix}.exterior_vector",
+        () if b.affine else (34,),
+        scope,
+        "the metric is invertible (the masses are not all on one line)"
+        if b.affine
+        else "I is invertible (the masses are not all on one line through the fixed point)",
     )
     steps.append(_kernel(balance, stage, prefix, scope))
     return VectorForm(balance, inertia_of(b.J), tuple(steps))
+
+
+def _contraction(
+    domega: Expr, images: dict[Letter, Expr], notation: Notation, stage: Isometry
+) -> Contraction:
+    """dϖ(X, δ′) in vectors, with Ω(X) (and η(X)) read off the horizontal variations."""
+    b = stage.letters
+    unknown = (OMEGA, b.w.xi) if b.affine else (OMEGA,)
+    if any(x not in images for x in unknown):
+        raise NoKernelError("the velocity of the kernel cannot be read off dϖ")
+    velocity = {x: substitute(word(x) - images[x], {b.dt: number(1)}) for x in unknown}
+    (turning,) = velocity[OMEGA].letters()
+    velocity[hat(OMEGA)] = word(hat(turning))
+    rates = {D_ZETA: ZETA_DOT, hat(D_ZETA): hat(ZETA_DOT)}
+    vertical: tuple[Letter, ...] = (DP_ZETA, hat(DP_ZETA))
+    brackets = {}
+    if b.affine:
+        rates[b.w.d_velocity] = b.w.acceleration
+        vertical = (*vertical, b.w.dp_velocity)
+        brackets[b.bracket_w] = substitute(_bracket_w(stage), velocity)
+    display = {BRACKET: tree_of(substitute(axis_of_bracket(stage), velocity))}
+    core, times = without(domega, b.dt, b.dpt), (b.dt, b.dpt)
+    return Contraction(
+        domega,
+        core,
+        images,
+        velocity,
+        rates,
+        vertical,
+        times,
+        notation,
+        display,
+        lambda e: reduce(substitute(e, brackets), antisymmetry),
+    )
 
 
 def isolate(v: Letter) -> PairRule:
@@ -165,19 +200,6 @@ def _bracket_w(stage: Isometry) -> Expr:
     return normal_form(to_vectors_matrix(stage.brackets[stage.letters.bracket_w], stage))
 
 
-def contraction(domega: Expr, stage: Isometry) -> Expr:
-    """dϖ(X, δ′) with δt = 1, Ω = ζ, δζ = ζ̇ (and η = w, δw = ẇ)."""
-    b = stage.letters
-    opened = substitute(domega, {BRACKET: axis_of_bracket(stage)})
-    if b.affine:
-        opened = substitute(opened, {b.bracket_w: _bracket_w(stage)})
-    along = {b.dt: number(1), OMEGA: word(ZETA), D_ZETA: word(ZETA_DOT)}
-    along |= {hat(OMEGA): word(hat(ZETA)), hat(D_ZETA): word(hat(ZETA_DOT))}
-    if b.affine:
-        along |= {b.w.xi: word(b.w.velocity), b.w.d_velocity: word(b.w.acceleration)}
-    return normal_form(substitute(opened, along))
-
-
 def _identification(stage: Isometry, prefix: str, scope: str) -> Step:
     affine = stage.letters.affine
     pairs = [("Z", "ζ"), ("ξ", "Ω"), ("ξ′", "Ω′")] + ([] if affine else [("f", "φ")])
@@ -229,29 +251,21 @@ def strip_right(e: Expr, vector: Letter) -> Expr:
     return Expr(e.rows, vector.rows, terms)
 
 
-def _velocities(images: dict[Letter, Expr], stage: Isometry) -> list[Equation]:
-    """Ω(X) and η(X): what makes Ω − ζ δt vanish for δt = 1."""
-    b = stage.letters
-    return [
-        Equation(("call", x.name, "X"), tree_of(substitute(word(x) - y, {b.dt: number(1)})))
-        for x, y in images.items()
-        if x in (OMEGA, b.w.xi)
-    ]
-
-
 def _kernel(balance: dict[Letter, Expr], stage: Isometry, prefix: str, scope: str) -> Step:
     b = stage.letters
     inertial = {OMEGA_P: word(INERTIA) * word(ZETA_DOT)}
     equations = []
     for v, e in balance.items():
         left = inertial[v] if not b.affine else _accelerations(e, b.w.acceleration)
-        equations.append(Equation(tree_of(left), _forces(left - e)))
+        equations.append(Equation(tree_of(left), vector_sum(left - e)))
+    free, along = ("Ω′ and of η′", "Ω′ = ζ, η′ = w") if b.affine else ("Ω′", "Ω′ = ζ")
     return Step(
         f"{prefix}.kernel",
         "kernel",
-        (f"{prefix}.contraction",),
+        (f"{prefix}.second_order",),
         tuple(equations),
-        "The kernel: the coefficient of each free variation vanishes.",
+        f"The coefficient of {free} vanishes: the equations of motion. That of δ′t then vanishes "
+        f"as well: it is the opposite of what the rest gives for {along}.",
         () if b.affine else (34,),
         scope,
     )
@@ -264,19 +278,3 @@ def _accelerations(e: Expr, w_dot: Letter) -> Expr:
         if any(x in (ZETA_DOT, hat(ZETA_DOT), w_dot) for part in (*key[0], key[1]) for x, _ in part)
     }
     return Expr(e.rows, e.cols, terms)
-
-
-def _forces(e: Expr) -> Tree:
-    """A sum of vectors, with  −ζ ∧ Iζ  written  Iζ ∧ ζ  as the paper does."""
-    t = tree_of(e, Notation())
-    terms = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
-    return add(*(flip_wedge(x) for x in terms))
-
-
-def flip_wedge(t: Tree) -> Tree:
-    """−(a ∧ b) as b ∧ a when the second factor is a product."""
-    if isinstance(t, tuple) and t[0] == "mul" and len(t) == 3 and t[1] == -1:
-        inside = t[2]
-        if isinstance(inside, tuple) and inside[0] == "wedge" and isinstance(inside[2], tuple):
-            return ("wedge", inside[2], inside[1])
-    return t

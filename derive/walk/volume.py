@@ -6,6 +6,7 @@ space of multipliers (for SL(n) the multiples of 1).  The trace of Ż then gives
 
 from __future__ import annotations
 
+from ..algebra import forms
 from ..algebra import rational as q
 from ..algebra.calculus import gradient, reduce, substitute, without
 from ..algebra.groups import Group
@@ -15,8 +16,9 @@ from ..algebra.words import Expr, Letter, number, one, trace, word
 from ..mechanics.problem import Problem
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
-from .cartan import Cartan, frame_rule, trivial_images
-from .gather import terms_with
+from .cartan import Cartan, form_equation, frame_rule, trivial_images
+from .exterior import DOMEGA, Exterior, primes, structure, trivial_variations
+from .gather import gathered, terms_with
 from .inverse import cancelling, inverse_letter
 from .kernel import Kernel
 from .potential import Potentials, virtual_work
@@ -25,15 +27,16 @@ LAMBDA = Letter("λ")
 
 
 def volume_steps(
-    kernel: Kernel,
     cartan: Cartan,
+    exterior: Exterior,
+    kernel: Kernel,
     v: Potentials,
     a: Alphabet,
     problem: Problem,
     prefix: str,
     general: str,
 ) -> tuple[Step, ...]:
-    """From the general equations to Ż and λ."""
+    """From the general forms and equations to Ż and λ."""
     group = problem.group
     assert group is not None
     n, scope = group.n, group.name
@@ -45,9 +48,13 @@ def volume_steps(
     normal = normal_direction(group)
     solved = _solved(residue, force, normal, b)
     multiplier = _multiplier(solved, b)
-    energy = reduce(substitute(b.respell(cartan.energy), {b.U: v.energy}), carried)
+    potential = reduce(v.energy, carried)
+    energy = substitute(b.respell(cartan.energy), {b.U: potential})
+    form = Cartan(b.respell(cartan.momentum), energy, ())
     return (
         _relation(prefix, general, scope),
+        *v.steps,
+        *_forms(form, exterior, b, prefix, general, scope),
         Step(
             f"{prefix}.force",
             "variation",
@@ -75,6 +82,42 @@ def volume_steps(
             (f"{general}.cartan_trivialised", f"{prefix}.potential"),
             (Equation("h̃", tree_of(energy)),),
             "The energy of this problem.",
+            (),
+            scope,
+        ),
+    )
+
+
+def _forms(
+    form: Cartan, general_exterior: Exterior, b: Alphabet, prefix: str, general: str, scope: str
+) -> tuple[Step, Step]:
+    """ϖ and dϖ with the potential of the problem, whose variation is that of A."""
+    brackets, _ = structure(b, prefix)
+    domega = reduce(
+        forms.exterior(form.form(b), primes(b), *trivial_variations(b, brackets, ())),
+        frame_rule(b, word(b.C)),
+    )
+    letters = b.letters()
+    images = {
+        letters[x.name]: without(b.respell(y), b.f) for x, y in general_exterior.images.items()
+    }
+    core = terms_with(without(domega, b.dt, b.dpt), b.Z.d_velocity, b.Z.dp_velocity)
+    return (
+        Step(
+            f"{prefix}.cartan",
+            "relation",
+            (f"{general}.cartan_trivialised", f"{prefix}.potential"),
+            (form_equation(form.momentum, form.energy, Notation()),),
+            "The Cartan form of this problem.",
+            (),
+            scope,
+        ),
+        Step(
+            f"{prefix}.exterior",
+            "exterior derivative",
+            (f"{prefix}.cartan", f"{general}.structure"),
+            (Equation(DOMEGA, gathered(domega, core, images, Notation())),),
+            "Its exterior derivative.",
             (),
             scope,
         ),
@@ -127,7 +170,8 @@ def _relation(prefix: str, general: str, scope: str) -> Step:
             Equation(("tr", "ξ"), 0),
         ),
         "The group preserves the volume: its Lie algebra is that of the matrices of trace zero; "
-        "C does not drop out.",
+        "C does not drop out. The origin is fixed, and its reaction holds the points, unless c = 0 "
+        "and the forces have no resultant.",
         (),
         scope,
     )

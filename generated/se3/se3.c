@@ -191,16 +191,17 @@ void se3_rhs(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT 
     const double zeta_dot_2 = inv_I_c_12*balance_1 + inv_I_c_22*balance_2 + inv_I_c_23*balance_3;
     const double zeta_dot_3 = inv_I_c_13*balance_1 + inv_I_c_23*balance_2 + inv_I_c_33*balance_3;
 
-    /* se3.motion: 36 mul, 31 add
-     * ẇ = w ∧ ζ + Āγ + m⁻¹(c ∧ ζ̇ + ‖ζ‖² c + f_u − ⟨ζ, c⟩ ζ) */
-    const double norm2_zeta = zeta_1*zeta_1 + zeta_2*zeta_2 + zeta_3*zeta_3;
-    const double inner_zeta_c = c_1*zeta_1 + c_2*zeta_2 + c_3*zeta_3;
+    /* se3.motion: 36 mul, 30 add
+     * ẇ = w ∧ ζ + Āγ + m⁻¹(c ∧ ζ̇ + f_u + ζ ∧ (c ∧ ζ)) */
+    const double part_10 = c_2*zeta_3 - c_3*zeta_2;
+    const double part_11 = c_3*zeta_1 - c_1*zeta_3;
+    const double part_12 = c_1*zeta_2 - c_2*zeta_1;
     const double w_dot_1 = zeta_3*w_2 + (g_1*A_11 + g_2*A_21 + g_3*A_31) + inv_m*(u_4 + c_2*zeta_dot_3
-        + c_1*norm2_zeta - c_3*zeta_dot_2 - zeta_1*inner_zeta_c) - zeta_2*w_3;
+        + zeta_2*part_12 - c_3*zeta_dot_2 - zeta_3*part_11) - zeta_2*w_3;
     const double w_dot_2 = zeta_1*w_3 + (g_1*A_12 + g_2*A_22 + g_3*A_32) + inv_m*(u_5 + c_3*zeta_dot_1
-        + c_2*norm2_zeta - c_1*zeta_dot_3 - zeta_2*inner_zeta_c) - zeta_3*w_1;
+        + zeta_3*part_10 - c_1*zeta_dot_3 - zeta_1*part_12) - zeta_3*w_1;
     const double w_dot_3 = zeta_2*w_1 + (g_1*A_13 + g_2*A_23 + g_3*A_33) + inv_m*(u_6 + c_1*zeta_dot_2
-        + c_3*norm2_zeta - c_2*zeta_dot_1 - zeta_3*inner_zeta_c) - zeta_1*w_2;
+        + zeta_1*part_11 - c_2*zeta_dot_1 - zeta_2*part_10) - zeta_1*w_2;
 
     (void)t;
     dx[0] = A_12*zeta_3 - A_13*zeta_2;

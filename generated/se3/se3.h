@@ -36,7 +36,7 @@
  * Input u = (u_1, u_2, u_3, u_4, u_5, u_6).
  *
  * Operations: constants 33 mul, 22 add, 2 div;
- *             rhs 96 mul, 70 add; energy 43 mul, 29 add.
+ *             rhs 96 mul, 69 add; energy 43 mul, 29 add.
  */
 #ifndef SE3_H
 #define SE3_H

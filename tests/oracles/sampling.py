@@ -100,7 +100,7 @@ def split(name, x):
     G[:3, :3] = x[:9].reshape(3, 3)
     if name == "se3":
         G[:3, 3] = x[9:12]
-    return G, algebra(name, x[-DIMENSION[name]:])
+    return G, algebra(name, x[-DIMENSION[name] :])
 
 
 def join(name, G, coordinates):

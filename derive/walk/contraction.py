@@ -1,0 +1,154 @@
+"""dϖ(X, ·) for an unknown vector X with δt = 1, and what its vertical part says of X.
+
+On a vertical δ′ (δ′t = 0, δ′g = 0) dϖ(X, δ′) is the metric between the velocity of X and that of
+the motion, so on the kernel the two agree: X is a *second-order* field.  What then remains gives
+the accelerations.  One code for the three forms of dϖ: in space, trivialised, in vectors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from ..algebra.calculus import substitute, without
+from ..algebra.notation import Notation, tree_of
+from ..algebra.tree import Tree
+from ..algebra.words import Expr, Letter, number, word
+from ..record.record import Equation, Step
+from ..record.vocabulary import ANY_GROUP
+from .gather import gathered, terms_with
+
+CONTRACTION: Tree = ("call", "dϖ", "X", "δ′y")
+
+
+class NoKernelError(ValueError):
+    """A dϖ whose kernel is not the motion: a rule of the engine is wrong."""
+
+
+@dataclass(frozen=True)
+class Contraction:
+    """``form`` = dϖ(δ, δ′); ``core``: its terms without δt, δ′t, to be written with ``images``.
+
+    ``velocity``: δx ↦ its value on the kernel, for δt = 1; ``acceleration``: δv ↦ v̇; ``vertical``:
+    the letters δ′v; ``times``: δt and δ′t; ``display``: how letters read once X has its velocity;
+    ``opening``: what is worked out then.
+    """
+
+    form: Expr
+    core: Expr
+    images: Mapping[Letter, Expr]
+    velocity: Mapping[Letter, Expr]
+    acceleration: Mapping[Letter, Letter]
+    vertical: tuple[Letter, ...]
+    times: tuple[Letter, Letter]
+    notation: Notation
+    display: Mapping[Letter, Tree] = field(default_factory=dict)
+    opening: Callable[[Expr], Expr] = lambda e: e
+
+    @property
+    def _now(self) -> dict[Letter, Expr]:
+        return {self.times[0]: number(1)}
+
+    @cached_property
+    def _shifts(self) -> dict[Letter, Expr]:
+        return {x: substitute(y, self._now) for x, y in self.images.items()}
+
+    def any_vector(self) -> Tree:
+        """dϖ(X, δ′): the components of X are those of δ."""
+        return gathered(substitute(self.form, self._now), self.core, self._shifts, self.notation)
+
+    def on_vertical(self) -> Tree:
+        """The same for δ′t = 0, δ′g = 0; ``NoKernelError`` if the velocity is not its zero."""
+        vertical = terms_with(without(self.form, self.times[1]), *self.vertical)
+        vertical = substitute(vertical, self._now)
+        if substitute(vertical, self.velocity):
+            raise NoKernelError("the kernel of dϖ has not the velocity of the motion")
+        shifts = {x: y for x, y in self._shifts.items() if x in self.velocity}
+        return gathered(vertical, terms_with(self.core, *self.vertical), shifts, self.notation)
+
+    @cached_property
+    def _along(self) -> dict[Letter, Expr]:
+        rates = {x: word(y) for x, y in self.acceleration.items()}
+        return {**self._now, **self.velocity, **rates}
+
+    @cached_property
+    def second_order(self) -> Expr:
+        """dϖ(X, δ′) for X with the velocity of the motion."""
+        return self.opening(substitute(self.form, self._along))
+
+    @cached_property
+    def shifts(self) -> dict[Letter, Expr]:
+        """δ′x ↦ δ′x − ẋ δ′t and v̇ ↦ v̇ − F̃, where there is such a shift."""
+        rates = {
+            dot: substitute(self.images[x], self._along)
+            for x, dot in self.acceleration.items()
+            if x in self.images
+        }
+        hidden = {*self.velocity, *self.acceleration, *self.vertical}
+        return {x: y for x, y in self.images.items() if x not in hidden} | rates
+
+    @cached_property
+    def remaining_core(self) -> Expr:
+        """The accelerations in the core, for X with the velocity of the motion."""
+        core = self.opening(substitute(without(self.core, *self.vertical), self._along))
+        return terms_with(core, *self.acceleration.values())
+
+    def remaining(self) -> Tree:
+        """How dϖ(X, δ′) is written for X with the velocity of the motion."""
+        display = {**self.notation.display, **self.display}
+        notation = Notation(self.notation.metrics, display)
+        return gathered(self.second_order, self.remaining_core, self.shifts, notation)
+
+
+def velocities(along: Mapping[Letter, Expr], letters: Iterable[Letter]) -> list[Equation]:
+    """δx(X) = ẋ."""
+    return [Equation(("call", x.name, "X"), tree_of(along[x])) for x in letters]
+
+
+def steps_of(
+    c: Contraction,
+    first: list[Equation],
+    unknown: str,
+    prefix: str,
+    exterior: str,
+    paper: tuple[int, ...] = (),
+    scope: str = ANY_GROUP,
+    regular: str = "the metric is not degenerate (no direction of the group leaves every mass in "
+    "its place)",
+) -> tuple[Step, ...]:
+    """X put into dϖ, its vertical part, and what remains once the velocity is known."""
+    return (
+        Step(
+            f"{prefix}.contraction",
+            "contraction",
+            (exterior,),
+            (Equation(CONTRACTION, c.any_vector()),),
+            f"A vector X with δt = 1 is put into dϖ; its other components {unknown} are unknown.",
+            (),
+            scope,
+            ("any X",),
+        ),
+        Step(
+            f"{prefix}.vertical",
+            "restriction",
+            (f"{prefix}.contraction",),
+            (Equation(CONTRACTION, c.on_vertical()),),
+            "X is in the kernel when this vanishes for every δ′y, to begin with for those that "
+            "move the velocity alone.",
+            (),
+            scope,
+            ("any X", "vertical"),
+        ),
+        Step(
+            f"{prefix}.second_order",
+            "kernel",
+            (f"{prefix}.vertical", f"{prefix}.contraction"),
+            (*first, Equation(CONTRACTION, c.remaining())),
+            f"Where {regular}, it vanishes for all of these only if X has the velocity of the "
+            "motion, which is put in.",
+            paper,
+            scope,
+            ("any acceleration",),
+        ),
+    )

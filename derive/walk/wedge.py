@@ -1,0 +1,24 @@
+"""How a sum of vectors of R³ is written: double vector products whole, Iζ ∧ ζ without a sign."""
+
+from __future__ import annotations
+
+from ..algebra.notation import PLAIN, Notation, tree_of
+from ..algebra.space import fold_double
+from ..algebra.tree import Tree, add
+from ..algebra.words import Expr
+
+
+def vector_sum(e: Expr, notation: Notation = PLAIN) -> Tree:
+    """The tree of a vector in normal form."""
+    t = tree_of(fold_double(e), notation)
+    terms = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
+    return add(*(flip_wedge(x) for x in terms))
+
+
+def flip_wedge(t: Tree) -> Tree:
+    """−(a ∧ b) as b ∧ a when the second factor is a product, as the paper writes Iζ ∧ ζ."""
+    if isinstance(t, tuple) and t[0] == "mul" and len(t) == 3 and t[1] == -1:
+        inside = t[2]
+        if isinstance(inside, tuple) and inside[0] == "wedge" and isinstance(inside[2], tuple):
+            return ("wedge", inside[2], inside[1])
+    return t
