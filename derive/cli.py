@@ -87,13 +87,11 @@ def save(text: str, out: str | None) -> None:
 
 def command_list(_: argparse.Namespace) -> int:
     """Groups and ready-made problems."""
-    from .algebra.groups import FAMILIES
+    from .algebra.families import FAMILIES
 
     print("groups")
-    for name, (_make, least, meaning) in FAMILIES.items():
-        note = "" if name in ROADS else " (as data only)"
-        print(f"  {name + '(n)':8} n ≥ {least}  {meaning}{note}")
-    print(f"  a whole road, from L to code, today: {', '.join(ROADS.values())}")
+    for name, family in FAMILIES.items():
+        print(f"  {name + '(n)':8} n ≥ {family.least}  {family.meaning}")
     print("problems")
     for name in ready_made():
         p = load_problem(name)
@@ -199,7 +197,6 @@ def command_build(args: argparse.Namespace) -> int:
     return 0
 
 
-ROADS = {"SO": "SO(3)", "SE": "SE(3)", "SL": "SL(n)"}
 FILES = {"text": "txt", "latex": "tex", "json": "json"}
 
 

@@ -6,10 +6,22 @@ from random import Random
 import pytest
 
 from derive.algebra import rational as q
-from derive.algebra.groups import group
+from derive.algebra.families import group, turning_about_a_point
 
-NAMES = [f"{f}({n})" for f in ("SO", "SE", "SL") for n in (2, 3, 4, 5)] + ["GL(2)", "Aff(2)"]
-DIMENSIONS = {"SO(3)": 3, "SE(3)": 6, "SL(3)": 8, "SO(5)": 10, "SE(4)": 10, "SL(5)": 24}
+FAMILIES = ("SO", "SE", "SL", "SAff", "Sim", "UT", "SU")
+NAMES = [f"{f}({n})" for f in FAMILIES for n in (2, 3, 4)] + [
+    "SO(5)", "SE(5)", "SL(5)", "GL(1)", "GL(3)", "Aff(2)", "Sp(2)", "Sp(4)", "Sp(6)", "U(1)",
+    "U(3)", "SO(3) x SO(3)", "SE(2) x SL(2)", "SO(2) x SE(3) x UT(2)",
+]  # fmt: skip
+DIMENSIONS = {
+    "SO(3)": 3, "SE(3)": 6, "SL(3)": 8, "SO(5)": 10, "SE(4)": 10, "SL(5)": 24, "SAff(3)": 11,
+    "Sim(3)": 7, "UT(3)": 3, "Sp(4)": 10, "Sp(6)": 21, "U(3)": 9, "SU(3)": 8, "SO(3) x SO(3)": 6,
+}  # fmt: skip
+RELATIONS = {
+    "SO": {"orthogonal", "unimodular"}, "SE": {"orthogonal", "unimodular"}, "SL": {"unimodular"},
+    "SAff": {"unimodular"}, "GL": set(), "Aff": set(), "Sp": {"unimodular"}, "Sim": set(),
+    "UT": {"unimodular"}, "U": {"orthogonal", "unimodular"}, "SU": {"orthogonal", "unimodular"},
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -70,6 +82,40 @@ def test_samples_are_in_the_group(name):
     assert len(seen) == 4
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_relations_are_read_off_the_basis(name):
+    g = group(name)
+    expected = {"orthogonal", "unimodular"}
+    for factor in g.factors or (g,):
+        found = RELATIONS[factor.name.split("(")[0]]
+        expected &= found - {"orthogonal"} if factor.affine and g.factors else found
+    assert g.relations == expected
+
+
+@pytest.mark.parametrize("name", ["Sp(4)", "Sp(6)", "U(2)", "SU(3)"])
+def test_samples_keep_the_form_of_the_group(name):
+    """ĀΩA = Ω for Sp; A commutes with the complex structure for U and SU."""
+    g = group(name)
+    n = g.n // 2
+    one, zero = q.identity(n), q.scaled(0, q.identity(n))
+    top = [(*x, *y) for x, y in zip(zero, one, strict=True)]
+    bottom = [(*q.scaled(-1, one)[i], *zero[i]) for i in range(n)]
+    omega = (*top, *bottom)
+    A = g.sample(Random(name))
+    if name.startswith("Sp"):
+        assert q.times(q.times(q.transposed(A), omega), A) == omega
+    else:
+        assert q.times(A, omega) == q.times(omega, A)
+
+
+def test_places_of_a_product():
+    g = group("SE(2) x SL(2)")
+    assert [(offset, f.name) for offset, f in g.places] == [(0, "SE(2)"), (3, "SL(2)")]
+    assert not g.affine
+    assert group("SE(3)").free_translations
+    assert not turning_about_a_point().free_translations
+
+
 def test_so3_basis_is_j():
     g = group("SO(3)")
     x, y = (1, 2, 3), (-4, 5, 7)
@@ -78,10 +124,25 @@ def test_so3_basis_is_j():
     assert g.vee(q.bracket(g.hat(x), g.hat(y))) == cross
 
 
-@pytest.mark.parametrize("name", ["SO(1)", "SO(x)", "SO3", "", "SU(2)", "SL(99)", "SO(3) "])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "SO(1)",
+        "SO(x)",
+        "SO3",
+        "",
+        "Spin(3)",
+        "SL(99)",
+        "SO(3) ",
+        "Sp(3)",
+        "U(5)",
+        "SO(3) x",
+        "SO(8) x SO(8)",
+    ],
+)
 def test_names(name):
     if name.strip() == "SO(3)":
         assert group(name).name == "SO(3)"
     else:
-        with pytest.raises(ValueError, match=r"known|from"):
+        with pytest.raises(ValueError, match=r"known|from|at most"):
             group(name)

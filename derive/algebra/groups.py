@@ -1,14 +1,14 @@
-"""Groups as data: a basis of 𝔤 over Q, an action, relations, an exact sampler.
+"""Groups as data: a basis of 𝔤 over Q, an action, an exact sampler.  The rest is computed.
 
 A matrix group G ⊂ GL(n) acts on Rⁿ linearly, ``r ↦ A r``, or affinely, ``r ↦ A r + T``.  An affine
 group is kept as the matrices ``[[A, T], [0, 1]]`` that act linearly on ``(r, 1)``, so bracket,
-structure constants, coordinates and the normal space are computed by one code for both.
+structure constants, coordinates and the normal space are computed by one code for both.  A product
+acts on blocks: its matrices are block diagonal, each affine factor with its own last row.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -17,9 +17,9 @@ from typing import Any, Literal
 
 from . import rational as q
 from .rational import Matrix
+from .samplers import Sampler
 
 Relation = Literal["orthogonal", "unimodular"]
-Sampler = Callable[[Random, int], Matrix]
 
 
 @dataclass(frozen=True)
@@ -27,16 +27,16 @@ class Group:
     """A matrix group moving points of Rⁿ.
 
     ``basis``: d matrices of size n (linear) or n + 1 with last row zero (affine), over Q.
-    ``relations``: what holds for the linear part: ``orthogonal`` ĀA = 1, ``unimodular`` det A = 1.
-    ``sampler(random, size)``: an exact element, its parameters within ±``size``.
+    ``sampler``: exact elements, or of a larger group that has the same relations.
+    ``factors``: of a product, in order; its n is the size of its block diagonal matrices.
     """
 
     name: str
     n: int
     action: Literal["linear", "affine"]
     basis: tuple[Matrix, ...]
-    relations: frozenset[Relation]
     sampler: Sampler
+    factors: tuple[Group, ...] = ()
 
     @property
     def dimension(self) -> int:
@@ -52,6 +52,56 @@ class Group:
     def size(self) -> int:
         """The size of its matrices: n, or n + 1 for an affine action."""
         return self.n + self.affine
+
+    @cached_property
+    def relations(self) -> frozenset[Relation]:
+        """What the connected group keeps of its linear part, read off the basis.
+
+        ``orthogonal``: d(ĀA) = Ā(Z + Z̄)A vanishes, so ĀA = 1; ``unimodular``: d(det A) = det A Tr Z
+        vanishes, so det A = 1.
+        """
+        linear = [self.linear_part(e) for e in self.basis]
+        zero = q.scaled(0, q.identity(self.n))
+        found: set[Relation] = set()
+        if all(q.plus(e, q.transposed(e)) == zero for e in linear):
+            found.add("orthogonal")
+        if all(q.trace(e) == 0 for e in linear):
+            found.add("unimodular")
+        return frozenset(found)
+
+    def linear_part(self, e: Matrix) -> Matrix:
+        """The n × n block of a matrix of the group or of its algebra."""
+        return tuple(row[: self.n] for row in e[: self.n])
+
+    @cached_property
+    def linear_basis(self) -> tuple[Matrix, ...]:
+        """A basis of the linear parts of 𝔤, the first independent ones."""
+        found: list[Matrix] = []
+        rows: list[tuple[Any, ...]] = []
+        for e in map(self.linear_part, self.basis):
+            if q.rank((*rows, q.flatten(e))) > len(rows):
+                found.append(e)
+                rows.append(q.flatten(e))
+        return tuple(found)
+
+    @property
+    def free_translations(self) -> bool:
+        """Is it H ⋉ Rⁿ, with the basis of 𝔥 first and then the n translations e_1, …, e_n?"""
+        n = self.n
+        if not self.affine or self.dimension < n:
+            return False
+        last = tuple(q.unit(n + 1, i, n) for i in range(n))
+        no_shift = all(row[n] == 0 for e in self.basis[:-n] for row in e)
+        return self.basis[-n:] == last and no_shift
+
+    @property
+    def places(self) -> tuple[tuple[int, Group], ...]:
+        """The blocks of a product: (first row, factor); one block for any other group."""
+        found, offset = [], 0
+        for factor in self.factors or (self,):
+            found.append((offset, factor))
+            offset += factor.size
+        return tuple(found)
 
     def hat(self, coordinates: Sequence[Any]) -> Matrix:
         """Z = Σ ζᵃ E_a."""
@@ -107,165 +157,4 @@ class Group:
 
     def sample(self, random: Random, size: int = 9) -> Matrix:
         """An exact rational element of the group."""
-        return self.sampler(random, size)
-
-
-def _fraction(random: Random, size: int) -> Fraction:
-    return Fraction(random.randint(-size, size))
-
-
-def so_basis(n: int) -> tuple[Matrix, ...]:
-    """Skew matrices, ordered and signed so that for n = 3 they are j(e₁), j(e₂), j(e₃)."""
-    pairs = [(i, j) for i in range(n) for j in range(i + 1, n)][::-1]
-    return tuple(
-        q.scaled((-1) ** (i + j), q.minus(q.unit(n, i, j), q.unit(n, j, i))) for i, j in pairs
-    )
-
-
-def sl_basis(n: int) -> tuple[Matrix, ...]:
-    """E_ij off the diagonal and E_ii − E_nn on it: ζ is Z row by row, less its last entry."""
-    return tuple(
-        q.unit(n, i, j) if i != j else q.minus(q.unit(n, i, i), q.unit(n, n - 1, n - 1))
-        for i in range(n)
-        for j in range(n)
-        if (i, j) != (n - 1, n - 1)
-    )
-
-
-def gl_basis(n: int) -> tuple[Matrix, ...]:
-    """All E_ij, row by row."""
-    return tuple(q.unit(n, i, j) for i in range(n) for j in range(n))
-
-
-def cayley(skew: Matrix) -> Matrix:
-    """(1 − S)(1 + S)⁻¹, a rational rotation (1 + S is invertible for skew S)."""
-    one = q.identity(len(skew))
-    inverse = q.inverse(q.plus(one, skew))
-    assert inverse is not None
-    return q.times(q.minus(one, skew), inverse)
-
-
-def sample_so(n: int) -> Sampler:
-    """Cayley transform of a random skew matrix."""
-    basis = so_basis(n)
-    return lambda random, size: cayley(q.combine([_fraction(random, size) for _ in basis], basis))
-
-
-def sample_sl(n: int) -> Sampler:
-    """A product of unitriangular matrices, lower · upper · lower: elementary factors gathered."""
-
-    def triangular(random: Random, size: int, lower: bool) -> Matrix:
-        return tuple(
-            tuple(
-                Fraction(1)
-                if i == j
-                else _fraction(random, size)
-                if (i > j) == lower
-                else Fraction(0)
-                for j in range(n)
-            )
-            for i in range(n)
-        )
-
-    def sample(random: Random, size: int) -> Matrix:
-        low, up = triangular(random, size, True), triangular(random, size, False)
-        return q.times(q.times(low, up), triangular(random, size, True))
-
-    return sample
-
-
-def sample_gl(n: int) -> Sampler:
-    """A random matrix; singular with probability ≤ n / size, then drawn again."""
-
-    def sample(random: Random, size: int) -> Matrix:
-        while True:
-            a = tuple(tuple(_fraction(random, size) for _ in range(n)) for _ in range(n))
-            if q.rank(a) == n:
-                return a
-
-    return sample
-
-
-def affine_basis(linear: Sequence[Matrix], n: int) -> tuple[Matrix, ...]:
-    """The linear basis bordered by zeros, then the translations."""
-    last = (Fraction(0),) * (n + 1)
-    bordered = [(*((*row, Fraction(0)) for row in e), last) for e in linear]
-    return (*bordered, *(q.unit(n + 1, i, n) for i in range(n)))
-
-
-def sample_affine(linear: Sampler, n: int) -> Sampler:
-    """A linear element and a random translation."""
-
-    def sample(random: Random, size: int) -> Matrix:
-        a = linear(random, size)
-        rows = tuple((*row, _fraction(random, size)) for row in a)
-        return (*rows, (*(Fraction(0),) * n, Fraction(1)))
-
-    return sample
-
-
-def _orthogonal(n: int) -> Group:
-    relations: frozenset[Relation] = frozenset({"orthogonal", "unimodular"})
-    return Group(f"SO({n})", n, "linear", so_basis(n), relations, sample_so(n))
-
-
-def _euclidean(n: int) -> Group:
-    relations: frozenset[Relation] = frozenset({"orthogonal", "unimodular"})
-    sampler = sample_affine(sample_so(n), n)
-    return Group(f"SE({n})", n, "affine", affine_basis(so_basis(n), n), relations, sampler)
-
-
-def _special(n: int) -> Group:
-    return Group(f"SL({n})", n, "linear", sl_basis(n), frozenset({"unimodular"}), sample_sl(n))
-
-
-def _general(n: int) -> Group:
-    return Group(f"GL({n})", n, "linear", gl_basis(n), frozenset(), sample_gl(n))
-
-
-def _affine(n: int) -> Group:
-    sampler = sample_affine(sample_gl(n), n)
-    return Group(f"Aff({n})", n, "affine", affine_basis(gl_basis(n), n), frozenset(), sampler)
-
-
-def turning_about_a_point() -> Group:
-    """The rotations of R³ about (1, 2, 3): affine maps whose translations are not free."""
-    place: Matrix = ((Fraction(1),), (Fraction(2),), (Fraction(3),))
-    turn = sample_so(3)
-    zero = (Fraction(0),) * 4
-
-    def moved(linear: Matrix, translation: Matrix, last: tuple[Fraction, ...]) -> Matrix:
-        return (*((*row, *x) for row, x in zip(linear, translation, strict=True)), last)
-
-    def sample(random: Random, size: int) -> Matrix:
-        a = turn(random, size)
-        return moved(a, q.minus(place, q.times(a, place)), (*zero[:3], Fraction(1)))
-
-    basis = tuple(moved(e, q.scaled(-1, q.times(e, place)), zero) for e in so_basis(3))
-    relations: frozenset[Relation] = frozenset({"orthogonal", "unimodular"})
-    return Group("SO(3) about a point", 3, "affine", basis, relations, sample)
-
-
-FAMILIES: dict[str, tuple[Callable[[int], Group], int, str]] = {
-    "SO": (_orthogonal, 2, "rotations, ĀA = 1"),
-    "SE": (_euclidean, 2, "displacements, r ↦ A r + T with ĀA = 1"),
-    "SL": (_special, 2, "volume-preserving linear maps, det A = 1"),
-    "GL": (_general, 1, "invertible linear maps"),
-    "Aff": (_affine, 1, "invertible affine maps"),
-}
-"""Name → (constructor from n, smallest n, description)."""
-
-LARGEST = 8
-
-
-def group(name: str) -> Group:
-    """The group called ``"SO(3)"``, ``"SL(4)"``, …; ``ValueError`` says what is known."""
-    match = re.fullmatch(r"\s*([A-Za-z]+)\(\s*([0-9]{1,3})\s*\)\s*", name)
-    if match is None or match[1] not in FAMILIES:
-        known = ", ".join(f"{family}(n)" for family in FAMILIES)
-        raise ValueError(f"unknown group {name[:40]!r}; known: {known}")
-    make, least, _ = FAMILIES[match[1]]
-    n = int(match[2])
-    if not least <= n <= LARGEST:
-        raise ValueError(f"{match[1]}({n}): n must be from {least} to {LARGEST}")
-    return make(n)
+        return self.sampler.draw(random, size)

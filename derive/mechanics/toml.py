@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ..algebra.groups import group
+from ..algebra.families import group
 from ..algebra.tree import Tree
 from .expression import ExpressionError, names, parse
 from .problem import (

@@ -16,7 +16,8 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from ..algebra.groups import Group, group, turning_about_a_point
+from ..algebra.families import group, turning_about_a_point
+from ..algebra.groups import Group
 from . import degree
 from .evaluate import Environment, EvaluationError, evaluate, free_indices, index_values
 from .meaning import environment

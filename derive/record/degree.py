@@ -79,9 +79,8 @@ def _size(t: Tree) -> int:
 
 def _table(group: Group, body: int) -> dict[str, Degree]:
     """Degrees of the names, from the degrees of mass, place, group element and algebra element."""
-    n, d = group.n, group.dimension
-    orthogonal = "orthogonal" in group.relations
-    A = Degree(n, ((("cayley", n), 1),)) if orthogonal else Degree(3)
+    d = group.dimension
+    A = Degree(group.sampler.degree, group.sampler.denominators)
     mass = place = Degree(body)
     one = Degree(1)
     velocity, variation = A * one, A * one * one

@@ -12,7 +12,7 @@ from fractions import Fraction
 from random import Random
 from typing import Any
 
-from ..algebra.groups import group
+from ..algebra.families import group
 from ..algebra.show import show
 from ..algebra.tree import names
 from .check import SIZE, difference

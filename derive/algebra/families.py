@@ -1,0 +1,254 @@
+"""The named groups: SO, SE, SL, SAff, GL, Aff, Sp, Sim, UT, U and SU, and their products.
+
+A family is a basis and a sampler for each n; brackets, relations and the rest are computed.  The
+parameter of Sp is the size of its matrices; U(n) and SU(n) act on R²ⁿ by [[X, −Y], [Y, X]].
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from . import rational as q
+from . import samplers as draw
+from .groups import Group
+from .rational import Matrix
+from .samplers import Sampler
+
+Basis = tuple[Matrix, ...]
+
+LARGEST = 8
+LARGEST_PRODUCT = 12
+
+
+def so_basis(n: int) -> Basis:
+    """Skew matrices, ordered and signed so that for n = 3 they are j(e₁), j(e₂), j(e₃)."""
+    pairs = [(i, j) for i in range(n) for j in range(i + 1, n)][::-1]
+    return tuple(
+        q.scaled((-1) ** (i + j), q.minus(q.unit(n, i, j), q.unit(n, j, i))) for i, j in pairs
+    )
+
+
+def sl_basis(n: int) -> Basis:
+    """E_ij off the diagonal and E_ii − E_nn on it: ζ is Z row by row, less its last entry."""
+    return tuple(
+        q.unit(n, i, j) if i != j else q.minus(q.unit(n, i, i), q.unit(n, n - 1, n - 1))
+        for i in range(n)
+        for j in range(n)
+        if (i, j) != (n - 1, n - 1)
+    )
+
+
+def gl_basis(n: int) -> Basis:
+    """All E_ij, row by row."""
+    return tuple(q.unit(n, i, j) for i in range(n) for j in range(n))
+
+
+def ut_basis(n: int) -> Basis:
+    """E_ij above the diagonal, row by row."""
+    return tuple(q.unit(n, i, j) for i in range(n) for j in range(i + 1, n))
+
+
+def sim_basis(n: int) -> Basis:
+    """Rotations, then the dilation."""
+    return (*so_basis(n), q.identity(n))
+
+
+def symmetric_pairs(n: int) -> list[tuple[int, int]]:
+    """i ≤ j, row by row."""
+    return [(i, j) for i in range(n) for j in range(i, n)]
+
+
+def _symmetric(n: int, i: int, j: int) -> Matrix:
+    unit = q.unit(n, i, j)
+    return unit if i == j else q.plus(unit, q.unit(n, j, i))
+
+
+def in_blocks(
+    n: int, a: Matrix | None, b: Matrix | None, c: Matrix | None, d: Matrix | None
+) -> Matrix:
+    """[[a, b], [c, d]] with n × n blocks, ``None`` for zero."""
+    zero = q.scaled(0, q.identity(n))
+    top, bottom = (a or zero, b or zero), (c or zero, d or zero)
+    return tuple(
+        (*x, *y) for left, right in (top, bottom) for x, y in zip(left, right, strict=True)
+    )
+
+
+def sp_basis(size: int) -> Basis:
+    """[[a, b], [c, −ā]] with b and c symmetric: X̄Ω + ΩX = 0 for Ω = [[0, 1], [−1, 0]]."""
+    n = size // 2
+    linear = [
+        in_blocks(n, q.unit(n, i, j), None, None, q.scaled(-1, q.unit(n, j, i)))
+        for i in range(n)
+        for j in range(n)
+    ]
+    pairs = symmetric_pairs(n)
+    upper = [in_blocks(n, None, _symmetric(n, i, j), None, None) for i, j in pairs]
+    lower = [in_blocks(n, None, None, _symmetric(n, i, j), None) for i, j in pairs]
+    return (*linear, *upper, *lower)
+
+
+def _complex(n: int, x: Matrix | None, y: Matrix | None) -> Matrix:
+    """X + iY as a real matrix."""
+    return in_blocks(n, x, q.scaled(-1, y) if y else None, y, x)
+
+
+def u_basis(n: int) -> Basis:
+    """Skew X, then symmetric Y off and on the diagonal."""
+    skew = [_complex(n, e, None) for e in so_basis(n)]
+    off = [_complex(n, None, _symmetric(n, i, j)) for i, j in symmetric_pairs(n) if i != j]
+    return (*skew, *off, *(_complex(n, None, q.unit(n, i, i)) for i in range(n)))
+
+
+def su_basis(n: int) -> Basis:
+    """The same with Tr Y = 0."""
+    skew_and_off = u_basis(n)[:-n]
+    last = q.unit(n, n - 1, n - 1)
+    diagonal = (q.minus(q.unit(n, i, i), last) for i in range(n - 1))
+    return (*skew_and_off, *(_complex(n, None, y) for y in diagonal))
+
+
+def sp_sampler(size: int) -> Sampler:
+    """Symplectic shears, lower · upper · lower."""
+    n = size // 2
+    basis = sp_basis(size)
+    count = len(symmetric_pairs(n))
+    upper, lower = draw.shears(basis[-2 * count : -count]), draw.shears(basis[-count:])
+    return draw.product([lower, upper, lower, upper])
+
+
+def su_sampler(n: int) -> Sampler:
+    """Products of the SU(2) of each pair of axes, where Cayley's transform keeps det = 1."""
+    factors = []
+    for i in range(n):
+        for j in range(i + 1, n):
+            skew = _complex(n, q.minus(q.unit(n, i, j), q.unit(n, j, i)), None)
+            off = _complex(n, None, _symmetric(n, i, j))
+            diagonal = _complex(n, None, q.minus(q.unit(n, i, i), q.unit(n, j, j)))
+            factors.append(draw.by_cayley((skew, off, diagonal)))
+    return draw.product(factors)
+
+
+def affine_basis(linear: Sequence[Matrix], n: int) -> Basis:
+    """The linear basis bordered by zeros, then the translations."""
+    last = (Fraction(0),) * (n + 1)
+    bordered = [(*((*row, Fraction(0)) for row in e), last) for e in linear]
+    return (*bordered, *(q.unit(n + 1, i, n) for i in range(n)))
+
+
+@dataclass(frozen=True)
+class Family:
+    """A linear family, or the affine one with the same linear parts."""
+
+    basis: Callable[[int], Basis]
+    sampler: Callable[[int], Sampler]
+    least: int
+    meaning: str
+    affine: bool = False
+    step: int = 1
+    doubled: bool = False
+
+    def make(self, name: str, n: int) -> Group:
+        """The group of this family with the parameter n."""
+        size = 2 * n if self.doubled else n
+        if self.affine:
+            sampler = draw.affine(self.sampler(n), n)
+            return Group(name, n, "affine", affine_basis(self.basis(n), n), sampler)
+        return Group(name, size, "linear", self.basis(n), self.sampler(n))
+
+
+def _so(n: int) -> Sampler:
+    return draw.by_cayley(so_basis(n))
+
+
+def _sim(n: int) -> Sampler:
+    return draw.product([_so(n), draw.dilations(n)])
+
+
+FAMILIES: dict[str, Family] = {
+    "SO": Family(so_basis, _so, 2, "rotations, ĀA = 1"),
+    "SE": Family(so_basis, _so, 2, "displacements, r ↦ A r + T with ĀA = 1", affine=True),
+    "SL": Family(sl_basis, draw.special_linear, 2, "volume-preserving linear maps, det A = 1"),
+    "SAff": Family(
+        sl_basis, draw.special_linear, 2, "volume-preserving affine maps, SL(n) ⋉ Rⁿ", affine=True
+    ),
+    "GL": Family(gl_basis, draw.general_linear, 1, "invertible linear maps"),
+    "Aff": Family(gl_basis, draw.general_linear, 1, "invertible affine maps", affine=True),
+    "Sp": Family(sp_basis, sp_sampler, 2, "symplectic maps of Rⁿ, n even", step=2),
+    "Sim": Family(
+        sim_basis, _sim, 2, "similarities: rotations, dilations, translations", affine=True
+    ),
+    "UT": Family(
+        ut_basis, draw.unitriangular, 2, "upper unitriangular maps; UT(3) is Heisenberg's"
+    ),
+    "U": Family(
+        u_basis, lambda n: draw.by_cayley(u_basis(n)), 1, "unitary maps of Cⁿ = R²ⁿ", doubled=True
+    ),
+    "SU": Family(su_basis, su_sampler, 2, "unitary maps of Cⁿ = R²ⁿ, det = 1", doubled=True),
+}
+"""Name → family."""
+
+
+def group(name: str) -> Group:
+    """The group called ``"SO(3)"``, ``"SL(4)"``, ``"SO(3) x SE(3)"``; ``ValueError`` if none."""
+    parts = re.split(r"\s*[x×]\s*", name.strip()) if len(name) < 200 else [name]
+    if len(parts) > 1:
+        return product(tuple(group(x) for x in parts))
+    match = re.fullmatch(r"([A-Za-z]+)\(\s*([0-9]{1,3})\s*\)", parts[0])
+    if match is None or match[1] not in FAMILIES:
+        known = ", ".join(f"{family}(n)" for family in FAMILIES)
+        raise ValueError(
+            f"unknown group {name[:40]!r}; known: {known}, with a number for n, and products such "
+            "as 'SO(3) x SO(3)'"
+        )
+    family, n = FAMILIES[match[1]], int(match[2])
+    most = LARGEST // 2 if family.doubled else LARGEST
+    if not family.least <= n <= most or n % family.step:
+        even = "even and " if family.step == 2 else ""
+        raise ValueError(f"{match[1]}({n}): n must be {even}from {family.least} to {most}")
+    return family.make(f"{match[1]}({n})", n)
+
+
+def product(factors: tuple[Group, ...]) -> Group:
+    """The product, on blocks of points."""
+    size = sum(g.size for g in factors)
+    name = " x ".join(g.name for g in factors)
+    if size > LARGEST_PRODUCT:
+        raise ValueError(f"{name[:60]}: matrices of size {size}; at most {LARGEST_PRODUCT}")
+    basis, offset = [], 0
+    for g in factors:
+        before = q.scaled(0, q.identity(offset))
+        after = q.scaled(0, q.identity(size - offset - g.size))
+        basis += [draw.block_diagonal((before, e, after)) for e in g.basis]
+        offset += g.size
+    return Group(
+        name, size, "linear", tuple(basis), draw.blocks([g.sampler for g in factors]), factors
+    )
+
+
+def turning_about_a_point() -> Group:
+    """The rotations of R³ about (1, 2, 3): affine maps whose translations are not free."""
+    place: Matrix = ((Fraction(1),), (Fraction(2),), (Fraction(3),))
+    shift: Matrix = (*((*row, x) for row, (x,) in zip(q.identity(3), place, strict=True)), _LAST)
+    back: Matrix = (
+        *((*row, -x) for row, (x,) in zip(q.identity(3), place, strict=True)),
+        _LAST,
+    )
+
+    def carried(e: Matrix) -> Matrix:
+        return q.times(q.times(shift, e), back)
+
+    turn = _so(3)
+    basis = tuple(carried(draw.block_diagonal((e, ((Fraction(0),),)))) for e in so_basis(3))
+    sampler = Sampler(
+        lambda r, size: carried(draw.block_diagonal((turn.draw(r, size), ((Fraction(1),),)))),
+        turn.degree,
+        turn.denominators,
+    )
+    return Group("SO(3) about a point", 3, "affine", basis, sampler)
+
+
+_LAST = (Fraction(0), Fraction(0), Fraction(0), Fraction(1))
