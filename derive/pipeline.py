@@ -10,7 +10,10 @@
     isometry    Cartan                Isometry      walk.isometry      SO(n), SE(n)
     vectors     Isometry              VectorForm    walk.vector        n = 3
     elimination VectorForm            Eliminated    walk.elimination   SE(3)
-    volume      Kernel                steps         walk.volume        SL(n)
+    special     General, Potentials   Special       walk.special       any other group
+    translation Special               Centred       walk.translation   H ⋉ Rⁿ
+    multipliers Special or Centred    steps         walk.multipliers   codimension 0 or 1 in gl(n)
+    mass        Special or Centred    steps         walk.mass          the others, in coordinates
     motion      all of these          steps         walk.rotation
 
 Every stage returns its value together with the steps it took; the record is their sequence.
@@ -18,21 +21,24 @@ Every stage returns its value together with the steps it took; the record is the
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
 from .algebra.groups import Group
 from .algebra.tree import names
-from .mechanics.problem import Problem, ProblemError
+from .mechanics.problem import Problem
 from .record.record import Derivation, Step, Symbol, encode
 from .record.vocabulary import CONVENTIONS, VOCABULARY, meaning
 from .walk.alphabet import Alphabet
-from .walk.cartan import Cartan, cartan, trivialise
+from .walk.cartan import cartan, trivialise
+from .walk.chapter import Chapter
+from .walk.coordinates import coordinates_step
 from .walk.elimination import eliminate
-from .walk.exterior import Exterior, exterior, exterior_trivialised
+from .walk.exterior import exterior, exterior_trivialised
 from .walk.isometry import Isometry, isometry
-from .walk.kernel import Kernel, kernel, kernel_trivialised
+from .walk.kernel import kernel, kernel_trivialised
 from .walk.lagrangian import lagrangian
+from .walk.mass import mass_steps
+from .walk.multipliers import multiplier_steps
 from .walk.potential import body_step, potentials
 from .walk.pullback import pullback
 from .walk.rotation import (
@@ -43,8 +49,9 @@ from .walk.rotation import (
     spherical_motion,
     torque_step,
 )
+from .walk.special import General, Special, specialise
+from .walk.translation import eliminate_translation
 from .walk.vector import vector_form
-from .walk.volume import volume_steps
 
 Steps = tuple[Step, ...]
 
@@ -59,18 +66,6 @@ def walk(problem: Problem) -> Derivation:
         steps += road_of(problem, problem.group, road)
     group = problem.group.name if problem.group else ""
     return Derivation(_data(problem), _symbols(steps, group), steps)
-
-
-@dataclass(frozen=True)
-class General:
-    """What is known of every group of one action: its letters, trivialised forms and kernel."""
-
-    name: str
-    letters: Alphabet
-    cartan: Cartan
-    exterior: Exterior
-    kernel: Kernel
-    steps: Steps
 
 
 def road_of_any_group(a: Alphabet, name: str) -> General:
@@ -97,13 +92,25 @@ def road_of(problem: Problem, group: Group, road: General) -> Steps:
         stage = isometry(road.cartan, road.letters, group.n, name, road.name, scope)
         special = road_of_displacements if group.affine else road_of_rotations
         return first + stage.steps + special(problem, stage, road.name)
-    if group.relations == {"unimodular"} and not group.affine:
-        v = potentials(problem, Alphabet(group.n, affine=False), name, road.name, scope)
-        forms = (road.cartan, road.exterior, road.kernel)
-        return first + volume_steps(*forms, v, road.letters, problem, name, road.name)
-    raise ProblemError(
-        f"key 'group': the road for {group.name} is not built yet; known: SO(3), SE(3), SL(n)"
-    )
+    v = potentials(problem, Alphabet(group.n, affine=group.affine), name, road.name, scope)
+    chapter = Chapter(name, road.name, scope)
+    return first + road_of_matrices(group, specialise(road, group, v, chapter), chapter)
+
+
+def road_of_matrices(group: Group, stage: Special, c: Chapter) -> Steps:
+    """Any other group: the translation eliminated, then one multiplier or the mass matrix."""
+    b, steps, uses = stage.letters, stage.steps, ".equations force"
+    inertial, force, metric = stage.inertial, stage.forces[b.Z.xi_prime], b.J
+    if group.affine:
+        centred = eliminate_translation(stage, uses, c)
+        inertial, force, metric = centred.inertial, centred.force, centred.metric
+        steps, uses = steps + centred.steps, "elimination"
+    normal = group.normal_space_of_linear_parts
+    place = coordinates_step(group, b, c, reading=len(normal) <= 1)
+    if len(normal) <= 1:
+        motion = multiplier_steps(inertial, force, metric, normal, b, uses, c)
+        return (*steps, *motion, place, *stage.last)
+    return (*steps, place, *mass_steps(inertial, force, b, uses, c), *stage.last)
 
 
 def road_of_rotations(problem: Problem, stage: Isometry, general: str) -> Steps:

@@ -10,7 +10,7 @@ from derive.algebra.families import group, turning_about_a_point
 
 FAMILIES = ("SO", "SE", "SL", "SAff", "Sim", "UT", "SU")
 NAMES = [f"{f}({n})" for f in FAMILIES for n in (2, 3, 4)] + [
-    "SO(5)", "SE(5)", "SL(5)", "GL(1)", "GL(3)", "Aff(2)", "Sp(2)", "Sp(4)", "Sp(6)", "U(1)",
+    "SO(5)", "SE(5)", "SL(5)", "GL(2)", "GL(3)", "Aff(2)", "Sp(2)", "Sp(4)", "Sp(6)", "U(1)",
     "U(3)", "SO(3) x SO(3)", "SE(2) x SL(2)", "SO(2) x SE(3) x UT(2)",
 ]  # fmt: skip
 DIMENSIONS = {

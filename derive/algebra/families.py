@@ -175,8 +175,8 @@ FAMILIES: dict[str, Family] = {
     "SAff": Family(
         sl_basis, draw.special_linear, 2, "volume-preserving affine maps, SL(n) ⋉ Rⁿ", affine=True
     ),
-    "GL": Family(gl_basis, draw.general_linear, 1, "invertible linear maps"),
-    "Aff": Family(gl_basis, draw.general_linear, 1, "invertible affine maps", affine=True),
+    "GL": Family(gl_basis, draw.general_linear, 2, "invertible linear maps"),
+    "Aff": Family(gl_basis, draw.general_linear, 2, "invertible affine maps", affine=True),
     "Sp": Family(sp_basis, sp_sampler, 2, "symplectic maps of Rⁿ, n even", step=2),
     "Sim": Family(
         sim_basis, _sim, 2, "similarities: rotations, dilations, translations", affine=True

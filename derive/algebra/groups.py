@@ -9,7 +9,7 @@ acts on blocks: its matrices are block diagonal, each affine factor with its own
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from random import Random
@@ -125,13 +125,17 @@ class Group:
         s = self.size
         return [(c, k // s, k % s) for k, c in enumerate(self._readers[a]) if c]
 
-    def vee(self, z: Matrix) -> tuple[Any, ...] | None:
-        """The coordinates of Z, or ``None`` when Z is not in 𝔤."""
+    def nearest(self, z: Matrix) -> tuple[Any, ...]:
+        """The coordinates that the readers find in any matrix: those of Z when Z is in 𝔤."""
         flat = q.flatten(z)
-        coordinates = tuple(
+        return tuple(
             sum((c * x for c, x in zip(row, flat, strict=True) if c), Fraction(0))
             for row in self._readers
         )
+
+    def vee(self, z: Matrix) -> tuple[Any, ...] | None:
+        """The coordinates of Z, or ``None`` when Z is not in 𝔤."""
+        coordinates = self.nearest(z)
         return coordinates if self.hat(coordinates) == q.matrix(z) else None
 
     @cached_property
@@ -154,6 +158,12 @@ class Group:
         s = self.size
         vectors = q.nullspace(tuple(q.flatten(e) for e in self.basis))
         return tuple(tuple(v[i * s : (i + 1) * s] for i in range(s)) for v in vectors)
+
+    @cached_property
+    def normal_space_of_linear_parts(self) -> tuple[Matrix, ...]:
+        """The same for the linear parts of 𝔤 in gl(n)."""
+        linear = replace(self, action="linear", basis=self.linear_basis, factors=())
+        return linear.normal_space
 
     def sample(self, random: Random, size: int = 9) -> Matrix:
         """An exact rational element of the group."""

@@ -52,8 +52,15 @@ def show_name(name: str) -> str:
     return base + index.translate(SUBSCRIPTS) if re.fullmatch(r"[0-9]+", index) else name
 
 
+def _indices(indices: tuple[object, ...]) -> str:
+    """r_i, M_ab: subscripts where there are such letters."""
+    shown = "".join(str(i) for i in indices).translate(SUBSCRIPTS)
+    return shown if not re.search(r"[A-Za-z]", shown) else "_" + "".join(map(str, indices))
+
+
 def _index(i: object) -> str:
-    return str(i).translate(SUBSCRIPTS)
+    shown = str(i).translate(SUBSCRIPTS)
+    return f"_{i}" if shown == str(i) else shown
 
 
 def _atom(t: Tree) -> str:
@@ -153,7 +160,7 @@ def _operand(t: Tree) -> str:
 
 def _barred(t: Tree) -> str:
     if isinstance(t, tuple) and t[0] == "at" and isinstance(t[1], str):
-        return bar(show(t[1])) + "".join(_index(i) for i in t[2:])
+        return bar(show(t[1])) + _indices(t[2:])
     return bar(show(t)) if isinstance(t, str) else f"{_atom(t)}‾"
 
 
@@ -179,9 +186,9 @@ def _atomic(op: object, a: tuple[Tree, ...]) -> str:
     if op == "hat":
         return f"j({show(a[0])})"
     if op == "entry":
-        return _atom(a[0]) + "".join(_index(i) for i in a[1:])
+        return _atom(a[0]) + _indices(a[1:])
     if op == "at":
-        return show(a[0]) + "".join(_index(i) for i in a[1:])
+        return show(a[0]) + _indices(a[1:])
     if op == "par":
         return show(a[0])
     if op == "matrix":

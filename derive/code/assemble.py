@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..algebra.groups import Group
+from ..algebra.rational import Matrix
 from ..algebra.show import show
 from ..record.record import Derivation
 from .conventions import conventions
@@ -12,6 +13,7 @@ from .naming import Names, suffixed
 from .program import Function, Program
 from .reader import LoweringError, equation_key
 from .schedule import Scheduler, frontier
+from .state import layout
 
 
 def assemble(d: Derivation, group: Group) -> Program:
@@ -62,19 +64,18 @@ def assemble(d: Derivation, group: Group) -> Program:
 def _state(lowering: Lowering) -> tuple[list[str], list[Node]]:
     """Names of the state and the nodes of its rate, in the order of the contract."""
     group, n = lowering.group, lowering.n
-    span = range(1, n + 1)
-    A_dot = lowering.name("Ȧ")
-    state = [suffixed("A", i, j) for i in span for j in span]
-    rates = [x for row in A_dot for x in row]  # type: ignore[union-attr]
-    d = group.dimension - n if group.affine else group.dimension
+    slots = layout(group)
+    state = [x.name for x in slots]
+    rate: dict[str, Matrix] = {"A": lowering.name("Ȧ")}  # type: ignore[dict-item]
     if group.affine:
-        state += [suffixed("T", i) for i in span]
-        rates += [row[0] for row in lowering.name("Ṫ")]  # type: ignore[union-attr]
+        rate["T"] = lowering.name("Ṫ")  # type: ignore[assignment]
+    rates = [rate[x.letter][x.row][x.column] for x in slots]
+    d = group.dimension - n if group.affine else group.dimension
     state += [suffixed("zeta", a) for a in range(1, d + 1)]
     rates += [lowering.component("ζ̇", a) for a in range(1, d + 1)]
     if group.affine:
-        state += [suffixed("w", i) for i in span]
-        rates += [lowering.component("ẇ", i) for i in span]
+        state += [suffixed("w", i) for i in range(1, n + 1)]
+        rates += [lowering.component("ẇ", i) for i in range(1, n + 1)]
     return state, rates
 
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import cache
+from itertools import product
 
 from ..algebra.rational import Matrix
 from .graph import PARAMETER, Graph, Node
 
 Namer = Callable[[Matrix, int, int], Matrix]
+NodeNamer = Callable[[str, Node], Node]
 
 
 def stage_of(m: Matrix) -> int:
@@ -20,7 +23,12 @@ def times(g: Graph, a: Matrix, b: Matrix) -> Matrix:
     """a b."""
     columns = list(zip(*b, strict=True))
     return tuple(
-        tuple(g.sum(g.product((x, y)) for x, y in zip(r, c, strict=True)) for c in columns)
+        tuple(
+            g.sum(
+                g.product((x, y)) for x, y in zip(r, c, strict=True) if not (x.is_zero or y.is_zero)
+            )
+            for c in columns
+        )
         for r in a
     )
 
@@ -88,35 +96,93 @@ def adjugate(g: Graph, m: Matrix) -> Matrix:
     )
 
 
-def symmetric_inverse(
-    g: Graph, m: Matrix, named: Callable[[str, Node], Node]
-) -> tuple[Matrix, list[Node]]:
-    """m⁻¹ and the pivots of  m = L D L̄,  for a positive definite m: no square roots, no search.
+@dataclass(frozen=True)
+class Factors:
+    """m = L D L̄ for a positive definite m: no square roots, no search.
 
-    ``named(name, node)`` names an intermediate value.
+    ``lower``: the columns of L below the diagonal by (i, j); ``pivots``: D; ``inverses``: D⁻¹.
     """
+
+    lower: dict[tuple[int, int], Node]
+    pivots: list[Node]
+    inverses: list[Node]
+
+
+def factorised(g: Graph, m: Matrix, named: NodeNamer) -> Factors:
+    """The factors; ``named(name, node)`` names an intermediate value."""
     n = len(m)
-    L: list[list[Node]] = [[g.num(int(i == j)) for j in range(n)] for i in range(n)]
-    D: list[Node] = []
-    R: list[Node] = []
+    f = Factors({}, [], [])
     for j in range(n):
-        earlier = [g.product((L[j][k], L[j][k], D[k])) for k in range(j)]
-        D.append(named(f"d_{j + 1}", m[j][j] - g.sum(earlier)))
-        R.append(named(f"r_{j + 1}", g.recip(D[j])))
+        scaled = [g.product((f.lower[j, k], f.pivots[k])) for k in range(j)]
+        earlier = [g.product((f.lower[j, k], scaled[k])) for k in range(j)]
+        f.pivots.append(named(f"d_{j + 1}", m[j][j] - g.sum(earlier)))
+        f.inverses.append(named(f"r_{j + 1}", g.recip(f.pivots[j])))
         for i in range(j + 1, n):
-            terms = [g.product((L[i][k], L[j][k], D[k])) for k in range(j)]
-            L[i][j] = named(f"l_{i + 1}{j + 1}", g.product((m[i][j] - g.sum(terms), R[j])))
+            terms = [g.product((f.lower[i, k], scaled[k])) for k in range(j)]
+            entry = g.product((m[i][j] - g.sum(terms), f.inverses[j]))
+            f.lower[i, j] = named(f"l_{i + 1}{j + 1}", entry)
+    return f
+
+
+def solve(g: Graph, f: Factors, right: Matrix, named: NodeNamer) -> Matrix:
+    """x with L D L̄ x = right, a column: forward, diagonal, backward."""
+    n = len(f.pivots)
+    y: list[Node] = []
+    for i in range(n):
+        terms = [g.product((f.lower[i, k], y[k])) for k in range(i)]
+        y.append(named(f"y_{i + 1}", right[i][0] - g.sum(terms)))
+    x: list[Node] = [g.num(0)] * n
+    for i in reversed(range(n)):
+        terms = [g.product((f.lower[k, i], x[k])) for k in range(i + 1, n)]
+        x[i] = named(f"x_{i + 1}", g.product((y[i], f.inverses[i])) - g.sum(terms))
+    return tuple((v,) for v in x)
+
+
+def symmetric_inverse(g: Graph, m: Matrix, named: NodeNamer) -> tuple[Matrix, list[Node]]:
+    """m⁻¹ and the pivots, from the factors."""
+    n = len(m)
+    f = factorised(g, m, named)
     W: list[list[Node]] = [[g.num(0)] * n for _ in range(n)]
     for j in range(n):
         W[j][j] = g.num(1)
         for i in range(j + 1, n):
-            terms = [g.product((L[i][k], W[k][j])) for k in range(j, i)]
+            terms = [g.product((f.lower[i, k], W[k][j])) for k in range(j, i)]
             W[i][j] = named(f"w_{i + 1}{j + 1}", -g.sum(terms))
-    inverse = tuple(
-        tuple(
-            g.sum(g.product((W[k][i], W[k][j], R[k])) for k in range(max(i, j), n))
-            for j in range(n)
-        )
+    entries = {
+        (i, j): g.sum(g.product((W[k][i], W[k][j], f.inverses[k])) for k in range(i, n))
         for i in range(n)
-    )
-    return inverse, D
+        for j in range(i + 1)
+    }
+    inverse = tuple(tuple(entries[max(i, j), min(i, j)] for j in range(n)) for i in range(n))
+    return inverse, f.pivots
+
+
+def diagonal(g: Graph, m: Matrix) -> Node:
+    """Tr m."""
+    return g.sum(m[i][i] for i in range(len(m)))
+
+
+def is_constant(m: Matrix) -> bool:
+    """Is it a matrix of numbers?"""
+    return all(x.op == "num" for row in m for x in row)
+
+
+def sparse_trace(g: Graph, constants: list[Matrix], between: list[Matrix | None]) -> Node:
+    """Tr E_1 X_1 E_2 X_2 …, over the entries of the constant E_k that are not zero."""
+    entries = [
+        [(i, j, x) for i, row in enumerate(e) for j, x in enumerate(row) if not x.is_zero]
+        for e in constants
+    ]
+    terms: list[Node] = []
+    for chosen in product(*entries):
+        factors: list[Node] = []
+        for k, (_, j, x) in enumerate(chosen):
+            i = chosen[(k + 1) % len(chosen)][0]
+            middle = between[k]
+            link = g.num(int(i == j)) if middle is None else middle[j][i]
+            factors += [x, link]
+            if link.is_zero:
+                break
+        else:
+            terms.append(g.product(factors))
+    return g.sum(terms)

@@ -15,20 +15,20 @@ from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree, mul
-from ..record.evaluate import hat, wedge
+from ..record.arithmetic import hat, wedge
 from ..record.record import Derivation
 from . import dense
-from .graph import PARAMETER, Graph, Node
+from .graph import Node
+from .inverses import SMALL, Inverting
 from .naming import name_of
-from .reader import LoweringError, Reader, Value
+from .reader import LoweringError, Value, bound
 
 
-class Lowering(Reader):
-    """The graph of one record.  ``checks``: what must not vanish in constants, and its scale."""
+class Lowering(Inverting):
+    """The graph of one record."""
 
     def __init__(self, d: Derivation, group: Group):
         super().__init__(d, group)
-        self.checks: list[tuple[Node, Node | None]] = []
         self._products: set[Tree] = set()
         self._scan()
 
@@ -39,44 +39,41 @@ class Lowering(Reader):
                 for equation in step.equations:
                     self._products |= set(standalone(equation.rhs))
 
-    def tree(self, t: Tree, index: dict[str, int] | None = None) -> Value:
+    def tree(self, t: Tree) -> Value:
         """The value of a tree."""
         if isinstance(t, str):
             return self.name(t)
         if isinstance(t, (int, Fraction)):
             return self.graph.num(t)
-        if index is None and t in self.memo:
+        if t in self.memo:
             return self.memo[t]
-        value = self._node(t, index)
-        if index is None and isinstance(value, Node) and t[0] in ("inner", "norm2", "metric"):
+        value = self._node(t)
+        if isinstance(value, Node) and t[0] in ("inner", "norm2", "metric"):
             value = self.graph.value(value, name_of(t), self.label)
-        if index is None:
-            self.memo[t] = value
+        self.memo[t] = value
         return value
 
-    def _node(self, t: tuple[Any, ...], index: dict[str, int] | None) -> Value:
+    def _node(self, t: tuple[Any, ...]) -> Value:
         op = t[0]
         if op == "par":
             return self.graph.leaf(t[1], "parameter")
         if op == "at":
-            return self.member(
-                (op, t[1], *(index[i] if index and i in index else i for i in t[2:]))
-            )
+            return self.member(t)
         if op == "sum":
             return self._sum(t)
         if op == "mul":
-            return self._product(t, index)
-        if op == "tr" and index is None:
+            return self._product(t)
+        if op == "tr":
             return self._trace(t[1])
         if op == "inv":
             return self._inverse(t[1])
         if op in ("metric", "norm2"):
-            return self._metric(t, index)
+            return self._metric(t)
         if op == "entry":
             value = self.tree(t[1])
             assert not isinstance(value, Node)
             return value[t[2] - 1][t[3] - 1 if len(t) == 4 else 0]  # type: ignore[no-any-return]
-        return self._simple(op, [self.tree(x, index) for x in t[1:] if op != "pow" or x != t[2]], t)
+        return self._simple(op, [self.tree(x) for x in t[1:] if op != "pow" or x != t[2]], t)
 
     def _simple(self, op: str, a: list[Any], t: tuple[Any, ...]) -> Value:
         g = self.graph
@@ -102,7 +99,7 @@ class Lowering(Reader):
         if op == "hat":
             return hat(a[0])  # type: ignore[no-any-return]
         if op == "tr":
-            return _diagonal(g, a[0])
+            return dense.diagonal(g, a[0])
         if op == "matrix":
             return tuple(tuple(row) for row in a)
         if op == "row":
@@ -118,38 +115,39 @@ class Lowering(Reader):
 
     def _sum(self, t: tuple[Any, ...]) -> Value:
         _, index, body = t
-        terms = [self.tree(body, {index: i}) for i in self.members(body, index)]
+        terms = [self.tree(bound(body, {index: i})) for i in self.members(body, index)]
         return self._simple("add", terms, t)
 
-    def _product(self, t: tuple[Any, ...], index: dict[str, int] | None) -> Value:
-        factors = [(x, self.tree(x, index)) for x in t[1:]]
+    def _product(self, t: tuple[Any, ...]) -> Value:
+        if is_solve(t) and len(self._matrix(t[1][1])) > SMALL:
+            return self.solved(t[1][1], self._matrix(mul(*t[2:])))
+        factors = [(x, self.tree(x)) for x in t[1:]]
         scalars = [v for _, v in factors if isinstance(v, Node)]
         matrices = [(x, v) for x, v in factors if not isinstance(v, Node)]
         if not matrices:
             return self.graph.product(scalars)
-        whole = self._chain(matrices, index)
+        whole = self._chain(matrices)
         if not scalars:
             return whole
         if len(whole) == 1 == len(whole[0]):
             return self.graph.product([*scalars, whole[0][0]])
         return tuple(tuple(self.graph.product([*scalars, x]) for x in row) for row in whole)
 
-    def _chain(self, factors: list[tuple[Tree, Matrix]], index: dict[str, int] | None) -> Matrix:
+    def _chain(self, factors: list[tuple[Tree, Matrix]]) -> Matrix:
         if len(factors) == 1:
             return factors[0][1]
         factors = [(x, self._operand(x, v)) for x, v in factors]
         trees = [x for x, _ in factors]
         key: Tree = ("mul", *trees)
-        if index is None and key in self.memo:
+        if key in self.memo:
             return self.memo[key]  # type: ignore[return-value]
 
         def named(m: Matrix, i: int, j: int) -> Matrix:
             return self.named(m, name_of(mul(*trees[i : j + 1])))  # type: ignore[return-value]
 
         value = dense.chain(self.graph, [v for _, v in factors], named)
-        if index is None:
-            value = self.named(value, name_of(key))  # type: ignore[assignment]
-            self.memo[key] = value
+        value = self.named(value, name_of(key))  # type: ignore[assignment]
+        self.memo[key] = value
         return value
 
     def _operand(self, t: Tree, value: Matrix) -> Matrix:
@@ -165,11 +163,13 @@ class Lowering(Reader):
         if isinstance(t, tuple) and t[0] == "mul" and len(factors) > 1:
             matrices = [(x, self._matrix(x)) for x in factors]
             scalars = [self.tree(x) for x in t[1:] if is_scalar(x)]
+            if any(dense.is_constant(v) for _, v in matrices):
+                return g.product([*scalars, self._sparse_trace(matrices)])  # type: ignore[list-item]
             if ("mul", *factors) in self._products:
-                traced = _diagonal(g, self._chain(matrices, None))
+                traced = dense.diagonal(g, self._chain(matrices))
             else:
                 half = len(matrices) // 2
-                left, right = self._chain(matrices[:half], None), self._chain(matrices[half:], None)
+                left, right = self._chain(matrices[:half]), self._chain(matrices[half:])
                 traced = dense.dot(g, left, q.transposed(right))
             whole = g.product([*scalars, traced])  # type: ignore[list-item]
             return g.value(whole, name, self.label)
@@ -177,74 +177,46 @@ class Lowering(Reader):
             base = self._matrix(t[1])
             return g.value(dense.dot(g, base, q.transposed(base)), name, self.label)
         # a bare trace has no name: in (Tr J)1 − J its terms must cancel before they are rounded
-        return _diagonal(g, self._matrix(t))
+        return dense.diagonal(g, self._matrix(t))
 
-    def _matrix(self, t: Tree, index: dict[str, int] | None = None) -> Matrix:
-        value = self.tree(t, index)
+    def _sparse_trace(self, factors: list[tuple[Tree, Matrix]]) -> Node:
+        """Tr of a product with constant matrices: a sum over their entries that are not zero."""
+        first = next(k for k, (_, v) in enumerate(factors) if dense.is_constant(v))
+        turned = factors[first:] + factors[:first]
+        constants: list[Matrix] = []
+        runs: list[list[tuple[Tree, Matrix]]] = []
+        for x, v in turned:
+            if dense.is_constant(v):
+                constants.append(v)
+                runs.append([])
+            else:
+                runs[-1].append((x, v))
+        between = [self._chain(run) if run else None for run in runs]
+        return dense.sparse_trace(self.graph, constants, between)
+
+    def _matrix(self, t: Tree) -> Matrix:
+        value = self.tree(t)
         assert not isinstance(value, Node)
         return value
 
-    def _metric(self, t: tuple[Any, ...], index: dict[str, int] | None) -> Value:
+    def _metric(self, t: tuple[Any, ...]) -> Value:
         if t[0] == "norm2":
             if len(t) == 2:
-                value = self._matrix(t[1], index)
+                value = self._matrix(t[1])
                 return dense.dot(self.graph, value, value)
             t = ("metric", t[1], t[2], t[2])
         _, metric, a, b = t
-        left, right = self._matrix(a, index), self._matrix(mul(metric, b), index)
+        left, right = self._matrix(a), self._matrix(mul(metric, b))
         return dense.dot(self.graph, left, right)
-
-    # -- inverses ----------------------------------------------------------------------------
-
-    def _inverse(self, t: Tree) -> Value:
-        value, name = self.tree(t), name_of(("inv", t))
-        g = self.graph
-        if isinstance(value, Node):
-            if value.stage == PARAMETER:
-                self.checks.append((value, None))
-            return g.value(g.recip(value), name, self.label)
-        if self._unit_determinant(t):
-            if len(value) <= 3:
-                return self.named(dense.adjugate(g, value), name)
-        elif len(value) <= 3:
-            return self._by_adjugate(value, name, name_of(t))
-        inverse, pivots = dense.symmetric_inverse(
-            g, value, lambda part, x: g.value(x, f"{name}_{part}", self.label)
-        )
-        if dense.stage_of(value) == PARAMETER:
-            scale = g.magnitude(_diagonal(g, value))
-            self.checks += [(d, scale) for d in pivots]
-        return self.named(inverse, name)
-
-    def _by_adjugate(self, value: Matrix, name: str, base: str) -> Value:
-        g = self.graph
-        adjugate = self.named(dense.adjugate(g, value), f"adj_{base}")
-        assert not isinstance(adjugate, Node)
-        row = [(x, adjugate[j][0]) for j, x in enumerate(value[0])]
-        det = g.value(g.sum(g.product(pair) for pair in row), f"det_{base}", self.label)
-        if det.stage == PARAMETER:
-            # det ≤ λ_min (Tr)ⁿ⁻¹, and λ_min is known to rounding in the terms of the trace
-            trace = _diagonal(g, value)
-            size = g.value(g.magnitude(trace), f"size_{base}", self.label)
-            rest = [g.value(trace, f"tr_{base}", self.label)] * (len(value) - 1)
-            self.checks.append((det, g.product([size, *rest])))
-        scale = g.value(g.recip(det), f"inv_det_{base}", self.label)
-        return self.named(tuple(tuple(g.product((scale, x)) for x in r) for r in adjugate), name)
-
-    def _unit_determinant(self, t: Tree) -> bool:
-        """A and C = ĀA where the record says det A = 1."""
-        unimodular = any(
-            e.lhs == ("det", "A") and e.rhs == 1 for s in self.record.steps for e in s.equations
-        )
-        return unimodular and t in ("A", "C")
-
-
-def _diagonal(g: Graph, m: Matrix) -> Node:
-    return g.sum(m[i][i] for i in range(len(m)))
 
 
 SCALARS = {"m", "λ", "t", "h̃", "Ũ", "L̃"}
 SCALAR_OPERATORS = {"tr", "inner", "metric", "norm2", "det", "par", "entry"}
+
+
+def is_solve(t: tuple[Any, ...]) -> bool:
+    """Is a product the solution M⁻¹β of a linear system in coordinates?"""
+    return len(t) == 3 and t[1] == ("inv", "M")
 
 
 def is_scalar(t: Tree) -> bool:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree, subtrees
 from ..record.record import Derivation, Equation, Step
 from .graph import Graph, Node
 from .naming import name_of, suffixed
+from .state import fixed_entries, layout
 
 Value = Node | Matrix
 
@@ -27,7 +30,7 @@ class Reader:
         self.memo: dict[Tree, Value] = {}
         self._inputs()
 
-    def tree(self, t: Tree, index: dict[str, int] | None = None) -> Value:
+    def tree(self, t: Tree) -> Value:
         """The value of a tree."""
         raise NotImplementedError
 
@@ -35,11 +38,14 @@ class Reader:
 
     def _inputs(self) -> None:
         n, d = self.n, self.group.dimension
+        leaves = {(x.letter, x.row, x.column): self.leaf(x.name) for x in layout(self.group)}
+        ones = fixed_entries(self.group)
         self.state["A"] = tuple(
-            tuple(self.leaf(suffixed("A", i, j)) for j in range(1, n + 1)) for i in range(1, n + 1)
+            tuple(leaves.get(("A", i, j), self.graph.num(ones.get((i, j), 0))) for j in range(n))
+            for i in range(n)
         )
         if self.group.affine:
-            self.state["T"] = self.column("T", n)
+            self.state["T"] = tuple((leaves["T", i, 0],) for i in range(n))
             self.state["ζ"] = self.column("zeta", d - n)
             self.state["w"] = self.column("w", n)
         else:
@@ -69,10 +75,36 @@ class Reader:
             return self.state[name]
         if name not in self.memo:
             found = self.record.definition(name)
-            if found is None:
-                raise LoweringError(f"the record does not define {name!r}")
-            self.memo[name] = self._defined(found, name_of(name))
+            if found is not None:
+                self.memo[name] = self._defined(found, name_of(name))
+            else:
+                self.memo[name] = self._entries(name)
         return self.memo[name]
+
+    def _entries(self, name: str) -> Matrix:
+        """A vector or matrix that the record defines entry by entry, for any indices."""
+        for step in self.record.steps:
+            for e in step.equations:
+                if isinstance(e.lhs, tuple) and e.lhs[:2] == ("entry", name):
+                    indices = [i for i in e.lhs[2:] if isinstance(i, str)]
+                    if len(indices) == len(e.lhs) - 2:
+                        return self._table(step, e, indices)
+        raise LoweringError(f"the record does not define {name!r}")
+
+    def _table(self, step: Step, e: Equation, indices: list[str]) -> Matrix:
+        span = range(1, len(self.group.linear_basis) + 1)
+        name = name_of(e.lhs[1])  # type: ignore[index]
+        outer, self.label = self.label, equation_key(step, e)
+
+        def entry(*values: int) -> Node:
+            value = self.tree(bound(e.rhs, dict(zip(indices, values, strict=True))))
+            assert isinstance(value, Node)
+            return self.graph.value(value, suffixed(name, *values), self.label, given=True)
+
+        columns = span if len(indices) == 2 else (None,)
+        table = tuple(tuple(entry(i) if j is None else entry(i, j) for j in columns) for i in span)
+        self.label = outer
+        return table
 
     def _defined(self, found: tuple[Step, Equation], name: str) -> Value:
         step, equation = found
@@ -101,6 +133,9 @@ class Reader:
 
     def member(self, t: Tree) -> Value:
         """A member of an indexed family: the equation that has it on the left."""
+        if t not in self.memo and isinstance(t, tuple) and t[1] == "E":
+            basis = self.group.linear_part(self.group.basis[t[2] - 1])
+            self.memo[t] = tuple(tuple(self.graph.num(x) for x in row) for row in basis)
         if t not in self.memo:
             found = self.record.definition(t)
             if found is None:
@@ -121,6 +156,8 @@ class Reader:
 
     def members(self, body: Tree, index: str) -> list[int]:
         """The values that an index takes: the members that the record defines."""
+        if any(x[1] == "E" for _, x in subtrees(body) if isinstance(x, tuple) and x[0] == "at"):
+            return [*range(1, len(self.group.linear_basis) + 1)]
         families = {x[1] for _, x in subtrees(body) if isinstance(x, tuple) and x[0] == "at"}
         found = {
             e.lhs[2]
@@ -134,6 +171,15 @@ class Reader:
         if not found:
             raise LoweringError(f"the record does not list the members of {sorted(families)}")
         return sorted(found)
+
+
+def bound(t: Tree, values: Mapping[str, int]) -> Tree:
+    """A tree with indices replaced by their values."""
+    if not isinstance(t, tuple):
+        return t
+    if t[0] in ("at", "entry"):
+        return (t[0], bound(t[1], values), *(values.get(i, i) for i in t[2:]))
+    return (t[0], *(bound(x, values) for x in t[1:]))
 
 
 def equation_key(step: Step, equation: Equation) -> str:

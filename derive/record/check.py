@@ -9,6 +9,7 @@ Nothing is imported from the walk.
 from __future__ import annotations
 
 import hashlib
+import itertools
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -19,7 +20,8 @@ from typing import Any
 from ..algebra.families import group, turning_about_a_point
 from ..algebra.groups import Group
 from . import degree
-from .evaluate import Environment, EvaluationError, evaluate, free_indices, index_values
+from .arithmetic import EvaluationError, scalar
+from .evaluate import Environment, evaluate, free_indices, index_values
 from .meaning import environment
 from .model import Model
 from .record import Derivation, Equation, RecordError, Step, to_json
@@ -28,7 +30,7 @@ from .vocabulary import ANY_GROUP
 SIZE = 2**128
 """Random parameters are integers of at most this absolute value."""
 
-LARGEST_DEGREE = 2000
+LARGEST_DEGREE = 100_000
 """Claims of a larger degree are refused before they are evaluated."""
 
 PANELS: dict[str, tuple[Callable[[], Group], ...]] = {
@@ -118,13 +120,21 @@ def difference(equation: Equation, env: Environment) -> str:
     if equation.lhs == equation.rhs:
         return "both sides are the same tree: it claims nothing"
     both = ("add", equation.lhs, equation.rhs)
-    for index in sorted(free_indices(both)):
-        for value in index_values(both, index, env):
-            reason = _difference(equation, env.with_index(index, value))
-            if reason:
-                return reason
-        return ""
-    return _difference(equation, env)
+    free = sorted(free_indices(both))
+    if len(free) > 2:
+        return "more than two free indices"
+    try:
+        spans = [index_values(both, index, env) for index in free]
+    except EvaluationError as error:
+        return str(error)
+    for values in itertools.product(*spans):
+        bound = env
+        for index, value in zip(free, values, strict=True):
+            bound = bound.with_index(index, value)
+        reason = _difference(equation, bound)
+        if reason:
+            return reason
+    return ""
 
 
 def _difference(equation: Equation, env: Environment) -> str:
@@ -138,6 +148,7 @@ def _difference(equation: Equation, env: Environment) -> str:
 
 
 def _same(a: Any, b: Any) -> bool:
+    a, b = scalar(a), scalar(b)
     if isinstance(a, tuple) != isinstance(b, tuple):
         matrix, number = (a, b) if isinstance(a, tuple) else (b, a)
         return number == 0 and all(x == 0 for row in matrix for x in row)

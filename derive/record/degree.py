@@ -14,7 +14,7 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..algebra.tree import Tree
-from .evaluate import LARGEST_POWER
+from .arithmetic import LARGEST_POWER
 from .record import Equation, decode
 
 
@@ -77,6 +77,13 @@ def _size(t: Tree) -> int:
     return sum(_size(x) for x in t[1:])
 
 
+ALGEBRA = (
+    *("Z", "w", "ξ", "ξ′", "η", "η′", "δZ", "δ′Z", "δw", "δ′w"),
+    *("ζ", "Ω", "Ω′", "δζ", "δ′ζ", "u", "f_u"),
+)
+"""Names whose entries are drawn at random."""
+
+
 def _table(group: Group, body: int) -> dict[str, Degree]:
     """Degrees of the names, from the degrees of mass, place, group element and algebra element."""
     d = group.dimension
@@ -95,28 +102,7 @@ def _table(group: Group, body: int) -> dict[str, Degree]:
     scalars = {"t": one, "δt": one, "δ′t": one, "m": mass, "c": mass * place, "J": J}
     group_names = {"A": A, "T": one, "Ȧ": velocity, "Ṫ": velocity, "C": A * A}
     group_names |= dict.fromkeys(("α", "τ"), velocity)
-    algebra = dict.fromkeys(
-        [
-            "Z",
-            "w",
-            "ξ",
-            "ξ′",
-            "η",
-            "η′",
-            "δZ",
-            "δ′Z",
-            "δw",
-            "δ′w",
-            "ζ",
-            "Ω",
-            "Ω′",
-            "δζ",
-            "δ′ζ",
-            "u",
-            "f_u",
-        ],
-        one,
-    )
+    algebra = dict.fromkeys(ALGEBRA, one)
     spatial = dict.fromkeys(["δA", "δ′A", "δT", "δ′T", "δα", "δ′α", "δτ", "δ′τ"], variation)
     forces = dict.fromkeys(["N", "F", "N_b", "F_b", "μ", "γ", "K", "k", "s"], force * A)
     motion = dict.fromkeys(["Ż", "ẇ", "ζ̇", "f", "φ"], solved)
@@ -129,6 +115,13 @@ def _table(group: Group, body: int) -> dict[str, Degree]:
     multiplier = {"λ": A * A * twice * J + force * A * place}
     values = scalars | group_names | algebra | spatial | forces | motion | energies | inertia
     values |= multiplier
+    values |= {
+        "M": entry,
+        "β": covector,
+        "B": entry * one + force * A,
+        "N_c": force * A,
+        "E": Degree(0),
+    }
     values["par"] = J
     values[""] = energy * A * twice * one * one  # the value of a form or a function
     return values
@@ -159,7 +152,7 @@ def _combined(op: str, t: tuple[Any, ...], parts: list[Degree], group: Group) ->
             total = total + x
         return total
     if op == "inv":
-        return parts[0].inverse(group.n, repr(t[1]))
+        return parts[0].inverse(group.dimension if t[1] == "M" else group.n, repr(t[1]))
     if op == "div":
         return parts[0] * parts[1].inverse(1, repr(t[2]))
     if op == "det":

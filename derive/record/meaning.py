@@ -9,10 +9,13 @@ from typing import Any
 from ..algebra import rational as q
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
-from .evaluate import Environment, EvaluationError, evaluate, is_matrix
+from .arithmetic import EvaluationError, is_matrix
+from .evaluate import Environment, evaluate
 from .model import Direction, Model, derivative_in
 from .nilpotent import EPS, EPS_PRIME, nilpotent, part
 from .record import decode
+from .solved import solved_values
+from .spatial import axial, moments_about, spatial_values
 
 Values = dict[str, Any]
 
@@ -26,7 +29,7 @@ def environment(model: Model) -> Environment:
         | _forces(model)
         | _energies(model)
         | _motion(model)
-        | _space(model)
+        | spatial_values(model)
         | _springs(model)
     )
     return Environment(model.n, names, _families(model), _functions(model), model.parameters)
@@ -53,7 +56,8 @@ def _times(model: Model) -> Values:
 
 def _bodies(model: Model) -> Values:
     m, c, J = model.moments
-    return {"m": m, "c": c, "J": J}
+    centre = tuple(x[0] / m for x in c)
+    return {"m": m, "c": c, "J": J, "J_c": moments_about(model, centre)}
 
 
 def _group(model: Model) -> Values:
@@ -99,89 +103,20 @@ def _energies(model: Model) -> Values:
 
 
 def _motion(model: Model) -> Values:
-    """Rates along the motion, and the multiplier of the volume."""
+    """Rates along the motion, and what the equations are solved with."""
     Z, Z_dot = model.Z, model.acceleration
     acceleration = q.times(model.g, q.plus(Z_dot, q.times(Z, Z)))
     values = _parts(model, "Ż", "ẇ", Z_dot)
     values |= _parts(model, "α̇", "τ̇", acceleration)
     values |= _parts(model, "Ȧ", "Ṫ", q.times(model.g, Z))
-    if model.group.relations == {"unimodular"} and not model.group.affine:
-        # the constraint's reaction g⁻ᵀλ: what acceleration and forces leave, traced
-        J = model.moments[2]
-        inertial = q.times(q.times(q.transposed(model.g), acceleration), J)
-        pairs = zip(model.forces, model.points, strict=True)
-        span = range(model.n)
-        work = Fraction(0)
-        for f, r in pairs:
-            back = q.times(q.transposed(model.g), tuple((x,) for x in f))
-            work += sum((back[i][0] * r[i] for i in span), Fraction(0))
-        values["λ"] = (q.trace(inertial) - work) / model.n
-    d = model.group.dimension
+    d = len(model.group.linear_basis)
     for name, element in (("ζ", Z), ("ζ̇", Z_dot)):
         coordinates = model.group.vee(element)
         assert coordinates is not None
-        values[name] = tuple((x,) for x in coordinates)
+        values[name] = tuple((x,) for x in coordinates[:d])
     if model.driven:
-        values["u"] = tuple((x,) for x in model.input[:d])
-    return values
-
-
-def _space(model: Model) -> Values:
-    """Vectors of R³ for rotations: Ω, ζ, φ, μ and the classical tensors of inertia."""
-    if "orthogonal" not in model.group.relations or model.n != 3:
-        return {}
-    basis = model.group.basis
-    values: Values = {}
-    named = {
-        "ζ": model.Z,
-        "ζ̇": model.acceleration,
-        "Ω": model.first.xi,
-        "Ω′": model.second.xi,
-        "δζ": model.first.velocity,
-        "δ′ζ": model.second.velocity,
-    }
-    if not model.group.affine:
-        named["φ"] = model.gradient
-    for name, x in named.items():
-        values[name] = _axial(x)
-    values["μ"] = tuple((-model.work(q.times(model.g, e)),) for e in basis[:3])
-    if model.driven:
-        values["u"] = tuple((x,) for x in model.input[:3])
-        values["f_u"] = tuple((x,) for x in model.input[3:])
-    m, c, _ = model.moments
-    centre = tuple(x[0] / m for x in c)
-    values["I"] = _tensor(model, (Fraction(0),) * 3)
-    values["I_c"] = _tensor(model, centre)
-    values["J_c"] = _moments(model, centre)
-    values["λ"] = tuple((values["I"][i][i],) for i in range(3))
-    return values
-
-
-def _axial(x: Matrix) -> Matrix:
-    """The vector X of a skew matrix j(X)."""
-    return ((x[2][1],), (x[0][2],), (x[1][0],))
-
-
-def _tensor(model: Model, origin: tuple[Fraction, ...]) -> Matrix:
-    """Σ m_i (|r|² 1 − r r̄) about an origin: the classical tensor of inertia."""
-    span = range(3)
-    total = [[Fraction(0)] * 3 for _ in span]
-    for m, point in zip(model.masses, model.points, strict=True):
-        r = [x - o for x, o in zip(point, origin, strict=True)]
-        square = sum(x * x for x in r)
-        for i in span:
-            for j in span:
-                total[i][j] += m * ((square if i == j else 0) - r[i] * r[j])
-    return q.matrix(total)
-
-
-def _moments(model: Model, origin: tuple[Fraction, ...]) -> Matrix:
-    """Σ m_i r r̄ about an origin."""
-    total = q.scaled(Fraction(0), q.identity(model.n))
-    for m, point in zip(model.masses, model.points, strict=True):
-        r = tuple((x - o,) for x, o in zip(point, origin, strict=True))
-        total = q.plus(total, q.scaled(m, q.times(r, q.transposed(r))))
-    return total
+        values["u"] = tuple((x,) for x in model.input)
+    return values | ({} if model.opaque else solved_values(model))
 
 
 def _spring_members(model: Model) -> list[tuple[Fraction, Matrix]]:
@@ -218,6 +153,9 @@ def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
         "v": {(i,): column(v) for i, v in enumerate(model.moved(nu), 1)},
         "F": {(i,): column(f) for i, f in enumerate(model.forces, 1)},
     }
+    if not model.opaque:
+        elements = map(model.group.linear_part, model.group.basis)
+        families["E"] = {(a,): e for a, e in enumerate(elements, 1)}
     members = _spring_members(model)
     if members:
         families["k"] = {(e,): k for e, (k, _) in enumerate(members, 1)}
@@ -273,7 +211,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         "δT": lambda _, a, env: _translation(model, q.times(model.g, direction(a[0]).xi)),
         "ξ": lambda _, a, env: _linear(model, direction(a[0]).xi),
         "η": lambda _, a, env: _translation(model, direction(a[0]).xi),
-        "Ω": lambda _, a, env: _axial(direction(a[0]).xi),
+        "Ω": lambda _, a, env: axial(direction(a[0]).xi),
         "δ": lambda _, a, env: _varied(model, a[0], EPS, env),
         "δ′": lambda _, a, env: _varied(model, a[0], EPS_PRIME, env),
     }

@@ -6,7 +6,7 @@ and its variations, in space (``Part``) and carried to the identity (``Frame``).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..algebra.calculus import substitute
 from ..algebra.words import Dim, Expr, Letter, one, word
@@ -88,6 +88,13 @@ class Alphabet:
     def frames(self) -> tuple[Frame, ...]:
         """Z, and w for an affine action, in the order of :attr:`parts`."""
         return (self.Z, self.w) if self.affine else (self.Z,)
+
+    def freed(self) -> Alphabet:
+        """The same with a ξ′ that may be any matrix: what pairs with it is then a whole matrix."""
+        copy = Alphabet(self.n, affine=self.affine)
+        vars(copy).update(vars(self))
+        copy.Z = replace(self.Z, xi_prime=Letter(self.Z.xi_prime.name, self.n, self.n))
+        return copy
 
     def moved(self, linear: Expr, translation: Expr) -> Expr:
         """``A r_i + T`` with the given A and T."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..algebra.calculus import PairRule, derivation, gradient, reduce, substitute
@@ -123,6 +124,14 @@ def trivial_images(a: Alphabet) -> dict[Letter, Expr]:
         delta = {a.A.position: g * word(a.Z.xi_prime), frame.velocity: word(frame.dp_velocity)}
         images[part.dp_velocity] = derivation(images[part.velocity], delta.get)
     return images
+
+
+def rates(a: Alphabet, turned: Mapping[Letter, Expr] | None = None) -> list[Equation]:
+    """Ȧ = AZ and Ṫ = Aw, with Z as given."""
+    images = trivial_images(a)
+    return [
+        Equation(p.rate, tree_of(substitute(images[p.velocity], turned or {}))) for p in a.parts
+    ]
 
 
 def carry(e: Expr, a: Alphabet) -> Expr:

@@ -146,7 +146,9 @@ def trivial_variations(
         a.U: primed(potential, a),
         a.C: _varied_metric(a, a.Z.xi_prime),
     }
-    delta[g], delta_prime[g] = word(g) * word(a.Z.xi), word(g) * word(a.Z.xi_prime)
+    for p, f in zip(a.parts, a.frames, strict=True):
+        delta[p.position] = word(g) * word(f.xi)
+        delta_prime[p.position] = word(g) * word(f.xi_prime)
     for f in a.frames:
         delta[f.velocity], delta_prime[f.velocity] = word(f.d_velocity), word(f.dp_velocity)
         delta[f.xi_prime] = word(f.second) + brackets[f.xi_prime]

@@ -10,7 +10,7 @@ from ..algebra.words import Expr, Letter, word
 from ..mechanics.problem import Problem
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
-from .cartan import frame_rule, trivial_images
+from .cartan import frame_rule, rates, trivial_images
 from .elimination import CENTRAL, Eliminated, simplified, vector_tree
 from .exterior import primed, work
 from .isometry import Isometry
@@ -29,13 +29,6 @@ from .vector import (
 from .wedge import vector_sum
 
 INPUT, INPUT_FORCE = Letter("u", 3), Letter("f_u", 3)
-
-
-def rates(b: Alphabet) -> list[Equation]:
-    """Ȧ = α and Ṫ = τ in the trivialisation, with Z = j(ζ)."""
-    images = trivial_images(b)
-    turned = {b.Z.velocity: word(hat(ZETA))}
-    return [Equation(p.rate, tree_of(substitute(images[p.velocity], turned))) for p in b.parts]
 
 
 def pairing(stage: Isometry) -> dict[Letter, Expr]:
@@ -90,7 +83,7 @@ def spherical_motion(
         f"{prefix}.motion",
         "solution",
         (f"{prefix}.kernel", f"{prefix}.torque", f"{prefix}.hat"),
-        (*rates(b), Equation("ζ̇", mul(("inv", "I"), right))),
+        (*rates(b, {b.Z.velocity: word(hat(ZETA))}), Equation("ζ̇", mul(("inv", "I"), right))),
         _prose(problem),
         (),
         scope,
@@ -115,7 +108,7 @@ def displacement_motion(
         "solution",
         (f"{prefix}.elimination", f"{prefix}.torque", f"{prefix}.hat"),
         (
-            *rates(b),
+            *rates(b, {b.Z.velocity: word(hat(ZETA))}),
             Equation("ζ̇", mul(("inv", CENTRAL.name), vector_tree(rotation, b))),
             Equation("ẇ", vector_tree(translation, b)),
         ),

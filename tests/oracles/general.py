@@ -5,92 +5,55 @@ Among all dZ/dt the true one makes ``sum m_i |a_i - F_i / m_i|^2 - 2 <u, dzeta/d
 -grad U, by complex steps, with damping and force inputs; u is the covector of the inputs.
 
 Sizes: d coordinates zeta, matrices s x s, M coordinates of all places together.  A place is where a
-force may act: a point, or a massless point to which a spring or an input is attached.  ``basis`` is
+force may act: a point, or a massless one to which a spring or an input is attached.  ``basis`` is
 (d, s, s); ``p`` maps parameters to numbers; a state is the group element (A row-major, then T where
 the group translates, factor after factor) and then zeta.
 """
 
 import re
-from dataclasses import dataclass
-from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
 STEP = 1e-30
-AFFINE, DOUBLED = ("SE", "SAff", "Aff", "Sim"), ("U", "SU")
-FAMILIES = ("SO", "SL", "GL", "Sp", "UT", *AFFINE, *DOUBLED)
-TOKEN = re.compile(r"\s*(?:(\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|([A-Za-z]\w*)|(\S))")
-SUMS, PRODUCTS = {"+": np.add, "-": np.subtract}, {"*": np.multiply, "/": np.divide}
-FUNCTIONS = {x: getattr(np, x) for x in "sqrt sin cos tan exp log sinh cosh tanh".split()}
-FUNCTIONS["atan"] = np.arctan
+FAMILIES = dict.fromkeys(("SO", "SL", "GL", "Sp", "UT"), (1, False))
+FAMILIES |= dict.fromkeys(("SE", "SAff", "Aff", "Sim"), (1, True))
+FAMILIES |= dict.fromkeys(("U", "SU"), (2, False))
+TOKEN = re.compile(r"\s*(?:((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|([A-Za-z]\w*)|(\S))")
+SUM = {"+": (1, 1, np.add), "-": (1, 1, np.subtract)}
+BINARY = SUM | {"*": (2, 2, np.multiply), "/": (2, 2, np.divide), "^": (4, 3, np.power)}
+NAMES = ("sqrt", "sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh")
+FUNCTIONS = {"atan": np.arctan, **{name: getattr(np, name) for name in NAMES}}
 
 
-class _Parser:
-    """Recursive descent; every rule returns a function of the environment."""
-
-    def __init__(self, text):
-        self.tokens = [number or name or other for number, name, other in TOKEN.findall(text)]
-
-    def whole(self):
-        value = self.chain(SUMS)
-        if self.tokens:
-            raise ValueError(f"unexpected {self.tokens[0]!r}")
-        return value
-
-    def take(self, *wanted):
-        """The next token; if any are wanted, only one of these, else None."""
-        if wanted and (not self.tokens or self.tokens[0] not in wanted):
-            return None
-        return self.tokens.pop(0) if self.tokens else ""
-
-    def chain(self, operators):
-        """``a + b - c``, or ``a * b / c``, from the left."""
-        part = self.signed if operators is PRODUCTS else lambda: self.chain(PRODUCTS)
-        first, rest = part(), []
-        while operator := self.take(*operators):
-            rest.append((operators[operator], part()))
-
-        def value(env):
-            total = first(env)
-            for operation, other in rest:
-                total = operation(total, other(env))
-            return total
-
-        return value
-
-    def signed(self):
-        if sign := self.take("+", "-"):
-            inside = self.signed()
-            return inside if sign == "+" else lambda env: -inside(env)
-        base = self.atom()
-        if not self.take("^"):
-            return base
-        exponent = self.signed()
-        return lambda env: np.power(base(env), exponent(env))
-
-    def atom(self):
-        token = self.take()
-        if token[:1].isdigit() or token[:1] == ".":
-            return lambda env: np.float64(token)
-        if not (token == "(" or token[:1].isalpha()):
-            raise ValueError(f"unexpected {token!r}")
-        if token != "(" and not self.take("("):
-            return lambda env: np.multiply(np.pi if token == "pi" else env[token], 1.0)
-        inside = self.chain(SUMS)
-        if not self.take(")") or (token != "(" and token not in FUNCTIONS):
-            raise ValueError(f"{token!r}: not a function, or not closed")
-        return inside if token == "(" else lambda env: FUNCTIONS[token](inside(env))
-
-
-@lru_cache(maxsize=4096)
-def parse(text):
-    """The function of an environment {name: number or array} that the expression is."""
-    return _Parser(text).whole()
+def _read(tokens, env, level):
+    """The value of the longest run of tokens whose operators bind more tightly than ``level``."""
+    token = tokens.pop(0)
+    if token in SUM:
+        value = BINARY[token][2](0.0, _read(tokens, env, 3))
+    elif token[:1].isdigit() or token[:1] == ".":
+        value = np.float64(token)
+    elif token == "(":
+        value = _read(tokens, env, 0)
+        if tokens.pop(0) != ")":
+            raise ValueError("a parenthesis is not closed")
+    elif tokens[0] == "(":
+        value = FUNCTIONS[token](_read(tokens, env, 5))
+    else:
+        value = np.multiply(np.pi if token == "pi" else env[token], 1.0)
+    while BINARY.get(tokens[0], (0,))[0] > level:
+        _, right, operation = BINARY[tokens.pop(0)]
+        value = operation(value, _read(tokens, env, right))
+    return value
 
 
 def evaluate(value, env):
     """A number, or an expression in the names of ``env``, at real or complex numbers or arrays."""
-    return parse(value)(env) if isinstance(value, str) else np.float64(value)
+    tokens = [*map("".join, TOKEN.findall(str(value))), "end of text", ""]
+    result = _read(tokens, env, 0)
+    if len(tokens) > 2:
+        raise ValueError(f"unexpected {tokens[0]!r}")
+    return result
 
 
 def _vector(values, n, env):
@@ -100,49 +63,41 @@ def _vector(values, n, env):
     return np.array([[evaluate(value, env)] for value in values])
 
 
-@dataclass(frozen=True)
-class Block:
-    """The rows of one factor: it moves R^n, from row ``first`` on, and may translate."""
+class Places(NamedTuple):
+    """Points, then massless places; ``masses`` and ``row`` of G are (M,), ``r`` is (M, s).
 
-    first: int
-    n: int
-    affine: bool
+    ``at`` says which of the M coordinates are those of ("point", i), or of a point that realises
+    given moments, ("realised", i), or of ("potential", k), ("input", k).
+    """
 
-    @property
-    def rows(self):
-        return slice(self.first, self.first + self.n)
-
-    @property
-    def last(self):
-        """The row of the ones of an affine factor, which is also the end of the linear part."""
-        return self.first + self.n
-
-
-@dataclass(frozen=True)
-class Place:
-    """A point or a massless place: ``r`` (s,) is what G moves; ``key`` says whose it is."""
-
-    key: tuple
-    block: Block
-    mass: float
+    at: dict
+    masses: np.ndarray
+    row: np.ndarray
     r: np.ndarray
+
+    def moved(self, matrix):
+        """The rows (M,) of ``matrix r``."""
+        return np.sum(matrix[self.row] * self.r, axis=1)
+
+    def points(self):
+        """The keys of the points of the file; refused where only moments are known."""
+        if ("realised", 1) in self.at:
+            raise ValueError("this is not defined by the moments of a body")
+        return [key for key in self.at if key[0] == "point"]
 
 
 def blocks(data):
-    """The factors of the group, as :class:`Block`."""
-    group = data["group"]
+    """The factors of the group as (first row, n, whether they translate), and the size s."""
+    group, found, size = data["group"], [], 0
     if isinstance(group, dict):
-        affine = group.get("action", "linear") == "affine"
-        return [Block(0, len(group["basis"][0]) - affine, affine)]
-    found, first = [], 0
-    for part in re.split(r"\s*[x×]\s*", group.strip()):
-        match = re.fullmatch(r"(\w+)\(\s*(\d+)\s*\)", part)
-        if not match or match[1] not in FAMILIES:
-            raise ValueError(f"unknown group {part!r}")
-        n, affine = int(match[2]) * (2 if match[1] in DOUBLED else 1), match[1] in AFFINE
-        found.append(Block(first, n, affine))
-        first += n + affine
-    return found
+        size, affine = len(group["basis"][0]), group.get("action", "linear") == "affine"
+        return [(0, size - affine, affine)], size
+    for part in re.split("[x×]", group):
+        family, n = part.strip(" )").split("(")
+        factor, affine = FAMILIES[family]
+        found.append((size, factor * int(n), affine))
+        size += factor * int(n) + affine
+    return found, size
 
 
 def parameters(data):
@@ -152,27 +107,29 @@ def parameters(data):
     return {name: float(x) for name, x in values.items() if x is not None}
 
 
+def _entries(data):
+    """Where the numbers of a group element are in G: rows and columns."""
+    rows, columns = [], []
+    for first, n, affine in blocks(data)[0]:
+        span = range(first, first + n)
+        rows += [i for i in span for _ in span] + [i for i in span if affine]
+        columns += [j for _ in span for j in span] + [first + n for _ in span if affine]
+    return rows, columns
+
+
 def split(data, x, d):
     """A state as G (s, s) and zeta (d,); complex where x is."""
-    x, parts, at = np.asarray(x), blocks(data), 0
-    G = np.zeros((parts[-1].last + parts[-1].affine,) * 2, np.result_type(x, float))
-    for b in parts:
-        G[b.rows, b.rows], at = x[at : at + b.n**2].reshape(b.n, b.n), at + b.n**2
-        if b.affine:
-            G[b.rows, b.last], G[b.last, b.last], at = x[at : at + b.n], 1, at + b.n
-    if len(x) != at + d:
-        raise ValueError(f"a state of {len(x)} numbers instead of {at + d}")
-    return G, x[at:]
+    entries = _entries(data)
+    if len(x) != len(entries[0]) + d:
+        raise ValueError(f"a state of {len(x)} numbers instead of {len(entries[0])} + {d}")
+    G = np.eye(blocks(data)[1], dtype=np.result_type(x, float))
+    G[entries] = x[:-d]
+    return G, x[-d:]
 
 
 def join(data, G, zeta):
     """A state from G (s, s), or its velocity from dG/dt, and zeta (d,)."""
-    parts = []
-    for b in blocks(data):
-        parts.append(G[b.rows, b.rows].ravel())
-        if b.affine:
-            parts.append(G[b.rows, b.last])
-    return np.concatenate([*parts, zeta])
+    return np.concatenate([G[_entries(data)], zeta])
 
 
 def realised(p, n, affine):
@@ -181,132 +138,86 @@ def realised(p, n, affine):
     The columns of R, where R R^T = [[J, c], [c^T, m]], are sqrt(m_i) (r_i, 1), turned so that the
     masses are equal.  Linear maps do not see m: there it is any number that is large enough.
     """
-    H, span = np.zeros((n + 1, n + 1)), range(n)
-    H[:n, :n] = [[p[f"J_{min(i, j) + 1}{max(i, j) + 1}"] for j in span] for i in span]
-    H[:n, n] = H[n, :n] = [p[f"c_{i + 1}"] if affine else p.get(f"c_{i + 1}", 0) for i in span]
-    c, J = H[:n, n], H[:n, :n]
-    H[n, n] = p["m"] if affine else 2 * c @ np.linalg.pinv(J) @ c + np.trace(J) / n
-    sizes, axes = np.linalg.eigh(H)
-    if sizes[0] < -1e-13 * abs(sizes[-1]) or H[n, n] <= 0:
+    span = range(1, n + 1)
+    J = np.array([[p[f"J_{min(i, j)}{max(i, j)}"] for j in span] for i in span])
+    c = np.array([p[f"c_{i}"] if affine else p.get(f"c_{i}", 0) for i in span])
+    m = p["m"] if affine else 2 * c @ np.linalg.pinv(J) @ c + np.trace(J) / n
+    scale = np.sqrt(abs(np.trace(J) / m))  # of the last row and column: that of the others
+    sizes, axes = np.linalg.eigh(np.block([[J, c[:, None] * scale], [c * scale, m * scale**2]]))
+    if not (m > 0 and sizes[0] >= -1e-13 * sizes[-1]):
         raise ValueError("no masses have these moments")
-    R, root = axes * np.sqrt(np.maximum(sizes, 0)), np.sqrt(H[n, n] / (n + 1))
-    mirror = R[n] - root
-    if mirror @ mirror > 0:
-        R = R - np.outer(R @ mirror, mirror) * (2 / (mirror @ mirror))
+    R, root = axes * np.sqrt(np.maximum(sizes, 0)), np.sqrt(m / (n + 1))
+    mirror = R[n] - root * scale
+    R = R - np.outer(R @ mirror, mirror) * (2 / (mirror @ mirror or 1))
     return np.full(n + 1, root**2), (R[:n] / root).T
 
 
-def _place(data, p, key, table):
-    """The place of a [[point]], or of a spring or input with ``at``."""
-    parts = blocks(data)
-    b = parts[table.get("block", 1) - 1]
-    r, mass = np.zeros(parts[-1].last + parts[-1].affine), evaluate(table.get("mass", 0), p)
-    r[b.rows] = _vector(table["at"], b.n, p)[:, 0]
-    if b.affine:
-        r[b.last] = 1
-    if not mass >= 0:
-        raise ValueError(f"{key}: the mass is {mass}")
-    return Place(key, b, mass, r)
-
-
 def places(data, p):
-    """All places: the points, then those to which springs and inputs are attached."""
+    """All :class:`Places`: the points, then what springs and inputs are attached to."""
+    parts, size = blocks(data)
     if "body" in data:
-        b, *others = blocks(data)
-        if others:
-            raise ValueError("moments of a product are not defined")
-        points = [{"mass": m, "at": r} for m, r in zip(*realised(p, b.n, b.affine), strict=True)]
-        found = [_place(data, p, ("realised", i), x) for i, x in enumerate(points, 1)]
+        ((_, n, affine),) = parts
+        pairs = zip(*realised(p, n, affine), strict=True)
+        tables = {("realised", i): {"mass": m, "at": r} for i, (m, r) in enumerate(pairs, 1)}
     else:
-        found = [_place(data, p, ("point", i), x) for i, x in enumerate(data["point"], 1)]
+        tables = {("point", i): x for i, x in enumerate(data["point"], 1)}
     for kind in ("potential", "input"):
-        for k, table in enumerate(data.get(kind, ())):
-            if "at" in table:
-                found.append(_place(data, p, (kind, k), table))
-    return found
+        tables |= {(kind, k): x for k, x in enumerate(data.get(kind, ())) if "at" in x}
+    at, entries = {}, []
+    for key, table in tables.items():
+        first, n, affine = parts[table.get("block", 1) - 1]
+        mass, r = evaluate(table.get("mass", 0), p), np.zeros(size)
+        if not mass >= 0:
+            raise ValueError(f"{key}: the mass is {mass}")
+        r[first : first + n + affine] = [*_vector(table["at"], n, p)[:, 0], *[1] * affine]
+        at[key] = slice(len(entries), len(entries) + n)
+        entries += [(mass, row, r) for row in range(first, first + n)]
+    return Places(at, *map(np.array, zip(*entries, strict=True)))
 
 
 def positions(data, p, G):
     """The positions (n_k,) of the points, those that realise given moments included."""
-    return [(G @ x.r)[x.block.rows] for x in places(data, p) if x.key[0] in ("point", "realised")]
+    found = places(data, p)
+    return [found.moved(G)[x] for key, x in found.at.items() if key[0] in ("point", "realised")]
 
 
-def _stacked(found, matrix):
-    """The rows of ``matrix r`` of all places, (M,)."""
-    return np.concatenate([(matrix @ x.r)[x.block.rows] for x in found])
-
-
-def _cut(found, rows):
-    """Rows (M, ...) as {key of the place: its rows (n_k, ...)}."""
-    ends = np.cumsum([x.block.n for x in found])
-    return {x.key: rows[end - x.block.n : end] for x, end in zip(found, ends, strict=True)}
-
-
-def _own(kind, k, table):
+def _key(kind, k, table):
     """The key of the place on which table k of [[potential]] or [[input]] acts."""
     return (kind, k) if "at" in table else ("point", table["on"])
 
 
-def _points(found):
-    """The points that the file lists; refused where only moments are known."""
-    if any(x.key[0] == "realised" for x in found):
-        raise ValueError("this is not defined by the moments of a body")
-    return [x for x in found if x.key[0] == "point"]
-
-
-def _norm(gap):
-    """The norms of the columns (n, B), analytic in complex numbers."""
+def _norm(q, centre, env):
+    """The distances (B,) of ``q`` (n, B) from ``centre``, n expressions or (n, B); analytic."""
+    gap = q - (centre if isinstance(centre, np.ndarray) else _vector(centre, len(q), env))
     return np.sqrt(np.sum(gap * gap, axis=0))
 
 
-def _gravity(k, table, env, found, q):
-    return -sum(x.mass * np.sum(_vector(table["g"], x.block.n, env) * q[x.key], 0) for x in found)
-
-
-def _spring(k, table, env, found, q):
-    if "between" in table:
-        one, other = (q["point", i] for i in table["between"])
-    else:
-        one = q[_own("potential", k, table)]
-        other = _vector(table["anchor"], len(one), env)
-    if len(one) != len(other):
-        raise ValueError("a spring between spaces of two dimensions")
-    stretch = _norm(one - other) - evaluate(table.get("length", 0), env)
-    return evaluate(table["stiffness"], env) / 2 * stretch**2
-
-
-def _attraction(k, table, env, found, q):
-    total = 0
-    for x in _points(found):
-        centre = _vector(table.get("centre", [0] * x.block.n), x.block.n, env)
-        total = total - x.mass / _norm(q[x.key] - centre)
-    return evaluate(table["strength"], env) * total
-
-
-def _expression(k, table, env, found, q):
-    env = dict(env)
-    for x in (x for x in found if x.key[0] == "point"):
-        for j, row in enumerate(q[x.key]):
-            env[f"r{x.key[1]}_{j + 1}"] = row
-            if x.block.n <= 3:
-                env[f"r{x.key[1]}_{'xyz'[j]}"] = row
-    return evaluate(table["U"], env)
-
-
-TERMS = {
-    "gravity": _gravity,
-    "spring": _spring,
-    "attraction": _attraction,
-    "expression": _expression,
-}
+def _term(k, table, env, found, q):
+    """The k-th [[potential]] (B,) where the places are at the columns of ``q[key]`` (n_k, B)."""
+    mass = {key: found.masses[x][0] for key, x in found.at.items() if found.masses[x][0]}
+    if table["kind"] == "gravity":
+        heights = {key: np.sum(_vector(table["g"], len(q[key]), env) * q[key], 0) for key in mass}
+        return -sum(mass[key] * heights[key] for key in mass)
+    if table["kind"] == "spring":
+        ends = [q["point", i] for i in table.get("between", ())]
+        ends = ends or [q[_key("potential", k, table)], table["anchor"]]
+        stretch = _norm(*ends, env) - evaluate(table.get("length", 0), env)
+        return evaluate(table["stiffness"], env) / 2 * stretch**2
+    if table["kind"] == "attraction":
+        away = {x: _norm(q[x], table.get("centre", [0] * len(q[x])), env) for x in found.points()}
+        return -evaluate(table["strength"], env) * sum(mass[key] / away[key] for key in mass)
+    names = {}
+    for (_, i), rows in ((key, x) for key, x in q.items() if key[0] == "point"):
+        for j, row in enumerate(rows):
+            names |= {f"r{i}_{x}": row for x in (j + 1, "xyz"[j] if len(rows) <= 3 else j + 1)}
+    return evaluate(table["U"], {**env, **names})
 
 
 def potential(data, p, t, found, rows):
     """U (B,) where the places are at the columns of ``rows`` (M, B)."""
-    env, q, total = {**p, "t": t}, _cut(found, rows), np.zeros(rows.shape[1], rows.dtype)
-    for k, table in enumerate(data.get("potential", ())):
-        total = total + TERMS[table["kind"]](k, table, env, found, q)
-    return total
+    env, q = {**p, "t": t}, {key: rows[x] for key, x in found.at.items()}
+    terms = [_term(k, x, env, found, q) for k, x in enumerate(data.get("potential", ()))]
+    return np.zeros(rows.shape[1]) + sum(terms)
 
 
 def forces(data, p, t, found, rows):
@@ -319,46 +230,44 @@ def forces(data, p, t, found, rows):
 def damping(data, p, t, found, v):
     """The forces (M,) of damping at the velocities ``v`` (M,)."""
     force = np.zeros(len(v))
-    mine, speed = _cut(found, force), _cut(found, v)
     for table in data.get("damping", ()):
-        for i in table.get("on", range(1, len(_points(found)) + 1)):
-            mine["point", i] -= evaluate(table["coefficient"], {**p, "t": t}) * speed["point", i]
+        for i in table.get("on", range(1, len(found.points()) + 1)):
+            x = found.at["point", i]
+            force[x] -= evaluate(table["coefficient"], {**p, "t": t}) * v[x]
     return force
 
 
 def inputs(data, found, d, G, u):
-    """What ``u`` (all inputs in order, or None) gives: forces (M,) and a covector (d,)."""
-    force, covector, at = np.zeros(sum(x.block.n for x in found)), np.zeros(d), 0
-    mine, where = _cut(found, force), {x.key: x.block for x in found}
-    for k, table in enumerate(data.get("input", ()) if u is not None else ()):
-        if table["kind"] == "covector":
-            target, turn, size = covector, np.eye(d), d
-        else:
-            b = where[key := _own("input", k, table)]
-            in_body = table.get("frame", "space") == "body"
-            target, turn, size = mine[key], G[b.rows, b.rows] if in_body else np.eye(b.n), b.n
-        target += turn @ np.asarray(u[at : at + size], float)
-        at += size
-    if u is not None and len(u) != at:
+    """What ``u``, all inputs in order, gives: forces (M,) and a covector (d,)."""
+    force, covector, at = np.zeros(len(found.row)), np.zeros(d), 0
+    for k, table in enumerate(data.get("input", ())):
+        target, turn = covector, np.eye(d)
+        if table["kind"] == "force":
+            x = found.at[_key("input", k, table)]
+            target, turn = force[x], np.eye(x.stop - x.start)
+            if table.get("frame", "space") == "body":
+                turn = G[np.ix_(found.row[x], found.row[x])]
+        target += turn @ np.asarray(u[at : at + len(target)], float)
+        at += len(target)
+    if len(u) != at:
         raise ValueError(f"{len(u)} inputs instead of {at}")
     return force, covector
 
 
 def rhs(data, basis, p, t, x, u=None):
     """dx/dt in the state ``x``; numpy.linalg.LinAlgError where it is not determined."""
-    basis, found = np.asarray(basis, float), places(data, p)
-    G, zeta = split(data, np.asarray(x, float), len(basis))
+    found, d = places(data, p), len(basis)
+    G, zeta = split(data, x, d)
     Z = np.tensordot(zeta, basis, 1)
-    design = np.column_stack([_stacked(found, G @ E) for E in basis])
-    force, covector = inputs(data, found, len(basis), G, u)
-    force = force + damping(data, p, t, found, _stacked(found, G @ Z))
-    force = force + forces(data, p, t, found, _stacked(found, G))
-    masses = np.repeat([x.mass for x in found], [x.block.n for x in found])
-    heavy, root = masses > 0, np.sqrt(masses[masses > 0])
+    design = np.column_stack([found.moved(G @ E) for E in np.asarray(basis, float)])
+    force, covector = (0, np.zeros(d)) if u is None else inputs(data, found, d, G, u)
+    force = force + damping(data, p, t, found, found.moved(G @ Z))
+    force += forces(data, p, t, found, found.moved(G))
+    heavy, root = found.masses > 0, np.sqrt(found.masses[found.masses > 0])
     Q, R = np.linalg.qr(root[:, None] * design[heavy])
-    if np.linalg.matrix_rank(R) < len(basis):
+    if np.linalg.cond(R) > 1e13:
         raise np.linalg.LinAlgError("the points do not determine the acceleration")
-    target = force[heavy] / root - root * _stacked(found, G @ Z @ Z)[heavy]
+    target = force[heavy] / root - root * found.moved(G @ Z @ Z)[heavy]
     covector = covector + design[~heavy].T @ force[~heavy]
     return join(data, G @ Z, np.linalg.solve(R, Q.T @ target + np.linalg.solve(R.T, covector)))
 
@@ -367,18 +276,16 @@ def energy(data, basis, p, t, x):
     """Kinetic and potential energy; analytic, for a complex state or time as well."""
     found = places(data, p)
     G, zeta = split(data, x, len(basis))
-    v = _cut(found, _stacked(found, G @ np.tensordot(zeta, basis, 1)))
-    kinetic = sum(x.mass * np.sum(v[x.key] ** 2) for x in found) / 2
-    return kinetic + potential(data, p, t, found, _stacked(found, G)[:, None])[0]
+    v = found.moved(G @ np.tensordot(zeta, basis, 1))
+    return found.masses @ v**2 / 2 + potential(data, p, t, found, found.moved(G)[:, None])[0]
 
 
 def expm(Z):
     """The exponential of a matrix, by its Taylor series and squaring."""
-    halvings = max(0, int(np.ceil(np.log2(max(np.linalg.norm(Z), 1e-300)))) + 1)
-    term = total = np.eye(len(Z))
-    for k in range(1, 20):
-        term = term @ Z / (k * 2**halvings)
-        total = total + term
+    halvings = int(np.ceil(np.log2(1 + np.linalg.norm(Z)))) + 1
+    total = np.eye(len(Z))
+    for k in range(20, 0, -1):
+        total = np.eye(len(Z)) + Z @ total / (k * 2**halvings)
     return np.linalg.matrix_power(total, 2**halvings)
 
 

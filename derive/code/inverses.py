@@ -1,0 +1,97 @@
+"""Inverses of small matrices and linear systems, by what the record says of them."""
+
+from __future__ import annotations
+
+from ..algebra.groups import Group
+from ..algebra.rational import Matrix
+from ..algebra.tree import Tree
+from ..record.record import Derivation
+from . import dense
+from .graph import PARAMETER, Node
+from .naming import name_of
+from .reader import Reader, Value
+
+SMALL = 3
+"""Up to this size a matrix is inverted by its adjugate."""
+
+
+class Inverting(Reader):
+    """``checks``: what must not vanish in constants, and the scale of its rounding error."""
+
+    def __init__(self, d: Derivation, group: Group):
+        super().__init__(d, group)
+        self.checks: list[tuple[Node, Node | None]] = []
+
+    def _inverse(self, t: Tree) -> Value:
+        value, name = self.tree(t), name_of(("inv", t))
+        g = self.graph
+        if isinstance(value, Node):
+            if value.stage == PARAMETER:
+                self.checks.append((value, None))
+            return g.value(g.recip(value), name, self.label)
+        if self._unit_determinant(t):
+            if len(value) <= SMALL:
+                return self.named(dense.adjugate(g, value), name)
+        elif len(value) <= SMALL:
+            return self._by_adjugate(t, value, name)
+        inverse, pivots = dense.symmetric_inverse(g, value, self._namer(name))
+        self._check_pivots(t, value, pivots)
+        return self.named(inverse, name)
+
+    def solved(self, t: Tree, right: Matrix) -> Matrix:
+        """The column x with t x = right, for a positive definite t."""
+        value = self.tree(t)
+        assert not isinstance(value, Node)
+        factors = dense.factorised(self.graph, value, self._namer(name_of(t)))
+        self._check_pivots(t, value, factors.pivots)
+        return dense.solve(self.graph, factors, right, self._namer(f"{name_of(t)}_solve"))
+
+    def _namer(self, name: str) -> dense.NodeNamer:
+        return lambda part, x: self.graph.value(x, f"{name}_{part}", self.label)
+
+    def _check_pivots(self, t: Tree, value: Matrix, pivots: list[Node]) -> None:
+        if dense.stage_of(value) == PARAMETER:
+            scale = self.graph.magnitude(dense.diagonal(self.graph, value))
+            self.checks += [(d, scale) for d in pivots]
+        elif t == "M":
+            # M is the metric at g of one space of displacements: singular at all g or at none
+            still = self._at_identity(value)
+            factors = dense.factorised(self.graph, still, lambda part, x: x)
+            scale = self.graph.magnitude(dense.diagonal(self.graph, still))
+            self.checks += [(d, scale) for d in factors.pivots if d.op != "num" or d.is_zero]
+
+    def _at_identity(self, m: Matrix) -> Matrix:
+        """A matrix that depends on the group element alone, at g = 1."""
+        images = {}
+        for name, one in (("A", 1), ("T", 0)):
+            rows = self.state.get(name, ())
+            assert not isinstance(rows, Node)
+            for i, row in enumerate(rows):
+                for j, x in enumerate(row):
+                    if x.op == "leaf":
+                        images[x] = self.graph.num(one if i == j else 0)
+        return tuple(tuple(self.graph.replaced(x, images) for x in row) for row in m)
+
+    def _by_adjugate(self, t: Tree, value: Matrix, name: str) -> Value:
+        g, base = self.graph, name_of(t)
+        adjugate = self.named(dense.adjugate(g, value), f"adj_{base}")
+        assert not isinstance(adjugate, Node)
+        row = [(x, adjugate[j][0]) for j, x in enumerate(value[0])]
+        det = g.value(g.sum(g.product(pair) for pair in row), f"det_{base}", self.label)
+        if det.stage == PARAMETER:
+            # det ≤ λ_min (Tr)ⁿ⁻¹, and λ_min is known to rounding in the terms of the trace
+            trace = dense.diagonal(g, value)
+            size = g.value(g.magnitude(trace), f"size_{base}", self.label)
+            rest = [g.value(trace, f"tr_{base}", self.label)] * (len(value) - 1)
+            self.checks.append((det, g.product([size, *rest])))
+        else:
+            self._check_pivots(t, value, [])
+        scale = g.value(g.recip(det), f"inv_det_{base}", self.label)
+        return self.named(tuple(tuple(g.product((scale, x)) for x in r) for r in adjugate), name)
+
+    def _unit_determinant(self, t: Tree) -> bool:
+        """A and C = ĀA where the record says det A = 1."""
+        unimodular = any(
+            e.lhs == ("det", "A") and e.rhs == 1 for s in self.record.steps for e in s.equations
+        )
+        return unimodular and t in ("A", "C")

@@ -1,0 +1,123 @@
+"""Names of the solved equations: rates along the motion, multiplier, mass matrix and loads.
+
+All are sums over the points at the exact position of the model, by d'Alembert's principle.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.groups import Group
+from ..algebra.rational import Matrix
+from .model import Model, Vector
+
+Values = dict[str, Any]
+
+
+class Solved:
+    """The balance of forces at one point of the evolution space, about the centre of mass where the
+    group is H ⋉ Rⁿ and about the origin elsewhere."""
+
+    def __init__(self, model: Model):
+        self.model, self.group = model, model.group
+        m, c, _ = model.moments
+        zero = (Fraction(0),) * model.n
+        self.centre: Vector = tuple(x / m for (x,) in c) if self.group.free_translations else zero
+
+    @cached_property
+    def arms(self) -> list[Vector]:
+        """The points seen from the centre."""
+        return [
+            tuple(x - s for x, s in zip(r, self.centre, strict=True)) for r in self.model.points
+        ]
+
+    @cached_property
+    def elements(self) -> list[Matrix]:
+        """The basis of the linear parts, each with the translation that keeps the centre."""
+        count = len(self.group.linear_basis)
+        if not self.group.free_translations:
+            return list(self.group.basis)
+        n = self.model.n
+        found = []
+        for e in self.group.basis[:count]:
+            linear = self.group.linear_part(e)
+            shift = q.times(linear, tuple((x,) for x in self.centre))
+            rows = tuple((*row, -x) for row, (x,) in zip(linear, shift, strict=True))
+            found.append((*rows, (Fraction(0),) * (n + 1)))
+        return found
+
+    def gathered(self, vectors: list[Vector]) -> Matrix:
+        """Ā Σ v_i ρ̄_i for vectors in space at the points."""
+        span = range(self.model.n)
+        pairs = list(zip(vectors, self.arms, strict=True))
+        total = tuple(
+            tuple(sum((v[i] * r[j] for v, r in pairs), Fraction(0)) for j in span) for i in span
+        )
+        return q.times(q.transposed(self.group.linear_part(self.model.g)), total)
+
+    def inertia_of(self, rate: Matrix) -> Matrix:
+        """The same for the masses times their accelerations when g⁻¹g̈ is the given matrix."""
+        moved = self.model.moved(q.times(self.model.g, rate))
+        weighted = [tuple(m * x for x in v) for m, v in zip(self.model.masses, moved, strict=True)]
+        return self.gathered(weighted)
+
+    @cached_property
+    def applied(self) -> Matrix:
+        """Moments of the potential's forces and of the inputs, in the body."""
+        return q.plus(self.gathered(self.model.forces), self.input_moments)
+
+    @cached_property
+    def input_moments(self) -> Matrix:
+        """A matrix N_u with Tr N_u ξ̄′ = u(ξ′), by the rows that read coordinates."""
+        s = self.group.size
+        total = q.scaled(Fraction(0), q.identity(s))
+        for a, u in enumerate(self.model.input):
+            for x, i, j in self.group.reading(a):
+                total = q.plus(total, q.scaled(u * x, q.unit(s, i, j)))
+        linear = self.group.linear_part(total)
+        if not self.group.affine:
+            return linear
+        arm = tuple((total[i][-1],) for i in range(self.model.n))
+        return q.minus(linear, q.times(arm, (self.centre,)))
+
+
+def solved_values(model: Model) -> Values:
+    """Ż, M, β, B, λ and their kin."""
+    group, Z, Z_dot = model.group, model.Z, model.acceleration
+    s = Solved(model)
+    values: Values = {"N_c": s.applied}
+    values["B"] = q.minus(s.applied, s.inertia_of(q.times(Z, Z)))
+    frames = [q.times(model.g, e) for e in s.elements]
+    values["M"] = tuple(tuple(model.pairing(x, y) for y in frames) for x in frames)
+    convective = q.times(model.g, q.times(Z, Z))
+    values["β"] = tuple(
+        (load(model, e) - model.pairing(convective, x),)
+        for e, x in zip(s.elements, frames, strict=True)
+    )
+    normal = group.normal_space_of_linear_parts
+    if len(normal) == 1:
+        left = q.minus(s.inertia_of(q.plus(Z_dot, q.times(Z, Z))), s.applied)
+        direction = normal_direction(group)
+        values["Λ"] = direction
+        values["λ"] = _paired(left, direction) / _paired(direction, direction)
+    return values
+
+
+def load(model: Model, e: Matrix) -> Fraction:
+    """The work of forces and inputs in the displacement g e."""
+    pushed = zip(model.input, model.group.nearest(e), strict=True)
+    return sum((u * x for u, x in pushed), Fraction(0)) - model.work(q.times(model.g, e))
+
+
+def normal_direction(group: Group) -> Matrix:
+    """What spans the normal space: 1 where it is a multiple of 1."""
+    (normal,) = group.normal_space_of_linear_parts
+    one = q.identity(group.n)
+    return one if normal[0][0] and normal == q.scaled(normal[0][0], one) else normal
+
+
+def _paired(a: Matrix, b: Matrix) -> Fraction:
+    return Fraction(q.trace(q.times(a, q.transposed(b))))

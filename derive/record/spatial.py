@@ -1,0 +1,69 @@
+"""Names of R³ for rotations: Ω, ζ, φ, μ and the classical tensors of inertia, from the points."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.rational import Matrix
+from .model import Model
+
+Values = dict[str, Any]
+
+
+def spatial_values(model: Model) -> Values:
+    """Vectors of R³ for rotations: Ω, ζ, φ, μ and the classical tensors of inertia."""
+    if "orthogonal" not in model.group.relations or model.n != 3:
+        return {}
+    basis = model.group.basis
+    values: Values = {}
+    named = {
+        "ζ": model.Z,
+        "ζ̇": model.acceleration,
+        "Ω": model.first.xi,
+        "Ω′": model.second.xi,
+        "δζ": model.first.velocity,
+        "δ′ζ": model.second.velocity,
+    }
+    if not model.group.affine:
+        named["φ"] = model.gradient
+    for name, x in named.items():
+        values[name] = axial(x)
+    values["μ"] = tuple((-model.work(q.times(model.g, e)),) for e in basis[:3])
+    if model.driven:
+        values["u"] = tuple((x,) for x in model.input[:3])
+        values["f_u"] = tuple((x,) for x in model.input[3:])
+    m, c, _ = model.moments
+    centre = tuple(x[0] / m for x in c)
+    values["I"] = _tensor(model, (Fraction(0),) * 3)
+    values["I_c"] = _tensor(model, centre)
+    values["λ"] = tuple((values["I"][i][i],) for i in range(3))
+    return values
+
+
+def axial(x: Matrix) -> Matrix:
+    """The vector X of a skew matrix j(X)."""
+    return ((x[2][1],), (x[0][2],), (x[1][0],))
+
+
+def _tensor(model: Model, origin: tuple[Fraction, ...]) -> Matrix:
+    """Σ m_i (|r|² 1 − r r̄) about an origin: the classical tensor of inertia."""
+    span = range(3)
+    total = [[Fraction(0)] * 3 for _ in span]
+    for m, point in zip(model.masses, model.points, strict=True):
+        r = [x - o for x, o in zip(point, origin, strict=True)]
+        square = sum(x * x for x in r)
+        for i in span:
+            for j in span:
+                total[i][j] += m * ((square if i == j else 0) - r[i] * r[j])
+    return q.matrix(total)
+
+
+def moments_about(model: Model, origin: tuple[Fraction, ...]) -> Matrix:
+    """Σ m_i r r̄ about an origin."""
+    total = q.scaled(Fraction(0), q.identity(model.n))
+    for m, point in zip(model.masses, model.points, strict=True):
+        r = tuple((x - o,) for x, o in zip(point, origin, strict=True))
+        total = q.plus(total, q.scaled(m, q.times(r, q.transposed(r))))
+    return total

@@ -1,0 +1,43 @@
+"""Coordinates of the Lie algebra in the basis of the group."""
+
+from __future__ import annotations
+
+from ..algebra.groups import Group
+from ..algebra.tree import Tree, add, mul
+from ..record.record import Equation, Step
+from .alphabet import Alphabet
+from .chapter import Chapter
+
+
+def coordinates_step(group: Group, b: Alphabet, c: Chapter, *, reading: bool) -> Step:
+    """Z = Σ ζ_a E_a, also entry by entry, and with ``reading`` how ζ̇ is read off Ż."""
+    whole: Tree = ("sum", "a", ("mul", ("entry", "ζ", "a"), ("at", "E", "a")))
+    span = range(len(group.linear_basis))
+    rows = tuple(
+        ("row", *(add(*_terms(group, i, j)) for j in range(group.n))) for i in range(group.n)
+    )
+    equations = [Equation("Z", whole), Equation("Z", ("matrix", *rows))]
+    if reading:
+        equations += [Equation(("entry", "ζ̇", a + 1), _reading(group, a)) for a in span]
+    uses = "relation" if group.relations else ".trivialisation"
+    prose = "Coordinates of the Lie algebra in the basis of the group."
+    if b.affine:
+        prose = "Coordinates of the linear parts of the Lie algebra in the basis of the group."
+    return c.step("coordinates", "coordinates", uses, equations, prose)
+
+
+def _terms(group: Group, i: int, j: int) -> list[Tree]:
+    found = []
+    for a, e in enumerate(group.linear_basis, 1):
+        x = e[i][j]
+        if x:
+            found.append(mul(int(x) if x.denominator == 1 else x, ("entry", "ζ", a)))
+    return found
+
+
+def _reading(group: Group, a: int) -> Tree:
+    terms: list[Tree] = []
+    for x, i, j in group.reading(a):
+        entry: Tree = ("entry", "Ż", i + 1, j + 1)
+        terms.append(mul(int(x) if x.denominator == 1 else x, entry))
+    return add(*terms)

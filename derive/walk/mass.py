@@ -1,0 +1,70 @@
+"""The kernel in coordinates of 𝔤: the mass matrix M of a basis, for any group.
+
+With ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are  Σ_b M_ab ζ̇_b = β_a.
+"""
+
+from __future__ import annotations
+
+from ..algebra.calculus import gradient, substitute, without
+from ..algebra.notation import Notation, tree_of
+from ..algebra.tree import Tree
+from ..algebra.words import Expr, Letter, inner, word
+from ..record.record import Equation, Step
+from .alphabet import Alphabet
+from .cartan import rates
+from .chapter import Chapter
+
+RATE = Letter("ζ̇_b")
+
+
+def mass_steps(
+    inertial: Expr,
+    force: Expr,
+    b: Alphabet,
+    uses: str,
+    c: Chapter,
+) -> tuple[Step, ...]:
+    """M, β and the solved equations from  inertial = Tr ξ′ force‾  for every ξ′ in 𝔤."""
+    E_a, E_b = _member("a", b), _member("b", b)
+    display: dict[Letter, Tree] = {E_a: ("at", "E", "a"), E_b: ("at", "E", "b")}
+    notation = Notation(display=display)
+    along = {b.Z.xi_prime: word(E_a), b.Z.acceleration: word(RATE) * word(E_b)}
+    mass = gradient(substitute(inertial, along), RATE)
+    rest = force - gradient(without(inertial, b.Z.acceleration), b.Z.xi_prime)
+    load = inner(word(E_a), word(Letter("B", b.n, b.n)))
+    row: Tree = ("mul", ("entry", "M", "a", "b"), ("entry", "ζ̇", "b"))
+    return (
+        c.step(
+            "mass",
+            "coordinates",
+            f"{uses} coordinates",
+            (
+                Equation(("entry", "M", "a", "b"), tree_of(mass, notation)),
+                Equation("B", tree_of(rest)),
+                Equation(("entry", "β", "a"), tree_of(load, notation)),
+                Equation(("sum", "b", row), ("entry", "β", "a")),
+            ),
+            "For ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are linear in the ζ̇_b: M is "
+            "the mass matrix of the basis, β_a the load along E_a.",
+        ),
+        c.step(
+            "motion",
+            "solution",
+            "mass",
+            (*rates(b), Equation("ζ̇", ("mul", ("inv", "M"), "β")), *_whole(b)),
+            "The equations of motion of this problem. M is invertible where no direction of the "
+            "group leaves every mass in its place.",
+        ),
+    )
+
+
+def _whole(b: Alphabet) -> list[Equation]:
+    """Ż from its coordinates, where ẇ needs it."""
+    total: Tree = ("sum", "a", ("mul", ("entry", "ζ̇", "a"), ("at", "E", "a")))
+    return [Equation("Ż", total)] if b.affine else []
+
+
+def _member(index: str, b: Alphabet) -> Letter:
+    """An element of the basis, with what the letters of the algebra know."""
+    z = b.Z.velocity
+    return Letter(f"E_{index}", b.n, b.n, z.symmetry, z.traceless)

@@ -1,0 +1,100 @@
+"""The kernel through the normal space of 𝔤 in gl(n): one multiplier, or none.
+
+The equations hold for every ξ′ in 𝔤, so what they leave lies in the normal space, whose dimension
+is the number of constraints on A.  For SL(n) it is spanned by 1, for GL(n) it is zero.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from ..algebra import rational as q
+from ..algebra.calculus import gradient, reduce, substitute, without
+from ..algebra.notation import Notation, tree_of
+from ..algebra.rational import Matrix
+from ..algebra.tree import Tree, add
+from ..algebra.words import Expr, Letter, inner, number, one, word
+from ..record.record import Equation, Step
+from .alphabet import Alphabet
+from .cartan import rates
+from .chapter import Chapter
+from .gather import terms_with
+from .inverse import cancelling, inverse_letter
+
+LAMBDA = Letter("λ")
+
+
+def multiplier_steps(
+    inertial: Expr,
+    force: Expr,
+    metric: Letter,
+    normal_space: tuple[Matrix, ...],
+    b: Alphabet,
+    uses: str,
+    c: Chapter,
+) -> tuple[Step, ...]:
+    """Ż and λ from  Tr ξ′ (residue − force)‾ = 0,  with J (or J_c) as ``metric``."""
+    residue = gradient(inertial, b.Z.xi_prime)
+    direction, letters, definition = _direction(normal_space, b)
+    pressed = word(LAMBDA) * direction if direction else force * 0
+    balance = Equation(tree_of(residue), add(tree_of(force), tree_of(pressed)))
+    left, right = word(inverse_letter(b.C)), word(inverse_letter(metric))
+    free = reduce(left * (force + pressed - residue) * right, cancelling(b.C, metric))
+    solved = free + word(b.Z.acceleration)
+    display = {inverse_letter(x): ("inv", x.name) for x in (b.C, metric)}
+    notation = Notation(display=display)
+    equations = rates(b)
+    if direction:
+        numerator, denominator = _multiplier(solved, direction)
+        ratio: Tree = ("div", tree_of(numerator, notation), tree_of(denominator, notation))
+        equations.append(Equation("λ", ratio))
+    equations.append(Equation("Ż", tree_of(solved, notation)))
+    prose = _prose(direction, letters)
+    return (
+        c.step("multiplier", "multiplier", uses, (*definition, balance), prose),
+        c.step(
+            "motion",
+            "solution",
+            "multiplier",
+            equations,
+            "The equations of motion of this problem"
+            + (": that Ż is in the Lie algebra gives the multiplier." if direction else "."),
+        ),
+    )
+
+
+def _direction(
+    normal_space: tuple[Matrix, ...], b: Alphabet
+) -> tuple[Expr | None, list[Letter], list[Equation]]:
+    """The normal direction as a word: 1, or a letter Λ with its value; ``None`` for GL(n)."""
+    if not normal_space:
+        return None, [], []
+    (normal,) = normal_space
+    n = len(normal)
+    if normal[0][0] and normal == q.scaled(normal[0][0], q.identity(n)):
+        return one(b.n), [], []
+    letter = Letter("Λ", n, n)
+    rows = tuple(("row", *(_number(x) for x in row)) for row in normal)
+    return word(letter), [letter], [Equation("Λ", ("matrix", *rows))]
+
+
+def _number(x: Fraction) -> Tree:
+    return int(x) if x.denominator == 1 else x
+
+
+def _multiplier(solved: Expr, direction: Expr) -> tuple[Expr, Expr]:
+    """λ = numerator / denominator from ⟨Λ, Ż⟩ = 0."""
+    total = inner(solved, direction)
+    denominator = substitute(terms_with(total, LAMBDA), {LAMBDA: number(1)})
+    return -without(total, LAMBDA), denominator
+
+
+def _prose(direction: Expr | None, letters: list[Letter]) -> str:
+    if direction is None:
+        return "The equations hold for every matrix ξ′, so that its coefficient vanishes."
+    if letters:
+        return "What the equations leave is orthogonal to the Lie algebra: a multiple λ of Λ."
+    return (
+        "What the equations leave is orthogonal to every matrix of trace zero: a multiple λ of 1, "
+        "the multiplier of the volume."
+    )

@@ -1,0 +1,78 @@
+"""H ⋉ Rⁿ: the translation is eliminated on words, and the central moments J_c take the place of J.
+
+The coefficient of η′ is solved for ẇ and put into that of ξ′.  What remains is the problem of the
+linear parts H about the centre of mass.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra.calculus import gradient, reduce, substitute, without
+from ..algebra.notation import Notation, tree_of
+from ..algebra.tree import Tree
+from ..algebra.words import Expr, Letter, inner, word
+from ..record.record import Equation, Step
+from .alphabet import Alphabet
+from .chapter import Chapter
+from .inverse import cancel_scalar, cancelling, inverse_letter
+from .special import Special
+
+
+@dataclass(frozen=True)
+class Centred:
+    """The linear problem left: ``inertial`` in ξ′ with ``metric`` J_c, and its ``force``."""
+
+    inertial: Expr
+    force: Expr
+    metric: Letter
+    acceleration: Tree
+    steps: tuple[Step, ...]
+
+
+def central_moments(b: Alphabet) -> tuple[Letter, Expr]:
+    """J_c and its value J − m⁻¹ c c̄."""
+    first = word(b.c)
+    return Letter("J_c", b.n, b.n, 1), word(b.J) - word(inverse_letter(b.m)) * first * first.bar
+
+
+def eliminate_translation(stage: Special, uses: str, c: Chapter) -> Centred:
+    """Solve for ẇ; then the equations of the linear parts."""
+    b = stage.letters
+    xi, eta, w_dot = b.Z.xi_prime, b.w.xi_prime, b.w.acceleration
+    cancel = cancelling(b.C)
+    display: dict[Letter, Tree] = {inverse_letter(x): ("inv", x.name) for x in (b.C, b.m)}
+    notation = Notation(display=display)
+
+    def tidy(e: Expr) -> Expr:
+        return cancel_scalar(reduce(e, cancel), b.m)
+
+    left = word(inverse_letter(b.C)) if stage.gram != b.unit else b.unit
+    balance = gradient(stage.inertial, eta) - stage.forces[eta]
+    free = tidy(word(inverse_letter(b.m)) * (left * without(balance, w_dot)))
+    metric, value = central_moments(b)
+    remaining = substitute(without(stage.inertial, eta), {w_dot: -free})
+    remaining = remaining - inner(stage.forces[xi], word(xi))
+    remaining = tidy(substitute(remaining, {b.J: word(metric) + word(b.J) - value}))
+    inertial = Expr(1, 1, {k: c for k, c in remaining.terms.items() if _has(k, metric)})
+    force = gradient(inertial - remaining, xi)
+    solved = tree_of(-free, notation)
+    pairing = inner(word(Letter("N_c", b.n, b.n)), word(xi))
+    step = c.step(
+        "elimination",
+        "elimination",
+        uses,
+        (
+            Equation("ẇ", solved),
+            Equation("J_c", tree_of(value, notation)),
+            Equation("N_c", tree_of(force, notation)),
+            Equation(tree_of(inertial), tree_of(pairing), (xi.name,)),
+        ),
+        "The coefficient of η′ gives ẇ; put into that of ξ′, it leaves the equations of the linear "
+        "parts about the centre of mass, with the moments of masses and forces about it.",
+    )
+    return Centred(inertial, force, metric, solved, (step,))
+
+
+def _has(key: tuple[tuple[tuple[tuple[Letter, bool], ...], ...], object], x: Letter) -> bool:
+    return any(letter == x for cycle in key[0] for letter, _ in cycle)

@@ -1,0 +1,299 @@
+"""The oracle for any problem file, against the one for three problems and against Newton's law.
+
+Shapes are those of the oracle: ``basis`` (d, s, s), a group element and then zeta (d,) in a state.
+"""
+
+import numpy as np
+import pytest
+
+from tests.oracles import gauss, general, relative_error, sampling
+
+STEP = 1e-30
+SCREW = {"action": "affine", "basis": [[[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0.5], [0, 0, 0, 0]]]}
+GROUPS = [
+    *("SO(2)", "SO(4)", "SE(2)", "SE(3)", "SL(3)", "SAff(2)", "GL(2)", "Aff(2)", "Sp(4)", "Sim(3)"),
+    *("UT(3)", "U(2)", "SU(2)", "SO(3) x SE(3)", "Aff(2) x SL(2)", "U(1) x SE(3)", SCREW),
+]
+AFFINE = {"SE": "SO", "SAff": "SL", "Aff": "GL", "Sim": "CO"}
+
+
+def factor(name):
+    """A basis (d, s, s) of the algebra of a named group, from the equations that define it."""
+    family, number = name[:-1].split("(")
+    n = int(number) * (2 if family in ("U", "SU") else 1)
+    s, J = n + (family in AFFINE), np.kron([[0, 1], [-1, 0]], np.eye(n // 2))
+    vanishing = {
+        "SO": lambda X: X + X.T,
+        "SL": np.trace,
+        "GL": lambda X: 0,
+        "CO": lambda X: X + X.T - 2 * np.eye(n) * np.trace(X) / n,
+        "Sp": lambda X: X.T @ J + J @ X,
+        "UT": np.tril,
+        "U": lambda X: [X + X.T, X @ J - J @ X],
+        "SU": lambda X: [X + X.T, X @ J - J @ X, np.eye(n) * np.trace(J @ X)],
+    }[AFFINE.get(family, family)]
+    units = np.eye(s * s).reshape(-1, s, s)
+    rows = [np.append(np.ravel(vanishing(X[:n, :n])), X[n:]) for X in units]
+    _, sizes, V = np.linalg.svd(np.array(rows).T)
+    return V[np.sum(sizes > 1e-9) :].reshape(-1, s, s)
+
+
+def algebra(group):
+    """A basis (d, s, s) for a named group, a product, or a group that is given by a table."""
+    if isinstance(group, dict):
+        return np.array(group["basis"], float)
+    parts = [factor(name) for name in group.split(" x ")]
+    ends = np.cumsum([0, *(basis.shape[1] for basis in parts)])
+    margins = [((0, 0), *[(ends[k], ends[-1] - ends[k + 1])] * 2) for k in range(len(parts))]
+    return np.concatenate([*map(np.pad, parts, margins)])
+
+
+def points_of(group, rng, count):
+    """``count`` random points for every factor of the group."""
+    sizes = [n for _, n, _ in general.blocks({"group": group})[0] for _ in range(count)]
+    drawn = [{"mass": rng.uniform(0.5, 2), "at": [*rng.normal(size=n)]} for n in sizes]
+    return [{**point, "block": k // count + 1} for k, point in enumerate(drawn)]
+
+
+def everything(group, rng):
+    """A problem with all potentials, dampings and inputs that the group allows; its parameters."""
+    sizes = [n for _, n, _ in general.blocks({"group": group})[0]]
+    data = {"group": group, "parameters": {"k": 2.5, "l": {"default": 0.7}, "w": {}}}
+    data["point"] = points_of(group, rng, max(sizes) + 1)
+    count, end = len(data["point"]), sizes[-1]
+    there = {"at": [0.4] * end, "block": len(sizes)}
+    data["potential"] = [
+        {"kind": "spring", "between": [1, 2], "stiffness": "k", "length": "l/2"},
+        {"kind": "spring", "on": count, "anchor": [0.3] * end, "stiffness": "2*k"},
+        {"kind": "spring", **there, "anchor": ["l"] * end, "stiffness": 1.5},
+        {"kind": "attraction", "strength": "k^2"},
+        {"kind": "expression", "U": f"sin(w*t)*r1_1^2*k + exp(r{count}_{end}/3)*r2_1 + cos(t)"},
+    ]
+    if len(set(sizes)) == 1:
+        far = {"kind": "spring", "between": [1, count], "stiffness": "l"}
+        data["potential"] += [{"kind": "gravity", "g": [*rng.normal(size=end)]}, far]
+    data["damping"] = [{"coefficient": "l"}, {"coefficient": 0.3, "on": [2]}]
+    data["input"] = [{"kind": "force", "on": 2, "frame": "body"}, {"kind": "covector"}]
+    data["input"].append({"kind": "force", **there})
+    return data, {**general.parameters(data), "w": 1.3}
+
+
+def matrices(data, basis, x, dx):
+    """G and its first and second derivatives, (s, s), which give points their q, v and a."""
+    G, zeta = general.split(data, x, len(basis))
+    Z, change = np.tensordot(zeta, basis, 1), np.tensordot(dx[-len(basis) :], basis, 1)
+    return G, G @ Z, G @ (change + Z @ Z)
+
+
+def work(data, p, G, V, u, along, zeta):
+    """The power of inputs and damping in the motion ``V`` (s, s) along ``along``, of ``zeta``."""
+    there = {**data["point"][-1], "at": data["input"][2]["at"]}
+    (w,) = general.positions({"group": data["group"], "point": [there]}, p, along)
+    v, y = (general.positions(data, p, matrix) for matrix in (V, along))
+    n, m = len(v[1]), len(w)
+    power = (G[:n, :n] @ u[:n]) @ y[1] + u[n:-m] @ zeta + u[-m:] @ w
+    return power - p["l"] * sum(map(np.dot, v, y)) - 0.3 * v[1] @ y[1]
+
+
+@pytest.mark.parametrize("group", GROUPS, ids=str)
+def test_power_and_virtual_work(group):
+    """The work of m a - F is that of inputs and damping, along every E_a and along the motion."""
+    rng, basis = np.random.default_rng(len(str(group))), algebra(group)
+    data, p = everything(group, rng)
+    assert general.parameters(data) == {"k": 2.5, "l": 0.7}
+    d, size = len(basis), len(data["input"][2]["at"]) + len(data["point"][1]["at"])
+    x, t, u = general.random_state(data, basis, rng), rng.normal(), rng.normal(size=size + d)
+    dx = general.rhs(data, basis, p, t, x, u)
+    G, V, W = matrices(data, basis, x, dx)
+
+    def change(start, velocity):
+        return general.energy(data, basis, p, t, start + 1j * STEP * velocity).imag / STEP
+
+    total, power = change(x, dx), work(data, p, G, V, u, V, x[-d:])
+    assert abs(total - power) < 1e-12 * (abs(total) + abs(power) + np.max(np.abs(dx)))
+    masses = [point["mass"] for point in data["point"]]
+    rest = np.append(x[:-d], np.zeros(d))
+    for E, zeta in zip(basis, np.eye(d), strict=True):
+        a, along = (general.positions(data, p, matrix) for matrix in (W, G @ E))
+        terms = [m * y @ z for m, y, z in zip(masses, a, along, strict=True)]
+        terms.append(change(rest, general.join(data, G @ E, np.zeros(d))))
+        terms.append(-work(data, p, G, V, u, G @ E, zeta))
+        assert abs(sum(terms)) < 1e-12 * sum(map(abs, terms))
+
+
+def listed(name, body):
+    """The problem of a body of the other oracle, its points listed."""
+    data = {"group": f"{name[:2].upper()}(3)", "input": [{"name": "u", "kind": "covector"}]}
+    points = zip(body.masses, body.points, strict=True)
+    data["point"] = [{"mass": m, "at": [*r]} for m, r in points]
+    data["potential"] = [{"kind": "gravity", "g": [*body.gravity]}]
+    for i, j in np.argwhere(np.triu(body.springs)):
+        spring = {"between": [i + 1, j + 1], "stiffness": body.springs[i, j]}
+        data["potential"].append({"kind": "spring", **spring})
+    return data
+
+
+@pytest.mark.parametrize("name", ["so3", "se3", "sl3"])
+def test_agrees_with_the_oracle_for_three_problems(name):
+    """With the points listed and, for rigid bodies, with their moments as parameters."""
+    rng, basis = np.random.default_rng(2), sampling.basis(name)
+    for _ in range(30):
+        body, x = sampling.random_body(name, rng), sampling.random_state(name, rng)
+        u, data = rng.normal(size=len(basis)), listed(name, body)
+        expected = gauss.rhs(name, x, body, u)
+        assert relative_error(general.rhs(data, basis, {}, 0.0, x, u), expected) < 1e-12
+        energy = body.energy(*sampling.motion(name, x, body))
+        assert abs(general.energy(data, basis, {}, 0.0, x) - energy) < 1e-13 * (1 + abs(energy))
+        if name != "sl3":
+            p = sampling.parameters(name, body)
+            p = {key: p[key] for key in p if key != "m" or name == "se3"}
+            data = {"group": data["group"], "body": {"moments": "symbolic"}, "input": data["input"]}
+            data["potential"] = [{"kind": "gravity", "g": ["g_1", "g_2", "g_3"]}]
+            assert relative_error(general.rhs(data, basis, p, 0.0, x, u), expected) < 1e-12
+
+
+@pytest.mark.parametrize("m", [2.0, 1e6])
+@pytest.mark.parametrize(("J_11", "J_12", "J_22"), [(0.4, 0.1, 0.3), (0.4, 0.2, 0.1), (0, 0, 3)])
+def test_realised_moments(m, J_11, J_12, J_22):
+    """Points with given moments, also on a line; and impossible moments."""
+    J, c = np.array([[J_11, J_12], [J_12, J_22]]), np.array([J_12, J_22]) / 2
+    p = {"J_11": J_11, "J_12": J_12, "J_22": J_22, "m": m, "c_1": c[0], "c_2": c[1]}
+    masses, r = general.realised(p, 2, True)
+    assert abs(masses.sum() / m - 1) < 1e-15
+    np.testing.assert_allclose(masses @ r, c, atol=1e-14 * np.sqrt(m))
+    np.testing.assert_allclose((masses[:, None] * r).T @ r, J, atol=1e-14)
+    with pytest.raises(ValueError, match="no masses"):
+        general.realised({**p, "J_12": 5}, 2, True)
+
+
+def by_hand(q, v, A, masses, weights, u, t):
+    """The forces (N, n) of :func:`test_newtons_law`, written out; ``weights`` (N,) of the place."""
+    n = q.shape[1]
+    F = masses[:, None] * np.arange(n) - 0.3 * v
+    F -= masses[:, None] * 1.7 * (q - 3) / np.linalg.norm(q - 3, axis=1)[:, None] ** 3
+    gap = q[0] - q[1]
+    pull = 2.5 * (np.linalg.norm(gap) - 0.7) * gap / np.linalg.norm(gap)
+    F[0] += u[:n] - pull
+    F[1] += A @ u[n : 2 * n] + pull - 4 * (q[1] - 0.2) - 0.9 * v[1]
+    F[0, 0] -= 2 * np.sin(t) * q[0, 0] * q[1, 1]
+    F[1, 1] -= np.sin(t) * q[0, 0] ** 2 - 3 * q[1, 1] ** -4
+    return F + np.outer(weights, A @ u[2 * n :] - 1.5 * (weights @ q + 1))
+
+
+@pytest.mark.parametrize("group", ["GL(2)", "GL(3)", "GL(4)", "Aff(2)", "Aff(3)"])
+def test_newtons_law(group):
+    """As many points as the group moves freely: m a = F for each, and no constraint."""
+    rng, basis, n, affine = np.random.default_rng(3), algebra(group), int(group[-2]), "A" in group
+    X, Y = ("r1_x", "r2_y") if n < 4 else ("r1_1", "r2_2")
+    for _ in range(10):
+        at = np.eye(n + affine)[:, :n] + 0.3 * rng.normal(size=(n + affine, n))
+        masses, weights = rng.uniform(0.5, 2, n + affine), rng.normal(size=n + affine)
+        weights /= weights.sum() if affine else 1
+        there = {"at": [*weights @ at]}
+        data = {"group": group, "damping": [{"coefficient": 0.3}, {"coefficient": 0.9, "on": [2]}]}
+        data["point"] = [{"mass": m, "at": [*r]} for m, r in zip(masses, at, strict=True)]
+        data["potential"] = [
+            {"kind": "spring", "between": [1, 2], "stiffness": 2.5, "length": 0.7},
+            {"kind": "spring", "on": 2, "stiffness": "2^2", "anchor": [0.2] * n},
+            {"kind": "spring", **there, "stiffness": 1.5, "anchor": [-1] * n},
+            {"kind": "attraction", "strength": 1.7, "centre": [3] * n},
+            {"kind": "expression", "U": f"sin(t)*{X}^2*{Y} + 1/{Y}^3"},
+            {"kind": "gravity", "g": [*range(n)]},
+        ]
+        places = {"on": 1}, {"on": 2, "frame": "body"}, {**there, "frame": "body"}
+        data["input"] = [{"kind": "force", **place} for place in places]
+        x, t, u = general.random_state(data, basis, rng), rng.normal(), rng.normal(size=3 * n)
+        dx = general.rhs(data, basis, {}, t, x, u)
+        matrix = matrices(data, basis, x, dx)
+        q, v, a = (np.array(general.positions(data, {}, x)) for x in matrix)
+        F = by_hand(q, v, matrix[0][:n, :n], masses, weights, u, t)
+        assert relative_error(a * masses[:, None], F) < 1e-11
+
+
+def test_complex_steps_are_exact():
+    """The forces of a spring to the last digits, and none outside the domain of U."""
+    data = {"group": "GL(3)", "point": [{"mass": 1, "at": [0, 0, 0]}] * 2}
+    spring = [{"kind": "spring", "between": [1, 2], "stiffness": 3, "length": "l"}]
+    rng, found = np.random.default_rng(4), general.places(data, {})
+    for rest in (0.0, 0.5, 1.2) * 20:
+        q = rng.normal(size=(2, 3))
+        p, force = {"l": rest * np.linalg.norm(q[0] - q[1])}, 3 * (rest - 1) * (q[0] - q[1])
+        given = general.forces({**data, "potential": spring}, p, 0.0, found, q.ravel())
+        assert relative_error(given, np.concatenate([force, -force])) < 3e-15
+    data["potential"] = [{"kind": "expression", "U": "log(r1_x) + r1_2 + 0*r1_z*r2_x*r2_y*r2_3"}]
+    assert np.isnan(general.forces(data, {}, 0.0, found, np.array([-1.0, 0, 0, 0, 0, 0]))).all()
+
+
+def test_separate_bodies_move_alone():
+    """A product without coupling is its factors, states and energies included."""
+    rng, covector = np.random.default_rng(5), [{"name": "u", "kind": "covector"}]
+    gravity, spring = {"kind": "gravity", "g": [0, 1, -9]}, {"kind": "spring", "anchor": [1, 2, 3]}
+    pair = {"group": "SE(3) x SO(3)", "point": points_of("SE(3) x SO(3)", rng, 4)}
+    springs = [{**spring, "on": 2, "stiffness": 1}, {**spring, "on": 7, "stiffness": 2}]
+    pair |= {"potential": [*springs, gravity], "input": covector}
+    solid = {**pair, "group": "SE(3)", "point": pair["point"][:4]}
+    solid["potential"] = [springs[0], gravity]
+    top = {"group": "SO(3)", "point": [{**x, "block": 1} for x in pair["point"][4:]]}
+    top |= {"potential": [{**springs[1], "on": 3}, gravity], "input": covector}
+    basis = algebra(pair["group"])
+    x, u = general.random_state(pair, basis, rng), rng.normal(size=9)
+    dx, energy = general.rhs(pair, basis, {}, 0.0, x, u), general.energy(pair, basis, {}, 0.0, x)
+    for data, rows, part in ((solid, np.r_[:12, 21:27], u[:6]), (top, np.r_[12:21, 27:30], u[6:])):
+        alone = data, algebra(data["group"]), {}, 0.0, x[rows]
+        assert relative_error(dx[rows], general.rhs(*alone, part)) < 1e-13
+        energy -= general.energy(*alone)
+    assert abs(energy) < 1e-12
+
+
+def test_points_on_a_line_are_refused():
+    data = {"group": "SO(3)", "point": [{"mass": 1, "at": [k, 2 * k, 0]} for k in range(4)]}
+    with pytest.raises(np.linalg.LinAlgError):
+        general.rhs(data, factor("SO(3)"), {}, 0.0, np.append(np.eye(3), [1, 2, 3]))
+
+
+@pytest.mark.parametrize("group", GROUPS, ids=str)
+def test_random_states_are_in_the_group(group):
+    """G E_a G^-1 is in the algebra, determinants are right; split and join agree."""
+    rng, basis, data = np.random.default_rng(7), algebra(group), {"group": group}
+    x = general.random_state(data, basis, rng)
+    G, zeta = general.split(data, x, len(basis))
+    np.testing.assert_array_equal(general.join(data, G, zeta), x)
+    flat = basis.reshape(len(basis), -1)
+    images = (G @ basis @ np.linalg.inv(G)).reshape(len(basis), -1)
+    assert relative_error(images @ np.linalg.pinv(flat) @ flat, images) < 1e-13
+    if group in ("SO(2)", "SO(4)", "U(2)", "SU(2)"):
+        np.testing.assert_allclose(G.T @ G, np.eye(len(G)), atol=1e-14)
+    if str(group)[:2] not in ("GL", "Af", "Si"):
+        assert abs(np.linalg.det(G) - 1) < 1e-13
+
+
+EXPRESSIONS = [
+    ("2 - 3 - 4", -5), ("12/3/2", 2), ("-2^2", -4), ("2^-2", 0.25), ("--3", 3), ("2*-3 + 1", -5),
+    ("2^3^2", 512), ("2^-1^2", 0.5), ("1e3 + .5 + 2.", 1002.5), ("1.5e-1*2", 0.3), ("a^2*b", 18),
+    ("-a^2/b", -4.5), ("(a + b)*(a - b)", 5), ("sqrt(4)^2", 4), ("-sin(pi/2)", -1), ("1/a*a", 1),
+    ("exp(log(a))", 3), ("tan(atan(b))", 2), ("cosh(b)^2 - sinh(b)^2", 1), ("r1_x2", 7), (3, 3),
+    ("tanh(0)", 0), ("sin (a - 3)", 0), ("exp*2", 10), ("2^(1/2)*2^0.5", 2), ("cos(0)", 1),
+    ("2 * (3 + (4))", 14), ("+b", 2), ("a-b*2", -1), ("-(1 - 3)", 2), (-0.5, -0.5), (1e-7, 1e-7),
+]  # fmt: skip
+DERIVATIVES = [
+    ("x^3", "3*x^2"), ("(-x)^3", "-3*x^2"), ("x^-2", "-2/x^3"), ("x^2.5", "2.5*x^1.5"),
+    ("2^x", "2^x*log(2)"), ("x^x", "x^x*(1 + log(x))"), ("sqrt(x)", "1/(2*sqrt(x))"),
+    ("log(x)", "1/x"), ("exp(-x)", "-exp(-x)"), ("sin(x)", "cos(x)"), ("cos(x)", "-sin(x)"),
+    ("tan(x)", "1/cos(x)^2"), ("sinh(x)", "cosh(x)"), ("cosh(x)", "sinh(x)"),
+    ("tanh(x)", "1/cosh(x)^2"), ("atan(x)", "1/(1 + x^2)"), ("x/(1 - x)", "1/(1 - x)^2"),
+]  # fmt: skip
+REFUSED = ["", "1 +", "(1", "1)", "a b", "2a", "f(1)", "c", "1 $ 2", "*2", "1e", "sin 2", "(", "^2"]
+
+
+def test_expressions():
+    env = {"a": 3, "b": 2, "r1_x2": 7, "exp": 5}
+    for text, value in EXPRESSIONS:
+        assert abs(general.evaluate(text, env) - value) < 1e-14, text
+    for text in REFUSED:
+        with pytest.raises((ValueError, KeyError)):
+            general.evaluate(text, env)
+    x = np.array([0.3, 0.9, 1.7, 4.1])
+    for text, derivative in DERIVATIVES:
+        found = general.evaluate(text, {"x": x + 1j * STEP}).imag / STEP
+        expected = general.evaluate(derivative, {"x": x})
+        np.testing.assert_allclose(found, expected, rtol=4e-15, err_msg=text)
