@@ -92,10 +92,13 @@ def command_list(_: argparse.Namespace) -> int:
     print("groups")
     for name, family in FAMILIES.items():
         print(f"  {name + '(n)':8} n ≥ {family.least}  {family.meaning}")
+    print('  products of these, "SO(3) x SE(3)", and any group given by a basis')
     print("problems")
-    for name in ready_made():
-        p = load_problem(name)
-        print(f"  {name:8} {p.group.name if p.group else 'any group':9}  {p.title}")
+    listed = [(name, load_problem(name)) for name in ready_made()]
+    groups = {name: p.group.name if p.group else "any group" for name, p in listed}
+    widest, wider = (max(map(len, x)) for x in (groups, groups.values()))
+    for name, p in listed:
+        print(f"  {name:{widest}}  {groups[name]:{wider}}  {p.title}")
     return 0
 
 

@@ -29,17 +29,19 @@ from .mechanics.problem import Problem
 from .record.record import Derivation, Step, Symbol, encode
 from .record.vocabulary import CONVENTIONS, VOCABULARY, meaning
 from .walk.alphabet import Alphabet
+from .walk.body import body_step
 from .walk.cartan import cartan, trivialise
 from .walk.chapter import Chapter
 from .walk.coordinates import coordinates_step
 from .walk.elimination import eliminate
 from .walk.exterior import exterior, exterior_trivialised
+from .walk.inputs import given_matrices, given_vectors
 from .walk.isometry import Isometry, isometry
 from .walk.kernel import kernel, kernel_trivialised
 from .walk.lagrangian import lagrangian
 from .walk.mass import mass_steps
 from .walk.multipliers import multiplier_steps
-from .walk.potential import body_step, potentials
+from .walk.potential import potentials
 from .walk.pullback import pullback
 from .walk.rotation import (
     displacement_motion,
@@ -86,27 +88,34 @@ def road_of_any_group(a: Alphabet, name: str) -> General:
 def road_of(problem: Problem, group: Group, road: General) -> Steps:
     """The specialisation to the group, the body and the potentials of the problem."""
     name, scope = problem.name, group.name
-    body = body_step(problem, name, scope)
-    first = (body,) if body else ()
+    first = body_step(problem, name, scope)
     if "orthogonal" in group.relations and group.n == 3:
         stage = isometry(road.cartan, road.letters, group.n, name, road.name, scope)
         special = road_of_displacements if group.affine else road_of_rotations
         return first + stage.steps + special(problem, stage, road.name)
     v = potentials(problem, Alphabet(group.n, affine=group.affine), name, road.name, scope)
     chapter = Chapter(name, road.name, scope)
-    return first + road_of_matrices(group, specialise(road, group, v, chapter), chapter)
+    return first + road_of_matrices(problem, group, specialise(road, group, v, chapter), chapter)
 
 
-def road_of_matrices(group: Group, stage: Special, c: Chapter) -> Steps:
+def road_of_matrices(problem: Problem, group: Group, stage: Special, c: Chapter) -> Steps:
     """Any other group: the translation eliminated, then one multiplier or the mass matrix."""
     b, steps, uses = stage.letters, stage.steps, ".equations force"
+    place = coordinates_step(group, b, c, reading=len(group.normal_space_of_linear_parts) <= 1)
+    given = given_matrices(problem, b, stage.gram, c.with_input())
+    if given is not None:
+        stage, c, uses = (
+            stage.pushed(given.moments, given.resultant),
+            c.with_input(),
+            f"{uses} input",
+        )
+        steps += given.steps
     inertial, force, metric = stage.inertial, stage.forces[b.Z.xi_prime], b.J
     if group.affine:
         centred = eliminate_translation(stage, uses, c)
         inertial, force, metric = centred.inertial, centred.force, centred.metric
         steps, uses = steps + centred.steps, "elimination"
     normal = group.normal_space_of_linear_parts
-    place = coordinates_step(group, b, c, reading=len(normal) <= 1)
     if len(normal) <= 1:
         motion = multiplier_steps(inertial, force, metric, normal, b, uses, c)
         return (*steps, *motion, place, *stage.last)
@@ -118,14 +127,17 @@ def road_of_rotations(problem: Problem, stage: Isometry, general: str) -> Steps:
     name, scope = problem.name, "SO(3)"
     vectors = vector_form(stage, name, general, scope)
     euler = euler_step(vectors, name, scope)
-    v = potentials(problem, stage.letters, name, general, scope)
+    v = potentials(problem, stage.letters, name, general, scope, vectors=True)
+    c = Chapter(name, general, scope)
+    given = given_vectors(problem, stage.letters, c.with_input())
     return (
         *vectors.steps,
         euler,
         principal_step(name, scope, euler.equations[0].rhs),
         *v.steps,
         torque_step(v, stage, name, general, scope),
-        spherical_motion(vectors, v, stage, problem, name, scope),
+        *(given.steps if given else ()),
+        spherical_motion(vectors, v, stage, given, c),
         energy_step(stage, v, name, scope),
     )
 
@@ -135,13 +147,16 @@ def road_of_displacements(problem: Problem, stage: Isometry, general: str) -> St
     name, scope = problem.name, "SE(3)"
     vectors = vector_form(stage, name, general, scope)
     eliminated = eliminate(vectors, stage.letters, name, scope)
-    v = potentials(problem, stage.letters, name, general, scope)
+    v = potentials(problem, stage.letters, name, general, scope, vectors=True)
+    c = Chapter(name, general, scope)
+    given = given_vectors(problem, stage.letters, c.with_input())
     return (
         *vectors.steps,
         *eliminated.steps,
         *v.steps,
         torque_step(v, stage, name, general, scope),
-        displacement_motion(eliminated, v, stage.letters, problem, name, scope),
+        *(given.steps if given else ()),
+        displacement_motion(eliminated, v, stage.letters, given, c),
         energy_step(stage, v, name, scope),
     )
 

@@ -82,9 +82,9 @@ class CLibrary:
         return self._energy(t, vector(x), k)
 
 
-def compile_c(build, name, folder):
-    """Compile generated/NAME/NAME.c into ``folder`` and load it; a diagnostic is an error."""
-    source = GENERATED / name
+def compile_c(build, name, folder, source=None):
+    """Compile NAME.c of ``source`` (generated/NAME) into ``folder`` and load it, or fail loudly."""
+    source = source or GENERATED / name
     lines = [f"    sizes[{i}] = {name}_N_{key};" for i, key in enumerate(SIZES)]
     probe = Path(folder) / "probe.c"
     probe.write_text(PROBE.format(name=name, lines="\n".join(lines)))

@@ -96,7 +96,7 @@ def test_steps_of_any_group_stand_before_those_of_the_group(name: str) -> None:
     assert headings == ["any group of matrices", *special]
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [*NAMES, "saff3", "two_tops", "ellipsoid", "jelly"])
 def test_latex_compiles_within_its_margins(name: str, tmp_path: Path) -> None:
     log = compiled(latex(record(name)), tmp_path, runs=2)
     assert "Overfull \\hbox" not in log

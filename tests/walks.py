@@ -4,7 +4,8 @@ from functools import cache
 
 from derive.cli import derive, ready_made
 
-NAMES = tuple(ready_made())
+NAMES = ("linear", "affine", "so3", "se3", "sl3")
+OTHERS = tuple(sorted({*ready_made()} - {*NAMES}))
 SPECIAL = ("so3", "se3", "sl3")
 
 

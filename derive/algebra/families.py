@@ -229,6 +229,11 @@ def product(factors: tuple[Group, ...]) -> Group:
     )
 
 
+def on_homogeneous(g: Group) -> Group:
+    """An affine group as the linear one of its matrices on (r, 1): a product of one factor."""
+    return Group(g.name, g.n + 1, "linear", g.basis, g.sampler, (g,))
+
+
 def turning_about_a_point() -> Group:
     """The rotations of R³ about (1, 2, 3): affine maps whose translations are not free."""
     place: Matrix = ((Fraction(1),), (Fraction(2),), (Fraction(3),))

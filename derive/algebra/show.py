@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
-from .tree import Tree, coefficient
+from .tree import Tree, coefficient, mul, neg
 
 SUBSCRIPTS = str.maketrans("0123456789ije", "₀₁₂₃₄₅₆₇₈₉ᵢⱼₑ")
 FRACTIONS = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(1, 4): "¼", Fraction(2, 3): "⅔"}
@@ -29,21 +29,14 @@ def parts(t: Tree) -> list[tuple[str, str]]:
 def signed(t: Tree) -> list[tuple[str, Tree]]:
     """The terms of a sum as (sign, tree) pairs, the trees without their sign."""
     terms = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
-    found = []
+    found: list[tuple[str, Tree]] = []
     for term in terms:
+        if isinstance(term, tuple) and term[0] == "div" and coefficient(term[1])[0] < 0:
+            found.append(("−", ("div", neg(term[1]), term[2])))
+            continue
         c, rest = coefficient(term)
-        found.append(("−", _scaled(-c, rest)) if c < 0 else ("+", term))
+        found.append(("−", mul(-c, rest)) if c < 0 else ("+", term))
     return found
-
-
-def _scaled(c: Fraction, rest: Tree) -> Tree:
-    if rest == 1:
-        return c
-    if c == 1:
-        return rest
-    return (
-        ("mul", c, *rest[1:]) if isinstance(rest, tuple) and rest[0] == "mul" else ("mul", c, rest)
-    )
 
 
 def show_name(name: str) -> str:
@@ -132,7 +125,11 @@ def _node(t: tuple[object, ...]) -> tuple[str, int]:
         negative = coefficient(t)[0] < 0
         return _product(arguments) if not negative else _negative(t), SUM if negative else PRODUCT
     if op == "div":
-        return f"{_atom(arguments[0])}/{_atom(arguments[1])}", PRODUCT
+        c, rest = coefficient(arguments[0])
+        above, level = _show(mul(abs(c), rest))
+        above = f"({above})" if level == SUM else above
+        text = f"{above}/{_atom(arguments[1])}"
+        return (text, PRODUCT) if c >= 0 else (f"−{text}", SUM)
     if op == "wedge":
         return " ∧ ".join(_operand(a) for a in arguments), PRODUCT
     if op == "tr":
@@ -181,6 +178,12 @@ def _atomic(op: object, a: tuple[Tree, ...]) -> str:
         return f"⟨{show(a[1])}, {show(a[2])}⟩_{show(a[0])}"
     if op == "norm2":
         return f"‖{show(a[-1])}‖²" + (f"_{show(a[0])}" if len(a) == 2 else "")
+    if op == "fun":
+        name, inside = a
+        norm = name == "sqrt" and isinstance(inside, tuple) and inside[0] == "norm2"
+        if norm and len(inside) == 2:  # type: ignore[arg-type]
+            return f"‖{show(inside[1])}‖"  # type: ignore[index]
+        return f"√({show(inside)})" if name == "sqrt" else f"{name}({show(inside)})"
     if op == "bracket":
         return f"[{show(a[0])}, {show(a[1])}]"
     if op == "hat":
@@ -195,6 +198,8 @@ def _atomic(op: object, a: tuple[Tree, ...]) -> str:
         return "[" + "; ".join(show(row) for row in a) + "]"
     if op == "row":
         return ", ".join(show(x) for x in a)
+    if op == "call" and a[0] == "∫":
+        return "∫ dm" if a[1] == 1 else f"∫ {show(a[1])} dm"
     if op == "call":
         return f"{_atom(a[0])}({', '.join(show(x) for x in a[1:])})"
     raise ValueError(f"unknown operator {op!r}")

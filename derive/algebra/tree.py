@@ -34,6 +34,7 @@ OPERATORS: dict[str, tuple[int, int | None]] = {
     "matrix": (1, None),  # rows
     "row": (1, None),  # entries of a row
     "call": (2, None),  # a function at arguments
+    "fun": (2, 2),  # an elementary function, by its name, at a number
     "par": (1, 1),  # a parameter of the problem, by its own name
 }
 

@@ -30,7 +30,7 @@ def assemble(d: Derivation, group: Group) -> Program:
     if not isinstance(energy, Node):
         raise LoweringError("the energy is not a number")
     names = Names()
-    inputs = _input_names(lowering)
+    inputs = lowering.inputs
     for kind, members in (("state", state), ("input", inputs)):
         for name in members:
             names.claim(name, f"{kind} {name}")
@@ -49,7 +49,7 @@ def assemble(d: Derivation, group: Group) -> Program:
         str(d.problem.get("title", "")),
         group.name,
         group.dimension,
-        conventions(group, inputs),
+        conventions(group, d.problem.get("inputs", [])),
         tuple(state),
         tuple(_parameter(d, name) for name in parameters),
         tuple(inputs),
@@ -79,21 +79,17 @@ def _state(lowering: Lowering) -> tuple[list[str], list[Node]]:
     return state, rates
 
 
-def _input_names(lowering: Lowering) -> list[str]:
-    vectors = [lowering.state[x] for x in ("u", "f_u") if x in lowering.state]
-    return [row[0].data[1] for v in vectors for row in v]  # type: ignore[union-attr]
-
-
 def _places(
     lowering: Lowering, names: Names, state: list[str], inputs: list[str]
 ) -> dict[Node, tuple[str, tuple[str, int]]]:
     """Where each leaf is read from, and the name it has there (never a reserved word)."""
     arrays = (("x", "state", state), ("u", "input", inputs))
-    return {
+    found = {
         lowering.leaf(x, kind): (names.claim(x, f"{kind} {x}"), (array, i))
         for array, kind, members in arrays
         for i, x in enumerate(members)
     }
+    return found | {lowering.leaf("t", "time"): ("t", ("t", 0))}
 
 
 def _used_parameters(d: Derivation, nodes: list[Node]) -> list[str]:

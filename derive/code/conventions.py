@@ -2,42 +2,54 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from ..algebra.groups import Group
 
 
-def conventions(group: Group, inputs: Sequence[str]) -> tuple[str, ...]:
+def conventions(group: Group, inputs: Sequence[Mapping[str, Any]]) -> tuple[str, ...]:
     """One sentence each, in plain ASCII."""
-    n = group.n
-    lines = [
-        f"A is {n} x {n}, row by row: a point r of the body stands at A r"
-        + (" + T in space." if group.affine else " in space."),
-    ]
-    if "orthogonal" in group.relations and n == 3:
+    lines = _factors(group) if group.factors else [_place("A", "T", group)]
+    if "orthogonal" in group.relations and group.n == 3:
         lines.append(
             "zeta is the angular velocity in the body frame: dA/dt = A j(zeta), j(x) y = x cross y."
         )
-        if group.affine:
-            lines.append(
-                "w is the velocity of the body's origin (r = 0) in the body frame: dT/dt = A w."
-            )
+    elif not group.affine:
+        lines.append("zeta are the coordinates of Z = g^-1 dg/dt in the basis below.")
     else:
         lines.append("zeta are the coordinates of Z = A^-1 dA/dt in the basis below.")
-    return (*lines, *_inputs(group, inputs))
+    if group.affine:
+        lines.append(
+            "w is the velocity of the body's origin (r = 0) in the body frame: dT/dt = A w."
+        )
+    return (*lines, *(line for given in inputs for line in _input(group, given)))
 
 
-def _inputs(group: Group, inputs: Sequence[str]) -> list[str]:
-    if not inputs:
-        return []
-    rotation = "orthogonal" in group.relations and group.n == 3
-    if rotation and group.affine:
-        first, last = ", ".join(inputs[:3]), ", ".join(inputs[3:])
+def _place(A: str, T: str, g: Group) -> str:
+    return f"{A} is {g.n} x {g.n}, row by row: a point r of the body stands at {A} r" + (
+        f" + {T} in space." if g.affine else " in space."
+    )
+
+
+def _factors(group: Group) -> list[str]:
+    if len(group.factors) == 1:
+        return [_place("A", "T", group.factors[0])]
+    lines = ["The blocks of the product, one after the other:"]
+    return lines + [_place(f"A{k}", f"T{k}", g) for k, g in enumerate(group.factors, 1)]
+
+
+def _input(group: Group, given: Mapping[str, Any]) -> list[str]:
+    name = given["name"]
+    if given["kind"] == "force":
+        frame = "the space frame" if given["frame"] == "space" else "the body frame"
+        return [f"Input {name}: a force on point {given['on']}, in {frame}."]
+    if group.name == "SE(3)":
         return [
-            f"Input: ({first}) is a moment about the body's origin and ({last}) a force on it,",
-            "both in the body frame; their power is <moment, zeta> + <force, w>.",
+            f"Input {name}: a moment about the body's origin (its first 3 components) and a force",
+            "on it (the last 3), both in the body frame; power <moment, zeta> + <force, w>.",
         ]
-    if rotation:
-        names = ", ".join(inputs)
-        return [f"Input: ({names}) is a torque about the fixed point, in the body frame."]
-    return ["Input: a covector of the Lie algebra; its power is the sum of u_a zeta_a."]
+    if group.name == "SO(3)":
+        return [f"Input {name}: a torque about the fixed point, in the body frame."]
+    pair = "(zeta, w)" if group.affine else "zeta"
+    return [f"Input {name}: a covector of the Lie algebra; its power is <{name}, {pair}>."]

@@ -116,7 +116,9 @@ def _basis_lines(p: Program) -> list[str]:
 def _function(f: Function, printer: Printer, language: str) -> dict[str, Any]:
     ops = f.operations()
     return {
-        "loads": [{"name": x.name, "array": x.array, "index": x.index} for x in f.loads],
+        "loads": [
+            {"name": x.name, "array": x.array, "index": x.index} for x in f.loads if x.array != "t"
+        ],
         "arrays": sorted({x.array for x in f.loads}),
         "sections": [
             {

@@ -19,9 +19,9 @@ PARAMETER, STATE = 0, 1
 
 @dataclass(frozen=True, eq=False)
 class Node:
-    """``op`` is one of num, leaf, add, mul, recip, abs, value.
+    """``op`` is one of num, leaf, add, mul, recip, abs, fun, value.
 
-    ``data``: the number, the leaf's (kind, name), or the coefficients of a sum.
+    ``data``: the number, the leaf's (kind, name), the coefficients of a sum, or the function.
     """
 
     graph: Graph
@@ -103,6 +103,10 @@ class Graph:
         coefficient, core = self._split(x)
         return self.linear([(1 / coefficient, self._intern("recip", None, (core,), core.stage))])
 
+    def function(self, name: str, x: Node) -> Node:
+        """An elementary function of a value."""
+        return self._intern("fun", name, (x,), x.stage)
+
     def magnitude(self, x: Node) -> Node:
         """The size of a value before its terms cancel: what its rounding error is measured by."""
         if x.op == "num":
@@ -130,6 +134,8 @@ class Graph:
                     done[y] = self.linear(zip(y.data, args, strict=True))
                 elif y.op == "mul":
                     done[y] = self.product(args)
+                elif y.op == "fun":
+                    done[y] = self.function(y.data, args[0])
                 elif y.op == "recip":
                     done[y] = self.recip(args[0])
                 elif y.op == "abs":

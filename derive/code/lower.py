@@ -7,6 +7,7 @@ matrices: a product is formed whole, in the cheapest order, and its entries are 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
@@ -41,6 +42,8 @@ class Lowering(Inverting):
 
     def tree(self, t: Tree) -> Value:
         """The value of a tree."""
+        if t == "π":
+            return self.graph.num(Fraction(math.pi))
         if isinstance(t, str):
             return self.name(t)
         if isinstance(t, (int, Fraction)):
@@ -55,8 +58,14 @@ class Lowering(Inverting):
 
     def _node(self, t: tuple[Any, ...]) -> Value:
         op = t[0]
+        if op == "fun":
+            argument = self.tree(t[2])
+            assert isinstance(argument, Node)
+            return self.graph.value(self.graph.function(t[1], argument), name_of(t), self.label)
         if op == "par":
             return self.graph.leaf(t[1], "parameter")
+        if op == "call":
+            return self.applied(t)
         if op == "at":
             return self.member(t)
         if op == "sum":
@@ -211,7 +220,7 @@ class Lowering(Inverting):
 
 
 SCALARS = {"m", "λ", "t", "h̃", "Ũ", "L̃"}
-SCALAR_OPERATORS = {"tr", "inner", "metric", "norm2", "det", "par", "entry"}
+SCALAR_OPERATORS = {"tr", "inner", "metric", "norm2", "det", "par", "entry", "fun"}
 
 
 def is_solve(t: tuple[Any, ...]) -> bool:

@@ -10,7 +10,7 @@ from ..algebra.tree import Tree
 
 GREEK = {
     "ζ": "zeta", "Ω": "omega", "φ": "phi", "λ": "lambda", "γ": "gravity", "ξ": "xi", "η": "eta",
-    "μ": "moment", "α": "alpha", "τ": "tau",
+    "μ": "moment", "α": "alpha", "τ": "tau", "β": "load", "σ": "tension", "κ": "damping",
 }  # fmt: skip
 MARKS = {"\u0307": "_dot", "\u0303": "_tilde", "′": "_prime"}
 _C_WORDS = """
@@ -23,6 +23,8 @@ _C_WORDS = """
     while x xor xp
     """
 _EMITTED = """
+    sqrt sin cos tan exp log sinh cosh tanh atan
+    sqrtf sinf cosf tanf expf logf sinhf coshf tanhf atanf
     abs all regular numpy math i NULL signgam STATE PARAMETERS INPUTS CONSTANTS BASIS
     """
 RESERVED = set(_C_WORDS.split()) | set(keyword.kwlist) | set(_EMITTED.split())
@@ -46,6 +48,8 @@ def name_of(t: Tree) -> str:
         return "_".join(str(x) for x in t[1:])
     if t[0] == "add":
         return "balance"
+    if t[0] == "fun":
+        return f"{t[1]}_{name_of(t[2])}".rstrip("_")
     if t[0] in ("par", "entry"):
         return "_".join(name_of(x) or str(x) for x in t[1:])
     words = {

@@ -17,6 +17,7 @@ class Printer:
 
     number: Callable[[Fraction], str]
     absolute: str = "abs"
+    function: Callable[[str], str] = str
 
     def __call__(self, e: Expression) -> str:
         """An expression as source text."""
@@ -28,6 +29,8 @@ class Printer:
             return text, ATOM if e[1] >= 0 and "/" not in text else SUM
         if e[0] == "var":
             return e[1], ATOM
+        if e[0] == "fun":
+            return f"{self.function(e[1])}({self(e[2])})", ATOM
         if e[0] == "abs":
             return f"{self.absolute}({self(e[1])})", ATOM
         if e[0] == "add":
@@ -59,13 +62,13 @@ def decimal(q: Fraction, suffix: str = "") -> str:
     return f"{float(q.numerator)!r}{suffix}/{float(q.denominator)!r}{suffix}"
 
 
-PYTHON = Printer(decimal)
+PYTHON = Printer(decimal, function=lambda name: f"xp.{name}")
 
 
 def c_printer(real: str) -> Printer:
     """C for ``double`` or ``float``."""
     suffix = "f" if real == "float" else ""
-    return Printer(lambda q: decimal(q, suffix), "fabs" + suffix)
+    return Printer(lambda q: decimal(q, suffix), "fabs" + suffix, lambda name: f"{name}{suffix}")
 
 
 def wrapped(text: str, width: int, indent: str) -> str:

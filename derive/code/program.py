@@ -1,8 +1,8 @@
 """The neutral program: what every language prints.
 
 An expression is a tuple ``(operator, operand, …)``: ``num``, ``var``, ``add`` (signed terms),
-``mul``, ``div``, ``abs``.  A function loads inputs, computes sections of named values and stores
-outputs.
+``mul``, ``div``, ``abs``, ``fun``.  A function loads inputs, computes sections of
+named values and stores outputs.
 """
 
 from __future__ import annotations
@@ -11,8 +11,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+OPERATIONS = ("mul", "add", "div", "call")
+
 Expression = tuple[Any, ...]
-"""("num", q), ("var", name), ("add", ((sign, e), …)), ("mul", (e, …)), ("div", e, f), ("abs", e)"""
+"""("num", q), ("var", name), ("add", ((sign, e), …)), ("mul", (e, …)), ("div", e, f), ("abs", e),
+("fun", name, e)"""
 
 
 @dataclass(frozen=True)
@@ -63,8 +66,8 @@ class Function:
     checks: tuple[Check, ...] = ()
 
     def operations(self) -> dict[str, int]:
-        """Counts of mul, add and div in sections and outputs."""
-        total = {"mul": 0, "add": 0, "div": 0}
+        """Counts of mul, add, div and calls of functions in sections and outputs."""
+        total = dict.fromkeys(OPERATIONS, 0)
         for section in self.sections:
             for v in section.values:
                 _count(v.expression, total)
@@ -94,14 +97,15 @@ class Program:
 
 def count(e: Expression) -> dict[str, int]:
     """Operations of one expression."""
-    total = {"mul": 0, "add": 0, "div": 0}
+    total = dict.fromkeys(OPERATIONS, 0)
     _count(e, total)
     return total
 
 
 def _count(e: Expression, total: dict[str, int]) -> None:
-    if e[0] == "abs":
-        _count(e[1], total)
+    if e[0] in ("abs", "fun"):
+        total["call"] += e[0] == "fun"
+        _count(e[-1], total)
     elif e[0] == "add":
         total["add"] += len(e[1]) - 1
         for _, x in e[1]:

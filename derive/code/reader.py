@@ -50,13 +50,33 @@ class Reader:
             self.state["w"] = self.column("w", n)
         else:
             self.state["ζ"] = self.column("zeta", d)
-        self.state["t"] = self.leaf("t")
+        self.state["t"] = self.leaf("t", "time")
+        self.inputs: list[str] = []
+        pushes = 0
         for given in self.record.problem.get("inputs", []):
-            size = d - n if self.group.affine else d
             name = given["name"]
-            self.state["u"] = self.column(name, size, "input")
-            if self.group.affine:
-                self.state["f_u"] = self.column(name, n, "input", size)
+            if given["kind"] == "force":
+                pushes += 1
+                block = self._block(given["on"])
+                self.memo["at", "f_u", pushes] = self._given(name, block.n)
+                continue
+            moved = self.group.n == 3 and self.group.affine and self.group.name == "SE(3)"
+            self.state["u"] = self._given(name, d - n if moved else d)
+            if moved:
+                self.state["f_u"] = self._given(name, n, d - n)
+
+    def _given(self, name: str, size: int, after: int = 0) -> Matrix:
+        """A column of inputs."""
+        found = self.column(name, size, "input", after)
+        self.inputs += [row[0].data[1] for row in found]
+        return found
+
+    def _block(self, i: int) -> Group:
+        """The factor that moves point i, counted from 1."""
+        points = self.record.problem.get("body", {}).get("points", [])
+        listed = [*points, *self.record.problem.get("places", [])]
+        _, factor = self.group.places[int(listed[i - 1].get("block", 1)) - 1]
+        return factor
 
     def leaf(self, name: str, kind: str = "state") -> Node:
         """A state variable or an input."""
@@ -158,19 +178,38 @@ class Reader:
         """The values that an index takes: the members that the record defines."""
         if any(x[1] == "E" for _, x in subtrees(body) if isinstance(x, tuple) and x[0] == "at"):
             return [*range(1, len(self.group.linear_basis) + 1)]
-        families = {x[1] for _, x in subtrees(body) if isinstance(x, tuple) and x[0] == "at"}
+        families = {
+            x[1]
+            for _, x in subtrees(body)
+            if isinstance(x, tuple) and x[0] == "at" and index in x[2:]
+        }
         found = {
-            e.lhs[2]
+            (e.lhs[1], e.lhs[2])
             for step in self.record.steps
             for e in step.equations
-            if isinstance(e.lhs, tuple)
-            and e.lhs[0] == "at"
-            and e.lhs[1] in families
-            and isinstance(e.lhs[2], int)
+            if isinstance(e.lhs, tuple) and e.lhs[0] == "at" and isinstance(e.lhs[2], int)
         }
-        if not found:
+        listed = [{i for name, i in found if name == family} for family in families]
+        common = set.intersection(*listed) if listed else set()
+        if not common:
             raise LoweringError(f"the record does not list the members of {sorted(families)}")
-        return sorted(found)
+        return sorted(common)
+
+    def applied(self, t: tuple[Tree, ...]) -> Value:
+        """A member of a family at the time, as r_i(t): by the equation for any index."""
+        _, head, argument = t
+        assert isinstance(head, tuple)
+        for step in self.record.steps:
+            for e in step.equations:
+                if isinstance(e.lhs, tuple) and e.lhs[0] == "call" and e.lhs[2] == argument:
+                    pattern = e.lhs[1]
+                    if isinstance(pattern, tuple) and pattern[1] == head[1]:
+                        outer, self.label = self.label, equation_key(step, e)
+                        value = self.tree(bound(e.rhs, {pattern[2]: head[2]}))
+                        value = self.named(value, f"place_{head[2]}")
+                        self.label = outer
+                        return value
+        raise LoweringError(f"the record does not define {head[1]} as a function of the time")
 
 
 def bound(t: Tree, values: Mapping[str, int]) -> Tree:

@@ -162,6 +162,8 @@ class _Builder:
             return self.expression(x.args[0])
         if x.op == "recip":
             return ("div", ("num", Fraction(1)), self.expression(x.args[0]))
+        if x.op == "fun":
+            return ("fun", x.data, self.expression(x.args[0]))
         if x.op == "abs":
             return ("abs", self.expression(x.args[0]))
         if x.op == "mul":

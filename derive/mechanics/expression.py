@@ -1,4 +1,4 @@
-"""The small grammar of expressions in problem files: numbers, names, + − * / ^ and parentheses.
+"""The small grammar of expressions in problem files: numbers, names, functions, + − * / ^ and ( ).
 
 Text is turned into a tree by this parser alone; it never reaches Python's or SymPy's.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
+from ..algebra.differentiate import DERIVATIVES
 from ..algebra.tree import Tree, add, mul, neg
 
 LENGTH, NESTING, EXPONENT, DIGITS = 10_000, 100, 64, 40
@@ -28,8 +29,7 @@ def parse(text: str) -> Tree:
     parser = _Parser(_tokens(text))
     tree = parser.sum(0)
     if parser.peek():
-        hint = "; there are no functions" if parser.peek() == "(" else ""
-        raise ExpressionError(f"unexpected {parser.peek()[:20]!r}{hint}")
+        raise ExpressionError(f"unexpected {parser.peek()[:20]!r}")
     return tree
 
 
@@ -123,8 +123,17 @@ class _Parser:
                 raise ExpressionError(f"a number of more than {DIGITS} characters")
             return _number(Fraction(token))
         if token[:1].isalpha():
-            return ("par", token)
+            return self.name(token, depth)
         raise ExpressionError(f"unexpected {token!r}" if token else "unexpected end")
+
+    def name(self, token: str, depth: int) -> Tree:
+        """A function of a sum in parentheses, the constant pi, or a parameter."""
+        if self.peek() != "(":
+            return "π" if token == "pi" else ("par", token)
+        if token not in DERIVATIVES:
+            known = ", ".join(DERIVATIVES)
+            raise ExpressionError(f"unknown function {token[:20]!r}; known: {known}")
+        return ("fun", token, self.atom(depth + 1))
 
 
 def _number(value: Fraction | int) -> Tree:

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..algebra.tree import Tree, add
+from .solids import Solid
 
 
 class ProblemError(ValueError):
@@ -25,10 +26,14 @@ class Parameter:
 
 @dataclass(frozen=True)
 class PointBody:
-    """Point masses: ``masses[i]`` and ``positions[i]`` (n coordinates), trees in the parameters."""
+    """Point masses: ``masses[i]`` and ``positions[i]`` (n coordinates), trees in the parameters.
+
+    ``blocks[i]``: the factor of a product that moves it, counted from 1.
+    """
 
     masses: tuple[Tree, ...]
     positions: tuple[tuple[Tree, ...], ...]
+    blocks: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -64,6 +69,20 @@ class MomentBody:
 
 
 @dataclass(frozen=True)
+class GivenBody:
+    """A body whose moments are given, or are those of solids and points together.
+
+    ``solids``: each with its mesh (vertices, faces), or ``None``.
+    """
+
+    mass: Tree
+    first: tuple[Tree, ...]
+    second: tuple[tuple[Tree, ...], ...]
+    points: PointBody | None = None
+    solids: tuple[tuple[Solid, Any], ...] = ()
+
+
+@dataclass(frozen=True)
 class Gravity:
     """U = −Σ m_i ⟨γ, r_i⟩."""
 
@@ -72,10 +91,27 @@ class Gravity:
 
 @dataclass(frozen=True)
 class Spring:
-    """U = ½ k ‖r_i − r_j‖² between two points of the body, counted from 1."""
+    """U = ½ k (‖s‖ − ℓ)² between two points (counted from 1), or from one to an anchor in space."""
 
-    between: tuple[int, int]
+    between: tuple[int, int | None]
     stiffness: Tree
+    length: Tree = 0
+    anchor: tuple[Tree, ...] = ()
+
+
+@dataclass(frozen=True)
+class Attraction:
+    """U = −Σ m_i μ / ‖r_i − centre‖, over the points that have a mass."""
+
+    strength: Tree
+    centre: tuple[Tree, ...]
+
+
+@dataclass(frozen=True)
+class Expression:
+    """Any U of the time and of the places of the points in space, entries of r_i(t)."""
+
+    energy: Tree
 
 
 @dataclass(frozen=True)
@@ -85,8 +121,34 @@ class CovectorInput:
     name: str
 
 
-Body = PointBody | MomentBody
-Potential = Gravity | Spring
+@dataclass(frozen=True)
+class ForceInput:
+    """A force on a point, given at every call; ``frame``: its components are in space or body."""
+
+    name: str
+    on: int
+    frame: str = "space"
+
+
+@dataclass(frozen=True)
+class Damping:
+    """−κ v on points: a Rayleigh function ½ κ |v|², no potential."""
+
+    coefficient: Tree
+    on: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place in the body without mass, where a spring or a force is attached."""
+
+    at: tuple[Tree, ...]
+    block: int = 1
+
+
+Body = PointBody | MomentBody | GivenBody
+Potential = Gravity | Spring | Attraction | Expression
+Input = CovectorInput | ForceInput
 
 
 @dataclass(frozen=True)
@@ -100,7 +162,9 @@ class Problem:
     parameters: Mapping[str, Parameter] = field(default_factory=dict)
     body: Body | None = None
     potentials: tuple[Potential, ...] = ()
-    inputs: tuple[CovectorInput, ...] = ()
+    inputs: tuple[Input, ...] = ()
+    places: tuple[Place, ...] = ()
+    damping: tuple[Damping, ...] = ()
 
     @property
     def affine(self) -> bool:
@@ -108,15 +172,60 @@ class Problem:
         return self.action == "affine"
 
     @property
+    def masses(self) -> int:
+        """How many points have a mass of their own."""
+        return len(self.points.masses) if self.points else 0
+
+    @property
+    def points(self) -> PointBody | None:
+        """The point masses, alone or among solids."""
+        return self.body.points if isinstance(self.body, GivenBody) else _as_points(self.body)
+
+    @property
+    def homogeneous(self) -> bool:
+        """Is it an affine group that is kept as a linear one on (r, 1)?"""
+        return bool(self.group and len(self.group.factors) == 1)
+
+    def block(self, i: int) -> int:
+        """The factor of a product that moves point i, counted from 1."""
+        if i > self.masses:
+            return self.places[i - self.masses - 1].block
+        assert self.points is not None
+        return self.points.blocks[i - 1] if self.points.blocks else 1
+
+    @property
     def springs(self) -> tuple[Spring, ...]:
-        """The springs, in the order of the file."""
-        return tuple(p for p in self.potentials if isinstance(p, Spring))
+        """Springs of natural length 0 inside one block: their energy is quadratic in A alone."""
+        return tuple(p for p in self.potentials if isinstance(p, Spring) and self._inside(p))
+
+    @property
+    def elements(self) -> tuple[Spring | Attraction | Expression, ...]:
+        """The potentials that are given point by point, in the order of the file."""
+        return tuple(
+            p
+            for p in self.potentials
+            if not isinstance(p, Gravity) and not (isinstance(p, Spring) and self._inside(p))
+        )
+
+    def _inside(self, p: Spring) -> bool:
+        i, j = p.between
+        return j is not None and p.length == 0 and self.block(i) == self.block(j)
 
     @property
     def gravity(self) -> tuple[Tree, ...] | None:
         """The acceleration of gravity, the sum of all that are given."""
         given = [p.acceleration for p in self.potentials if isinstance(p, Gravity)]
         return tuple(add(*entries) for entries in zip(*given, strict=True)) if given else None
+
+    @property
+    def covector(self) -> CovectorInput | None:
+        """The covector input, if there is one."""
+        return next((i for i in self.inputs if isinstance(i, CovectorInput)), None)
+
+    @property
+    def pushes(self) -> tuple[ForceInput, ...]:
+        """The force inputs."""
+        return tuple(i for i in self.inputs if isinstance(i, ForceInput))
 
     def data(self) -> dict[str, Any]:
         """What the record says of the problem; trees as they are."""
@@ -125,24 +234,74 @@ class Problem:
             "title": self.title,
             "group": self.group.name if self.group else "any group",
             "action": self.action,
+            "homogeneous": self.homogeneous,
             "parameters": {
                 k: {"default": p.default, "unit": p.unit, "meaning": p.meaning}
                 for k, p in self.parameters.items()
             },
             "body": _body_data(self.body),
             "potentials": [_potential_data(p) for p in self.potentials],
-            "inputs": [{"kind": "covector", "name": i.name} for i in self.inputs],
+            "inputs": [_input_data(i) for i in self.inputs],
+            "places": [{"at": list(p.at), "block": p.block} for p in self.places],
+            "damping": [{"coefficient": d.coefficient, "on": list(d.on)} for d in self.damping],
         }
 
 
+def _as_points(body: Body | None) -> PointBody | None:
+    return body if isinstance(body, PointBody) else None
+
+
 def _body_data(body: Body | None) -> dict[str, Any]:
+    if isinstance(body, GivenBody):
+        given = {"m": body.mass, "c": list(body.first), "J": [list(row) for row in body.second]}
+        solids = [_solid_data(s, mesh) for s, mesh in body.solids]
+        own = {"points": _points_data(body.points)} if body.points else {}
+        return {"kind": "given", "given": given, "solids": solids, **own}
     if isinstance(body, PointBody):
-        points = zip(body.masses, body.positions, strict=True)
-        return {"kind": "points", "points": [{"mass": m, "at": list(r)} for m, r in points]}
+        return {"kind": "points", "points": _points_data(body)}
     return {"kind": "moments" if body else "any"}
+
+
+def _points_data(body: PointBody) -> list[dict[str, Any]]:
+    blocks = body.blocks or (1,) * len(body.masses)
+    points = zip(body.masses, body.positions, blocks, strict=True)
+    return [{"mass": m, "at": list(r), "block": b} for m, r, b in points]
+
+
+def _solid_data(s: Solid, mesh: Any) -> dict[str, Any]:
+    sizes: dict[str, Any] = dict(s.sizes)
+    if mesh is not None:
+        vertices, faces = mesh
+        sizes = {"vertices": [list(v) for v in vertices], "faces": [list(f) for f in faces]}
+    return {
+        "kind": s.kind,
+        "density": s.density,
+        "sizes": {k: _listed(x) for k, x in sizes.items()},
+        "rotation": [list(row) for row in s.rotation] if s.rotation else None,
+        "shift": list(s.shift) if s.shift else None,
+    }
+
+
+def _listed(x: Any) -> Any:
+    """Tuples of sizes as lists; a tree stays a tree."""
+    if isinstance(x, tuple) and x and not isinstance(x[0], str):
+        return [_listed(y) for y in x]
+    return x
 
 
 def _potential_data(p: Potential) -> dict[str, Any]:
     if isinstance(p, Gravity):
         return {"kind": "gravity", "g": list(p.acceleration)}
-    return {"kind": "spring", "between": list(p.between), "stiffness": p.stiffness}
+    if isinstance(p, Attraction):
+        return {"kind": "attraction", "strength": p.strength, "centre": list(p.centre)}
+    if isinstance(p, Expression):
+        return {"kind": "expression", "U": p.energy}
+    i, j = p.between
+    ends = {"between": [i, j]} if j is not None else {"on": i, "anchor": list(p.anchor)}
+    return {"kind": "spring", **ends, "stiffness": p.stiffness, "length": p.length}
+
+
+def _input_data(i: Input) -> dict[str, Any]:
+    if isinstance(i, CovectorInput):
+        return {"kind": "covector", "name": i.name}
+    return {"kind": "force", "name": i.name, "on": i.on, "frame": i.frame}

@@ -2,32 +2,36 @@
 
 from __future__ import annotations
 
+import difflib
 import keyword
-import re
 import tomllib
 from collections.abc import Mapping
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from ..algebra.families import group
+from ..algebra.families import group, on_homogeneous
+from ..algebra.given import group_of_basis
+from ..algebra.groups import Group
+from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
-from .expression import ExpressionError, names, parse
+from .bodies import body
+from .expression import names
+from .fields import NAME, choice, expression, known, missing, tables, text
+from .forces import Points, damping, given_input, potential, used_names
 from .problem import (
-    Body,
     CovectorInput,
-    Gravity,
+    GivenBody,
     MomentBody,
     Parameter,
     PointBody,
-    Potential,
     Problem,
     ProblemError,
-    Spring,
 )
 
-NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
-LARGEST_FILE = 1_000_000
+TOP |= {"damping", "solid"}
+LARGEST_FILE, LARGEST_BASIS, LARGEST_MATRIX = 1_000_000, 64, 9
 
 
 def load(path: Path) -> Problem:
@@ -41,96 +45,107 @@ def load(path: Path) -> Problem:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise ProblemError(f"{path}: not TOML: {error}") from None
     try:
-        return problem_of(data)
+        return problem_of(data, path.parent)
     except ProblemError as error:
         raise ProblemError(f"{path}: {error}") from None
 
 
-def problem_of(data: Mapping[str, Any]) -> Problem:
-    """A problem from the plain data of a file."""
-    _known(data, TOP, "file")
-    name = _text(data, "name", "file")
+def problem_of(data: Mapping[str, Any], folder: Path = Path()) -> Problem:
+    """A problem from the plain data of a file in a folder, where its meshes are."""
+    known(data, TOP, "file")
+    name = text(data, "name", "file")
     if not NAME.fullmatch(name) or keyword.iskeyword(name):
         raise ProblemError("key 'name': letters, digits and _ only, starting with a letter")
-    which = _text(data, "group", "file")
-    try:
-        moved = None if which == "any" else group(which)
-    except ValueError as error:
-        raise ProblemError(f"key 'group': {error}") from None
-    action = _choice(data, "action", ("linear", "affine"), "file", moved.action if moved else "")
-    if moved and action != moved.action:
-        raise ProblemError(f"key 'action': {moved.name} acts by {moved.action} maps")
+    moved, action = _group(data)
     parameters = _parameters(data.get("parameters", {}))
-    body = _body(data, moved.n if moved else 0)
-    if moved and body is None:
-        raise ProblemError('no body: give [[point]] tables, or [body] with moments = "symbolic"')
-    if isinstance(body, MomentBody):
-        own = {x: parameters.get(x, p) for x, p in body.parameters().items()}
-        parameters = {**own, **{k: p for k, p in parameters.items() if k not in own}}
-    points = len(body.masses) if isinstance(body, PointBody) else 0
-    if _tables(data, "input") and moved and "orthogonal" not in moved.relations:
-        raise ProblemError(f"key 'input': there are no inputs on {moved.name} yet; leave it out")
+    own = body(data, moved, folder)
+    if moved and own is None:
+        raise ProblemError("no body: give [[point]] or [[solid]] tables, or a table [body]")
+    if isinstance(own, MomentBody):
+        named = {x: parameters.get(x, p) for x, p in own.parameters().items()}
+        parameters = {**named, **{k: p for k, p in parameters.items() if k not in named}}
+    listed = own.points if isinstance(own, GivenBody) else own
+    masses = len(listed.masses) if isinstance(listed, PointBody) else 0
+    blocks = listed.blocks if isinstance(listed, PointBody) else ()
+    points = Points(moved, masses, blocks, parameters, heavy=not isinstance(own, PointBody))
     potentials = tuple(
-        _potential(p, f"potential {k}", moved.n if moved else 0, points)
-        for k, p in enumerate(_tables(data, "potential"), 1)
+        potential(p, f"potential {k}", points) for k, p in enumerate(tables(data, "potential"), 1)
     )
-    inputs = tuple(_input(i, f"input {k}") for k, i in enumerate(_tables(data, "input"), 1))
-    if len(inputs) > 1:
-        raise ProblemError("key 'input': one covector holds every component; give one table")
-    title = _text(data, "title", "file") if "title" in data else name
-    problem = Problem(name, moved, action, title, parameters, body, potentials, inputs)
-    _declared(problem)
+    inputs = tuple(
+        given_input(i, f"input {k}", points) for k, i in enumerate(tables(data, "input"), 1)
+    )
+    drags = tuple(
+        damping(d, f"damping {k}", points) for k, d in enumerate(tables(data, "damping"), 1)
+    )
+    if sum(isinstance(i, CovectorInput) for i in inputs) > 1:
+        raise ProblemError("key 'input': one covector holds every component; give one such table")
+    title = text(data, "title", "file") if "title" in data else name
+    problem = Problem(
+        name,
+        moved,
+        action,
+        title,
+        parameters,
+        own,
+        potentials,
+        inputs,
+        tuple(points.places),
+        drags,
+    )
+    _declared(problem, data.get("parameters", {}))
     return problem
 
 
-def _known(data: Mapping[str, Any], keys: set[str], where: str) -> None:
-    for key in data:
-        if key not in keys:
-            raise ProblemError(
-                f"{where}: unknown key {key[:40]!r}; known: {', '.join(sorted(keys))}"
-            )
-
-
-def _text(data: Mapping[str, Any], key: str, where: str) -> str:
-    if key not in data:
-        raise ProblemError(f"{where}: key {key!r} is missing")
-    if not isinstance(data[key], str):
-        raise ProblemError(f"{where}: key {key!r} must be a string")
-    return str(data[key])
-
-
-def _choice(
-    data: Mapping[str, Any], key: str, allowed: tuple[str, ...], where: str, default: str = ""
-) -> str:
-    if default and key not in data:
-        return default
-    value = _text(data, key, where)
-    if value not in allowed:
-        raise ProblemError(f"{where}: key {key!r} must be one of {', '.join(allowed)}")
-    return value
-
-
-def _tables(data: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
-    tables = data.get(key, [])
-    if not isinstance(tables, list) or not all(isinstance(t, dict) for t in tables):
-        raise ProblemError(f"key {key!r} must be written [[{key}]]")
-    return tables
-
-
-def _expression(value: Any, where: str) -> Tree:
-    """A number or a string of the grammar."""
-    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-        raise ProblemError(f"{where}: expected a number or an expression in quotes")
+def _group(data: Mapping[str, Any]) -> tuple[Group | None, str]:
+    """The group, by its name or by a table with a basis, and its action."""
+    which = data.get("group")
+    if isinstance(which, dict):
+        moved = _given_group(which)
+        if "action" in data:
+            raise ProblemError("key 'action' belongs into the table [group]")
+        return moved, moved.action
+    which = text(data, "group", "file")
     try:
-        return parse(value if isinstance(value, str) else repr(value))
-    except ExpressionError as error:
+        named = None if which == "any" else group(which)
+    except ValueError as error:
+        raise ProblemError(f"key 'group': {error}") from None
+    action = choice(data, "action", ("linear", "affine"), "file", named.action if named else "")
+    if named and action != named.action:
+        raise ProblemError(f"key 'action': {named.name} acts by {named.action} maps")
+    return named, action
+
+
+def _given_group(data: Mapping[str, Any]) -> Group:
+    where = "group"
+    known(data, {"name", "action", "basis"}, where)
+    name = text(data, "name", where)
+    if not NAME.fullmatch(name):
+        raise ProblemError(f"{where}: key 'name': letters, digits and _ only")
+    action = choice(data, "action", ("linear", "affine"), where, "linear")
+    basis = missing(data, "basis", where)
+    if not isinstance(basis, list) or len(basis) > LARGEST_BASIS:
+        raise ProblemError(f"{where}: key 'basis' must list at most {LARGEST_BASIS} matrices")
+    matrices = [_matrix(e, f"{where}, element {a} of the basis") for a, e in enumerate(basis, 1)]
+    try:
+        moved = group_of_basis(name, "affine" if action == "affine" else "linear", matrices)
+    except ValueError as error:
         raise ProblemError(f"{where}: {error}") from None
+    return moved if not moved.affine or moved.free_translations else on_homogeneous(moved)
 
 
-def _vector(value: Any, n: int, where: str) -> tuple[Tree, ...]:
-    if not isinstance(value, list) or len(value) != n:
-        raise ProblemError(f"{where}: expected a list of {n} expressions")
-    return tuple(_expression(x, where) for x in value)
+def _matrix(value: Any, where: str) -> Matrix:
+    if not isinstance(value, list) or not all(isinstance(row, list) for row in value):
+        raise ProblemError(f"{where}: expected a list of rows")
+    if len(value) > LARGEST_MATRIX or any(len(row) > LARGEST_MATRIX for row in value):
+        raise ProblemError(f"{where}: larger than {LARGEST_MATRIX} × {LARGEST_MATRIX}")
+    return tuple(tuple(_rational(x, where) for x in row) for row in value)
+
+
+def _rational(value: Any, where: str) -> Fraction:
+    tree = expression(value, where)
+    if not isinstance(tree, (int, Fraction)):
+        raise ProblemError(f"{where}: the entries of a basis must be rational numbers")
+    return Fraction(tree)
 
 
 def _parameters(data: Any) -> dict[str, Parameter]:
@@ -145,78 +160,35 @@ def _parameters(data: Any) -> dict[str, Parameter]:
             value = {"default": value}
         if not isinstance(value, dict):
             raise ProblemError(f"{where}: expected a number or a table")
-        _known(value, {"default", "unit", "meaning"}, where)
+        known(value, {"default", "unit", "meaning"}, where)
         default = value.get("default")
         if default is not None and (
             isinstance(default, bool) or not isinstance(default, (int, float))
         ):
             raise ProblemError(f"{where}: key 'default' must be a number")
-        texts = {k: _text(value, k, where) for k in ("unit", "meaning") if k in value}
+        texts = {k: text(value, k, where) for k in ("unit", "meaning") if k in value}
         found[name] = Parameter(None if default is None else float(default), **texts)
     return found
 
 
-def _body(data: Mapping[str, Any], n: int) -> Body | None:
-    points = _tables(data, "point")
-    if "body" in data:
-        body = data["body"]
-        if points or not isinstance(body, dict):
-            raise ProblemError("give either [[point]] tables or one [body] table")
-        _known(body, {"moments"}, "body")
-        _choice(body, "moments", ("symbolic",), "body")
-        return MomentBody(n)
-    if not points:
-        return None
-    masses, positions = [], []
-    for k, p in enumerate(points, 1):
-        where = f"point {k}"
-        _known(p, {"mass", "at"}, where)
-        for key in ("mass", "at"):
-            if key not in p:
-                raise ProblemError(f"{where}: key {key!r} is missing")
-        masses.append(_expression(p["mass"], f"{where}, mass"))
-        positions.append(_vector(p["at"], n, f"{where}, at"))
-    return PointBody(tuple(masses), tuple(positions))
-
-
-def _potential(data: Mapping[str, Any], where: str, n: int, points: int) -> Potential:
-    kind = _choice(data, "kind", ("gravity", "spring"), where)
-    if kind == "gravity":
-        _known(data, {"kind", "g"}, where)
-        return Gravity(_vector(data.get("g"), n, f"{where}, g"))
-    _known(data, {"kind", "between", "stiffness", "length"}, where)
-    ends = data.get("between")
-    if not points:
-        raise ProblemError(f"{where}: a spring needs [[point]] tables to act between")
-    integers = isinstance(ends, list) and all(type(i) is int for i in ends)
-    if not integers or len(ends or []) != 2 or not all(1 <= i <= points for i in ends or []):
-        raise ProblemError(f"{where}: key 'between' must be two points from 1 to {points}")
-    if ends and ends[0] == ends[1]:
-        raise ProblemError(f"{where}: key 'between' names one point twice")
-    if data.get("length", 0) != 0:
-        raise ProblemError(f"{where}: key 'length': only natural length 0 is known")
-    if "stiffness" not in data:
-        raise ProblemError(f"{where}: key 'stiffness' is missing")
-    assert ends is not None
-    return Spring((ends[0], ends[1]), _expression(data["stiffness"], f"{where}, stiffness"))
-
-
-def _input(data: Mapping[str, Any], where: str) -> CovectorInput:
-    _known(data, {"name", "kind"}, where)
-    _choice(data, "kind", ("covector",), where)
-    name = _text(data, "name", where)
-    if not NAME.fullmatch(name):
-        raise ProblemError(f"{where}: key 'name': letters, digits and _ only")
-    return CovectorInput(name)
-
-
-def _declared(problem: Problem) -> None:
-    """Every name that is used is a parameter."""
+def _declared(problem: Problem, given: Mapping[str, Any]) -> None:
+    """Every name that is used is a parameter, and every parameter is used."""
+    used: dict[str, None] = {}
     trees: list[Tree] = []
-    if isinstance(problem.body, PointBody):
-        trees += [*problem.body.masses, *(x for r in problem.body.positions for x in r)]
-    trees += list(problem.gravity or ())
-    trees += [s.stiffness for s in problem.springs]
-    for name in (x for t in trees for x in names(t)):
+    if problem.points:
+        trees += [*problem.points.masses, *(x for r in problem.points.positions for x in r)]
+    if isinstance(problem.body, GivenBody):
+        trees += [problem.body.mass, *problem.body.first]
+        trees += [x for row in problem.body.second for x in row]
+    used |= dict.fromkeys(x for t in trees for x in names(t))
+    for p in (*problem.potentials, *problem.damping, *problem.places):
+        used |= dict.fromkeys(used_names(p))
+    for name in used:
         if name not in problem.parameters:
-            raise ProblemError(f"{name!r} is used but not declared; add it to [parameters]")
+            near = difflib.get_close_matches(name, problem.parameters, 1)
+            hint = f"did you mean {near[0]!r}? Else " if near else ""
+            raise ProblemError(f"{name!r} is used but not declared; {hint}add it to [parameters]")
+    own = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}
+    for name in given:
+        if name not in used and name not in own:
+            raise ProblemError(f"parameter {name!r} is declared but not used; leave it out")

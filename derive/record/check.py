@@ -13,11 +13,12 @@ import itertools
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
+from functools import cached_property, partial
 from random import Random
 from typing import Any
 
-from ..algebra.families import group, turning_about_a_point
+from ..algebra.families import group, on_homogeneous, turning_about_a_point
+from ..algebra.given import group_of_basis
 from ..algebra.groups import Group
 from . import degree
 from .arithmetic import EvaluationError, scalar
@@ -30,8 +31,8 @@ from .vocabulary import ANY_GROUP
 SIZE = 2**128
 """Random parameters are integers of at most this absolute value."""
 
-LARGEST_DEGREE = 100_000
-"""Claims of a larger degree are refused before they are evaluated."""
+LARGEST_DEGREE = 2000
+"""Claims of a larger degree, for each dimension of the group, are refused before evaluation."""
 
 PANELS: dict[str, tuple[Callable[[], Group], ...]] = {
     "linear": tuple(partial(group, x) for x in ("GL(4)", "SL(2)", "SO(3)")),
@@ -64,7 +65,23 @@ class Checker:
             return [make() for make in PANELS[_action(self.problem)]]
         if scope != self.problem.get("group"):
             raise RecordError(f"scope {scope!r} is neither {ANY_GROUP!r} nor the problem's group")
-        return [group(scope)]
+        return [self._own]
+
+    @cached_property
+    def _own(self) -> Group:
+        """The problem's group: a named one, or that of the basis in the record."""
+        name = str(self.problem.get("group"))
+        try:
+            return group(name)
+        except ValueError as error:
+            if not self.problem.get("basis"):
+                raise RecordError(str(error)) from None
+        rows = [tuple(tuple(Fraction(x) for x in row) for row in e) for e in self.problem["basis"]]
+        if self.problem.get("homogeneous"):
+            return on_homogeneous(group_of_basis(name, "affine", rows))
+        return group_of_basis(
+            name, "affine" if _action(self.problem) == "affine" else "linear", rows
+        )
 
     def environments(self, step: Step) -> Iterator[tuple[Group, Environment]]:
         """The exact points at which a step is tried."""
@@ -97,8 +114,12 @@ class Checker:
                 for g in self.groups(step.scope)
                 for e in step.equations
             )
-            if bound > LARGEST_DEGREE:
-                raise RecordError(f"a claim of degree {bound}, more than {LARGEST_DEGREE}")
+            own = step.scope != ANY_GROUP
+            most = LARGEST_DEGREE * (
+                max(g.dimension for g in self.groups(step.scope)) if own else 1
+            )
+            if bound > most:
+                raise RecordError(f"a claim of degree {bound}, more than {most}")
             for g, env in self.environments(step):
                 for k, equation in enumerate(step.equations, 1):
                     reason = difference(equation, env)

@@ -5,8 +5,8 @@ A value is a scalar, or a matrix as a tuple of rows (a vector is a matrix of one
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
@@ -45,17 +45,11 @@ class Environment:
     functions: Mapping[str, Callable[..., Value]] = field(default_factory=dict)
     parameters: Mapping[str, Value] = field(default_factory=dict)
     indices: Mapping[str, int] = field(default_factory=dict)
+    elementary: Callable[[str, Value], Value] | None = None
 
     def with_index(self, name: str, value: int) -> Environment:
         """The same with an index bound."""
-        return Environment(
-            self.size,
-            self.names,
-            self.families,
-            self.functions,
-            self.parameters,
-            {**self.indices, name: value},
-        )
+        return replace(self, indices={**self.indices, name: value})
 
 
 def evaluate(t: Tree, env: Environment) -> Value:
@@ -127,6 +121,8 @@ def _sum(t: tuple[Any, ...], env: Environment) -> Value:
     if index in env.indices or len(env.indices) >= LARGEST_NESTING:
         raise EvaluationError(f"sums nested deeper than {LARGEST_NESTING}, or an index bound twice")
     members = _range(body, index, env)
+    if not members:
+        raise EvaluationError(f"the sum over {index!r} has no members")
     total = evaluate(body, env.with_index(index, members[0]))
     for i in members[1:]:
         total = plus(total, evaluate(body, env.with_index(index, i)))
@@ -134,23 +130,27 @@ def _sum(t: tuple[Any, ...], env: Environment) -> Value:
 
 
 def _range(body: Tree, index: str, env: Environment) -> list[int]:
-    """The values of the index: those of the families it stands in."""
-    if isinstance(body, tuple):
-        if body[0] == "entry" and index in body[2:]:
-            value = evaluate(body[1], env)
-            if not is_matrix(value):
-                raise EvaluationError("entries of matrices and vectors only")
-            return [*range(1, len(value if body[2] == index else value[0]) + 1)]
-        if body[0] == "at" and index in body[2:]:
-            family = env.families.get(body[1])
-            if not family:
-                raise EvaluationError(f"no members of {body[1]!r}")
-            return sorted(key[body[2:].index(index)] for key in family)
-        for part in body[1:]:
-            found = _range(part, index, env)
-            if found:
-                return found
-    return []
+    """The values of the index: those that all the families have in which it stands."""
+    spans = [*_spans(body, index, env)]
+    return sorted(set.intersection(*spans)) if spans else []
+
+
+def _spans(t: Tree, index: str, env: Environment) -> Iterator[set[int]]:
+    if not isinstance(t, tuple):
+        return
+    if t[0] == "entry" and index in t[2:]:
+        value = evaluate(t[1], env)
+        if not is_matrix(value):
+            raise EvaluationError("entries of matrices and vectors only")
+        yield {*range(1, len(value if t[2] == index else value[0]) + 1)}
+    elif t[0] == "at" and index in t[2:]:
+        family = env.families.get(t[1])
+        if not family:
+            raise EvaluationError(f"no members of {t[1]!r}")
+        yield {key[t[2:].index(index)] for key in family}
+    else:
+        for part in t[1:]:
+            yield from _spans(part, index, env)
 
 
 def free_indices(t: Tree) -> set[str]:
@@ -200,6 +200,13 @@ def _call(t: tuple[Any, ...], env: Environment) -> Value:
     return env.functions[key](t[1], t[2:], env)
 
 
+def _function(t: tuple[Any, ...], env: Environment) -> Value:
+    value = evaluate(t[2], env)
+    if env.elementary is None or is_matrix(value):
+        raise EvaluationError(f"no value of the function {t[1]!r}")
+    return env.elementary(t[1], value)
+
+
 def _parameter(t: tuple[Any, ...], env: Environment) -> Value:
     if t[1] not in env.parameters:
         raise EvaluationError(f"no parameter {t[1]!r}")
@@ -211,5 +218,6 @@ STRUCTURAL: dict[str, Callable[[tuple[Any, ...], Environment], Value]] = {
     "at": _at,
     "entry": _entry,
     "call": _call,
+    "fun": _function,
     "par": _parameter,
 }

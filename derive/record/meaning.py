@@ -11,9 +11,10 @@ from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
 from .arithmetic import EvaluationError, is_matrix
 from .evaluate import Environment, evaluate
+from .given import exerted_families, exerted_values
 from .model import Direction, Model, derivative_in
 from .nilpotent import EPS, EPS_PRIME, nilpotent, part
-from .record import decode
+from .realised import integral
 from .solved import solved_values
 from .spatial import axial, moments_about, spatial_values
 
@@ -30,9 +31,15 @@ def environment(model: Model) -> Environment:
         | _energies(model)
         | _motion(model)
         | spatial_values(model)
-        | _springs(model)
     )
-    return Environment(model.n, names, _families(model), _functions(model), model.parameters)
+    return Environment(
+        model.n,
+        names,
+        _families(model),
+        _functions(model),
+        model.parameters,
+        elementary=model.elementary,
+    )
 
 
 def _linear(model: Model, x: Matrix) -> Matrix:
@@ -51,7 +58,7 @@ def _parts(model: Model, linear: str, vector: str, x: Matrix) -> Values:
 
 
 def _times(model: Model) -> Values:
-    return {"t": model.t, "δt": model.first.time, "δ′t": model.second.time}
+    return {"π": model.pi, "t": model.t, "δt": model.first.time, "δ′t": model.second.time}
 
 
 def _bodies(model: Model) -> Values:
@@ -74,6 +81,8 @@ def _group(model: Model) -> Values:
     values |= _parts(model, "Z", "w", model.Z)
     A = values["A"]
     values["C"] = q.times(q.transposed(A), A)
+    moved = _linear(model, g)
+    values["δC"] = part(q.times(q.transposed(moved), moved), EPS)
     return values
 
 
@@ -87,11 +96,7 @@ def _forces(model: Model) -> Values:
     if not model.group.affine:
         values["f"] = model.gradient
         values["F̃"] = q.times(model.g, model.gradient)
-    for p in model.problem.get("potentials", []):
-        if p["kind"] == "gravity" and not model.opaque:
-            env = Environment(model.n, {}, parameters=model.parameters)
-            values["γ"] = tuple((evaluate(decode(x, "g"), env),) for x in p["g"])
-    return values
+    return values if model.opaque else values | exerted_values(model)
 
 
 def _energies(model: Model) -> Values:
@@ -115,30 +120,8 @@ def _motion(model: Model) -> Values:
         assert coordinates is not None
         values[name] = tuple((x,) for x in coordinates[:d])
     if model.driven:
-        values["u"] = tuple((x,) for x in model.input)
+        values["u"] = tuple((x,) for x in model.covector)
     return values | ({} if model.opaque else solved_values(model))
-
-
-def _spring_members(model: Model) -> list[tuple[Fraction, Matrix]]:
-    env = Environment(model.n, {}, parameters=model.parameters)
-    members = []
-    for p in model.problem.get("potentials", []):
-        if p["kind"] == "spring" and not model.opaque:
-            i, j = p["between"]
-            ends = zip(model.points[i - 1], model.points[j - 1], strict=True)
-            s = tuple((a - b,) for a, b in ends)
-            members.append((evaluate(decode(p["stiffness"], "stiffness"), env), s))
-    return members
-
-
-def _springs(model: Model) -> Values:
-    members = _spring_members(model)
-    if not members:
-        return {}
-    total = q.scaled(Fraction(0), q.identity(model.n))
-    for k, s in members:
-        total = q.plus(total, q.scaled(k, q.times(s, q.transposed(s))))
-    return {"K": total}
 
 
 def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
@@ -156,10 +139,7 @@ def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     if not model.opaque:
         elements = map(model.group.linear_part, model.group.basis)
         families["E"] = {(a,): e for a, e in enumerate(elements, 1)}
-    members = _spring_members(model)
-    if members:
-        families["k"] = {(e,): k for e, (k, _) in enumerate(members, 1)}
-        families["s"] = {(e,): s for e, (_, s) in enumerate(members, 1)}
+        families |= exerted_families(model)
     return families
 
 
@@ -207,6 +187,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         "dϖ": lambda _, a, env: model.exterior(direction(a[0]), direction(a[1])),
         "ω": lambda _, a, env: model.exterior(direction(a[0]), direction(a[1])),
         "r": point,
+        "∫": lambda _, a, env: integral(model, a[0]),
         "δA": lambda _, a, env: _linear(model, q.times(model.g, direction(a[0]).xi)),
         "δT": lambda _, a, env: _translation(model, q.times(model.g, direction(a[0]).xi)),
         "ξ": lambda _, a, env: _linear(model, direction(a[0]).xi),

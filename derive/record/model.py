@@ -17,9 +17,11 @@ from typing import Any
 from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
-from .evaluate import Environment, evaluate
+from .evaluate import Environment
+from .exerted import AnyPotential, Exerted, given_forces
 from .nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, nilpotent, part
-from .record import decode
+from .opaque import Opaque
+from .points import points_of, principal_points
 
 Vector = tuple[Any, ...]
 
@@ -59,9 +61,16 @@ class Model:
         self.driven, self.along, self.opaque = driven, motion, opaque
         self.n, self.s = group.n, group.size
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
-        self.masses, self.points = self._principal() if principal else self._body()
+        self.elementary = Opaque(Random(random.random()), size)
+        self.pi = self.draw(positive=True)
+        self.masses, self.points, self.blocks = (
+            principal_points(self) if principal else points_of(self)
+        )
         self._moments_as_parameters()
-        self._opaque = [[self.draw() for _ in range(self.n + 2)] for _ in self.points]
+        self.exerted = Exerted({} if opaque else problem, group, self.blocks, self.expressions)
+        self.any_potential = AnyPotential(
+            [[self.draw() for _ in range(self.n + 2)] for _ in self.points]
+        )
         self.t = self.draw()
         self.g = group.sample(random, size)
         self.Z = self.algebra()
@@ -74,7 +83,12 @@ class Model:
             self.second = replace(
                 self.second, time=Fraction(0), xi=q.scaled(Fraction(0), self.second.xi)
             )
-        self.input = [self.draw() if driven else Fraction(0) for _ in group.basis]
+        pulled = driven and bool(self.given("covector"))
+        self.covector = [self.draw() if pulled else Fraction(0) for _ in group.basis]
+        self.pushes = [
+            tuple(self.draw() if driven else Fraction(0) for _ in range(self.n))
+            for _ in self.given("force")
+        ]
 
     def draw(self, *, positive: bool = False) -> Fraction:
         """A random integer, as a fraction."""
@@ -86,27 +100,18 @@ class Model:
 
     # -- body and potential ------------------------------------------------------------------
 
-    def _body(self) -> tuple[list[Fraction], list[Vector]]:
-        body = self.problem.get("body", {})
-        if body.get("kind") == "points" and not self.opaque:
-            env = Environment(self.n, {}, parameters=self.parameters)
-            masses, points = [], []
-            for p in body["points"]:
-                masses.append(evaluate(decode(p["mass"], "mass"), env))
-                points.append(tuple(evaluate(decode(x, "at"), env) for x in p["at"]))
-            return masses, points
-        count = self.n + 1
-        masses = [self.draw(positive=True) for _ in range(count)]
-        return masses, [tuple(self.draw() for _ in range(self.n)) for _ in range(count)]
+    @cached_property
+    def expressions(self) -> Environment:
+        """Where the expressions of the problem are evaluated."""
+        return Environment(
+            self.n, {"π": self.pi}, parameters=self.parameters, elementary=self.elementary
+        )
 
-    def _principal(self) -> tuple[list[Fraction], list[Vector]]:
-        """Points on the axes: J is diagonal, c is not zero."""
-        masses = [self.draw(positive=True) for _ in range(self.n)]
-        axes = [
-            tuple(self.draw() if i == j else Fraction(0) for j in range(self.n))
-            for i in range(self.n)
-        ]
-        return masses, axes
+    def given(self, kind: str) -> list[Mapping[str, Any]]:
+        """The inputs of a kind."""
+        if self.opaque:
+            return []
+        return [i for i in self.problem.get("inputs", []) if i["kind"] == kind]
 
     def _moments_as_parameters(self) -> None:
         if self.problem.get("body", {}).get("kind") != "moments":
@@ -140,30 +145,8 @@ class Model:
     def potential(self, t: Any, r: list[Vector]) -> Any:
         """U(t, r): that of the problem, or any polynomial where the walk leaves it open."""
         if self.opaque:
-            return self._arbitrary(t, r)
-        env = Environment(self.n, {}, parameters=self.parameters)
-        total: Any = Fraction(0)
-        for p in self.problem.get("potentials", []):
-            if p["kind"] == "gravity":
-                gravity = [evaluate(decode(x, "g"), env) for x in p["g"]]
-                for m, point in zip(self.masses, r, strict=True):
-                    total = total - sum(
-                        (m * a * x for a, x in zip(gravity, point, strict=True)), Fraction(0)
-                    )
-            else:
-                i, j = p["between"]
-                k = evaluate(decode(p["stiffness"], "stiffness"), env)
-                stretch = [a - b for a, b in zip(r[i - 1], r[j - 1], strict=True)]
-                total = total + k * sum((x * x for x in stretch), Fraction(0)) * Fraction(1, 2)
-        return total
-
-    def _arbitrary(self, t: Any, r: list[Vector]) -> Any:
-        total = t * t
-        for weights, point in zip(self._opaque, r, strict=True):
-            square = sum((x * x for x in point), Fraction(0))
-            linear = sum((a * x for a, x in zip(weights, point, strict=False)), Fraction(0))
-            total = total + linear + weights[-2] * square + weights[-1] * (linear * t)
-        return total
+            return self.any_potential.energy(t, r)
+        return self.exerted.potential(t, r, self.masses)
 
     # -- Lagrangian, Cartan form and its derivative --------------------------------------------
 
@@ -235,16 +218,30 @@ class Model:
     @cached_property
     def forces(self) -> list[Vector]:
         """F_i = −∂U/∂r_i."""
-        places = self.moved(self.g)
-        eta = nilpotent(ETA)
+        if self.opaque:
+            return self.any_potential.forces(self.t, self.moved(self.g))
+        return self.exerted.forces(self.t, self.moved(self.g), self.masses)
+
+    @cached_property
+    def given_forces(self) -> list[Vector]:
+        """Force inputs and damping on every point, in space."""
+        return given_forces(self)
+
+    @cached_property
+    def input(self) -> list[Fraction]:
+        """The covector of all that is given from outside, on the basis."""
         found = []
-        for i, r in enumerate(places):
-            force = []
-            for k in range(self.n):
-                shifted = tuple(x + eta if j == k else x for j, x in enumerate(r))
-                value = self.potential(self.t, [*places[:i], shifted, *places[i + 1 :]])
-                force.append(-part(Nilpotent.of(value), ETA))
-            found.append(tuple(force))
+        for u, e in zip(self.covector, self.group.basis, strict=True):
+            moved = self.moved(q.times(self.g, e))
+            work = sum(
+                (
+                    x * y
+                    for f, v in zip(self.given_forces, moved, strict=True)
+                    for x, y in zip(f, v, strict=True)
+                ),
+                Fraction(0),
+            )
+            found.append(u + work)
         return found
 
     def pairing(self, a: Matrix, b: Matrix) -> Fraction:

@@ -57,6 +57,23 @@ class Nilpotent:
 
     __rmul__ = __mul__
 
+    def __truediv__(self, other: Any) -> Nilpotent:
+        return self * (_inverse(other) if isinstance(other, Nilpotent) else 1 / Fraction(other))
+
+    def __rtruediv__(self, other: Any) -> Nilpotent:
+        return Nilpotent.of(other) * _inverse(self)
+
+
+def _inverse(x: Nilpotent) -> Nilpotent:
+    """1/x by the geometric series, which ends."""
+    base = x.part(0)
+    small = Nilpotent({k: -v / base for k, v in x.parts.items() if k})
+    result = power = Nilpotent({0: 1 / base})
+    for _ in range(3):
+        power = power * small
+        result = result + power
+    return result
+
 
 def part(x: Any, mask: int) -> Any:
     """The coefficient of ``mask`` in a scalar or, entry by entry, in a matrix."""

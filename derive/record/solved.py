@@ -66,22 +66,25 @@ class Solved:
 
     @cached_property
     def applied(self) -> Matrix:
-        """Moments of the potential's forces and of the inputs, in the body."""
-        return q.plus(self.gathered(self.model.forces), self.input_moments)
-
-    @cached_property
-    def input_moments(self) -> Matrix:
-        """A matrix N_u with Tr N_u ξ̄′ = u(ξ′), by the rows that read coordinates."""
-        s = self.group.size
-        total = q.scaled(Fraction(0), q.identity(s))
-        for a, u in enumerate(self.model.input):
-            for x, i, j in self.group.reading(a):
-                total = q.plus(total, q.scaled(u * x, q.unit(s, i, j)))
-        linear = self.group.linear_part(total)
+        """Moments of the potential's forces and of all that is given, in the body."""
+        forces = zip(self.model.forces, self.model.given_forces, strict=True)
+        total = [tuple(x + y for x, y in zip(f, g, strict=True)) for f, g in forces]
+        read = self.covector_matrix
+        linear = q.plus(self.gathered(total), self.group.linear_part(read))
         if not self.group.affine:
             return linear
-        arm = tuple((total[i][-1],) for i in range(self.model.n))
+        arm = tuple((read[i][-1],) for i in range(self.model.n))
         return q.minus(linear, q.times(arm, (self.centre,)))
+
+    @cached_property
+    def covector_matrix(self) -> Matrix:
+        """A matrix N with Tr N ξ̄′ = u(ξ′), by the rows that read coordinates."""
+        s = self.group.size
+        total = q.scaled(Fraction(0), q.identity(s))
+        for a, u in enumerate(self.model.covector):
+            for x, i, j in self.group.reading(a):
+                total = q.plus(total, q.scaled(u * x, q.unit(s, i, j)))
+        return total
 
 
 def solved_values(model: Model) -> Values:

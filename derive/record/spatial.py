@@ -32,8 +32,8 @@ def spatial_values(model: Model) -> Values:
         values[name] = axial(x)
     values["μ"] = tuple((-model.work(q.times(model.g, e)),) for e in basis[:3])
     if model.driven:
-        values["u"] = tuple((x,) for x in model.input[:3])
-        values["f_u"] = tuple((x,) for x in model.input[3:])
+        values["u"] = tuple((x,) for x in model.covector[:3])
+        values["f_u"] = tuple((x,) for x in model.covector[3:])
     m, c, _ = model.moments
     centre = tuple(x[0] / m for x in c)
     values["I"] = _tensor(model, (Fraction(0),) * 3)

@@ -9,14 +9,17 @@ from ..record.record import Derivation, Step
 from ..record.vocabulary import ANY_GROUP, MISPRINTED
 
 CONVENTIONS = (
-    "Bars are transposes. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for vectors. "
+    "Bars are transposes and 1 is the identity. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for "
+    "vectors, without index for M = 1; ‖a‖² = ⟨a, a⟩. "
     "[a, b] = ab − ba and j(X)Y = X ∧ Y. Variations commute; dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)]; the "
     "group is trivialised on the left, ξ = g⁻¹δg. The point y = (t, g, ν) is a time, an element of "
     "the group and a velocity; 𝔤 is the Lie algebra."
 )
 FORMULAS_CONVENTIONS = (
-    r"Bars are transposes. For matrices $\langle a, b\rangle_M = \operatorname{Tr} a M \bar b$, "
-    r"for vectors $\langle a, b\rangle_M = \bar a M b$; $[a, b] = ab - ba$ and "
+    r"Bars are transposes and $\mathbf{1}$ is the identity. For matrices "
+    r"$\langle a, b\rangle_M = \operatorname{Tr} a M \bar b$, for vectors "
+    r"$\langle a, b\rangle_M = \bar a M b$, without index for $M = \mathbf{1}$; "
+    r"$\Vert a\Vert^2 = \langle a, a\rangle$; $[a, b] = ab - ba$ and "
     r"$j(X)Y = X \wedge Y$. Variations commute, "
     r"$\mathrm{d}\varpi(\delta, \delta') = \delta[\varpi(\delta')] - \delta'[\varpi(\delta)]$, "
     r"and the group is trivialised on the left, $\xi = g^{-1}\delta g$. The point "

@@ -181,6 +181,15 @@ class Printer:
         metric = f"_{{{plain(self.bare(a[0]))}}}" if len(a) == 2 else ""
         return rf"\lVert {self.bare(a[-1])}\rVert{metric}^{{2}}"
 
+    def op_fun(self, name: str, a: Tree) -> Shown | str:
+        """An elementary function; the root of ‖a‖² is ‖a‖."""
+        if name == "sqrt" and isinstance(a, tuple) and a[0] == "norm2" and len(a) == 2:
+            return rf"\lVert {self.bare(a[1])}\rVert"
+        if name == "sqrt":
+            return rf"\sqrt{{{plain(self.bare(a))}}}"
+        shown = {"atan": "arctan"}.get(name, name)
+        return rf"\operatorname{{{shown if shown.isalpha() else ''}}}({self.bare(a)})", PRODUCT
+
     def op_bracket(self, a: Tree, b: Tree) -> str:
         """Bracket of matrices."""
         return f"[{self.bare(a)},{AFTER_COMMA} {self.bare(b)}]"
@@ -216,8 +225,11 @@ class Printer:
 
     op_entry = op_at
 
-    def op_call(self, f: Tree, *arguments: Tree) -> str:
+    def op_call(self, f: Tree, *arguments: Tree) -> Shown | str:
         """A function at its arguments; a variation of one thing needs no parentheses."""
+        if f == "∫":
+            body = "" if arguments[0] == 1 else f"{self.bare(arguments[0])}"
+            return rf"\int {body}\,\mathrm{{d}}m", PRODUCT
         lead = self.atom(f)
         simple = len(arguments) == 1 and self.show(arguments[0])[1] == ATOM
         if f in VARIATIONS and simple:

@@ -7,12 +7,12 @@ from fractions import Fraction
 from itertools import groupby
 
 from ..algebra.show import show, show_name
-from ..record.record import Derivation, Equation, Step
+from ..record.record import Derivation, Equation, Step, Symbol
 from .outline import CONVENTIONS, PAPER, domain, notes, sections, subtitle, title
 from .wrap import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
 
 MARGIN, EQUATION, INSIDE = 2, 6, 4
-TABLE, CELL = 4, 24
+TABLE, CELL, NAME = 4, 24, 8
 SIMPLE = ("par", "entry", "matrix", "add")
 OPENING, CLOSING = "([⟨", ")]⟩"
 BREAKS = {" + ": SUM, " − ": SUM, " ∧ ": WEDGE}
@@ -29,8 +29,17 @@ def text(d: Derivation, width: int = 100) -> str:
     for section, steps in sections(d):
         blocks.append([*_underlined(section, "-", width)])
         blocks.extend([*_step(step, width)] for step in steps)
+    if d.symbols:
+        blocks.append([*_underlined("Names", "-", width)])
+        blocks.append([line for s in d.symbols for line in _named(s, width)])
     lines = "\n\n".join("\n".join(line.rstrip() for line in block) for block in blocks)
     return "".join(c for c in lines if c == "\n" or c.isprintable()) + "\n"
+
+
+def _named(symbol: Symbol, width: int) -> Iterator[str]:
+    first, *others = _paragraph(symbol.meaning, NAME, width)
+    yield f"{'':{MARGIN}}{padded(show_name(symbol.name), NAME - MARGIN)}{first[NAME:]}"
+    yield from others
 
 
 def _step(step: Step, width: int) -> Iterator[str]:
@@ -72,8 +81,13 @@ def _table(cells: list[str], room: int) -> Iterator[str]:
     widest = max(map(display_width, cells)) + 4
     columns = max(1, min(4, room // widest))
     for k in range(0, len(cells), columns):
-        row = (x + " " * (widest - display_width(x)) for x in cells[k : k + columns])
+        row = (padded(x, widest) for x in cells[k : k + columns])
         yield " " * EQUATION + "".join(row)
+
+
+def padded(words: str, width: int) -> str:
+    """Words with spaces behind them up to a width."""
+    return words + " " * max(width - display_width(words), 0)
 
 
 def _equation(lhs: str, e: Equation, column: int, room: int) -> Iterator[str]:

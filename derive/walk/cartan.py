@@ -111,6 +111,12 @@ def frame_rule(a: Alphabet, gram: Expr) -> PairRule:
     return rule
 
 
+def varied_gram(a: Alphabet, xi: Letter) -> Expr:
+    """δC for C = ĀA and δA = Aξ."""
+    g = word(a.A.position)
+    return reduce(derivation(g.bar * g, {a.A.position: g * word(xi)}.get), frame_rule(a, word(a.C)))
+
+
 def trivial_images(a: Alphabet) -> dict[Letter, Expr]:
     """ν = gZ, δg = gξ, δ′g = gξ′, F̃ = A f, and the velocities varied by the product rule."""
     g = word(a.A.position)
@@ -166,9 +172,10 @@ def trivialise(stage: Cartan, a: Alphabet, prefix: str) -> Cartan:
                 *definitions,
                 Equation("C", ("mul", ("T", "A"), "A")),
                 *(Equation(p.d_velocity.name, tree_of(images[p.d_velocity])) for p in a.parts),
+                Equation("δC", tree_of(varied_gram(a, a.Z.xi))),
             ),
-            "Tangent vectors are carried to the Lie algebra by g⁻¹ (Maurer–Cartan); C = ĀA is "
-            "what the metric keeps of g.",
+            "Tangent vectors are carried to the Lie algebra by g⁻¹ (Maurer–Cartan); the metric "
+            "depends on g through C = ĀA only.",
             (27, 30),
         ),
         Step(

@@ -110,12 +110,12 @@ def steps_of(
     c: Contraction,
     first: list[Equation],
     unknown: str,
+    rates: str,
     prefix: str,
     exterior: str,
     paper: tuple[int, ...] = (),
     scope: str = ANY_GROUP,
-    regular: str = "the metric is not degenerate (no direction of the group leaves every mass in "
-    "its place)",
+    regular: str = "the metric is not degenerate",
 ) -> tuple[Step, ...]:
     """X put into dϖ, its vertical part, and what remains once the velocity is known."""
     return (
@@ -124,7 +124,9 @@ def steps_of(
             "contraction",
             (exterior,),
             (Equation(CONTRACTION, c.any_vector()),),
-            f"A vector X with δt = 1 is put into dϖ; its other components {unknown} are unknown.",
+            "The motions are the extremals of the action, the integral of L̃: curves whose "
+            "tangent X is in the kernel of dϖ. A vector X with δt = 1 is put in; its other "
+            f"components, {unknown}, are unknown.",
             (),
             scope,
             ("any X",),
@@ -145,8 +147,8 @@ def steps_of(
             "kernel",
             (f"{prefix}.vertical", f"{prefix}.contraction"),
             (*first, Equation(CONTRACTION, c.remaining())),
-            f"Where {regular}, it vanishes for all of these only if X has the velocity of the "
-            "motion, which is put in.",
+            f"As {regular}, it vanishes for all of these only if X has the velocity of the motion, "
+            f"which is put in; {rates}.",
             paper,
             scope,
             ("any acceleration",),

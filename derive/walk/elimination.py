@@ -63,8 +63,8 @@ def eliminate(stage: VectorForm, a: Alphabet, prefix: str, scope: str) -> Elimin
             Equation(CENTRAL.name, tree_of(central, notation(a))),
             Equation(("mul", CENTRAL.name, "ζ̇"), vector_tree(torque, a)),
         ),
-        "The balance of forces gives ẇ; put into the balance of moments, it leaves the inertia "
-        "about the centre of mass, which is that of the central moments.",
+        "As m > 0, the balance of forces gives ẇ; put into the balance of moments, it leaves I_c, "
+        "the tensor of inertia about the centre of mass, which J_c gives as J gives I.",
         (),
         scope,
     )

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..algebra import forms
-from ..algebra.calculus import Image, PairRule, derivation, gradient, reduce, substitute, without
+from ..algebra.calculus import Image, PairRule, gradient, reduce, substitute, without
 from ..algebra.notation import Notation, metrics, tree_of
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, inner, word
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
-from .cartan import Cartan, frame_rule, trivial_images
+from .cartan import Cartan, frame_rule, trivial_images, varied_gram
 from .gather import at_constant_time, gathered, solve_for, terms_with
 
 DOMEGA: Tree = ("call", "dϖ", "δy", "δ′y")
@@ -74,7 +74,8 @@ def exterior(stage: Cartan, a: Alphabet, prefix: str) -> Exterior:
             (f"{prefix}.cartan", f"{prefix}.energy", f"{prefix}.force")
             + (() if a.affine else (f"{prefix}.gradient",)),
             (Equation(DOMEGA, gathered(form, static, images, notation)),),
-            "The exterior derivative of the Cartan form.",
+            "The exterior derivative of the Cartan form. The derivative of Ũ by the time drops "
+            "out.",
             (25,),
         ),
         Step(
@@ -82,7 +83,8 @@ def exterior(stage: Cartan, a: Alphabet, prefix: str) -> Exterior:
             "restriction",
             (f"{prefix}.exterior",),
             (Equation(("call", "ω", "δx", "δ′x"), tree_of(static, notation)),),
-            "At constant time it is the symplectic form of the tangent bundle of the group.",
+            "At constant time it is dp ∧ dq, which the metric carries from the cotangent bundle "
+            "of the group to its tangent bundle: a symplectic form.",
             (26,),
         ),
     )
@@ -124,7 +126,7 @@ def structure(a: Alphabet, prefix: str) -> tuple[dict[Letter, Expr], Step]:
         "structure equation",
         (f"{prefix}.trivialisation",),
         equations,
-        "Two variations of the group commute; their images in the Lie algebra do so up to a "
+        "The variations commute on the group, so that their images in the Lie algebra differ by a "
         "bracket.",
     )
     return brackets, step
@@ -141,10 +143,10 @@ def trivial_variations(
     g = a.A.position
     images = trivial_images(a)
     potential = reduce(word(a.dU_dt) * word(a.dt) - substitute(work(a), images), *relations)
-    delta: dict[Letter, Expr] = {a.U: potential, a.C: _varied_metric(a, a.Z.xi)}
+    delta: dict[Letter, Expr] = {a.U: potential, a.C: varied_gram(a, a.Z.xi)}
     delta_prime: dict[Letter, Expr] = {
         a.U: primed(potential, a),
-        a.C: _varied_metric(a, a.Z.xi_prime),
+        a.C: varied_gram(a, a.Z.xi_prime),
     }
     for p, f in zip(a.parts, a.frames, strict=True):
         delta[p.position] = word(g) * word(f.xi)
@@ -155,12 +157,6 @@ def trivial_variations(
         delta_prime[f.xi] = word(f.second)
         delta[f.dp_velocity] = delta_prime[f.d_velocity] = word(f.second_velocity)
     return delta.get, delta_prime.get
-
-
-def _varied_metric(a: Alphabet, xi: Letter) -> Expr:
-    """δC for C = ĀA and δA = Aξ."""
-    g = word(a.A.position)
-    return reduce(derivation(g.bar * g, {a.A.position: g * word(xi)}.get), frame_rule(a, word(a.C)))
 
 
 def trivialised_images(stage: Exterior, a: Alphabet) -> dict[Letter, Expr]:

@@ -40,7 +40,8 @@ def isometry(stage: Cartan, a: Alphabet, n: int, prefix: str, general: str, scop
             Equation(("T", "Z"), ("mul", -1, "Z")),
             Equation(("T", "ξ"), ("mul", -1, "ξ")),
         ),
-        "For isometries ĀA = 1, so C drops out and the Lie algebra is made of skew matrices.",
+        "For isometries ĀA = 1, so that C drops out, and Z and ξ are skew"
+        + ("; w and η are any vectors." if a.affine else "."),
         scope=scope,
     )
     cartan = Step(
@@ -72,9 +73,15 @@ def _exterior(
     step = Step(
         f"{prefix}.exterior",
         "exterior derivative",
-        (f"{prefix}.cartan", f"{general}.structure"),
+        (
+            f"{prefix}.cartan",
+            f"{general}.structure",
+            f"{general}.force" if b.affine else f"{general}.gradient",
+            f"{general}.trivialisation",
+        ),
         (Equation(DOMEGA, shown),),
-        "Its exterior derivative; the bracket comes from the structure equation.",
+        "Its exterior derivative; the bracket comes from the structure equation. It is the general "
+        "form: for skew ξ and Z and symmetric J the terms with ξ′, ξ and Z make up the bracket.",
         () if b.affine else (29,),
         scope,
     )

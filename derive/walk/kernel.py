@@ -10,7 +10,7 @@ from ..algebra.tree import Tree, add
 from ..algebra.words import Expr, Letter, number, word
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
-from .cartan import carry
+from .cartan import carry, rates
 from .contraction import CONTRACTION, Contraction, steps_of, velocities
 from .exterior import Exterior, primed, work
 from .gather import at_constant_time, gathered, terms_with
@@ -47,21 +47,24 @@ def kernel(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
     else:
         kept = {a.A.acceleration: c.shifts[a.A.acceleration]}
         balance = gathered(virtual, c.remaining_core, kept, notation)
-    rates = tuple(Equation(p.rate, tree_of(c.velocity[p.d_position])) for p in a.parts)
+    first_order = tuple(Equation(p.rate, tree_of(c.velocity[p.d_position])) for p in a.parts)
     variations = tuple(p.dp_position.name for p in a.parts)
     velocity = ", ".join(f"{p.dp_position.name} = {p.velocity.name}" for p in a.parts)
     last = Step(
         f"{prefix}.kernel",
         "kernel",
         (f"{prefix}.second_order",),
-        (*rates, Equation(balance, 0, variations)),
+        (*first_order, Equation(balance, 0, variations)),
         "X is in the kernel when this vanishes for every displacement tangent to the group: the "
-        "equations of motion. The same hypothesis gives them one solution. The coefficient of δ′t "
-        f"then vanishes as well, for {velocity} is such a displacement.",
+        "equations of motion. They fix the part of the acceleration that is tangent to the group; "
+        "the velocity gives the rest. The coefficient of δ′t then vanishes as well, for "
+        f"{velocity} is such a displacement. With δt = 0 the same two tests leave X = 0: the "
+        "kernel is a line.",
     )
     unknown = tuple(x.name for p in a.parts for x in (p.d_position, p.d_velocity))
     first = velocities(c.velocity, c.velocity)
-    steps = steps_of(c, first, _and(unknown), prefix, f"{prefix}.exterior")
+    dots = _and(tuple(f"{p.acceleration.name} is {p.d_velocity.name}(X)" for p in a.parts))
+    steps = steps_of(c, first, _and(unknown), dots, prefix, f"{prefix}.exterior")
     return Kernel(c.second_order, (*steps, last))
 
 
@@ -116,11 +119,12 @@ def _equations(c: Contraction, a: Alphabet, prefix: str) -> Step:
     variations = [tree_of(g * word(f.xi_prime)) for f in a.frames]
     rhs: Tree = ("mul", -1, ("call", "dŨ", *variations))
     names = tuple(f.xi_prime.name for f in a.frames)
+    force_steps = (f"{prefix}.force",) if a.affine else (f"{prefix}.force", f"{prefix}.gradient")
     return Step(
         f"{prefix}.equations",
         "kernel",
-        (f"{prefix}.second_order_trivialised", f"{prefix}.force"),
-        (Equation(shown, rhs, names),),
+        (f"{prefix}.second_order_trivialised", f"{prefix}.trivialisation", *force_steps),
+        (*rates(a), Equation(shown, rhs, names)),
         "The equations of motion of any group of matrices that moves points (Exercise 1), one for "
-        "each direction of its Lie algebra.",
+        "each direction of its Lie algebra, to which Ż belongs.",
     )

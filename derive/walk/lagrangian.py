@@ -60,8 +60,9 @@ def lagrangian(a: Alphabet, prefix: str) -> Lagrangian:
                 Equation(("at", "v", "i"), indexed_tree(velocity, v_i, a)),
                 Equation(("call", "δ", POINT), indexed_tree(variation, v_i, a)),
             ),
-            "Differentiating the motion gives the velocities; varying it, the displacements that "
-            "respect the constraint.",
+            "A velocity of the group gives one to each point; a variation, the displacements that "
+            "respect the constraint. Here the velocity is a coordinate of its own: that it is the "
+            "derivative of the motion will come out of the kernel.",
             (9, 10, 14),
         ),
     )

@@ -13,6 +13,7 @@ from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .cartan import rates
 from .chapter import Chapter
+from .inverse import inverse_letter
 
 RATE = Letter("ζ̇_b")
 
@@ -31,6 +32,7 @@ def mass_steps(
     along = {b.Z.xi_prime: word(E_a), b.Z.acceleration: word(RATE) * word(E_b)}
     mass = gradient(substitute(inertial, along), RATE)
     rest = force - gradient(without(inertial, b.Z.acceleration), b.Z.xi_prime)
+    lighter = Notation(display={inverse_letter(b.m): ("inv", "m")})
     load = inner(word(E_a), word(Letter("B", b.n, b.n)))
     row: Tree = ("mul", ("entry", "M", "a", "b"), ("entry", "ζ̇", "b"))
     return (
@@ -40,7 +42,7 @@ def mass_steps(
             f"{uses} coordinates",
             (
                 Equation(("entry", "M", "a", "b"), tree_of(mass, notation)),
-                Equation("B", tree_of(rest)),
+                Equation("B", tree_of(rest, lighter)),
                 Equation(("entry", "β", "a"), tree_of(load, notation)),
                 Equation(("sum", "b", row), ("entry", "β", "a")),
             ),

@@ -37,11 +37,12 @@ def multiplier_steps(
     residue = gradient(inertial, b.Z.xi_prime)
     direction, letters, definition = _direction(normal_space, b)
     pressed = word(LAMBDA) * direction if direction else force * 0
-    balance = Equation(tree_of(residue), add(tree_of(force), tree_of(pressed)))
+    lighter = Notation(display={inverse_letter(b.m): ("inv", "m")})
+    balance = Equation(tree_of(residue), add(tree_of(force, lighter), tree_of(pressed)))
     left, right = word(inverse_letter(b.C)), word(inverse_letter(metric))
     free = reduce(left * (force + pressed - residue) * right, cancelling(b.C, metric))
     solved = free + word(b.Z.acceleration)
-    display = {inverse_letter(x): ("inv", x.name) for x in (b.C, metric)}
+    display = {inverse_letter(x): ("inv", x.name) for x in (b.C, metric, b.m)}
     notation = Notation(display=display)
     equations = rates(b)
     if direction:
@@ -57,8 +58,9 @@ def multiplier_steps(
             "solution",
             "multiplier",
             equations,
-            "The equations of motion of this problem"
-            + (": that Ż is in the Lie algebra gives the multiplier." if direction else "."),
+            f"The equations of motion of this problem: {metric.name} is invertible, as the points "
+            "span "
+            "the space" + (", and that Ż is in the Lie algebra gives λ." if direction else "."),
         ),
     )
 
@@ -93,8 +95,8 @@ def _prose(direction: Expr | None, letters: list[Letter]) -> str:
     if direction is None:
         return "The equations hold for every matrix ξ′, so that its coefficient vanishes."
     if letters:
-        return "What the equations leave is orthogonal to the Lie algebra: a multiple λ of Λ."
+        return "The difference of the two sides is orthogonal to the Lie algebra: a multiple of Λ."
     return (
-        "What the equations leave is orthogonal to every matrix of trace zero: a multiple λ of 1, "
-        "the multiplier of the volume."
+        "The difference of the two sides is orthogonal, for Tr a b̄, to every matrix of trace "
+        "zero: a multiple λ of 1, the multiplier of the volume."
     )

@@ -1,81 +1,50 @@
 """The body and the potentials of a problem on words: Ũ pulled back, and its force.
 
-Gravity and springs are sums over points and over springs; they are pulled back like L itself.
+Gravity and springs of natural length 0 are sums over points and over springs; they are pulled back
+like L itself.  What else there is enters as U_Q, with the forces Q_i that it exerts on the points.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
 from ..algebra.calculus import derivation
-from ..algebra.notation import metrics, tree_of
+from ..algebra.notation import tree_of
 from ..algebra.tree import Tree, add, neg
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..mechanics.problem import MomentBody, PointBody, Problem
+from ..mechanics.problem import Problem, Spring
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
+from .elements import Applied, Elements, applied, column, elements, sums_over_points
 from .lagrangian import POINT
 from .pullback import sum_over
+
+U_Q = Letter("U_Q")
 
 
 @dataclass(frozen=True)
 class Potentials:
-    """``energy`` = Ũ on words in A, T, c, m, γ, K."""
+    """``energy`` = Ũ on words in A, T, c, m, γ, K, U_Q; ``work(ξ, η)`` of what U_Q exerts."""
 
     energy: Expr
     steps: tuple[Step, ...]
+    work: Callable[[Expr, Expr | None], Expr]
 
 
-def column(entries: tuple[Tree, ...]) -> Tree:
-    """A vector as a matrix tree with one column."""
-    return ("matrix", *(("row", x) for x in entries))
-
-
-def body_step(problem: Problem, prefix: str, scope: str) -> Step | None:
-    """The numbers of the body: its moments as parameters, or its points."""
-    body = problem.body
-    if isinstance(body, MomentBody):
-        rows = tuple(("row", *row) for row in body.second())
-        equations = [
-            Equation("m", body.mass()),
-            Equation("c", column(body.first())),
-            Equation("J", ("matrix", *rows)),
-        ]
-        prose = "The moments of the body are parameters."
-    elif isinstance(body, PointBody):
-        equations = []
-        for i, (m, r) in enumerate(zip(body.masses, body.positions, strict=True), 1):
-            equations += [
-                Equation(("at", "m", i), m),
-                Equation(("at", "r", i), column(r)),
-            ]
-        prose = "The points of the body and their masses."
-    else:
-        return None
-    return Step(f"{prefix}.body", "definition", (), tuple(equations), prose, (), scope)
-
-
-def potentials(problem: Problem, a: Alphabet, prefix: str, general: str, scope: str) -> Potentials:
+def potentials(
+    problem: Problem, a: Alphabet, prefix: str, general: str, scope: str, *, vectors: bool = False
+) -> Potentials:
     """Ũ of the problem, with the vectors and matrices it needs."""
-    energy, definitions, over_points = number(0), [], []
-    gamma, K = Letter("γ", a.n), Letter("K", a.n, a.n, 1)
-    if problem.gravity is not None:
-        position = a.moved(word(a.A.position), word(a.T.position))
-        summand = -word(a.m_i) * inner(word(gamma), position)
-        table = {(a.m_i,): word(a.m), (a.m_i, a.r_i): word(a.c)}
-        energy = energy + sum_over(summand, {a.m_i, a.r_i}, table)
-        definitions.append(Equation("γ", column(problem.gravity)))
-        over_points.append(neg(("sum", "i", ("mul", ("at", "m", "i"), ("inner", "γ", POINT)))))
-    if problem.springs:
-        k_e, s_e = Letter("k_e"), Letter("s_e", a.n)
-        stretched = word(a.A.position) * word(s_e)
-        summand = Fraction(1, 2) * word(k_e) * inner(stretched, stretched)
-        energy = energy + sum_over(summand, {k_e, s_e}, {(k_e, s_e, s_e): word(K)})
-        definitions += _springs(problem)
-        family = metrics(display={k_e: ("at", "k", "e"), s_e: ("at", "s", "e")})
-        over_points.append(("sum", "e", tree_of(summand, family)))
-    steps = (
+    energy, definitions, over_points = _summed(problem, a)
+    found, forces = elements(problem), applied(a, "Q", vectors=vectors)
+    if found.energies:
+        energy = energy + word(U_Q)
+        over_points += found.energies
+        definitions += found.differences
+        definitions.append(Equation("U_Q", add(*found.energies)))
+    steps = [
         Step(
             f"{prefix}.potential",
             "pull-back",
@@ -86,12 +55,73 @@ def potentials(problem: Problem, a: Alphabet, prefix: str, general: str, scope: 
                 Equation("Ũ", tree_of(energy)),
             ),
             "The potential of the problem, on the points and pulled back to the group."
-            + (" The springs have natural length 0." if problem.springs else ""),
+            + (" The springs s_e have natural length 0." if problem.springs else "")
+            if over_points
+            else "No potential: the motion is free.",
             (),
             scope,
-        ),
+        )
+    ]
+    if found.energies:
+        steps.append(_pushes(found, forces, a, prefix, scope, vectors))
+    return Potentials(energy, tuple(steps), forces.work)
+
+
+def _summed(problem: Problem, a: Alphabet) -> tuple[Expr, list[Equation], list[Tree]]:
+    """Gravity and quadratic springs: their energy on words, definitions, and sums over points."""
+    energy, definitions, over_points = number(0), [], []
+    gamma, K = Letter("γ", a.n), Letter("K", a.n, a.n, 1)
+    if problem.gravity is not None:
+        position = a.moved(word(a.A.position), word(a.T.position))
+        summand = -word(a.m_i) * inner(word(gamma), position)
+        table = {(a.m_i,): word(a.m), (a.m_i, a.r_i): word(a.c)}
+        energy = energy + sum_over(summand, {a.m_i, a.r_i}, table)
+        definitions.append(Equation("γ", _in_every_block(problem, problem.gravity)))
+        over_points.append(neg(("sum", "i", ("mul", ("at", "m", "i"), ("inner", "γ", POINT)))))
+    if problem.springs:
+        k_e, s_e = Letter("k_e"), Letter("s_e", a.n)
+        stretched = word(a.A.position) * word(s_e)
+        summand = Fraction(1, 2) * word(k_e) * inner(stretched, stretched)
+        energy = energy + sum_over(summand, {k_e, s_e}, {(k_e, s_e, s_e): word(K)})
+        definitions += _springs(problem)
+        over_points += [_on_points(e, spring) for e, spring in enumerate(problem.springs, 1)]
+    return energy, definitions, over_points
+
+
+def _in_every_block(problem: Problem, g: tuple[Tree, ...]) -> Tree:
+    """Gravity as a vector; in a product, the same in every block."""
+    group = problem.group
+    assert group is not None
+    if not group.factors:
+        return column(g)
+    return column(tuple(x for _, f in group.places for x in ((*g, 0) if f.affine else g)))
+
+
+def _pushes(
+    found: Elements, forces: Applied, a: Alphabet, prefix: str, scope: str, vectors: bool
+) -> Step:
+    """σ_e, Q_i and their sums."""
+    equations = list(found.tensions)
+    for i, terms in sorted(found.pushes.items()):
+        equations.append(Equation(("at", "Q", i), add(*terms)))
+    equations += sums_over_points(a, forces, "Q", vectors=vectors)
+    return Step(
+        f"{prefix}.pushes",
+        "variation",
+        (f"{prefix}.potential",),
+        tuple(equations),
+        "The part U_Q of the potential is given point by point: Q_i is its force on point i, minus "
+        "the derivative of U_Q by r_i(t)."
+        + (" A term in ‖d_e‖² pushes along d_e." if found.tensions else ""),
+        (),
+        scope,
     )
-    return Potentials(energy, steps)
+
+
+def _on_points(e: int, spring: Spring) -> Tree:
+    """½ k_e ‖r_i(t) − r_j(t)‖²."""
+    i, j = (("call", ("at", "r", x), "t") for x in spring.between)
+    return ("mul", Fraction(1, 2), ("at", "k", e), ("norm2", ("add", i, neg(j))))
 
 
 def _springs(problem: Problem) -> list[Equation]:
@@ -105,10 +135,10 @@ def _springs(problem: Problem) -> list[Equation]:
     return equations
 
 
-def virtual_work(energy: Expr, a: Alphabet, xi: Expr, eta: Expr | None) -> Expr:
+def virtual_work(v: Potentials, a: Alphabet, xi: Expr, eta: Expr | None) -> Expr:
     """−dŨ(Aξ, Aη) on words."""
     g = word(a.A.position)
-    images = {a.A.position: g * xi}
+    images = {a.A.position: g * xi, U_Q: -v.work(xi, eta)}
     if eta is not None:
         images[a.T.position] = g * eta
-    return -derivation(energy, images.get)
+    return -derivation(v.energy, images.get)

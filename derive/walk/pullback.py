@@ -68,16 +68,18 @@ def sum_over(e: Expr, members: set[Letter], moments: Moments) -> Expr:
 
 def _moment(weights: tuple[Letter, ...], w: Word, members: set[Letter], moments: Moments) -> Expr:
     """A scalar word x̄ W y summed over its members: Tr W Σ y x̄, or (Σ x)‾ W y."""
-    opened = next(t for t in rotations(w) if row_dim(t[0]) == 1)
+    sign, opened = 1, next(t for t in rotations(w) if row_dim(t[0]) == 1)
     if opened[0][0] not in members:
-        opened = transpose_word(opened)[1]
+        sign, opened = transpose_word(opened)
     x, y = opened[0][0], opened[-1][0]
     if y not in members:
-        return moments[(*weights, x)].bar * expr_of_word(opened[1:], x.rows, 1)
+        return sign * (moments[(*weights, x)].bar * expr_of_word(opened[1:], x.rows, 1))
     key = (*weights, y, x)
     second = moments[key] if key in moments else moments[(*weights, x, y)].bar
     middle = opened[1:-1]
-    return trace(expr_of_word(middle, x.rows, y.rows) * second) if middle else trace(second)
+    if not middle:
+        return sign * trace(second)
+    return sign * trace(expr_of_word(middle, x.rows, y.rows) * second)
 
 
 def pullback(stage: Lagrangian, a: Alphabet, prefix: str) -> Pullback:
@@ -91,7 +93,9 @@ def pullback(stage: Lagrangian, a: Alphabet, prefix: str) -> Pullback:
         (f"{prefix}.lagrangian", f"{prefix}.velocity", f"{prefix}.moments"),
         tuple(Equation("L̃", tree_of(kinetic - word(a.U), n)) for n in notations),
         "The Lagrangian is pulled back to the group: the velocities of the motion are put in and "
-        "the sum over the points is carried out.",
+        "the sum over the points is carried out. From here on the masses are positive and no "
+        "direction of the group leaves all of them in their places: the kinetic energy is then "
+        "half the square of a norm, a metric on the group.",
         (11, 12, 13, 17) if a.affine else (11, 12, 13, 21, 22),
     )
     steps = [_moments(a, prefix), step, _force(stage, a, prefix)]
@@ -113,7 +117,8 @@ def _moments(a: Alphabet, prefix: str) -> Step:
         "definition",
         (),
         tuple(equations),
-        "The body enters through its moments only: mass, first moment, matrix of moments.",
+        "The body enters the kinetic energy through its moments only: mass, first moment, matrix "
+        "of moments.",
         (18, 19),
     )
 
@@ -134,7 +139,8 @@ def _force(stage: Lagrangian, a: Alphabet, prefix: str) -> Step:
         "pull-back",
         (f"{prefix}.lagrangian", f"{prefix}.velocity"),
         (*definitions, Equation(("call", "dŨ", *variations), tree_of(-work))),
-        "The forces F_i = −∂U/∂r_i act on the group through their moments.",
+        "The forces F_i, opposite to the derivative of U by the place r_i(t) in space, act on the "
+        "group through their moments.",
         (2,),
     )
 
@@ -146,7 +152,6 @@ def _gradient(a: Alphabet, prefix: str) -> Step:
         "definition",
         (f"{prefix}.force",),
         (Equation(tree_of(pairing, metrics("J")), neg(("call", "dŨ", "δA")), ("δA",)),),
-        "The force F̃, tangent to the group, is the opposite of the gradient of Ũ in the metric "
-        "of J.",
+        "The force F̃, tangent to the group, is the opposite of the gradient of Ũ in the metric.",
         (24,),
     )

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from ..algebra.calculus import gradient, reduce, substitute
+from ..algebra.calculus import derivation, gradient, reduce, substitute
 from ..algebra.notation import metrics, tree_of
 from ..algebra.space import hat, normal_form
 from ..algebra.tree import Tree, add, mul
-from ..algebra.words import Expr, Letter, word
-from ..mechanics.problem import Problem
+from ..algebra.words import Expr, Letter, number, word
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .cartan import frame_rule, rates, trivial_images
+from .chapter import Chapter
 from .elimination import CENTRAL, Eliminated, simplified, vector_tree
 from .exterior import primed, work
+from .inputs import Given
 from .isometry import Isometry
-from .potential import Potentials, virtual_work
+from .potential import U_Q, Potentials, virtual_work
 from .vector import (
     INERTIA,
     MU,
@@ -28,8 +29,6 @@ from .vector import (
 )
 from .wedge import vector_sum
 
-INPUT, INPUT_FORCE = Letter("u", 3), Letter("f_u", 3)
-
 
 def pairing(stage: Isometry) -> dict[Letter, Expr]:
     """The force of the walk in vectors, read off −dŨ(AΩ′, Aη′): Iφ, or μ and F_b."""
@@ -42,7 +41,10 @@ def pairing(stage: Isometry) -> dict[Letter, Expr]:
 def torque(v: Potentials, b: Alphabet) -> dict[Letter, Expr]:
     """The moment μ of the forces in the body, and their resultant F_b, of the given potentials."""
     eta = word(b.w.xi_prime) if b.affine else None
-    work = normal_form(virtual_work(v.energy, b, word(hat(OMEGA_P)), eta))
+    turned = word(hat(OMEGA_P))
+    images = {U_Q: -v.work(word(OMEGA_P), eta)}
+    summed = virtual_work(Potentials(v.energy, (), lambda *_: number(0)), b, turned, eta)
+    work = normal_form(summed - derivation(v.energy, images.get))
     isolated = reduce(work, isolate(OMEGA_P))
     forces = {MU: normal_form(gradient(isolated, OMEGA_P))}
     if b.affine:
@@ -59,7 +61,8 @@ def torque_step(v: Potentials, stage: Isometry, prefix: str, general: str, scope
     return Step(
         f"{prefix}.torque",
         "variation",
-        (f"{prefix}.potential", f"{prefix}.hat", f"{general}.force"),
+        (f"{prefix}.potential", f"{prefix}.hat", f"{general}.force")
+        + (() if stage.letters.affine else (f"{general}.gradient", f"{prefix}.inertia")),
         equations,
         "The forces of this problem: the potential is varied along the group.",
         (),
@@ -68,60 +71,62 @@ def torque_step(v: Potentials, stage: Isometry, prefix: str, general: str, scope
 
 
 def spherical_motion(
-    kernel: VectorForm, v: Potentials, stage: Isometry, problem: Problem, prefix: str, scope: str
+    kernel: VectorForm, v: Potentials, stage: Isometry, given: Given | None, c: Chapter
 ) -> Step:
     """ζ̇ = I⁻¹(Iζ ∧ ζ + torque + u)."""
     b = stage.letters
     inertial = word(INERTIA) * word(ZETA_DOT)
-    # Iφ is the torque, and an input adds to it
-    torques = torque(v, b)[MU]
-    balance = kernel.balance[OMEGA_P] + word(INERTIA) * word(PHI) - torques
-    if problem.inputs:
-        balance = balance - word(INPUT)
+    # Iφ is the torque, and what is given adds to it
+    balance = kernel.balance[OMEGA_P] + word(INERTIA) * word(PHI) - torque(v, b)[MU]
+    if given is not None:
+        balance = balance - given.moments
     right = vector_sum(inertial - balance)
-    return Step(
-        f"{prefix}.motion",
+    chapter = c.with_input() if given else c
+    return chapter.step(
+        "motion",
         "solution",
-        (f"{prefix}.kernel", f"{prefix}.torque", f"{prefix}.hat"),
+        "kernel torque hat" + (" input" if given and given.steps else ""),
         (*rates(b, {b.Z.velocity: word(hat(ZETA))}), Equation("ζ̇", mul(("inv", "I"), right))),
-        _prose(problem),
-        (),
-        scope,
-        ("input",) if problem.inputs else (),
+        _prose(given, affine=False),
     )
 
 
 def displacement_motion(
-    stage: Eliminated, v: Potentials, b: Alphabet, problem: Problem, prefix: str, scope: str
+    stage: Eliminated, v: Potentials, b: Alphabet, given: Given | None, c: Chapter
 ) -> Step:
-    """ζ̇ and ẇ with the forces of the problem and the input put in."""
+    """ζ̇ and ẇ, with the forces of this problem and what is given put in."""
     forces = torque(v, b)
-    if problem.inputs:
-        forces = {
-            MU: forces[MU] + word(INPUT),
-            b.F_body: forces[b.F_body] + word(INPUT_FORCE),
-        }
+    if given is not None:
+        forces[MU] = forces[MU] + given.moments
+        forces[b.F_body] = forces[b.F_body] + given.resultant
     rotation = simplified(substitute(reduce(stage.torque, isolate(b.F_body)), forces), b)
     translation = simplified(substitute(stage.acceleration, forces), b)
-    return Step(
-        f"{prefix}.motion",
+    chapter = c.with_input() if given else c
+    return chapter.step(
+        "motion",
         "solution",
-        (f"{prefix}.elimination", f"{prefix}.torque", f"{prefix}.hat"),
+        "elimination torque hat" + (" input" if given and given.steps else ""),
         (
             *rates(b, {b.Z.velocity: word(hat(ZETA))}),
             Equation("ζ̇", mul(("inv", CENTRAL.name), vector_tree(rotation, b))),
             Equation("ẇ", vector_tree(translation, b)),
         ),
-        _prose(problem),
-        (),
-        scope,
-        ("input",) if problem.inputs else (),
+        _prose(given, affine=True),
     )
 
 
-def _prose(problem: Problem) -> str:
-    text = "The equations of motion of this problem, solved for the accelerations"
-    return text + ("; the input is a given covector, outside dϖ." if problem.inputs else ".")
+def _prose(given: Given | None, *, affine: bool) -> str:
+    tensor = "I_c" if affine else "I"
+    text = f"The equations of motion of this problem, solved for the accelerations: {tensor} is "
+    text += "invertible as the masses are not all on one line."
+    if given is None or given.steps:
+        return text
+    if affine:
+        return (
+            f"{text} The given moment u and force f_u, outside dϖ, add ⟨u, Ω′⟩ + ⟨f_u, η′⟩ to the "
+            "work."
+        )
+    return f"{text} The given torque u, outside dϖ, adds ⟨u, Ω′⟩ to the work."
 
 
 def energy_step(stage: Isometry, v: Potentials, prefix: str, scope: str) -> Step:
@@ -149,7 +154,8 @@ def principal_step(prefix: str, scope: str, solved: Tree) -> Step:
         "coordinates",
         (f"{prefix}.euler",),
         tuple(equations),
-        "In principal axes of inertia, with the term of the potential.",
+        "In principal axes of inertia, where I is diagonal with entries λ₁, λ₂, λ₃; the term of "
+        "the potential stays.",
         (35,),
         scope,
         ("principal axes",),
@@ -165,7 +171,7 @@ def euler_step(kernel: VectorForm, prefix: str, scope: str) -> Step:
         "solution",
         (f"{prefix}.kernel",),
         (Equation("ζ̇", add("φ", mul(("inv", "I"), vector_sum(rest)))),),
-        "Euler's equations, solved for the angular acceleration.",
+        "Euler's equations, solved for the angular acceleration: I is invertible.",
         (34,),
         scope,
     )

@@ -6,10 +6,10 @@ more: where Z is skew, C = 1; where its trace vanishes, so do those of ξ and Ż
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..algebra import forms
-from ..algebra.calculus import gradient, reduce, substitute, without
+from ..algebra.calculus import Image, gradient, reduce, substitute, without
 from ..algebra.groups import Group
 from ..algebra.notation import Notation, tree_of
 from ..algebra.tree import Tree
@@ -21,7 +21,7 @@ from .chapter import Chapter
 from .exterior import DOMEGA, Exterior, primes, structure, trivial_variations
 from .gather import gathered, terms_with
 from .kernel import Kernel
-from .potential import Potentials, virtual_work
+from .potential import U_Q, Potentials, virtual_work
 
 
 @dataclass(frozen=True)
@@ -50,6 +50,12 @@ class Special:
     steps: tuple[Step, ...]
     last: tuple[Step, ...]
 
+    def pushed(self, moments: Expr, resultant: Expr) -> Special:
+        """The same with further forces on ξ′ (and η′)."""
+        b = self.letters
+        more = {b.Z.xi_prime: moments, b.w.xi_prime: resultant}
+        return replace(self, forces={x: e + more[x] for x, e in self.forces.items()})
+
 
 def letters_of(group: Group) -> Alphabet:
     """The alphabet of a group: skew or traceless letters where its relations say so."""
@@ -65,7 +71,7 @@ def specialise(road: General, group: Group, v: Potentials, c: Chapter) -> Specia
     gram = b.unit if "orthogonal" in group.relations else word(b.C)
     carried = frame_rule(b, gram)
     eta = word(b.w.xi_prime) if b.affine else None
-    virtual = virtual_work(v.energy, b, word(free.Z.xi_prime), eta)
+    virtual = virtual_work(v, b, word(free.Z.xi_prime), eta)
     primed = [f.xi_prime for f in free.frames]
     forces = {x: reduce(gradient(virtual, x), carried) for x in primed}
     energy = substitute(b.respell(road.cartan.energy, gram), {b.U: reduce(v.energy, carried)})
@@ -75,7 +81,7 @@ def specialise(road: General, group: Group, v: Potentials, c: Chapter) -> Specia
     steps = (
         *_relation(group, c),
         *v.steps,
-        *_forms(form, road.exterior, b, gram, c),
+        *_forms(form, road.exterior, v, b, gram, c),
         _forces(forces, c),
     )
     last = c.step(
@@ -90,23 +96,24 @@ def specialise(road: General, group: Group, v: Potentials, c: Chapter) -> Specia
 
 def _relation(group: Group, c: Chapter) -> tuple[Step, ...]:
     """What the group keeps, read off the basis of its Lie algebra."""
+    parts = (
+        "The linear parts of the Lie algebra" if group.affine else "The matrices of the Lie algebra"
+    )
     if "orthogonal" in group.relations:
         claims: tuple[tuple[Tree, Tree], ...] = (
             ("C", ("one",)),
             (("T", "Z"), ("mul", -1, "Z")),
             (("T", "ξ"), ("mul", -1, "ξ")),
         )
-        prose = "The Lie algebra is made of skew matrices, so ĀA = 1 and C drops out."
+        prose = f"{parts} are skew, so ĀA = 1 and C drops out."
     elif "unimodular" in group.relations:
         claims = ((("det", "A"), 1), (("tr", "Z"), 0), (("tr", "ξ"), 0))
-        prose = (
-            "The Lie algebra is made of matrices of trace zero, so the volume is kept; C does not "
-            "drop out."
-        )
+        prose = f"{parts} have trace zero, so the volume is kept; C does not drop out."
         if not group.affine and not group.factors:
             prose += (
-                " The origin is fixed, and its reaction holds the points, unless c = 0 and the "
-                "forces have no resultant."
+                " Only maps that fix the origin are allowed: a further constraint, whose reaction "
+                "at the origin is d²A/dt² c less the sum of the forces. It vanishes if c = 0 and "
+                "the forces have no resultant."
             )
     else:
         return ()
@@ -115,11 +122,15 @@ def _relation(group: Group, c: Chapter) -> tuple[Step, ...]:
 
 
 def _forms(
-    form: Cartan, exterior: Exterior, b: Alphabet, gram: Expr, c: Chapter
+    form: Cartan, exterior: Exterior, v: Potentials, b: Alphabet, gram: Expr, c: Chapter
 ) -> tuple[Step, Step]:
     """ϖ and dϖ with the potential of the problem, whose variation is that of the group."""
     brackets, _ = structure(b, c.name)
     delta, delta_prime = trivial_variations(b, brackets, (frame_rule(b, gram),))
+    etas = (word(b.w.xi), word(b.w.xi_prime)) if b.affine else (None, None)
+    pushed = [v.work(word(x), y) for x, y in zip((b.Z.xi, b.Z.xi_prime), etas, strict=True)]
+    delta = _with(delta, word(b.dU_dt) * word(b.dt) - pushed[0])
+    delta_prime = _with(delta_prime, word(b.dU_dt) * word(b.dpt) - pushed[1])
     domega = forms.exterior(form.form(b), primes(b), delta, delta_prime)
     domega = reduce(domega, frame_rule(b, gram))
     letters = b.letters()
@@ -139,11 +150,16 @@ def _forms(
         c.step(
             "exterior",
             "exterior derivative",
-            "cartan .structure",
+            "cartan .structure .trivialisation",
             (Equation(DOMEGA, gathered(domega, core, images, Notation())),),
             "Its exterior derivative.",
         ),
     )
+
+
+def _with(delta: Image, varied: Expr) -> Image:
+    """The same derivation with a value on U_Q."""
+    return lambda x: varied if x == U_Q else delta(x)
 
 
 def _without_products(e: Expr) -> Expr:
@@ -156,7 +172,8 @@ def _forces(forces: dict[Letter, Expr], c: Chapter) -> Step:
     return c.step(
         "force",
         "variation",
-        "potential .trivialisation",
+        "potential .trivialisation .force",
         (Equation(x, tree_of(e)) for x, e in zip(sides, forces.values(), strict=False)),
-        "The forces of this problem in the body: the potential is varied along the group.",
+        "The moments of this problem's forces in the body: the potential is varied over all "
+        "matrices δA, of which those of the group are a part.",
     )

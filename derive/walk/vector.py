@@ -74,11 +74,12 @@ def vector_form(stage: Isometry, prefix: str, general: str, scope: str) -> Vecto
         c,
         velocities(c.velocity, known),
         "Ω, η, δζ and δw" if b.affine else "Ω and δζ",
+        "ζ̇ is δζ(X) and ẇ is δw(X)" if b.affine else "ζ̇ is δζ(X)",
         prefix,
         f"{prefix}.exterior_vector",
         () if b.affine else (34,),
         scope,
-        "the metric is invertible (the masses are not all on one line)"
+        "the metric is not degenerate (the masses are not all on one line)"
         if b.affine
         else "I is invertible (the masses are not all on one line through the fixed point)",
     )
@@ -214,8 +215,11 @@ def _identification(stage: Isometry, prefix: str, scope: str) -> Step:
         "identification",
         (f"{prefix}.relation",),
         tuple(equations),
-        "The Lie algebra so(3) is R³ by the operator j, j(X)Y = X ∧ Y; the bracket is the vector "
-        "product.",
+        "The Lie algebra so(3) is identified with R³ by the operator j, j(X)Y = X ∧ Y; the "
+        "bracket is the vector product."
+        if not affine
+        else "The linear part so(3) of the Lie algebra is identified with R³ by the operator j, "
+        "j(X)Y = X ∧ Y; the bracket is the vector product.",
         () if affine else (33,),
         scope,
     )
@@ -258,14 +262,17 @@ def _kernel(balance: dict[Letter, Expr], stage: Isometry, prefix: str, scope: st
     for v, e in balance.items():
         left = inertial[v] if not b.affine else _accelerations(e, b.w.acceleration)
         equations.append(Equation(tree_of(left), vector_sum(left - e)))
-    free, along = ("Ω′ and of η′", "Ω′ = ζ, η′ = w") if b.affine else ("Ω′", "Ω′ = ζ")
+    free, along = "The coefficient of Ω′ vanishes", "Ω′ = ζ"
+    if b.affine:
+        free, along = "The coefficients of Ω′ and of η′ vanish", "Ω′ = ζ, η′ = w"
     return Step(
         f"{prefix}.kernel",
         "kernel",
         (f"{prefix}.second_order",),
         tuple(equations),
-        f"The coefficient of {free} vanishes: the equations of motion. That of δ′t then vanishes "
-        f"as well: it is the opposite of what the rest gives for {along}.",
+        f"{free}: the equations of motion. That of δ′t then vanishes as well: it is the opposite "
+        f"of what the rest gives for {along}. With δt = 0 the same two tests leave X = 0: the "
+        "kernel is a line.",
         () if b.affine else (34,),
         scope,
     )

@@ -1,0 +1,161 @@
+"""The body of a problem file: points, moments as parameters or given, solids and their mixtures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.groups import Group
+from ..algebra.tree import Tree, add, mul
+from .fields import choice, expression, known, missing, tables, vector, whole
+from .mesh import MeshError, read
+from .problem import Body, GivenBody, MomentBody, PointBody, ProblemError
+from .solids import KINDS, Moments, Solid, SolidError, moments, rotation_about
+
+PLACING = {"density", "rotation", "shift"}
+
+
+def body(data: Mapping[str, Any], moved: Group | None, folder: Path) -> Body | None:
+    """The body of a file; ``folder``: where its mesh files are looked for."""
+    listed, solids = tables(data, "point"), tables(data, "solid")
+    table = data.get("body")
+    if moved is None:
+        if listed or solids or table is not None:
+            raise ProblemError("a text about any group has no body of its own; leave it out")
+        return None
+    points = _points(listed, moved)
+    if table is None and not solids:
+        return points
+    if table is not None and (not isinstance(table, dict) or solids):
+        raise ProblemError("give either one table [body] or the tables [[solid]]")
+    if moved.factors:
+        raise ProblemError(f"body: the blocks of {moved.name} need [[point]] tables")
+    if table is not None and "solid" not in table:
+        if points:
+            raise ProblemError("give either [[point]] tables or moments in [body]")
+        return _moments(table, moved.n)
+    if moved.n != 3:
+        raise ProblemError(f"a solid is in R^3, and {moved.name} moves points of R^{moved.n}")
+    if table is not None:
+        kinds = {"kind" if key == "solid" else key: x for key, x in table.items()}
+        solids = [kinds]
+    return _mixture([_solid(s, k, folder) for k, s in enumerate(solids, 1)], points)
+
+
+def _points(listed: list[Mapping[str, Any]], moved: Group) -> PointBody | None:
+    masses, positions, blocks = [], [], []
+    for k, p in enumerate(listed, 1):
+        where = f"point {k}"
+        known(p, {"mass", "at", "block"}, where)
+        blocks.append(whole(p.get("block", 1), 1, len(moved.places), f"{where}, block"))
+        mass = expression(missing(p, "mass", where), f"{where}, mass")
+        if isinstance(mass, (int, Fraction)) and mass < 0:
+            raise ProblemError(f"{where}: key 'mass' is negative")
+        masses.append(mass)
+        n = moved.places[blocks[-1] - 1][1].n
+        positions.append(vector(missing(p, "at", where), n, f"{where}, at"))
+    return PointBody(tuple(masses), tuple(positions), tuple(blocks)) if masses else None
+
+
+def _moments(table: Mapping[str, Any], n: int) -> Body:
+    """Moments as parameters, or given as expressions."""
+    known(table, {"moments", "given", "solid"}, "body")
+    if "given" not in table:
+        choice(table, "moments", ("symbolic",), "body")
+        return MomentBody(n)
+    given = table["given"]
+    if not isinstance(given, dict) or "moments" in table:
+        raise ProblemError('body: give either moments = "symbolic" or given = { m, c, J }')
+    where = "body, given"
+    known(given, {"m", "c", "J"}, where)
+    rows = missing(given, "J", where)
+    if not isinstance(rows, list) or len(rows) != n:
+        raise ProblemError(f"{where}, J: expected a list of {n} rows")
+    J = tuple(vector(row, n, f"{where}, J, row {i}") for i, row in enumerate(rows, 1))
+    if any(J[i][j] != J[j][i] for i in range(n) for j in range(i)):
+        raise ProblemError(f"{where}, J: the matrix of moments must be symmetric")
+    mass = expression(missing(given, "m", where), f"{where}, m")
+    return GivenBody(mass, vector(missing(given, "c", where), n, f"{where}, c"), J)
+
+
+def _solid(data: Mapping[str, Any], k: int, folder: Path) -> Solid:
+    where = f"solid {k}"
+    kind = choice(data, "kind", tuple(KINDS), where)
+    known(data, {"kind", *PLACING, *KINDS[kind]}, where)
+    sizes: dict[str, Any] = {}
+    for key, shape in KINDS[kind].items():
+        value, place = missing(data, key, where), f"{where}, {key}"
+        if shape is None:
+            sizes[key] = _file(value, place, folder)
+        elif shape == ():
+            sizes[key] = expression(value, place)
+        elif len(shape) == 1:
+            sizes[key] = vector(value, shape[0], place)
+        else:
+            if not isinstance(value, list) or len(value) != shape[0]:
+                raise ProblemError(f"{place}: expected a list of {shape[0]} points")
+            sizes[key] = tuple(vector(x, shape[1], place) for x in value)
+    density = expression(missing(data, "density", where), f"{where}, density")
+    rotation = _rotation(data["rotation"], where) if "rotation" in data else None
+    shift = vector(data["shift"], 3, f"{where}, shift") if "shift" in data else None
+    return Solid(kind, density, sizes, rotation, shift)
+
+
+def _file(value: Any, where: str, folder: Path) -> str:
+    """The path of a mesh, inside the folder of the problem file."""
+    if not isinstance(value, str) or not value or "\0" in value:
+        raise ProblemError(f"{where}: expected a file name in quotes")
+    path = (folder / value).resolve()
+    if not path.is_relative_to(folder.resolve()):
+        raise ProblemError(f"{where}: {value[:60]!r} is outside the folder of the problem file")
+    return str(path)
+
+
+def _rotation(value: Any, where: str) -> tuple[tuple[Tree, ...], ...]:
+    """{ axis, angle }, or a matrix of numbers that is a rotation."""
+    place = f"{where}, rotation"
+    if isinstance(value, dict):
+        known(value, {"axis", "angle"}, place)
+        axis = vector(missing(value, "axis", place), 3, f"{place}, axis")
+        angle = expression(missing(value, "angle", place), f"{place}, angle")
+        try:
+            return rotation_about(axis, angle)
+        except SolidError as error:
+            raise ProblemError(f"{place}: {error}") from None
+    if not isinstance(value, list) or len(value) != 3:
+        raise ProblemError(f"{place}: expected {{ axis, angle }} or a list of 3 rows")
+    rows = tuple(vector(row, 3, place) for row in value)
+    if not all(isinstance(x, (int, Fraction)) for row in rows for x in row):
+        raise ProblemError(f"{place}: the entries must be numbers; else give {{ axis, angle }}")
+    R = tuple(tuple(Fraction(str(x)) for x in row) for row in rows)
+    off = q.minus(q.times(R, q.transposed(R)), q.identity(3))
+    if max(abs(x) for x in q.flatten(off)) > Fraction(1, 10**6):
+        raise ProblemError(f"{place}: the rows are not orthogonal unit vectors")
+    return rows
+
+
+def _mixture(solids: list[Solid], points: PointBody | None) -> GivenBody:
+    """The moments of solids and points together."""
+    try:
+        total = moments(solids[0], relations=False)
+        for solid in solids[1:]:
+            total = total + moments(solid, relations=False)
+        meshes = [read(Path(s.sizes["file"])) if s.kind == "mesh" else None for s in solids]
+    except (SolidError, MeshError) as error:
+        raise ProblemError(f"solid: {error}") from None
+    own = total if points is None else total + _of_points(points)
+    data = tuple((s, mesh) for s, mesh in zip(solids, meshes, strict=True))
+    return GivenBody(own.mass, own.first, own.second, points, data)
+
+
+def _of_points(body: PointBody) -> Moments:
+    pairs = list(zip(body.masses, body.positions, strict=True))
+    span = range(3)
+    return Moments(
+        add(*body.masses),
+        tuple(add(*(mul(m, r[i]) for m, r in pairs)) for i in span),
+        tuple(tuple(add(*(mul(m, r[i], r[j]) for m, r in pairs)) for j in span) for i in span),
+    )

@@ -1,0 +1,85 @@
+"""Fields of a problem file: one of the right type, or one line that says what is wrong."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from ..algebra.tree import Tree
+from .expression import ExpressionError, parse
+from .problem import ProblemError
+
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
+
+
+def known(data: Mapping[str, Any], keys: set[str], where: str) -> None:
+    """Refuse a key that has no meaning, with the nearest that has one."""
+    for key in data:
+        if key not in keys:
+            near = difflib.get_close_matches(key[:40], sorted(keys), 1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            raise ProblemError(
+                f"{where}: unknown key {key[:40]!r}{hint} (known: {', '.join(sorted(keys))})"
+            )
+
+
+def text(data: Mapping[str, Any], key: str, where: str) -> str:
+    """A string."""
+    if key not in data:
+        raise ProblemError(f"{where}: key {key!r} is missing")
+    if not isinstance(data[key], str):
+        raise ProblemError(f"{where}: key {key!r} must be a string")
+    return str(data[key])
+
+
+def choice(
+    data: Mapping[str, Any], key: str, allowed: tuple[str, ...], where: str, default: str = ""
+) -> str:
+    """One of a few strings."""
+    if default and key not in data:
+        return default
+    value = text(data, key, where)
+    if value not in allowed:
+        raise ProblemError(f"{where}: key {key!r} must be one of {', '.join(allowed)}")
+    return value
+
+
+def tables(data: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
+    """The tables of an array [[key]]."""
+    tables = data.get(key, [])
+    if not isinstance(tables, list) or not all(isinstance(t, dict) for t in tables):
+        raise ProblemError(f"key {key!r} must be written [[{key}]]")
+    return tables
+
+
+def expression(value: Any, where: str) -> Tree:
+    """A number or a string of the grammar."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        raise ProblemError(f"{where}: expected a number or an expression in quotes")
+    try:
+        return parse(value if isinstance(value, str) else repr(value))
+    except ExpressionError as error:
+        raise ProblemError(f"{where}: {error}") from None
+
+
+def vector(value: Any, n: int, where: str) -> tuple[Tree, ...]:
+    """A list of n expressions."""
+    if not isinstance(value, list) or len(value) != n:
+        raise ProblemError(f"{where}: expected a list of {n} expressions")
+    return tuple(expression(x, where) for x in value)
+
+
+def whole(value: Any, least: int, most: int, where: str) -> int:
+    """An integer in a range."""
+    if type(value) is not int or not least <= value <= most:
+        raise ProblemError(f"{where}: expected an integer from {least} to {most}")
+    return value
+
+
+def missing(data: Mapping[str, Any], key: str, where: str) -> Any:
+    """A value that must be there."""
+    if key not in data:
+        raise ProblemError(f"{where}: key {key!r} is missing")
+    return data[key]

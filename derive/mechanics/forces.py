@@ -1,0 +1,196 @@
+"""The tables [[potential]], [[input]] and [[damping]] of a problem file."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..algebra.groups import Group
+from ..algebra.tree import Tree
+from .expression import names
+from .fields import NAME, choice, expression, known, missing, text, vector, whole
+from .problem import (
+    Attraction,
+    CovectorInput,
+    Damping,
+    Expression,
+    ForceInput,
+    Gravity,
+    Input,
+    Place,
+    Potential,
+    ProblemError,
+    Spring,
+)
+
+AXES = "xyz"
+
+
+@dataclass
+class Points:
+    """The points that forces may act on: those with a mass, then the places without.
+
+    ``heavy``: the body has mass outside these points.
+    """
+
+    group: Group | None
+    masses: int
+    blocks: tuple[int, ...]
+    parameters: Mapping[str, Any]
+    places: list[Place] = field(default_factory=list)
+    heavy: bool = False
+
+    def factor(self, block: int) -> tuple[int, Group]:
+        """The first row and the group of a block."""
+        assert self.group is not None
+        return self.group.places[block - 1]
+
+    def block(self, i: int) -> int:
+        """The block of point i."""
+        return self.places[i - self.masses - 1].block if i > self.masses else self.blocks[i - 1]
+
+    def size(self, i: int) -> int:
+        """How many coordinates point i has in space."""
+        return self.factor(self.block(i))[1].n
+
+    def point(self, value: Any, where: str) -> int:
+        """A point by its number."""
+        if not self.masses:
+            raise ProblemError(f"{where}: there are no [[point]] tables to number")
+        return whole(value, 1, self.masses, where)
+
+    def attached(self, data: Mapping[str, Any], where: str) -> int:
+        """The point of ``on``, or a new place at ``at``."""
+        if "on" in data:
+            if "at" in data:
+                raise ProblemError(f"{where}: give either 'on' or 'at'")
+            return self.point(data["on"], f"{where}, on")
+        assert self.group is not None
+        most = len(self.group.places)
+        block = whole(data.get("block", 1), 1, most, f"{where}, block")
+        n = self.factor(block)[1].n
+        self.places.append(Place(vector(missing(data, "at", where), n, f"{where}, at"), block))
+        return self.masses + len(self.places)
+
+
+def potential(data: Mapping[str, Any], where: str, points: Points) -> Potential:
+    """One table [[potential]]."""
+    kinds = ("gravity", "spring", "attraction", "expression")
+    kind = choice(data, "kind", kinds, where)
+    if points.group is None:
+        raise ProblemError(f"{where}: a text about any group has no potential of its own")
+    if kind == "gravity":
+        known(data, {"kind", "g"}, where)
+        sizes = {g.n for _, g in points.group.places}
+        if len(sizes) > 1:
+            raise ProblemError(f"{where}: gravity needs blocks of one dimension; use 'expression'")
+        return Gravity(vector(data.get("g"), sizes.pop(), f"{where}, g"))
+    if kind == "attraction":
+        known(data, {"kind", "strength", "centre"}, where)
+        if not points.masses or points.heavy:
+            raise ProblemError(f"{where}: attraction needs a body of [[point]] tables alone")
+        n = points.size(1)
+        if any(points.size(i) != n for i in range(1, points.masses + 1)):
+            raise ProblemError(f"{where}: attraction needs blocks of one dimension")
+        centre = vector(data["centre"], n, f"{where}, centre") if "centre" in data else ()
+        strength = expression(missing(data, "strength", where), f"{where}, strength")
+        return Attraction(strength, centre)
+    if kind == "spring":
+        return _spring(data, where, points)
+    known(data, {"kind", "U"}, where)
+    return Expression(_placed(expression(missing(data, "U", where), f"{where}, U"), where, points))
+
+
+def _spring(data: Mapping[str, Any], where: str, points: Points) -> Spring:
+    known(data, {"kind", "between", "on", "at", "block", "anchor", "stiffness", "length"}, where)
+    stiffness = expression(missing(data, "stiffness", where), f"{where}, stiffness")
+    length = expression(data.get("length", 0), f"{where}, length")
+    if "between" in data:
+        ends = data["between"]
+        if any(key in data for key in ("at", "on", "anchor")):
+            raise ProblemError(f"{where}: give either 'between' or an end with an 'anchor'")
+        if not isinstance(ends, list) or len(ends) != 2:
+            raise ProblemError(f"{where}: key 'between' must be two points")
+        i, j = (points.point(x, f"{where}, between") for x in ends)
+        if i == j:
+            raise ProblemError(f"{where}: key 'between' names one point twice")
+        if points.size(i) != points.size(j):
+            raise ProblemError(f"{where}: the points {i} and {j} are in spaces of two dimensions")
+        return Spring((i, j), stiffness, length)
+    if "anchor" not in data:
+        raise ProblemError(f"{where}: give 'between', or 'on' or 'at' with an 'anchor'")
+    i = points.attached(data, where)
+    anchor = vector(data["anchor"], points.size(i), f"{where}, anchor")
+    return Spring((i, None), stiffness, length, anchor)
+
+
+def _placed(t: Tree, where: str, points: Points) -> Tree:
+    """r1_x, r1_2, … as entries of the places in space; t as the time."""
+    if not isinstance(t, tuple):
+        return t
+    if t[0] != "par":
+        return (t[0], *(_placed(x, where, points) for x in t[1:]))
+    name = t[1]
+    match = re.fullmatch(r"r([0-9]{1,4})_(?:([xyz])|([0-9]))", name)
+    if name in points.parameters or (match is None and name != "t"):
+        return t
+    if match is None:
+        return "t"
+    i = int(match[1])
+    if not 1 <= i <= points.masses:
+        raise ProblemError(f"{where}: {name!r}: the points are r1 … r{points.masses}")
+    k = AXES.index(match[2]) + 1 if match[2] else int(match[3])
+    if not 1 <= k <= points.size(i):
+        raise ProblemError(f"{where}: {name!r}: point {i} has {points.size(i)} coordinates")
+    offset = points.factor(points.block(i))[0]
+    return ("entry", ("call", ("at", "r", i), "t"), offset + k)
+
+
+def given_input(data: Mapping[str, Any], where: str, points: Points) -> Input:
+    """One table [[input]]."""
+    kind = choice(data, "kind", ("covector", "force"), where)
+    name = text(data, "name", where)
+    if not NAME.fullmatch(name):
+        raise ProblemError(f"{where}: key 'name': letters, digits and _ only")
+    if kind == "covector":
+        known(data, {"name", "kind"}, where)
+        return CovectorInput(name)
+    known(data, {"name", "kind", "on", "at", "block", "frame"}, where)
+    if points.group is None:
+        raise ProblemError(f"{where}: a text about any group has no points to push")
+    frame = choice(data, "frame", ("space", "body"), where, "space")
+    return ForceInput(name, points.attached(data, where), frame)
+
+
+def damping(data: Mapping[str, Any], where: str, points: Points) -> Damping:
+    """One table [[damping]]."""
+    known(data, {"coefficient", "on"}, where)
+    if not points.masses:
+        raise ProblemError(f"{where}: damping needs [[point]] tables")
+    listed = data.get("on", [*range(1, points.masses + 1)])
+    if not isinstance(listed, list):
+        raise ProblemError(f"{where}: key 'on' must be a list of points")
+    on = tuple(points.point(i, f"{where}, on") for i in listed)
+    if len(set(on)) != len(on):
+        raise ProblemError(f"{where}: key 'on' names a point twice")
+    coefficient = expression(missing(data, "coefficient", where), f"{where}, coefficient")
+    return Damping(coefficient, on)
+
+
+def used_names(p: Potential | Damping | Place) -> list[str]:
+    """The parameters that occur."""
+    if isinstance(p, Gravity):
+        trees = list(p.acceleration)
+    elif isinstance(p, Spring):
+        trees = [p.stiffness, p.length, *p.anchor]
+    elif isinstance(p, Attraction):
+        trees = [p.strength, *p.centre]
+    elif isinstance(p, Expression):
+        trees = [p.energy]
+    elif isinstance(p, Damping):
+        trees = [p.coefficient]
+    else:
+        trees = list(p.at)
+    return [name for t in trees for name in names(t)]

@@ -1,0 +1,72 @@
+"""The points of a model: those of the problem, or any where it leaves them open."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from .evaluate import evaluate
+from .realised import realised
+from .record import decode
+
+if TYPE_CHECKING:
+    from .model import Model
+
+Vector = tuple[Any, ...]
+Points = tuple[list[Fraction], list[Vector], list[int]]
+"""Masses, places in the body, blocks; the places without a mass are among them."""
+
+
+def points_of(model: Model) -> Points:
+    """Masses and points of the problem, then its other places."""
+    body = model.problem.get("body", {})
+    listed = [] if model.opaque else model.problem.get("places", [])
+    places, blocks = _placed(model, listed)
+    empty = [Fraction(0)] * len(places)
+    if body.get("kind") == "points" and not model.opaque:
+        masses = [evaluate(decode(p["mass"], "mass"), model.expressions) for p in body["points"]]
+        points, first = _placed(model, body["points"])
+        return masses + empty, points + places, first + blocks
+    if body.get("kind") == "given" and not model.opaque:
+        listed_points = body.get("points", [])
+        own = [evaluate(decode(p["mass"], "mass"), model.expressions) for p in listed_points]
+        points, first = _placed(model, listed_points)
+        masses, rest = realised(model)
+        blocks = first + blocks + [1] * len(rest)
+        return own + empty + masses, points + places + rest, blocks
+    count = model.n + 1
+    masses = [model.draw(positive=True) for _ in range(count)]
+    points = [tuple(model.draw() for _ in range(model.n)) for _ in range(count)]
+    return empty + masses, places + points, blocks + [1] * count
+
+
+def principal_points(model: Model) -> Points:
+    """As many points, on the axes: J is diagonal, c is not zero."""
+    listed = model.problem.get("body", {}).get("points", [])
+    places, blocks = _placed(model, model.problem.get("places", []))
+    count, n = max(model.n, len(listed)), model.n
+    masses = [model.draw(positive=True) for _ in range(count)]
+    axes: list[Vector] = [
+        tuple(model.draw() if i % n == j else Fraction(0) for j in range(n)) for i in range(count)
+    ]
+    empty = [Fraction(0)] * len(places)
+    if listed:
+        return masses + empty, axes + places, [1] * count + blocks
+    return empty + masses, places + axes, blocks + [1] * count
+
+
+def _placed(model: Model, listed: list[Mapping[str, Any]]) -> tuple[list[Vector], list[int]]:
+    """Places of the problem, each in its block of a product."""
+    places, blocks = [], []
+    for data in listed:
+        at = tuple(evaluate(decode(x, "at"), model.expressions) for x in data["at"])
+        block = data.get("block", 1)
+        blocks.append(block)
+        if model.group.factors:
+            offset, factor = model.group.places[block - 1]
+            inside = (*at, Fraction(1)) if factor.affine else at
+            after = model.n - offset - len(inside)
+            at = (*(Fraction(0),) * offset, *inside, *(Fraction(0),) * after)
+        places.append(at)
+    return places, blocks

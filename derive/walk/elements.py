@@ -1,0 +1,183 @@
+"""Potentials given point by point: springs with a length or an anchor, attraction, any U.
+
+Each pushes its points by minus the derivative of U.  A potential of a distance ‖d‖ is
+differentiated as a function of ‖d‖²: the force is  σ d  with  σ = −2 ∂U/∂‖d‖².
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from ..algebra.calculus import gradient, reduce
+from ..algebra.differentiate import derivative, product
+from ..algebra.notation import metrics, tree_of
+from ..algebra.space import hat
+from ..algebra.tree import Tree, add, mul, neg, subtrees
+from ..algebra.words import Expr, Letter, inner, word
+from ..mechanics.problem import Attraction, Expression, PointBody, Problem, Spring
+from ..record.record import Equation
+from .alphabet import Alphabet
+from .vector import OMEGA_P, isolate
+
+
+def in_space(i: int) -> Tree:
+    """r_i(t)."""
+    return ("call", ("at", "r", i), "t")
+
+
+def column(entries: tuple[Tree, ...]) -> Tree:
+    """A vector as a matrix tree with one column."""
+    return ("matrix", *(("row", x) for x in entries))
+
+
+def embedded(problem: Problem, i: int, entries: tuple[Tree, ...], last: int) -> Tree:
+    """A vector of the space of point i; in a product, in its block, with ``last`` in its corner."""
+    group = problem.group
+    assert group is not None
+    if not group.factors:
+        return column(entries)
+    offset, factor = group.places[problem.block(i) - 1]
+    inside = (*entries, last) if factor.affine else entries
+    after = group.n - offset - len(inside)
+    return column((*(0,) * offset, *inside, *(0,) * after))
+
+
+@dataclass
+class Elements:
+    """``differences``: d_e; ``energies``: U_e; ``tensions``: σ_e; ``pushes``: terms of each Q_i."""
+
+    differences: list[Equation] = field(default_factory=list)
+    energies: list[Tree] = field(default_factory=list)
+    tensions: list[Equation] = field(default_factory=list)
+    pushes: dict[int, list[Tree]] = field(default_factory=dict)
+
+    def push(self, i: int, force: Tree) -> None:
+        """A term of the force on point i."""
+        self.pushes.setdefault(i, []).append(force)
+
+    def radial(self, energy: Tree, d: Tree, ends: list[tuple[int, int, Problem]]) -> None:
+        """A potential of ‖d‖², with d = ± r_i(t) ± …"""
+        self.energies.append(energy)
+        sigma: Tree = ("at", "σ", d[2])  # type: ignore[index]
+        slope = derivative(energy, ("norm2", d))
+        self.tensions.append(Equation(sigma, product(-2, slope)))
+        for i, sign, problem in ends:
+            self.push(i, _placed(problem, i, sigma, d, sign))
+
+
+def _placed(problem: Problem, i: int, sigma: Tree, d: Tree, sign: int) -> Tree:
+    """± σ d on point i, in its block of a product."""
+    group = problem.group
+    assert group is not None
+    if not group.factors:
+        return mul(sign, sigma, d)
+    n = group.places[problem.block(i) - 1][1].n
+    entries = tuple(mul(sign, sigma, ("entry", d, k)) for k in range(1, n + 1))
+    return embedded(problem, i, entries, 0)
+
+
+def place(problem: Problem, i: int) -> Tree:
+    """The place of point i in its space: r_i(t), or the entries of its block."""
+    group = problem.group
+    assert group is not None
+    if not group.factors:
+        return in_space(i)
+    offset, factor = group.places[problem.block(i) - 1]
+    return column(tuple(("entry", in_space(i), offset + k) for k in range(1, factor.n + 1)))
+
+
+def elements(problem: Problem) -> Elements:
+    """The definitions of all that the problem gives point by point."""
+    found = Elements()
+    for p in problem.elements:
+        if isinstance(p, Spring):
+            _spring(found, p, problem)
+        elif isinstance(p, Attraction):
+            _attraction(found, p, problem)
+        else:
+            _expression(found, p, problem)
+    return found
+
+
+def _difference(found: Elements, ends: Tree) -> Tree:
+    d: Tree = ("at", "d", len(found.differences) + 1)
+    found.differences.append(Equation(d, ends))
+    return d
+
+
+def _spring(found: Elements, p: Spring, problem: Problem) -> None:
+    i, j = p.between
+    other = column(p.anchor) if j is None else place(problem, j)
+    d = _difference(found, add(place(problem, i), neg(other)))
+    square: Tree = ("norm2", d)
+    stretched = square
+    if p.length != 0:
+        stretched = ("pow", add(("fun", "sqrt", square), neg(p.length)), 2)
+    energy = mul(Fraction(1, 2), p.stiffness, stretched)
+    ends = [(i, 1, problem)] + ([] if j is None else [(j, -1, problem)])
+    found.radial(energy, d, ends)
+
+
+def _attraction(found: Elements, p: Attraction, problem: Problem) -> None:
+    body = problem.body
+    assert isinstance(body, PointBody)
+    for i, m in enumerate(body.masses, 1):
+        centre = neg(column(p.centre)) if p.centre else 0
+        d = _difference(found, add(place(problem, i), centre))
+        distance: Tree = ("fun", "sqrt", ("norm2", d))
+        energy = product(-1, m, p.strength, ("div", 1, distance))
+        found.radial(energy, d, [(i, 1, problem)])
+
+
+def _expression(found: Elements, p: Expression, problem: Problem) -> None:
+    found.energies.append(p.energy)
+    group = problem.group
+    assert group is not None
+    for i in sorted({*_points(p.energy)}):
+        slopes = [derivative(p.energy, ("entry", in_space(i), k)) for k in range(1, group.n + 1)]
+        found.push(i, column(tuple(product(-1, x) for x in slopes)))
+
+
+def _points(t: Tree) -> Iterator[int]:
+    for _, x in subtrees(t):
+        if isinstance(x, tuple) and x[:2] == ("at", "r"):
+            yield x[2]
+
+
+@dataclass(frozen=True)
+class Applied:
+    """The letters of the forces given point by point, and how they are summed."""
+
+    moments: Letter
+    resultant: Letter
+
+    def work(self, xi: Expr, eta: Expr | None) -> Expr:
+        """Their virtual work."""
+        pairing = inner(word(self.moments), xi)
+        return pairing if eta is None else pairing + inner(word(self.resultant), eta)
+
+
+def applied(a: Alphabet, mark: str, *, vectors: bool) -> Applied:
+    """N and F, or μ and F in vectors, with a mark: N_Q, μ_Q, F_Q."""
+    moments = Letter(f"μ_{mark}", 3) if vectors else Letter(f"N_{mark}", a.n, a.n)
+    return Applied(moments, Letter(f"F_{mark}", a.n))
+
+
+def sums_over_points(a: Alphabet, forces: Applied, family: str, *, vectors: bool) -> list[Equation]:
+    """N_Q = Σ ĀQ_i r̄_i (or μ_Q = Σ r_i ∧ ĀQ_i) and F_Q = Σ ĀQ_i, from the virtual work."""
+    push, xi = Letter("Q_i", a.n), Letter("ξ′", a.n, a.n)
+    eta = Letter("η′", a.n)
+    g = word(a.A.position)
+    turned = word(hat(OMEGA_P)) if vectors else word(xi)
+    work = inner(word(push), g * turned * word(a.r_i))
+    if vectors:
+        work = reduce(work, isolate(OMEGA_P))
+    moment = gradient(work, OMEGA_P if vectors else xi)
+    display = metrics(display={push: ("at", family, "i"), a.r_i: ("at", "r", "i")})
+    equations = [Equation(forces.moments.name, ("sum", "i", tree_of(moment, display)))]
+    if a.affine:
+        pull = gradient(inner(word(push), g * word(eta)), eta)
+        equations.append(Equation(forces.resultant.name, ("sum", "i", tree_of(pull, display))))
+    return equations

@@ -1,0 +1,166 @@
+"""What is given from outside dϖ: covectors and forces at every call, and damping.
+
+Their virtual work joins that of the potential in the equations of motion.  Damping is a force −κ v
+on points, from Rayleigh's function ½ κ ‖v‖²; its sums over the points are like those of the masses.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra.calculus import gradient, reduce, substitute
+from ..algebra.groups import Group
+from ..algebra.notation import tree_of
+from ..algebra.space import fold_inertia, hat, normal_form
+from ..algebra.tree import Tree, add, mul
+from ..algebra.words import Expr, Letter, inner, word
+from ..mechanics.problem import ForceInput, Problem
+from ..record.record import Equation, Step
+from .alphabet import Alphabet
+from .cartan import frame_rule
+from .chapter import Chapter
+from .elements import Applied, applied, embedded
+from .pullback import sum_over
+from .vector import OMEGA_P, ZETA, isolate
+from .wedge import vector_sum
+
+PROSE = (
+    "Outside dϖ: what is given at every call, and the damping, do this work; it joins that of the "
+    "potential in the equations of motion."
+)
+TORQUE, FORCE = Letter("u", 3), Letter("f_u", 3)
+
+
+@dataclass(frozen=True)
+class Given:
+    """``moments`` and ``resultant`` of all that is given, on words, and the step that says so."""
+
+    moments: Expr
+    resultant: Expr
+    steps: tuple[Step, ...]
+
+
+def acts(problem: Problem) -> bool:
+    """Is there anything outside dϖ?"""
+    return bool(problem.inputs or problem.damping)
+
+
+def given_matrices(problem: Problem, b: Alphabet, gram: Expr, c: Chapter) -> Given | None:
+    """N_u and F_u."""
+    if not acts(problem):
+        return None
+    group = problem.group
+    assert group is not None
+    forces = applied(b, "u", vectors=False)
+    definitions, drag = _damping(problem, b)
+    drag = reduce(drag, frame_rule(b, gram))
+    xi, eta = Letter("ξ′", b.n, b.n), Letter("η′", b.n)
+    moments, pulls = [tree_of(gradient(drag, xi))], [tree_of(gradient(drag, eta))]
+    for e, push in enumerate(problem.pushes, 1):
+        force = _carried(problem, e, push, gram, b)
+        moments.append(mul(force, ("T", ("at", "r", push.on))))
+        pulls.append(force)
+    if problem.covector:
+        moment, pull = _covector(group, b)
+        moments.append(moment)
+        pulls.append(pull)
+    equations = [*definitions, Equation(forces.moments.name, add(*moments))]
+    if b.affine:
+        equations.append(Equation(forces.resultant.name, add(*pulls)))
+    step = c.step("input", "input", ".velocity .trivialisation", equations, PROSE)
+    return Given(word(forces.moments), word(forces.resultant), (step,))
+
+
+def _carried(problem: Problem, e: int, push: ForceInput, gram: Expr, b: Alphabet) -> Tree:
+    """A given force in the body: Āf for one in space, ĀA f for one that turns with the body."""
+    f: Tree = ("at", "f_u", e)
+    group = problem.group
+    assert group is not None
+    if group.factors:
+        n = group.places[problem.block(push.on) - 1][1].n
+        f = embedded(problem, push.on, tuple(("entry", f, k) for k in range(1, n + 1)), 0)
+    if push.frame == "space":
+        return mul(("T", "A"), f)
+    return f if gram == b.unit else mul("C", f)
+
+
+def _covector(group: Group, b: Alphabet) -> tuple[Tree, Tree]:
+    """A matrix whose pairing with ξ′ is u(ξ′), by the rows that read coordinates."""
+    size = group.size
+    entries: list[list[list[Tree]]] = [[[] for _ in range(size)] for _ in range(size)]
+    for a in range(group.dimension):
+        for x, i, j in group.reading(a):
+            number: Tree = int(x) if x.denominator == 1 else x
+            entries[i][j].append(mul(number, ("entry", "u", a + 1)))
+    n = b.n
+    assert isinstance(n, int)
+    rows = tuple(("row", *(add(*entries[i][j]) for j in range(n))) for i in range(n))
+    last = tuple(("row", add(*entries[i][n])) for i in range(n)) if b.affine else ()
+    return ("matrix", *rows), ("matrix", *last) if last else 0
+
+
+def _damping(problem: Problem, b: Alphabet) -> tuple[list[Equation], Expr]:
+    """κ_i and their sums; and the work −Σ κ_i ⟨v_i, v′_i⟩ in a displacement ξ′, η′."""
+    kappa, g = Letter("κ_i"), word(b.A.position)
+    D, first, total = Letter("D", b.n, b.n, 1), Letter("D_c", b.n), Letter("D_m")
+    xi, eta = word(Letter("ξ′", b.n, b.n)), word(Letter("η′", b.n))
+    v = g * word(b.Z.velocity) * word(b.r_i)
+    moved = g * xi * word(b.r_i)
+    if b.affine:
+        v, moved = v + g * word(b.w.velocity), moved + g * eta
+    if not problem.damping:
+        return [], inner(v, v) * 0
+    table = {
+        (kappa, b.r_i, b.r_i): word(D),
+        (kappa, b.r_i): word(first),
+        (kappa,): word(total),
+    }
+    work = sum_over(-word(kappa) * inner(v, moved), {kappa, b.r_i}, table)
+    terms: dict[int, list[Tree]] = {}
+    for d in problem.damping:
+        for i in d.on:
+            terms.setdefault(i, []).append(d.coefficient)
+    equations = [Equation(("at", "κ", i), add(*x)) for i, x in sorted(terms.items())]
+    k, r = ("at", "κ", "i"), ("at", "r", "i")
+    equations.append(Equation("D", ("sum", "i", ("mul", k, r, ("T", r)))))
+    if b.affine:
+        equations.append(Equation("D_c", ("sum", "i", ("mul", k, r))))
+        equations.append(Equation("D_m", ("sum", "i", k)))
+    return equations, work
+
+
+def given_vectors(problem: Problem, b: Alphabet, c: Chapter) -> Given | None:
+    """μ_u and F_u in R³; a covector alone keeps its own name."""
+    if not acts(problem):
+        return None
+    if not problem.pushes and not problem.damping:
+        return Given(word(TORQUE), word(FORCE), ())
+    forces: Applied = applied(b, "u", vectors=True)
+    definitions, drag = _damping(problem, b)
+    turned, pulled = _in_vectors(drag, b)
+    moments, pulls = [vector_sum(turned)], [vector_sum(pulled)]
+    if problem.damping:
+        tensor: Tree = add(mul(("tr", "D"), ("one",)), mul(-1, "D"))
+        definitions.append(Equation("I_D", tensor))
+    for e, push in enumerate(problem.pushes, 1):
+        force = _carried(problem, e, push, b.unit, b)
+        moments.append(("wedge", ("at", "r", push.on), force))
+        pulls.append(force)
+    if problem.covector:
+        moments.append(TORQUE.name)
+        pulls.append(FORCE.name)
+    equations = [*definitions, Equation(forces.moments.name, add(*moments))]
+    if b.affine:
+        equations.append(Equation(forces.resultant.name, add(*pulls)))
+    step = c.step("input", "input", ".velocity hat", equations, PROSE)
+    return Given(word(forces.moments), word(forces.resultant), (step,))
+
+
+def _in_vectors(drag: Expr, b: Alphabet) -> tuple[Expr, Expr]:
+    """The moment and the resultant of the damping: coefficients of Ω′ and η′."""
+    images = {b.Z.velocity: word(hat(ZETA)), Letter("ξ′", 3, 3): word(hat(OMEGA_P))}
+    work = substitute(reduce(drag, frame_rule(b, b.unit)), images)
+    work = normal_form(fold_inertia(work, Letter("D", 3, 3, 1), Letter("I_D", 3, 3, 1)))
+    turned = normal_form(gradient(reduce(work, isolate(OMEGA_P)), OMEGA_P))
+    eta = Letter("η′", 3)
+    return turned, normal_form(gradient(reduce(work, isolate(eta)), eta))

@@ -1,0 +1,194 @@
+"""Problems of every kind as the text of a file: groups, potentials, inputs, products."""
+
+from pathlib import Path
+from random import Random
+
+import derive
+
+READY = Path(derive.__file__).parent / "problems"
+
+GROUPS = (
+    "GL(2)", "GL(3)", "SL(2)", "SL(4)", "SO(2)", "SO(4)", "SE(2)", "SAff(2)", "SAff(3)", "Aff(2)",
+    "Sp(2)", "Sp(4)", "Sim(2)", "Sim(3)", "UT(2)", "UT(3)", "U(1)", "U(2)", "SU(2)",
+)  # fmt: skip
+SIZES = {"U": 2, "SU": 2}
+
+FORCES = """
+[[potential]]
+kind = "spring"
+on = 1
+anchor = [3, 1, 2]
+stiffness = "k"
+length = "l"
+[[potential]]
+kind = "spring"
+at = [0.3, 0.3, 0.1]
+anchor = [0, 1, 2]
+stiffness = "2*k"
+[[potential]]
+kind = "attraction"
+strength = "mu"
+centre = [10, 0, 0]
+[[potential]]
+kind = "expression"
+U = "sin(w*t)*r1_x*r2_y + exp(r3_z/10)*atan(r1_y) + sqrt(2 + cos(r4_x))"
+[[damping]]
+coefficient = 0.3
+[[damping]]
+coefficient = "mu/7"
+on = [2, 3]
+[[input]]
+name = "F"
+kind = "force"
+on = 2
+[[input]]
+name = "u"
+kind = "covector"
+[[input]]
+name = "G"
+kind = "force"
+at = [0.2, 0.1, 0.7]
+frame = "body"
+"""
+
+PRODUCT = """
+[parameters]
+k = 2.0
+l = 0.7
+[[point]]
+mass = 1.0
+at = [1, 0, 0.5]
+[[point]]
+mass = 2.0
+at = [0, 1, 0]
+[[point]]
+mass = 0.5
+at = [0, 0.3, 1]
+[[point]]
+mass = 1.0
+at = [1, 0, 0.5]
+block = 2
+[[point]]
+mass = 2.0
+at = [0, 1, 0]
+block = 2
+[[potential]]
+kind = "gravity"
+g = [0, 0, "-9.81"]
+[[potential]]
+kind = "spring"
+between = [1, 4]
+stiffness = "k"
+length = "l"
+[[potential]]
+kind = "spring"
+between = [2, 5]
+stiffness = "k"
+[[potential]]
+kind = "expression"
+U = "r3_x*r4_y*sin(t)"
+[[damping]]
+coefficient = 0.3
+[[input]]
+name = "F"
+kind = "force"
+on = 2
+frame = "body"
+[[input]]
+name = "u"
+kind = "covector"
+[[input]]
+name = "H"
+kind = "force"
+at = [1, 2, 3]
+block = 2
+"""
+
+SCREW = """
+[parameters]
+k = 2.0
+[group]
+name = "Screw"
+action = "affine"
+basis = [
+  [[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, "1/3"], [0, 0, 0, 0]],
+  [[0, 0, 0, 1], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]],
+  [[0, 0, 0, 0], [0, 0, 0, 1], [0, 0, 0, 0], [0, 0, 0, 0]],
+]
+[[point]]
+mass = 1.0
+at = [1, 0, 0.5]
+[[point]]
+mass = 2.0
+at = [0, 1, 0]
+[[potential]]
+kind = "spring"
+on = 1
+anchor = [0, 0, 3]
+stiffness = "k"
+[[damping]]
+coefficient = 0.3
+[[input]]
+name = "u"
+kind = "covector"
+"""
+
+WEIGHTED = """
+[group]
+name = "Weighted"
+basis = [
+  [[1, 0], [0, -2]],
+  [[0, 1], [0, 0]],
+]
+[[point]]
+mass = 1.0
+at = [1, 0.5]
+[[point]]
+mass = 2.0
+at = [0, 1]
+[[potential]]
+kind = "gravity"
+g = [1, -9.81]
+"""
+
+
+def of_group(name):
+    """Points, gravity and a spring on a named group."""
+    family, n = name.split("(")[0], int(name.split("(")[1][:-1])
+    n *= SIZES.get(family, 1)
+    random = Random(name)
+    lines = ["[parameters]", "k = 2.5", "b = 0.7"]
+    for i in range(n + 1):
+        at = [random.randint(-4, 4) / 2 + (3 if j == i else 0) for j in range(n)]
+        shown = [f'"{at[0]} + b"' if i == 0 else str(at[0]), *map(str, at[1:])]
+        lines += ["[[point]]", f"mass = {1 + i / 4}", f"at = [{', '.join(shown)}]"]
+    gravity = ", ".join(str(random.randint(-9, 9)) for _ in range(n))
+    lines += ["[[potential]]", 'kind = "gravity"', f"g = [{gravity}]"]
+    lines += ["[[potential]]", 'kind = "spring"', "between = [1, 2]", 'stiffness = "k"']
+    return f'name = "test"\ngroup = "{name}"\n' + "\n".join(lines) + "\n"
+
+
+def with_forces(name):
+    """Everything that a file may say of forces, on a group of R³."""
+    points = ((1.0, [1, 0, 0.5]), (2.0, [0, 1, 0]), (0.5, [0, 0.3, 1]), (0.7, [-1, 0.3, -1]))
+    lines = "".join(f"[[point]]\nmass = {m}\nat = {r}\n" for m, r in points)
+    parameters = "[parameters]\nk = 2.0\nl = 0.7\nmu = 3.0\nw = 1.3\n"
+    gravity = '[[potential]]\nkind = "gravity"\ng = [0, 0, "-9.81"]\n'
+    return f'name = "test"\ngroup = "{name}"\n' + parameters + lines + gravity + FORCES
+
+
+SPATIAL = ("SE(3)", "SO(3)", "SL(3)", "SAff(3)", "Sim(3)")
+PRODUCTS = ("SO(3) x SO(3)", "SE(3) x SO(3)")
+
+PROBLEMS = {name: of_group(name) for name in GROUPS}
+PROBLEMS |= {f"{name} forces": with_forces(name) for name in SPATIAL}
+PROBLEMS |= {name: f'name = "test"\ngroup = "{name}"\n{PRODUCT}' for name in PRODUCTS}
+PROBLEMS |= {"screw": 'name = "test"\n' + SCREW, "weighted": 'name = "test"\n' + WEIGHTED}
+
+# solids are no points: the oracle has them with the moments of their integrals, see below
+TEXTS = ("linear", "affine", "ellipsoid", "so3", "se3", "sl3")
+PROBLEMS |= {
+    path.stem: path.read_text(encoding="utf-8")
+    for path in sorted(READY.glob("*.toml"))
+    if path.stem not in TEXTS
+}
