@@ -51,6 +51,7 @@ from .walk.rotation import (
     spherical_motion,
     torque_step,
 )
+from .walk.separation import kinetic_separation, potential_separation
 from .walk.special import General, Special, specialise
 from .walk.translation import eliminate_translation
 from .walk.vector import vector_form
@@ -82,6 +83,8 @@ def road_of_any_group(a: Alphabet, name: str) -> General:
     motion = kernel_trivialised(trivial_derivative, a, name)
     stages = (L, pulled, form, derivative, ambient, trivial, trivial_derivative, motion)
     steps = tuple(step for stage in stages for step in stage.steps)
+    if a.affine:
+        steps += (kinetic_separation(pulled.kinetic, a, name),)
     return General(name, a, trivial, trivial_derivative, motion, steps)
 
 
@@ -95,7 +98,9 @@ def road_of(problem: Problem, group: Group, road: General) -> Steps:
         return first + stage.steps + special(problem, stage, road.name)
     v = potentials(problem, Alphabet(group.n, affine=group.affine), name, road.name, scope)
     chapter = Chapter(name, road.name, scope)
-    return first + road_of_matrices(problem, group, specialise(road, group, v, chapter), chapter)
+    own = specialise(road, group, v, chapter)
+    last = potential_separation(problem, v, own.letters, chapter) if group.affine else ()
+    return first + road_of_matrices(problem, group, own, chapter) + last
 
 
 def road_of_matrices(problem: Problem, group: Group, stage: Special, c: Chapter) -> Steps:

@@ -1,10 +1,12 @@
 """Every group × potential × input: the record holds, and C = Python = Gauss's principle."""
 
 import tomllib
+from fractions import Fraction
 
 import numpy as np
 import pytest
 
+from derive.algebra.tree import mul, neg
 from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.mechanics.toml import problem_of
@@ -12,11 +14,13 @@ from derive.pipeline import walk
 from derive.record.check import Checker
 from derive.record.record import from_json, to_json
 from derive.record.vocabulary import ANY_GROUP
+from tests import walks
 from tests.emitted import compile_c, present
 from tests.oracles import general, relative_error
 from tests.problems import PROBLEMS
 
 STATES = 12
+HALF = Fraction(1, 2)
 
 
 @pytest.fixture(scope="module", params=PROBLEMS)
@@ -131,3 +135,24 @@ def gridded():
     J = sum((q * w) @ q.T for q, w in parts)
     found = {"m": float(m)} | {f"c_{i + 1}": float(c[i]) for i in range(3)}
     return found | {f"J_{i + 1}{j + 1}": float(J[i, j]) for i in range(3) for j in range(i, 3)}
+
+
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [("saff3", "the motion separates"), ("jelly", "The motion separates if U_Q"), ("sim3", "")],
+)
+def test_separation_of_the_centre_of_mass(name, says):
+    """Exercise 2 in space: the kinetic energy is a sum; the potential decides."""
+    record = walks.record(name)
+    kinetic = record["affine.separation"].equations[-1]
+    inertia = ("tr", ("mul", "α", "J_c", ("T", "α")))
+    assert kinetic.rhs[1:3] == (mul(HALF, inertia), mul(HALF, "m", ("norm2", "Ṙ")))
+    assert kinetic.rhs[3:] == (neg("Ũ"),)
+    assert says in record[f"{name}.separation"].prose
+    assert Checker(record.problem).check(record[f"{name}.separation"]).holds
+
+
+def test_a_potential_that_ties_the_centre_of_mass():
+    text = PROBLEMS["SAff(2)"].replace("between = [1, 2]", "on = 1\nanchor = [0, 0]\nlength = 1")
+    record = walk(problem_of(tomllib.loads(text)))
+    assert "if U_Q" in record["test.separation"].prose

@@ -81,6 +81,10 @@ def _group(model: Model) -> Values:
     values |= _parts(model, "Z", "w", model.Z)
     A = values["A"]
     values["C"] = q.times(q.transposed(A), A)
+    if model.group.affine:
+        m, c, _ = model.moments
+        for name, linear, shift in (("R", "A", "T"), ("Ṙ", "α", "τ")):
+            values[name] = q.plus(values[shift], q.scaled(1 / m, q.times(values[linear], c)))
     moved = _linear(model, g)
     values["δC"] = part(q.times(q.transposed(moved), moved), EPS)
     return values

@@ -100,6 +100,8 @@ VOCABULARY: dict[str, tuple[str, str]] = {
     "I": ("tensor of inertia", "I"),
     "I_c": ("tensor of inertia about the centre of mass", "I_c"),
     "J_c": ("matrix of moments about the centre of mass", "J_c"),
+    "R": ("centre of mass in space, T + m⁻¹Ac", "R"),
+    "Ṙ": ("velocity of the centre of mass, τ + m⁻¹αc", r"\dot R"),
     "∫": ("integral over the body with its measure of mass", r"\int"),
     "U_Q": ("part of the potential that is given point by point", "U_Q"),
     "Q": ("force of U_Q on a point, in space", "Q"),

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
-from ..record.record import Derivation, Step
+from ..record.record import Derivation, Step, Symbol
 from .escape import markdown_text, prose
 from .layout import blocks
 from .letters import names_of
@@ -21,6 +21,11 @@ def markdown(d: Derivation) -> str:
         for step in steps:
             parts.extend(_step(step, names))
     return "\n\n".join(parts) + "\n"
+
+
+def step_markdown(step: Step, symbols: Iterable[Symbol]) -> str:
+    """One step as Markdown."""
+    return "\n\n".join(_step(step, names_of(symbols))) + "\n"
 
 
 def _step(step: Step, names: Mapping[str, str]) -> Iterator[str]:

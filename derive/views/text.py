@@ -36,6 +36,11 @@ def text(d: Derivation, width: int = 100) -> str:
     return "".join(c for c in lines if c == "\n" or c.isprintable()) + "\n"
 
 
+def step_text(step: Step, width: int = 100) -> str:
+    """One step as text."""
+    return "\n".join(line.rstrip() for line in _step(step, width)) + "\n"
+
+
 def _named(symbol: Symbol, width: int) -> Iterator[str]:
     first, *others = _paragraph(symbol.meaning, NAME, width)
     yield f"{'':{MARGIN}}{padded(show_name(symbol.name), NAME - MARGIN)}{first[NAME:]}"

@@ -1,0 +1,254 @@
+"""The same as problem files, from Python: a few words that build the tables of a file.
+
+    >>> from derive import SL, Points, Problem, Spring, derive
+    >>> body = Points((1, [1, 0]), (2, [0, "a"]))
+    >>> p = Problem("pair", SL(2), body, [Spring(1, 2, "k")], parameters={"a": 1.5, "k": 2})
+    >>> print(derive(p)["motion"].equations[0].lhs)
+    Ȧ
+
+Everything is checked as a file is; ``ProblemError`` says in one line what is wrong.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from .mechanics import problem as mechanics
+from .mechanics.toml import problem_of
+from .record.check import Verdict
+from .record.record import Derivation, Step, Symbol
+
+Number = int | float | str | Fraction
+"""A number, or an expression in quotes."""
+
+
+@dataclass(frozen=True)
+class Group:
+    """A group by its name, ``Group("SO(3)")``, or by a basis of its Lie algebra over Q.
+
+    ``a * b`` is the product, on blocks of points.
+    """
+
+    name: str
+    basis: Sequence[Sequence[Sequence[Number]]] | None = None
+    action: str = "linear"
+
+    def __mul__(self, other: Group) -> Group:
+        return Group(f"{self.name} x {other.name}")
+
+    def table(self) -> Any:
+        """What stands under ``group`` in a file."""
+        if self.basis is None:
+            return self.name
+        basis = [[[_plain(x) for x in row] for row in e] for e in self.basis]
+        return {"name": self.name, "action": self.action, "basis": basis}
+
+
+def SO(n: int) -> Group:
+    """Rotations of Rⁿ."""
+    return Group(f"SO({n})")
+
+
+def SE(n: int) -> Group:
+    """Displacements of Rⁿ."""
+    return Group(f"SE({n})")
+
+
+def SL(n: int) -> Group:
+    """Linear maps of Rⁿ that keep the volume."""
+    return Group(f"SL({n})")
+
+
+def SAff(n: int) -> Group:
+    """Affine maps of Rⁿ that keep the volume."""
+    return Group(f"SAff({n})")
+
+
+def GL(n: int) -> Group:
+    """Invertible linear maps of Rⁿ."""
+    return Group(f"GL({n})")
+
+
+def Aff(n: int) -> Group:
+    """Invertible affine maps of Rⁿ."""
+    return Group(f"Aff({n})")
+
+
+class Table:
+    """A table of a problem file: its key and its fields."""
+
+    def __init__(self, key: str, **fields: Any):
+        self.key = key
+        self.fields = {k: _plain(x) for k, x in fields.items() if x is not None}
+
+
+def Points(*points: tuple[Any, ...]) -> list[Table]:
+    """(mass, place) for each point, and in a product the block that moves it."""
+    return [Table("point", mass=p[0], at=p[1], block=p[2] if len(p) > 2 else None) for p in points]
+
+
+def Moments(**given: Any) -> list[Table]:
+    """A body by its moments: m, c and J given, or parameters when nothing is."""
+    return [Table("body", given=given) if given else Table("body", moments="symbolic")]
+
+
+def Solid(kind: str, density: Number, **sizes: Any) -> list[Table]:
+    """A solid of uniform density: ``Solid("ball", "rho", radius="a")``; a sum is a mixture."""
+    return [Table("solid", kind=kind, density=density, **sizes)]
+
+
+def Gravity(*g: Number) -> Table:
+    """U = −Σ m_i ⟨g, r_i⟩."""
+    return Table("potential", kind="gravity", g=list(g))
+
+
+def Spring(i: int, j: int | Sequence[Number], stiffness: Number, length: Number = 0) -> Table:
+    """½ k (‖s‖ − length)² between two points, or from a point to an anchor in space."""
+    ends = {"between": [i, j]} if isinstance(j, int) else {"on": i, "anchor": j}
+    return Table("potential", kind="spring", stiffness=stiffness, length=length, **ends)
+
+
+def Attraction(strength: Number, centre: Sequence[Number] | None = None) -> Table:
+    """−Σ m_i strength / ‖r_i − centre‖."""
+    return Table("potential", kind="attraction", strength=strength, centre=centre)
+
+
+def Potential(U: str) -> Table:
+    """Any U of r1_x, r2_y, …, t and the parameters."""
+    return Table("potential", kind="expression", U=U)
+
+
+def Covector(name: str) -> Table:
+    """An input: a covector of the Lie algebra."""
+    return Table("input", kind="covector", name=name)
+
+
+def Force(name: str, on: int | Sequence[Number], frame: str = "space") -> Table:
+    """An input: a force on a point, or at a place of the body."""
+    where = {"on": on} if isinstance(on, int) else {"at": on}
+    return Table("input", kind="force", name=name, frame=frame, **where)
+
+
+def Damping(coefficient: Number, on: Sequence[int] | None = None) -> Table:
+    """−κ v on points (all of them), outside dϖ."""
+    return Table("damping", coefficient=coefficient, on=on)
+
+
+def Problem(
+    name: str,
+    group: Group,
+    body: Sequence[Table],
+    forces: Sequence[Table] = (),
+    parameters: Mapping[str, Any] | None = None,
+    title: str | None = None,
+) -> mechanics.Problem:
+    """A problem from its tables; ``ProblemError`` says what is wrong."""
+    data: dict[str, Any] = {"name": name, "group": group.table()}
+    data["parameters"] = {k: _plain(x) for k, x in (parameters or {}).items()}
+    if title is not None:
+        data["title"] = title
+    for table in (*body, *forces):
+        if table.key == "body":
+            data["body"] = table.fields
+        else:
+            data.setdefault(table.key, []).append(table.fields)
+    return problem_of(data)
+
+
+def _plain(x: Any) -> Any:
+    """Tuples as lists and fractions as text, as a file has them."""
+    if isinstance(x, Fraction):
+        return str(x)
+    if isinstance(x, (list, tuple)):
+        return [_plain(y) for y in x]
+    return {k: _plain(y) for k, y in x.items()} if isinstance(x, dict) else x
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A step of a derivation, which prints itself and shows its formulas in a notebook."""
+
+    step: Step
+    symbols: tuple[Symbol, ...]
+
+    @property
+    def equations(self) -> tuple[Any, ...]:
+        """Its equations, pairs of operator trees."""
+        return self.step.equations
+
+    def __str__(self) -> str:
+        from .views.text import step_text
+
+        return step_text(self.step)
+
+    def _repr_markdown_(self) -> str:
+        from .views.markdown import step_markdown
+
+        return step_markdown(self.step, self.symbols)
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A derivation: the record of a problem and what one does with it."""
+
+    problem: mechanics.Problem
+    record: Derivation
+
+    def __getitem__(self, label: str) -> Shown:
+        """A step by its label, with or without the problem's name: ``d["motion"]``."""
+        return Shown(self.record[label], self.record.symbols)
+
+    def __str__(self) -> str:
+        from .views.text import text
+
+        return text(self.record)
+
+    def _repr_markdown_(self) -> str:
+        from .views.markdown import markdown
+
+        return markdown(self.record)
+
+    def latex(self) -> str:
+        """A document for pdflatex."""
+        from .views.latex import latex
+
+        return latex(self.record)
+
+    def check(self) -> list[Verdict]:
+        """A verdict for every step, by exact arithmetic and another road."""
+        from .record.check import check
+
+        return check(self.record)
+
+    def emit(
+        self,
+        out: str | Path | None = None,
+        languages: Sequence[str] = ("c", "python"),
+        prefix: str | None = None,
+        real: str = "double",
+    ) -> dict[str, str]:
+        """The emitted files by name, written to the folder ``out`` if there is one."""
+        from .code.assemble import assemble
+        from .code.emit import emit
+        from .writing import write
+
+        assert self.problem.group is not None
+        program = assemble(self.record, self.problem.group)
+        files = emit(program, self.record, tuple(languages), prefix or self.problem.name, real)
+        if out is not None:
+            write(files, Path(out))
+        return files
+
+
+def derive(problem: mechanics.Problem | str | Path) -> Derived:
+    """Walk the road of a problem, of a problem file, or of a ready-made problem."""
+    from .cli import load_problem
+    from .pipeline import walk
+
+    if not isinstance(problem, mechanics.Problem):
+        problem = load_problem(str(problem))
+    return Derived(problem, walk(problem))

@@ -1,0 +1,87 @@
+"""When a motion separates into those of the linear parts and of the centre of mass (Exercise 2).
+
+With  R = T + A c / m  in place of T the kinetic energy is always a sum of the two; the motion
+separates where the potential is one as well.
+"""
+
+from __future__ import annotations
+
+from ..algebra.calculus import substitute
+from ..algebra.notation import Notation, tree_of
+from ..algebra.tree import Tree
+from ..algebra.words import Expr, Letter, word
+from ..mechanics.problem import Problem, Spring
+from ..record.record import Equation, Step
+from .alphabet import Alphabet
+from .chapter import Chapter
+from .inverse import cancel_scalar, inverse_letter
+from .potential import U_Q, Potentials
+from .translation import central_moments
+
+SEPARATE = (
+    "No term of the potential has both the linear part and the centre of mass: the motion "
+    "separates into theirs."
+)
+TIED = "The potential ties the linear part to the centre of mass: the motion does not separate."
+CANCELS = "U_Q is made of differences of places, in which R cancels."
+UNDECIDED = (
+    "The motion separates if U_Q, which is given point by point, is a sum of a function of the "
+    "linear part and one of R; the rest of the potential is."
+)
+
+
+def _notation(a: Alphabet) -> Notation:
+    return Notation(display={inverse_letter(a.m): ("inv", "m")})
+
+
+def _centred(e: Expr, a: Alphabet) -> Expr:
+    """An expression with T and τ by the centre of mass R, Ṙ, and J by J_c."""
+    moment, value = central_moments(a)
+    lighter, first = word(inverse_letter(a.m)), word(a.c)
+    place, rate = Letter("R", a.n), Letter("Ṙ", a.n)
+    images = {
+        a.T.position: word(place) - lighter * word(a.A.position) * first,
+        a.T.velocity: word(rate) - lighter * word(a.A.velocity) * first,
+        a.J: word(moment) + word(a.J) - value,
+    }
+    return cancel_scalar(substitute(e, images), a.m)
+
+
+def kinetic_separation(kinetic: Expr, a: Alphabet, prefix: str) -> Step:
+    """L̃ by the centre of mass: no term has both α and Ṙ."""
+    lighter: Tree = ("inv", "m")
+    equations = (
+        Equation("R", ("add", "T", ("mul", lighter, "A", "c"))),
+        Equation("Ṙ", ("add", "τ", ("mul", lighter, "α", "c"))),
+        Equation("J_c", tree_of(central_moments(a)[1], _notation(a))),
+        Equation("L̃", tree_of(_centred(kinetic, a) - word(a.U), _notation(a))),
+    )
+    return Step(
+        f"{prefix}.separation",
+        "identification",
+        (f"{prefix}.pullback", f"{prefix}.moments"),
+        equations,
+        "With the centre of mass R in place of T the kinetic energy is that of the linear part "
+        "about the centre of mass and that of the whole mass at it. Where the group has every "
+        "translation, the two motions separate if the potential is such a sum too.",
+    )
+
+
+def potential_separation(
+    problem: Problem, v: Potentials, b: Alphabet, c: Chapter
+) -> tuple[Step, ...]:
+    """Ũ by the centre of mass, and whether the motion of this problem separates."""
+    energy = _centred(v.energy, b)
+    place = Letter("R", b.n)
+    both = any(
+        {place, b.A.position} <= {x for cycle in (*traces, w) for x, _ in cycle}
+        for traces, w in energy.terms
+    )
+    prose = SEPARATE if not both else TIED
+    if U_Q in energy.letters() and not both:
+        inside = all(isinstance(p, Spring) and p.between[1] is not None for p in problem.elements)
+        prose = f"{SEPARATE} {CANCELS}" if inside else UNDECIDED
+    if (problem.damping or problem.inputs) and not both:
+        prose += " What is given from outside may tie the two."
+    equation = Equation("Ũ", tree_of(energy, _notation(b)))
+    return (c.step("separation", "identification", "potential .separation", (equation,), prose),)
