@@ -38,6 +38,12 @@ class Inverting(Reader):
         self._check_pivots(t, value, pivots)
         return self.named(inverse, name)
 
+    def require_regular(self) -> None:
+        """Where a multiplier solves the kernel, J must be regular even if no force asks for J⁻¹."""
+        if any(step.rule == "multiplier" for step in self.record.steps):
+            central = self.record.definition("N_c") is not None
+            self.tree(("inv", "J_c" if central else "J"))
+
     def solved(self, t: Tree, right: Matrix) -> Matrix:
         """The column x with t x = right, for a positive definite t."""
         value = self.tree(t)
