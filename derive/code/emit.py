@@ -68,6 +68,8 @@ def _fields(
         "dimension": p.dimension,
         "parameters": [_parameter(x) for x in p.parameters],
         "parameter_names": [x[0] for x in p.parameters],
+        "moments": _has_moments(p),
+        "affine": "w_1" in p.state,
         "basis": _basis(p),
         "basis_lines": _basis_lines(p),
         "functions": {
@@ -77,6 +79,14 @@ def _fields(
         },
         "tolerance": repr(TOLERANCE[real]) + ("f" if real == "float" else ""),
     }
+
+
+def _has_moments(p: Program) -> bool:
+    """Are the moments of a solid of R³ all parameters, so that it can be turned to its axes?"""
+    names = {x[0] for x in p.parameters}
+    moments = {f"J_{i}{j}" for i in (1, 2, 3) for j in range(i, 4)}
+    first = {f"c_{i}" for i in (1, 2, 3)} & names
+    return p.group in ("SO(3)", "SE(3)") and moments <= names and len(first) in (0, 3)
 
 
 def comment(text: str) -> str:

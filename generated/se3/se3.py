@@ -361,3 +361,25 @@ def energy(t, x, k):
     )
 
     return h_tilde
+
+
+def principal_axes(p):
+    """R (3, 3) and the parameters p of the body in its principal axes, where r = R r' for its points.
+
+    The columns of R are the axes, those of the smallest moment of J first, a right-handed frame even
+    where moments agree.  A state goes along: A' = A R, zeta' = R^T zeta, w' = R^T w.
+    """
+    p = numpy.array(p, dtype=float)
+    at = {name: i for i, name in enumerate(PARAMETERS)}
+    J = numpy.array([[p[at[f"J_{min(i, j)}{max(i, j)}"]] for j in (1, 2, 3)] for i in (1, 2, 3)])
+    R = numpy.linalg.eigh(J)[1]
+    if numpy.linalg.det(R) < 0:
+        R[:, 0] = -R[:, 0]
+    turned = R.T @ J @ R
+    for i in (1, 2, 3):
+        for j in range(i, 4):
+            p[at[f"J_{i}{j}"]] = turned[i - 1, j - 1] if i == j else 0.0
+    first = [at.get(f"c_{i}") for i in (1, 2, 3)]
+    if None not in first:
+        p[first] = R.T @ p[first]
+    return R, p

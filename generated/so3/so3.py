@@ -274,3 +274,25 @@ def energy(t, x, k):
     zeta_3 = x[..., 11]
 
     return 0.5*(zeta_1*(I_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3) + zeta_2*(I_12*zeta_1 + I_22*zeta_2 + I_23*zeta_3) + zeta_3*(I_13*zeta_1 + I_23*zeta_2 + I_33*zeta_3)) - (g_1*(c_1*A_11 + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21 + c_2*A_22 + c_3*A_23) + g_3*(c_1*A_31 + c_2*A_32 + c_3*A_33))
+
+
+def principal_axes(p):
+    """R (3, 3) and the parameters p of the body in its principal axes, where r = R r' for its points.
+
+    The columns of R are the axes, those of the smallest moment of J first, a right-handed frame even
+    where moments agree.  A state goes along: A' = A R, zeta' = R^T zeta.
+    """
+    p = numpy.array(p, dtype=float)
+    at = {name: i for i, name in enumerate(PARAMETERS)}
+    J = numpy.array([[p[at[f"J_{min(i, j)}{max(i, j)}"]] for j in (1, 2, 3)] for i in (1, 2, 3)])
+    R = numpy.linalg.eigh(J)[1]
+    if numpy.linalg.det(R) < 0:
+        R[:, 0] = -R[:, 0]
+    turned = R.T @ J @ R
+    for i in (1, 2, 3):
+        for j in range(i, 4):
+            p[at[f"J_{i}{j}"]] = turned[i - 1, j - 1] if i == j else 0.0
+    first = [at.get(f"c_{i}") for i in (1, 2, 3)]
+    if None not in first:
+        p[first] = R.T @ p[first]
+    return R, p
