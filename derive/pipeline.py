@@ -7,7 +7,7 @@
     Cartan      Pullback              Cartan        walk.cartan
     exterior    Cartan                Exterior      walk.exterior
     kernel      Exterior              Kernel        walk.kernel
-    isometry    Cartan                Isometry      walk.isometry      SO(n), SE(n)
+    isometry    Cartan                Isometry      walk.isometry      SO(3), SE(3)
     vectors     Isometry              VectorForm    walk.vector        n = 3
     elimination VectorForm            Eliminated    walk.elimination   SE(3)
     special     General, Potentials   Special       walk.special       any other group
@@ -27,7 +27,7 @@ from .algebra.groups import Group
 from .algebra.tree import names
 from .mechanics.problem import Problem
 from .record.record import Derivation, Step, Symbol, encode
-from .record.vocabulary import CONVENTIONS, VOCABULARY, meaning
+from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, ROTATIONS, VOCABULARY
 from .walk.alphabet import Alphabet
 from .walk.body import body_step
 from .walk.cartan import cartan, trivialise
@@ -60,15 +60,14 @@ Steps = tuple[Step, ...]
 
 
 def walk(problem: Problem) -> Derivation:
-    """Derive the equations of motion of a problem; ``ProblemError`` where there is no road yet."""
+    """Derive the equations of motion of a problem."""
     a = Alphabet("n", affine=problem.affine)
     general = "affine" if problem.affine else "linear"
     road = road_of_any_group(a, general)
     steps = road.steps
     if problem.group is not None:
         steps += road_of(problem, problem.group, road)
-    group = problem.group.name if problem.group else ""
-    return Derivation(_data(problem), _symbols(steps, group), steps)
+    return Derivation(_data(problem), _symbols(steps, problem.group), steps)
 
 
 def road_of_any_group(a: Alphabet, name: str) -> General:
@@ -92,12 +91,11 @@ def road_of(problem: Problem, group: Group, road: General) -> Steps:
     """The specialisation to the group, the body and the potentials of the problem."""
     name, scope = problem.name, group.name
     first = body_step(problem, name, scope)
-    if "orthogonal" in group.relations and group.n == 3:
-        stage = isometry(road.cartan, road.letters, group.n, name, road.name, scope)
-        special = road_of_displacements if group.affine else road_of_rotations
-        return first + stage.steps + special(problem, stage, road.name)
-    v = potentials(problem, Alphabet(group.n, affine=group.affine), name, road.name, scope)
     chapter = Chapter(name, road.name, scope)
+    if group.turns_space:
+        stage = isometry(road.cartan, road.letters, group.n, name, road.name, scope)
+        return first + stage.steps + road_of_space(problem, stage, chapter)
+    v = potentials(problem, Alphabet(group.n, affine=group.affine), name, road.name, scope)
     own = specialise(road, group, v, chapter)
     last = potential_separation(problem, v, own.letters, chapter) if group.affine else ()
     return first + road_of_matrices(problem, group, own, chapter) + last
@@ -109,11 +107,8 @@ def road_of_matrices(problem: Problem, group: Group, stage: Special, c: Chapter)
     place = coordinates_step(group, b, c, reading=len(group.normal_space_of_linear_parts) <= 1)
     given = given_matrices(problem, b, stage.gram, c.with_input())
     if given is not None:
-        stage, c, uses = (
-            stage.pushed(given.moments, given.resultant),
-            c.with_input(),
-            f"{uses} input",
-        )
+        stage = stage.pushed(given.moments, given.resultant)
+        c, uses = c.with_input(), f"{uses} input"
         steps += given.steps
     inertial, force, metric = stage.inertial, stage.forces[b.Z.xi_prime], b.J
     if group.affine:
@@ -122,46 +117,33 @@ def road_of_matrices(problem: Problem, group: Group, stage: Special, c: Chapter)
         steps, uses = steps + centred.steps, "elimination"
     normal = group.normal_space_of_linear_parts
     if len(normal) <= 1:
-        motion = multiplier_steps(inertial, force, metric, normal, b, uses, c)
+        motion = multiplier_steps(inertial, force, metric, group, b, uses, c)
         return (*steps, *motion, place, *stage.last)
     return (*steps, place, *mass_steps(inertial, force, b, uses, c), *stage.last)
 
 
-def road_of_rotations(problem: Problem, stage: Isometry, general: str) -> Steps:
-    """SO(3): vectors, Euler's equations, principal axes, gravity and input."""
-    name, scope = problem.name, "SO(3)"
+def road_of_space(problem: Problem, stage: Isometry, c: Chapter) -> Steps:
+    """SO(3) and SE(3) in vectors: Euler's equations and principal axes, or the translation
+    eliminated; then the forces of the problem and what is given."""
+    name, general, scope, b = c.name, c.general, c.scope, stage.letters
     vectors = vector_form(stage, name, general, scope)
-    euler = euler_step(vectors, name, scope)
-    v = potentials(problem, stage.letters, name, general, scope, vectors=True)
-    c = Chapter(name, general, scope)
-    given = given_vectors(problem, stage.letters, c.with_input())
+    v = potentials(problem, b, name, general, scope, vectors=True)
+    given = given_vectors(problem, b, c.with_input())
+    if b.affine:
+        eliminated = eliminate(vectors, b, name, scope)
+        steps: Steps = eliminated.steps
+        motion = displacement_motion(eliminated, v, b, given, c)
+    else:
+        euler = euler_step(vectors, name, scope)
+        steps = (euler, principal_step(name, scope, euler.equations[0].rhs))
+        motion = spherical_motion(vectors, v, stage, given, c)
     return (
         *vectors.steps,
-        euler,
-        principal_step(name, scope, euler.equations[0].rhs),
+        *steps,
         *v.steps,
         torque_step(v, stage, name, general, scope),
         *(given.steps if given else ()),
-        spherical_motion(vectors, v, stage, given, c),
-        energy_step(stage, v, name, scope),
-    )
-
-
-def road_of_displacements(problem: Problem, stage: Isometry, general: str) -> Steps:
-    """SE(3): vectors, elimination of the translation, gravity and input."""
-    name, scope = problem.name, "SE(3)"
-    vectors = vector_form(stage, name, general, scope)
-    eliminated = eliminate(vectors, stage.letters, name, scope)
-    v = potentials(problem, stage.letters, name, general, scope, vectors=True)
-    c = Chapter(name, general, scope)
-    given = given_vectors(problem, stage.letters, c.with_input())
-    return (
-        *vectors.steps,
-        *eliminated.steps,
-        *v.steps,
-        torque_step(v, stage, name, general, scope),
-        *(given.steps if given else ()),
-        displacement_motion(eliminated, v, stage.letters, given, c),
+        motion,
         energy_step(stage, v, name, scope),
     )
 
@@ -182,12 +164,14 @@ def _data(problem: Problem) -> dict[str, object]:
     return {k: plain(v) for k, v in data.items()}
 
 
-def _symbols(steps: Steps, group: str) -> tuple[Symbol, ...]:
+def _symbols(steps: Steps, group: Group | None) -> tuple[Symbol, ...]:
     """The names that the steps use, in the order in which they appear."""
     used: dict[str, None] = {}
     for step in steps:
         for equation in step.equations:
             for side in (equation.lhs, equation.rhs):
                 used |= dict.fromkeys(names(side))
+    turning = group is not None and group.turns_space
+    own = (DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
     known = (x for x in used if x in VOCABULARY)
-    return tuple(Symbol(x, meaning(x, group), VOCABULARY[x][1]) for x in known)
+    return tuple(Symbol(x, own.get(x, VOCABULARY[x][0]), VOCABULARY[x][1]) for x in known)

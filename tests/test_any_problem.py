@@ -11,7 +11,7 @@ from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.mechanics.toml import problem_of
 from derive.pipeline import walk
-from derive.record.check import Checker
+from derive.record.check import Checker, check
 from derive.record.record import from_json, to_json
 from derive.record.vocabulary import ANY_GROUP
 from tests import walks
@@ -139,7 +139,11 @@ def gridded():
 
 @pytest.mark.parametrize(
     ("name", "says"),
-    [("saff3", "the motion separates"), ("jelly", "The motion separates if U_Q"), ("sim3", "")],
+    [
+        ("saff3", "the motion separates"),
+        ("jelly", "The motion separates if U_Q"),
+        ("sim3", "the motion separates"),
+    ],
 )
 def test_separation_of_the_centre_of_mass(name, says):
     """Exercise 2 in space: the kinetic energy is a sum; the potential decides."""
@@ -156,3 +160,27 @@ def test_a_potential_that_ties_the_centre_of_mass():
     text = PROBLEMS["SAff(2)"].replace("between = [1, 2]", "on = 1\nanchor = [0, 0]\nlength = 1")
     record = walk(problem_of(tomllib.loads(text)))
     assert "if U_Q" in record["test.separation"].prose
+
+
+TETRAHEDRON = """OFF
+4 4 6
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+3 0 2 1
+3 0 1 3
+3 0 3 2
+3 1 2 3
+"""
+
+
+def test_a_mesh_is_the_solid_it_bounds(tmp_path):
+    (tmp_path / "body.off").write_text(TETRAHEDRON, encoding="utf-8")
+    head = 'name = "test"\ngroup = "SE(3)"\n[body]\ndensity = 2\n'
+    mesh = problem_of(tomllib.loads(head + 'solid = "mesh"\nfile = "body.off"'), tmp_path)
+    corners = "[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]"
+    whole = problem_of(tomllib.loads(f'{head}solid = "tetrahedron"\nvertices = {corners}'))
+    found, expected = walk(mesh), walk(whole)
+    assert found["body"].equations == expected["body"].equations
+    assert [v.label for v in check(found) if not v.holds] == []

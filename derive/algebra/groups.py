@@ -95,6 +95,16 @@ class Group:
         return self.basis[-n:] == last and no_shift
 
     @property
+    def turns_space(self) -> bool:
+        """Is it so(3) in the basis j(e₁), j(e₂), j(e₃), alone or with all translations of R³?"""
+        if self.n != 3 or self.factors:
+            return False
+        turns = ((2, 1), (0, 2), (1, 0))
+        hats = tuple(q.minus(q.unit(3, i, j), q.unit(3, j, i)) for i, j in turns)
+        whole = self.free_translations if self.affine else self.dimension == 3
+        return whole and self.linear_basis == hats
+
+    @property
     def places(self) -> tuple[tuple[int, Group], ...]:
         """The blocks of a product: (first row, factor); one block for any other group."""
         found, offset = [], 0
@@ -102,6 +112,26 @@ class Group:
             found.append((offset, factor))
             offset += factor.size
         return tuple(found)
+
+    def in_block(self, block: int, entries: Sequence[Any], corner: Any = 0) -> tuple[Any, ...]:
+        """A vector of the space of a block (from 1) among all: ``corner`` for an affine factor."""
+        if not self.factors:
+            return tuple(entries)
+        offset, factor = self.places[block - 1]
+        inside = (*entries, corner) if factor.affine else tuple(entries)
+        return (*(0,) * offset, *inside, *(0,) * (self.n - offset - len(inside)))
+
+    def of_block(self, block: int) -> slice:
+        """Where the coordinates of a block (from 1) are in a vector."""
+        offset, factor = self.places[block - 1]
+        return slice(offset, offset + factor.n)
+
+    def in_every_block(self, entries: Sequence[Any]) -> tuple[Any, ...]:
+        """The same vector of space in every block: each point sees its own."""
+        if not self.factors:
+            return tuple(entries)
+        corners = ((0,) if factor.affine else () for factor in self.factors)
+        return tuple(x for corner in corners for x in (*entries, *corner))
 
     def hat(self, coordinates: Sequence[Any]) -> Matrix:
         """Z = Σ ζᵃ E_a."""
@@ -164,6 +194,13 @@ class Group:
         """The same for the linear parts of 𝔤 in gl(n)."""
         linear = replace(self, action="linear", basis=self.linear_basis, factors=())
         return linear.normal_space
+
+    @property
+    def normal_direction(self) -> Matrix:
+        """What spans a normal space of dimension 1: the identity where it is a multiple of it."""
+        (normal,) = self.normal_space_of_linear_parts
+        one = q.identity(self.n)
+        return one if normal == q.scaled(normal[0][0], one) else normal
 
     def sample(self, random: Random, size: int = 9) -> Matrix:
         """An exact rational element of the group."""

@@ -11,7 +11,7 @@ from ..algebra.groups import Group
 def conventions(group: Group, inputs: Sequence[Mapping[str, Any]]) -> tuple[str, ...]:
     """One sentence each, in plain ASCII."""
     lines = _factors(group) if group.factors else [_place("A", "T", group)]
-    if "orthogonal" in group.relations and group.n == 3:
+    if group.turns_space:
         lines.append(
             "zeta is the angular velocity in the body frame: dA/dt = A j(zeta), j(x) y = x cross y."
         )
@@ -44,12 +44,12 @@ def _input(group: Group, given: Mapping[str, Any]) -> list[str]:
     if given["kind"] == "force":
         frame = "the space frame" if given["frame"] == "space" else "the body frame"
         return [f"Input {name}: a force on point {given['on']}, in {frame}."]
-    if group.name == "SE(3)":
+    if group.turns_space and group.affine:
         return [
             f"Input {name}: a moment about the body's origin (its first 3 components) and a force",
             "on it (the last 3), both in the body frame; power <moment, zeta> + <force, w>.",
         ]
-    if group.name == "SO(3)":
+    if group.turns_space:
         return [f"Input {name}: a torque about the fixed point, in the body frame."]
     pair = "(zeta, w)" if group.affine else "zeta"
     return [f"Input {name}: a covector of the Lie algebra; its power is <{name}, {pair}>."]

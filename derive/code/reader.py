@@ -60,7 +60,7 @@ class Reader:
                 block = self._block(given["on"])
                 self.memo["at", "f_u", pushes] = self._given(name, block.n)
                 continue
-            moved = self.group.n == 3 and self.group.affine and self.group.name == "SE(3)"
+            moved = self.group.turns_space and self.group.affine
             self.state["u"] = self._given(name, d - n if moved else d)
             if moved:
                 self.state["f_u"] = self._given(name, n, d - n)

@@ -101,7 +101,11 @@ def _solid(data: Mapping[str, Any], k: int, folder: Path) -> Solid:
     density = expression(missing(data, "density", where), f"{where}, density")
     rotation = _rotation(data["rotation"], where) if "rotation" in data else None
     shift = vector(data["shift"], 3, f"{where}, shift") if "shift" in data else None
-    return Solid(kind, density, sizes, rotation, shift)
+    try:
+        mesh = read(Path(sizes["file"])) if kind == "mesh" else None
+    except MeshError as error:
+        raise ProblemError(f"{where}: {error}") from None
+    return Solid(kind, density, sizes, rotation, shift, mesh)
 
 
 def _file(value: Any, where: str, folder: Path) -> str:
@@ -143,12 +147,10 @@ def _mixture(solids: list[Solid], points: PointBody | None) -> GivenBody:
         total = moments(solids[0], relations=False)
         for solid in solids[1:]:
             total = total + moments(solid, relations=False)
-        meshes = [read(Path(s.sizes["file"])) if s.kind == "mesh" else None for s in solids]
     except (SolidError, MeshError) as error:
         raise ProblemError(f"solid: {error}") from None
     own = total if points is None else total + _of_points(points)
-    data = tuple((s, mesh) for s, mesh in zip(solids, meshes, strict=True))
-    return GivenBody(own.mass, own.first, own.second, points, data)
+    return GivenBody(own.mass, own.first, own.second, points, tuple(solids))
 
 
 def _of_points(body: PointBody) -> Moments:

@@ -70,16 +70,13 @@ class MomentBody:
 
 @dataclass(frozen=True)
 class GivenBody:
-    """A body whose moments are given, or are those of solids and points together.
-
-    ``solids``: each with its mesh (vertices, faces), or ``None``.
-    """
+    """A body whose moments are given, or are those of solids and points together."""
 
     mass: Tree
     first: tuple[Tree, ...]
     second: tuple[tuple[Tree, ...], ...]
     points: PointBody | None = None
-    solids: tuple[tuple[Solid, Any], ...] = ()
+    solids: tuple[Solid, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -254,7 +251,7 @@ def _as_points(body: Body | None) -> PointBody | None:
 def _body_data(body: Body | None) -> dict[str, Any]:
     if isinstance(body, GivenBody):
         given = {"m": body.mass, "c": list(body.first), "J": [list(row) for row in body.second]}
-        solids = [_solid_data(s, mesh) for s, mesh in body.solids]
+        solids = [_solid_data(s) for s in body.solids]
         own = {"points": _points_data(body.points)} if body.points else {}
         return {"kind": "given", "given": given, "solids": solids, **own}
     if isinstance(body, PointBody):
@@ -268,10 +265,10 @@ def _points_data(body: PointBody) -> list[dict[str, Any]]:
     return [{"mass": m, "at": list(r), "block": b} for m, r, b in points]
 
 
-def _solid_data(s: Solid, mesh: Any) -> dict[str, Any]:
+def _solid_data(s: Solid) -> dict[str, Any]:
     sizes: dict[str, Any] = dict(s.sizes)
-    if mesh is not None:
-        vertices, faces = mesh
+    if s.mesh is not None:
+        vertices, faces = s.mesh
         sizes = {"vertices": [list(v) for v in vertices], "faces": [list(f) for f in faces]}
     return {
         "kind": s.kind,

@@ -40,13 +40,17 @@ class SolidError(ValueError):
 
 @dataclass(frozen=True)
 class Solid:
-    """The points R r + s of a kind of solid: ``rotation`` R, 3 × 3, and ``shift`` s, 3 entries."""
+    """The points R r + s of a kind of solid: ``rotation`` R, 3 × 3, and ``shift`` s, 3 entries.
+
+    ``mesh``: vertices and faces where the file of a mesh was read before.
+    """
 
     kind: str
     density: Tree
     sizes: Mapping[str, Any]
     rotation: tuple[Row, ...] | None = None
     shift: Row | None = None
+    mesh: Any = None
 
 
 @dataclass(frozen=True)
@@ -75,7 +79,7 @@ def unit_moments(solid: Solid) -> Moments:
     if kind == "mesh":
         from .mesh import mesh_moments, read
 
-        return mesh_moments(*read(Path(sizes["file"])))
+        return mesh_moments(*(solid.mesh or read(Path(sizes["file"]))))
     integral = _corners(sizes["vertices"]) if kind == "tetrahedron" else _centred(kind, sizes)
     mass, first = _tree(integral()), tuple(_tree(integral(i)) for i in SPAN)
     if coefficient(mass)[0] <= 0:

@@ -32,7 +32,10 @@ SIZE = 2**128
 """Random parameters are integers of at most this absolute value."""
 
 LARGEST_DEGREE = 2000
-"""Claims of a larger degree, for each dimension of the group, are refused before evaluation."""
+"""Claims of a larger degree are refused before evaluation; those about the problem's group, for
+each of its dimensions and each degree of its body and forces, up to ``LARGEST_BODY``."""
+
+LARGEST_BODY = 64
 
 PANELS: dict[str, tuple[Callable[[], Group], ...]] = {
     "linear": tuple(partial(group, x) for x in ("GL(4)", "SL(2)", "SO(3)")),
@@ -109,15 +112,15 @@ class Checker:
     def check(self, step: Step) -> Verdict:
         """One step."""
         try:
+            # a claim about any group is tried on points of its own, drawn at random
+            problem = {} if step.scope == ANY_GROUP else self.problem
             bound = max(
-                degree.bound(e, g, self.problem)
-                for g in self.groups(step.scope)
-                for e in step.equations
+                degree.bound(e, g, problem) for g in self.groups(step.scope) for e in step.equations
             )
-            own = step.scope != ANY_GROUP
-            most = LARGEST_DEGREE * (
-                max(g.dimension for g in self.groups(step.scope)) if own else 1
-            )
+            most = LARGEST_DEGREE
+            if step.scope != ANY_GROUP:
+                size = min(degree.body_degree(self.problem), LARGEST_BODY)
+                most *= size * max(g.dimension for g in self.groups(step.scope))
             if bound > most:
                 raise RecordError(f"a claim of degree {bound}, more than {most}")
             for g, env in self.environments(step):

@@ -8,12 +8,12 @@ bound stays small; it is what Schwartz–Zippel asks for.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from ..algebra.groups import Group
-from ..algebra.tree import Tree
+from ..algebra.tree import OPERATORS, Tree
 from .arithmetic import LARGEST_POWER
 from .record import Equation, decode
 
@@ -53,28 +53,51 @@ class Degree:
 
 def bound(equation: Equation, group: Group, problem: Mapping[str, Any]) -> int:
     """The degree of the numerator of  lhs − rhs."""
-    table = _table(group, _body_degree(problem))
+    table = _table(group, body_degree(problem))
     total = _degree(equation.lhs, table, group) + _degree(equation.rhs, table, group)
     return total.num + total.denominator
 
 
-def _body_degree(problem: Mapping[str, Any]) -> int:
-    """The largest degree of a mass, a coordinate or a stiffness in the parameters."""
-    body, potentials = problem.get("body", {}), problem.get("potentials", [])
-    trees = [x for p in body.get("points", []) for x in (p["mass"], *p["at"])]
-    trees += [x for p in potentials for x in (*p.get("g", ()), p.get("stiffness", 1))]
-    return max([1, *(_size(decode(x, "problem")) for x in trees)])
+def body_degree(problem: Mapping[str, Any]) -> int:
+    """The largest degree of a mass, a coordinate or a coefficient of a force in the parameters.
+
+    A body of given moments is realised by points whose masses and places are quotients of minors of
+    the n × n moments: 4 n times the degree of a moment is more than enough.
+    """
+    body = problem.get("body", {})
+    forces = [problem.get(key, []) for key in ("potentials", "places", "damping")]
+    own = max([1, *map(_size, _trees([body.get("points", []), *forces]))])
+    given = [*map(_size, _trees([body.get("given", []), body.get("solids", [])]))]
+    n = len(body.get("given", {}).get("c", ()))
+    return max([own, 4 * n * max([1, *given])])
+
+
+def _trees(data: Any) -> Iterator[Tree]:
+    """The expressions anywhere in the data of a problem: operator lists; names are words there."""
+    if isinstance(data, dict):
+        for x in data.values():
+            yield from _trees(x)
+    elif isinstance(data, list) and data and isinstance(data[0], str) and data[0] in OPERATORS:
+        yield decode(data, "problem")
+    elif isinstance(data, list):
+        for x in data:
+            yield from _trees(x)
+
+
+FUNCTION = 8
+"""More than the degree of a function and its first three derivatives in its unknown value."""
 
 
 def _size(t: Tree) -> int:
     """A bound on numerator plus denominator degree of an expression of parameters."""
     if not isinstance(t, tuple):
-        return 0
+        return int(t == "π")
     if t[0] == "par":
         return 1
     if t[0] == "pow":
-        return _size(t[1]) * abs(int(t[2]))
-    return sum(_size(x) for x in t[1:])
+        return int(_size(t[1]) * abs(int(t[2])))
+    own = FUNCTION if t[0] == "fun" else 0
+    return own + sum(_size(x) for x in t[1:])
 
 
 ALGEBRA = (

@@ -5,7 +5,7 @@ U is computed from the problem's own data, term by term; its forces come from ni
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -94,15 +94,7 @@ class Exerted:
         """Point i (from 1) in its space: its block of a product."""
         if not self.group.factors:
             return r[i - 1]
-        offset, factor = self.group.places[self.blocks[i - 1] - 1]
-        return r[i - 1][offset : offset + factor.n]
-
-    def in_every_block(self, g: Vector) -> Vector:
-        """A vector of space in every block of a product: each point sees its own."""
-        if not self.group.factors:
-            return g
-        zeros = (Fraction(0),)
-        return tuple(x for _, f in self.group.places for x in (*g, *zeros * (f.size - f.n)))
+        return r[i - 1][self.group.of_block(self.blocks[i - 1])]
 
     def potential(self, t: Any, r: Sequence[Vector], masses: Sequence[Any], kind: str = "") -> Any:
         """U(t, r), or the part of one kind."""
@@ -115,18 +107,13 @@ class Exerted:
         kind = p["kind"]
         heavy = [i for i, m in enumerate(masses, 1) if m]
         if kind == "gravity":
-            g = self.in_every_block(self.vector(p["g"]))
+            g = self.group.in_every_block(self.vector(p["g"]))
             return -sum((masses[i - 1] * _dot(g, r[i - 1]) for i in heavy), Fraction(0))
         if kind == "spring":
             return self.stretch(p, _square(self.difference(p, r)))
         if kind == "attraction":
-            strength, centre = self.number(p["strength"]), self.vector(p["centre"])
-            total: Any = Fraction(0)
-            for i in heavy:
-                d = self.place(r, i)
-                d = tuple(x - y for x, y in zip(d, centre, strict=True)) if centre else d
-                total = total - masses[i - 1] * strength / self._root(_square(d))
-            return total
+            pulls = (-pull / self._root(_square(d)) for d, pull in self.attracted(p, r, masses))
+            return sum(pulls, Fraction(0))
         if kind != "expression":
             raise RecordError(f"unknown potential {str(kind)[:20]!r}")
         return evaluate(decode(p["U"], "U"), self._at(t, r))
@@ -138,6 +125,17 @@ class Exerted:
         else:
             a, b = self.place(r, p["on"]), self.vector(p["anchor"])
         return tuple(x - y for x, y in zip(a, b, strict=True))
+
+    def attracted(
+        self, p: Mapping[str, Any], r: Sequence[Vector], masses: Sequence[Any]
+    ) -> Iterator[tuple[Vector, Any]]:
+        """For each mass its place seen from the centre, and m · strength."""
+        strength, centre = self.number(p["strength"]), self.vector(p["centre"])
+        for i, m in enumerate(masses, 1):
+            if m:
+                d = self.place(r, i)
+                origin = centre or (Fraction(0),) * len(d)
+                yield tuple(x - y for x, y in zip(d, origin, strict=True)), m * strength
 
     def stretch(self, p: Mapping[str, Any], square: Any) -> Any:
         """½ k (‖d‖ − ℓ)² as a function of ‖d‖²."""
@@ -184,13 +182,8 @@ class Exerted:
                 d = self.difference(p, r)
                 found.append((d, self.tension(self.stretch(p, _square(d) + eta))))
             elif p["kind"] == "attraction":
-                strength, centre = self.number(p["strength"]), self.vector(p["centre"])
-                for i, m in enumerate(masses, 1):
-                    if m:
-                        d = self.place(r, i)
-                        d = tuple(x - y for x, y in zip(d, centre, strict=True)) if centre else d
-                        pull = -m * strength / self._root(_square(d) + eta)
-                        found.append((d, self.tension(pull)))
+                for d, pull in self.attracted(p, r, masses):
+                    found.append((d, self.tension(-pull / self._root(_square(d) + eta))))
         return found
 
 
@@ -207,18 +200,25 @@ def given_forces(model: Model) -> list[Vector]:
     total = [[Fraction(0)] * model.n for _ in model.points]
     linear = model.group.linear_part(model.g)
     for push, data in zip(model.pushes, model.given("force"), strict=True):
-        offset, factor = model.group.places[model.blocks[data["on"] - 1] - 1]
-        inside = tuple(
-            (x if offset <= k < offset + factor.n else Fraction(0),) for k, x in enumerate(push)
-        )
+        block = model.blocks[data["on"] - 1]
+        here = push[model.group.of_block(block)]
+        inside = tuple((x,) for x in model.group.in_block(block, here))
         force = q.times(linear, inside) if data["frame"] == "body" else inside
         for k, (x,) in enumerate(force):
             total[data["on"] - 1][k] += x
     if model.driven:
         velocities = model.moved(q.times(model.g, model.Z))
-        for d in model.problem.get("damping", []):
-            kappa = evaluate(decode(d["coefficient"], "damping"), model.expressions)
-            for i in d["on"]:
-                for k, x in enumerate(velocities[i - 1]):
-                    total[i - 1][k] -= kappa * x
+        for i, kappa in damping_members(model).items():
+            for k, x in enumerate(velocities[i - 1]):
+                total[i - 1][k] -= kappa * x
     return [tuple(f) for f in total]
+
+
+def damping_members(model: Model) -> dict[int, Fraction]:
+    """κ_i of the points that are damped."""
+    found: dict[int, Fraction] = {}
+    for d in model.problem.get("damping", []):
+        kappa = evaluate(decode(d["coefficient"], "damping"), model.expressions)
+        for i in d["on"]:
+            found[i] = found.get(i, Fraction(0)) + kappa
+    return found

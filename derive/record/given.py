@@ -7,10 +7,8 @@ from typing import Any
 
 from ..algebra import rational as q
 from ..algebra.rational import Matrix
-from .evaluate import evaluate
-from .exerted import SINGLE, Vector
+from .exerted import SINGLE, Vector, damping_members
 from .model import Model
-from .record import decode
 from .solved import Solved
 
 Values = dict[str, Any]
@@ -27,7 +25,7 @@ def exerted_values(model: Model) -> Values:
     values: Values = {}
     for p in model.problem.get("potentials", []):
         if p["kind"] == "gravity":
-            whole = ex.in_every_block(ex.vector(p["g"]))
+            whole = model.group.in_every_block(ex.vector(p["g"]))
             earlier = values.get("γ", column((Fraction(0),) * len(whole)))
             values["γ"] = q.plus(earlier, column(whole))
     if spring_members(model):
@@ -65,7 +63,7 @@ def _with_covector(model: Model, values: Values) -> Values:
     if model.group.affine:
         arm = tuple((read[i][-1],) for i in range(model.n))
         found["F_u"] = q.plus(values["F_u"], arm)
-    if model.n == 3 and "orthogonal" in model.group.relations:
+    if model.group.turns_space:
         found["μ_u"] = q.plus(values["μ_u"], column(model.covector[:3]))
     return found
 
@@ -81,16 +79,6 @@ def _damping(model: Model) -> Values:
     if model.n == 3:
         values["I_D"] = q.minus(q.scaled(q.trace(D), q.identity(3)), D)
     return values
-
-
-def damping_members(model: Model) -> dict[int, Fraction]:
-    """κ_i of the points that are damped."""
-    found: dict[int, Fraction] = {}
-    for d in model.problem.get("damping", []):
-        kappa = evaluate(decode(d["coefficient"], "damping"), model.expressions)
-        for i in d["on"]:
-            found[i] = found.get(i, Fraction(0)) + kappa
-    return found
 
 
 def spring_members(model: Model) -> list[tuple[Fraction, Matrix]]:
@@ -123,6 +111,6 @@ def exerted_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     for i, kappa in damping_members(model).items():
         families.setdefault("κ", {})[i,] = kappa
     for e, (push, data) in enumerate(zip(model.pushes, model.given("force"), strict=True), 1):
-        offset, factor = model.group.places[model.blocks[data["on"] - 1] - 1]
-        families.setdefault("f_u", {})[e,] = column(push[offset : offset + factor.n])
+        here = model.group.of_block(model.blocks[data["on"] - 1])
+        families.setdefault("f_u", {})[e,] = column(push[here])
     return families

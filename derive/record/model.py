@@ -254,11 +254,17 @@ class Model:
             Fraction(0),
         )
 
+    def gram(self, frames: list[Matrix]) -> Matrix:
+        """The metric on tangent matrices at g: their displacements are computed once."""
+        moved = [[x for v in self.moved(a) for x in v] for a in frames]
+        weights = [m for m in self.masses for _ in range(self.n)]
+        rows = [[m * x for m, x in zip(weights, u, strict=True)] for u in moved]
+        return q.times(q.matrix(rows), q.transposed(q.matrix(moved)))
+
     def solve_metric(self, covector: list[Fraction]) -> Matrix:
         """The element of 𝔤 that the kinetic metric at g sends to a covector."""
         frames = [q.times(self.g, e) for e in self.group.basis]
-        table = tuple(tuple(self.pairing(a, b) for b in frames) for a in frames)
-        solution = q.solve(table, tuple((x,) for x in covector))
+        solution = q.solve(self.gram(frames), tuple((x,) for x in covector))
         if solution is None:
             raise ZeroDivisionError("the kinetic metric is singular at this point")
         return self.group.hat([row[0] for row in solution])

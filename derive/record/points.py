@@ -24,15 +24,11 @@ def points_of(model: Model) -> Points:
     listed = [] if model.opaque else model.problem.get("places", [])
     places, blocks = _placed(model, listed)
     empty = [Fraction(0)] * len(places)
-    if body.get("kind") == "points" and not model.opaque:
-        masses = [evaluate(decode(p["mass"], "mass"), model.expressions) for p in body["points"]]
-        points, first = _placed(model, body["points"])
-        return masses + empty, points + places, first + blocks
-    if body.get("kind") == "given" and not model.opaque:
-        listed_points = body.get("points", [])
-        own = [evaluate(decode(p["mass"], "mass"), model.expressions) for p in listed_points]
-        points, first = _placed(model, listed_points)
-        masses, rest = realised(model)
+    if body.get("kind") in ("points", "given") and not model.opaque:
+        listed = body.get("points", [])
+        own = [evaluate(decode(p["mass"], "mass"), model.expressions) for p in listed]
+        points, first = _placed(model, listed)
+        masses, rest = realised(model) if body["kind"] == "given" else ([], [])
         blocks = first + blocks + [1] * len(rest)
         return own + empty + masses, points + places + rest, blocks
     count = model.n + 1
@@ -63,10 +59,6 @@ def _placed(model: Model, listed: list[Mapping[str, Any]]) -> tuple[list[Vector]
         at = tuple(evaluate(decode(x, "at"), model.expressions) for x in data["at"])
         block = data.get("block", 1)
         blocks.append(block)
-        if model.group.factors:
-            offset, factor = model.group.places[block - 1]
-            inside = (*at, Fraction(1)) if factor.affine else at
-            after = model.n - offset - len(inside)
-            at = (*(Fraction(0),) * offset, *inside, *(Fraction(0),) * after)
+        at = model.group.in_block(block, at, 1)
         places.append(at)
     return places, blocks

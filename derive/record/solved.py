@@ -10,7 +10,6 @@ from functools import cached_property
 from typing import Any
 
 from ..algebra import rational as q
-from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from .model import Model, Vector
 
@@ -94,7 +93,7 @@ def solved_values(model: Model) -> Values:
     values: Values = {"N_c": s.applied}
     values["B"] = q.minus(s.applied, s.inertia_of(q.times(Z, Z)))
     frames = [q.times(model.g, e) for e in s.elements]
-    values["M"] = tuple(tuple(model.pairing(x, y) for y in frames) for x in frames)
+    values["M"] = model.gram(frames)
     convective = q.times(model.g, q.times(Z, Z))
     values["β"] = tuple(
         (load(model, e) - model.pairing(convective, x),)
@@ -103,7 +102,7 @@ def solved_values(model: Model) -> Values:
     normal = group.normal_space_of_linear_parts
     if len(normal) == 1:
         left = q.minus(s.inertia_of(q.plus(Z_dot, q.times(Z, Z))), s.applied)
-        direction = normal_direction(group)
+        direction = group.normal_direction
         values["Λ"] = direction
         values["λ"] = _paired(left, direction) / _paired(direction, direction)
     return values
@@ -113,13 +112,6 @@ def load(model: Model, e: Matrix) -> Fraction:
     """The work of forces and inputs in the displacement g e."""
     pushed = zip(model.input, model.group.nearest(e), strict=True)
     return sum((u * x for u, x in pushed), Fraction(0)) - model.work(q.times(model.g, e))
-
-
-def normal_direction(group: Group) -> Matrix:
-    """What spans the normal space: 1 where it is a multiple of 1."""
-    (normal,) = group.normal_space_of_linear_parts
-    one = q.identity(group.n)
-    return one if normal[0][0] and normal == q.scaled(normal[0][0], one) else normal
 
 
 def _paired(a: Matrix, b: Matrix) -> Fraction:

@@ -14,7 +14,7 @@ Values = dict[str, Any]
 
 def spatial_values(model: Model) -> Values:
     """Vectors of R³ for rotations: Ω, ζ, φ, μ and the classical tensors of inertia."""
-    if "orthogonal" not in model.group.relations or model.n != 3:
+    if not model.group.turns_space:
         return {}
     basis = model.group.basis
     values: Values = {}

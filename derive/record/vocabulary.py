@@ -151,9 +151,3 @@ DISPLACEMENTS: dict[str, str] = ROTATIONS | {
 
 MISPRINTED = frozenset({20, 25, 26, 29, 31, 32, 35})
 """The numbered equations whose print the derivation corrects; ``derive paper`` finds them."""
-
-
-def meaning(name: str, group: str) -> str:
-    """What a name means in a record of that group."""
-    special = {"SO(3)": ROTATIONS, "SE(3)": DISPLACEMENTS}.get(group, {})
-    return special.get(name, VOCABULARY[name][0])

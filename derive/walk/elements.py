@@ -32,22 +32,17 @@ def column(entries: tuple[Tree, ...]) -> Tree:
     return ("matrix", *(("row", x) for x in entries))
 
 
-def embedded(problem: Problem, i: int, entries: tuple[Tree, ...], last: int) -> Tree:
-    """A vector of the space of point i; in a product, in its block, with ``last`` in its corner."""
-    group = problem.group
-    assert group is not None
-    if not group.factors:
-        return column(entries)
-    offset, factor = group.places[problem.block(i) - 1]
-    inside = (*entries, last) if factor.affine else entries
-    after = group.n - offset - len(inside)
-    return column((*(0,) * offset, *inside, *(0,) * after))
+def embedded(problem: Problem, i: int, entries: tuple[Tree, ...], corner: int) -> Tree:
+    """A vector of the space of point i; in a product, in its block, with a corner."""
+    assert problem.group is not None
+    return column(problem.group.in_block(problem.block(i), entries, corner))
 
 
 @dataclass
 class Elements:
     """``differences``: d_e; ``energies``: U_e; ``tensions``: σ_e; ``pushes``: terms of each Q_i."""
 
+    problem: Problem
     differences: list[Equation] = field(default_factory=list)
     energies: list[Tree] = field(default_factory=list)
     tensions: list[Equation] = field(default_factory=list)
@@ -57,14 +52,20 @@ class Elements:
         """A term of the force on point i."""
         self.pushes.setdefault(i, []).append(force)
 
-    def radial(self, energy: Tree, d: Tree, ends: list[tuple[int, int, Problem]]) -> None:
-        """A potential of ‖d‖², with d = ± r_i(t) ± …"""
+    def difference(self, ends: Tree) -> Tree:
+        """A new d_e."""
+        d: Tree = ("at", "d", len(self.differences) + 1)
+        self.differences.append(Equation(d, ends))
+        return d
+
+    def radial(self, energy: Tree, d: Tree, signs: dict[int, int]) -> None:
+        """A potential of ‖d‖², with d = Σ ± r_i(t) + …"""
         self.energies.append(energy)
         sigma: Tree = ("at", "σ", d[2])  # type: ignore[index]
         slope = derivative(energy, ("norm2", d))
         self.tensions.append(Equation(sigma, product(-2, slope)))
-        for i, sign, problem in ends:
-            self.push(i, _placed(problem, i, sigma, d, sign))
+        for i, sign in signs.items():
+            self.push(i, _placed(self.problem, i, sigma, d, sign))
 
 
 def _placed(problem: Problem, i: int, sigma: Tree, d: Tree, sign: int) -> Tree:
@@ -73,8 +74,8 @@ def _placed(problem: Problem, i: int, sigma: Tree, d: Tree, sign: int) -> Tree:
     assert group is not None
     if not group.factors:
         return mul(sign, sigma, d)
-    n = group.places[problem.block(i) - 1][1].n
-    entries = tuple(mul(sign, sigma, ("entry", d, k)) for k in range(1, n + 1))
+    _, factor = group.places[problem.block(i) - 1]
+    entries = tuple(mul(sign, sigma, ("entry", d, k)) for k in range(1, factor.n + 1))
     return embedded(problem, i, entries, 0)
 
 
@@ -84,13 +85,13 @@ def place(problem: Problem, i: int) -> Tree:
     assert group is not None
     if not group.factors:
         return in_space(i)
-    offset, factor = group.places[problem.block(i) - 1]
-    return column(tuple(("entry", in_space(i), offset + k) for k in range(1, factor.n + 1)))
+    rows = range(1, group.n + 1)[group.of_block(problem.block(i))]
+    return column(tuple(("entry", in_space(i), k) for k in rows))
 
 
 def elements(problem: Problem) -> Elements:
     """The definitions of all that the problem gives point by point."""
-    found = Elements()
+    found = Elements(problem)
     for p in problem.elements:
         if isinstance(p, Spring):
             _spring(found, p, problem)
@@ -101,23 +102,16 @@ def elements(problem: Problem) -> Elements:
     return found
 
 
-def _difference(found: Elements, ends: Tree) -> Tree:
-    d: Tree = ("at", "d", len(found.differences) + 1)
-    found.differences.append(Equation(d, ends))
-    return d
-
-
 def _spring(found: Elements, p: Spring, problem: Problem) -> None:
     i, j = p.between
     other = column(p.anchor) if j is None else place(problem, j)
-    d = _difference(found, add(place(problem, i), neg(other)))
+    d = found.difference(add(place(problem, i), neg(other)))
     square: Tree = ("norm2", d)
     stretched = square
     if p.length != 0:
         stretched = ("pow", add(("fun", "sqrt", square), neg(p.length)), 2)
     energy = mul(Fraction(1, 2), p.stiffness, stretched)
-    ends = [(i, 1, problem)] + ([] if j is None else [(j, -1, problem)])
-    found.radial(energy, d, ends)
+    found.radial(energy, d, {i: 1} if j is None else {i: 1, j: -1})
 
 
 def _attraction(found: Elements, p: Attraction, problem: Problem) -> None:
@@ -125,10 +119,10 @@ def _attraction(found: Elements, p: Attraction, problem: Problem) -> None:
     assert isinstance(body, PointBody)
     for i, m in enumerate(body.masses, 1):
         centre = neg(column(p.centre)) if p.centre else 0
-        d = _difference(found, add(place(problem, i), centre))
+        d = found.difference(add(place(problem, i), centre))
         distance: Tree = ("fun", "sqrt", ("norm2", d))
         energy = product(-1, m, p.strength, ("div", 1, distance))
-        found.radial(energy, d, [(i, 1, problem)])
+        found.radial(energy, d, {i: 1})
 
 
 def _expression(found: Elements, p: Expression, problem: Problem) -> None:

@@ -13,7 +13,7 @@ from ..algebra.groups import Group
 from ..algebra.notation import tree_of
 from ..algebra.space import fold_inertia, hat, normal_form
 from ..algebra.tree import Tree, add, mul
-from ..algebra.words import Expr, Letter, inner, word
+from ..algebra.words import Expr, Letter, inner, number, word
 from ..mechanics.problem import ForceInput, Problem
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
@@ -21,7 +21,7 @@ from .cartan import frame_rule
 from .chapter import Chapter
 from .elements import Applied, applied, embedded
 from .pullback import sum_over
-from .vector import OMEGA_P, ZETA, isolate
+from .vector import OMEGA_P, ZETA, inertia_of, isolate
 from .wedge import vector_sum
 
 PROSE = (
@@ -109,7 +109,7 @@ def _damping(problem: Problem, b: Alphabet) -> tuple[list[Equation], Expr]:
     if b.affine:
         v, moved = v + g * word(b.w.velocity), moved + g * eta
     if not problem.damping:
-        return [], inner(v, v) * 0
+        return [], number(0)
     table = {
         (kappa, b.r_i, b.r_i): word(D),
         (kappa, b.r_i): word(first),
@@ -140,8 +140,7 @@ def given_vectors(problem: Problem, b: Alphabet, c: Chapter) -> Given | None:
     turned, pulled = _in_vectors(drag, b)
     moments, pulls = [vector_sum(turned)], [vector_sum(pulled)]
     if problem.damping:
-        tensor: Tree = add(mul(("tr", "D"), ("one",)), mul(-1, "D"))
-        definitions.append(Equation("I_D", tensor))
+        definitions.append(Equation("I_D", tree_of(inertia_of(Letter("D", 3, 3, 1)))))
     for e, push in enumerate(problem.pushes, 1):
         force = _carried(problem, e, push, b.unit, b)
         moments.append(("wedge", ("at", "r", push.on), force))

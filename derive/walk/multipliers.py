@@ -10,8 +10,8 @@ from fractions import Fraction
 
 from ..algebra import rational as q
 from ..algebra.calculus import gradient, reduce, substitute, without
+from ..algebra.groups import Group
 from ..algebra.notation import Notation, tree_of
-from ..algebra.rational import Matrix
 from ..algebra.tree import Tree, add
 from ..algebra.words import Expr, Letter, inner, number, one, word
 from ..record.record import Equation, Step
@@ -28,14 +28,14 @@ def multiplier_steps(
     inertial: Expr,
     force: Expr,
     metric: Letter,
-    normal_space: tuple[Matrix, ...],
+    group: Group,
     b: Alphabet,
     uses: str,
     c: Chapter,
 ) -> tuple[Step, ...]:
     """Ż and λ from  Tr ξ′ (residue − force)‾ = 0,  with J (or J_c) as ``metric``."""
     residue = gradient(inertial, b.Z.xi_prime)
-    direction, letters, definition = _direction(normal_space, b)
+    direction, letters, definition = _direction(group, b)
     pressed = word(LAMBDA) * direction if direction else force * 0
     lighter = Notation(display={inverse_letter(b.m): ("inv", "m")})
     balance = Equation(tree_of(residue), add(tree_of(force, lighter), tree_of(pressed)))
@@ -59,21 +59,19 @@ def multiplier_steps(
             "multiplier",
             equations,
             f"The equations of motion of this problem: {metric.name} is invertible, as the points "
-            "span "
-            "the space" + (", and that Ż is in the Lie algebra gives λ." if direction else "."),
+            f"{'do not lie in one hyperplane' if b.affine else 'span the space'}"
+            + (", and that Ż is in the Lie algebra gives λ." if direction else "."),
         ),
     )
 
 
-def _direction(
-    normal_space: tuple[Matrix, ...], b: Alphabet
-) -> tuple[Expr | None, list[Letter], list[Equation]]:
+def _direction(group: Group, b: Alphabet) -> tuple[Expr | None, list[Letter], list[Equation]]:
     """The normal direction as a word: 1, or a letter Λ with its value; ``None`` for GL(n)."""
-    if not normal_space:
+    if not group.normal_space_of_linear_parts:
         return None, [], []
-    (normal,) = normal_space
-    n = len(normal)
-    if normal[0][0] and normal == q.scaled(normal[0][0], q.identity(n)):
+    normal = group.normal_direction
+    n = group.n
+    if normal == q.identity(n):
         return one(b.n), [], []
     letter = Letter("Λ", n, n)
     rows = tuple(("row", *(_number(x) for x in row)) for row in normal)

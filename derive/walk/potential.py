@@ -76,7 +76,8 @@ def _summed(problem: Problem, a: Alphabet) -> tuple[Expr, list[Equation], list[T
         summand = -word(a.m_i) * inner(word(gamma), position)
         table = {(a.m_i,): word(a.m), (a.m_i, a.r_i): word(a.c)}
         energy = energy + sum_over(summand, {a.m_i, a.r_i}, table)
-        definitions.append(Equation("γ", _in_every_block(problem, problem.gravity)))
+        assert problem.group is not None
+        definitions.append(Equation("γ", column(problem.group.in_every_block(problem.gravity))))
         over_points.append(neg(("sum", "i", ("mul", ("at", "m", "i"), ("inner", "γ", POINT)))))
     if problem.springs:
         k_e, s_e = Letter("k_e"), Letter("s_e", a.n)
@@ -86,15 +87,6 @@ def _summed(problem: Problem, a: Alphabet) -> tuple[Expr, list[Equation], list[T
         definitions += _springs(problem)
         over_points += [_on_points(e, spring) for e, spring in enumerate(problem.springs, 1)]
     return energy, definitions, over_points
-
-
-def _in_every_block(problem: Problem, g: tuple[Tree, ...]) -> Tree:
-    """Gravity as a vector; in a product, the same in every block."""
-    group = problem.group
-    assert group is not None
-    if not group.factors:
-        return column(g)
-    return column(tuple(x for _, f in group.places for x in ((*g, 0) if f.affine else g)))
 
 
 def _pushes(
@@ -135,10 +127,12 @@ def _springs(problem: Problem) -> list[Equation]:
     return equations
 
 
-def virtual_work(v: Potentials, a: Alphabet, xi: Expr, eta: Expr | None) -> Expr:
-    """−dŨ(Aξ, Aη) on words."""
+def virtual_work(
+    v: Potentials, a: Alphabet, xi: Expr, eta: Expr | None, axis: Expr | None = None
+) -> Expr:
+    """−dŨ(Aξ, Aη) on words; the moments of Q are paired with the axis of ξ = j(axis), if given."""
     g = word(a.A.position)
-    images = {a.A.position: g * xi, U_Q: -v.work(xi, eta)}
+    images = {a.A.position: g * xi, U_Q: -v.work(xi if axis is None else axis, eta)}
     if eta is not None:
         images[a.T.position] = g * eta
     return -derivation(v.energy, images.get)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from ..algebra.calculus import derivation, gradient, reduce, substitute
+from ..algebra.calculus import gradient, reduce, substitute
 from ..algebra.notation import metrics, tree_of
 from ..algebra.space import hat, normal_form
 from ..algebra.tree import Tree, add, mul
-from ..algebra.words import Expr, Letter, number, word
+from ..algebra.words import Expr, Letter, word
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .cartan import frame_rule, rates, trivial_images
@@ -15,7 +15,7 @@ from .elimination import CENTRAL, Eliminated, simplified, vector_tree
 from .exterior import primed, work
 from .inputs import Given
 from .isometry import Isometry
-from .potential import U_Q, Potentials, virtual_work
+from .potential import Potentials, virtual_work
 from .vector import (
     INERTIA,
     MU,
@@ -41,10 +41,7 @@ def pairing(stage: Isometry) -> dict[Letter, Expr]:
 def torque(v: Potentials, b: Alphabet) -> dict[Letter, Expr]:
     """The moment μ of the forces in the body, and their resultant F_b, of the given potentials."""
     eta = word(b.w.xi_prime) if b.affine else None
-    turned = word(hat(OMEGA_P))
-    images = {U_Q: -v.work(word(OMEGA_P), eta)}
-    summed = virtual_work(Potentials(v.energy, (), lambda *_: number(0)), b, turned, eta)
-    work = normal_form(summed - derivation(v.energy, images.get))
+    work = normal_form(virtual_work(v, b, word(hat(OMEGA_P)), eta, word(OMEGA_P)))
     isolated = reduce(work, isolate(OMEGA_P))
     forces = {MU: normal_form(gradient(isolated, OMEGA_P))}
     if b.affine:

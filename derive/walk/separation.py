@@ -15,14 +15,13 @@ from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .inverse import cancel_scalar, inverse_letter
-from .potential import U_Q, Potentials
+from .potential import Potentials
 from .translation import central_moments
 
 SEPARATE = (
     "No term of the potential has both the linear part and the centre of mass: the motion "
     "separates into theirs."
 )
-TIED = "The potential ties the linear part to the centre of mass: the motion does not separate."
 CANCELS = "U_Q is made of differences of places, in which R cancels."
 UNDECIDED = (
     "The motion separates if U_Q, which is given point by point, is a sum of a function of the "
@@ -77,11 +76,12 @@ def potential_separation(
         {place, b.A.position} <= {x for cycle in (*traces, w) for x, _ in cycle}
         for traces, w in energy.terms
     )
-    prose = SEPARATE if not both else TIED
-    if U_Q in energy.letters() and not both:
-        inside = all(isinstance(p, Spring) and p.between[1] is not None for p in problem.elements)
-        prose = f"{SEPARATE} {CANCELS}" if inside else UNDECIDED
-    if (problem.damping or problem.inputs) and not both:
+    inside = all(isinstance(p, Spring) and p.between[1] is not None for p in problem.elements)
+    if both or not inside:
+        prose = UNDECIDED
+    else:
+        prose = f"{SEPARATE} {CANCELS}" if problem.elements else SEPARATE
+    if problem.damping or problem.inputs:
         prose += " What is given from outside may tie the two."
     equation = Equation("Ũ", tree_of(energy, _notation(b)))
     return (c.step("separation", "identification", "potential .separation", (equation,), prose),)

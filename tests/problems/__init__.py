@@ -185,6 +185,32 @@ PROBLEMS |= {f"{name} forces": with_forces(name) for name in SPATIAL}
 PROBLEMS |= {name: f'name = "test"\ngroup = "{name}"\n{PRODUCT}' for name in PRODUCTS}
 PROBLEMS |= {"screw": 'name = "test"\n' + SCREW, "weighted": 'name = "test"\n' + WEIGHTED}
 
+# so(3) otherwise: some of it, in another order, and with the translations
+AXIS = "[[0, -1, 0], [1, 0, 0], [0, 0, 0]]"
+OTHERWISE = "[[0, 0, 1], [0, 0, 0], [-1, 0, 0]], [[0, 0, 0], [0, 0, -1], [0, 1, 0]], " + AXIS
+POINTS = ((1.0, [1, 0, 0.5]), (2.0, [0, 1, 0]), (0.5, [0, 0.3, 1]))
+TURNING = (
+    "".join(f"[[point]]\nmass = {m}\nat = {r}\n" for m, r in POINTS)
+    + '[[potential]]\nkind = "gravity"\ng = [1, 2, -3]\n'
+    + '[[input]]\nname = "u"\nkind = "covector"\n'
+)
+CYLINDER = "[[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]], " + ", ".join(
+    str([[0, 0, 0, int(i == j)] for j in range(3)] + [[0, 0, 0, 0]]) for i in range(3)
+)
+
+
+def own_group(basis, action="linear"):
+    """A group given by its basis."""
+    table = f'[group]\nname = "Own"\naction = "{action}"\nbasis = [{basis}]\n'
+    return f'name = "test"\n{TURNING}{table}'
+
+
+PROBLEMS |= {
+    "an axis": own_group(AXIS),
+    "so(3) otherwise": own_group(OTHERWISE),
+    "a cylinder": own_group(CYLINDER, "affine"),
+}
+
 # solids are no points: the oracle has them with the moments of their integrals, see below
 TEXTS = ("linear", "affine", "ellipsoid", "so3", "se3", "sl3")
 PROBLEMS |= {
