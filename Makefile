@@ -21,8 +21,9 @@ lint: $(STAMP)   ## ruff and mypy alone
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
-bench: $(STAMP)  ## whole-process times beside `import sympy`
+bench: $(STAMP)  ## whole-process times beside `import sympy`, and how they grow with the group
 	$(BIN)/python -m benchmarks.road
+	$(BIN)/python -m benchmarks.sizes
 
 clean:           ## remove the virtual environment and caches
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache

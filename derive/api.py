@@ -145,8 +145,12 @@ def Problem(
     forces: Sequence[Table] = (),
     parameters: Mapping[str, Any] | None = None,
     title: str | None = None,
+    negative_mass: bool = False,
 ) -> mechanics.Problem:
-    """A problem from its tables; ``ProblemError`` says what is wrong."""
+    """A problem from its tables; ``ProblemError`` says what is wrong.
+
+    ``negative_mass``: may a mass be given as a negative number?
+    """
     data: dict[str, Any] = {"name": name, "group": group.table()}
     data["parameters"] = {k: _plain(x) for k, x in (parameters or {}).items()}
     if title is not None:
@@ -156,7 +160,7 @@ def Problem(
             data["body"] = table.fields
         else:
             data.setdefault(table.key, []).append(table.fields)
-    return problem_of(data)
+    return problem_of(data, negative_mass=negative_mass)
 
 
 def _plain(x: Any) -> Any:

@@ -27,7 +27,7 @@ def ready_made() -> list[str]:
     return sorted(f.name.removesuffix(".toml") for f in READY.iterdir() if f.name.endswith(".toml"))
 
 
-def load_problem(name: str) -> Problem:
+def load_problem(name: str, negative_mass: bool = False) -> Problem:
     """A ready-made problem by name, or a TOML file by path."""
     from .mechanics.toml import load
 
@@ -35,7 +35,7 @@ def load_problem(name: str) -> Problem:
         return load(Path(str(READY / f"{name}.toml")))
     path = Path(name)
     if path.suffix == ".toml" or path.exists():
-        return load(path)
+        return load(path, negative_mass)
     near = difflib.get_close_matches(name.lower(), ready_made(), 1)
     hint = f"did you mean {near[0]!r}? " if near else ""
     raise UsageError(
@@ -44,11 +44,14 @@ def load_problem(name: str) -> Problem:
     )
 
 
-def derive(name: str) -> tuple[Problem, Derivation]:
-    """A problem and its record."""
+def derive(name: str, negative_mass: bool = False) -> tuple[Problem, Derivation]:
+    """A problem and its record; a negative mass that is allowed gets a warning."""
+    from .mechanics.inertia import negative_mass as where
     from .pipeline import walk
 
-    problem = load_problem(name)
+    problem = load_problem(name, negative_mass)
+    if found := where(problem.body):
+        print(f"derive: warning: {name}: {found} is negative", file=sys.stderr)
     try:
         return problem, walk(problem)
     except ProblemError as error:
@@ -104,7 +107,8 @@ def command_list(_: argparse.Namespace) -> int:
 
 def command_walk(args: argparse.Namespace) -> int:
     """Print the walk of a problem."""
-    save(render(derive(args.problem)[1], args.format), args.out)
+    record = derive(args.problem, args.allow_negative_mass)[1]
+    save(render(record, args.format), args.out)
     return 0
 
 
@@ -113,7 +117,7 @@ def command_emit(args: argparse.Namespace) -> int:
     from .code.emit import emit
     from .writing import write
 
-    problem, record = derive(args.problem)
+    problem, record = derive(args.problem, args.allow_negative_mass)
     program = programs(problem, record)
     languages = tuple(dict.fromkeys(args.lang or ("c", "python")))
     prefix = problem.name if args.prefix is None else args.prefix
@@ -141,7 +145,10 @@ def command_check(args: argparse.Namespace) -> int:
 
     failed = 0
     for name in args.problem:
-        record = read_record(name) if name.endswith(".json") else derive(name)[1]
+        if name.endswith(".json"):
+            record = read_record(name)
+        else:
+            record = derive(name, args.allow_negative_mass)[1]
         verdicts = check(record)
         for v in verdicts:
             print(
@@ -229,6 +236,9 @@ def parser() -> argparse.ArgumentParser:
     emit.add_argument("--real", choices=("double", "float"), default="double", help=real)
     check = command("check", command_check)
     check.add_argument("problem", nargs="+", help="ready-made names, .toml files or .json records")
+    for made in (walk, emit, check):
+        allowed = "warn of a negative mass instead of refusing it"
+        made.add_argument("--allow-negative-mass", action="store_true", help=allowed)
     paper = command("paper", command_paper)
     paper.add_argument("--format", choices=("text", "json"), default="text")
     paper.add_argument("--out", metavar="FILE")

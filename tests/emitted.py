@@ -96,9 +96,9 @@ def compile_c(build, name, folder, source=None):
     return CLibrary(library, name)
 
 
-def import_python(name):
-    """The module generated/NAME/NAME.py, imported from its path."""
-    path = GENERATED / name / f"{name}.py"
+def import_python(name, source=None):
+    """The module NAME.py of ``source`` (generated/NAME), imported from its path."""
+    path = (source or GENERATED / name) / f"{name}.py"
     spec = importlib.util.spec_from_file_location(f"emitted_{name}", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

@@ -55,6 +55,7 @@ g = [0, -9.81]
 def test_every_word():
     group = derive.SO(3) * derive.SE(3)
     body = derive.Points((1, (1, 0, 0)), (1, (0, 1, 0)), (1, (0, 0, 1), 2), (2, (1, 1, 0), 2))
+    body += derive.Points((1, (0, 2, 0), 2))
     forces = [
         derive.Spring(1, 3, 2, length=1),
         derive.Spring(4, [0, 0, 1], 3),

@@ -1,5 +1,10 @@
 """What is wrong in a file of one's own: one line that names the file, the key, the remedy."""
 
+import os
+import subprocess
+import sys
+import time
+
 import pytest
 
 from derive.cli import main
@@ -27,7 +32,15 @@ FILES = {
         TWO + '[[input]]\nname = "u"\nkind = "covector"\n[[input]]\nname = "v"\nkind = "covector"',
         "one covector",
     ),
-    "negative mass": (TOP + "[[point]]\nmass = -1\nat = [1, 0, 0]", "negative"),
+    "negative mass": (TOP + "[[point]]\nmass = -1\nat = [1, 0, 0]", "--allow-negative-mass"),
+    "keyword of Python": (TWO + "[parameters]\nlambda = 1", "'lambda' is a keyword of Python"),
+    "keyword of C": (TWO + "[parameters]\ndouble = 1", "'double' is a keyword of C"),
+    "name of math.h": (TWO + "[parameters]\ncosf = 1", "'cosf' is a name of C's math.h"),
+    "keyword as input": (
+        TWO + '[[input]]\nname = "class"\nkind = "force"\non = 1',
+        "input 1, name: 'class' is a keyword",
+    ),
+    "keyword as name": ('name = "while"\n' + TWO.partition("\n")[2], "'while' is a keyword"),
     "not closed": (OWN + "[[[0, 1], [0, 0]], [[0, 0], [1, 0]]]", "[[1, 0], [0, -1]]"),
     "dependent": (OWN + "[[[0, 1], [0, 0]], [[0, 2], [0, 0]]]", "element 2 of the basis depends"),
     "not square": (OWN + "[[[0, 1]]]", "not a 1 × 1 matrix"),
@@ -72,21 +85,100 @@ def test_one_line(case, tmp_path, capsys):
 
 
 FOUR = "[[point]]\nmass = 1\nat = [1, 0, 0, 0]\n"
+LINE = "[[point]]\nmass = 1\nat = [1, 2, 3]\n[[point]]\nmass = 1\nat = [1, 2, 5]\n"
 
 SINGULAR = {
-    "aligned": TOP + "[[point]]\nmass = 1\nat = [1, 0, 0]\n[[point]]\nmass = 1\nat = [2, 0, 0]\n",
-    "coplanar": TWO.replace("SO(3)", "GL(3)"),
-    "coplanar for SL": TWO.replace("SO(3)", "SL(3)"),
-    "a line in four dimensions": 'name = "p4"\ngroup = "SO(4)"\n' + FOUR,
-    "one point for Sp": 'name = "p4"\ngroup = "Sp(4)"\n' + FOUR,
-    "one point for SE": 'name = "p2"\ngroup = "SE(2)"\n[[point]]\nmass = 1\nat = [1, 0]\n',
+    "aligned": (
+        TOP + "[[point]]\nmass = 1\nat = [1, 0, 0]\n[[point]]\nmass = 1\nat = [2, 0, 0]\n",
+        "turning about the axis (1, 0, 0) moves no mass",
+    ),
+    "aligned in space": (
+        'name = "p2"\ngroup = "SE(3)"\n' + LINE,
+        "the axis through (1, 2, 0) along (0, 0, 1) moves no mass",
+    ),
+    "aligned whatever a and b": (
+        TOP + '[[point]]\nmass = 1\nat = ["a", "b", 0]\n[parameters]\na = 1\nb = 1\n',
+        "the axis (2, 3, 0) moves no mass (at a = 2, b = 3)",
+    ),
+    "coplanar": (TWO.replace("SO(3)", "GL(3)"), "Z = [[0, 0, 1], [0, 0, 0], [0, 0, 0]]"),
+    "coplanar for SL": (TWO.replace("SO(3)", "SL(3)"), "Z = [[0, 0, 1], [0, 0, 0], [0, 0, 0]]"),
+    "a line in four dimensions": ('name = "p4"\ngroup = "SO(4)"\n' + FOUR, "moves no mass"),
+    "one point for Sp": ('name = "p4"\ngroup = "Sp(4)"\n' + FOUR, "moves no mass"),
+    "one point for SE": (
+        'name = "p2"\ngroup = "SE(2)"\n[[point]]\nmass = 1\nat = [1, 0]\n',
+        "Z = [[0, -1, 0], [1, 0, -1], [0, 0, 0]]",
+    ),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("case", SINGULAR)
-def test_a_direction_without_inertia(case, tmp_path, capsys):
-    path = tmp_path / "bad.toml"
-    path.write_text(SINGULAR[case], encoding="utf-8")
-    assert main(["emit", str(path), "--out", str(tmp_path / "out")]) == 2
-    assert "moves no mass" in capsys.readouterr().err
+@pytest.mark.parametrize("command", [["walk"], ["emit", "--out", "out"]], ids=["walk", "emit"])
+def test_a_direction_without_inertia(case, command, tmp_path, capsys, monkeypatch):
+    text, says = SINGULAR[case]
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bad.toml").write_text(text, encoding="utf-8")
+    assert main([command[0], "bad.toml", *command[1:]]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("derive: bad.toml: ")
+    assert says in err
     assert not (tmp_path / "out").exists()
+
+
+def test_negative_mass_allowed(tmp_path, capsys):
+    path = tmp_path / "top.toml"
+    path.write_text(
+        TOP + "[[point]]\nmass = -1\nat = [1, 0, 0]\n[[point]]\nmass = 3\nat = [2, 1, 0]\n"
+    )
+    assert main(["check", str(path), "--allow-negative-mass"]) == 0
+    out, err = capsys.readouterr()
+    assert "steps hold exactly" in out
+    assert err == f"derive: warning: {path}: point 1: key 'mass' is negative\n"
+
+
+HOSTILE = {
+    "long": U + '"' + "1+" * 500_000 + '1"',
+    "nested": U + '"' + "(" * 10_000 + "1" + ")" * 10_000 + '"',
+    "powers": U + '"9^9^9^9"',
+    "large power": U + '"(r1_x+1)^9^9"',
+    "import": U + "\"__import__('os').system('true')\"",
+    "nested arrays": TOP + "x = " + "[" * 100_000,
+    "points": TOP + "[[point]]\nmass = 1\nat = [1, 0, 0]\n" * 30_000,
+    "basis": 'name = "b"\n[group]\nname = "B"\nbasis = [' + "[[1]]," * 100_000 + "]",
+    "mesh": TOP + '[body]\nsolid = "mesh"\ndensity = 1\nfile = "hole.off"\n',
+}
+
+
+def holed_sphere():
+    """An OFF file of nearly the largest size, a grid on a sphere that lacks one triangle."""
+    n = 310
+    grid = [(i, j) for i in range(n) for j in range(n)]
+    points = [f"{i} {j} {(i * j) % 7}" for i, j in grid]
+    corners = [(i * n + j, i * n + j + 1, (i + 1) * n + j) for i, j in grid if max(i, j) < n - 1]
+    faces = [f"3 {a} {b} {c}\n3 {b} {c + 1} {c}" for a, b, c in corners]
+    count = 2 * len(faces)
+    return "\n".join([f"OFF\n{len(points)} {count} 0", *points, *faces, ""])
+
+
+@pytest.mark.parametrize("case", HOSTILE)
+def test_hostile_files_cost_little(case, tmp_path):
+    """One line, in a process of 500 MB; the time is held against 2 s beyond starting Python."""
+    path = tmp_path / "bad.toml"
+    path.write_text(HOSTILE[case], encoding="utf-8")
+    if case == "mesh":
+        (tmp_path / "hole.off").write_text(holed_sphere())
+    limited = "import resource; resource.setrlimit(resource.RLIMIT_DATA, (500 << 20,) * 2);"
+    limited += "from derive.cli import main; import sys; sys.exit(main(sys.argv[1:]))"
+    command = [sys.executable, "-c", limited, "walk", str(path)]
+    environment = os.environ | {"OPENBLAS_NUM_THREADS": "1"}
+    start = time.perf_counter()
+    done = subprocess.run(command, capture_output=True, text=True, env=environment)
+    assert done.returncode == 2, done.stderr[-300:]
+    assert done.stderr.count("\n") == 1
+    assert len(done.stderr) < 500
+    assert done.stdout == ""
+    assert time.perf_counter() - start < 2 * SLACK
+
+
+SLACK = 3
+"""The machine that runs the tests may be busy; by itself each case takes below 2 s."""

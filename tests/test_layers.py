@@ -8,11 +8,12 @@ import pytest
 ROOT = Path(__file__).parents[1] / "derive"
 ALLOWED = {
     "algebra": {"algebra"},
-    "mechanics": {"mechanics", "algebra"},
+    "mechanics": {"mechanics", "algebra", "reserved"},
     "record": {"record", "algebra"},
     "walk": {"walk", "record", "mechanics", "algebra"},
     "views": {"views", "record", "algebra", "templating"},
-    "code": {"code", "record", "algebra", "templating", "__init__"},
+    "code": {"code", "record", "algebra", "templating", "reserved", "__init__"},
+    "reserved.py": set(),
     "templating.py": set(),
     "writing.py": set(),
 }

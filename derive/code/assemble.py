@@ -6,11 +6,12 @@ from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.show import show
 from ..record.record import Derivation
+from .axes import inertia, turning
 from .conventions import conventions
 from .graph import Node
 from .lower import Lowering
 from .naming import Names, suffixed
-from .program import Function, Program
+from .program import Program
 from .reader import LoweringError, equation_key
 from .schedule import Scheduler, frontier
 from .state import layout
@@ -23,6 +24,7 @@ def assemble(d: Derivation, group: Group) -> Program:
         state, rates = _state(lowering)
         lowering.require_regular()
         energy = lowering.name("h̃")
+        tensor = inertia(lowering)
     except ZeroDivisionError:
         raise LoweringError(
             f"{d.name}: the kinetic metric is singular: a direction of the group moves no mass of "
@@ -40,8 +42,9 @@ def assemble(d: Derivation, group: Group) -> Program:
     # a pivot that is a number was seen not to vanish
     lowering.checks = [test for test in lowering.checks if test[0].op != "num"]
     checked = [x for test in lowering.checks for x in test if x is not None]
-    parameters = _used_parameters(d, [*fixed, *checked])
-    compute = _constants(scheduler, lowering, fixed, parameters)
+    parameters = _used_parameters(d, [*fixed, *checked, *tensor])
+    given = _parameter_places(lowering, names, parameters)
+    compute = scheduler.function(fixed, given, lowering.checks)
     constants = [_constant_name(names, x, i) for i, x in enumerate(fixed)]
     places = _places(lowering, names, state, inputs)
     places |= {
@@ -61,6 +64,8 @@ def assemble(d: Derivation, group: Group) -> Program:
         compute,
         scheduler.function(rates, places),
         scheduler.function([energy], places),
+        scheduler.function(tensor, given) if tensor else None,
+        turning(d.problem, parameters) if tensor else None,
     )
 
 
@@ -110,14 +115,14 @@ def _used_parameters(d: Derivation, nodes: list[Node]) -> list[str]:
     return [name for name in d.problem["parameters"] if name in used]
 
 
-def _constants(
-    scheduler: Scheduler, lowering: Lowering, fixed: list[Node], parameters: list[str]
-) -> Function:
-    places = {
-        lowering.graph.leaf(x, "parameter"): (scheduler.names.claim(x, f"parameter {x}"), ("p", i))
+def _parameter_places(
+    lowering: Lowering, names: Names, parameters: list[str]
+) -> dict[Node, tuple[str, tuple[str, int]]]:
+    """Where each parameter is read from, and the name it has there."""
+    return {
+        lowering.leaf(x, "parameter"): (names.claim(x, f"parameter {x}"), ("p", i))
         for i, x in enumerate(parameters)
     }
-    return scheduler.function(fixed, places, lowering.checks)
 
 
 def _constant_name(names: Names, x: Node, i: int) -> str:

@@ -68,7 +68,7 @@ def _fields(
         "dimension": p.dimension,
         "parameters": [_parameter(x) for x in p.parameters],
         "parameter_names": [x[0] for x in p.parameters],
-        "moments": _has_moments(p),
+        "turning": p.turning,
         "affine": "w_1" in p.state,
         "basis": _basis(p),
         "basis_lines": _basis_lines(p),
@@ -76,17 +76,10 @@ def _fields(
             "constants": _function(p.compute_constants, printer, language),
             "rhs": _function(p.rhs, printer, language),
             "energy": _function(p.energy, printer, language),
+            "inertia": p.inertia and _function(p.inertia, printer, language),
         },
         "tolerance": repr(TOLERANCE[real]) + ("f" if real == "float" else ""),
     }
-
-
-def _has_moments(p: Program) -> bool:
-    """Are the moments of a solid of R³ all parameters, so that it can be turned to its axes?"""
-    names = {x[0] for x in p.parameters}
-    moments = {f"J_{i}{j}" for i in (1, 2, 3) for j in range(i, 4)}
-    first = {f"c_{i}" for i in (1, 2, 3)} & names
-    return p.group in ("SO(3)", "SE(3)") and moments <= names and len(first) in (0, 3)
 
 
 def comment(text: str) -> str:

@@ -2,32 +2,22 @@
 
 from __future__ import annotations
 
-import keyword
 import re
 import unicodedata
 
 from ..algebra.tree import Tree
+from ..reserved import WORDS
 
 GREEK = {
     "ζ": "zeta", "Ω": "omega", "φ": "phi", "λ": "lambda", "γ": "gravity", "ξ": "xi", "η": "eta",
     "μ": "moment", "α": "alpha", "τ": "tau", "β": "load", "σ": "tension", "κ": "damping",
 }  # fmt: skip
 MARKS = {"\u0307": "_dot", "\u0303": "_tilde", "′": "_prime"}
-_C_WORDS = """
-    alignas alignof and asm auto bool break case catch char class compl const constexpr
-    continue decltype default delete do double dx else enum explicit export extern fabs
-    false float for friend goto if inline int isfinite k long main mutable n namespace new
-    noexcept not nullptr operator or p private protected public register restrict return
-    short signed sizeof sqrt static static_assert struct switch t template this thread_local
-    throw true try typedef typename u union unsigned using virtual void volatile wchar_t
-    while x xor xp
-    """
 _EMITTED = """
-    sqrt sin cos tan exp log sinh cosh tanh atan
-    sqrtf sinf cosf tanf expf logf sinhf coshf tanhf atanf
-    abs all regular numpy math i NULL signgam STATE PARAMETERS INPUTS CONSTANTS BASIS
+    dx k n p t u x xp
+    abs all regular numpy math i NULL STATE PARAMETERS INPUTS CONSTANTS BASIS
     """
-RESERVED = set(_C_WORDS.split()) | set(keyword.kwlist) | set(_EMITTED.split())
+RESERVED = set(WORDS) | set(_EMITTED.split())
 
 
 def ascii_name(name: str) -> str:

@@ -55,9 +55,9 @@ class Printer:
 
 
 def decimal(q: Fraction, suffix: str = "") -> str:
-    """A literal that reads back exactly, or a quotient of two."""
+    """The nearest literal; a quotient of small integers stays one."""
     value = float(q)
-    if Fraction(value) == q or max(abs(q.numerator), q.denominator) >= 2**53:
+    if Fraction(value) == q or max(abs(q.numerator), q.denominator) >= 10**6:
         return f"{value!r}{suffix}"
     return f"{float(q.numerator)!r}{suffix}/{float(q.denominator)!r}{suffix}"
 

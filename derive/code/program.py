@@ -77,6 +77,17 @@ class Function:
 
 
 @dataclass(frozen=True)
+class Turning:
+    """How parameters turn with the axes of the body: their indices.
+
+    ``vectors``: three for each vector; ``matrix``: six for the symmetric J, or none.
+    """
+
+    vectors: tuple[tuple[int, ...], ...]
+    matrix: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
 class Program:
     """All that is emitted for one problem, without a word of any language."""
 
@@ -93,6 +104,8 @@ class Program:
     compute_constants: Function
     rhs: Function
     energy: Function
+    inertia: Function | None = None
+    turning: Turning | None = None
 
 
 def count(e: Expression) -> dict[str, int]:

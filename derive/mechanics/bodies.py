@@ -51,10 +51,7 @@ def _points(listed: list[Mapping[str, Any]], moved: Group) -> PointBody | None:
         where = f"point {k}"
         known(p, {"mass", "at", "block"}, where)
         blocks.append(whole(p.get("block", 1), 1, len(moved.places), f"{where}, block"))
-        mass = expression(missing(p, "mass", where), f"{where}, mass")
-        if isinstance(mass, (int, Fraction)) and mass < 0:
-            raise ProblemError(f"{where}: key 'mass' is negative")
-        masses.append(mass)
+        masses.append(expression(missing(p, "mass", where), f"{where}, mass"))
         n = moved.places[blocks[-1] - 1][1].n
         positions.append(vector(missing(p, "at", where), n, f"{where}, at"))
     return PointBody(tuple(masses), tuple(positions), tuple(blocks)) if masses else None

@@ -8,10 +8,22 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..algebra.tree import Tree
+from ..reserved import WORDS
 from .expression import ExpressionError, parse
 from .problem import ProblemError
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
+
+
+def identifier(name: str, where: str) -> str:
+    """A name that every emitted language can take."""
+    if not NAME.fullmatch(name):
+        raise ProblemError(
+            f"{where}: letters, digits and _ only, starting with a letter, at most 64"
+        )
+    if name in WORDS:
+        raise ProblemError(f"{where}: {name!r} is {WORDS[name]}; call it {name + '_'!r}, say")
+    return name
 
 
 def known(data: Mapping[str, Any], keys: set[str], where: str) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.tree import Tree
 from .expression import names
-from .fields import NAME, choice, expression, known, missing, text, vector, whole
+from .fields import choice, expression, identifier, known, missing, text, vector, whole
 from .problem import (
     Attraction,
     CovectorInput,
@@ -151,9 +151,7 @@ def _placed(t: Tree, where: str, points: Points) -> Tree:
 def given_input(data: Mapping[str, Any], where: str, points: Points) -> Input:
     """One table [[input]]."""
     kind = choice(data, "kind", ("covector", "force"), where)
-    name = text(data, "name", where)
-    if not NAME.fullmatch(name):
-        raise ProblemError(f"{where}: key 'name': letters, digits and _ only")
+    name = identifier(text(data, "name", where), f"{where}, name")
     if kind == "covector":
         known(data, {"name", "kind"}, where)
         return CovectorInput(name)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import keyword
 import tomllib
 from collections.abc import Mapping
 from fractions import Fraction
@@ -15,9 +14,10 @@ from ..algebra.given import group_of_basis
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
+from . import inertia
 from .bodies import body
 from .expression import names
-from .fields import NAME, choice, expression, known, missing, tables, text
+from .fields import NAME, choice, expression, identifier, known, missing, tables, text
 from .forces import Points, damping, given_input, potential, used_names
 from .problem import (
     CovectorInput,
@@ -34,7 +34,7 @@ TOP |= {"damping", "solid"}
 LARGEST_FILE, LARGEST_BASIS, LARGEST_MATRIX = 1_000_000, 64, 9
 
 
-def load(path: Path) -> Problem:
+def load(path: Path, negative_mass: bool = False) -> Problem:
     """Read a problem file; :class:`ProblemError` names file, key and remedy."""
     try:
         if path.stat().st_size > LARGEST_FILE:
@@ -45,17 +45,20 @@ def load(path: Path) -> Problem:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise ProblemError(f"{path}: not TOML: {error}") from None
     try:
-        return problem_of(data, path.parent)
+        return problem_of(data, path.parent, negative_mass)
     except ProblemError as error:
         raise ProblemError(f"{path}: {error}") from None
 
 
-def problem_of(data: Mapping[str, Any], folder: Path = Path()) -> Problem:
-    """A problem from the plain data of a file in a folder, where its meshes are."""
+def problem_of(
+    data: Mapping[str, Any], folder: Path = Path(), negative_mass: bool = False
+) -> Problem:
+    """A problem from the plain data of a file in a folder, where its meshes are.
+
+    ``negative_mass``: may a mass be given as a negative number?
+    """
     known(data, TOP, "file")
-    name = text(data, "name", "file")
-    if not NAME.fullmatch(name) or keyword.iskeyword(name):
-        raise ProblemError("key 'name': letters, digits and _ only, starting with a letter")
+    name = identifier(text(data, "name", "file"), "key 'name'")
     moved, action = _group(data)
     parameters = _parameters(data.get("parameters", {}))
     own = body(data, moved, folder)
@@ -64,6 +67,11 @@ def problem_of(data: Mapping[str, Any], folder: Path = Path()) -> Problem:
     if isinstance(own, MomentBody):
         named = {x: parameters.get(x, p) for x, p in own.parameters().items()}
         parameters = {**named, **{k: p for k, p in parameters.items() if k not in named}}
+    if not negative_mass and (where := inertia.negative_mass(own)):
+        raise ProblemError(
+            f"{where} is negative; correct it, or allow it with --allow-negative-mass "
+            "(in Python: negative_mass=True)"
+        )
     listed = own.points if isinstance(own, GivenBody) else own
     masses = len(listed.masses) if isinstance(listed, PointBody) else 0
     blocks = listed.blocks if isinstance(listed, PointBody) else ()
@@ -93,6 +101,8 @@ def problem_of(data: Mapping[str, Any], folder: Path = Path()) -> Problem:
         drags,
     )
     _declared(problem, data.get("parameters", {}))
+    if moved and own and (still := inertia.still_direction(moved, own)):
+        raise ProblemError(f"the body has no inertia in every direction: {still}; add masses")
     return problem
 
 
@@ -154,8 +164,7 @@ def _parameters(data: Any) -> dict[str, Parameter]:
     found = {}
     for name, value in data.items():
         where = f"parameter {name[:40]!r}"
-        if not NAME.fullmatch(name):
-            raise ProblemError(f"{where}: letters, digits and _ only, starting with a letter")
+        identifier(name, where)
         if isinstance(value, (int, float)) and not isinstance(value, bool):
             value = {"default": value}
         if not isinstance(value, dict):

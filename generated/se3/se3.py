@@ -363,23 +363,49 @@ def energy(t, x, k):
     return h_tilde
 
 
-def principal_axes(p):
-    """R (3, 3) and the parameters p of the body in its principal axes, where r = R r' for its points.
+def inertia(p):
+    """The tensor of inertia about the body's origin, (3, 3), in the body frame."""
+    xp, (p,) = _arrays(p)
+    J_11 = p[..., 4]
+    J_12 = p[..., 5]
+    J_13 = p[..., 6]
+    J_22 = p[..., 7]
+    J_23 = p[..., 8]
+    J_33 = p[..., 9]
 
-    The columns of R are the axes, those of the smallest moment of J first, a right-handed frame even
-    where moments agree.  A state goes along: A' = A R, zeta' = R^T zeta, w' = R^T w.
+    upper = _stack(
+        xp,
+        [
+            J_22 + J_33,
+            -J_12,
+            -J_13,
+            J_11 + J_33,
+            -J_23,
+            J_11 + J_22,
+        ],
+    )
+    rows = [[upper[..., i] for i in row] for row in ((0, 1, 2), (1, 3, 4), (2, 4, 5))]
+    return xp.stack([xp.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def principal_axes(p):
+    """The principal moments of inertia (3,), smallest first, and the axes: the columns of R (3, 3).
+
+    I = R diag(moments) R^T about the body's origin; R is a rotation even where moments agree.
     """
-    p = numpy.array(p, dtype=float)
-    at = {name: i for i, name in enumerate(PARAMETERS)}
-    J = numpy.array([[p[at[f"J_{min(i, j)}{max(i, j)}"]] for j in (1, 2, 3)] for i in (1, 2, 3)])
-    R = numpy.linalg.eigh(J)[1]
-    if numpy.linalg.det(R) < 0:
-        R[:, 0] = -R[:, 0]
-    turned = R.T @ J @ R
-    for i in (1, 2, 3):
-        for j in range(i, 4):
-            p[at[f"J_{i}{j}"]] = turned[i - 1, j - 1] if i == j else 0.0
-    first = [at.get(f"c_{i}") for i in (1, 2, 3)]
-    if None not in first:
-        p[first] = R.T @ p[first]
-    return R, p
+    moments, R = numpy.linalg.eigh(numpy.asarray(inertia(p), dtype=float))
+    R[..., 0] *= numpy.linalg.det(R)[..., None]
+    return moments, R
+
+
+def turned(p, R):
+    """The parameters of the same body in the frame of the columns of R: r = R r' for its points.
+
+    A state goes along: A' = A R, zeta' = R^T zeta, w' = R^T w, and so do inputs in the body frame.
+    """
+    p, R = numpy.array(p, dtype=float), numpy.asarray(R, dtype=float)
+    p[..., [1, 2, 3]] = numpy.einsum("...ji,...j", R, p[..., [1, 2, 3]])
+    full = [[4, 5, 6], [5, 7, 8], [6, 8, 9]]
+    J = numpy.einsum("...ji,...jk,...kl->...il", R, p[..., full], R)
+    p[..., full] = J
+    return p

@@ -1,0 +1,172 @@
+"""Does every direction of the group move some mass of this body?  If not, which one does not.
+
+The metric of 𝔤 at g = 1 is ⟨Z, Z′⟩ = Tr Z M Z̄′, with M the moments of the body as the group's
+matrices see it.  Its kernel is found exactly, in fractions, at two choices of the parameters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from math import gcd, lcm, prod
+from random import Random
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.groups import Group
+from ..algebra.rational import Matrix
+from ..algebra.tree import Tree
+from .expression import names
+from .problem import Body, GivenBody, MomentBody, PointBody
+
+Vector = tuple[Any, ...]
+
+
+def still_direction(group: Group, body: Body) -> str | None:
+    """What leaves every mass in its place, in words; ``None`` when there is no such direction."""
+    if isinstance(body, MomentBody):
+        return None
+    used = dict.fromkeys(x for t in _trees(body) for x in names(t))
+    chosen = {name: Fraction(k) for k, name in enumerate(used, 2)}
+    found = _kernel(group, body, _Values(chosen))
+    if found is None:
+        return None
+    random = Random(1)
+    drawn = {name: Fraction(random.randint(1, 10**6), random.randint(1, 10**6)) for name in used}
+    again = _kernel(group, body, _Values(drawn))
+    if again is None:
+        return None  # singular at the first choice of the parameters, not at all of them
+    where = ", ".join(f"{name} = {x}" for name, x in chosen.items())
+    return _words(group, found) + (f" (at {where})" if found != again else "")
+
+
+def _kernel(group: Group, body: Body, values: _Values) -> Vector | None:
+    """Coordinates of the first direction that moves no mass."""
+    try:
+        m = _moments(group, body, values)
+    except ZeroDivisionError:
+        return None
+    if q.rank(m) == len(m) and not values.negative:
+        return None
+    images = [q.times(e, m) for e in group.basis]
+    metric = tuple(tuple(_inner(image, f) for f in group.basis) for image in images)
+    kernel = q.nullspace(metric)
+    return kernel[0] if kernel else None
+
+
+def _inner(a: Matrix, b: Matrix) -> Fraction:
+    pairs = zip(q.flatten(a), q.flatten(b), strict=True)
+    return sum((x * y for x, y in pairs if x and y), Fraction(0))
+
+
+def _moments(group: Group, body: Body, values: _Values) -> Matrix:
+    """Σ m r r̄ with r as the matrices of the group act on it, (r, 1) for an affine one."""
+    if isinstance(body, PointBody):
+        total = q.scaled(0, q.identity(group.size))
+        blocks = body.blocks or (1,) * len(body.masses)
+        for mass, at, block in zip(body.masses, body.positions, blocks, strict=True):
+            place = group.in_block(block, [values.of(x) for x in at], Fraction(1))
+            column = tuple((x,) for x in (*place, *(Fraction(1),) * group.affine))
+            weight = values.mass(mass)
+            total = q.plus(total, q.scaled(weight, q.times(column, q.transposed(column))))
+        return total
+    assert isinstance(body, GivenBody)
+    J = tuple(tuple(values.of(x) for x in row) for row in body.second)
+    if group.size == len(J) and not group.factors:
+        return J
+    c, m = tuple(values.of(x) for x in body.first), values.mass(body.mass)
+    return (*((*row, x) for row, x in zip(J, c, strict=True)), (*c, m))[: len(J) + 1]
+
+
+def _trees(body: Body) -> Iterator[Tree]:
+    if isinstance(body, PointBody):
+        yield from (*body.masses, *(x for r in body.positions for x in r))
+    elif isinstance(body, GivenBody):
+        yield from (body.mass, *body.first, *(x for row in body.second for x in row))
+
+
+class _Values:
+    """Fractions for trees; each function of each argument, and π, is a number of its own."""
+
+    def __init__(self, parameters: Mapping[str, Fraction]):
+        self.parameters = parameters
+        self.negative = False
+        self._own: dict[Tree, Fraction] = {}
+        self._random = Random(2)
+
+    def mass(self, t: Tree) -> Fraction:
+        """The value of a mass, remembering whether one is negative."""
+        value = self.of(t)
+        self.negative |= value < 0
+        return value
+
+    def of(self, t: Tree) -> Fraction:
+        """The value of a tree."""
+        if isinstance(t, (int, Fraction)):
+            return Fraction(t)
+        if isinstance(t, tuple):
+            if t[0] == "par":
+                return self.parameters[t[1]]
+            if t[0] == "add":
+                return sum(map(self.of, t[1:]), Fraction(0))
+            if t[0] == "mul":
+                return prod(map(self.of, t[1:]), start=Fraction(1))
+            if t[0] == "div":
+                return self.of(t[1]) / self.of(t[2])
+            if t[0] == "pow":
+                return Fraction(self.of(t[1]) ** int(t[2]))
+        return self._own.setdefault(t, Fraction(self._random.randint(1, 999), 1000))
+
+
+def _words(group: Group, coordinates: Vector) -> str:
+    """The direction: an axis for rotations of space, else the matrix Z."""
+    x = _whole(coordinates)
+    if group.turns_space:
+        turn, shift = x[:3], x[3:]
+        if not any(turn):
+            return f"the translation along {_listed(shift)} moves no mass"
+        if any(shift):
+            return f"turning about {_axis(turn, shift)} moves no mass"
+        return f"turning about the axis {_listed(turn)} moves no mass"
+    Z = group.hat(x)
+    rows = ", ".join("[" + ", ".join(str(y) for y in row) + "]" for row in Z)
+    return f"the direction Z = [{rows}] of the Lie algebra moves no mass"
+
+
+def _axis(turn: Vector, shift: Vector) -> str:
+    """Where ζ ∧ r + w vanishes, or the screw when it nowhere does."""
+    foot = tuple(y / sum(x * x for x in turn) for y in _cross(turn, shift))
+    still = all(x + y == 0 for x, y in zip(_cross(turn, foot), shift, strict=True))
+    if still:
+        return f"the axis through {_listed(foot)} along {_listed(turn)}"
+    return f"the screw ζ = {_listed(turn)}, w = {_listed(shift)}"
+
+
+def _cross(a: Vector, b: Vector) -> Vector:
+    return tuple(a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1)))
+
+
+def _whole(x: Vector) -> Vector:
+    """The same direction in the smallest integers, the first that is not zero positive."""
+    up = [int(y * lcm(*(y.denominator for y in x))) for y in x]
+    sign = next(1 if y > 0 else -1 for y in up if y)
+    return tuple(Fraction(sign * y // gcd(*up)) for y in up)
+
+
+def _listed(x: Vector) -> str:
+    return "(" + ", ".join(map(str, x)) + ")"
+
+
+def negative_mass(body: Body | None) -> str | None:
+    """Where a mass is given as a negative number; ``None`` when nowhere."""
+    points = body if isinstance(body, PointBody) else None
+    if isinstance(body, GivenBody):
+        points = body.points
+        if _negative(body.mass):
+            return "body: the mass"
+    masses = points.masses if points else ()
+    return next((f"point {k}: key 'mass'" for k, m in enumerate(masses, 1) if _negative(m)), None)
+
+
+def _negative(t: Tree) -> bool:
+    return isinstance(t, (int, Fraction)) and t < 0

@@ -1,0 +1,38 @@
+"""Words that a name of the user must not be: keywords of C, C++ and Python, names of math.h."""
+
+from __future__ import annotations
+
+import keyword
+
+_C = """
+    auto bool break case char const constexpr continue default do double else enum extern false
+    float for goto if inline int long nullptr register restrict return short signed sizeof static
+    static_assert struct switch thread_local true typedef typeof union unsigned void volatile while
+    """
+_CPP = """
+    alignas alignof and and_eq asm bitand bitor catch class compl concept consteval constinit
+    const_cast co_await co_return co_yield decltype delete dynamic_cast explicit export friend
+    mutable namespace new noexcept not not_eq operator or or_eq private protected public
+    reinterpret_cast requires static_cast template this throw try typeid typename using virtual
+    wchar_t xor xor_eq
+    """
+_MATH = """
+    acos asin atan atan2 cos sin tan acosh asinh atanh cosh sinh tanh exp exp2 expm1 frexp ilogb
+    ldexp log log10 log1p log2 logb modf scalbn scalbln cbrt fabs hypot pow sqrt erf erfc lgamma
+    tgamma ceil floor nearbyint rint lrint llrint round lround llround trunc fmod remainder remquo
+    copysign nan nextafter nexttoward fdim fmax fmin fma
+    """
+_MACROS = """
+    isfinite isinf isnan isnormal signbit fpclassify isgreater isless isunordered signgam
+    HUGE_VAL INFINITY NAN FP_NAN FP_INFINITE FP_ZERO FP_NORMAL FP_SUBNORMAL math_errhandling
+    """
+
+_FUNCTIONS = [name + suffix for name in _MATH.split() for suffix in ("", "f", "l")]
+
+WORDS: dict[str, str] = (
+    dict.fromkeys([*_FUNCTIONS, *_MACROS.split()], "a name of C's math.h")
+    | dict.fromkeys(keyword.kwlist, "a keyword of Python")
+    | dict.fromkeys(_CPP.split(), "a keyword of C++")
+    | dict.fromkeys(_C.split(), "a keyword of C")
+)
+"""Each word with what it is."""
