@@ -102,6 +102,13 @@ def rename(t: Tree, images: Mapping[str, Tree]) -> Tree:
     return t
 
 
+def replaced(t: Tree, old: Tree, new: Tree) -> Tree:
+    """The tree with every occurrence of a subtree replaced."""
+    if t == old:
+        return new
+    return (t[0], *(replaced(part, old, new) for part in t[1:])) if isinstance(t, tuple) else t
+
+
 def subtrees(t: Tree, path: tuple[int, ...] = ()) -> Iterator[tuple[tuple[int, ...], Tree]]:
     """Every subtree with the path that leads to it."""
     yield path, t

@@ -8,6 +8,7 @@ from ..algebra.show import show
 from ..record.record import Derivation
 from .axes import inertia, turning
 from .conventions import conventions
+from .factor import factored
 from .graph import Node
 from .lower import Lowering
 from .naming import Names, suffixed
@@ -32,6 +33,7 @@ def assemble(d: Derivation, group: Group) -> Program:
         ) from None
     if not isinstance(energy, Node):
         raise LoweringError("the energy is not a number")
+    *rates, energy = factored(lowering.graph, [*rates, energy])
     names = Names()
     inputs = lowering.inputs
     for kind, members in (("state", state), ("input", inputs)):
@@ -128,8 +130,17 @@ def _parameter_places(
 def _constant_name(names: Names, x: Node, i: int) -> str:
     if x.op == "leaf":
         return names.claim(x.data[1], f"parameter {x.data[1]}")
-    wanted = x.graph.titles[x][0] if x.op == "value" else suffixed("constant", i)
-    return names.claim(wanted, f"node {x.id}")
+    return names.claim(_wanted(x) or suffixed("constant", i), f"node {x.id}")
+
+
+def _wanted(x: Node) -> str:
+    """A name from the names of a product's factors; empty when they have none."""
+    if x.op in ("value", "leaf"):
+        return x.graph.titles[x][0] if x.op == "value" else str(x.data[1])
+    if x.op == "mul" and len(x.args) <= 3:
+        parts = [_wanted(y) if y.op != "mul" else "" for y in x.args]
+        return "_".join(parts) if all(parts) else ""
+    return ""
 
 
 def _parameter(d: Derivation, name: str) -> tuple[str, float | None, str, str]:

@@ -161,6 +161,7 @@ class Graph:
                 else:
                     gathered[y] = gathered.get(y, Fraction(0)) + k
         parts = [(c, x) for x, c in sorted(gathered.items(), key=lambda i: i[0].id) if c]
+        parts = self._collected(parts)
         if constant:
             parts.append((constant, self.num(1)))
         if not parts:
@@ -179,6 +180,27 @@ class Graph:
             for k, y in zip(x.data, x.args, strict=True)
             for term in (self._terms(c * k, y) if y.op == "add" else [(c * k, y)])
         ]
+
+    def _collected(self, parts: list[tuple[Fraction, Node]]) -> list[tuple[Fraction, Node]]:
+        """a x + b x = (a + b) x, for a and b of the parameters alone and the same moving x."""
+        alike: dict[tuple[Node, ...], list[tuple[Fraction, Node]]] = {}
+        for c, x in parts:
+            factors = x.args if x.op == "mul" else (x,)
+            moving = tuple(y for y in factors if y.stage != PARAMETER)
+            alike.setdefault(moving or (x,), []).append((c, x))
+        if len(alike) == len(parts):
+            return parts
+        found: list[tuple[Fraction, Node]] = []
+        for moving, terms in alike.items():
+            if len(terms) == 1:
+                found += terms
+                continue
+            fixed = self.linear(
+                (c, x.args[0] if x.op == "mul" and x.args[0].stage == PARAMETER else self.num(1))
+                for c, x in terms
+            )
+            found += self._terms(Fraction(1), self.product([fixed, *moving]))
+        return sorted(((c, x) for c, x in found if not x.is_zero), key=lambda i: i[1].id)
 
     def _sum_of(self, parts: list[tuple[Fraction, Node]]) -> Node:
         """A sum in which what depends on parameters alone is one term."""

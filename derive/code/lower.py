@@ -40,6 +40,11 @@ class Lowering(Inverting):
                 for equation in step.equations:
                     self._products |= set(standalone(equation.rhs))
 
+    @property
+    def solving(self) -> bool:
+        """Is it an equation of the solved motion that is read?"""
+        return self.label.partition("#")[0].endswith(".motion")
+
     def tree(self, t: Tree) -> Value:
         """The value of a tree."""
         if t == "π":
@@ -162,7 +167,8 @@ class Lowering(Inverting):
     def _operand(self, t: Tree, value: Matrix) -> Matrix:
         """A sum that is multiplied is computed once, under a name."""
         if isinstance(t, tuple) and t[0] == "add":
-            return self.named(value, name_of(t))  # type: ignore[return-value]
+            name = "balance" if self.solving else name_of(t)
+            return self.named(value, name)  # type: ignore[return-value]
         return value
 
     def _trace(self, t: Tree) -> Node:

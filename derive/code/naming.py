@@ -10,7 +10,8 @@ from ..reserved import WORDS
 
 GREEK = {
     "ζ": "zeta", "Ω": "omega", "φ": "phi", "λ": "lambda", "γ": "gravity", "ξ": "xi", "η": "eta",
-    "μ": "moment", "α": "alpha", "τ": "tau", "β": "load", "σ": "tension", "κ": "damping",
+    "μ": "moment", "α": "alpha", "τ": "tau", "β": "load", "σ": "tension", "χ": "reach",
+    "κ": "damping",
 }  # fmt: skip
 MARKS = {"\u0307": "_dot", "\u0303": "_tilde", "′": "_prime"}
 _EMITTED = """
@@ -35,9 +36,9 @@ def name_of(t: Tree) -> str:
     if not isinstance(t, tuple):
         return ""
     if t[0] == "at":
-        return "_".join(str(x) for x in t[1:])
+        return "_".join(ascii_name(str(x)) for x in t[1:])
     if t[0] == "add":
-        return "balance"
+        return "sum"
     if t[0] == "fun":
         return f"{t[1]}_{name_of(t[2])}".rstrip("_")
     if t[0] in ("par", "entry"):

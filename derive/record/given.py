@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -94,6 +95,13 @@ def spring_members(model: Model) -> list[tuple[Fraction, Matrix]]:
     return members
 
 
+def _in_body(model: Model, vector: Sequence[Any]) -> Matrix:
+    """Ā on a vector of space; empty in a product, whose blocks have spaces of their own."""
+    if model.group.factors:
+        return ()
+    return q.times(q.transposed(model.group.linear_part(model.g)), column(vector))
+
+
 def exerted_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     """k, s, d, σ, Q, κ and f_u by their indices."""
     families: dict[str, dict[tuple[int, ...], Any]] = {}
@@ -103,11 +111,13 @@ def exerted_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     places = model.moved(model.g)
     for e, (d, sigma) in enumerate(model.exerted.radial(places, model.masses), 1):
         families.setdefault("d", {})[e,] = column(d)
+        families.setdefault("χ", {})[e,] = _in_body(model, d)
         families.setdefault("σ", {})[e,] = sigma
     pushes = model.exerted.forces(model.t, places, model.masses, SINGLE)
     for i, f in enumerate(pushes, 1):
         if any(f):
             families.setdefault("Q", {})[i,] = column(f)
+            families.setdefault("P", {})[i,] = _in_body(model, f)
     for i, kappa in damping_members(model).items():
         families.setdefault("κ", {})[i,] = kappa
     for e, (push, data) in enumerate(zip(model.pushes, model.given("force"), strict=True), 1):

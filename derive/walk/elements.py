@@ -10,16 +10,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from ..algebra.calculus import gradient, reduce
 from ..algebra.differentiate import derivative, product
-from ..algebra.notation import metrics, tree_of
-from ..algebra.space import hat
 from ..algebra.tree import Tree, add, mul, neg, subtrees
-from ..algebra.words import Expr, Letter, inner, word
 from ..mechanics.problem import Attraction, Expression, PointBody, Problem, Spring
 from ..record.record import Equation
-from .alphabet import Alphabet
-from .vector import OMEGA_P, isolate
 
 
 def in_space(i: int) -> Tree:
@@ -38,14 +32,29 @@ def embedded(problem: Problem, i: int, entries: tuple[Tree, ...], corner: int) -
     return column(problem.group.in_block(problem.block(i), entries, corner))
 
 
+@dataclass(frozen=True)
+class Radial:
+    """A potential of ‖d‖², with d = Σ ± r_i(t) − anchor: σ_e = ``tension``, as a tree in d_e."""
+
+    d: Tree
+    signs: dict[int, int]
+    anchor: tuple[Tree, ...]
+    tension: Tree
+
+    @property
+    def sigma(self) -> Tree:
+        """σ_e."""
+        return ("at", "σ", self.d[2])  # type: ignore[index]
+
+
 @dataclass
 class Elements:
-    """``differences``: d_e; ``energies``: U_e; ``tensions``: σ_e; ``pushes``: terms of each Q_i."""
+    """``differences``: d_e; ``energies``: U_e; ``pushes``: −∂U/∂r_i(t) of those given as U."""
 
     problem: Problem
     differences: list[Equation] = field(default_factory=list)
     energies: list[Tree] = field(default_factory=list)
-    tensions: list[Equation] = field(default_factory=list)
+    radials: list[Radial] = field(default_factory=list)
     pushes: dict[int, list[Tree]] = field(default_factory=dict)
 
     def push(self, i: int, force: Tree) -> None:
@@ -58,25 +67,13 @@ class Elements:
         self.differences.append(Equation(d, ends))
         return d
 
-    def radial(self, energy: Tree, d: Tree, signs: dict[int, int]) -> None:
-        """A potential of ‖d‖², with d = Σ ± r_i(t) + …"""
+    def radial(
+        self, energy: Tree, d: Tree, signs: dict[int, int], anchor: tuple[Tree, ...] = ()
+    ) -> None:
+        """A potential of ‖d‖²."""
         self.energies.append(energy)
-        sigma: Tree = ("at", "σ", d[2])  # type: ignore[index]
-        slope = derivative(energy, ("norm2", d))
-        self.tensions.append(Equation(sigma, product(-2, slope)))
-        for i, sign in signs.items():
-            self.push(i, _placed(self.problem, i, sigma, d, sign))
-
-
-def _placed(problem: Problem, i: int, sigma: Tree, d: Tree, sign: int) -> Tree:
-    """± σ d on point i, in its block of a product."""
-    group = problem.group
-    assert group is not None
-    if not group.factors:
-        return mul(sign, sigma, d)
-    _, factor = group.places[problem.block(i) - 1]
-    entries = tuple(mul(sign, sigma, ("entry", d, k)) for k in range(1, factor.n + 1))
-    return embedded(problem, i, entries, 0)
+        tension = product(-2, derivative(energy, ("norm2", d)))
+        self.radials.append(Radial(d, signs, anchor, tension))
 
 
 def place(problem: Problem, i: int) -> Tree:
@@ -111,7 +108,7 @@ def _spring(found: Elements, p: Spring, problem: Problem) -> None:
     if p.length != 0:
         stretched = ("pow", add(("fun", "sqrt", square), neg(p.length)), 2)
     energy = mul(Fraction(1, 2), p.stiffness, stretched)
-    found.radial(energy, d, {i: 1} if j is None else {i: 1, j: -1})
+    found.radial(energy, d, {i: 1} if j is None else {i: 1, j: -1}, p.anchor)
 
 
 def _attraction(found: Elements, p: Attraction, problem: Problem) -> None:
@@ -122,7 +119,7 @@ def _attraction(found: Elements, p: Attraction, problem: Problem) -> None:
         d = found.difference(add(place(problem, i), centre))
         distance: Tree = ("fun", "sqrt", ("norm2", d))
         energy = product(-1, m, p.strength, ("div", 1, distance))
-        found.radial(energy, d, {i: 1})
+        found.radial(energy, d, {i: 1}, p.centre)
 
 
 def _expression(found: Elements, p: Expression, problem: Problem) -> None:
@@ -138,40 +135,3 @@ def _points(t: Tree) -> Iterator[int]:
     for _, x in subtrees(t):
         if isinstance(x, tuple) and x[:2] == ("at", "r"):
             yield x[2]
-
-
-@dataclass(frozen=True)
-class Applied:
-    """The letters of the forces given point by point, and how they are summed."""
-
-    moments: Letter
-    resultant: Letter
-
-    def work(self, xi: Expr, eta: Expr | None) -> Expr:
-        """Their virtual work."""
-        pairing = inner(word(self.moments), xi)
-        return pairing if eta is None else pairing + inner(word(self.resultant), eta)
-
-
-def applied(a: Alphabet, mark: str, *, vectors: bool) -> Applied:
-    """N and F, or μ and F in vectors, with a mark: N_Q, μ_Q, F_Q."""
-    moments = Letter(f"μ_{mark}", 3) if vectors else Letter(f"N_{mark}", a.n, a.n)
-    return Applied(moments, Letter(f"F_{mark}", a.n))
-
-
-def sums_over_points(a: Alphabet, forces: Applied, family: str, *, vectors: bool) -> list[Equation]:
-    """N_Q = Σ ĀQ_i r̄_i (or μ_Q = Σ r_i ∧ ĀQ_i) and F_Q = Σ ĀQ_i, from the virtual work."""
-    push, xi = Letter("Q_i", a.n), Letter("ξ′", a.n, a.n)
-    eta = Letter("η′", a.n)
-    g = word(a.A.position)
-    turned = word(hat(OMEGA_P)) if vectors else word(xi)
-    work = inner(word(push), g * turned * word(a.r_i))
-    if vectors:
-        work = reduce(work, isolate(OMEGA_P))
-    moment = gradient(work, OMEGA_P if vectors else xi)
-    display = metrics(display={push: ("at", family, "i"), a.r_i: ("at", "r", "i")})
-    equations = [Equation(forces.moments.name, ("sum", "i", tree_of(moment, display)))]
-    if a.affine:
-        pull = gradient(inner(word(push), g * word(eta)), eta)
-        equations.append(Equation(forces.resultant.name, ("sum", "i", tree_of(pull, display))))
-    return equations

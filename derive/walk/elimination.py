@@ -2,7 +2,8 @@
 
 The equations of :mod:`derive.walk.vector` hold for any origin in the body.  The coefficient of ẇ is
 the scalar m, so ẇ is solved for and put into the other equation; what then multiplies ζ̇ is the
-tensor of inertia about the centre of mass.  Nothing is assumed about c.
+tensor of inertia about the centre of mass.  Nothing is assumed about c.  Then everything is said
+from the centre of mass r_c, by c = m r_c and its velocity w_c, and the terms in c fall together.
 """
 
 from __future__ import annotations
@@ -11,22 +12,23 @@ from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, reduce, substitute, without
 from ..algebra.notation import Notation, tree_of
-from ..algebra.space import normal_form
+from ..algebra.space import hat, normal_form
 from ..algebra.tree import Tree, add, mul
 from ..algebra.words import Expr, Letter, number, word
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .inverse import cancel_scalar, inverse_letter, inverse_tree
-from .vector import INERTIA, OMEGA_P, ZETA_DOT, VectorForm, isolate
+from .vector import INERTIA, OMEGA_P, ZETA, ZETA_DOT, VectorForm, isolate
 from .wedge import vector_sum
 
 CENTRAL = Letter("I_c", 3, 3, 1)
 MOMENTS = Letter("J_c", 3, 3, 1)
+CENTRE, CENTRE_VELOCITY = Letter("r_c", 3), Letter("w_c", 3)
 
 
 @dataclass(frozen=True)
 class Eliminated:
-    """``torque`` = I_c ζ̇ and ``acceleration`` = ẇ on words, in ζ, w, c, m⁻¹, μ, F_b."""
+    """``torque`` = I_c ζ̇ and ``acceleration`` = ẇ on words, in ζ, w_c, r_c, m⁻¹, μ, F_b."""
 
     torque: Expr
     acceleration: Expr
@@ -51,12 +53,18 @@ def eliminate(stage: VectorForm, a: Alphabet, prefix: str, scope: str) -> Elimin
     central = substitute(by_moments, {a.J: word(MOMENTS) + word(a.J) - moments_c})
     rest = -simplified(reduced - tensor * word(ZETA_DOT), a)
     shift = {INERTIA: word(CENTRAL) + word(INERTIA) - tensor}
-    torque = simplified(substitute(rest, shift), a)
+    torque = from_centre(substitute(rest, shift), a)
+    velocity = word(a.w.velocity) + word(hat(ZETA)) * word(CENTRE)
+    carried = word(a.w.velocity) + word(CENTRE_VELOCITY) - velocity
+    ending = reduce(acceleration, isolate(a.w.velocity))
+    acceleration = from_centre(substitute(ending, {a.w.velocity: carried}), a)
     step = Step(
         f"{prefix}.elimination",
         "elimination",
         (f"{prefix}.kernel",),
         (
+            Equation(CENTRE.name, tree_of(word(inverse_letter(a.m)) * first, notation(a))),
+            Equation(CENTRE_VELOCITY.name, vector_tree(velocity, a)),
             Equation(w_dot.name, vector_tree(acceleration, a)),
             Equation(MOMENTS.name, tree_of(moments_c, notation(a))),
             Equation(CENTRAL.name, tree_of(tensor, notation(a))),
@@ -64,7 +72,8 @@ def eliminate(stage: VectorForm, a: Alphabet, prefix: str, scope: str) -> Elimin
             Equation(("mul", CENTRAL.name, "ζ̇"), vector_tree(torque, a)),
         ),
         "As m > 0, the balance of forces gives ẇ; put into the balance of moments, it leaves I_c, "
-        "the tensor of inertia about the centre of mass, which J_c gives as J gives I.",
+        "the tensor of inertia about the centre of mass r_c, which J_c gives as J gives I. The "
+        "velocity of the centre of mass, in the body frame, is w_c.",
         (),
         scope,
     )
@@ -74,6 +83,13 @@ def eliminate(stage: VectorForm, a: Alphabet, prefix: str, scope: str) -> Elimin
 def simplified(e: Expr, a: Alphabet) -> Expr:
     """Normal form with m m⁻¹ = 1."""
     return cancel_scalar(normal_form(e), a.m)
+
+
+def from_centre(e: Expr, a: Alphabet) -> Expr:
+    """The same with c = m r_c."""
+    mass = word(a.m)
+    images = {a.c: mass * word(CENTRE), hat(a.c): mass * word(hat(CENTRE))}
+    return simplified(substitute(e, images), a)
 
 
 def coefficient_matrix(e: Expr, v: Letter) -> Expr:

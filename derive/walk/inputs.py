@@ -19,8 +19,9 @@ from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .cartan import frame_rule
 from .chapter import Chapter
-from .elements import Applied, applied, embedded
+from .elements import embedded
 from .pullback import sum_over
+from .pushes import Applied, applied
 from .vector import OMEGA_P, ZETA, inertia_of, isolate
 from .wedge import vector_sum
 

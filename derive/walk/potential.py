@@ -17,9 +17,10 @@ from ..algebra.words import Expr, Letter, inner, number, word
 from ..mechanics.problem import Problem, Spring
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
-from .elements import Applied, Elements, applied, column, elements, sums_over_points
+from .elements import column, elements
 from .lagrangian import POINT
 from .pullback import sum_over
+from .pushes import applied, pushes_step
 
 U_Q = Letter("U_Q")
 
@@ -63,7 +64,7 @@ def potentials(
         )
     ]
     if found.energies:
-        steps.append(_pushes(found, forces, a, prefix, scope, vectors))
+        steps.append(pushes_step(found, forces, a, prefix, scope, vectors=vectors))
     return Potentials(energy, tuple(steps), forces.work)
 
 
@@ -87,27 +88,6 @@ def _summed(problem: Problem, a: Alphabet) -> tuple[Expr, list[Equation], list[T
         definitions += _springs(problem)
         over_points += [_on_points(e, spring) for e, spring in enumerate(problem.springs, 1)]
     return energy, definitions, over_points
-
-
-def _pushes(
-    found: Elements, forces: Applied, a: Alphabet, prefix: str, scope: str, vectors: bool
-) -> Step:
-    """σ_e, Q_i and their sums."""
-    equations = list(found.tensions)
-    for i, terms in sorted(found.pushes.items()):
-        equations.append(Equation(("at", "Q", i), add(*terms)))
-    equations += sums_over_points(a, forces, "Q", vectors=vectors)
-    return Step(
-        f"{prefix}.pushes",
-        "variation",
-        (f"{prefix}.potential",),
-        tuple(equations),
-        "The part U_Q of the potential is given point by point: Q_i is its force on point i, minus "
-        "the derivative of U_Q by r_i(t)."
-        + (" A term in ‖d_e‖² pushes along d_e." if found.tensions else ""),
-        (),
-        scope,
-    )
 
 
 def _on_points(e: int, spring: Spring) -> Tree:

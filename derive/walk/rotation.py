@@ -11,7 +11,7 @@ from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .cartan import frame_rule, rates, trivial_images
 from .chapter import Chapter
-from .elimination import CENTRAL, Eliminated, simplified, vector_tree
+from .elimination import CENTRAL, Eliminated, from_centre, vector_tree
 from .exterior import primed, work
 from .inputs import Given
 from .isometry import Isometry
@@ -96,8 +96,8 @@ def displacement_motion(
     if given is not None:
         forces[MU] = forces[MU] + given.moments
         forces[b.F_body] = forces[b.F_body] + given.resultant
-    rotation = simplified(substitute(reduce(stage.torque, isolate(b.F_body)), forces), b)
-    translation = simplified(substitute(stage.acceleration, forces), b)
+    rotation = from_centre(substitute(reduce(stage.torque, isolate(b.F_body)), forces), b)
+    translation = from_centre(substitute(stage.acceleration, forces), b)
     chapter = c.with_input() if given else c
     return chapter.step(
         "motion",

@@ -84,7 +84,7 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
     const double I_c_33 = J_c_11 + J_c_22;
 
     /* se3.motion: 9 mul, 7 add, 1 div
-     * ζ̇ = I_c⁻¹(u + I_c ζ ∧ ζ − m⁻¹(c ∧ f_u)) */
+     * ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ) */
     const double adj_I_c_11 = I_c_22*I_c_33 - I_c_23*I_c_23;
     const double adj_I_c_12 = I_c_13*I_c_23 - I_c_12*I_c_33;
     const double adj_I_c_13 = I_c_12*I_c_23 - I_c_13*I_c_22;
@@ -110,15 +110,18 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
     k[14] = (I_c_11*I_c_33 - I_c_13*I_c_13)*inv_det_I_c;
     k[15] = (I_c_12*I_c_13 - I_c_11*I_c_23)*inv_det_I_c;
     k[16] = (I_c_11*I_c_22 - I_c_12*I_c_12)*inv_det_I_c;
-    k[17] = g_1;
-    k[18] = g_2;
-    k[19] = g_3;
-    k[20] = J_22 + J_33;
-    k[21] = -J_12;
-    k[22] = -J_13;
-    k[23] = J_11 + J_33;
-    k[24] = -J_23;
-    k[25] = J_11 + J_22;
+    k[17] = inv_m*c_1;
+    k[18] = inv_m*c_2;
+    k[19] = inv_m*c_3;
+    k[20] = g_1;
+    k[21] = g_2;
+    k[22] = g_3;
+    k[23] = J_22 + J_33;
+    k[24] = -J_12;
+    k[25] = -J_13;
+    k[26] = J_11 + J_33;
+    k[27] = -J_23;
+    k[28] = J_11 + J_22;
 
     /* each determinant or pivot against what rounding could make of a singular matrix */
     if (!(fabs(m) > 0)) {
@@ -139,9 +142,6 @@ void se3_rhs(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT 
     const double *se3_RESTRICT u, double *se3_RESTRICT dx)
 {
     const double inv_m = k[1];
-    const double c_1 = k[2];
-    const double c_2 = k[3];
-    const double c_3 = k[4];
     const double I_c_11 = k[5];
     const double I_c_12 = k[6];
     const double I_c_13 = k[7];
@@ -154,9 +154,12 @@ void se3_rhs(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT 
     const double inv_I_c_22 = k[14];
     const double inv_I_c_23 = k[15];
     const double inv_I_c_33 = k[16];
-    const double g_1 = k[17];
-    const double g_2 = k[18];
-    const double g_3 = k[19];
+    const double r_c_1 = k[17];
+    const double r_c_2 = k[18];
+    const double r_c_3 = k[19];
+    const double g_1 = k[20];
+    const double g_2 = k[21];
+    const double g_3 = k[22];
     const double u_1 = u[0];
     const double u_2 = u[1];
     const double u_3 = u[2];
@@ -179,29 +182,32 @@ void se3_rhs(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT 
     const double w_2 = x[16];
     const double w_3 = x[17];
 
-    /* se3.motion: 33 mul, 24 add
-     * ζ̇ = I_c⁻¹(u + I_c ζ ∧ ζ − m⁻¹(c ∧ f_u)) */
+    /* se3.motion: 30 mul, 24 add
+     * ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ) */
     const double I_c_zeta_1 = I_c_11*zeta_1 + I_c_12*zeta_2 + I_c_13*zeta_3;
     const double I_c_zeta_2 = I_c_12*zeta_1 + I_c_22*zeta_2 + I_c_23*zeta_3;
     const double I_c_zeta_3 = I_c_13*zeta_1 + I_c_23*zeta_2 + I_c_33*zeta_3;
-    const double balance_1 = u_1 + zeta_3*I_c_zeta_2 - zeta_2*I_c_zeta_3 - inv_m*(c_2*u_6 - c_3*u_5);
-    const double balance_2 = u_2 + zeta_1*I_c_zeta_3 - zeta_3*I_c_zeta_1 - inv_m*(c_3*u_4 - c_1*u_6);
-    const double balance_3 = u_3 + zeta_2*I_c_zeta_1 - zeta_1*I_c_zeta_2 - inv_m*(c_1*u_5 - c_2*u_4);
+    const double balance_1 = u_1 + r_c_3*u_5 + zeta_3*I_c_zeta_2 - r_c_2*u_6 - zeta_2*I_c_zeta_3;
+    const double balance_2 = u_2 + r_c_1*u_6 + zeta_1*I_c_zeta_3 - r_c_3*u_4 - zeta_3*I_c_zeta_1;
+    const double balance_3 = u_3 + r_c_2*u_4 + zeta_2*I_c_zeta_1 - r_c_1*u_5 - zeta_1*I_c_zeta_2;
     const double zeta_dot_1 = inv_I_c_11*balance_1 + inv_I_c_12*balance_2 + inv_I_c_13*balance_3;
     const double zeta_dot_2 = inv_I_c_12*balance_1 + inv_I_c_22*balance_2 + inv_I_c_23*balance_3;
     const double zeta_dot_3 = inv_I_c_13*balance_1 + inv_I_c_23*balance_2 + inv_I_c_33*balance_3;
 
-    /* se3.motion: 36 mul, 30 add
-     * ẇ = w ∧ ζ + Āγ + m⁻¹(c ∧ ζ̇ + f_u + ζ ∧ (c ∧ ζ)) */
-    const double part_10 = c_2*zeta_3 - c_3*zeta_2;
-    const double part_11 = c_3*zeta_1 - c_1*zeta_3;
-    const double part_12 = c_1*zeta_2 - c_2*zeta_1;
-    const double w_dot_1 = zeta_3*w_2 + (g_1*A_11 + g_2*A_21 + g_3*A_31) + inv_m*(u_4 + c_2*zeta_dot_3
-        + zeta_2*part_12 - c_3*zeta_dot_2 - zeta_3*part_11) - zeta_2*w_3;
-    const double w_dot_2 = zeta_1*w_3 + (g_1*A_12 + g_2*A_22 + g_3*A_32) + inv_m*(u_5 + c_3*zeta_dot_1
-        + zeta_3*part_10 - c_1*zeta_dot_3 - zeta_1*part_12) - zeta_3*w_1;
-    const double w_dot_3 = zeta_2*w_1 + (g_1*A_13 + g_2*A_23 + g_3*A_33) + inv_m*(u_6 + c_1*zeta_dot_2
-        + zeta_1*part_11 - c_2*zeta_dot_1 - zeta_2*part_10) - zeta_1*w_2;
+    /* se3.elimination: 6 mul, 6 add
+     * w_c = w + ζ ∧ r_c */
+    const double w_c_1 = w_1 + r_c_3*zeta_2 - r_c_2*zeta_3;
+    const double w_c_2 = w_2 + r_c_1*zeta_3 - r_c_3*zeta_1;
+    const double w_c_3 = w_3 + r_c_2*zeta_1 - r_c_1*zeta_2;
+
+    /* se3.motion: 24 mul, 21 add
+     * ẇ = r_c ∧ ζ̇ + w_c ∧ ζ + Āγ + m⁻¹ f_u */
+    const double w_dot_1 = r_c_2*zeta_dot_3 + zeta_3*w_c_2 + (g_1*A_11 + g_2*A_21 + g_3*A_31) + inv_m*u_4
+        - r_c_3*zeta_dot_2 - zeta_2*w_c_3;
+    const double w_dot_2 = r_c_3*zeta_dot_1 + zeta_1*w_c_3 + (g_1*A_12 + g_2*A_22 + g_3*A_32) + inv_m*u_5
+        - r_c_1*zeta_dot_3 - zeta_3*w_c_1;
+    const double w_dot_3 = r_c_1*zeta_dot_2 + zeta_2*w_c_1 + (g_1*A_13 + g_2*A_23 + g_3*A_33) + inv_m*u_6
+        - r_c_2*zeta_dot_1 - zeta_1*w_c_2;
 
     (void)t;
     dx[0] = A_12*zeta_3 - A_13*zeta_2;
@@ -230,15 +236,15 @@ double se3_energy(double t, const double *se3_RESTRICT x, const double *se3_REST
     const double c_1 = k[2];
     const double c_2 = k[3];
     const double c_3 = k[4];
-    const double g_1 = k[17];
-    const double g_2 = k[18];
-    const double g_3 = k[19];
-    const double I_11 = k[20];
-    const double I_12 = k[21];
-    const double I_13 = k[22];
-    const double I_22 = k[23];
-    const double I_23 = k[24];
-    const double I_33 = k[25];
+    const double g_1 = k[20];
+    const double g_2 = k[21];
+    const double g_3 = k[22];
+    const double I_11 = k[23];
+    const double I_12 = k[24];
+    const double I_13 = k[25];
+    const double I_22 = k[26];
+    const double I_23 = k[27];
+    const double I_33 = k[28];
     const double A_11 = x[0];
     const double A_12 = x[1];
     const double A_13 = x[2];

@@ -26,8 +26,8 @@ Parameters p:
     g_2: gravity in space, [m/s^2], default 0.0
     g_3: gravity in space, [m/s^2], default -9.81
 
-Operations: constants 33 mul, 22 add, 2 div;
-rhs 96 mul, 69 add; energy 43 mul, 29 add.
+Operations: constants 36 mul, 22 add, 2 div;
+rhs 87 mul, 66 add; energy 43 mul, 29 add.
 """
 
 import numpy
@@ -86,6 +86,9 @@ CONSTANTS = (
     "inv_I_c_22",
     "inv_I_c_23",
     "inv_I_c_33",
+    "r_c_1",
+    "r_c_2",
+    "r_c_3",
     "g_1",
     "g_2",
     "g_3",
@@ -162,7 +165,7 @@ def _constants(xp, p):
     I_c_33 = J_c_11 + J_c_22
 
     # se3.motion: 9 mul, 7 add, 1 div
-    # ζ̇ = I_c⁻¹(u + I_c ζ ∧ ζ − m⁻¹(c ∧ f_u))
+    # ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ)
     adj_I_c_11 = I_c_22*I_c_33 - I_c_23*I_c_23
     adj_I_c_12 = I_c_13*I_c_23 - I_c_12*I_c_33
     adj_I_c_13 = I_c_12*I_c_23 - I_c_13*I_c_22
@@ -196,6 +199,9 @@ def _constants(xp, p):
             (I_c_11*I_c_33 - I_c_13*I_c_13)*inv_det_I_c,
             (I_c_12*I_c_13 - I_c_11*I_c_23)*inv_det_I_c,
             (I_c_11*I_c_22 - I_c_12*I_c_12)*inv_det_I_c,
+            inv_m*c_1,
+            inv_m*c_2,
+            inv_m*c_3,
             g_1,
             g_2,
             g_3,
@@ -216,9 +222,6 @@ def rhs(t, x, k, u=None):
     """dx/dt; u are the inputs, zero when None."""
     xp, (x, k) = _arrays(x, k)
     inv_m = k[..., 1]
-    c_1 = k[..., 2]
-    c_2 = k[..., 3]
-    c_3 = k[..., 4]
     I_c_11 = k[..., 5]
     I_c_12 = k[..., 6]
     I_c_13 = k[..., 7]
@@ -231,9 +234,12 @@ def rhs(t, x, k, u=None):
     inv_I_c_22 = k[..., 14]
     inv_I_c_23 = k[..., 15]
     inv_I_c_33 = k[..., 16]
-    g_1 = k[..., 17]
-    g_2 = k[..., 18]
-    g_3 = k[..., 19]
+    r_c_1 = k[..., 17]
+    r_c_2 = k[..., 18]
+    r_c_3 = k[..., 19]
+    g_1 = k[..., 20]
+    g_2 = k[..., 21]
+    g_3 = k[..., 22]
     A_11 = x[..., 0]
     A_12 = x[..., 1]
     A_13 = x[..., 2]
@@ -260,34 +266,37 @@ def rhs(t, x, k, u=None):
         u_5 = u[..., 4]
         u_6 = u[..., 5]
 
-    # se3.motion: 33 mul, 24 add
-    # ζ̇ = I_c⁻¹(u + I_c ζ ∧ ζ − m⁻¹(c ∧ f_u))
+    # se3.motion: 30 mul, 24 add
+    # ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ)
     I_c_zeta_1 = I_c_11*zeta_1 + I_c_12*zeta_2 + I_c_13*zeta_3
     I_c_zeta_2 = I_c_12*zeta_1 + I_c_22*zeta_2 + I_c_23*zeta_3
     I_c_zeta_3 = I_c_13*zeta_1 + I_c_23*zeta_2 + I_c_33*zeta_3
-    balance_1 = u_1 + zeta_3*I_c_zeta_2 - zeta_2*I_c_zeta_3 - inv_m*(c_2*u_6 - c_3*u_5)
-    balance_2 = u_2 + zeta_1*I_c_zeta_3 - zeta_3*I_c_zeta_1 - inv_m*(c_3*u_4 - c_1*u_6)
-    balance_3 = u_3 + zeta_2*I_c_zeta_1 - zeta_1*I_c_zeta_2 - inv_m*(c_1*u_5 - c_2*u_4)
+    balance_1 = u_1 + r_c_3*u_5 + zeta_3*I_c_zeta_2 - r_c_2*u_6 - zeta_2*I_c_zeta_3
+    balance_2 = u_2 + r_c_1*u_6 + zeta_1*I_c_zeta_3 - r_c_3*u_4 - zeta_3*I_c_zeta_1
+    balance_3 = u_3 + r_c_2*u_4 + zeta_2*I_c_zeta_1 - r_c_1*u_5 - zeta_1*I_c_zeta_2
     zeta_dot_1 = inv_I_c_11*balance_1 + inv_I_c_12*balance_2 + inv_I_c_13*balance_3
     zeta_dot_2 = inv_I_c_12*balance_1 + inv_I_c_22*balance_2 + inv_I_c_23*balance_3
     zeta_dot_3 = inv_I_c_13*balance_1 + inv_I_c_23*balance_2 + inv_I_c_33*balance_3
 
-    # se3.motion: 36 mul, 30 add
-    # ẇ = w ∧ ζ + Āγ + m⁻¹(c ∧ ζ̇ + f_u + ζ ∧ (c ∧ ζ))
-    part_10 = c_2*zeta_3 - c_3*zeta_2
-    part_11 = c_3*zeta_1 - c_1*zeta_3
-    part_12 = c_1*zeta_2 - c_2*zeta_1
+    # se3.elimination: 6 mul, 6 add
+    # w_c = w + ζ ∧ r_c
+    w_c_1 = w_1 + r_c_3*zeta_2 - r_c_2*zeta_3
+    w_c_2 = w_2 + r_c_1*zeta_3 - r_c_3*zeta_1
+    w_c_3 = w_3 + r_c_2*zeta_1 - r_c_1*zeta_2
+
+    # se3.motion: 24 mul, 21 add
+    # ẇ = r_c ∧ ζ̇ + w_c ∧ ζ + Āγ + m⁻¹ f_u
     w_dot_1 = (
-        zeta_3*w_2 + (g_1*A_11 + g_2*A_21 + g_3*A_31) + inv_m*(u_4 + c_2*zeta_dot_3 + zeta_2*part_12
-        - c_3*zeta_dot_2 - zeta_3*part_11) - zeta_2*w_3
+        r_c_2*zeta_dot_3 + zeta_3*w_c_2 + (g_1*A_11 + g_2*A_21 + g_3*A_31) + inv_m*u_4 - r_c_3*zeta_dot_2
+        - zeta_2*w_c_3
     )
     w_dot_2 = (
-        zeta_1*w_3 + (g_1*A_12 + g_2*A_22 + g_3*A_32) + inv_m*(u_5 + c_3*zeta_dot_1 + zeta_3*part_10
-        - c_1*zeta_dot_3 - zeta_1*part_12) - zeta_3*w_1
+        r_c_3*zeta_dot_1 + zeta_1*w_c_3 + (g_1*A_12 + g_2*A_22 + g_3*A_32) + inv_m*u_5 - r_c_1*zeta_dot_3
+        - zeta_3*w_c_1
     )
     w_dot_3 = (
-        zeta_2*w_1 + (g_1*A_13 + g_2*A_23 + g_3*A_33) + inv_m*(u_6 + c_1*zeta_dot_2 + zeta_1*part_11
-        - c_2*zeta_dot_1 - zeta_2*part_10) - zeta_1*w_2
+        r_c_1*zeta_dot_2 + zeta_2*w_c_1 + (g_1*A_13 + g_2*A_23 + g_3*A_33) + inv_m*u_6 - r_c_2*zeta_dot_1
+        - zeta_1*w_c_2
     )
 
     return _stack(
@@ -322,15 +331,15 @@ def energy(t, x, k):
     c_1 = k[..., 2]
     c_2 = k[..., 3]
     c_3 = k[..., 4]
-    g_1 = k[..., 17]
-    g_2 = k[..., 18]
-    g_3 = k[..., 19]
-    I_11 = k[..., 20]
-    I_12 = k[..., 21]
-    I_13 = k[..., 22]
-    I_22 = k[..., 23]
-    I_23 = k[..., 24]
-    I_33 = k[..., 25]
+    g_1 = k[..., 20]
+    g_2 = k[..., 21]
+    g_3 = k[..., 22]
+    I_11 = k[..., 23]
+    I_12 = k[..., 24]
+    I_13 = k[..., 25]
+    I_22 = k[..., 26]
+    I_23 = k[..., 27]
+    I_33 = k[..., 28]
     A_11 = x[..., 0]
     A_12 = x[..., 1]
     A_13 = x[..., 2]

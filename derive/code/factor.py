@@ -1,0 +1,96 @@
+"""Fewer multiplications: names that hide a common factor are looked through.
+
+Two names are worth losing.  k·x, with k of the parameters alone, where each use multiplies it by
+another such factor: the constants merge.  And a summand that is a sum of its own, where another
+summand has the same moving factors: their constants add.  Nothing else is touched.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Sequence
+
+from .graph import PARAMETER, Graph, Node
+
+PASSES = 4
+
+
+def factored(graph: Graph, roots: Sequence[Node]) -> list[Node]:
+    """The same values with fewer multiplications."""
+    found = list(roots)
+    for _ in range(PASSES):
+        lost = _lost(found)
+        if not lost:
+            break
+        images = _rebuilt(graph, found, lost)
+        found = [images[x] for x in found]
+    return found
+
+
+def _reachable(roots: Iterable[Node]) -> list[Node]:
+    """The moving nodes, operands first."""
+    seen: set[Node] = set()
+    stack = [x for x in roots if x.stage != PARAMETER]
+    while stack:
+        x = stack.pop()
+        if x not in seen:
+            seen.add(x)
+            stack.extend(y for y in x.args if y.stage != PARAMETER)
+    return sorted(seen, key=lambda x: x.id)
+
+
+def _lost(roots: Sequence[Node]) -> set[Node]:
+    """The value nodes to look through."""
+    order = _reachable(roots)
+    parents: dict[Node, list[Node]] = defaultdict(list)
+    for x in order:
+        for y in x.args:
+            parents[y].append(x)
+    outputs = set(roots)
+    inner = [x for x in order if x.op == "value" and x not in outputs]
+    scaled = {x for x in inner if _is_scaled(x.args[0]) and all(map(_is_scaled, parents[x]))}
+    single = {x for x in inner if x.args[0].op == "add" and len(parents[x]) == 1}
+    sums = {parents[x][0] for x in single if parents[x][0].op == "add"}
+    return scaled | {x for s in sums for x in _sharing(s, single)}
+
+
+def _is_scaled(x: Node) -> bool:
+    """Is it a product with a factor of the parameters?"""
+    return x.op == "mul" and x.args[0].stage == PARAMETER
+
+
+def _moving(x: Node) -> tuple[Node, ...]:
+    """The factors that do not depend on parameters alone."""
+    return tuple(y for y in x.args if y.stage != PARAMETER) if x.op == "mul" else (x,)
+
+
+def _sharing(s: Node, single: set[Node]) -> list[Node]:
+    """The summands that are sums of their own and have moving factors in common with the rest."""
+    own = {x: [_moving(y) for y in (x.args[0].args if x in single else (x,))] for x in s.args}
+    count = Counter(m for moving in own.values() for m in set(moving))
+    return [x for x in s.args if x in single and any(count[m] > 1 for m in own[x])]
+
+
+def _rebuilt(graph: Graph, roots: Sequence[Node], lost: set[Node]) -> dict[Node, Node]:
+    """Old node → new node; what depends on parameters alone stays as it is."""
+    images: dict[Node, Node] = {x: x for x in roots if x.stage == PARAMETER}
+    for x in _reachable(roots):
+        args = [images.get(y, y) for y in x.args]
+        if x in lost:
+            images[x] = args[0]
+        elif all(a is b for a, b in zip(args, x.args, strict=True)):
+            images[x] = x
+        elif x.op == "value":
+            name, label, given = graph.titles[x]
+            images[x] = graph.value(args[0], name, label, given=given)
+        elif x.op == "add":
+            images[x] = graph.linear(zip(x.data, args, strict=True))
+        elif x.op == "mul":
+            images[x] = graph.product(args)
+        elif x.op == "recip":
+            images[x] = graph.recip(args[0])
+        elif x.op == "fun":
+            images[x] = graph.function(x.data, args[0])
+        else:
+            images[x] = graph.magnitude(args[0])
+    return images
