@@ -11,9 +11,10 @@ __version__ = "0.1.0"
 
 WORDS = (
     *("Aff", "Attraction", "Covector", "Damping", "Derived", "Force", "GL", "Gravity", "Group"),
-    *("Moments", "Points", "Potential", "Problem", "SAff", "SE", "SL", "SO", "Solid", "Spring"),
-    "derive",
+    *("Moments", "Points", "Potential", "Problem", "SAff", "SE", "SL", "SO", "SU", "Sim", "Solid"),
+    *("Sp", "Spring", "U", "UT", "derive"),
 )
+__all__ = [*WORDS, "ProblemError"]
 
 
 def __getattr__(name: str) -> Any:

@@ -63,6 +63,31 @@ def SL(n: int) -> Group:
     return Group(f"SL({n})")
 
 
+def Sp(n: int) -> Group:
+    """Symplectic maps of Rⁿ, n even."""
+    return Group(f"Sp({n})")
+
+
+def Sim(n: int) -> Group:
+    """Similarities of Rⁿ."""
+    return Group(f"Sim({n})")
+
+
+def UT(n: int) -> Group:
+    """Upper unitriangular maps of Rⁿ."""
+    return Group(f"UT({n})")
+
+
+def U(n: int) -> Group:
+    """Unitary maps of Cⁿ = R²ⁿ."""
+    return Group(f"U({n})")
+
+
+def SU(n: int) -> Group:
+    """Unitary maps of Cⁿ of determinant 1."""
+    return Group(f"SU({n})")
+
+
 def SAff(n: int) -> Group:
     """Affine maps of Rⁿ that keep the volume."""
     return Group(f"SAff({n})")
@@ -106,9 +131,15 @@ def Gravity(*g: Number) -> Table:
     return Table("potential", kind="gravity", g=list(g))
 
 
-def Spring(i: int, j: int | Sequence[Number], stiffness: Number, length: Number = 0) -> Table:
-    """½ k (‖s‖ − length)² between two points, or from a point to an anchor in space."""
-    ends = {"between": [i, j]} if isinstance(j, int) else {"on": i, "anchor": j}
+def Spring(
+    i: int | Sequence[Number], j: int | Sequence[Number], stiffness: Number, length: Number = 0
+) -> Table:
+    """½ k (‖s‖ − length)² between points i and j, or from point i, or a place i of the body, to an
+    anchor j in space."""
+    if isinstance(j, int):
+        ends: dict[str, Any] = {"between": [i, j]}
+    else:
+        ends = {"on" if isinstance(i, int) else "at": i, "anchor": j}
     return Table("potential", kind="spring", stiffness=stiffness, length=length, **ends)
 
 
@@ -140,9 +171,9 @@ def Damping(coefficient: Number, on: Sequence[int] | None = None) -> Table:
 
 def Problem(
     name: str,
-    group: Group,
+    group: Group | str,
     body: Sequence[Table],
-    forces: Sequence[Table] = (),
+    forces: Sequence[Table] | Table = (),
     parameters: Mapping[str, Any] | None = None,
     title: str | None = None,
     negative_mass: bool = False,
@@ -151,11 +182,12 @@ def Problem(
 
     ``negative_mass``: may a mass be given as a negative number?
     """
-    data: dict[str, Any] = {"name": name, "group": group.table()}
+    named = Group(group) if isinstance(group, str) else group
+    data: dict[str, Any] = {"name": name, "group": named.table()}
     data["parameters"] = {k: _plain(x) for k, x in (parameters or {}).items()}
     if title is not None:
         data["title"] = title
-    for table in (*body, *forces):
+    for table in (*_tables(body), *_tables(forces)):
         if table.key == "body":
             data["body"] = table.fields
         else:
@@ -163,8 +195,19 @@ def Problem(
     return problem_of(data, negative_mass=negative_mass)
 
 
+def _tables(given: Any) -> list[Table]:
+    """The tables of a list, of lists in it, or one alone."""
+    if isinstance(given, Table):
+        return [given]
+    if not isinstance(given, (list, tuple)):
+        raise mechanics.ProblemError(f"expected Points(…), Gravity(…) and so on, not {given!r:.40}")
+    return [table for part in given for table in _tables(part)]
+
+
 def _plain(x: Any) -> Any:
-    """Tuples as lists and fractions as text, as a file has them."""
+    """Tuples and arrays as lists and fractions as text, as a file has them."""
+    if hasattr(x, "tolist"):
+        x = x.tolist()
     if isinstance(x, Fraction):
         return str(x)
     if isinstance(x, (list, tuple)):

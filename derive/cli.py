@@ -50,7 +50,7 @@ def derive(name: str, negative_mass: bool = False) -> tuple[Problem, Derivation]
     from .pipeline import walk
 
     problem = load_problem(name, negative_mass)
-    if found := where(problem.body):
+    if found := where(problem.body, problem.parameters):
         print(f"derive: warning: {name}: {found} is negative", file=sys.stderr)
     try:
         return problem, walk(problem)

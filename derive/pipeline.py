@@ -26,7 +26,7 @@ from fractions import Fraction
 from .algebra.groups import Group
 from .algebra.tree import names
 from .mechanics.problem import Problem
-from .record.record import Derivation, Step, Symbol, encode
+from .record.record import Derivation, Equation, Step, Symbol, encode
 from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, ROTATIONS, VOCABULARY
 from .walk.alphabet import Alphabet
 from .walk.body import body_step
@@ -67,7 +67,7 @@ def walk(problem: Problem) -> Derivation:
     steps = road.steps
     if problem.group is not None:
         steps += road_of(problem, problem.group, road)
-    return Derivation(_data(problem), _symbols(steps, problem.group), steps)
+    return Derivation(_data(problem), _symbols(steps, problem), steps)
 
 
 def road_of_any_group(a: Alphabet, name: str) -> General:
@@ -111,15 +111,17 @@ def road_of_matrices(problem: Problem, group: Group, stage: Special, c: Chapter)
         c, uses = c.with_input(), f"{uses} input"
         steps += given.steps
     inertial, force, metric = stage.inertial, stage.forces[b.Z.xi_prime], b.J
+    translation: tuple[Equation, ...] = ()
     if group.affine:
         centred = eliminate_translation(stage, uses, c)
         inertial, force, metric = centred.inertial, centred.force, centred.metric
         steps, uses = steps + centred.steps, "elimination"
+        translation = (Equation("ẇ", centred.acceleration),)
     normal = group.normal_space_of_linear_parts
     if len(normal) <= 1:
-        motion = multiplier_steps(inertial, force, metric, group, b, uses, c)
+        motion = multiplier_steps(inertial, force, metric, group, b, uses, c, translation)
         return (*steps, *motion, place, *stage.last)
-    return (*steps, place, *mass_steps(inertial, force, b, uses, c), *stage.last)
+    return (*steps, place, *mass_steps(inertial, force, b, uses, c, translation), *stage.last)
 
 
 def road_of_space(problem: Problem, stage: Isometry, c: Chapter) -> Steps:
@@ -164,14 +166,18 @@ def _data(problem: Problem) -> dict[str, object]:
     return {k: plain(v) for k, v in data.items()}
 
 
-def _symbols(steps: Steps, group: Group | None) -> tuple[Symbol, ...]:
+def _symbols(steps: Steps, problem: Problem) -> tuple[Symbol, ...]:
     """The names that the steps use, in the order in which they appear."""
+    group = problem.group
     used: dict[str, None] = {}
     for step in steps:
         for equation in step.equations:
             for side in (equation.lhs, equation.rhs):
                 used |= dict.fromkeys(names(side))
     turning = group is not None and group.turns_space
-    own = (DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
+    own = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
+    forces = [f"{x.name}, a force on point {x.on}, in the {x.frame} frame" for x in problem.pushes]
+    if forces:
+        own["f_u"] = "input: " + "; ".join(forces)
     known = (x for x in used if x in VOCABULARY)
     return tuple(Symbol(x, own.get(x, VOCABULARY[x][0]), VOCABULARY[x][1]) for x in known)

@@ -24,13 +24,15 @@ _MATH = """
     """
 _MACROS = """
     isfinite isinf isnan isnormal signbit fpclassify isgreater isless isunordered signgam
+    M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2
     HUGE_VAL INFINITY NAN FP_NAN FP_INFINITE FP_ZERO FP_NORMAL FP_SUBNORMAL math_errhandling
     """
 
 _FUNCTIONS = [name + suffix for name in _MATH.split() for suffix in ("", "f", "l")]
 
 WORDS: dict[str, str] = (
-    dict.fromkeys([*_FUNCTIONS, *_MACROS.split()], "a name of C's math.h")
+    dict.fromkeys(("linux", "unix"), "a macro of C compilers")
+    | dict.fromkeys([*_FUNCTIONS, *_MACROS.split()], "a name of C's math.h")
     | dict.fromkeys(keyword.kwlist, "a keyword of Python")
     | dict.fromkeys(_CPP.split(), "a keyword of C++")
     | dict.fromkeys(_C.split(), "a keyword of C")

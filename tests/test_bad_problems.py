@@ -62,6 +62,47 @@ FILES = {
         "rotation = [[1, 1, 0], [0, 1, 0], [0, 0, 1]]",
         "not orthogonal",
     ),
+    "reflection": (
+        TOP + '[body]\nsolid = "ball"\ndensity = 1\nradius = 1\n'
+        "rotation = [[-1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+        "a reflection",
+    ),
+    "moments of no masses": (
+        TOP + "[body]\ngiven = { m = 1, c = [10, 0, 0], J = [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }",
+        "no masses have these moments",
+    ),
+    "two inputs of one name": (
+        TWO + 2 * '[[input]]\nname = "F"\nkind = "force"\non = 1\n',
+        "input 2: a second input 'F'",
+    ),
+    "input named as a parameter": (
+        TWO + '[parameters]\nF = 1\n[[input]]\nname = "F"\nkind = "force"\non = 1',
+        "'F' is a parameter as well",
+    ),
+    "parameter t": (TWO + "[parameters]\nt = 1", "this is the time"),
+    "parameter r1_x": (TWO + "[parameters]\nr1_x = 1", "a place of a point"),
+    "time in a mass": (TOP + '[[point]]\nmass = "t"\nat = [1, 0, 0]', "'t' is known in the 'U'"),
+    "infinite default": (TWO + "[parameters]\nk = inf", "finite"),
+    "no damped point": (TWO + "[[damping]]\ncoefficient = 1\non = []", "list of points"),
+    "hole outside": (
+        TOP + '[body]\nsolid = "hollow_ball"\ndensity = 1\nouter = 1\ninner = -1',
+        "inner: a length that is not positive",
+    ),
+    "negative sides": (
+        TOP + '[body]\nsolid = "box"\ndensity = 1\nsides = [-1, -1, 1]',
+        "sides: a length that is not positive",
+    ),
+    "negative by pi": (TOP + '[body]\nsolid = "ball"\ndensity = -1\nradius = 1', "negative"),
+    "negative by default": (
+        TOP + '[parameters]\nm = -2\n[[point]]\nmass = "m"\nat = [1, 0, 0]',
+        "point 1: key 'mass' is negative",
+    ),
+    "power": (U + '"r1_x**2"', "a power is written ^"),
+    "factor": (U + '"2r1_x"', "a product needs a *"),
+    "zero in a basis": (OWN + "[[[0, 0], [0, 0]]]", "element 1 of the basis is zero"),
+    "group with a letter": (TOP.replace("SO(3)", "SO(x)"), "unknown group 'SO(x)'"),
+    "half a product": (TOP.replace("SO(3)", "SO(3) x"), "unknown group 'SO(3) x'"),
+    "place of another name": (U + '"r1_w"', "r1_1, r1_2"),
     "block": (
         'name = "two"\ngroup = "SO(3) x SO(3)"\n[[point]]\nmass = 1\nat = [1, 0, 0]\nblock = 3',
         "from 1 to 2",
@@ -98,7 +139,7 @@ SINGULAR = {
     ),
     "aligned whatever a and b": (
         TOP + '[[point]]\nmass = 1\nat = ["a", "b", 0]\n[parameters]\na = 1\nb = 1\n',
-        "the axis (2, 3, 0) moves no mass (at a = 2, b = 3)",
+        "the axis (2, 3, 0) (at a = 2, b = 3) moves no mass",
     ),
     "coplanar": (TWO.replace("SO(3)", "GL(3)"), "Z = [[0, 0, 1], [0, 0, 0], [0, 0, 0]]"),
     "coplanar for SL": (TWO.replace("SO(3)", "SL(3)"), "Z = [[0, 0, 1], [0, 0, 0], [0, 0, 0]]"),

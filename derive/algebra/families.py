@@ -194,7 +194,7 @@ FAMILIES: dict[str, Family] = {
 
 def group(name: str) -> Group:
     """The group called ``"SO(3)"``, ``"SL(4)"``, ``"SO(3) x SE(3)"``; ``ValueError`` if none."""
-    parts = re.split(r"\s*[x×]\s*", name.strip()) if len(name) < 200 else [name]
+    parts = re.split(r"(?<=\))\s*[x×]\s*(?=\S)", name.strip()) if len(name) < 200 else [name]
     if len(parts) > 1:
         return product(tuple(group(x) for x in parts))
     match = re.fullmatch(r"([A-Za-z]+)\(\s*([0-9]{1,3})\s*\)", parts[0])

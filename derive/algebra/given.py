@@ -63,7 +63,8 @@ def _independent(basis: Sequence[Matrix]) -> None:
     for a, e in enumerate(basis, 1):
         rows.append(q.flatten(e))
         if q.rank(tuple(rows)) < a:
-            raise ValueError(f"element {a} of the basis depends on those before it; leave it out")
+            why = "depends on those before it" if any(rows[-1]) else "is zero"
+            raise ValueError(f"element {a} of the basis {why}; leave it out")
 
 
 def _closed(g: Group) -> None:

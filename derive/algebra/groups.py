@@ -86,9 +86,9 @@ class Group:
 
     @property
     def free_translations(self) -> bool:
-        """Is it H ⋉ Rⁿ, with the basis of 𝔥 first and then the n translations e_1, …, e_n?"""
+        """Is it H ⋉ Rⁿ, H not trivial, with the basis of 𝔥 first and then e_1, …, e_n of Rⁿ?"""
         n = self.n
-        if not self.affine or self.dimension < n:
+        if not self.affine or self.dimension <= n:
             return False
         last = tuple(q.unit(n + 1, i, n) for i in range(n))
         no_shift = all(row[n] == 0 for e in self.basis[:-n] for row in e)

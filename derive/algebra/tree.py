@@ -85,10 +85,10 @@ def coefficient(t: Tree) -> tuple[Fraction, Tree]:
 
 
 def names(t: Tree) -> Iterator[str]:
-    """Every name that occurs in a tree, in reading order, with repetitions."""
+    """Every name that occurs in a tree, in reading order, with repetitions; not the parameters."""
     if isinstance(t, str):
         yield t
-    elif isinstance(t, tuple):
+    elif isinstance(t, tuple) and t[0] != "par":
         for part in t[1:]:
             yield from names(part)
 

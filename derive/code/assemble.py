@@ -28,8 +28,8 @@ def assemble(d: Derivation, group: Group) -> Program:
         tensor = inertia(lowering)
     except ZeroDivisionError:
         raise LoweringError(
-            f"{d.name}: the kinetic metric is singular: a direction of the group moves no mass of "
-            "this body; add points that are not aligned (or, for SL(n), not coplanar)"
+            f"{d.name}: a division by zero, or a mass matrix that is singular whatever the "
+            "parameters: look at the denominators in the file, and at the masses"
         ) from None
     if not isinstance(energy, Node):
         raise LoweringError("the energy is not a number")
@@ -57,7 +57,7 @@ def assemble(d: Derivation, group: Group) -> Program:
         str(d.problem.get("title", "")),
         group.name,
         group.dimension,
-        conventions(group, d.problem.get("inputs", [])),
+        conventions(group, d.problem),
         tuple(state),
         tuple(_parameter(d, name) for name in parameters),
         tuple(inputs),

@@ -6,10 +6,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..algebra.groups import Group
+from ..algebra.show import show
+from ..record.record import decode
 
 
-def conventions(group: Group, inputs: Sequence[Mapping[str, Any]]) -> tuple[str, ...]:
+def conventions(group: Group, problem: Mapping[str, Any]) -> tuple[str, ...]:
     """One sentence each, in plain ASCII."""
+    inputs: Sequence[Mapping[str, Any]] = problem.get("inputs", [])
+    places = _places(problem)
     lines = _factors(group) if group.factors else [_place("A", "T", group)]
     if group.turns_space:
         lines.append(
@@ -23,13 +27,23 @@ def conventions(group: Group, inputs: Sequence[Mapping[str, Any]]) -> tuple[str,
         lines.append(
             "w is the velocity of the body's origin (r = 0) in the body frame: dT/dt = A w."
         )
-    return (*lines, *(line for given in inputs for line in _input(group, given)))
+    return (*lines, *(line for given in inputs for line in _input(group, given, places)))
 
 
 def _place(A: str, T: str, g: Group) -> str:
     return f"{A} is {g.n} x {g.n}, row by row: a point r of the body stands at {A} r" + (
         f" + {T} in space." if g.affine else " in space."
     )
+
+
+def _places(problem: Mapping[str, Any]) -> dict[int, str]:
+    """The points without mass by their numbers, with where they are in the body."""
+    masses = len(problem.get("body", {}).get("points", []))
+    found = {}
+    for k, place in enumerate(problem.get("places", []), masses + 1):
+        at = ", ".join(show(decode(x, "place")) for x in place["at"]).replace("\u2212", "-")
+        found[k] = f" at ({at})" if at.isascii() else ""
+    return found
 
 
 def _factors(group: Group) -> list[str]:
@@ -39,11 +53,11 @@ def _factors(group: Group) -> list[str]:
     return lines + [_place(f"A{k}", f"T{k}", g) for k, g in enumerate(group.factors, 1)]
 
 
-def _input(group: Group, given: Mapping[str, Any]) -> list[str]:
-    name = given["name"]
+def _input(group: Group, given: Mapping[str, Any], places: Mapping[int, str]) -> list[str]:
+    name, where = given["name"], places.get(given.get("on", 0), "")
     if given["kind"] == "force":
         frame = "the space frame" if given["frame"] == "space" else "the body frame"
-        return [f"Input {name}: a force on point {given['on']}, in {frame}."]
+        return [f"Input {name}: a force on point {given['on']}{where}, in {frame}."]
     if group.turns_space and group.affine:
         return [
             f"Input {name}: a moment about the body's origin (its first 3 components) and a force",

@@ -28,8 +28,8 @@ def emit(
     """File name → text, for each language; ``EmitError`` for a prefix that is no name."""
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,63}", prefix) or prefix in RESERVED:
         raise EmitError(
-            f"--prefix {prefix[:40]!r}: give letters, digits and _, starting with a letter, at "
-            "most 64, and no word that the emitted code needs"
+            f"the prefix {prefix[:40]!r} cannot be used: give --prefix NAME, letters, digits and "
+            "_, starting with a letter, at most 64, and no word that the emitted code needs"
         )
     files = {}
     for language in languages:

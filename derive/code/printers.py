@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from .program import Expression
+from .reader import LoweringError
 
 SUM, PRODUCT, ATOM = 1, 2, 3
 
@@ -56,7 +57,10 @@ class Printer:
 
 def decimal(q: Fraction, suffix: str = "") -> str:
     """The nearest literal; a quotient of small integers stays one."""
-    value = float(q)
+    try:
+        value = float(q)
+    except OverflowError:
+        raise LoweringError("a number of the equations is larger than 1e308; scale it") from None
     if Fraction(value) == q or max(abs(q.numerator), q.denominator) >= 10**6:
         return f"{value!r}{suffix}"
     return f"{float(q.numerator)!r}{suffix}/{float(q.denominator)!r}{suffix}"

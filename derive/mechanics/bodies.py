@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import reduce
+from operator import add as add_moments
 from pathlib import Path
 from typing import Any
 
 from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.tree import Tree, add, mul
+from .expression import approximate
 from .fields import choice, expression, known, missing, tables, vector, whole
 from .mesh import MeshError, read
 from .problem import Body, GivenBody, MomentBody, PointBody, ProblemError
@@ -32,7 +35,8 @@ def body(data: Mapping[str, Any], moved: Group | None, folder: Path) -> Body | N
     if table is not None and (not isinstance(table, dict) or solids):
         raise ProblemError("give either one table [body] or the tables [[solid]]")
     if moved.factors:
-        raise ProblemError(f"body: the blocks of {moved.name} need [[point]] tables")
+        what = "a product" if len(moved.factors) > 1 else "an affine group given by a basis"
+        raise ProblemError(f"body: {what} moves [[point]] tables alone, no solids and no moments")
     if table is not None and "solid" not in table:
         if points:
             raise ProblemError("give either [[point]] tables or moments in [body]")
@@ -88,9 +92,10 @@ def _solid(data: Mapping[str, Any], k: int, folder: Path) -> Solid:
         if shape is None:
             sizes[key] = _file(value, place, folder)
         elif shape == ():
-            sizes[key] = expression(value, place)
+            sizes[key] = _positive(expression(value, place), place, zero=key == "inner")
         elif len(shape) == 1:
-            sizes[key] = vector(value, shape[0], place)
+            whole_sizes = vector(value, shape[0], place)
+            sizes[key] = tuple(_positive(x, place) for x in whole_sizes)
         else:
             if not isinstance(value, list) or len(value) != shape[0]:
                 raise ProblemError(f"{place}: expected a list of {shape[0]} points")
@@ -103,6 +108,14 @@ def _solid(data: Mapping[str, Any], k: int, folder: Path) -> Solid:
     except MeshError as error:
         raise ProblemError(f"{where}: {error}") from None
     return Solid(kind, density, sizes, rotation, shift, mesh)
+
+
+def _positive(size: Tree, where: str, zero: bool = False) -> Tree:
+    """A length: a number must be positive."""
+    value = approximate(size, {})
+    if value is not None and (value < 0 or (value == 0 and not zero)):
+        raise ProblemError(f"{where}: a length that is not positive")
+    return size
 
 
 def _file(value: Any, where: str, folder: Path) -> str:
@@ -128,24 +141,32 @@ def _rotation(value: Any, where: str) -> tuple[tuple[Tree, ...], ...]:
             raise ProblemError(f"{place}: {error}") from None
     if not isinstance(value, list) or len(value) != 3:
         raise ProblemError(f"{place}: expected {{ axis, angle }} or a list of 3 rows")
+    if not all(isinstance(row, list) for row in value):
+        raise ProblemError(f"{place}: expected 3 rows of 3 numbers, or {{ axis, angle }}")
     rows = tuple(vector(row, 3, place) for row in value)
     if not all(isinstance(x, (int, Fraction)) for row in rows for x in row):
         raise ProblemError(f"{place}: the entries must be numbers; else give {{ axis, angle }}")
     R = tuple(tuple(Fraction(str(x)) for x in row) for row in rows)
     off = q.minus(q.times(R, q.transposed(R)), q.identity(3))
     if max(abs(x) for x in q.flatten(off)) > Fraction(1, 10**6):
-        raise ProblemError(f"{place}: the rows are not orthogonal unit vectors")
+        raise ProblemError(
+            f"{place}: the rows are not orthogonal unit vectors; {{ axis, angle }} is exact"
+        )
+    (a, b, c), (d, e, f), (g, h, i) = R
+    if a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0:
+        raise ProblemError(f"{place}: a reflection; change the sign of one row")
     return rows
 
 
 def _mixture(solids: list[Solid], points: PointBody | None) -> GivenBody:
     """The moments of solids and points together."""
-    try:
-        total = moments(solids[0], relations=False)
-        for solid in solids[1:]:
-            total = total + moments(solid, relations=False)
-    except (SolidError, MeshError) as error:
-        raise ProblemError(f"solid: {error}") from None
+    parts = []
+    for k, solid in enumerate(solids, 1):
+        try:
+            parts.append(moments(solid, relations=False))
+        except (SolidError, MeshError) as error:
+            raise ProblemError(f"solid {k}: {error}") from None
+    total = reduce(add_moments, parts)
     own = total if points is None else total + _of_points(points)
     return GivenBody(own.mass, own.first, own.second, points, tuple(solids))
 

@@ -5,7 +5,9 @@ Text is turned into a tree by this parser alone; it never reaches Python's or Sy
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Mapping
 from fractions import Fraction
 
 from ..algebra.differentiate import DERIVATIVES
@@ -29,7 +31,7 @@ def parse(text: str) -> Tree:
     parser = _Parser(_tokens(text))
     tree = parser.sum(0)
     if parser.peek():
-        raise ExpressionError(f"unexpected {parser.peek()[:20]!r}")
+        raise ExpressionError(f"unexpected {parser.peek()[:20]!r}; a product needs a *, as 2*k")
     return tree
 
 
@@ -40,6 +42,37 @@ def names(tree: Tree) -> list[str]:
             return [tree[1]]
         return [name for part in tree[1:] for name in names(part)]
     return []
+
+
+def approximate(tree: Tree, values: Mapping[str, float]) -> float | None:
+    """The value for some parameters; ``None`` where one is missing or there is no value."""
+    if isinstance(tree, (int, Fraction)):
+        return float(tree)
+    if isinstance(tree, str):
+        return math.pi if tree == "π" else None
+    if tree[0] == "par":
+        return values.get(tree[1])
+    operands = tree[2:] if tree[0] == "fun" else tree[1:]
+    parts = [approximate(x, values) for x in operands]
+    known = [x for x in parts if x is not None]
+    if len(known) < len(parts):
+        return None
+    try:
+        return _combined(tree, known)
+    except (ArithmeticError, ValueError):
+        return None
+
+
+def _combined(tree: tuple[object, ...], x: list[float]) -> float | None:
+    if tree[0] == "add":
+        return math.fsum(x)
+    if tree[0] == "mul":
+        return math.prod(x)
+    if tree[0] == "div":
+        return x[0] / x[1]
+    if tree[0] == "pow":
+        return float(x[0] ** x[1])
+    return float(getattr(math, str(tree[1]))(x[0])) if tree[0] == "fun" else None
 
 
 def _tokens(text: str) -> list[str]:
@@ -124,6 +157,8 @@ class _Parser:
             return _number(Fraction(token))
         if token[:1].isalpha():
             return self.name(token, depth)
+        if token == "*":
+            raise ExpressionError("unexpected '*'; a power is written ^")
         raise ExpressionError(f"unexpected {token!r}" if token else "unexpected end")
 
     def name(self, token: str, depth: int) -> Tree:

@@ -134,11 +134,17 @@ def _placed(t: Tree, where: str, points: Points) -> Tree:
         return (t[0], *(_placed(x, where, points) for x in t[1:]))
     name = t[1]
     match = re.fullmatch(r"r([0-9]{1,4})_(?:([xyz])|([0-9]))", name)
-    if name in points.parameters or (match is None and name != "t"):
+    if match is None and name != "t":
+        if re.fullmatch(r"[rv][0-9]+_\w+", name):
+            raise ProblemError(
+                f"{where}: {name!r}: a place in space is r1_x, r1_y, r1_z, or r1_1, r1_2, …"
+            )
         return t
     if match is None:
         return "t"
     i = int(match[1])
+    if not points.masses:
+        raise ProblemError(f"{where}: {name!r}: there are no [[point]] tables to number")
     if not 1 <= i <= points.masses:
         raise ProblemError(f"{where}: {name!r}: the points are r1 … r{points.masses}")
     k = AXES.index(match[2]) + 1 if match[2] else int(match[3])
@@ -166,9 +172,9 @@ def damping(data: Mapping[str, Any], where: str, points: Points) -> Damping:
     """One table [[damping]]."""
     known(data, {"coefficient", "on"}, where)
     if not points.masses:
-        raise ProblemError(f"{where}: damping needs [[point]] tables")
+        raise ProblemError(f"{where}: damping needs [[point]] tables; their mass may be 0")
     listed = data.get("on", [*range(1, points.masses + 1)])
-    if not isinstance(listed, list):
+    if not isinstance(listed, list) or not listed:
         raise ProblemError(f"{where}: key 'on' must be a list of points")
     on = tuple(points.point(i, f"{where}, on") for i in listed)
     if len(set(on)) != len(on):

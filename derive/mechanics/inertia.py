@@ -16,14 +16,14 @@ from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
-from .expression import names
-from .problem import Body, GivenBody, MomentBody, PointBody
+from .expression import approximate, names
+from .problem import Body, GivenBody, MomentBody, Parameter, PointBody
 
 Vector = tuple[Any, ...]
 
 
 def still_direction(group: Group, body: Body) -> str | None:
-    """What leaves every mass in its place, in words; ``None`` when there is no such direction."""
+    """What moves no mass, in words; ``None`` when every direction of the group moves some."""
     if isinstance(body, MomentBody):
         return None
     used = dict.fromkeys(x for t in _trees(body) for x in names(t))
@@ -124,13 +124,13 @@ def _words(group: Group, coordinates: Vector) -> str:
     if group.turns_space:
         turn, shift = x[:3], x[3:]
         if not any(turn):
-            return f"the translation along {_listed(shift)} moves no mass"
+            return f"the translation along {_listed(shift)}"
         if any(shift):
-            return f"turning about {_axis(turn, shift)} moves no mass"
-        return f"turning about the axis {_listed(turn)} moves no mass"
+            return f"turning about {_axis(turn, shift)}"
+        return f"turning about the axis {_listed(turn)}"
     Z = group.hat(x)
     rows = ", ".join("[" + ", ".join(str(y) for y in row) + "]" for row in Z)
-    return f"the direction Z = [{rows}] of the Lie algebra moves no mass"
+    return f"the direction Z = [{rows}] of the Lie algebra"
 
 
 def _axis(turn: Vector, shift: Vector) -> str:
@@ -157,16 +157,47 @@ def _listed(x: Vector) -> str:
     return "(" + ", ".join(map(str, x)) + ")"
 
 
-def negative_mass(body: Body | None) -> str | None:
-    """Where a mass is given as a negative number; ``None`` when nowhere."""
+def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str | None:
+    """Where a mass is negative, for the defaults of the parameters; ``None`` when nowhere."""
+    defaults = {name: p.default for name, p in parameters.items() if p.default is not None}
+
+    def negative(t: Tree) -> bool:
+        value = approximate(t, defaults)
+        return value is not None and value < 0
+
     points = body if isinstance(body, PointBody) else None
     if isinstance(body, GivenBody):
         points = body.points
-        if _negative(body.mass):
+        if negative(body.mass):
             return "body: the mass"
     masses = points.masses if points else ()
-    return next((f"point {k}: key 'mass'" for k, m in enumerate(masses, 1) if _negative(m)), None)
+    return next((f"point {k}: key 'mass'" for k, m in enumerate(masses, 1) if negative(m)), None)
 
 
-def _negative(t: Tree) -> bool:
-    return isinstance(t, (int, Fraction)) and t < 0
+def impossible(body: Body | None) -> bool:
+    """Are the given moments, all numbers, those of no masses?  J − m⁻¹cc̄ must not be negative."""
+    if not isinstance(body, GivenBody) or body.solids:
+        return False
+    trees = [*_trees(body)]
+    if not all(isinstance(x, (int, Fraction)) for x in trees):
+        return False
+    values = _Values({})
+    m, c = values.of(body.mass), [values.of(x) for x in body.first]
+    J = [[values.of(x) for x in row] for row in body.second]
+    if m == 0:
+        return any(c) or any(map(any, J))
+    central = [
+        [x - a * b / m for x, b in zip(row, c, strict=True)] for row, a in zip(J, c, strict=True)
+    ]
+    return not _semidefinite(central)
+
+
+def _semidefinite(m: list[list[Fraction]]) -> bool:
+    """Is x̄ m x ≥ 0 for every x?  By elimination, exact."""
+    for k in range(len(m)):
+        if m[k][k] < 0 or (m[k][k] == 0 and any(m[k][k:])):
+            return False
+        for i in range(k + 1, len(m)):
+            factor = m[i][k] / m[k][k] if m[k][k] else Fraction(0)
+            m[i] = [x - factor * y for x, y in zip(m[i], m[k], strict=True)]
+    return True

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import difflib
+import math
+import re
 import tomllib
 from collections.abc import Mapping
 from fractions import Fraction
@@ -67,7 +69,7 @@ def problem_of(
     if isinstance(own, MomentBody):
         named = {x: parameters.get(x, p) for x, p in own.parameters().items()}
         parameters = {**named, **{k: p for k, p in parameters.items() if k not in named}}
-    if not negative_mass and (where := inertia.negative_mass(own)):
+    if not negative_mass and (where := inertia.negative_mass(own, parameters)):
         raise ProblemError(
             f"{where} is negative; correct it, or allow it with --allow-negative-mass "
             "(in Python: negative_mass=True)"
@@ -87,6 +89,7 @@ def problem_of(
     )
     if sum(isinstance(i, CovectorInput) for i in inputs) > 1:
         raise ProblemError("key 'input': one covector holds every component; give one such table")
+    _distinct([i.name for i in inputs], parameters)
     title = text(data, "title", "file") if "title" in data else name
     problem = Problem(
         name,
@@ -102,7 +105,9 @@ def problem_of(
     )
     _declared(problem, data.get("parameters", {}))
     if moved and own and (still := inertia.still_direction(moved, own)):
-        raise ProblemError(f"the body has no inertia in every direction: {still}; add masses")
+        raise ProblemError(f"{still} moves no mass of this body: its motion is open; add masses")
+    if not negative_mass and inertia.impossible(own):
+        raise ProblemError("body, given: no masses have these moments: J − c c̄/m must be positive")
     return problem
 
 
@@ -165,6 +170,9 @@ def _parameters(data: Any) -> dict[str, Parameter]:
     for name, value in data.items():
         where = f"parameter {name[:40]!r}"
         identifier(name, where)
+        if name == "t" or re.fullmatch(r"r[0-9]+_([xyz]|[0-9]+)", name):
+            what = "the time" if name == "t" else "a place of a point"
+            raise ProblemError(f"{where}: this is {what} in an expression; choose another name")
         if isinstance(value, (int, float)) and not isinstance(value, bool):
             value = {"default": value}
         if not isinstance(value, dict):
@@ -176,8 +184,19 @@ def _parameters(data: Any) -> dict[str, Parameter]:
         ):
             raise ProblemError(f"{where}: key 'default' must be a number")
         texts = {k: text(value, k, where) for k in ("unit", "meaning") if k in value}
+        if default is not None and not math.isfinite(default):
+            raise ProblemError(f"{where}: key 'default' must be a finite number")
         found[name] = Parameter(None if default is None else float(default), **texts)
     return found
+
+
+def _distinct(inputs: list[str], parameters: Mapping[str, Parameter]) -> None:
+    """No two inputs of one name, and none with the name of a parameter."""
+    for k, name in enumerate(inputs, 1):
+        if name in inputs[: k - 1]:
+            raise ProblemError(f"input {k}: a second input {name!r}; give each its own name")
+        if name in parameters:
+            raise ProblemError(f"input {k}: {name!r} is a parameter as well; choose another name")
 
 
 def _declared(problem: Problem, given: Mapping[str, Any]) -> None:
@@ -194,6 +213,8 @@ def _declared(problem: Problem, given: Mapping[str, Any]) -> None:
         used |= dict.fromkeys(used_names(p))
     for name in used:
         if name not in problem.parameters:
+            if name == "t" or re.fullmatch(r"r[0-9]+_\w+", name):
+                raise ProblemError(f"{name!r} is known in the 'U' of an expression alone")
             near = difflib.get_close_matches(name, problem.parameters, 1)
             hint = f"did you mean {near[0]!r}? Else " if near else ""
             raise ProblemError(f"{name!r} is used but not declared; {hint}add it to [parameters]")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from itertools import groupby
 
 from ..algebra.show import show, show_name
-from ..record.record import Derivation, Equation, Step, Symbol
+from ..algebra.tree import Tree
+from ..record.record import Derivation, Equation, Step
 from .outline import CONVENTIONS, PAPER, domain, notes, sections, subtitle, title
 from .wrap import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
 
@@ -20,7 +22,7 @@ BREAKS = {" + ": SUM, " − ": SUM, " ∧ ": WEDGE}
 
 def text(d: Derivation, width: int = 100) -> str:
     """The record as text, no line longer than ``width`` columns (at least 40)."""
-    width = max(width, 40)
+    width, quoted = max(width, 40), clashing(d)
     heading = " — ".join(filter(None, (title(d), subtitle(d))))
     blocks = [
         [*_underlined(heading, "=", width)],
@@ -28,10 +30,14 @@ def text(d: Derivation, width: int = 100) -> str:
     ]
     for section, steps in sections(d):
         blocks.append([*_underlined(section, "-", width)])
-        blocks.extend([*_step(step, width)] for step in steps)
+        blocks.extend([*_step(step, width, quoted)] for step in steps)
     if d.symbols:
         blocks.append([*_underlined("Names", "-", width)])
-        blocks.append([line for s in d.symbols for line in _named(s, width)])
+        named = [(show_name(s.name), s.meaning) for s in d.symbols]
+        blocks.append([line for name, about in named for line in _named(name, about, width)])
+    if given := [*_parameters(d, quoted)]:
+        blocks.append([*_underlined("Parameters", "-", width)])
+        blocks.append([line for name, about in given for line in _named(name, about, width)])
     lines = "\n\n".join("\n".join(line.rstrip() for line in block) for block in blocks)
     return "".join(c for c in lines if c == "\n" or c.isprintable()) + "\n"
 
@@ -41,18 +47,55 @@ def step_text(step: Step, width: int = 100) -> str:
     return "\n".join(line.rstrip() for line in _step(step, width)) + "\n"
 
 
-def _named(symbol: Symbol, width: int) -> Iterator[str]:
-    first, *others = _paragraph(symbol.meaning, NAME, width)
-    yield f"{'':{MARGIN}}{padded(show_name(symbol.name), NAME - MARGIN)}{first[NAME:]}"
+def _named(name: str, meaning: str, width: int) -> Iterator[str]:
+    first, *others = _paragraph(meaning, NAME, width)
+    yield f"{'':{MARGIN}}{padded(name, NAME - MARGIN - 1)} {first[NAME:]}"
     yield from others
 
 
-def _step(step: Step, width: int) -> Iterator[str]:
+def _parameters(d: Derivation, quoted: frozenset[str]) -> Iterator[tuple[str, str]]:
+    """The parameters of the problem with meaning, unit and default."""
+    parameters = d.problem.get("parameters", {})
+    for name, about in parameters.items() if isinstance(parameters, Mapping) else ():
+        about = about if isinstance(about, Mapping) else {}
+        unit, default = about.get("unit"), about.get("default")
+        words = [str(about.get("meaning") or "parameter")]
+        words += [f"[{unit}]"] if unit else []
+        words += [f"default {default:g}"] if isinstance(default, (int, float)) else []
+        yield show(_marked(("par", str(name)), quoted)), ", ".join(words)
+
+
+def clashing(d: Derivation) -> frozenset[str]:
+    """The parameters that would read like a name of the walk; text sets them in quotes."""
+    own = {"g", *(s.name for s in d.symbols)}
+    body = d.problem.get("body")
+    symbolic = isinstance(body, Mapping) and body.get("kind") == "moments"
+    found = set()
+    for name in map(str, d.problem.get("parameters") or ()):
+        base = re.sub(r"_?[0-9]+$", "", name)
+        if base in own and not (symbolic and base in ("m", "c", "J")):
+            found.add(name)
+    return frozenset(found)
+
+
+def _marked(t: Tree, quoted: frozenset[str]) -> Tree:
+    """The tree with some parameters in quotes."""
+    if not isinstance(t, tuple):
+        return t
+    if t[0] == "par":
+        return ("par", f"‘{show_name(t[1])}’") if t[1] in quoted else t
+    return (t[0], *(_marked(x, quoted) for x in t[1:]))
+
+
+def _step(step: Step, width: int, quoted: frozenset[str] = frozenset()) -> Iterator[str]:
     yield from _paragraph("  ·  ".join([step.label, step.rule, *notes(step)]), 0, width)
     yield from _paragraph(step.prose, MARGIN, width)
     if step.uses:
         yield from _paragraph(f"From {', '.join(step.uses)}.", MARGIN, width)
-    yield from _equations(step.equations, width - EQUATION)
+    equations = (
+        Equation(_marked(e.lhs, quoted), _marked(e.rhs, quoted), e.for_all) for e in step.equations
+    )
+    yield from _equations(tuple(equations), width - EQUATION)
 
 
 def _equations(equations: tuple[Equation, ...], room: int) -> Iterator[str]:

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+from ..algebra.show import show
 from ..algebra.tree import Tree
 from ..mechanics.problem import GivenBody, MomentBody, PointBody, Problem
+from ..mechanics.solids import Solid
 from ..record.record import Equation, Step
 from .elements import column, embedded
 
@@ -22,7 +26,7 @@ def body_step(problem: Problem, prefix: str, scope: str) -> tuple[Step, ...]:
         prose = "The moments of the body are parameters: those of some positive masses."
     elif isinstance(body, GivenBody):
         if body.solids:
-            steps.append(_integrals(prefix, scope))
+            steps.append(_integrals(body.solids, prefix, scope))
         equations += _moments(body.mass, body.first, body.second)
         prose = "The moments of the body." if body.solids else "The moments of the body are given."
     if problem.points:
@@ -35,7 +39,9 @@ def body_step(problem: Problem, prefix: str, scope: str) -> tuple[Step, ...]:
             equations.append(Equation(("at", "m", k), 0))
         equations.append(Equation(("at", "r", k), embedded(problem, k, p.at, 1)))
     if problem.places:
-        prose += " The last points have no mass: forces are attached there."
+        low, high = problem.masses + 1, problem.masses + len(problem.places)
+        which = f"Point {low} has" if low == high else f"Points {low} to {high} have"
+        prose += f" {which} no mass: forces are attached there."
     if not equations:
         return ()
     uses = (steps[0].label,) if steps else ()
@@ -64,14 +70,32 @@ def _moments(
     ]
 
 
-def _integrals(prefix: str, scope: str) -> Step:
+def _described(s: Solid) -> str:
+    """A solid in words: kind, density, sizes, where it is."""
+    sizes = [f"{k.replace('_', ' ')} {_size(x)}" for k, x in s.sizes.items() if k != "file"]
+    if s.mesh is not None:
+        vertices, faces = s.mesh
+        sizes = [f"{len(vertices)} vertices", f"{len(faces)} triangles"]
+    words = f"{s.kind.replace('_', ' ')} of density {show(s.density)} ({', '.join(sizes)})"
+    moves = ["turned by a rotation"] * bool(s.rotation)
+    moves += [f"shifted by {_size(s.shift)}"] if s.shift else []
+    return f"{words}, {' and then '.join(moves)}" if moves else words
+
+
+def _size(x: Any) -> str:
+    if isinstance(x, tuple) and x and not isinstance(x[0], str):
+        return "(" + ", ".join(map(_size, x)) + ")"
+    return show(x)
+
+
+def _integrals(solids: tuple[Solid, ...], prefix: str, scope: str) -> Step:
     return Step(
         f"{prefix}.integrals",
         "definition",
         (),
         tuple(Equation(name, ("call", "∫", form)) for name, form in INTEGRANDS.items()),
-        "For a continuous body the sums over the points are integrals over its measure of mass; "
-        "all else stays.",
+        "For a continuous body the sums over the points are integrals over its measure of mass, "
+        f"dm = ρ dV; all else stays. Here: {'; '.join(map(_described, solids))}.",
         (36, 37, 38, 39),
         scope,
     )

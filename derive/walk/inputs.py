@@ -25,9 +25,10 @@ from .pushes import Applied, applied
 from .vector import OMEGA_P, ZETA, inertia_of, isolate
 from .wedge import vector_sum
 
+GIVEN, DRAG = "the forces that are given as functions of time and state", "the damping"
 PROSE = (
-    "Outside dϖ: what is given at every call, and the damping, do this work; it joins that of the "
-    "potential in the equations of motion."
+    "Outside dϖ: {}. These are their moments and resultants in the body; their work joins that of "
+    "the potential in the equations of motion."
 )
 TORQUE, FORCE = Letter("u", 3), Letter("f_u", 3)
 
@@ -44,6 +45,12 @@ class Given:
 def acts(problem: Problem) -> bool:
     """Is there anything outside dϖ?"""
     return bool(problem.inputs or problem.damping)
+
+
+def prose(problem: Problem) -> str:
+    """What acts from outside dϖ."""
+    acting = [GIVEN] * bool(problem.inputs) + [DRAG] * bool(problem.damping)
+    return PROSE.format(" and ".join(acting))
 
 
 def given_matrices(problem: Problem, b: Alphabet, gram: Expr, c: Chapter) -> Given | None:
@@ -68,7 +75,7 @@ def given_matrices(problem: Problem, b: Alphabet, gram: Expr, c: Chapter) -> Giv
     equations = [*definitions, Equation(forces.moments.name, add(*moments))]
     if b.affine:
         equations.append(Equation(forces.resultant.name, add(*pulls)))
-    step = c.step("input", "input", ".velocity .trivialisation", equations, PROSE)
+    step = c.step("input", "input", ".velocity .trivialisation", equations, prose(problem))
     return Given(word(forces.moments), word(forces.resultant), (step,))
 
 
@@ -152,7 +159,7 @@ def given_vectors(problem: Problem, b: Alphabet, c: Chapter) -> Given | None:
     equations = [*definitions, Equation(forces.moments.name, add(*moments))]
     if b.affine:
         equations.append(Equation(forces.resultant.name, add(*pulls)))
-    step = c.step("input", "input", ".velocity hat", equations, PROSE)
+    step = c.step("input", "input", ".velocity hat", equations, prose(problem))
     return Given(word(forces.moments), word(forces.resultant), (step,))
 
 

@@ -126,5 +126,5 @@ def _equations(c: Contraction, a: Alphabet, prefix: str) -> Step:
         (f"{prefix}.second_order_trivialised", f"{prefix}.trivialisation", *force_steps),
         (*rates(a), Equation(shown, rhs, names)),
         "The equations of motion of any group of matrices that moves points (Exercise 1), one for "
-        "each direction of its Lie algebra, to which Ż belongs.",
+        f"each direction of its Lie algebra, to which {'(Ż, ẇ)' if a.affine else 'Ż'} belongs.",
     )

@@ -24,6 +24,7 @@ def mass_steps(
     b: Alphabet,
     uses: str,
     c: Chapter,
+    translation: tuple[Equation, ...] = (),
 ) -> tuple[Step, ...]:
     """M, β and the solved equations from  inertial = Tr ξ′ force‾  for every ξ′ in 𝔤."""
     E_a, E_b = _member("a", b), _member("b", b)
@@ -52,8 +53,8 @@ def mass_steps(
         c.step(
             "motion",
             "solution",
-            "mass",
-            (*rates(b), Equation("ζ̇", ("mul", ("inv", "M"), "β")), *_whole(b)),
+            f"mass {uses}" if translation else "mass",
+            (*rates(b), Equation("ζ̇", ("mul", ("inv", "M"), "β")), *_whole(b), *translation),
             "The equations of motion of this problem. M is invertible where no direction of the "
             "group leaves every mass in its place.",
         ),

@@ -32,6 +32,7 @@ def multiplier_steps(
     b: Alphabet,
     uses: str,
     c: Chapter,
+    translation: tuple[Equation, ...] = (),
 ) -> tuple[Step, ...]:
     """Ż and λ from  Tr ξ′ (residue − force)‾ = 0,  with J (or J_c) as ``metric``."""
     residue = gradient(inertial, b.Z.xi_prime)
@@ -49,17 +50,17 @@ def multiplier_steps(
         numerator, denominator = _multiplier(solved, direction)
         ratio: Tree = ("div", tree_of(numerator, notation), tree_of(denominator, notation))
         equations.append(Equation("λ", ratio))
-    equations.append(Equation("Ż", tree_of(solved, notation)))
+    equations += [Equation("Ż", tree_of(solved, notation)), *translation]
     prose = _prose(direction, letters)
     return (
         c.step("multiplier", "multiplier", uses, (*definition, balance), prose),
         c.step(
             "motion",
             "solution",
-            "multiplier",
+            f"multiplier {uses}" if translation else "multiplier",
             equations,
-            f"The equations of motion of this problem: {metric.name} is invertible, as the points "
-            f"{'do not lie in one hyperplane' if b.affine else 'span the space'}"
+            f"The equations of motion of this problem: {metric.name} is invertible where the "
+            f"masses {'do not lie in one hyperplane' if b.affine else 'span the space'}"
             + (", and that Ż is in the Lie algebra gives λ." if direction else "."),
         ),
     )

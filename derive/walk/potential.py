@@ -14,7 +14,7 @@ from ..algebra.calculus import derivation
 from ..algebra.notation import tree_of
 from ..algebra.tree import Tree, add, neg
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..mechanics.problem import Problem, Spring
+from ..mechanics.problem import PointBody, Problem, Spring
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .elements import column, elements
@@ -40,6 +40,8 @@ def potentials(
     """Ũ of the problem, with the vectors and matrices it needs."""
     energy, definitions, over_points = _summed(problem, a)
     found, forces = elements(problem), applied(a, "Q", vectors=vectors)
+    spread = problem.gravity is not None and not isinstance(problem.body, PointBody)
+    spread = spread and problem.body is not None
     if found.energies:
         energy = energy + word(U_Q)
         over_points += found.energies
@@ -56,6 +58,7 @@ def potentials(
                 Equation("Ũ", tree_of(energy)),
             ),
             "The potential of the problem, on the points and pulled back to the group."
+            + (" The sum with m_i is over the whole mass of the body." if spread else "")
             + (" The springs s_e have natural length 0." if problem.springs else "")
             if over_points
             else "No potential: the motion is free.",

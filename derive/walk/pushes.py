@@ -48,7 +48,7 @@ def pushes_step(
         else "Q_i is its force on point i, minus the derivative of U_Q by r_i(t)."
     )
     if found.radials:
-        prose += " A term in ‖d_e‖² pushes along d_e"
+        prose += " Element e, a function of ‖d_e‖, pushes along d_e"
         prose += ", and ‖d_e‖ = ‖Ād_e‖." if vectors else "."
     uses = (f"{prefix}.potential", *((f"{prefix}.relation",) if vectors else ()))
     sums = tuple(_sums_over_points(a, forces, vectors=vectors))

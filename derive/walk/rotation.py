@@ -115,7 +115,8 @@ def displacement_motion(
 def _prose(given: Given | None, *, affine: bool) -> str:
     tensor = "I_c" if affine else "I"
     text = f"The equations of motion of this problem, solved for the accelerations: {tensor} is "
-    text += "invertible as the masses are not all on one line."
+    text += "invertible where the masses are not all on one line"
+    text += "." if affine else " through the fixed point."
     if given is None or given.steps:
         return text
     if affine:

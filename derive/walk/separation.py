@@ -18,10 +18,9 @@ from .inverse import cancel_scalar, inverse_letter
 from .potential import Potentials
 from .translation import central_moments
 
-SEPARATE = (
-    "No term of the potential has both the linear part and the centre of mass: the motion "
-    "separates into theirs."
-)
+NO_TERM = "No term of the potential has both the linear part and the centre of mass"
+SEPARATE = f"{NO_TERM}: the motion separates into theirs."
+OUTSIDE = f"{NO_TERM}; the forces outside dϖ, {{}}, may tie the two."
 CANCELS = "U_Q is made of differences of places, in which R cancels."
 UNDECIDED = (
     "The motion separates if U_Q, which is given point by point, is a sum of a function of the "
@@ -81,7 +80,10 @@ def potential_separation(
         prose = UNDECIDED
     else:
         prose = f"{SEPARATE} {CANCELS}" if problem.elements else SEPARATE
-    if problem.damping or problem.inputs:
-        prose += " What is given from outside may tie the two."
+    outside = [x for x in ("damping", "inputs") if getattr(problem, x)]
+    if outside and prose != UNDECIDED:
+        prose = OUTSIDE.format(" and ".join(outside)) + prose.removeprefix(SEPARATE)
+    elif outside:
+        prose += f" The forces outside dϖ, {' and '.join(outside)}, may tie the two as well."
     equation = Equation("Ũ", tree_of(energy, _notation(b)))
     return (c.step("separation", "identification", "potential .separation", (equation,), prose),)

@@ -194,9 +194,10 @@ TURNING = (
     + '[[potential]]\nkind = "gravity"\ng = [1, 2, -3]\n'
     + '[[input]]\nname = "u"\nkind = "covector"\n'
 )
-CYLINDER = "[[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]], " + ", ".join(
+TRANSLATIONS = ", ".join(
     str([[0, 0, 0, int(i == j)] for j in range(3)] + [[0, 0, 0, 0]]) for i in range(3)
 )
+CYLINDER = "[[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]], " + TRANSLATIONS
 
 
 def own_group(basis, action="linear"):
@@ -209,10 +210,11 @@ PROBLEMS |= {
     "an axis": own_group(AXIS),
     "so(3) otherwise": own_group(OTHERWISE),
     "a cylinder": own_group(CYLINDER, "affine"),
+    "translations": own_group(TRANSLATIONS, "affine"),
 }
 
 # solids are no points: the oracle has them with the moments of their integrals, see below
-TEXTS = ("linear", "affine", "ellipsoid", "so3", "se3", "sl3")
+TEXTS = ("linear", "affine", "ellipsoid", "top", "hammer", "so3", "se3", "sl3")
 PROBLEMS |= {
     path.stem: path.read_text(encoding="utf-8")
     for path in sorted(READY.glob("*.toml"))
