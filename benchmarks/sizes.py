@@ -25,7 +25,7 @@ def operations(group: str) -> tuple[int, int, int]:
     d = derive(Problem("size", Group(group), Moments()))
     assert d.problem.group is not None
     program = assemble(d.record, d.problem.group)
-    counted = (program.compute_constants, program.rhs)
+    counted = (program.functions["constants"], program.functions["rhs"])
     return (program.dimension, *(sum(f.operations().values()) for f in counted))  # type: ignore[return-value]
 
 

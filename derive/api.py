@@ -276,16 +276,21 @@ class Derived:
         out: str | Path | None = None,
         languages: Sequence[str] = ("c", "python"),
         prefix: str | None = None,
-        real: str = "double",
+        **choices: Any,
     ) -> dict[str, str]:
-        """The emitted files by name, written to the folder ``out`` if there is one."""
+        """The emitted files by name, written to the folder ``out`` if there is one.
+
+        ``choices``: those of :class:`derive.code.options.Options`, as ``real="float"``.
+        """
         from .code.assemble import assemble
         from .code.emit import emit
+        from .code.options import Options
         from .writing import write
 
         assert self.problem.group is not None
-        program = assemble(self.record, self.problem.group)
-        files = emit(program, self.record, tuple(languages), prefix or self.problem.name, real)
+        options = Options(**choices)
+        program = assemble(self.record, self.problem.group, options)
+        files = emit(program, self.record, tuple(languages), prefix or self.problem.name, options)
         if out is not None:
             write(files, Path(out))
         return files

@@ -9,11 +9,17 @@ import sys
 from collections.abc import Callable, Sequence
 from importlib import resources
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from . import __version__
 from .mechanics.problem import Problem, ProblemError
 from .record.record import Derivation, RecordError
 
+if TYPE_CHECKING:
+    from .code.options import Options
+    from .code.program import Program
+
+LANGUAGES = ("c", "cpp", "python", "rust", "julia", "javascript")
 FORMATS = ("text", "latex", "markdown", "json")
 READY = resources.files("derive") / "problems"
 
@@ -115,19 +121,27 @@ def command_walk(args: argparse.Namespace) -> int:
 def command_emit(args: argparse.Namespace) -> int:
     """Write the numeric code of a problem."""
     from .code.emit import emit
-    from .writing import write
+    from .code.options import CHOICES, Options
+    from .writing import stale, write
 
     problem, record = derive(args.problem, args.allow_negative_mass)
-    program = programs(problem, record)
+    chosen = {name: getattr(args, name) for name in CHOICES}
+    options = Options(**chosen, jacobian=tuple(dict.fromkeys(args.jacobian or ())))
+    program = programs(problem, record, options)
     languages = tuple(dict.fromkeys(args.lang or ("c", "python")))
     prefix = problem.name if args.prefix is None else args.prefix
-    files = emit(program, record, languages, prefix, args.real)
-    for path in write(files, Path(args.out or ".")):
+    files, folder = emit(program, record, languages, prefix, options), Path(args.out or ".")
+    if args.check:
+        old = stale(files, folder)
+        for path in old:
+            print(f"{path}: not current; run the same command without --check")
+        return 1 if old else 0
+    for path in write(files, folder):
         print(path)
     return 0
 
 
-def programs(problem: Problem, record: Derivation):  # type: ignore[no-untyped-def]
+def programs(problem: Problem, record: Derivation, options: Options | None = None) -> Program:
     """The program of a record; the general texts have none."""
     from .code.assemble import assemble
 
@@ -136,7 +150,7 @@ def programs(problem: Problem, record: Derivation):  # type: ignore[no-untyped-d
             f"{problem.name}: this text is about any group, so it has nothing to emit; choose a "
             "problem with a group and a body"
         )
-    return assemble(record, problem.group)
+    return assemble(record, problem.group, options)
 
 
 def command_check(args: argparse.Namespace) -> int:
@@ -210,6 +224,17 @@ def command_build(args: argparse.Namespace) -> int:
 FILES = {"text": "txt", "latex": "tex", "json": "json"}
 
 
+def emission(emit: argparse.ArgumentParser) -> None:
+    """The choices about the emitted code."""
+    from .code.options import CHOICES, JACOBIANS
+
+    for name, (values, meaning) in CHOICES.items():
+        about = f"{meaning} (default: {values[0]})"
+        emit.add_argument(f"--{name}", choices=values, default=values[0], help=about)
+    about = "also the linearised equations, in the state, the inputs or the parameters; repeated"
+    emit.add_argument("--jacobian", action="append", choices=JACOBIANS, help=about)
+
+
 def parser() -> argparse.ArgumentParser:
     """The options of every command."""
     top = argparse.ArgumentParser(prog="derive", description=__doc__)
@@ -228,12 +253,13 @@ def parser() -> argparse.ArgumentParser:
     walk.add_argument("--out", metavar="FILE")
     emit = command("emit", command_emit)
     emit.add_argument("problem", help="a ready-made name or a .toml file")
-    lang = "may be repeated; both when left out"
-    emit.add_argument("--lang", action="append", choices=("c", "python"), help=lang)
+    lang = f"one of {', '.join(LANGUAGES)}; may be repeated; C and Python when left out"
+    emit.add_argument("--lang", action="append", choices=LANGUAGES, metavar="LANG", help=lang)
     emit.add_argument("--out", metavar="DIR", help="default: the current directory")
     emit.add_argument("--prefix", metavar="NAME", help="default: the problem's name")
-    real = "the numbers of the C files (default: double)"
-    emit.add_argument("--real", choices=("double", "float"), default="double", help=real)
+    current = "write nothing; exit 1 if a file on disk is not what would be written"
+    emit.add_argument("--check", action="store_true", help=current)
+    emission(emit)
     check = command("check", command_check)
     check.add_argument("problem", nargs="+", help="ready-made names, .toml files or .json records")
     for made in (walk, emit, check):

@@ -27,6 +27,16 @@ def write(files: Mapping[str, str], out: Path) -> list[Path]:
         raise WriteError(f"{place}: {error.strerror}; choose another --out") from None
 
 
+def stale(files: Mapping[str, str], out: Path) -> list[Path]:
+    """The files of a folder that are missing or are not these; ``OSError`` for unreadable ones."""
+    found = []
+    for name, text in files.items():
+        path = out / name
+        if not path.is_file() or path.read_bytes() != text.encode("utf-8"):
+            found.append(path)
+    return found
+
+
 def write_file(path: Path, text: str) -> Path:
     """One file, whole or not at all; a link is followed, a device or a pipe is written to."""
     path = path.resolve() if path.is_symlink() else path

@@ -48,7 +48,7 @@ class CLibrary:
     """The functions of a compiled ``NAME.c`` on NumPy vectors; ``sizes`` holds its enum."""
 
     def __init__(self, path, name):
-        self.library = ctypes.CDLL(str(path))
+        self.library, self.name = ctypes.CDLL(str(path)), name
         array = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
         numbers = np.ctypeslib.ndpointer(np.intc, flags="C_CONTIGUOUS")
         real = ctypes.c_double
@@ -80,6 +80,25 @@ class CLibrary:
     def energy(self, t, x, k):
         """The energy in the state ``x``."""
         return self._energy(t, vector(x), k)
+
+    def rhs_batch(self, t, x, k, u):
+        """dx/dt for the columns of x (N, n), with inputs (M, n)."""
+        array = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
+        arguments = [ctypes.c_size_t, ctypes.c_double, array, array, array, array]
+        batch = self._function(f"{self.name}_rhs_batch", None, arguments)
+        dx = np.full(x.shape, np.nan)
+        batch(x.shape[1], t, vector(x), k, vector(u), dx)
+        return dx
+
+    def jacobian(self, t, x, k, u):
+        """dx/dt and D."""
+        array = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
+        arguments = [ctypes.c_double, array, array, array, array, array]
+        jacobian = self._function(f"{self.name}_jacobian", None, arguments)
+        dx, size = np.full(self.sizes["STATE"], np.nan), 2 * self.sizes["ALGEBRA"]
+        D = np.full((size, size), np.nan)
+        jacobian(t, vector(x), k, vector(u), dx, D)
+        return dx, D
 
 
 def compile_c(build, name, folder, source=None):

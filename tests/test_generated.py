@@ -61,7 +61,7 @@ def operations(name):
     text = (ROOT / "generated" / name / f"{name}.c").read_text(encoding="utf-8")
     text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
     body = text[text.index(f"void {name}_rhs") :]
-    body = body[body.index("{") : body.index(f"double {name}_energy")]
+    body = body[body.index("{") : body.index(f"void {name}_rhs_batch")]
     statements = [s.split("=", 1)[1] for s in body.split(";") if "=" in s]
     return (
         sum(s.count("*") for s in statements),

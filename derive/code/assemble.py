@@ -3,90 +3,93 @@
 from __future__ import annotations
 
 from ..algebra.groups import Group
-from ..algebra.rational import Matrix
 from ..algebra.show import show
 from ..record.record import Derivation
 from .axes import inertia, turning
 from .conventions import conventions
 from .factor import factored
 from .graph import Node
+from .linearise import by_leaves, by_state
 from .lower import Lowering
 from .naming import Names, suffixed
+from .options import Options
 from .program import Program
 from .reader import LoweringError, equation_key
 from .schedule import Scheduler, frontier
-from .state import layout
 
 
-def assemble(d: Derivation, group: Group) -> Program:
+def assemble(d: Derivation, group: Group, options: Options | None = None) -> Program:
     """The program of a record; ``LoweringError`` when the record has no solved equations."""
-    lowering = Lowering(d, group)
-    try:
-        state, rates = _state(lowering)
-        lowering.require_regular()
-        energy = lowering.name("h̃")
-        tensor = inertia(lowering)
-    except ZeroDivisionError:
-        raise LoweringError(
-            f"{d.name}: a division by zero, or a mass matrix that is singular whatever the "
-            "parameters: look at the denominators in the file, and at the masses"
-        ) from None
-    if not isinstance(energy, Node):
-        raise LoweringError("the energy is not a number")
-    *rates, energy = factored(lowering.graph, [*rates, energy])
+    chosen = options or Options()
+    if chosen.attitude == "quaternion" and not group.turns_space:
+        raise LoweringError(f"{d.name}: a quaternion needs SO(3) or SE(3), not {group.name}")
+    lowering = Lowering(d, group, chosen)
+    wanted = _outputs(lowering, chosen)
+    # a pivot that is a number was seen not to vanish
+    lowering.checks = [test for test in lowering.checks if test[0].op != "num"]
+    checked = [x for test in lowering.checks for x in test if x is not None]
+    parameters = _used_parameters(d, [*checked, *(x for nodes in wanted.values() for x in nodes)])
     names = Names()
-    inputs = lowering.inputs
+    state, inputs = lowering.space.names, lowering.inputs
     for kind, members in (("state", state), ("input", inputs)):
         for name in members:
             names.claim(name, f"{kind} {name}")
     scheduler = Scheduler(names, _equations(d))
-    fixed = frontier([*rates, energy])
-    # a pivot that is a number was seen not to vanish
-    lowering.checks = [test for test in lowering.checks if test[0].op != "num"]
-    checked = [x for test in lowering.checks for x in test if x is not None]
-    parameters = _used_parameters(d, [*fixed, *checked, *tensor])
+    fixed = frontier(x for name in wanted if name != "inertia" for x in wanted[name])
     given = _parameter_places(lowering, names, parameters)
-    compute = scheduler.function(fixed, given, lowering.checks)
+    functions = {"constants": scheduler.function(fixed, given, lowering.checks)}
     constants = [_constant_name(names, x, i) for i, x in enumerate(fixed)]
-    places = _places(lowering, names, state, inputs)
-    places |= {
-        x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))
-    }
+    moving = _places(lowering, names, state, inputs)
+    kept = {x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))}
+    for name, nodes in wanted.items():
+        places = given if name == "inertia" else moving | kept
+        functions[name] = scheduler.function(nodes, places)
+    if "parameters" in chosen.jacobian:
+        leaves = [lowering.leaf(x, "parameter") for x in parameters]
+        slopes = by_leaves(lowering.space, lowering.space.velocity(lowering.component), leaves)
+        slopes = factored(lowering.graph, slopes)
+        functions["jacobian_parameters"] = scheduler.function(slopes, moving | given)
     return Program(
         d.name,
         str(d.problem.get("title", "")),
         group.name,
         group.dimension,
-        conventions(group, d.problem),
+        conventions(group, d.problem, chosen),
         tuple(state),
         tuple(_parameter(d, name) for name in parameters),
         tuple(inputs),
         tuple(constants),
         group.basis,
-        compute,
-        scheduler.function(rates, places),
-        scheduler.function([energy], places),
-        scheduler.function(tensor, given) if tensor else None,
-        turning(d.problem, parameters) if tensor else None,
+        functions,
+        turning(d.problem, parameters) if "inertia" in wanted else None,
     )
 
 
-def _state(lowering: Lowering) -> tuple[list[str], list[Node]]:
-    """Names of the state and the nodes of its rate, in the order of the contract."""
-    group, n = lowering.group, lowering.n
-    slots = layout(group)
-    state = [x.name for x in slots]
-    rate: dict[str, Matrix] = {"A": lowering.name("Ȧ")}  # type: ignore[dict-item]
-    if group.affine:
-        rate["T"] = lowering.name("Ṫ")  # type: ignore[assignment]
-    rates = [rate[x.letter][x.row][x.column] for x in slots]
-    d = group.dimension - n if group.affine else group.dimension
-    state += [suffixed("zeta", a) for a in range(1, d + 1)]
-    rates += [lowering.component("ζ̇", a) for a in range(1, d + 1)]
-    if group.affine:
-        state += [suffixed("w", i) for i in range(1, n + 1)]
-        rates += [lowering.component("ẇ", i) for i in range(1, n + 1)]
-    return state, rates
+def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
+    """What each function of the state, or of the parameters, computes, by its name."""
+    space, graph = lowering.space, lowering.graph
+    try:
+        rates = space.rates(lowering.name, lowering.component)  # type: ignore[arg-type]
+        lowering.require_regular()
+        energy = lowering.name("h̃")
+        tensor = inertia(lowering)
+        if not isinstance(energy, Node):
+            raise LoweringError("the energy is not a number")
+        *rates, energy = factored(graph, [*rates, energy])
+        found = {"rhs": rates, "energy": [energy]}
+        second = space.velocity(lowering.component) if options.jacobian else []
+        if "state" in options.jacobian:
+            # after the rates, with which it shares much
+            found["jacobian"] = factored(graph, [*rates, *by_state(space, second)])
+        if "inputs" in options.jacobian and lowering.inputs:
+            leaves = [lowering.leaf(x, "input") for x in lowering.inputs]
+            found["jacobian_inputs"] = factored(graph, by_leaves(space, second, leaves))
+    except ZeroDivisionError:
+        raise LoweringError(
+            f"{lowering.record.name}: a division by zero, or a mass matrix that is singular "
+            "whatever the parameters: look at the denominators in the file, and at the masses"
+        ) from None
+    return found | ({"inertia": tensor} if tensor else {})
 
 
 def _places(

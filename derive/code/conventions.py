@@ -8,14 +8,21 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.show import show
 from ..record.record import decode
+from .options import Options
 
 
-def conventions(group: Group, problem: Mapping[str, Any]) -> tuple[str, ...]:
+def conventions(group: Group, problem: Mapping[str, Any], options: Options) -> tuple[str, ...]:
     """One sentence each, in plain ASCII."""
     inputs: Sequence[Mapping[str, Any]] = problem.get("inputs", [])
     places = _places(problem)
-    lines = _factors(group) if group.factors else [_place("A", "T", group)]
-    if group.turns_space:
+    order = "column by column" if options.layout == "col" else "row by row"
+    if options.attitude == "quaternion":
+        lines = _attitude(group)
+    else:
+        lines = _factors(group, order) if group.factors else [_place("A", "T", group, order)]
+    if options.velocity == "tangent":
+        lines.append("The names that end in _dot are the entries of the velocity dg/dt.")
+    elif group.turns_space:
         lines.append(
             "zeta is the angular velocity in the body frame: dA/dt = A j(zeta), j(x) y = x cross y."
         )
@@ -23,15 +30,23 @@ def conventions(group: Group, problem: Mapping[str, Any]) -> tuple[str, ...]:
         lines.append("zeta are the coordinates of Z = g^-1 dg/dt in the basis below.")
     else:
         lines.append("zeta are the coordinates of Z = A^-1 dA/dt in the basis below.")
-    if group.affine:
+    if group.affine and options.velocity == "body":
         lines.append(
             "w is the velocity of the body's origin (r = 0) in the body frame: dT/dt = A w."
         )
     return (*lines, *(line for given in inputs for line in _input(group, given, places)))
 
 
-def _place(A: str, T: str, g: Group) -> str:
-    return f"{A} is {g.n} x {g.n}, row by row: a point r of the body stands at {A} r" + (
+def _attitude(group: Group) -> list[str]:
+    shift = " + T" if group.affine else ""
+    return [
+        "q is a unit quaternion, scalar first: a point r of the body stands at q r q*"
+        f"{shift} in space; dq/dt = q zeta / 2 keeps its norm, which the caller may renew.",
+    ]
+
+
+def _place(A: str, T: str, g: Group, order: str) -> str:
+    return f"{A} is {g.n} x {g.n}, {order}: a point r of the body stands at {A} r" + (
         f" + {T} in space." if g.affine else " in space."
     )
 
@@ -46,11 +61,11 @@ def _places(problem: Mapping[str, Any]) -> dict[int, str]:
     return found
 
 
-def _factors(group: Group) -> list[str]:
+def _factors(group: Group, order: str) -> list[str]:
     if len(group.factors) == 1:
-        return [_place("A", "T", group.factors[0])]
+        return [_place("A", "T", group.factors[0], order)]
     lines = ["The blocks of the product, one after the other:"]
-    return lines + [_place(f"A{k}", f"T{k}", g) for k, g in enumerate(group.factors, 1)]
+    return lines + [_place(f"A{k}", f"T{k}", g, order) for k, g in enumerate(group.factors, 1)]
 
 
 def _input(group: Group, given: Mapping[str, Any], places: Mapping[int, str]) -> list[str]:

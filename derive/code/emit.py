@@ -1,21 +1,22 @@
-"""Files from programs: fields for the templates, and writing without half-written files."""
+"""Files from programs: finished strings for the templates of each language."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import re
+from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any
 
 from .. import __version__
 from ..record.record import Derivation
 from ..templating import environment
+from .languages import LANGUAGES, Language
 from .naming import RESERVED
-from .printers import PYTHON, Printer, c_printer, wrapped
-from .program import TOLERANCE, Check, Function, Program
-
-LANGUAGES = {"c": (".h", ".c"), "python": (".py",)}
-TEXT = 96
+from .options import Options
+from .program import TOLERANCE, Program
+from .statements import Statements, comment, operations
 
 
 class EmitError(ValueError):
@@ -23,21 +24,28 @@ class EmitError(ValueError):
 
 
 def emit(
-    program: Program, d: Derivation, languages: tuple[str, ...], prefix: str, real: str = "double"
+    program: Program,
+    d: Derivation,
+    languages: Sequence[str],
+    prefix: str,
+    options: Options | None = None,
 ) -> dict[str, str]:
     """File name → text, for each language; ``EmitError`` for a prefix that is no name."""
+    chosen = options or Options()
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,63}", prefix) or prefix in RESERVED:
         raise EmitError(
             f"the prefix {prefix[:40]!r} cannot be used: give --prefix NAME, letters, digits and "
             "_, starting with a letter, at most 64, and no word that the emitted code needs"
         )
+    needed = (LANGUAGES[name].needs for name in languages)
     files = {}
-    for language in languages:
-        templates = environment(language)
-        printer = PYTHON if language == "python" else c_printer(real)
-        fields = _fields(program, d, prefix, real, printer, language)
-        for suffix in LANGUAGES[language]:
-            template = templates.get_template(f"problem{suffix}.jinja")
+    for name in dict.fromkeys([*filter(None, needed), *languages]):
+        language = LANGUAGES[name]
+        templates = environment(name)
+        fields = _fields(program, d, prefix, language, chosen)
+        for file in language.files[chosen.form]:
+            source, _, suffix = file.rpartition(":")
+            template = templates.get_template(f"problem{source or suffix}.jinja")
             files[prefix + suffix] = template.render(fields)
     return files
 
@@ -49,13 +57,18 @@ def problem_hash(d: Derivation) -> str:
 
 
 def _fields(
-    p: Program, d: Derivation, prefix: str, real: str, printer: Printer, language: str
+    p: Program, d: Derivation, prefix: str, language: Language, options: Options
 ) -> dict[str, Any]:
+    real = options.real
+    suffix = "f" if real == "float" and language.name in ("c", "cpp") else ""
+    written = Statements(language, real)
+    functions = {name: written.function(f) for name, f in p.functions.items()}
     return {
         "prefix": prefix,
         "guard": prefix.upper() + "_H",
-        "real": real,
-        "fabs": "fabsf" if real == "float" else "fabs",
+        "header": options.form == "header",
+        "real": language.reals[real],
+        "fabs": "fabs" + suffix,
         "title": comment(p.title),
         "group": p.group,
         "conventions": p.conventions,
@@ -63,29 +76,22 @@ def _fields(
         "hash": problem_hash(d),
         "state": p.state,
         "inputs": p.inputs,
-        "input_locals": [x.name for x in p.rhs.loads if x.array == "u"],
+        "input_locals": [x.name for x in p.functions["rhs"].loads if x.array == "u"],
         "constants": p.constants,
         "dimension": p.dimension,
         "parameters": [_parameter(x) for x in p.parameters],
         "parameter_names": [x[0] for x in p.parameters],
+        "defaults": [(x[0], repr(x[1])) for x in p.parameters if x[1] is not None],
         "turning": p.turning,
         "affine": "w_1" in p.state,
+        "quaternion": options.attitude == "quaternion",
         "basis": _basis(p),
         "basis_lines": _basis_lines(p),
-        "functions": {
-            "constants": _function(p.compute_constants, printer, language),
-            "rhs": _function(p.rhs, printer, language),
-            "energy": _function(p.energy, printer, language),
-            "inertia": p.inertia and _function(p.inertia, printer, language),
-        },
-        "tolerance": repr(TOLERANCE[real]) + ("f" if real == "float" else ""),
+        "functions": functions,
+        "jacobians": {x: f for x, f in functions.items() if x.startswith("jacobian")},
+        "calls": sorted({x for f in p.functions.values() for x in f.calls()}),
+        "tolerance": repr(TOLERANCE[real]) + suffix,
     }
-
-
-def comment(text: str) -> str:
-    """Text that is safe inside a comment or a docstring of any language."""
-    plain = "".join(ch if ch.isprintable() else " " for ch in text)
-    return plain.replace("*/", "* /").replace("/*", "/ *").replace('"""', "'''").replace("\\", "/")
 
 
 def _parameter(x: tuple[str, float | None, str, str]) -> dict[str, str]:
@@ -96,7 +102,7 @@ def _parameter(x: tuple[str, float | None, str, str]) -> dict[str, str]:
 
 
 def _basis(p: Program) -> list[list[list[str]]]:
-    def text(x: Any) -> str:
+    def text(x: Fraction) -> str:
         return str(int(x)) if x.denominator == 1 else f"{x.numerator}/{x.denominator}"
 
     return [[[text(x) for x in row] for row in e] for e in p.basis]
@@ -116,48 +122,4 @@ def _basis_lines(p: Program) -> list[str]:
     return lines
 
 
-def _function(f: Function, printer: Printer, language: str) -> dict[str, Any]:
-    ops = f.operations()
-    return {
-        "loads": [
-            {"name": x.name, "array": x.array, "index": x.index} for x in f.loads if x.array != "t"
-        ],
-        "arrays": sorted({x.array for x in f.loads}),
-        "sections": [
-            {
-                "label": s.label.partition("#")[0],
-                "equation": comment(_shortened(s.equation)),
-                "operations": _operations(Function((), (s,), ())),
-                "statements": [
-                    _statement(v.name, printer(v.expression), language) for v in s.values
-                ],
-            }
-            for s in f.sections
-        ],
-        "outputs": [printer(e) for e in f.outputs],
-        "checks": [_check(c, printer) for c in f.checks],
-        "operations": _operations(f),
-        "multiplications": ops["mul"],
-    }
-
-
-def _operations(f: Function) -> str:
-    ops = f.operations()
-    return ", ".join(f"{n} {name}" for name, n in ops.items() if n) or "none"
-
-
-def _shortened(text: str) -> str:
-    return text if len(text) <= 200 else text[:197] + "..."
-
-
-def _statement(name: str, text: str, language: str) -> dict[str, str]:
-    if language == "c":
-        return {"name": name, "text": wrapped(text, TEXT - 20 - len(name), " " * 8)}
-    long = len(text) + len(name) > TEXT - 8
-    body = wrapped(text, TEXT - 10, " " * 8)
-    return {"name": name, "text": f"(\n        {body}\n    )" if long else text}
-
-
-def _check(c: Check, printer: Printer) -> dict[str, str]:
-    scale = printer(c.scale) if c.scale is not None else ""
-    return {"value": printer(c.value), "scale": f"({scale})" if "+" in scale else scale}
+__all__ = ["LANGUAGES", "EmitError", "comment", "emit", "operations", "problem_hash"]

@@ -2,17 +2,20 @@
 
 Two names are worth losing.  k·x, with k of the parameters alone, where each use multiplies it by
 another such factor: the constants merge.  And a summand that is a sum of its own, where another
-summand has the same moving factors: their constants add.  Nothing else is touched.
+summand has the same moving factors: their constants add.  At the end what
+has a name gets it wherever it stands.
 """
 
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 
 from .graph import PARAMETER, Graph, Node
 
 PASSES = 4
+NOTHING: Mapping[Node, Node] = MappingProxyType({})
 
 
 def factored(graph: Graph, roots: Sequence[Node]) -> list[Node]:
@@ -24,7 +27,12 @@ def factored(graph: Graph, roots: Sequence[Node]) -> list[Node]:
             break
         images = _rebuilt(graph, found, lost)
         found = [images[x] for x in found]
-    return found
+    images = _rebuilt(graph, found, set(), {x.args[0]: x for x in _values(found)})
+    return [images[x] for x in found]
+
+
+def _values(roots: Sequence[Node]) -> list[Node]:
+    return [x for x in _reachable(roots) if x.op == "value"]
 
 
 def _reachable(roots: Iterable[Node]) -> list[Node]:
@@ -71,11 +79,17 @@ def _sharing(s: Node, single: set[Node]) -> list[Node]:
     return [x for x in s.args if x in single and any(count[m] > 1 for m in own[x])]
 
 
-def _rebuilt(graph: Graph, roots: Sequence[Node], lost: set[Node]) -> dict[Node, Node]:
-    """Old node → new node; what depends on parameters alone stays as it is."""
+def _rebuilt(
+    graph: Graph, roots: Sequence[Node], lost: set[Node], named: Mapping[Node, Node] = NOTHING
+) -> dict[Node, Node]:
+    """Old node → new node; what depends on parameters alone stays as it is.
+
+    ``named``: sums and products that have a name; where they stand without it, they get it.
+    """
     images: dict[Node, Node] = {x: x for x in roots if x.stage == PARAMETER}
     for x in _reachable(roots):
-        args = [images.get(y, y) for y in x.args]
+        other = {} if x.op == "value" else named
+        args = [images.get(other.get(y, y), other.get(y, y)) for y in x.args]
         if x in lost:
             images[x] = args[0]
         elif all(a is b for a, b in zip(args, x.args, strict=True)):

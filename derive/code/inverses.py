@@ -9,6 +9,7 @@ from ..record.record import Derivation
 from . import dense
 from .graph import PARAMETER, Node
 from .naming import name_of
+from .options import Options
 from .reader import Reader, Value
 
 SMALL = 3
@@ -18,8 +19,8 @@ SMALL = 3
 class Inverting(Reader):
     """``checks``: what must not vanish in constants, and the scale of its rounding error."""
 
-    def __init__(self, d: Derivation, group: Group):
-        super().__init__(d, group)
+    def __init__(self, d: Derivation, group: Group, options: Options):
+        super().__init__(d, group, options)
         self.checks: list[tuple[Node, Node | None]] = []
 
     def _inverse(self, t: Tree) -> Value:
@@ -68,14 +69,13 @@ class Inverting(Reader):
 
     def _at_identity(self, m: Matrix) -> Matrix:
         """A matrix that depends on the group element alone, at g = 1."""
-        images = {}
-        for name, one in (("A", 1), ("T", 0)):
-            rows = self.state.get(name, ())
-            assert not isinstance(rows, Node)
-            for i, row in enumerate(rows):
-                for j, x in enumerate(row):
-                    if x.op == "leaf":
-                        images[x] = self.graph.num(one if i == j else 0)
+        images = {
+            x: self.graph.num(int(name == "A" and i == j))
+            for name in ("A", "T")
+            for i, row in enumerate(self.space.values.get(name, ()))
+            for j, x in enumerate(row)
+            if x.op in ("leaf", "value")
+        }
         return tuple(tuple(self.graph.replaced(x, images) for x in row) for row in m)
 
     def _by_adjugate(self, t: Tree, value: Matrix, name: str) -> Value:

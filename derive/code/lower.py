@@ -22,14 +22,15 @@ from . import dense
 from .graph import Node
 from .inverses import SMALL, Inverting
 from .naming import name_of
+from .options import Options
 from .reader import LoweringError, Value, bound
 
 
 class Lowering(Inverting):
     """The graph of one record."""
 
-    def __init__(self, d: Derivation, group: Group):
-        super().__init__(d, group)
+    def __init__(self, d: Derivation, group: Group, options: Options):
+        super().__init__(d, group, options)
         self._products: set[Tree] = set()
         self._scan()
 

@@ -1,4 +1,4 @@
-"""Expressions in C and in Python: precedence and numbers, nothing else."""
+"""Expressions as text: precedence and numbers, nothing else."""
 
 from __future__ import annotations
 
@@ -64,15 +64,6 @@ def decimal(q: Fraction, suffix: str = "") -> str:
     if Fraction(value) == q or max(abs(q.numerator), q.denominator) >= 10**6:
         return f"{value!r}{suffix}"
     return f"{float(q.numerator)!r}{suffix}/{float(q.denominator)!r}{suffix}"
-
-
-PYTHON = Printer(decimal, function=lambda name: f"xp.{name}")
-
-
-def c_printer(real: str) -> Printer:
-    """C for ``double`` or ``float``."""
-    suffix = "f" if real == "float" else ""
-    return Printer(lambda q: decimal(q, suffix), "fabs" + suffix, lambda name: f"{name}{suffix}")
 
 
 def wrapped(text: str, width: int, indent: str) -> str:

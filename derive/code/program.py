@@ -7,6 +7,7 @@ named values and stores outputs.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -65,6 +66,14 @@ class Function:
     outputs: tuple[Expression, ...]
     checks: tuple[Check, ...] = ()
 
+    def calls(self) -> set[str]:
+        """The elementary functions that it calls."""
+        found: set[str] = set()
+        expressions = [v.expression for s in self.sections for v in s.values]
+        for e in (*expressions, *self.outputs):
+            _collect(e, found)
+        return found
+
     def operations(self) -> dict[str, int]:
         """Counts of mul, add, div and calls of functions in sections and outputs."""
         total = dict.fromkeys(OPERATIONS, 0)
@@ -89,7 +98,11 @@ class Turning:
 
 @dataclass(frozen=True)
 class Program:
-    """All that is emitted for one problem, without a word of any language."""
+    """All that is emitted for one problem, without a word of any language.
+
+    ``functions``: constants, rhs, energy; inertia for a body turned in space; and what is asked for
+    of jacobian, jacobian_inputs, jacobian_parameters.
+    """
 
     name: str
     title: str
@@ -101,11 +114,16 @@ class Program:
     inputs: tuple[str, ...]
     constants: tuple[str, ...]
     basis: tuple[tuple[tuple[Fraction, ...], ...], ...]
-    compute_constants: Function
-    rhs: Function
-    energy: Function
-    inertia: Function | None = None
+    functions: Mapping[str, Function]
     turning: Turning | None = None
+
+
+def _collect(e: Any, found: set[str]) -> None:
+    if isinstance(e, tuple):
+        if e and e[0] == "fun":
+            found.add(e[1])
+        for part in e:
+            _collect(part, found)
 
 
 def count(e: Expression) -> dict[str, int]:

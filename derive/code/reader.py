@@ -10,7 +10,8 @@ from ..algebra.tree import Tree, subtrees
 from ..record.record import Derivation, Equation, Step
 from .graph import Graph, Node
 from .naming import name_of, suffixed
-from .state import fixed_entries, layout
+from .options import Options
+from .state import State
 
 Value = Node | Matrix
 
@@ -22,11 +23,11 @@ class LoweringError(ValueError):
 class Reader:
     """The values of the names of one record; how a tree is computed is left to ``tree``."""
 
-    def __init__(self, d: Derivation, group: Group):
+    def __init__(self, d: Derivation, group: Group, options: Options):
         self.record, self.group, self.n = d, group, group.n
         self.graph = Graph()
+        self.space = State(self.graph, group, options)
         self.label = ""
-        self.state: dict[str, Value] = {}
         self.memo: dict[Tree, Value] = {}
         self._inputs()
 
@@ -38,18 +39,7 @@ class Reader:
 
     def _inputs(self) -> None:
         n, d = self.n, self.group.dimension
-        leaves = {(x.letter, x.row, x.column): self.leaf(x.name) for x in layout(self.group)}
-        ones = fixed_entries(self.group)
-        self.state["A"] = tuple(
-            tuple(leaves.get(("A", i, j), self.graph.num(ones.get((i, j), 0))) for j in range(n))
-            for i in range(n)
-        )
-        if self.group.affine:
-            self.state["T"] = tuple((leaves["T", i, 0],) for i in range(n))
-            self.state["ζ"] = self.column("zeta", d - n)
-            self.state["w"] = self.column("w", n)
-        else:
-            self.state["ζ"] = self.column("zeta", d)
+        self.state: dict[str, Value] = dict(self.space.values)
         self.state["t"] = self.leaf("t", "time")
         self.inputs: list[str] = []
         pushes = 0

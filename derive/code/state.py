@@ -1,15 +1,31 @@
-"""The state of a program: which entries of the group element it holds, in which order.
+"""The state of a program: which numbers it holds in which order, their rates, their variations.
 
-A linear group keeps A row by row, an affine one A and then T; a product, factor after factor, the
-blocks of one matrix whose other entries are 0, or 1 where an affine factor has its last row.
+First the group element: A row by row (or column by column), for an affine group then T; for a
+product factor after factor, the blocks of one matrix whose other entries are 0, or 1 where an
+affine factor has its last row; or a unit quaternion for A.  Then the velocity: the coordinates ζ of
+Z = g⁻¹ġ (and w), or the entries of ġ.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 
+from ..algebra import rational as q
 from ..algebra.groups import Group
+from ..algebra.rational import Matrix
+from . import dense
+from .graph import Graph, Node
 from .naming import suffixed
+from .options import Options
+from .quaternion import matrix_of, multiplied
+
+Seeds = dict[Node, Node]
+"""A variation: leaf of the state → its derivative."""
+
+Named = Callable[[str], Matrix]
+Component = Callable[[str, int], Node]
 
 
 @dataclass(frozen=True)
@@ -22,24 +38,24 @@ class Slot:
     column: int = 0
 
 
-def layout(group: Group) -> list[Slot]:
-    """The slots of a group element."""
+def layout(group: Group, columns: bool = False) -> list[Slot]:
+    """The slots of a group element kept as matrices; ``columns``: column by column."""
     if not group.factors:
-        return _factor(group, "", 0, group.affine)
+        return _factor(group, "", 0, group.affine, columns)
+    several = len(group.factors) > 1
     return [
         slot
         for k, (offset, factor) in enumerate(group.places, 1)
-        for slot in _factor(factor, str(k) if len(group.factors) > 1 else "", offset, False)
+        for slot in _factor(factor, str(k) if several else "", offset, False, columns)
     ]
 
 
-def _factor(g: Group, mark: str, offset: int, apart: bool) -> list[Slot]:
+def _factor(g: Group, mark: str, offset: int, apart: bool, columns: bool) -> list[Slot]:
     """``apart``: the translation is a vector of its own, not a column of A."""
     span = range(g.n)
+    pairs = [(j, i) if columns else (i, j) for i in span for j in span]
     slots = [
-        Slot(suffixed(f"A{mark}", i + 1, j + 1), "A", offset + i, offset + j)
-        for i in span
-        for j in span
+        Slot(suffixed(f"A{mark}", i + 1, j + 1), "A", offset + i, offset + j) for i, j in pairs
     ]
     if g.affine:
         slots += [
@@ -56,3 +72,204 @@ def fixed_entries(group: Group) -> dict[tuple[int, int], int]:
     return {
         (offset + f.n, offset + f.n): 1 for offset, f in group.places if group.factors and f.affine
     }
+
+
+class State:
+    """``names`` in order; ``values``: A, T, ζ, w as nodes in the leaves of these names."""
+
+    def __init__(self, graph: Graph, group: Group, options: Options):
+        self.graph, self.group, self.n = graph, group, group.n
+        self.slots = layout(group, options.layout == "col")
+        self.quaternion = options.attitude == "quaternion"
+        self.tangent = options.velocity == "tangent"
+        self.names: list[str] = []
+        self.values: dict[str, Matrix] = {}
+        self._element()
+        self._velocity()
+
+    # -- the group element -------------------------------------------------------------------
+
+    def _leaf(self, name: str) -> Node:
+        self.names.append(name)
+        return self.graph.leaf(name, "state")
+
+    def _element(self) -> None:
+        slots = self.slots
+        if self.quaternion:
+            self.q = tuple(self._leaf(suffixed("q", i)) for i in range(4))
+            self.values["A"] = matrix_of(self.graph, self.q)
+            slots = [x for x in slots if x.letter == "T"]
+        placed = self._placed("", slots)
+        if not self.quaternion:
+            self.values["A"] = placed["A"]
+        if self.group.affine:
+            self.values["T"] = placed["T"]
+
+    def _placed(self, mark: str, slots: list[Slot]) -> dict[str, Matrix]:
+        """New leaves in their places of A and T; ``mark`` for the entries of ġ."""
+        span, num = range(self.n), self.graph.num
+        leaves = {(x.letter, x.row, x.column): self._leaf(x.name + mark) for x in slots}
+        ones = {} if mark else fixed_entries(self.group)
+        return {
+            "A": tuple(
+                tuple(leaves.get(("A", i, j), num(ones.get((i, j), 0))) for j in span) for i in span
+            ),
+            "T": tuple((leaves.get(("T", i, 0), num(0)),) for i in span),
+        }
+
+    def along(self, a: int) -> Seeds:
+        """The variation δg = g E_a at constant ζ."""
+        g, e = (
+            self.graph,
+            tuple(tuple(self.graph.num(x) for x in row) for row in self.group.basis[a]),
+        )
+        seeds = self._moved(e)
+        if self.tangent:  # δġ = g E_a Z
+            seeds |= self._speeds(dense.times(g, e, self._hat(self.coordinates)))
+        return seeds
+
+    def faster(self, a: int) -> Seeds:
+        """The variation of ζ_a alone."""
+        g, e = (
+            self.graph,
+            tuple(tuple(self.graph.num(x) for x in row) for row in self.group.basis[a]),
+        )
+        return self._speeds(e) if self.tangent else {self.coordinates[a]: g.num(1)}
+
+    def _speeds(self, e: Matrix) -> Seeds:
+        """The leaves of ġ for δġ = g e."""
+        change = dense.times(self.graph, self.values["A"], self._linear(e))
+        seeds = self._seeds("α", change)
+        if self.group.affine:
+            shift = tuple((e[i][self.n],) for i in range(self.n))
+            seeds |= self._seeds("τ", dense.times(self.graph, self.values["A"], shift))
+        return seeds
+
+    def _moved(self, e: Matrix) -> Seeds:
+        """The leaves of g for δg = g e, with e of the size of the group's matrices."""
+        if self.quaternion:
+            half = self._halves(((e[2][1],), (e[0][2],), (e[1][0],)))
+            rates = multiplied(self.q, (self.graph.num(0), *half))
+            seeds = dict(zip(self.q, rates, strict=True))
+        else:
+            seeds = self._seeds("A", dense.times(self.graph, self.values["A"], self._linear(e)))
+        if self.group.affine:
+            shift = tuple((e[i][self.n],) for i in range(self.n))
+            seeds |= self._seeds("T", dense.times(self.graph, self.values["A"], shift))
+        return seeds
+
+    def _linear(self, e: Matrix) -> Matrix:
+        return tuple(row[: self.n] for row in e[: self.n])
+
+    def _seeds(self, letter: str, change: Matrix) -> Seeds:
+        pairs = zip(q.flatten(self.values[letter]), q.flatten(change), strict=True)
+        return {leaf: x for leaf, x in pairs if leaf.op == "leaf"}
+
+    # -- the velocity ------------------------------------------------------------------------
+
+    def _velocity(self) -> None:
+        d, n = self.group.dimension, self.n
+        if not self.tangent:
+            turns = d - n if self.group.affine else d
+            self.values["ζ"] = tuple((self._leaf(suffixed("zeta", a)),) for a in self._span(turns))
+            if self.group.affine:
+                self.values["w"] = tuple((self._leaf(suffixed("w", i)),) for i in self._span(n))
+            return
+        placed = self._placed("_dot", self.slots)
+        inverse = self._inverse()
+        Z = dense.times(self.graph, inverse, placed["A"])
+        self.values |= {"α": placed["A"], "τ": placed["T"]}
+        if self.group.affine:
+            w = dense.times(self.graph, inverse, placed["T"])
+            self.values["w"] = self._named("w", w)
+            rows = ((*row, x) for row, (x,) in zip(Z, w, strict=True))
+            Z = (*rows, (self.graph.num(0),) * (n + 1))
+        coordinates = [(self._read(a, Z),) for a in range(d - n if self.group.affine else d)]
+        self.values["ζ"] = self._named("zeta", tuple(coordinates))
+
+    @staticmethod
+    def _span(count: int) -> range:
+        return range(1, count + 1)
+
+    def _named(self, name: str, column: Matrix) -> Matrix:
+        return tuple(
+            (self.graph.value(x, suffixed(name, i), ""),) for i, (x,) in enumerate(column, 1)
+        )
+
+    def _read(self, a: int, z: Matrix) -> Node:
+        return self.graph.linear((c, z[i][j]) for c, i, j in self.group.reading(a))
+
+    def _inverse(self) -> Matrix:
+        """A⁻¹: the transpose of a rotation, else the adjugate, or (ĀA)⁻¹Ā for a large A."""
+        A, g = self.values["A"], self.graph
+        if "orthogonal" in self.group.relations:
+            return q.transposed(A)
+        if self.n > 3:
+            bar = q.transposed(A)
+            gram, _ = dense.symmetric_inverse(
+                g, dense.times(g, bar, A), lambda name, x: g.value(x, f"gram_{name}", "")
+            )
+            return dense.times(g, gram, bar)
+        adjugate = dense.adjugate(g, A)
+        if "unimodular" in self.group.relations:
+            return adjugate
+        scale = g.value(g.recip(dense.determinant(g, A)), "inv_det_A", "")
+        return tuple(tuple(g.product((scale, x)) for x in row) for row in adjugate)
+
+    @property
+    def coordinates(self) -> list[Node]:
+        """ζ and w: the coordinates of Z in the basis of the group."""
+        names = ("ζ", "w") if self.group.affine else ("ζ",)
+        return [x for name in names for (x,) in self.values[name]]
+
+    # -- rates and variations ----------------------------------------------------------------
+
+    def velocity(self, component: Component) -> list[Node]:
+        """ζ̇, and ẇ where there is w."""
+        d, n = self.group.dimension, self.n
+        turns = d - n if self.group.affine else d
+        found = [component("ζ̇", a) for a in self._span(turns)]
+        return found + ([component("ẇ", i) for i in self._span(n)] if self.group.affine else [])
+
+    def rates(self, name: Named, component: Component) -> list[Node]:
+        """The time derivative of each number, from the names and components of the record."""
+        affine, velocity = self.group.affine, self.velocity(component)
+        if self.tangent:
+            return [*self._entries(self.values["α"], self.values["τ"]), *self._second(velocity)]
+        if not self.quaternion:
+            return self._entries(name("Ȧ"), name("Ṫ") if affine else ()) + velocity
+        found = multiplied(self.q, (self.graph.num(0), *self._halves(self.values["ζ"])))
+        return [*found, *(x for (x,) in (name("Ṫ") if affine else ())), *velocity]
+
+    def _halves(self, column: Matrix) -> list[Node]:
+        return [self.graph.linear([(Fraction(1, 2), x)]) for (x,) in column]
+
+    def _entries(self, A: Matrix, T: Matrix) -> list[Node]:
+        return [{"A": A, "T": T}[x.letter][x.row][x.column] for x in self.slots]
+
+    def _hat(self, coordinates: list[Node]) -> Matrix:
+        """Σ x_a E_a."""
+        basis, span = self.group.basis, range(self.group.size)
+        return tuple(
+            tuple(
+                self.graph.linear(
+                    (e[i][j], x) for e, x in zip(basis, coordinates, strict=True) if e[i][j]
+                )
+                for j in span
+            )
+            for i in span
+        )
+
+    def _second(self, rate: list[Node]) -> list[Node]:
+        """g̈ = g(Ż + Z²): its linear part and its shift."""
+        g, n = self.graph, self.n
+        Z = self._hat(self.coordinates)
+        total = q.plus(self._hat(rate), dense.times(g, Z, Z))
+        named = tuple(
+            tuple(g.value(x, suffixed("Y", i, j), "") for j, x in enumerate(row, 1))
+            for i, row in enumerate(total, 1)
+        )
+        A = self.values["A"]
+        linear = dense.times(g, A, self._linear(named))
+        shift = dense.times(g, A, tuple((row[n],) for row in named[:n])) if n < len(Z) else ()
+        return self._entries(linear, shift)

@@ -50,7 +50,6 @@ const char *const se3_input_names[] = {
     "u_6",
 };
 
-
 int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
 {
     const double m = p[0];
@@ -135,6 +134,7 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
             return 1;
         }
     }
+
     return 0;
 }
 
@@ -160,12 +160,6 @@ void se3_rhs(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT 
     const double g_1 = k[20];
     const double g_2 = k[21];
     const double g_3 = k[22];
-    const double u_1 = u[0];
-    const double u_2 = u[1];
-    const double u_3 = u[2];
-    const double u_4 = u[3];
-    const double u_5 = u[4];
-    const double u_6 = u[5];
     const double A_11 = x[0];
     const double A_12 = x[1];
     const double A_13 = x[2];
@@ -181,6 +175,12 @@ void se3_rhs(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT 
     const double w_1 = x[15];
     const double w_2 = x[16];
     const double w_3 = x[17];
+    const double u_1 = u[0];
+    const double u_2 = u[1];
+    const double u_3 = u[2];
+    const double u_4 = u[3];
+    const double u_5 = u[4];
+    const double u_6 = u[5];
 
     /* se3.motion: 30 mul, 24 add
      * ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ) */
@@ -230,6 +230,107 @@ void se3_rhs(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT 
     dx[17] = w_dot_3;
 }
 
+void se3_rhs_batch(size_t n, double t, const double *se3_RESTRICT x,
+    const double *se3_RESTRICT k, const double *se3_RESTRICT u, double *se3_RESTRICT dx)
+{
+#ifdef _OPENMP
+#pragma omp parallel for simd if (parallel : n > 4096)
+#elif defined(__clang__)
+#pragma clang loop vectorize(assume_safety)
+#elif defined(__GNUC__)
+#pragma GCC ivdep
+#endif
+    for (size_t s = 0; s < n; ++s) {
+        const double inv_m = k[1];
+        const double I_c_11 = k[5];
+        const double I_c_12 = k[6];
+        const double I_c_13 = k[7];
+        const double I_c_22 = k[8];
+        const double I_c_23 = k[9];
+        const double I_c_33 = k[10];
+        const double inv_I_c_11 = k[11];
+        const double inv_I_c_12 = k[12];
+        const double inv_I_c_13 = k[13];
+        const double inv_I_c_22 = k[14];
+        const double inv_I_c_23 = k[15];
+        const double inv_I_c_33 = k[16];
+        const double r_c_1 = k[17];
+        const double r_c_2 = k[18];
+        const double r_c_3 = k[19];
+        const double g_1 = k[20];
+        const double g_2 = k[21];
+        const double g_3 = k[22];
+        const double u_1 = u[0*n + s];
+        const double u_2 = u[1*n + s];
+        const double u_3 = u[2*n + s];
+        const double u_4 = u[3*n + s];
+        const double u_5 = u[4*n + s];
+        const double u_6 = u[5*n + s];
+        const double A_11 = x[0*n + s];
+        const double A_12 = x[1*n + s];
+        const double A_13 = x[2*n + s];
+        const double A_21 = x[3*n + s];
+        const double A_22 = x[4*n + s];
+        const double A_23 = x[5*n + s];
+        const double A_31 = x[6*n + s];
+        const double A_32 = x[7*n + s];
+        const double A_33 = x[8*n + s];
+        const double zeta_1 = x[12*n + s];
+        const double zeta_2 = x[13*n + s];
+        const double zeta_3 = x[14*n + s];
+        const double w_1 = x[15*n + s];
+        const double w_2 = x[16*n + s];
+        const double w_3 = x[17*n + s];
+
+        /* se3.motion: 30 mul, 24 add
+         * ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ) */
+        const double I_c_zeta_1 = I_c_11*zeta_1 + I_c_12*zeta_2 + I_c_13*zeta_3;
+        const double I_c_zeta_2 = I_c_12*zeta_1 + I_c_22*zeta_2 + I_c_23*zeta_3;
+        const double I_c_zeta_3 = I_c_13*zeta_1 + I_c_23*zeta_2 + I_c_33*zeta_3;
+        const double balance_1 = u_1 + r_c_3*u_5 + zeta_3*I_c_zeta_2 - r_c_2*u_6 - zeta_2*I_c_zeta_3;
+        const double balance_2 = u_2 + r_c_1*u_6 + zeta_1*I_c_zeta_3 - r_c_3*u_4 - zeta_3*I_c_zeta_1;
+        const double balance_3 = u_3 + r_c_2*u_4 + zeta_2*I_c_zeta_1 - r_c_1*u_5 - zeta_1*I_c_zeta_2;
+        const double zeta_dot_1 = inv_I_c_11*balance_1 + inv_I_c_12*balance_2 + inv_I_c_13*balance_3;
+        const double zeta_dot_2 = inv_I_c_12*balance_1 + inv_I_c_22*balance_2 + inv_I_c_23*balance_3;
+        const double zeta_dot_3 = inv_I_c_13*balance_1 + inv_I_c_23*balance_2 + inv_I_c_33*balance_3;
+
+        /* se3.elimination: 6 mul, 6 add
+         * w_c = w + ζ ∧ r_c */
+        const double w_c_1 = w_1 + r_c_3*zeta_2 - r_c_2*zeta_3;
+        const double w_c_2 = w_2 + r_c_1*zeta_3 - r_c_3*zeta_1;
+        const double w_c_3 = w_3 + r_c_2*zeta_1 - r_c_1*zeta_2;
+
+        /* se3.motion: 24 mul, 21 add
+         * ẇ = r_c ∧ ζ̇ + w_c ∧ ζ + Āγ + m⁻¹ f_u */
+        const double w_dot_1 = r_c_2*zeta_dot_3 + zeta_3*w_c_2 + (g_1*A_11 + g_2*A_21 + g_3*A_31) + inv_m*u_4
+            - r_c_3*zeta_dot_2 - zeta_2*w_c_3;
+        const double w_dot_2 = r_c_3*zeta_dot_1 + zeta_1*w_c_3 + (g_1*A_12 + g_2*A_22 + g_3*A_32) + inv_m*u_5
+            - r_c_1*zeta_dot_3 - zeta_3*w_c_1;
+        const double w_dot_3 = r_c_1*zeta_dot_2 + zeta_2*w_c_1 + (g_1*A_13 + g_2*A_23 + g_3*A_33) + inv_m*u_6
+            - r_c_2*zeta_dot_1 - zeta_1*w_c_2;
+
+        dx[0*n + s] = A_12*zeta_3 - A_13*zeta_2;
+        dx[1*n + s] = A_13*zeta_1 - A_11*zeta_3;
+        dx[2*n + s] = A_11*zeta_2 - A_12*zeta_1;
+        dx[3*n + s] = A_22*zeta_3 - A_23*zeta_2;
+        dx[4*n + s] = A_23*zeta_1 - A_21*zeta_3;
+        dx[5*n + s] = A_21*zeta_2 - A_22*zeta_1;
+        dx[6*n + s] = A_32*zeta_3 - A_33*zeta_2;
+        dx[7*n + s] = A_33*zeta_1 - A_31*zeta_3;
+        dx[8*n + s] = A_31*zeta_2 - A_32*zeta_1;
+        dx[9*n + s] = A_11*w_1 + A_12*w_2 + A_13*w_3;
+        dx[10*n + s] = A_21*w_1 + A_22*w_2 + A_23*w_3;
+        dx[11*n + s] = A_31*w_1 + A_32*w_2 + A_33*w_3;
+        dx[12*n + s] = zeta_dot_1;
+        dx[13*n + s] = zeta_dot_2;
+        dx[14*n + s] = zeta_dot_3;
+        dx[15*n + s] = w_dot_1;
+        dx[16*n + s] = w_dot_2;
+        dx[17*n + s] = w_dot_3;
+    }
+    (void)t;
+}
+
 double se3_energy(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT k)
 {
     const double m = k[0];
@@ -275,5 +376,6 @@ double se3_energy(double t, const double *se3_RESTRICT x, const double *se3_REST
         - m*(g_1*T_1 + g_2*T_2 + g_3*T_3);
 
     (void)t;
+
     return h_tilde;
 }

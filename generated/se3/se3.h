@@ -41,16 +41,14 @@
 #ifndef SE3_H
 #define SE3_H
 
+#include <stddef.h>
+
 #if defined(__cplusplus) || defined(__GNUC__)
 #define se3_RESTRICT __restrict
 #elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 199901L
 #define se3_RESTRICT restrict
 #else
 #define se3_RESTRICT
-#endif
-
-#ifdef __cplusplus
-extern "C" {
 #endif
 
 enum {
@@ -60,6 +58,10 @@ enum {
     se3_N_CONSTANTS = 29,
     se3_N_INPUTS = 6
 };
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 extern const char *const se3_state_names[se3_N_STATE];
 extern const char *const se3_parameter_names[se3_N_PARAMETERS];
@@ -72,6 +74,10 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k);
 /* dx/dt at time t.  u holds se3_N_INPUTS numbers. */
 void se3_rhs(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT k,
     const double *se3_RESTRICT u, double *se3_RESTRICT dx);
+
+/* The same for n states at once, of one body: number i of state s is x[i*n + s], and so are u and dx. */
+void se3_rhs_batch(size_t n, double t, const double *se3_RESTRICT x,
+    const double *se3_RESTRICT k, const double *se3_RESTRICT u, double *se3_RESTRICT dx);
 
 /* Kinetic plus potential energy. */
 double se3_energy(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT k);

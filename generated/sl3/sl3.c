@@ -49,7 +49,6 @@ const char *const sl3_parameter_names[] = {
     "k34",
 };
 
-
 int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
 {
     const double m1 = p[0];
@@ -204,6 +203,7 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
             return 1;
         }
     }
+
     return 0;
 }
 
@@ -301,6 +301,109 @@ void sl3_rhs(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT 
     dx[16] = (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*lambda_ - (zeta_2*zeta_7 + zeta_5*zeta_8 + zeta_8*Z_33) - K_inv_J_32;
 }
 
+void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
+    const double *sl3_RESTRICT k, const double *sl3_RESTRICT u, double *sl3_RESTRICT dx)
+{
+#ifdef _OPENMP
+#pragma omp parallel for simd if (parallel : n > 4096)
+#elif defined(__clang__)
+#pragma clang loop vectorize(assume_safety)
+#elif defined(__GNUC__)
+#pragma GCC ivdep
+#endif
+    for (size_t s = 0; s < n; ++s) {
+        const double inv_J_11 = k[6];
+        const double inv_J_12 = k[7];
+        const double inv_J_13 = k[8];
+        const double inv_J_22 = k[9];
+        const double inv_J_23 = k[10];
+        const double inv_J_33 = k[11];
+        const double tr_inv_J_K = k[18];
+        const double K_inv_J_11 = k[19];
+        const double K_inv_J_12 = k[20];
+        const double K_inv_J_13 = k[21];
+        const double K_inv_J_21 = k[22];
+        const double K_inv_J_22 = k[23];
+        const double K_inv_J_23 = k[24];
+        const double K_inv_J_31 = k[25];
+        const double K_inv_J_32 = k[26];
+        const double A_11 = x[0*n + s];
+        const double A_12 = x[1*n + s];
+        const double A_13 = x[2*n + s];
+        const double A_21 = x[3*n + s];
+        const double A_22 = x[4*n + s];
+        const double A_23 = x[5*n + s];
+        const double A_31 = x[6*n + s];
+        const double A_32 = x[7*n + s];
+        const double A_33 = x[8*n + s];
+        const double zeta_1 = x[9*n + s];
+        const double zeta_2 = x[10*n + s];
+        const double zeta_3 = x[11*n + s];
+        const double zeta_4 = x[12*n + s];
+        const double zeta_5 = x[13*n + s];
+        const double zeta_6 = x[14*n + s];
+        const double zeta_7 = x[15*n + s];
+        const double zeta_8 = x[16*n + s];
+
+        /* sl3.coordinates: 1 add
+         * Z = [ζ₁, ζ₂, ζ₃; ζ₄, ζ₅, ζ₆; ζ₇, ζ₈, −ζ₁ − ζ₅] */
+        const double Z_33 = -(zeta_1 + zeta_5);
+
+        /* sl3.motion: 5 mul, 4 add
+         * λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
+        const double zeta_2_zeta_4 = zeta_2*zeta_4;
+        const double zeta_3_zeta_7 = zeta_3*zeta_7;
+        const double zeta_6_zeta_8 = zeta_6*zeta_8;
+        const double Z_2_11 = zeta_1*zeta_1 + zeta_2_zeta_4 + zeta_3_zeta_7;
+        const double Z_2_22 = zeta_2_zeta_4 + zeta_5*zeta_5 + zeta_6_zeta_8;
+
+        /* linear.trivialisation: 18 mul, 12 add
+         * C = ĀA */
+        const double C_11 = A_11*A_11 + A_21*A_21 + A_31*A_31;
+        const double C_12 = A_11*A_12 + A_21*A_22 + A_31*A_32;
+        const double C_13 = A_11*A_13 + A_21*A_23 + A_31*A_33;
+        const double C_22 = A_12*A_12 + A_22*A_22 + A_32*A_32;
+        const double C_23 = A_12*A_13 + A_22*A_23 + A_32*A_33;
+        const double C_33 = A_13*A_13 + A_23*A_23 + A_33*A_33;
+
+        /* sl3.motion: 19 mul, 19 add, 1 div
+         * λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
+        const double inv_C_11 = C_22*C_33 - C_23*C_23;
+        const double inv_C_12 = C_13*C_23 - C_12*C_33;
+        const double inv_C_13 = C_12*C_23 - C_13*C_22;
+        const double inv_C_22 = C_11*C_33 - C_13*C_13;
+        const double inv_C_23 = C_12*C_13 - C_11*C_23;
+        const double inv_C_33 = C_11*C_22 - C_12*C_12;
+        const double inv_J_12_inv_C_12 = inv_J_12*inv_C_12;
+        const double inv_J_13_inv_C_13 = inv_J_13*inv_C_13;
+        const double inv_J_23_inv_C_23 = inv_J_23*inv_C_23;
+        const double inv_C_inv_J_11 = inv_J_11*inv_C_11 + inv_J_12_inv_C_12 + inv_J_13_inv_C_13;
+        const double inv_C_inv_J_22 = inv_J_12_inv_C_12 + inv_J_22*inv_C_22 + inv_J_23_inv_C_23;
+        const double lambda_ = (tr_inv_J_K + Z_2_11 + Z_2_22 + (zeta_3_zeta_7 + zeta_6_zeta_8 + Z_33*Z_33))/(inv_C_inv_J_11
+            + inv_C_inv_J_22 + (inv_J_13_inv_C_13 + inv_J_23_inv_C_23 + inv_J_33*inv_C_33));
+
+        dx[0*n + s] = A_11*zeta_1 + A_12*zeta_4 + A_13*zeta_7;
+        dx[1*n + s] = A_11*zeta_2 + A_12*zeta_5 + A_13*zeta_8;
+        dx[2*n + s] = A_11*zeta_3 + A_12*zeta_6 + A_13*Z_33;
+        dx[3*n + s] = A_21*zeta_1 + A_22*zeta_4 + A_23*zeta_7;
+        dx[4*n + s] = A_21*zeta_2 + A_22*zeta_5 + A_23*zeta_8;
+        dx[5*n + s] = A_21*zeta_3 + A_22*zeta_6 + A_23*Z_33;
+        dx[6*n + s] = A_31*zeta_1 + A_32*zeta_4 + A_33*zeta_7;
+        dx[7*n + s] = A_31*zeta_2 + A_32*zeta_5 + A_33*zeta_8;
+        dx[8*n + s] = A_31*zeta_3 + A_32*zeta_6 + A_33*Z_33;
+        dx[9*n + s] = inv_C_inv_J_11*lambda_ - Z_2_11 - K_inv_J_11;
+        dx[10*n + s] = (inv_J_12*inv_C_11 + inv_J_22*inv_C_12 + inv_J_23*inv_C_13)*lambda_ - (zeta_1*zeta_2 + zeta_2*zeta_5 + zeta_3*zeta_8) - K_inv_J_12;
+        dx[11*n + s] = (inv_J_13*inv_C_11 + inv_J_23*inv_C_12 + inv_J_33*inv_C_13)*lambda_ - (zeta_1*zeta_3 + zeta_2*zeta_6 + zeta_3*Z_33) - K_inv_J_13;
+        dx[12*n + s] = (inv_J_11*inv_C_12 + inv_J_12*inv_C_22 + inv_J_13*inv_C_23)*lambda_ - (zeta_1*zeta_4 + zeta_4*zeta_5 + zeta_6*zeta_7) - K_inv_J_21;
+        dx[13*n + s] = inv_C_inv_J_22*lambda_ - Z_2_22 - K_inv_J_22;
+        dx[14*n + s] = (inv_J_13*inv_C_12 + inv_J_23*inv_C_22 + inv_J_33*inv_C_23)*lambda_ - (zeta_3*zeta_4 + zeta_5*zeta_6 + zeta_6*Z_33) - K_inv_J_23;
+        dx[15*n + s] = (inv_J_11*inv_C_13 + inv_J_12*inv_C_23 + inv_J_13*inv_C_33)*lambda_ - (zeta_1*zeta_7 + zeta_4*zeta_8 + zeta_7*Z_33) - K_inv_J_31;
+        dx[16*n + s] = (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*lambda_ - (zeta_2*zeta_7 + zeta_5*zeta_8 + zeta_8*Z_33) - K_inv_J_32;
+    }
+    (void)t;
+    (void)u;
+}
+
 double sl3_energy(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT k)
 {
     const double J_11 = k[0];
@@ -364,5 +467,6 @@ double sl3_energy(double t, const double *sl3_RESTRICT x, const double *sl3_REST
         + K_33*C_33;
 
     (void)t;
+
     return 0.5*(tr_Z_J_Z_T_C + tr_C_K);
 }

@@ -47,16 +47,14 @@
 #ifndef SL3_H
 #define SL3_H
 
+#include <stddef.h>
+
 #if defined(__cplusplus) || defined(__GNUC__)
 #define sl3_RESTRICT __restrict
 #elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 199901L
 #define sl3_RESTRICT restrict
 #else
 #define sl3_RESTRICT
-#endif
-
-#ifdef __cplusplus
-extern "C" {
 #endif
 
 enum {
@@ -66,6 +64,10 @@ enum {
     sl3_N_CONSTANTS = 27,
     sl3_N_INPUTS = 0
 };
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 extern const char *const sl3_state_names[sl3_N_STATE];
 extern const char *const sl3_parameter_names[sl3_N_PARAMETERS];
@@ -77,6 +79,10 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k);
 /* dx/dt at time t.  u is not read and may be a null pointer. */
 void sl3_rhs(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT k,
     const double *sl3_RESTRICT u, double *sl3_RESTRICT dx);
+
+/* The same for n states at once, of one body: number i of state s is x[i*n + s], and so are u and dx. */
+void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
+    const double *sl3_RESTRICT k, const double *sl3_RESTRICT u, double *sl3_RESTRICT dx);
 
 /* Kinetic plus potential energy. */
 double sl3_energy(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT k);

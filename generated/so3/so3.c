@@ -40,7 +40,6 @@ const char *const so3_input_names[] = {
     "u_3",
 };
 
-
 int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
 {
     const double c_1 = p[0];
@@ -102,6 +101,7 @@ int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
             return 1;
         }
     }
+
     return 0;
 }
 
@@ -126,9 +126,6 @@ void so3_rhs(double t, const double *so3_RESTRICT x, const double *so3_RESTRICT 
     const double g_1 = k[15];
     const double g_2 = k[16];
     const double g_3 = k[17];
-    const double u_1 = u[0];
-    const double u_2 = u[1];
-    const double u_3 = u[2];
     const double A_11 = x[0];
     const double A_12 = x[1];
     const double A_13 = x[2];
@@ -141,6 +138,9 @@ void so3_rhs(double t, const double *so3_RESTRICT x, const double *so3_RESTRICT 
     const double zeta_1 = x[9];
     const double zeta_2 = x[10];
     const double zeta_3 = x[11];
+    const double u_1 = u[0];
+    const double u_2 = u[1];
+    const double u_3 = u[2];
 
     /* so3.motion: 30 mul, 24 add
      * ζ̇ = I⁻¹(c ∧ Āγ + u + Iζ ∧ ζ) */
@@ -167,6 +167,79 @@ void so3_rhs(double t, const double *so3_RESTRICT x, const double *so3_RESTRICT 
     dx[9] = inv_I_11*balance_1 + inv_I_12*balance_2 + inv_I_13*balance_3;
     dx[10] = inv_I_12*balance_1 + inv_I_22*balance_2 + inv_I_23*balance_3;
     dx[11] = inv_I_13*balance_1 + inv_I_23*balance_2 + inv_I_33*balance_3;
+}
+
+void so3_rhs_batch(size_t n, double t, const double *so3_RESTRICT x,
+    const double *so3_RESTRICT k, const double *so3_RESTRICT u, double *so3_RESTRICT dx)
+{
+#ifdef _OPENMP
+#pragma omp parallel for simd if (parallel : n > 4096)
+#elif defined(__clang__)
+#pragma clang loop vectorize(assume_safety)
+#elif defined(__GNUC__)
+#pragma GCC ivdep
+#endif
+    for (size_t s = 0; s < n; ++s) {
+        const double I_11 = k[0];
+        const double I_12 = k[1];
+        const double I_13 = k[2];
+        const double I_22 = k[3];
+        const double I_23 = k[4];
+        const double I_33 = k[5];
+        const double inv_I_11 = k[6];
+        const double inv_I_12 = k[7];
+        const double inv_I_13 = k[8];
+        const double inv_I_22 = k[9];
+        const double inv_I_23 = k[10];
+        const double inv_I_33 = k[11];
+        const double c_1 = k[12];
+        const double c_2 = k[13];
+        const double c_3 = k[14];
+        const double g_1 = k[15];
+        const double g_2 = k[16];
+        const double g_3 = k[17];
+        const double u_1 = u[0*n + s];
+        const double u_2 = u[1*n + s];
+        const double u_3 = u[2*n + s];
+        const double A_11 = x[0*n + s];
+        const double A_12 = x[1*n + s];
+        const double A_13 = x[2*n + s];
+        const double A_21 = x[3*n + s];
+        const double A_22 = x[4*n + s];
+        const double A_23 = x[5*n + s];
+        const double A_31 = x[6*n + s];
+        const double A_32 = x[7*n + s];
+        const double A_33 = x[8*n + s];
+        const double zeta_1 = x[9*n + s];
+        const double zeta_2 = x[10*n + s];
+        const double zeta_3 = x[11*n + s];
+
+        /* so3.motion: 30 mul, 24 add
+         * ζ̇ = I⁻¹(c ∧ Āγ + u + Iζ ∧ ζ) */
+        const double A_T_gravity_1 = g_1*A_11 + g_2*A_21 + g_3*A_31;
+        const double A_T_gravity_2 = g_1*A_12 + g_2*A_22 + g_3*A_32;
+        const double A_T_gravity_3 = g_1*A_13 + g_2*A_23 + g_3*A_33;
+        const double I_zeta_1 = I_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3;
+        const double I_zeta_2 = I_12*zeta_1 + I_22*zeta_2 + I_23*zeta_3;
+        const double I_zeta_3 = I_13*zeta_1 + I_23*zeta_2 + I_33*zeta_3;
+        const double balance_1 = u_1 + c_2*A_T_gravity_3 + zeta_3*I_zeta_2 - c_3*A_T_gravity_2 - zeta_2*I_zeta_3;
+        const double balance_2 = u_2 + c_3*A_T_gravity_1 + zeta_1*I_zeta_3 - c_1*A_T_gravity_3 - zeta_3*I_zeta_1;
+        const double balance_3 = u_3 + c_1*A_T_gravity_2 + zeta_2*I_zeta_1 - c_2*A_T_gravity_1 - zeta_1*I_zeta_2;
+
+        dx[0*n + s] = A_12*zeta_3 - A_13*zeta_2;
+        dx[1*n + s] = A_13*zeta_1 - A_11*zeta_3;
+        dx[2*n + s] = A_11*zeta_2 - A_12*zeta_1;
+        dx[3*n + s] = A_22*zeta_3 - A_23*zeta_2;
+        dx[4*n + s] = A_23*zeta_1 - A_21*zeta_3;
+        dx[5*n + s] = A_21*zeta_2 - A_22*zeta_1;
+        dx[6*n + s] = A_32*zeta_3 - A_33*zeta_2;
+        dx[7*n + s] = A_33*zeta_1 - A_31*zeta_3;
+        dx[8*n + s] = A_31*zeta_2 - A_32*zeta_1;
+        dx[9*n + s] = inv_I_11*balance_1 + inv_I_12*balance_2 + inv_I_13*balance_3;
+        dx[10*n + s] = inv_I_12*balance_1 + inv_I_22*balance_2 + inv_I_23*balance_3;
+        dx[11*n + s] = inv_I_13*balance_1 + inv_I_23*balance_2 + inv_I_33*balance_3;
+    }
+    (void)t;
 }
 
 double so3_energy(double t, const double *so3_RESTRICT x, const double *so3_RESTRICT k)
@@ -197,5 +270,6 @@ double so3_energy(double t, const double *so3_RESTRICT x, const double *so3_REST
     const double zeta_3 = x[11];
 
     (void)t;
+
     return 0.5*(zeta_1*(I_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3) + zeta_2*(I_12*zeta_1 + I_22*zeta_2 + I_23*zeta_3) + zeta_3*(I_13*zeta_1 + I_23*zeta_2 + I_33*zeta_3)) - (g_1*(c_1*A_11 + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21 + c_2*A_22 + c_3*A_23) + g_3*(c_1*A_31 + c_2*A_32 + c_3*A_33));
 }

@@ -34,16 +34,14 @@
 #ifndef SO3_H
 #define SO3_H
 
+#include <stddef.h>
+
 #if defined(__cplusplus) || defined(__GNUC__)
 #define so3_RESTRICT __restrict
 #elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 199901L
 #define so3_RESTRICT restrict
 #else
 #define so3_RESTRICT
-#endif
-
-#ifdef __cplusplus
-extern "C" {
 #endif
 
 enum {
@@ -53,6 +51,10 @@ enum {
     so3_N_CONSTANTS = 18,
     so3_N_INPUTS = 3
 };
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 extern const char *const so3_state_names[so3_N_STATE];
 extern const char *const so3_parameter_names[so3_N_PARAMETERS];
@@ -65,6 +67,10 @@ int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k);
 /* dx/dt at time t.  u holds so3_N_INPUTS numbers. */
 void so3_rhs(double t, const double *so3_RESTRICT x, const double *so3_RESTRICT k,
     const double *so3_RESTRICT u, double *so3_RESTRICT dx);
+
+/* The same for n states at once, of one body: number i of state s is x[i*n + s], and so are u and dx. */
+void so3_rhs_batch(size_t n, double t, const double *so3_RESTRICT x,
+    const double *so3_RESTRICT k, const double *so3_RESTRICT u, double *so3_RESTRICT dx);
 
 /* Kinetic plus potential energy. */
 double so3_energy(double t, const double *so3_RESTRICT x, const double *so3_RESTRICT k);

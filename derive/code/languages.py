@@ -1,0 +1,115 @@
+"""The languages of the emitted code: how each writes a number, a statement and a comment."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from .printers import Printer, decimal
+
+
+@dataclass(frozen=True)
+class Language:
+    """A language is this table and a folder of templates.
+
+    ``files``: for each form of emission what follows the prefix in the names of the files, which
+    is that of the templates as well unless one is named before a colon.
+    ``declare``: a constant, of ``{real}``, ``{name}`` and ``{text}``; ``load`` reads entry
+    ``{index}`` (counted from ``first``) of an array; ``batch`` the same of state s of n.
+    ``parenthesised``: a statement of several lines needs parentheses.
+    ``needs``: a language whose files these ones include.
+    """
+
+    name: str
+    files: Mapping[str, tuple[str, ...]]
+    printer: Callable[[str], Printer]
+    declare: str
+    comment: tuple[str, str, str]
+    reals: Mapping[str, str]
+    load: str = "{array}[{index}]"
+    batch: str = ""
+    first: int = 0
+    parenthesised: bool = False
+    needs: str = ""
+    reserved: frozenset[str] = field(default_factory=frozenset)
+
+
+def _c(real: str) -> Printer:
+    suffix = "f" if real == "float" else ""
+    return Printer(lambda q: decimal(q, suffix), "fabs" + suffix, lambda name: f"{name}{suffix}")
+
+
+def _plain(function: str, absolute: str) -> Callable[[str], Printer]:
+    """Numbers without suffix; functions by a pattern."""
+    return lambda real: Printer(decimal, absolute, lambda name: function.format(name))
+
+
+def _julia(real: str) -> Printer:
+    def number(q: Fraction) -> str:
+        text = decimal(q)
+        return text.replace("e", "f") if real == "float" and "e" in text else text
+
+    return Printer(number)
+
+
+BLOCK, HASH, SLASH = ("/* ", " * ", " */"), ("# ", "# ", ""), ("// ", "// ", "")
+C_REALS = {"double": "double", "float": "float"}
+
+LANGUAGES: dict[str, Language] = {
+    "c": Language(
+        "c",
+        {"source": (".h", ".c"), "header": (".inline.h:.h",)},
+        _c,
+        "const {real} {name} = {text};",
+        BLOCK,
+        C_REALS,
+        batch="{array}[{index}*n + s]",
+    ),
+    "cpp": Language(
+        "cpp",
+        {"source": (".hpp",), "header": (".hpp",)},
+        _c,
+        "const {real} {name} = {text};",
+        BLOCK,
+        C_REALS,
+        needs="c",
+    ),
+    "python": Language(
+        "python",
+        {"source": (".py",), "header": (".py",)},
+        _plain("xp.{}", "abs"),
+        "{name} = {text}",
+        HASH,
+        {"double": "float64", "float": "float32"},
+        load="{array}[..., {index}]",
+        parenthesised=True,
+    ),
+    "rust": Language(
+        "rust",
+        {"source": (".rs",), "header": (".rs",)},
+        _plain("{}", "abs"),
+        "let {name}: {real} = {text};",
+        SLASH,
+        {"double": "f64", "float": "f32"},
+    ),
+    "julia": Language(
+        "julia",
+        {"source": (".jl",), "header": (".jl",)},
+        _julia,
+        "{name} = {text}",
+        HASH,
+        {"double": "Float64", "float": "Float32"},
+        first=1,
+        parenthesised=True,
+    ),
+    "javascript": Language(
+        "javascript",
+        {"source": (".mjs",), "header": (".mjs",)},
+        _plain("Math.{}", "Math.abs"),
+        "const {name} = {text};",
+        SLASH,
+        {"double": "Float64Array", "float": "Float32Array"},
+    ),
+}
+"""Name → language, as ``--lang`` takes them."""

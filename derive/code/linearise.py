@@ -1,0 +1,114 @@
+"""The linearised equations: exact derivatives of the rates, on the graph.
+
+A variation of the state is δg = g η, η = Σ η_a E_a, and δζ.  With δ(g⁻¹ġ) = η̇ + [Z, η]
+
+    η̇ = δζ − [Z, η],    δζ̇ = ∂ζ̇/∂η η + ∂ζ̇/∂ζ δζ,
+
+and the same with inputs and parameters in place of η, δζ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
+
+from .graph import Graph, Node
+from .state import State
+
+SLOPES: dict[str, str] = {"sin": "cos", "sinh": "cosh", "cosh": "sinh", "exp": "exp"}
+
+
+class Varied:
+    """Directional derivatives of nodes; ``seeds``: the derivatives of the leaves."""
+
+    def __init__(self, graph: Graph, seeds: Mapping[Node, Node], name: str):
+        self.graph, self.name = graph, name
+        self.zero, self.one = graph.num(0), graph.num(1)
+        self._done: dict[Node, Node] = dict(seeds)
+
+    def of(self, x: Node) -> Node:
+        """The derivative of a node."""
+        if x not in self._done:
+            self._done[x] = self._derivative(x)
+        return self._done[x]
+
+    def _derivative(self, x: Node) -> Node:
+        g = self.graph
+        if x.op in ("num", "leaf"):
+            return self.zero
+        if x.op == "value":
+            title, label, _ = g.titles[x]
+            return g.value(self.of(x.args[0]), f"d_{title}_{self.name}", label)
+        if x.op == "add":
+            return g.linear((c, self.of(y)) for c, y in zip(x.data, x.args, strict=True))
+        if x.op == "mul":
+            return g.sum(self._factors(x.args))
+        inner = self.of(x.args[0])
+        if inner.is_zero:
+            return self.zero
+        if x.op == "recip":
+            return g.linear([(Fraction(-1), g.product((x, x, inner)))])
+        if x.op == "fun":
+            return g.product((self._slope(x.data, x.args[0], x), inner))
+        raise ValueError(f"no derivative of {x.op!r}")
+
+    def _factors(self, factors: Sequence[Node]) -> Iterable[Node]:
+        for k, y in enumerate(factors):
+            varied = self.of(y)
+            if not varied.is_zero:
+                yield self.graph.product([*factors[:k], varied, *factors[k + 1 :]])
+
+    def _slope(self, name: str, x: Node, value: Node) -> Node:
+        """The derivative of an elementary function at x, by its value there."""
+        g = self.graph
+        if name in SLOPES:
+            return value if name == "exp" else g.function(SLOPES[name], x)
+        square = g.product((value, value))
+        if name == "cos":
+            return -g.function("sin", x)
+        if name == "sqrt":
+            return g.linear([(Fraction(1, 2), g.recip(value))])
+        if name == "log":
+            return g.recip(x)
+        if name == "tan":
+            return g.sum((self.one, square))
+        if name == "tanh":
+            return g.sum((self.one, -square))
+        if name == "atan":
+            return g.recip(g.sum((self.one, g.product((x, x)))))
+        raise ValueError(f"no derivative of the function {name!r}")
+
+
+def by_state(space: State, accelerations: list[Node]) -> list[Node]:
+    """2N × 2N by rows: η̇ and δζ̇ by η and δζ; ``accelerations``: ζ̇ (and ẇ)."""
+    g, d = space.graph, space.group.dimension
+    span = range(d)
+    turned = [Varied(g, space.along(a), f"eta_{a + 1}") for a in span]
+    sped = [Varied(g, space.faster(a), f"zeta_{a + 1}") for a in span]
+    rows = [
+        [*(-x for x in row), *(g.num(int(a == b)) for b in span)]
+        for a, row in enumerate(_adjoint(space))
+    ]
+    rows += [[v.of(x) for v in (*turned, *sped)] for x in accelerations]
+    return [x for row in rows for x in row]
+
+
+def by_leaves(space: State, accelerations: list[Node], leaves: Sequence[Node]) -> list[Node]:
+    """2N × len(leaves) by rows: the same by inputs or parameters, on which η̇ does not depend."""
+    g, d = space.graph, space.group.dimension
+    varied = [Varied(g, {x: g.num(1)}, str(x.data[1])) for x in leaves]
+    zeros = [g.num(0)] * (d * len(leaves))
+    return zeros + [v.of(x) for x in accelerations for v in varied]
+
+
+def _adjoint(space: State) -> list[list[Node]]:
+    """The matrix of ad_Z = [Z, ·] in the basis: Σ_c ζ_c [E_c, E_b]ᵃ."""
+    g, d = space.graph, space.group.dimension
+    constants, zeta = space.group.structure_constants, space.coordinates
+    return [
+        [
+            g.linear((constants[c][b][a], zeta[c]) for c in range(d) if constants[c][b][a])
+            for b in range(d)
+        ]
+        for a in range(d)
+    ]

@@ -1,0 +1,37 @@
+"""What a user may choose about the emitted code; every choice has a default."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
+    "real": (("double", "float"), "the numbers of the code"),
+    "form": (("source", "header"), "C as .h and .c, or as one header of inline functions"),
+    "layout": (("row", "col"), "the entries of A row by row, or column by column"),
+    "attitude": (("matrix", "quaternion"), "A as a matrix, or a unit quaternion (SO(3), SE(3))"),
+    "velocity": (("body", "tangent"), "the state ends in Z = g^-1 dg/dt, or in dg/dt"),
+}
+"""Option → its values, the first one the default, and what they choose."""
+
+JACOBIANS = ("state", "inputs", "parameters")
+"""What the equations may be linearised in."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """The choices of one emission; see :data:`CHOICES` and :data:`JACOBIANS`."""
+
+    real: str = "double"
+    form: str = "source"
+    layout: str = "row"
+    attitude: str = "matrix"
+    velocity: str = "body"
+    jacobian: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name, (allowed, _) in CHOICES.items():
+            if getattr(self, name) not in allowed:
+                raise ValueError(f"{name} must be one of {', '.join(allowed)}")
+        for name in self.jacobian:
+            if name not in JACOBIANS:
+                raise ValueError(f"jacobian must be among {', '.join(JACOBIANS)}")

@@ -1,0 +1,83 @@
+"""Functions of a program as lines of a language, ready for its templates."""
+
+from __future__ import annotations
+
+import textwrap
+from dataclasses import dataclass
+from typing import Any
+
+from .languages import Language
+from .printers import wrapped
+from .program import Check, Function, Load, Section
+
+TEXT, EQUATION = 96, 92
+
+
+@dataclass(frozen=True)
+class Statements:
+    """How one language writes the parts of a function, for ``double`` or ``float``."""
+
+    language: Language
+    real: str
+
+    def function(self, f: Function) -> dict[str, Any]:
+        """Lines of text: loads, sections with their comments, outputs, checks."""
+        printer = self.language.printer(self.real)
+        loads = [x for x in f.loads if x.array != "t"]
+        return {
+            "arrays": sorted({x.array for x in f.loads}),
+            "loads": [self._load(x, self.language.load) for x in loads if x.array != "u"],
+            "input_loads": [self._load(x, self.language.load) for x in loads if x.array == "u"],
+            "batch_loads": [self._batch_load(x) for x in loads] if self.language.batch else [],
+            "sections": [self._section(s) for s in f.sections],
+            "outputs": [printer(e) for e in f.outputs],
+            "checks": [self._check(c) for c in f.checks],
+            "operations": operations(f),
+        }
+
+    def _declared(self, name: str, text: str) -> str:
+        real = self.language.reals[self.real]
+        return self.language.declare.format(real=real, name=name, text=text)
+
+    def _load(self, x: Load, pattern: str) -> str:
+        index = x.index + self.language.first
+        return self._declared(x.name, pattern.format(array=x.array, index=index))
+
+    def _batch_load(self, x: Load) -> str:
+        return self._load(x, self.language.load if x.array == "k" else self.language.batch)
+
+    def _section(self, s: Section) -> dict[str, Any]:
+        label = s.label.partition("#")[0]
+        equation = comment(s.equation if len(s.equation) <= 200 else s.equation[:197] + "...")
+        told = [f"{label}: {operations(Function((), (s,), ()))}"]
+        told += textwrap.wrap(equation, EQUATION, break_long_words=False)
+        first, between, last = self.language.comment
+        lines = [first + told[0], *(between + x for x in told[1:])]
+        return {
+            "comment": [*lines[:-1], lines[-1] + last],
+            "statements": [self._statement(v.name, v.expression) for v in s.values],
+        }
+
+    def _statement(self, name: str, expression: Any) -> str:
+        text = self.language.printer(self.real)(expression)
+        if not self.language.parenthesised:
+            return self._declared(name, wrapped(text, TEXT - 20 - len(name), " " * 8))
+        if len(text) + len(name) > TEXT - 8:
+            text = f"(\n        {wrapped(text, TEXT - 10, ' ' * 8)}\n    )"
+        return self._declared(name, text)
+
+    def _check(self, c: Check) -> dict[str, str]:
+        printer = self.language.printer(self.real)
+        scale = printer(c.scale) if c.scale is not None else ""
+        return {"value": printer(c.value), "scale": f"({scale})" if "+" in scale else scale}
+
+
+def comment(text: str) -> str:
+    """Text that is safe inside a comment or a docstring of any language."""
+    plain = "".join(ch if ch.isprintable() else " " for ch in text)
+    return plain.replace("*/", "* /").replace("/*", "/ *").replace('"""', "'''").replace("\\", "/")
+
+
+def operations(f: Function) -> str:
+    """The counts of a function in words."""
+    return ", ".join(f"{n} {name}" for name, n in f.operations().items() if n) or "none"
