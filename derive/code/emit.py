@@ -61,7 +61,8 @@ def _fields(
 ) -> dict[str, Any]:
     real = options.real
     suffix = "f" if real == "float" and language.name in ("c", "cpp") else ""
-    written = Statements(language, real)
+    sizes = {"x": len(p.state), "k": len(p.constants), "u": len(p.inputs)}
+    written = Statements(language, real, sizes | {"p": len(p.parameters)})
     functions = {name: written.function(f) for name, f in p.functions.items()}
     return {
         "prefix": prefix,

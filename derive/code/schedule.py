@@ -39,7 +39,7 @@ class Scheduler:
         order = _reachable(roots, inputs)
         uses = Counter(a for x in order if x not in inputs for a in x.args)
         uses.update(roots)
-        builder = _Builder(self, inputs, uses)
+        builder = _Builder(self, inputs, uses, outputs)
         builder.build(order)
         loads = [Load(name, *place) for x, (name, place) in inputs.items() if x in order]
         return Function(
@@ -91,8 +91,10 @@ class _Builder:
         scheduler: Scheduler,
         inputs: Mapping[Node, tuple[str, Source]],
         uses: Mapping[Node, int],
+        outputs: Iterable[Node],
     ):
         self.scheduler, self.inputs, self.uses = scheduler, inputs, uses
+        self.outputs = set(outputs)
         self.local: dict[Node, str] = {}
         self.statements: list[tuple[str, Assignment]] = []
 
@@ -110,9 +112,16 @@ class _Builder:
 
     def _stands_alone(self, x: Node) -> bool:
         if x.op == "value":
-            return self.uses[x] > 1 or _weight(x.args[0]) > 6
+            written = _weight(x.args[0])
+            if x in self.outputs and written <= 6:
+                written = sum(1 + self._inline(y) for y in x.args[0].args)
+            return self.uses[x] > 1 or written > 6
         shared = self.uses[x] > 1 and not _negation(x)
         return shared and not (x.op == "mul" and _weight(x) < 1)
+
+    def _inline(self, x: Node) -> int:
+        """How much is written at the place of a summand."""
+        return 0 if x in self.local or x in self.inputs else sum(map(self._inline, x.args)) + 1
 
     def _wanted(self, x: Node) -> str:
         if x.op == "value":

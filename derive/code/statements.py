@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,6 +20,8 @@ class Statements:
 
     language: Language
     real: str
+    sizes: Mapping[str, int]
+    """How many numbers each array holds."""
 
     def function(self, f: Function) -> dict[str, Any]:
         """Lines of text: loads, sections with their comments, outputs, checks."""
@@ -28,9 +31,10 @@ class Statements:
             "arrays": sorted({x.array for x in f.loads}),
             "loads": [self._load(x, self.language.load) for x in loads if x.array != "u"],
             "input_loads": [self._load(x, self.language.load) for x in loads if x.array == "u"],
+            "unpacked": {array: self._unpacked(array, f) for array in self.sizes},
             "batch_loads": [self._batch_load(x) for x in loads] if self.language.batch else [],
             "sections": [self._section(s) for s in f.sections],
-            "outputs": [printer(e) for e in f.outputs],
+            "outputs": [wrapped(printer(e), TEXT - 12, " " * 8) for e in f.outputs],
             "checks": [self._check(c) for c in f.checks],
             "operations": operations(f),
         }
@@ -42,6 +46,17 @@ class Statements:
     def _load(self, x: Load, pattern: str) -> str:
         index = x.index + self.language.first
         return self._declared(x.name, pattern.format(array=x.array, index=index))
+
+    def _unpacked(self, array: str, f: Function) -> str:
+        """The names of all entries of an array with commas, _ for those that are not read."""
+        names = ["_"] * self.sizes[array]
+        for x in f.loads:
+            if x.array == array:
+                names[x.index] = x.name
+        if all(name == "_" for name in names):
+            return ""
+        listed = ", ".join(names) + "," * (len(names) == 1)
+        return textwrap.fill(listed, TEXT - 8, subsequent_indent=" " * 8)
 
     def _batch_load(self, x: Load) -> str:
         return self._load(x, self.language.load if x.array == "k" else self.language.batch)

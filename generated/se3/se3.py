@@ -9,7 +9,9 @@ Input u: a moment about the body's origin (its first 3 components) and a force
 on it (the last 3), both in the body frame; power <moment, zeta> + <force, w>.
 
 The last axis of x, k, u holds STATE, CONSTANTS, INPUTS; leading axes are a batch.  Arrays of any
-library that follows the Python array API standard are kept as they are; lists become NumPy arrays.
+library that follows the Python array API standard (NumPy, JAX, …; PyTorch and CuPy by way of
+array_api_compat) are kept as they are; lists become NumPy arrays.  One state of NumPy is computed
+in plain numbers.
 
 Parameters p:
     m: mass, [kg], default 1.0
@@ -29,6 +31,9 @@ Parameters p:
 Operations: constants 36 mul, 22 add, 2 div;
 rhs 87 mul, 66 add; energy 43 mul, 29 add.
 """
+
+import importlib
+import math
 
 import numpy
 
@@ -82,7 +87,14 @@ DEFAULTS = {
     "g_2": 0.0,
     "g_3": -9.81,
 }
-INPUTS = ("u_1", "u_2", "u_3", "u_4", "u_5", "u_6",)
+INPUTS = (
+    "u_1",
+    "u_2",
+    "u_3",
+    "u_4",
+    "u_5",
+    "u_6",
+)
 CONSTANTS = (
     "m",
     "inv_m",
@@ -125,15 +137,98 @@ BASIS = numpy.array(
     ],
     dtype=float,
 )
+ZEROS = (0.0,) * len(INPUTS)
+
+
+def constants(p):
+    """All that depends on the parameters alone; ValueError when the mass matrix is singular."""
+    xp, (p,) = _arrays(p)
+    with numpy.errstate(divide="ignore", invalid="ignore"):
+        k, tests = _constants(xp, _entries(p))
+        k = _stack(xp, k) if k else p[..., :0]
+        # each determinant or pivot against what rounding could make of a singular matrix
+        regular = [abs(value) > least for value, least in tests]
+    if not all(bool(xp.all(test)) for test in (*regular, xp.isfinite(k))):
+        raise ValueError("se3: the mass matrix is singular or a number is not finite")
+    return k
+
+
+def rhs(t, x, k, u=None):
+    """dx/dt; u are the inputs, zero when None."""
+    return _evaluated(_rhs, t, x, k, u)
+
+
+def energy(t, x, k):
+    """Kinetic plus potential energy."""
+    return _evaluated(_energy, t, x, k)[..., 0]
+
+
+def inertia(p):
+    """The tensor of inertia about the body's origin, (3, 3), in the body frame."""
+    xp, (p,) = _arrays(p)
+    xx, xy, xz, yy, yz, zz = xp.broadcast_arrays(*map(xp.asarray, _inertia(xp, _entries(p))))
+    rows = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
+    return xp.stack([xp.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def principal_axes(p):
+    """The principal moments of inertia (3,), smallest first, and the axes: the columns of R (3, 3).
+
+    I = R diag(moments) R^T about the body's origin; R is a rotation even where moments agree.
+    """
+    moments, R = numpy.linalg.eigh(numpy.asarray(inertia(p), dtype=float))
+    R[..., 0] *= numpy.linalg.det(R)[..., None]
+    return moments, R
+
+
+def turned(p, R):
+    """The parameters of the same body in the frame of the columns of R: r = R r' for its points.
+
+    A state goes along: A' = A R, zeta' = R^T zeta, w' = R^T w, and so do inputs in the body frame.
+    """
+    p, R = numpy.array(p, dtype=float), numpy.asarray(R, dtype=float)
+    p[..., [1, 2, 3]] = numpy.einsum("...ji,...j", R, p[..., [1, 2, 3]])
+    full = [[4, 5, 6], [5, 7, 8], [6, 8, 9]]
+    J = numpy.einsum("...ji,...jk,...kl->...il", R, p[..., full], R)
+    p[..., full] = J
+    return p
+
+
+def _evaluated(function, t, x, k, u=None):
+    """A function of one state in plain numbers, or of a batch in the arrays of its library."""
+    if type(x) is type(k) is numpy.ndarray and x.ndim == k.ndim == 1:
+        if x.dtype.char == k.dtype.char == "d" and (u is None or _plain(u)):
+            try:
+                given = ZEROS if u is None else u.tolist()
+                return numpy.array(function(math, float(t), x.tolist(), k.tolist(), given))
+            except (ArithmeticError, TypeError, ValueError):
+                pass  # what is infinite or no number is so in arrays as well
+    xp, (x, k, u) = _arrays(x, k, ZEROS if u is None else u)
+    t = xp.asarray(t, dtype=x.dtype)
+    return _stack(xp, function(xp, t, _entries(x), _entries(k), _entries(u)))
+
+
+def _plain(u):
+    return type(u) is numpy.ndarray and u.ndim == 1 and u.dtype.char == "d"
 
 
 def _arrays(*values):
     """The array namespace of the first array among the values, and all of them as its arrays."""
     for value in values:
+        library = type(value).__module__.partition(".")[0]
         if hasattr(value, "__array_namespace__"):
             xp = value.__array_namespace__()
-            return xp, [value if hasattr(value, "shape") else xp.asarray(value) for value in values]
+        elif library in ("torch", "cupy"):
+            xp = importlib.import_module("array_api_compat." + library)
+        else:
+            continue
+        return xp, [value if hasattr(value, "shape") else xp.asarray(value) for value in values]
     return numpy, [numpy.asarray(value, dtype=float) for value in values]
+
+
+def _entries(array):
+    """The entries along the last axis."""
+    return [array[..., i] for i in range(array.shape[-1])]
 
 
 def _stack(xp, values):
@@ -141,27 +236,8 @@ def _stack(xp, values):
     return xp.stack(xp.broadcast_arrays(*(xp.asarray(value) for value in values)), axis=-1)
 
 
-def constants(p):
-    """All that depends on the parameters alone; ValueError when the mass matrix is singular."""
-    xp, (p,) = _arrays(p)
-    with numpy.errstate(divide="ignore", invalid="ignore"):
-        return _constants(xp, p)
-
-
 def _constants(xp, p):
-    m = p[..., 0]
-    c_1 = p[..., 1]
-    c_2 = p[..., 2]
-    c_3 = p[..., 3]
-    J_11 = p[..., 4]
-    J_12 = p[..., 5]
-    J_13 = p[..., 6]
-    J_22 = p[..., 7]
-    J_23 = p[..., 8]
-    J_33 = p[..., 9]
-    g_1 = p[..., 10]
-    g_2 = p[..., 11]
-    g_3 = p[..., 12]
+    (m, c_1, c_2, c_3, J_11, J_12, J_13, J_22, J_23, J_33, g_1, g_2, g_3) = p
 
     # se3.elimination: 6 mul, 3 add, 1 div
     # J_c = J − m⁻¹cc̄
@@ -189,97 +265,50 @@ def _constants(xp, p):
     tr_I_c = I_c_11 + I_c_22 + I_c_33
     inv_det_I_c = 1.0/det_I_c
 
-    # each determinant or pivot against what rounding could make of a singular matrix
-    regular = [
-        abs(m) > 0.0,
-        abs(det_I_c) > 1e-13*((2.0*(abs(J_22) + c_2*c_2*part_15 + abs(J_33) + c_3*c_3*part_15 + abs(J_11) + c_1*c_1*part_15))*tr_I_c*tr_I_c),
+    tests = [
+        (m, 0.0),
+        (det_I_c, 1e-13*((2.0*(abs(J_22) + c_2*c_2*part_15 + abs(J_33) + c_3*c_3*part_15 + abs(J_11) + c_1*c_1*part_15))*tr_I_c*tr_I_c)),
     ]
-    k = _stack(
-        xp,
-        [
-            m,
-            inv_m,
-            c_1,
-            c_2,
-            c_3,
-            I_c_11,
-            I_c_12,
-            I_c_13,
-            I_c_22,
-            I_c_23,
-            I_c_33,
-            adj_I_c_11*inv_det_I_c,
-            adj_I_c_12*inv_det_I_c,
-            adj_I_c_13*inv_det_I_c,
-            (I_c_11*I_c_33 - I_c_13*I_c_13)*inv_det_I_c,
-            (I_c_12*I_c_13 - I_c_11*I_c_23)*inv_det_I_c,
-            (I_c_11*I_c_22 - I_c_12*I_c_12)*inv_det_I_c,
-            inv_m*c_1,
-            inv_m*c_2,
-            inv_m*c_3,
-            g_1,
-            g_2,
-            g_3,
-            J_22 + J_33,
-            -J_12,
-            -J_13,
-            J_11 + J_33,
-            -J_23,
-            J_11 + J_22,
-        ],
-    )
-    if not all(bool(xp.all(test)) for test in (*regular, xp.isfinite(k))):
-        raise ValueError("se3: the mass matrix is singular or a number is not finite")
-    return k
+    return [
+        m,
+        inv_m,
+        c_1,
+        c_2,
+        c_3,
+        I_c_11,
+        I_c_12,
+        I_c_13,
+        I_c_22,
+        I_c_23,
+        I_c_33,
+        adj_I_c_11*inv_det_I_c,
+        adj_I_c_12*inv_det_I_c,
+        adj_I_c_13*inv_det_I_c,
+        (I_c_11*I_c_33 - I_c_13*I_c_13)*inv_det_I_c,
+        (I_c_12*I_c_13 - I_c_11*I_c_23)*inv_det_I_c,
+        (I_c_11*I_c_22 - I_c_12*I_c_12)*inv_det_I_c,
+        inv_m*c_1,
+        inv_m*c_2,
+        inv_m*c_3,
+        g_1,
+        g_2,
+        g_3,
+        J_22 + J_33,
+        -J_12,
+        -J_13,
+        J_11 + J_33,
+        -J_23,
+        J_11 + J_22,
+    ], tests
 
 
-def rhs(t, x, k, u=None):
-    """dx/dt; u are the inputs, zero when None."""
-    xp, (x, k) = _arrays(x, k)
-    inv_m = k[..., 1]
-    I_c_11 = k[..., 5]
-    I_c_12 = k[..., 6]
-    I_c_13 = k[..., 7]
-    I_c_22 = k[..., 8]
-    I_c_23 = k[..., 9]
-    I_c_33 = k[..., 10]
-    inv_I_c_11 = k[..., 11]
-    inv_I_c_12 = k[..., 12]
-    inv_I_c_13 = k[..., 13]
-    inv_I_c_22 = k[..., 14]
-    inv_I_c_23 = k[..., 15]
-    inv_I_c_33 = k[..., 16]
-    r_c_1 = k[..., 17]
-    r_c_2 = k[..., 18]
-    r_c_3 = k[..., 19]
-    g_1 = k[..., 20]
-    g_2 = k[..., 21]
-    g_3 = k[..., 22]
-    A_11 = x[..., 0]
-    A_12 = x[..., 1]
-    A_13 = x[..., 2]
-    A_21 = x[..., 3]
-    A_22 = x[..., 4]
-    A_23 = x[..., 5]
-    A_31 = x[..., 6]
-    A_32 = x[..., 7]
-    A_33 = x[..., 8]
-    zeta_1 = x[..., 12]
-    zeta_2 = x[..., 13]
-    zeta_3 = x[..., 14]
-    w_1 = x[..., 15]
-    w_2 = x[..., 16]
-    w_3 = x[..., 17]
-    if u is None:
-        u_1 = u_2 = u_3 = u_4 = u_5 = u_6 = 0.0
-    else:
-        u = xp.asarray(u)
-        u_1 = u[..., 0]
-        u_2 = u[..., 1]
-        u_3 = u[..., 2]
-        u_4 = u[..., 3]
-        u_5 = u[..., 4]
-        u_6 = u[..., 5]
+def _rhs(xp, t, x, k, u):
+    (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, _, _, _, zeta_1, zeta_2, zeta_3,
+        w_1, w_2, w_3) = x
+    (_, inv_m, _, _, _, I_c_11, I_c_12, I_c_13, I_c_22, I_c_23, I_c_33, inv_I_c_11,
+        inv_I_c_12, inv_I_c_13, inv_I_c_22, inv_I_c_23, inv_I_c_33, r_c_1, r_c_2, r_c_3,
+        g_1, g_2, g_3, _, _, _, _, _, _) = k
+    (u_1, u_2, u_3, u_4, u_5, u_6) = u
 
     # se3.motion: 30 mul, 24 add
     # ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ)
@@ -313,66 +342,34 @@ def rhs(t, x, k, u=None):
         r_c_1*zeta_dot_2 + zeta_2*w_c_1 + (g_1*A_13 + g_2*A_23 + g_3*A_33) + inv_m*u_6 - r_c_2*zeta_dot_1
         - zeta_1*w_c_2
     )
-
-    return _stack(
-        xp,
-        [
-            A_12*zeta_3 - A_13*zeta_2,
-            A_13*zeta_1 - A_11*zeta_3,
-            A_11*zeta_2 - A_12*zeta_1,
-            A_22*zeta_3 - A_23*zeta_2,
-            A_23*zeta_1 - A_21*zeta_3,
-            A_21*zeta_2 - A_22*zeta_1,
-            A_32*zeta_3 - A_33*zeta_2,
-            A_33*zeta_1 - A_31*zeta_3,
-            A_31*zeta_2 - A_32*zeta_1,
-            A_11*w_1 + A_12*w_2 + A_13*w_3,
-            A_21*w_1 + A_22*w_2 + A_23*w_3,
-            A_31*w_1 + A_32*w_2 + A_33*w_3,
-            zeta_dot_1,
-            zeta_dot_2,
-            zeta_dot_3,
-            w_dot_1,
-            w_dot_2,
-            w_dot_3,
-        ],
-    )
+    return [
+        A_12*zeta_3 - A_13*zeta_2,
+        A_13*zeta_1 - A_11*zeta_3,
+        A_11*zeta_2 - A_12*zeta_1,
+        A_22*zeta_3 - A_23*zeta_2,
+        A_23*zeta_1 - A_21*zeta_3,
+        A_21*zeta_2 - A_22*zeta_1,
+        A_32*zeta_3 - A_33*zeta_2,
+        A_33*zeta_1 - A_31*zeta_3,
+        A_31*zeta_2 - A_32*zeta_1,
+        A_11*w_1 + A_12*w_2 + A_13*w_3,
+        A_21*w_1 + A_22*w_2 + A_23*w_3,
+        A_31*w_1 + A_32*w_2 + A_33*w_3,
+        zeta_dot_1,
+        zeta_dot_2,
+        zeta_dot_3,
+        w_dot_1,
+        w_dot_2,
+        w_dot_3,
+    ]
 
 
-def energy(t, x, k):
-    """Kinetic plus potential energy."""
-    xp, (x, k) = _arrays(x, k)
-    m = k[..., 0]
-    c_1 = k[..., 2]
-    c_2 = k[..., 3]
-    c_3 = k[..., 4]
-    g_1 = k[..., 20]
-    g_2 = k[..., 21]
-    g_3 = k[..., 22]
-    I_11 = k[..., 23]
-    I_12 = k[..., 24]
-    I_13 = k[..., 25]
-    I_22 = k[..., 26]
-    I_23 = k[..., 27]
-    I_33 = k[..., 28]
-    A_11 = x[..., 0]
-    A_12 = x[..., 1]
-    A_13 = x[..., 2]
-    A_21 = x[..., 3]
-    A_22 = x[..., 4]
-    A_23 = x[..., 5]
-    A_31 = x[..., 6]
-    A_32 = x[..., 7]
-    A_33 = x[..., 8]
-    T_1 = x[..., 9]
-    T_2 = x[..., 10]
-    T_3 = x[..., 11]
-    zeta_1 = x[..., 12]
-    zeta_2 = x[..., 13]
-    zeta_3 = x[..., 14]
-    w_1 = x[..., 15]
-    w_2 = x[..., 16]
-    w_3 = x[..., 17]
+
+def _energy(xp, t, x, k, u):
+    (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, T_1, T_2, T_3, zeta_1, zeta_2,
+        zeta_3, w_1, w_2, w_3) = x
+    (m, _, c_1, c_2, c_3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, g_1, g_2, g_3, I_11,
+        I_12, I_13, I_22, I_23, I_33) = k
 
     # se3.energy: 43 mul, 29 add
     # h̃ = ½ ‖ζ‖²_I + ⟨c ∧ w, ζ⟩ + ½m ‖w‖² − ⟨Ac, γ⟩ − m ⟨T, γ⟩
@@ -383,53 +380,18 @@ def energy(t, x, k):
         + w_2*w_2 + w_3*w_3) - (g_1*(c_1*A_11 + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21 + c_2*A_22
         + c_3*A_23) + g_3*(c_1*A_31 + c_2*A_32 + c_3*A_33)) - m*(g_1*T_1 + g_2*T_2 + g_3*T_3)
     )
-
-    return h_tilde
-
-
-def inertia(p):
-    """The tensor of inertia about the body's origin, (3, 3), in the body frame."""
-    xp, (p,) = _arrays(p)
-    J_11 = p[..., 4]
-    J_12 = p[..., 5]
-    J_13 = p[..., 6]
-    J_22 = p[..., 7]
-    J_23 = p[..., 8]
-    J_33 = p[..., 9]
-
-    upper = _stack(
-        xp,
-        [
-            J_22 + J_33,
-            -J_12,
-            -J_13,
-            J_11 + J_33,
-            -J_23,
-            J_11 + J_22,
-        ],
-    )
-    rows = [[upper[..., i] for i in row] for row in ((0, 1, 2), (1, 3, 4), (2, 4, 5))]
-    return xp.stack([xp.stack(row, axis=-1) for row in rows], axis=-2)
+    return [
+        h_tilde,
+    ]
 
 
-def principal_axes(p):
-    """The principal moments of inertia (3,), smallest first, and the axes: the columns of R (3, 3).
-
-    I = R diag(moments) R^T about the body's origin; R is a rotation even where moments agree.
-    """
-    moments, R = numpy.linalg.eigh(numpy.asarray(inertia(p), dtype=float))
-    R[..., 0] *= numpy.linalg.det(R)[..., None]
-    return moments, R
-
-
-def turned(p, R):
-    """The parameters of the same body in the frame of the columns of R: r = R r' for its points.
-
-    A state goes along: A' = A R, zeta' = R^T zeta, w' = R^T w, and so do inputs in the body frame.
-    """
-    p, R = numpy.array(p, dtype=float), numpy.asarray(R, dtype=float)
-    p[..., [1, 2, 3]] = numpy.einsum("...ji,...j", R, p[..., [1, 2, 3]])
-    full = [[4, 5, 6], [5, 7, 8], [6, 8, 9]]
-    J = numpy.einsum("...ji,...jk,...kl->...il", R, p[..., full], R)
-    p[..., full] = J
-    return p
+def _inertia(xp, p):
+    (_, _, _, _, J_11, J_12, J_13, J_22, J_23, J_33, _, _, _) = p
+    return [
+        J_22 + J_33,
+        -J_12,
+        -J_13,
+        J_11 + J_33,
+        -J_23,
+        J_11 + J_22,
+    ]

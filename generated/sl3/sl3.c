@@ -280,6 +280,21 @@ void sl3_rhs(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT 
     const double lambda_ = (tr_inv_J_K + Z_2_11 + Z_2_22 + (zeta_3_zeta_7 + zeta_6_zeta_8 + Z_33*Z_33))/(inv_C_inv_J_11
         + inv_C_inv_J_22 + (inv_J_13_inv_C_13 + inv_J_23_inv_C_23 + inv_J_33*inv_C_33));
 
+    /* sl3.motion: 42 mul, 36 add
+     * Ż = λC⁻¹J⁻¹ − KJ⁻¹ − Z² */
+    const double Z_dot_12 = (inv_J_12*inv_C_11 + inv_J_22*inv_C_12 + inv_J_23*inv_C_13)*lambda_
+        - (zeta_1*zeta_2 + zeta_2*zeta_5 + zeta_3*zeta_8) - K_inv_J_12;
+    const double Z_dot_13 = (inv_J_13*inv_C_11 + inv_J_23*inv_C_12 + inv_J_33*inv_C_13)*lambda_
+        - (zeta_1*zeta_3 + zeta_2*zeta_6 + zeta_3*Z_33) - K_inv_J_13;
+    const double Z_dot_21 = (inv_J_11*inv_C_12 + inv_J_12*inv_C_22 + inv_J_13*inv_C_23)*lambda_
+        - (zeta_1*zeta_4 + zeta_4*zeta_5 + zeta_6*zeta_7) - K_inv_J_21;
+    const double Z_dot_23 = (inv_J_13*inv_C_12 + inv_J_23*inv_C_22 + inv_J_33*inv_C_23)*lambda_
+        - (zeta_3*zeta_4 + zeta_5*zeta_6 + zeta_6*Z_33) - K_inv_J_23;
+    const double Z_dot_31 = (inv_J_11*inv_C_13 + inv_J_12*inv_C_23 + inv_J_13*inv_C_33)*lambda_
+        - (zeta_1*zeta_7 + zeta_4*zeta_8 + zeta_7*Z_33) - K_inv_J_31;
+    const double Z_dot_32 = (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*lambda_
+        - (zeta_2*zeta_7 + zeta_5*zeta_8 + zeta_8*Z_33) - K_inv_J_32;
+
     (void)t;
     (void)u;
     dx[0] = A_11*zeta_1 + A_12*zeta_4 + A_13*zeta_7;
@@ -292,13 +307,13 @@ void sl3_rhs(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT 
     dx[7] = A_31*zeta_2 + A_32*zeta_5 + A_33*zeta_8;
     dx[8] = A_31*zeta_3 + A_32*zeta_6 + A_33*Z_33;
     dx[9] = inv_C_inv_J_11*lambda_ - Z_2_11 - K_inv_J_11;
-    dx[10] = (inv_J_12*inv_C_11 + inv_J_22*inv_C_12 + inv_J_23*inv_C_13)*lambda_ - (zeta_1*zeta_2 + zeta_2*zeta_5 + zeta_3*zeta_8) - K_inv_J_12;
-    dx[11] = (inv_J_13*inv_C_11 + inv_J_23*inv_C_12 + inv_J_33*inv_C_13)*lambda_ - (zeta_1*zeta_3 + zeta_2*zeta_6 + zeta_3*Z_33) - K_inv_J_13;
-    dx[12] = (inv_J_11*inv_C_12 + inv_J_12*inv_C_22 + inv_J_13*inv_C_23)*lambda_ - (zeta_1*zeta_4 + zeta_4*zeta_5 + zeta_6*zeta_7) - K_inv_J_21;
+    dx[10] = Z_dot_12;
+    dx[11] = Z_dot_13;
+    dx[12] = Z_dot_21;
     dx[13] = inv_C_inv_J_22*lambda_ - Z_2_22 - K_inv_J_22;
-    dx[14] = (inv_J_13*inv_C_12 + inv_J_23*inv_C_22 + inv_J_33*inv_C_23)*lambda_ - (zeta_3*zeta_4 + zeta_5*zeta_6 + zeta_6*Z_33) - K_inv_J_23;
-    dx[15] = (inv_J_11*inv_C_13 + inv_J_12*inv_C_23 + inv_J_13*inv_C_33)*lambda_ - (zeta_1*zeta_7 + zeta_4*zeta_8 + zeta_7*Z_33) - K_inv_J_31;
-    dx[16] = (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*lambda_ - (zeta_2*zeta_7 + zeta_5*zeta_8 + zeta_8*Z_33) - K_inv_J_32;
+    dx[14] = Z_dot_23;
+    dx[15] = Z_dot_31;
+    dx[16] = Z_dot_32;
 }
 
 void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
@@ -382,6 +397,21 @@ void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
         const double lambda_ = (tr_inv_J_K + Z_2_11 + Z_2_22 + (zeta_3_zeta_7 + zeta_6_zeta_8 + Z_33*Z_33))/(inv_C_inv_J_11
             + inv_C_inv_J_22 + (inv_J_13_inv_C_13 + inv_J_23_inv_C_23 + inv_J_33*inv_C_33));
 
+        /* sl3.motion: 42 mul, 36 add
+         * Ż = λC⁻¹J⁻¹ − KJ⁻¹ − Z² */
+        const double Z_dot_12 = (inv_J_12*inv_C_11 + inv_J_22*inv_C_12 + inv_J_23*inv_C_13)*lambda_
+            - (zeta_1*zeta_2 + zeta_2*zeta_5 + zeta_3*zeta_8) - K_inv_J_12;
+        const double Z_dot_13 = (inv_J_13*inv_C_11 + inv_J_23*inv_C_12 + inv_J_33*inv_C_13)*lambda_
+            - (zeta_1*zeta_3 + zeta_2*zeta_6 + zeta_3*Z_33) - K_inv_J_13;
+        const double Z_dot_21 = (inv_J_11*inv_C_12 + inv_J_12*inv_C_22 + inv_J_13*inv_C_23)*lambda_
+            - (zeta_1*zeta_4 + zeta_4*zeta_5 + zeta_6*zeta_7) - K_inv_J_21;
+        const double Z_dot_23 = (inv_J_13*inv_C_12 + inv_J_23*inv_C_22 + inv_J_33*inv_C_23)*lambda_
+            - (zeta_3*zeta_4 + zeta_5*zeta_6 + zeta_6*Z_33) - K_inv_J_23;
+        const double Z_dot_31 = (inv_J_11*inv_C_13 + inv_J_12*inv_C_23 + inv_J_13*inv_C_33)*lambda_
+            - (zeta_1*zeta_7 + zeta_4*zeta_8 + zeta_7*Z_33) - K_inv_J_31;
+        const double Z_dot_32 = (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*lambda_
+            - (zeta_2*zeta_7 + zeta_5*zeta_8 + zeta_8*Z_33) - K_inv_J_32;
+
         dx[0*n + s] = A_11*zeta_1 + A_12*zeta_4 + A_13*zeta_7;
         dx[1*n + s] = A_11*zeta_2 + A_12*zeta_5 + A_13*zeta_8;
         dx[2*n + s] = A_11*zeta_3 + A_12*zeta_6 + A_13*Z_33;
@@ -392,13 +422,13 @@ void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
         dx[7*n + s] = A_31*zeta_2 + A_32*zeta_5 + A_33*zeta_8;
         dx[8*n + s] = A_31*zeta_3 + A_32*zeta_6 + A_33*Z_33;
         dx[9*n + s] = inv_C_inv_J_11*lambda_ - Z_2_11 - K_inv_J_11;
-        dx[10*n + s] = (inv_J_12*inv_C_11 + inv_J_22*inv_C_12 + inv_J_23*inv_C_13)*lambda_ - (zeta_1*zeta_2 + zeta_2*zeta_5 + zeta_3*zeta_8) - K_inv_J_12;
-        dx[11*n + s] = (inv_J_13*inv_C_11 + inv_J_23*inv_C_12 + inv_J_33*inv_C_13)*lambda_ - (zeta_1*zeta_3 + zeta_2*zeta_6 + zeta_3*Z_33) - K_inv_J_13;
-        dx[12*n + s] = (inv_J_11*inv_C_12 + inv_J_12*inv_C_22 + inv_J_13*inv_C_23)*lambda_ - (zeta_1*zeta_4 + zeta_4*zeta_5 + zeta_6*zeta_7) - K_inv_J_21;
+        dx[10*n + s] = Z_dot_12;
+        dx[11*n + s] = Z_dot_13;
+        dx[12*n + s] = Z_dot_21;
         dx[13*n + s] = inv_C_inv_J_22*lambda_ - Z_2_22 - K_inv_J_22;
-        dx[14*n + s] = (inv_J_13*inv_C_12 + inv_J_23*inv_C_22 + inv_J_33*inv_C_23)*lambda_ - (zeta_3*zeta_4 + zeta_5*zeta_6 + zeta_6*Z_33) - K_inv_J_23;
-        dx[15*n + s] = (inv_J_11*inv_C_13 + inv_J_12*inv_C_23 + inv_J_13*inv_C_33)*lambda_ - (zeta_1*zeta_7 + zeta_4*zeta_8 + zeta_7*Z_33) - K_inv_J_31;
-        dx[16*n + s] = (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*lambda_ - (zeta_2*zeta_7 + zeta_5*zeta_8 + zeta_8*Z_33) - K_inv_J_32;
+        dx[14*n + s] = Z_dot_23;
+        dx[15*n + s] = Z_dot_31;
+        dx[16*n + s] = Z_dot_32;
     }
     (void)t;
     (void)u;

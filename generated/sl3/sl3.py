@@ -6,7 +6,9 @@ A is 3 x 3, row by row: a point r of the body stands at A r in space.
 zeta are the coordinates of Z = g^-1 dg/dt in the basis below.
 
 The last axis of x, k, u holds STATE, CONSTANTS, INPUTS; leading axes are a batch.  Arrays of any
-library that follows the Python array API standard are kept as they are; lists become NumPy arrays.
+library that follows the Python array API standard (NumPy, JAX, …; PyTorch and CuPy by way of
+array_api_compat) are kept as they are; lists become NumPy arrays.  One state of NumPy is computed
+in plain numbers.
 
 Parameters p:
     m1: mass of point 1, [kg], default 1.0
@@ -35,6 +37,9 @@ Parameters p:
 Operations: constants 192 mul, 108 add, 1 div;
 rhs 113 mul, 94 add, 1 div; energy 91 mul, 63 add.
 """
+
+import importlib
+import math
 
 import numpy
 
@@ -105,7 +110,8 @@ DEFAULTS = {
     "k24": 1.0,
     "k34": 1.0,
 }
-INPUTS = ()
+INPUTS = (
+)
 CONSTANTS = (
     "J_11",
     "J_12",
@@ -148,15 +154,67 @@ BASIS = numpy.array(
     ],
     dtype=float,
 )
+ZEROS = (0.0,) * len(INPUTS)
+
+
+def constants(p):
+    """All that depends on the parameters alone; ValueError when the mass matrix is singular."""
+    xp, (p,) = _arrays(p)
+    with numpy.errstate(divide="ignore", invalid="ignore"):
+        k, tests = _constants(xp, _entries(p))
+        k = _stack(xp, k) if k else p[..., :0]
+        # each determinant or pivot against what rounding could make of a singular matrix
+        regular = [abs(value) > least for value, least in tests]
+    if not all(bool(xp.all(test)) for test in (*regular, xp.isfinite(k))):
+        raise ValueError("sl3: the mass matrix is singular or a number is not finite")
+    return k
+
+
+def rhs(t, x, k, u=None):
+    """dx/dt."""
+    return _evaluated(_rhs, t, x, k, u)
+
+
+def energy(t, x, k):
+    """Kinetic plus potential energy."""
+    return _evaluated(_energy, t, x, k)[..., 0]
+
+
+def _evaluated(function, t, x, k, u=None):
+    """A function of one state in plain numbers, or of a batch in the arrays of its library."""
+    if type(x) is type(k) is numpy.ndarray and x.ndim == k.ndim == 1:
+        if x.dtype.char == k.dtype.char == "d" and (u is None or _plain(u)):
+            try:
+                given = ZEROS if u is None else u.tolist()
+                return numpy.array(function(math, float(t), x.tolist(), k.tolist(), given))
+            except (ArithmeticError, TypeError, ValueError):
+                pass  # what is infinite or no number is so in arrays as well
+    xp, (x, k, u) = _arrays(x, k, ZEROS if u is None else u)
+    t = xp.asarray(t, dtype=x.dtype)
+    return _stack(xp, function(xp, t, _entries(x), _entries(k), _entries(u)))
+
+
+def _plain(u):
+    return type(u) is numpy.ndarray and u.ndim == 1 and u.dtype.char == "d"
 
 
 def _arrays(*values):
     """The array namespace of the first array among the values, and all of them as its arrays."""
     for value in values:
+        library = type(value).__module__.partition(".")[0]
         if hasattr(value, "__array_namespace__"):
             xp = value.__array_namespace__()
-            return xp, [value if hasattr(value, "shape") else xp.asarray(value) for value in values]
+        elif library in ("torch", "cupy"):
+            xp = importlib.import_module("array_api_compat." + library)
+        else:
+            continue
+        return xp, [value if hasattr(value, "shape") else xp.asarray(value) for value in values]
     return numpy, [numpy.asarray(value, dtype=float) for value in values]
+
+
+def _entries(array):
+    """The entries along the last axis."""
+    return [array[..., i] for i in range(array.shape[-1])]
 
 
 def _stack(xp, values):
@@ -164,36 +222,9 @@ def _stack(xp, values):
     return xp.stack(xp.broadcast_arrays(*(xp.asarray(value) for value in values)), axis=-1)
 
 
-def constants(p):
-    """All that depends on the parameters alone; ValueError when the mass matrix is singular."""
-    xp, (p,) = _arrays(p)
-    with numpy.errstate(divide="ignore", invalid="ignore"):
-        return _constants(xp, p)
-
-
 def _constants(xp, p):
-    m1 = p[..., 0]
-    x1 = p[..., 1]
-    y1 = p[..., 2]
-    z1 = p[..., 3]
-    m2 = p[..., 4]
-    x2 = p[..., 5]
-    y2 = p[..., 6]
-    z2 = p[..., 7]
-    m3 = p[..., 8]
-    x3 = p[..., 9]
-    y3 = p[..., 10]
-    z3 = p[..., 11]
-    m4 = p[..., 12]
-    x4 = p[..., 13]
-    y4 = p[..., 14]
-    z4 = p[..., 15]
-    k12 = p[..., 16]
-    k13 = p[..., 17]
-    k14 = p[..., 18]
-    k23 = p[..., 19]
-    k24 = p[..., 20]
-    k34 = p[..., 21]
+    (m1, x1, y1, z1, m2, x2, y2, z2, m3, x3, y3, z3, m4, x4, y4, z4, k12, k13, k14, k23, k24,
+        k34) = p
 
     # linear.moments: 48 mul, 18 add
     # J = Σᵢ mᵢ rᵢ r̄ᵢ
@@ -303,82 +334,46 @@ def _constants(xp, p):
         + inv_J_33*K_33
     )
 
-    # each determinant or pivot against what rounding could make of a singular matrix
-    regular = [
-        abs(det_J) > 1e-13*size_J*tr_J*tr_J,
+    tests = [
+        (det_J, 1e-13*size_J*tr_J*tr_J),
     ]
-    k = _stack(
-        xp,
-        [
-            J_11,
-            J_12,
-            J_13,
-            J_22,
-            J_23,
-            J_33,
-            inv_J_11,
-            inv_J_12,
-            inv_J_13,
-            inv_J_22,
-            inv_J_23,
-            inv_J_33,
-            K_11,
-            K_12,
-            K_13,
-            K_22,
-            K_23,
-            K_33,
-            tr_inv_J_K,
-            inv_J_11_K_11 + inv_J_12_K_12 + inv_J_13_K_13,
-            inv_J_12*K_11 + inv_J_22*K_12 + inv_J_23*K_13,
-            inv_J_13*K_11 + inv_J_23*K_12 + inv_J_33*K_13,
-            inv_J_11*K_12 + inv_J_12*K_22 + inv_J_13*K_23,
-            inv_J_12_K_12 + inv_J_22_K_22 + inv_J_23_K_23,
-            inv_J_13*K_12 + inv_J_23*K_22 + inv_J_33*K_23,
-            inv_J_11*K_13 + inv_J_12*K_23 + inv_J_13*K_33,
-            inv_J_12*K_13 + inv_J_22*K_23 + inv_J_23*K_33,
-        ],
-    )
-    if not all(bool(xp.all(test)) for test in (*regular, xp.isfinite(k))):
-        raise ValueError("sl3: the mass matrix is singular or a number is not finite")
-    return k
+    return [
+        J_11,
+        J_12,
+        J_13,
+        J_22,
+        J_23,
+        J_33,
+        inv_J_11,
+        inv_J_12,
+        inv_J_13,
+        inv_J_22,
+        inv_J_23,
+        inv_J_33,
+        K_11,
+        K_12,
+        K_13,
+        K_22,
+        K_23,
+        K_33,
+        tr_inv_J_K,
+        inv_J_11_K_11 + inv_J_12_K_12 + inv_J_13_K_13,
+        inv_J_12*K_11 + inv_J_22*K_12 + inv_J_23*K_13,
+        inv_J_13*K_11 + inv_J_23*K_12 + inv_J_33*K_13,
+        inv_J_11*K_12 + inv_J_12*K_22 + inv_J_13*K_23,
+        inv_J_12_K_12 + inv_J_22_K_22 + inv_J_23_K_23,
+        inv_J_13*K_12 + inv_J_23*K_22 + inv_J_33*K_23,
+        inv_J_11*K_13 + inv_J_12*K_23 + inv_J_13*K_33,
+        inv_J_12*K_13 + inv_J_22*K_23 + inv_J_23*K_33,
+    ], tests
 
 
-def rhs(t, x, k, u=None):
-    """dx/dt."""
-    xp, (x, k) = _arrays(x, k)
-    inv_J_11 = k[..., 6]
-    inv_J_12 = k[..., 7]
-    inv_J_13 = k[..., 8]
-    inv_J_22 = k[..., 9]
-    inv_J_23 = k[..., 10]
-    inv_J_33 = k[..., 11]
-    tr_inv_J_K = k[..., 18]
-    K_inv_J_11 = k[..., 19]
-    K_inv_J_12 = k[..., 20]
-    K_inv_J_13 = k[..., 21]
-    K_inv_J_21 = k[..., 22]
-    K_inv_J_22 = k[..., 23]
-    K_inv_J_23 = k[..., 24]
-    K_inv_J_31 = k[..., 25]
-    K_inv_J_32 = k[..., 26]
-    A_11 = x[..., 0]
-    A_12 = x[..., 1]
-    A_13 = x[..., 2]
-    A_21 = x[..., 3]
-    A_22 = x[..., 4]
-    A_23 = x[..., 5]
-    A_31 = x[..., 6]
-    A_32 = x[..., 7]
-    A_33 = x[..., 8]
-    zeta_1 = x[..., 9]
-    zeta_2 = x[..., 10]
-    zeta_3 = x[..., 11]
-    zeta_4 = x[..., 12]
-    zeta_5 = x[..., 13]
-    zeta_6 = x[..., 14]
-    zeta_7 = x[..., 15]
-    zeta_8 = x[..., 16]
+def _rhs(xp, t, x, k, u):
+    (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, zeta_1, zeta_2, zeta_3, zeta_4,
+        zeta_5, zeta_6, zeta_7, zeta_8) = x
+    (_, _, _, _, _, _, inv_J_11, inv_J_12, inv_J_13, inv_J_22, inv_J_23, inv_J_33, _, _, _,
+        _, _, _, tr_inv_J_K, K_inv_J_11, K_inv_J_12, K_inv_J_13, K_inv_J_21, K_inv_J_22,
+        K_inv_J_23, K_inv_J_31, K_inv_J_32) = k
 
     # sl3.coordinates: 1 add
     # Z = [ζ₁, ζ₂, ζ₃; ζ₄, ζ₅, ζ₆; ζ₇, ζ₈, −ζ₁ − ζ₅]
@@ -419,62 +414,59 @@ def rhs(t, x, k, u=None):
         + inv_C_inv_J_22 + (inv_J_13_inv_C_13 + inv_J_23_inv_C_23 + inv_J_33*inv_C_33))
     )
 
-    return _stack(
-        xp,
-        [
-            A_11*zeta_1 + A_12*zeta_4 + A_13*zeta_7,
-            A_11*zeta_2 + A_12*zeta_5 + A_13*zeta_8,
-            A_11*zeta_3 + A_12*zeta_6 + A_13*Z_33,
-            A_21*zeta_1 + A_22*zeta_4 + A_23*zeta_7,
-            A_21*zeta_2 + A_22*zeta_5 + A_23*zeta_8,
-            A_21*zeta_3 + A_22*zeta_6 + A_23*Z_33,
-            A_31*zeta_1 + A_32*zeta_4 + A_33*zeta_7,
-            A_31*zeta_2 + A_32*zeta_5 + A_33*zeta_8,
-            A_31*zeta_3 + A_32*zeta_6 + A_33*Z_33,
-            inv_C_inv_J_11*lambda_ - Z_2_11 - K_inv_J_11,
-            (inv_J_12*inv_C_11 + inv_J_22*inv_C_12 + inv_J_23*inv_C_13)*lambda_ - (zeta_1*zeta_2 + zeta_2*zeta_5 + zeta_3*zeta_8) - K_inv_J_12,
-            (inv_J_13*inv_C_11 + inv_J_23*inv_C_12 + inv_J_33*inv_C_13)*lambda_ - (zeta_1*zeta_3 + zeta_2*zeta_6 + zeta_3*Z_33) - K_inv_J_13,
-            (inv_J_11*inv_C_12 + inv_J_12*inv_C_22 + inv_J_13*inv_C_23)*lambda_ - (zeta_1*zeta_4 + zeta_4*zeta_5 + zeta_6*zeta_7) - K_inv_J_21,
-            inv_C_inv_J_22*lambda_ - Z_2_22 - K_inv_J_22,
-            (inv_J_13*inv_C_12 + inv_J_23*inv_C_22 + inv_J_33*inv_C_23)*lambda_ - (zeta_3*zeta_4 + zeta_5*zeta_6 + zeta_6*Z_33) - K_inv_J_23,
-            (inv_J_11*inv_C_13 + inv_J_12*inv_C_23 + inv_J_13*inv_C_33)*lambda_ - (zeta_1*zeta_7 + zeta_4*zeta_8 + zeta_7*Z_33) - K_inv_J_31,
-            (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*lambda_ - (zeta_2*zeta_7 + zeta_5*zeta_8 + zeta_8*Z_33) - K_inv_J_32,
-        ],
+    # sl3.motion: 42 mul, 36 add
+    # Ż = λC⁻¹J⁻¹ − KJ⁻¹ − Z²
+    Z_dot_12 = (
+        (inv_J_12*inv_C_11 + inv_J_22*inv_C_12 + inv_J_23*inv_C_13)*lambda_ - (zeta_1*zeta_2 + zeta_2*zeta_5
+        + zeta_3*zeta_8) - K_inv_J_12
     )
+    Z_dot_13 = (
+        (inv_J_13*inv_C_11 + inv_J_23*inv_C_12 + inv_J_33*inv_C_13)*lambda_ - (zeta_1*zeta_3 + zeta_2*zeta_6
+        + zeta_3*Z_33) - K_inv_J_13
+    )
+    Z_dot_21 = (
+        (inv_J_11*inv_C_12 + inv_J_12*inv_C_22 + inv_J_13*inv_C_23)*lambda_ - (zeta_1*zeta_4 + zeta_4*zeta_5
+        + zeta_6*zeta_7) - K_inv_J_21
+    )
+    Z_dot_23 = (
+        (inv_J_13*inv_C_12 + inv_J_23*inv_C_22 + inv_J_33*inv_C_23)*lambda_ - (zeta_3*zeta_4 + zeta_5*zeta_6
+        + zeta_6*Z_33) - K_inv_J_23
+    )
+    Z_dot_31 = (
+        (inv_J_11*inv_C_13 + inv_J_12*inv_C_23 + inv_J_13*inv_C_33)*lambda_ - (zeta_1*zeta_7 + zeta_4*zeta_8
+        + zeta_7*Z_33) - K_inv_J_31
+    )
+    Z_dot_32 = (
+        (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*lambda_ - (zeta_2*zeta_7 + zeta_5*zeta_8
+        + zeta_8*Z_33) - K_inv_J_32
+    )
+    return [
+        A_11*zeta_1 + A_12*zeta_4 + A_13*zeta_7,
+        A_11*zeta_2 + A_12*zeta_5 + A_13*zeta_8,
+        A_11*zeta_3 + A_12*zeta_6 + A_13*Z_33,
+        A_21*zeta_1 + A_22*zeta_4 + A_23*zeta_7,
+        A_21*zeta_2 + A_22*zeta_5 + A_23*zeta_8,
+        A_21*zeta_3 + A_22*zeta_6 + A_23*Z_33,
+        A_31*zeta_1 + A_32*zeta_4 + A_33*zeta_7,
+        A_31*zeta_2 + A_32*zeta_5 + A_33*zeta_8,
+        A_31*zeta_3 + A_32*zeta_6 + A_33*Z_33,
+        inv_C_inv_J_11*lambda_ - Z_2_11 - K_inv_J_11,
+        Z_dot_12,
+        Z_dot_13,
+        Z_dot_21,
+        inv_C_inv_J_22*lambda_ - Z_2_22 - K_inv_J_22,
+        Z_dot_23,
+        Z_dot_31,
+        Z_dot_32,
+    ]
 
 
-def energy(t, x, k):
-    """Kinetic plus potential energy."""
-    xp, (x, k) = _arrays(x, k)
-    J_11 = k[..., 0]
-    J_12 = k[..., 1]
-    J_13 = k[..., 2]
-    J_22 = k[..., 3]
-    J_23 = k[..., 4]
-    J_33 = k[..., 5]
-    K_11 = k[..., 12]
-    K_12 = k[..., 13]
-    K_13 = k[..., 14]
-    K_22 = k[..., 15]
-    K_23 = k[..., 16]
-    K_33 = k[..., 17]
-    A_11 = x[..., 0]
-    A_12 = x[..., 1]
-    A_13 = x[..., 2]
-    A_21 = x[..., 3]
-    A_22 = x[..., 4]
-    A_23 = x[..., 5]
-    A_31 = x[..., 6]
-    A_32 = x[..., 7]
-    A_33 = x[..., 8]
-    zeta_1 = x[..., 9]
-    zeta_2 = x[..., 10]
-    zeta_3 = x[..., 11]
-    zeta_4 = x[..., 12]
-    zeta_5 = x[..., 13]
-    zeta_6 = x[..., 14]
-    zeta_7 = x[..., 15]
-    zeta_8 = x[..., 16]
+
+def _energy(xp, t, x, k, u):
+    (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, zeta_1, zeta_2, zeta_3, zeta_4,
+        zeta_5, zeta_6, zeta_7, zeta_8) = x
+    (J_11, J_12, J_13, J_22, J_23, J_33, _, _, _, _, _, _, K_11, K_12, K_13, K_22, K_23,
+        K_33, _, _, _, _, _, _, _, _, _) = k
 
     # sl3.coordinates: 1 add
     # Z = [ζ₁, ζ₂, ζ₃; ζ₄, ζ₅, ζ₆; ζ₇, ζ₈, −ζ₁ − ζ₅]
@@ -503,5 +495,6 @@ def energy(t, x, k):
         + J_23*zeta_8 + J_33*Z_33)*(zeta_3*C_13 + zeta_6*C_23 + Z_33*C_33)
     )
     tr_C_K = K_11*C_11 + 2.0*K_12*C_12 + 2.0*K_13*C_13 + K_22*C_22 + 2.0*K_23*C_23 + K_33*C_33
-
-    return 0.5*(tr_Z_J_Z_T_C + tr_C_K)
+    return [
+        0.5*(tr_Z_J_Z_T_C + tr_C_K),
+    ]

@@ -269,7 +269,14 @@ double so3_energy(double t, const double *so3_RESTRICT x, const double *so3_REST
     const double zeta_2 = x[10];
     const double zeta_3 = x[11];
 
+    /* so3.energy: 25 mul, 17 add
+     * h̃ = ½ ‖ζ‖²_I − ⟨Ac, γ⟩ */
+    const double h_tilde = 0.5*(zeta_1*(I_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3) + zeta_2*(I_12*zeta_1
+        + I_22*zeta_2 + I_23*zeta_3) + zeta_3*(I_13*zeta_1 + I_23*zeta_2
+        + I_33*zeta_3)) - (g_1*(c_1*A_11 + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21
+        + c_2*A_22 + c_3*A_23) + g_3*(c_1*A_31 + c_2*A_32 + c_3*A_33));
+
     (void)t;
 
-    return 0.5*(zeta_1*(I_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3) + zeta_2*(I_12*zeta_1 + I_22*zeta_2 + I_23*zeta_3) + zeta_3*(I_13*zeta_1 + I_23*zeta_2 + I_33*zeta_3)) - (g_1*(c_1*A_11 + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21 + c_2*A_22 + c_3*A_23) + g_3*(c_1*A_31 + c_2*A_32 + c_3*A_33));
+    return h_tilde;
 }

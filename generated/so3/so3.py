@@ -7,7 +7,9 @@ zeta is the angular velocity in the body frame: dA/dt = A j(zeta), j(x) y = x cr
 Input u: a torque about the fixed point, in the body frame.
 
 The last axis of x, k, u holds STATE, CONSTANTS, INPUTS; leading axes are a batch.  Arrays of any
-library that follows the Python array API standard are kept as they are; lists become NumPy arrays.
+library that follows the Python array API standard (NumPy, JAX, …; PyTorch and CuPy by way of
+array_api_compat) are kept as they are; lists become NumPy arrays.  One state of NumPy is computed
+in plain numbers.
 
 Parameters p:
     c_1: first moment of the body, [kg m], default 0.0
@@ -26,6 +28,9 @@ Parameters p:
 Operations: constants 21 mul, 13 add, 1 div;
 rhs 57 mul, 39 add; energy 25 mul, 17 add.
 """
+
+import importlib
+import math
 
 import numpy
 
@@ -71,7 +76,11 @@ DEFAULTS = {
     "g_2": 0.0,
     "g_3": -9.81,
 }
-INPUTS = ("u_1", "u_2", "u_3",)
+INPUTS = (
+    "u_1",
+    "u_2",
+    "u_3",
+)
 CONSTANTS = (
     "I_11",
     "I_12",
@@ -100,88 +109,17 @@ BASIS = numpy.array(
     ],
     dtype=float,
 )
-
-
-def _arrays(*values):
-    """The array namespace of the first array among the values, and all of them as its arrays."""
-    for value in values:
-        if hasattr(value, "__array_namespace__"):
-            xp = value.__array_namespace__()
-            return xp, [value if hasattr(value, "shape") else xp.asarray(value) for value in values]
-    return numpy, [numpy.asarray(value, dtype=float) for value in values]
-
-
-def _stack(xp, values):
-    """The values along a new last axis, broadcast against each other."""
-    return xp.stack(xp.broadcast_arrays(*(xp.asarray(value) for value in values)), axis=-1)
+ZEROS = (0.0,) * len(INPUTS)
 
 
 def constants(p):
     """All that depends on the parameters alone; ValueError when the mass matrix is singular."""
     xp, (p,) = _arrays(p)
     with numpy.errstate(divide="ignore", invalid="ignore"):
-        return _constants(xp, p)
-
-
-def _constants(xp, p):
-    c_1 = p[..., 0]
-    c_2 = p[..., 1]
-    c_3 = p[..., 2]
-    J_11 = p[..., 3]
-    J_12 = p[..., 4]
-    J_13 = p[..., 5]
-    J_22 = p[..., 6]
-    J_23 = p[..., 7]
-    J_33 = p[..., 8]
-    g_1 = p[..., 9]
-    g_2 = p[..., 10]
-    g_3 = p[..., 11]
-
-    # so3.inertia: 3 add
-    # I = (Tr J) 1 − J
-    I_11 = J_22 + J_33
-    I_12 = -J_12
-    I_13 = -J_13
-    I_22 = J_11 + J_33
-    I_23 = -J_23
-    I_33 = J_11 + J_22
-
-    # so3.motion: 9 mul, 7 add, 1 div
-    # ζ̇ = I⁻¹(c ∧ Āγ + u + Iζ ∧ ζ)
-    adj_I_11 = I_22*I_33 - I_23*I_23
-    adj_I_12 = I_13*I_23 - I_12*I_33
-    adj_I_13 = I_12*I_23 - I_13*I_22
-    det_I = I_11*adj_I_11 + I_12*adj_I_12 + I_13*adj_I_13
-    tr_I = I_11 + I_22 + I_33
-    inv_det_I = 1.0/det_I
-
-    # each determinant or pivot against what rounding could make of a singular matrix
-    regular = [
-        abs(det_I) > 1e-13*((2.0*(abs(J_22) + abs(J_33) + abs(J_11)))*tr_I*tr_I),
-    ]
-    k = _stack(
-        xp,
-        [
-            I_11,
-            I_12,
-            I_13,
-            I_22,
-            I_23,
-            I_33,
-            adj_I_11*inv_det_I,
-            adj_I_12*inv_det_I,
-            adj_I_13*inv_det_I,
-            (I_11*I_33 - I_13*I_13)*inv_det_I,
-            (I_12*I_13 - I_11*I_23)*inv_det_I,
-            (I_11*I_22 - I_12*I_12)*inv_det_I,
-            c_1,
-            c_2,
-            c_3,
-            g_1,
-            g_2,
-            g_3,
-        ],
-    )
+        k, tests = _constants(xp, _entries(p))
+        k = _stack(xp, k) if k else p[..., :0]
+        # each determinant or pivot against what rounding could make of a singular matrix
+        regular = [abs(value) > least for value, least in tests]
     if not all(bool(xp.all(test)) for test in (*regular, xp.isfinite(k))):
         raise ValueError("so3: the mass matrix is singular or a number is not finite")
     return k
@@ -189,129 +127,19 @@ def _constants(xp, p):
 
 def rhs(t, x, k, u=None):
     """dx/dt; u are the inputs, zero when None."""
-    xp, (x, k) = _arrays(x, k)
-    I_11 = k[..., 0]
-    I_12 = k[..., 1]
-    I_13 = k[..., 2]
-    I_22 = k[..., 3]
-    I_23 = k[..., 4]
-    I_33 = k[..., 5]
-    inv_I_11 = k[..., 6]
-    inv_I_12 = k[..., 7]
-    inv_I_13 = k[..., 8]
-    inv_I_22 = k[..., 9]
-    inv_I_23 = k[..., 10]
-    inv_I_33 = k[..., 11]
-    c_1 = k[..., 12]
-    c_2 = k[..., 13]
-    c_3 = k[..., 14]
-    g_1 = k[..., 15]
-    g_2 = k[..., 16]
-    g_3 = k[..., 17]
-    A_11 = x[..., 0]
-    A_12 = x[..., 1]
-    A_13 = x[..., 2]
-    A_21 = x[..., 3]
-    A_22 = x[..., 4]
-    A_23 = x[..., 5]
-    A_31 = x[..., 6]
-    A_32 = x[..., 7]
-    A_33 = x[..., 8]
-    zeta_1 = x[..., 9]
-    zeta_2 = x[..., 10]
-    zeta_3 = x[..., 11]
-    if u is None:
-        u_1 = u_2 = u_3 = 0.0
-    else:
-        u = xp.asarray(u)
-        u_1 = u[..., 0]
-        u_2 = u[..., 1]
-        u_3 = u[..., 2]
-
-    # so3.motion: 30 mul, 24 add
-    # ζ̇ = I⁻¹(c ∧ Āγ + u + Iζ ∧ ζ)
-    A_T_gravity_1 = g_1*A_11 + g_2*A_21 + g_3*A_31
-    A_T_gravity_2 = g_1*A_12 + g_2*A_22 + g_3*A_32
-    A_T_gravity_3 = g_1*A_13 + g_2*A_23 + g_3*A_33
-    I_zeta_1 = I_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3
-    I_zeta_2 = I_12*zeta_1 + I_22*zeta_2 + I_23*zeta_3
-    I_zeta_3 = I_13*zeta_1 + I_23*zeta_2 + I_33*zeta_3
-    balance_1 = u_1 + c_2*A_T_gravity_3 + zeta_3*I_zeta_2 - c_3*A_T_gravity_2 - zeta_2*I_zeta_3
-    balance_2 = u_2 + c_3*A_T_gravity_1 + zeta_1*I_zeta_3 - c_1*A_T_gravity_3 - zeta_3*I_zeta_1
-    balance_3 = u_3 + c_1*A_T_gravity_2 + zeta_2*I_zeta_1 - c_2*A_T_gravity_1 - zeta_1*I_zeta_2
-
-    return _stack(
-        xp,
-        [
-            A_12*zeta_3 - A_13*zeta_2,
-            A_13*zeta_1 - A_11*zeta_3,
-            A_11*zeta_2 - A_12*zeta_1,
-            A_22*zeta_3 - A_23*zeta_2,
-            A_23*zeta_1 - A_21*zeta_3,
-            A_21*zeta_2 - A_22*zeta_1,
-            A_32*zeta_3 - A_33*zeta_2,
-            A_33*zeta_1 - A_31*zeta_3,
-            A_31*zeta_2 - A_32*zeta_1,
-            inv_I_11*balance_1 + inv_I_12*balance_2 + inv_I_13*balance_3,
-            inv_I_12*balance_1 + inv_I_22*balance_2 + inv_I_23*balance_3,
-            inv_I_13*balance_1 + inv_I_23*balance_2 + inv_I_33*balance_3,
-        ],
-    )
+    return _evaluated(_rhs, t, x, k, u)
 
 
 def energy(t, x, k):
     """Kinetic plus potential energy."""
-    xp, (x, k) = _arrays(x, k)
-    I_11 = k[..., 0]
-    I_12 = k[..., 1]
-    I_13 = k[..., 2]
-    I_22 = k[..., 3]
-    I_23 = k[..., 4]
-    I_33 = k[..., 5]
-    c_1 = k[..., 12]
-    c_2 = k[..., 13]
-    c_3 = k[..., 14]
-    g_1 = k[..., 15]
-    g_2 = k[..., 16]
-    g_3 = k[..., 17]
-    A_11 = x[..., 0]
-    A_12 = x[..., 1]
-    A_13 = x[..., 2]
-    A_21 = x[..., 3]
-    A_22 = x[..., 4]
-    A_23 = x[..., 5]
-    A_31 = x[..., 6]
-    A_32 = x[..., 7]
-    A_33 = x[..., 8]
-    zeta_1 = x[..., 9]
-    zeta_2 = x[..., 10]
-    zeta_3 = x[..., 11]
-
-    return 0.5*(zeta_1*(I_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3) + zeta_2*(I_12*zeta_1 + I_22*zeta_2 + I_23*zeta_3) + zeta_3*(I_13*zeta_1 + I_23*zeta_2 + I_33*zeta_3)) - (g_1*(c_1*A_11 + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21 + c_2*A_22 + c_3*A_23) + g_3*(c_1*A_31 + c_2*A_32 + c_3*A_33))
+    return _evaluated(_energy, t, x, k)[..., 0]
 
 
 def inertia(p):
     """The tensor of inertia about the body's origin, (3, 3), in the body frame."""
     xp, (p,) = _arrays(p)
-    J_11 = p[..., 3]
-    J_12 = p[..., 4]
-    J_13 = p[..., 5]
-    J_22 = p[..., 6]
-    J_23 = p[..., 7]
-    J_33 = p[..., 8]
-
-    upper = _stack(
-        xp,
-        [
-            J_22 + J_33,
-            -J_12,
-            -J_13,
-            J_11 + J_33,
-            -J_23,
-            J_11 + J_22,
-        ],
-    )
-    rows = [[upper[..., i] for i in row] for row in ((0, 1, 2), (1, 3, 4), (2, 4, 5))]
+    xx, xy, xz, yy, yz, zz = xp.broadcast_arrays(*map(xp.asarray, _inertia(xp, _entries(p))))
+    rows = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
     return xp.stack([xp.stack(row, axis=-1) for row in rows], axis=-2)
 
 
@@ -336,3 +164,154 @@ def turned(p, R):
     J = numpy.einsum("...ji,...jk,...kl->...il", R, p[..., full], R)
     p[..., full] = J
     return p
+
+
+def _evaluated(function, t, x, k, u=None):
+    """A function of one state in plain numbers, or of a batch in the arrays of its library."""
+    if type(x) is type(k) is numpy.ndarray and x.ndim == k.ndim == 1:
+        if x.dtype.char == k.dtype.char == "d" and (u is None or _plain(u)):
+            try:
+                given = ZEROS if u is None else u.tolist()
+                return numpy.array(function(math, float(t), x.tolist(), k.tolist(), given))
+            except (ArithmeticError, TypeError, ValueError):
+                pass  # what is infinite or no number is so in arrays as well
+    xp, (x, k, u) = _arrays(x, k, ZEROS if u is None else u)
+    t = xp.asarray(t, dtype=x.dtype)
+    return _stack(xp, function(xp, t, _entries(x), _entries(k), _entries(u)))
+
+
+def _plain(u):
+    return type(u) is numpy.ndarray and u.ndim == 1 and u.dtype.char == "d"
+
+
+def _arrays(*values):
+    """The array namespace of the first array among the values, and all of them as its arrays."""
+    for value in values:
+        library = type(value).__module__.partition(".")[0]
+        if hasattr(value, "__array_namespace__"):
+            xp = value.__array_namespace__()
+        elif library in ("torch", "cupy"):
+            xp = importlib.import_module("array_api_compat." + library)
+        else:
+            continue
+        return xp, [value if hasattr(value, "shape") else xp.asarray(value) for value in values]
+    return numpy, [numpy.asarray(value, dtype=float) for value in values]
+
+
+def _entries(array):
+    """The entries along the last axis."""
+    return [array[..., i] for i in range(array.shape[-1])]
+
+
+def _stack(xp, values):
+    """The values along a new last axis, broadcast against each other."""
+    return xp.stack(xp.broadcast_arrays(*(xp.asarray(value) for value in values)), axis=-1)
+
+
+def _constants(xp, p):
+    (c_1, c_2, c_3, J_11, J_12, J_13, J_22, J_23, J_33, g_1, g_2, g_3) = p
+
+    # so3.inertia: 3 add
+    # I = (Tr J) 1 − J
+    I_11 = J_22 + J_33
+    I_12 = -J_12
+    I_13 = -J_13
+    I_22 = J_11 + J_33
+    I_23 = -J_23
+    I_33 = J_11 + J_22
+
+    # so3.motion: 9 mul, 7 add, 1 div
+    # ζ̇ = I⁻¹(c ∧ Āγ + u + Iζ ∧ ζ)
+    adj_I_11 = I_22*I_33 - I_23*I_23
+    adj_I_12 = I_13*I_23 - I_12*I_33
+    adj_I_13 = I_12*I_23 - I_13*I_22
+    det_I = I_11*adj_I_11 + I_12*adj_I_12 + I_13*adj_I_13
+    tr_I = I_11 + I_22 + I_33
+    inv_det_I = 1.0/det_I
+
+    tests = [
+        (det_I, 1e-13*((2.0*(abs(J_22) + abs(J_33) + abs(J_11)))*tr_I*tr_I)),
+    ]
+    return [
+        I_11,
+        I_12,
+        I_13,
+        I_22,
+        I_23,
+        I_33,
+        adj_I_11*inv_det_I,
+        adj_I_12*inv_det_I,
+        adj_I_13*inv_det_I,
+        (I_11*I_33 - I_13*I_13)*inv_det_I,
+        (I_12*I_13 - I_11*I_23)*inv_det_I,
+        (I_11*I_22 - I_12*I_12)*inv_det_I,
+        c_1,
+        c_2,
+        c_3,
+        g_1,
+        g_2,
+        g_3,
+    ], tests
+
+
+def _rhs(xp, t, x, k, u):
+    (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, zeta_1, zeta_2, zeta_3) = x
+    (I_11, I_12, I_13, I_22, I_23, I_33, inv_I_11, inv_I_12, inv_I_13, inv_I_22, inv_I_23,
+        inv_I_33, c_1, c_2, c_3, g_1, g_2, g_3) = k
+    (u_1, u_2, u_3) = u
+
+    # so3.motion: 30 mul, 24 add
+    # ζ̇ = I⁻¹(c ∧ Āγ + u + Iζ ∧ ζ)
+    A_T_gravity_1 = g_1*A_11 + g_2*A_21 + g_3*A_31
+    A_T_gravity_2 = g_1*A_12 + g_2*A_22 + g_3*A_32
+    A_T_gravity_3 = g_1*A_13 + g_2*A_23 + g_3*A_33
+    I_zeta_1 = I_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3
+    I_zeta_2 = I_12*zeta_1 + I_22*zeta_2 + I_23*zeta_3
+    I_zeta_3 = I_13*zeta_1 + I_23*zeta_2 + I_33*zeta_3
+    balance_1 = u_1 + c_2*A_T_gravity_3 + zeta_3*I_zeta_2 - c_3*A_T_gravity_2 - zeta_2*I_zeta_3
+    balance_2 = u_2 + c_3*A_T_gravity_1 + zeta_1*I_zeta_3 - c_1*A_T_gravity_3 - zeta_3*I_zeta_1
+    balance_3 = u_3 + c_1*A_T_gravity_2 + zeta_2*I_zeta_1 - c_2*A_T_gravity_1 - zeta_1*I_zeta_2
+    return [
+        A_12*zeta_3 - A_13*zeta_2,
+        A_13*zeta_1 - A_11*zeta_3,
+        A_11*zeta_2 - A_12*zeta_1,
+        A_22*zeta_3 - A_23*zeta_2,
+        A_23*zeta_1 - A_21*zeta_3,
+        A_21*zeta_2 - A_22*zeta_1,
+        A_32*zeta_3 - A_33*zeta_2,
+        A_33*zeta_1 - A_31*zeta_3,
+        A_31*zeta_2 - A_32*zeta_1,
+        inv_I_11*balance_1 + inv_I_12*balance_2 + inv_I_13*balance_3,
+        inv_I_12*balance_1 + inv_I_22*balance_2 + inv_I_23*balance_3,
+        inv_I_13*balance_1 + inv_I_23*balance_2 + inv_I_33*balance_3,
+    ]
+
+
+
+def _energy(xp, t, x, k, u):
+    (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, zeta_1, zeta_2, zeta_3) = x
+    (I_11, I_12, I_13, I_22, I_23, I_33, _, _, _, _, _, _, c_1, c_2, c_3, g_1, g_2, g_3) = k
+
+    # so3.energy: 25 mul, 17 add
+    # h̃ = ½ ‖ζ‖²_I − ⟨Ac, γ⟩
+    h_tilde = (
+        0.5*(zeta_1*(I_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3) + zeta_2*(I_12*zeta_1 + I_22*zeta_2
+        + I_23*zeta_3) + zeta_3*(I_13*zeta_1 + I_23*zeta_2 + I_33*zeta_3)) - (g_1*(c_1*A_11
+        + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21 + c_2*A_22 + c_3*A_23) + g_3*(c_1*A_31
+        + c_2*A_32 + c_3*A_33))
+    )
+    return [
+        h_tilde,
+    ]
+
+
+def _inertia(xp, p):
+    (_, _, _, J_11, J_12, J_13, J_22, J_23, J_33, _, _, _) = p
+    return [
+        J_22 + J_33,
+        -J_12,
+        -J_13,
+        J_11 + J_33,
+        -J_23,
+        J_11 + J_22,
+    ]
