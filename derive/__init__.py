@@ -14,12 +14,14 @@ WORDS = (
     *("Moments", "Points", "Potential", "Problem", "SAff", "SE", "SL", "SO", "SU", "Sim", "Solid"),
     *("Sp", "Spring", "U", "UT", "derive"),
 )
-__all__ = [*WORDS, "ProblemError"]
+__all__ = [*WORDS, "CompileError", "Compiled", "ProblemError", "compile"]
 
 
 def __getattr__(name: str) -> Any:
     if name in WORDS:
         return getattr(import_module("derive.api"), name)
+    if name in ("compile", "Compiled", "CompileError"):
+        return getattr(import_module("derive.compiled"), name)
     if name == "ProblemError":
         return import_module("derive.mechanics.problem").ProblemError
     raise AttributeError(f"module 'derive' has no attribute {name!r}")

@@ -1,0 +1,181 @@
+"""The emitted C of a problem, compiled and loaded: a right-hand side for ``solve_ivp``.
+
+>>> import derive, numpy
+>>> f = derive.compile("so3")
+>>> f(0.0, numpy.concatenate([numpy.eye(3).ravel(), [0.1, 0, 9]])).shape
+(12,)
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .api import Derived, derive
+from .code.assemble import assemble
+from .code.emit import emit
+from .code.options import Options
+from .code.program import Program
+from .mechanics.problem import Problem, ProblemError
+from .writing import write
+
+FLAGS = ("-std=c99", "-O3", "-march=native", "-fPIC", "-shared")
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+
+class CompileError(RuntimeError):
+    """No compiler, or one that refused: the message says which and why."""
+
+
+BUFFERS = ("t", "x", "k", "u", "dx")
+BINDING = """\
+#include "{name}.h"
+double derive_t[1], derive_x[{name}_N_STATE], derive_k[{name}_N_CONSTANTS + 1];
+double derive_u[{name}_N_INPUTS + 1], derive_dx[{name}_N_STATE];
+void derive_rhs(void);
+void derive_rhs(void)
+{{
+    {name}_rhs(derive_t[0], derive_x, derive_k, derive_u, derive_dx);
+}}
+"""
+"""What is compiled beside the emitted C: buffers that a call from Python need not pass."""
+
+
+class Compiled:
+    """The functions of one problem in compiled C, for one body; itself dx/dt = f(t, x).
+
+    ``STATE``, ``PARAMETERS``, ``INPUTS``: names; ``p`` and ``k``: parameters and constants in use;
+    ``u``: the inputs, an array that may be written to between calls.  Each call fills buffers of
+    this object and returns a copy: give each thread its own.
+    """
+
+    def __init__(self, program: Program, library: ctypes.CDLL, name: str):
+        self.STATE, self.INPUTS = program.state, program.inputs
+        self.PARAMETERS = tuple(x[0] for x in program.parameters)
+        self._library, self._name = library, name
+        self._defaults = {x[0]: x[1] for x in program.parameters}
+        self._algebra = program.dimension
+        sizes = (1, len(self.STATE), len(program.constants), len(self.INPUTS), len(self.STATE))
+        views = (self._view(x, n) for x, n in zip(BUFFERS, sizes, strict=True))
+        self._t, self._x, self.k, self.u, self._dx = views
+        self.p = np.zeros(len(self.PARAMETERS))
+        self.rhs: Callable[[float, Any], Array] = self._bound_rhs()
+
+    def __call__(self, t: float, x: Any) -> Array:
+        """dx/dt."""
+        return self.rhs(t, x)
+
+    def use(self, parameters: Mapping[str, float] | Sequence[float] = ()) -> Compiled:
+        """Take these parameters, the defaults for the others; ``ValueError`` says what is wrong."""
+        if isinstance(parameters, Mapping):
+            named = dict(parameters)
+        else:
+            named = dict(zip(self.PARAMETERS, parameters, strict=len(parameters) > 0))
+        unknown = [x for x in named if x not in self._defaults]
+        values = {**self._defaults, **named}
+        missing = [x for x, value in values.items() if value is None]
+        if unknown or missing:
+            what = "unknown" if unknown else "no value for the"
+            raise ValueError(f"{what} parameters {', '.join(unknown or missing)}")
+        self.p[:] = [values[x] for x in self.PARAMETERS]
+        if self._function("constants", ctypes.c_int)(*map(_pointer, (self.p, self.k))):
+            raise ValueError("the mass matrix is singular, or a number is not finite")
+        return self
+
+    def energy(self, t: float, x: Any) -> float:
+        """Kinetic plus potential energy."""
+        self._x[:] = x
+        energy = self._function("energy", ctypes.c_double)
+        return float(energy(ctypes.c_double(t), *map(_pointer, (self._x, self.k))))
+
+    def jacobian(self, t: float, x: Any) -> tuple[Array, Array]:
+        """dx/dt and D (2N, 2N); see the emitted header."""
+        self._x[:] = x
+        D = np.zeros((2 * self._algebra, 2 * self._algebra))
+        arrays = (self._x, self.k, self.u, self._dx, D)
+        self._function("jacobian", None)(ctypes.c_double(t), *map(_pointer, arrays))
+        return self._dx.copy(), D
+
+    def _view(self, name: str, size: int) -> Array:
+        return np.ctypeslib.as_array(
+            (ctypes.c_double * size).in_dll(self._library, f"derive_{name}")
+        )
+
+    def _function(self, what: str, result: Any) -> Any:
+        function = getattr(self._library, f"{self._name}_{what}")
+        function.restype = result
+        return function
+
+    def _bound_rhs(self) -> Callable[[float, Any], Array]:
+        """rhs on the buffers: a call copies the state in and the rates out."""
+        run = self._library.derive_rhs
+        run.restype = None
+        now, here, copy = self._t, self._x, self._dx.copy
+
+        def rhs(t: float, x: Any) -> Array:
+            """dx/dt."""
+            now[0] = t
+            here[:] = x
+            run()
+            return copy()
+
+        return rhs
+
+
+def _pointer(a: Array) -> ctypes.c_void_p:
+    return ctypes.c_void_p(a.ctypes.data)
+
+
+def compile(
+    problem: Problem | Derived | str | Path,
+    parameters: Mapping[str, float] | Sequence[float] | None = None,
+    *,
+    compiler: str | None = None,
+    flags: Sequence[str] = FLAGS,
+    **choices: Any,
+) -> Compiled:
+    """Emit, compile and load the C of a problem.
+
+    ``parameters``: by name or in order; the defaults of the problem where none are given, and
+    without a default :meth:`Compiled.use` must be called first.  ``compiler``: else the environment
+    variable CC, else cc, gcc or clang.  ``choices``: as ``attitude="quaternion"``, see
+    :class:`derive.code.options.Options`.  :class:`CompileError`, ``ProblemError``.
+    """
+    derived = problem if isinstance(problem, Derived) else derive(problem)
+    if derived.problem.group is None:
+        raise ProblemError(f"{derived.problem.name}: a text about any group has nothing to compile")
+    options = Options(**choices)
+    if options.real != "double":
+        raise ProblemError("real: NumPy and SciPy compute in double; leave it out")
+    program = assemble(derived.record, derived.problem.group, options)
+    name = derived.problem.name
+    with tempfile.TemporaryDirectory(prefix="derive-") as folder:
+        files = emit(program, derived.record, ("c",), name, options)
+        write(files | {"binding.c": BINDING.format(name=name)}, Path(folder))
+        library = _built(Path(folder), name, compiler, flags)
+    made = Compiled(program, library, name)
+    ready = all(x[1] is not None for x in program.parameters)
+    return made.use(parameters or ()) if parameters is not None or ready else made
+
+
+def _built(folder: Path, name: str, compiler: str | None, flags: Sequence[str]) -> ctypes.CDLL:
+    """The shared library; once it is loaded, its file may go."""
+    wanted = [compiler or os.environ.get("CC", ""), "cc", "gcc", "clang"]
+    found = next((path for path in map(shutil.which, filter(None, wanted)) if path), None)
+    if found is None:
+        raise CompileError("no C compiler: install gcc or clang, or name one in CC")
+    target = folder / f"{name}.so"
+    sources = map(str, sorted(folder.glob("*.c")))
+    command = [found, *flags, *sources, "-o", str(target), "-lm"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        raise CompileError(f"{found} refused the emitted C: {done.stderr.strip()[:500]}")
+    return ctypes.CDLL(str(target))

@@ -1,0 +1,101 @@
+"""derive.compile: the emitted C from Python, ready for solve_ivp and other solvers."""
+
+import importlib.util
+import shutil
+
+import numpy as np
+import pytest
+
+import derive
+from tests.emitted import import_python
+
+pytestmark = pytest.mark.skipif(
+    not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler"
+)
+
+
+@pytest.fixture(scope="module")
+def top():
+    return derive.compile("so3", jacobian=("state",))
+
+
+START = np.concatenate([np.eye(3).ravel(), [0.1, 0, 9]])
+
+
+def test_it_is_the_emitted_python(top, tmp_path):
+    derive.derive("so3").emit(tmp_path, ["python"], jacobian=("state",))
+    m = import_python("so3", tmp_path)
+    k = m.constants(top.p)
+    assert top.PARAMETERS == m.PARAMETERS
+    assert np.allclose(top.k, k, rtol=1e-14)
+    rng = np.random.default_rng(1)
+    for _ in range(5):
+        x, top.u[:] = rng.normal(size=12), rng.normal(size=3)
+        assert np.allclose(top(0, x), m.rhs(0, x, k, top.u), rtol=1e-13)
+        assert np.isclose(top.energy(0, x), m.energy(0, x, k), rtol=1e-13)
+        dx, D = top.jacobian(0, x)
+        assert np.allclose(dx, top.rhs(0, x))
+        assert D.shape == (6, 6)
+    top.u[:] = 0
+
+
+def test_results_are_not_overwritten(top):
+    first = top(0, START)
+    kept = first.copy()
+    top(0, 2 * START)
+    assert np.array_equal(first, kept)
+
+
+def test_other_parameters():
+    f = derive.compile("so3", {"c_3": 0.0})
+    assert f.p[2] == 0
+    assert f.use({"c_3": 0.5}).p[2] == 0.5
+    with pytest.raises(ValueError, match="unknown parameters zz"):
+        f.use({"zz": 1})
+    with pytest.raises(ValueError, match="singular"):
+        f.use([0.0] * len(f.PARAMETERS))
+    group = derive.SO(3)
+    bare = derive.Problem("bare", group, derive.Moments(), [derive.Gravity(0, 0, -1)])
+    free = derive.compile(bare)
+    with pytest.raises(ValueError, match="no value for the parameters c_1"):
+        free.use()
+
+
+def test_without_a_compiler(monkeypatch):
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.delenv("CC", raising=False)
+    with pytest.raises(derive.CompileError, match="no C compiler"):
+        derive.compile("so3")
+
+
+def test_a_compiler_that_refuses():
+    with pytest.raises(derive.CompileError, match="refused the emitted C"):
+        derive.compile("so3", flags=["--no-such-flag"])
+
+
+def test_solve_ivp(top):
+    """SciPy integrates it; energy stays."""
+    if importlib.util.find_spec("scipy") is None:
+        pytest.skip("no scipy")
+    from scipy.integrate import solve_ivp
+
+    found = solve_ivp(top, (0, 1), START, rtol=1e-10, atol=1e-12)
+    assert found.success
+    assert abs(top.energy(1, found.y[:, -1]) - top.energy(0, START)) < 1e-7
+    m = import_python("so3")
+    other = solve_ivp(m.rhs, (0, 1), START, rtol=1e-10, atol=1e-12, args=(m.constants(top.p),))
+    assert np.allclose(found.y[:, -1], other.y[:, -1], rtol=1e-9, atol=1e-9)
+
+
+def test_cvode(top):
+    """SUNDIALS integrates it, through a Python package where there is one."""
+    if importlib.util.find_spec("sksundae") is None:
+        pytest.skip("no sksundae")
+    from sksundae.cvode import CVODE
+
+    def field(t, y, dy):
+        dy[:] = top.rhs(t, y)
+
+    solver = CVODE(field, rtol=1e-10, atol=1e-12)
+    found = solver.solve(np.linspace(0, 1, 3), START)
+    assert abs(top.energy(1, found.y[-1]) - top.energy(0, START)) < 1e-7
