@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .code.options import Options
     from .code.program import Program
 
-LANGUAGES = ("c", "cpp", "python", "rust", "julia", "javascript")
+LANGUAGES = ("c", "cpp", "cvode", "python", "rust", "julia", "javascript")
 FORMATS = ("text", "latex", "markdown", "json")
 READY = resources.files("derive") / "problems"
 

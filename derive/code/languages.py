@@ -48,7 +48,9 @@ def _plain(function: str, absolute: str) -> Callable[[str], Printer]:
 def _julia(real: str) -> Printer:
     def number(q: Fraction) -> str:
         text = decimal(q)
-        return text.replace("e", "f") if real == "float" and "e" in text else text
+        if real == "double":
+            return text
+        return "/".join(x.replace("e", "f") if "e" in x else f"{x}f0" for x in text.split("/"))
 
     return Printer(number)
 
@@ -69,6 +71,15 @@ LANGUAGES: dict[str, Language] = {
     "cpp": Language(
         "cpp",
         {"source": (".hpp",), "header": (".hpp",)},
+        _c,
+        "const {real} {name} = {text};",
+        BLOCK,
+        C_REALS,
+        needs="c",
+    ),
+    "cvode": Language(
+        "cvode",
+        {"source": ("_cvode.h",), "header": ("_cvode.h",)},
         _c,
         "const {real} {name} = {text};",
         BLOCK,

@@ -1,0 +1,100 @@
+"""The emitted C in float on a Cortex-M4F: built, measured, and run under qemu beside the host."""
+
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+from derive import derive
+from tests.emitted import import_python
+
+ARM = ["-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16"]
+STRICT = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wdouble-promotion", "-Werror", "-O2"]
+STACK = {"so3": 256, "se3": 384, "sl3": 512}
+
+# no library: the number of what constants returned and the bits of dx, by system calls of Linux
+MAIN = """\
+#include "{name}.h"
+static const float p[] = {{{p}}}, x[] = {{{x}}}, u[] = {{{u}}};
+static float k[{name}_N_CONSTANTS], dx[{name}_N_STATE];
+static long call(long number, long a, long b, long c)
+{{
+    register long r0 __asm__("r0") = a, r1 __asm__("r1") = b, r2 __asm__("r2") = c;
+    register long r7 __asm__("r7") = number;
+    __asm__ volatile("svc 0" : "+r"(r0) : "r"(r1), "r"(r2), "r"(r7) : "memory");
+    return r0;
+}}
+void _start(void);
+void _start(void)
+{{
+    const int status = {name}_constants(p, k);
+    {name}_rhs(0, x, k, u, dx);
+    call(4, 1, (long)dx, sizeof dx);
+    call(1, status, 0, 0);
+}}
+"""
+
+
+def listed(values):
+    return ", ".join(f"{float(np.float32(v))!r}f" for v in values) or "0"
+
+
+@pytest.fixture(scope="module", params=["so3", "se3", "sl3"])
+def built(request, tmp_path_factory):
+    """The name, the folder with the object file, and the module."""
+    if shutil.which("arm-none-eabi-gcc") is None:
+        pytest.skip("no arm-none-eabi-gcc on the path")
+    name, folder = request.param, tmp_path_factory.mktemp("arm")
+    derive(name).emit(folder, ["c", "python"], real="float")
+    command = ["arm-none-eabi-gcc", *ARM, *STRICT, "-fstack-usage", "-c", f"{name}.c"]
+    subprocess.run(command, cwd=folder, check=True)
+    return name, folder, import_python(name, folder)
+
+
+def test_stack_and_size(built):
+    name, folder, _ = built
+    usage = {
+        line.split()[0].rpartition(":")[2]: int(line.split()[1])
+        for line in (folder / f"{name}.su").read_text().splitlines()
+    }
+    sizes = subprocess.run(
+        ["arm-none-eabi-size", f"{name}.o"], cwd=folder, check=True, capture_output=True, text=True
+    ).stdout.splitlines()
+    text, data, bss = map(int, sizes[1].split()[:3])
+    print(f"{name}: {text} bytes of code, stack {usage}")
+    assert usage[f"{name}_rhs"] <= STACK[name]
+    assert (data, bss) == (0, 0)
+    assert text < 16_000
+
+
+def test_nothing_but_libm(built):
+    """No call of a library: no double arithmetic in software, no memory, no input or output."""
+    name, folder, _ = built
+    wanted = subprocess.run(
+        ["arm-none-eabi-nm", "-u", f"{name}.o"], cwd=folder, check=True,
+        capture_output=True, text=True,
+    ).stdout  # fmt: skip
+    assert not wanted.split()
+
+
+def test_it_computes_what_the_host_does(built):
+    if shutil.which("qemu-arm") is None:
+        pytest.skip("no qemu-arm on the path")
+    name, folder, module = built
+    rng = np.random.default_rng(2)
+    p = np.array([module.DEFAULTS[x] for x in module.PARAMETERS])
+    for _ in range(3):
+        x, u = rng.normal(size=len(module.STATE)), rng.normal(size=len(module.INPUTS))
+        given = {key: listed(v) for key, v in (("p", p), ("x", x), ("u", u))}
+        (folder / "main.c").write_text(MAIN.format(name=name, **given))
+        command = ["arm-none-eabi-gcc", *ARM, "-std=gnu99", "-O2", "-nostartfiles", "main.c"]
+        subprocess.run([*command, f"{name}.o", "-o", "main", "-lm"], cwd=folder, check=True)
+        done = subprocess.run(
+            ["qemu-arm", "-cpu", "max", "./main"], cwd=folder, capture_output=True
+        )
+        assert done.returncode == 0, done.stderr
+        found = np.frombuffer(done.stdout, np.float32)
+        single = [np.float32(v).astype(float) for v in (p, x, u)]
+        expected = module.rhs(0.0, single[1], module.constants(single[0]), single[2])
+        assert np.allclose(found, expected, rtol=2e-4, atol=2e-6 * np.abs(expected).max())
