@@ -5,6 +5,7 @@ from random import Random
 import numpy as np
 import pytest
 
+from derive import Gravity, Group, Moments, Problem, derive, pipeline
 from derive.algebra import rational as q
 from derive.code.assemble import assemble
 from derive.code.emit import emit
@@ -86,3 +87,22 @@ def test_code_against_points(name, seed):
     nu = q.times(model.g, model.Z)
     energy = float(model.energy(model.t, model.g, nu).part(0))
     assert code["energy"](0.0, x, k) == pytest.approx(energy, rel=1e-9)
+
+
+@pytest.mark.parametrize("group", ["SAff(2)", "SAff(3)", "Aff(2)", "Aff(3)"])
+def test_a_multiplier_costs_less_than_the_mass_matrix(group, monkeypatch):
+    """Why the normal space of 𝔤 is used where it has at most one dimension."""
+    n = int(group[-2])
+    problem = Problem("p", Group(group), Moments(), [Gravity(*[0] * (n - 1), -1)])
+
+    def multiplications():
+        d = derive(problem)
+        return assemble(d.record, d.problem.group).functions["rhs"].operations()["mul"]
+
+    ours = multiplications()
+
+    def by_mass(inertial, force, metric, group, b, uses, c, translation=()):
+        return pipeline.mass_steps(inertial, force, b, uses, c, translation)
+
+    monkeypatch.setattr(pipeline, "multiplier_steps", by_mass)
+    assert 3 * ours < 2 * multiplications()

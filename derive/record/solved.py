@@ -91,6 +91,11 @@ def solved_values(model: Model) -> Values:
     group, Z, Z_dot = model.group, model.Z, model.acceleration
     s = Solved(model)
     values: Values = {"N_c": s.applied}
+    if group.affine:
+        m, c, _ = model.moments
+        centre = tuple(x / m for (x,) in c)
+        values["r_c"] = tuple((x,) for x in centre)
+        values["w_c"] = q.times(Z, model.homogeneous(centre))[: model.n]
     values["B"] = q.minus(s.applied, s.inertia_of(q.times(Z, Z)))
     frames = [q.times(model.g, e) for e in s.elements]
     values["M"] = model.gram(frames)

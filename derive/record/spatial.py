@@ -38,9 +38,6 @@ def spatial_values(model: Model) -> Values:
     centre = tuple(x[0] / m for x in c)
     values["I"] = _tensor(model, (Fraction(0),) * 3)
     values["I_c"] = _tensor(model, centre)
-    values["r_c"] = tuple((x,) for x in centre)
-    if model.group.affine:
-        values["w_c"] = q.times(model.Z, model.homogeneous(centre))[:3]
     values["λ"] = tuple((values["I"][i][i],) for i in range(3))
     return values
 

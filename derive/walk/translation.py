@@ -44,6 +44,13 @@ def eliminate_translation(stage: Special, uses: str, c: Chapter) -> Centred:
     display: dict[Letter, Tree] = {inverse_letter(x): ("inv", x.name) for x in (b.C, b.m)}
     notation = Notation(display=display)
 
+    centre, drift = Letter("r_c", b.n), Letter("w_c", b.n)
+    velocity = word(b.w.velocity) + word(b.Z.velocity) * word(centre)
+    from_centre = {
+        b.c: word(b.m) * word(centre),
+        b.w.velocity: word(b.w.velocity) + word(drift) - velocity,
+    }
+
     def tidy(e: Expr) -> Expr:
         return cancel_scalar(reduce(e, cancel), b.m)
 
@@ -56,13 +63,16 @@ def eliminate_translation(stage: Special, uses: str, c: Chapter) -> Centred:
     remaining = tidy(substitute(remaining, {b.J: word(metric) + word(b.J) - value}))
     inertial = Expr(1, 1, {k: c for k, c in remaining.terms.items() if _has(k, metric)})
     force = gradient(inertial - remaining, xi)
-    solved = tree_of(-free, notation)
+    force = tidy(substitute(force, {b.c: word(b.m) * word(centre)}))
+    solved = tree_of(tidy(substitute(-free, from_centre)), notation)
     pairing = inner(word(Letter("N_c", b.n, b.n)), word(xi))
     step = c.step(
         "elimination",
         "elimination",
         uses,
         (
+            Equation("r_c", tree_of(word(inverse_letter(b.m)) * word(b.c), notation)),
+            Equation("w_c", tree_of(velocity, notation)),
             Equation("ẇ", solved),
             Equation("J_c", tree_of(value, notation)),
             Equation("N_c", tree_of(force, notation)),
