@@ -21,9 +21,10 @@ lint: $(STAMP)   ## ruff and mypy alone
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 
-bench: $(STAMP)  ## whole-process times beside `import sympy`, and how they grow with the group
+bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside its peers
 	$(BIN)/python -m benchmarks.road
 	$(BIN)/python -m benchmarks.sizes
+	$(BIN)/python -m benchmarks.peers
 
 clean:           ## remove the virtual environment and caches
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache

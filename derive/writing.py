@@ -14,17 +14,26 @@ class WriteError(OSError):
 
 
 def write(files: Mapping[str, str], out: Path) -> list[Path]:
-    """Write each file under a temporary name, then rename; ``WriteError`` when that fails."""
-    place = out
+    """Write every file under a temporary name, then rename them all.
+
+    ``WriteError`` when that fails: then no file has been touched, unless a rename fails.
+    """
+    place, ready = out, []
     try:
         out.mkdir(parents=True, exist_ok=True)
-        written = []
         for name, text in files.items():
             place = out / name
-            written.append(write_file(place, text))
-        return written
+            ready.append(prepared(place, text))
+        for place, temporary in ready:
+            if temporary is not None:
+                os.replace(temporary, place)
+        return [path for path, _ in ready]
     except OSError as error:
         raise WriteError(f"{place}: {error.strerror}; choose another --out") from None
+    finally:
+        for _, temporary in ready:
+            if temporary is not None:
+                temporary.unlink(missing_ok=True)
 
 
 def stale(files: Mapping[str, str], out: Path) -> list[Path]:
@@ -37,21 +46,24 @@ def stale(files: Mapping[str, str], out: Path) -> list[Path]:
     return found
 
 
-def write_file(path: Path, text: str) -> Path:
-    """One file, whole or not at all; a link is followed, a device or a pipe is written to."""
+def prepared(path: Path, text: str) -> tuple[Path, Path | None]:
+    """Where a file goes and the temporary one that holds it; none for a device or a pipe.
+
+    A link is followed; a device or a pipe is written to at once.
+    """
     path = path.resolve() if path.is_symlink() else path
     if path.exists() and not path.is_file() and not path.is_dir():
         path.write_text(text, encoding="utf-8")
-        return path
+        return path, None
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
-    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    temporary = Path(name)
     try:
         with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
             stream.write(text)
         os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
     except BaseException:
-        Path(temporary).unlink(missing_ok=True)
+        temporary.unlink(missing_ok=True)
         raise
-    return path
+    return path, temporary

@@ -44,7 +44,7 @@ def assemble(d: Derivation, group: Group, options: Options | None = None) -> Pro
     for name, nodes in wanted.items():
         places = given if name == "inertia" else moving | kept
         functions[name] = scheduler.function(nodes, places)
-    if "parameters" in chosen.jacobian:
+    if "parameters" in chosen.jacobian and parameters:
         leaves = [lowering.leaf(x, "parameter") for x in parameters]
         slopes = by_leaves(lowering.space, lowering.space.velocity(lowering.component), leaves)
         slopes = factored(lowering.graph, slopes)

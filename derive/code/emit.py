@@ -13,7 +13,7 @@ from .. import __version__
 from ..record.record import Derivation
 from ..templating import environment
 from .languages import LANGUAGES, Language
-from .naming import RESERVED
+from .naming import PREFIXES
 from .options import Options
 from .program import TOLERANCE, Program
 from .statements import Statements, comment, operations
@@ -32,10 +32,11 @@ def emit(
 ) -> dict[str, str]:
     """File name → text, for each language; ``EmitError`` for a prefix that is no name."""
     chosen = options or Options()
-    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,63}", prefix) or prefix in RESERVED:
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,63}", prefix) or prefix in PREFIXES:
         raise EmitError(
             f"the prefix {prefix[:40]!r} cannot be used: give --prefix NAME, letters, digits and "
-            "_, starting with a letter, at most 64, and no word that the emitted code needs"
+            "_, starting with a letter, at most 64, no word of a language or of the emitted code, "
+            "and no header of C or module of Python"
         )
     needed = (LANGUAGES[name].needs for name in languages)
     files = {}

@@ -3,7 +3,7 @@
 Two names are worth losing.  k·x, with k of the parameters alone, where each use multiplies it by
 another such factor: the constants merge.  And a summand that is a sum of its own, where another
 summand has the same moving factors: their constants add.  At the end what
-has a name gets it wherever it stands.
+has a name gets it wherever it stands, and common factors go in front of sums.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 
+from .distribute import distributed
 from .graph import PARAMETER, Graph, Node
 
 PASSES = 4
@@ -28,6 +29,8 @@ def factored(graph: Graph, roots: Sequence[Node]) -> list[Node]:
         images = _rebuilt(graph, found, lost)
         found = [images[x] for x in found]
     images = _rebuilt(graph, found, set(), {x.args[0]: x for x in _values(found)})
+    found = [images[x] for x in found]
+    images = _rebuilt(graph, found, set(), sums=True)
     return [images[x] for x in found]
 
 
@@ -80,18 +83,28 @@ def _sharing(s: Node, single: set[Node]) -> list[Node]:
 
 
 def _rebuilt(
-    graph: Graph, roots: Sequence[Node], lost: set[Node], named: Mapping[Node, Node] = NOTHING
+    graph: Graph,
+    roots: Sequence[Node],
+    lost: set[Node],
+    named: Mapping[Node, Node] = NOTHING,
+    *,
+    sums: bool = False,
 ) -> dict[Node, Node]:
     """Old node → new node; what depends on parameters alone stays as it is.
 
     ``named``: sums and products that have a name; where they stand without it, they get it.
+    ``sums``: common factors of the terms of sums are taken in front of them.
     """
+    order = _reachable(roots)
+    uses = Counter(roots) + Counter(y for x in order for y in x.args) if sums else Counter()
     images: dict[Node, Node] = {x: x for x in roots if x.stage == PARAMETER}
-    for x in _reachable(roots):
+    for x in order:
         other = {} if x.op == "value" else named
         args = [images.get(other.get(y, y), other.get(y, y)) for y in x.args]
         if x in lost:
             images[x] = args[0]
+        elif sums and x.op == "add" and len(x.args) > 1:
+            images[x] = distributed(graph, x, uses, images)
         elif all(a is b for a, b in zip(args, x.args, strict=True)):
             images[x] = x
         elif x.op == "value":

@@ -19,7 +19,7 @@ from ..algebra.tree import Tree, mul
 from ..record.arithmetic import hat, wedge
 from ..record.record import Derivation
 from . import dense
-from .graph import Node
+from .graph import PARAMETER, Node
 from .inverses import SMALL, Inverting
 from .naming import name_of
 from .options import Options
@@ -84,6 +84,8 @@ class Lowering(Inverting):
             return self._inverse(t[1])
         if op in ("metric", "norm2"):
             return self._metric(t)
+        if op == "wedge" and isinstance(t[1], tuple) and t[1][0] == "mul" and t[1][2:] == (t[2],):
+            return wedge(self._gyroscopic(t[1][1], t[2]), self.tree(t[2]))  # type: ignore[no-any-return]
         if op == "entry":
             value = self.tree(t[1])
             assert not isinstance(value, Node)
@@ -127,6 +129,18 @@ class Lowering(Inverting):
             return self.graph.product([factor] * abs(t[2]))
         value = dense.chain(self.graph, [base] * t[2], lambda m, i, j: m)
         return self.named(value, name_of(t))
+
+    def _gyroscopic(self, metric: Tree, vector: Tree) -> Matrix:
+        """M x for M x ∧ x: a multiple of 1 taken from M changes nothing, and leaves M_33 = 0."""
+        g, m = self.graph, self._matrix(metric)
+        rows = tuple(
+            tuple(x - m[2][2] if i == j else x for j, x in enumerate(row))
+            for i, row in enumerate(m)
+        )
+        name = name_of(metric)
+        lighter = self.named(rows, f"{name}_0") if dense.stage_of(m) == PARAMETER else m
+        product = dense.times(g, lighter, self._matrix(vector))  # type: ignore[arg-type]
+        return self.named(product, f"{name}_0_{name_of(vector)}")  # type: ignore[return-value]
 
     def _sum(self, t: tuple[Any, ...]) -> Value:
         _, index, body = t

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 import unicodedata
 
 from ..algebra.tree import Tree
@@ -15,10 +16,29 @@ GREEK = {
 }  # fmt: skip
 MARKS = {"\u0307": "_dot", "\u0303": "_tilde", "′": "_prime"}
 _EMITTED = """
-    dx k n p t u x xp
-    abs all regular numpy math i NULL STATE PARAMETERS INPUTS CONSTANTS BASIS
+    D dx i k n p s t u x xp
+    abs all importlib numpy math regular std NULL STATE PARAMETERS INPUTS CONSTANTS DEFAULTS BASIS
+    ZERO_INPUTS ZEROS Singular N_STATE N_ALGEBRA N_PARAMETERS N_CONSTANTS N_INPUTS
     """
-RESERVED = set(WORDS) | set(_EMITTED.split())
+_OTHER_LANGUAGES = """
+    abstract become box crate dyn final fn gen impl let loop macro match mod move mut override priv
+    pub ref self Self super trait type unsafe unsized use where Some Ok Err
+    baremodule begin elseif end function isa local module outer primitive quote
+    nothing undef eltype promote_type Vector Float64 Float32 DomainError
+    arguments debugger eval extends implements instanceof interface null package var
+    Math Float64Array Float32Array Number RangeError char8_t char16_t char32_t
+    """
+RESERVED = set(WORDS) | set(_EMITTED.split()) | set(_OTHER_LANGUAGES.split())
+_HEADERS = """
+    assert complex ctype errno features fenv float inttypes iso646 limits locale malloc math memory
+    sched setjmp signal stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn
+    string strings tgmath threads time uchar unistd wchar wctype
+    """
+FILES = set(_HEADERS.split()) | set(sys.stdlib_module_names)
+"""Files of these names would stand before those of C and of Python."""
+
+PREFIXES = FILES | RESERVED | {"core", "Base", "Core", "Main", "constants", "energy", "driven"}
+"""What no name, and no prefix, of the emitted code is: words of some language, or its own."""
 
 
 def ascii_name(name: str) -> str:

@@ -4,6 +4,11 @@
 
 #include <math.h>
 
+/* gcc would pack a few of the scalars of rhs into vectors, and lose by the shuffles. */
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("no-tree-slp-vectorize")
+#endif
+
 const char *const se3_state_names[] = {
     "A_11",
     "A_12",
@@ -97,30 +102,29 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
     k[2] = c_1;
     k[3] = c_2;
     k[4] = c_3;
-    k[5] = I_c_11;
-    k[6] = I_c_12;
-    k[7] = I_c_13;
-    k[8] = I_c_22;
-    k[9] = I_c_23;
-    k[10] = I_c_33;
-    k[11] = adj_I_c_11*inv_det_I_c;
-    k[12] = adj_I_c_12*inv_det_I_c;
-    k[13] = adj_I_c_13*inv_det_I_c;
-    k[14] = (I_c_11*I_c_33 - I_c_13*I_c_13)*inv_det_I_c;
-    k[15] = (I_c_12*I_c_13 - I_c_11*I_c_23)*inv_det_I_c;
-    k[16] = (I_c_11*I_c_22 - I_c_12*I_c_12)*inv_det_I_c;
-    k[17] = inv_m*c_1;
-    k[18] = inv_m*c_2;
-    k[19] = inv_m*c_3;
-    k[20] = g_1;
-    k[21] = g_2;
-    k[22] = g_3;
-    k[23] = J_22 + J_33;
-    k[24] = -J_12;
-    k[25] = -J_13;
-    k[26] = J_11 + J_33;
-    k[27] = -J_23;
-    k[28] = J_11 + J_22;
+    k[5] = I_c_12;
+    k[6] = I_c_13;
+    k[7] = I_c_23;
+    k[8] = adj_I_c_11*inv_det_I_c;
+    k[9] = adj_I_c_12*inv_det_I_c;
+    k[10] = adj_I_c_13*inv_det_I_c;
+    k[11] = (I_c_11*I_c_33 - I_c_13*I_c_13)*inv_det_I_c;
+    k[12] = (I_c_12*I_c_13 - I_c_11*I_c_23)*inv_det_I_c;
+    k[13] = (I_c_11*I_c_22 - I_c_12*I_c_12)*inv_det_I_c;
+    k[14] = inv_m*c_1;
+    k[15] = inv_m*c_2;
+    k[16] = inv_m*c_3;
+    k[17] = I_c_11 - I_c_33;
+    k[18] = I_c_22 - I_c_33;
+    k[19] = g_1;
+    k[20] = g_2;
+    k[21] = g_3;
+    k[22] = J_22 + J_33;
+    k[23] = -J_12;
+    k[24] = -J_13;
+    k[25] = J_11 + J_33;
+    k[26] = -J_23;
+    k[27] = J_11 + J_22;
 
     /* each determinant or pivot against what rounding could make of a singular matrix */
     if (!(fabs(m) > 0)) {
@@ -142,24 +146,23 @@ void se3_rhs(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT 
     const double *se3_RESTRICT u, double *se3_RESTRICT dx)
 {
     const double inv_m = k[1];
-    const double I_c_11 = k[5];
-    const double I_c_12 = k[6];
-    const double I_c_13 = k[7];
-    const double I_c_22 = k[8];
-    const double I_c_23 = k[9];
-    const double I_c_33 = k[10];
-    const double inv_I_c_11 = k[11];
-    const double inv_I_c_12 = k[12];
-    const double inv_I_c_13 = k[13];
-    const double inv_I_c_22 = k[14];
-    const double inv_I_c_23 = k[15];
-    const double inv_I_c_33 = k[16];
-    const double r_c_1 = k[17];
-    const double r_c_2 = k[18];
-    const double r_c_3 = k[19];
-    const double g_1 = k[20];
-    const double g_2 = k[21];
-    const double g_3 = k[22];
+    const double I_c_12 = k[5];
+    const double I_c_13 = k[6];
+    const double I_c_23 = k[7];
+    const double inv_I_c_11 = k[8];
+    const double inv_I_c_12 = k[9];
+    const double inv_I_c_13 = k[10];
+    const double inv_I_c_22 = k[11];
+    const double inv_I_c_23 = k[12];
+    const double inv_I_c_33 = k[13];
+    const double r_c_1 = k[14];
+    const double r_c_2 = k[15];
+    const double r_c_3 = k[16];
+    const double I_c_0_11 = k[17];
+    const double I_c_0_22 = k[18];
+    const double g_1 = k[19];
+    const double g_2 = k[20];
+    const double g_3 = k[21];
     const double A_11 = x[0];
     const double A_12 = x[1];
     const double A_13 = x[2];
@@ -182,14 +185,14 @@ void se3_rhs(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT 
     const double u_5 = u[4];
     const double u_6 = u[5];
 
-    /* se3.motion: 30 mul, 24 add
+    /* se3.motion: 29 mul, 23 add
      * ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ) */
-    const double I_c_zeta_1 = I_c_11*zeta_1 + I_c_12*zeta_2 + I_c_13*zeta_3;
-    const double I_c_zeta_2 = I_c_12*zeta_1 + I_c_22*zeta_2 + I_c_23*zeta_3;
-    const double I_c_zeta_3 = I_c_13*zeta_1 + I_c_23*zeta_2 + I_c_33*zeta_3;
-    const double balance_1 = u_1 + r_c_3*u_5 + zeta_3*I_c_zeta_2 - r_c_2*u_6 - zeta_2*I_c_zeta_3;
-    const double balance_2 = u_2 + r_c_1*u_6 + zeta_1*I_c_zeta_3 - r_c_3*u_4 - zeta_3*I_c_zeta_1;
-    const double balance_3 = u_3 + r_c_2*u_4 + zeta_2*I_c_zeta_1 - r_c_1*u_5 - zeta_1*I_c_zeta_2;
+    const double I_c_0_zeta_1 = I_c_0_11*zeta_1 + I_c_12*zeta_2 + I_c_13*zeta_3;
+    const double I_c_0_zeta_2 = I_c_12*zeta_1 + I_c_0_22*zeta_2 + I_c_23*zeta_3;
+    const double I_c_0_zeta_3 = I_c_13*zeta_1 + I_c_23*zeta_2;
+    const double balance_1 = u_1 + r_c_3*u_5 + zeta_3*I_c_0_zeta_2 - r_c_2*u_6 - zeta_2*I_c_0_zeta_3;
+    const double balance_2 = u_2 + r_c_1*u_6 + zeta_1*I_c_0_zeta_3 - r_c_3*u_4 - zeta_3*I_c_0_zeta_1;
+    const double balance_3 = u_3 + r_c_2*u_4 + zeta_2*I_c_0_zeta_1 - r_c_1*u_5 - zeta_1*I_c_0_zeta_2;
     const double zeta_dot_1 = inv_I_c_11*balance_1 + inv_I_c_12*balance_2 + inv_I_c_13*balance_3;
     const double zeta_dot_2 = inv_I_c_12*balance_1 + inv_I_c_22*balance_2 + inv_I_c_23*balance_3;
     const double zeta_dot_3 = inv_I_c_13*balance_1 + inv_I_c_23*balance_2 + inv_I_c_33*balance_3;
@@ -242,24 +245,23 @@ void se3_rhs_batch(size_t n, double t, const double *se3_RESTRICT x,
 #endif
     for (size_t s = 0; s < n; ++s) {
         const double inv_m = k[1];
-        const double I_c_11 = k[5];
-        const double I_c_12 = k[6];
-        const double I_c_13 = k[7];
-        const double I_c_22 = k[8];
-        const double I_c_23 = k[9];
-        const double I_c_33 = k[10];
-        const double inv_I_c_11 = k[11];
-        const double inv_I_c_12 = k[12];
-        const double inv_I_c_13 = k[13];
-        const double inv_I_c_22 = k[14];
-        const double inv_I_c_23 = k[15];
-        const double inv_I_c_33 = k[16];
-        const double r_c_1 = k[17];
-        const double r_c_2 = k[18];
-        const double r_c_3 = k[19];
-        const double g_1 = k[20];
-        const double g_2 = k[21];
-        const double g_3 = k[22];
+        const double I_c_12 = k[5];
+        const double I_c_13 = k[6];
+        const double I_c_23 = k[7];
+        const double inv_I_c_11 = k[8];
+        const double inv_I_c_12 = k[9];
+        const double inv_I_c_13 = k[10];
+        const double inv_I_c_22 = k[11];
+        const double inv_I_c_23 = k[12];
+        const double inv_I_c_33 = k[13];
+        const double r_c_1 = k[14];
+        const double r_c_2 = k[15];
+        const double r_c_3 = k[16];
+        const double I_c_0_11 = k[17];
+        const double I_c_0_22 = k[18];
+        const double g_1 = k[19];
+        const double g_2 = k[20];
+        const double g_3 = k[21];
         const double u_1 = u[0*n + s];
         const double u_2 = u[1*n + s];
         const double u_3 = u[2*n + s];
@@ -282,14 +284,14 @@ void se3_rhs_batch(size_t n, double t, const double *se3_RESTRICT x,
         const double w_2 = x[16*n + s];
         const double w_3 = x[17*n + s];
 
-        /* se3.motion: 30 mul, 24 add
+        /* se3.motion: 29 mul, 23 add
          * ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ) */
-        const double I_c_zeta_1 = I_c_11*zeta_1 + I_c_12*zeta_2 + I_c_13*zeta_3;
-        const double I_c_zeta_2 = I_c_12*zeta_1 + I_c_22*zeta_2 + I_c_23*zeta_3;
-        const double I_c_zeta_3 = I_c_13*zeta_1 + I_c_23*zeta_2 + I_c_33*zeta_3;
-        const double balance_1 = u_1 + r_c_3*u_5 + zeta_3*I_c_zeta_2 - r_c_2*u_6 - zeta_2*I_c_zeta_3;
-        const double balance_2 = u_2 + r_c_1*u_6 + zeta_1*I_c_zeta_3 - r_c_3*u_4 - zeta_3*I_c_zeta_1;
-        const double balance_3 = u_3 + r_c_2*u_4 + zeta_2*I_c_zeta_1 - r_c_1*u_5 - zeta_1*I_c_zeta_2;
+        const double I_c_0_zeta_1 = I_c_0_11*zeta_1 + I_c_12*zeta_2 + I_c_13*zeta_3;
+        const double I_c_0_zeta_2 = I_c_12*zeta_1 + I_c_0_22*zeta_2 + I_c_23*zeta_3;
+        const double I_c_0_zeta_3 = I_c_13*zeta_1 + I_c_23*zeta_2;
+        const double balance_1 = u_1 + r_c_3*u_5 + zeta_3*I_c_0_zeta_2 - r_c_2*u_6 - zeta_2*I_c_0_zeta_3;
+        const double balance_2 = u_2 + r_c_1*u_6 + zeta_1*I_c_0_zeta_3 - r_c_3*u_4 - zeta_3*I_c_0_zeta_1;
+        const double balance_3 = u_3 + r_c_2*u_4 + zeta_2*I_c_0_zeta_1 - r_c_1*u_5 - zeta_1*I_c_0_zeta_2;
         const double zeta_dot_1 = inv_I_c_11*balance_1 + inv_I_c_12*balance_2 + inv_I_c_13*balance_3;
         const double zeta_dot_2 = inv_I_c_12*balance_1 + inv_I_c_22*balance_2 + inv_I_c_23*balance_3;
         const double zeta_dot_3 = inv_I_c_13*balance_1 + inv_I_c_23*balance_2 + inv_I_c_33*balance_3;
@@ -337,15 +339,15 @@ double se3_energy(double t, const double *se3_RESTRICT x, const double *se3_REST
     const double c_1 = k[2];
     const double c_2 = k[3];
     const double c_3 = k[4];
-    const double g_1 = k[20];
-    const double g_2 = k[21];
-    const double g_3 = k[22];
-    const double I_11 = k[23];
-    const double I_12 = k[24];
-    const double I_13 = k[25];
-    const double I_22 = k[26];
-    const double I_23 = k[27];
-    const double I_33 = k[28];
+    const double g_1 = k[19];
+    const double g_2 = k[20];
+    const double g_3 = k[21];
+    const double I_11 = k[22];
+    const double I_12 = k[23];
+    const double I_13 = k[24];
+    const double I_22 = k[25];
+    const double I_23 = k[26];
+    const double I_33 = k[27];
     const double A_11 = x[0];
     const double A_12 = x[1];
     const double A_13 = x[2];

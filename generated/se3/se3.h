@@ -35,8 +35,8 @@
  *
  * Input u = (u_1, u_2, u_3, u_4, u_5, u_6).
  *
- * Operations: constants 36 mul, 22 add, 2 div;
- *             rhs 87 mul, 66 add; energy 43 mul, 29 add.
+ * Operations: constants 36 mul, 24 add, 2 div;
+ *             rhs 86 mul, 65 add; energy 43 mul, 29 add.
  */
 #ifndef SE3_H
 #define SE3_H
@@ -55,7 +55,7 @@ enum {
     se3_N_STATE = 18,
     se3_N_ALGEBRA = 6,
     se3_N_PARAMETERS = 13,
-    se3_N_CONSTANTS = 29,
+    se3_N_CONSTANTS = 28,
     se3_N_INPUTS = 6
 };
 

@@ -28,8 +28,8 @@ Parameters p:
     g_2: gravity in space, [m/s^2], default 0.0
     g_3: gravity in space, [m/s^2], default -9.81
 
-Operations: constants 36 mul, 22 add, 2 div;
-rhs 87 mul, 66 add; energy 43 mul, 29 add.
+Operations: constants 36 mul, 24 add, 2 div;
+rhs 86 mul, 65 add; energy 43 mul, 29 add.
 """
 
 import importlib
@@ -101,12 +101,9 @@ CONSTANTS = (
     "c_1",
     "c_2",
     "c_3",
-    "I_c_11",
     "I_c_12",
     "I_c_13",
-    "I_c_22",
     "I_c_23",
-    "I_c_33",
     "inv_I_c_11",
     "inv_I_c_12",
     "inv_I_c_13",
@@ -116,6 +113,8 @@ CONSTANTS = (
     "r_c_1",
     "r_c_2",
     "r_c_3",
+    "I_c_0_11",
+    "I_c_0_22",
     "g_1",
     "g_2",
     "g_3",
@@ -275,12 +274,9 @@ def _constants(xp, p):
         c_1,
         c_2,
         c_3,
-        I_c_11,
         I_c_12,
         I_c_13,
-        I_c_22,
         I_c_23,
-        I_c_33,
         adj_I_c_11*inv_det_I_c,
         adj_I_c_12*inv_det_I_c,
         adj_I_c_13*inv_det_I_c,
@@ -290,6 +286,8 @@ def _constants(xp, p):
         inv_m*c_1,
         inv_m*c_2,
         inv_m*c_3,
+        I_c_11 - I_c_33,
+        I_c_22 - I_c_33,
         g_1,
         g_2,
         g_3,
@@ -305,19 +303,19 @@ def _constants(xp, p):
 def _rhs(xp, t, x, k, u):
     (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, _, _, _, zeta_1, zeta_2, zeta_3,
         w_1, w_2, w_3) = x
-    (_, inv_m, _, _, _, I_c_11, I_c_12, I_c_13, I_c_22, I_c_23, I_c_33, inv_I_c_11,
-        inv_I_c_12, inv_I_c_13, inv_I_c_22, inv_I_c_23, inv_I_c_33, r_c_1, r_c_2, r_c_3,
+    (_, inv_m, _, _, _, I_c_12, I_c_13, I_c_23, inv_I_c_11, inv_I_c_12, inv_I_c_13,
+        inv_I_c_22, inv_I_c_23, inv_I_c_33, r_c_1, r_c_2, r_c_3, I_c_0_11, I_c_0_22,
         g_1, g_2, g_3, _, _, _, _, _, _) = k
     (u_1, u_2, u_3, u_4, u_5, u_6) = u
 
-    # se3.motion: 30 mul, 24 add
+    # se3.motion: 29 mul, 23 add
     # ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ)
-    I_c_zeta_1 = I_c_11*zeta_1 + I_c_12*zeta_2 + I_c_13*zeta_3
-    I_c_zeta_2 = I_c_12*zeta_1 + I_c_22*zeta_2 + I_c_23*zeta_3
-    I_c_zeta_3 = I_c_13*zeta_1 + I_c_23*zeta_2 + I_c_33*zeta_3
-    balance_1 = u_1 + r_c_3*u_5 + zeta_3*I_c_zeta_2 - r_c_2*u_6 - zeta_2*I_c_zeta_3
-    balance_2 = u_2 + r_c_1*u_6 + zeta_1*I_c_zeta_3 - r_c_3*u_4 - zeta_3*I_c_zeta_1
-    balance_3 = u_3 + r_c_2*u_4 + zeta_2*I_c_zeta_1 - r_c_1*u_5 - zeta_1*I_c_zeta_2
+    I_c_0_zeta_1 = I_c_0_11*zeta_1 + I_c_12*zeta_2 + I_c_13*zeta_3
+    I_c_0_zeta_2 = I_c_12*zeta_1 + I_c_0_22*zeta_2 + I_c_23*zeta_3
+    I_c_0_zeta_3 = I_c_13*zeta_1 + I_c_23*zeta_2
+    balance_1 = u_1 + r_c_3*u_5 + zeta_3*I_c_0_zeta_2 - r_c_2*u_6 - zeta_2*I_c_0_zeta_3
+    balance_2 = u_2 + r_c_1*u_6 + zeta_1*I_c_0_zeta_3 - r_c_3*u_4 - zeta_3*I_c_0_zeta_1
+    balance_3 = u_3 + r_c_2*u_4 + zeta_2*I_c_0_zeta_1 - r_c_1*u_5 - zeta_1*I_c_0_zeta_2
     zeta_dot_1 = inv_I_c_11*balance_1 + inv_I_c_12*balance_2 + inv_I_c_13*balance_3
     zeta_dot_2 = inv_I_c_12*balance_1 + inv_I_c_22*balance_2 + inv_I_c_23*balance_3
     zeta_dot_3 = inv_I_c_13*balance_1 + inv_I_c_23*balance_2 + inv_I_c_33*balance_3
@@ -368,7 +366,7 @@ def _rhs(xp, t, x, k, u):
 def _energy(xp, t, x, k, u):
     (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, T_1, T_2, T_3, zeta_1, zeta_2,
         zeta_3, w_1, w_2, w_3) = x
-    (m, _, c_1, c_2, c_3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, g_1, g_2, g_3, I_11,
+    (m, _, c_1, c_2, c_3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, g_1, g_2, g_3, I_11,
         I_12, I_13, I_22, I_23, I_33) = k
 
     # se3.energy: 43 mul, 29 add

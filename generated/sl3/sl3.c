@@ -4,6 +4,11 @@
 
 #include <math.h>
 
+/* gcc would pack a few of the scalars of rhs into vectors, and lose by the shuffles. */
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("no-tree-slp-vectorize")
+#endif
+
 const char *const sl3_state_names[] = {
     "A_11",
     "A_12",
@@ -245,7 +250,8 @@ void sl3_rhs(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT 
 
     /* sl3.coordinates: 1 add
      * Z = [ζ₁, ζ₂, ζ₃; ζ₄, ζ₅, ζ₆; ζ₇, ζ₈, −ζ₁ − ζ₅] */
-    const double Z_33 = -(zeta_1 + zeta_5);
+    const double zeta_1_plus_zeta_5 = zeta_1 + zeta_5;
+    const double Z_33 = -zeta_1_plus_zeta_5;
 
     /* sl3.motion: 5 mul, 4 add
      * λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
@@ -280,20 +286,20 @@ void sl3_rhs(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT 
     const double lambda_ = (tr_inv_J_K + Z_2_11 + Z_2_22 + (zeta_3_zeta_7 + zeta_6_zeta_8 + Z_33*Z_33))/(inv_C_inv_J_11
         + inv_C_inv_J_22 + (inv_J_13_inv_C_13 + inv_J_23_inv_C_23 + inv_J_33*inv_C_33));
 
-    /* sl3.motion: 42 mul, 36 add
+    /* sl3.motion: 36 mul, 30 add
      * Ż = λC⁻¹J⁻¹ − KJ⁻¹ − Z² */
     const double Z_dot_12 = (inv_J_12*inv_C_11 + inv_J_22*inv_C_12 + inv_J_23*inv_C_13)*lambda_
-        - (zeta_1*zeta_2 + zeta_2*zeta_5 + zeta_3*zeta_8) - K_inv_J_12;
+        - K_inv_J_12 - (zeta_3*zeta_8 + zeta_2*zeta_1_plus_zeta_5);
     const double Z_dot_13 = (inv_J_13*inv_C_11 + inv_J_23*inv_C_12 + inv_J_33*inv_C_13)*lambda_
-        - (zeta_1*zeta_3 + zeta_2*zeta_6 + zeta_3*Z_33) - K_inv_J_13;
+        - K_inv_J_13 - (zeta_2*zeta_6 - zeta_3*zeta_5);
     const double Z_dot_21 = (inv_J_11*inv_C_12 + inv_J_12*inv_C_22 + inv_J_13*inv_C_23)*lambda_
-        - (zeta_1*zeta_4 + zeta_4*zeta_5 + zeta_6*zeta_7) - K_inv_J_21;
+        - K_inv_J_21 - (zeta_6*zeta_7 + zeta_4*zeta_1_plus_zeta_5);
     const double Z_dot_23 = (inv_J_13*inv_C_12 + inv_J_23*inv_C_22 + inv_J_33*inv_C_23)*lambda_
-        - (zeta_3*zeta_4 + zeta_5*zeta_6 + zeta_6*Z_33) - K_inv_J_23;
+        - K_inv_J_23 - (zeta_3*zeta_4 - zeta_1*zeta_6);
     const double Z_dot_31 = (inv_J_11*inv_C_13 + inv_J_12*inv_C_23 + inv_J_13*inv_C_33)*lambda_
-        - (zeta_1*zeta_7 + zeta_4*zeta_8 + zeta_7*Z_33) - K_inv_J_31;
+        - K_inv_J_31 - (zeta_4*zeta_8 - zeta_5*zeta_7);
     const double Z_dot_32 = (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*lambda_
-        - (zeta_2*zeta_7 + zeta_5*zeta_8 + zeta_8*Z_33) - K_inv_J_32;
+        - K_inv_J_32 - (zeta_2*zeta_7 - zeta_1*zeta_8);
 
     (void)t;
     (void)u;
@@ -362,7 +368,8 @@ void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
 
         /* sl3.coordinates: 1 add
          * Z = [ζ₁, ζ₂, ζ₃; ζ₄, ζ₅, ζ₆; ζ₇, ζ₈, −ζ₁ − ζ₅] */
-        const double Z_33 = -(zeta_1 + zeta_5);
+        const double zeta_1_plus_zeta_5 = zeta_1 + zeta_5;
+        const double Z_33 = -zeta_1_plus_zeta_5;
 
         /* sl3.motion: 5 mul, 4 add
          * λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
@@ -397,20 +404,20 @@ void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
         const double lambda_ = (tr_inv_J_K + Z_2_11 + Z_2_22 + (zeta_3_zeta_7 + zeta_6_zeta_8 + Z_33*Z_33))/(inv_C_inv_J_11
             + inv_C_inv_J_22 + (inv_J_13_inv_C_13 + inv_J_23_inv_C_23 + inv_J_33*inv_C_33));
 
-        /* sl3.motion: 42 mul, 36 add
+        /* sl3.motion: 36 mul, 30 add
          * Ż = λC⁻¹J⁻¹ − KJ⁻¹ − Z² */
         const double Z_dot_12 = (inv_J_12*inv_C_11 + inv_J_22*inv_C_12 + inv_J_23*inv_C_13)*lambda_
-            - (zeta_1*zeta_2 + zeta_2*zeta_5 + zeta_3*zeta_8) - K_inv_J_12;
+            - K_inv_J_12 - (zeta_3*zeta_8 + zeta_2*zeta_1_plus_zeta_5);
         const double Z_dot_13 = (inv_J_13*inv_C_11 + inv_J_23*inv_C_12 + inv_J_33*inv_C_13)*lambda_
-            - (zeta_1*zeta_3 + zeta_2*zeta_6 + zeta_3*Z_33) - K_inv_J_13;
+            - K_inv_J_13 - (zeta_2*zeta_6 - zeta_3*zeta_5);
         const double Z_dot_21 = (inv_J_11*inv_C_12 + inv_J_12*inv_C_22 + inv_J_13*inv_C_23)*lambda_
-            - (zeta_1*zeta_4 + zeta_4*zeta_5 + zeta_6*zeta_7) - K_inv_J_21;
+            - K_inv_J_21 - (zeta_6*zeta_7 + zeta_4*zeta_1_plus_zeta_5);
         const double Z_dot_23 = (inv_J_13*inv_C_12 + inv_J_23*inv_C_22 + inv_J_33*inv_C_23)*lambda_
-            - (zeta_3*zeta_4 + zeta_5*zeta_6 + zeta_6*Z_33) - K_inv_J_23;
+            - K_inv_J_23 - (zeta_3*zeta_4 - zeta_1*zeta_6);
         const double Z_dot_31 = (inv_J_11*inv_C_13 + inv_J_12*inv_C_23 + inv_J_13*inv_C_33)*lambda_
-            - (zeta_1*zeta_7 + zeta_4*zeta_8 + zeta_7*Z_33) - K_inv_J_31;
+            - K_inv_J_31 - (zeta_4*zeta_8 - zeta_5*zeta_7);
         const double Z_dot_32 = (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*lambda_
-            - (zeta_2*zeta_7 + zeta_5*zeta_8 + zeta_8*Z_33) - K_inv_J_32;
+            - K_inv_J_32 - (zeta_2*zeta_7 - zeta_1*zeta_8);
 
         dx[0*n + s] = A_11*zeta_1 + A_12*zeta_4 + A_13*zeta_7;
         dx[1*n + s] = A_11*zeta_2 + A_12*zeta_5 + A_13*zeta_8;

@@ -28,8 +28,8 @@
  *
  * Input u = (u_1, u_2, u_3).
  *
- * Operations: constants 21 mul, 13 add, 1 div;
- *             rhs 57 mul, 39 add; energy 25 mul, 17 add.
+ * Operations: constants 21 mul, 15 add, 1 div;
+ *             rhs 56 mul, 38 add; energy 25 mul, 17 add.
  */
 #ifndef SO3_H
 #define SO3_H
@@ -48,7 +48,7 @@ enum {
     so3_N_STATE = 12,
     so3_N_ALGEBRA = 3,
     so3_N_PARAMETERS = 12,
-    so3_N_CONSTANTS = 18,
+    so3_N_CONSTANTS = 20,
     so3_N_INPUTS = 3
 };
 

@@ -25,8 +25,8 @@ Parameters p:
     g_2: gravity in space, [m/s^2], default 0.0
     g_3: gravity in space, [m/s^2], default -9.81
 
-Operations: constants 21 mul, 13 add, 1 div;
-rhs 57 mul, 39 add; energy 25 mul, 17 add.
+Operations: constants 21 mul, 15 add, 1 div;
+rhs 56 mul, 38 add; energy 25 mul, 17 add.
 """
 
 import importlib
@@ -100,6 +100,8 @@ CONSTANTS = (
     "g_1",
     "g_2",
     "g_3",
+    "I_0_11",
+    "I_0_22",
 )
 BASIS = numpy.array(
     [
@@ -251,26 +253,34 @@ def _constants(xp, p):
         g_1,
         g_2,
         g_3,
+        I_11 - I_33,
+        I_22 - I_33,
     ], tests
 
 
 def _rhs(xp, t, x, k, u):
     (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, zeta_1, zeta_2, zeta_3) = x
-    (I_11, I_12, I_13, I_22, I_23, I_33, inv_I_11, inv_I_12, inv_I_13, inv_I_22, inv_I_23,
-        inv_I_33, c_1, c_2, c_3, g_1, g_2, g_3) = k
+    (_, I_12, I_13, _, I_23, _, inv_I_11, inv_I_12, inv_I_13, inv_I_22, inv_I_23, inv_I_33,
+        c_1, c_2, c_3, g_1, g_2, g_3, I_0_11, I_0_22) = k
     (u_1, u_2, u_3) = u
 
-    # so3.motion: 30 mul, 24 add
+    # so3.motion: 29 mul, 23 add
     # ζ̇ = I⁻¹(c ∧ Āγ + u + Iζ ∧ ζ)
     A_T_gravity_1 = g_1*A_11 + g_2*A_21 + g_3*A_31
     A_T_gravity_2 = g_1*A_12 + g_2*A_22 + g_3*A_32
     A_T_gravity_3 = g_1*A_13 + g_2*A_23 + g_3*A_33
-    I_zeta_1 = I_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3
-    I_zeta_2 = I_12*zeta_1 + I_22*zeta_2 + I_23*zeta_3
-    I_zeta_3 = I_13*zeta_1 + I_23*zeta_2 + I_33*zeta_3
-    balance_1 = u_1 + c_2*A_T_gravity_3 + zeta_3*I_zeta_2 - c_3*A_T_gravity_2 - zeta_2*I_zeta_3
-    balance_2 = u_2 + c_3*A_T_gravity_1 + zeta_1*I_zeta_3 - c_1*A_T_gravity_3 - zeta_3*I_zeta_1
-    balance_3 = u_3 + c_1*A_T_gravity_2 + zeta_2*I_zeta_1 - c_2*A_T_gravity_1 - zeta_1*I_zeta_2
+    I_0_zeta_1 = I_0_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3
+    I_0_zeta_2 = I_12*zeta_1 + I_0_22*zeta_2 + I_23*zeta_3
+    I_0_zeta_3 = I_13*zeta_1 + I_23*zeta_2
+    balance_1 = (
+        u_1 + c_2*A_T_gravity_3 + zeta_3*I_0_zeta_2 - c_3*A_T_gravity_2 - zeta_2*I_0_zeta_3
+    )
+    balance_2 = (
+        u_2 + c_3*A_T_gravity_1 + zeta_1*I_0_zeta_3 - c_1*A_T_gravity_3 - zeta_3*I_0_zeta_1
+    )
+    balance_3 = (
+        u_3 + c_1*A_T_gravity_2 + zeta_2*I_0_zeta_1 - c_2*A_T_gravity_1 - zeta_1*I_0_zeta_2
+    )
     return [
         A_12*zeta_3 - A_13*zeta_2,
         A_13*zeta_1 - A_11*zeta_3,
@@ -290,13 +300,13 @@ def _rhs(xp, t, x, k, u):
 
 def _energy(xp, t, x, k, u):
     (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, zeta_1, zeta_2, zeta_3) = x
-    (I_11, I_12, I_13, I_22, I_23, I_33, _, _, _, _, _, _, c_1, c_2, c_3, g_1, g_2, g_3) = k
+    (I_11, I_12, I_13, I_22, I_23, I_33, _, _, _, _, _, _, c_1, c_2, c_3, g_1, g_2, g_3, _, _) = k
 
     # so3.energy: 25 mul, 17 add
     # h̃ = ½ ‖ζ‖²_I − ⟨Ac, γ⟩
     h_tilde = (
-        0.5*(zeta_1*(I_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3) + zeta_2*(I_12*zeta_1 + I_22*zeta_2
-        + I_23*zeta_3) + zeta_3*(I_13*zeta_1 + I_23*zeta_2 + I_33*zeta_3)) - (g_1*(c_1*A_11
+        0.5*(zeta_1*(I_12*zeta_2 + I_13*zeta_3 + I_11*zeta_1) + zeta_2*(I_12*zeta_1 + I_23*zeta_3
+        + I_22*zeta_2) + zeta_3*(I_13*zeta_1 + I_23*zeta_2 + I_33*zeta_3)) - (g_1*(c_1*A_11
         + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21 + c_2*A_22 + c_3*A_23) + g_3*(c_1*A_31
         + c_2*A_32 + c_3*A_33))
     )

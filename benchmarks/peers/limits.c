@@ -1,0 +1,46 @@
+/* What the machine can do: multiplications in registers, and memory moved as in STREAM. */
+#include <stddef.h>
+
+typedef double narrow __attribute__((vector_size(32)));
+typedef double wide __attribute__((vector_size(64)));
+
+enum { CHAINS = 12 }; /* enough independent chains to hide the latency of a multiplication */
+
+/* n rounds of CHAINS vector multiplications; the sum keeps them from being left out */
+#define MULTIPLY(name, vector)                                  \
+    double name(size_t n, double factor)                        \
+    {                                                           \
+        vector chain[CHAINS], f = {0};                          \
+        double sum = 0;                                         \
+        f += factor;                                            \
+        for (int i = 0; i < CHAINS; ++i) {                      \
+            chain[i] = f + i;                                   \
+        }                                                       \
+        for (size_t round = 0; round < n; ++round) {            \
+            for (int i = 0; i < CHAINS; ++i) {                  \
+                chain[i] *= f;                                  \
+            }                                                   \
+        }                                                       \
+        for (int i = 0; i < CHAINS; ++i) {                      \
+            sum += chain[i][0];                                 \
+        }                                                       \
+        return sum;                                             \
+    }
+
+MULTIPLY(multiply_narrow, narrow)
+MULTIPLY(multiply_wide, wide)
+
+void stream_scale(size_t n, double s, const double *restrict b, double *restrict a)
+{
+    for (size_t i = 0; i < n; ++i) {
+        a[i] = s*b[i];
+    }
+}
+
+/* a += s b: as many reads again as stream_scale, and no line is written without being read */
+void stream_add(size_t n, double s, const double *restrict b, double *restrict a)
+{
+    for (size_t i = 0; i < n; ++i) {
+        a[i] += s*b[i];
+    }
+}

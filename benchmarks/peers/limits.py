@@ -1,0 +1,62 @@
+"""The machine's limits, measured in the same run: vector multiplications, memory."""
+
+from __future__ import annotations
+
+import ctypes
+import statistics
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from .cases import HERE
+from .native import aligned, compile_shared, copy, pointer
+
+ROUNDS = 200_000
+CHAINS = 12
+
+
+def nanoseconds(action: Callable[[], object]) -> float:
+    """The time of one action."""
+    start = time.perf_counter_ns()
+    action()
+    return float(time.perf_counter_ns() - start)
+
+
+class Limits:
+    """Times of one multiplication and of one byte, best of the ways to do it."""
+
+    def __init__(self, folder: Path) -> None:
+        self.library = compile_shared([copy(HERE / "limits.c", folder)], [], folder)
+        for name in ("multiply_narrow", "multiply_wide"):
+            getattr(self.library, name).restype = ctypes.c_double
+
+    def multiply(self) -> float:
+        """Nanoseconds of a multiplication among independent ones, in registers."""
+        count, factor = ctypes.c_size_t(ROUNDS), ctypes.c_double(1.0)
+
+        def each(name: str, lanes: int) -> float:
+            run = getattr(self.library, name)
+            times = [nanoseconds(lambda: run(count, factor)) for _ in range(15)]
+            return statistics.median(times) / (ROUNDS * CHAINS * lanes)
+
+        return min(each("multiply_narrow", 4), each("multiply_wide", 8))
+
+    def byte(self, numbers: int, rounds: int) -> float:
+        """Nanoseconds of a byte read or written, as STREAM counts them, on so many doubles."""
+        source, target = aligned(numbers), aligned(numbers)
+        size, factor = ctypes.c_size_t(numbers), ctypes.c_double(0.5)
+        repeat = max(1, 100_000 // numbers)
+
+        def each(name: str, moved: int) -> float:
+            run = getattr(self.library, name)
+            arguments = (size, factor, pointer(source), pointer(target))
+
+            def several() -> None:
+                for _ in range(repeat):
+                    run(*arguments)
+
+            several()
+            times = [nanoseconds(several) for _ in range(rounds)]
+            return statistics.median(times) / (repeat * moved * 8 * numbers)
+
+        return min(each("stream_scale", 2), each("stream_add", 3))

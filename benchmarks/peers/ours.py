@@ -1,0 +1,50 @@
+"""The two rows that are always there: our emitted C and the expert's."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from .cases import HERE, Array, Case, Emitted, emit
+from .count import operations
+from .native import Native, compile_shared, copy, pointer
+
+EXPERT_CONSTANTS = {"p1": 16, "p2": 26, "p3": 14}
+EXPERT_OPERATIONS = {
+    "p1": "55 mul, 35 add",
+    "p2": "94 mul, 74 add",
+    "p3": "104 mul, 88 add, 1 div",
+}
+SIGNATURE = "(double t, const double *x, const double *k, const double *u, double *dx);"
+
+
+def ours(case: Case, states: Array, folder: Path) -> tuple[Emitted, Native]:
+    """What ``derive emit`` writes."""
+    emitted, name = emit(case, folder), case.name
+    k = np.asarray(emitted.module.constants(emitted.parameters), dtype=float)
+    native = Native(
+        name="derive (ours)",
+        sources=[folder / f"{name}.c"],
+        function=f"{name}_rhs",
+        constants=k,
+        states=states,
+        outputs=case.size,
+        operations=emitted.operations(),
+        prototype=f"void {name}_rhs{SIGNATURE}",
+        call=f"{name}_rhs(0.0, xi, k, 0, di)",
+    )
+    return emitted, native
+
+
+def expert(case: Case, states: Array, folder: Path, parameters: Array) -> Native:
+    """The code written by hand, its count of operations checked."""
+    function = f"expert_{case.name}"
+    source = copy(HERE / f"{function}.c", folder)
+    counted = operations(source.read_text(encoding="utf-8"), "core")
+    if counted != EXPERT_OPERATIONS[case.name]:
+        raise RuntimeError(f"{function} has {counted}")
+    constants = np.zeros(EXPERT_CONSTANTS[case.name])
+    library = compile_shared([source], [], folder)
+    library[f"{function}_constants"](pointer(parameters), pointer(constants))
+    return Native("expert", [source], function, constants, states, case.size, counted)

@@ -1,0 +1,60 @@
+"""x a + x b = x (a + b), where nothing else needs the products."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+
+from .graph import PARAMETER, Graph, Node
+
+Term = tuple[Fraction, Node]
+
+
+def distributed(graph: Graph, s: Node, uses: Mapping[Node, int], images: dict[Node, Node]) -> Node:
+    """The sum s of the images of its terms, with common factors in front.
+
+    ``uses``: how often each old node stands; only products that stand here alone are taken apart.
+    """
+    free: list[Term] = []
+    kept: list[Term] = []
+    for c, x in zip(s.data, s.args, strict=True):
+        alone = x.op == "mul" and uses[x] == 1 and x.stage != PARAMETER
+        (free if alone else kept).append((c, images.get(x, x)))
+    while (found := _common(free)) is not None:
+        factor, chosen = found
+        rest = [(c, _without(graph, x, factor)) for c, x in chosen]
+        free = [term for term in free if term not in chosen]
+        kept.append((Fraction(1), graph.product([factor, _looked_through(graph, rest)])))
+    return graph.linear([*kept, *free])
+
+
+def _common(terms: Sequence[Term]) -> tuple[Node, list[Term]] | None:
+    """The moving factor of most of the terms, and these terms."""
+    count = Counter(
+        f for _, x in terms if x.op == "mul" for f in set(x.args) if f.stage != PARAMETER
+    )
+    if not count:
+        return None
+    factor, most = min(count.items(), key=lambda item: (-item[1], item[0].id))
+    if most < 2:
+        return None
+    return factor, [(c, x) for c, x in terms if x.op == "mul" and factor in x.args]
+
+
+def _without(graph: Graph, x: Node, factor: Node) -> Node:
+    """A product with one such factor less."""
+    args = list(x.args)
+    args.remove(factor)
+    return graph.product(args)
+
+
+def _looked_through(graph: Graph, terms: Sequence[Term]) -> Node:
+    """A sum; named sums in it are opened where they then cancel to a single leaf."""
+    opened = []
+    for c, x in terms:
+        inner = x.args[0] if x.op == "value" else x
+        opened.append((c, inner if inner.op == "add" else x))
+    whole = graph.linear(opened)
+    core = whole.args[0] if whole.op == "add" and len(whole.args) == 1 else whole
+    return whole if core.is_atom else graph.linear(terms)

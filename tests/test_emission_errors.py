@@ -1,0 +1,159 @@
+"""Places that cannot be written to, and prefixes that are names elsewhere: one line, exit 2."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from derive.cli import main
+
+
+@pytest.fixture
+def refused(capsys):
+    """The only line of stderr, the exit code 2 and nothing on stdout."""
+
+    def run(*arguments):
+        assert main([str(x) for x in ("emit", *arguments)]) == 2
+        out, err = capsys.readouterr()
+        assert out == ""
+        assert err.startswith("derive: ")
+        assert err.count("\n") == 1
+        return err
+
+    return run
+
+
+@pytest.mark.parametrize("prefix", ["while", "lambda", "virtual", "sqrt", "NAN", "-x", "_x", "x.y"])
+def test_prefixes_that_are_words(prefix, refused, tmp_path):
+    assert f"the prefix {prefix!r} cannot be used" in refused(
+        "so3", f"--prefix={prefix}", "--out", tmp_path / "new"
+    )
+    assert not list(tmp_path.iterdir())
+
+
+USE = """\
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include "{0}.h"
+int main(void)
+{{
+    double x[{0}_N_STATE] = {{1}}, k[{0}_N_CONSTANTS] = {{0}};
+    errno = 0;
+    printf("%g", {0}_energy(0, x, k));
+    return errno;
+}}
+"""
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="needs cc on the PATH")
+@pytest.mark.parametrize("prefix", ["printf", "main", "free", "size_t"])
+def test_prefixes_of_libc_are_harmless(prefix, tmp_path):
+    """Every name gets an ending, so these collide with nothing but a file of the same name."""
+    assert main(["emit", "so3", "--lang", "c", "--prefix", prefix, "--out", str(tmp_path)]) == 0
+    (tmp_path / "user.c").write_text(USE.format(prefix))
+    options = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-I.", "-lm"]
+    command = ["cc", *options[:-1], "user.c", f"{prefix}.c", options[-1], "-o", "user"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert subprocess.run([tmp_path / "user"], capture_output=True, text=True).stdout == "0"
+
+
+def test_out_is_a_file(refused, tmp_path):
+    file = tmp_path / "file"
+    file.write_text("mine")
+    for out in (file, file / "deeper"):
+        assert str(out) in refused("so3", "--out", out)
+    assert file.read_text() == "mine"
+    assert os.listdir(tmp_path) == ["file"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_out_is_a_device(refused):
+    assert "/dev/full" in refused("so3", "--out", "/dev/full")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_a_link_to_a_full_device(refused, tmp_path):
+    (tmp_path / "so3.h").symlink_to("/dev/full")
+    assert "No space left" in refused("so3", "--out", tmp_path)
+    assert os.listdir(tmp_path) == ["so3.h"]
+
+
+@pytest.mark.skipif(not Path("/proc/sys").is_dir(), reason="needs /proc")
+def test_a_folder_that_root_may_not_write_to(refused):
+    for out in ("/proc", "/proc/new", "/proc/sys/kernel"):
+        assert out in refused("so3", "--out", out)
+
+
+@pytest.mark.skipif(getattr(os, "geteuid", int)() == 0, reason="root may write anywhere")
+def test_a_folder_without_permission(refused, tmp_path):
+    tmp_path.chmod(0o500)
+    assert "Permission denied" in refused("so3", "--out", tmp_path)
+    tmp_path.chmod(0o700)
+    assert not list(tmp_path.iterdir())
+
+
+LIMITED = """\
+import resource, signal, sys
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+from derive.cli import main
+from derive.pipeline import walk
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]),) * 2)
+sys.exit(main(sys.argv[2:]))
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs limits on the size of files")
+@pytest.mark.parametrize("size", [0, 1000])
+def test_a_write_that_stops_half_way(size, tmp_path):
+    """As on a full disk; what was there stays, and nothing is left over."""
+    old = {name: f"old {name}" for name in ("so3.h", "so3.c", "so3.py")}
+    for name, text in old.items():
+        (tmp_path / name).write_text(text)
+    command = [sys.executable, "-B", "-c", LIMITED, str(size), "emit", "so3", "--out", tmp_path]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr.startswith(f"derive: {tmp_path / 'so3.h'}: File too large")
+    assert done.stderr.count("\n") == 1
+    assert {p.name: p.read_text() for p in tmp_path.iterdir()} == old
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """16 KiB, where this may be mounted."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    command = ["mount", "-t", "tmpfs", "-o", "size=16k", "derive-test", str(disk)]
+    if shutil.which("mount") is None or subprocess.run(command, capture_output=True).returncode:
+        pytest.skip("no tmpfs may be mounted here")
+    yield disk
+    subprocess.run(["umount", str(disk)], check=True)
+
+
+def test_a_full_disk(small_disk, refused):
+    (small_disk / "ballast").write_bytes(b"x" * 4 * 4096)
+    assert f"{small_disk / 'so3.h'}: No space left" in refused("so3", "--out", small_disk)
+    assert os.listdir(small_disk) == ["ballast"]
+
+
+def test_a_disk_that_fills_up_between_files(small_disk, refused):
+    """No file is there, and no temporary one is left."""
+    assert "No space left" in refused("so3", "--out", small_disk)
+    assert not list(small_disk.iterdir())
+
+
+def test_an_output_that_is_a_folder(refused, tmp_path):
+    (tmp_path / "so3.h").mkdir()
+    assert "so3.h: Is a directory" in refused("so3", "--out", tmp_path)
+    assert os.listdir(tmp_path) == ["so3.h"]
+
+
+def test_check_writes_nothing(tmp_path, capsys):
+    new = tmp_path / "new"
+    assert main(["emit", "so3", "--out", str(new), "--check"]) == 1
+    assert capsys.readouterr().out.count("not current") == 3
+    assert not new.exists()
