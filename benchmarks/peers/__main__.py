@@ -23,7 +23,7 @@ from .native import Native
 from .report import machine, table
 
 STATES = 64
-SIZES = (256, 1_000_000)
+SIZES = (200, 1_000_000)
 SLICE = 60_000
 TOLERANCE = 1e-11
 

@@ -29,6 +29,8 @@ class Many:
     action: Callable[[], object]
     result: Callable[[], Array]
     note: str = ""
+    inner: int = 1
+    """How often an action does it."""
     times: list[float] = field(default_factory=list)
 
 
@@ -36,29 +38,34 @@ def loop(native: Native, x: Array) -> Many:
     """The function for one state in a loop, array of structures."""
     size, k = ctypes.c_size_t(len(x)), pointer(native.constants)
     kept, out = Native.place(x), aligned(x.shape)
-    arguments = (ctypes.c_long(1), size, pointer(kept), k, pointer(out))
+    inner = again(x)
+    arguments = (ctypes.c_long(inner), size, pointer(kept), k, pointer(out))
 
     def action() -> Array:
         native.library.repeat(*arguments)
         return kept
 
-    return Many(f"{native.name}, loop of calls", action, lambda: out, "array of structures")
+    note = "array of structures"
+    return Many(f"{native.name}, loop of calls", action, lambda: out, note, inner)
 
 
-def arrays(native: Native, x: Array, function: Any, own: bool) -> Many:
-    """The function for many states; ours has t and u as well."""
+def arrays(native: Native, x: Array) -> Many:
+    """The function for many states."""
     size, k = ctypes.c_size_t(len(x)), pointer(native.constants)
     kept, out = Native.place(np.ascontiguousarray(x.T)), aligned(x.T.shape)
-    arguments: tuple[Any, ...] = (size, pointer(kept), k, pointer(out))
-    if own:
-        arguments = (size, ctypes.c_double(0), *arguments[1:3], ctypes.c_void_p(), arguments[3])
-    function.restype = None
+    inner = again(x)
+    arguments = (ctypes.c_long(inner), size, pointer(kept), k, pointer(out))
 
     def action() -> Array:
-        function(*arguments)
+        native.library.repeat_batch(*arguments)
         return kept
 
-    return Many(f"{native.name}, batch", action, lambda: out.T)
+    return Many(f"{native.name}, batch", action, lambda: out.T, "", inner)
+
+
+def again(x: Array) -> int:
+    """How often few states are computed in one call: wide vectors take a while to run fast."""
+    return max(1, 400_000 // len(x)) if len(x) < 10_000 else 1
 
 
 def numba(case: Case, x: Array) -> Many:
@@ -117,12 +124,13 @@ def measure(ways: list[Many], wanted: Array, rounds: int) -> dict[str, str]:
     order = random.Random(1)
     for _ in range(rounds):
         for way in order.sample(ways, len(ways)):
+            calls = max(1, repeat // way.inner)
 
-            def several(action: Callable[[], object] = way.action) -> None:
-                for _ in range(repeat):
+            def several(action: Callable[[], object] = way.action, calls: int = calls) -> None:
+                for _ in range(calls):
                     action()
 
-            way.times.append(nanoseconds(several) / (repeat * count))
+            way.times.append(nanoseconds(several) / (calls * way.inner * count))
     return refused
 
 
@@ -134,11 +142,9 @@ def candidates(
     name = f"{case.name}_rhs_batch"
     makers: dict[str, Callable[[], Many]] = {
         "derive (ours), loop of calls": lambda: loop(own, x),
-        "derive (ours), batch": lambda: arrays(own, x, getattr(own.library, name), True),
+        "derive (ours), batch": lambda: arrays(own, x),
         "expert, loop of calls": lambda: loop(hand, x),
-        "expert, batch": lambda: arrays(
-            hand, x, getattr(hand.library, f"{hand.function}_batch"), False
-        ),
+        "expert, batch": lambda: arrays(hand, x),
         "Numba": lambda: numba(case, x),
         f"JAX, {JAX[True]}": lambda: jax(case, x, True),
         f"JAX, {JAX[False]}": lambda: jax(case, x, False),

@@ -49,11 +49,10 @@ class Limits:
 
         def each(name: str, moved: int) -> float:
             run = getattr(self.library, name)
-            arguments = (size, factor, pointer(source), pointer(target))
+            arguments = (ctypes.c_size_t(repeat), size, factor, pointer(source), pointer(target))
 
             def several() -> None:
-                for _ in range(repeat):
-                    run(*arguments)
+                run(*arguments)
 
             several()
             times = [nanoseconds(several) for _ in range(rounds)]

@@ -38,9 +38,19 @@ void repeat(long rounds, size_t n, const double *x, const double *k, double *dx)
         }}
     }}
 }}
+{many}
 #ifdef __cplusplus
 }}
 #endif
+"""
+MANY = """
+{prototype}
+void repeat_batch(long rounds, size_t n, const double *x, const double *k, double *dx)
+{{
+    for (long round = 0; round < rounds; ++round) {{
+        {call};
+    }}
+}}
 """
 
 
@@ -90,6 +100,8 @@ class Native:
     prototype: str = ""
     call: str = ""
     options: list[str] = field(default_factory=list)
+    many: tuple[str, str] | None = None
+    """Prototype and call of the function for many states, where there is one."""
     rows: list[int] | None = None
     note: str = ""
     prepare: Callable[[ctypes.CDLL], object] | None = None
@@ -105,6 +117,7 @@ class Native:
                 call=self.call or f"{self.function}(xi, k, di)",
                 inputs=self.states.shape[1],
                 outputs=self.outputs,
+                many=MANY.format(prototype=self.many[0], call=self.many[1]) if self.many else "",
             ),
             encoding="utf-8",
         )

@@ -16,6 +16,8 @@ EXPERT_OPERATIONS = {
     "p2": "94 mul, 74 add",
     "p3": "104 mul, 88 add, 1 div",
 }
+BATCH = "(size_t n, double t, const double *x, const double *k, const double *u, double *dx);"
+MANY = "(size_t n, const double *x, const double *k, double *dx);"
 SIGNATURE = "(double t, const double *x, const double *k, const double *u, double *dx);"
 
 
@@ -33,6 +35,7 @@ def ours(case: Case, states: Array, folder: Path) -> tuple[Emitted, Native]:
         operations=emitted.operations(),
         prototype=f"void {name}_rhs{SIGNATURE}",
         call=f"{name}_rhs(0.0, xi, k, 0, di)",
+        many=(f"void {name}_rhs_batch{BATCH}", f"{name}_rhs_batch(n, 0.0, x, k, 0, dx)"),
     )
     return emitted, native
 
@@ -47,4 +50,5 @@ def expert(case: Case, states: Array, folder: Path, parameters: Array) -> Native
     constants = np.zeros(EXPERT_CONSTANTS[case.name])
     library = compile_shared([source], [], folder)
     library[f"{function}_constants"](pointer(parameters), pointer(constants))
-    return Native("expert", [source], function, constants, states, case.size, counted)
+    many = (f"void {function}_batch{MANY}", f"{function}_batch(n, x, k, dx)")
+    return Native("expert", [source], function, constants, states, case.size, counted, many=many)
