@@ -53,7 +53,7 @@ class Compiled:
     """The functions of one problem in compiled C, for one body; itself dx/dt = f(t, x).
 
     ``STATE``, ``PARAMETERS``, ``INPUTS``: names; ``p`` and ``k``: parameters and constants in use;
-    ``u``: the inputs, an array that may be written to between calls.  Each call fills buffers of
+    ``u``: the inputs in use, zero at first.  Each call fills buffers of
     this object and returns a copy: give each thread its own.
     """
 
@@ -65,20 +65,35 @@ class Compiled:
         self._algebra = program.dimension
         sizes = (1, len(self.STATE), len(program.constants), len(self.INPUTS), len(self.STATE))
         views = (self._view(x, n) for x, n in zip(BUFFERS, sizes, strict=True))
-        self._t, self._x, self.k, self.u, self._dx = views
+        self._t, self._x, self.k, self._u, self._dx = views
         self.p = np.zeros(len(self.PARAMETERS))
-        self.rhs: Callable[[float, Any], Array] = self._bound_rhs()
+        self.rhs: Callable[[float, Any], Array] = self._unready
 
     def __call__(self, t: float, x: Any) -> Array:
         """dx/dt."""
         return self.rhs(t, x)
+
+    @property
+    def u(self) -> Array:
+        """The inputs: write into it, or assign to it, between calls."""
+        return self._u
+
+    @u.setter
+    def u(self, values: Any) -> None:
+        self._u[:] = values
+
+    def _unready(self, t: float, x: Any) -> Array:
+        missing = [name for name, value in self._defaults.items() if value is None]
+        raise ValueError(f"no value for the parameters {', '.join(missing)}: call use() first")
 
     def use(self, parameters: Mapping[str, float] | Sequence[float] = ()) -> Compiled:
         """Take these parameters, the defaults for the others; ``ValueError`` says what is wrong."""
         if isinstance(parameters, Mapping):
             named = dict(parameters)
         else:
-            named = dict(zip(self.PARAMETERS, parameters, strict=len(parameters) > 0))
+            if len(parameters) not in (0, len(self.PARAMETERS)):
+                raise ValueError(f"expected {len(self.PARAMETERS)} parameters in order, or names")
+            named = dict(zip(self.PARAMETERS, parameters, strict=False))
         unknown = [x for x in named if x not in self._defaults]
         values = {**self._defaults, **named}
         missing = [x for x, value in values.items() if value is None]
@@ -88,21 +103,42 @@ class Compiled:
         self.p[:] = [values[x] for x in self.PARAMETERS]
         if self._function("constants", ctypes.c_int)(*map(_pointer, (self.p, self.k))):
             raise ValueError("the mass matrix is singular, or a number is not finite")
+        self.rhs = self._bound_rhs()
         return self
 
     def energy(self, t: float, x: Any) -> float:
         """Kinetic plus potential energy."""
-        self._x[:] = x
+        self._place(x)
         energy = self._function("energy", ctypes.c_double)
         return float(energy(ctypes.c_double(t), *map(_pointer, (self._x, self.k))))
 
     def jacobian(self, t: float, x: Any) -> tuple[Array, Array]:
         """dx/dt and D (2N, 2N); see the emitted header."""
-        self._x[:] = x
-        D = np.zeros((2 * self._algebra, 2 * self._algebra))
+        D = self._place(x, 2 * self._algebra)
         arrays = (self._x, self.k, self.u, self._dx, D)
         self._function("jacobian", None)(ctypes.c_double(t), *map(_pointer, arrays))
         return self._dx.copy(), D
+
+    def jacobian_inputs(self, t: float, x: Any) -> Array:
+        """D (2N, inputs)."""
+        D = self._place(x, len(self.INPUTS))
+        arrays = (self._x, self.k, self.u, D)
+        self._function("jacobian_inputs", None)(ctypes.c_double(t), *map(_pointer, arrays))
+        return D
+
+    def jacobian_parameters(self, t: float, x: Any) -> Array:
+        """D (2N, parameters)."""
+        D = self._place(x, len(self.PARAMETERS))
+        arrays = (self._x, self.p, self.u, D)
+        self._function("jacobian_parameters", None)(ctypes.c_double(t), *map(_pointer, arrays))
+        return D
+
+    def _place(self, x: Any, columns: int = 0) -> Array:
+        """The state into its buffer; zeros for a derivative."""
+        if self.rhs == self._unready:
+            self._unready(0, x)
+        self._x[:] = x
+        return np.zeros((2 * self._algebra, columns))
 
     def _view(self, name: str, size: int) -> Array:
         return np.ctypeslib.as_array(
@@ -110,7 +146,10 @@ class Compiled:
         )
 
     def _function(self, what: str, result: Any) -> Any:
-        function = getattr(self._library, f"{self._name}_{what}")
+        function = getattr(self._library, f"{self._name}_{what}", None)
+        if function is None:
+            kind = what.removeprefix("jacobian").removeprefix("_") or "state"
+            raise ValueError(f"not compiled: ask for it by compile(..., jacobian=[{kind!r}])")
         function.restype = result
         return function
 
@@ -152,9 +191,12 @@ def compile(
     derived = problem if isinstance(problem, Derived) else derive(problem)
     if derived.problem.group is None:
         raise ProblemError(f"{derived.problem.name}: a text about any group has nothing to compile")
-    options = Options(**choices)
-    if options.real != "double":
-        raise ProblemError("real: NumPy and SciPy compute in double; leave it out")
+    try:
+        options = Options(**choices)
+    except (TypeError, ValueError) as error:
+        raise ProblemError(f"compile: {error}") from None
+    if options.real != "double" or options.form != "source":
+        raise ProblemError("compile: real and form are not for Python; leave them out")
     program = assemble(derived.record, derived.problem.group, options)
     name = derived.problem.name
     with tempfile.TemporaryDirectory(prefix="derive-") as folder:
@@ -168,10 +210,12 @@ def compile(
 
 def _built(folder: Path, name: str, compiler: str | None, flags: Sequence[str]) -> ctypes.CDLL:
     """The shared library; once it is loaded, its file may go."""
-    wanted = [compiler or os.environ.get("CC", ""), "cc", "gcc", "clang"]
-    found = next((path for path in map(shutil.which, filter(None, wanted)) if path), None)
+    chosen = compiler or os.environ.get("CC", "")
+    wanted = [chosen] if chosen else ["cc", "gcc", "clang"]
+    found = next((path for path in map(shutil.which, wanted) if path), None)
     if found is None:
-        raise CompileError("no C compiler: install gcc or clang, or name one in CC")
+        what = f"{chosen!r} is not on the path" if chosen else "no C compiler"
+        raise CompileError(f"{what}: install gcc or clang, or name one in CC")
     target = folder / f"{name}.so"
     sources = map(str, sorted(folder.glob("*.c")))
     command = [found, *flags, *sources, "-o", str(target), "-lm"]

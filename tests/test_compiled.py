@@ -61,6 +61,39 @@ def test_other_parameters():
         free.use()
 
 
+def test_it_says_what_is_missing(top):
+    bare = derive.Problem("bare", "SO(3)", derive.Moments(), derive.Gravity(0, 0, -1))
+    with pytest.raises(ValueError, match="call use"):
+        derive.compile(bare)(0, START)
+    with pytest.raises(ValueError, match="call use"):
+        derive.compile(bare).energy(0, START)
+    with pytest.raises(ValueError, match="ask for it by compile"):
+        top.jacobian_inputs(0, START)
+    with pytest.raises(derive.ProblemError, match="leave them out"):
+        derive.compile("so3", form="header")
+    with pytest.raises(derive.ProblemError, match="lang"):
+        derive.compile("so3", lang="c")
+    with pytest.raises(derive.CompileError, match="'nocc' is not on the path"):
+        derive.compile("so3", compiler="nocc")
+    with pytest.raises(ValueError, match="expected 12 parameters"):
+        top.use([1.0])
+
+
+def test_inputs_and_their_derivative():
+    """B of a linearised system, by steps of the inputs, in which the rates are linear."""
+    f = derive.compile("se3", jacobian=["inputs", "parameters"])
+    f.u = [1, 2, 3, 4, 5, 6]
+    x = np.concatenate([np.eye(3).ravel(), np.arange(9) / 10])
+    B = f.jacobian_inputs(0, x)
+    assert B.shape == (12, 6)
+    assert not B[:6].any()
+    base = f(0, x)[-6:]
+    for i in range(6):
+        f.u = np.arange(1, 7) + np.eye(6)[i]
+        assert np.allclose(f(0, x)[-6:] - base, B[6:, i], atol=1e-12)
+    assert f.jacobian_parameters(0, x).shape == (12, len(f.PARAMETERS))
+
+
 def test_without_a_compiler(monkeypatch):
     monkeypatch.setenv("PATH", "")
     monkeypatch.delenv("CC", raising=False)

@@ -8,11 +8,13 @@ import numpy as np
 import pytest
 
 from derive import derive
+from derive.code.reader import LoweringError
 from tests.emitted import BUILDS, compile_c, import_python, present
 
 GROUPS = ("so3", "se3", "sl3", "saff3", "two_tops", "screw", "jelly", "heisenberg", "so4")
 TURNING = ("so3", "se3")
 ALL = ("state", "inputs", "parameters")
+WITHOUT_INPUTS = ("state", "parameters")
 
 
 @pytest.fixture(scope="module")
@@ -21,6 +23,8 @@ def emitted(tmp_path_factory):
     kept, derived = {}, {}
 
     def get(name, languages=("python",), **options):
+        if options.get("jacobian") == ALL and name not in TURNING:
+            options["jacobian"] = WITHOUT_INPUTS
         key = (name, languages, tuple(sorted(options.items())))
         if key not in kept:
             kept[key] = tmp_path_factory.mktemp(name)
@@ -139,6 +143,15 @@ def test_the_quaternion_turns_alike(name, emitted):
     h = 1e-20j  # the matrix is a polynomial in q, so a complex step is exact
     assert np.allclose(quaternion_matrix(q + h * dy[:4]).imag.ravel() / 1e-20, dx[:9], atol=1e-13)
     assert abs(q @ dy[:4]) < 1e-14
+
+
+def test_what_does_not_go_together(emitted):
+    with pytest.raises(LoweringError, match="not tangent"):
+        emitted("se3", attitude="quaternion", velocity="tangent")
+    with pytest.raises(LoweringError, match="needs SO"):
+        emitted("sl3", attitude="quaternion")
+    with pytest.raises(LoweringError, match="no inputs"):
+        emitted("sl3", jacobian=("inputs",))
 
 
 @pytest.mark.parametrize("options", [{}, {"velocity": "tangent"}, {"attitude": "quaternion"}])

@@ -106,3 +106,15 @@ def test_a_multiplier_costs_less_than_the_mass_matrix(group, monkeypatch):
 
     monkeypatch.setattr(pipeline, "multiplier_steps", by_mass)
     assert 3 * ours < 2 * multiplications()
+
+
+def test_a_problem_in_numbers_has_no_parameters():
+    """What is 0, 1 or alike for this body is folded: J diagonal, gravity along an axis."""
+    J = [[1, 0, 0], [0, 2, 0], [0, 0, 3]]
+    body = Moments(m=1, c=[0, 0, 0.2], J=J)
+    d = derive(Problem("heavy", Group("SO(3)"), body, [Gravity(0, 0, -9.81)]))
+    program = assemble(d.record, d.problem.group)
+    assert program.parameters == program.constants == ()
+    operations = program.functions["rhs"].operations()
+    assert operations["mul"] <= 27
+    assert operations["add"] <= 11

@@ -88,9 +88,13 @@ def scalar_table(title: str, natives: list[Native], refused: dict[str, str], rou
 def batch_table(
     case: Case, natives: dict[str, Native], emitted: Emitted, limits: Limits, rounds: int
 ) -> str:
-    """Many states a call, against the limits."""
-    rows, multiply = [], limits.multiply()
-    mul = number(natives["expert"].operations, "mul")
+    """Many states a call, against the limits: vector arithmetic in cache, memory out of it.
+
+    Additions go through the ports of the multiplications, so both count.  The fraction is that of
+    the best times, as the limits are best times: what else runs on the machine slows the median.
+    """
+    rows, one = [], limits.multiply()
+    count = sum(number(natives["expert"].operations, x) for x in ("mul", "add"))
     for size in SIZES:
         x = states(case, size)
         checked = np.asarray(emitted.module.rhs(0.0, x, natives["ours"].constants))
@@ -98,17 +102,19 @@ def batch_table(
         ways, refused = batch.candidates(case, x, natives, emitted)
         refused |= batch.measure(ways, checked, rounds)
         memory = 16 * case.size * limits.byte(case.size * size, rounds)
-        compute = mul * multiply
-        rows.append([f"limit: {mul} mul", str(size), f"{compute:.2f}", "", "in registers"])
-        rows.append([f"limit: {16 * case.size} bytes", str(size), f"{memory:.2f}", "", "STREAM"])
+        compute = count * one
+        told = [f"{compute:.2f}", f"{memory:.2f}"]
+        rows.append([f"limit: {count} mul and add", str(size), "", told[0], "", "in registers"])
+        rows.append([f"limit: {16 * case.size} bytes", str(size), "", told[1], "", "STREAM"])
         bound = max(compute, memory)
         for way in ways:
-            ns = statistics.median(way.times)
-            rows.append([way.name, str(size), f"{ns:.2f}", f"{bound / ns:.0%}", way.note])
-        rows += [[name, str(size), "", "", why] for name, why in refused.items()]
+            ns, best = statistics.median(way.times), min(way.times)
+            shown = [f"{ns:.2f}", f"{best:.2f}", f"{bound / best:.0%}"]
+            rows.append([way.name, str(size), *shown, way.note])
+        rows += [[name, str(size), "", "", "", why] for name, why in refused.items()]
     return table(
         f"{case.name}, many states",
-        ["structure of arrays", "states", "ns/state", "of limit", ""],
+        ["structure of arrays", "states", "ns/state", "best", "of limit", ""],
         rows,
     )
 

@@ -23,7 +23,13 @@ def assemble(d: Derivation, group: Group, options: Options | None = None) -> Pro
     chosen = options or Options()
     if chosen.attitude == "quaternion" and not group.turns_space:
         raise LoweringError(f"{d.name}: a quaternion needs SO(3) or SE(3), not {group.name}")
+    if chosen.attitude == "quaternion" and chosen.velocity == "tangent":
+        raise LoweringError(
+            f"{d.name}: a quaternion goes with the velocity of the body, not tangent"
+        )
     lowering = Lowering(d, group, chosen)
+    if "inputs" in chosen.jacobian and not lowering.inputs:
+        raise LoweringError(f"{d.name}: there are no inputs to linearise in")
     wanted = _outputs(lowering, chosen)
     # a pivot that is a number was seen not to vanish
     lowering.checks = [test for test in lowering.checks if test[0].op != "num"]
@@ -61,6 +67,7 @@ def assemble(d: Derivation, group: Group, options: Options | None = None) -> Pro
         tuple(constants),
         group.basis,
         functions,
+        group.affine,
         turning(d.problem, parameters) if "inertia" in wanted else None,
     )
 
@@ -81,7 +88,7 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
         if "state" in options.jacobian:
             # after the rates, with which it shares much
             found["jacobian"] = factored(graph, [*rates, *by_state(space, second)])
-        if "inputs" in options.jacobian and lowering.inputs:
+        if "inputs" in options.jacobian:
             leaves = [lowering.leaf(x, "input") for x in lowering.inputs]
             found["jacobian_inputs"] = factored(graph, by_leaves(space, second, leaves))
     except ZeroDivisionError:

@@ -21,7 +21,11 @@ def conventions(group: Group, problem: Mapping[str, Any], options: Options) -> t
     else:
         lines = _factors(group, order) if group.factors else [_place("A", "T", group, order)]
     if options.velocity == "tangent":
-        lines.append("The names that end in _dot are the entries of the velocity dg/dt.")
+        lines.append(
+            "The names that end in _dot are the entries of the velocity dg/dt; zeta"
+            + (" and w" if group.affine else "")
+            + " below are the coordinates of g^-1 dg/dt in the basis."
+        )
     elif group.turns_space:
         lines.append(
             "zeta is the angular velocity in the body frame: dA/dt = A j(zeta), j(x) y = x cross y."
@@ -40,8 +44,8 @@ def conventions(group: Group, problem: Mapping[str, Any], options: Options) -> t
 def _attitude(group: Group) -> list[str]:
     shift = " + T" if group.affine else ""
     return [
-        "q is a unit quaternion, scalar first: a point r of the body stands at q r q*"
-        f"{shift} in space; dq/dt = q zeta / 2 keeps its norm, which the caller may renew.",
+        f"q is a unit quaternion, scalar first: a point r of the body stands at q r q*{shift}",
+        "in space; dq/dt = q zeta / 2 keeps its norm, which the caller may renew.",
     ]
 
 

@@ -85,7 +85,7 @@ def _fields(
         "parameter_names": [x[0] for x in p.parameters],
         "defaults": [(x[0], repr(x[1])) for x in p.parameters if x[1] is not None],
         "turning": p.turning,
-        "affine": "w_1" in p.state,
+        "affine": p.translates,
         "quaternion": options.attitude == "quaternion",
         "basis": _basis(p),
         "basis_lines": _basis_lines(p),

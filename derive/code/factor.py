@@ -1,9 +1,9 @@
 """Fewer multiplications: names that hide a common factor are looked through.
 
-Two names are worth losing.  k·x, with k of the parameters alone, where each use multiplies it by
-another such factor: the constants merge.  And a summand that is a sum of its own, where another
-summand has the same moving factors: their constants add.  At the end what
-has a name gets it wherever it stands, and common factors go in front of sums.
+Some names are worth losing.  k·x, with k of the parameters alone, where each use multiplies it by
+another such factor: the constants merge; so do numbers, where that pays.  And a summand that is a
+sum of its own, where another summand has the same moving factors: their constants add.  At the end
+what has a name gets it wherever it stands, and common factors go in front of sums.
 """
 
 from __future__ import annotations
@@ -20,10 +20,26 @@ NOTHING: Mapping[Node, Node] = MappingProxyType({})
 
 
 def factored(graph: Graph, roots: Sequence[Node]) -> list[Node]:
-    """The same values with fewer multiplications."""
+    """The same values with fewer multiplications: of two ways the one that counts fewer."""
+    ways = [_factored(graph, roots, numbers) for numbers in (False, True)]
+    return min(ways, key=multiplications)
+
+
+def multiplications(roots: Sequence[Node]) -> int:
+    """How many there are in what moves, each value computed once."""
+    total = 0
+    for x in _reachable(roots):
+        if x.op == "mul":
+            total += len(x.args) - 1
+        elif x.op == "add":
+            total += sum(abs(c) != 1 for c in x.data)
+    return total
+
+
+def _factored(graph: Graph, roots: Sequence[Node], numbers: bool) -> list[Node]:
     found = list(roots)
     for _ in range(PASSES):
-        lost = _lost(found)
+        lost = _lost(found, numbers)
         if not lost:
             break
         images = _rebuilt(graph, found, lost)
@@ -50,7 +66,7 @@ def _reachable(roots: Iterable[Node]) -> list[Node]:
     return sorted(seen, key=lambda x: x.id)
 
 
-def _lost(roots: Sequence[Node]) -> set[Node]:
+def _lost(roots: Sequence[Node], merging: bool) -> set[Node]:
     """The value nodes to look through."""
     order = _reachable(roots)
     parents: dict[Node, list[Node]] = defaultdict(list)
@@ -62,7 +78,16 @@ def _lost(roots: Sequence[Node]) -> set[Node]:
     scaled = {x for x in inner if _is_scaled(x.args[0]) and all(map(_is_scaled, parents[x]))}
     single = {x for x in inner if x.args[0].op == "add" and len(parents[x]) == 1}
     sums = {parents[x][0] for x in single if parents[x][0].op == "add"}
-    return scaled | {x for s in sums for x in _sharing(s, single)}
+    numbers = {x for x in single if merging and _numeric(x.args[0], parents[x][0])}
+    return scaled | numbers | {x for s in sums for x in _sharing(s, single)}
+
+
+def _numeric(x: Node, parent: Node) -> bool:
+    """May the number in front of x, or that of its parent in front of all its terms, be merged?"""
+    if len(x.args) == 1:
+        return parent.op in ("add", "mul")
+    scales = parent.op == "add" and len(parent.args) == 1 and abs(parent.data[0]) != 1
+    return scales and all(abs(c) != 1 for c in x.data)
 
 
 def _is_scaled(x: Node) -> bool:

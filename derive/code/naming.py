@@ -15,8 +15,8 @@ GREEK = {
     "κ": "damping",
 }  # fmt: skip
 MARKS = {"\u0307": "_dot", "\u0303": "_tilde", "′": "_prime"}
+_LOCAL = "D dx i k n p s t u x xp"
 _EMITTED = """
-    D dx i k n p s t u x xp
     abs all importlib numpy math regular std NULL STATE PARAMETERS INPUTS CONSTANTS DEFAULTS BASIS
     ZERO_INPUTS ZEROS Singular N_STATE N_ALGEBRA N_PARAMETERS N_CONSTANTS N_INPUTS
     """
@@ -28,7 +28,9 @@ _OTHER_LANGUAGES = """
     arguments debugger eval extends implements instanceof interface null package var
     Math Float64Array Float32Array Number RangeError char8_t char16_t char32_t
     """
-RESERVED = set(WORDS) | set(_EMITTED.split()) | set(_OTHER_LANGUAGES.split())
+_WORDS = set(WORDS) | set(_EMITTED.split()) | set(_OTHER_LANGUAGES.split())
+RESERVED = _WORDS | set(_LOCAL.split())
+"""What no name in the emitted code is: words of some language, or its own."""
 _HEADERS = """
     assert complex ctype errno features fenv float inttypes iso646 limits locale malloc math memory
     sched setjmp signal stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn
@@ -37,8 +39,8 @@ _HEADERS = """
 FILES = set(_HEADERS.split()) | set(sys.stdlib_module_names)
 """Files of these names would stand before those of C and of Python."""
 
-PREFIXES = FILES | RESERVED | {"core", "Base", "Core", "Main", "constants", "energy", "driven"}
-"""What no name, and no prefix, of the emitted code is: words of some language, or its own."""
+PREFIXES = FILES | _WORDS | {"core", "Base", "Core", "Main", "constants", "energy", "driven"}
+"""What no prefix is."""
 
 
 def ascii_name(name: str) -> str:

@@ -32,6 +32,8 @@ class Options:
         for name, (allowed, _) in CHOICES.items():
             if getattr(self, name) not in allowed:
                 raise ValueError(f"{name} must be one of {', '.join(allowed)}")
+        if isinstance(self.jacobian, str):
+            object.__setattr__(self, "jacobian", (self.jacobian,))
         for name in self.jacobian:
             if name not in JACOBIANS:
                 raise ValueError(f"jacobian must be among {', '.join(JACOBIANS)}")

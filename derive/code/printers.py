@@ -61,7 +61,8 @@ def decimal(q: Fraction, suffix: str = "") -> str:
         value = float(q)
     except OverflowError:
         raise LoweringError("a number of the equations is larger than 1e308; scale it") from None
-    if Fraction(value) == q or max(abs(q.numerator), q.denominator) >= 10**6:
+    short = Fraction(repr(value)) == q  # a decimal number such as 9.81
+    if short or max(abs(q.numerator), q.denominator) >= 10**6:
         return f"{value!r}{suffix}"
     return f"{float(q.numerator)!r}{suffix}/{float(q.denominator)!r}{suffix}"
 

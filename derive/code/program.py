@@ -115,6 +115,7 @@ class Program:
     constants: tuple[str, ...]
     basis: tuple[tuple[tuple[Fraction, ...], ...], ...]
     functions: Mapping[str, Function]
+    translates: bool = False
     turning: Turning | None = None
 
 

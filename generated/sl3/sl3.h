@@ -80,7 +80,9 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k);
 void sl3_rhs(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT k,
     const double *sl3_RESTRICT u, double *sl3_RESTRICT dx);
 
-/* The same for n states at once, of one body: number i of state s is x[i*n + s], and so are u and dx. */
+/* The same for n states at once, of one body at one time: number i of state s is x[i*n + s], that of its
+ * inputs u[i*n + s], of its rates dx[i*n + s].  What is written must not overlap what is read, here and
+ * in every function. */
 void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
     const double *sl3_RESTRICT k, const double *sl3_RESTRICT u, double *sl3_RESTRICT dx);
 
