@@ -45,6 +45,17 @@ void stream_scale(size_t rounds, size_t n, double s, const double *restrict b, d
     }
 }
 
+/* the same in as many streams as a batch has: row after row for each state */
+void stream_rows(size_t rounds, size_t rows, size_t n, double s, const double *restrict b,
+    double *restrict a)
+{
+    AGAIN for (size_t i = 0; i < n; ++i) {
+        for (size_t row = 0; row < rows; ++row) {
+            a[row*n + i] = s*b[row*n + i];
+        }
+    }
+}
+
 /* a += s b: as many reads again as stream_scale, and no line is written without being read */
 void stream_add(size_t rounds, size_t n, double s, const double *restrict b, double *restrict a)
 {

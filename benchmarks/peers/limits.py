@@ -40,21 +40,17 @@ class Limits:
 
         return min(each("multiply_narrow", 4), each("multiply_wide", 8))
 
-    def byte(self, numbers: int, rounds: int) -> float:
-        """Nanoseconds of a byte read or written, as STREAM counts them, on so many doubles."""
-        source, target = aligned(numbers), aligned(numbers)
-        size, factor = ctypes.c_size_t(numbers), ctypes.c_double(0.5)
-        repeat = max(1, 100_000 // numbers)
+    def state(self, rows: int, states: int, rounds: int) -> float:
+        """Nanoseconds to read and write the numbers of a state, each row a stream of its own."""
+        source, target = aligned(rows * states), aligned(rows * states)
+        source += 1.0
+        size, factor = ctypes.c_size_t(states), ctypes.c_double(0.5)
+        repeat = max(1, 100_000 // states)
+        again, many = ctypes.c_size_t(repeat), ctypes.c_size_t(rows)
+        arguments = (again, many, size, factor, pointer(source), pointer(target))
 
-        def each(name: str, moved: int) -> float:
-            run = getattr(self.library, name)
-            arguments = (ctypes.c_size_t(repeat), size, factor, pointer(source), pointer(target))
+        def several() -> None:
+            self.library.stream_rows(*arguments)
 
-            def several() -> None:
-                run(*arguments)
-
-            several()
-            times = [nanoseconds(several) for _ in range(rounds)]
-            return min(times) / (repeat * moved * 8 * numbers)
-
-        return min(each("stream_scale", 2), each("stream_add", 3))
+        several()
+        return min(nanoseconds(several) for _ in range(rounds)) / (repeat * states)
