@@ -43,7 +43,8 @@ def cartan(stage: Pullback, a: Alphabet, prefix: str) -> Cartan:
             "fibre derivative",
             (f"{prefix}.pullback",),
             tuple(_momentum_equations(momentum, momentum_tree, a, variations)),
-            "The momentum is the derivative of the Lagrangian along the velocity.",
+            "The momentum is the derivative of the Lagrangian along the velocity"
+            + (", for all (δA, δT), of which the group has some." if a.affine else "."),
             (16, 20) if a.affine else (16,),
         ),
         Step(

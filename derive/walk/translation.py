@@ -78,8 +78,9 @@ def eliminate_translation(stage: Special, uses: str, c: Chapter) -> Centred:
             Equation("N_c", tree_of(force, notation)),
             Equation(tree_of(inertial), tree_of(pairing), (xi.name,)),
         ),
-        "The coefficient of η′ gives ẇ; put into that of ξ′, it leaves the equations of the linear "
-        "parts about the centre of mass, with the moments of masses and forces about it.",
+        "As the group has every translation, the coefficient of η′ gives ẇ; put into that of ξ′, "
+        "it leaves the equations of the linear parts about the centre of mass r_c, with the "
+        "moments of masses and forces about it; here ξ′ runs over the linear parts of 𝔤.",
     )
     return Centred(inertial, force, metric, solved, (step,))
 
