@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from .code.options import Options
     from .code.program import Program
 
-LANGUAGES = ("c", "cpp", "cvode", "python", "rust", "julia", "javascript")
 FORMATS = ("text", "latex", "markdown", "json")
 READY = resources.files("derive") / "problems"
 
@@ -226,8 +225,11 @@ FILES = {"text": "txt", "latex": "tex", "json": "json"}
 
 def emission(emit: argparse.ArgumentParser) -> None:
     """The choices about the emitted code."""
+    from .code.languages import LANGUAGES
     from .code.options import CHOICES, JACOBIANS
 
+    lang = f"one of {', '.join(LANGUAGES)}; may be repeated; C and Python when left out"
+    emit.add_argument("--lang", action="append", choices=LANGUAGES, metavar="LANG", help=lang)
     for name, (values, meaning) in CHOICES.items():
         about = f"{meaning} (default: {values[0]})"
         emit.add_argument(f"--{name}", choices=values, default=values[0], help=about)
@@ -253,8 +255,6 @@ def parser() -> argparse.ArgumentParser:
     walk.add_argument("--out", metavar="FILE")
     emit = command("emit", command_emit)
     emit.add_argument("problem", help="a ready-made name or a .toml file")
-    lang = f"one of {', '.join(LANGUAGES)}; may be repeated; C and Python when left out"
-    emit.add_argument("--lang", action="append", choices=LANGUAGES, metavar="LANG", help=lang)
     emit.add_argument("--out", metavar="DIR", help="default: the current directory")
     emit.add_argument("--prefix", metavar="NAME", help="default: the problem's name")
     current = "write nothing; exit 1 if a file on disk is not what would be written"
@@ -277,7 +277,7 @@ def parser() -> argparse.ArgumentParser:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command: 0, 1 when a check failed, 2 for bad input."""
     from .code.emit import EmitError
-    from .code.reader import LoweringError
+    from .code.program import LoweringError
     from .writing import WriteError
 
     args = parser().parse_args(argv)

@@ -108,37 +108,33 @@ class Compiled:
 
     def energy(self, t: float, x: Any) -> float:
         """Kinetic plus potential energy."""
-        self._place(x)
-        energy = self._function("energy", ctypes.c_double)
-        return float(energy(ctypes.c_double(t), *map(_pointer, (self._x, self.k))))
+        return float(self._called("energy", ctypes.c_double, t, x, self.k))
 
     def jacobian(self, t: float, x: Any) -> tuple[Array, Array]:
         """dx/dt and D (2N, 2N); see the emitted header."""
-        D = self._place(x, 2 * self._algebra)
-        arrays = (self._x, self.k, self.u, self._dx, D)
-        self._function("jacobian", None)(ctypes.c_double(t), *map(_pointer, arrays))
+        D = np.zeros((2 * self._algebra, 2 * self._algebra))
+        self._called("jacobian", None, t, x, self.k, self.u, self._dx, D)
         return self._dx.copy(), D
 
     def jacobian_inputs(self, t: float, x: Any) -> Array:
         """D (2N, inputs)."""
-        D = self._place(x, len(self.INPUTS))
-        arrays = (self._x, self.k, self.u, D)
-        self._function("jacobian_inputs", None)(ctypes.c_double(t), *map(_pointer, arrays))
+        D = np.zeros((2 * self._algebra, len(self.INPUTS)))
+        self._called("jacobian_inputs", None, t, x, self.k, self.u, D)
         return D
 
     def jacobian_parameters(self, t: float, x: Any) -> Array:
         """D (2N, parameters)."""
-        D = self._place(x, len(self.PARAMETERS))
-        arrays = (self._x, self.p, self.u, D)
-        self._function("jacobian_parameters", None)(ctypes.c_double(t), *map(_pointer, arrays))
+        D = np.zeros((2 * self._algebra, len(self.PARAMETERS)))
+        self._called("jacobian_parameters", None, t, x, self.p, self.u, D)
         return D
 
-    def _place(self, x: Any, columns: int = 0) -> Array:
-        """The state into its buffer; zeros for a derivative."""
+    def _called(self, what: str, result: Any, t: float, x: Any, *arrays: Array) -> Any:
+        """A function of the time, the state and more arrays."""
         if self.rhs == self._unready:
-            self._unready(0, x)
+            self._unready(t, x)
         self._x[:] = x
-        return np.zeros((2 * self._algebra, columns))
+        function = self._function(what, result)
+        return function(ctypes.c_double(t), *map(_pointer, (self._x, *arrays)))
 
     def _view(self, name: str, size: int) -> Array:
         return np.ctypeslib.as_array(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from derive import derive
-from derive.code.reader import LoweringError
+from derive.code.program import LoweringError
 from tests.emitted import BUILDS, compile_c, import_python, present
 
 GROUPS = ("so3", "se3", "sl3", "saff3", "two_tops", "screw", "jelly", "heisenberg", "so4")

@@ -13,8 +13,8 @@ from .linearise import by_leaves, by_state
 from .lower import Lowering
 from .naming import Names, suffixed
 from .options import Options
-from .program import Program
-from .reader import LoweringError, equation_key
+from .program import LoweringError, Program
+from .reader import equation_key
 from .schedule import Scheduler, frontier
 
 

@@ -26,7 +26,7 @@ def turning(problem: Mapping[str, Any], parameters: Sequence[str]) -> Turning | 
     """How parameters change with the axes; ``None`` where they cannot express the turned body."""
     body = problem["body"]
     at = {name: i for i, name in enumerate(parameters)}
-    if body["kind"] == "moments" and {*MOMENTS} <= {*at}:
+    if body["kind"] == "moments" and {*MOMENTS} <= {*at} - {*_parameters(problem)}:
         places = [place["at"] for place in problem["places"]]
         if "c_1" in at:
             places.append([("par", f"c_{i}") for i in (1, 2, 3)])

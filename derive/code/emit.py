@@ -16,7 +16,7 @@ from .languages import LANGUAGES, Language
 from .naming import PREFIXES
 from .options import Options
 from .program import TOLERANCE, Program
-from .statements import Statements, comment, operations
+from .statements import Statements, comment
 
 
 class EmitError(ValueError):
@@ -61,7 +61,7 @@ def _fields(
     p: Program, d: Derivation, prefix: str, language: Language, options: Options
 ) -> dict[str, Any]:
     real = options.real
-    suffix = "f" if real == "float" and language.name in ("c", "cpp") else ""
+    printer = language.printer(real)
     sizes = {"x": len(p.state), "k": len(p.constants), "u": len(p.inputs)}
     written = Statements(language, real, sizes | {"p": len(p.parameters)})
     functions = {name: written.function(f) for name, f in p.functions.items()}
@@ -70,7 +70,7 @@ def _fields(
         "guard": prefix.upper() + "_H",
         "header": options.form == "header",
         "real": language.reals[real],
-        "fabs": "fabs" + suffix,
+        "fabs": printer.absolute,
         "title": comment(p.title),
         "group": p.group,
         "conventions": p.conventions,
@@ -78,7 +78,6 @@ def _fields(
         "hash": problem_hash(d),
         "state": p.state,
         "inputs": p.inputs,
-        "input_locals": [x.name for x in p.functions["rhs"].loads if x.array == "u"],
         "constants": p.constants,
         "dimension": p.dimension,
         "parameters": [_parameter(x) for x in p.parameters],
@@ -86,13 +85,12 @@ def _fields(
         "defaults": [(x[0], repr(x[1])) for x in p.parameters if x[1] is not None],
         "turning": p.turning,
         "affine": p.translates,
-        "quaternion": options.attitude == "quaternion",
         "basis": _basis(p),
         "basis_lines": _basis_lines(p),
         "functions": functions,
         "jacobians": {x: f for x, f in functions.items() if x.startswith("jacobian")},
         "calls": sorted({x for f in p.functions.values() for x in f.calls()}),
-        "tolerance": repr(TOLERANCE[real]) + suffix,
+        "tolerance": printer.number(Fraction(TOLERANCE[real])),
     }
 
 
@@ -122,6 +120,3 @@ def _basis_lines(p: Program) -> list[str]:
         ]
         lines.append(f"E_{a} = {' '.join(entries)}")
     return lines
-
-
-__all__ = ["LANGUAGES", "EmitError", "comment", "emit", "operations", "problem_hash"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 
 from .printers import Printer, decimal
@@ -32,7 +32,6 @@ class Language:
     first: int = 0
     parenthesised: bool = False
     needs: str = ""
-    reserved: frozenset[str] = field(default_factory=frozenset)
 
 
 def _c(real: str) -> Printer:
@@ -93,7 +92,6 @@ LANGUAGES: dict[str, Language] = {
         "{name} = {text}",
         HASH,
         {"double": "float64", "float": "float32"},
-        load="{array}[..., {index}]",
         parenthesised=True,
     ),
     "rust": Language(

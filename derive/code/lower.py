@@ -23,7 +23,8 @@ from .graph import PARAMETER, Node
 from .inverses import SMALL, Inverting
 from .naming import name_of
 from .options import Options
-from .reader import LoweringError, Value, bound
+from .program import LoweringError
+from .reader import Value, bound
 
 
 class Lowering(Inverting):

@@ -6,8 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .program import Expression
-from .reader import LoweringError
+from .program import Expression, LoweringError
 
 SUM, PRODUCT, ATOM = 1, 2, 3
 

@@ -12,6 +12,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+
+class LoweringError(ValueError):
+    """The record does not say how to compute something: the message names it."""
+
+
 OPERATIONS = ("mul", "add", "div", "call")
 
 Expression = tuple[Any, ...]
@@ -70,7 +75,8 @@ class Function:
         """The elementary functions that it calls."""
         found: set[str] = set()
         expressions = [v.expression for s in self.sections for v in s.values]
-        for e in (*expressions, *self.outputs):
+        checked = [x for c in self.checks for x in (c.value, c.scale)]
+        for e in (*expressions, *self.outputs, *checked):
             _collect(e, found)
         return found
 

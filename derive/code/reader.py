@@ -11,13 +11,10 @@ from ..record.record import Derivation, Equation, Step
 from .graph import Graph, Node
 from .naming import name_of, suffixed
 from .options import Options
+from .program import LoweringError
 from .state import State
 
 Value = Node | Matrix
-
-
-class LoweringError(ValueError):
-    """The record does not say how to compute something: the message names it."""
 
 
 class Reader:

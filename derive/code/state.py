@@ -119,22 +119,21 @@ class State:
 
     def along(self, a: int) -> Seeds:
         """The variation δg = g E_a at constant ζ."""
-        g, e = (
-            self.graph,
-            tuple(tuple(self.graph.num(x) for x in row) for row in self.group.basis[a]),
-        )
+        e = self._member(a)
         seeds = self._moved(e)
         if self.tangent:  # δġ = g E_a Z
-            seeds |= self._speeds(dense.times(g, e, self._hat(self.coordinates)))
+            seeds |= self._speeds(dense.times(self.graph, e, self._hat(self.coordinates)))
         return seeds
 
     def faster(self, a: int) -> Seeds:
         """The variation of ζ_a alone."""
-        g, e = (
-            self.graph,
-            tuple(tuple(self.graph.num(x) for x in row) for row in self.group.basis[a]),
-        )
-        return self._speeds(e) if self.tangent else {self.coordinates[a]: g.num(1)}
+        if self.tangent:
+            return self._speeds(self._member(a))
+        return {self.coordinates[a]: self.graph.num(1)}
+
+    def _member(self, a: int) -> Matrix:
+        """E_a as a matrix of nodes."""
+        return tuple(tuple(self.graph.num(x) for x in row) for row in self.group.basis[a])
 
     def _speeds(self, e: Matrix) -> Seeds:
         """The leaves of ġ for δġ = g e."""

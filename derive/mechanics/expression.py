@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from fractions import Fraction
+from typing import Any
 
 from ..algebra.differentiate import DERIVATIVES
 from ..algebra.tree import Tree, add, mul, neg
@@ -44,35 +45,34 @@ def names(tree: Tree) -> list[str]:
     return []
 
 
+def value(tree: Tree, parameter: Callable[[str], Any], other: Callable[[Tree], Any]) -> Any:
+    """The value of a tree; ``other`` is asked for π and for functions."""
+    if isinstance(tree, (int, Fraction)):
+        return Fraction(tree)
+    if isinstance(tree, str) or tree[0] == "fun":
+        return other(tree)
+    if tree[0] == "par":
+        return parameter(tree[1])
+    if tree[0] == "pow":
+        return value(tree[1], parameter, other) ** int(tree[2])
+    parts = [value(x, parameter, other) for x in tree[1:]]
+    if tree[0] == "div":
+        return parts[0] / parts[1]
+    return sum(parts) if tree[0] == "add" else math.prod(parts)
+
+
 def approximate(tree: Tree, values: Mapping[str, float]) -> float | None:
     """The value for some parameters; ``None`` where one is missing or there is no value."""
-    if isinstance(tree, (int, Fraction)):
-        return float(tree)
-    if isinstance(tree, str):
-        return math.pi if tree == "π" else None
-    if tree[0] == "par":
-        return values.get(tree[1])
-    operands = tree[2:] if tree[0] == "fun" else tree[1:]
-    parts = [approximate(x, values) for x in operands]
-    known = [x for x in parts if x is not None]
-    if len(known) < len(parts):
-        return None
+
+    def other(t: Tree) -> float:
+        if isinstance(t, tuple):
+            return float(getattr(math, t[1])(value(t[2], values.__getitem__, other)))
+        return math.pi
+
     try:
-        return _combined(tree, known)
-    except (ArithmeticError, ValueError):
+        return float(value(tree, values.__getitem__, other))
+    except (ArithmeticError, KeyError, ValueError):
         return None
-
-
-def _combined(tree: tuple[object, ...], x: list[float]) -> float | None:
-    if tree[0] == "add":
-        return math.fsum(x)
-    if tree[0] == "mul":
-        return math.prod(x)
-    if tree[0] == "div":
-        return x[0] / x[1]
-    if tree[0] == "pow":
-        return float(x[0] ** x[1])
-    return float(getattr(math, str(tree[1]))(x[0])) if tree[0] == "fun" else None
 
 
 def _tokens(text: str) -> list[str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -10,7 +9,18 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.tree import Tree
 from .expression import names
-from .fields import choice, expression, identifier, known, missing, text, vector, whole
+from .fields import (
+    LIKE_A_PLACE,
+    PLACE,
+    choice,
+    expression,
+    identifier,
+    known,
+    missing,
+    text,
+    vector,
+    whole,
+)
 from .problem import (
     Attraction,
     CovectorInput,
@@ -133,9 +143,9 @@ def _placed(t: Tree, where: str, points: Points) -> Tree:
     if t[0] != "par":
         return (t[0], *(_placed(x, where, points) for x in t[1:]))
     name = t[1]
-    match = re.fullmatch(r"r([0-9]{1,4})_(?:([xyz])|([0-9]))", name)
+    match = PLACE.fullmatch(name)
     if match is None and name != "t":
-        if re.fullmatch(r"[rv][0-9]+_\w+", name):
+        if LIKE_A_PLACE.fullmatch(name) and name not in points.parameters:
             raise ProblemError(
                 f"{where}: {name!r}: a place in space is r1_x, r1_y, r1_z, or r1_1, r1_2, …"
             )

@@ -1,4 +1,4 @@
-"""Does every direction of the group move some mass of this body?  If not, which one does not.
+"""Is it a body that the group can move: every direction moves some mass, and no mass is negative?
 
 The metric of 𝔤 at g = 1 is ⟨Z, Z′⟩ = Tr Z M Z̄′, with M the moments of the body as the group's
 matrices see it.  Its kernel is found exactly, in fractions, at two choices of the parameters.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from math import gcd, lcm, prod
+from math import gcd, lcm
 from random import Random
 from typing import Any
 
@@ -16,7 +16,7 @@ from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
-from .expression import approximate, names
+from .expression import approximate, names, value
 from .problem import Body, GivenBody, MomentBody, Parameter, PointBody
 
 Vector = tuple[Any, ...]
@@ -96,25 +96,15 @@ class _Values:
 
     def mass(self, t: Tree) -> Fraction:
         """The value of a mass, remembering whether one is negative."""
-        value = self.of(t)
-        self.negative |= value < 0
-        return value
+        mass = self.of(t)
+        self.negative |= mass < 0
+        return mass
 
     def of(self, t: Tree) -> Fraction:
         """The value of a tree."""
-        if isinstance(t, (int, Fraction)):
-            return Fraction(t)
-        if isinstance(t, tuple):
-            if t[0] == "par":
-                return self.parameters[t[1]]
-            if t[0] == "add":
-                return sum(map(self.of, t[1:]), Fraction(0))
-            if t[0] == "mul":
-                return prod(map(self.of, t[1:]), start=Fraction(1))
-            if t[0] == "div":
-                return self.of(t[1]) / self.of(t[2])
-            if t[0] == "pow":
-                return Fraction(self.of(t[1]) ** int(t[2]))
+        return Fraction(value(t, self.parameters.__getitem__, self._opaque))
+
+    def _opaque(self, t: Tree) -> Fraction:
         return self._own.setdefault(t, Fraction(self._random.randint(1, 999), 1000))
 
 
@@ -162,8 +152,8 @@ def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str
     defaults = {name: p.default for name, p in parameters.items() if p.default is not None}
 
     def negative(t: Tree) -> bool:
-        value = approximate(t, defaults)
-        return value is not None and value < 0
+        mass = approximate(t, defaults)
+        return mass is not None and mass < 0
 
     points = body if isinstance(body, PointBody) else None
     if isinstance(body, GivenBody):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import math
-import re
 import tomllib
 from collections.abc import Mapping
 from fractions import Fraction
@@ -19,7 +18,18 @@ from ..algebra.tree import Tree
 from . import inertia
 from .bodies import body
 from .expression import names
-from .fields import NAME, choice, expression, identifier, known, missing, tables, text
+from .fields import (
+    LIKE_A_PLACE,
+    NAME,
+    PLACE,
+    choice,
+    expression,
+    identifier,
+    known,
+    missing,
+    tables,
+    text,
+)
 from .forces import Points, damping, given_input, potential, used_names
 from .problem import (
     CovectorInput,
@@ -170,7 +180,7 @@ def _parameters(data: Any) -> dict[str, Parameter]:
     for name, value in data.items():
         where = f"parameter {name[:40]!r}"
         identifier(name, where)
-        if name == "t" or re.fullmatch(r"r[0-9]+_([xyz]|[0-9]+)", name):
+        if name == "t" or PLACE.fullmatch(name):
             what = "the time" if name == "t" else "a place of a point"
             raise ProblemError(f"{where}: this is {what} in an expression; choose another name")
         if isinstance(value, (int, float)) and not isinstance(value, bool):
@@ -213,7 +223,7 @@ def _declared(problem: Problem, given: Mapping[str, Any]) -> None:
         used |= dict.fromkeys(used_names(p))
     for name in used:
         if name not in problem.parameters:
-            if name == "t" or re.fullmatch(r"r[0-9]+_\w+", name):
+            if name == "t" or LIKE_A_PLACE.fullmatch(name):
                 raise ProblemError(f"{name!r} is known in the 'U' of an expression alone")
             near = difflib.get_close_matches(name, problem.parameters, 1)
             hint = f"did you mean {near[0]!r}? Else " if near else ""

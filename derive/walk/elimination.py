@@ -18,11 +18,11 @@ from ..algebra.words import Expr, Letter, number, word
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .inverse import cancel_scalar, inverse_letter, inverse_tree
+from .translation import central_moments
 from .vector import INERTIA, OMEGA_P, ZETA, ZETA_DOT, VectorForm, isolate
 from .wedge import vector_sum
 
 CENTRAL = Letter("I_c", 3, 3, 1)
-MOMENTS = Letter("J_c", 3, 3, 1)
 CENTRE, CENTRE_VELOCITY = Letter("r_c", 3), Letter("w_c", 3)
 
 
@@ -47,10 +47,9 @@ def eliminate(stage: VectorForm, a: Alphabet, prefix: str, scope: str) -> Elimin
     acceleration = -simplified(word(inverse_letter(a.m)) * without(forces, w_dot), a)
     reduced = simplified(substitute(moments, {w_dot: acceleration}), a)
     tensor = coefficient_matrix(reduce(reduced, isolate(ZETA_DOT)), ZETA_DOT)
-    first = word(a.c)
-    moments_c = word(a.J) - word(inverse_letter(a.m)) * first * first.bar
+    J_c, moments_c = central_moments(a)
     by_moments = substitute(tensor, {INERTIA: stage.inertia})
-    central = substitute(by_moments, {a.J: word(MOMENTS) + word(a.J) - moments_c})
+    central = substitute(by_moments, {a.J: word(J_c) + word(a.J) - moments_c})
     rest = -simplified(reduced - tensor * word(ZETA_DOT), a)
     shift = {INERTIA: word(CENTRAL) + word(INERTIA) - tensor}
     torque = from_centre(substitute(rest, shift), a)
@@ -63,10 +62,10 @@ def eliminate(stage: VectorForm, a: Alphabet, prefix: str, scope: str) -> Elimin
         "elimination",
         (f"{prefix}.kernel",),
         (
-            Equation(CENTRE.name, tree_of(word(inverse_letter(a.m)) * first, notation(a))),
+            Equation(CENTRE.name, tree_of(word(inverse_letter(a.m)) * word(a.c), notation(a))),
             Equation(CENTRE_VELOCITY.name, vector_tree(velocity, a)),
             Equation(w_dot.name, vector_tree(acceleration, a)),
-            Equation(MOMENTS.name, tree_of(moments_c, notation(a))),
+            Equation(J_c.name, tree_of(moments_c, notation(a))),
             Equation(CENTRAL.name, tree_of(tensor, notation(a))),
             Equation(CENTRAL.name, tree_of(central, notation(a))),
             Equation(("mul", CENTRAL.name, "ζ̇"), vector_tree(torque, a)),

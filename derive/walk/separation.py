@@ -21,6 +21,7 @@ from .translation import central_moments
 NO_TERM = "No term of the potential has both the linear part and the centre of mass"
 SEPARATE = f"{NO_TERM}: the motion separates into theirs."
 OUTSIDE = f"{NO_TERM}; the forces outside dϖ, {{}}, may tie the two."
+AS_WELL = "The forces outside dϖ, {}, may tie the two as well."
 CANCELS = "U_Q is made of differences of places, in which R cancels."
 UNDECIDED = (
     "The motion separates if U_Q, which is given point by point, is a sum of a function of the "
@@ -76,14 +77,13 @@ def potential_separation(
         for traces, w in energy.terms
     )
     inside = all(isinstance(p, Spring) and p.between[1] is not None for p in problem.elements)
-    if both or not inside:
-        prose = UNDECIDED
-    else:
-        prose = f"{SEPARATE} {CANCELS}" if problem.elements else SEPARATE
     outside = [x for x in ("damping", "inputs") if getattr(problem, x)]
-    if outside and prose != UNDECIDED:
-        prose = OUTSIDE.format(" and ".join(outside)) + prose.removeprefix(SEPARATE)
-    elif outside:
-        prose += f" The forces outside dϖ, {' and '.join(outside)}, may tie the two as well."
+    named = " and ".join(outside)
+    if both or not inside:
+        told = [UNDECIDED, *([AS_WELL.format(named)] if outside else [])]
+    else:
+        told = [OUTSIDE.format(named) if outside else SEPARATE]
+        told += [CANCELS] if problem.elements else []
+    prose = " ".join(told)
     equation = Equation("Ũ", tree_of(energy, _notation(b)))
     return (c.step("separation", "identification", "potential .separation", (equation,), prose),)
