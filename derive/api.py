@@ -282,15 +282,14 @@ class Derived:
 
         ``choices``: those of :class:`derive.code.options.Options`, as ``real="float"``.
         """
-        from .code.assemble import assemble
         from .code.emit import emit
         from .code.options import Options
+        from .pipeline import program
         from .writing import write
 
-        assert self.problem.group is not None
         options = Options(**choices)
-        program = assemble(self.record, self.problem.group, options)
-        files = emit(program, self.record, tuple(languages), prefix or self.problem.name, options)
+        made = program(self.problem, self.record, options)
+        files = emit(made, self.record, tuple(languages), prefix or self.problem.name, options)
         if out is not None:
             write(files, Path(out))
         return files

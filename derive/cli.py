@@ -9,15 +9,10 @@ import sys
 from collections.abc import Callable, Sequence
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from . import __version__
 from .mechanics.problem import Problem, ProblemError
 from .record.record import Derivation, RecordError
-
-if TYPE_CHECKING:
-    from .code.options import Options
-    from .code.program import Program
 
 FORMATS = ("text", "latex", "markdown", "json")
 READY = resources.files("derive") / "problems"
@@ -121,15 +116,16 @@ def command_emit(args: argparse.Namespace) -> int:
     """Write the numeric code of a problem."""
     from .code.emit import emit
     from .code.options import CHOICES, Options
+    from .pipeline import program
     from .writing import stale, write
 
     problem, record = derive(args.problem, args.allow_negative_mass)
     chosen = {name: getattr(args, name) for name in CHOICES}
     options = Options(**chosen, jacobian=tuple(dict.fromkeys(args.jacobian or ())))
-    program = programs(problem, record, options)
+    compiled = program(problem, record, options)
     languages = tuple(dict.fromkeys(args.lang or ("c", "python")))
     prefix = problem.name if args.prefix is None else args.prefix
-    files, folder = emit(program, record, languages, prefix, options), Path(args.out or ".")
+    files, folder = emit(compiled, record, languages, prefix, options), Path(args.out or ".")
     if args.check:
         old = stale(files, folder)
         for path in old:
@@ -138,18 +134,6 @@ def command_emit(args: argparse.Namespace) -> int:
     for path in write(files, folder):
         print(path)
     return 0
-
-
-def programs(problem: Problem, record: Derivation, options: Options | None = None) -> Program:
-    """The program of a record; the general texts have none."""
-    from .code.assemble import assemble
-
-    if problem.group is None:
-        raise UsageError(
-            f"{problem.name}: this text is about any group, so it has nothing to emit; choose a "
-            "problem with a group and a body"
-        )
-    return assemble(record, problem.group, options)
 
 
 def command_check(args: argparse.Namespace) -> int:
@@ -207,12 +191,13 @@ def command_paper(args: argparse.Namespace) -> int:
 def command_build(args: argparse.Namespace) -> int:
     """Make all of generated/ again."""
     from .code.emit import emit
+    from .pipeline import program
     from .writing import write
 
     for name in ("so3", "se3", "sl3"):
         problem, record = derive(name)
         files = {f"walk.{end}": render(record, form) for form, end in FILES.items()}
-        files |= emit(programs(problem, record), record, ("c", "python"), name)
+        files |= emit(program(problem, record), record, ("c", "python"), name)
         for path in write(files, Path(args.out) / name):
             print(path, file=sys.stderr)
         if args.print:

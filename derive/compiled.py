@@ -20,11 +20,11 @@ from typing import Any
 import numpy as np
 
 from .api import Derived, derive
-from .code.assemble import assemble
 from .code.emit import emit
 from .code.options import Options
 from .code.program import Program
 from .mechanics.problem import Problem, ProblemError
+from .pipeline import program
 from .writing import write
 
 FLAGS = ("-std=c99", "-O3", "-march=native", "-fPIC", "-shared")
@@ -128,6 +128,26 @@ class Compiled:
         self._called("jacobian_parameters", None, t, x, self.p, self.u, D)
         return D
 
+    def into_frame(self, x: Any) -> Array:
+        """The state x taken to the principal frame; needs ``frame="principal"``."""
+        return self._carried("into_frame", x, len(self.STATE))
+
+    def out_of_frame(self, x: Any) -> Array:
+        """The state x taken back from the principal frame."""
+        return self._carried("out_of_frame", x, len(self.STATE))
+
+    def inputs_into_frame(self, u: Any) -> Array:
+        """The inputs u taken to the principal frame."""
+        return self._carried("inputs_into_frame", u, len(self.INPUTS))
+
+    def _carried(self, what: str, x: Any, size: int) -> Array:
+        if self.rhs == self._unready:
+            self._unready(0.0, x)
+        given, out = np.zeros(size), np.zeros(size)
+        given[:] = x
+        self._function(what, None)(*map(_pointer, (self.k, given, out)))
+        return out
+
     def _called(self, what: str, result: Any, t: float, x: Any, *arrays: Array) -> Any:
         """A function of the time, the state and more arrays."""
         if self.rhs == self._unready:
@@ -143,6 +163,8 @@ class Compiled:
 
     def _function(self, what: str, result: Any) -> Any:
         function = getattr(self._library, f"{self._name}_{what}", None)
+        if function is None and what.endswith("_frame"):
+            raise ValueError("not compiled: ask for it by compile(..., frame='principal')")
         if function is None:
             kind = what.removeprefix("jacobian").removeprefix("_") or "state"
             raise ValueError(f"not compiled: ask for it by compile(..., jacobian=[{kind!r}])")
@@ -185,22 +207,20 @@ def compile(
     :class:`derive.code.options.Options`.  :class:`CompileError`, ``ProblemError``.
     """
     derived = problem if isinstance(problem, Derived) else derive(problem)
-    if derived.problem.group is None:
-        raise ProblemError(f"{derived.problem.name}: a text about any group has nothing to compile")
     try:
         options = Options(**choices)
     except (TypeError, ValueError) as error:
         raise ProblemError(f"compile: {error}") from None
     if options.real != "double" or options.form != "source":
         raise ProblemError("compile: real and form are not for Python; leave them out")
-    program = assemble(derived.record, derived.problem.group, options)
+    made_of = program(derived.problem, derived.record, options)
     name = derived.problem.name
     with tempfile.TemporaryDirectory(prefix="derive-") as folder:
-        files = emit(program, derived.record, ("c",), name, options)
+        files = emit(made_of, derived.record, ("c",), name, options)
         write(files | {"binding.c": BINDING.format(name=name)}, Path(folder))
         library = _built(Path(folder), name, compiler, flags)
-    made = Compiled(program, library, name)
-    ready = all(x[1] is not None for x in program.parameters)
+    made = Compiled(made_of, library, name)
+    ready = all(x[1] is not None for x in made_of.parameters)
     return made.use(parameters or ()) if parameters is not None or ready else made
 
 

@@ -22,10 +22,13 @@ Every stage returns its value together with the steps it took; the record is the
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from .algebra.groups import Group
 from .algebra.tree import names
-from .mechanics.problem import Problem
+from .mechanics.data import data
+from .mechanics.frame import principal
+from .mechanics.problem import Problem, ProblemError
 from .record.record import Derivation, Equation, Step, Symbol, encode
 from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, ROTATIONS, VOCABULARY
 from .walk.alphabet import Alphabet
@@ -56,6 +59,10 @@ from .walk.special import General, Special, specialise
 from .walk.translation import eliminate_translation
 from .walk.vector import vector_form
 
+if TYPE_CHECKING:
+    from .code.options import Options
+    from .code.program import Program
+
 Steps = tuple[Step, ...]
 
 
@@ -68,6 +75,20 @@ def walk(problem: Problem) -> Derivation:
     if problem.group is not None:
         steps += road_of(problem, problem.group, road)
     return Derivation(_data(problem), _symbols(steps, problem), steps)
+
+
+def program(problem: Problem, record: Derivation, options: Options | None = None) -> Program:
+    """The program of a problem; in its principal frame that is the program of another problem."""
+    from .code.assemble import assemble
+
+    if problem.group is None:
+        raise ProblemError(
+            f"{problem.name}: this text is about any group, so it has nothing to emit; choose a "
+            "problem with a group and a body"
+        )
+    if options is None or options.frame == "given":
+        return assemble(record, problem.group, options)
+    return assemble(record, problem.group, options, walk(principal(problem)))
 
 
 def road_of_any_group(a: Alphabet, name: str) -> General:
@@ -162,8 +183,8 @@ def _data(problem: Problem) -> dict[str, object]:
 
     basis = problem.group.basis if problem.group else ()
     rows = [[[str(x) for x in row] for row in e] for e in basis]
-    data = problem.data() | {"basis": rows, "conventions": list(CONVENTIONS)}
-    return {k: plain(v) for k, v in data.items()}
+    found = data(problem) | {"basis": rows, "conventions": list(CONVENTIONS)}
+    return {k: plain(v) for k, v in found.items()}
 
 
 def _symbols(steps: Steps, problem: Problem) -> tuple[Symbol, ...]:

@@ -90,6 +90,13 @@ class CLibrary:
         batch(x.shape[1], t, vector(x), k, vector(u), dx)
         return dx
 
+    def carried(self, what, k, x):
+        """A state or inputs ``x`` taken into or out of the principal frame."""
+        array = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
+        out = np.full(len(x), np.nan)
+        self._function(f"{self.name}_{what}", None, [array] * 3)(k, vector(x), out)
+        return out
+
     def jacobian(self, t, x, k, u):
         """dx/dt and D."""
         array = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")

@@ -2,84 +2,171 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
+
 from ..algebra.groups import Group
 from ..algebra.show import show
 from ..record.record import Derivation
 from .axes import inertia, turning
+from .carry import carrying
 from .conventions import conventions
 from .factor import factored
+from .frame import Frame
 from .graph import Node
 from .linearise import by_leaves, by_state
 from .lower import Lowering
 from .naming import Names, suffixed
 from .options import Options
-from .program import LoweringError, Program
+from .program import Framing, Function, LoweringError, Program
 from .reader import equation_key
 from .schedule import Scheduler, frontier
 
+Place = tuple[str, tuple[str, int]]
+"""The name of a number that is read, and its array and index."""
 
-def assemble(d: Derivation, group: Group, options: Options | None = None) -> Program:
-    """The program of a record; ``LoweringError`` when the record has no solved equations."""
+Check = tuple[Node, Node | None]
+"""What must not vanish, and the scale of its rounding error."""
+
+
+def assemble(
+    d: Derivation,
+    group: Group,
+    options: Options | None = None,
+    framed: Derivation | None = None,
+) -> Program:
+    """The program of a record; ``LoweringError`` when the record has no solved equations.
+
+    ``framed``: the record of the problem in its principal frame, if the code is to be in that.
+    """
     chosen = options or Options()
-    if chosen.attitude == "quaternion" and not group.turns_space:
-        raise LoweringError(f"{d.name}: a quaternion needs SO(3) or SE(3), not {group.name}")
-    if chosen.attitude == "quaternion" and chosen.velocity == "tangent":
-        raise LoweringError(
-            f"{d.name}: a quaternion goes with the velocity of the body, not tangent"
-        )
-    lowering = Lowering(d, group, chosen)
+    _refused(d, group, chosen)
+    lowering = Lowering(framed or d, group, chosen)
     if "inputs" in chosen.jacobian and not lowering.inputs:
         raise LoweringError(f"{d.name}: there are no inputs to linearise in")
+    frame = None
+    if framed:
+        old = Lowering(d, group, chosen, lowering.graph)
+        frame = Frame(framed.problem["frame"], old, chosen.attitude == "quaternion")
     wanted = _outputs(lowering, chosen)
+    if frame:
+        wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
+        wanted |= _inertia(frame.old) | carrying(frame, lowering)
     # a pivot that is a number was seen not to vanish
-    lowering.checks = [test for test in lowering.checks if test[0].op != "num"]
-    checked = [x for test in lowering.checks for x in test if x is not None]
-    parameters = _used_parameters(d, [*checked, *(x for nodes in wanted.values() for x in nodes)])
+    checks = [test for test in lowering.checks if test[0].op != "num"]
+    checks += [frame.regular] if frame else []
+    found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
+    parameters = _used_parameters(d, found)
+    functions, constants, framing = _functions(lowering, chosen, wanted, checks, parameters, frame)
+    return Program(
+        d.name,
+        str(d.problem.get("title", "")),
+        group.name,
+        group.dimension,
+        conventions(group, d.problem, chosen, framed.problem["frame"] if framed else None),
+        tuple(lowering.space.names),
+        tuple(_parameter(d, name) for name in parameters),
+        tuple(lowering.inputs),
+        tuple(constants),
+        group.basis,
+        functions,
+        group.affine,
+        turning(d.problem, parameters) if "inertia" in wanted and not frame else None,
+        framing,
+    )
+
+
+def _functions(
+    lowering: Lowering,
+    options: Options,
+    wanted: Mapping[str, list[Node]],
+    checks: Sequence[Check],
+    parameters: Sequence[str],
+    frame: Frame | None,
+) -> tuple[dict[str, Function], list[str], Framing | None]:
+    """The functions, the names of the constants, and how the frame is found."""
     names = Names()
     state, inputs = lowering.space.names, lowering.inputs
     for kind, members in (("state", state), ("input", inputs)):
         for name in members:
             names.claim(name, f"{kind} {name}")
-    scheduler = Scheduler(names, _equations(d))
+    scheduler = Scheduler(names, _equations(lowering.record))
     fixed = frontier(x for name in wanted if name != "inertia" for x in wanted[name])
-    given = _parameter_places(lowering, names, parameters)
-    functions = {"constants": scheduler.function(fixed, given, lowering.checks)}
+    leaves = [lowering.leaf(x, "parameter") for x in parameters]
+    given = _leaf_places(names, leaves, "p")
+    numbers = _frame_places(frame, names, [*fixed, *_several(checks)]) if frame else {}
+    functions = {"constants": scheduler.function(fixed, given | numbers, checks)}
     constants = [_constant_name(names, x, i) for i, x in enumerate(fixed)]
     moving = _places(lowering, names, state, inputs)
     kept = {x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))}
     for name, nodes in wanted.items():
         places = given if name == "inertia" else moving | kept
         functions[name] = scheduler.function(nodes, places)
-    if "parameters" in chosen.jacobian and parameters:
-        leaves = [lowering.leaf(x, "parameter") for x in parameters]
+    if "parameters" in options.jacobian and parameters:
         slopes = by_leaves(lowering.space, lowering.space.velocity(lowering.component), leaves)
         slopes = factored(lowering.graph, slopes)
         functions["jacobian_parameters"] = scheduler.function(slopes, moving | given)
-    return Program(
-        d.name,
-        str(d.problem.get("title", "")),
-        group.name,
-        group.dimension,
-        conventions(group, d.problem, chosen),
-        tuple(state),
-        tuple(_parameter(d, name) for name in parameters),
-        tuple(inputs),
-        tuple(constants),
-        group.basis,
-        functions,
-        group.affine,
-        turning(d.problem, parameters) if "inertia" in wanted else None,
+    return functions, constants, _framing(frame, scheduler, given, numbers) if frame else None
+
+
+def _refused(d: Derivation, group: Group, chosen: Options) -> None:
+    """What cannot be had together."""
+    if chosen.attitude == "quaternion" and not group.turns_space:
+        raise LoweringError(f"{d.name}: a quaternion needs SO(3) or SE(3), not {group.name}")
+    if chosen.attitude == "quaternion" and chosen.velocity == "tangent":
+        raise LoweringError(
+            f"{d.name}: a quaternion goes with the velocity of the body, not tangent"
+        )
+    if chosen.frame == "principal" and "parameters" in chosen.jacobian:
+        raise LoweringError(
+            f"{d.name}: the principal frame is not smooth in the parameters; "
+            "linearise in them without --frame"
+        )
+
+
+def _inertia(lowering: Lowering) -> dict[str, list[Node]]:
+    tensor = inertia(lowering)
+    return {"inertia": tensor} if tensor else {}
+
+
+def _frame_places(frame: Frame, names: Names, nodes: list[Node]) -> dict[Node, Place]:
+    """Where ``constants`` reads the numbers of the frame that it needs."""
+    used = _leaves(nodes)
+    return _leaf_places(names, [x for x in frame.numbers if x in used], "frame")
+
+
+def _framing(
+    frame: Frame, scheduler: Scheduler, given: dict[Node, Place], numbers: dict[Node, Place]
+) -> Framing:
+    """The functions that find the frame: each matrix whose axes are wanted, then the numbers."""
+    axes = [x for found in frame.axes for x in found.leaves]
+    places = given | _leaf_places(scheduler.names, axes, "axes")
+    outputs = [frame.numbers[x] for x in numbers]
+    return Framing(
+        tuple(
+            (len(x.matrix), scheduler.function([y for row in x.matrix for y in row], places))
+            for x in frame.axes
+        ),
+        scheduler.function(outputs, places),
     )
+
+
+def _leaf_places(names: Names, leaves: list[Node], array: str) -> dict[Node, Place]:
+    """The entries of an array, each with a name of its own (never a reserved word)."""
+    return {x: (names.claim(x.data[1], " ".join(x.data)), (array, i)) for i, x in enumerate(leaves)}
+
+
+def _several(groups: Iterable[Iterable[Node | None]]) -> list[Node]:
+    return [x for group in groups for x in group if x is not None]
 
 
 def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
     """What each function of the state, or of the parameters, computes, by its name."""
     space, graph = lowering.space, lowering.graph
     try:
-        rates = space.rates(lowering.name, lowering.component)  # type: ignore[arg-type]
+        rates = space.rates(lowering.name, lowering.component, lowering.acceleration)  # type: ignore[arg-type]
         lowering.require_regular()
         energy = lowering.name("h̃")
-        tensor = inertia(lowering)
+        tensor = _inertia(lowering)
         if not isinstance(energy, Node):
             raise LoweringError("the energy is not a number")
         *rates, energy = factored(graph, [*rates, energy])
@@ -96,25 +183,27 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
             f"{lowering.record.name}: a division by zero, or a mass matrix that is singular "
             "whatever the parameters: look at the denominators in the file, and at the masses"
         ) from None
-    return found | ({"inertia": tensor} if tensor else {})
+    return found | tensor
 
 
 def _places(
     lowering: Lowering, names: Names, state: list[str], inputs: list[str]
-) -> dict[Node, tuple[str, tuple[str, int]]]:
-    """Where each leaf is read from, and the name it has there (never a reserved word)."""
-    arrays = (("x", "state", state), ("u", "input", inputs))
-    found = {
-        lowering.leaf(x, kind): (names.claim(x, f"{kind} {x}"), (array, i))
-        for array, kind, members in arrays
-        for i, x in enumerate(members)
-    }
+) -> dict[Node, Place]:
+    """Where what changes is read from."""
+    found: dict[Node, Place] = {}
+    for array, kind, members in (("x", "state", state), ("u", "input", inputs)):
+        found |= _leaf_places(names, [lowering.leaf(x, kind) for x in members], array)
     return found | {lowering.leaf("t", "time"): ("t", ("t", 0))}
 
 
 def _used_parameters(d: Derivation, nodes: list[Node]) -> list[str]:
     """The parameters that the equations contain, in the order of the problem."""
-    used: set[str] = set()
+    used = {x.data[1] for x in _leaves(nodes) if x.data[0] == "parameter"}
+    return [name for name in d.problem["parameters"] if name in used]
+
+
+def _leaves(nodes: Iterable[Node]) -> set[Node]:
+    """All inputs of some nodes."""
     seen: set[Node] = set()
     stack = list(nodes)
     while stack:
@@ -122,24 +211,12 @@ def _used_parameters(d: Derivation, nodes: list[Node]) -> list[str]:
         if x not in seen:
             seen.add(x)
             stack.extend(x.args)
-            if x.op == "leaf":
-                used.add(x.data[1])
-    return [name for name in d.problem["parameters"] if name in used]
-
-
-def _parameter_places(
-    lowering: Lowering, names: Names, parameters: list[str]
-) -> dict[Node, tuple[str, tuple[str, int]]]:
-    """Where each parameter is read from, and the name it has there."""
-    return {
-        lowering.leaf(x, "parameter"): (names.claim(x, f"parameter {x}"), ("p", i))
-        for i, x in enumerate(parameters)
-    }
+    return {x for x in seen if x.op == "leaf"}
 
 
 def _constant_name(names: Names, x: Node, i: int) -> str:
     if x.op == "leaf":
-        return names.claim(x.data[1], f"parameter {x.data[1]}")
+        return names.claim(x.data[1], " ".join(x.data))
     return names.claim(_wanted(x) or suffixed("constant", i), f"node {x.id}")
 
 

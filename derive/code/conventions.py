@@ -11,7 +11,9 @@ from ..record.record import decode
 from .options import Options
 
 
-def conventions(group: Group, problem: Mapping[str, Any], options: Options) -> tuple[str, ...]:
+def conventions(
+    group: Group, problem: Mapping[str, Any], options: Options, frame: Mapping[str, Any] | None
+) -> tuple[str, ...]:
     """One sentence each, in plain ASCII."""
     inputs: Sequence[Mapping[str, Any]] = problem.get("inputs", [])
     places = _places(problem)
@@ -38,7 +40,24 @@ def conventions(group: Group, problem: Mapping[str, Any], options: Options) -> t
         lines.append(
             "w is the velocity of the body's origin (r = 0) in the body frame: dT/dt = A w."
         )
-    return (*lines, *(line for given in inputs for line in _input(group, given, places)))
+    given = (line for x in inputs for line in _input(group, x, places))
+    return (*lines, *given, *(_frame(group, frame, bool(inputs)) if frame else ()))
+
+
+def _frame(group: Group, frame: Mapping[str, Any], driven: bool) -> list[str]:
+    """In which frame the state is, and what carries it there."""
+    place = "H (r - s), s the centre of mass" if group.affine else "H r"
+    lines = [f"x is in the principal frame of the body: a point r is at r' = {place},"]
+    if frame["kind"] == "rotation":
+        lines.append("H the rotation onto the axes that make J, the matrix of moments, diagonal.")
+    else:
+        unit = "a multiple of 1, det H = 1" if frame["per_unit"] else "1"
+        lines.append(f"H such that J, the matrix of moments, is {unit}.")
+    if frame["turned"]:
+        lines.append("Space is turned as well, by the rotation S: gravity is along its last axis.")
+    lines.append("into_frame takes x from the frame of the parameters, out_of_frame takes it back;")
+    told = ["inputs_into_frame takes the inputs there;"] * driven
+    return [*lines, *told, "constants finds H and keeps it in k."]
 
 
 def _attitude(group: Group) -> list[str]:

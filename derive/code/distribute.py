@@ -29,6 +29,27 @@ def distributed(graph: Graph, s: Node, uses: Mapping[Node, int], images: dict[No
     return graph.linear([*kept, *free])
 
 
+def spread_over(graph: Graph, x: Node, uses: Mapping[Node, int]) -> Node | None:
+    """p (q x + r y + …) with p in each term; ``None`` where that saves no multiplication."""
+    if x.op != "mul" or len(x.args) != 2 or x.args[0].stage != PARAMETER:
+        return None
+    factor, moving = x.args
+    terms = _terms(moving, uses)
+    if len(terms) < 2 or not all(y.op == "mul" and y.args[0].stage == PARAMETER for _, y in terms):
+        return None
+    return graph.linear((c, graph.product((factor, y))) for c, y in terms)
+
+
+def _terms(x: Node, uses: Mapping[Node, int]) -> list[Term]:
+    """The terms of a sum, and of sums in it that have a name but stand here alone."""
+    inner = x.args[0] if x.op == "value" and uses[x] == 1 else x
+    if inner.op != "add" or uses[x] > 1:
+        return [(Fraction(1), x)]
+    return [
+        (c * k, z) for c, y in zip(inner.data, inner.args, strict=True) for k, z in _terms(y, uses)
+    ]
+
+
 def _common(terms: Sequence[Term]) -> tuple[Node, list[Term]] | None:
     """The moving factor of most of the terms, and these terms."""
     count = Counter(

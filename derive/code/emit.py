@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -38,6 +38,10 @@ def emit(
             "_, starting with a letter, at most 64, no word of a language or of the emitted code, "
             "and no header of C or module of Python"
         )
+    plain = [name for name in languages if program.framing and not LANGUAGES[name].framed]
+    if plain:
+        framed = ", ".join(name for name, x in LANGUAGES.items() if x.framed)
+        raise EmitError(f"--frame principal is written in {framed}, not in {', '.join(plain)}")
     needed = (LANGUAGES[name].needs for name in languages)
     files = {}
     for name in dict.fromkeys([*filter(None, needed), *languages]):
@@ -63,7 +67,11 @@ def _fields(
     real = options.real
     printer = language.printer(real)
     sizes = {"x": len(p.state), "k": len(p.constants), "u": len(p.inputs)}
-    written = Statements(language, real, sizes | {"p": len(p.parameters)})
+    sizes["p"] = len(p.parameters)
+    if p.framing:
+        sizes["axes"] = sum(n + n * n for n, _ in p.framing.matrices)
+        sizes["frame"] = len(p.framing.numbers.outputs)
+    written = Statements(language, real, sizes)
     functions = {name: written.function(f) for name, f in p.functions.items()}
     return {
         "prefix": prefix,
@@ -89,8 +97,28 @@ def _fields(
         "basis_lines": _basis_lines(p),
         "functions": functions,
         "jacobians": {x: f for x, f in functions.items() if x.startswith("jacobian")},
-        "calls": sorted({x for f in p.functions.values() for x in f.calls()}),
+        "framing": _framing(p, written, sizes),
+        "carrying": [x for x in functions if x.endswith("_frame")],
+        "calls": sorted({x for f in p.all_functions() for x in f.calls()}),
         "tolerance": printer.number(Fraction(TOLERANCE[real])),
+    }
+
+
+def _framing(p: Program, written: Statements, sizes: Mapping[str, int]) -> dict[str, Any] | None:
+    """How the principal frame is found: the matrices, where their axes go, and what follows."""
+    if p.framing is None:
+        return None
+    matrices, start = [], 0
+    for n, f in p.framing.matrices:
+        matrices.append({"n": n, "start": start, **written.function(f)})
+        start += n + n * n
+    largest = max(n for n, _ in p.framing.matrices)
+    return {
+        "matrices": matrices,
+        "numbers": written.function(p.framing.numbers),
+        "largest": largest,
+        "axes": sizes["axes"],
+        "count": sizes["frame"],
     }
 
 

@@ -12,22 +12,27 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 
-from .distribute import distributed
+from .distribute import distributed, spread_over
 from .graph import PARAMETER, Graph, Node
+from .schedule import frontier
 
 PASSES = 4
 NOTHING: Mapping[Node, Node] = MappingProxyType({})
 
 
 def factored(graph: Graph, roots: Sequence[Node]) -> list[Node]:
-    """The same values with fewer multiplications: of two ways the one that counts fewer."""
-    ways = [_factored(graph, roots, numbers) for numbers in (False, True)]
-    return min(ways, key=multiplications)
+    """The same values with fewer multiplications: of four ways the one that counts fewest."""
+    ways = [
+        _factored(graph, start, numbers)
+        for start in (list(roots), spread(graph, roots))
+        for numbers in (False, True)
+    ]
+    return min(ways, key=cost)
 
 
-def multiplications(roots: Sequence[Node]) -> int:
-    """How many there are in what moves, each value computed once."""
-    total = 0
+def cost(roots: Sequence[Node]) -> int:
+    """Multiplications in what moves, each value computed once, and constants to be loaded."""
+    total = len(frontier(roots))
     for x in _reachable(roots):
         if x.op == "mul":
             total += len(x.args) - 1
@@ -48,6 +53,15 @@ def _factored(graph: Graph, roots: Sequence[Node], numbers: bool) -> list[Node]:
     found = [images[x] for x in found]
     images = _rebuilt(graph, found, set(), sums=True)
     return [images[x] for x in found]
+
+
+def spread(graph: Graph, roots: Sequence[Node]) -> list[Node]:
+    """The same with p (q x + r y) as (pq) x + (pr) y, where p, q, r depend on parameters alone."""
+    order = _reachable(roots)
+    uses = Counter(roots) + Counter(y for x in order for y in x.args)
+    opened = {x: other for x in order if (other := spread_over(graph, x, uses)) is not None}
+    images = _rebuilt(graph, roots, set(), opened=opened) if opened else {}
+    return [images.get(x, x) for x in roots]
 
 
 def _values(roots: Sequence[Node]) -> list[Node]:
@@ -114,11 +128,13 @@ def _rebuilt(
     named: Mapping[Node, Node] = NOTHING,
     *,
     sums: bool = False,
+    opened: Mapping[Node, Node] = NOTHING,
 ) -> dict[Node, Node]:
     """Old node → new node; what depends on parameters alone stays as it is.
 
     ``named``: sums and products that have a name; where they stand without it, they get it.
-    ``sums``: common factors of the terms of sums are taken in front of them.
+    ``sums``: common factors of the terms of sums are taken in front of them.  ``opened``: nodes
+    that stand otherwise.
     """
     order = _reachable(roots)
     uses = Counter(roots) + Counter(y for x in order for y in x.args) if sums else Counter()
@@ -126,7 +142,9 @@ def _rebuilt(
     for x in order:
         other = {} if x.op == "value" else named
         args = [images.get(other.get(y, y), other.get(y, y)) for y in x.args]
-        if x in lost:
+        if x in opened:
+            images[x] = opened[x]
+        elif x in lost:
             images[x] = args[0]
         elif sums and x.op == "add" and len(x.args) > 1:
             images[x] = distributed(graph, x, uses, images)

@@ -81,8 +81,8 @@ class Graph:
         return x if isinstance(x, Node) else self.num(x)
 
     def leaf(self, name: str, kind: str) -> Node:
-        """An input of the program: of the ``state``, a ``parameter``, or an ``input``."""
-        stage = PARAMETER if kind == "parameter" else STATE
+        """An input: of the ``state``, a ``parameter``, of its ``frame``, or an ``input``."""
+        stage = PARAMETER if kind in ("parameter", "frame") else STATE
         return self._intern("leaf", (kind, name), (), stage)
 
     def value(self, node: Node, name: str, label: str, *, given: bool = False) -> Node:

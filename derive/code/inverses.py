@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
 from ..record.record import Derivation
 from . import dense
-from .graph import PARAMETER, Node
+from .graph import PARAMETER, Graph, Node
 from .naming import name_of
 from .options import Options
 from .reader import Reader, Value
@@ -19,11 +20,17 @@ SMALL = 3
 class Inverting(Reader):
     """``checks``: what must not vanish in constants, and the scale of its rounding error."""
 
-    def __init__(self, d: Derivation, group: Group, options: Options):
-        super().__init__(d, group, options)
+    def __init__(self, d: Derivation, group: Group, options: Options, graph: Graph | None = None):
+        super().__init__(d, group, options, graph)
         self.checks: list[tuple[Node, Node | None]] = []
 
     def _inverse(self, t: Tree) -> Value:
+        if t == ("T", "A"):
+            return q.transposed(self.space.inverse)
+        if t == "C" and self.space.tangent:
+            inverse = self.space.inverse  # at hand, for Z = A⁻¹Ȧ
+            square = dense.times(self.graph, inverse, q.transposed(inverse))
+            return self.named(square, "inv_C")
         value, name = self.tree(t), name_of(("inv", t))
         g = self.graph
         if isinstance(value, Node):

@@ -18,7 +18,8 @@ class Language:
     ``declare``: a constant, of ``{real}``, ``{name}`` and ``{text}``; ``load`` reads entry
     ``{index}`` (counted from ``first``) of an array; ``batch`` the same of state s of n.
     ``parenthesised``: a statement of several lines needs parentheses.
-    ``needs``: a language whose files these ones include.
+    ``needs``: a language whose files these ones include.  ``framed``: are there templates of
+    what finds a principal frame?
     """
 
     name: str
@@ -32,6 +33,7 @@ class Language:
     first: int = 0
     parenthesised: bool = False
     needs: str = ""
+    framed: bool = False
 
 
 def _c(real: str) -> Printer:
@@ -66,6 +68,7 @@ LANGUAGES: dict[str, Language] = {
         BLOCK,
         C_REALS,
         batch="{array}[{index}*n + s]",
+        framed=True,
     ),
     "cpp": Language(
         "cpp",
@@ -75,6 +78,7 @@ LANGUAGES: dict[str, Language] = {
         BLOCK,
         C_REALS,
         needs="c",
+        framed=True,
     ),
     "cvode": Language(
         "cvode",
@@ -84,6 +88,7 @@ LANGUAGES: dict[str, Language] = {
         BLOCK,
         C_REALS,
         needs="c",
+        framed=True,
     ),
     "python": Language(
         "python",
@@ -93,6 +98,7 @@ LANGUAGES: dict[str, Language] = {
         HASH,
         {"double": "float64", "float": "float32"},
         parenthesised=True,
+        framed=True,
     ),
     "rust": Language(
         "rust",

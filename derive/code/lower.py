@@ -19,7 +19,7 @@ from ..algebra.tree import Tree, mul
 from ..record.arithmetic import hat, wedge
 from ..record.record import Derivation
 from . import dense
-from .graph import PARAMETER, Node
+from .graph import PARAMETER, Graph, Node
 from .inverses import SMALL, Inverting
 from .naming import name_of
 from .options import Options
@@ -30,8 +30,8 @@ from .reader import Value, bound
 class Lowering(Inverting):
     """The graph of one record."""
 
-    def __init__(self, d: Derivation, group: Group, options: Options):
-        super().__init__(d, group, options)
+    def __init__(self, d: Derivation, group: Group, options: Options, graph: Graph | None = None):
+        super().__init__(d, group, options, graph)
         self._products: set[Tree] = set()
         self._scan()
 
@@ -134,6 +134,8 @@ class Lowering(Inverting):
     def _gyroscopic(self, metric: Tree, vector: Tree) -> Matrix:
         """M x for M x ∧ x: a multiple of 1 taken from M changes nothing, and leaves M_33 = 0."""
         g, m = self.graph, self._matrix(metric)
+        if all(x.is_zero for i, row in enumerate(m) for j, x in enumerate(row) if i != j):
+            return dense.times(g, m, self._matrix(vector))  # (M_j − M_k) x_j x_k, without names
         rows = tuple(
             tuple(x - m[2][2] if i == j else x for j, x in enumerate(row))
             for i, row in enumerate(m)

@@ -15,7 +15,7 @@ GREEK = {
     "κ": "damping",
 }  # fmt: skip
 MARKS = {"\u0307": "_dot", "\u0303": "_tilde", "′": "_prime"}
-_LOCAL = "D dx i k n p s t u x xp"
+_LOCAL = "D axes dx frame i k n out p s t u x xp"
 _EMITTED = """
     abs all importlib numpy math regular std NULL STATE PARAMETERS INPUTS CONSTANTS DEFAULTS BASIS
     ZERO_INPUTS ZEROS Singular N_STATE N_ALGEBRA N_PARAMETERS N_CONSTANTS N_INPUTS

@@ -9,6 +9,7 @@ CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
     "form": (("source", "header"), "C as .h and .c, or as one header of inline functions"),
     "layout": (("row", "col"), "the entries of A row by row, or column by column"),
     "attitude": (("matrix", "quaternion"), "A as a matrix, or a unit quaternion (SO(3), SE(3))"),
+    "frame": (("given", "principal"), "the body as given, or in its principal frame"),
     "velocity": (("body", "tangent"), "the state ends in Z = g^-1 dg/dt, or in dg/dt"),
 }
 """Option → its values, the first one the default, and what they choose."""
@@ -25,6 +26,7 @@ class Options:
     form: str = "source"
     layout: str = "row"
     attitude: str = "matrix"
+    frame: str = "given"
     velocity: str = "body"
     jacobian: tuple[str, ...] = ()
 

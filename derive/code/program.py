@@ -103,11 +103,24 @@ class Turning:
 
 
 @dataclass(frozen=True)
+class Framing:
+    """How ``constants`` finds the principal frame.
+
+    ``matrices``: (n, function) for each symmetric matrix whose axes are wanted, in order; the
+    n eigenvalues, smallest first, then the n rows of a rotation, are appended to the array
+    ``axes``, which later functions read.  ``numbers``: the array ``frame``, which constants reads.
+    """
+
+    matrices: tuple[tuple[int, Function], ...]
+    numbers: Function
+
+
+@dataclass(frozen=True)
 class Program:
     """All that is emitted for one problem, without a word of any language.
 
     ``functions``: constants, rhs, energy; inertia for a body turned in space; and what is asked for
-    of jacobian, jacobian_inputs, jacobian_parameters.
+    of jacobian, jacobian_inputs, jacobian_parameters; into_frame, out_of_frame, inputs_into_frame.
     """
 
     name: str
@@ -123,6 +136,13 @@ class Program:
     functions: Mapping[str, Function]
     translates: bool = False
     turning: Turning | None = None
+    framing: Framing | None = None
+
+    def all_functions(self) -> tuple[Function, ...]:
+        """Those that are called, and those that find the frame."""
+        found = self.framing
+        own = (*(f for _, f in found.matrices), found.numbers) if found else ()
+        return (*self.functions.values(), *own)
 
 
 def _collect(e: Any, found: set[str]) -> None:

@@ -20,9 +20,9 @@ Value = Node | Matrix
 class Reader:
     """The values of the names of one record; how a tree is computed is left to ``tree``."""
 
-    def __init__(self, d: Derivation, group: Group, options: Options):
+    def __init__(self, d: Derivation, group: Group, options: Options, graph: Graph | None = None):
         self.record, self.group, self.n = d, group, group.n
-        self.graph = Graph()
+        self.graph = graph or Graph()
         self.space = State(self.graph, group, options)
         self.label = ""
         self.memo: dict[Tree, Value] = {}
@@ -51,6 +51,21 @@ class Reader:
             self.state["u"] = self._given(name, d - n if moved else d)
             if moved:
                 self.state["f_u"] = self._given(name, n, d - n)
+
+    @property
+    def acceleration(self) -> Matrix:
+        """That of A, where the record gives it in space."""
+        known = self.space.tangent and self.record.definition("α̇") is not None
+        return self.name("α̇") if known else ()  # type: ignore[return-value]
+
+    @property
+    def covector(self) -> list[Node]:
+        """The components of the covector input."""
+        return [x for name in ("u", "f_u") for (x,) in self.state.get(name, ())]  # type: ignore[union-attr]
+
+    def force(self, i: int) -> Matrix:
+        """Force input i, counted from 1, as a column."""
+        return self.memo["at", "f_u", i]  # type: ignore[return-value]
 
     def _given(self, name: str, size: int, after: int = 0) -> Matrix:
         """A column of inputs."""

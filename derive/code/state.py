@@ -8,9 +8,10 @@ Z = g⁻¹ġ (and w), or the entries of ġ.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 from ..algebra import rational as q
 from ..algebra.groups import Group
@@ -119,19 +120,19 @@ class State:
 
     def along(self, a: int) -> Seeds:
         """The variation δg = g E_a at constant ζ."""
-        e = self._member(a)
+        e = self.member(a)
         seeds = self._moved(e)
         if self.tangent:  # δġ = g E_a Z
-            seeds |= self._speeds(dense.times(self.graph, e, self._hat(self.coordinates)))
+            seeds |= self._speeds(dense.times(self.graph, e, self.hat(self.coordinates)))
         return seeds
 
     def faster(self, a: int) -> Seeds:
         """The variation of ζ_a alone."""
         if self.tangent:
-            return self._speeds(self._member(a))
+            return self._speeds(self.member(a))
         return {self.coordinates[a]: self.graph.num(1)}
 
-    def _member(self, a: int) -> Matrix:
+    def member(self, a: int) -> Matrix:
         """E_a as a matrix of nodes."""
         return tuple(tuple(self.graph.num(x) for x in row) for row in self.group.basis[a])
 
@@ -175,7 +176,7 @@ class State:
                 self.values["w"] = tuple((self._leaf(suffixed("w", i)),) for i in self._span(n))
             return
         placed = self._placed("_dot", self.slots)
-        inverse = self._inverse()
+        inverse = self.inverse
         Z = dense.times(self.graph, inverse, placed["A"])
         self.values |= {"α": placed["A"], "τ": placed["T"]}
         if self.group.affine:
@@ -183,7 +184,7 @@ class State:
             self.values["w"] = self._named("w", w)
             rows = ((*row, x) for row, (x,) in zip(Z, w, strict=True))
             Z = (*rows, (self.graph.num(0),) * (n + 1))
-        coordinates = [(self._read(a, Z),) for a in range(d - n if self.group.affine else d)]
+        coordinates = [(self.read(a, Z),) for a in range(d - n if self.group.affine else d)]
         self.values["ζ"] = self._named("zeta", tuple(coordinates))
 
     @staticmethod
@@ -195,8 +196,17 @@ class State:
             (self.graph.value(x, suffixed(name, i), ""),) for i, (x,) in enumerate(column, 1)
         )
 
-    def _read(self, a: int, z: Matrix) -> Node:
+    def read(self, a: int, z: Matrix) -> Node:
+        """Coordinate a of a matrix of the Lie algebra."""
         return self.graph.linear((c, z[i][j]) for c, i, j in self.group.reading(a))
+
+    @cached_property
+    def inverse(self) -> Matrix:
+        """A⁻¹, its entries named."""
+        return tuple(
+            tuple(self.graph.value(x, suffixed("inv_A", i, j), "") for j, x in enumerate(row, 1))
+            for i, row in enumerate(self._inverse(), 1)
+        )
 
     def _inverse(self) -> Matrix:
         """A⁻¹: the transpose of a rotation, else the adjugate, or (ĀA)⁻¹Ā for a large A."""
@@ -230,11 +240,15 @@ class State:
         found = [component("ζ̇", a) for a in self._span(turns)]
         return found + ([component("ẇ", i) for i in self._span(n)] if self.group.affine else [])
 
-    def rates(self, name: Named, component: Component) -> list[Node]:
-        """The time derivative of each number, from the names and components of the record."""
+    def rates(self, name: Named, component: Component, second: Matrix = ()) -> list[Node]:
+        """The time derivative of each number, from the names and components of the record.
+
+        ``second``: the acceleration of A, where the record has it in space.
+        """
         affine, velocity = self.group.affine, self.velocity(component)
         if self.tangent:
-            return [*self._entries(self.values["α"], self.values["τ"]), *self._second(velocity)]
+            speeds = self._entries(self.values["α"], self.values["τ"])
+            return speeds + (self._entries(second, ()) if second else self._second(velocity))
         if not self.quaternion:
             return self._entries(name("Ȧ"), name("Ṫ") if affine else ()) + velocity
         found = multiplied(self.q, (self.graph.num(0), *self._halves(self.values["ζ"])))
@@ -246,7 +260,29 @@ class State:
     def _entries(self, A: Matrix, T: Matrix) -> list[Node]:
         return [{"A": A, "T": T}[x.letter][x.row][x.column] for x in self.slots]
 
-    def _hat(self, coordinates: list[Node]) -> Matrix:
+    def entries(self, g: Matrix) -> list[Node]:
+        """The state's numbers in A or [[A, T], [0, 1]]; those of T alone beside a quaternion."""
+        slots = (x for x in self.slots if x.letter == "T" or not self.quaternion)
+        return [g[x.row][self.n if x.letter == "T" else x.column] for x in slots]
+
+    @property
+    def element(self) -> Matrix:
+        """g, of the size of the group's matrices."""
+        return self._whole(self.values["A"], self.values.get("T", ()), 1)
+
+    @property
+    def rate(self) -> Matrix:
+        """ġ, where the state holds it."""
+        return self._whole(self.values["α"], self.values.get("τ", ()), 0)
+
+    def _whole(self, linear: Matrix, shift: Matrix, corner: int) -> Matrix:
+        if not self.group.affine:
+            return linear
+        num = self.graph.num
+        rows = ((*row, x) for row, (x,) in zip(linear, shift, strict=True))
+        return (*rows, (*(num(0),) * self.n, num(corner)))
+
+    def hat(self, coordinates: Sequence[Node]) -> Matrix:
         """Σ x_a E_a."""
         basis, span = self.group.basis, range(self.group.size)
         return tuple(
@@ -262,8 +298,8 @@ class State:
     def _second(self, rate: list[Node]) -> list[Node]:
         """g̈ = g(Ż + Z²): its linear part and its shift."""
         g, n = self.graph, self.n
-        Z = self._hat(self.coordinates)
-        total = q.plus(self._hat(rate), dense.times(g, Z, Z))
+        Z = self.hat(self.coordinates)
+        total = q.plus(self.hat(rate), dense.times(g, Z, Z))
         named = tuple(
             tuple(g.value(x, suffixed("Y", i, j), "") for j, x in enumerate(row, 1))
             for i, row in enumerate(total, 1)

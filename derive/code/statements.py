@@ -36,6 +36,7 @@ class Statements:
             "sections": [self._section(s) for s in f.sections],
             "outputs": [wrapped(printer(e), TEXT - 12, " " * 8) for e in f.outputs],
             "checks": [self._check(c) for c in f.checks],
+            "calls": sorted(f.calls()),
             "operations": operations(f),
         }
 
@@ -64,7 +65,8 @@ class Statements:
     def _section(self, s: Section) -> dict[str, Any]:
         label = s.label.partition("#")[0]
         equation = comment(s.equation if len(s.equation) <= 200 else s.equation[:197] + "...")
-        told = [f"{label}: {operations(Function((), (s,), ()))}"]
+        cost = operations(Function((), (s,), ()))
+        told = [f"{label}: {cost}" if label else cost]
         told += textwrap.wrap(equation, EQUATION, break_long_words=False)
         first, between, last = self.language.comment
         lines = [first + told[0], *(between + x for x in told[1:])]

@@ -98,10 +98,14 @@ class Spring:
 
 @dataclass(frozen=True)
 class Attraction:
-    """U = −Σ m_i μ / ‖r_i − centre‖, over the points that have a mass."""
+    """U = −Σ m_i μ / ‖r_i − centre‖, over the points that have a mass.
+
+    ``on``: or over these points (counted from 1) and masses, whatever they weigh in the body.
+    """
 
     strength: Tree
     centre: tuple[Tree, ...]
+    on: tuple[tuple[int, Tree], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -150,7 +154,10 @@ Input = CovectorInput | ForceInput
 
 @dataclass(frozen=True)
 class Problem:
-    """``group`` is ``None`` for the general text: any group with the given ``action``."""
+    """``group`` is ``None`` for the general text: any group with the given ``action``.
+
+    ``frame``: what its parameters stand for, if it is in a principal frame (``frame.py``).
+    """
 
     name: str
     group: Group | None
@@ -162,6 +169,7 @@ class Problem:
     inputs: tuple[Input, ...] = ()
     places: tuple[Place, ...] = ()
     damping: tuple[Damping, ...] = ()
+    frame: Mapping[str, Any] | None = None
 
     @property
     def affine(self) -> bool:
@@ -224,81 +232,6 @@ class Problem:
         """The force inputs."""
         return tuple(i for i in self.inputs if isinstance(i, ForceInput))
 
-    def data(self) -> dict[str, Any]:
-        """What the record says of the problem; trees as they are."""
-        return {
-            "name": self.name,
-            "title": self.title,
-            "group": self.group.name if self.group else "any group",
-            "action": self.action,
-            "homogeneous": self.homogeneous,
-            "parameters": {
-                k: {"default": p.default, "unit": p.unit, "meaning": p.meaning}
-                for k, p in self.parameters.items()
-            },
-            "body": _body_data(self.body),
-            "potentials": [_potential_data(p) for p in self.potentials],
-            "inputs": [_input_data(i) for i in self.inputs],
-            "places": [{"at": list(p.at), "block": p.block} for p in self.places],
-            "damping": [{"coefficient": d.coefficient, "on": list(d.on)} for d in self.damping],
-        }
-
 
 def _as_points(body: Body | None) -> PointBody | None:
     return body if isinstance(body, PointBody) else None
-
-
-def _body_data(body: Body | None) -> dict[str, Any]:
-    if isinstance(body, GivenBody):
-        given = {"m": body.mass, "c": list(body.first), "J": [list(row) for row in body.second]}
-        solids = [_solid_data(s) for s in body.solids]
-        own = {"points": _points_data(body.points)} if body.points else {}
-        return {"kind": "given", "given": given, "solids": solids, **own}
-    if isinstance(body, PointBody):
-        return {"kind": "points", "points": _points_data(body)}
-    return {"kind": "moments" if body else "any"}
-
-
-def _points_data(body: PointBody) -> list[dict[str, Any]]:
-    blocks = body.blocks or (1,) * len(body.masses)
-    points = zip(body.masses, body.positions, blocks, strict=True)
-    return [{"mass": m, "at": list(r), "block": b} for m, r, b in points]
-
-
-def _solid_data(s: Solid) -> dict[str, Any]:
-    sizes: dict[str, Any] = dict(s.sizes)
-    if s.mesh is not None:
-        vertices, faces = s.mesh
-        sizes = {"vertices": [list(v) for v in vertices], "faces": [list(f) for f in faces]}
-    return {
-        "kind": s.kind,
-        "density": s.density,
-        "sizes": {k: _listed(x) for k, x in sizes.items()},
-        "rotation": [list(row) for row in s.rotation] if s.rotation else None,
-        "shift": list(s.shift) if s.shift else None,
-    }
-
-
-def _listed(x: Any) -> Any:
-    """Tuples of sizes as lists; a tree stays a tree."""
-    if isinstance(x, tuple) and x and not isinstance(x[0], str):
-        return [_listed(y) for y in x]
-    return x
-
-
-def _potential_data(p: Potential) -> dict[str, Any]:
-    if isinstance(p, Gravity):
-        return {"kind": "gravity", "g": list(p.acceleration)}
-    if isinstance(p, Attraction):
-        return {"kind": "attraction", "strength": p.strength, "centre": list(p.centre)}
-    if isinstance(p, Expression):
-        return {"kind": "expression", "U": p.energy}
-    i, j = p.between
-    ends = {"between": [i, j]} if j is not None else {"on": i, "anchor": list(p.anchor)}
-    return {"kind": "spring", **ends, "stiffness": p.stiffness, "length": p.length}
-
-
-def _input_data(i: Input) -> dict[str, Any]:
-    if isinstance(i, CovectorInput):
-        return {"kind": "covector", "name": i.name}
-    return {"kind": "force", "name": i.name, "on": i.on, "frame": i.frame}

@@ -131,7 +131,8 @@ class Exerted:
     ) -> Iterator[tuple[Vector, Any]]:
         """For each mass its place seen from the centre, and m · strength."""
         strength, centre = self.number(p["strength"]), self.vector(p["centre"])
-        for i, m in enumerate(masses, 1):
+        given = [(i, self.number(m)) for i, m in p.get("on", ())]
+        for i, m in given or enumerate(masses, 1):
             if m:
                 d = self.place(r, i)
                 origin = centre or (Fraction(0),) * len(d)

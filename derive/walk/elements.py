@@ -12,7 +12,7 @@ from fractions import Fraction
 
 from ..algebra.differentiate import derivative, product
 from ..algebra.tree import Tree, add, mul, neg, subtrees
-from ..mechanics.problem import Attraction, Expression, PointBody, Problem, Spring
+from ..mechanics.problem import Attraction, Expression, Problem, Spring
 from ..record.record import Equation
 
 
@@ -112,9 +112,8 @@ def _spring(found: Elements, p: Spring, problem: Problem) -> None:
 
 
 def _attraction(found: Elements, p: Attraction, problem: Problem) -> None:
-    body = problem.body
-    assert isinstance(body, PointBody)
-    for i, m in enumerate(body.masses, 1):
+    body = problem.points
+    for i, m in p.on or enumerate(body.masses if body else (), 1):
         centre = neg(column(p.centre)) if p.centre else 0
         d = found.difference(add(place(problem, i), centre))
         distance: Tree = ("fun", "sqrt", ("norm2", d))

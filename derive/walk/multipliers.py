@@ -6,6 +6,7 @@ is the number of constraints on A.  For SL(n) it is spanned by 1, for GL(n) it i
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 
 from ..algebra import rational as q
@@ -52,6 +53,7 @@ def multiplier_steps(
         equations.append(Equation("λ", ratio))
     equations += [Equation("Ż", tree_of(solved, notation)), *translation]
     prose = _prose(direction, letters)
+    space = () if b.affine else (_in_space(solved, b, display, c),)
     return (
         c.step("multiplier", "multiplier", uses, (*definition, balance), prose),
         c.step(
@@ -63,6 +65,23 @@ def multiplier_steps(
             f"masses {'do not lie in one hyperplane' if b.affine else 'span the space'}"
             + (", and that Ż is in the Lie algebra gives λ." if direction else "."),
         ),
+        *space,
+    )
+
+
+def _in_space(solved: Expr, b: Alphabet, display: Mapping[Letter, Tree], c: Chapter) -> Step:
+    """α̇ = A(Ż + Z²), with C⁻¹ = A⁻¹Ā⁻¹: the acceleration of the point r is α̇r."""
+    left, right = Letter("A⁻¹", b.n, b.n), Letter("Ā⁻¹", b.n, b.n)
+    Z = word(b.Z.velocity)
+    within = substitute(solved + Z * Z, {inverse_letter(b.C): word(left) * word(right)})
+    total = reduce(word(b.A.position) * within, cancelling(b.A.position))
+    shown = {**display, left: ("inv", "A"), right: ("inv", ("T", "A"))}
+    return c.step(
+        "space",
+        "solution",
+        "motion .trivialisation",
+        (Equation(b.A.acceleration.name, tree_of(total, Notation(display=shown))),),
+        "The same in space, by C⁻¹ = A⁻¹Ā⁻¹: A(Ż + Z²) is the acceleration of A.",
     )
 
 

@@ -138,7 +138,6 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
             return 1;
         }
     }
-
     return 0;
 }
 

@@ -208,7 +208,6 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
             return 1;
         }
     }
-
     return 0;
 }
 

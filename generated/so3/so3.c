@@ -108,7 +108,6 @@ int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
             return 1;
         }
     }
-
     return 0;
 }
 
