@@ -157,3 +157,27 @@ def test_check_writes_nothing(tmp_path, capsys):
     assert main(["emit", "so3", "--out", str(new), "--check"]) == 1
     assert capsys.readouterr().out.count("not current") == 3
     assert not new.exists()
+
+
+NUMBERS = """\
+name = "top"
+group = "SO(3)"
+body = { given = { m = 1, c = [0, 0, 1], J = [[2, 0, 0], [0, 3, 0], [0, 0, 4]] } }
+"""
+
+
+@pytest.mark.parametrize(
+    ("problem", "options", "words"),
+    [
+        ("sl3", ["--attitude", "quaternion"], "a quaternion needs SO(3) or SE(3)"),
+        ("so3", ["--attitude", "quaternion", "--velocity", "tangent"], "not tangent"),
+        ("sl3", ["--jacobian", "inputs"], "no inputs to linearise in"),
+        ("numbers.toml", ["--jacobian", "parameters"], "no parameters to linearise in"),
+        ("so3", ["--frame", "principal", "--lang", "julia"], "not in julia"),
+    ],
+)
+def test_choices_that_exclude_each_other(problem, options, words, refused, tmp_path):
+    (tmp_path / "numbers.toml").write_text(NUMBERS)
+    path = tmp_path / problem if problem.endswith(".toml") else problem
+    assert words in refused(path, *options, "--out", tmp_path / "new")
+    assert not (tmp_path / "new").exists()

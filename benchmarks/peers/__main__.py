@@ -132,10 +132,13 @@ def run(name: str, chosen: list[str], rounds: int, folder: Path, limits: Limits)
     if first is None or hand is None:
         raise SystemExit(f"{name}: {refused}")
     made = [first, hand]
+    for one, there in ours.framed(case, x, wanted, folder):
+        checked = attempt(one.name, lambda m=one: m, there, folder, refused)  # type: ignore[misc]
+        made += [checked] if checked else []
     for peer in chosen:
         maker = PEERS[peer]
-        one = attempt(peer, lambda m=maker: m(case, x, folder), first.out, folder, refused)  # type: ignore[misc]
-        made += [one] if one else []
+        built = attempt(peer, lambda m=maker: m(case, x, folder), first.out, folder, refused)  # type: ignore[misc]
+        made += [built] if built else []
     title = f"{name}: {GROUPS[name]}, {case.size} numbers of state"
     print(scalar_table(title, made, refused, rounds), flush=True)
     pair = {"ours": first, "expert": hand}

@@ -117,11 +117,12 @@ def load(path: Path, name: str) -> Any:
     return module
 
 
-def emit(case: Case, folder: Path) -> Emitted:
+def emit(case: Case, folder: Path, prefix: str = "", *options: str) -> Emitted:
     """Run ``derive emit`` in a process of its own."""
-    problem = str(PROBLEMS / f"{case.name}.toml")
-    command(sys.executable, "-m", "derive", "emit", problem, "--out", str(folder))
-    module = load(folder / f"{case.name}.py", case.name)
-    header = (folder / f"{case.name}.h").read_text(encoding="utf-8")
+    problem, name = str(PROBLEMS / f"{case.name}.toml"), prefix or case.name
+    words = ("--out", str(folder), "--prefix", name, *options)
+    command(sys.executable, "-m", "derive", "emit", problem, *words)
+    module = load(folder / f"{name}.py", name)
+    header = (folder / f"{name}.h").read_text(encoding="utf-8")
     parameters = np.array([case.values[name] for name in module.PARAMETERS], dtype=float)
     return Emitted(folder, header, module, parameters)

@@ -23,21 +23,50 @@ SIGNATURE = "(double t, const double *x, const double *k, const double *u, doubl
 
 def ours(case: Case, states: Array, folder: Path) -> tuple[Emitted, Native]:
     """What ``derive emit`` writes."""
-    emitted, name = emit(case, folder), case.name
+    emitted = emit(case, folder)
     k = np.asarray(emitted.module.constants(emitted.parameters), dtype=float)
-    native = Native(
-        name="derive (ours)",
-        sources=[folder / f"{name}.c"],
+    return emitted, _native("derive (ours)", case.name, emitted, k, states)
+
+
+def _native(label: str, name: str, emitted: Emitted, k: Array, states: Array) -> Native:
+    return Native(
+        name=label,
+        sources=[emitted.folder / f"{name}.c"],
         function=f"{name}_rhs",
         constants=k,
         states=states,
-        outputs=case.size,
+        outputs=states.shape[1],
         operations=emitted.operations(),
         prototype=f"void {name}_rhs{SIGNATURE}",
         call=f"{name}_rhs(0.0, xi, k, 0, di)",
         many=(f"void {name}_rhs_batch{BATCH}", f"{name}_rhs_batch(n, 0.0, x, k, 0, dx)"),
     )
-    return emitted, native
+
+
+def framed(case: Case, states: Array, wanted: Array, folder: Path) -> list[tuple[Native, Array]]:
+    """Ours in the principal frame, for P3 also with dA/dt as velocity, and what is right there."""
+    found = []
+    for velocity in ("body", "tangent") if case.name == "p3" else ("body",):
+        name = f"{case.name}_{velocity}"
+        emitted = emit(case, folder, name, "--frame", "principal", "--velocity", velocity)
+        module = emitted.module
+        k = np.asarray(module.constants(emitted.parameters), dtype=float)
+        pairs = [states, wanted]
+        if velocity == "tangent":
+            pairs = list(_tangent(states, wanted, module.BASIS))
+        x, dx = (np.asarray(module.into_frame(y, k)) for y in pairs)
+        label = "derive, principal frame" + (", dA/dt" if velocity == "tangent" else "")
+        found.append((_native(label, name, emitted, k, x), dx))
+    return found
+
+
+def _tangent(x: Array, dx: Array, basis: Array) -> tuple[Array, Array]:
+    """(A, AZ) and its rate (AZ, A(Z' + Z²)), from (A, ζ) and its rate."""
+    A = x[:, :9].reshape(-1, 3, 3)
+    Z, rate = (np.einsum("sa,aij->sij", y[:, 9:], basis) for y in (x, dx))
+    parts = (A, A @ Z, A @ (rate + Z @ Z))
+    flat = [y.reshape(-1, 9) for y in parts]
+    return np.hstack(flat[:2]), np.hstack(flat[1:])
 
 
 def expert(case: Case, states: Array, folder: Path, parameters: Array) -> Native:

@@ -56,6 +56,8 @@ def assemble(
     checks += [frame.regular] if frame else []
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
     parameters = _used_parameters(d, found)
+    if "parameters" in chosen.jacobian and not parameters:
+        raise LoweringError(f"{d.name}: there are no parameters to linearise in")
     functions, constants, framing = _functions(lowering, chosen, wanted, checks, parameters, frame)
     return Program(
         d.name,
@@ -101,7 +103,7 @@ def _functions(
     for name, nodes in wanted.items():
         places = given if name == "inertia" else moving | kept
         functions[name] = scheduler.function(nodes, places)
-    if "parameters" in options.jacobian and parameters:
+    if "parameters" in options.jacobian:
         slopes = by_leaves(lowering.space, lowering.space.velocity(lowering.component), leaves)
         slopes = factored(lowering.graph, slopes)
         functions["jacobian_parameters"] = scheduler.function(slopes, moving | given)

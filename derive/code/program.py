@@ -1,5 +1,10 @@
 """The neutral program: what every language prints.
 
+A value here is one real number with a name: lowering works on whole matrices (``dense.py``), where
+what is zero, symmetric, skew, constant or equal to another entry is one node of the graph or none,
+and only what is left comes here.  Not supported: branches (a potential with if, min, abs),
+loops, complex numbers, tables, implicit equations, matrices whose size is not a number.
+
 An expression is a tuple ``(operator, operand, …)``: ``num``, ``var``, ``add`` (signed terms),
 ``mul``, ``div``, ``abs``, ``fun``.  A function loads inputs, computes sections of
 named values and stores outputs.
