@@ -3,7 +3,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: help derive test bench lint clean
+.PHONY: help derive test notes bench lint clean
 
 help:            ## this list
 	@sed -n 's/^\([a-z]*\):.*## /  make \1  \t/p' Makefile
@@ -20,6 +20,10 @@ test: $(STAMP)   ## lint, types and all tests
 lint: $(STAMP)   ## ruff and mypy alone
 	$(BIN)/ruff check .
 	$(BIN)/mypy
+
+notes: $(STAMP)  ## lecture notes of SO(3), SE(3), SL(3): notes.pdf and notes.html
+	$(BIN)/derive notes so3 se3 sl3 --out notes.html
+	$(BIN)/derive notes so3 se3 sl3 --out notes.pdf
 
 bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside its peers
 	$(BIN)/python -m benchmarks.road

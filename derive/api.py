@@ -164,9 +164,13 @@ def Force(name: str, on: int | Sequence[Number], frame: str = "space") -> Table:
     return Table("input", kind="force", name=name, frame=frame, **where)
 
 
-def Damping(coefficient: Number, on: Sequence[int] | None = None) -> Table:
-    """−κ v on points (all of them), outside dϖ."""
-    return Table("damping", coefficient=coefficient, on=on)
+def Damping(
+    coefficient: Number,
+    on: Sequence[int] | None = None,
+    at: Sequence[Number] | None = None,
+) -> Table:
+    """−κ v on points (all of them), or at a place of the body, outside dϖ."""
+    return Table("damping", coefficient=coefficient, on=on, at=at)
 
 
 def Problem(

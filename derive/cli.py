@@ -13,13 +13,16 @@ from pathlib import Path
 from . import __version__
 from .mechanics.problem import Problem, ProblemError
 from .record.record import Derivation, RecordError
+from .rendering import FORMATS, NOTES, RenderError, notes, pdf, render
 
-FORMATS = ("text", "latex", "markdown", "json")
 READY = resources.files("derive") / "problems"
 
 
 class UsageError(Exception):
     """Bad input: one clear line, exit 2."""
+
+
+REFUSED = (UsageError, ProblemError, RecordError, RenderError)
 
 
 def ready_made() -> list[str]:
@@ -58,25 +61,6 @@ def derive(name: str, negative_mass: bool = False) -> tuple[Problem, Derivation]
         raise UsageError(f"{name}: {error}") from None
 
 
-def render(d: Derivation, form: str) -> str:
-    """A record in one of the formats."""
-    if form == "json":
-        from .record.record import to_json
-
-        return to_json(d)
-    if form == "latex":
-        from .views.latex import latex
-
-        return latex(d)
-    if form == "markdown":
-        from .views.markdown import markdown
-
-        return markdown(d)
-    from .views.text import text
-
-    return text(d)
-
-
 def save(text: str, out: str | None) -> None:
     """To stdout, or whole to a file."""
     from .writing import write
@@ -90,26 +74,42 @@ def save(text: str, out: str | None) -> None:
 
 def command_list(_: argparse.Namespace) -> int:
     """Groups and ready-made problems."""
-    from .algebra.families import FAMILIES
+    from .listing import listing
 
-    print("groups")
-    for name, family in FAMILIES.items():
-        print(f"  {name + '(n)':8} n ≥ {family.least}  {family.meaning}")
-    print('  products of these, "SO(3) x SE(3)", and any group given by a basis')
-    print("problems")
-    listed = [(name, load_problem(name)) for name in ready_made()]
-    groups = {name: p.group.name if p.group else "any group" for name, p in listed}
-    widest, wider = (max(map(len, x)) for x in (groups, groups.values()))
-    for name, p in listed:
-        print(f"  {name:{widest}}  {groups[name]:{wider}}  {p.title}")
+    print(listing({name: load_problem(name) for name in ready_made()}))
     return 0
 
 
 def command_walk(args: argparse.Namespace) -> int:
     """Print the walk of a problem."""
     record = derive(args.problem, args.allow_negative_mass)[1]
-    save(render(record, args.format), args.out)
+    shown = render(record, args.format, args.lang, fragment=args.fragment, **notation(args))
+    save(shown, args.out)
     return 0
+
+
+def command_notes(args: argparse.Namespace) -> int:
+    """Lecture notes of one or several problems: .tex, .pdf or .html."""
+    from .writing import write
+
+    out = Path(args.out)
+    if out.suffix not in NOTES:
+        raise UsageError(f"--out {args.out}: the name must end in {', '.join(NOTES)}")
+    records = [derive(name)[1] for name in dict.fromkeys(args.problem)]
+    text = notes(records, out.suffix, args.lang, **notation(args))
+    if out.suffix != ".pdf":
+        paths = write({out.name: text}, out.parent)
+    else:
+        paths = write({out.with_suffix(".tex").name: text}, out.parent)
+        paths += write({out.name: pdf(text)}, out.parent)
+    for path in paths:
+        print(path)
+    return 0
+
+
+def notation(args: argparse.Namespace) -> dict[str, str]:
+    """How transposes and skew matrices are to be written."""
+    return {"transpose": args.notation, "hat": args.hat}
 
 
 def command_emit(args: argparse.Namespace) -> int:
@@ -224,6 +224,9 @@ def emission(emit: argparse.ArgumentParser) -> None:
 
 def parser() -> argparse.ArgumentParser:
     """The options of every command."""
+    from .views.language import LANGUAGES
+    from .views.notation import NOTATIONS
+
     top = argparse.ArgumentParser(prog="derive", description=__doc__)
     top.add_argument("--version", action="version", version=f"derive {__version__}")
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
@@ -237,6 +240,16 @@ def parser() -> argparse.ArgumentParser:
     walk = command("walk", command_walk)
     walk.add_argument("problem", help="a ready-made name or a .toml file")
     walk.add_argument("--format", choices=FORMATS, default="text")
+    walk.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
+    made = command("notes", command_notes)
+    made.add_argument("problem", nargs="+", help="ready-made names or .toml files")
+    made.add_argument("--out", metavar="FILE", required=True, help="FILE.tex, .pdf or .html")
+    for one in (walk, made):
+        one.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
+        for option, name in (("--notation", "transpose"), ("--hat", "hat")):
+            values, meaning = NOTATIONS[name]
+            about = f"{meaning} (default: {values[0]})"
+            one.add_argument(option, choices=values, default=values[0], help=about)
     walk.add_argument("--out", metavar="FILE")
     emit = command("emit", command_emit)
     emit.add_argument("problem", help="a ready-made name or a .toml file")
@@ -272,7 +285,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         status = int(args.run(args))
         sys.stdout.flush()
         return status
-    except (UsageError, ProblemError, RecordError, EmitError, LoweringError, WriteError) as error:
+    except (
+        UsageError,
+        ProblemError,
+        RecordError,
+        EmitError,
+        LoweringError,
+        WriteError,
+        RenderError,
+    ) as error:
         print(f"derive: {error}", file=sys.stderr)
         return 2
     except BrokenPipeError:

@@ -21,7 +21,7 @@ import numpy as np
 
 from .api import Derived, derive
 from .code.emit import emit
-from .code.options import Options
+from .code.options import CHOICES, Options
 from .code.program import Program
 from .mechanics.problem import Problem, ProblemError
 from .pipeline import program
@@ -100,9 +100,13 @@ class Compiled:
         if unknown or missing:
             what = "unknown" if unknown else "no value for the"
             raise ValueError(f"{what} parameters {', '.join(unknown or missing)}")
-        self.p[:] = [values[x] for x in self.PARAMETERS]
-        if self._function("constants", ctypes.c_int)(*map(_pointer, (self.p, self.k))):
-            raise ValueError("the mass matrix is singular, or a number is not finite")
+        p, k = np.array([values[x] for x in self.PARAMETERS], dtype=float), np.zeros_like(self.k)
+        if self._function("constants", ctypes.c_int)(*map(_pointer, (p, k))):
+            raise ValueError(
+                "no body has these parameters: its mass matrix is not positive, or a number is "
+                "not finite"
+            )
+        self.p[:], self.k[:] = p, k
         self.rhs = self._bound_rhs()
         return self
 
@@ -140,12 +144,16 @@ class Compiled:
         """The inputs u taken to the principal frame."""
         return self._carried("inputs_into_frame", u, len(self.INPUTS))
 
+    def inputs_out_of_frame(self, u: Any) -> Array:
+        """The inputs u taken back from the principal frame."""
+        return self._carried("inputs_out_of_frame", u, len(self.INPUTS))
+
     def _carried(self, what: str, x: Any, size: int) -> Array:
         if self.rhs == self._unready:
             self._unready(0.0, x)
         given, out = np.zeros(size), np.zeros(size)
         given[:] = x
-        self._function(what, None)(*map(_pointer, (self.k, given, out)))
+        self._function(what, None)(*map(_pointer, (given, self.k, out)))
         return out
 
     def _called(self, what: str, result: Any, t: float, x: Any, *arrays: Array) -> Any:
@@ -209,10 +217,14 @@ def compile(
     derived = problem if isinstance(problem, Derived) else derive(problem)
     try:
         options = Options(**choices)
-    except (TypeError, ValueError) as error:
+    except TypeError:
+        known = (*CHOICES, "jacobian")
+        wrong = ", ".join(x for x in choices if x not in known)
+        raise ProblemError(f"compile: no choice {wrong}; there are {', '.join(known)}") from None
+    except ValueError as error:
         raise ProblemError(f"compile: {error}") from None
     if options.real != "double" or options.form != "source":
-        raise ProblemError("compile: real and form are not for Python; leave them out")
+        raise ProblemError("compile: the library is of double from sources; leave out real, form")
     made_of = program(derived.problem, derived.record, options)
     name = derived.problem.name
     with tempfile.TemporaryDirectory(prefix="derive-") as folder:

@@ -28,13 +28,15 @@ from .algebra.groups import Group
 from .algebra.tree import names
 from .mechanics.data import data
 from .mechanics.frame import principal
-from .mechanics.problem import Problem, ProblemError
-from .record.record import Derivation, Equation, Step, Symbol, encode
+from .mechanics.problem import ForceInput, Problem, ProblemError
+from .record.record import Derivation, Step, Symbol, encode
+from .record.sentence import Sentence, listed, phrase, say
 from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, ROTATIONS, VOCABULARY
 from .walk.alphabet import Alphabet
 from .walk.body import body_step
 from .walk.cartan import cartan, trivialise
 from .walk.chapter import Chapter
+from .walk.conserved import conserved_steps, matrix_momenta, vector_momenta
 from .walk.coordinates import coordinates_step
 from .walk.elimination import eliminate
 from .walk.exterior import exterior, exterior_trivialised
@@ -105,7 +107,7 @@ def road_of_any_group(a: Alphabet, name: str) -> General:
     steps = tuple(step for stage in stages for step in stage.steps)
     if a.affine:
         steps += (kinetic_separation(pulled.kinetic, a, name),)
-    return General(name, a, trivial, trivial_derivative, motion, steps)
+    return General(name, a, form.momentum, trivial, trivial_derivative, motion, steps)
 
 
 def road_of(problem: Problem, group: Group, road: General) -> Steps:
@@ -119,7 +121,9 @@ def road_of(problem: Problem, group: Group, road: General) -> Steps:
     v = potentials(problem, Alphabet(group.n, affine=group.affine), name, road.name, scope)
     own = specialise(road, group, v, chapter)
     last = potential_separation(problem, v, own.letters, chapter) if group.affine else ()
-    return first + road_of_matrices(problem, group, own, chapter) + last
+    momenta = matrix_momenta(road.momentum, road.letters)
+    kept = conserved_steps(problem, v, momenta, own.letters, chapter, vectors=False)
+    return first + road_of_matrices(problem, group, own, chapter) + last + kept
 
 
 def road_of_matrices(problem: Problem, group: Group, stage: Special, c: Chapter) -> Steps:
@@ -132,17 +136,15 @@ def road_of_matrices(problem: Problem, group: Group, stage: Special, c: Chapter)
         c, uses = c.with_input(), f"{uses} input"
         steps += given.steps
     inertial, force, metric = stage.inertial, stage.forces[b.Z.xi_prime], b.J
-    translation: tuple[Equation, ...] = ()
-    if group.affine:
-        centred = eliminate_translation(stage, uses, c)
+    centred = eliminate_translation(stage, uses, c) if group.affine else None
+    if centred is not None:
         inertial, force, metric = centred.inertial, centred.force, centred.metric
         steps, uses = steps + centred.steps, "elimination"
-        translation = (Equation("ẇ", centred.acceleration),)
     normal = group.normal_space_of_linear_parts
     if len(normal) <= 1:
-        motion = multiplier_steps(inertial, force, metric, group, b, uses, c, translation)
+        motion = multiplier_steps(inertial, force, metric, group, b, uses, c, centred)
         return (*steps, *motion, place, *stage.last)
-    return (*steps, place, *mass_steps(inertial, force, b, uses, c, translation), *stage.last)
+    return (*steps, place, *mass_steps(inertial, force, b, uses, c, centred), *stage.last)
 
 
 def road_of_space(problem: Problem, stage: Isometry, c: Chapter) -> Steps:
@@ -168,6 +170,7 @@ def road_of_space(problem: Problem, stage: Isometry, c: Chapter) -> Steps:
         *(given.steps if given else ()),
         motion,
         energy_step(stage, v, name, scope),
+        *conserved_steps(problem, v, vector_momenta(stage), b, c, vectors=True),
     )
 
 
@@ -197,8 +200,17 @@ def _symbols(steps: Steps, problem: Problem) -> tuple[Symbol, ...]:
                 used |= dict.fromkeys(names(side))
     turning = group is not None and group.turns_space
     own = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
-    forces = [f"{x.name}, a force on point {x.on}, in the {x.frame} frame" for x in problem.pushes]
-    if forces:
-        own["f_u"] = "input: " + "; ".join(forces)
-    known = (x for x in used if x in VOCABULARY)
-    return tuple(Symbol(x, own.get(x, VOCABULARY[x][0]), VOCABULARY[x][1]) for x in known)
+    meanings = {x: say(own.get(x, about)) for x, (about, _) in VOCABULARY.items()}
+    if problem.pushes:
+        forces = [_force(x) for x in problem.pushes]
+        meanings["f_u"] = say("input: {forces}", forces=listed("{first}; {second}", forces))
+    return tuple(Symbol(x, meanings[x], VOCABULARY[x][1]) for x in used if x in VOCABULARY)
+
+
+def _force(given: ForceInput) -> Sentence:
+    """A force that is given at every call, in words."""
+    if given.frame == "body":
+        in_frame = "{name}, a force on point {point}, in the body frame"
+    else:
+        in_frame = "{name}, a force on point {point}, in the space frame"
+    return phrase(in_frame, name=given.name, point=str(given.on))

@@ -13,7 +13,7 @@ class WriteError(OSError):
     """Output that cannot be written: the message says where and why."""
 
 
-def write(files: Mapping[str, str], out: Path) -> list[Path]:
+def write(files: Mapping[str, str | bytes], out: Path) -> list[Path]:
     """Write every file under a temporary name, then rename them all.
 
     ``WriteError`` when that fails: then no file has been touched, unless a rename fails.
@@ -21,9 +21,9 @@ def write(files: Mapping[str, str], out: Path) -> list[Path]:
     place, ready = out, []
     try:
         out.mkdir(parents=True, exist_ok=True)
-        for name, text in files.items():
+        for name, content in files.items():
             place = out / name
-            ready.append(prepared(place, text))
+            ready.append(prepared(place, content))
         for place, temporary in ready:
             if temporary is not None:
                 os.replace(temporary, place)
@@ -46,22 +46,23 @@ def stale(files: Mapping[str, str], out: Path) -> list[Path]:
     return found
 
 
-def prepared(path: Path, text: str) -> tuple[Path, Path | None]:
+def prepared(path: Path, content: str | bytes) -> tuple[Path, Path | None]:
     """Where a file goes and the temporary one that holds it; none for a device or a pipe.
 
     A link is followed; a device or a pipe is written to at once.
     """
+    data = content.encode("utf-8") if isinstance(content, str) else content
     path = path.resolve() if path.is_symlink() else path
     if path.exists() and not path.is_file() and not path.is_dir():
-        path.write_text(text, encoding="utf-8")
+        path.write_bytes(data)
         return path, None
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
     handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
     temporary = Path(name)
     try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
-            stream.write(text)
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(data)
         os.chmod(temporary, 0o644)
     except BaseException:
         temporary.unlink(missing_ok=True)

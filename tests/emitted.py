@@ -94,7 +94,7 @@ class CLibrary:
         """A state or inputs ``x`` taken into or out of the principal frame."""
         array = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
         out = np.full(len(x), np.nan)
-        self._function(f"{self.name}_{what}", None, [array] * 3)(k, vector(x), out)
+        self._function(f"{self.name}_{what}", None, [array] * 3)(vector(x), k, out)
         return out
 
     def jacobian(self, t, x, k, u):
@@ -153,3 +153,14 @@ def observed_order(error, steps):
     """log2 of error(steps) / error(2 steps), and both errors."""
     coarse, fine = error(steps), error(2 * steps)
     return np.log2(coarse / fine), coarse, fine
+
+
+def some_body(names, seed=1):
+    """Moments of six masses in R³ for the parameters that are moments: m, c_i, J_ij → value."""
+    random = np.random.default_rng(seed)
+    mass, r = random.uniform(0.5, 1.5, 6), random.normal(size=(6, 3))
+    values = {"m": mass.sum()} | {f"c_{i + 1}": mass @ r[:, i] for i in range(3)}
+    values |= {
+        f"J_{i + 1}{j + 1}": mass @ (r[:, i] * r[:, j]) for i in range(3) for j in range(i, 3)
+    }
+    return {name: values[name] for name in names if name in values} if "J_33" in names else {}

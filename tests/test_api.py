@@ -88,3 +88,23 @@ def test_errors_are_those_of_files():
     with pytest.raises(AttributeError):
         derive.nothing  # noqa: B018
     assert derive.ProblemError is ProblemError
+
+
+def test_a_tensor_of_inertia_in_place_of_the_moments():
+    """I = (Tr J)1 − J about the origin: the same record either way."""
+    J = [[2, 1, 0], [1, 3, 0], [0, 0, 4]]
+    tensor = [[7, -1, 0], [-1, 6, 0], [0, 0, 5]]
+    one, other = (
+        derive.derive(derive.Problem("solid", "SO(3)", derive.Moments(m=1, c=[0, 0, 0], **given)))
+        for given in ({"J": J}, {"I": tensor})
+    )
+    assert one.record.problem["body"] == other.record.problem["body"]
+
+
+def test_damping_at_a_place_of_a_solid():
+    """The drag −κv at r has the moment r ∧ Ā(−κv), as one that is given point by point."""
+    body = derive.Points((2, [1, 0, 0]), (1, [0, 2, 0]), (3, [0, 0, 1]), (0, [1, 1, 1]))
+    on = derive.derive(derive.Problem("a", "SE(3)", body, derive.Damping(2, on=[4])))
+    at = derive.derive(derive.Problem("a", "SE(3)", body[:3], derive.Damping(2, at=[1, 1, 1])))
+    assert all(v.holds for v in at.check())
+    assert on["motion"].equations == at["motion"].equations

@@ -17,6 +17,7 @@ from derive.mechanics.toml import problem_of
 from derive.pipeline import program, walk
 from derive.record.check import check
 from tests.emitted import BUILDS, compile_c, import_python, present
+from tests.test_options import drawn as state_of_any
 from tests.test_options import state
 
 FREE = ["1/2", "g", "-1/3"]
@@ -117,21 +118,13 @@ def modules(derived, tmp_path_factory):
 def drawn(module, form, seed=1):
     """p of some masses, a state in the group, and inputs."""
     p, x, u, *_ = state(module, seed) if form == "plain" else loose(module, seed)
-    at = {name: i for i, name in enumerate(module.PARAMETERS)}
-    if {"J_11", "J_33"} <= {*at}:
-        r = np.random.default_rng(seed).normal(size=(6, 3))
-        values = {"m": 6.0} | {f"c_{i + 1}": r[:, i].sum() for i in range(3)}
-        values |= {f"J_{i + 1}{j + 1}": r[:, i] @ r[:, j] for i in range(3) for j in range(i, 3)}
-        for name, value in values.items():
-            if name in at:
-                p[at[name]] = value
     return p, x, u
 
 
 def loose(module, seed):
     """Any state: the equations are polynomial in what its relations would bind."""
     rng = np.random.default_rng(seed)
-    p = np.array([module.DEFAULTS.get(x) or rng.uniform(0.5, 1.5) for x in module.PARAMETERS])
+    p = state_of_any(module, seed)[0]
     x = rng.normal(size=len(module.STATE))
     if "q_0" in module.STATE:
         x[:4] /= np.linalg.norm(x[:4])
@@ -162,6 +155,8 @@ def test_the_motion_is_the_same(name, form, modules):
         assert np.isclose(framed.energy(0.3, y, k), energy, rtol=1e-11, atol=1e-11)
         dx = given.rhs(0.3, x, k0, u)
         v = framed.inputs_into_frame(u, k) if given.INPUTS else None
+        if given.INPUTS:
+            assert np.allclose(framed.inputs_out_of_frame(v, k), u, rtol=0, atol=1e-12)
         step = 1e-30
         moved = framed.into_frame(x + 1j * step * dx, k.astype(complex)).imag / step
         size = np.abs(moved).max()
@@ -179,8 +174,8 @@ def test_states_are_in_a_frame_of_their_own(modules):
 @pytest.mark.parametrize("build", BUILDS)
 @pytest.mark.parametrize("name", ["SO(3)", "SE(3)", "SL(3)", "Aff(3)"])
 def test_the_c_moves_alike(name, build, derived, modules, tmp_path):
-    """C finds its own axes, which may differ in sign: compared in the frame that is given."""
-    folder, given, _ = modules(name, "plain")
+    """C finds its own axes, and the same."""
+    folder, given, framed = modules(name, "plain")
     if not present(build):
         pytest.skip(f"no {build}")
     c = compile_c(build, "principal", tmp_path, folder)
@@ -190,6 +185,8 @@ def test_the_c_moves_alike(name, build, derived, modules, tmp_path):
     y = c.carried("into_frame", k, x)
     v = c.carried("inputs_into_frame", k, u)
     assert np.allclose(c.carried("out_of_frame", k, y), x, rtol=0, atol=1e-12)
+    assert np.allclose(c.carried("inputs_out_of_frame", k, v), u, rtol=0, atol=1e-12)
+    assert np.allclose(k, framed.constants(p), rtol=1e-9, atol=1e-9)
     expected = given.rhs(0.3, x, given.constants(p), u)
     # the map is linear in the state where A is a matrix
     back = c.carried("out_of_frame", k, c.rhs(0.3, y, k, v))
@@ -240,6 +237,42 @@ def test_bodies_without_a_frame_are_refused_by_the_code(modules, tmp_path):
     if shutil.which("gcc"):
         c = compile_c("gcc", "principal", tmp_path, folder)
         assert c.constants(p)[0] == c.constants(np.full_like(p, np.nan))[0] == 1
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+@pytest.mark.parametrize("name", ["SO(3)", "SL(3)", "GL(3)"])
+def test_numbers_that_are_not_finite_are_refused(name, bad, modules, tmp_path):
+    """Also where they only tell the frame: a stiffness, gravity."""
+    folder, given, framed = modules(name, "plain")
+    for which in ("k", "g"):
+        p = drawn(given, "plain")[0]
+        p[given.PARAMETERS.index(which)] = bad
+        with pytest.raises(ValueError, match="not finite"):
+            framed.constants(p)
+        if shutil.which("gcc"):
+            assert compile_c("gcc", "principal", tmp_path, folder).constants(p)[0] == 1
+
+
+@pytest.mark.parametrize("gravity", [0.0, 1e-9, 1e200])
+def test_gravity_of_any_size(gravity, tmp_path):
+    p = problem_of(
+        {
+            "name": "top",
+            "group": "SO(3)",
+            "parameters": {"g": 1.0},
+            "body": {"given": {"m": 1, "c": [0, 0, 1], "J": [[2, 0, 0], [0, 1, 0], [0, 0, 4]]}},
+            "potential": [{"kind": "gravity", "g": ["g", "2*g", "-g"]}],
+        }
+    )
+    d = derive(p)
+    d.emit(tmp_path, ("python",), "given")
+    d.emit(tmp_path, ("python",), "framed", frame="principal")
+    given, framed = import_python("given", tmp_path), import_python("framed", tmp_path)
+    _, x, *_ = state(given)
+    k0, k = given.constants({"g": gravity}), framed.constants({"g": gravity})
+    expected = framed.into_frame(given.rhs(0.0, x, k0), k)
+    found = framed.rhs(0.0, framed.into_frame(x, k), k)
+    assert np.allclose(found, expected, rtol=1e-11, atol=1e-12 * np.abs(expected).max())
 
 
 def test_equal_moments_have_a_frame_as_well(derived, tmp_path):

@@ -9,7 +9,7 @@ import pytest
 
 from derive import derive
 from derive.code.program import LoweringError
-from tests.emitted import BUILDS, compile_c, import_python, present
+from tests.emitted import BUILDS, compile_c, import_python, present, some_body
 
 GROUPS = ("so3", "se3", "sl3", "saff3", "two_tops", "screw", "jelly", "heisenberg", "so4")
 TURNING = ("so3", "se3")
@@ -41,7 +41,10 @@ def module_of(emitted, name, **options):
 def drawn(module, seed=1):
     """Parameters, a group element near 1 as names → numbers, ζ (and w), inputs."""
     rng = np.random.default_rng(seed)
-    p = np.array([module.DEFAULTS.get(x) or rng.uniform(0.5, 1.5) for x in module.PARAMETERS])
+    own = some_body(module.PARAMETERS, seed)
+    p = np.array(
+        [own.get(x, module.DEFAULTS.get(x)) or rng.uniform(0.5, 1.5) for x in module.PARAMETERS]
+    )
     x = dict(zip(module.STATE, rng.normal(size=len(module.STATE)), strict=True))
     return p, x, rng.normal(size=len(module.INPUTS)), rng
 

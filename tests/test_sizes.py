@@ -101,8 +101,8 @@ def test_a_multiplier_costs_less_than_the_mass_matrix(group, monkeypatch):
 
     ours = multiplications()
 
-    def by_mass(inertial, force, metric, group, b, uses, c, translation=()):
-        return pipeline.mass_steps(inertial, force, b, uses, c, translation)
+    def by_mass(inertial, force, metric, group, b, uses, c, centred=None):
+        return pipeline.mass_steps(inertial, force, b, uses, c, centred)
 
     monkeypatch.setattr(pipeline, "multiplier_steps", by_mass)
     assert 3 * ours < 2 * multiplications()

@@ -151,6 +151,11 @@ class Family:
     step: int = 1
     doubled: bool = False
 
+    @property
+    def most(self) -> int:
+        """The largest n."""
+        return LARGEST // 2 if self.doubled else LARGEST
+
     def make(self, name: str, n: int) -> Group:
         """The group of this family with the parameter n."""
         size = 2 * n if self.doubled else n
@@ -205,10 +210,9 @@ def group(name: str) -> Group:
             "as 'SO(3) x SO(3)'"
         )
     family, n = FAMILIES[match[1]], int(match[2])
-    most = LARGEST // 2 if family.doubled else LARGEST
-    if not family.least <= n <= most or n % family.step:
+    if not family.least <= n <= family.most or n % family.step:
         even = "even and " if family.step == 2 else ""
-        raise ValueError(f"{match[1]}({n}): n must be {even}from {family.least} to {most}")
+        raise ValueError(f"{match[1]}({n}): n must be {even}from {family.least} to {family.most}")
     return family.make(f"{match[1]}({n})", n)
 
 

@@ -140,6 +140,7 @@ def _framing(
     frame: Frame, scheduler: Scheduler, given: dict[Node, Place], numbers: dict[Node, Place]
 ) -> Framing:
     """The functions that find the frame: each matrix whose axes are wanted, then the numbers."""
+    scheduler = Scheduler(scheduler.names, _equations(frame.old.record))
     axes = [x for found in frame.axes for x in found.leaves]
     places = given | _leaf_places(scheduler.names, axes, "axes")
     outputs = [frame.numbers[x] for x in numbers]
@@ -165,7 +166,7 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
     """What each function of the state, or of the parameters, computes, by its name."""
     space, graph = lowering.space, lowering.graph
     try:
-        rates = space.rates(lowering.name, lowering.component, lowering.acceleration)  # type: ignore[arg-type]
+        rates = space.rates(lowering.name, lowering.component, in_space=lowering.in_space)  # type: ignore[arg-type]
         lowering.require_regular()
         energy = lowering.name("h̃")
         tensor = _inertia(lowering)

@@ -18,8 +18,12 @@ from .state import State
 def carrying(frame: Frame, framed: Lowering) -> dict[str, list[Node]]:
     """The functions of the emitted code by name."""
     there, x = _Map.of(frame), framed.space
-    found = {"into_frame": there.carried(x), "out_of_frame": there.inverse.carried(x)}
-    return found | ({"inputs_into_frame": _inputs(frame, there)} if framed.inputs else {})
+    back = there.inverse
+    found = {"into_frame": there.carried(x), "out_of_frame": back.carried(x)}
+    if framed.inputs:
+        found["inputs_into_frame"] = _inputs(frame, there, frame.scale)
+        found["inputs_out_of_frame"] = _inputs(frame, back, frame.unit)
+    return found
 
 
 @dataclass(frozen=True)
@@ -72,9 +76,9 @@ def _bordered(m: Matrix, column: Matrix, corner: tuple[Node, Node]) -> Matrix:
     return (*rows, (*(corner[0],) * len(m), corner[1]))
 
 
-def _inputs(frame: Frame, there: _Map) -> list[Node]:
+def _inputs(frame: Frame, there: _Map, scale: Node) -> list[Node]:
     """H f in the body, S f in space, and covectors with ⟨u″, h ξ h⁻¹⟩ = ⟨u, ξ⟩; in units of μ."""
-    old, g = frame.old, frame.graph
+    old, g, n = frame.old, frame.graph, frame.n
     found: list[Node] = []
     pushes = 0
     for given in old.record.problem["inputs"]:
@@ -82,10 +86,10 @@ def _inputs(frame: Frame, there: _Map) -> list[Node]:
             found += _coadjoint(old.space, there, old.covector)
             continue
         pushes += 1
-        force = old.force(pushes)
-        turn = frame.H if given["frame"] == "body" else frame.S
-        found += q.flatten(dense.times(g, turn, force) if turn else force)
-    return [g.product((frame.scale, x)) for x in found]
+        turn = there.h if given["frame"] == "body" else there.S
+        linear = tuple(row[:n] for row in turn[:n])
+        found += q.flatten(dense.times(g, linear, old.force(pushes)))
+    return [g.product((scale, x)) for x in found]
 
 
 def _coadjoint(x: State, there: _Map, u: list[Node]) -> list[Node]:

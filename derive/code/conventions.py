@@ -24,10 +24,11 @@ def conventions(
         lines = _factors(group, order) if group.factors else [_place("A", "T", group, order)]
     if options.velocity == "tangent":
         lines.append(
-            "The names that end in _dot are the entries of the velocity dg/dt; zeta"
-            + (" and w" if group.affine else "")
-            + " below are the coordinates of g^-1 dg/dt in the basis."
+            "The names that end in _dot are the entries of the velocity dg/dt; the basis below is"
         )
+        lines.append("that of the Lie algebra, in which the linearised equations are written.")
+        if "orthogonal" in group.relations:
+            lines.append("An error of the integrator in dA/dt grows: A drifts off the rotations.")
     elif group.turns_space:
         lines.append(
             "zeta is the angular velocity in the body frame: dA/dt = A j(zeta), j(x) y = x cross y."
@@ -47,17 +48,25 @@ def conventions(
 def _frame(group: Group, frame: Mapping[str, Any], driven: bool) -> list[str]:
     """In which frame the state is, and what carries it there."""
     place = "H (r - s), s the centre of mass" if group.affine else "H r"
-    lines = [f"x is in the principal frame of the body: a point r is at r' = {place},"]
+    lines = ["All this in the principal frame of the body, where a point r of the file is at"]
     if frame["kind"] == "rotation":
-        lines.append("H the rotation onto the axes that make J, the matrix of moments, diagonal.")
+        lines.append(f"r' = {place}, H the rotation that makes J, the matrix of moments, diagonal.")
     else:
         unit = "a multiple of 1, det H = 1" if frame["per_unit"] else "1"
-        lines.append(f"H such that J, the matrix of moments, is {unit}.")
+        lines.append(f"r' = {place}, H such that J, the matrix of moments, is {unit}.")
+    S = "S " if frame["turned"] else ""
     if frame["turned"]:
-        lines.append("Space is turned as well, by the rotation S: gravity is along its last axis.")
-    lines.append("into_frame takes x from the frame of the parameters, out_of_frame takes it back;")
-    told = ["inputs_into_frame takes the inputs there;"] * driven
-    return [*lines, *told, "constants finds H and keeps it in k."]
+        lines.append(
+            "Space is turned by the rotation S: gravity is along its last axis, up or down."
+        )
+    law = f"A' = {S}A H^-1" + (f", T' = {S}(T + A s)" if group.affine else "")
+    lines.append(f"into_frame takes x there, {law}, and out_of_frame takes it back;")
+    told = ["inputs_into_frame and inputs_out_of_frame do so with u;"] * driven
+    return [
+        *lines,
+        *told,
+        "constants finds H and keeps it in k; equal moments leave a choice to it.",
+    ]
 
 
 def _attitude(group: Group) -> list[str]:

@@ -105,8 +105,9 @@ def _numeric(x: Node, parent: Node) -> bool:
 
 
 def _is_scaled(x: Node) -> bool:
-    """Is it a product with a factor of the parameters?"""
-    return x.op == "mul" and x.args[0].stage == PARAMETER
+    """Is it a product with a factor of the parameters, or a number times one?"""
+    core = x.args[0] if x.op == "add" and len(x.args) == 1 else x
+    return core.op == "mul" and core.args[0].stage == PARAMETER
 
 
 def _moving(x: Node) -> tuple[Node, ...]:

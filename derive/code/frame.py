@@ -21,6 +21,15 @@ from .lower import Lowering
 from .naming import suffixed
 from .quaternion import conjugate
 
+FRAME = "frame"
+"""The label of what comes from no equation of the record but from the choice of the frame."""
+
+SMALL = Fraction(1, 10**30)
+"""Added to the size of gravity, which may be 0."""
+
+SPREAD = (31, 27, 16, 11, 7, 5, 3, 2)
+"""No two directions across a rational γ are alike in this diagonal matrix, in hundredths."""
+
 
 @dataclass(frozen=True)
 class Axes:
@@ -97,7 +106,7 @@ class Frame:
             inverse = g.recip(self._number("m"))
             c = self._matrix("c")
             s = tuple(
-                (g.value(g.product((x, inverse)), suffixed("centre", i), ""),)
+                (g.value(g.product((x, inverse)), suffixed("centre", i), FRAME),)
                 for i, (x,) in enumerate(c, 1)
             )
             shift = dense.times(g, c, q.transposed(s))
@@ -138,13 +147,13 @@ class Frame:
         if self.given["per_unit"]:
             logarithm = g.sum(g.function("log", x) for x in J.values)
             mu = g.function("exp", g.linear([(Fraction(1, self.n), logarithm)]))
-            mu = g.value(mu, "unit_of_mass", "")
-            self.per_unit = g.value(g.recip(mu), "per_unit", "")
+            mu = g.value(mu, "unit_of_mass", FRAME)
+            self.per_unit = g.value(g.recip(mu), "per_unit", FRAME)
             self._set((self.given["per_unit"],), (self.per_unit,))
             self.scale = self.graph.leaf(self.given["per_unit"], "parameter")
             self.unit = self._number_of("unit_of_mass", mu)
         roots = [
-            g.value(g.function("sqrt", g.product((mu, g.recip(x)))), suffixed("stretch", i), "")
+            g.value(g.function("sqrt", g.product((mu, g.recip(x)))), suffixed("stretch", i), FRAME)
             for i, x in enumerate(J.values, 1)
         ]
         H = tuple(
@@ -168,10 +177,30 @@ class Frame:
         self.S: Matrix = ()
         if self.given["turned"]:
             g = self._matrix("γ")
-            found = self._principal(dense.times(self.graph, g, q.transposed(g)), "pull", "space")
+            found = self._principal(self._upright(g), "pull", "space")
             self.S, self._S = self._kept("space", found.rows), found.rows
             whole = dense.times(self.graph, (found.rows[-1],), g)
             self._set((self.given["gravity"],), whole[0])
+
+    def _upright(self, gamma: Matrix) -> Matrix:
+        """A matrix whose last axis is γ, and whose others are definite as well: s²uū + QDQ with u
+        along γ, s² = ūu, Q = s²1 − uū."""
+        g, span = self.graph, range(self.n)
+        total = g.sum([*(g.magnitude(x) for (x,) in gamma), g.num(SMALL)])
+        scale = g.value(g.recip(total), "per_gravity", FRAME)
+        u = tuple(
+            (g.value(g.product((scale, x)), suffixed("upright", i), FRAME),)
+            for i, (x,) in enumerate(gamma, 1)
+        )
+        square = g.value(dense.dot(g, u, u), "upright_2", FRAME)
+        both = dense.times(g, u, q.transposed(u))
+        Q = tuple(tuple((square if i == j else g.num(0)) - both[i][j] for j in span) for i in span)
+        Q = self._named("across", Q)
+        spread = tuple(
+            tuple(g.product((g.num(Fraction(SPREAD[i], 100)), x)) for x in Q[i]) for i in span
+        )
+        along = tuple(tuple(g.product((square, x)) for x in row) for row in both)
+        return q.plus(along, dense.times(g, Q, spread))
 
     def _parameters(self) -> None:
         """Places H(r − s), vectors of space S a, and Hc."""
@@ -225,7 +254,7 @@ class Frame:
 
     def _named(self, name: str, m: Matrix) -> Matrix:
         return tuple(
-            tuple(self.graph.value(x, suffixed(name, i, j), "") for j, x in enumerate(row, 1))
+            tuple(self.graph.value(x, suffixed(name, i, j), FRAME) for j, x in enumerate(row, 1))
             for i, row in enumerate(m, 1)
         )
 

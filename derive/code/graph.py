@@ -87,8 +87,8 @@ class Graph:
 
     def value(self, node: Node, name: str, label: str, *, given: bool = False) -> Node:
         """A node with a name; a name given by the record replaces one made from a tree."""
-        if node.is_atom:
-            return node
+        if node.is_atom or (node.op == "add" and node.data == (-1,) and node.args[0].is_atom):
+            return node  # −L is no name of its own, so that it cancels L
         value = node if node.op == "value" else self._intern("value", None, (node,), node.stage)
         if value not in self.titles or (given and not self.titles[value][2]):
             self.titles[value] = (name, label, given)

@@ -9,7 +9,7 @@ from ..algebra.tree import Tree
 from ..record.record import Derivation
 from . import dense
 from .graph import PARAMETER, Graph, Node
-from .naming import name_of
+from .naming import name_of, suffixed
 from .options import Options
 from .reader import Reader, Value
 
@@ -92,15 +92,27 @@ class Inverting(Reader):
         row = [(x, adjugate[j][0]) for j, x in enumerate(value[0])]
         det = g.value(g.sum(g.product(pair) for pair in row), f"det_{base}", self.label)
         if det.stage == PARAMETER:
-            # det ≤ λ_min (Tr)ⁿ⁻¹, and λ_min is known to rounding in the terms of the trace
-            trace = dense.diagonal(g, value)
-            size = g.value(g.magnitude(trace), f"size_{base}", self.label)
-            rest = [g.value(trace, f"tr_{base}", self.label)] * (len(value) - 1)
-            self.checks.append((det, g.product([size, *rest])))
+            self._check_minors(value, adjugate, det, base)
         else:
             self._check_pivots(t, value, [])
         scale = g.value(g.recip(det), f"inv_det_{base}", self.label)
         return self.named(tuple(tuple(g.product((scale, x)) for x in r) for r in adjugate), name)
+
+    def _check_minors(self, m: Matrix, adjugate: Matrix, det: Node, base: str) -> None:
+        """The leading minors of a positive M against Σ_i s_i Π_j≠i M_jj, s_i the terms of M_ii.
+
+        In units where the diagonal is 1 that is the rounding of M, however slender the body.
+        """
+        g, n = self.graph, len(m)
+        minors = [m[0][0], *([adjugate[2][2]] if n == 3 else []), det][-n:]
+        names = [suffixed(f"size_{base}", i) for i in range(1, n + 1)]
+        pairs = zip(range(n), names, strict=True)
+        sizes = [g.value(g.magnitude(m[i][i]), name, self.label) for i, name in pairs]
+        for k, minor in enumerate(minors, 1):
+            terms = (
+                g.product([sizes[i], *(m[j][j] for j in range(k) if j != i)]) for i in range(k)
+            )
+            self.checks.append((minor, g.sum(terms)))
 
     def _unit_determinant(self, t: Tree) -> bool:
         """A and C = ĀA where the record says det A = 1."""

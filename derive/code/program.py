@@ -57,7 +57,7 @@ class Section:
 
 @dataclass(frozen=True)
 class Check:
-    """``value`` must exceed ``TOLERANCE · scale`` in size, else the body is singular."""
+    """``value`` must exceed ``TOLERANCE · scale``, else the body is singular or no body."""
 
     value: Expression
     scale: Expression | None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 from ..algebra.rational import Matrix
@@ -42,3 +43,8 @@ def matrix_of(g: Graph, q: tuple[Node, ...]) -> Matrix:
         columns.append(column)
     span = range(3)
     return tuple(tuple(g.value(columns[j][i], f"A_{i + 1}{j + 1}", "") for j in span) for i in span)
+
+
+def halves(column: Matrix) -> list[Node]:
+    """½ ζ."""
+    return [x * Fraction(1, 2) for (x,) in column]

@@ -53,10 +53,9 @@ class Reader:
                 self.state["f_u"] = self._given(name, n, d - n)
 
     @property
-    def acceleration(self) -> Matrix:
-        """That of A, where the record gives it in space."""
-        known = self.space.tangent and self.record.definition("α̇") is not None
-        return self.name("α̇") if known else ()  # type: ignore[return-value]
+    def in_space(self) -> bool:
+        """Are ġ and its rate wanted, and does the record have the accelerations in space?"""
+        return self.space.tangent and self.record.definition("α̇") is not None
 
     @property
     def covector(self) -> list[Node]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 
 from ..algebra import rational as q
@@ -20,7 +19,7 @@ from . import dense
 from .graph import Graph, Node
 from .naming import suffixed
 from .options import Options
-from .quaternion import matrix_of, multiplied
+from .quaternion import halves, matrix_of, multiplied
 
 Seeds = dict[Node, Node]
 """A variation: leaf of the state → its derivative."""
@@ -148,7 +147,7 @@ class State:
     def _moved(self, e: Matrix) -> Seeds:
         """The leaves of g for δg = g e, with e of the size of the group's matrices."""
         if self.quaternion:
-            half = self._halves(((e[2][1],), (e[0][2],), (e[1][0],)))
+            half = halves(((e[2][1],), (e[0][2],), (e[1][0],)))
             rates = multiplied(self.q, (self.graph.num(0), *half))
             seeds = dict(zip(self.q, rates, strict=True))
         else:
@@ -240,22 +239,21 @@ class State:
         found = [component("ζ̇", a) for a in self._span(turns)]
         return found + ([component("ẇ", i) for i in self._span(n)] if self.group.affine else [])
 
-    def rates(self, name: Named, component: Component, second: Matrix = ()) -> list[Node]:
+    def rates(self, name: Named, component: Component, *, in_space: bool = False) -> list[Node]:
         """The time derivative of each number, from the names and components of the record.
 
-        ``second``: the acceleration of A, where the record has it in space.
+        ``in_space``: the record has the accelerations α̇ and τ̇.
         """
-        affine, velocity = self.group.affine, self.velocity(component)
+        affine, velocity = self.group.affine, [] if in_space else self.velocity(component)
         if self.tangent:
             speeds = self._entries(self.values["α"], self.values["τ"])
-            return speeds + (self._entries(second, ()) if second else self._second(velocity))
+            if not in_space:
+                return speeds + self._second(velocity)
+            return speeds + self._entries(name("α̇"), name("τ̇") if affine else ())
         if not self.quaternion:
             return self._entries(name("Ȧ"), name("Ṫ") if affine else ()) + velocity
-        found = multiplied(self.q, (self.graph.num(0), *self._halves(self.values["ζ"])))
+        found = multiplied(self.q, (self.graph.num(0), *halves(self.values["ζ"])))
         return [*found, *(x for (x,) in (name("Ṫ") if affine else ())), *velocity]
-
-    def _halves(self, column: Matrix) -> list[Node]:
-        return [self.graph.linear([(Fraction(1, 2), x)]) for (x,) in column]
 
     def _entries(self, A: Matrix, T: Matrix) -> list[Node]:
         return [{"A": A, "T": T}[x.letter][x.row][x.column] for x in self.slots]

@@ -86,7 +86,9 @@ class Statements:
     def _check(self, c: Check) -> dict[str, str]:
         printer = self.language.printer(self.real)
         scale = printer(c.scale) if c.scale is not None else ""
-        return {"value": printer(c.value), "scale": f"({scale})" if "+" in scale else scale}
+        value = printer(c.value)
+        value = f"({value})" if " " in value else value
+        return {"value": value, "scale": f"({scale})" if "+" in scale else scale}
 
 
 def comment(text: str) -> str:

@@ -11,7 +11,7 @@ from typing import Any
 
 from ..algebra import rational as q
 from ..algebra.groups import Group
-from ..algebra.tree import Tree, add, mul
+from ..algebra.tree import Tree, add, mul, neg
 from .expression import approximate
 from .fields import choice, expression, known, missing, tables, vector, whole
 from .mesh import MeshError, read
@@ -71,15 +71,36 @@ def _moments(table: Mapping[str, Any], n: int) -> Body:
     if not isinstance(given, dict) or "moments" in table:
         raise ProblemError('body: give either moments = "symbolic" or given = { m, c, J }')
     where = "body, given"
-    known(given, {"m", "c", "J"}, where)
-    rows = missing(given, "J", where)
+    known(given, {"m", "c", "J", "I"}, where)
+    if "I" in given and ("J" in given or n != 3):
+        raise ProblemError(f"{where}: give J, or in R^3 the tensor of inertia I about the origin")
+    name = "I" if "I" in given else "J"
+    rows = missing(given, name, where)
     if not isinstance(rows, list) or len(rows) != n:
-        raise ProblemError(f"{where}, J: expected a list of {n} rows")
-    J = tuple(vector(row, n, f"{where}, J, row {i}") for i, row in enumerate(rows, 1))
+        raise ProblemError(f"{where}, {name}: expected a list of {n} rows")
+    J = tuple(vector(row, n, f"{where}, {name}, row {i}") for i, row in enumerate(rows, 1))
     if any(J[i][j] != J[j][i] for i in range(n) for j in range(i)):
-        raise ProblemError(f"{where}, J: the matrix of moments must be symmetric")
+        raise ProblemError(f"{where}, {name}: the matrix must be symmetric")
+    if name == "I":
+        J = _from_inertia(J)
     mass = expression(missing(given, "m", where), f"{where}, m")
     return GivenBody(mass, vector(missing(given, "c", where), n, f"{where}, c"), J)
+
+
+def _from_inertia(tensor: tuple[tuple[Tree, ...], ...]) -> tuple[tuple[Tree, ...], ...]:
+    """J = ½ (Tr I) 1 − I, from I = (Tr J) 1 − J."""
+    span = range(3)
+    half = [_half(*(tensor[j][j] for j in span if j != i), neg(tensor[i][i])) for i in span]
+    return tuple(tuple(half[i] if i == j else neg(tensor[i][j]) for j in span) for i in span)
+
+
+def _half(*terms: Tree) -> Tree:
+    """½ Σ, a number where all terms are."""
+    numbers = [x for x in terms if isinstance(x, (int, Fraction))]
+    if len(numbers) < len(terms):
+        return mul(Fraction(1, 2), add(*terms))
+    total = Fraction(sum(numbers), 2)
+    return int(total) if total.denominator == 1 else total
 
 
 def _solid(data: Mapping[str, Any], k: int, folder: Path) -> Solid:

@@ -180,16 +180,20 @@ def given_input(data: Mapping[str, Any], where: str, points: Points) -> Input:
 
 def damping(data: Mapping[str, Any], where: str, points: Points) -> Damping:
     """One table [[damping]]."""
-    known(data, {"coefficient", "on"}, where)
+    known(data, {"coefficient", "on", "at", "block"}, where)
+    coefficient = expression(missing(data, "coefficient", where), f"{where}, coefficient")
+    if "at" in data:
+        if points.group is None:
+            raise ProblemError(f"{where}: a text about any group has no points to damp")
+        return Damping(coefficient, (points.attached(data, where),))
     if not points.masses:
-        raise ProblemError(f"{where}: damping needs [[point]] tables; their mass may be 0")
+        raise ProblemError(f"{where}: give a place of the body under 'at', or [[point]] tables")
     listed = data.get("on", [*range(1, points.masses + 1)])
     if not isinstance(listed, list) or not listed:
         raise ProblemError(f"{where}: key 'on' must be a list of points")
     on = tuple(points.point(i, f"{where}, on") for i in listed)
     if len(set(on)) != len(on):
         raise ProblemError(f"{where}: key 'on' names a point twice")
-    coefficient = expression(missing(data, "coefficient", where), f"{where}, coefficient")
     return Damping(coefficient, on)
 
 

@@ -41,6 +41,8 @@ from .problem import (
 
 Vector = tuple[Tree, ...]
 ROTATION, ROOT = "rotation", "root"
+MANY = 100
+"""Of more points only those are kept on which something acts, and numbered anew."""
 
 
 def principal(problem: Problem) -> Problem:
@@ -181,12 +183,14 @@ class _Framing:
         return tuple(tuple(diagonal[i] if i == j else 0 for j in span) for i in span)
 
     def _points(self) -> tuple[tuple[Place, ...], dict[int, int]]:
-        """The places that forces need, and the new numbers of their points."""
+        """The points as places, under their old numbers if few are left out, and the numbers."""
         points = self.problem.points
         old = (*(points.positions if points else ()), *(p.at for p in self.problem.places))
-        needed = sorted({*_needed(self.problem, root=self.kind == ROOT)})
-        places = tuple(Place(self._place(old[i - 1], i)) for i in needed)
-        return places, {i: k for k, i in enumerate(needed, 1)}
+        needed = {*_needed(self.problem, root=self.kind == ROOT)}
+        if needed and len(old) <= MANY:
+            needed = {*range(1, len(old) + 1)}
+        places = tuple(Place(self._place(old[i - 1], i)) for i in sorted(needed))
+        return places, {i: k for k, i in enumerate(sorted(needed), 1)}
 
     def _potential(self, p: Potential, numbers: Mapping[int, int]) -> Potential:
         """A spring or an attraction in the frame."""

@@ -12,7 +12,7 @@ from ..algebra.tree import Tree
 from .arithmetic import EvaluationError, is_matrix
 from .evaluate import Environment, evaluate
 from .given import exerted_families, exerted_values
-from .model import Direction, Model, derivative_in
+from .model import Direction, Model, Vector, derivative_in
 from .nilpotent import EPS, EPS_PRIME, nilpotent, part
 from .realised import integral
 from .solved import solved_values
@@ -111,6 +111,48 @@ def _energies(model: Model) -> Values:
     return {"L": value, "L̃": value, "U": potential, "Ũ": potential, "h̃": energy}
 
 
+def _momenta(model: Model, acceleration: Matrix) -> Values:
+    """ℓ = Σ m r ∧ v and p = Σ m v in space, as sums over the points; rates along the motion.
+
+    ℓ is a vector in R³ turned about, else the matrix Σ m (v r̄ − r v̄).
+    """
+    places, speeds = model.moved(model.g), model.moved(q.times(model.g, model.Z))
+    forces = model.moved(acceleration)
+    t, nu = model.t, q.times(model.g, model.Z)
+    e = nilpotent(EPS)
+    varied = model.energy(
+        t + e,
+        q.plus(model.g, q.scaled(e, nu)),
+        q.plus(nu, q.scaled(e, acceleration)),
+    )
+    return {
+        "ℓ": _turning(model, places, speeds),
+        "ℓ̇": _turning(model, places, forces),
+        "p": _resultant(model, speeds),
+        "ṗ": _resultant(model, forces),
+        "ḣ": part(varied, EPS),
+    }
+
+
+def _turning(model: Model, places: list[Vector], vectors: list[Vector]) -> Matrix:
+    """Σ m (v r̄ − r v̄), or in R³ turned about its axis Σ m r ∧ v."""
+    span = range(model.n)
+    pairs = list(zip(model.masses, places, vectors, strict=True))
+    whole = tuple(
+        tuple(
+            sum((m * (v[i] * r[j] - r[i] * v[j]) for m, r, v in pairs), Fraction(0)) for j in span
+        )
+        for i in span
+    )
+    return axial(whole) if model.group.turns_space else whole
+
+
+def _resultant(model: Model, vectors: list[Vector]) -> Matrix:
+    """Σ m v."""
+    pairs = list(zip(model.masses, vectors, strict=True))
+    return tuple((sum((m * v[i] for m, v in pairs), Fraction(0)),) for i in range(model.n))
+
+
 def _motion(model: Model) -> Values:
     """Rates along the motion, and what the equations are solved with."""
     Z, Z_dot = model.Z, model.acceleration
@@ -118,6 +160,7 @@ def _motion(model: Model) -> Values:
     values = _parts(model, "Ż", "ẇ", Z_dot)
     values |= _parts(model, "α̇", "τ̇", acceleration)
     values |= _parts(model, "Ȧ", "Ṫ", q.times(model.g, Z))
+    values |= _momenta(model, acceleration)
     d = len(model.group.linear_basis)
     for name, element in (("ζ", Z), ("ζ̇", Z_dot)):
         coordinates = model.group.vee(element)

@@ -14,7 +14,9 @@ from fractions import Fraction
 from typing import Any
 
 from ..algebra.tree import OPERATORS, Tree
+from . import sentence
 from .rules import RULES
+from .sentence import Prose, english
 from .vocabulary import ANY_GROUP, GIVENS
 
 DEPTH = 200
@@ -46,7 +48,7 @@ class Step:
     rule: str
     uses: tuple[str, ...]
     equations: tuple[Equation, ...]
-    prose: str
+    prose: Prose
     paper: tuple[int, ...] = ()
     scope: str = ANY_GROUP
     given: tuple[str, ...] = ()
@@ -57,7 +59,7 @@ class Symbol:
     """A declared name: what it means and how LaTeX writes it."""
 
     name: str
-    meaning: str
+    meaning: Prose
     latex: str
 
 
@@ -123,9 +125,14 @@ def to_data(d: Derivation) -> dict[str, Any]:
     """The record as plain data."""
     return {
         "problem": dict(d.problem),
-        "symbols": [{"name": s.name, "meaning": s.meaning, "latex": s.latex} for s in d.symbols],
+        "symbols": [_symbol_data(s) for s in d.symbols],
         "steps": [_step_data(s) for s in d.steps],
     }
+
+
+def _symbol_data(s: Symbol) -> dict[str, Any]:
+    data: dict[str, Any] = {"name": s.name, "meaning": english(s.meaning), "latex": s.latex}
+    return data if sentence.plain(s.meaning) else data | {"sentences": sentence.to_data(s.meaning)}
 
 
 def _step_data(s: Step) -> dict[str, Any]:
@@ -136,7 +143,8 @@ def _step_data(s: Step) -> dict[str, Any]:
         "paper": list(s.paper),
         "scope": s.scope,
         "given": list(s.given),
-        "prose": s.prose,
+        "prose": english(s.prose),
+        "sentences": sentence.to_data(s.prose),
         "equations": [_equation_data(e) for e in s.equations],
     }
 
@@ -183,6 +191,25 @@ def _strings(data: Any, key: str, where: str) -> tuple[str, ...]:
     return tuple(items)
 
 
+def _prose(data: Any, key: str, where: str) -> Prose:
+    """The sentences of an object, whose English stands beside them; or that English as one."""
+    words = str(_field(data, key, str, where))
+    if "sentences" not in data:
+        return sentence.say(words)
+    try:
+        prose = sentence.of_data(data["sentences"], where)
+    except ValueError as error:
+        raise RecordError(str(error)) from None
+    if english(prose) != words:
+        raise RecordError(f"{where}: the English of 'sentences' is not {key!r}")
+    return prose
+
+
+def _symbol(data: Any, where: str) -> Symbol:
+    name, latex = (_field(data, key, str, where) for key in ("name", "latex"))
+    return Symbol(name, _prose(data, "meaning", where), latex)
+
+
 def _step(data: Any, where: str, earlier: set[str]) -> Step:
     label = _field(data, "label", str, where)
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_.]{0,99}", label):
@@ -208,7 +235,7 @@ def _step(data: Any, where: str, earlier: set[str]) -> Step:
         raise RecordError(f"{where}: no equation")
     paper = tuple(x for x in _field(data, "paper", list, where) if isinstance(x, int))
     scope = str(data.get("scope", ANY_GROUP))
-    prose = _field(data, "prose", str, where)
+    prose = _prose(data, "prose", where)
     return Step(label, rule, uses, tuple(equations), prose, paper, scope, given)
 
 
@@ -220,12 +247,8 @@ def from_json(text: str) -> Derivation:
         raise RecordError(f"not JSON: {error}") from None
     problem = _field(data, "problem", dict, "record")
     _field(problem, "name", str, "record, problem")
-    symbols = []
-    for k, item in enumerate(_field(data, "symbols", list, "record")):
-        where = f"symbol {k + 1}"
-        symbols.append(
-            Symbol(*(_field(item, key, str, where) for key in ("name", "meaning", "latex")))
-        )
+    listed = _field(data, "symbols", list, "record")
+    symbols = [_symbol(item, f"symbol {k}") for k, item in enumerate(listed, 1)]
     steps: list[Step] = []
     for k, item in enumerate(_field(data, "steps", list, "record")):
         step = _step(item, f"step {k + 1}", {s.label for s in steps})

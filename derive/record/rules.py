@@ -21,5 +21,6 @@ RULES: dict[str, str] = {
     "multiplier": "An element orthogonal to the Lie algebra is a multiplier of its constraint.",
     "input": "A given force, outside dϖ, is added to the equations.",
     "coordinates": "A basis of the Lie algebra is chosen.",
+    "conservation": "The Cartan form is constant on a displacement that leaves it alone.",
     "solution": "The equations are solved for the accelerations.",
 }

@@ -137,6 +137,11 @@ VOCABULARY: dict[str, tuple[str, str]] = {
     "f_u": ("input: the force part of a body wrench", "f_u"),
     "δ": ("first variation", r"\delta"),
     "δ′": ("another variation, which commutes with δ", r"\delta'"),
+    "ℓ": ("angular momentum in space", r"\ell"),
+    "ℓ̇": ("dℓ/dt along the motion", r"\dot\ell"),
+    "p": ("momentum in space", "p"),
+    "ṗ": ("dp/dt along the motion", r"\dot p"),
+    "ḣ": ("dh̃/dt along the motion", r"\dot h"),
     "∂ₜŨ": ("partial derivative of Ũ in time", r"\partial_t\tilde U"),
 }
 

@@ -16,6 +16,7 @@ TEX_SPECIAL = {
     "«": r"$\ll$", "»": r"$\gg$", "ß": r"\ss{}", "æ": r"\ae{}", "Æ": r"\AE{}", "œ": r"\oe{}",
     "Œ": r"\OE{}", "ø": r"\o{}", "Ø": r"\O{}", "ł": r"\l{}", "Ł": r"\L{}", '"': "''{}",
     "·": r"$\cdot$", "°": r"$^\circ$", "§": r"\S{}", "©": r"\copyright{}",
+    "\u00a0": "~", "\u202f": r"\,",
 }  # fmt: skip
 TEXT_ACCENTS = {
     "\u0300": "`", "\u0301": "'", "\u0302": "^", "\u0303": "~", "\u0304": "=", "\u0306": "u",
@@ -37,17 +38,22 @@ SYMBOLS = {letter: rf"\{name}" for name, letter in GREEK.items()} | {
     "Σ": r"\sum", "∂": r"\partial", "−": "-", "∧": r"\wedge", "⟨": r"\langle", "⟩": r"\rangle",
     "‖": r"\Vert", "≅": r"\cong", "≠": r"\neq", "≤": r"\le", "≥": r"\ge", "∈": r"\in", "→": r"\to",
     "×": r"\times", "𝔤": r"\mathfrak{g}", "′": "'", "½": r"\tfrac12", "∇": r"\nabla", "∘": r"\circ",
+    "ℓ": r"\ell",
 }  # fmt: skip
 RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
 LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ", "0123456789ijet", strict=True))
 PLAIN = "+=/(),[].:0123456789 "
 OPERATORS = "=+−∧≅≠≤≥∈→×"
+NO_BREAK = "\u00a0\u202f"
+WORD = re.compile(rf"[\S{NO_BREAK}]+")
+ELIDED = re.compile("(?:[cdjlmnst]|qu|jusqu|lorsqu|puisqu)’", re.I)
+"""A French word that has lost its last letter before the next one, which may be a formula."""
 
 
 def tex_text(words: str) -> str:
     """Any text as LaTeX that prints it; what the fonts lack becomes a question mark."""
     shown: list[str] = []
-    plain = re.sub(r"([-'`])(?=\1)", "\\1\u200b", " ".join(words.split()))
+    plain = re.sub(r"([-'`])(?=\1)", "\\1\u200b", " ".join(WORD.findall(words)))
     for c in unicodedata.normalize("NFD", plain):
         if c == "\u200b":
             shown.append("{}")
@@ -67,7 +73,8 @@ def tex_text(words: str) -> str:
 
 def markdown_text(words: str) -> str:
     """Any text as Markdown that prints it."""
-    plain = "".join(c for c in " ".join(words.split()) if c.isprintable())
+    spaced = " ".join(WORD.findall(words))
+    plain = "".join(c for c in spaced if c.isprintable() or c in NO_BREAK)
     plain = plain.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
     return re.sub(r"([\\`*_{}\[\]#|~$])", r"\\\1", plain)
 
@@ -75,11 +82,18 @@ def markdown_text(words: str) -> str:
 def prose(words: str, escape: Callable[[str], str] = tex_text) -> str:
     """A sentence with its formulas between dollars and the rest escaped."""
     found: list[str] = []
-    for formula, run in _runs(words.split()):
+    for formula, run in _runs(WORD.findall(words)):
         before, core, after = _core(run) if formula else (run, "", "")
         inside = f"${shown}$" if (shown := math_text(core)) else ""
         found.append(escape(before) + inside + escape(after))
     return " ".join(found)
+
+
+def between_dollars(words: str, escape: Callable[[str], str] = tex_text) -> str:
+    """Text whose formulas stand between dollars already: the rest escaped, word by word."""
+    parts = words.split("$")
+    parts[::2] = [WORD.sub(lambda found: escape(found[0]), x) for x in parts[::2]]
+    return "$".join(parts)
 
 
 def _runs(words: list[str]) -> list[tuple[bool, str]]:
@@ -114,8 +128,9 @@ def _operator(word: str) -> bool:
 
 
 def _core(word: str) -> tuple[str, str, str]:
-    """A word without the punctuation and the unmatched parentheses around it."""
-    start, end = 0, len(word.rstrip(",.;:!?"))
+    """A word without the elided one before it, punctuation and unmatched parentheses around it."""
+    elided = ELIDED.match(word)
+    start, end = elided.end() if elided else 0, len(word.rstrip(",.;:!?" + NO_BREAK))
     excess = word[:end].count("(") - word[:end].count(")")
     while excess > 0 and word[start:end].startswith("("):
         start, excess = start + 1, excess - 1
@@ -135,7 +150,8 @@ def _allowed(word: str) -> bool:
 def _is_formula(word: str, first: bool) -> bool:
     """A word with a sign of mathematics in it, a quotient of letters, or a single letter.
 
-    The article “a” is none, nor is a capital that may begin the sentence.
+    The article “a” is none, nor is a capital that may begin the sentence; a circumflex in a longer
+    word is a letter of French.
     """
     if not _allowed(word):
         return False
@@ -144,6 +160,8 @@ def _is_formula(word: str, first: bool) -> bool:
     if re.fullmatch(r"d?[A-Za-z]/d?[a-z]", word):
         return True
     decomposed = unicodedata.normalize("NFD", word)
+    if len(word) > 1:
+        decomposed = decomposed.replace("\u0302", "")
     return any(
         c in SYMBOLS or c in RAISED or c in LOWERED or c in MATH_ACCENTS or c in "_="
         for c in decomposed

@@ -3,26 +3,38 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 
+from ..record.paper import Finding
 from ..record.record import Derivation, Step
 from ..templating import environment
-from .escape import prose, tex_text
+from .book import Part, book, steps
+from .drawing import Scene
+from .escape import between_dollars, prose, tex_text
+from .figure import tikz
+from .language import ENGLISH, Language
 from .layout import blocks
 from .letters import names_of, parameter
+from .macros import definitions, styled
+from .notation import Notation
 from .outline import (
     FORMULAS_CONVENTIONS,
     PAPER,
     capitalised,
     equation_label,
     notes,
-    sections,
     subtitle,
     title,
 )
+from .scene import scene
 from .tex import latex_tree
 
-__all__ = ["latex", "latex_tree"]
+__all__ = ["fragment", "latex", "latex_tree"]
+
+MOTION = "Equations of motion"
+REGULAR = "The rates Ẋ are along the motion; δX and δ′X are two variations of X."
 
 DELIMITERS = {
     "block_start_string": "<%", "block_end_string": "%>",
@@ -31,25 +43,114 @@ DELIMITERS = {
 }  # fmt: skip
 
 
-def latex(d: Derivation) -> str:
-    """A document for pdflatex; every equation bears its label."""
-    names = names_of(d.symbols)
+def latex(
+    d: Derivation | Sequence[Derivation],
+    notation: Notation | None = None,
+    *,
+    language: Language = ENGLISH,
+    findings: Iterable[Finding] = (),
+) -> str:
+    """A document for pdflatex; every equation bears its label.
+
+    Of several records what holds for any group comes once.  ``findings``: where the print of the
+    paper is corrected, to be told in footnotes.
+    """
+    records = [d] if isinstance(d, Derivation) else [*d]
+    one = len(records) == 1
+    parts = book(records, language)
+    writer = _Writer(parts, language, {f.number: f for f in findings})
+    conventions = between_dollars(language.word(FORMULAS_CONVENTIONS))
     template = environment("latex", **DELIMITERS).get_template("walk.tex.jinja")
     return template.render(
-        title=tex_text(title(d)),
-        subtitle=tex_text(capitalised(subtitle(d))),
-        conventions=f"{FORMULAS_CONVENTIONS} {tex_text(PAPER)}",
-        walk="\n".join(line for part in _walk(d, names) for line in part),
-        names="\n".join(_names(d, names)),
+        language=language.name,
+        title=tex_text(title(records[0], language) if one else language.word(MOTION)),
+        subtitle=tex_text(capitalised(subtitle(records[0], language))) if one else "",
+        contents="" if one else tex_text(language.word("Contents")),
+        macros="\n".join(definitions(notation or Notation())),
+        conventions=styled(f"{conventions} {tex_text(language.word(PAPER))}"),
+        walk=styled("\n".join(writer.body())),
+        drawn=any(writer.drawings.values()),
+        regular=styled(prose(language.word(REGULAR))),
+        from_these=tex_text(language.word("from")),
+        references=tex_text(language.word("References")),
     )
 
 
-def _walk(d: Derivation, names: Mapping[str, str]) -> Iterator[list[str]]:
-    last = {step.label: equation_label(step, len(step.equations) - 1) for step in d.steps}
-    for heading, steps in sections(d):
-        yield [rf"\section{{{tex_text(heading)}}}", ""]
-        for step in steps:
-            yield [*_step(step, names, last), ""]
+def fragment(d: Derivation, *, language: Language = ENGLISH) -> str:
+    """The steps alone, for a text whose preamble has the macros of a whole document."""
+    writer = _Writer(book([d], language), language, {})
+    steps = (
+        line for part in writer.parts for step in part.steps for line in writer.step(part, step)
+    )
+    return styled("\n".join(steps)) + "\n"
+
+
+@dataclass(frozen=True)
+class _Writer:
+    """The parts of a book as LaTeX."""
+
+    parts: Sequence[Part]
+    language: Language
+    findings: Mapping[int, Finding]
+
+    @cached_property
+    def drawings(self) -> dict[str, Scene | None]:
+        """The figures of the problems' own parts."""
+        return {p.name: scene(p.record) if p.record else None for p in self.parts}
+
+    def body(self) -> Iterator[str]:
+        """Sections with their figures, steps and names."""
+        for part in self.parts:
+            yield rf"\section{{{tex_text(part.heading)}}}"
+            if part.about:
+                yield rf"{{\large {tex_text(part.about)}\par}}"
+            if drawn := self.drawings[part.name]:
+                caption = prose(self.language.of(drawn.caption))
+                yield rf"\drawing{{{tikz(drawn)}}}{{{caption}}}"
+            for step in part.steps:
+                yield from ("", *self.step(part, step))
+            names = [*_names(part, names_of(part.source.symbols), self.language)]
+            heading = tex_text(self.language.word("Names"))
+            yield rf"\begin{{names}}{{{heading}}}"
+            yield from (*names, r"\end{names}", "")
+
+    @cached_property
+    def last(self) -> dict[str, str]:
+        """Label of a step → that of its last equation."""
+        every = (step for _, step in steps(self.parts))
+        return {x.label: equation_label(x, len(x.equations) - 1) for x in every}
+
+    def step(self, part: Part, step: Step) -> Iterator[str]:
+        """Heading, sentences, equations."""
+        names, language = names_of(part.source.symbols), self.language
+        beside = "".join(f", {tex_text(note)}" for note in notes(step, language))
+        rule = tex_text(capitalised(language.word(step.rule)))
+        yield rf"\step{{{rule}}}{{{beside}{self.corrected(step)}}}{{{spelt(step.label)}}}"
+        used = ", ".join(reference(label, self.last) for label in step.uses)
+        yield prose(language.of(step.prose)) + (rf" \from{{{used}}}" if used else "")
+        yield from _equations(step, names, language)
+
+    def corrected(self, step: Step) -> str:
+        """Footnotes on the numbers whose print is wrong."""
+        told = (self.findings[n] for n in step.paper if n in self.findings)
+        return "".join(rf"\footnote{{{self.footnote(f)}}}" for f in told)
+
+    def footnote(self, f: Finding) -> str:
+        """What was printed, and values for which it is false."""
+        values = [*(f.counterexample or {}).items()]
+        given, (left, right) = values[:-2], values[-2:]
+        shown = ", ".join(f"{name} = {value}" for name, value in given)
+        word = self.language.word
+        printed = word(
+            "The paper prints in {number}: {printed}.", number=f"({f.number})", printed=f.printed
+        )
+        example = word(
+            "For {values} the left side is {left}, the printed right side {right}.",
+            values=shown,
+            left=left[1],
+            right=right[1],
+        )
+        return prose(f"{printed} {example}")
 
 
 def reference(label: str, last: Mapping[str, str]) -> str:
@@ -59,13 +160,10 @@ def reference(label: str, last: Mapping[str, str]) -> str:
     return rf"\eqref{{{first}}}{span}"
 
 
-def _step(step: Step, names: Mapping[str, str], last: Mapping[str, str]) -> Iterator[str]:
-    beside = "".join(f", {tex_text(note)}" for note in notes(step))
-    yield rf"\step{{{tex_text(capitalised(step.rule))}}}{{{beside}}}{{{spelt(step.label)}}}"
-    used = ", ".join(reference(label, last) for label in step.uses)
-    yield prose(step.prose) + (rf" \from{{{used}}}" if used else "")
+def _equations(step: Step, names: Mapping[str, str], language: Language) -> Iterator[str]:
+    """The alignments of a step."""
     k = 0
-    for block in blocks(step.equations, names):
+    for block in blocks(step.equations, names, language):
         yield r"\begin{align}"
         rows: list[str] = []
         for equation in block:
@@ -86,14 +184,15 @@ def spelt(label: str) -> str:
     return re.sub(r"(\.|\\_)", r"\1\\allowbreak{}", tex_text(label))
 
 
-def _names(d: Derivation, names: Mapping[str, str]) -> Iterator[str]:
-    """The letters of the record with their meanings, then the parameters of the problem."""
-    for symbol in d.symbols:
-        yield rf"\name{{{latex_tree(symbol.name, names)}}}{{{prose(symbol.meaning)}}}"
-    parameters = d.problem.get("parameters")
+def _names(part: Part, names: Mapping[str, str], language: Language) -> Iterator[str]:
+    """The letters of a part with their meanings, then the parameters of the problem."""
+    for symbol in part.symbols:
+        meaning = prose(language.of(symbol.meaning))
+        yield rf"\name{{{latex_tree(symbol.name, names)}}}{{{meaning}}}"
+    parameters = part.record.problem.get("parameters") if part.record else None
     for name, about in parameters.items() if isinstance(parameters, Mapping) else ():
         about = about if isinstance(about, Mapping) else {}
-        meaning = tex_text(str(about.get("meaning") or "parameter"))
+        meaning = tex_text(language.word(str(about.get("meaning") or "parameter")))
         unit = _unit(str(about.get("unit") or ""))
         yield rf"\name{{{parameter(str(name))}}}{{{meaning}{f' [{unit}]' if unit else ''}}}"
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 
 from ..record.record import Equation
-from .escape import math_text
+from .escape import math_text, tex_text
+from .language import ENGLISH, Language
 from .measure import measure
 from .outline import domain
 from .tex import guarded, latex_tree, marked, pieces, plain
@@ -18,39 +20,45 @@ EQUALS, INDENT = 1.4, 1.5
 Rows = list[str]
 
 
-def blocks(equations: Sequence[Equation], names: Mapping[str, str]) -> list[list[Rows]]:
+def blocks(
+    equations: Sequence[Equation], names: Mapping[str, str], language: Language = ENGLISH
+) -> list[list[Rows]]:
     """Alignments, each a list of equations, each a list of rows ``left & right``.
 
     The equations of a step share one alignment unless a long left side forbids it.
     """
+    every = rf"\text{{{tex_text(language.word('for every'))} }} "
     left = [measure(latex_tree(e.lhs, names)) for e in equations]
-    right = [measure(latex_tree(e.rhs, names)) + clause_width(e, names) for e in equations]
+    right = [
+        measure(latex_tree(e.rhs, names)) + clause_width(clause(e, names, every)) for e in equations
+    ]
     column = max(left)
     if column <= 0.4 * ROOM or column + EQUALS + max(right) <= ROOM:
-        return [[aligned(e, names, column) for e in equations]]
-    return [[alone(e, names)] for e in equations]
+        return [[aligned(e, names, column, every) for e in equations]]
+    return [[alone(e, names, every)] for e in equations]
 
 
-def aligned(e: Equation, names: Mapping[str, str], column: float) -> Rows:
+def aligned(e: Equation, names: Mapping[str, str], column: float, every: str) -> Rows:
     """An equation whose left side has a column of the given width."""
     lines = broken(marked(e.rhs, names), ROOM - column - EQUALS)
     head = guarded(latex_tree(e.lhs, names))
     rows = [f"{head} &= {lines[0].text}", *("&" + indented(x, 1) for x in lines[1:])]
-    return closed(rows, e, names, measure(lines[-1].text) + column + EQUALS)
+    return closed(rows, clause(e, names, every), measure(lines[-1].text) + column + EQUALS)
 
 
-def alone(e: Equation, names: Mapping[str, str]) -> Rows:
+def alone(e: Equation, names: Mapping[str, str], every: str) -> Rows:
     """An equation by itself; a left side that leaves no room has lines of its own."""
     head = latex_tree(e.lhs, names)
     column = measure(head)
-    whole = column + EQUALS + measure(latex_tree(e.rhs, names)) + clause_width(e, names)
+    words = clause(e, names, every)
+    whole = column + EQUALS + measure(latex_tree(e.rhs, names)) + clause_width(words)
     if column <= 0.4 * ROOM or whole <= ROOM:
-        return aligned(e, names, column)
+        return aligned(e, names, column, every)
     first, *others = broken(marked(e.lhs, names), ROOM)
     rows = ["&" + guarded(first.text), *("&" + indented(x, 1) for x in others)]
     first, *others = broken(marked(e.rhs, names), ROOM - EQUALS - INDENT)
     rows += [rf"&\quad = {first.text}", *("&" + indented(x, 2) for x in others)]
-    return closed(rows, e, names, ROOM if others else measure(first.text) + EQUALS + INDENT)
+    return closed(rows, words, ROOM if others else measure(first.text) + EQUALS + INDENT)
 
 
 def broken(tex: str, room: float) -> list[Line]:
@@ -65,26 +73,25 @@ def indented(line: Line, quads: int) -> str:
     return r"\quad" * (quads + line.inside) + " " + sign + line.text
 
 
-def clause(e: Equation, names: Mapping[str, str]) -> str:
-    """For which names the equation holds."""
+def clause(e: Equation, names: Mapping[str, str], every: str) -> str:
+    """For which names the equation holds: ``every`` says "for every"."""
     if not e.for_all:
         return ""
     shown, space = ", ".join(latex_tree(x, names) for x in e.for_all), domain(e.for_all)
     shown = f"({shown})" if len(e.for_all) > 1 and space else shown
     within = rf" \in {math_text(space)}" if space else ""
-    return rf"\text{{for every }} {shown}{within}"
+    return f"{every}{shown}{within}"
 
 
-def clause_width(e: Equation, names: Mapping[str, str]) -> float:
-    """The room that the clause takes."""
-    return INDENT + 4.5 + measure(clause(e, names)[22:]) if e.for_all else 0.0
+def clause_width(words: str) -> float:
+    """The room that a clause takes."""
+    return INDENT + 4.5 + measure(re.sub(r"\\text\{.*?\} ", "", words, count=1)) if words else 0.0
 
 
-def closed(rows: Rows, e: Equation, names: Mapping[str, str], last: float) -> Rows:
-    """The rows with the clause at their end, or below."""
-    words = clause(e, names)
+def closed(rows: Rows, words: str, last: float) -> Rows:
+    """The rows with a clause at their end, or below."""
     if not words:
         return rows
-    if last + clause_width(e, names) <= ROOM:
+    if last + clause_width(words) <= ROOM:
         return [*rows[:-1], rf"{rows[-1]} \quad {words}"]
     return [*rows, rf"&\quad {words}"]

@@ -30,10 +30,18 @@ def parameter(name: str) -> str:
         r"([A-Za-z]+)([0-9]{1,3})", name
     )
     if match:
-        return rf"\mathsf{{{match[1]}}}_{{\mathsf{{{match[2]}}}}}"
+        return rf"{_base(match[1])}_{{\mathsf{{{match[2]}}}}}"
+    if name in GREEK:
+        return _base(name)
     if re.fullmatch(r"[A-Za-z0-9_]+", name):
         return rf"\mathsf{{{name.replace('_', chr(92) + '_')}}}"
     return rf"\text{{\textsf{{{tex_text(name)}}}}}"
+
+
+def _base(word: str) -> str:
+    """A word sans serif; a Greek letter by itself, where the walk gives it no meaning."""
+    free = word in GREEK and GREEK[word] not in VOCABULARY
+    return rf"\{word}" if free else rf"\mathsf{{{word}}}"
 
 
 def paren(tex: str) -> str:

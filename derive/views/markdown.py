@@ -5,38 +5,43 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from ..record.record import Derivation, Step, Symbol
-from .escape import markdown_text, prose
+from .escape import between_dollars, markdown_text, prose
+from .language import ENGLISH, Language
 from .layout import blocks
 from .letters import names_of
+from .macros import standard
 from .outline import FORMULAS_CONVENTIONS, PAPER, capitalised, notes, sections, subtitle, title
 
 
-def markdown(d: Derivation) -> str:
+def markdown(d: Derivation, *, language: Language = ENGLISH) -> str:
     """Headings, prose and display formulas; no raw HTML."""
     names = names_of(d.symbols)
-    heading = " — ".join(filter(None, (title(d), subtitle(d))))
-    parts = [f"# {markdown_text(heading)}", f"{FORMULAS_CONVENTIONS} {markdown_text(PAPER)}"]
-    for section, steps in sections(d):
+    heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
+    conventions = between_dollars(language.word(FORMULAS_CONVENTIONS), markdown_text)
+    parts = [f"# {markdown_text(heading)}", f"{conventions} {markdown_text(language.word(PAPER))}"]
+    for section, steps in sections(d, language):
         parts.append(f"## {markdown_text(section)}")
         for step in steps:
-            parts.extend(_step(step, names))
+            parts.extend(_step(step, names, language))
     return "\n\n".join(parts) + "\n"
 
 
-def step_markdown(step: Step, symbols: Iterable[Symbol]) -> str:
+def step_markdown(step: Step, symbols: Iterable[Symbol], *, language: Language = ENGLISH) -> str:
     """One step as Markdown."""
-    return "\n\n".join(_step(step, names_of(symbols))) + "\n"
+    return "\n\n".join(_step(step, names_of(symbols), language)) + "\n"
 
 
-def _step(step: Step, names: Mapping[str, str]) -> Iterator[str]:
-    beside = "".join(f", {markdown_text(note)}" for note in notes(step))
-    yield f"### {markdown_text(capitalised(step.rule))}{beside} — {code(step.label)}"
+def _step(step: Step, names: Mapping[str, str], language: Language) -> Iterator[str]:
+    beside = "".join(f", {markdown_text(note)}" for note in notes(step, language))
+    rule = markdown_text(capitalised(language.word(step.rule)))
+    yield f"### {rule}{beside} — {code(step.label)}"
     used = ", ".join(map(code, step.uses))
-    yield prose(step.prose, markdown_text) + (f" (from {used})" if used else "")
-    for block in blocks(step.equations, names):
+    from_these = f" ({language.word('from')} {used})" if used else ""
+    yield prose(language.of(step.prose), markdown_text) + from_these
+    for block in blocks(step.equations, names, language):
         rows = [row for equation in block for row in equation]
         body = " \\\\\n".join(rows)
-        yield f"$$\n\\begin{{aligned}}\n{body}\n\\end{{aligned}}\n$$"
+        yield standard(f"$$\n\\begin{{aligned}}\n{body}\n\\end{{aligned}}\n$$")
 
 
 def code(label: str) -> str:

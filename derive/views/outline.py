@@ -7,6 +7,7 @@ from itertools import groupby
 
 from ..record.record import Derivation, Step
 from ..record.vocabulary import ANY_GROUP, MISPRINTED
+from .language import ENGLISH, Language
 
 CONVENTIONS = (
     "Bars are transposes and 1 is the identity. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for "
@@ -42,9 +43,10 @@ GIVEN = {
 }
 
 
-def title(d: Derivation) -> str:
+def title(d: Derivation, language: Language = ENGLISH) -> str:
     """The title of the problem, or its name."""
-    return " ".join(str(d.problem.get("title") or d.name).split())
+    name, given = (" ".join(str(x or d.name).split()) for x in (d.name, d.problem.get("title")))
+    return given if given == name else language.word(given)
 
 
 def group(d: Derivation) -> str:
@@ -52,26 +54,31 @@ def group(d: Derivation) -> str:
     return " ".join(str(d.problem.get("group", ANY_GROUP)).split())
 
 
-def subtitle(d: Derivation) -> str:
+def subtitle(d: Derivation, language: Language = ENGLISH) -> str:
     """The name of the group, unless the title says it."""
-    return "" if group(d).casefold() in title(d).casefold() else group(d)
+    if group(d).casefold() in title(d).casefold():
+        return ""
+    return language.word(ANY_GROUP) if group(d) == ANY_GROUP else group(d)
 
 
-def heading(scope: str) -> str:
+def heading(scope: str, language: Language = ENGLISH) -> str:
     """The heading of the steps that hold in a scope."""
-    return "For any group of matrices" if scope == ANY_GROUP else f"For {scope}"
+    if scope == ANY_GROUP:
+        return language.word("For any group of matrices")
+    return language.word("For {group}", group=scope)
 
 
-def sections(d: Derivation) -> Iterator[tuple[str, list[Step]]]:
+def sections(d: Derivation, language: Language = ENGLISH) -> Iterator[tuple[str, list[Step]]]:
     """The steps under headings: those of any group, then those of the group."""
     for scope, steps in groupby(d.steps, key=lambda step: step.scope):
-        yield heading(scope), list(steps)
+        yield heading(scope, language), list(steps)
 
 
-def notes(step: Step) -> list[str]:
+def notes(step: Step, language: Language = ENGLISH) -> list[str]:
     """What stands beside a rule: the numbers of the paper, further assumptions."""
     numbers = ", ".join(f"({n})" + "*" * (n in MISPRINTED) for n in step.paper)
-    return [*([f"paper {numbers}"] if numbers else []), *(GIVEN.get(x, x) for x in step.given)]
+    printed = [language.word("paper {numbers}", numbers=numbers)] if numbers else []
+    return [*printed, *(language.word(GIVEN.get(x, x)) for x in step.given)]
 
 
 DOMAINS = {"δA": "T_A G", "δ′A": "T_A G", "ξ′": "𝔤", "Ω′": "R³"}

@@ -205,7 +205,7 @@ class Printer:
 
     def op_hat(self, a: Tree) -> str:
         """The operator j."""
-        return f"j({self.bare(a)})"
+        return rf"\hatmap{{{plain(self.bare(a))}}}"
 
     def op_sum(self, index: Tree, body: Tree) -> Shown:
         """A sum over an index."""

@@ -10,6 +10,8 @@ from itertools import groupby
 from ..algebra.show import show, show_name
 from ..algebra.tree import Tree
 from ..record.record import Derivation, Equation, Step
+from .escape import NO_BREAK
+from .language import ENGLISH, Language
 from .outline import CONVENTIONS, PAPER, domain, notes, sections, subtitle, title
 from .wrap import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
 
@@ -20,31 +22,32 @@ OPENING, CLOSING = "([⟨", ")]⟩"
 BREAKS = {" + ": SUM, " − ": SUM, " ∧ ": WEDGE}
 
 
-def text(d: Derivation, width: int = 100) -> str:
+def text(d: Derivation, width: int = 100, *, language: Language = ENGLISH) -> str:
     """The record as text, no line longer than ``width`` columns (at least 40)."""
     width, quoted = max(width, 40), clashing(d)
-    heading = " — ".join(filter(None, (title(d), subtitle(d))))
+    heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
     blocks = [
         [*_underlined(heading, "=", width)],
-        [*_paragraph(f"{CONVENTIONS} {PAPER}", 0, width)],
+        [*_paragraph(f"{language.word(CONVENTIONS)} {language.word(PAPER)}", 0, width)],
     ]
-    for section, steps in sections(d):
+    for section, steps in sections(d, language):
         blocks.append([*_underlined(section, "-", width)])
-        blocks.extend([*_step(step, width, quoted)] for step in steps)
+        blocks.extend([*_step(step, width, quoted, language)] for step in steps)
     if d.symbols:
-        blocks.append([*_underlined("Names", "-", width)])
-        named = [(show_name(s.name), s.meaning) for s in d.symbols]
+        blocks.append([*_underlined(language.word("Names"), "-", width)])
+        named = [(show_name(s.name), language.of(s.meaning)) for s in d.symbols]
         blocks.append([line for name, about in named for line in _named(name, about, width)])
-    if given := [*_parameters(d, quoted)]:
-        blocks.append([*_underlined("Parameters", "-", width)])
+    if given := [*_parameters(d, quoted, language)]:
+        blocks.append([*_underlined(language.word("Parameters"), "-", width)])
         blocks.append([line for name, about in given for line in _named(name, about, width)])
     lines = "\n\n".join("\n".join(line.rstrip() for line in block) for block in blocks)
-    return "".join(c for c in lines if c == "\n" or c.isprintable()) + "\n"
+    return "".join(c for c in lines if c in f"\n{NO_BREAK}" or c.isprintable()) + "\n"
 
 
-def step_text(step: Step, width: int = 100) -> str:
+def step_text(step: Step, width: int = 100, *, language: Language = ENGLISH) -> str:
     """One step as text."""
-    return "\n".join(line.rstrip() for line in _step(step, width)) + "\n"
+    lines = _step(step, width, frozenset(), language)
+    return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
 def _named(name: str, meaning: str, width: int) -> Iterator[str]:
@@ -53,15 +56,18 @@ def _named(name: str, meaning: str, width: int) -> Iterator[str]:
     yield from others
 
 
-def _parameters(d: Derivation, quoted: frozenset[str]) -> Iterator[tuple[str, str]]:
+def _parameters(
+    d: Derivation, quoted: frozenset[str], language: Language
+) -> Iterator[tuple[str, str]]:
     """The parameters of the problem with meaning, unit and default."""
     parameters = d.problem.get("parameters", {})
     for name, about in parameters.items() if isinstance(parameters, Mapping) else ():
         about = about if isinstance(about, Mapping) else {}
         unit, default = about.get("unit"), about.get("default")
-        words = [str(about.get("meaning") or "parameter")]
+        words = [language.word(str(about.get("meaning") or "parameter"))]
         words += [f"[{unit}]"] if unit else []
-        words += [f"default {default:g}"] if isinstance(default, (int, float)) else []
+        if isinstance(default, (int, float)):
+            words.append(language.word("default {value}", value=f"{default:g}"))
         yield show(_marked(("par", str(name)), quoted)), ", ".join(words)
 
 
@@ -87,23 +93,25 @@ def _marked(t: Tree, quoted: frozenset[str]) -> Tree:
     return (t[0], *(_marked(x, quoted) for x in t[1:]))
 
 
-def _step(step: Step, width: int, quoted: frozenset[str] = frozenset()) -> Iterator[str]:
-    yield from _paragraph("  ·  ".join([step.label, step.rule, *notes(step)]), 0, width)
-    yield from _paragraph(step.prose, MARGIN, width)
+def _step(step: Step, width: int, quoted: frozenset[str], language: Language) -> Iterator[str]:
+    head = [step.label, language.word(step.rule), *notes(step, language)]
+    yield from _paragraph("  ·  ".join(head), 0, width)
+    yield from _paragraph(language.of(step.prose), MARGIN, width)
     if step.uses:
-        yield from _paragraph(f"From {', '.join(step.uses)}.", MARGIN, width)
+        used = language.word("From {labels}.", labels=", ".join(step.uses))
+        yield from _paragraph(used, MARGIN, width)
     equations = (
         Equation(_marked(e.lhs, quoted), _marked(e.rhs, quoted), e.for_all) for e in step.equations
     )
-    yield from _equations(tuple(equations), width - EQUATION)
+    yield from _equations(tuple(equations), width - EQUATION, language)
 
 
-def _equations(equations: tuple[Equation, ...], room: int) -> Iterator[str]:
+def _equations(equations: tuple[Equation, ...], room: int, language: Language) -> Iterator[str]:
     """The equations of a step, aligned at their signs; many short ones stand side by side."""
     runs = [[*run] for _, run in groupby(equations, key=lambda e: bool(_cell(e)))]
     if len(runs) > 1 and any(len(run) > TABLE and _cell(run[0]) for run in runs):
         for run in runs:
-            yield from _equations(tuple(run), room)
+            yield from _equations(tuple(run), room, language)
         return
     if len(equations) > TABLE and _cell(equations[0]) and len(runs) == 1:
         yield from _table([_cell(e) for e in equations], room)
@@ -112,7 +120,7 @@ def _equations(equations: tuple[Equation, ...], room: int) -> Iterator[str]:
     widest = max(map(display_width, left))
     column = widest if widest <= room * 2 // 5 else 0
     for lhs, e in zip(left, equations, strict=True):
-        for line in _equation(lhs, e, column, room):
+        for line in _equation(lhs, e, column, room, language):
             yield " " * EQUATION + line
 
 
@@ -138,10 +146,10 @@ def padded(words: str, width: int) -> str:
     return words + " " * max(width - display_width(words), 0)
 
 
-def _equation(lhs: str, e: Equation, column: int, room: int) -> Iterator[str]:
+def _equation(lhs: str, e: Equation, column: int, room: int, language: Language) -> Iterator[str]:
     right = show(e.rhs)
     if isinstance(e.rhs, tuple) and e.rhs[0] == "par" and right == lhs:
-        right += "  (a parameter)"
+        right += f"  {language.word('(a parameter)')}"
     lead = " " * (column - display_width(lhs)) + lhs
     if column == 0 and display_width(f"{lhs} = {right}") > room:
         *before, lead = _broken(lhs, room, 0)
@@ -152,7 +160,7 @@ def _equation(lhs: str, e: Equation, column: int, room: int) -> Iterator[str]:
     indent = display_width(lead) + 3
     first, *others = [*_broken(right, room - indent, indent)]
     lines = [f"{lead} = {first[indent:]}", *others]
-    clause = _clause(e)
+    clause = _clause(e, language.word("for every"))
     if clause and display_width(f"{lines[-1]}  {clause}") <= room:
         lines[-1] += f"  {clause}"
         clause = ""
@@ -161,12 +169,12 @@ def _equation(lhs: str, e: Equation, column: int, room: int) -> Iterator[str]:
         yield from _paragraph(clause, indent, room)
 
 
-def _clause(e: Equation) -> str:
+def _clause(e: Equation, every: str) -> str:
     if not e.for_all:
         return ""
     names, space = ", ".join(map(show_name, e.for_all)), domain(e.for_all)
     names = f"({names})" if len(e.for_all) > 1 and space else names
-    return f"for every {names} ∈ {space}" if space else f"for every {names}"
+    return f"{every} {names} ∈ {space}" if space else f"{every} {names}"
 
 
 def _broken(formula: str, room: int, indent: int) -> list[str]:

@@ -42,7 +42,7 @@ def fill(
         return [Line(whole, 0)]
     lines: list[Line] = []
     current = ""
-    for group in _groups(pieces):
+    for group in groups(pieces):
         text = "".join(p.text for p in group)
         if measure((current + text).strip()) <= room:
             current += text
@@ -58,8 +58,10 @@ def fill(
     return [*lines, Line(current.strip(), 0)] if current else lines
 
 
-def _groups(pieces: Sequence[Piece]) -> list[list[Piece]]:
+def groups(pieces: Sequence[Piece]) -> list[list[Piece]]:
     """The pieces cut at their shallowest breaks."""
+    if len(pieces) == 1:
+        return [[*pieces]]
     shallow = min(p.depth for p in pieces[1:])
     groups = [[pieces[0]]]
     for piece in pieces[1:]:

@@ -9,10 +9,32 @@ from ..algebra.tree import Tree
 from ..mechanics.problem import GivenBody, MomentBody, PointBody, Problem
 from ..mechanics.solids import Solid
 from ..record.record import Equation, Step
+from ..record.sentence import Prose, Sentence, listed, phrase, say
 from .elements import column, embedded
 
 INTEGRANDS: dict[str, Tree] = {"m": 1, "c": "r", "J": ("mul", "r", ("T", "r"))}
 """(36)–(39): the moments of a measure of mass."""
+
+SOLIDS = {
+    "ball": phrase("ball"),
+    "box": phrase("box"),
+    "ellipsoid": phrase("ellipsoid"),
+    "cylinder": phrase("cylinder"),
+    "cone": phrase("cone"),
+    "hollow_ball": phrase("hollow ball"),
+    "tetrahedron": phrase("tetrahedron"),
+    "mesh": phrase("mesh"),
+}
+SIZES = {
+    "radius": "radius {size}",
+    "outer": "outer {size}",
+    "inner": "inner {size}",
+    "sides": "sides {size}",
+    "semi_axes": "semi axes {size}",
+    "height": "height {size}",
+    "vertices": "vertices {size}",
+}
+"""The kinds of solids and their sizes in words."""
 
 
 def body_step(problem: Problem, prefix: str, scope: str) -> tuple[Step, ...]:
@@ -20,33 +42,43 @@ def body_step(problem: Problem, prefix: str, scope: str) -> tuple[Step, ...]:
     body = problem.body
     steps: list[Step] = []
     equations: list[Equation] = []
-    prose = ""
+    prose: Prose = ()
     if isinstance(body, MomentBody):
         equations += _moments(body.mass(), body.first(), body.second())
-        prose = "The moments of the body are parameters: those of some positive masses."
+        prose = say("The moments of the body are parameters: those of some positive masses.")
     elif isinstance(body, GivenBody):
         if body.solids:
             steps.append(_integrals(body.solids, prefix, scope))
         equations += _moments(body.mass, body.first, body.second)
-        prose = "The moments of the body." if body.solids else "The moments of the body are given."
+        given = say("The moments of the body are given.")
+        prose = say("The moments of the body.") if body.solids else given
     if problem.points:
         equations = [*_points(problem, problem.points), *equations]
-        prose = f"The points of the body and their masses. {prose}"
+        prose = say("The points of the body and their masses.") + prose
         if problem.group and problem.group.factors:
-            prose += " Each is in its block of coordinates; an affine block ends in 1."
+            prose += say("Each is in its block of coordinates; an affine block ends in 1.")
     for k, p in enumerate(problem.places, problem.masses + 1):
         if isinstance(body, PointBody):
             equations.append(Equation(("at", "m", k), 0))
         equations.append(Equation(("at", "r", k), embedded(problem, k, p.at, 1)))
     if problem.places:
         low, high = problem.masses + 1, problem.masses + len(problem.places)
-        which = f"Point {low} has" if low == high else f"Points {low} to {high} have"
-        prose += f" {which} no mass: forces are attached there."
+        prose += _massless(low, high)
     if not equations:
         return ()
     uses = (steps[0].label,) if steps else ()
-    last = Step(f"{prefix}.body", "definition", uses, tuple(equations), prose.strip(), (), scope)
+    last = Step(f"{prefix}.body", "definition", uses, tuple(equations), prose, (), scope)
     return (*steps, last)
+
+
+def _massless(low: int, high: int) -> Prose:
+    if low == high:
+        return say("Point {point} has no mass: forces are attached there.", point=str(low))
+    return say(
+        "Points {low} to {high} have no mass: forces are attached there.",
+        low=str(low),
+        high=str(high),
+    )
 
 
 def _points(problem: Problem, body: PointBody) -> list[Equation]:
@@ -70,16 +102,27 @@ def _moments(
     ]
 
 
-def _described(s: Solid) -> str:
+def _described(s: Solid) -> Sentence:
     """A solid in words: kind, density, sizes, where it is."""
-    sizes = [f"{k.replace('_', ' ')} {_size(x)}" for k, x in s.sizes.items() if k != "file"]
+    sizes = [phrase(SIZES[k], size=_size(x)) for k, x in s.sizes.items() if k in SIZES]
     if s.mesh is not None:
-        vertices, faces = s.mesh
-        sizes = [f"{len(vertices)} vertices", f"{len(faces)} triangles"]
-    words = f"{s.kind.replace('_', ' ')} of density {show(s.density)} ({', '.join(sizes)})"
-    moves = ["turned by a rotation"] * bool(s.rotation)
-    moves += [f"shifted by {_size(s.shift)}"] if s.shift else []
-    return f"{words}, {' and then '.join(moves)}" if moves else words
+        vertices, faces = (str(len(x)) for x in s.mesh)
+        sizes = [
+            phrase("{count} vertices", count=vertices),
+            phrase("{count} triangles", count=faces),
+        ]
+    solid = phrase(
+        "{kind} of density {density} ({sizes})",
+        kind=SOLIDS[s.kind],
+        density=show(s.density),
+        sizes=listed("{first}, {second}", sizes),
+    )
+    if s.rotation and s.shift:
+        moved = "{solid}, turned by a rotation and then shifted by {shift}"
+        return phrase(moved, solid=solid, shift=_size(s.shift))
+    if s.shift:
+        return phrase("{solid}, shifted by {shift}", solid=solid, shift=_size(s.shift))
+    return phrase("{solid}, turned by a rotation", solid=solid) if s.rotation else solid
 
 
 def _size(x: Any) -> str:
@@ -94,8 +137,11 @@ def _integrals(solids: tuple[Solid, ...], prefix: str, scope: str) -> Step:
         "definition",
         (),
         tuple(Equation(name, ("call", "∫", form)) for name, form in INTEGRANDS.items()),
-        "For a continuous body the sums over the points are integrals over its measure of mass, "
-        f"dm = ρ dV; all else stays. Here: {'; '.join(map(_described, solids))}.",
+        say(
+            "For a continuous body the sums over the points are integrals over its measure of "
+            "mass, dm = ρ dV; all else stays."
+        )
+        + say("Here: {solids}.", solids=listed("{first}; {second}", [*map(_described, solids)])),
         (36, 37, 38, 39),
         scope,
     )

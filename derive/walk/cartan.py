@@ -10,6 +10,7 @@ from ..algebra.notation import Notation, metrics, tree_of
 from ..algebra.tree import Tree, add, neg
 from ..algebra.words import Expr, Factor, Letter, word
 from ..record.record import Equation, Step
+from ..record.sentence import say
 from .alphabet import Alphabet
 from .pullback import Pullback
 
@@ -43,8 +44,12 @@ def cartan(stage: Pullback, a: Alphabet, prefix: str) -> Cartan:
             "fibre derivative",
             (f"{prefix}.pullback",),
             tuple(_momentum_equations(momentum, momentum_tree, a, variations)),
-            "The momentum is the derivative of the Lagrangian along the velocity"
-            + (", for all (δA, δT), of which the group has some." if a.affine else "."),
+            say(
+                "The momentum is the derivative of the Lagrangian along the velocity, for all "
+                "(δA, δT), of which the group has some."
+            )
+            if a.affine
+            else say("The momentum is the derivative of the Lagrangian along the velocity."),
             (16, 20) if a.affine else (16,),
         ),
         Step(
@@ -55,7 +60,7 @@ def cartan(stage: Pullback, a: Alphabet, prefix: str) -> Cartan:
                 Equation("h̃", ("add", ("call", "p̃", *velocities), neg("L̃"))),
                 Equation("h̃", tree_of(energy, notation)),
             ),
-            "The energy is the momentum paired with the velocity, less the Lagrangian.",
+            say("The energy is the momentum paired with the velocity, less the Lagrangian."),
             (16,) if a.affine else (16, 23),
         ),
         Step(
@@ -68,7 +73,7 @@ def cartan(stage: Pullback, a: Alphabet, prefix: str) -> Cartan:
                     add(momentum_tree, neg(("mul", "h̃", "δt"))),
                 ),
             ),
-            "The Cartan form: momentum on the displacement, less energy on the time.",
+            say("The Cartan form: momentum on the displacement, less energy on the time."),
             (15,) if a.affine else (15, 23),
         ),
     )
@@ -175,8 +180,10 @@ def trivialise(stage: Cartan, a: Alphabet, prefix: str) -> Cartan:
                 *(Equation(p.d_velocity.name, tree_of(images[p.d_velocity])) for p in a.parts),
                 Equation("δC", tree_of(varied_gram(a, a.Z.xi))),
             ),
-            "Tangent vectors are carried to the Lie algebra by g⁻¹ (Maurer–Cartan); the metric "
-            "depends on g through C = ĀA only.",
+            say(
+                "Tangent vectors are carried to the Lie algebra by g⁻¹ (Maurer–Cartan); the metric "
+                "depends on g through C = ĀA only."
+            ),
             (27, 30),
         ),
         Step(
@@ -184,7 +191,7 @@ def trivialise(stage: Cartan, a: Alphabet, prefix: str) -> Cartan:
             "trivialisation",
             (f"{prefix}.cartan", f"{prefix}.energy", f"{prefix}.trivialisation"),
             (form_equation(momentum, energy, metrics()),),
-            "The Cartan form in this trivialisation.",
+            say("The Cartan form in this trivialisation."),
         ),
     )
     return Cartan(momentum, energy, steps)

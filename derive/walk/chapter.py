@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from ..record.record import Equation, Step
+from ..record.sentence import Prose
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,7 @@ class Chapter:
         return replace(self, given=("input",))
 
     def step(
-        self, label: str, rule: str, uses: str, equations: Iterable[Equation], prose: str
+        self, label: str, rule: str, uses: str, equations: Iterable[Equation], prose: Prose
     ) -> Step:
         """A step; ``uses`` lists labels, those of the general text with a leading dot."""
         used = tuple(

@@ -16,10 +16,14 @@ from ..algebra.notation import Notation, tree_of
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, number, word
 from ..record.record import Equation, Step
+from ..record.sentence import Sentence, phrase, say
 from ..record.vocabulary import ANY_GROUP
 from .gather import gathered, terms_with
 
 CONTRACTION: Tree = ("call", "dϖ", "X", "δ′y")
+REGULAR = phrase("the metric is not degenerate")
+LINE = say("With δt = 0 the same two tests leave X = 0: the kernel is a line.")
+AND = "{first} and {second}"
 
 
 class NoKernelError(ValueError):
@@ -106,16 +110,21 @@ def velocities(along: Mapping[Letter, Expr], letters: Iterable[Letter]) -> list[
     return [Equation(("call", x.name, "X"), tree_of(along[x])) for x in letters]
 
 
+def rate(dotted: str, varied: str) -> Sentence:
+    """v̇ is δv(X)."""
+    return phrase("{rate} is {value}", rate=dotted, value=f"{varied}(X)")
+
+
 def steps_of(
     c: Contraction,
     first: list[Equation],
-    unknown: str,
-    rates: str,
+    unknown: Sentence,
+    rates: Sentence,
     prefix: str,
     exterior: str,
     paper: tuple[int, ...] = (),
     scope: str = ANY_GROUP,
-    regular: str = "the metric is not degenerate",
+    regular: Sentence = REGULAR,
 ) -> tuple[Step, ...]:
     """X put into dϖ, its vertical part, and what remains once the velocity is known."""
     return (
@@ -124,9 +133,14 @@ def steps_of(
             "contraction",
             (exterior,),
             (Equation(CONTRACTION, c.any_vector()),),
-            "The motions are the extremals of the action, the integral of L̃: curves whose "
-            "tangent X is in the kernel of dϖ. A vector X with δt = 1 is put in; its other "
-            f"components, {unknown}, are unknown.",
+            say(
+                "The motions are the extremals of the action, the integral of L̃: curves whose "
+                "tangent X is in the kernel of dϖ."
+            )
+            + say(
+                "A vector X with δt = 1 is put in; its other components, {unknown}, are unknown.",
+                unknown=unknown,
+            ),
             (),
             scope,
             ("any X",),
@@ -136,8 +150,10 @@ def steps_of(
             "restriction",
             (f"{prefix}.contraction",),
             (Equation(CONTRACTION, c.on_vertical()),),
-            "X is in the kernel when this vanishes for every δ′y, to begin with for those that "
-            "move the velocity alone.",
+            say(
+                "X is in the kernel when this vanishes for every δ′y, to begin with for those that "
+                "move the velocity alone."
+            ),
             (),
             scope,
             ("any X", "vertical"),
@@ -147,8 +163,12 @@ def steps_of(
             "kernel",
             (f"{prefix}.vertical", f"{prefix}.contraction"),
             (*first, Equation(CONTRACTION, c.remaining())),
-            f"As {regular}, it vanishes for all of these only if X has the velocity of the motion, "
-            f"which is put in; {rates}.",
+            say(
+                "As {regular}, it vanishes for all of these only if X has the velocity of the "
+                "motion, which is put in; {rates}.",
+                regular=regular,
+                rates=rates,
+            ),
             paper,
             scope,
             ("any acceleration",),

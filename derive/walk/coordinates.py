@@ -5,6 +5,7 @@ from __future__ import annotations
 from ..algebra.groups import Group
 from ..algebra.tree import Tree, add, mul
 from ..record.record import Equation, Step
+from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter
 
@@ -20,9 +21,9 @@ def coordinates_step(group: Group, b: Alphabet, c: Chapter, *, reading: bool) ->
     if reading:
         equations += [Equation(("entry", "ζ̇", a + 1), _reading(group, a)) for a in span]
     uses = "relation" if group.relations else ".trivialisation"
-    prose = "Coordinates of the Lie algebra in the basis of the group."
+    prose = say("Coordinates of the Lie algebra in the basis of the group.")
     if b.affine:
-        prose = "Coordinates of the linear parts of the Lie algebra in the basis of the group."
+        prose = say("Coordinates of the linear parts of the Lie algebra in the basis of the group.")
     return c.step("coordinates", "coordinates", uses, equations, prose)
 
 

@@ -16,6 +16,7 @@ from ..algebra.space import hat, normal_form
 from ..algebra.tree import Tree, add, mul
 from ..algebra.words import Expr, Letter, number, word
 from ..record.record import Equation, Step
+from ..record.sentence import say
 from .alphabet import Alphabet
 from .inverse import cancel_scalar, inverse_letter, inverse_tree
 from .translation import central_moments
@@ -70,9 +71,11 @@ def eliminate(stage: VectorForm, a: Alphabet, prefix: str, scope: str) -> Elimin
             Equation(CENTRAL.name, tree_of(central, notation(a))),
             Equation(("mul", CENTRAL.name, "ζ̇"), vector_tree(torque, a)),
         ),
-        "As m > 0, the balance of forces gives ẇ; put into the balance of moments, it leaves I_c, "
-        "the tensor of inertia about the centre of mass r_c, which J_c gives as J gives I. The "
-        "velocity of the centre of mass, in the body frame, is w_c.",
+        say(
+            "As m > 0, the balance of forces gives ẇ; put into the balance of moments, it leaves "
+            "I_c, the tensor of inertia about the centre of mass r_c, which J_c gives as J gives I."
+        )
+        + say("The velocity of the centre of mass, in the body frame, is w_c."),
         (),
         scope,
     )

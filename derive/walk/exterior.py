@@ -10,6 +10,7 @@ from ..algebra.notation import Notation, metrics, tree_of
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, inner, word
 from ..record.record import Equation, Step
+from ..record.sentence import say
 from .alphabet import Alphabet
 from .cartan import Cartan, frame_rule, trivial_images, varied_gram
 from .gather import at_constant_time, gathered, solve_for, terms_with
@@ -74,8 +75,8 @@ def exterior(stage: Cartan, a: Alphabet, prefix: str) -> Exterior:
             (f"{prefix}.cartan", f"{prefix}.energy", f"{prefix}.force")
             + (() if a.affine else (f"{prefix}.gradient",)),
             (Equation(DOMEGA, gathered(form, static, images, notation)),),
-            "The exterior derivative of the Cartan form. The derivative of Ũ by the time drops "
-            "out.",
+            say("The exterior derivative of the Cartan form.")
+            + say("The derivative of Ũ by the time drops out."),
             (25,),
         ),
         Step(
@@ -83,8 +84,10 @@ def exterior(stage: Cartan, a: Alphabet, prefix: str) -> Exterior:
             "restriction",
             (f"{prefix}.exterior",),
             (Equation(("call", "ω", "δx", "δ′x"), tree_of(static, notation)),),
-            "At constant time it is dp ∧ dq, which the metric carries from the cotangent bundle "
-            "of the group to its tangent bundle: a symplectic form.",
+            say(
+                "At constant time it is dp ∧ dq, which the metric carries from the cotangent "
+                "bundle of the group to its tangent bundle: a symplectic form."
+            ),
             (26,),
         ),
     )
@@ -126,8 +129,10 @@ def structure(a: Alphabet, prefix: str) -> tuple[dict[Letter, Expr], Step]:
         "structure equation",
         (f"{prefix}.trivialisation",),
         equations,
-        "The variations commute on the group, so that their images in the Lie algebra differ by a "
-        "bracket.",
+        say(
+            "The variations commute on the group, so that their images in the Lie algebra differ "
+            "by a bracket."
+        ),
     )
     return brackets, step
 
@@ -198,7 +203,7 @@ def exterior_trivialised(natural: Exterior, stage: Cartan, a: Alphabet, prefix: 
                 f"{prefix}.force" if a.affine else f"{prefix}.gradient",
             ),
             (Equation(DOMEGA, gathered(form, core, images, Notation())),),
-            "The exterior derivative in the trivialisation, for any group.",
+            say("The exterior derivative in the trivialisation, for any group."),
         ),
     )
     return Exterior(form, images, steps)

@@ -16,20 +16,19 @@ from ..algebra.tree import Tree, add, mul
 from ..algebra.words import Expr, Letter, inner, number, word
 from ..mechanics.problem import ForceInput, Problem
 from ..record.record import Equation, Step
+from ..record.sentence import Prose, listed, phrase, say
 from .alphabet import Alphabet
 from .cartan import frame_rule
 from .chapter import Chapter
+from .contraction import AND
 from .elements import embedded
 from .pullback import sum_over
 from .pushes import Applied, applied
 from .vector import OMEGA_P, ZETA, inertia_of, isolate
 from .wedge import vector_sum
 
-GIVEN, DRAG = "the forces that are given as functions of time and state", "the damping"
-PROSE = (
-    "Outside dϖ: {}. These are their moments and resultants in the body; their work joins that of "
-    "the potential in the equations of motion."
-)
+GIVEN = phrase("the forces that are given as functions of time and state")
+DRAG = phrase("the damping")
 TORQUE, FORCE = Letter("u", 3), Letter("f_u", 3)
 
 
@@ -47,10 +46,13 @@ def acts(problem: Problem) -> bool:
     return bool(problem.inputs or problem.damping)
 
 
-def prose(problem: Problem) -> str:
+def prose(problem: Problem) -> Prose:
     """What acts from outside dϖ."""
     acting = [GIVEN] * bool(problem.inputs) + [DRAG] * bool(problem.damping)
-    return PROSE.format(" and ".join(acting))
+    return say("Outside dϖ: {forces}.", forces=listed(AND, acting)) + say(
+        "These are their moments and resultants in the body; their work joins that of the "
+        "potential in the equations of motion."
+    )
 
 
 def given_matrices(problem: Problem, b: Alphabet, gram: Expr, c: Chapter) -> Given | None:

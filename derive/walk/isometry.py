@@ -9,6 +9,7 @@ from ..algebra.calculus import gradient, without
 from ..algebra.notation import Notation
 from ..algebra.words import Expr, Letter, word
 from ..record.record import Equation, Step
+from ..record.sentence import say
 from .alphabet import Alphabet
 from .cartan import Cartan, form_equation, frame_rule
 from .exterior import DOMEGA, Exterior, primed, primes, structure, trivial_variations
@@ -40,8 +41,12 @@ def isometry(stage: Cartan, a: Alphabet, n: int, prefix: str, general: str, scop
             Equation(("T", "Z"), ("mul", -1, "Z")),
             Equation(("T", "ξ"), ("mul", -1, "ξ")),
         ),
-        "For isometries ĀA = 1, so that C drops out, and Z and ξ are skew"
-        + ("; w and η are any vectors." if a.affine else "."),
+        say(
+            "For isometries ĀA = 1, so that C drops out, and Z and ξ are skew; w and η are any "
+            "vectors."
+        )
+        if a.affine
+        else say("For isometries ĀA = 1, so that C drops out, and Z and ξ are skew."),
         scope=scope,
     )
     cartan = Step(
@@ -49,7 +54,7 @@ def isometry(stage: Cartan, a: Alphabet, n: int, prefix: str, general: str, scop
         "relation",
         (f"{general}.cartan_trivialised", f"{prefix}.relation"),
         (form_equation(momentum, energy, Notation()),),
-        "The Cartan form, trivialised.",
+        say("The Cartan form, trivialised."),
         () if a.affine else (28,),
         scope,
     )
@@ -80,8 +85,11 @@ def _exterior(
             f"{general}.trivialisation",
         ),
         (Equation(DOMEGA, shown),),
-        "Its exterior derivative; the bracket comes from the structure equation. It is the general "
-        "form: for skew ξ and Z and symmetric J the terms with ξ′, ξ and Z make up the bracket.",
+        say("Its exterior derivative; the bracket comes from the structure equation.")
+        + say(
+            "It is the general form: for skew ξ and Z and symmetric J the terms with ξ′, ξ and Z "
+            "make up the bracket."
+        ),
         () if b.affine else (29,),
         scope,
     )

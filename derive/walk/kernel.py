@@ -9,9 +9,10 @@ from ..algebra.notation import Notation, metrics, tree_of
 from ..algebra.tree import Tree, add
 from ..algebra.words import Expr, Letter, number, word
 from ..record.record import Equation, Step
+from ..record.sentence import listed, phrase, say
 from .alphabet import Alphabet
 from .cartan import carry, rates
-from .contraction import CONTRACTION, Contraction, steps_of, velocities
+from .contraction import AND, CONTRACTION, LINE, Contraction, rate, steps_of, velocities
 from .exterior import Exterior, primed, work
 from .gather import at_constant_time, gathered, terms_with
 
@@ -55,22 +56,27 @@ def kernel(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
         "kernel",
         (f"{prefix}.second_order",),
         (*first_order, Equation(balance, 0, variations)),
-        "X is in the kernel when this vanishes for every displacement tangent to the group: the "
-        "equations of motion. They fix the part of the acceleration that is tangent to the group; "
-        "the velocity gives the rest. The coefficient of δ′t then vanishes as well, for "
-        f"{velocity} is such a displacement. With δt = 0 the same two tests leave X = 0: the "
-        "kernel is a line.",
+        say(
+            "X is in the kernel when this vanishes for every displacement tangent to the group: "
+            "the equations of motion."
+        )
+        + say(
+            "They fix the part of the acceleration that is tangent to the group; the velocity "
+            "gives the rest."
+        )
+        + say(
+            "The coefficient of δ′t then vanishes as well, for {velocity} is such a displacement.",
+            velocity=velocity,
+        )
+        + LINE,
     )
     unknown = tuple(x.name for p in a.parts for x in (p.d_position, p.d_velocity))
     first = velocities(c.velocity, c.velocity)
-    dots = _and(tuple(f"{p.acceleration.name} is {p.d_velocity.name}(X)" for p in a.parts))
-    steps = steps_of(c, first, _and(unknown), dots, prefix, f"{prefix}.exterior")
+    *others, last_one = unknown
+    names = phrase(AND, first=", ".join(others), second=last_one)
+    dots = [rate(p.acceleration.name, p.d_velocity.name) for p in a.parts]
+    steps = steps_of(c, first, names, listed(AND, dots), prefix, f"{prefix}.exterior")
     return Kernel(c.second_order, (*steps, last))
-
-
-def _and(names: tuple[str, ...]) -> str:
-    """a, b and c."""
-    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
 
 def along_motion(stage: Exterior, x: Letter, a: Alphabet) -> Expr:
@@ -101,7 +107,7 @@ def kernel_trivialised(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
                 f"{prefix}.trivialisation",
             ),
             (*velocities(c.velocity, c.velocity), Equation(CONTRACTION, c.remaining())),
-            "The velocity of X is carried to the Lie algebra, and put into this form of dϖ.",
+            say("The velocity of X is carried to the Lie algebra, and put into this form of dϖ."),
             given=("any acceleration",),
         ),
         _equations(c, a, prefix),
@@ -125,6 +131,9 @@ def _equations(c: Contraction, a: Alphabet, prefix: str) -> Step:
         "kernel",
         (f"{prefix}.second_order_trivialised", f"{prefix}.trivialisation", *force_steps),
         (*rates(a), Equation(shown, rhs, names)),
-        "The equations of motion of any group of matrices that moves points (Exercise 1), one for "
-        f"each direction of its Lie algebra, to which {'(Ż, ẇ)' if a.affine else 'Ż'} belongs.",
+        say(
+            "The equations of motion of any group of matrices that moves points (Exercise 1), one "
+            "for each direction of its Lie algebra, to which {acceleration} belongs.",
+            acceleration="(Ż, ẇ)" if a.affine else "Ż",
+        ),
     )

@@ -10,6 +10,7 @@ from ..algebra.notation import metrics, tree_of
 from ..algebra.tree import Tree, add, neg
 from ..algebra.words import Expr, Letter, inner, word
 from ..record.record import Equation, Step
+from ..record.sentence import say
 from .alphabet import Alphabet
 
 POINT: Tree = ("call", ("at", "r", "i"), "t")
@@ -41,7 +42,7 @@ def lagrangian(a: Alphabet, prefix: str) -> Lagrangian:
             "definition",
             (),
             (Equation("L", add(("sum", "i", summand), neg("U"))),),
-            "The Lagrangian of the points is their kinetic energy less their potential.",
+            say("The Lagrangian of the points is their kinetic energy less their potential."),
             (3,),
         ),
         Step(
@@ -49,7 +50,9 @@ def lagrangian(a: Alphabet, prefix: str) -> Lagrangian:
             "definition",
             (),
             (Equation(POINT, indexed_tree(position, v_i, a)),),
-            "The body is moved by the group: every point is the image of its place in the body.",
+            say(
+                "The body is moved by the group: every point is the image of its place in the body."
+            ),
             (7, 8),
         ),
         Step(
@@ -60,9 +63,14 @@ def lagrangian(a: Alphabet, prefix: str) -> Lagrangian:
                 Equation(("at", "v", "i"), indexed_tree(velocity, v_i, a)),
                 Equation(("call", "δ", POINT), indexed_tree(variation, v_i, a)),
             ),
-            "A velocity of the group gives one to each point; a variation, the displacements that "
-            "respect the constraint. Here the velocity is a coordinate of its own: that it is the "
-            "derivative of the motion will come out of the kernel.",
+            say(
+                "A velocity of the group gives one to each point; a variation, the displacements "
+                "that respect the constraint."
+            )
+            + say(
+                "Here the velocity is a coordinate of its own: that it is the derivative of the "
+                "motion will come out of the kernel."
+            ),
             (9, 10, 14),
         ),
     )

@@ -10,10 +10,12 @@ from ..algebra.notation import Notation, tree_of
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, inner, word
 from ..record.record import Equation, Step
+from ..record.sentence import say
 from .alphabet import Alphabet
 from .cartan import rates
 from .chapter import Chapter
 from .inverse import inverse_letter
+from .translation import Centred
 
 RATE = Letter("ζ̇_b")
 
@@ -24,7 +26,7 @@ def mass_steps(
     b: Alphabet,
     uses: str,
     c: Chapter,
-    translation: tuple[Equation, ...] = (),
+    centred: Centred | None = None,
 ) -> tuple[Step, ...]:
     """M, β and the solved equations from  inertial = Tr ξ′ force‾  for every ξ′ in 𝔤."""
     E_a, E_b = _member("a", b), _member("b", b)
@@ -34,6 +36,7 @@ def mass_steps(
     mass = gradient(substitute(inertial, along), RATE)
     rest = force - gradient(without(inertial, b.Z.acceleration), b.Z.xi_prime)
     lighter = Notation(display={inverse_letter(b.m): ("inv", "m")})
+    translation = (Equation("ẇ", centred.acceleration),) if centred else ()
     load = inner(word(E_a), word(Letter("B", b.n, b.n)))
     row: Tree = ("mul", ("entry", "M", "a", "b"), ("entry", "ζ̇", "b"))
     return (
@@ -47,16 +50,20 @@ def mass_steps(
                 Equation(("entry", "β", "a"), tree_of(load, notation)),
                 Equation(("sum", "b", row), ("entry", "β", "a")),
             ),
-            "For ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are linear in the ζ̇_b: M is "
-            "the mass matrix of the basis, β_a the load along E_a.",
+            say(
+                "For ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are linear in the ζ̇_b: M "
+                "is the mass matrix of the basis, β_a the load along E_a."
+            ),
         ),
         c.step(
             "motion",
             "solution",
-            f"mass {uses}" if translation else "mass",
+            f"mass {uses}" if centred else "mass",
             (*rates(b), Equation("ζ̇", ("mul", ("inv", "M"), "β")), *_whole(b), *translation),
-            "The equations of motion of this problem. M is invertible where no direction of the "
-            "group leaves every mass in its place.",
+            say("The equations of motion of this problem.")
+            + say(
+                "M is invertible where no direction of the group leaves every mass in its place."
+            ),
         ),
     )
 

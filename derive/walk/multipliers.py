@@ -14,13 +14,15 @@ from ..algebra.calculus import gradient, reduce, substitute, without
 from ..algebra.groups import Group
 from ..algebra.notation import Notation, tree_of
 from ..algebra.tree import Tree, add
-from ..algebra.words import Expr, Letter, inner, number, one, word
+from ..algebra.words import Expr, Factor, Letter, inner, number, one, word
 from ..record.record import Equation, Step
+from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .cartan import rates
 from .chapter import Chapter
 from .gather import terms_with
 from .inverse import cancelling, inverse_letter
+from .translation import Centred
 
 LAMBDA = Letter("λ")
 
@@ -33,7 +35,7 @@ def multiplier_steps(
     b: Alphabet,
     uses: str,
     c: Chapter,
-    translation: tuple[Equation, ...] = (),
+    centred: Centred | None = None,
 ) -> tuple[Step, ...]:
     """Ż and λ from  Tr ξ′ (residue − force)‾ = 0,  with J (or J_c) as ``metric``."""
     residue = gradient(inertial, b.Z.xi_prime)
@@ -51,9 +53,10 @@ def multiplier_steps(
         numerator, denominator = _multiplier(solved, direction)
         ratio: Tree = ("div", tree_of(numerator, notation), tree_of(denominator, notation))
         equations.append(Equation("λ", ratio))
+    translation = (Equation("ẇ", centred.acceleration),) if centred else ()
     equations += [Equation("Ż", tree_of(solved, notation)), *translation]
     prose = _prose(direction, letters)
-    space = () if b.affine else (_in_space(solved, b, display, c),)
+    space = _in_space(solved, centred.rate if centred else None, b, display, c)
     return (
         c.step("multiplier", "multiplier", uses, (*definition, balance), prose),
         c.step(
@@ -61,27 +64,48 @@ def multiplier_steps(
             "solution",
             f"multiplier {uses}" if translation else "multiplier",
             equations,
-            f"The equations of motion of this problem: {metric.name} is invertible where the "
-            f"masses {'do not lie in one hyperplane' if b.affine else 'span the space'}"
-            + (", and that Ż is in the Lie algebra gives λ." if direction else "."),
+            _invertible(metric.name, affine=b.affine, multiplier=direction is not None),
         ),
-        *space,
+        space,
     )
 
 
-def _in_space(solved: Expr, b: Alphabet, display: Mapping[Letter, Tree], c: Chapter) -> Step:
-    """α̇ = A(Ż + Z²), with C⁻¹ = A⁻¹Ā⁻¹: the acceleration of the point r is α̇r."""
+def _in_space(
+    solved: Expr, drift: Expr | None, b: Alphabet, display: Mapping[Letter, Tree], c: Chapter
+) -> Step:
+    """α̇ = A(Ż + Z²) and τ̇ = A(ẇ + Zw), with C⁻¹ = A⁻¹Ā⁻¹: the point r has α̇r + τ̇."""
     left, right = Letter("A⁻¹", b.n, b.n), Letter("Ā⁻¹", b.n, b.n)
-    Z = word(b.Z.velocity)
-    within = substitute(solved + Z * Z, {inverse_letter(b.C): word(left) * word(right)})
-    total = reduce(word(b.A.position) * within, cancelling(b.A.position))
+    g, Z, within = b.A.position, word(b.Z.velocity), Letter("Y", b.n, b.n)
+
+    def rule(x: Factor, y: Factor) -> Expr | None:
+        """Ā⁻¹Ā = 1, and AY = α̇ for Y = Ż + Z²."""
+        if (x, y) == ((g, False), (within, False)):
+            return word(b.A.acceleration)
+        return b.unit if (x, y) == ((right, False), (g, True)) else None
+
+    def carried(e: Expr) -> Expr:
+        inside = substitute(e, {inverse_letter(b.C): word(left) * word(right)})
+        return reduce(word(g) * inside, cancelling(g), rule)
+
     shown = {**display, left: ("inv", "A"), right: ("inv", ("T", "A"))}
+    notation = Notation(display=shown)
+    total = carried(solved + Z * Z)
+    equations = [Equation(b.A.acceleration.name, tree_of(total, notation))]
+    if drift is not None:
+        turning = {b.Z.acceleration: word(within) - Z * Z}
+        pulled = carried(substitute(drift, turning) + Z * word(b.w.velocity))
+        equations.append(Equation(b.T.acceleration.name, tree_of(pulled, notation)))
     return c.step(
         "space",
         "solution",
         "motion .trivialisation",
-        (Equation(b.A.acceleration.name, tree_of(total, Notation(display=shown))),),
-        "The same in space, by C⁻¹ = A⁻¹Ā⁻¹: A(Ż + Z²) is the acceleration of A.",
+        equations,
+        say(
+            "The same in space, by C⁻¹ = A⁻¹Ā⁻¹: A(Ż + Z²) is the acceleration of A, A(ẇ + Zw) "
+            "that of T."
+            if drift is not None
+            else "The same in space, by C⁻¹ = A⁻¹Ā⁻¹: A(Ż + Z²) is the acceleration of A."
+        ),
     )
 
 
@@ -109,12 +133,40 @@ def _multiplier(solved: Expr, direction: Expr) -> tuple[Expr, Expr]:
     return -without(total, LAMBDA), denominator
 
 
-def _prose(direction: Expr | None, letters: list[Letter]) -> str:
+def _prose(direction: Expr | None, letters: list[Letter]) -> Prose:
     if direction is None:
-        return "The equations hold for every matrix ξ′, so that its coefficient vanishes."
+        return say("The equations hold for every matrix ξ′, so that its coefficient vanishes.")
     if letters:
-        return "The difference of the two sides is orthogonal to the Lie algebra: a multiple of Λ."
-    return (
+        return say(
+            "The difference of the two sides is orthogonal to the Lie algebra: a multiple of Λ."
+        )
+    return say(
         "The difference of the two sides is orthogonal, for Tr a b̄, to every matrix of trace "
         "zero: a multiple λ of 1, the multiplier of the volume."
+    )
+
+
+def _invertible(metric: str, *, affine: bool, multiplier: bool) -> Prose:
+    if affine and multiplier:
+        return say(
+            "The equations of motion of this problem: {metric} is invertible where the masses do "
+            "not lie in one hyperplane, and that Ż is in the Lie algebra gives λ.",
+            metric=metric,
+        )
+    if affine:
+        return say(
+            "The equations of motion of this problem: {metric} is invertible where the masses do "
+            "not lie in one hyperplane.",
+            metric=metric,
+        )
+    if multiplier:
+        return say(
+            "The equations of motion of this problem: {metric} is invertible where the masses span "
+            "the space, and that Ż is in the Lie algebra gives λ.",
+            metric=metric,
+        )
+    return say(
+        "The equations of motion of this problem: {metric} is invertible where the masses span the "
+        "space.",
+        metric=metric,
     )

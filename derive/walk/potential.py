@@ -16,6 +16,7 @@ from ..algebra.tree import Tree, add, neg
 from ..algebra.words import Expr, Letter, inner, number, word
 from ..mechanics.problem import PointBody, Problem, Spring
 from ..record.record import Equation, Step
+from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .elements import column, elements
 from .lagrangian import POINT
@@ -57,11 +58,7 @@ def potentials(
                 Equation("U", add(*over_points)),
                 Equation("Ũ", tree_of(energy)),
             ),
-            "The potential of the problem, on the points and pulled back to the group."
-            + (" The sum with m_i is over the whole mass of the body." if spread else "")
-            + (" The springs s_e have natural length 0." if problem.springs else "")
-            if over_points
-            else "No potential: the motion is free.",
+            _prose(over_points, spread=spread, springs=bool(problem.springs)),
             (),
             scope,
         )
@@ -69,6 +66,17 @@ def potentials(
     if found.energies:
         steps.append(pushes_step(found, forces, a, prefix, scope, vectors=vectors))
     return Potentials(energy, tuple(steps), forces.work)
+
+
+def _prose(over_points: list[Tree], *, spread: bool, springs: bool) -> Prose:
+    if not over_points:
+        return say("No potential: the motion is free.")
+    prose = say("The potential of the problem, on the points and pulled back to the group.")
+    if spread:
+        prose += say("The sum with m_i is over the whole mass of the body.")
+    if springs:
+        prose += say("The springs s_e have natural length 0.")
+    return prose
 
 
 def _summed(problem: Problem, a: Alphabet) -> tuple[Expr, list[Equation], list[Tree]]:

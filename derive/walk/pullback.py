@@ -27,6 +27,7 @@ from ..algebra.words import (
     word,
 )
 from ..record.record import Equation, Step
+from ..record.sentence import say
 from .alphabet import Alphabet
 from .lagrangian import Lagrangian, kinetic_of_motion
 
@@ -92,10 +93,15 @@ def pullback(stage: Lagrangian, a: Alphabet, prefix: str) -> Pullback:
         "pull-back",
         (f"{prefix}.lagrangian", f"{prefix}.velocity", f"{prefix}.moments"),
         tuple(Equation("L̃", tree_of(kinetic - word(a.U), n)) for n in notations),
-        "The Lagrangian is pulled back to the group: the velocities of the motion are put in and "
-        "the sum over the points is carried out. From here on the masses are positive and no "
-        "direction of the group leaves all of them in their places: the kinetic energy is then "
-        "half the square of a norm, a metric on the group.",
+        say(
+            "The Lagrangian is pulled back to the group: the velocities of the motion are put in "
+            "and the sum over the points is carried out."
+        )
+        + say(
+            "From here on the masses are positive and no direction of the group leaves all of them "
+            "in their places: the kinetic energy is then half the square of a norm, a metric on "
+            "the group."
+        ),
         (11, 12, 13, 17) if a.affine else (11, 12, 13, 21, 22),
     )
     steps = [_moments(a, prefix), step, _force(stage, a, prefix)]
@@ -117,8 +123,10 @@ def _moments(a: Alphabet, prefix: str) -> Step:
         "definition",
         (),
         tuple(equations),
-        "The body enters the kinetic energy through its moments only: mass, first moment, matrix "
-        "of moments.",
+        say(
+            "The body enters the kinetic energy through its moments only: mass, first moment, "
+            "matrix of moments."
+        ),
         (18, 19),
     )
 
@@ -139,8 +147,10 @@ def _force(stage: Lagrangian, a: Alphabet, prefix: str) -> Step:
         "pull-back",
         (f"{prefix}.lagrangian", f"{prefix}.velocity"),
         (*definitions, Equation(("call", "dŨ", *variations), tree_of(-work))),
-        "The forces F_i, opposite to the derivative of U by the place r_i(t) in space, act on the "
-        "group through their moments.",
+        say(
+            "The forces F_i, opposite to the derivative of U by the place r_i(t) in space, act on "
+            "the group through their moments."
+        ),
         (2,),
     )
 
@@ -152,6 +162,8 @@ def _gradient(a: Alphabet, prefix: str) -> Step:
         "definition",
         (f"{prefix}.force",),
         (Equation(tree_of(pairing, metrics("J")), neg(("call", "dŨ", "δA")), ("δA",)),),
-        "The force F̃, tangent to the group, is the opposite of the gradient of Ũ in the metric.",
+        say(
+            "The force F̃, tangent to the group, is the opposite of the gradient of Ũ in the metric."
+        ),
         (24,),
     )

@@ -11,6 +11,7 @@ from ..algebra.tree import Tree, add, mul, replaced
 from ..algebra.words import Expr, Letter, inner, word, zero
 from ..mechanics.problem import Problem
 from ..record.record import Equation, Step
+from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .cartan import frame_rule
 from .elements import Elements, Radial, column, embedded
@@ -41,18 +42,28 @@ def pushes_step(
 ) -> Step:
     """The tensions, the forces and their sums: in the body frame where ĀA = 1 is at hand."""
     equations = _in_body(found, a) if vectors else _in_space(found)
-    prose = "The part U_Q of the potential is given point by point: "
-    prose += (
-        "P_i is its force on point i in the body frame, Ā on minus the derivative of U_Q by r_i(t)."
-        if vectors
-        else "Q_i is its force on point i, minus the derivative of U_Q by r_i(t)."
-    )
-    if found.radials:
-        prose += " Element e, a function of ‖d_e‖, pushes along d_e"
-        prose += ", and ‖d_e‖ = ‖Ād_e‖." if vectors else "."
+    prose = _prose(vectors=vectors, radials=bool(found.radials))
     uses = (f"{prefix}.potential", *((f"{prefix}.relation",) if vectors else ()))
     sums = tuple(_sums_over_points(a, forces, vectors=vectors))
     return Step(f"{prefix}.pushes", "variation", uses, (*equations, *sums), prose, (), scope)
+
+
+def _prose(*, vectors: bool, radials: bool) -> Prose:
+    if vectors:
+        prose = say(
+            "The part U_Q of the potential is given point by point: P_i is its force on point i in "
+            "the body frame, Ā on minus the derivative of U_Q by r_i(t)."
+        )
+    else:
+        prose = say(
+            "The part U_Q of the potential is given point by point: Q_i is its force on point i, "
+            "minus the derivative of U_Q by r_i(t)."
+        )
+    if radials and vectors:
+        prose += say("Element e, a function of ‖d_e‖, pushes along d_e, and ‖d_e‖ = ‖Ād_e‖.")
+    elif radials:
+        prose += say("Element e, a function of ‖d_e‖, pushes along d_e.")
+    return prose
 
 
 def _in_space(found: Elements) -> list[Equation]:

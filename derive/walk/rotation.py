@@ -8,6 +8,7 @@ from ..algebra.space import hat, normal_form
 from ..algebra.tree import Tree, add, mul
 from ..algebra.words import Expr, Letter, word
 from ..record.record import Equation, Step
+from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .cartan import frame_rule, rates, trivial_images
 from .chapter import Chapter
@@ -61,7 +62,7 @@ def torque_step(v: Potentials, stage: Isometry, prefix: str, general: str, scope
         (f"{prefix}.potential", f"{prefix}.hat", f"{general}.force")
         + (() if stage.letters.affine else (f"{general}.gradient", f"{prefix}.inertia")),
         equations,
-        "The forces of this problem: the potential is varied along the group.",
+        say("The forces of this problem: the potential is varied along the group."),
         (),
         scope,
     )
@@ -112,19 +113,22 @@ def displacement_motion(
     )
 
 
-def _prose(given: Given | None, *, affine: bool) -> str:
-    tensor = "I_c" if affine else "I"
-    text = f"The equations of motion of this problem, solved for the accelerations: {tensor} is "
-    text += "invertible where the masses are not all on one line"
-    text += "." if affine else " through the fixed point."
-    if given is None or given.steps:
-        return text
+def _prose(given: Given | None, *, affine: bool) -> Prose:
     if affine:
-        return (
-            f"{text} The given moment u and force f_u, outside dϖ, add ⟨u, Ω′⟩ + ⟨f_u, η′⟩ to the "
-            "work."
+        prose = say(
+            "The equations of motion of this problem, solved for the accelerations: I_c is "
+            "invertible where the masses are not all on one line."
         )
-    return f"{text} The given torque u, outside dϖ, adds ⟨u, Ω′⟩ to the work."
+        added = say(
+            "The given moment u and force f_u, outside dϖ, add ⟨u, Ω′⟩ + ⟨f_u, η′⟩ to the work."
+        )
+    else:
+        prose = say(
+            "The equations of motion of this problem, solved for the accelerations: I is "
+            "invertible where the masses are not all on one line through the fixed point."
+        )
+        added = say("The given torque u, outside dϖ, adds ⟨u, Ω′⟩ to the work.")
+    return prose if given is None or given.steps else prose + added
 
 
 def energy_step(stage: Isometry, v: Potentials, prefix: str, scope: str) -> Step:
@@ -136,7 +140,7 @@ def energy_step(stage: Isometry, v: Potentials, prefix: str, scope: str) -> Step
         "identification",
         (f"{prefix}.cartan", f"{prefix}.hat", f"{prefix}.inertia", f"{prefix}.potential"),
         (Equation("h̃", tree_of(energy, metrics("I"))),),
-        "The energy of this problem.",
+        say("The energy of this problem."),
         (),
         scope,
     )
@@ -152,8 +156,10 @@ def principal_step(prefix: str, scope: str, solved: Tree) -> Step:
         "coordinates",
         (f"{prefix}.euler",),
         tuple(equations),
-        "In principal axes of inertia, where I is diagonal with entries λ₁, λ₂, λ₃; the term of "
-        "the potential stays.",
+        say(
+            "In principal axes of inertia, where I is diagonal with entries λ₁, λ₂, λ₃; the term "
+            "of the potential stays."
+        ),
         (35,),
         scope,
         ("principal axes",),
@@ -169,7 +175,7 @@ def euler_step(kernel: VectorForm, prefix: str, scope: str) -> Step:
         "solution",
         (f"{prefix}.kernel",),
         (Equation("ζ̇", add("φ", mul(("inv", "I"), vector_sum(rest)))),),
-        "Euler's equations, solved for the angular acceleration: I is invertible.",
+        say("Euler's equations, solved for the angular acceleration: I is invertible."),
         (34,),
         scope,
     )

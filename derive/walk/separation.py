@@ -12,21 +12,13 @@ from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, word
 from ..mechanics.problem import Problem, Spring
 from ..record.record import Equation, Step
+from ..record.sentence import Prose, listed, phrase, say
 from .alphabet import Alphabet
 from .chapter import Chapter
+from .contraction import AND
 from .inverse import cancel_scalar, inverse_letter
 from .potential import Potentials
 from .translation import central_moments
-
-NO_TERM = "No term of the potential has both the linear part and the centre of mass"
-SEPARATE = f"{NO_TERM}: the motion separates into theirs."
-OUTSIDE = f"{NO_TERM}; the forces outside dϖ, {{}}, may tie the two."
-AS_WELL = "The forces outside dϖ, {}, may tie the two as well."
-CANCELS = "U_Q is made of differences of places, in which R cancels."
-UNDECIDED = (
-    "The motion separates if U_Q, which is given point by point, is a sum of a function of the "
-    "linear part and one of R; the rest of the potential is."
-)
 
 
 def _notation(a: Alphabet) -> Notation:
@@ -60,9 +52,14 @@ def kinetic_separation(kinetic: Expr, a: Alphabet, prefix: str) -> Step:
         "identification",
         (f"{prefix}.pullback", f"{prefix}.moments"),
         equations,
-        "With the centre of mass R in place of T the kinetic energy is that of the linear part "
-        "about the centre of mass and that of the whole mass at it. Where the group has every "
-        "translation, the two motions separate if the potential is such a sum too.",
+        say(
+            "With the centre of mass R in place of T the kinetic energy is that of the linear part "
+            "about the centre of mass and that of the whole mass at it."
+        )
+        + say(
+            "Where the group has every translation, the two motions separate if the potential is "
+            "such a sum too."
+        ),
     )
 
 
@@ -77,13 +74,36 @@ def potential_separation(
         for traces, w in energy.terms
     )
     inside = all(isinstance(p, Spring) and p.between[1] is not None for p in problem.elements)
-    outside = [x for x in ("damping", "inputs") if getattr(problem, x)]
-    named = " and ".join(outside)
-    if both or not inside:
-        told = [UNDECIDED, *([AS_WELL.format(named)] if outside else [])]
-    else:
-        told = [OUTSIDE.format(named) if outside else SEPARATE]
-        told += [CANCELS] if problem.elements else []
-    prose = " ".join(told)
+    prose = _prose(problem, decided=inside and not both)
     equation = Equation("Ũ", tree_of(energy, _notation(b)))
     return (c.step("separation", "identification", "potential .separation", (equation,), prose),)
+
+
+def _prose(problem: Problem, *, decided: bool) -> Prose:
+    damping = [phrase("damping")] if problem.damping else []
+    outside = damping + ([phrase("inputs")] if problem.inputs else [])
+    if not decided:
+        prose = say(
+            "The motion separates if U_Q, which is given point by point, is a sum of a function of "
+            "the linear part and one of R; the rest of the potential is."
+        )
+        if outside:
+            prose += say(
+                "The forces outside dϖ, {forces}, may tie the two as well.",
+                forces=listed(AND, outside),
+            )
+        return prose
+    if outside:
+        prose = say(
+            "No term of the potential has both the linear part and the centre of mass; the forces "
+            "outside dϖ, {forces}, may tie the two.",
+            forces=listed(AND, outside),
+        )
+    else:
+        prose = say(
+            "No term of the potential has both the linear part and the centre of mass: the motion "
+            "separates into theirs."
+        )
+    if problem.elements:
+        prose += say("U_Q is made of differences of places, in which R cancels.")
+    return prose

@@ -15,6 +15,7 @@ from ..algebra.notation import Notation, tree_of
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, word
 from ..record.record import Equation, Step
+from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .cartan import Cartan, form_equation, frame_rule
 from .chapter import Chapter
@@ -26,10 +27,14 @@ from .potential import U_Q, Potentials, virtual_work
 
 @dataclass(frozen=True)
 class General:
-    """What is known of every group of one action: letters, trivialised forms, kernel."""
+    """What is known of every group of one action: letters, trivialised forms, kernel.
+
+    ``momentum``: p̃(δg) in space.
+    """
 
     name: str
     letters: Alphabet
+    momentum: Expr
     cartan: Cartan
     exterior: Exterior
     kernel: Kernel
@@ -89,36 +94,52 @@ def specialise(road: General, group: Group, v: Potentials, c: Chapter) -> Specia
         "pull-back",
         ".cartan_trivialised potential",
         (Equation("h̃", tree_of(energy)),),
-        "The energy of this problem.",
+        say("The energy of this problem."),
     )
     return Special(free, gram, inertial, forces, steps, (last,))
 
 
 def _relation(group: Group, c: Chapter) -> tuple[Step, ...]:
     """What the group keeps, read off the basis of its Lie algebra."""
-    parts = (
-        "The linear parts of the Lie algebra" if group.affine else "The matrices of the Lie algebra"
-    )
     if "orthogonal" in group.relations:
         claims: tuple[tuple[Tree, Tree], ...] = (
             ("C", ("one",)),
             (("T", "Z"), ("mul", -1, "Z")),
             (("T", "ξ"), ("mul", -1, "ξ")),
         )
-        prose = f"{parts} are skew, so ĀA = 1 and C drops out."
     elif "unimodular" in group.relations:
         claims = ((("det", "A"), 1), (("tr", "Z"), 0), (("tr", "ξ"), 0))
-        prose = f"{parts} have trace zero, so the volume is kept; C does not drop out."
-        if not group.affine and not group.factors:
-            prose += (
-                " Only maps that fix the origin are allowed: a further constraint, whose reaction "
-                "at the origin is d²A/dt² c less the sum of the forces. It vanishes if c = 0 and "
-                "the forces have no resultant."
-            )
     else:
         return ()
     equations = tuple(Equation(*claim) for claim in claims)
-    return (c.step("relation", "relation", ".trivialisation", equations, prose),)
+    return (c.step("relation", "relation", ".trivialisation", equations, _kept(group)),)
+
+
+def _kept(group: Group) -> Prose:
+    skew = "orthogonal" in group.relations
+    if group.affine:
+        if skew:
+            return say("The linear parts of the Lie algebra are skew, so ĀA = 1 and C drops out.")
+        return say(
+            "The linear parts of the Lie algebra have trace zero, so the volume is kept; C does "
+            "not drop out."
+        )
+    if skew:
+        return say("The matrices of the Lie algebra are skew, so ĀA = 1 and C drops out.")
+    prose = say(
+        "The matrices of the Lie algebra have trace zero, so the volume is kept; C does not drop "
+        "out."
+    )
+    if group.factors:
+        return prose
+    return (
+        prose
+        + say(
+            "Only maps that fix the origin are allowed: a further constraint, whose reaction at "
+            "the origin is d²A/dt² c less the sum of the forces."
+        )
+        + say("It vanishes if c = 0 and the forces have no resultant.")
+    )
 
 
 def _forms(
@@ -145,14 +166,14 @@ def _forms(
             "relation",
             ".cartan_trivialised potential",
             (form_equation(form.momentum, form.energy, Notation()),),
-            "The Cartan form of this problem.",
+            say("The Cartan form of this problem."),
         ),
         c.step(
             "exterior",
             "exterior derivative",
             "cartan .structure .trivialisation",
             (Equation(DOMEGA, gathered(domega, core, images, Notation())),),
-            "Its exterior derivative.",
+            say("Its exterior derivative."),
         ),
     )
 
@@ -174,6 +195,8 @@ def _forces(forces: dict[Letter, Expr], c: Chapter) -> Step:
         "variation",
         "potential .trivialisation .force",
         (Equation(x, tree_of(e)) for x, e in zip(sides, forces.values(), strict=False)),
-        "The moments of this problem's forces in the body: the potential is varied over all "
-        "matrices δA, of which those of the group are a part.",
+        say(
+            "The moments of this problem's forces in the body: the potential is varied over all "
+            "matrices δA, of which those of the group are a part."
+        ),
     )

@@ -13,6 +13,7 @@ from ..algebra.notation import Notation, tree_of
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, inner, word
 from ..record.record import Equation, Step
+from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .inverse import cancel_scalar, cancelling, inverse_letter
@@ -21,12 +22,16 @@ from .special import Special
 
 @dataclass(frozen=True)
 class Centred:
-    """The linear problem left: ``inertial`` in ξ′ with ``metric`` J_c, and its ``force``."""
+    """The linear problem left: ``inertial`` in ξ′ with ``metric`` J_c, and its ``force``.
+
+    ``acceleration``: ẇ, as the record has it; ``rate``: the same on words in r_c and w.
+    """
 
     inertial: Expr
     force: Expr
     metric: Letter
     acceleration: Tree
+    rate: Expr
     steps: tuple[Step, ...]
 
 
@@ -78,11 +83,14 @@ def eliminate_translation(stage: Special, uses: str, c: Chapter) -> Centred:
             Equation("N_c", tree_of(force, notation)),
             Equation(tree_of(inertial), tree_of(pairing), (xi.name,)),
         ),
-        "As the group has every translation, the coefficient of η′ gives ẇ; put into that of ξ′, "
-        "it leaves the equations of the linear parts about the centre of mass r_c, with the "
-        "moments of masses and forces about it; here ξ′ runs over the linear parts of 𝔤.",
+        say(
+            "As the group has every translation, the coefficient of η′ gives ẇ; put into that of "
+            "ξ′, it leaves the equations of the linear parts about the centre of mass r_c, with "
+            "the moments of masses and forces about it; here ξ′ runs over the linear parts of 𝔤."
+        ),
     )
-    return Centred(inertial, force, metric, solved, (step,))
+    rate = tidy(substitute(-free, {b.c: from_centre[b.c]}))
+    return Centred(inertial, force, metric, solved, rate, (step,))
 
 
 def _has(key: tuple[tuple[tuple[tuple[Letter, bool], ...], ...], object], x: Letter) -> bool:

@@ -10,7 +10,8 @@ from ..algebra.space import antisymmetry, double, fold_inertia, hat, normal_form
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Factor, Letter, inner, number, trace, word, zero
 from ..record.record import Equation, Step
-from .contraction import Contraction, NoKernelError, steps_of, velocities
+from ..record.sentence import listed, phrase, say
+from .contraction import AND, LINE, Contraction, NoKernelError, rate, steps_of, velocities
 from .exterior import DOMEGA
 from .gather import gathered
 from .isometry import Isometry
@@ -57,7 +58,7 @@ def vector_form(stage: Isometry, prefix: str, general: str, scope: str) -> Vecto
             "identification",
             (f"{prefix}.exterior", f"{prefix}.hat", f"{prefix}.inertia"),
             (Equation(DOMEGA, flat),),
-            "The exterior derivative in vectors.",
+            say("The exterior derivative in vectors."),
             () if b.affine else (31,),
             scope,
         ),
@@ -73,15 +74,17 @@ def vector_form(stage: Isometry, prefix: str, general: str, scope: str) -> Vecto
     steps += steps_of(
         c,
         velocities(c.velocity, known),
-        "Ω, η, δζ and δw" if b.affine else "Ω and δζ",
-        "ζ̇ is δζ(X) and ẇ is δw(X)" if b.affine else "ζ̇ is δζ(X)",
+        phrase(AND, first="Ω, η, δζ", second="δw")
+        if b.affine
+        else phrase(AND, first="Ω", second="δζ"),
+        listed(AND, [rate("ζ̇", "δζ"), *([rate("ẇ", "δw")] if b.affine else [])]),
         prefix,
         f"{prefix}.exterior_vector",
         () if b.affine else (34,),
         scope,
-        "the metric is not degenerate (the masses are not all on one line)"
+        phrase("the metric is not degenerate (the masses are not all on one line)")
         if b.affine
-        else "I is invertible (the masses are not all on one line through the fixed point)",
+        else phrase("I is invertible (the masses are not all on one line through the fixed point)"),
     )
     steps.append(_kernel(balance, stage, prefix, scope))
     return VectorForm(balance, inertia_of(b.J), tuple(steps))
@@ -215,11 +218,15 @@ def _identification(stage: Isometry, prefix: str, scope: str) -> Step:
         "identification",
         (f"{prefix}.relation",),
         tuple(equations),
-        "The Lie algebra so(3) is identified with R³ by the operator j, j(X)Y = X ∧ Y; the "
-        "bracket is the vector product."
-        if not affine
-        else "The linear part so(3) of the Lie algebra is identified with R³ by the operator j, "
-        "j(X)Y = X ∧ Y; the bracket is the vector product.",
+        say(
+            "The linear part so(3) of the Lie algebra is identified with R³ by the operator j, "
+            "j(X)Y = X ∧ Y; the bracket is the vector product."
+        )
+        if affine
+        else say(
+            "The Lie algebra so(3) is identified with R³ by the operator j, j(X)Y = X ∧ Y; the "
+            "bracket is the vector product."
+        ),
         () if affine else (33,),
         scope,
     )
@@ -233,7 +240,7 @@ def _inertia(stage: Isometry, prefix: str, scope: str) -> Step:
         "identification",
         (f"{prefix}.hat", f"{prefix}.cartan"),
         (Equation(traced, ("metric", "I", "ζ", "Ω")), Equation("I", tree_of(tensor))),
-        "The metric of J on so(3) is that of the tensor of inertia on R³.",
+        say("The metric of J on so(3) is that of the tensor of inertia on R³."),
         () if stage.letters.affine else (32,),
         scope,
     )
@@ -262,17 +269,21 @@ def _kernel(balance: dict[Letter, Expr], stage: Isometry, prefix: str, scope: st
     for v, e in balance.items():
         left = inertial[v] if not b.affine else _accelerations(e, b.w.acceleration)
         equations.append(Equation(tree_of(left), vector_sum(left - e)))
-    free, along = "The coefficient of Ω′ vanishes", "Ω′ = ζ"
+    motion = say("The coefficient of Ω′ vanishes: the equations of motion.")
     if b.affine:
-        free, along = "The coefficients of Ω′ and of η′ vanish", "Ω′ = ζ, η′ = w"
+        motion = say("The coefficients of Ω′ and of η′ vanish: the equations of motion.")
     return Step(
         f"{prefix}.kernel",
         "kernel",
         (f"{prefix}.second_order",),
         tuple(equations),
-        f"{free}: the equations of motion. That of δ′t then vanishes as well: it is the opposite "
-        f"of what the rest gives for {along}. With δt = 0 the same two tests leave X = 0: the "
-        "kernel is a line.",
+        motion
+        + say(
+            "That of δ′t then vanishes as well: it is the opposite of what the rest gives for "
+            "{motion}.",
+            motion="Ω′ = ζ, η′ = w" if b.affine else "Ω′ = ζ",
+        )
+        + LINE,
         () if b.affine else (34,),
         scope,
     )

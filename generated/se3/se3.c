@@ -87,50 +87,65 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
     const double I_c_23 = -(J_23 - inv_m*c_2*c_3);
     const double I_c_33 = J_c_11 + J_c_22;
 
-    /* se3.motion: 9 mul, 7 add, 1 div
+    /* se3.motion: 17 mul, 15 add, 1 div
      * ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ) */
     const double adj_I_c_11 = I_c_22*I_c_33 - I_c_23*I_c_23;
     const double adj_I_c_12 = I_c_13*I_c_23 - I_c_12*I_c_33;
     const double adj_I_c_13 = I_c_12*I_c_23 - I_c_13*I_c_22;
+    const double adj_I_c_33 = I_c_11*I_c_22 - I_c_12*I_c_12;
     const double det_I_c = I_c_11*adj_I_c_11 + I_c_12*adj_I_c_12 + I_c_13*adj_I_c_13;
-    const double part_15 = fabs(inv_m);
-    const double tr_I_c = I_c_11 + I_c_22 + I_c_33;
+    const double part_16 = fabs(J_22);
+    const double part_17 = fabs(inv_m);
+    const double c_2_c_2_part_17 = c_2*c_2*part_17;
+    const double part_19 = fabs(J_33);
+    const double c_3_c_3_part_17 = c_3*c_3*part_17;
+    const double size_I_c_1 = part_16 + c_2_c_2_part_17 + part_19 + c_3_c_3_part_17;
+    const double part_22 = fabs(J_11);
+    const double c_1_c_1_part_17 = c_1*c_1*part_17;
+    const double size_I_c_2 = part_19 + c_3_c_3_part_17 + part_22 + c_1_c_1_part_17;
+    const double size_I_c_3 = part_16 + c_2_c_2_part_17 + part_22 + c_1_c_1_part_17;
     const double inv_det_I_c = 1.0/det_I_c;
 
-    k[0] = m;
-    k[1] = inv_m;
-    k[2] = c_1;
-    k[3] = c_2;
-    k[4] = c_3;
-    k[5] = I_c_12;
-    k[6] = I_c_13;
-    k[7] = I_c_23;
-    k[8] = adj_I_c_11*inv_det_I_c;
-    k[9] = adj_I_c_12*inv_det_I_c;
-    k[10] = adj_I_c_13*inv_det_I_c;
-    k[11] = (I_c_11*I_c_33 - I_c_13*I_c_13)*inv_det_I_c;
-    k[12] = (I_c_12*I_c_13 - I_c_11*I_c_23)*inv_det_I_c;
-    k[13] = (I_c_11*I_c_22 - I_c_12*I_c_12)*inv_det_I_c;
-    k[14] = inv_m*c_1;
-    k[15] = inv_m*c_2;
-    k[16] = inv_m*c_3;
-    k[17] = I_c_11 - I_c_33;
-    k[18] = I_c_22 - I_c_33;
-    k[19] = g_1;
-    k[20] = g_2;
-    k[21] = g_3;
-    k[22] = J_22 + J_33;
-    k[23] = -J_12;
-    k[24] = -J_13;
-    k[25] = J_11 + J_33;
-    k[26] = -J_23;
+    k[0] = J_12;
+    k[1] = J_13;
+    k[2] = J_23;
+    k[3] = m;
+    k[4] = inv_m;
+    k[5] = c_1;
+    k[6] = c_2;
+    k[7] = c_3;
+    k[8] = I_c_12;
+    k[9] = I_c_13;
+    k[10] = I_c_23;
+    k[11] = adj_I_c_11*inv_det_I_c;
+    k[12] = adj_I_c_12*inv_det_I_c;
+    k[13] = adj_I_c_13*inv_det_I_c;
+    k[14] = (I_c_11*I_c_33 - I_c_13*I_c_13)*inv_det_I_c;
+    k[15] = (I_c_12*I_c_13 - I_c_11*I_c_23)*inv_det_I_c;
+    k[16] = adj_I_c_33*inv_det_I_c;
+    k[17] = inv_m*c_1;
+    k[18] = inv_m*c_2;
+    k[19] = inv_m*c_3;
+    k[20] = I_c_11 - I_c_33;
+    k[21] = I_c_22 - I_c_33;
+    k[22] = g_1;
+    k[23] = g_2;
+    k[24] = g_3;
+    k[25] = J_22 + J_33;
+    k[26] = J_11 + J_33;
     k[27] = J_11 + J_22;
 
     /* each determinant or pivot against what rounding could make of a singular matrix */
-    if (!(fabs(m) > 0)) {
+    if (!(m > 0)) {
         return 1;
     }
-    if (!(fabs(det_I_c) > 1e-13*((2.0*(fabs(J_22) + c_2*c_2*part_15 + fabs(J_33) + c_3*c_3*part_15 + fabs(J_11) + c_1*c_1*part_15))*tr_I_c*tr_I_c))) {
+    if (!(I_c_11 > 1e-13*size_I_c_1)) {
+        return 1;
+    }
+    if (!(adj_I_c_33 > 1e-13*(I_c_22*size_I_c_1 + I_c_11*size_I_c_2))) {
+        return 1;
+    }
+    if (!(det_I_c > 1e-13*(I_c_22*I_c_33*size_I_c_1 + I_c_11*I_c_33*size_I_c_2 + I_c_11*I_c_22*size_I_c_3))) {
         return 1;
     }
     for (int i = 0; i < se3_N_CONSTANTS; ++i) {
@@ -144,24 +159,24 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
 void se3_rhs(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT k,
     const double *se3_RESTRICT u, double *se3_RESTRICT dx)
 {
-    const double inv_m = k[1];
-    const double I_c_12 = k[5];
-    const double I_c_13 = k[6];
-    const double I_c_23 = k[7];
-    const double inv_I_c_11 = k[8];
-    const double inv_I_c_12 = k[9];
-    const double inv_I_c_13 = k[10];
-    const double inv_I_c_22 = k[11];
-    const double inv_I_c_23 = k[12];
-    const double inv_I_c_33 = k[13];
-    const double r_c_1 = k[14];
-    const double r_c_2 = k[15];
-    const double r_c_3 = k[16];
-    const double I_c_0_11 = k[17];
-    const double I_c_0_22 = k[18];
-    const double g_1 = k[19];
-    const double g_2 = k[20];
-    const double g_3 = k[21];
+    const double inv_m = k[4];
+    const double I_c_12 = k[8];
+    const double I_c_13 = k[9];
+    const double I_c_23 = k[10];
+    const double inv_I_c_11 = k[11];
+    const double inv_I_c_12 = k[12];
+    const double inv_I_c_13 = k[13];
+    const double inv_I_c_22 = k[14];
+    const double inv_I_c_23 = k[15];
+    const double inv_I_c_33 = k[16];
+    const double r_c_1 = k[17];
+    const double r_c_2 = k[18];
+    const double r_c_3 = k[19];
+    const double I_c_0_11 = k[20];
+    const double I_c_0_22 = k[21];
+    const double g_1 = k[22];
+    const double g_2 = k[23];
+    const double g_3 = k[24];
     const double A_11 = x[0];
     const double A_12 = x[1];
     const double A_13 = x[2];
@@ -243,24 +258,24 @@ void se3_rhs_batch(size_t n, double t, const double *se3_RESTRICT x,
 #pragma GCC ivdep
 #endif
     for (size_t s = 0; s < n; ++s) {
-        const double inv_m = k[1];
-        const double I_c_12 = k[5];
-        const double I_c_13 = k[6];
-        const double I_c_23 = k[7];
-        const double inv_I_c_11 = k[8];
-        const double inv_I_c_12 = k[9];
-        const double inv_I_c_13 = k[10];
-        const double inv_I_c_22 = k[11];
-        const double inv_I_c_23 = k[12];
-        const double inv_I_c_33 = k[13];
-        const double r_c_1 = k[14];
-        const double r_c_2 = k[15];
-        const double r_c_3 = k[16];
-        const double I_c_0_11 = k[17];
-        const double I_c_0_22 = k[18];
-        const double g_1 = k[19];
-        const double g_2 = k[20];
-        const double g_3 = k[21];
+        const double inv_m = k[4];
+        const double I_c_12 = k[8];
+        const double I_c_13 = k[9];
+        const double I_c_23 = k[10];
+        const double inv_I_c_11 = k[11];
+        const double inv_I_c_12 = k[12];
+        const double inv_I_c_13 = k[13];
+        const double inv_I_c_22 = k[14];
+        const double inv_I_c_23 = k[15];
+        const double inv_I_c_33 = k[16];
+        const double r_c_1 = k[17];
+        const double r_c_2 = k[18];
+        const double r_c_3 = k[19];
+        const double I_c_0_11 = k[20];
+        const double I_c_0_22 = k[21];
+        const double g_1 = k[22];
+        const double g_2 = k[23];
+        const double g_3 = k[24];
         const double u_1 = u[0*n + s];
         const double u_2 = u[1*n + s];
         const double u_3 = u[2*n + s];
@@ -334,18 +349,18 @@ void se3_rhs_batch(size_t n, double t, const double *se3_RESTRICT x,
 
 double se3_energy(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT k)
 {
-    const double m = k[0];
-    const double c_1 = k[2];
-    const double c_2 = k[3];
-    const double c_3 = k[4];
-    const double g_1 = k[19];
-    const double g_2 = k[20];
-    const double g_3 = k[21];
-    const double I_11 = k[22];
-    const double I_12 = k[23];
-    const double I_13 = k[24];
-    const double I_22 = k[25];
-    const double I_23 = k[26];
+    const double J_12 = k[0];
+    const double J_13 = k[1];
+    const double J_23 = k[2];
+    const double m = k[3];
+    const double c_1 = k[5];
+    const double c_2 = k[6];
+    const double c_3 = k[7];
+    const double g_1 = k[22];
+    const double g_2 = k[23];
+    const double g_3 = k[24];
+    const double I_11 = k[25];
+    const double I_22 = k[26];
     const double I_33 = k[27];
     const double A_11 = x[0];
     const double A_12 = x[1];
@@ -368,9 +383,9 @@ double se3_energy(double t, const double *se3_RESTRICT x, const double *se3_REST
 
     /* se3.energy: 43 mul, 29 add
      * h̃ = ½ ‖ζ‖²_I + ⟨c ∧ w, ζ⟩ + ½m ‖w‖² − ⟨Ac, γ⟩ − m ⟨T, γ⟩ */
-    const double h_tilde = 0.5*(zeta_1*(I_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3) + zeta_2*(I_12*zeta_1
-        + I_22*zeta_2 + I_23*zeta_3) + zeta_3*(I_13*zeta_1 + I_23*zeta_2
-        + I_33*zeta_3)) + (zeta_1*(c_2*w_3 - c_3*w_2) + zeta_2*(c_3*w_1
+    const double h_tilde = 0.5*(zeta_1*(I_11*zeta_1 - J_12*zeta_2 - J_13*zeta_3) + zeta_2*(I_22*zeta_2
+        - J_12*zeta_1 - J_23*zeta_3) + zeta_3*(I_33*zeta_3 - J_13*zeta_1
+        - J_23*zeta_2)) + (zeta_1*(c_2*w_3 - c_3*w_2) + zeta_2*(c_3*w_1
         - c_1*w_3) + zeta_3*(c_1*w_2 - c_2*w_1)) + 0.5*m*(w_1*w_1 + w_2*w_2
         + w_3*w_3) - (g_1*(c_1*A_11 + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21
         + c_2*A_22 + c_3*A_23) + g_3*(c_1*A_31 + c_2*A_32 + c_3*A_33))

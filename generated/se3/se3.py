@@ -28,7 +28,7 @@ Parameters p:
     g_2: gravity in space, [m/s^2], default 0.0
     g_3: gravity in space, [m/s^2], default -9.81
 
-Operations: constants 36 mul, 24 add, 2 div;
+Operations: constants 42 mul, 31 add, 2 div;
 rhs 86 mul, 65 add; energy 43 mul, 29 add.
 """
 
@@ -96,6 +96,9 @@ INPUTS = (
     "u_6",
 )
 CONSTANTS = (
+    "J_12",
+    "J_13",
+    "J_23",
     "m",
     "inv_m",
     "c_1",
@@ -119,10 +122,7 @@ CONSTANTS = (
     "g_2",
     "g_3",
     "I_11",
-    "I_12",
-    "I_13",
     "I_22",
-    "I_23",
     "I_33",
 )
 BASIS = numpy.array(
@@ -140,13 +140,18 @@ ZEROS = (0.0,) * len(INPUTS)
 
 
 def constants(p):
-    """All that depends on the parameters alone; ValueError when the mass matrix is singular."""
+    """All that depends on the parameters alone; ValueError when the mass matrix is singular.
+
+    p: the numbers in the order of PARAMETERS, or by name, the others by DEFAULTS.
+    """
+    if isinstance(p, dict):
+        p = _named(p)
     xp, (p,) = _arrays(p)
     with numpy.errstate(divide="ignore", invalid="ignore"):
         k, tests = _constants(xp, _entries(p))
         k = _stack(xp, k) if k else p[..., :0]
         # each determinant or pivot against what rounding could make of a singular matrix
-        regular = [abs(value) > least for value, least in tests]
+        regular = [value > least for value, least in tests]
     if not all(bool(xp.all(test)) for test in (*regular, xp.isfinite(k))):
         raise ValueError("se3: the mass matrix is singular or a number is not finite")
     return k
@@ -191,6 +196,16 @@ def turned(p, R):
     J = numpy.einsum("...ji,...jk,...kl->...il", R, p[..., full], R)
     p[..., full] = J
     return p
+
+
+def _named(given):
+    unknown = [x for x in given if x not in PARAMETERS]
+    if unknown:
+        raise ValueError("se3: no parameters " + ", ".join(map(str, unknown)))
+    missing = [x for x in PARAMETERS if x not in given and x not in DEFAULTS]
+    if missing:
+        raise ValueError("se3: no value for the parameters " + ", ".join(missing))
+    return [given.get(x, DEFAULTS.get(x)) for x in PARAMETERS]
 
 
 def _evaluated(function, t, x, k, u=None):
@@ -254,21 +269,35 @@ def _constants(xp, p):
     I_c_23 = -(J_23 - inv_m*c_2*c_3)
     I_c_33 = J_c_11 + J_c_22
 
-    # se3.motion: 9 mul, 7 add, 1 div
+    # se3.motion: 17 mul, 15 add, 1 div
     # ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ)
     adj_I_c_11 = I_c_22*I_c_33 - I_c_23*I_c_23
     adj_I_c_12 = I_c_13*I_c_23 - I_c_12*I_c_33
     adj_I_c_13 = I_c_12*I_c_23 - I_c_13*I_c_22
+    adj_I_c_33 = I_c_11*I_c_22 - I_c_12*I_c_12
     det_I_c = I_c_11*adj_I_c_11 + I_c_12*adj_I_c_12 + I_c_13*adj_I_c_13
-    part_15 = abs(inv_m)
-    tr_I_c = I_c_11 + I_c_22 + I_c_33
+    part_16 = abs(J_22)
+    part_17 = abs(inv_m)
+    c_2_c_2_part_17 = c_2*c_2*part_17
+    part_19 = abs(J_33)
+    c_3_c_3_part_17 = c_3*c_3*part_17
+    size_I_c_1 = part_16 + c_2_c_2_part_17 + part_19 + c_3_c_3_part_17
+    part_22 = abs(J_11)
+    c_1_c_1_part_17 = c_1*c_1*part_17
+    size_I_c_2 = part_19 + c_3_c_3_part_17 + part_22 + c_1_c_1_part_17
+    size_I_c_3 = part_16 + c_2_c_2_part_17 + part_22 + c_1_c_1_part_17
     inv_det_I_c = 1.0/det_I_c
 
     tests = [
         (m, 0.0),
-        (det_I_c, 1e-13*((2.0*(abs(J_22) + c_2*c_2*part_15 + abs(J_33) + c_3*c_3*part_15 + abs(J_11) + c_1*c_1*part_15))*tr_I_c*tr_I_c)),
+        (I_c_11, 1e-13*size_I_c_1),
+        (adj_I_c_33, 1e-13*(I_c_22*size_I_c_1 + I_c_11*size_I_c_2)),
+        (det_I_c, 1e-13*(I_c_22*I_c_33*size_I_c_1 + I_c_11*I_c_33*size_I_c_2 + I_c_11*I_c_22*size_I_c_3)),
     ]
     return [
+        J_12,
+        J_13,
+        J_23,
         m,
         inv_m,
         c_1,
@@ -282,7 +311,7 @@ def _constants(xp, p):
         adj_I_c_13*inv_det_I_c,
         (I_c_11*I_c_33 - I_c_13*I_c_13)*inv_det_I_c,
         (I_c_12*I_c_13 - I_c_11*I_c_23)*inv_det_I_c,
-        (I_c_11*I_c_22 - I_c_12*I_c_12)*inv_det_I_c,
+        adj_I_c_33*inv_det_I_c,
         inv_m*c_1,
         inv_m*c_2,
         inv_m*c_3,
@@ -292,10 +321,7 @@ def _constants(xp, p):
         g_2,
         g_3,
         J_22 + J_33,
-        -J_12,
-        -J_13,
         J_11 + J_33,
-        -J_23,
         J_11 + J_22,
     ], tests
 
@@ -303,9 +329,9 @@ def _constants(xp, p):
 def _rhs(xp, t, x, k, u):
     (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, _, _, _, zeta_1, zeta_2, zeta_3,
         w_1, w_2, w_3) = x
-    (_, inv_m, _, _, _, I_c_12, I_c_13, I_c_23, inv_I_c_11, inv_I_c_12, inv_I_c_13,
+    (_, _, _, _, inv_m, _, _, _, I_c_12, I_c_13, I_c_23, inv_I_c_11, inv_I_c_12, inv_I_c_13,
         inv_I_c_22, inv_I_c_23, inv_I_c_33, r_c_1, r_c_2, r_c_3, I_c_0_11, I_c_0_22,
-        g_1, g_2, g_3, _, _, _, _, _, _) = k
+        g_1, g_2, g_3, _, _, _) = k
     (u_1, u_2, u_3, u_4, u_5, u_6) = u
 
     # se3.motion: 29 mul, 23 add
@@ -366,14 +392,14 @@ def _rhs(xp, t, x, k, u):
 def _energy(xp, t, x, k, u):
     (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, T_1, T_2, T_3, zeta_1, zeta_2,
         zeta_3, w_1, w_2, w_3) = x
-    (m, _, c_1, c_2, c_3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, g_1, g_2, g_3, I_11,
-        I_12, I_13, I_22, I_23, I_33) = k
+    (J_12, J_13, J_23, m, _, c_1, c_2, c_3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, g_1,
+        g_2, g_3, I_11, I_22, I_33) = k
 
     # se3.energy: 43 mul, 29 add
     # h̃ = ½ ‖ζ‖²_I + ⟨c ∧ w, ζ⟩ + ½m ‖w‖² − ⟨Ac, γ⟩ − m ⟨T, γ⟩
     h_tilde = (
-        0.5*(zeta_1*(I_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3) + zeta_2*(I_12*zeta_1 + I_22*zeta_2
-        + I_23*zeta_3) + zeta_3*(I_13*zeta_1 + I_23*zeta_2 + I_33*zeta_3)) + (zeta_1*(c_2*w_3
+        0.5*(zeta_1*(I_11*zeta_1 - J_12*zeta_2 - J_13*zeta_3) + zeta_2*(I_22*zeta_2 - J_12*zeta_1
+        - J_23*zeta_3) + zeta_3*(I_33*zeta_3 - J_13*zeta_1 - J_23*zeta_2)) + (zeta_1*(c_2*w_3
         - c_3*w_2) + zeta_2*(c_3*w_1 - c_1*w_3) + zeta_3*(c_1*w_2 - c_2*w_1)) + 0.5*m*(w_1*w_1
         + w_2*w_2 + w_3*w_3) - (g_1*(c_1*A_11 + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21 + c_2*A_22
         + c_3*A_23) + g_3*(c_1*A_31 + c_2*A_32 + c_3*A_33)) - m*(g_1*T_1 + g_2*T_2 + g_3*T_3)

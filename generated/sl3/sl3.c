@@ -88,27 +88,27 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
     const double J_23 = m1*y1*z1 + m2*y2*z2 + m3*y3*z3 + m4*y4*z4;
     const double J_33 = m1*z1*z1 + m2*z2*z2 + m3*z3*z3 + m4*z4*z4;
 
-    /* sl3.motion: 45 mul, 21 add, 1 div
+    /* sl3.motion: 45 mul, 17 add, 1 div
      * λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
     const double adj_J_11 = J_22*J_33 - J_23*J_23;
     const double adj_J_12 = J_13*J_23 - J_12*J_33;
     const double adj_J_13 = J_12*J_23 - J_13*J_22;
+    const double adj_J_33 = J_11*J_22 - J_12*J_12;
     const double det_J = J_11*adj_J_11 + J_12*adj_J_12 + J_13*adj_J_13;
-    const double part_11 = fabs(m1);
-    const double part_12 = fabs(m2);
-    const double part_13 = fabs(m3);
-    const double part_14 = fabs(m4);
-    const double size_J = x1*x1*part_11 + x2*x2*part_12 + x3*x3*part_13 + x4*x4*part_14 + y1*y1*part_11
-        + y2*y2*part_12 + y3*y3*part_13 + y4*y4*part_14 + z1*z1*part_11
-        + z2*z2*part_12 + z3*z3*part_13 + z4*z4*part_14;
-    const double tr_J = J_11 + J_22 + J_33;
+    const double part_12 = fabs(m1);
+    const double part_13 = fabs(m2);
+    const double part_14 = fabs(m3);
+    const double part_15 = fabs(m4);
+    const double size_J_1 = x1*x1*part_12 + x2*x2*part_13 + x3*x3*part_14 + x4*x4*part_15;
+    const double size_J_2 = y1*y1*part_12 + y2*y2*part_13 + y3*y3*part_14 + y4*y4*part_15;
+    const double size_J_3 = z1*z1*part_12 + z2*z2*part_13 + z3*z3*part_14 + z4*z4*part_15;
     const double inv_det_J = 1.0/det_J;
     const double inv_J_11 = adj_J_11*inv_det_J;
     const double inv_J_12 = adj_J_12*inv_det_J;
     const double inv_J_13 = adj_J_13*inv_det_J;
     const double inv_J_22 = (J_11*J_33 - J_13*J_13)*inv_det_J;
     const double inv_J_23 = (J_12*J_13 - J_11*J_23)*inv_det_J;
-    const double inv_J_33 = (J_11*J_22 - J_12*J_12)*inv_det_J;
+    const double inv_J_33 = adj_J_33*inv_det_J;
 
     /* sl3.potential: 3 add
      * s₁ = r₁ − r₂ */
@@ -200,7 +200,13 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
     k[26] = inv_J_12*K_13 + inv_J_22*K_23 + inv_J_23*K_33;
 
     /* each determinant or pivot against what rounding could make of a singular matrix */
-    if (!(fabs(det_J) > 1e-13*size_J*tr_J*tr_J)) {
+    if (!(J_11 > 1e-13*size_J_1)) {
+        return 1;
+    }
+    if (!(adj_J_33 > 1e-13*(J_22*size_J_1 + J_11*size_J_2))) {
+        return 1;
+    }
+    if (!(det_J > 1e-13*(J_22*J_33*size_J_1 + J_11*J_33*size_J_2 + J_11*J_22*size_J_3))) {
         return 1;
     }
     for (int i = 0; i < sl3_N_CONSTANTS; ++i) {

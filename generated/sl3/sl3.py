@@ -34,7 +34,7 @@ Parameters p:
     k24: spring between points 2 and 4, [N/m], default 1.0
     k34: spring between points 3 and 4, [N/m], default 1.0
 
-Operations: constants 192 mul, 108 add, 1 div;
+Operations: constants 192 mul, 104 add, 1 div;
 rhs 107 mul, 88 add, 1 div; energy 91 mul, 63 add.
 """
 
@@ -158,13 +158,18 @@ ZEROS = (0.0,) * len(INPUTS)
 
 
 def constants(p):
-    """All that depends on the parameters alone; ValueError when the mass matrix is singular."""
+    """All that depends on the parameters alone; ValueError when the mass matrix is singular.
+
+    p: the numbers in the order of PARAMETERS, or by name, the others by DEFAULTS.
+    """
+    if isinstance(p, dict):
+        p = _named(p)
     xp, (p,) = _arrays(p)
     with numpy.errstate(divide="ignore", invalid="ignore"):
         k, tests = _constants(xp, _entries(p))
         k = _stack(xp, k) if k else p[..., :0]
         # each determinant or pivot against what rounding could make of a singular matrix
-        regular = [abs(value) > least for value, least in tests]
+        regular = [value > least for value, least in tests]
     if not all(bool(xp.all(test)) for test in (*regular, xp.isfinite(k))):
         raise ValueError("sl3: the mass matrix is singular or a number is not finite")
     return k
@@ -178,6 +183,16 @@ def rhs(t, x, k, u=None):
 def energy(t, x, k):
     """Kinetic plus potential energy."""
     return _evaluated(_energy, t, x, k)[..., 0]
+
+
+def _named(given):
+    unknown = [x for x in given if x not in PARAMETERS]
+    if unknown:
+        raise ValueError("sl3: no parameters " + ", ".join(map(str, unknown)))
+    missing = [x for x in PARAMETERS if x not in given and x not in DEFAULTS]
+    if missing:
+        raise ValueError("sl3: no value for the parameters " + ", ".join(missing))
+    return [given.get(x, DEFAULTS.get(x)) for x in PARAMETERS]
 
 
 def _evaluated(function, t, x, k, u=None):
@@ -235,29 +250,27 @@ def _constants(xp, p):
     J_23 = m1*y1*z1 + m2*y2*z2 + m3*y3*z3 + m4*y4*z4
     J_33 = m1*z1*z1 + m2*z2*z2 + m3*z3*z3 + m4*z4*z4
 
-    # sl3.motion: 45 mul, 21 add, 1 div
+    # sl3.motion: 45 mul, 17 add, 1 div
     # λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹)
     adj_J_11 = J_22*J_33 - J_23*J_23
     adj_J_12 = J_13*J_23 - J_12*J_33
     adj_J_13 = J_12*J_23 - J_13*J_22
+    adj_J_33 = J_11*J_22 - J_12*J_12
     det_J = J_11*adj_J_11 + J_12*adj_J_12 + J_13*adj_J_13
-    part_11 = abs(m1)
-    part_12 = abs(m2)
-    part_13 = abs(m3)
-    part_14 = abs(m4)
-    size_J = (
-        x1*x1*part_11 + x2*x2*part_12 + x3*x3*part_13 + x4*x4*part_14 + y1*y1*part_11 + y2*y2*part_12
-        + y3*y3*part_13 + y4*y4*part_14 + z1*z1*part_11 + z2*z2*part_12 + z3*z3*part_13
-        + z4*z4*part_14
-    )
-    tr_J = J_11 + J_22 + J_33
+    part_12 = abs(m1)
+    part_13 = abs(m2)
+    part_14 = abs(m3)
+    part_15 = abs(m4)
+    size_J_1 = x1*x1*part_12 + x2*x2*part_13 + x3*x3*part_14 + x4*x4*part_15
+    size_J_2 = y1*y1*part_12 + y2*y2*part_13 + y3*y3*part_14 + y4*y4*part_15
+    size_J_3 = z1*z1*part_12 + z2*z2*part_13 + z3*z3*part_14 + z4*z4*part_15
     inv_det_J = 1.0/det_J
     inv_J_11 = adj_J_11*inv_det_J
     inv_J_12 = adj_J_12*inv_det_J
     inv_J_13 = adj_J_13*inv_det_J
     inv_J_22 = (J_11*J_33 - J_13*J_13)*inv_det_J
     inv_J_23 = (J_12*J_13 - J_11*J_23)*inv_det_J
-    inv_J_33 = (J_11*J_22 - J_12*J_12)*inv_det_J
+    inv_J_33 = adj_J_33*inv_det_J
 
     # sl3.potential: 3 add
     # s₁ = r₁ − r₂
@@ -335,7 +348,9 @@ def _constants(xp, p):
     )
 
     tests = [
-        (det_J, 1e-13*size_J*tr_J*tr_J),
+        (J_11, 1e-13*size_J_1),
+        (adj_J_33, 1e-13*(J_22*size_J_1 + J_11*size_J_2)),
+        (det_J, 1e-13*(J_22*J_33*size_J_1 + J_11*J_33*size_J_2 + J_11*J_22*size_J_3)),
     ]
     return [
         J_11,

@@ -63,33 +63,35 @@ int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
     /* so3.inertia: 3 add
      * I = (Tr J) 1 − J */
     const double I_11 = J_22 + J_33;
-    const double I_12 = -J_12;
-    const double I_13 = -J_13;
     const double I_22 = J_11 + J_33;
-    const double I_23 = -J_23;
     const double I_33 = J_11 + J_22;
 
-    /* so3.motion: 9 mul, 7 add, 1 div
+    /* so3.motion: 11 mul, 8 add, 1 div
      * ζ̇ = I⁻¹(c ∧ Āγ + u + Iζ ∧ ζ) */
-    const double adj_I_11 = I_22*I_33 - I_23*I_23;
-    const double adj_I_12 = I_13*I_23 - I_12*I_33;
-    const double adj_I_13 = I_12*I_23 - I_13*I_22;
-    const double det_I = I_11*adj_I_11 + I_12*adj_I_12 + I_13*adj_I_13;
-    const double tr_I = I_11 + I_22 + I_33;
+    const double adj_I_11 = I_22*I_33 - J_23*J_23;
+    const double adj_I_12 = J_12*I_33 + J_13*J_23;
+    const double adj_I_13 = J_12*J_23 + J_13*I_22;
+    const double adj_I_33 = I_11*I_22 - J_12*J_12;
+    const double det_I = I_11*adj_I_11 - J_12*adj_I_12 - J_13*adj_I_13;
+    const double part_9 = fabs(J_22);
+    const double part_10 = fabs(J_33);
+    const double size_I_1 = part_9 + part_10;
+    const double part_12 = fabs(J_11);
+    const double size_I_2 = part_10 + part_12;
     const double inv_det_I = 1.0/det_I;
 
-    k[0] = I_11;
-    k[1] = I_12;
-    k[2] = I_13;
-    k[3] = I_22;
-    k[4] = I_23;
+    k[0] = J_12;
+    k[1] = J_13;
+    k[2] = J_23;
+    k[3] = I_11;
+    k[4] = I_22;
     k[5] = I_33;
     k[6] = adj_I_11*inv_det_I;
     k[7] = adj_I_12*inv_det_I;
     k[8] = adj_I_13*inv_det_I;
-    k[9] = (I_11*I_33 - I_13*I_13)*inv_det_I;
-    k[10] = (I_12*I_13 - I_11*I_23)*inv_det_I;
-    k[11] = (I_11*I_22 - I_12*I_12)*inv_det_I;
+    k[9] = (I_11*I_33 - J_13*J_13)*inv_det_I;
+    k[10] = (J_23*I_11 + J_12*J_13)*inv_det_I;
+    k[11] = adj_I_33*inv_det_I;
     k[12] = c_1;
     k[13] = c_2;
     k[14] = c_3;
@@ -100,7 +102,13 @@ int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
     k[19] = I_22 - I_33;
 
     /* each determinant or pivot against what rounding could make of a singular matrix */
-    if (!(fabs(det_I) > 1e-13*((2.0*(fabs(J_22) + fabs(J_33) + fabs(J_11)))*tr_I*tr_I))) {
+    if (!(I_11 > 1e-13*size_I_1)) {
+        return 1;
+    }
+    if (!(adj_I_33 > 1e-13*(I_22*size_I_1 + I_11*size_I_2))) {
+        return 1;
+    }
+    if (!(det_I > 1e-13*(I_22*I_33*size_I_1 + I_11*I_33*size_I_2 + I_11*I_22*(part_9 + part_12)))) {
         return 1;
     }
     for (int i = 0; i < so3_N_CONSTANTS; ++i) {
@@ -114,9 +122,9 @@ int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
 void so3_rhs(double t, const double *so3_RESTRICT x, const double *so3_RESTRICT k,
     const double *so3_RESTRICT u, double *so3_RESTRICT dx)
 {
-    const double I_12 = k[1];
-    const double I_13 = k[2];
-    const double I_23 = k[4];
+    const double J_12 = k[0];
+    const double J_13 = k[1];
+    const double J_23 = k[2];
     const double inv_I_11 = k[6];
     const double inv_I_12 = k[7];
     const double inv_I_13 = k[8];
@@ -152,9 +160,9 @@ void so3_rhs(double t, const double *so3_RESTRICT x, const double *so3_RESTRICT 
     const double A_T_gravity_1 = g_1*A_11 + g_2*A_21 + g_3*A_31;
     const double A_T_gravity_2 = g_1*A_12 + g_2*A_22 + g_3*A_32;
     const double A_T_gravity_3 = g_1*A_13 + g_2*A_23 + g_3*A_33;
-    const double I_0_zeta_1 = I_0_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3;
-    const double I_0_zeta_2 = I_12*zeta_1 + I_0_22*zeta_2 + I_23*zeta_3;
-    const double I_0_zeta_3 = I_13*zeta_1 + I_23*zeta_2;
+    const double I_0_zeta_1 = I_0_11*zeta_1 - J_12*zeta_2 - J_13*zeta_3;
+    const double I_0_zeta_2 = I_0_22*zeta_2 - J_12*zeta_1 - J_23*zeta_3;
+    const double I_0_zeta_3 = -(J_13*zeta_1 + J_23*zeta_2);
     const double balance_1 = u_1 + c_2*A_T_gravity_3 + zeta_3*I_0_zeta_2 - c_3*A_T_gravity_2 - zeta_2*I_0_zeta_3;
     const double balance_2 = u_2 + c_3*A_T_gravity_1 + zeta_1*I_0_zeta_3 - c_1*A_T_gravity_3 - zeta_3*I_0_zeta_1;
     const double balance_3 = u_3 + c_1*A_T_gravity_2 + zeta_2*I_0_zeta_1 - c_2*A_T_gravity_1 - zeta_1*I_0_zeta_2;
@@ -185,9 +193,9 @@ void so3_rhs_batch(size_t n, double t, const double *so3_RESTRICT x,
 #pragma GCC ivdep
 #endif
     for (size_t s = 0; s < n; ++s) {
-        const double I_12 = k[1];
-        const double I_13 = k[2];
-        const double I_23 = k[4];
+        const double J_12 = k[0];
+        const double J_13 = k[1];
+        const double J_23 = k[2];
         const double inv_I_11 = k[6];
         const double inv_I_12 = k[7];
         const double inv_I_13 = k[8];
@@ -223,9 +231,9 @@ void so3_rhs_batch(size_t n, double t, const double *so3_RESTRICT x,
         const double A_T_gravity_1 = g_1*A_11 + g_2*A_21 + g_3*A_31;
         const double A_T_gravity_2 = g_1*A_12 + g_2*A_22 + g_3*A_32;
         const double A_T_gravity_3 = g_1*A_13 + g_2*A_23 + g_3*A_33;
-        const double I_0_zeta_1 = I_0_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3;
-        const double I_0_zeta_2 = I_12*zeta_1 + I_0_22*zeta_2 + I_23*zeta_3;
-        const double I_0_zeta_3 = I_13*zeta_1 + I_23*zeta_2;
+        const double I_0_zeta_1 = I_0_11*zeta_1 - J_12*zeta_2 - J_13*zeta_3;
+        const double I_0_zeta_2 = I_0_22*zeta_2 - J_12*zeta_1 - J_23*zeta_3;
+        const double I_0_zeta_3 = -(J_13*zeta_1 + J_23*zeta_2);
         const double balance_1 = u_1 + c_2*A_T_gravity_3 + zeta_3*I_0_zeta_2 - c_3*A_T_gravity_2 - zeta_2*I_0_zeta_3;
         const double balance_2 = u_2 + c_3*A_T_gravity_1 + zeta_1*I_0_zeta_3 - c_1*A_T_gravity_3 - zeta_3*I_0_zeta_1;
         const double balance_3 = u_3 + c_1*A_T_gravity_2 + zeta_2*I_0_zeta_1 - c_2*A_T_gravity_1 - zeta_1*I_0_zeta_2;
@@ -248,11 +256,11 @@ void so3_rhs_batch(size_t n, double t, const double *so3_RESTRICT x,
 
 double so3_energy(double t, const double *so3_RESTRICT x, const double *so3_RESTRICT k)
 {
-    const double I_11 = k[0];
-    const double I_12 = k[1];
-    const double I_13 = k[2];
-    const double I_22 = k[3];
-    const double I_23 = k[4];
+    const double J_12 = k[0];
+    const double J_13 = k[1];
+    const double J_23 = k[2];
+    const double I_11 = k[3];
+    const double I_22 = k[4];
     const double I_33 = k[5];
     const double c_1 = k[12];
     const double c_2 = k[13];
@@ -275,9 +283,9 @@ double so3_energy(double t, const double *so3_RESTRICT x, const double *so3_REST
 
     /* so3.energy: 25 mul, 17 add
      * h̃ = ½ ‖ζ‖²_I − ⟨Ac, γ⟩ */
-    const double h_tilde = 0.5*(zeta_1*(I_12*zeta_2 + I_13*zeta_3 + I_11*zeta_1) + zeta_2*(I_12*zeta_1
-        + I_23*zeta_3 + I_22*zeta_2) + zeta_3*(I_13*zeta_1 + I_23*zeta_2
-        + I_33*zeta_3)) - (g_1*(c_1*A_11 + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21
+    const double h_tilde = 0.5*(zeta_1*(I_11*zeta_1 - J_12*zeta_2 - J_13*zeta_3) + zeta_2*(I_22*zeta_2
+        - J_12*zeta_1 - J_23*zeta_3) + zeta_3*(I_33*zeta_3 - J_13*zeta_1
+        - J_23*zeta_2)) - (g_1*(c_1*A_11 + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21
         + c_2*A_22 + c_3*A_23) + g_3*(c_1*A_31 + c_2*A_32 + c_3*A_33));
 
     (void)t;

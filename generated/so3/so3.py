@@ -82,11 +82,11 @@ INPUTS = (
     "u_3",
 )
 CONSTANTS = (
+    "J_12",
+    "J_13",
+    "J_23",
     "I_11",
-    "I_12",
-    "I_13",
     "I_22",
-    "I_23",
     "I_33",
     "inv_I_11",
     "inv_I_12",
@@ -115,13 +115,18 @@ ZEROS = (0.0,) * len(INPUTS)
 
 
 def constants(p):
-    """All that depends on the parameters alone; ValueError when the mass matrix is singular."""
+    """All that depends on the parameters alone; ValueError when the mass matrix is singular.
+
+    p: the numbers in the order of PARAMETERS, or by name, the others by DEFAULTS.
+    """
+    if isinstance(p, dict):
+        p = _named(p)
     xp, (p,) = _arrays(p)
     with numpy.errstate(divide="ignore", invalid="ignore"):
         k, tests = _constants(xp, _entries(p))
         k = _stack(xp, k) if k else p[..., :0]
         # each determinant or pivot against what rounding could make of a singular matrix
-        regular = [abs(value) > least for value, least in tests]
+        regular = [value > least for value, least in tests]
     if not all(bool(xp.all(test)) for test in (*regular, xp.isfinite(k))):
         raise ValueError("so3: the mass matrix is singular or a number is not finite")
     return k
@@ -166,6 +171,16 @@ def turned(p, R):
     J = numpy.einsum("...ji,...jk,...kl->...il", R, p[..., full], R)
     p[..., full] = J
     return p
+
+
+def _named(given):
+    unknown = [x for x in given if x not in PARAMETERS]
+    if unknown:
+        raise ValueError("so3: no parameters " + ", ".join(map(str, unknown)))
+    missing = [x for x in PARAMETERS if x not in given and x not in DEFAULTS]
+    if missing:
+        raise ValueError("so3: no value for the parameters " + ", ".join(missing))
+    return [given.get(x, DEFAULTS.get(x)) for x in PARAMETERS]
 
 
 def _evaluated(function, t, x, k, u=None):
@@ -216,37 +231,41 @@ def _constants(xp, p):
     # so3.inertia: 3 add
     # I = (Tr J) 1 − J
     I_11 = J_22 + J_33
-    I_12 = -J_12
-    I_13 = -J_13
     I_22 = J_11 + J_33
-    I_23 = -J_23
     I_33 = J_11 + J_22
 
-    # so3.motion: 9 mul, 7 add, 1 div
+    # so3.motion: 11 mul, 8 add, 1 div
     # ζ̇ = I⁻¹(c ∧ Āγ + u + Iζ ∧ ζ)
-    adj_I_11 = I_22*I_33 - I_23*I_23
-    adj_I_12 = I_13*I_23 - I_12*I_33
-    adj_I_13 = I_12*I_23 - I_13*I_22
-    det_I = I_11*adj_I_11 + I_12*adj_I_12 + I_13*adj_I_13
-    tr_I = I_11 + I_22 + I_33
+    adj_I_11 = I_22*I_33 - J_23*J_23
+    adj_I_12 = J_12*I_33 + J_13*J_23
+    adj_I_13 = J_12*J_23 + J_13*I_22
+    adj_I_33 = I_11*I_22 - J_12*J_12
+    det_I = I_11*adj_I_11 - J_12*adj_I_12 - J_13*adj_I_13
+    part_9 = abs(J_22)
+    part_10 = abs(J_33)
+    size_I_1 = part_9 + part_10
+    part_12 = abs(J_11)
+    size_I_2 = part_10 + part_12
     inv_det_I = 1.0/det_I
 
     tests = [
-        (det_I, 1e-13*((2.0*(abs(J_22) + abs(J_33) + abs(J_11)))*tr_I*tr_I)),
+        (I_11, 1e-13*size_I_1),
+        (adj_I_33, 1e-13*(I_22*size_I_1 + I_11*size_I_2)),
+        (det_I, 1e-13*(I_22*I_33*size_I_1 + I_11*I_33*size_I_2 + I_11*I_22*(part_9 + part_12))),
     ]
     return [
+        J_12,
+        J_13,
+        J_23,
         I_11,
-        I_12,
-        I_13,
         I_22,
-        I_23,
         I_33,
         adj_I_11*inv_det_I,
         adj_I_12*inv_det_I,
         adj_I_13*inv_det_I,
-        (I_11*I_33 - I_13*I_13)*inv_det_I,
-        (I_12*I_13 - I_11*I_23)*inv_det_I,
-        (I_11*I_22 - I_12*I_12)*inv_det_I,
+        (I_11*I_33 - J_13*J_13)*inv_det_I,
+        (J_23*I_11 + J_12*J_13)*inv_det_I,
+        adj_I_33*inv_det_I,
         c_1,
         c_2,
         c_3,
@@ -260,7 +279,7 @@ def _constants(xp, p):
 
 def _rhs(xp, t, x, k, u):
     (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, zeta_1, zeta_2, zeta_3) = x
-    (_, I_12, I_13, _, I_23, _, inv_I_11, inv_I_12, inv_I_13, inv_I_22, inv_I_23, inv_I_33,
+    (J_12, J_13, J_23, _, _, _, inv_I_11, inv_I_12, inv_I_13, inv_I_22, inv_I_23, inv_I_33,
         c_1, c_2, c_3, g_1, g_2, g_3, I_0_11, I_0_22) = k
     (u_1, u_2, u_3) = u
 
@@ -269,9 +288,9 @@ def _rhs(xp, t, x, k, u):
     A_T_gravity_1 = g_1*A_11 + g_2*A_21 + g_3*A_31
     A_T_gravity_2 = g_1*A_12 + g_2*A_22 + g_3*A_32
     A_T_gravity_3 = g_1*A_13 + g_2*A_23 + g_3*A_33
-    I_0_zeta_1 = I_0_11*zeta_1 + I_12*zeta_2 + I_13*zeta_3
-    I_0_zeta_2 = I_12*zeta_1 + I_0_22*zeta_2 + I_23*zeta_3
-    I_0_zeta_3 = I_13*zeta_1 + I_23*zeta_2
+    I_0_zeta_1 = I_0_11*zeta_1 - J_12*zeta_2 - J_13*zeta_3
+    I_0_zeta_2 = I_0_22*zeta_2 - J_12*zeta_1 - J_23*zeta_3
+    I_0_zeta_3 = -(J_13*zeta_1 + J_23*zeta_2)
     balance_1 = (
         u_1 + c_2*A_T_gravity_3 + zeta_3*I_0_zeta_2 - c_3*A_T_gravity_2 - zeta_2*I_0_zeta_3
     )
@@ -300,13 +319,13 @@ def _rhs(xp, t, x, k, u):
 
 def _energy(xp, t, x, k, u):
     (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, zeta_1, zeta_2, zeta_3) = x
-    (I_11, I_12, I_13, I_22, I_23, I_33, _, _, _, _, _, _, c_1, c_2, c_3, g_1, g_2, g_3, _, _) = k
+    (J_12, J_13, J_23, I_11, I_22, I_33, _, _, _, _, _, _, c_1, c_2, c_3, g_1, g_2, g_3, _, _) = k
 
     # so3.energy: 25 mul, 17 add
     # h̃ = ½ ‖ζ‖²_I − ⟨Ac, γ⟩
     h_tilde = (
-        0.5*(zeta_1*(I_12*zeta_2 + I_13*zeta_3 + I_11*zeta_1) + zeta_2*(I_12*zeta_1 + I_23*zeta_3
-        + I_22*zeta_2) + zeta_3*(I_13*zeta_1 + I_23*zeta_2 + I_33*zeta_3)) - (g_1*(c_1*A_11
+        0.5*(zeta_1*(I_11*zeta_1 - J_12*zeta_2 - J_13*zeta_3) + zeta_2*(I_22*zeta_2 - J_12*zeta_1
+        - J_23*zeta_3) + zeta_3*(I_33*zeta_3 - J_13*zeta_1 - J_23*zeta_2)) - (g_1*(c_1*A_11
         + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21 + c_2*A_22 + c_3*A_23) + g_3*(c_1*A_31
         + c_2*A_32 + c_3*A_33))
     )

@@ -1,0 +1,103 @@
+"""Words of the walk as data: messages, and what stands in their places.
+
+A message is an English sentence, or a part of one, with places ``{name}``; the catalogue has it in
+other languages under that very text.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+PLACE = re.compile(r"\{([a-z]+)\}")
+DEPTH = 30
+"""Sentences nested deeper than this are refused on reading."""
+
+
+@dataclass(frozen=True)
+class Sentence:
+    """A message and what fills its places: other sentences, or text that no language changes.
+
+    Without places the message is taken to the letter, braces and all.
+    """
+
+    message: str
+    places: tuple[tuple[str, Sentence | str], ...] = ()
+
+    def __str__(self) -> str:
+        return filled(self.message, {name: str(x) for name, x in self.places})
+
+
+Prose = tuple[Sentence, ...]
+"""Sentences one after the other."""
+
+
+def filled(message: str, places: Mapping[str, str]) -> str:
+    """A message with its places filled."""
+    return PLACE.sub(lambda found: places[found[1]], message) if places else message
+
+
+def phrase(message: str, **places: Sentence | str) -> Sentence:
+    """One sentence, or a part of one that stands in a place."""
+    return Sentence(message, tuple(places.items()))
+
+
+def say(message: str, **places: Sentence | str) -> Prose:
+    """One sentence as prose."""
+    return (phrase(message, **places),)
+
+
+def listed(message: str, items: Sequence[Sentence]) -> Sentence:
+    """Many sentences as one, two by two, by a message with the places ``first`` and ``second``."""
+    if len(items) < 2:
+        return items[0] if items else phrase("")
+    half = len(items) // 2
+    first, second = listed(message, items[:half]), listed(message, items[half:])
+    return phrase(message, first=first, second=second)
+
+
+def english(prose: Prose) -> str:
+    """The sentences as they are written in the walk."""
+    return " ".join(map(str, prose))
+
+
+def plain(prose: Prose) -> bool:
+    """Does the English alone say which sentence this is?"""
+    return len(prose) == 1 and not prose[0].places
+
+
+def to_data(prose: Prose) -> list[dict[str, Any]]:
+    """The sentences as plain data."""
+    return [_data(sentence) for sentence in prose]
+
+
+def _data(x: Sentence) -> dict[str, Any]:
+    places = {name: y if isinstance(y, str) else _data(y) for name, y in x.places}
+    return {"message": x.message, "places": places}
+
+
+def of_data(data: Any, where: str) -> Prose:
+    """The inverse of :func:`to_data`; ``ValueError`` says what is wrong."""
+    if not isinstance(data, list):
+        raise ValueError(f"{where}: key 'sentences' must be a list")
+    return tuple(_sentence(x, f"{where}, sentence {k}", 0) for k, x in enumerate(data, 1))
+
+
+def _sentence(data: Any, where: str, depth: int) -> Sentence:
+    if depth > DEPTH:
+        raise ValueError(f"{where}: sentences nested deeper than {DEPTH}")
+    if not isinstance(data, dict) or set(data) != {"message", "places"}:
+        raise ValueError(f"{where}: expected an object with the keys 'message' and 'places'")
+    message, places = data["message"], data["places"]
+    if not isinstance(message, str) or not isinstance(places, dict):
+        raise ValueError(f"{where}: 'message' must be a str and 'places' a dict")
+    # each once: what repeats a place could grow without bound when it is filled
+    if places and sorted(PLACE.findall(message)) != sorted(places):
+        raise ValueError(f"{where}: 'places' must be those of the message, each in it once")
+    return Sentence(message, tuple((name, _place(x, where, depth)) for name, x in places.items()))
+
+
+def _place(data: Any, where: str, depth: int) -> Sentence | str:
+    return data if isinstance(data, str) else _sentence(data, where, depth + 1)

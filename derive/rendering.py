@@ -1,0 +1,100 @@
+"""Records in the formats of the command line: one walk, or notes of several."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from .record.paper import Finding
+from .record.record import Derivation
+
+FORMATS = ("text", "latex", "markdown", "html", "json")
+NOTES = (".tex", ".pdf", ".html")
+
+
+class RenderError(ValueError):
+    """A choice that has no sense, or TeX that is not there: the message says what to do."""
+
+
+def render(
+    d: Derivation, form: str, lang: str = "en", *, fragment: bool = False, **notation: str
+) -> str:
+    """A record in one of the formats, in one of the languages."""
+    from .views.language import language
+    from .views.notation import Notation
+
+    if fragment and form != "latex":
+        raise RenderError("--fragment is for --format latex")
+    if form not in ("latex", "html") and Notation(**notation) != Notation():
+        raise RenderError("--notation and --hat are for --format latex and html")
+    if form == "json":
+        from .record.record import to_json
+
+        if lang != "en":
+            raise RenderError("--lang: the JSON is in English, its messages and places are for any")
+        return to_json(d)
+    if form == "latex":
+        from .views import latex
+
+        if fragment:
+            return latex.fragment(d, language=language(lang))
+        return latex.latex(d, Notation(**notation), language=language(lang))
+    if form == "markdown":
+        from .views.markdown import markdown
+
+        return markdown(d, language=language(lang))
+    if form == "html":
+        return notes([d], ".html", lang, **notation)
+    from .views.text import text
+
+    return text(d, language=language(lang))
+
+
+def notes(records: Sequence[Derivation], ending: str, lang: str = "en", **notation: str) -> str:
+    """Lecture notes of several records as a web page, or as LaTeX with the paper's corrections."""
+    from .views.html import html
+    from .views.language import language
+    from .views.latex import latex
+    from .views.notation import Notation
+
+    chosen = Notation(**notation)
+    if ending == ".html":
+        return html(records, chosen, language=language(lang))
+    return latex(records, chosen, language=language(lang), findings=corrections(records))
+
+
+def corrections(records: Sequence[Derivation]) -> list[Finding]:
+    """The findings about the numbers that these records have and the paper misprints."""
+    from .record.paper import misprints
+    from .record.vocabulary import MISPRINTED
+
+    numbers = {n for d in records for step in d.steps for n in step.paper} & MISPRINTED
+    return misprints(numbers) if numbers else []
+
+
+def pdf(tex: str) -> bytes:
+    """The LaTeX compiled; ``RenderError`` names what is missing or the first error."""
+    latexmk, pdflatex = shutil.which("latexmk"), shutil.which("pdflatex")
+    if pdflatex is None:
+        raise RenderError(
+            "no pdflatex: install TeX (Debian: texlive-latex-extra texlive-pictures lmodern); "
+            "the .tex is written"
+        )
+    quiet = ["-interaction=nonstopmode", "-halt-on-error"]
+    runs = (
+        [[latexmk, "-pdf", *quiet, "notes.tex"]]
+        if latexmk
+        else [[pdflatex, *quiet, "notes.tex"]] * 3
+    )
+    with tempfile.TemporaryDirectory(prefix="derive-") as folder:
+        (Path(folder) / "notes.tex").write_text(tex, encoding="utf-8")
+        for command in runs:
+            done = subprocess.run(command, cwd=folder, capture_output=True, check=False)
+        if done.returncode:
+            log = done.stdout.decode(errors="replace").splitlines()
+            wrong = next((line for line in log if line.startswith("!")), "! no PDF was made")
+            raise RenderError(f"pdflatex: {wrong[2:]}; the .tex is written")
+        return (Path(folder) / "notes.pdf").read_bytes()

@@ -1,0 +1,190 @@
+"""The walk as one web page that stands alone: MathML, no script needed to read it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+from ..record.record import Derivation, Equation, Step
+from ..templating import environment
+from .book import Part, book, steps
+from .escape import prose
+from .figure import svg
+from .language import ENGLISH, Language
+from .latex import anchor
+from .layout import clause
+from .letters import names_of, parameter
+from .macros import spoken, standard
+from .mathml import mathml
+from .measure import measure
+from .notation import Notation
+from .outline import (
+    FORMULAS_CONVENTIONS,
+    PAPER,
+    capitalised,
+    equation_label,
+    notes,
+    subtitle,
+    title,
+)
+from .scene import scene
+from .tex import latex_tree, marked, pieces, plain
+from .wrap import Piece, groups
+
+PHONE = 16.0
+"""What is wider (in em) and cannot be broken may have to be moved on a phone."""
+
+SPACES = "\u00a0\u202f"
+
+
+def html(
+    records: Sequence[Derivation],
+    notation: Notation | None = None,
+    *,
+    language: Language = ENGLISH,
+) -> str:
+    """A page: what holds for any group, then a part for each record."""
+    chosen, word = notation or Notation(), language.word
+    parts = book(records, language)
+    shown = {step.label: (part, step) for part, step in steps(parts)}
+    template = environment("html", autoescape=True).get_template("page.html.jinja")
+    return template.render(
+        language=language.name,
+        title=title(records[0], language) if len(records) == 1 else word("Equations of motion"),
+        about=capitalised(subtitle(records[0], language)) if len(records) == 1 else "",
+        conventions=words(word(FORMULAS_CONVENTIONS), chosen, ready=True),
+        paper=word(PAPER),
+        words={
+            "from": capitalised(word("from")),
+            "names": word("Names"),
+            "copy": word("copy the LaTeX"),
+        },
+        parts=[_Part(part, chosen, language).fields(shown) for part in parts],
+    )
+
+
+def words(text: str, notation: Notation, *, ready: bool = False) -> str:
+    """A sentence as markup, its formulas as MathML; ``ready``: they stand between dollars."""
+    shown = escaped(text) if ready else prose(text, lambda x: escaped(x).replace("$", "&#36;"))
+    return re.sub(r"\$([^$]*)\$", lambda m: mathml(spoken(m[1]), notation), shown)
+
+
+def escaped(text: str) -> str:
+    """Text as markup; what would turn its direction or hide is left out."""
+    return escape("".join(c for c in text if c.isprintable() or c in SPACES), quote=False)
+
+
+@dataclass(frozen=True)
+class _Part:
+    """One part of the book."""
+
+    part: Part
+    notation: Notation
+    language: Language
+
+    @property
+    def names(self) -> Mapping[str, str]:
+        """How its names are written."""
+        return names_of(self.part.source.symbols)
+
+    def fields(self, shown: Mapping[str, tuple[Part, Step]]) -> dict[str, Any]:
+        """What the template shows."""
+        return {
+            "id": anchor(self.part.name),
+            "heading": self.part.heading,
+            "about": self.part.about,
+            "steps": [self.step(step, shown) for step in self.part.steps],
+            "names": [*self.symbols(), *self.parameters()],
+            **self.figure(),
+        }
+
+    def figure(self) -> dict[str, str]:
+        """The drawing of the body and its caption; empty where there is none."""
+        drawn = scene(self.part.record) if self.part.record else None
+        if drawn is None:
+            return {"figure": "", "caption": ""}
+        caption = words(self.language.of(drawn.caption), self.notation)
+        return {"figure": svg(drawn), "caption": caption}
+
+    def step(self, step: Step, shown: Mapping[str, tuple[Part, Step]]) -> dict[str, Any]:
+        """A step, and the equations of those that it rests on."""
+        return {
+            "label": step.label,
+            "id": anchor(step.label),
+            "rule": capitalised(self.language.word(step.rule)),
+            "notes": notes(step, self.language),
+            "prose": words(self.language.of(step.prose), self.notation),
+            "equations": [*self.equations(step)],
+            "uses": [
+                {"label": x, "id": anchor(x), "equations": [*self.used(*shown[x])]}
+                for x in step.uses
+            ],
+        }
+
+    def used(self, part: Part, step: Step) -> Iterable[dict[str, Any]]:
+        """The equations of a step, in the letters of its own part."""
+        return _Part(part, self.notation, self.language).equations(step)
+
+    def equations(self, step: Step) -> Iterable[dict[str, Any]]:
+        """The equations of a step with their anchors and their LaTeX."""
+        for k, e in enumerate(step.equations):
+            left, right = marked(e.lhs, self.names), marked(e.rhs, self.names)
+            yield {
+                "id": anchor(equation_label(step, k)),
+                "left": self.cut(left),
+                "right": self.cut(right, equals=True),
+                "clause": self.clause(e),
+                "tex": self.source(e),
+            }
+
+    def cut(self, tex: str, *, equals: bool = False) -> str:
+        """A formula in terms between which a line may break, and these in turn."""
+        whole = [p for p in pieces(tex) if p.text.strip()]
+        if equals:
+            whole[0] = Piece(f"= {whole[0].text}", 0.0)
+        return "".join(self.nested(group, equals or k > 0) for k, group in enumerate(groups(whole)))
+
+    def nested(self, parts: Sequence[Piece], follows: bool) -> str:
+        """A term: one element, or terms of its own that stay on a line if they can."""
+        if len(parts) == 1:
+            whole = mathml(parts[0].text, self.notation, follows=follows)
+            wide = "<mtable" in whole or measure(parts[0].text) > PHONE
+            return f'<span class="wide">{whole}</span>' if wide else whole
+        inside = (self.nested(x, follows or k > 0) for k, x in enumerate(groups(parts)))
+        return f'<span class="term">{"".join(inside)}</span>'
+
+    def spoken(self, e: Equation) -> str:
+        """For which names the equation holds, as LaTeX."""
+        return clause(e, self.names, self.language.word("for every"))
+
+    def clause(self, e: Equation) -> str:
+        """The same as markup."""
+        return mathml(self.spoken(e), self.notation) if e.for_all else ""
+
+    def source(self, e: Equation) -> str:
+        """The LaTeX of an equation."""
+        shown = standard(f"{latex_tree(e.lhs, self.names)} = {latex_tree(e.rhs, self.names)}")
+        return f"{shown} \\quad {plain(self.spoken(e))}" if e.for_all else shown
+
+    def symbols(self) -> Iterable[dict[str, str]]:
+        """The letters and their meanings."""
+        for s in self.part.symbols:
+            yield {
+                "name": mathml(latex_tree(s.name, self.names), self.notation),
+                "meaning": words(self.language.of(s.meaning), self.notation),
+            }
+
+    def parameters(self) -> Iterable[dict[str, str]]:
+        """The parameters of the problem."""
+        parameters = self.part.record.problem.get("parameters") if self.part.record else None
+        for name, about in parameters.items() if isinstance(parameters, Mapping) else ():
+            about = about if isinstance(about, Mapping) else {}
+            unit = str(about.get("unit") or "")
+            meaning = escaped(self.language.word(str(about.get("meaning") or "parameter")))
+            yield {
+                "name": mathml(parameter(str(name)), self.notation),
+                "meaning": f"{meaning} [{escaped(unit)}]" if unit else meaning,
+            }

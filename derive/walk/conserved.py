@@ -1,0 +1,163 @@
+"""What the motion keeps, by Noether's theorem: for a displacement of space that moves the group
+into itself and leaves L̃ alone, the momentum of that displacement, p̃(Yg); and the energy.
+
+The displacements are the rotations and translations of space, δg = Yg with Y = (Y, b), Y skew: they
+keep the kinetic energy whatever the group, where they belong to it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra import rational as q
+from ..algebra.calculus import derivation, gradient, reduce, substitute, without
+from ..algebra.groups import Group
+from ..algebra.notation import tree_of
+from ..algebra.space import hat, normal_form
+from ..algebra.tree import Tree
+from ..algebra.words import Expr, Letter, inner, word
+from ..mechanics.problem import Attraction, Expression, Problem, Spring
+from ..record.record import Equation, Step
+from ..record.sentence import listed, say
+from .alphabet import Alphabet
+from .chapter import Chapter
+from .isometry import Isometry
+from .potential import U_Q, Potentials
+from .vector import OMEGA, isolate, to_vectors
+from .wedge import vector_sum
+
+GAMMA = Letter("γ", 3)
+AXIS = Letter("y", 3)
+
+
+@dataclass(frozen=True)
+class Momenta:
+    """``turning``: ℓ, a skew matrix or a vector; ``shifting``: p; as trees."""
+
+    turning: Tree
+    shifting: Tree | None
+
+
+def conserved_steps(
+    problem: Problem, v: Potentials, momenta: Momenta, b: Alphabet, c: Chapter, *, vectors: bool
+) -> tuple[Step, ...]:
+    """The energy, ℓ and p, as far as this problem keeps them."""
+    group = problem.group
+    assert group is not None
+    kept = [Equation("ḣ", 0)] if _autonomous(problem) else []
+    uses = "motion energy" if kept else "motion"
+    told = say("the energy") if kept else ()
+    definitions = []
+    if _turned(group) and (rate := _turning(problem, v, b, vectors=vectors)) is not None:
+        definitions.append(Equation("ℓ", momenta.turning))
+        kept.append(Equation(rate, 0))
+        whole = rate == "ℓ̇"
+        told += say("the angular momentum ℓ" if whole else "the angular momentum ℓ about gravity")
+    if momenta.shifting is not None and (rate := _shifting(problem, v, b)) is not None:
+        definitions.append(Equation("p", momenta.shifting))
+        kept.append(Equation(rate, 0))
+        told += say("the momentum p" if rate == "ṗ" else "the momentum p across gravity")
+    if not kept:
+        return ()
+    prose = say(
+        "What the motion keeps, where nothing acts from outside dϖ: {kept}.",
+        kept=listed("{first}, {second}", told),
+    ) + say("The Cartan form is constant along the motion on a displacement that leaves it alone.")
+    return (c.step("conserved", "conservation", uses, [*definitions, *kept], prose),)
+
+
+def matrix_momenta(momentum: Expr, a: Alphabet) -> Momenta:
+    """p̃(YA, YT + b) for every Y: ℓ = G − Ḡ with G its gradient, and for every b."""
+    Y, shift = Letter("Y", a.n, a.n), Letter("b", a.n)
+    images = {a.A.d_position: word(Y) * word(a.A.position)}
+    if a.affine:
+        images[a.T.d_position] = word(Y) * word(a.T.position) + word(shift)
+    paired = substitute(momentum, images)
+    whole = gradient(paired, Y)
+    pushed = tree_of(gradient(paired, shift)) if a.affine else None
+    return Momenta(tree_of(whole - whole.bar), pushed)
+
+
+def vector_momenta(stage: Isometry) -> Momenta:
+    """The same in R³, from p̃(Ω, η) with Ω = Āy and η = Ā(y ∧ T + b)."""
+    b = stage.letters
+    momentum = to_vectors(stage.cartan.momentum, stage)
+    turned = gradient(reduce(normal_form(momentum), isolate(OMEGA)), OMEGA)
+    g, shift = word(b.A.position), Letter("b", 3)
+    paired = inner(turned, g.bar * word(AXIS))
+    if b.affine:
+        pushed = gradient(momentum, b.w.xi)
+        moved = word(hat(AXIS)) * word(b.T.position) + word(shift)
+        paired = paired + inner(pushed, g.bar * moved)
+    whole = gradient(reduce(paired, isolate(AXIS)), AXIS)
+    shifting = vector_sum(gradient(paired, shift)) if b.affine else None
+    return Momenta(vector_sum(whole), shifting)
+
+
+def _autonomous(problem: Problem) -> bool:
+    """Does no potential depend on the time by itself?"""
+    energies = [p.energy for p in problem.potentials if isinstance(p, Expression)]
+    return not any(_timed(t) for t in energies)
+
+
+def _timed(t: Tree) -> bool:
+    """Does t stand outside the places r_i(t)?"""
+    if not isinstance(t, tuple):
+        return t == "t"
+    return t[0] != "call" and any(map(_timed, t[1:]))
+
+
+def _turned(group: Group) -> bool:
+    """Are the rotations of space in the group, from the left?"""
+    n, size = group.n, group.size
+    if group.factors:
+        return False
+    turns = [q.minus(q.unit(size, i, j), q.unit(size, j, i)) for i in range(n) for j in range(i)]
+    return n > 1 and all(group.vee(e) is not None for e in turns)
+
+
+def _turning(problem: Problem, v: Potentials, b: Alphabet, *, vectors: bool) -> Tree | None:
+    """ℓ̇, or its component along gravity, if the potential leaves it alone."""
+    Y = Letter("Y", b.n, b.n, -1)
+    if not all(_keeps(p, turning=True) for p in problem.potentials):
+        return None
+    rate = _varied(v.energy, word(Y), None, b)
+    if not rate:
+        return "ℓ̇"
+    if b.n != 3 or normal_form(_varied(v.energy, word(hat(GAMMA)), None, b)):
+        return None
+    return ("inner", "γ", "ℓ̇") if vectors else ("inner", ("hat", "γ"), "ℓ̇")
+
+
+def _shifting(problem: Problem, v: Potentials, b: Alphabet) -> Tree | None:
+    """ṗ, or its part across gravity, if the potential leaves it alone."""
+    group = problem.group
+    assert group is not None
+    if not group.free_translations or not all(_keeps(p, turning=False) for p in problem.potentials):
+        return None
+    if not _varied(v.energy, None, word(Letter("b", b.n)), b):
+        return "ṗ"
+    across = word(hat(GAMMA)) * word(AXIS)
+    if b.n != 3 or normal_form(_varied(v.energy, None, across, b)):
+        return None
+    return ("wedge", "γ", "ṗ")
+
+
+def _varied(energy: Expr, turn: Expr | None, shift: Expr | None, b: Alphabet) -> Expr:
+    """The derivative of Ũ along δA = YA, δT = YT + b; U_Q is judged by its terms."""
+    images = {}
+    if turn is not None:
+        images[b.A.position] = turn * word(b.A.position)
+        images[b.T.position] = turn * word(b.T.position)
+    if shift is not None:
+        images[b.T.position] = shift
+    return derivation(without(energy, U_Q), images.get)
+
+
+def _keeps(p: object, *, turning: bool) -> bool:
+    """Is a potential given point by point a function of distances that the displacement keeps?"""
+    if isinstance(p, Expression):
+        return False
+    if isinstance(p, Attraction):
+        return turning and not any(x != 0 for x in p.centre)
+    return not isinstance(p, Spring) or p.between[1] is not None

@@ -1,0 +1,112 @@
+"""Lecture notes: LaTeX, PDF, fragments, corrections of the print."""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+
+from derive.cli import main
+from derive.views.macros import DEFINED
+
+GROUPS = ("so3", "se3", "sl3")
+
+
+@pytest.fixture
+def said(capsys):
+    def run(*arguments, code=0):
+        assert main(list(map(str, arguments))) == code
+        return capsys.readouterr()
+
+    return run
+
+
+def compiled(file):
+    """The log of pdflatex, thrice."""
+    if shutil.which("pdflatex") is None:
+        pytest.skip("no pdflatex")
+    for _ in range(3):
+        done = subprocess.run(
+            ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", file.name],
+            cwd=file.parent,
+            capture_output=True,
+        )
+        assert done.returncode == 0, done.stdout.decode(errors="replace")[-1500:]
+    return file.with_suffix(".log").read_text(errors="replace").replace("\n", " ")
+
+
+@pytest.mark.parametrize(
+    "options", [[], ["--lang", "fr"], ["--notation", "top", "--hat", "wedge"]], ids=str
+)
+def test_notes_of_three_groups(options, said, tmp_path):
+    said("notes", *GROUPS, "--out", tmp_path / "notes.tex", *options)
+    log = compiled(tmp_path / "notes.tex")
+    assert "Overfull" not in log
+    assert "undefined" not in log
+    assert "multiply defined" not in log
+
+
+def test_the_pdf_is_not_blank(said, tmp_path):
+    if shutil.which("pdflatex") is None or shutil.which("pdftoppm") is None:
+        pytest.skip("no pdflatex or pdftoppm")
+    said("notes", "so3", "--out", tmp_path / "notes.pdf")
+    assert (tmp_path / "notes.tex").exists()
+    subprocess.run(["pdftoppm", "-r", "40", "-gray", "notes.pdf", "page"], cwd=tmp_path, check=True)
+    pages = sorted(tmp_path.glob("page*.pgm"))
+    assert len(pages) > 5
+    for page in pages:
+        pixels = page.read_bytes()[20:]
+        assert sum(x < 200 for x in pixels) > 20
+
+
+def test_without_tex_the_source_is_written(said, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", "")
+    err = said("notes", "so3", "--out", tmp_path / "notes.pdf", code=2).err
+    assert "no pdflatex" in err
+    assert err.count("\n") == 1
+    assert [x.name for x in tmp_path.iterdir()] == ["notes.tex"]
+
+
+def test_other_endings_are_refused(said, tmp_path):
+    assert ".tex, .pdf, .html" in said("notes", "so3", "--out", tmp_path / "x.doc", code=2).err
+
+
+def test_corrections_are_told(said, tmp_path):
+    said("notes", "so3", "--out", tmp_path / "notes.tex")
+    source = (tmp_path / "notes.tex").read_text()
+    for number in (25, 26, 29, 32, 35):
+        assert f"The paper prints in ({number})" in source
+    assert source.count("the printed right side") == source.count(r"\footnote{")
+
+
+def test_a_fragment_stands_in_a_lecturers_text(said, tmp_path):
+    """Under the macros of a preamble of their own, with references to its labels."""
+    fragment = said("walk", "so3", "--format", "latex", "--fragment").out
+    assert "documentclass" not in fragment
+    (tmp_path / "so3.tex").write_text(fragment)
+    own = {"transpose": r"{#1}^{t}", "Tr": r"\mathrm{trace}"}
+    lines = [
+        rf"\newcommand{{\{name}}}{'[1]' * count}{{{own.get(name, '#1' if count else 'x')}}}"
+        for name, (count, _, _) in DEFINED.items()
+    ]
+    (tmp_path / "lecture.tex").write_text(
+        "\\documentclass{article}\n\\usepackage{amsmath,amssymb}\n"
+        + "\n".join(lines)
+        + "\n\\newcommand{\\step}[3]{\\subsection*{#1}}\n\\newcommand{\\from}[1]{}\n"
+        + "\\begin{document}\nBy \\eqref{so3.kernel}:\n\\input{so3}\n\\end{document}\n"
+    )
+    log = compiled(tmp_path / "lecture.tex")
+    assert "undefined" not in log
+
+
+def test_every_symbol_goes_through_a_macro(said):
+    fragment = said("walk", "se3", "--format", "latex", "--fragment").out
+    raw = r"\\(?:bar|overline|tilde|dot|delta|varpi|mathsf|mathfrak)(?![A-Za-z])"
+    assert not re.findall(raw, fragment)
+    used = set(re.findall(r"\\([A-Za-z]+)", fragment))
+    assert set(DEFINED) - {"Liealgebra"} <= used
+
+
+def test_choices_that_have_no_sense(said):
+    assert "--format latex" in said("walk", "so3", "--fragment", code=2).err
+    assert "latex and html" in said("walk", "so3", "--notation", "top", code=2).err
