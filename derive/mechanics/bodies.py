@@ -14,7 +14,6 @@ from ..algebra.groups import Group
 from ..algebra.tree import Tree, add, mul, neg
 from .expression import approximate
 from .fields import choice, expression, known, missing, tables, vector, whole
-from .mesh import MeshError, read
 from .problem import Body, GivenBody, MomentBody, PointBody, ProblemError
 from .solids import KINDS, Moments, Solid, SolidError, moments, rotation_about
 
@@ -125,10 +124,17 @@ def _solid(data: Mapping[str, Any], k: int, folder: Path) -> Solid:
     rotation = _rotation(data["rotation"], where) if "rotation" in data else None
     shift = vector(data["shift"], 3, f"{where}, shift") if "shift" in data else None
     try:
-        mesh = read(Path(sizes["file"])) if kind == "mesh" else None
-    except MeshError as error:
+        mesh = _mesh(Path(sizes["file"])) if kind == "mesh" else None
+    except SolidError as error:
         raise ProblemError(f"{where}: {error}") from None
     return Solid(kind, density, sizes, rotation, shift, mesh)
+
+
+def _mesh(path: Path) -> Any:
+    """A mesh, read by what needs NumPy."""
+    from .mesh import read
+
+    return read(path)
 
 
 def _positive(size: Tree, where: str, zero: bool = False) -> Tree:
@@ -185,7 +191,7 @@ def _mixture(solids: list[Solid], points: PointBody | None) -> GivenBody:
     for k, solid in enumerate(solids, 1):
         try:
             parts.append(moments(solid, relations=False))
-        except (SolidError, MeshError) as error:
+        except SolidError as error:
             raise ProblemError(f"solid {k}: {error}") from None
     total = reduce(add_moments, parts)
     own = total if points is None else total + _of_points(points)

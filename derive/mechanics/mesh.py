@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from ..algebra.tree import mul
-from .solids import Moments
+from .solids import Moments, SolidError
 
 Mesh = tuple[tuple[tuple[Fraction, ...], ...], tuple[tuple[int, ...], ...]]
 
@@ -28,7 +28,7 @@ NUMBERS = rb"[ \t]+(\S+[ \t]+\S+[ \t]+\S+)"
 AGAIN = "export the mesh again"
 
 
-class MeshError(ValueError):
+class MeshError(SolidError):
     """What is wrong with a mesh file, and the remedy, in one line."""
 
 
