@@ -285,15 +285,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         status = int(args.run(args))
         sys.stdout.flush()
         return status
-    except (
-        UsageError,
-        ProblemError,
-        RecordError,
-        EmitError,
-        LoweringError,
-        WriteError,
-        RenderError,
-    ) as error:
+    except (*REFUSED, EmitError, LoweringError, WriteError) as error:
         print(f"derive: {error}", file=sys.stderr)
         return 2
     except BrokenPipeError:

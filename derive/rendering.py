@@ -54,16 +54,15 @@ def render(
 
 
 def notes(records: Sequence[Derivation], ending: str, lang: str = "en", **notation: str) -> str:
-    """Lecture notes of several records as a web page, or as LaTeX with the paper's corrections."""
+    """Lecture notes of several records as a web page or as LaTeX, with the paper's corrections."""
     from .views.html import html
     from .views.language import language
     from .views.latex import latex
     from .views.notation import Notation
 
-    chosen = Notation(**notation)
-    if ending == ".html":
-        return html(records, chosen, language=language(lang))
-    return latex(records, chosen, language=language(lang), findings=corrections(records))
+    view = html if ending == ".html" else latex
+    found = corrections(records)
+    return view(records, Notation(**notation), language=language(lang), findings=found)
 
 
 def corrections(records: Sequence[Derivation]) -> list[Finding]:

@@ -8,6 +8,8 @@ from html.parser import HTMLParser
 import pytest
 
 from derive import derive
+from derive.record.paper import misprints
+from derive.record.vocabulary import MISPRINTED
 from derive.views.html import html
 from derive.views.language import language
 from derive.views.mathml import mathml
@@ -76,7 +78,10 @@ def browser():
 @pytest.mark.parametrize("width", [390, 1280])
 def test_in_a_browser(width, lang, browser, records, tmp_path):
     file = tmp_path / "page.html"
-    file.write_text(html([records(x) for x in NAMES], language=language(lang)), encoding="utf-8")
+    shown = html(
+        [records(x) for x in NAMES], language=language(lang), findings=misprints(MISPRINTED)
+    )
+    file.write_text(shown, encoding="utf-8")
     page = browser.new_page(viewport={"width": width, "height": 900})
     said = []
     page.on("console", lambda message: said.append(message.text))
@@ -128,6 +133,7 @@ def test_nothing_of_a_stranger_is_markup(bad, records):
     ("tex", "expected"),
     [
         (r"\bar{A}", '<mover accent="true"><mrow><mi>A</mi></mrow>'),
+        (r"\overline{AB}", '<mrow class="overline"><mi>A</mi><mi>B</mi></mrow>'),
         (r"\mathrm{d}\varpi", '<mi mathvariant="normal">d</mi><mi>ϖ</mi>'),
         (r"\tfrac{1}{24}", "<mfrac><mrow><mn>1</mn></mrow><mrow><mn>24</mn></mrow></mfrac>"),
         (r"\tfrac12", "<mfrac><mrow><mn>1</mn></mrow><mrow><mn>2</mn></mrow></mfrac>"),

@@ -79,6 +79,13 @@ def test_corrections_are_told(said, tmp_path):
     assert source.count("the printed right side") == source.count(r"\footnote{")
 
 
+def test_the_page_tells_them_as_well(said, tmp_path):
+    said("notes", *GROUPS, "--out", tmp_path / "notes.html")
+    page = (tmp_path / "notes.html").read_text(encoding="utf-8")
+    for number in (20, 25, 26, 29, 31, 32, 35):
+        assert f"The paper prints in ({number})" in page
+
+
 def test_a_fragment_stands_in_a_lecturers_text(said, tmp_path):
     """Under the macros of a preamble of their own, with references to its labels."""
     fragment = said("walk", "so3", "--format", "latex", "--fragment").out

@@ -56,6 +56,7 @@ class Frame:
 
     def __init__(self, given: Mapping[str, Any], old: Lowering, quaternion: bool):
         self.given, self.old, self.graph = given, old, old.graph
+        old.label = FRAME
         self.n, self.affine = old.group.n, old.group.affine
         self.axes: list[Axes] = []
         self.numbers: dict[Node, Node] = {}
@@ -105,24 +106,13 @@ class Frame:
         if self.affine:
             inverse = g.recip(self._number("m"))
             c = self._matrix("c")
-            s = tuple(
-                (g.value(g.product((x, inverse)), suffixed("centre", i), FRAME),)
-                for i, (x,) in enumerate(c, 1)
-            )
+            s = self._named("centre", tuple((g.product((x, inverse)),) for (x,) in c))
             shift = dense.times(g, c, q.transposed(s))
             J = q.minus(J, shift)
             self.s, self._s = self._kept("centre", s), s
-        J = tuple(
-            tuple(
-                g.value(
-                    J[min(i, j)][max(i, j)],
-                    suffixed("J_c" if self.affine else "J", min(i, j) + 1, max(i, j) + 1),
-                    "",
-                )
-                for j in range(n)
-            )
-            for i in range(n)
-        )
+        span = range(n)
+        J = tuple(tuple(J[min(i, j)][max(i, j)] for j in span) for i in span)
+        J = self._named("J_c" if self.affine else "J", J)
         found = self._principal(J, "second", "axis")
         scale = g.magnitude(dense.diagonal(g, J))
         if self.given["kind"] == "root":
@@ -188,10 +178,7 @@ class Frame:
         g, span = self.graph, range(self.n)
         total = g.sum([*(g.magnitude(x) for (x,) in gamma), g.num(SMALL)])
         scale = g.value(g.recip(total), "per_gravity", FRAME)
-        u = tuple(
-            (g.value(g.product((scale, x)), suffixed("upright", i), FRAME),)
-            for i, (x,) in enumerate(gamma, 1)
-        )
+        u = self._named("upright", tuple((g.product((scale, x)),) for (x,) in gamma))
         square = g.value(dense.dot(g, u, u), "upright_2", FRAME)
         both = dense.times(g, u, q.transposed(u))
         Q = tuple(tuple((square if i == j else g.num(0)) - both[i][j] for j in span) for i in span)
@@ -253,10 +240,7 @@ class Frame:
         return value
 
     def _named(self, name: str, m: Matrix) -> Matrix:
-        return tuple(
-            tuple(self.graph.value(x, suffixed(name, i, j), FRAME) for j, x in enumerate(row, 1))
-            for i, row in enumerate(m, 1)
-        )
+        return self.old.named(m, name)  # type: ignore[return-value]
 
 
 def _entries(column: Matrix) -> list[Node]:

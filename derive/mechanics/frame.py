@@ -16,7 +16,7 @@ its old coordinates; ``vectors``, the same of a vector of space.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from ..algebra.groups import Group
@@ -30,6 +30,7 @@ from .problem import (
     GivenBody,
     Gravity,
     Input,
+    MomentBody,
     Parameter,
     Place,
     PointBody,
@@ -235,9 +236,10 @@ def _pars(names: Iterable[str]) -> Vector:
 def _mass(body: Body | None) -> Tree:
     if isinstance(body, PointBody):
         return add(*body.masses)
+    if isinstance(body, MomentBody):
+        return body.mass()
     assert body is not None
-    mass: Tree | Callable[[], Tree] = body.mass
-    return mass() if callable(mass) else mass
+    return body.mass
 
 
 def _pushed(x: Input, numbers: Mapping[int, int]) -> Input:

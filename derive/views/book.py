@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from unicodedata import normalize
 
+from ..record.paper import Finding
 from ..record.record import Derivation, Step, Symbol
 from ..record.vocabulary import ANY_GROUP
 from .language import ENGLISH, Language
@@ -12,6 +14,8 @@ from .outline import capitalised, subtitle, title
 
 VARIATIONS = ("δ′", "δ")
 RATE = "\u0307"
+MOTION = "Equations of motion"
+REGULAR = "The rates Ẋ are along the motion; δX and δ′X are two variations of X."
 GENERAL = ("For any group of matrices, linear action", "For any group of matrices, affine action")
 
 
@@ -52,8 +56,8 @@ def book(records: Sequence[Derivation], language: Language = ENGLISH) -> list[Pa
 
 
 def _regular(name: str) -> bool:
-    """δA, δ′A and Ȧ beside A: the conventions say what these are."""
-    return name.startswith(VARIATIONS) or RATE in name
+    """δA, δ′A and Ȧ beside A, of which ``REGULAR`` speaks."""
+    return name.startswith(VARIATIONS) or RATE in normalize("NFD", name)
 
 
 def steps(parts: Sequence[Part]) -> Iterator[tuple[Part, Step]]:
@@ -61,3 +65,22 @@ def steps(parts: Sequence[Part]) -> Iterator[tuple[Part, Step]]:
     for part in parts:
         for step in part.steps:
             yield part, step
+
+
+def corrected(step: Step, findings: Iterable[Finding], language: Language) -> Iterator[str]:
+    """For each number of a step whose print is wrong: what was printed, and values that show it."""
+    for f in findings:
+        if f.number not in step.paper:
+            continue
+        values = [*(f.counterexample or {}).items()]
+        given, (left, right) = values[:-2], values[-2:]
+        printed = language.word(
+            "The paper prints in {number}: {printed}.", number=f"({f.number})", printed=f.printed
+        )
+        example = language.word(
+            "For {values} the left side is {left}, the printed right side {right}.",
+            values=", ".join(f"{name} = {value}" for name, value in given),
+            left=left[1],
+            right=right[1],
+        )
+        yield f"{printed} {example}"

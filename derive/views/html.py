@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from html import escape
 from typing import Any
 
+from ..record.paper import Finding
 from ..record.record import Derivation, Equation, Step
 from ..templating import environment
-from .book import Part, book, steps
+from .book import MOTION, REGULAR, Part, book, corrected, steps
 from .escape import prose
 from .figure import svg
 from .language import ENGLISH, Language
@@ -45,6 +46,7 @@ def html(
     notation: Notation | None = None,
     *,
     language: Language = ENGLISH,
+    findings: Sequence[Finding] = (),
 ) -> str:
     """A page: what holds for any group, then a part for each record."""
     chosen, word = notation or Notation(), language.word
@@ -53,23 +55,30 @@ def html(
     template = environment("html", autoescape=True).get_template("page.html.jinja")
     return template.render(
         language=language.name,
-        title=title(records[0], language) if len(records) == 1 else word("Equations of motion"),
+        title=title(records[0], language) if len(records) == 1 else word(MOTION),
         about=capitalised(subtitle(records[0], language)) if len(records) == 1 else "",
         conventions=words(word(FORMULAS_CONVENTIONS), chosen, ready=True),
+        regular=words(word(REGULAR), chosen),
         paper=word(PAPER),
         words={
             "from": capitalised(word("from")),
             "names": word("Names"),
             "copy": word("copy the LaTeX"),
         },
-        parts=[_Part(part, chosen, language).fields(shown) for part in parts],
+        parts=[_Part(part, chosen, language, findings).fields(shown) for part in parts],
     )
 
 
 def words(text: str, notation: Notation, *, ready: bool = False) -> str:
     """A sentence as markup, its formulas as MathML; ``ready``: they stand between dollars."""
     shown = escaped(text) if ready else prose(text, lambda x: escaped(x).replace("$", "&#36;"))
-    return re.sub(r"\$([^$]*)\$", lambda m: mathml(spoken(m[1]), notation), shown)
+    return re.sub(r"\$([^$]*)\$", lambda m: movable(m[1], mathml(spoken(m[1]), notation)), shown)
+
+
+def movable(tex: str, markup: str) -> str:
+    """A formula that is not broken; one that is wide moves in a box of its own."""
+    wide = "<mtable" in markup or measure(tex) > PHONE
+    return f'<span class="wide">{markup}</span>' if wide else markup
 
 
 def escaped(text: str) -> str:
@@ -84,6 +93,7 @@ class _Part:
     part: Part
     notation: Notation
     language: Language
+    findings: Sequence[Finding] = ()
 
     @property
     def names(self) -> Mapping[str, str]:
@@ -116,6 +126,9 @@ class _Part:
             "id": anchor(step.label),
             "rule": capitalised(self.language.word(step.rule)),
             "notes": notes(step, self.language),
+            "corrections": [
+                words(x, self.notation) for x in corrected(step, self.findings, self.language)
+            ],
             "prose": words(self.language.of(step.prose), self.notation),
             "equations": [*self.equations(step)],
             "uses": [
@@ -150,9 +163,8 @@ class _Part:
     def nested(self, parts: Sequence[Piece], follows: bool) -> str:
         """A term: one element, or terms of its own that stay on a line if they can."""
         if len(parts) == 1:
-            whole = mathml(parts[0].text, self.notation, follows=follows)
-            wide = "<mtable" in whole or measure(parts[0].text) > PHONE
-            return f'<span class="wide">{whole}</span>' if wide else whole
+            tex = parts[0].text
+            return movable(tex, mathml(tex, self.notation, follows=follows))
         inside = (self.nested(x, follows or k > 0) for k, x in enumerate(groups(parts)))
         return f'<span class="term">{"".join(inside)}</span>'
 

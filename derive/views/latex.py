@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from ..record.paper import Finding
 from ..record.record import Derivation, Step
 from ..templating import environment
-from .book import Part, book, steps
+from .book import MOTION, REGULAR, Part, book, corrected, steps
 from .drawing import Scene
 from .escape import between_dollars, prose, tex_text
 from .figure import tikz
@@ -33,9 +33,6 @@ from .tex import latex_tree
 
 __all__ = ["fragment", "latex", "latex_tree"]
 
-MOTION = "Equations of motion"
-REGULAR = "The rates Ẋ are along the motion; δX and δ′X are two variations of X."
-
 DELIMITERS = {
     "block_start_string": "<%", "block_end_string": "%>",
     "variable_start_string": "<<", "variable_end_string": ">>",
@@ -48,7 +45,7 @@ def latex(
     notation: Notation | None = None,
     *,
     language: Language = ENGLISH,
-    findings: Iterable[Finding] = (),
+    findings: Sequence[Finding] = (),
 ) -> str:
     """A document for pdflatex; every equation bears its label.
 
@@ -58,7 +55,7 @@ def latex(
     records = [d] if isinstance(d, Derivation) else [*d]
     one = len(records) == 1
     parts = book(records, language)
-    writer = _Writer(parts, language, {f.number: f for f in findings})
+    writer = _Writer(parts, language, findings)
     conventions = between_dollars(language.word(FORMULAS_CONVENTIONS))
     template = environment("latex", **DELIMITERS).get_template("walk.tex.jinja")
     return template.render(
@@ -78,7 +75,7 @@ def latex(
 
 def fragment(d: Derivation, *, language: Language = ENGLISH) -> str:
     """The steps alone, for a text whose preamble has the macros of a whole document."""
-    writer = _Writer(book([d], language), language, {})
+    writer = _Writer(book([d], language), language, ())
     steps = (
         line for part in writer.parts for step in part.steps for line in writer.step(part, step)
     )
@@ -91,7 +88,7 @@ class _Writer:
 
     parts: Sequence[Part]
     language: Language
-    findings: Mapping[int, Finding]
+    findings: Sequence[Finding]
 
     @cached_property
     def drawings(self) -> dict[str, Scene | None]:
@@ -125,32 +122,15 @@ class _Writer:
         names, language = names_of(part.source.symbols), self.language
         beside = "".join(f", {tex_text(note)}" for note in notes(step, language))
         rule = tex_text(capitalised(language.word(step.rule)))
-        yield rf"\step{{{rule}}}{{{beside}{self.corrected(step)}}}{{{spelt(step.label)}}}"
+        yield rf"\step{{{rule}}}{{{beside}{self.footnotes(step)}}}{{{spelt(step.label)}}}"
         used = ", ".join(reference(label, self.last) for label in step.uses)
         yield prose(language.of(step.prose)) + (rf" \from{{{used}}}" if used else "")
         yield from _equations(step, names, language)
 
-    def corrected(self, step: Step) -> str:
-        """Footnotes on the numbers whose print is wrong."""
-        told = (self.findings[n] for n in step.paper if n in self.findings)
-        return "".join(rf"\footnote{{{self.footnote(f)}}}" for f in told)
-
-    def footnote(self, f: Finding) -> str:
-        """What was printed, and values for which it is false."""
-        values = [*(f.counterexample or {}).items()]
-        given, (left, right) = values[:-2], values[-2:]
-        shown = ", ".join(f"{name} = {value}" for name, value in given)
-        word = self.language.word
-        printed = word(
-            "The paper prints in {number}: {printed}.", number=f"({f.number})", printed=f.printed
-        )
-        example = word(
-            "For {values} the left side is {left}, the printed right side {right}.",
-            values=shown,
-            left=left[1],
-            right=right[1],
-        )
-        return prose(f"{printed} {example}")
+    def footnotes(self, step: Step) -> str:
+        """Where the print of the paper is corrected."""
+        told = corrected(step, self.findings, self.language)
+        return "".join(rf"\footnote{{{prose(words)}}}" for words in told)
 
 
 def reference(label: str, last: Mapping[str, str]) -> str:

@@ -193,7 +193,8 @@ class _Parser:
     def transpose(self, inside: str, *, letter: bool) -> str:
         """With a bar or a ⊤."""
         if self.notation.transpose == "bar":
-            return _over(inside, "¯" if letter else "‾", stretchy=not letter)
+            # fonts stretch no bar over an expression: the page draws it as a border
+            return _over(inside, "¯") if letter else f'<mrow class="overline">{inside}</mrow>'
         base = inside if letter else _fenced(inside)
         return f"<msup><mrow>{base}</mrow><mo>⊤</mo></msup>"
 
@@ -202,9 +203,7 @@ class _Parser:
         inside = self.argument()
         if self.notation.hat == "j":
             return f"<mrow><mi>j</mi>{_fenced(inside)}</mrow>"
-        simple = inside.count("<mo") == inside.count("<mo>′") + inside.count("<mo>,")
-        base = inside if simple else _fenced(inside)
-        return f"<msup><mrow>{base}</mrow><mo>∧</mo></msup>"
+        return f"<msup><mrow>{_fenced(inside)}</mrow><mo>∧</mo></msup>"
 
     def do_operatorname(self) -> str:
         """Tr, sin, …: upright, apart from what follows."""
@@ -258,9 +257,8 @@ def _one(markup: str) -> str:
     return f"<mrow>{markup}</mrow>"
 
 
-def _over(inside: str, mark: str, *, stretchy: bool = False) -> str:
-    stretch = "true" if stretchy else "false"
-    return f'<mover accent="true">{_one(inside)}<mo stretchy="{stretch}">{mark}</mo></mover>'
+def _over(inside: str, mark: str) -> str:
+    return f'<mover accent="true">{_one(inside)}<mo stretchy="false">{mark}</mo></mover>'
 
 
 def _fenced(inside: str) -> str:
