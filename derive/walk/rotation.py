@@ -17,6 +17,7 @@ from .exterior import primed, work
 from .inputs import Given
 from .isometry import Isometry
 from .potential import Potentials, virtual_work
+from .principal import principal_components
 from .vector import (
     INERTIA,
     MU,
@@ -148,9 +149,7 @@ def energy_step(stage: Isometry, v: Potentials, prefix: str, scope: str) -> Step
 
 def principal_step(prefix: str, scope: str, solved: Tree) -> Step:
     """(35): the solved equation in axes that diagonalise I, component by component."""
-    from ..record.coordinates import components
-
-    equations = [Equation(("entry", "ζ̇", i), t) for i, t in enumerate(components(solved), 1)]
+    equations = [Equation(("entry", "ζ̇", i), t) for i, t in enumerate(principal_components(solved), 1)]
     return Step(
         f"{prefix}.principal",
         "coordinates",
