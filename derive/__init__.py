@@ -10,18 +10,21 @@ from typing import Any
 __version__ = "0.1.0"
 
 WORDS = (
-    *("Aff", "Attraction", "Covector", "Damping", "Derived", "Force", "GL", "Gravity", "Group"),
+    *("Aff", "Attraction", "Covector", "Damping", "Force", "GL", "Gravity", "Group"),
     *("Moments", "Points", "Potential", "Problem", "SAff", "SE", "SL", "SO", "SU", "Sim", "Solid"),
-    *("Sp", "Spring", "U", "UT", "derive"),
+    *("Sp", "Spring", "U", "UT"),
 )
-__all__ = [*WORDS, "CompileError", "Compiled", "ProblemError", "compile"]
+PLACES = dict.fromkeys(WORDS, "derive.api") | {
+    **dict.fromkeys(("Derived", "derive"), "derive.derived"),
+    **dict.fromkeys(("Compiled", "CompileError", "compile"), "derive.compiled"),
+    "ProblemError": "derive.mechanics.problem",
+}
+"""Where each name is to be had."""
+
+__all__ = [*PLACES]
 
 
 def __getattr__(name: str) -> Any:
-    if name in WORDS:
-        return getattr(import_module("derive.api"), name)
-    if name in ("compile", "Compiled", "CompileError"):
-        return getattr(import_module("derive.compiled"), name)
-    if name == "ProblemError":
-        return import_module("derive.mechanics.problem").ProblemError
+    if name in PLACES:
+        return getattr(import_module(PLACES[name]), name)
     raise AttributeError(f"module 'derive' has no attribute {name!r}")

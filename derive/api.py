@@ -14,13 +14,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 from .mechanics import problem as mechanics
 from .mechanics.toml import problem_of
-from .record.check import Verdict
-from .record.record import Derivation, Step, Symbol
 
 Number = int | float | str | Fraction
 """A number, or an expression in quotes."""
@@ -217,93 +214,3 @@ def _plain(x: Any) -> Any:
     if isinstance(x, (list, tuple)):
         return [_plain(y) for y in x]
     return {k: _plain(y) for k, y in x.items()} if isinstance(x, dict) else x
-
-
-@dataclass(frozen=True)
-class Shown:
-    """A step of a derivation, which prints itself and shows its formulas in a notebook."""
-
-    step: Step
-    symbols: tuple[Symbol, ...]
-
-    @property
-    def equations(self) -> tuple[Any, ...]:
-        """Its equations, pairs of operator trees."""
-        return self.step.equations
-
-    def __str__(self) -> str:
-        from .views.text import step_text
-
-        return step_text(self.step)
-
-    def _repr_markdown_(self) -> str:
-        from .views.markdown import step_markdown
-
-        return step_markdown(self.step, self.symbols)
-
-
-@dataclass(frozen=True)
-class Derived:
-    """A derivation: the record of a problem and what one does with it."""
-
-    problem: mechanics.Problem
-    record: Derivation
-
-    def __getitem__(self, label: str) -> Shown:
-        """A step by its label, with or without the problem's name: ``d["motion"]``."""
-        return Shown(self.record[label], self.record.symbols)
-
-    def __str__(self) -> str:
-        from .views.text import text
-
-        return text(self.record)
-
-    def _repr_markdown_(self) -> str:
-        from .views.markdown import markdown
-
-        return markdown(self.record)
-
-    def latex(self) -> str:
-        """A document for pdflatex."""
-        from .views.latex import latex
-
-        return latex(self.record)
-
-    def check(self) -> list[Verdict]:
-        """A verdict for every step, by exact arithmetic and another road."""
-        from .record.check import check
-
-        return check(self.record)
-
-    def emit(
-        self,
-        out: str | Path | None = None,
-        languages: Sequence[str] = ("c", "python"),
-        prefix: str | None = None,
-        **choices: Any,
-    ) -> dict[str, str]:
-        """The emitted files by name, written to the folder ``out`` if there is one.
-
-        ``choices``: those of :class:`derive.code.options.Options`, as ``real="float"``.
-        """
-        from .code.emit import emit
-        from .code.options import Options
-        from .pipeline import program
-        from .writing import write
-
-        options = Options(**choices)
-        made = program(self.problem, self.record, options)
-        files = emit(made, self.record, tuple(languages), prefix or self.problem.name, options)
-        if out is not None:
-            write(files, Path(out))
-        return files
-
-
-def derive(problem: mechanics.Problem | str | Path) -> Derived:
-    """Walk the road of a problem, of a problem file, or of a ready-made problem."""
-    from .cli import load_problem
-    from .pipeline import walk
-
-    if not isinstance(problem, mechanics.Problem):
-        problem = load_problem(str(problem))
-    return Derived(problem, walk(problem))

@@ -19,10 +19,10 @@ from typing import Any
 
 import numpy as np
 
-from .api import Derived, derive
 from .code.emit import emit
 from .code.options import CHOICES, Options
 from .code.program import Program
+from .derived import Derived, derive
 from .mechanics.problem import Problem, ProblemError
 from .pipeline import program
 from .writing import write

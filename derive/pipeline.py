@@ -67,6 +67,10 @@ if TYPE_CHECKING:
 
 Steps = tuple[Step, ...]
 
+MULTIPLIERS = 1
+"""Through the normal space of 𝔤 where it has so many dimensions: the counted operations of the
+emitted code are then fewer than through the mass matrix (tests/test_roads.py)."""
+
 
 def walk(problem: Problem) -> Derivation:
     """Derive the equations of motion of a problem."""
@@ -129,7 +133,8 @@ def road_of(problem: Problem, group: Group, road: General) -> Steps:
 def road_of_matrices(problem: Problem, group: Group, stage: Special, c: Chapter) -> Steps:
     """Any other group: the translation eliminated, then one multiplier or the mass matrix."""
     b, steps, uses = stage.letters, stage.steps, ".equations force"
-    place = coordinates_step(group, b, c, reading=len(group.normal_space_of_linear_parts) <= 1)
+    multiplied = len(group.normal_space_of_linear_parts) <= MULTIPLIERS
+    place = coordinates_step(group, b, c, reading=multiplied)
     given = given_matrices(problem, b, stage.gram, c.with_input())
     if given is not None:
         stage = stage.pushed(given.moments, given.resultant)
@@ -140,8 +145,7 @@ def road_of_matrices(problem: Problem, group: Group, stage: Special, c: Chapter)
     if centred is not None:
         inertial, force, metric = centred.inertial, centred.force, centred.metric
         steps, uses = steps + centred.steps, "elimination"
-    normal = group.normal_space_of_linear_parts
-    if len(normal) <= 1:
+    if multiplied:
         motion = multiplier_steps(inertial, force, metric, group, b, uses, c, centred)
         return (*steps, *motion, place, *stage.last)
     return (*steps, place, *mass_steps(inertial, force, b, uses, c, centred), *stage.last)

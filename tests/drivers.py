@@ -40,7 +40,7 @@ fn main() {{
     let text = std::io::read_to_string(std::io::stdin()).unwrap();
     let numbers = |line: &str| line.split_whitespace().map(|x| x.parse().unwrap()).collect();
     let lines: Vec<Vec<{real}>> = text.lines().map(numbers).collect();
-    assert!(included::N_STATE > 0 && included::Singular.to_string().starts_with("{first}: "));
+    assert!(included::N_STATE > 0 && included::Refused::Singular.to_string().contains("{first}: "));
 {blocks}
 }}
 """

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from emitted import import_python
 
 from derive.cli import main
 
@@ -181,3 +182,25 @@ def test_choices_that_exclude_each_other(problem, options, words, refused, tmp_p
     path = tmp_path / problem if problem.endswith(".toml") else problem
     assert words in refused(path, *options, "--out", tmp_path / "new")
     assert not (tmp_path / "new").exists()
+
+
+def test_choices_that_say_nothing(refused, tmp_path):
+    """An option that could have no effect is refused, not dropped."""
+    choices = ("--attitude", "quaternion", "--layout", "col", "--out", tmp_path)
+    assert "no matrix to lay out" in refused("so3", *choices)
+    header = ("--form", "header", "--lang", "python", "--out", tmp_path)
+    assert "--lang c" in refused("so3", *header)
+    assert not list(tmp_path.iterdir())
+
+
+def test_why_constants_are_refused(tmp_path):
+    """A rod, a number that is none, and one that is too large are told apart."""
+    assert main(["emit", "so3", "--lang", "python", "--out", str(tmp_path)]) == 0
+    so3 = import_python("so3", tmp_path)
+    given = dict.fromkeys(so3.PARAMETERS, 0.0)
+    with pytest.raises(ValueError, match="the mass matrix is singular"):
+        so3.constants(given | {"J_33": 1.0})
+    with pytest.raises(ValueError, match="a parameter is not finite"):
+        so3.constants(given | {"J_33": float("nan")})
+    with pytest.raises(ValueError, match="too large"):
+        so3.constants({"J_11": 1e308, "J_22": 1.1e308, "J_33": 1e308, "c_3": 1e308})

@@ -21,6 +21,7 @@ ALLOWED = {
 BOTH_SIDES = {
     "api.py",
     "compiled.py",
+    "derived.py",
     "rendering.py",
     "pipeline.py",
     "cli.py",

@@ -94,3 +94,13 @@ def test_a_ball_has_its_moments(tmp_path):
     p = dict.fromkeys(module.PARAMETERS, 1.0) | {"rho": 3.0, "a": 2.0, "b": 2.0, "c": 2.0}
     moments, _ = module.principal_axes([p[x] for x in module.PARAMETERS])
     assert np.allclose(moments, 0.4 * (3 * 4 / 3 * np.pi * 8) * 4, rtol=1e-14)
+
+
+def test_parameters_by_name():
+    """Wherever parameters are taken, a dictionary will do."""
+    so3 = import_python("so3")
+    named = {"J_12": 0.2, "c_3": 0.1}
+    p = np.array([named.get(x, so3.DEFAULTS.get(x)) for x in so3.PARAMETERS])
+    for function in (so3.constants, so3.inertia, lambda p: so3.principal_axes(p)[1]):
+        np.testing.assert_array_equal(function(named), function(p))
+    np.testing.assert_array_equal(so3.turned(named, np.eye(3)), p)

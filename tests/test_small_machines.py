@@ -98,3 +98,30 @@ def test_it_computes_what_the_host_does(built):
         single = [np.float32(v).astype(float) for v in (p, x, u)]
         expected = module.rhs(0.0, single[1], module.constants(single[0]), single[2])
         assert np.allclose(found, expected, rtol=2e-4, atol=2e-6 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("name", ["so3", "se3"])
+def test_a_ship_in_single_numbers(name, tmp_path):
+    """Moments of 1e13 kg m²: their determinant is no float, and is not needed."""
+    code = derive(name)
+    code.emit(tmp_path, ["c"], real="float")
+    code.emit(tmp_path, ["python"])
+    module = import_python(name, tmp_path)
+    body = {"m": 3e8, "J_11": 3e12, "J_22": 6e11, "J_33": 2e11, "J_13": 3e10, "c_3": 1e9}
+    p = [body.get(x, -9.8 if x == "g_3" else 0.0) for x in module.PARAMETERS]
+    values = ", ".join(f"{v!r}f" for v in p)
+    zeta = len(module.STATE) - len(module.BASIS)
+    x = [float(i % 4 == 0 and i < 9) for i in range(zeta)]
+    x += [0.1, -0.2, 0.3, 1.0, 2.0, 3.0][: len(module.BASIS)]
+    (tmp_path / "main.c").write_text(
+        f'#include "{name}.h"\n#include <stdio.h>\n'
+        f"int main(void) {{ const float p[] = {{{values}}}, x[] = {{{listed(x)}}}, "
+        f"u[{name}_N_INPUTS] = {{0}}; float k[{name}_N_CONSTANTS], dx[{name}_N_STATE];\n"
+        f"if ({name}_constants(p, k)) return 1; {name}_rhs(0, x, k, u, dx);\n"
+        f'for (int i = 0; i < {name}_N_STATE; ++i) printf("%.9g ", (double)dx[i]); return 0; }}\n'
+    )
+    command = ["gcc", "-std=c99", "main.c", f"{name}.c", "-lm", "-o", "main"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    done = subprocess.run([tmp_path / "main"], capture_output=True, text=True, check=True)
+    expected = module.rhs(0.0, np.array(x), module.constants(p))
+    np.testing.assert_allclose([*map(float, done.stdout.split())], expected, rtol=2e-4, atol=1e-5)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 
 from ..algebra.groups import Group
 from ..algebra.show import show
@@ -20,6 +21,7 @@ from .options import Options
 from .program import Framing, Function, LoweringError, Program
 from .reader import equation_key
 from .schedule import Scheduler, frontier
+from .titles import titles
 
 Place = tuple[str, tuple[str, int]]
 """The name of a number that is read, and its array and index."""
@@ -103,6 +105,7 @@ def _functions(
     for name, nodes in wanted.items():
         places = given if name == "inertia" else moving | kept
         functions[name] = scheduler.function(nodes, places)
+    functions["rhs"] = replace(functions["rhs"], titles=titles(lowering))
     if "parameters" in options.jacobian:
         slopes = by_leaves(lowering.space, lowering.space.velocity(lowering.component), leaves)
         slopes = factored(lowering.graph, slopes)
@@ -118,6 +121,8 @@ def _refused(d: Derivation, group: Group, chosen: Options) -> None:
         raise LoweringError(
             f"{d.name}: a quaternion goes with the velocity of the body, not tangent"
         )
+    if chosen.attitude == "quaternion" and chosen.layout == "col":
+        raise LoweringError(f"{d.name}: with a quaternion there is no matrix to lay out by columns")
     if chosen.frame == "principal" and "parameters" in chosen.jacobian:
         raise LoweringError(
             f"{d.name}: the principal frame is not smooth in the parameters; "

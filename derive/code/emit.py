@@ -42,6 +42,13 @@ def emit(
     if plain:
         framed = ", ".join(name for name, x in LANGUAGES.items() if x.framed)
         raise EmitError(f"--frame principal is written in {framed}, not in {', '.join(plain)}")
+    forms = {name: x for name, x in LANGUAGES.items() if x.files["header"] != x.files["source"]}
+    if chosen.form == "header" and not any(
+        name in forms or LANGUAGES[name].needs for name in languages
+    ):
+        raise EmitError(
+            f"--form header is one of {', '.join(forms)}: add --lang {next(iter(forms))}"
+        )
     needed = (LANGUAGES[name].needs for name in languages)
     files = {}
     for name in dict.fromkeys([*filter(None, needed), *languages]):

@@ -23,6 +23,7 @@ class Inverting(Reader):
     def __init__(self, d: Derivation, group: Group, options: Options, graph: Graph | None = None):
         super().__init__(d, group, options, graph)
         self.checks: list[tuple[Node, Node | None]] = []
+        self._single = options.real == "float"
 
     def _inverse(self, t: Tree) -> Value:
         if t == ("T", "A"):
@@ -86,7 +87,13 @@ class Inverting(Reader):
         return tuple(tuple(self.graph.replaced(x, images) for x in row) for row in m)
 
     def _by_adjugate(self, t: Tree, value: Matrix, name: str) -> Value:
-        g, base = self.graph, name_of(t)
+        g, base, units = self.graph, name_of(t), []
+        if self._single and dense.stage_of(value) == PARAMETER:
+            # three moments of a ship are 1e12 kg m² each: their product is no float
+            self.checks.append((value[-1][-1], None))
+            units = [g.value(g.recip(value[-1][-1]), f"unit_{base}", self.label)]
+            lighter = tuple(tuple(g.product((*units, x)) for x in row) for row in value)
+            value = self.named(lighter, f"{base}_in_units")  # type: ignore[assignment]
         adjugate = self.named(dense.adjugate(g, value), f"adj_{base}")
         assert not isinstance(adjugate, Node)
         row = [(x, adjugate[j][0]) for j, x in enumerate(value[0])]
@@ -95,7 +102,7 @@ class Inverting(Reader):
             self._check_minors(value, adjugate, det, base)
         else:
             self._check_pivots(t, value, [])
-        scale = g.value(g.recip(det), f"inv_det_{base}", self.label)
+        scale = g.value(g.product((*units, g.recip(det))), f"inv_det_{base}", self.label)
         return self.named(tuple(tuple(g.product((scale, x)) for x in r) for r in adjugate), name)
 
     def _check_minors(self, m: Matrix, adjugate: Matrix, det: Node, base: str) -> None:

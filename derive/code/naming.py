@@ -18,7 +18,7 @@ MARKS = {"\u0307": "_dot", "\u0303": "_tilde", "′": "_prime"}
 _LOCAL = "D axes dx frame i k n out p s t u x xp"
 _EMITTED = """
     abs all importlib numpy math regular std NULL STATE PARAMETERS INPUTS CONSTANTS DEFAULTS BASIS
-    ZERO_INPUTS ZEROS Singular N_STATE N_ALGEBRA N_PARAMETERS N_CONSTANTS N_INPUTS
+    ZERO_INPUTS ZEROS Singular NotFinite Refused N_STATE N_ALGEBRA N_PARAMETERS N_CONSTANTS N_INPUTS
     """
 _OTHER_LANGUAGES = """
     abstract become box crate dyn final fn gen impl let loop macro match mod move mut override priv
@@ -96,7 +96,9 @@ class Names:
     def claim(self, wanted: str, owner: str) -> str:
         """The name for an owner (the same owner gets the same name)."""
         name = wanted
-        if re.search(r"_N_|_RESTRICT|_names|_H$|_rhs|_energy|_constants", name):
+        if re.search(
+            r"_N_|_RESTRICT|_names|_SINGULAR|_NOT_FINITE|_H$|_rhs|_energy|_constants", name
+        ):
             name += "_"  # the pattern of the emitted files' own names
         while self._taken.setdefault(name, owner) != owner:
             name += "_"

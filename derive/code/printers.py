@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
@@ -67,12 +68,13 @@ def decimal(q: Fraction, suffix: str = "") -> str:
 
 
 def wrapped(text: str, width: int, indent: str) -> str:
-    """A long statement broken at ' + ' and ' - ' outside its first line."""
-    lines, line = [], ""
-    for word in text.split(" "):
-        if line and len(line) + 1 + len(word) > width and word in ("+", "-"):
+    """A long statement broken before + and -, every line at most ``width`` wide where it can be."""
+    line, *terms = re.split(r" (?=[+-] )", text)
+    lines = []
+    for term in terms:
+        if len(line) + 1 + len(term) > width:
             lines.append(line)
-            line = indent + word
+            line = indent + term
         else:
-            line = f"{line} {word}" if line else word
+            line = f"{line} {term}"
     return "\n".join([*lines, line])

@@ -13,7 +13,7 @@ named values and stores outputs.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
@@ -75,6 +75,8 @@ class Function:
     sections: tuple[Section, ...]
     outputs: tuple[Expression, ...]
     checks: tuple[Check, ...] = ()
+    titles: Mapping[int, str] = field(default_factory=dict)
+    """Number of an output → the equation whose left side begins there."""
 
     def calls(self) -> set[str]:
         """The elementary functions that it calls."""

@@ -127,6 +127,8 @@ class _Builder:
         if x.op == "value":
             return x.graph.titles[x][0]
         parts = [self._short(a) for a in x.args]
+        if x.op == "abs" and parts[0]:
+            return f"size_{parts[0]}"
         if x.op in ("mul", "recip") and all(parts) and len(parts) <= 3:
             return ("inv_" if x.op == "recip" else "") + "_".join(parts)
         if x.op == "add" and all(parts) and len(parts) == 2:

@@ -35,6 +35,7 @@ class Statements:
             "batch_loads": [self._batch_load(x) for x in loads] if self.language.batch else [],
             "sections": [self._section(s) for s in f.sections],
             "outputs": [wrapped(printer(e), TEXT - 12, " " * 8) for e in f.outputs],
+            "titles": [self._comment(f.titles.get(i, "")) for i in range(len(f.outputs))],
             "checks": [self._check(c) for c in f.checks],
             "calls": sorted(f.calls()),
             "operations": operations(f),
@@ -64,21 +65,26 @@ class Statements:
 
     def _section(self, s: Section) -> dict[str, Any]:
         label = s.label.partition("#")[0]
-        equation = comment(s.equation if len(s.equation) <= 200 else s.equation[:197] + "...")
         cost = operations(Function((), (s,), ()))
-        told = [f"{label}: {cost}" if label else cost]
-        told += textwrap.wrap(equation, EQUATION, break_long_words=False)
-        first, between, last = self.language.comment
-        lines = [first + told[0], *(between + x for x in told[1:])]
         return {
-            "comment": [*lines[:-1], lines[-1] + last],
+            "comment": self._comment(f"{label}: {cost}" if label else cost, s.equation),
             "statements": [self._statement(v.name, v.expression) for v in s.values],
         }
+
+    def _comment(self, *texts: str) -> list[str]:
+        """Lines of a comment; a long text is cut."""
+        short = (comment(x if len(x) <= 200 else x[:197] + "...") for x in texts)
+        told = [line for x in short for line in textwrap.wrap(x, EQUATION, break_long_words=False)]
+        if not told:
+            return []
+        first, between, last = self.language.comment
+        lines = [first + told[0], *(between + x for x in told[1:])]
+        return [*lines[:-1], lines[-1] + last]
 
     def _statement(self, name: str, expression: Any) -> str:
         text = self.language.printer(self.real)(expression)
         if not self.language.parenthesised:
-            return self._declared(name, wrapped(text, TEXT - 20 - len(name), " " * 8))
+            return self._declared(name, wrapped(text, TEXT - 22 - len(name), " " * 8))
         if len(text) + len(name) > TEXT - 8:
             text = f"(\n        {wrapped(text, TEXT - 10, ' ' * 8)}\n    )"
         return self._declared(name, text)
@@ -88,6 +94,7 @@ class Statements:
         scale = printer(c.scale) if c.scale is not None else ""
         value = printer(c.value)
         value = f"({value})" if " " in value else value
+        scale = wrapped(scale, TEXT - 28 - len(value), " " * 12)
         return {"value": value, "scale": f"({scale})" if "+" in scale else scale}
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from ..record.record import Derivation, Step, Symbol
+from ..record.record import Derivation, Equation, Step, Symbol
 from .escape import between_dollars, markdown_text, prose
 from .language import ENGLISH, Language
 from .layout import blocks
@@ -38,10 +38,23 @@ def _step(step: Step, names: Mapping[str, str], language: Language) -> Iterator[
     used = ", ".join(map(code, step.uses))
     from_these = f" ({language.word('from')} {used})" if used else ""
     yield prose(language.of(step.prose), markdown_text) + from_these
-    for block in blocks(step.equations, names, language):
-        rows = [row for equation in block for row in equation]
-        body = " \\\\\n".join(rows)
-        yield standard(f"$$\n\\begin{{aligned}}\n{body}\n\\end{{aligned}}\n$$")
+    for block in _aligned(step.equations, names, language):
+        yield f"$$\n{block}\n$$"
+
+
+def formula(
+    equations: Sequence[Equation], symbols: Iterable[Symbol], *, language: Language = ENGLISH
+) -> str:
+    """Equations as formulas between no dollars."""
+    return "\n".join(_aligned(equations, names_of(symbols), language))
+
+
+def _aligned(
+    equations: Sequence[Equation], names: Mapping[str, str], language: Language
+) -> Iterator[str]:
+    for block in blocks(equations, names, language):
+        body = " \\\\\n".join(row for equation in block for row in equation)
+        yield standard(f"\\begin{{aligned}}\n{body}\n\\end{{aligned}}")
 
 
 def code(label: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import textwrap
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from itertools import groupby
@@ -48,6 +49,11 @@ def step_text(step: Step, width: int = 100, *, language: Language = ENGLISH) -> 
     """One step as text."""
     lines = _step(step, width, frozenset(), language)
     return "\n".join(line.rstrip() for line in lines) + "\n"
+
+
+def equation_text(e: Equation, width: int = 100) -> str:
+    """One equation as text."""
+    return textwrap.dedent("\n".join(_equations((e,), width, ENGLISH)))
 
 
 def _named(name: str, meaning: str, width: int) -> Iterator[str]:

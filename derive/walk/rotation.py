@@ -149,7 +149,9 @@ def energy_step(stage: Isometry, v: Potentials, prefix: str, scope: str) -> Step
 
 def principal_step(prefix: str, scope: str, solved: Tree) -> Step:
     """(35): the solved equation in axes that diagonalise I, component by component."""
-    equations = [Equation(("entry", "ζ̇", i), t) for i, t in enumerate(principal_components(solved), 1)]
+    equations = [
+        Equation(("entry", "ζ̇", i), t) for i, t in enumerate(principal_components(solved), 1)
+    ]
     return Step(
         f"{prefix}.principal",
         "coordinates",

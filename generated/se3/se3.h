@@ -59,6 +59,9 @@ enum {
     se3_N_INPUTS = 6
 };
 
+/* What se3_constants refuses: a singular mass matrix; a number that is infinite or none. */
+enum { se3_SINGULAR = 1, se3_NOT_FINITE = 2 };
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -67,17 +70,17 @@ extern const char *const se3_state_names[se3_N_STATE];
 extern const char *const se3_parameter_names[se3_N_PARAMETERS];
 extern const char *const se3_input_names[se3_N_INPUTS];
 
-/* All that depends on the parameters alone.  Returns 0, or 1 when the mass matrix is singular or a
- * number is not finite; k is written in either case. */
+/* All that depends on the parameters alone.  Returns 0, se3_SINGULAR or
+ * se3_NOT_FINITE; k is written in any case. */
 int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k);
 
 /* dx/dt at time t.  u holds se3_N_INPUTS numbers. */
 void se3_rhs(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT k,
     const double *se3_RESTRICT u, double *se3_RESTRICT dx);
 
-/* The same for n states at once, of one body at one time: number i of state s is x[i*n + s], that of its
- * inputs u[i*n + s], of its rates dx[i*n + s].  What is written must not overlap what is read, here and
- * in every function. */
+/* The same for n states at once, of one body at one time: number i of state s is x[i*n + s], that
+ * of its inputs u[i*n + s], of its rates dx[i*n + s].  What is written must not overlap what is
+ * read, here and in every function. */
 void se3_rhs_batch(size_t n, double t, const double *se3_RESTRICT x,
     const double *se3_RESTRICT k, const double *se3_RESTRICT u, double *se3_RESTRICT dx);
 

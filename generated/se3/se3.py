@@ -140,20 +140,24 @@ ZEROS = (0.0,) * len(INPUTS)
 
 
 def constants(p):
-    """All that depends on the parameters alone; ValueError when the mass matrix is singular.
+    """All that depends on the parameters alone.
+
+    ValueError when the mass matrix is singular, or a number is not finite.
 
     p: the numbers in the order of PARAMETERS, or by name, the others by DEFAULTS.
     """
-    if isinstance(p, dict):
-        p = _named(p)
-    xp, (p,) = _arrays(p)
-    with numpy.errstate(divide="ignore", invalid="ignore"):
+    xp, (p,) = _arrays(_named(p))
+    with numpy.errstate(divide="ignore", invalid="ignore", over="ignore"):
         k, tests = _constants(xp, _entries(p))
         k = _stack(xp, k) if k else p[..., :0]
         # each determinant or pivot against what rounding could make of a singular matrix
-        regular = [value > least for value, least in tests]
-    if not all(bool(xp.all(test)) for test in (*regular, xp.isfinite(k))):
-        raise ValueError("se3: the mass matrix is singular or a number is not finite")
+        margins = [value - least for value, least in tests]
+    if not bool(xp.all(xp.isfinite(p))):
+        raise ValueError("se3: a parameter is not finite")
+    if any(bool(xp.any(margin <= 0)) for margin in margins):
+        raise ValueError("se3: the mass matrix is singular")
+    if not all(bool(xp.all(xp.isfinite(x))) for x in (k, *margins)):
+        raise ValueError("se3: a parameter is too large or too small")
     return k
 
 
@@ -169,7 +173,7 @@ def energy(t, x, k):
 
 def inertia(p):
     """The tensor of inertia about the body's origin, (3, 3), in the body frame."""
-    xp, (p,) = _arrays(p)
+    xp, (p,) = _arrays(_named(p))
     xx, xy, xz, yy, yz, zz = xp.broadcast_arrays(*map(xp.asarray, _inertia(xp, _entries(p))))
     rows = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
     return xp.stack([xp.stack(row, axis=-1) for row in rows], axis=-2)
@@ -190,7 +194,7 @@ def turned(p, R):
 
     A state goes along: A' = A R, zeta' = R^T zeta, w' = R^T w, and so do inputs in the body frame.
     """
-    p, R = numpy.array(p, dtype=float), numpy.asarray(R, dtype=float)
+    p, R = numpy.array(_named(p), dtype=float), numpy.asarray(R, dtype=float)
     p[..., [1, 2, 3]] = numpy.einsum("...ji,...j", R, p[..., [1, 2, 3]])
     full = [[4, 5, 6], [5, 7, 8], [6, 8, 9]]
     J = numpy.einsum("...ji,...jk,...kl->...il", R, p[..., full], R)
@@ -199,6 +203,9 @@ def turned(p, R):
 
 
 def _named(given):
+    """Parameters by name, in order, the others by DEFAULTS; numbers in order as they are."""
+    if not isinstance(given, dict):
+        return given
     unknown = [x for x in given if x not in PARAMETERS]
     if unknown:
         raise ValueError("se3: no parameters " + ", ".join(map(str, unknown)))
@@ -276,23 +283,24 @@ def _constants(xp, p):
     adj_I_c_13 = I_c_12*I_c_23 - I_c_13*I_c_22
     adj_I_c_33 = I_c_11*I_c_22 - I_c_12*I_c_12
     det_I_c = I_c_11*adj_I_c_11 + I_c_12*adj_I_c_12 + I_c_13*adj_I_c_13
-    part_16 = abs(J_22)
-    part_17 = abs(inv_m)
-    c_2_c_2_part_17 = c_2*c_2*part_17
-    part_19 = abs(J_33)
-    c_3_c_3_part_17 = c_3*c_3*part_17
-    size_I_c_1 = part_16 + c_2_c_2_part_17 + part_19 + c_3_c_3_part_17
-    part_22 = abs(J_11)
-    c_1_c_1_part_17 = c_1*c_1*part_17
-    size_I_c_2 = part_19 + c_3_c_3_part_17 + part_22 + c_1_c_1_part_17
-    size_I_c_3 = part_16 + c_2_c_2_part_17 + part_22 + c_1_c_1_part_17
+    size_J_22 = abs(J_22)
+    size_inv_m = abs(inv_m)
+    c_2_c_2_size_inv_m = c_2*c_2*size_inv_m
+    size_J_33 = abs(J_33)
+    c_3_c_3_size_inv_m = c_3*c_3*size_inv_m
+    size_I_c_1 = size_J_22 + c_2_c_2_size_inv_m + size_J_33 + c_3_c_3_size_inv_m
+    size_J_11 = abs(J_11)
+    c_1_c_1_size_inv_m = c_1*c_1*size_inv_m
+    size_I_c_2 = size_J_33 + c_3_c_3_size_inv_m + size_J_11 + c_1_c_1_size_inv_m
+    size_I_c_3 = size_J_22 + c_2_c_2_size_inv_m + size_J_11 + c_1_c_1_size_inv_m
     inv_det_I_c = 1.0/det_I_c
 
     tests = [
         (m, 0.0),
         (I_c_11, 1e-13*size_I_c_1),
         (adj_I_c_33, 1e-13*(I_c_22*size_I_c_1 + I_c_11*size_I_c_2)),
-        (det_I_c, 1e-13*(I_c_22*I_c_33*size_I_c_1 + I_c_11*I_c_33*size_I_c_2 + I_c_11*I_c_22*size_I_c_3)),
+        (det_I_c, 1e-13*(I_c_22*I_c_33*size_I_c_1 + I_c_11*I_c_33*size_I_c_2
+            + I_c_11*I_c_22*size_I_c_3)),
     ]
     return [
         J_12,
@@ -355,18 +363,19 @@ def _rhs(xp, t, x, k, u):
     # se3.motion: 24 mul, 21 add
     # ẇ = r_c ∧ ζ̇ + w_c ∧ ζ + Āγ + m⁻¹ f_u
     w_dot_1 = (
-        r_c_2*zeta_dot_3 + zeta_3*w_c_2 + (g_1*A_11 + g_2*A_21 + g_3*A_31) + inv_m*u_4 - r_c_3*zeta_dot_2
-        - zeta_2*w_c_3
+        r_c_2*zeta_dot_3 + zeta_3*w_c_2 + (g_1*A_11 + g_2*A_21 + g_3*A_31) + inv_m*u_4
+        - r_c_3*zeta_dot_2 - zeta_2*w_c_3
     )
     w_dot_2 = (
-        r_c_3*zeta_dot_1 + zeta_1*w_c_3 + (g_1*A_12 + g_2*A_22 + g_3*A_32) + inv_m*u_5 - r_c_1*zeta_dot_3
-        - zeta_3*w_c_1
+        r_c_3*zeta_dot_1 + zeta_1*w_c_3 + (g_1*A_12 + g_2*A_22 + g_3*A_32) + inv_m*u_5
+        - r_c_1*zeta_dot_3 - zeta_3*w_c_1
     )
     w_dot_3 = (
-        r_c_1*zeta_dot_2 + zeta_2*w_c_1 + (g_1*A_13 + g_2*A_23 + g_3*A_33) + inv_m*u_6 - r_c_2*zeta_dot_1
-        - zeta_1*w_c_2
+        r_c_1*zeta_dot_2 + zeta_2*w_c_1 + (g_1*A_13 + g_2*A_23 + g_3*A_33) + inv_m*u_6
+        - r_c_2*zeta_dot_1 - zeta_1*w_c_2
     )
     return [
+        # se3.motion: Ȧ = A j(ζ)
         A_12*zeta_3 - A_13*zeta_2,
         A_13*zeta_1 - A_11*zeta_3,
         A_11*zeta_2 - A_12*zeta_1,
@@ -376,12 +385,15 @@ def _rhs(xp, t, x, k, u):
         A_32*zeta_3 - A_33*zeta_2,
         A_33*zeta_1 - A_31*zeta_3,
         A_31*zeta_2 - A_32*zeta_1,
+        # se3.motion: Ṫ = Aw
         A_11*w_1 + A_12*w_2 + A_13*w_3,
         A_21*w_1 + A_22*w_2 + A_23*w_3,
         A_31*w_1 + A_32*w_2 + A_33*w_3,
+        # se3.motion: ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ)
         zeta_dot_1,
         zeta_dot_2,
         zeta_dot_3,
+        # se3.motion: ẇ = r_c ∧ ζ̇ + w_c ∧ ζ + Āγ + m⁻¹ f_u
         w_dot_1,
         w_dot_2,
         w_dot_3,
@@ -398,11 +410,12 @@ def _energy(xp, t, x, k, u):
     # se3.energy: 43 mul, 29 add
     # h̃ = ½ ‖ζ‖²_I + ⟨c ∧ w, ζ⟩ + ½m ‖w‖² − ⟨Ac, γ⟩ − m ⟨T, γ⟩
     h_tilde = (
-        0.5*(zeta_1*(I_11*zeta_1 - J_12*zeta_2 - J_13*zeta_3) + zeta_2*(I_22*zeta_2 - J_12*zeta_1
-        - J_23*zeta_3) + zeta_3*(I_33*zeta_3 - J_13*zeta_1 - J_23*zeta_2)) + (zeta_1*(c_2*w_3
-        - c_3*w_2) + zeta_2*(c_3*w_1 - c_1*w_3) + zeta_3*(c_1*w_2 - c_2*w_1)) + 0.5*m*(w_1*w_1
-        + w_2*w_2 + w_3*w_3) - (g_1*(c_1*A_11 + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21 + c_2*A_22
-        + c_3*A_23) + g_3*(c_1*A_31 + c_2*A_32 + c_3*A_33)) - m*(g_1*T_1 + g_2*T_2 + g_3*T_3)
+        0.5*(zeta_1*(I_11*zeta_1 - J_12*zeta_2 - J_13*zeta_3) + zeta_2*(I_22*zeta_2
+        - J_12*zeta_1 - J_23*zeta_3) + zeta_3*(I_33*zeta_3 - J_13*zeta_1
+        - J_23*zeta_2)) + (zeta_1*(c_2*w_3 - c_3*w_2) + zeta_2*(c_3*w_1 - c_1*w_3)
+        + zeta_3*(c_1*w_2 - c_2*w_1)) + 0.5*m*(w_1*w_1 + w_2*w_2 + w_3*w_3)
+        - (g_1*(c_1*A_11 + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21 + c_2*A_22 + c_3*A_23)
+        + g_3*(c_1*A_31 + c_2*A_32 + c_3*A_33)) - m*(g_1*T_1 + g_2*T_2 + g_3*T_3)
     )
     return [
         h_tilde,

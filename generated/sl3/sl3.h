@@ -65,6 +65,9 @@ enum {
     sl3_N_INPUTS = 0
 };
 
+/* What sl3_constants refuses: a singular mass matrix; a number that is infinite or none. */
+enum { sl3_SINGULAR = 1, sl3_NOT_FINITE = 2 };
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -72,17 +75,17 @@ extern "C" {
 extern const char *const sl3_state_names[sl3_N_STATE];
 extern const char *const sl3_parameter_names[sl3_N_PARAMETERS];
 
-/* All that depends on the parameters alone.  Returns 0, or 1 when the mass matrix is singular or a
- * number is not finite; k is written in either case. */
+/* All that depends on the parameters alone.  Returns 0, sl3_SINGULAR or
+ * sl3_NOT_FINITE; k is written in any case. */
 int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k);
 
 /* dx/dt at time t.  u is not read and may be a null pointer. */
 void sl3_rhs(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT k,
     const double *sl3_RESTRICT u, double *sl3_RESTRICT dx);
 
-/* The same for n states at once, of one body at one time: number i of state s is x[i*n + s], that of its
- * inputs u[i*n + s], of its rates dx[i*n + s].  What is written must not overlap what is read, here and
- * in every function. */
+/* The same for n states at once, of one body at one time: number i of state s is x[i*n + s], that
+ * of its inputs u[i*n + s], of its rates dx[i*n + s].  What is written must not overlap what is
+ * read, here and in every function. */
 void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
     const double *sl3_RESTRICT k, const double *sl3_RESTRICT u, double *sl3_RESTRICT dx);
 

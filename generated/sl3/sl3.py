@@ -158,20 +158,24 @@ ZEROS = (0.0,) * len(INPUTS)
 
 
 def constants(p):
-    """All that depends on the parameters alone; ValueError when the mass matrix is singular.
+    """All that depends on the parameters alone.
+
+    ValueError when the mass matrix is singular, or a number is not finite.
 
     p: the numbers in the order of PARAMETERS, or by name, the others by DEFAULTS.
     """
-    if isinstance(p, dict):
-        p = _named(p)
-    xp, (p,) = _arrays(p)
-    with numpy.errstate(divide="ignore", invalid="ignore"):
+    xp, (p,) = _arrays(_named(p))
+    with numpy.errstate(divide="ignore", invalid="ignore", over="ignore"):
         k, tests = _constants(xp, _entries(p))
         k = _stack(xp, k) if k else p[..., :0]
         # each determinant or pivot against what rounding could make of a singular matrix
-        regular = [value > least for value, least in tests]
-    if not all(bool(xp.all(test)) for test in (*regular, xp.isfinite(k))):
-        raise ValueError("sl3: the mass matrix is singular or a number is not finite")
+        margins = [value - least for value, least in tests]
+    if not bool(xp.all(xp.isfinite(p))):
+        raise ValueError("sl3: a parameter is not finite")
+    if any(bool(xp.any(margin <= 0)) for margin in margins):
+        raise ValueError("sl3: the mass matrix is singular")
+    if not all(bool(xp.all(xp.isfinite(x))) for x in (k, *margins)):
+        raise ValueError("sl3: a parameter is too large or too small")
     return k
 
 
@@ -186,6 +190,9 @@ def energy(t, x, k):
 
 
 def _named(given):
+    """Parameters by name, in order, the others by DEFAULTS; numbers in order as they are."""
+    if not isinstance(given, dict):
+        return given
     unknown = [x for x in given if x not in PARAMETERS]
     if unknown:
         raise ValueError("sl3: no parameters " + ", ".join(map(str, unknown)))
@@ -257,13 +264,13 @@ def _constants(xp, p):
     adj_J_13 = J_12*J_23 - J_13*J_22
     adj_J_33 = J_11*J_22 - J_12*J_12
     det_J = J_11*adj_J_11 + J_12*adj_J_12 + J_13*adj_J_13
-    part_12 = abs(m1)
-    part_13 = abs(m2)
-    part_14 = abs(m3)
-    part_15 = abs(m4)
-    size_J_1 = x1*x1*part_12 + x2*x2*part_13 + x3*x3*part_14 + x4*x4*part_15
-    size_J_2 = y1*y1*part_12 + y2*y2*part_13 + y3*y3*part_14 + y4*y4*part_15
-    size_J_3 = z1*z1*part_12 + z2*z2*part_13 + z3*z3*part_14 + z4*z4*part_15
+    size_m1 = abs(m1)
+    size_m2 = abs(m2)
+    size_m3 = abs(m3)
+    size_m4 = abs(m4)
+    size_J_1 = x1*x1*size_m1 + x2*x2*size_m2 + x3*x3*size_m3 + x4*x4*size_m4
+    size_J_2 = y1*y1*size_m1 + y2*y2*size_m2 + y3*y3*size_m3 + y4*y4*size_m4
+    size_J_3 = z1*z1*size_m1 + z2*z2*size_m2 + z3*z3*size_m3 + z4*z4*size_m4
     inv_det_J = 1.0/det_J
     inv_J_11 = adj_J_11*inv_det_J
     inv_J_12 = adj_J_12*inv_det_J
@@ -311,28 +318,28 @@ def _constants(xp, p):
     # sl3.potential: 72 mul, 30 add
     # K = Σₑ kₑ sₑ s̄ₑ
     K_11 = (
-        k12*s_1_1*s_1_1 + k13*s_2_1*s_2_1 + k14*s_3_1*s_3_1 + k23*s_4_1*s_4_1 + k24*s_5_1*s_5_1
-        + k34*s_6_1*s_6_1
+        k12*s_1_1*s_1_1 + k13*s_2_1*s_2_1 + k14*s_3_1*s_3_1 + k23*s_4_1*s_4_1
+        + k24*s_5_1*s_5_1 + k34*s_6_1*s_6_1
     )
     K_12 = (
-        k12*s_1_1*s_1_2 + k13*s_2_1*s_2_2 + k14*s_3_1*s_3_2 + k23*s_4_1*s_4_2 + k24*s_5_1*s_5_2
-        + k34*s_6_1*s_6_2
+        k12*s_1_1*s_1_2 + k13*s_2_1*s_2_2 + k14*s_3_1*s_3_2 + k23*s_4_1*s_4_2
+        + k24*s_5_1*s_5_2 + k34*s_6_1*s_6_2
     )
     K_13 = (
-        k12*s_1_1*s_1_3 + k13*s_2_1*s_2_3 + k14*s_3_1*s_3_3 + k23*s_4_1*s_4_3 + k24*s_5_1*s_5_3
-        + k34*s_6_1*s_6_3
+        k12*s_1_1*s_1_3 + k13*s_2_1*s_2_3 + k14*s_3_1*s_3_3 + k23*s_4_1*s_4_3
+        + k24*s_5_1*s_5_3 + k34*s_6_1*s_6_3
     )
     K_22 = (
-        k12*s_1_2*s_1_2 + k13*s_2_2*s_2_2 + k14*s_3_2*s_3_2 + k23*s_4_2*s_4_2 + k24*s_5_2*s_5_2
-        + k34*s_6_2*s_6_2
+        k12*s_1_2*s_1_2 + k13*s_2_2*s_2_2 + k14*s_3_2*s_3_2 + k23*s_4_2*s_4_2
+        + k24*s_5_2*s_5_2 + k34*s_6_2*s_6_2
     )
     K_23 = (
-        k12*s_1_2*s_1_3 + k13*s_2_2*s_2_3 + k14*s_3_2*s_3_3 + k23*s_4_2*s_4_3 + k24*s_5_2*s_5_3
-        + k34*s_6_2*s_6_3
+        k12*s_1_2*s_1_3 + k13*s_2_2*s_2_3 + k14*s_3_2*s_3_3 + k23*s_4_2*s_4_3
+        + k24*s_5_2*s_5_3 + k34*s_6_2*s_6_3
     )
     K_33 = (
-        k12*s_1_3*s_1_3 + k13*s_2_3*s_2_3 + k14*s_3_3*s_3_3 + k23*s_4_3*s_4_3 + k24*s_5_3*s_5_3
-        + k34*s_6_3*s_6_3
+        k12*s_1_3*s_1_3 + k13*s_2_3*s_2_3 + k14*s_3_3*s_3_3 + k23*s_4_3*s_4_3
+        + k24*s_5_3*s_5_3 + k34*s_6_3*s_6_3
     )
 
     # sl3.motion: 9 mul, 5 add
@@ -343,8 +350,8 @@ def _constants(xp, p):
     inv_J_22_K_22 = inv_J_22*K_22
     inv_J_23_K_23 = inv_J_23*K_23
     tr_inv_J_K = (
-        inv_J_11_K_11 + 2.0*inv_J_12_K_12 + 2.0*inv_J_13_K_13 + inv_J_22_K_22 + 2.0*inv_J_23_K_23
-        + inv_J_33*K_33
+        inv_J_11_K_11 + 2.0*inv_J_12_K_12 + 2.0*inv_J_13_K_13 + inv_J_22_K_22
+        + 2.0*inv_J_23_K_23 + inv_J_33*K_33
     )
 
     tests = [
@@ -426,37 +433,39 @@ def _rhs(xp, t, x, k, u):
     inv_C_inv_J_11 = inv_J_11*inv_C_11 + inv_J_12_inv_C_12 + inv_J_13_inv_C_13
     inv_C_inv_J_22 = inv_J_12_inv_C_12 + inv_J_22*inv_C_22 + inv_J_23_inv_C_23
     lambda_ = (
-        (tr_inv_J_K + Z_2_11 + Z_2_22 + (zeta_3_zeta_7 + zeta_6_zeta_8 + Z_33*Z_33))/(inv_C_inv_J_11
-        + inv_C_inv_J_22 + (inv_J_13_inv_C_13 + inv_J_23_inv_C_23 + inv_J_33*inv_C_33))
+        (tr_inv_J_K + Z_2_11 + Z_2_22 + (zeta_3_zeta_7 + zeta_6_zeta_8
+        + Z_33*Z_33))/(inv_C_inv_J_11 + inv_C_inv_J_22 + (inv_J_13_inv_C_13
+        + inv_J_23_inv_C_23 + inv_J_33*inv_C_33))
     )
 
     # sl3.motion: 36 mul, 30 add
     # Ż = λC⁻¹J⁻¹ − KJ⁻¹ − Z²
     Z_dot_12 = (
-        (inv_J_12*inv_C_11 + inv_J_22*inv_C_12 + inv_J_23*inv_C_13)*lambda_ - K_inv_J_12 - (zeta_3*zeta_8
-        + zeta_2*zeta_1_plus_zeta_5)
+        (inv_J_12*inv_C_11 + inv_J_22*inv_C_12 + inv_J_23*inv_C_13)*lambda_ - K_inv_J_12
+        - (zeta_3*zeta_8 + zeta_2*zeta_1_plus_zeta_5)
     )
     Z_dot_13 = (
-        (inv_J_13*inv_C_11 + inv_J_23*inv_C_12 + inv_J_33*inv_C_13)*lambda_ - K_inv_J_13 - (zeta_2*zeta_6
-        - zeta_3*zeta_5)
+        (inv_J_13*inv_C_11 + inv_J_23*inv_C_12 + inv_J_33*inv_C_13)*lambda_ - K_inv_J_13
+        - (zeta_2*zeta_6 - zeta_3*zeta_5)
     )
     Z_dot_21 = (
-        (inv_J_11*inv_C_12 + inv_J_12*inv_C_22 + inv_J_13*inv_C_23)*lambda_ - K_inv_J_21 - (zeta_6*zeta_7
-        + zeta_4*zeta_1_plus_zeta_5)
+        (inv_J_11*inv_C_12 + inv_J_12*inv_C_22 + inv_J_13*inv_C_23)*lambda_ - K_inv_J_21
+        - (zeta_6*zeta_7 + zeta_4*zeta_1_plus_zeta_5)
     )
     Z_dot_23 = (
-        (inv_J_13*inv_C_12 + inv_J_23*inv_C_22 + inv_J_33*inv_C_23)*lambda_ - K_inv_J_23 - (zeta_3*zeta_4
-        - zeta_1*zeta_6)
+        (inv_J_13*inv_C_12 + inv_J_23*inv_C_22 + inv_J_33*inv_C_23)*lambda_ - K_inv_J_23
+        - (zeta_3*zeta_4 - zeta_1*zeta_6)
     )
     Z_dot_31 = (
-        (inv_J_11*inv_C_13 + inv_J_12*inv_C_23 + inv_J_13*inv_C_33)*lambda_ - K_inv_J_31 - (zeta_4*zeta_8
-        - zeta_5*zeta_7)
+        (inv_J_11*inv_C_13 + inv_J_12*inv_C_23 + inv_J_13*inv_C_33)*lambda_ - K_inv_J_31
+        - (zeta_4*zeta_8 - zeta_5*zeta_7)
     )
     Z_dot_32 = (
-        (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*lambda_ - K_inv_J_32 - (zeta_2*zeta_7
-        - zeta_1*zeta_8)
+        (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*lambda_ - K_inv_J_32
+        - (zeta_2*zeta_7 - zeta_1*zeta_8)
     )
     return [
+        # sl3.motion: Ȧ = AZ
         A_11*zeta_1 + A_12*zeta_4 + A_13*zeta_7,
         A_11*zeta_2 + A_12*zeta_5 + A_13*zeta_8,
         A_11*zeta_3 + A_12*zeta_6 + A_13*Z_33,
@@ -466,6 +475,7 @@ def _rhs(xp, t, x, k, u):
         A_31*zeta_1 + A_32*zeta_4 + A_33*zeta_7,
         A_31*zeta_2 + A_32*zeta_5 + A_33*zeta_8,
         A_31*zeta_3 + A_32*zeta_6 + A_33*Z_33,
+        # sl3.motion: Ż = λC⁻¹J⁻¹ − KJ⁻¹ − Z²
         inv_C_inv_J_11*lambda_ - Z_2_11 - K_inv_J_11,
         Z_dot_12,
         Z_dot_13,
@@ -500,14 +510,16 @@ def _energy(xp, t, x, k, u):
     # sl3.energy: 72 mul, 49 add
     # h̃ = ½ Tr ZJZ̄C + ½ Tr CK
     tr_Z_J_Z_T_C = (
-        (J_11*zeta_1 + J_12*zeta_2 + J_13*zeta_3)*(zeta_1*C_11 + zeta_4*C_12 + zeta_7*C_13) + (J_12*zeta_1
-        + J_22*zeta_2 + J_23*zeta_3)*(zeta_2*C_11 + zeta_5*C_12 + zeta_8*C_13) + (J_13*zeta_1
-        + J_23*zeta_2 + J_33*zeta_3)*(zeta_3*C_11 + zeta_6*C_12 + Z_33*C_13) + (J_11*zeta_4
-        + J_12*zeta_5 + J_13*zeta_6)*(zeta_1*C_12 + zeta_4*C_22 + zeta_7*C_23) + (J_12*zeta_4
-        + J_22*zeta_5 + J_23*zeta_6)*(zeta_2*C_12 + zeta_5*C_22 + zeta_8*C_23) + (J_13*zeta_4
-        + J_23*zeta_5 + J_33*zeta_6)*(zeta_3*C_12 + zeta_6*C_22 + Z_33*C_23) + (J_11*zeta_7
-        + J_12*zeta_8 + J_13*Z_33)*(zeta_1*C_13 + zeta_4*C_23 + zeta_7*C_33) + (J_12*zeta_7
-        + J_22*zeta_8 + J_23*Z_33)*(zeta_2*C_13 + zeta_5*C_23 + zeta_8*C_33) + (J_13*zeta_7
+        (J_11*zeta_1 + J_12*zeta_2 + J_13*zeta_3)*(zeta_1*C_11 + zeta_4*C_12 + zeta_7*C_13)
+        + (J_12*zeta_1 + J_22*zeta_2 + J_23*zeta_3)*(zeta_2*C_11 + zeta_5*C_12
+        + zeta_8*C_13) + (J_13*zeta_1 + J_23*zeta_2 + J_33*zeta_3)*(zeta_3*C_11
+        + zeta_6*C_12 + Z_33*C_13) + (J_11*zeta_4 + J_12*zeta_5
+        + J_13*zeta_6)*(zeta_1*C_12 + zeta_4*C_22 + zeta_7*C_23) + (J_12*zeta_4
+        + J_22*zeta_5 + J_23*zeta_6)*(zeta_2*C_12 + zeta_5*C_22 + zeta_8*C_23)
+        + (J_13*zeta_4 + J_23*zeta_5 + J_33*zeta_6)*(zeta_3*C_12 + zeta_6*C_22
+        + Z_33*C_23) + (J_11*zeta_7 + J_12*zeta_8 + J_13*Z_33)*(zeta_1*C_13
+        + zeta_4*C_23 + zeta_7*C_33) + (J_12*zeta_7 + J_22*zeta_8
+        + J_23*Z_33)*(zeta_2*C_13 + zeta_5*C_23 + zeta_8*C_33) + (J_13*zeta_7
         + J_23*zeta_8 + J_33*Z_33)*(zeta_3*C_13 + zeta_6*C_23 + Z_33*C_33)
     )
     tr_C_K = K_11*C_11 + 2.0*K_12*C_12 + 2.0*K_13*C_13 + K_22*C_22 + 2.0*K_23*C_23 + K_33*C_33

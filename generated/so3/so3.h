@@ -52,6 +52,9 @@ enum {
     so3_N_INPUTS = 3
 };
 
+/* What so3_constants refuses: a singular mass matrix; a number that is infinite or none. */
+enum { so3_SINGULAR = 1, so3_NOT_FINITE = 2 };
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -60,17 +63,17 @@ extern const char *const so3_state_names[so3_N_STATE];
 extern const char *const so3_parameter_names[so3_N_PARAMETERS];
 extern const char *const so3_input_names[so3_N_INPUTS];
 
-/* All that depends on the parameters alone.  Returns 0, or 1 when the mass matrix is singular or a
- * number is not finite; k is written in either case. */
+/* All that depends on the parameters alone.  Returns 0, so3_SINGULAR or
+ * so3_NOT_FINITE; k is written in any case. */
 int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k);
 
 /* dx/dt at time t.  u holds so3_N_INPUTS numbers. */
 void so3_rhs(double t, const double *so3_RESTRICT x, const double *so3_RESTRICT k,
     const double *so3_RESTRICT u, double *so3_RESTRICT dx);
 
-/* The same for n states at once, of one body at one time: number i of state s is x[i*n + s], that of its
- * inputs u[i*n + s], of its rates dx[i*n + s].  What is written must not overlap what is read, here and
- * in every function. */
+/* The same for n states at once, of one body at one time: number i of state s is x[i*n + s], that
+ * of its inputs u[i*n + s], of its rates dx[i*n + s].  What is written must not overlap what is
+ * read, here and in every function. */
 void so3_rhs_batch(size_t n, double t, const double *so3_RESTRICT x,
     const double *so3_RESTRICT k, const double *so3_RESTRICT u, double *so3_RESTRICT dx);
 

@@ -115,20 +115,24 @@ ZEROS = (0.0,) * len(INPUTS)
 
 
 def constants(p):
-    """All that depends on the parameters alone; ValueError when the mass matrix is singular.
+    """All that depends on the parameters alone.
+
+    ValueError when the mass matrix is singular, or a number is not finite.
 
     p: the numbers in the order of PARAMETERS, or by name, the others by DEFAULTS.
     """
-    if isinstance(p, dict):
-        p = _named(p)
-    xp, (p,) = _arrays(p)
-    with numpy.errstate(divide="ignore", invalid="ignore"):
+    xp, (p,) = _arrays(_named(p))
+    with numpy.errstate(divide="ignore", invalid="ignore", over="ignore"):
         k, tests = _constants(xp, _entries(p))
         k = _stack(xp, k) if k else p[..., :0]
         # each determinant or pivot against what rounding could make of a singular matrix
-        regular = [value > least for value, least in tests]
-    if not all(bool(xp.all(test)) for test in (*regular, xp.isfinite(k))):
-        raise ValueError("so3: the mass matrix is singular or a number is not finite")
+        margins = [value - least for value, least in tests]
+    if not bool(xp.all(xp.isfinite(p))):
+        raise ValueError("so3: a parameter is not finite")
+    if any(bool(xp.any(margin <= 0)) for margin in margins):
+        raise ValueError("so3: the mass matrix is singular")
+    if not all(bool(xp.all(xp.isfinite(x))) for x in (k, *margins)):
+        raise ValueError("so3: a parameter is too large or too small")
     return k
 
 
@@ -144,7 +148,7 @@ def energy(t, x, k):
 
 def inertia(p):
     """The tensor of inertia about the body's origin, (3, 3), in the body frame."""
-    xp, (p,) = _arrays(p)
+    xp, (p,) = _arrays(_named(p))
     xx, xy, xz, yy, yz, zz = xp.broadcast_arrays(*map(xp.asarray, _inertia(xp, _entries(p))))
     rows = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
     return xp.stack([xp.stack(row, axis=-1) for row in rows], axis=-2)
@@ -165,7 +169,7 @@ def turned(p, R):
 
     A state goes along: A' = A R, zeta' = R^T zeta, and so do inputs in the body frame.
     """
-    p, R = numpy.array(p, dtype=float), numpy.asarray(R, dtype=float)
+    p, R = numpy.array(_named(p), dtype=float), numpy.asarray(R, dtype=float)
     p[..., [0, 1, 2]] = numpy.einsum("...ji,...j", R, p[..., [0, 1, 2]])
     full = [[3, 4, 5], [4, 6, 7], [5, 7, 8]]
     J = numpy.einsum("...ji,...jk,...kl->...il", R, p[..., full], R)
@@ -174,6 +178,9 @@ def turned(p, R):
 
 
 def _named(given):
+    """Parameters by name, in order, the others by DEFAULTS; numbers in order as they are."""
+    if not isinstance(given, dict):
+        return given
     unknown = [x for x in given if x not in PARAMETERS]
     if unknown:
         raise ValueError("so3: no parameters " + ", ".join(map(str, unknown)))
@@ -241,17 +248,18 @@ def _constants(xp, p):
     adj_I_13 = J_12*J_23 + J_13*I_22
     adj_I_33 = I_11*I_22 - J_12*J_12
     det_I = I_11*adj_I_11 - J_12*adj_I_12 - J_13*adj_I_13
-    part_9 = abs(J_22)
-    part_10 = abs(J_33)
-    size_I_1 = part_9 + part_10
-    part_12 = abs(J_11)
-    size_I_2 = part_10 + part_12
+    size_J_22 = abs(J_22)
+    size_J_33 = abs(J_33)
+    size_I_1 = size_J_22 + size_J_33
+    size_J_11 = abs(J_11)
+    size_I_2 = size_J_33 + size_J_11
     inv_det_I = 1.0/det_I
 
     tests = [
         (I_11, 1e-13*size_I_1),
         (adj_I_33, 1e-13*(I_22*size_I_1 + I_11*size_I_2)),
-        (det_I, 1e-13*(I_22*I_33*size_I_1 + I_11*I_33*size_I_2 + I_11*I_22*(part_9 + part_12))),
+        (det_I, 1e-13*(I_22*I_33*size_I_1 + I_11*I_33*size_I_2 + I_11*I_22*(size_J_22
+            + size_J_11))),
     ]
     return [
         J_12,
@@ -301,6 +309,7 @@ def _rhs(xp, t, x, k, u):
         u_3 + c_1*A_T_gravity_2 + zeta_2*I_0_zeta_1 - c_2*A_T_gravity_1 - zeta_1*I_0_zeta_2
     )
     return [
+        # so3.motion: Ȧ = A j(ζ)
         A_12*zeta_3 - A_13*zeta_2,
         A_13*zeta_1 - A_11*zeta_3,
         A_11*zeta_2 - A_12*zeta_1,
@@ -310,6 +319,7 @@ def _rhs(xp, t, x, k, u):
         A_32*zeta_3 - A_33*zeta_2,
         A_33*zeta_1 - A_31*zeta_3,
         A_31*zeta_2 - A_32*zeta_1,
+        # so3.motion: ζ̇ = I⁻¹(c ∧ Āγ + u + Iζ ∧ ζ)
         inv_I_11*balance_1 + inv_I_12*balance_2 + inv_I_13*balance_3,
         inv_I_12*balance_1 + inv_I_22*balance_2 + inv_I_23*balance_3,
         inv_I_13*balance_1 + inv_I_23*balance_2 + inv_I_33*balance_3,
@@ -324,10 +334,10 @@ def _energy(xp, t, x, k, u):
     # so3.energy: 25 mul, 17 add
     # h̃ = ½ ‖ζ‖²_I − ⟨Ac, γ⟩
     h_tilde = (
-        0.5*(zeta_1*(I_11*zeta_1 - J_12*zeta_2 - J_13*zeta_3) + zeta_2*(I_22*zeta_2 - J_12*zeta_1
-        - J_23*zeta_3) + zeta_3*(I_33*zeta_3 - J_13*zeta_1 - J_23*zeta_2)) - (g_1*(c_1*A_11
-        + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21 + c_2*A_22 + c_3*A_23) + g_3*(c_1*A_31
-        + c_2*A_32 + c_3*A_33))
+        0.5*(zeta_1*(I_11*zeta_1 - J_12*zeta_2 - J_13*zeta_3) + zeta_2*(I_22*zeta_2
+        - J_12*zeta_1 - J_23*zeta_3) + zeta_3*(I_33*zeta_3 - J_13*zeta_1
+        - J_23*zeta_2)) - (g_1*(c_1*A_11 + c_2*A_12 + c_3*A_13) + g_2*(c_1*A_21
+        + c_2*A_22 + c_3*A_23) + g_3*(c_1*A_31 + c_2*A_32 + c_3*A_33))
     )
     return [
         h_tilde,

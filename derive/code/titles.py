@@ -1,0 +1,30 @@
+"""Which numbers of dx/dt are the left side of which equation of the record, for comments."""
+
+from __future__ import annotations
+
+from ..algebra.show import show
+from .lower import Lowering
+from .state import State
+
+
+def titles(lowering: Lowering) -> dict[int, str]:
+    """Where the numbers of an equation's left side begin in dx/dt, and the equation."""
+    found = {}
+    for start, names in _beginnings(lowering.space).items():
+        known = (lowering.record.definition(name) for name in names)
+        if at := next(filter(None, known), None):
+            step, equation = at
+            found[start] = f"{step.label}: {show(equation.lhs)} = {show(equation.rhs)}"
+    return found
+
+
+def _beginnings(space: State) -> dict[int, tuple[str, ...]]:
+    """The same with the names by which the record may have the left side."""
+    slots = [x for x in space.slots if x.letter == "T" or not space.quaternion]
+    letters, before = [x.letter for x in slots], 4 if space.quaternion else 0
+    first = {x: before + letters.index(x) for x in dict.fromkeys(letters)}
+    if space.tangent:
+        return {len(slots) + i: ({"A": "α̇", "T": "τ̇"}[x],) for x, i in first.items()}
+    found: dict[int, tuple[str, ...]] = {i: ({"A": "Ȧ", "T": "Ṫ"}[x],) for x, i in first.items()}
+    found[before + len(slots)] = ("ζ̇", "Ż")
+    return found | ({len(space.names) - space.n: ("ẇ",)} if space.group.affine else {})

@@ -1,0 +1,154 @@
+"""What Python holds after a walk: the derivation, its steps and equations, in a notebook too."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .mechanics.problem import Problem
+from .record.check import Verdict
+from .record.record import Derivation, Equation, Step, Symbol
+
+if TYPE_CHECKING:
+    from .code.expressions import Expressions
+
+
+@dataclass(frozen=True)
+class ShownEquation:
+    """An equation of a step: a pair of operator trees, shown as a formula in a notebook."""
+
+    equation: Equation
+    symbols: tuple[Symbol, ...]
+
+    @property
+    def lhs(self) -> Any:
+        """The left side, an operator tree."""
+        return self.equation.lhs
+
+    @property
+    def rhs(self) -> Any:
+        """The right side, an operator tree."""
+        return self.equation.rhs
+
+    def __str__(self) -> str:
+        from .views.text import equation_text
+
+        return equation_text(self.equation)
+
+    def latex(self, lang: str = "en") -> str:
+        """The formula in standard commands of LaTeX and amsmath, in lines that fit a page."""
+        from .views.language import language
+        from .views.markdown import formula
+
+        return formula([self.equation], self.symbols, language=language(lang))
+
+    def _repr_latex_(self) -> str:
+        return f"$${self.latex()}$$"
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A step of a derivation, which prints itself and shows its formulas in a notebook."""
+
+    step: Step
+    symbols: tuple[Symbol, ...]
+
+    @property
+    def equations(self) -> tuple[ShownEquation, ...]:
+        """Its equations, in order."""
+        return tuple(ShownEquation(e, self.symbols) for e in self.step.equations)
+
+    def __str__(self) -> str:
+        from .views.text import step_text
+
+        return step_text(self.step)
+
+    def markdown(self, lang: str = "en") -> str:
+        """The step in Markdown, its formulas between dollars."""
+        from .views.language import language
+        from .views.markdown import step_markdown
+
+        return step_markdown(self.step, self.symbols, language=language(lang))
+
+    def _repr_markdown_(self) -> str:
+        return self.markdown()
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A derivation: the record of a problem and what one does with it."""
+
+    problem: Problem
+    record: Derivation
+
+    def __getitem__(self, label: str) -> Shown:
+        """A step by its label, with or without the problem's name: ``d["motion"]``."""
+        return Shown(self.record[label], self.record.symbols)
+
+    def __str__(self) -> str:
+        from .rendering import render
+
+        return render(self.record, "text")
+
+    def markdown(self, lang: str = "en") -> str:
+        """The walk in Markdown, its formulas between dollars."""
+        from .rendering import render
+
+        return render(self.record, "markdown", lang)
+
+    def _repr_markdown_(self) -> str:
+        return self.markdown()
+
+    def latex(self, lang: str = "en", transpose: str = "bar", hat: str = "j") -> str:
+        """A document for pdflatex, with transposes as "bar" or "top" and hats as "j" or "wedge"."""
+        from .rendering import render
+
+        return render(self.record, "latex", lang, transpose=transpose, hat=hat)
+
+    def check(self) -> list[Verdict]:
+        """A verdict for every step, by exact arithmetic and another road."""
+        from .record.check import check
+
+        return check(self.record)
+
+    def expressions(self) -> Expressions:
+        """The equations of motion in coordinates, as SymPy expressions."""
+        from .code.expressions import expressions
+        from .pipeline import program
+
+        return expressions(program(self.problem, self.record))
+
+    def emit(
+        self,
+        out: str | Path | None = None,
+        languages: Sequence[str] = ("c", "python"),
+        prefix: str | None = None,
+        **choices: Any,
+    ) -> dict[str, str]:
+        """The emitted files by name, written to the folder ``out`` if there is one.
+
+        ``choices``: those of :class:`derive.code.options.Options`, as ``real="float"``.
+        """
+        from .code.emit import emit
+        from .code.options import Options
+        from .pipeline import program
+        from .writing import write
+
+        options = Options(**choices)
+        made = program(self.problem, self.record, options)
+        files = emit(made, self.record, tuple(languages), prefix or self.problem.name, options)
+        if out is not None:
+            write(files, Path(out))
+        return files
+
+
+def derive(problem: Problem | str | Path) -> Derived:
+    """Walk the road of a problem, of a problem file, or of a ready-made problem."""
+    from .cli import load_problem
+    from .pipeline import walk
+
+    if not isinstance(problem, Problem):
+        problem = load_problem(str(problem))
+    return Derived(problem, walk(problem))
