@@ -17,6 +17,7 @@ from derive.mechanics.toml import load
 from derive.pipeline import walk
 from derive.record.record import Derivation, Equation, Step, Symbol
 from derive.record.sentence import say
+from derive.views.entries import entries
 from derive.views.escape import markdown_text, prose, tex_text
 from derive.views.latex import anchor, latex, spelt
 from derive.views.letters import bar, names_of, parameter
@@ -85,7 +86,7 @@ def test_every_equation_has_one_label_in_latex(name: str) -> None:
     d = record(name)
     labels = re.findall(r"\\label\{(.*?)\}", latex(d))
     assert labels == [
-        anchor(equation_label(step, k)) for step in d.steps for k in range(len(step.equations))
+        anchor(equation_label(step, x.first)) for step in d.steps for x in entries(step.equations)
     ]
     assert len(set(labels)) == len(labels)
 

@@ -36,7 +36,7 @@ READABLE = 2
 
 @dataclass(frozen=True)
 class Finding:
-    """What became of one numbered equation."""
+    """What became of one numbered equation; ``equations`` are those that are false as printed."""
 
     number: int
     verdict: str
@@ -44,6 +44,7 @@ class Finding:
     derived: str | None
     counterexample: dict[str, str] | None
     remark: str
+    equations: tuple[Equation, ...] = ()
 
 
 def compare(records: Sequence[Derivation]) -> list[Finding]:
@@ -56,8 +57,10 @@ def misprints(numbers: Container[int]) -> list[Finding]:
     found = []
     for p in PAPER:
         if p.number in numbers:
-            example = next(x for e in p.equations if (x := _counterexample(p, e, 5)) is not None)
-            found.append(Finding(p.number, "misprinted", p.reads, None, example, p.remark))
+            tried = ((e, _counterexample(p, e, 5)) for e in p.equations)
+            false, example = next((e, x) for e, x in tried if x is not None)
+            what = ("misprinted", p.reads, None, example, p.remark, (false,))
+            found.append(Finding(p.number, *what))
     return found
 
 
@@ -89,7 +92,8 @@ def _finding(p: Printed, records: Sequence[Derivation]) -> Finding:
     verdict = "misprinted" if false else "confirmed" if p.claim else "definition"
     counterexample = _counterexample(p, false[0]) if false else None
     assert bool(false) == (counterexample is not None), f"({p.number}) at small values"
-    return Finding(p.number, verdict, p.reads, _derived(p, records), counterexample, p.remark)
+    derived = _derived(p, records)
+    return Finding(p.number, verdict, p.reads, derived, counterexample, p.remark, tuple(false))
 
 
 def _derived(p: Printed, records: Iterable[Derivation]) -> str | None:
@@ -123,7 +127,7 @@ def _counterexample(p: Printed, equation: Equation, tries: int = 1000) -> dict[s
             continue
         if difference(equation, env):
             used = dict.fromkeys(x for side in (equation.lhs, equation.rhs) for x in names(side))
-            used = dict.fromkeys(["A"] * ("α" in used) + list(used))
+            used = dict.fromkeys([*["A"] * ("α" in used), *used, *p.missing])
             values = {x: text(env.names[x]) for x in used if x in env.names}
             sides = {
                 f"true value of {show(equation.lhs)}": text(evaluate(equation.lhs, env)),

@@ -199,6 +199,7 @@ TOP: tuple[Printed, ...] = (
         tuple(_euler(*p) for p in PC),
         "Said to be equivalent to (34), it has lost the term φ of the potential.",
         True,
+        missing=("φ",),
     ),
     Printed(
         39,

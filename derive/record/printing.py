@@ -3,6 +3,7 @@
 Each entry is the number, what kind of statement it is, where it holds, the printed equations as
 trees, how they read in print, and a remark where the print needs one.  Nothing here was corrected.
 A *claim* has a truth value and is compared with the derivation; a *definition* introduces a name.
+``missing``: names that the print has lost, and a counterexample needs.
 ``answers``: left sides of the record that answer the print where its own are misprinted.
 """
 
@@ -34,6 +35,7 @@ class Printed:
     remark: str = ""
     principal: bool = False
     answers: tuple[Tree, ...] = ()
+    missing: tuple[str, ...] = ()
 
 
 def bar(x: Tree) -> Tree:

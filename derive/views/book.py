@@ -2,57 +2,107 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from unicodedata import normalize
 
-from ..record.paper import Finding
+from ..algebra.tree import names
 from ..record.record import Derivation, Step, Symbol
-from ..record.vocabulary import ANY_GROUP
+from ..record.sentence import english, say
+from ..record.vocabulary import ANY_GROUP, VOCABULARY
 from .language import ENGLISH, Language
-from .outline import capitalised, subtitle, title
+from .outline import group, title
 
 VARIATIONS = ("δ′", "δ")
 RATE = "\u0307"
 MOTION = "Equations of motion"
-REGULAR = "The rates Ẋ are along the motion; δX and δ′X are two variations of X."
+REGULAR = "Ẋ is the derivative of X along the motion; δX and δ′X are two variations of X."
 GENERAL = ("For any group of matrices, linear action", "For any group of matrices, affine action")
 
 
 @dataclass(frozen=True)
 class Part:
-    """Steps under a heading; ``name`` is the anchor; ``record`` is that of a problem's own part."""
+    """Steps under a heading; ``name`` is the anchor; ``record`` is that of a problem's own part.
+
+    ``symbols``: the letters to explain here, which no part before has with the same meaning.
+    """
 
     name: str
     heading: str
     about: str
     steps: tuple[Step, ...]
     source: Derivation
+    symbols: tuple[Symbol, ...]
     record: Derivation | None = None
-
-    @property
-    def symbols(self) -> tuple[Symbol, ...]:
-        """The letters to explain: without variations and rates, which have one rule."""
-        return tuple(s for s in self.source.symbols if not _regular(s.name))
 
 
 def book(records: Sequence[Derivation], language: Language = ENGLISH) -> list[Part]:
     """The parts, each step once."""
     parts: list[Part] = []
     seen: set[str] = set()
+    told: dict[str, str] = {}
     for d in records:
         general = tuple(s for s in d.steps if s.scope == ANY_GROUP and s.label not in seen)
         if general:
             kind = general[0].label.partition(".")[0]
             heading = language.word(GENERAL[kind == "affine"])
-            parts.append(Part(kind, heading, "", general, d))
+            letters = new_letters([*map(of_any_group, d.symbols)], general, told)
+            parts.append(Part(kind, heading, "", general, d, letters))
             seen |= {s.label for s in general}
     for d in records:
         own = tuple(s for s in d.steps if s.scope != ANY_GROUP)
         if own:
-            about = capitalised(subtitle(d, language))
-            parts.append(Part(d.name, title(d, language), about, own, d, d))
+            letters = new_letters(d.symbols, own, told)
+            parts.append(Part(d.name, title(d, language), about(d, language), own, d, letters, d))
     return parts
+
+
+def about(d: Derivation, language: Language) -> str:
+    """The group of a record and its dimension, as a sentence with formulas."""
+    basis = d.problem.get("basis")
+    if not isinstance(basis, list) or not basis:
+        return ""
+    dimension = str(len(basis))
+    return language.word("The group {group}, of dimension {d}.", group=group(d), d=dimension)
+
+
+def new_letters(
+    symbols: Sequence[Symbol], steps: Sequence[Step], told: dict[str, str]
+) -> tuple[Symbol, ...]:
+    """The letters of these steps that were not last told with that meaning, and now are.
+
+    Without variations and rates, which have one rule.
+    """
+    sides = (x for s in steps for e in s.equations for x in (e.lhs, e.rhs))
+    used = {name for side in sides for name in names(side)}
+    found = []
+    for s in symbols:
+        meaning = english(s.meaning)
+        if s.name in used and told.get(s.name) != meaning and not _regular(s.name):
+            told[s.name] = meaning
+            found.append(s)
+    return tuple(found)
+
+
+def parameters(d: Derivation | None, language: Language) -> list[tuple[list[str], str, str]]:
+    """The parameters of a problem in runs of one meaning and unit: names, meaning, unit."""
+    given = d.problem.get("parameters") if d else None
+    found: list[tuple[list[str], str, str]] = []
+    for name, told in given.items() if isinstance(given, Mapping) else ():
+        told = told if isinstance(told, Mapping) else {}
+        meaning = language.word(str(told.get("meaning") or "parameter"))
+        unit = str(told.get("unit") or "")
+        if found and found[-1][1:] == (meaning, unit):
+            found[-1][0].append(str(name))
+        else:
+            found.append(([str(name)], meaning, unit))
+    return found
+
+
+def of_any_group(s: Symbol) -> Symbol:
+    """A letter with the meaning that it has whatever the group."""
+    known = VOCABULARY.get(s.name)
+    return replace(s, meaning=say(known[0])) if known else s
 
 
 def _regular(name: str) -> bool:
@@ -65,22 +115,3 @@ def steps(parts: Sequence[Part]) -> Iterator[tuple[Part, Step]]:
     for part in parts:
         for step in part.steps:
             yield part, step
-
-
-def corrected(step: Step, findings: Iterable[Finding], language: Language) -> Iterator[str]:
-    """For each number of a step whose print is wrong: what was printed, and values that show it."""
-    for f in findings:
-        if f.number not in step.paper:
-            continue
-        values = [*(f.counterexample or {}).items()]
-        given, (left, right) = values[:-2], values[-2:]
-        printed = language.word(
-            "The paper prints in {number}: {printed}.", number=f"({f.number})", printed=f.printed
-        )
-        example = language.word(
-            "For {values} the left side is {left}, the printed right side {right}.",
-            values=", ".join(f"{name} = {value}" for name, value in given),
-            left=left[1],
-            right=right[1],
-        )
-        yield f"{printed} {example}"

@@ -11,12 +11,14 @@ from typing import Any
 from ..record.paper import Finding
 from ..record.record import Derivation, Equation, Step
 from ..templating import environment
-from .book import MOTION, REGULAR, Part, book, corrected, steps
+from .book import MOTION, REGULAR, Part, book, parameters, steps
+from .corrections import Told, corrections
+from .entries import entries
 from .escape import prose
 from .figure import svg
 from .language import ENGLISH, Language
 from .latex import anchor
-from .layout import clause
+from .layout import ROOM, clause, for_every
 from .letters import names_of, parameter
 from .macros import spoken, standard
 from .mathml import mathml
@@ -37,6 +39,8 @@ from .wrap import Piece, groups
 
 PHONE = 16.0
 """What is wider (in em) and cannot be broken may have to be moved on a phone."""
+LONG = 0.4 * ROOM
+"""A left side that is wider has lines of its own."""
 
 SPACES = "\u00a0\u202f"
 
@@ -52,6 +56,7 @@ def html(
     chosen, word = notation or Notation(), language.word
     parts = book(records, language)
     shown = {step.label: (part, step) for part, step in steps(parts)}
+    numbers, told = numbered(parts), corrections(parts, findings, language)
     template = environment("html", autoescape=True).get_template("page.html.jinja")
     return template.render(
         language=language.name,
@@ -65,8 +70,20 @@ def html(
             "names": word("Names"),
             "copy": word("copy the LaTeX"),
         },
-        parts=[_Part(part, chosen, language, findings).fields(shown) for part in parts],
+        parts=[_Part(p, chosen, language, numbers, told).fields(shown) for p in parts],
     )
+
+
+def numbered(parts: Sequence[Part]) -> dict[str, str]:
+    """The numbers of parts, by name, and of equations, by label: those of the LaTeX."""
+    found = {}
+    for i, part in enumerate(parts, 1):
+        found[part.name] = str(i)
+        labels = (
+            equation_label(step, x.first) for step in part.steps for x in entries(step.equations)
+        )
+        found |= {label: f"{i}.{k}" for k, label in enumerate(labels, 1)}
+    return found
 
 
 def words(text: str, notation: Notation, *, ready: bool = False) -> str:
@@ -93,7 +110,8 @@ class _Part:
     part: Part
     notation: Notation
     language: Language
-    findings: Sequence[Finding] = ()
+    numbers: Mapping[str, str]
+    told: Mapping[str, list[list[Told]]]
 
     @property
     def names(self) -> Mapping[str, str]:
@@ -104,8 +122,9 @@ class _Part:
         """What the template shows."""
         return {
             "id": anchor(self.part.name),
+            "number": self.numbers[self.part.name],
             "heading": self.part.heading,
-            "about": self.part.about,
+            "about": words(self.part.about, self.notation),
             "steps": [self.step(step, shown) for step in self.part.steps],
             "names": [*self.symbols(), *self.parameters()],
             **self.figure(),
@@ -125,10 +144,8 @@ class _Part:
             "label": step.label,
             "id": anchor(step.label),
             "rule": capitalised(self.language.word(step.rule)),
-            "notes": notes(step, self.language),
-            "corrections": [
-                words(x, self.notation) for x in corrected(step, self.findings, self.language)
-            ],
+            "notes": [words(x, self.notation) for x in notes(step, self.language)],
+            "corrections": [*map(self.correction, self.told[step.label])],
             "prose": words(self.language.of(step.prose), self.notation),
             "equations": [*self.equations(step)],
             "uses": [
@@ -137,21 +154,38 @@ class _Part:
             ],
         }
 
+    def correction(self, told: Iterable[Told]) -> str:
+        """What is told of the print."""
+
+        def formula(tex: str) -> str:
+            return movable(tex, mathml(tex, self.notation))
+
+        return "".join(x.shown(lambda text: words(text, self.notation), formula) for x in told)
+
     def used(self, part: Part, step: Step) -> Iterable[dict[str, Any]]:
         """The equations of a step, in the letters of its own part."""
-        return _Part(part, self.notation, self.language).equations(step)
+        return _Part(part, self.notation, self.language, self.numbers, {}).equations(step)
 
     def equations(self, step: Step) -> Iterable[dict[str, Any]]:
-        """The equations of a step with their anchors and their LaTeX."""
-        for k, e in enumerate(step.equations):
-            left, right = marked(e.lhs, self.names), marked(e.rhs, self.names)
+        """What has a number in a step, with its anchor and its LaTeX."""
+        for x in entries(step.equations):
+            label = equation_label(step, x.first)
+            first, cells = x.equations[0], x.equations if x.only is None else ()
             yield {
-                "id": anchor(equation_label(step, k)),
-                "left": self.cut(left),
-                "right": self.cut(right, equals=True),
-                "clause": self.clause(e),
-                "tex": self.source(e),
+                "id": anchor(label),
+                "number": self.numbers[label],
+                "long": measure(latex_tree(first.lhs, self.names)) > LONG,
+                "left": self.cut(marked(first.lhs, self.names)),
+                "right": self.cut(marked(first.rhs, self.names), equals=True),
+                "cells": [self.cell(e) for e in cells],
+                "clause": self.clause(first),
+                "tex": r",\qquad ".join(map(self.source, x.equations)),
             }
+
+    def cell(self, e: Equation) -> str:
+        """A short equation that stands beside others."""
+        tex = f"{latex_tree(e.lhs, self.names)} = {latex_tree(e.rhs, self.names)}"
+        return movable(tex, mathml(tex, self.notation))
 
     def cut(self, tex: str, *, equals: bool = False) -> str:
         """A formula in terms between which a line may break, and these in turn."""
@@ -170,7 +204,7 @@ class _Part:
 
     def spoken(self, e: Equation) -> str:
         """For which names the equation holds, as LaTeX."""
-        return clause(e, self.names, self.language.word("for every"))
+        return clause(e, self.names, for_every(self.language))
 
     def clause(self, e: Equation) -> str:
         """The same as markup."""
@@ -191,12 +225,9 @@ class _Part:
 
     def parameters(self) -> Iterable[dict[str, str]]:
         """The parameters of the problem."""
-        parameters = self.part.record.problem.get("parameters") if self.part.record else None
-        for name, about in parameters.items() if isinstance(parameters, Mapping) else ():
-            about = about if isinstance(about, Mapping) else {}
-            unit = str(about.get("unit") or "")
-            meaning = escaped(self.language.word(str(about.get("meaning") or "parameter")))
+        for run, meaning, unit in parameters(self.part.record, self.language):
+            told = f"{meaning} [{unit}]" if unit else meaning
             yield {
-                "name": mathml(parameter(str(name)), self.notation),
-                "meaning": f"{meaning} [{escaped(unit)}]" if unit else meaning,
+                "name": ", ".join(mathml(parameter(x), self.notation) for x in run),
+                "meaning": escaped(told),
             }

@@ -10,8 +10,10 @@ from functools import cached_property
 from ..record.paper import Finding
 from ..record.record import Derivation, Step
 from ..templating import environment
-from .book import MOTION, REGULAR, Part, book, corrected, steps
+from .book import MOTION, REGULAR, Part, book, parameters, steps
+from .corrections import Told, corrections
 from .drawing import Scene
+from .entries import entries
 from .escape import between_dollars, prose, tex_text
 from .figure import tikz
 from .language import ENGLISH, Language
@@ -82,6 +84,10 @@ def fragment(d: Derivation, *, language: Language = ENGLISH) -> str:
     return styled("\n".join(steps)) + "\n"
 
 
+ROOM = "0.4\\textheight"
+"""What must be left on a page for a section and its figure to begin there."""
+
+
 @dataclass(frozen=True)
 class _Writer:
     """The parts of a book as LaTeX."""
@@ -98,29 +104,34 @@ class _Writer:
     def body(self) -> Iterator[str]:
         """Sections with their figures, steps and names."""
         for part in self.parts:
-            yield rf"\section{{{tex_text(part.heading)}}}"
+            yield rf"\room{{{ROOM}}}\section{{{tex_text(part.heading)}}}"
             if part.about:
-                yield rf"{{\large {tex_text(part.about)}\par}}"
+                yield rf"{{\large {prose(part.about)}\par}}"
             if drawn := self.drawings[part.name]:
                 caption = prose(self.language.of(drawn.caption))
                 yield rf"\drawing{{{tikz(drawn)}}}{{{caption}}}"
             for step in part.steps:
                 yield from ("", *self.step(part, step))
-            names = [*_names(part, names_of(part.source.symbols), self.language)]
-            heading = tex_text(self.language.word("Names"))
-            yield rf"\begin{{names}}{{{heading}}}"
-            yield from (*names, r"\end{names}", "")
+            if names := [*_names(part, names_of(part.source.symbols), self.language)]:
+                heading = tex_text(self.language.word("Names"))
+                yield rf"\begin{{names}}{{{heading}}}"
+                yield from (*names, r"\end{names}", "")
+
+    @cached_property
+    def corrections(self) -> dict[str, list[list[Told]]]:
+        """What is told of the print at each step."""
+        return corrections(self.parts, self.findings, self.language)
 
     @cached_property
     def last(self) -> dict[str, str]:
         """Label of a step → that of its last equation."""
         every = (step for _, step in steps(self.parts))
-        return {x.label: equation_label(x, len(x.equations) - 1) for x in every}
+        return {x.label: equation_label(x, entries(x.equations)[-1].first) for x in every}
 
     def step(self, part: Part, step: Step) -> Iterator[str]:
         """Heading, sentences, equations."""
         names, language = names_of(part.source.symbols), self.language
-        beside = "".join(f", {tex_text(note)}" for note in notes(step, language))
+        beside = "".join(f", {prose(note)}" for note in notes(step, language))
         rule = tex_text(capitalised(language.word(step.rule)))
         yield rf"\step{{{rule}}}{{{beside}{self.footnotes(step)}}}{{{spelt(step.label)}}}"
         used = ", ".join(reference(label, self.last) for label in step.uses)
@@ -129,8 +140,13 @@ class _Writer:
 
     def footnotes(self, step: Step) -> str:
         """Where the print of the paper is corrected."""
-        told = corrected(step, self.findings, self.language)
-        return "".join(rf"\footnote{{{prose(words)}}}" for words in told)
+        told = ("".join(x.shown(prose, _small) for x in t) for t in self.corrections[step.label])
+        return "".join(rf"\footnote{{{x}}}" for x in told)
+
+
+def _small(formula: str) -> str:
+    """A formula of a footnote, its matrices small."""
+    return f"${re.sub(r'pmatrix(?=[}])', 'psmallmatrix', formula)}$"
 
 
 def reference(label: str, last: Mapping[str, str]) -> str:
@@ -142,14 +158,13 @@ def reference(label: str, last: Mapping[str, str]) -> str:
 
 def _equations(step: Step, names: Mapping[str, str], language: Language) -> Iterator[str]:
     """The alignments of a step."""
-    k = 0
+    places = iter(entries(step.equations))
     for block in blocks(step.equations, names, language):
         yield r"\begin{align}"
         rows: list[str] = []
-        for equation in block:
-            label = rf"\label{{{anchor(equation_label(step, k))}}}"
-            rows += [*(rf"{row} \notag" for row in equation[:-1]), f"{equation[-1]} {label}"]
-            k += 1
+        for entry in block:
+            label = rf"\label{{{anchor(equation_label(step, next(places).first))}}}"
+            rows += [*(rf"{row} \notag" for row in entry[:-1]), f"{entry[-1]} {label}"]
         yield " \\\\\n".join(rows)
         yield r"\end{align}"
 
@@ -169,12 +184,9 @@ def _names(part: Part, names: Mapping[str, str], language: Language) -> Iterator
     for symbol in part.symbols:
         meaning = prose(language.of(symbol.meaning))
         yield rf"\name{{{latex_tree(symbol.name, names)}}}{{{meaning}}}"
-    parameters = part.record.problem.get("parameters") if part.record else None
-    for name, about in parameters.items() if isinstance(parameters, Mapping) else ():
-        about = about if isinstance(about, Mapping) else {}
-        meaning = tex_text(language.word(str(about.get("meaning") or "parameter")))
-        unit = _unit(str(about.get("unit") or ""))
-        yield rf"\name{{{parameter(str(name))}}}{{{meaning}{f' [{unit}]' if unit else ''}}}"
+    for run, meaning, unit in parameters(part.record, language):
+        shown = ", ".join(map(parameter, run))
+        yield rf"\name{{{shown}}}{{{tex_text(meaning)}{f' [{_unit(unit)}]' if unit else ''}}}"
 
 
 def _unit(unit: str) -> str:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from ..record.record import Equation
+from .entries import Entry, entries
 from .escape import math_text, tex_text
 from .language import ENGLISH, Language
 from .measure import measure
@@ -23,19 +24,39 @@ Rows = list[str]
 def blocks(
     equations: Sequence[Equation], names: Mapping[str, str], language: Language = ENGLISH
 ) -> list[list[Rows]]:
-    """Alignments, each a list of equations, each a list of rows ``left & right``.
+    """Alignments, each a list of entries, each a list of rows ``left & right``.
 
-    The equations of a step share one alignment unless a long left side forbids it.
+    The entries of a step share one alignment unless a long left side forbids it.
     """
-    every = rf"\text{{{tex_text(language.word('for every'))} }} "
-    left = [measure(latex_tree(e.lhs, names)) for e in equations]
+    every = for_every(language)
+    numbered = entries(equations)
+    leading = [x.equations[0] for x in numbered]
+    left = [measure(latex_tree(e.lhs, names)) for e in leading]
     right = [
-        measure(latex_tree(e.rhs, names)) + clause_width(clause(e, names, every)) for e in equations
+        measure(latex_tree(e.rhs, names)) + clause_width(clause(e, names, every)) for e in leading
     ]
     column = max(left)
     if column <= 0.4 * ROOM or column + EQUALS + max(right) <= ROOM:
-        return [[aligned(e, names, column, every) for e in equations]]
-    return [[alone(e, names, every)] for e in equations]
+        return [[rows(x, names, column, every) for x in numbered]]
+    return [[alone(x.only, names, every) if x.only else side(x, names)] for x in numbered]
+
+
+def for_every(language: Language) -> str:
+    """The words before the names for which an equation holds."""
+    return rf"\text{{{tex_text(language.word('for every'))} }} "
+
+
+def rows(x: Entry, names: Mapping[str, str], column: float, every: str) -> Rows:
+    """An entry whose left side has a column of the given width."""
+    return aligned(x.only, names, column, every) if x.only else side(x, names)
+
+
+def side(x: Entry, names: Mapping[str, str]) -> Rows:
+    """Short equations side by side."""
+    cells = [(latex_tree(e.lhs, names), latex_tree(e.rhs, names)) for e in x.equations]
+    (head, first), *others = cells
+    more = (rf"{a} = {b}" for a, b in others)
+    return [r",\qquad ".join([f"{guarded(head)} &= {first}", *more])]
 
 
 def aligned(e: Equation, names: Mapping[str, str], column: float, every: str) -> Rows:

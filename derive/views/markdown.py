@@ -32,7 +32,7 @@ def step_markdown(step: Step, symbols: Iterable[Symbol], *, language: Language =
 
 
 def _step(step: Step, names: Mapping[str, str], language: Language) -> Iterator[str]:
-    beside = "".join(f", {markdown_text(note)}" for note in notes(step, language))
+    beside = "".join(f", {prose(note, markdown_text)}" for note in notes(step, language))
     rule = markdown_text(capitalised(language.word(step.rule)))
     yield f"### {rule}{beside} — {code(step.label)}"
     used = ", ".join(map(code, step.uses))

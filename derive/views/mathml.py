@@ -175,6 +175,8 @@ class _Parser:
             cells = []
             if end != "\\\\":
                 break
+            if self.tokens[self.at : self.at + 4] == ["[", "2", "p", "t"]:
+                self.at += 5
         body = "".join(rows)
         if "array" in token:
             return f'<mtable class="lines">{body}</mtable>'

@@ -36,7 +36,9 @@ MATRIX = re.compile(r"\\begin\{pmatrix\}(.*?)\\end\{pmatrix\}", re.S)
 
 def measure(tex: str) -> float:
     """About how wide a formula is, in em; rather too wide than too narrow."""
-    wide = sum(1.8 + max(map(measure, m[1].split(r" \\ "))) for m in MATRIX.finditer(tex))
+    wide = sum(
+        1.8 + max(map(measure, re.split(r" \\\\(?:\[2pt\])? ", m[1]))) for m in MATRIX.finditer(tex)
+    )
     tex = MATRIX.sub("", tex)
     small = sum(measure(m[1] or m[2] or "") for m in SCRIPT.finditer(tex))
     tex = SCRIPT.sub("", tex)

@@ -29,9 +29,9 @@ FORMULAS_CONVENTIONS = (
 )
 """The same with formulas between dollars, for LaTeX and Markdown."""
 PAPER = (
-    "Numbers beside a rule are those of the paper, P. Iglesias-Zemmour, “D’où viennent les "
-    "équations du mouvement des solides ?”; one marked * is misprinted there; "
-    "derive paper says how."
+    "Numbers beside the name of a step are those of the paper, P. Iglesias-Zemmour, "
+    "“D’où viennent les équations du mouvement des solides ?”; one marked * is "
+    "misprinted there; “derive paper” says how."
 )
 
 GIVEN = {

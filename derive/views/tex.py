@@ -30,6 +30,8 @@ VARIATIONS = ("δ", "δ′")
 ENTRY_WIDTH = 24.0
 """An entry of a matrix wider than this (in em) is set on several lines."""
 
+BARS = (r"\bar{", r"\overline{")
+
 Shown = tuple[str, int]
 
 
@@ -150,8 +152,9 @@ class Printer:
         return rf"\det{inside}", PRODUCT
 
     def op_inv(self, a: Tree) -> str:
-        """Inverse."""
-        return self.base(a) + "^{-1}"
+        """Inverse; braces, for a preamble may write a transpose as an exponent."""
+        base = self.base(a)
+        return (f"{{{base}}}" if base.startswith(BARS) else base) + "^{-1}"
 
     def op_pow(self, a: Tree, n: Tree) -> str:
         """Power."""
@@ -243,8 +246,9 @@ class Printer:
 
     def op_matrix(self, *rows: Tree) -> str:
         """A matrix."""
-        shown = [self.cells(r) for r in rows]
-        body = r" \\ ".join(" & ".join(cells) for cells in shown)
+        shown = [" & ".join(self.cells(r)) for r in rows]
+        gap = "[2pt]" if any("frac" in x for x in shown) else ""
+        body = rf" \\{gap} ".join(shown)
         return rf"\begin{{pmatrix}} {body} \end{{pmatrix}}"
 
     def cells(self, row: Tree) -> list[str]:

@@ -5,20 +5,19 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Iterator, Mapping
-from fractions import Fraction
 from itertools import groupby
 
 from ..algebra.show import show, show_name
 from ..algebra.tree import Tree
 from ..record.record import Derivation, Equation, Step
+from .entries import TABLE, cell
 from .escape import NO_BREAK
 from .language import ENGLISH, Language
 from .outline import CONVENTIONS, PAPER, domain, notes, sections, subtitle, title
 from .wrap import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
 
 MARGIN, EQUATION, INSIDE = 2, 6, 4
-TABLE, CELL, NAME = 4, 24, 8
-SIMPLE = ("par", "entry", "matrix", "add")
+NAME = 8
 OPENING, CLOSING = "([⟨", ")]⟩"
 BREAKS = {" + ": SUM, " − ": SUM, " ∧ ": WEDGE}
 
@@ -114,13 +113,13 @@ def _step(step: Step, width: int, quoted: frozenset[str], language: Language) ->
 
 def _equations(equations: tuple[Equation, ...], room: int, language: Language) -> Iterator[str]:
     """The equations of a step, aligned at their signs; many short ones stand side by side."""
-    runs = [[*run] for _, run in groupby(equations, key=lambda e: bool(_cell(e)))]
-    if len(runs) > 1 and any(len(run) > TABLE and _cell(run[0]) for run in runs):
+    runs = [[*run] for _, run in groupby(equations, key=lambda e: bool(cell(e)))]
+    if len(runs) > 1 and any(len(run) > TABLE and cell(run[0]) for run in runs):
         for run in runs:
             yield from _equations(tuple(run), room, language)
         return
-    if len(equations) > TABLE and _cell(equations[0]) and len(runs) == 1:
-        yield from _table([_cell(e) for e in equations], room)
+    if len(equations) > TABLE and cell(equations[0]) and len(runs) == 1:
+        yield from _table([cell(e) for e in equations], room)
         return
     left = [show(e.lhs) for e in equations]
     widest = max(map(display_width, left))
@@ -128,14 +127,6 @@ def _equations(equations: tuple[Equation, ...], room: int, language: Language) -
     for lhs, e in zip(left, equations, strict=True):
         for line in _equation(lhs, e, column, room, language):
             yield " " * EQUATION + line
-
-
-def _cell(e: Equation) -> str:
-    """An equation that names a number or an entry; empty for others."""
-    named = isinstance(e.lhs, tuple) and e.lhs[0] in ("at", "entry")
-    simple = isinstance(e.rhs, (str, int, Fraction)) or e.rhs[0] in SIMPLE
-    cell = f"{show(e.lhs)} = {show(e.rhs)}"
-    return cell if named and simple and not e.for_all and display_width(cell) <= CELL else ""
 
 
 def _table(cells: list[str], room: int) -> Iterator[str]:

@@ -45,11 +45,13 @@ def cartan(stage: Pullback, a: Alphabet, prefix: str) -> Cartan:
             (f"{prefix}.pullback",),
             tuple(_momentum_equations(momentum, momentum_tree, a, variations)),
             say(
-                "The momentum is the derivative of the Lagrangian along the velocity, for all "
-                "(δA, δT), of which the group has some."
+                "The momentum is the derivative of the Lagrangian with respect to the velocity, "
+                "for every (δA, δT), in particular for those tangent to the group."
             )
             if a.affine
-            else say("The momentum is the derivative of the Lagrangian along the velocity."),
+            else say(
+                "The momentum is the derivative of the Lagrangian with respect to the velocity."
+            ),
             (16, 20) if a.affine else (16,),
         ),
         Step(

@@ -52,7 +52,11 @@ def conserved_steps(
         definitions.append(Equation("ℓ", momenta.turning))
         kept.append(Equation(rate, 0))
         whole = rate == "ℓ̇"
-        told += say("the angular momentum ℓ" if whole else "the angular momentum ℓ about gravity")
+        told += say(
+            "the angular momentum ℓ"
+            if whole
+            else "the angular momentum ℓ about the direction of gravity"
+        )
     if momenta.shifting is not None and (rate := _shifting(problem, v, b)) is not None:
         definitions.append(Equation("p", momenta.shifting))
         kept.append(Equation(rate, 0))
@@ -60,9 +64,12 @@ def conserved_steps(
     if not kept:
         return ()
     prose = say(
-        "What the motion keeps, where nothing acts from outside dϖ: {kept}.",
+        "Among what the motion keeps, where nothing acts from outside dϖ: {kept}.",
         kept=listed("{first}, {second}", told),
-    ) + say("The Cartan form is constant along the motion on a displacement that leaves it alone.")
+    ) + say(
+        "On a displacement that leaves it invariant the Cartan form is constant along "
+        "the motion (Noether)."
+    )
     return (c.step("conserved", "conservation", uses, [*definitions, *kept], prose),)
 
 

@@ -138,7 +138,7 @@ def steps_of(
                 "tangent X is in the kernel of dϖ."
             )
             + say(
-                "A vector X with δt = 1 is put in; its other components, {unknown}, are unknown.",
+                "A vector X with δt = 1 is inserted; its other components, {unknown}, are unknown.",
                 unknown=unknown,
             ),
             (),

@@ -72,8 +72,9 @@ def eliminate(stage: VectorForm, a: Alphabet, prefix: str, scope: str) -> Elimin
             Equation(("mul", CENTRAL.name, "ζ̇"), vector_tree(torque, a)),
         ),
         say(
-            "As m > 0, the balance of forces gives ẇ; put into the balance of moments, it leaves "
-            "I_c, the tensor of inertia about the centre of mass r_c, which J_c gives as J gives I."
+            "As m > 0, the balance of forces gives ẇ; inserted into the balance of moments, "
+            "it makes I_c appear there, the tensor of inertia about the centre of mass r_c, "
+            "which follows from J_c as I does from J."
         )
         + say("The velocity of the centre of mass, in the body frame, is w_c."),
         (),

@@ -75,8 +75,7 @@ def exterior(stage: Cartan, a: Alphabet, prefix: str) -> Exterior:
             (f"{prefix}.cartan", f"{prefix}.energy", f"{prefix}.force")
             + (() if a.affine else (f"{prefix}.gradient",)),
             (Equation(DOMEGA, gathered(form, static, images, notation)),),
-            say("The exterior derivative of the Cartan form.")
-            + say("The derivative of Ũ by the time drops out."),
+            say("The exterior derivative of the Cartan form.") + say("The terms in ∂Ũ/∂t cancel."),
             (25,),
         ),
         Step(

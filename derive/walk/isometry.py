@@ -42,11 +42,11 @@ def isometry(stage: Cartan, a: Alphabet, n: int, prefix: str, general: str, scop
             Equation(("T", "ξ"), ("mul", -1, "ξ")),
         ),
         say(
-            "For isometries ĀA = 1, so that C drops out, and Z and ξ are skew; w and η are any "
-            "vectors."
+            "For isometries ĀA = 𝟏, so that C drops out, and Z and ξ are skew; w and η are "
+            "any vectors."
         )
         if a.affine
-        else say("For isometries ĀA = 1, so that C drops out, and Z and ξ are skew."),
+        else say("For isometries ĀA = 𝟏, so that C drops out, and Z and ξ are skew."),
         scope=scope,
     )
     cartan = Step(
@@ -87,8 +87,8 @@ def _exterior(
         (Equation(DOMEGA, shown),),
         say("Its exterior derivative; the bracket comes from the structure equation.")
         + say(
-            "It is the general form: for skew ξ and Z and symmetric J the terms with ξ′, ξ and Z "
-            "make up the bracket."
+            "It is the general form with C = 𝟏: as ξ and Z are skew and J is symmetric, the "
+            "terms in ξ′ξZ gather into a bracket and those in ZZ cancel."
         ),
         () if b.affine else (29,),
         scope,

@@ -10,7 +10,7 @@ from ..algebra.notation import metrics, tree_of
 from ..algebra.tree import Tree, add, neg
 from ..algebra.words import Expr, Letter, inner, word
 from ..record.record import Equation, Step
-from ..record.sentence import say
+from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 
 POINT: Tree = ("call", ("at", "r", "i"), "t")
@@ -42,7 +42,10 @@ def lagrangian(a: Alphabet, prefix: str) -> Lagrangian:
             "definition",
             (),
             (Equation("L", add(("sum", "i", summand), neg("U"))),),
-            say("The Lagrangian of the points is their kinetic energy less their potential."),
+            say(
+                "A body is made of points r_i of mass m_i, which have the velocities v_i in "
+                "space. Its Lagrangian is the kinetic energy less the potential."
+            ),
             (3,),
         ),
         Step(
@@ -50,9 +53,7 @@ def lagrangian(a: Alphabet, prefix: str) -> Lagrangian:
             "definition",
             (),
             (Equation(POINT, indexed_tree(position, v_i, a)),),
-            say(
-                "The body is moved by the group: every point is the image of its place in the body."
-            ),
+            _moved(a),
             (7, 8),
         ),
         Step(
@@ -63,10 +64,7 @@ def lagrangian(a: Alphabet, prefix: str) -> Lagrangian:
                 Equation(("at", "v", "i"), indexed_tree(velocity, v_i, a)),
                 Equation(("call", "δ", POINT), indexed_tree(variation, v_i, a)),
             ),
-            say(
-                "A velocity of the group gives one to each point; a variation, the displacements "
-                "that respect the constraint."
-            )
+            _velocities(a)
             + say(
                 "Here the velocity is a coordinate of its own: that it is the derivative of the "
                 "motion will come out of the kernel."
@@ -75,6 +73,30 @@ def lagrangian(a: Alphabet, prefix: str) -> Lagrangian:
         ),
     )
     return Lagrangian(kinetic, v_i, velocity, position, steps)
+
+
+def _moved(a: Alphabet) -> Prose:
+    if a.affine:
+        return say(
+            "An element g = (A, T) of the group G moves the body: every point is the image of its "
+            "place in the body."
+        )
+    return say(
+        "An element g = A of the group G moves the body: every point is the image of its place in "
+        "the body."
+    )
+
+
+def _velocities(a: Alphabet) -> Prose:
+    if a.affine:
+        return say(
+            "A velocity ν = (α, τ), tangent to G at g, gives one to each point; a variation, the "
+            "displacements that respect the constraint."
+        )
+    return say(
+        "A velocity ν = α, tangent to G at g, gives one to each point; a variation, the "
+        "displacements that respect the constraint."
+    )
 
 
 def indexed_tree(e: Expr, v_i: Letter, a: Alphabet) -> Tree:

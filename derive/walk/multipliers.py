@@ -141,8 +141,8 @@ def _prose(direction: Expr | None, letters: list[Letter]) -> Prose:
             "The difference of the two sides is orthogonal to the Lie algebra: a multiple of Λ."
         )
     return say(
-        "The difference of the two sides is orthogonal, for Tr a b̄, to every matrix of trace "
-        "zero: a multiple λ of 1, the multiplier of the volume."
+        "The difference of the two sides is orthogonal, for Tr ab̄, to every matrix of "
+        "trace zero: a multiple λ of 𝟏, the multiplier of the volume."
     )
 
 

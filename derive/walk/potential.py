@@ -75,7 +75,10 @@ def _prose(over_points: list[Tree], *, spread: bool, springs: bool) -> Prose:
     if spread:
         prose += say("The sum with m_i is over the whole mass of the body.")
     if springs:
-        prose += say("The springs s_e have natural length 0.")
+        prose += say(
+            "K is the sum over the springs of natural length 0; s_e joins the ends of one "
+            "of them in the body."
+        )
     return prose
 
 

@@ -148,8 +148,8 @@ def _force(stage: Lagrangian, a: Alphabet, prefix: str) -> Step:
         (f"{prefix}.lagrangian", f"{prefix}.velocity"),
         (*definitions, Equation(("call", "dŨ", *variations), tree_of(-work))),
         say(
-            "The forces F_i, opposite to the derivative of U by the place r_i(t) in space, act on "
-            "the group through their moments."
+            "The forces F_i, opposite to the derivatives of U with respect to the places "
+            "r_i(t) in space, act on the group through their moments."
         ),
         (2,),
     )

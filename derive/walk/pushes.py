@@ -51,8 +51,9 @@ def pushes_step(
 def _prose(*, vectors: bool, radials: bool) -> Prose:
     if vectors:
         prose = say(
-            "The part U_Q of the potential is given point by point: P_i is its force on point i in "
-            "the body frame, Ā on minus the derivative of U_Q by r_i(t)."
+            "The part U_Q of the potential is given point by point: P_i is its force on "
+            "point i in the body frame, Ā on minus the derivative of U_Q with respect to "
+            "r_i(t)."
         )
     else:
         prose = say(

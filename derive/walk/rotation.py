@@ -117,16 +117,17 @@ def displacement_motion(
 def _prose(given: Given | None, *, affine: bool) -> Prose:
     if affine:
         prose = say(
-            "The equations of motion of this problem, solved for the accelerations: I_c is "
-            "invertible where the masses are not all on one line."
+            "The equations of motion of this problem, solved for the accelerations: the "
+            "tensor I_c is invertible where the masses are not all on one line."
         )
         added = say(
             "The given moment u and force f_u, outside dϖ, add ⟨u, Ω′⟩ + ⟨f_u, η′⟩ to the work."
         )
     else:
         prose = say(
-            "The equations of motion of this problem, solved for the accelerations: I is "
-            "invertible where the masses are not all on one line through the fixed point."
+            "The equations of motion of this problem, solved for the accelerations: the "
+            "tensor I is invertible where the masses are not all on one line through the "
+            "fixed point."
         )
         added = say("The given torque u, outside dϖ, adds ⟨u, Ω′⟩ to the work.")
     return prose if given is None or given.steps else prose + added
@@ -176,7 +177,7 @@ def euler_step(kernel: VectorForm, prefix: str, scope: str) -> Step:
         "solution",
         (f"{prefix}.kernel",),
         (Equation("ζ̇", add("φ", mul(("inv", "I"), vector_sum(rest)))),),
-        say("Euler's equations, solved for the angular acceleration: I is invertible."),
+        say("Euler's equations, solved for the angular acceleration: the tensor I is invertible."),
         (34,),
         scope,
     )

@@ -119,13 +119,13 @@ def _kept(group: Group) -> Prose:
     skew = "orthogonal" in group.relations
     if group.affine:
         if skew:
-            return say("The linear parts of the Lie algebra are skew, so ĀA = 1 and C drops out.")
+            return say("The linear parts of the Lie algebra are skew, so ĀA = 𝟏 and C drops out.")
         return say(
             "The linear parts of the Lie algebra have trace zero, so the volume is kept; C does "
             "not drop out."
         )
     if skew:
-        return say("The matrices of the Lie algebra are skew, so ĀA = 1 and C drops out.")
+        return say("The matrices of the Lie algebra are skew, so ĀA = 𝟏 and C drops out.")
     prose = say(
         "The matrices of the Lie algebra have trace zero, so the volume is kept; C does not drop "
         "out."
@@ -135,8 +135,8 @@ def _kept(group: Group) -> Prose:
     return (
         prose
         + say(
-            "Only maps that fix the origin are allowed: a further constraint, whose reaction at "
-            "the origin is d²A/dt² c less the sum of the forces."
+            "Only maps that fix the origin are allowed: a further constraint, whose "
+            "reaction at the origin is α̇c less the sum of the forces."
         )
         + say("It vanishes if c = 0 and the forces have no resultant.")
     )

@@ -84,7 +84,10 @@ def vector_form(stage: Isometry, prefix: str, general: str, scope: str) -> Vecto
         scope,
         phrase("the metric is not degenerate (the masses are not all on one line)")
         if b.affine
-        else phrase("I is invertible (the masses are not all on one line through the fixed point)"),
+        else phrase(
+            "the tensor I is invertible (the masses are not all on one line through the "
+            "fixed point)"
+        ),
     )
     steps.append(_kernel(balance, stage, prefix, scope))
     return VectorForm(balance, inertia_of(b.J), tuple(steps))
@@ -219,13 +222,13 @@ def _identification(stage: Isometry, prefix: str, scope: str) -> Step:
         (f"{prefix}.relation",),
         tuple(equations),
         say(
-            "The linear part so(3) of the Lie algebra is identified with R³ by the operator j, "
-            "j(X)Y = X ∧ Y; the bracket is the vector product."
+            "The linear part 𝔰𝔬(3) of the Lie algebra is identified with R³ by the operator "
+            "j, j(X)Y = X ∧ Y; the bracket is the vector product."
         )
         if affine
         else say(
-            "The Lie algebra so(3) is identified with R³ by the operator j, j(X)Y = X ∧ Y; the "
-            "bracket is the vector product."
+            "The Lie algebra 𝔰𝔬(3) is identified with R³ by the operator j, j(X)Y = X ∧ Y; "
+            "the bracket is the vector product."
         ),
         () if affine else (33,),
         scope,
@@ -240,7 +243,7 @@ def _inertia(stage: Isometry, prefix: str, scope: str) -> Step:
         "identification",
         (f"{prefix}.hat", f"{prefix}.cartan"),
         (Equation(traced, ("metric", "I", "ζ", "Ω")), Equation("I", tree_of(tensor))),
-        say("The metric of J on so(3) is that of the tensor of inertia on R³."),
+        say("The metric of J on 𝔰𝔬(3) is that of the tensor of inertia on R³."),
         () if stage.letters.affine else (32,),
         scope,
     )
@@ -269,9 +272,9 @@ def _kernel(balance: dict[Letter, Expr], stage: Isometry, prefix: str, scope: st
     for v, e in balance.items():
         left = inertial[v] if not b.affine else _accelerations(e, b.w.acceleration)
         equations.append(Equation(tree_of(left), vector_sum(left - e)))
-    motion = say("The coefficient of Ω′ vanishes: the equations of motion.")
+    motion = say("The coefficient of Ω′ must vanish: the equations of motion.")
     if b.affine:
-        motion = say("The coefficients of Ω′ and of η′ vanish: the equations of motion.")
+        motion = say("The coefficients of Ω′ and of η′ must vanish: the equations of motion.")
     return Step(
         f"{prefix}.kernel",
         "kernel",

@@ -1,0 +1,80 @@
+"""Where the print of the paper is corrected: what it says, why that is wrong, an example."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ..algebra.tree import Tree
+from ..record.paper import Finding
+from .book import Part
+from .language import Language
+from .letters import NAMES
+from .tex import latex_tree
+
+FORMULA = re.compile("\ue000([^\ue001]*)\ue001")
+"""A formula in LaTeX among the words of a sentence."""
+
+
+@dataclass(frozen=True)
+class Told:
+    """A stretch of a correction: words, or a formula in LaTeX."""
+
+    text: str
+    formula: bool = False
+
+    def shown(self, words: Callable[[str], str], formula: Callable[[str], str]) -> str:
+        """In a language of markup; the spaces at the ends of words stay."""
+        if self.formula:
+            return formula(self.text)
+        inside = self.text.strip()
+        before, _, after = self.text.partition(inside) if inside else (self.text, "", "")
+        return f"{before}{words(inside)}{after}"
+
+
+def corrections(
+    parts: Sequence[Part], findings: Sequence[Finding], language: Language
+) -> dict[str, list[list[Told]]]:
+    """The corrections at each step, by its label: those of a number where it stands first."""
+    left = {f.number: f for f in findings}
+    found: dict[str, list[list[Told]]] = {}
+    for part in parts:
+        for step in part.steps:
+            here = [left.pop(n) for n in step.paper if n in left]
+            found[step.label] = [[*_told(f, language)] for f in here]
+    return found
+
+
+def _told(f: Finding, language: Language) -> Iterator[Told]:
+    """What was printed, why it is wrong, and values that show it."""
+    printed = ", ".join(_formula(e.lhs, e.rhs) for e in f.equations)
+    *given, (_, left), (_, right) = (f.counterexample or {}).items()
+    sentences = (
+        language.word(
+            "The paper prints in {number}: {printed}.", number=f"({f.number})", printed=printed
+        ),
+        language.word(f.remark),
+        language.word(
+            "For {values}, the left side is {left}, the printed right side {right}.",
+            values=", ".join(_formula(name, value_of(x)) for name, x in given),
+            left=_formula(value_of(left)),
+            right=_formula(value_of(right)),
+        ),
+    )
+    for k, piece in enumerate(FORMULA.split(" ".join(sentences))):
+        if piece:
+            yield Told(piece, formula=k % 2 == 1)
+
+
+def _formula(*sides: Tree) -> str:
+    return f"\ue000{' = '.join(latex_tree(x, NAMES) for x in sides)}\ue001"
+
+
+def value_of(text: str) -> Tree:
+    """An exact value as a tree: a fraction, or the rows of a matrix."""
+    if not text.startswith("["):
+        return Fraction(text)
+    rows = (row.split(", ") for row in text[1:-1].split("; "))
+    return ("matrix", *(("row", *map(Fraction, row)) for row in rows))
