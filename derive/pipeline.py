@@ -36,6 +36,7 @@ from .walk.alphabet import Alphabet
 from .walk.body import body_step
 from .walk.cartan import cartan, trivialise
 from .walk.chapter import Chapter
+from .walk.components import tensor_steps
 from .walk.conserved import conserved_steps, matrix_momenta, vector_momenta
 from .walk.coordinates import coordinates_step
 from .walk.elimination import eliminate
@@ -173,6 +174,7 @@ def road_of_space(problem: Problem, stage: Isometry, c: Chapter) -> Steps:
         torque_step(v, stage, name, general, scope),
         *(given.steps if given else ()),
         motion,
+        *tensor_steps(problem, motion, c),
         energy_step(stage, v, name, scope),
         *conserved_steps(problem, v, vector_momenta(stage), b, c, vectors=True),
     )

@@ -1,12 +1,17 @@
-"""Laurent polynomials over Q in named symbols: enough to divide by the entries of a diagonal."""
+"""Laurent polynomials over Q in symbols: enough to divide by the entries of a diagonal."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 
-Monomial = tuple[tuple[str, int], ...]
-"""Sorted (symbol, exponent ≠ 0)."""
+from .tree import Tree, add, mul
+
+Monomial = tuple[tuple[Tree, int], ...]
+"""(symbol, exponent ≠ 0), sorted by how the symbols are written; a symbol is any tree."""
+
+
+ONE = Fraction(1)
 
 
 class Laurent:
@@ -23,9 +28,9 @@ class Laurent:
         self.terms = {m: q for m, q in terms.items() if q}
 
     @classmethod
-    def symbol(cls, name: str) -> Laurent:
+    def symbol(cls, name: Tree) -> Laurent:
         """A symbol by itself."""
-        return cls({((name, 1),): Fraction(1)})
+        return cls({((name, 1),): ONE})
 
     @classmethod
     def of(cls, x: Laurent | Fraction | int) -> Laurent:
@@ -88,4 +93,67 @@ def _product(m: Monomial, n: Monomial) -> Monomial:
     exponents = dict(m)
     for symbol, e in n:
         exponents[symbol] = exponents.get(symbol, 0) + e
-    return tuple(sorted((s, e) for s, e in exponents.items() if e))
+    return tuple(sorted(((s, e) for s, e in exponents.items() if e), key=_written))
+
+
+def _written(factor: tuple[Tree, int]) -> tuple[str, int]:
+    return repr(factor[0]), factor[1]
+
+
+# -- and trees ----------------------------------------------------------------------------------
+
+
+def polynomial(t: Tree) -> Laurent:
+    """A tree of numbers as a polynomial; what is neither sum nor product in it is a symbol."""
+    if isinstance(t, (int, Fraction)):
+        return Laurent.of(t)
+    if isinstance(t, tuple) and t[0] == "add":
+        return sum(map(polynomial, t[1:]), Laurent({}))
+    if isinstance(t, tuple) and t[0] == "mul":
+        product = Laurent.of(1)
+        for x in t[1:]:
+            product = product * polynomial(x)
+        return product
+    if isinstance(t, tuple) and t[0] == "pow" and isinstance(t[2], int) and t[2] > 0:
+        return polynomial(("mul", *[t[1]] * t[2]))
+    if isinstance(t, tuple) and t[0] == "div":
+        below = polynomial(t[2])
+        if len(below.terms) == 1:
+            return polynomial(t[1]) / below
+    return Laurent.symbol(t)
+
+
+def gathered(p: Laurent, together: Callable[[Tree], bool], last: Callable[[Tree], bool]) -> Tree:
+    """Σ (sum of some symbols)/(their divisor) · others: the terms with the same others at once.
+
+    ``together`` picks the symbols that are summed; terms that have a symbol of ``last`` come last.
+    """
+    groups: dict[Monomial, dict[Monomial, Fraction]] = {}
+    for m, q in p.terms.items():
+        rest = tuple(x for x in m if not together(x[0]))
+        groups.setdefault(rest, {})[tuple(x for x in m if together(x[0]))] = q
+    order = sorted(groups, key=lambda m: (any(last(s) for s, _ in m), repr(m)))
+    return add(*(_quotient(groups[m], m) for m in order))
+
+
+def _quotient(terms: dict[Monomial, Fraction], others: Monomial) -> Tree:
+    """A sum over what divides every term of it, times others; one term has them above the line."""
+    below = {s: e for m in terms for s, e in m if e < 0}
+    common = tuple(sorted(((s, -e) for s, e in below.items()), key=_written))
+    lifted = (Laurent(terms) * Laurent({common: ONE})).terms
+    # what is added before what is taken away
+    order = sorted(lifted, key=lambda m: (lifted[m] < 0, repr(m)))
+    if common and len(order) == 1:
+        q = lifted[order[0]]
+        whole = mul(_number(abs(q)), _monomial(order[0]), _monomial(others))
+        return mul(-1 if q < 0 else 1, ("div", whole, _monomial(common)))
+    above = add(*(mul(_number(lifted[m]), _monomial(m)) for m in order))
+    return mul(("div", above, _monomial(common)) if common else above, _monomial(others))
+
+
+def _number(q: Fraction) -> Tree:
+    return int(q) if q.denominator == 1 else q
+
+
+def _monomial(m: Monomial) -> Tree:
+    return mul(1, *(s if e == 1 else ("pow", s, e) for s, e in m))

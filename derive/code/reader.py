@@ -165,9 +165,9 @@ class Reader:
         return self.memo[t]
 
     def component(self, name: str, index: int) -> Node:
-        """An output: an entry that the record defines by itself, or an entry of a vector."""
+        """An output: an entry of a vector, or where the record has no vector an entry by itself."""
         found = self.record.definition(("entry", name, index))
-        if found is not None:
+        if found is not None and self.record.definition(name) is None:
             value = self._defined(found, suffixed(name_of(name), index))
             assert isinstance(value, Node)
             return value

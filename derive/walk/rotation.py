@@ -12,12 +12,12 @@ from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .cartan import frame_rule, rates, trivial_images
 from .chapter import Chapter
+from .components import components, diagonal
 from .elimination import CENTRAL, Eliminated, from_centre, vector_tree
 from .exterior import primed, work
 from .inputs import Given
 from .isometry import Isometry
 from .potential import Potentials, virtual_work
-from .principal import principal_components
 from .vector import (
     INERTIA,
     MU,
@@ -150,9 +150,9 @@ def energy_step(stage: Isometry, v: Potentials, prefix: str, scope: str) -> Step
 
 def principal_step(prefix: str, scope: str, solved: Tree) -> Step:
     """(35): the solved equation in axes that diagonalise I, component by component."""
-    equations = [
-        Equation(("entry", "ζ̇", i), t) for i, t in enumerate(principal_components(solved), 1)
-    ]
+    moments: list[Tree] = [("entry", "λ", i) for i in (1, 2, 3)]
+    found = components(solved, {"I": diagonal(moments)}, moments)
+    equations = [Equation(("entry", "ζ̇", i), t) for i, t in enumerate(found, 1)]
     return Step(
         f"{prefix}.principal",
         "coordinates",

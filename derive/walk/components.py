@@ -1,0 +1,156 @@
+"""Vector equations component by component: (35), and the motion with a body's own numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ..algebra.laurent import Laurent, gathered, polynomial
+from ..algebra.tree import Tree, add, mul, names
+from ..mechanics.problem import GivenBody, MomentBody, Problem
+from ..record.arithmetic import Value
+from ..record.evaluate import Environment, evaluate
+from ..record.record import Equation, Step
+from ..record.sentence import say
+from .chapter import Chapter
+
+AXES = (1, 2, 3)
+RATES = ("ζ", "w", "w_c")
+"""Terms with these come after the forces."""
+LONGEST = 8
+"""Entries with more terms than this are not written out."""
+
+Rows = tuple[tuple[Tree, ...], ...]
+Tensor = tuple[tuple[Laurent, ...], ...]
+
+
+def letters(name: str) -> tuple[tuple[Laurent], ...]:
+    """The column of the entries of a vector."""
+    return tuple((Laurent.symbol(("entry", name, i)),) for i in AXES)
+
+
+def square(name: str) -> tuple[tuple[Laurent, ...], ...]:
+    """The entries of a matrix."""
+    return tuple(tuple(Laurent.symbol(("entry", name, i, j)) for j in AXES) for i in AXES)
+
+
+def diagonal(entries: Sequence[Tree]) -> tuple[tuple[Laurent, ...], ...]:
+    """A diagonal matrix of symbols."""
+    zero = Laurent({})
+    return tuple(
+        tuple(Laurent.symbol(x) if i == j else zero for j in range(3))
+        for i, x in enumerate(entries)
+    )
+
+
+def components(t: Tree, known: Mapping[str, Value], moments: Sequence[Tree]) -> list[Tree]:
+    """The components of a vector tree; a name that is not ``known`` is a vector.
+
+    Terms of the same velocities stand together, over the one of the ``moments`` that divides them.
+    """
+    vectors = {x: letters(x) for x in names(t) if x not in known}
+    value = evaluate(t, Environment(3, {**vectors, **known}))
+    return [gathered(x, {*moments}.__contains__, _is_rate) for (x,) in value]
+
+
+def _is_rate(symbol: Tree) -> bool:
+    return isinstance(symbol, tuple) and symbol[0] == "entry" and symbol[1] in RATES
+
+
+def tensor_steps(problem: Problem, motion: Step, c: Chapter) -> tuple[Step, ...]:
+    """The entries of I, or I_c, from the numbers of the body; the motion where it is diagonal."""
+    name = "I_c" if problem.affine else "I"
+    found = _tensor(problem)
+    if found is None or max(len(x.terms) for row in found for x in row) > LONGEST:
+        return ()
+    entries = [
+        Equation(("entry", name, i, j), _plain(found[i - 1][j - 1]))
+        for i in AXES
+        for j in AXES[i - 1 :]
+    ]
+    uses = "body inertia" + (" elimination" if problem.affine else "")
+    told = say("The tensor of inertia of this body, entry by entry.")
+    step = c.step("tensor", "coordinates", uses, entries, told)
+    straight = not any(found[i][j] for i in range(3) for j in range(3) if i != j)
+    return (step, *_motion(problem, name, found, motion, c)) if straight else (step,)
+
+
+def _motion(
+    problem: Problem, name: str, found: Tensor, motion: Step, c: Chapter
+) -> tuple[Step, ...]:
+    """The accelerations component by component, where only letters that are known enter."""
+    moments: list[Tree] = []
+    for i in range(3):  # equal moments are one, so that what they cancel is seen
+        same = next(j for j in range(3) if found[j][j] == found[i][i]) + 1
+        moments.append(("entry", name, same, same))
+    known: dict[str, Value] = {
+        "A": square("A"),
+        name: diagonal(moments),
+        "m": Laurent.symbol("m"),
+        **{x: letters(x) for x in ("ζ", "w", "w_c", "u", "f_u", "ζ̇")},
+        **_numbers(problem),
+    }
+    rates = [e for e in motion.equations if e.lhs in ("ζ̇", "ẇ")]
+    if not all({*names(e.rhs)} <= {*known} for e in rates):
+        return ()
+    equations = [
+        Equation(("entry", e.lhs, i), x)
+        for e in rates
+        for i, x in enumerate(components(e.rhs, known, moments), 1)
+    ]
+    told = say("The equations of motion in coordinates: the axes of the body are principal ones.")
+    uses = "tensor motion potential body"
+    given = Chapter(c.name, c.general, c.scope, motion.given)
+    return (given.step("components", "coordinates", uses, equations, told),)
+
+
+def _numbers(problem: Problem) -> dict[str, Value]:
+    """c, r_c and γ, where they are numbers of the problem."""
+    found: dict[str, Value] = {}
+    if problem.gravity is not None:
+        found["γ"] = _column(problem.gravity)
+    _, first, _ = moments_of(problem)
+    found["c"] = _column(first)
+    centred = all(not x for (x,) in found["c"])
+    return found | {"r_c": found["c"] if centred else letters("r_c")}
+
+
+def _column(entries: Sequence[Tree]) -> tuple[tuple[Laurent], ...]:
+    return tuple((polynomial(x),) for x in entries)
+
+
+def _tensor(problem: Problem) -> Tensor | None:
+    """(Tr J)1 − J; about the centre of mass the same less m⁻¹(‖c‖² 1 − cc̄)."""
+    if problem.body is None:
+        return None
+    _, first, second = moments_of(problem)
+    J = [[polynomial(x) for x in row] for row in second]
+    if problem.affine:
+        c, m = [polynomial(x) for x in first], Laurent.symbol("m")
+        J = [[J[i][j] - c[i] * c[j] / m for j in range(3)] for i in range(3)]
+    trace = J[0][0] + J[1][1] + J[2][2]
+    return tuple(tuple(trace - J[i][j] if i == j else -J[i][j] for j in range(3)) for i in range(3))
+
+
+def moments_of(problem: Problem) -> tuple[Tree, tuple[Tree, ...], Rows]:
+    """m, c and J of all that the body is made of, as trees in the parameters."""
+    m: Tree = 0
+    c: tuple[Tree, ...] = (0, 0, 0)
+    J: Rows = ((0, 0, 0),) * 3
+    body = problem.body
+    if isinstance(body, MomentBody):
+        m, c, J = body.mass(), body.first(), body.second()
+    elif isinstance(body, GivenBody):
+        m, c, J = body.mass, body.first, body.second
+    if problem.points:
+        for mass, r in zip(problem.points.masses, problem.points.positions, strict=True):
+            m = add(m, mass)
+            c = tuple(add(x, mul(mass, y)) for x, y in zip(c, r, strict=True))
+            J = tuple(
+                tuple(add(x, mul(mass, r[i], r[j])) for j, x in enumerate(row))
+                for i, row in enumerate(J)
+            )
+    return m, c, J
+
+
+def _plain(p: Laurent) -> Tree:
+    return gathered(p, lambda _: False, lambda _: False)
