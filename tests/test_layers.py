@@ -81,3 +81,23 @@ def test_the_checker_knows_no_walk_and_no_words():
     assert "record/model.py" in names
     assert not any(n.startswith(("walk/", "code/", "views/", "mechanics/")) for n in names)
     assert not names & {"algebra/words.py", "algebra/calculus.py", "algebra/forms.py"}
+
+
+ORACLES = sorted((Path(__file__).parent / "oracles").glob("*.py"))
+NOT_OURS = {"cmath", "dataclasses", "fractions", "functools", "itertools", "math", "re", "typing"}
+NOT_OURS |= {"mpmath", "numpy", "scipy", "sympy"}
+
+
+@pytest.mark.parametrize("path", ORACLES, ids=lambda p: p.name)
+def test_oracles_share_no_code_with_what_they_judge(path):
+    """They import libraries and each other: not derive, nor the tests' ways to its code."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        names = [a.name for a in node.names] if isinstance(node, ast.Import) else []
+        if isinstance(node, ast.ImportFrom):
+            assert not node.level, "an oracle says in full what it imports"
+            names = [f"{node.module}.{a.name}" for a in node.names]
+        for name in names:
+            assert name.startswith("tests.oracles.") or name.split(".")[0] in NOT_OURS, name
+        called = node.func if isinstance(node, ast.Call) else None
+        loaders = {"__import__", "exec", "eval"}
+        assert getattr(called, "id", getattr(called, "attr", "")) not in loaders

@@ -172,10 +172,31 @@ def turn(axis, angle):
     return np.eye(3) + np.sin(angle) * j + (1 - np.cos(angle)) * j @ j
 
 
+def quaternion(A):
+    """A unit quaternion e, scalar first, of the rotation A: the largest column of 4 e e^T."""
+    K, trace = np.zeros((4, 4)), np.trace(A)
+    K[0, 0], K[1:, 1:] = 1 + trace, A + A.T + (1 - trace) * np.eye(3)
+    K[0, 1:] = K[1:, 0] = A[2, 1] - A[1, 2], A[0, 2] - A[2, 0], A[1, 0] - A[0, 1]
+    column = K[:, np.argmax(np.diag(K))]
+    return column / np.linalg.norm(column)
+
+
 def axial_body(gravity):
     """Four points around the third axis and one on it, their centre on it and not at 0."""
     points = np.array([[1, 0, 0.4], [-1, 0, 0.4], [0, 1, 0.4], [0, -1, 0.4], [0, 0, 1]])
     return Body(np.ones(5), points, np.array(gravity), np.zeros((5, 5)))
+
+
+def solid_body(inertia, mass=1.0, centre=(0.0, 0.0, 0.0), gravity=(0.0, 0.0, 0.0)):
+    """Seven points with this mass, centre of mass and tensor of inertia (3, 3) about it.
+
+    Half of the mass is at the centre, the rest in three pairs on the axes of J about it.
+    """
+    sizes, axes = np.linalg.eigh(np.trace(inertia) / 2 * np.eye(3) - inertia)
+    arms = (axes * np.sqrt(6 * sizes / mass)).T
+    points = np.vstack([np.zeros(3), arms, -arms]) + centre
+    masses = mass * np.array([1 / 2] + [1 / 12] * 6)
+    return Body(masses, points, np.array(gravity, float), np.zeros((7, 7)))
 
 
 def free_flight(name, x, body, t):
