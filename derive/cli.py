@@ -1,4 +1,4 @@
-"""The command line: ``derive list | walk | emit | check | paper | build``."""
+"""The command line: ``derive list | walk | notes | emit | check | paper | build``."""
 
 from __future__ import annotations
 
@@ -89,14 +89,15 @@ def command_walk(args: argparse.Namespace) -> int:
 
 
 def command_notes(args: argparse.Namespace) -> int:
-    """Lecture notes of one or several problems: .tex, .pdf or .html."""
+    """Lecture notes of problems: .tex, .pdf or .html; or .sty, the macros of their fragments."""
     from .writing import write
 
     out = Path(args.out)
     if out.suffix not in NOTES:
         raise UsageError(f"--out {args.out}: the name must end in {', '.join(NOTES)}")
     records = [derive(name)[1] for name in dict.fromkeys(args.problem)]
-    text = notes(records, out.suffix, args.lang, **notation(args))
+    chosen = {"fragment": args.fragment, **notation(args)}
+    text = notes(records, out.suffix, args.lang, **chosen)
     if out.suffix != ".pdf":
         paths = write({out.name: text}, out.parent)
     else:
@@ -222,12 +223,16 @@ def emission(emit: argparse.ArgumentParser) -> None:
     emit.add_argument("--jacobian", action="append", choices=JACOBIANS, help=about)
 
 
+ABOUT = """Equations of motion of bodies moved by Lie groups: derived step by step, checked,
+shown as text, LaTeX or a web page, and emitted as code."""
+
+
 def parser() -> argparse.ArgumentParser:
     """The options of every command."""
     from .views.language import LANGUAGES
     from .views.notation import NOTATIONS
 
-    top = argparse.ArgumentParser(prog="derive", description=__doc__)
+    top = argparse.ArgumentParser(prog="derive", description=ABOUT)
     top.add_argument("--version", action="version", version=f"derive {__version__}")
     commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
@@ -242,8 +247,9 @@ def parser() -> argparse.ArgumentParser:
     walk.add_argument("--format", choices=FORMATS, default="text")
     walk.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
     made = command("notes", command_notes)
-    made.add_argument("problem", nargs="+", help="ready-made names or .toml files")
-    made.add_argument("--out", metavar="FILE", required=True, help="FILE.tex, .pdf or .html")
+    made.add_argument("problem", nargs="*", help="ready-made names or .toml files")
+    made.add_argument("--out", metavar="FILE", required=True, help="FILE.tex, .pdf, .html or .sty")
+    made.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
     for one in (walk, made):
         one.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
         for option, name in (("--notation", "transpose"), ("--hat", "hat")):

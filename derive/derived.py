@@ -22,6 +22,9 @@ class ShownEquation:
     equation: Equation
     symbols: tuple[Symbol, ...]
 
+    def __repr__(self) -> str:
+        return f"<equation {self}>"
+
     @property
     def lhs(self) -> Any:
         """The left side, an operator tree."""
@@ -55,6 +58,9 @@ class Shown:
     step: Step
     symbols: tuple[Symbol, ...]
 
+    def __repr__(self) -> str:
+        return f"<step {self.step.label}: {len(self.step.equations)} equations>"
+
     @property
     def equations(self) -> tuple[ShownEquation, ...]:
         """Its equations, in order."""
@@ -85,7 +91,20 @@ class Derived:
 
     def __getitem__(self, label: str) -> Shown:
         """A step by its label, with or without the problem's name: ``d["motion"]``."""
-        return Shown(self.record[label], self.record.symbols)
+        try:
+            return Shown(self.record[label], self.record.symbols)
+        except KeyError:
+            known = ", ".join(self.labels)
+            raise KeyError(f"no step {label!r:.60}; the steps are {known}") from None
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The labels of the steps, in order."""
+        return tuple(step.label for step in self.record.steps)
+
+    def __repr__(self) -> str:
+        group = self.problem.group.name if self.problem.group else "any group"
+        return f"<derivation {self.problem.name}: {len(self.labels)} steps, {group}>"
 
     def __str__(self) -> str:
         from .rendering import render

@@ -12,7 +12,7 @@ from .record.paper import Finding
 from .record.record import Derivation
 
 FORMATS = ("text", "latex", "markdown", "html", "json")
-NOTES = (".tex", ".pdf", ".html")
+NOTES = (".tex", ".pdf", ".html", ".sty")
 
 
 class RenderError(ValueError):
@@ -47,22 +47,41 @@ def render(
 
         return markdown(d, language=language(lang))
     if form == "html":
-        return notes([d], ".html", lang, **notation)
+        return notes([d], ".html", lang, fragment=False, **notation)
     from .views.text import text
 
     return text(d, language=language(lang))
 
 
-def notes(records: Sequence[Derivation], ending: str, lang: str = "en", **notation: str) -> str:
-    """Lecture notes of several records as a web page or as LaTeX, with the paper's corrections."""
+def notes(
+    records: Sequence[Derivation],
+    ending: str,
+    lang: str = "en",
+    *,
+    fragment: bool = False,
+    **notation: str,
+) -> str:
+    """Lecture notes of several records as a web page or as LaTeX, with the paper's corrections.
+
+    ``fragment``: LaTeX without a preamble, for a document that uses the package ``.sty``.
+    """
+    from .views import latex
     from .views.html import html
     from .views.language import language
-    from .views.latex import latex
     from .views.notation import Notation
 
-    view = html if ending == ".html" else latex
+    chosen, words = Notation(**notation), language(lang)
+    if fragment and ending != ".tex":
+        raise RenderError("--fragment is LaTeX: give --out FILE.tex")
+    if ending == ".sty":
+        return latex.package(chosen, language=words)
+    if not records:
+        raise RenderError("which problems? give names or files, as in: derive notes so3 se3")
     found = corrections(records)
-    return view(records, Notation(**notation), language=language(lang), findings=found)
+    if fragment:
+        return latex.fragment(records, language=words, findings=found)
+    view = html if ending == ".html" else latex.latex
+    return view(records, chosen, language=words, findings=found)
 
 
 def corrections(records: Sequence[Derivation]) -> list[Finding]:

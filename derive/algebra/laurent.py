@@ -123,6 +123,16 @@ def polynomial(t: Tree) -> Laurent:
     return Laurent.symbol(t)
 
 
+def collected(t: Tree) -> Tree:
+    """A tree of numbers with its like terms added."""
+    return written(polynomial(t))
+
+
+def written(p: Laurent) -> Tree:
+    """A polynomial as a sum of its terms."""
+    return gathered(p, lambda _: False, lambda _: False)
+
+
 def gathered(p: Laurent, together: Callable[[Tree], bool], last: Callable[[Tree], bool]) -> Tree:
     """Σ (sum of some symbols)/(their divisor) · others: the terms with the same others at once.
 

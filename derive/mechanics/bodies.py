@@ -11,6 +11,7 @@ from typing import Any
 
 from ..algebra import rational as q
 from ..algebra.groups import Group
+from ..algebra.laurent import collected
 from ..algebra.tree import Tree, add, mul, neg
 from .expression import approximate
 from .fields import choice, expression, known, missing, tables, vector, whole
@@ -97,7 +98,7 @@ def _half(*terms: Tree) -> Tree:
     """½ Σ, a number where all terms are."""
     numbers = [x for x in terms if isinstance(x, (int, Fraction))]
     if len(numbers) < len(terms):
-        return mul(Fraction(1, 2), add(*terms))
+        return collected(mul(Fraction(1, 2), add(*terms)))
     total = Fraction(sum(numbers), 2)
     return int(total) if total.denominator == 1 else total
 

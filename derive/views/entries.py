@@ -13,7 +13,7 @@ from .wrap import display_width
 
 TABLE, CELL, ROW = 4, 24, 72
 """More cells than this stand side by side; how wide one is at most, and a row, in letters."""
-SIMPLE = ("par", "entry", "matrix", "add")
+SIMPLE = ("par", "entry", "matrix", "add", "mul")
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,7 @@ from .notation import Notation
 from .outline import (
     FORMULAS_CONVENTIONS,
     PAPER,
+    ROAD,
     capitalised,
     equation_label,
     notes,
@@ -62,6 +63,7 @@ def html(
         language=language.name,
         title=title(records[0], language) if len(records) == 1 else word(MOTION),
         about=capitalised(subtitle(records[0], language)) if len(records) == 1 else "",
+        road=words(word(ROAD), chosen, ready=True),
         conventions=words(word(FORMULAS_CONVENTIONS), chosen, ready=True),
         regular=words(word(REGULAR), chosen),
         paper=word(PAPER),

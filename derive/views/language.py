@@ -34,6 +34,10 @@ class Language:
         places = {name: y if isinstance(y, str) else self.sentence(y) for name, y in x.places}
         return filled(self.messages.get(x.message, x.message), places)
 
+    def decimal(self, x: float) -> str:
+        """A number with the mark of the language."""
+        return f"{x:g}".replace(".", "," if self.name == "fr" else ".")
+
     def word(self, message: str, **places: str) -> str:
         """A message of the views, or what a problem says: one of the user’s own stays as it is."""
         return self.sentence(phrase(message, **places))

@@ -24,6 +24,7 @@ from .notation import Notation
 from .outline import (
     FORMULAS_CONVENTIONS,
     PAPER,
+    ROAD,
     capitalised,
     equation_label,
     notes,
@@ -33,7 +34,7 @@ from .outline import (
 from .scene import scene
 from .tex import latex_tree
 
-__all__ = ["fragment", "latex", "latex_tree"]
+__all__ = ["fragment", "latex", "latex_tree", "package"]
 
 DELIMITERS = {
     "block_start_string": "<%", "block_end_string": "%>",
@@ -66,6 +67,7 @@ def latex(
         subtitle=tex_text(capitalised(subtitle(records[0], language))) if one else "",
         contents="" if one else tex_text(language.word("Contents")),
         macros="\n".join(definitions(notation or Notation())),
+        road=styled(between_dollars(language.word(ROAD))),
         conventions=styled(f"{conventions} {tex_text(language.word(PAPER))}"),
         walk=styled("\n".join(writer.body())),
         drawn=any(writer.drawings.values()),
@@ -75,9 +77,28 @@ def latex(
     )
 
 
-def fragment(d: Derivation, *, language: Language = ENGLISH) -> str:
-    """The steps alone, for a text whose preamble has the macros of a whole document."""
-    writer = _Writer(book([d], language), language, ())
+def package(notation: Notation | None = None, *, language: Language = ENGLISH) -> str:
+    """``derive.sty``: the macros of a document, for one of a lecturer's own with fragments."""
+    template = environment("latex", **DELIMITERS).get_template("derive.sty.jinja")
+    return template.render(
+        language=language.name,
+        macros="\n".join(definitions(notation or Notation())),
+        from_these=tex_text(language.word("from")),
+    )
+
+
+def fragment(
+    d: Derivation | Sequence[Derivation],
+    *,
+    language: Language = ENGLISH,
+    findings: Sequence[Finding] = (),
+) -> str:
+    """The steps alone, for a document with the macros of :func:`package`.
+
+    Of several records what holds for any group comes once.
+    """
+    records = [d] if isinstance(d, Derivation) else [*d]
+    writer = _Writer(book(records, language), language, findings)
     steps = (
         line for part in writer.parts for step in part.steps for line in writer.step(part, step)
     )

@@ -28,6 +28,12 @@ FORMULAS_CONVENTIONS = (
     r"Lie algebra. Parameters of the problem are set in $\mathsf{sans\ serif}$."
 )
 """The same with formulas between dollars, for LaTeX and Markdown."""
+ROAD = (
+    r"The Lagrangian $L$ of the points is pulled back to the group, $\tilde L$; it gives the "
+    r"Cartan form $\varpi$, whose exterior derivative $\mathrm{d}\varpi$ has a kernel: the "
+    r"equations of motion."
+)
+"""What is done, in one sentence."""
 PAPER = (
     "Numbers beside the name of a step are those of the paper, P. Iglesias-Zemmour, "
     "“D’où viennent les équations du mouvement des solides ?”; one marked * is "

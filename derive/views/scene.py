@@ -191,6 +191,8 @@ def _caption(
     said += _about_the_body(panels)
     potentials = problem["potentials"]
     kinds = {p["kind"] for p in potentials}
+    if "spring" in kinds:
+        said.append(say("Zigzags are springs."))
     if any(panel.anchors for panel in panels):
         said.append(say("The hatched supports are fixed in space."))
     if "attraction" in kinds:

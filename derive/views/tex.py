@@ -10,11 +10,11 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any
 
 from ..algebra.show import ATOM, PRODUCT, SUM, signed
 from ..algebra.tree import Tree
 from .escape import formula_ok, math_text, tex_text
+from .glue import glue, number, outside
 from .letters import NAMES, bar, parameter, paren
 from .measure import measure
 from .wrap import COMMA, FACTOR, WEDGE, Piece, fill
@@ -73,7 +73,7 @@ class Printer:
         if isinstance(t, str):
             return self.name(t), ATOM
         if isinstance(t, (int, Fraction)):
-            return _number(t)
+            return number(t)
         if t[0] in ("add", "mul"):
             return self.sum(t)
         method = getattr(self, f"op_{t[0]}")
@@ -99,7 +99,7 @@ class Printer:
         """What may bear an exponent."""
         tex = self.atom(t)
         fraction = isinstance(t, Fraction) or (isinstance(t, tuple) and t[0] == "div")
-        return paren(tex) if SCRIPTED.search(_outside(tex)) or (fraction and tex[0] != "(") else tex
+        return paren(tex) if SCRIPTED.search(outside(tex)) or (fraction and tex[0] != "(") else tex
 
     def sum(self, t: Tree) -> Shown:
         """Terms with their signs."""
@@ -127,7 +127,7 @@ class Printer:
             wedge = k > 0 and isinstance(f, tuple) and f[0] == "wedge"
             if level == SUM or inside or wedge:
                 tex = paren(tex)
-            out += (_glue(factors[k - 1], f) if k else "") + tex
+            out += (glue(factors[k - 1], f) if k else "") + tex
         return out, PRODUCT
 
     def op_T(self, a: Tree) -> str:
@@ -157,7 +157,11 @@ class Printer:
         return (f"{{{base}}}" if base.startswith(BARS) else base) + "^{-1}"
 
     def op_pow(self, a: Tree, n: Tree) -> str:
-        """Power."""
+        """Power; that of a function stands at its name."""
+        named = isinstance(a, tuple) and a[0] == "fun" and a[1] != "sqrt"
+        if named and isinstance(n, int) and n > 0:
+            head, argument = self.show(a)[0].split("(", 1)
+            return f"{head}^{{{n}}}({argument}"
         return f"{self.base(a)}^{{{plain(self.bare(n))}}}"
 
     def op_one(self) -> str:
@@ -262,16 +266,6 @@ class Printer:
         return rf"\begin{{pmatrix}} {' & '.join(self.cells(('row', *entries)))} \end{{pmatrix}}"
 
 
-def _number(q: int | Fraction) -> Shown:
-    level = ATOM if q >= 0 else SUM
-    if isinstance(q, int) or q.denominator == 1:
-        return str(int(q)), level
-    size = "tfrac" if abs(q.numerator) < 100 and q.denominator < 100 else "frac"
-    above, below = abs(q.numerator), q.denominator
-    digits = f"{above}{below}" if above < 10 and below < 10 else f"{{{above}}}{{{below}}}"
-    return rf"{'' if q > 0 else '-'}\{size}{digits}", level
-
-
 def _stacked(tex: str) -> str:
     """An entry of a matrix, on several lines where it is long."""
     if measure(plain(tex)) <= ENTRY_WIDTH:
@@ -284,31 +278,3 @@ def _stacked(tex: str) -> str:
 def guarded(tex: str) -> str:
     r"""A line that may follow ``\\`` or start with a sign: no option, and a binary sign."""
     return "{}" + tex if tex[:1] in ("[", "*", "+", "-") and tex[:2] != "-\\" else tex
-
-
-def _outside(tex: str) -> str:
-    """What stands outside every brace and parenthesis."""
-    inner = re.sub(r"\{[^{}]*\}|\([^()]*\)", "", tex)
-    return tex if inner == tex else _outside(inner)
-
-
-def _simple(t: Any) -> bool:
-    """A letter with its marks, which stands beside another without a space."""
-    if isinstance(t, str):
-        return not t.startswith("δ")
-    simple = isinstance(t, tuple) and t[0] in ("T", "inv", "pow", "at", "entry", "par", "one")
-    return simple and (len(t) < 2 or _simple(t[1]))
-
-
-def _glue(left: Tree, right: Tree) -> str:
-    """What stands between two factors."""
-    if isinstance(right, (int, Fraction)):
-        return rf"{BEFORE_FACTOR} \cdot "
-    if isinstance(left, (int, Fraction)):
-        return " "
-    if isinstance(left, tuple) and left[0] == "one":
-        return r"\,"
-    if _simple(left) and _simple(right):
-        named = [isinstance(x, tuple) and x[0] == "par" for x in (left, right)]
-        return r"\," if any(named) else " "
-    return rf"{BEFORE_FACTOR}\,"

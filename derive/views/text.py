@@ -72,7 +72,7 @@ def _parameters(
         words = [language.word(str(about.get("meaning") or "parameter"))]
         words += [f"[{unit}]"] if unit else []
         if isinstance(default, (int, float)):
-            words.append(language.word("default {value}", value=f"{default:g}"))
+            words.append(language.word("default {value}", value=language.decimal(default)))
         yield show(_marked(("par", str(name)), quoted)), ", ".join(words)
 
 

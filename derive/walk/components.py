@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ..algebra.laurent import Laurent, gathered, polynomial
+from ..algebra.laurent import Laurent, gathered, polynomial, written
 from ..algebra.tree import Tree, add, mul, names
 from ..mechanics.problem import GivenBody, MomentBody, Problem
 from ..record.arithmetic import Value
@@ -63,7 +63,7 @@ def tensor_steps(problem: Problem, motion: Step, c: Chapter) -> tuple[Step, ...]
     if found is None or max(len(x.terms) for row in found for x in row) > LONGEST:
         return ()
     entries = [
-        Equation(("entry", name, i, j), _plain(found[i - 1][j - 1]))
+        Equation(("entry", name, i, j), written(found[i - 1][j - 1]))
         for i in AXES
         for j in AXES[i - 1 :]
     ]
@@ -150,7 +150,3 @@ def moments_of(problem: Problem) -> tuple[Tree, tuple[Tree, ...], Rows]:
                 for i, row in enumerate(J)
             )
     return m, c, J
-
-
-def _plain(p: Laurent) -> Tree:
-    return gathered(p, lambda _: False, lambda _: False)
