@@ -16,9 +16,12 @@ COMMANDS = {
     "walk so3": ["-m", "derive", "walk", "so3"],
     "walk se3": ["-m", "derive", "walk", "se3"],
     "walk sl3": ["-m", "derive", "walk", "sl3"],
+    "emit so3": ["-m", "derive", "emit", "so3", "--out", "{out}"],
     "emit sl3": ["-m", "derive", "emit", "sl3", "--out", "{out}"],
+    "notes .tex": ["-m", "derive", "notes", "so3", "se3", "sl3", "--out", "{out}/notes.tex"],
+    "notes .html": ["-m", "derive", "notes", "so3", "se3", "sl3", "--out", "{out}/notes.html"],
 }
-TARGET = 2.0
+TARGET, NOTES = 2.0, 4.0
 
 
 def seconds(arguments: list[str]) -> float:
@@ -43,7 +46,7 @@ def main() -> None:
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 9
     times = measure(rounds)
     unit = statistics.median(times["import sympy"])
-    print(f"{'command':16}{'median s':>10}{'ratio':>8}   aim {TARGET}")
+    print(f"{'command':16}{'median s':>10}{'ratio':>8}   aim {TARGET}, notes {NOTES}")
     for name, t in times.items():
         print(f"{name:16}{statistics.median(t):10.3f}{statistics.median(t) / unit:8.2f}")
 

@@ -22,6 +22,7 @@ Every stage returns its value together with the steps it took; the record is the
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
 from typing import TYPE_CHECKING
 
 from .algebra.groups import Group
@@ -75,9 +76,7 @@ emitted code are then fewer than through the mass matrix (tests/test_roads.py)."
 
 def walk(problem: Problem) -> Derivation:
     """Derive the equations of motion of a problem."""
-    a = Alphabet("n", affine=problem.affine)
-    general = "affine" if problem.affine else "linear"
-    road = road_of_any_group(a, general)
+    road = general_road(affine=problem.affine)
     steps = road.steps
     if problem.group is not None:
         steps += road_of(problem, problem.group, road)
@@ -96,6 +95,12 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
     if options is None or options.frame == "given":
         return assemble(record, problem.group, options)
     return assemble(record, problem.group, options, walk(principal(problem)))
+
+
+@cache
+def general_road(*, affine: bool) -> General:
+    """The road of any group, which several problems share."""
+    return road_of_any_group(Alphabet("n", affine=affine), "affine" if affine else "linear")
 
 
 def road_of_any_group(a: Alphabet, name: str) -> General:

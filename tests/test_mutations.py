@@ -5,6 +5,7 @@ from functools import cache
 
 import pytest
 
+from derive import pipeline
 from derive.algebra import calculus, forms, notation, words
 from derive.algebra.tree import mul, neg, replace_at, subtrees
 from derive.cli import load_problem
@@ -14,6 +15,12 @@ from derive.record.record import Equation
 from derive.walk import pullback
 from derive.walk.contraction import NoKernelError
 from tests.walks import NAMES, record
+
+
+@pytest.fixture(autouse=True)
+def afresh(monkeypatch):
+    """A wrong rule must neither find what the right ones left nor leave anything."""
+    monkeypatch.setattr(pipeline, "general_road", pipeline.general_road.__wrapped__)
 
 
 def without_term(k):

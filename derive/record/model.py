@@ -60,6 +60,7 @@ class Model:
         self.problem, self.group, self.random, self.size = problem, group, random, size
         self.driven, self.along, self.opaque = driven, motion, opaque
         self.n, self.s = group.n, group.size
+        self._exteriors: dict[tuple[Direction, Direction], Fraction] = {}
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
         self.elementary = Opaque(Random(random.random()), size)
         self.pi = self.draw(positive=True)
@@ -196,16 +197,19 @@ class Model:
 
     def exterior(self, a: Direction, b: Direction) -> Fraction:
         """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family."""
-        t, g, Z = self.family(a, b)
-        nu = q.times(g, Z)
-        along_b = self._form(t, g, nu, EPS_PRIME)
-        along_a = self._form(t, g, nu, EPS)
-        return Fraction(part(along_b, EPS) - part(along_a, EPS_PRIME))
+        if (a, b) not in self._exteriors:
+            t, g, Z = self.family(a, b)
+            nu = q.times(g, Z)
+            energy = self.energy(t, g, nu)
 
-    def _form(self, t: Any, g: Matrix, nu: Matrix, mask: int) -> Any:
-        """ϖ on the derivative of the family in one parameter, a function of the other."""
-        dt, dg = derivative_in(t, mask), _derivative_matrix(g, mask)
-        return self.momentum(t, g, nu, dg) - self.energy(t, g, nu) * dt
+            def form(mask: int) -> Any:
+                """ϖ on the derivative of the family in one parameter, a function of the other."""
+                dt, dg = derivative_in(t, mask), _derivative_matrix(g, mask)
+                return self.momentum(t, g, nu, dg) - energy * dt
+
+            found = part(form(EPS_PRIME), EPS) - part(form(EPS), EPS_PRIME)
+            self._exteriors[a, b] = Fraction(found)
+        return self._exteriors[a, b]
 
     # -- forces and the motion -------------------------------------------------------------------
 

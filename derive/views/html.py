@@ -11,7 +11,7 @@ from typing import Any
 from ..record.paper import Finding
 from ..record.record import Derivation, Equation, Step
 from ..templating import environment
-from .book import MOTION, REGULAR, Part, book, parameters, steps
+from .book import MOTION, REGULAR, Part, book, parameters
 from .corrections import Told, corrections
 from .entries import entries
 from .escape import prose
@@ -43,6 +43,9 @@ PHONE = 16.0
 LONG = 0.4 * ROOM
 """A left side that is wider has lines of its own."""
 
+Fields = dict[str, Any]
+"""What a template shows, by name."""
+
 SPACES = "\u00a0\u202f"
 
 
@@ -56,8 +59,9 @@ def html(
     """A page: what holds for any group, then a part for each record."""
     chosen, word = notation or Notation(), language.word
     parts = book(records, language)
-    shown = {step.label: (part, step) for part, step in steps(parts)}
     numbers, told = numbered(parts), corrections(parts, findings, language)
+    written = [_Part(p, chosen, language, numbers, told) for p in parts]
+    shown = {s.label: [*p.equations(s)] for p in written for s in p.part.steps}
     template = environment("html", autoescape=True).get_template("page.html.jinja")
     return template.render(
         language=language.name,
@@ -72,7 +76,7 @@ def html(
             "names": word("Names"),
             "copy": word("copy the LaTeX"),
         },
-        parts=[_Part(p, chosen, language, numbers, told).fields(shown) for p in parts],
+        parts=[p.fields(shown) for p in written],
     )
 
 
@@ -120,8 +124,8 @@ class _Part:
         """How its names are written."""
         return names_of(self.part.source.symbols)
 
-    def fields(self, shown: Mapping[str, tuple[Part, Step]]) -> dict[str, Any]:
-        """What the template shows."""
+    def fields(self, shown: Mapping[str, list[Fields]]) -> Fields:
+        """What the template shows; ``shown``: the equations of every step, by its label."""
         return {
             "id": anchor(self.part.name),
             "number": self.numbers[self.part.name],
@@ -140,7 +144,7 @@ class _Part:
         caption = words(self.language.of(drawn.caption), self.notation)
         return {"figure": svg(drawn), "caption": caption}
 
-    def step(self, step: Step, shown: Mapping[str, tuple[Part, Step]]) -> dict[str, Any]:
+    def step(self, step: Step, shown: Mapping[str, list[Fields]]) -> Fields:
         """A step, and the equations of those that it rests on."""
         return {
             "label": step.label,
@@ -149,11 +153,8 @@ class _Part:
             "notes": [words(x, self.notation) for x in notes(step, self.language)],
             "corrections": [*map(self.correction, self.told[step.label])],
             "prose": words(self.language.of(step.prose), self.notation),
-            "equations": [*self.equations(step)],
-            "uses": [
-                {"label": x, "id": anchor(x), "equations": [*self.used(*shown[x])]}
-                for x in step.uses
-            ],
+            "equations": shown[step.label],
+            "uses": [{"label": x, "id": anchor(x), "equations": shown[x]} for x in step.uses],
         }
 
     def correction(self, told: Iterable[Told]) -> str:
@@ -164,11 +165,7 @@ class _Part:
 
         return "".join(x.shown(lambda text: words(text, self.notation), formula) for x in told)
 
-    def used(self, part: Part, step: Step) -> Iterable[dict[str, Any]]:
-        """The equations of a step, in the letters of its own part."""
-        return _Part(part, self.notation, self.language, self.numbers, {}).equations(step)
-
-    def equations(self, step: Step) -> Iterable[dict[str, Any]]:
+    def equations(self, step: Step) -> Iterable[Fields]:
         """What has a number in a step, with its anchor and its LaTeX."""
         for x in entries(step.equations):
             label = equation_label(step, x.first)
