@@ -11,7 +11,8 @@ from ..record.record import Derivation, Step, Symbol
 from ..record.sentence import english, say
 from ..record.vocabulary import ANY_GROUP, VOCABULARY
 from .language import ENGLISH, Language
-from .outline import group, title
+from .outline import title
+from .system import system
 
 VARIATIONS = ("δ′", "δ")
 RATE = "\u0307"
@@ -53,17 +54,8 @@ def book(records: Sequence[Derivation], language: Language = ENGLISH) -> list[Pa
         own = tuple(s for s in d.steps if s.scope != ANY_GROUP)
         if own:
             letters = new_letters(d.symbols, own, told)
-            parts.append(Part(d.name, title(d, language), about(d, language), own, d, letters, d))
+            parts.append(Part(d.name, title(d, language), system(d, language), own, d, letters, d))
     return parts
-
-
-def about(d: Derivation, language: Language) -> str:
-    """The group of a record and its dimension, as a sentence with formulas."""
-    basis = d.problem.get("basis")
-    if not isinstance(basis, list) or not basis:
-        return ""
-    dimension = str(len(basis))
-    return language.word("The group {group}, of dimension {d}.", group=group(d), d=dimension)
 
 
 def new_letters(

@@ -8,20 +8,29 @@ from fractions import Fraction
 from itertools import groupby
 
 from ..algebra.show import show
+from ..algebra.tree import Tree
 from ..record.record import Equation
+from .measure import measure
+from .tex import latex_tree
 from .wrap import display_width
 
 TABLE, CELL, ROW = 4, 24, 72
 """More cells than this stand side by side; how wide one is at most, and a row, in letters."""
+WIDE, LETTER = 30.0, 10
+"""A matrix wider than this (in em) has letters for its entries of more than so many letters."""
 SIMPLE = ("par", "entry", "matrix", "add", "mul")
 
 
 @dataclass(frozen=True)
 class Entry:
-    """Equations under one number; ``first`` is the place of the first of them in the step."""
+    """Equations under one number; ``first`` is the place of the first of them in the step.
+
+    ``where``: what letters in it stand for.
+    """
 
     first: int
     equations: tuple[Equation, ...]
+    where: tuple[Equation, ...] = ()
 
     @property
     def only(self) -> Equation | None:
@@ -39,8 +48,43 @@ def entries(equations: Sequence[Equation]) -> list[Entry]:
         size = columns([e for _, e in members]) if short and len(members) > TABLE else 1
         for at in range(0, len(members), size):
             row = members[at : at + size]
-            found.append(Entry(row[0][0] if found else 0, tuple(e for _, e in row)))
+            place = row[0][0] if found else 0
+            found.append(_apart(place, row[0][1]) if len(row) == 1 else Entry(place, told(row)))
     return found
+
+
+def told(row: Sequence[tuple[int, Equation]]) -> tuple[Equation, ...]:
+    """The equations of a numbered row."""
+    return tuple(e for _, e in row)
+
+
+def _apart(place: int, e: Equation) -> Entry:
+    """An equation; the long entries of a matrix that is too wide get letters of their own."""
+    matrix = isinstance(e.rhs, tuple) and e.rhs[0] == "matrix"
+    if not matrix or not isinstance(e.lhs, str) or breadth(e.rhs) <= WIDE:
+        return Entry(place, (e,))
+    letters: dict[Tree, Tree] = {}
+
+    def letter(x: Tree, *index: int) -> Tree:
+        if display_width(show(x)) <= LETTER:
+            return x
+        return letters.setdefault(x, ("entry", e.lhs, *index))
+
+    rows = [
+        ("row", *(letter(x, i, j) for j, x in enumerate(row[1:], 1)))
+        if isinstance(row, tuple) and row[0] == "row"
+        else letter(row, i)
+        for i, row in enumerate(e.rhs[1:], 1)  # type: ignore[index]
+    ]
+    where = tuple(Equation(name, x) for x, name in letters.items())
+    return Entry(place, (Equation(e.lhs, ("matrix", *rows), e.for_all),), where)
+
+
+def breadth(matrix: Tree) -> float:
+    """The widths of the columns of a matrix, in em, each on one line."""
+    rows = [row[1:] if row[0] == "row" else (row,) for row in matrix[1:]]  # type: ignore[index]
+    across = zip(*rows, strict=True)
+    return sum(max(measure(latex_tree(x)) for x in column) for column in across)
 
 
 def columns(cells: Sequence[Equation]) -> int:

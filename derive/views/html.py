@@ -45,6 +45,8 @@ LONG = 0.4 * ROOM
 
 Fields = dict[str, Any]
 """What a template shows, by name."""
+PART: Fields = {"id": "", "number": "", "long": False, "cells": (), "clause": "", "tex": ""}
+"""A line that belongs to the equation above it."""
 
 SPACES = "\u00a0\u202f"
 
@@ -73,6 +75,7 @@ def html(
         paper=word(PAPER),
         words={
             "from": capitalised(word("from")),
+            "coordinates": capitalised(word("coordinates")),
             "names": word("Names"),
             "copy": word("copy the LaTeX"),
         },
@@ -145,7 +148,11 @@ class _Part:
         return {"figure": svg(drawn), "caption": caption}
 
     def step(self, step: Step, shown: Mapping[str, list[Fields]]) -> Fields:
-        """A step, and the equations of those that it rests on."""
+        """A step, and the equations of those that it rests on, or that write it in coordinates."""
+
+        def unfolded(label: str) -> Fields:
+            return {"label": label, "id": anchor(label), "equations": shown[label]}
+
         return {
             "label": step.label,
             "id": anchor(step.label),
@@ -154,7 +161,12 @@ class _Part:
             "corrections": [*map(self.correction, self.told[step.label])],
             "prose": words(self.language.of(step.prose), self.notation),
             "equations": shown[step.label],
-            "uses": [{"label": x, "id": anchor(x), "equations": shown[x]} for x in step.uses],
+            "uses": [unfolded(x) for x in step.uses],
+            "coordinates": [
+                unfolded(x.label)
+                for x in self.part.steps
+                if x.rule == "coordinates" and step.label in x.uses
+            ],
         }
 
     def correction(self, told: Iterable[Told]) -> str:
@@ -178,8 +190,13 @@ class _Part:
                 "right": self.cut(marked(first.rhs, self.names), equals=True),
                 "cells": [self.cell(e) for e in cells],
                 "clause": self.clause(first),
-                "tex": r",\qquad ".join(map(self.source, x.equations)),
+                "tex": r",\qquad ".join(map(self.source, (*x.equations, *x.where))),
             }
+            for e in x.where:
+                yield PART | {
+                    "left": self.cut(marked(e.lhs, self.names)),
+                    "right": self.cut(marked(e.rhs, self.names), equals=True),
+                }
 
     def cell(self, e: Equation) -> str:
         """A short equation that stands beside others."""

@@ -48,7 +48,10 @@ def for_every(language: Language) -> str:
 
 def rows(x: Entry, names: Mapping[str, str], column: float, every: str) -> Rows:
     """An entry whose left side has a column of the given width."""
-    return aligned(x.only, names, column, every) if x.only else side(x, names)
+    if x.only is None:
+        return side(x, names)
+    below = (aligned(e, names, column, every) for e in x.where)
+    return [*aligned(x.only, names, column, every), *(row for e in below for row in e)]
 
 
 def side(x: Entry, names: Mapping[str, str]) -> Rows:

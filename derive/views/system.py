@@ -1,0 +1,62 @@
+"""The system of a record in words: its group, its body, and what acts on it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ..record.record import Derivation
+from ..record.sentence import Sentence, listed, phrase
+from .language import Language
+from .outline import group
+
+
+def system(d: Derivation, language: Language) -> str:
+    """One or two sentences; empty where the record has no body."""
+    basis, body = d.problem.get("basis"), d.problem.get("body")
+    if not isinstance(basis, list) or not basis or not isinstance(body, Mapping):
+        return ""
+    moved = language.word(
+        "The group {group}, of dimension {d}, moves {body}.",
+        group=group(d),
+        d=str(len(basis)),
+        body=language.sentence(_body(body)),
+    )
+    acting = [*_acting(d.problem)]
+    if not acting:
+        return f"{moved} {language.word('Nothing acts on it.')}"
+    forces = language.sentence(listed("{first}, {second}", acting))
+    return f"{moved} {language.word('What acts on it: {forces}.', forces=forces)}"
+
+
+def _body(body: Mapping[str, Any]) -> Sentence:
+    points, solids = _many(body.get("points")), _many(body.get("solids"))
+    if points and solids:
+        return phrase("a body of points and solids")
+    if points:
+        return phrase("{n} points", n=str(points)) if points > 1 else phrase("one point")
+    if solids:
+        return phrase("a body of {n} solids", n=str(solids)) if solids > 1 else phrase("a solid")
+    return phrase("a body given by its moments")
+
+
+def _acting(problem: Mapping[str, Any]) -> Iterator[Sentence]:
+    potentials, inputs = problem.get("potentials"), problem.get("inputs")
+    kinds = [p.get("kind") for p in potentials] if isinstance(potentials, list) else []
+    springs = kinds.count("spring")
+    if "gravity" in kinds:
+        yield phrase("gravity")
+    if springs:
+        yield phrase("{n} springs", n=str(springs)) if springs > 1 else phrase("a spring")
+    if "attraction" in kinds:
+        yield phrase("the attraction of a centre")
+    if "expression" in kinds:
+        yield phrase("a potential given as an expression")
+    if _many(problem.get("damping")):
+        yield phrase("damping")
+    for x in inputs if isinstance(inputs, list) else []:
+        yield phrase("the input {name}", name=str(x.get("name")))
+
+
+def _many(x: Any) -> int:
+    return len(x) if isinstance(x, list) else 0
