@@ -118,6 +118,7 @@ def command_emit(args: argparse.Namespace) -> int:
     from .code.emit import emit
     from .code.options import CHOICES, Options
     from .pipeline import program
+    from .validation import validated
     from .writing import stale, write
 
     problem, record = derive(args.problem, args.allow_negative_mass)
@@ -127,6 +128,8 @@ def command_emit(args: argparse.Namespace) -> int:
     languages = tuple(dict.fromkeys(args.lang or ("c", "python")))
     prefix = problem.name if args.prefix is None else args.prefix
     files, folder = emit(compiled, record, languages, prefix, options), Path(args.out or ".")
+    if args.validate and not validated(files, record, compiled, prefix, options):
+        return 1  # and nothing is written
     if args.check:
         old = stale(files, folder)
         for path in old:
@@ -263,6 +266,8 @@ def parser() -> argparse.ArgumentParser:
     emit.add_argument("--prefix", metavar="NAME", help="default: the problem's name")
     current = "write nothing; exit 1 if a file on disk is not what would be written"
     emit.add_argument("--check", action="store_true", help=current)
+    about = "read the C and Python back before they are written, hold them against the record"
+    emit.add_argument("--validate", action="store_true", help=f"{about}; exit 1 if they differ")
     emission(emit)
     check = command("check", command_check)
     check.add_argument("problem", nargs="+", help="ready-made names, .toml files or .json records")
@@ -282,6 +287,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run a command: 0, 1 when a check failed, 2 for bad input."""
     from .code.emit import EmitError
     from .code.program import LoweringError
+    from .validate.terms import MissingParserError
     from .writing import WriteError
 
     args = parser().parse_args(argv)
@@ -291,7 +297,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         status = int(args.run(args))
         sys.stdout.flush()
         return status
-    except (*REFUSED, EmitError, LoweringError, WriteError) as error:
+    except (*REFUSED, EmitError, LoweringError, MissingParserError, WriteError) as error:
         print(f"derive: {error}", file=sys.stderr)
         return 2
     except BrokenPipeError:

@@ -151,6 +151,21 @@ class Program:
         own = (*(f for _, f in found.matrices), found.numbers) if found else ()
         return (*self.functions.values(), *own)
 
+    def numbers(self) -> set[Fraction]:
+        """The exact numbers that its expressions contain, which a language writes as decimals."""
+        found: set[Fraction] = set()
+        for f in self.all_functions():
+            checked = [x for c in f.checks for x in (c.value, c.scale)]
+            values = [v.expression for s in f.sections for v in s.values]
+            stack: list[Any] = [*checked, *values, *f.outputs]
+            while stack:
+                e = stack.pop()
+                if isinstance(e, Fraction):
+                    found.add(e)
+                elif isinstance(e, tuple):
+                    stack.extend(e)
+        return found
+
 
 def _collect(e: Any, found: set[str]) -> None:
     if isinstance(e, tuple):

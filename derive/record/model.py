@@ -39,9 +39,9 @@ class Model:
     """One random point of the evolution space of a problem, with two variations and the motion.
 
     ``principal``: the body has a diagonal J; ``driven``: the input does not vanish; ``opaque``: the
-    potential is any polynomial.  X is the motion, or a vector with δt = 1: ``motion`` "any" for the
-    first variation, "coasting" for the velocity of the motion with any acceleration.  ``vertical``:
-    the second variation moves the velocity alone.
+    potential is any polynomial; ``pi``: its value, else any.  X is the motion, or a vector with
+    δt = 1: ``motion`` "any" for the first variation, "coasting" for the velocity of the motion with
+    any acceleration.  ``vertical``: the second variation moves the velocity alone.
     """
 
     def __init__(
@@ -56,6 +56,7 @@ class Model:
         motion: str = "",
         vertical: bool = False,
         opaque: bool = False,
+        pi: Fraction | None = None,
     ):
         self.problem, self.group, self.random, self.size = problem, group, random, size
         self.driven, self.along, self.opaque = driven, motion, opaque
@@ -63,7 +64,7 @@ class Model:
         self._exteriors: dict[tuple[Direction, Direction], Fraction] = {}
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
         self.elementary = Opaque(Random(random.random()), size)
-        self.pi = self.draw(positive=True)
+        self.pi = self.draw(positive=True) if pi is None else pi
         self.masses, self.points, self.blocks = (
             principal_points(self) if principal else points_of(self)
         )

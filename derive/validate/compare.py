@@ -1,0 +1,210 @@
+"""The functions of an emitted file against the record: equal at exact points, without tolerance.
+
+A rational function that is not zero vanishes at a random point with probability at most
+degree / size (Schwartz–Zippel); points are added until all of them at once are improbable enough.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from random import Random
+from typing import Any
+
+from ..record.record import to_json
+from .jacobians import Varied
+from .literals import Literals
+from .measured import Measured, Opaque
+from .module import Machine, Module
+from .names import DiffersError, compare_names
+from .points import Claims, Point
+from .straight import straight
+from .terms import Array, CodeError
+
+SIZE = 2**128
+"""Random integers are of at most this absolute value."""
+
+BOUND, FEWEST, MOST = 1e-40, 2, 20
+"""Points are added until a false pass is less probable than this."""
+
+
+SLOPE = 16
+"""Times the size of the group: a derivative and its way to coordinates add less to a degree."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """``functions`` that equal the record at so many ``points``; ``bound`` on a false pass.
+
+    ``rounded``: the decimals that stand for the number that they are nearest to.  ``unread``: the
+    constants that none of the functions reads, so that nothing is known of them.
+    """
+
+    functions: tuple[str, ...]
+    points: int
+    bound: float
+    rounded: tuple[str, ...]
+    unread: tuple[str, ...]
+
+
+def compare(
+    module: Module,
+    claims: Claims,
+    exact: Iterable[Fraction] = (),
+    text: str = "",
+    bound: float = BOUND,
+) -> Verdict:
+    """The verdict on a module; ``CodeError`` where it cannot be read, or differs.
+
+    The points are drawn from a hash of the record and of ``text``, that of the files: they are the
+    same at every run, and whoever writes a file cannot aim it at them.
+    """
+    compare_names(module, claims)
+    literal = Literals(exact)
+    told = to_json(claims.record) + text
+    digest = hashlib.sha256(told.encode("utf-8", "surrogatepass")).hexdigest()
+    first = Comparison(module, claims, literal, claims.point(f"{digest} 0"), measured=True)
+    functions = first.all()
+    one, points = min(1.0, first.degree / claims.size), 1
+    while points < FEWEST or one**points >= bound:
+        if points == MOST:
+            raise CodeError("its degree is too large for a proof")
+        Comparison(module, claims, literal, claims.point(f"{digest} {points}")).all()
+        points += 1
+    size = module.sizes.get("CONSTANTS", 0)
+    unread = tuple(f"k[{i}]" for i in range(size) if i not in first.read)
+    return Verdict(functions, points, one**points, tuple(sorted(literal.rounded)), unread)
+
+
+class Comparison:
+    """One module at one exact point; ``measured``: its degrees are found as well."""
+
+    def __init__(
+        self,
+        module: Module,
+        claims: Claims,
+        literal: Literals,
+        point: Point,
+        *,
+        measured: bool = False,
+    ):
+        self.module, self.claims, self.literal = module, claims, literal
+        self.measured, self.point = measured, point
+        self.random = Random(str(point.energy))
+        self.opaque = Opaque(self.point.elementary)
+        values = self.opaque if measured else self.point.elementary
+        self.machine = Machine(module, values, literal)
+        self.read: set[int] = set()
+        self.largest = 0
+
+    @property
+    def degree(self) -> int:
+        """Of a difference, with what makes two arguments of elementary functions equal."""
+        record = self.claims.degree
+        pairs = self.opaque.calls * len(self.point.elementary.values)
+        own = SLOPE * self.claims.group.size * self.largest
+        return own + record + pairs * (self.opaque.largest + record)
+
+    def all(self) -> tuple[str, ...]:
+        """The names of the functions, each seen to equal the record's."""
+        for f in self.module.functions.values():
+            straight(f)
+        given, point, found = self._given(), self.point, ["constants", "rhs", "energy"]
+        rates = self._call("rhs", given, dx=len(point.rates))["dx"]
+        self._same("rhs", self._rates, rates, point.rates)
+        energy = self._call("energy", given, value=1)["value"]
+        self._same("energy", ("the energy",), energy, (point.energy,))
+        if "rhs_batch" in self.module.functions:
+            self._batch(given)
+            found.append("rhs_batch")
+        if "inertia" in self.module.functions:
+            names = tuple(f"I_{i}{j}" for i in range(1, 4) for j in range(i, 4))
+            tensor = self._call("inertia", given, value=6)["value"]
+            self._same("inertia", names, tensor, point.inertia)
+            found.append("inertia")
+        return (*found, *self._jacobians(given))
+
+    @property
+    def _rates(self) -> tuple[str, ...]:
+        return tuple(f"the rate of {x}" for x in self.claims.state.names)
+
+    def _given(self) -> dict[str, Any]:
+        """All that the functions take at the point."""
+        given, listed = self.point.given, self.module.parameters or ()
+        p = self._array([self.point.parameters[x] for x in listed], "p", self.claims.moment_degree)
+        k = self._call("constants", {"p": p}, k=self.module.sizes.get("CONSTANTS", 0))["k"]
+        return {
+            "t": self._lifted([given["t"]], (1, 0))[0],
+            "x": self._array(given["x"], "x", self.claims.entry_degree),
+            "u": self._array(given["u"], "u", (1, 0)),
+            "p": p,
+            "k": Array(k, "k"),
+        }
+
+    def _lifted(self, values: Iterable[Any], degrees: tuple[int, int]) -> list[Any]:
+        return [Measured(x, *degrees) if self.measured else x for x in values]
+
+    def _array(self, values: Iterable[Any], name: str, degrees: tuple[int, int]) -> Array:
+        return Array(self._lifted(values, degrees), name)
+
+    def _call(self, name: str, given: Mapping[str, Any], **sizes: int) -> dict[str, list[Any]]:
+        try:
+            found = self.machine.call(name, given, **sizes)
+        except CodeError as error:
+            raise CodeError(f"{name}: {error}") from None
+        if "k" in given:
+            self.read |= given["k"].read
+        measured = (x for values in found.values() for x in values if isinstance(x, Measured))
+        self.largest = max([self.largest, *(x.degree for x in measured)])
+        return found
+
+    def _batch(self, given: Mapping[str, Any]) -> None:
+        """Three states at once: that of the point, and any others, for which ``rhs`` answers."""
+        size, degrees = len(self.point.rates), {"x": self.claims.entry_degree, "u": (1, 0)}
+        states = [dict(given), dict(given), dict(given)]
+        for other in states[1:]:
+            for name, d in degrees.items():
+                count = len(given[name].values)
+                drawn = [Fraction(self.random.randint(1, self.claims.size)) for _ in range(count)]
+                other[name] = self._array(drawn, name, d)
+        both = dict(given) | {"n": len(states)}
+        for name in degrees:
+            rows = zip(*(x[name].values for x in states), strict=True)
+            both[name] = Array([x for row in rows for x in row], name)
+        found = self._call("rhs_batch", both, dx=len(states) * size)["dx"]
+        self._same("rhs_batch", self._rates, found[:: len(states)], self.point.rates)
+        for s, other in enumerate(states[1:], 1):
+            rates = self._call("rhs", other, dx=size)["dx"]
+            self._same("rhs_batch", self._rates, found[s :: len(states)], rates)
+
+    def _jacobians(self, given: Mapping[str, Any]) -> list[str]:
+        plain = Machine(self.module, self.point.elementary, self.literal)
+        p, k = ([getattr(x, "value", x) for x in given[a].values] for a in ("p", "k"))
+        wanted = Varied(plain, self.claims.state, self.point, p, k).wanted
+        found = [name for name in wanted if name in self.module.functions]
+        for name in found:
+            D = wanted[name]()
+            rates = {"dx": len(self.point.rates)} if name == "jacobian" else {}
+            values = self._call(name, given, **rates, D=len(D))
+            if rates:
+                self._same(name, self._rates, values["dx"], self.point.rates)
+            self._same(name, [f"entry {i} of D" for i in range(len(D))], values["D"], D)
+        return found
+
+    def _same(
+        self, function: str, names: Sequence[str], found: Sequence[Any], wanted: Sequence[Any]
+    ) -> None:
+        if len(found) != len(wanted):
+            raise DiffersError(f"{function}: {len(found)} numbers, the record has {len(wanted)}")
+        for name, x, y in zip(names, found, wanted, strict=True):
+            if x != y:
+                values = " and ".join(brief(v) for v in (x, y))
+                raise DiffersError(f"{function}: {name} differs from the record's: {values}")
+
+
+def brief(x: Any) -> str:
+    """A number in short."""
+    value = Fraction(getattr(x, "value", x))
+    return f"{float(value):.6g}" if abs(value) < Fraction(10) ** 300 else "a large number"

@@ -1,0 +1,92 @@
+"""All files of one emission: which of them are read back, and what is said of each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ..record.record import Derivation
+from .compare import SIZE, Verdict, compare
+from .module import Module
+from .names import DiffersError
+from .points import Claims
+from .read_c import read_c
+from .read_python import read_python
+from .state import Chart
+from .terms import CodeError
+
+UNREAD = "not validated: only C and Python are read back"
+FRAMED = "not validated: the principal frame has eigenvectors, which are not rational"
+
+
+@dataclass(frozen=True)
+class Report:
+    """What is said of some files; ``holds`` unless they differ from the record, or do not read."""
+
+    files: tuple[str, ...]
+    text: str
+    holds: bool = True
+
+
+@dataclass(frozen=True)
+class Emission:
+    """``files``: name → text; ``numbers``: what their decimals may be roundings of.
+
+    ``given``: is the body as it is given, not in its principal frame?
+    """
+
+    files: Mapping[str, str]
+    prefix: str
+    chart: Chart
+    numbers: Collection[Fraction] = ()
+    given: bool = True
+
+    def reports(self, d: Derivation) -> list[Report]:
+        """One for each file, or for a header with its source; ``MissingParserError`` for C."""
+        claims = Claims(d, self.chart, SIZE)
+        return [self._report(names, claims) for names in self._groups()]
+
+    def _groups(self) -> Iterator[tuple[str, ...]]:
+        """The header goes with its source."""
+        header, source = f"{self.prefix}.h", f"{self.prefix}.c"
+        for name in self.files:
+            if name == header and source in self.files:
+                yield header, source
+            elif name != source or header not in self.files:
+                yield (name,)
+
+    def _report(self, names: tuple[str, ...], claims: Claims) -> Report:
+        if names[-1] not in (f"{self.prefix}{end}" for end in (".h", ".c", ".py")):
+            return Report(names, UNREAD)
+        if not self.given:
+            return Report(names, FRAMED)
+        whole = "".join(self.files.values())  # all of one emission are tried at the same points
+        try:
+            verdict = compare(self._module(names), claims, self.numbers, whole)
+        except DiffersError as error:
+            return Report(names, f"DIFFERS: {error}", holds=False)
+        except CodeError as error:
+            return Report(names, f"cannot be read back: {error}", holds=False)
+        except RecursionError:
+            return Report(names, "cannot be read back: nested too deeply", holds=False)
+        return Report(names, said(verdict))
+
+    def _module(self, names: tuple[str, ...]) -> Module:
+        if names[-1].endswith(".py"):
+            return read_python(names[-1], self.files[names[-1]])
+        return read_c(names[-1], self.files, self.prefix)
+
+
+def said(v: Verdict) -> str:
+    """A verdict in words."""
+    text = (
+        f"{', '.join(v.functions)} equal the record at {v.points} exact points; "
+        f"a false pass has probability below 1e{math.ceil(math.log10(v.bound))}"
+    )
+    if v.rounded:
+        text += f"; {len(v.rounded)} decimals are read as the numbers that they round"
+    if v.unread:
+        text += f"; not validated, for no function reads them: {', '.join(v.unread)}"
+    return text

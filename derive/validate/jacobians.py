@@ -1,0 +1,91 @@
+"""What the Jacobians must be: exact derivatives of what ``rhs`` computes, by nilpotent numbers.
+
+A variation is δg = g η and δζ; η̇ = δζ − [Z, η], and δζ̇ is the derivative of the rates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.rational import Matrix
+from ..record.nilpotent import EPS, part
+from .module import Machine
+from .points import Point
+from .state import EPSILON, State
+from .terms import Array
+
+ZERO = Fraction(0)
+
+
+@dataclass(frozen=True)
+class Varied:
+    """The rates of one point as a function of what varies; ``k``: its constants."""
+
+    machine: Machine
+    state: State
+    point: Point
+    p: Sequence[Fraction]
+    k: Sequence[Fraction]
+
+    @property
+    def wanted(self) -> Mapping[str, Callable[[], list[Fraction]]]:
+        """Name of a function → the numbers of its D, row by row."""
+        return {
+            "jacobian": lambda: by_rows(self._state()),
+            "jacobian_inputs": lambda: by_rows(self._inputs()),
+            "jacobian_parameters": lambda: by_rows(self._parameters()),
+        }
+
+    def _state(self) -> Iterator[list[Fraction]]:
+        group, Z = self.state.group, self.point.Z
+        none = q.scaled(ZERO, Z)
+        for e in group.basis:
+            turn = group.nearest(q.minus(q.times(e, Z), q.times(Z, e)))
+            yield [*turn, *self._slopes(e, none)]
+        for a, e in enumerate(group.basis):
+            yield [*(Fraction(a == b) for b in range(group.dimension)), *self._slopes(none, e)]
+
+    def _slopes(self, eta: Matrix, change: Matrix) -> list[Fraction]:
+        """δζ̇ for δg = g η and δZ."""
+        x = self.state.varied(self.point.g, self.point.Z, eta, change)
+        rates = self._rates({"x": x})
+        Z = q.plus(self.point.Z, q.scaled(EPSILON, change))
+        back = q.times(q.minus(q.identity(len(eta)), q.scaled(EPSILON, eta)), self._inverse())
+        return [part(y, EPS) for y in self.state.acceleration(Z, back, rates)]
+
+    def _inputs(self) -> Iterator[list[Fraction]]:
+        u = self.point.given["u"]
+        for j in range(len(u)):
+            yield self._slopes_at({"u": [y + EPSILON if i == j else y for i, y in enumerate(u)]})
+
+    def _parameters(self) -> Iterator[list[Fraction]]:
+        for j in range(len(self.p)):
+            p = [y + EPSILON if i == j else y for i, y in enumerate(self.p)]
+            k = self.machine.call("constants", {"p": Array(p, "p")}, k=len(self.k))["k"]
+            yield self._slopes_at({"k": k})
+
+    def _slopes_at(self, changed: Mapping[str, Sequence[Any]]) -> list[Fraction]:
+        rates = self._rates(changed)
+        found = self.state.acceleration(self.point.Z, self._inverse(), rates)
+        return [ZERO] * len(found) + [part(y, EPS) for y in found]
+
+    def _inverse(self) -> Matrix:
+        found = q.inverse(self.point.g)
+        assert found is not None
+        return found
+
+    def _rates(self, changed: Mapping[str, Sequence[Any]]) -> tuple[Any, ...]:
+        values = {"x": self.point.given["x"], "u": self.point.given["u"], "k": self.k, **changed}
+        given = {name: Array(x, name) for name, x in values.items()}
+        size = len(self.point.rates)
+        found = self.machine.call("rhs", {"t": self.point.given["t"], **given}, dx=size)
+        return tuple(found["dx"])
+
+
+def by_rows(columns: Iterator[list[Fraction]]) -> list[Fraction]:
+    """The numbers of a matrix row by row, from its columns."""
+    return [x for row in zip(*columns, strict=True) for x in row]

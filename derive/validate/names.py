@@ -1,0 +1,36 @@
+"""The lists of an emitted file: names, sizes, defaults and the basis."""
+
+from __future__ import annotations
+
+from .module import Module
+from .points import Claims
+from .terms import CodeError
+
+
+class DiffersError(CodeError):
+    """The code says something else than the record: the message says where."""
+
+
+def compare_names(m: Module, claims: Claims) -> None:
+    """``DiffersError`` where one of the lists is not what record and chart make it."""
+    for what, names in (("state", claims.state.names), ("inputs", claims.inputs)):
+        if (getattr(m, what) or names) != names:
+            raise DiffersError(f"the names of {what} are not {', '.join(names) or 'none'}")
+    declared, listed = claims.record.problem["parameters"], m.parameters or ()
+    if listed != tuple(x for x in declared if x in listed):
+        raise DiffersError("the parameters are not those of the record, in its order")
+    sizes = {
+        "STATE": len(claims.state.names),
+        "INPUTS": len(claims.inputs),
+        "PARAMETERS": len(listed),
+        "ALGEBRA": claims.group.dimension,
+    }
+    for what, size in sizes.items():
+        if m.sizes.get(what, size) != size:
+            raise DiffersError(f"the size {what} is {m.sizes[what]}, not {size}")
+    given = {x: declared[x]["default"] for x in listed}
+    defaults = {x: value for x, value in given.items() if value is not None}
+    if m.defaults is not None and {x: float(y) for x, y in m.defaults.items()} != defaults:
+        raise DiffersError("the defaults of the parameters are not those of the record")
+    if m.basis is not None and m.basis != claims.group.basis:
+        raise DiffersError("the basis is not that of the record")

@@ -1,0 +1,190 @@
+"""Exact points of a problem: the state and all else that a call is given, and what the record says.
+
+The record's equations of motion and its energy are evaluated as the checker does it, by what their
+names mean for the points of the body; π is the double next to it, as in the code.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from random import Random
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.groups import Group
+from ..algebra.rational import Matrix
+from ..algebra.samplers import Sampler, affine, by_cayley
+from ..record import degree
+from ..record.arithmetic import EvaluationError
+from ..record.check import Checker
+from ..record.evaluate import Environment, evaluate
+from ..record.meaning import environment
+from ..record.model import Model
+from ..record.record import Derivation, Equation, RecordError
+from .state import Chart, Numbers, State
+from .terms import CodeError
+
+PI = Fraction(math.pi)
+
+
+@dataclass(frozen=True)
+class Point:
+    """``given``: t, x and u of a call; g and Z = g⁻¹ġ behind them; and what the record says: the
+    rates of x, the energy and, for a body turned in space, the tensor of inertia by its upper rows.
+
+    ``elementary`` gives the values of elementary functions at this point.
+    """
+
+    parameters: Mapping[str, Fraction]
+    given: Mapping[str, Any]
+    g: Matrix
+    Z: Matrix
+    rates: Numbers
+    energy: Fraction
+    inertia: Numbers
+    elementary: Any
+
+
+class Claims:
+    """What a record says of the numbers of a chart; ``size``: random integers are within ±size."""
+
+    def __init__(self, d: Derivation, chart: Chart, size: int):
+        self.record, self.size = d, size
+        self._points: dict[str, Point] = {}
+        self.scope = str(d.problem.get("group"))
+        (group,) = Checker(d.problem).groups(self.scope)
+        if chart.attitude == "quaternion":
+            group = replace(group, sampler=squares(group))
+        self.group, self.state = group, State(group, chart)
+
+    @cached_property
+    def driven(self) -> bool:
+        """Is there anything given from outside?"""
+        given = [s.given for s in self.record.steps if s.label.endswith(".motion")]
+        return any("input" in x for x in given)
+
+    @cached_property
+    def inputs(self) -> tuple[str, ...]:
+        """The names of the numbers of u."""
+        found: list[str] = []
+        for data in self.record.problem.get("inputs", []):
+            size = self.group.dimension
+            if data["kind"] == "force":
+                size = self._factor(data["on"]).n
+            found += [f"{data['name']}_{i + 1}" for i in range(size)]
+        return tuple(found)
+
+    def _block(self, i: int) -> int:
+        body = self.record.problem.get("body", {}).get("points", [])
+        return int([*body, *self.record.problem.get("places", [])][i - 1].get("block", 1))
+
+    def _factor(self, i: int) -> Group:
+        return self.group.places[self._block(i) - 1][1]
+
+    def point(self, seed: str) -> Point:
+        """The point of a seed; ``CodeError`` where the record has no value there."""
+        if seed not in self._points:
+            try:
+                self._points[seed] = self._point(seed)
+            except (EvaluationError, RecordError, ZeroDivisionError) as error:
+                raise CodeError(f"the record has no value: {error}") from None
+        return self._points[seed]
+
+    def _point(self, seed: str) -> Point:
+        model = Model(
+            self.record.problem, self.group, Random(seed), self.size, driven=self.driven, pi=PI
+        )
+        env = environment(model)
+        g_dot = self._whole(self._value("Ȧ", env), self._value("Ṫ", env))
+        rates = self.state.rates(model.g, model.Z, g_dot, self._acceleration(env))
+        tensor = self._value("I", env)
+        return Point(
+            model.parameters,
+            {"t": model.t, "x": self.state.values(model.g, model.Z), "u": self._given(model)},
+            model.g,
+            model.Z,
+            rates,
+            self._value("h̃", env),
+            tuple(tensor[i][j] for i in range(3) for j in range(i, 3)) if tensor else (),
+            model.elementary,
+        )
+
+    def _given(self, model: Model) -> Numbers:
+        found: list[Any] = []
+        pushes = iter(model.pushes)
+        for data in self.record.problem.get("inputs", []):
+            if data["kind"] == "force":
+                found += next(pushes)[self.group.of_block(self._block(data["on"]))]
+            else:
+                found += model.covector
+        return tuple(found)
+
+    # -- the record --------------------------------------------------------------------------
+
+    @cached_property
+    def equations(self) -> dict[str, Equation]:
+        """The recorded equations that the code is to compute, by their left sides."""
+        names = ("Ȧ", "Ṫ", "ζ̇", "Ż", "ẇ", "h̃", "I")
+        found = {name: self.record.definition(name) for name in names}
+        return {name: x[1] for name, x in found.items() if x is not None}
+
+    @property
+    def degree(self) -> int:
+        """A bound on the degree of what is computed from the record, as a function of the draws."""
+        bounds = (degree.bound(e, self.group, self.record.problem) for e in self.equations.values())
+        return (self.group.size + 1) * sum(bounds)
+
+    @property
+    def entry_degree(self) -> tuple[int, int]:
+        """The degrees of numerator and denominator of a number of the state."""
+        s = self.group.sampler
+        return s.degree + 1, sum(p[1] * k for p, k in s.denominators)
+
+    @property
+    def moment_degree(self) -> tuple[int, int]:
+        """The same of a parameter: sums of m, m r and m r r̄, where these are the parameters."""
+        moments = self.record.problem.get("body", {}).get("kind") == "moments"
+        return (3 if moments else 1), 0
+
+    def _value(self, name: str, env: Environment) -> Any:
+        e = self.equations.get(name)
+        return None if e is None else evaluate(e.rhs, env)
+
+    def _acceleration(self, env: Environment) -> Matrix:
+        """Ż as a matrix of the group's size, from what the record solves for."""
+        w = self._value("ẇ", env)
+        if "ζ̇" not in self.equations:
+            return self._whole(self._value("Ż", env), w)
+        rate = self._value("ζ̇", env)
+        coordinates = [x for (x,) in rate] if isinstance(rate, tuple) else [rate]
+        shift = [x for (x,) in w] if w is not None else []
+        return self.group.hat([*coordinates, *shift])
+
+    def _whole(self, linear: Any, shift: Any) -> Matrix:
+        """[[linear, shift], [0, 0]], or the linear part alone; 0 stands for any zero."""
+        n = self.group.n
+        zero = q.scaled(Fraction(0), q.identity(n))
+        linear = linear if isinstance(linear, tuple) else zero
+        if not self.group.affine:
+            return tuple(linear)
+        column = shift if isinstance(shift, tuple) else ((Fraction(0),),) * n
+        rows = tuple((*row, x) for row, (x,) in zip(linear, column, strict=True))
+        return (*rows, (Fraction(0),) * (n + 1))
+
+
+def squares(group: Group) -> Sampler:
+    """Rotations whose quaternion is rational: squares of Cayley transforms; and any translation."""
+    basis = tuple(group.linear_part(e) for e in group.linear_basis)
+    root = by_cayley(basis)
+
+    def draw(random: Random, size: int) -> Matrix:
+        a = root.draw(random, size)
+        return q.times(a, a)
+
+    twice = tuple((p, 2 * k) for p, k in root.denominators)
+    turns = Sampler(draw, 2 * root.degree, twice)
+    return affine(turns, group.n) if group.affine else turns

@@ -1,0 +1,265 @@
+"""Emitted C as terms, by a parser of C; a construct that is not known here is an error."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from .module import Module
+from .preprocess import preprocessed
+from .terms import (
+    DECIMAL,
+    FUNCTIONS,
+    Body,
+    CodeError,
+    Expression,
+    Function,
+    MissingParserError,
+    Statement,
+)
+
+SIGNATURES = {
+    "constants": ("int", "const* p", "* k"),
+    "rhs": ("void", "t", "const* x", "const* k", "const* u", "* dx"),
+    "rhs_batch": ("void", "size_t n", "t", "const* x", "const* k", "const* u", "* dx"),
+    "energy": ("real", "t", "const* x", "const* k"),
+    "jacobian": ("void", "t", "const* x", "const* k", "const* u", "* dx", "* D"),
+    "jacobian_inputs": ("void", "t", "const* x", "const* k", "const* u", "* D"),
+    "jacobian_parameters": ("void", "t", "const* x", "const* p", "const* u", "* D"),
+}
+"""What each function returns and takes, in order: the contract with its callers."""
+
+SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS")
+LISTS = ("state", "parameter", "input")
+SIGNS = {"+": "add", "-": "sub", "*": "mul", "/": "div", ">": "gt", "<": "lt", "==": "eq"}
+
+
+def read_c(name: str, files: Mapping[str, str], prefix: str) -> Module:
+    """The functions of a C file; ``CodeError`` says what cannot be read, and in which line."""
+    try:
+        from pycparser import c_ast, c_parser
+    except ImportError:
+        raise MissingParserError(
+            "C is read back by pycparser: install it by  pip install 'derive[validate]'"
+        ) from None
+    text = "typedef unsigned long size_t;\n" + preprocessed(name, files)
+    try:
+        tree = c_parser.CParser().parse(text, name)
+    except (c_parser.ParseError, RecursionError) as error:
+        raise CodeError(f"not C: {error}") from None
+    found = Reader(c_ast, prefix).module(tree)
+    if found.parameters is None:  # one header of functions names them in a comment
+        named = re.findall(r"^ \*   p\[([0-9]+)\] (\w+)", files[name], re.MULTILINE)
+        if [int(i) for i, _ in named] != list(range(found.sizes["PARAMETERS"])):
+            raise CodeError("the parameters are not listed in order")
+        found = replace(found, parameters=tuple(x for _, x in named))
+    return found
+
+
+class Reader:
+    """One translation unit; ``c``: the classes of the parser's nodes."""
+
+    def __init__(self, c: Any, prefix: str):
+        self.c, self.prefix = c, prefix
+        self.real = ""
+        self.sizes: dict[str, int] = {}
+        self.integers: set[str] = set()
+        self.lists: dict[str, tuple[str, ...]] = {}
+        self.functions: dict[str, Function] = {}
+        self.declared: set[str] = set()
+
+    def module(self, tree: Any) -> Module:
+        """All functions and names; ``CodeError`` for any other definition."""
+        for node in tree.ext[1:]:
+            if isinstance(node, self.c.FuncDef):
+                self._function(node)
+            elif isinstance(node, self.c.Decl):
+                self._declaration(node)
+            else:
+                raise self._unknown(node)
+        if missing := self.declared - set(self.functions):
+            raise CodeError(f"the function {min(missing)} is declared and not defined")
+        sizes = {x: self.sizes.get(f"{self.prefix}_N_{x}", -1) for x in SIZES}
+        lists = (self.lists.get(f"{self.prefix}_{x}_names") for x in LISTS)
+        state, parameters, inputs = lists
+        return Module(state, parameters, inputs, self.functions, sizes)
+
+    def _unknown(self, node: Any) -> CodeError:
+        kind, line = type(node).__name__, getattr(node.coord, "line", None)
+        where = f" in line {line - 1} of the text without directives" if line else ""
+        return CodeError(f"C that is not known here: {kind}{where}")
+
+    # -- declarations ------------------------------------------------------------------------
+
+    def _declaration(self, node: Any) -> None:
+        c, kind = self.c, node.type
+        if isinstance(kind, c.Enum) and kind.values:
+            for x in kind.values.enumerators:
+                if not isinstance(x.value, c.Constant) or x.name in self.sizes:
+                    raise self._unknown(x)
+                self.sizes[x.name] = self._integer(x.value)[1]
+        elif isinstance(kind, c.FuncDecl):
+            self._arguments(node)
+            self.declared.add(node.name.removeprefix(f"{self.prefix}_"))
+        elif isinstance(kind, c.ArrayDecl) and node.init is None and node.storage == ["extern"]:
+            pass
+        elif isinstance(kind, c.ArrayDecl) and isinstance(node.init, c.InitList):
+            if node.name in self.lists or not node.name.endswith("_names"):
+                raise self._unknown(node)
+            self.lists[node.name] = tuple(x.value.strip('"') for x in node.init.exprs)
+        else:
+            raise self._unknown(node)
+
+    def _arguments(self, node: Any) -> tuple[str, ...]:
+        """The names of the arguments of a declared function, after a look at its signature."""
+        name = node.name.removeprefix(f"{self.prefix}_")
+        found = [self._type(node.type.type), *(self._argument(x) for x in node.type.args.params)]
+        if name not in SIGNATURES or tuple(found) != SIGNATURES[name]:
+            raise CodeError(f"the function {node.name}({', '.join(found[1:])}) is not known here")
+        return tuple(x.split()[-1] for x in found[1:])
+
+    def _argument(self, node: Any) -> str:
+        if isinstance(node.type, self.c.PtrDecl):
+            if self._type(node.type.type) != "real":
+                raise self._unknown(node)
+            const = "const" if "const" in node.type.type.quals else ""
+            return f"{const}* {node.name}"
+        kind = self._type(node.type)
+        return str(node.name) if kind == "real" else f"{kind} {node.name}"
+
+    def _type(self, node: Any) -> str:
+        """``real`` for double or float, one of them in a file; int, size_t, void."""
+        if not isinstance(node, self.c.TypeDecl) or len(getattr(node.type, "names", ())) != 1:
+            raise self._unknown(node)
+        (name,) = node.type.names
+        if name in ("int", "size_t", "void"):
+            return str(name)
+        if name not in ("double", "float") or self.real not in ("", name):
+            raise self._unknown(node)
+        self.real = name
+        return "real"
+
+    # -- functions and statements ------------------------------------------------------------
+
+    def _function(self, node: Any) -> None:
+        name = node.decl.name.removeprefix(f"{self.prefix}_")
+        arguments = self._arguments(node.decl)
+        if name in self.functions:
+            raise CodeError(f"the function {node.decl.name} stands twice")
+        self.integers = {"n"} if name == "rhs_batch" else set()
+        self.functions[name] = Function(name, arguments, self._body(node.body))
+
+    def _body(self, node: Any) -> Body:
+        if not isinstance(node, self.c.Compound):
+            raise self._unknown(node)
+        found = (self._statement(x) for x in node.block_items or ())
+        return tuple(x for x in found if x is not None)
+
+    def _statement(self, node: Any) -> Statement | None:
+        c = self.c
+        if isinstance(node, c.Decl) and node.init is not None and node.quals == ["const"]:
+            if self._type(node.type) == "real":
+                return ("set", node.name, self._expression(node.init))
+        elif isinstance(node, c.Assignment) and node.op == "=":
+            if isinstance(node.lvalue, c.ArrayRef):
+                _, array, index = self._expression(node.lvalue)
+                return ("store", array, index, self._expression(node.rvalue))
+        elif isinstance(node, c.If) and node.iffalse is None:
+            return ("if", self._expression(node.cond), self._body(node.iftrue))
+        elif isinstance(node, c.For):
+            return self._loop(node)
+        elif isinstance(node, c.Return) and node.expr is not None:
+            return ("return", self._expression(node.expr))
+        elif self._unused(node):
+            return None
+        raise self._unknown(node)
+
+    def _unused(self, node: Any) -> bool:
+        """``(void)t;``: an argument that is not used."""
+        c = self.c
+        if not isinstance(node, c.Cast) or not isinstance(node.expr, c.ID):
+            return False
+        return self._type(node.to_type.type) == "void"
+
+    def _loop(self, node: Any) -> Statement:
+        """``for (int i = 0; i < bound; ++i)``, also with size_t."""
+        c, first = self.c, node.init
+        if not isinstance(first, c.DeclList) or len(first.decls) != 1:
+            raise self._unknown(node)
+        (i,) = first.decls
+        start, test, step = i.init, node.cond, node.next
+        plain = (
+            self._type(i.type) in ("int", "size_t")
+            and isinstance(start, c.Constant)
+            and start.value == "0"
+            and isinstance(test, c.BinaryOp)
+            and test.op == "<"
+            and isinstance(step, c.UnaryOp)
+            and step.op == "++"
+            and all(isinstance(x, c.ID) and x.name == i.name for x in (test.left, step.expr))
+        )
+        if not plain or not self._whole(test.right):
+            raise self._unknown(node)
+        bound = self._expression(test.right)
+        self.integers.add(i.name)
+        body = self._body(node.stmt)
+        self.integers.discard(i.name)
+        return ("for", i.name, bound, body)
+
+    # -- expressions -------------------------------------------------------------------------
+
+    def _expression(self, node: Any) -> Expression:
+        c = self.c
+        if isinstance(node, c.ID):
+            return ("int", self.sizes[node.name]) if node.name in self.sizes else ("var", node.name)
+        if isinstance(node, c.Constant):
+            return self._integer(node) if node.type == "int" else self._decimal(node)
+        if isinstance(node, c.ArrayRef) and isinstance(node.name, c.ID):
+            if self._whole(node.subscript):
+                return ("at", node.name.name, self._expression(node.subscript))
+        elif isinstance(node, c.UnaryOp) and node.op in "-!":
+            return ("neg" if node.op == "-" else "not", self._expression(node.expr))
+        elif isinstance(node, c.BinaryOp) and node.op in SIGNS:
+            if node.op == "/" and self._whole(node.left) and self._whole(node.right):
+                raise CodeError("a quotient of integers, which C cuts off")
+            return (SIGNS[node.op], self._expression(node.left), self._expression(node.right))
+        elif isinstance(node, c.FuncCall) and isinstance(node.name, c.ID):
+            return self._call(node)
+        raise self._unknown(node)
+
+    def _call(self, node: Any) -> Expression:
+        suffix = "f" if self.real == "float" else ""
+        name = node.name.name.removesuffix(suffix) if suffix else node.name.name
+        if f"{name}{suffix}" != node.name.name or len(node.args.exprs) != 1:
+            raise self._unknown(node)
+        (argument,) = node.args.exprs
+        if name == "fabs":
+            return ("abs", self._expression(argument))
+        if name not in FUNCTIONS:
+            raise CodeError(f"the function {node.name.name} is not known here")
+        return ("fun", name, self._expression(argument))
+
+    def _whole(self, node: Any) -> bool:
+        """Is it an integer for C?"""
+        c = self.c
+        if isinstance(node, c.ID):
+            return node.name in self.integers or node.name in self.sizes
+        if isinstance(node, c.BinaryOp):
+            return self._whole(node.left) and self._whole(node.right)
+        if isinstance(node, c.UnaryOp):
+            return self._whole(node.expr)
+        return isinstance(node, c.Constant) and node.type == "int"
+
+    def _integer(self, node: Any) -> Expression:
+        if node.type != "int" or not re.fullmatch(r"0|[1-9][0-9]{0,8}", node.value):
+            raise CodeError(f"the number {node.value[:40]!r} is not read")
+        return ("int", int(node.value))
+
+    def _decimal(self, node: Any) -> Expression:
+        suffix = "f" if self.real == "float" else ""
+        text = node.value.removesuffix(suffix)
+        if f"{text}{suffix}" != node.value or not DECIMAL.fullmatch(text):
+            raise CodeError(f"the number {node.value[:40]!r} is not read")
+        return ("lit", text)

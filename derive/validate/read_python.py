@@ -1,0 +1,170 @@
+"""Emitted Python as terms, by its syntax tree; nothing of the text is ever run.
+
+Read are the functions in plain numbers: ``_constants``, ``_rhs``, ``_energy``, ``_inertia`` and the
+Jacobians, with the names, the defaults and the basis.  The public functions, which hand arrays to
+these and are the same in every file, are not.
+"""
+
+from __future__ import annotations
+
+import ast
+from fractions import Fraction
+from typing import Any
+
+from .module import Module
+from .terms import DECIMAL, FUNCTIONS, CodeError, Expression, Function, Statement, operated
+
+SIGNATURES = {
+    "_constants": ("xp", "p"),
+    "_rhs": ("xp", "t", "x", "k", "u"),
+    "_energy": ("xp", "t", "x", "k", "u"),
+    "_inertia": ("xp", "p"),
+    "_jacobian": ("xp", "t", "x", "k", "u"),
+    "_jacobian_inputs": ("xp", "t", "x", "k", "u"),
+    "_jacobian_parameters": ("xp", "t", "x", "p", "u"),
+}
+SIGNS: dict[type, str] = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div"}
+LISTS = ("STATE", "PARAMETERS", "INPUTS", "CONSTANTS")
+
+
+def read_python(name: str, text: str) -> Module:
+    """The functions of a module in Python; ``CodeError`` says what cannot be read, and where."""
+    try:
+        tree = ast.parse(text, name)
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise CodeError(f"not Python: {error}") from None
+    return Reader(text).module(tree)
+
+
+class Reader:
+    """One module."""
+
+    def __init__(self, text: str):
+        self.lines = [line.encode() for line in text.split("\n")]
+        self.values: dict[str, Any] = {}
+        self.functions: dict[str, Function] = {}
+
+    def module(self, tree: ast.Module) -> Module:
+        """Its functions and names; a name has one meaning in a file."""
+        seen: set[str] = set()
+        for node in tree.body:
+            for name in self._names(node):
+                if name in seen or name == "abs":
+                    raise self._unknown(node, f"{name} is defined twice")
+                seen.add(name)
+        state, parameters, inputs, constants = (self._list(x) for x in LISTS)
+        sizes = {"CONSTANTS": len(constants), "PARAMETERS": len(parameters)}
+        sizes |= {"STATE": len(state), "INPUTS": len(inputs)}
+        basis, defaults = self.values.get("BASIS"), self.values.get("DEFAULTS")
+        return Module(state, parameters, inputs, self.functions, sizes, defaults, basis)
+
+    def _unknown(self, node: ast.AST, why: str = "") -> CodeError:
+        line = getattr(node, "lineno", 0)
+        return CodeError(f"line {line}: {why or f'{type(node).__name__} is not known here'}")
+
+    # -- the module --------------------------------------------------------------------------
+
+    def _names(self, node: ast.stmt) -> list[str]:
+        """What a statement of the module defines."""
+        if isinstance(node, ast.Import):
+            return [alias.asname or alias.name for alias in node.names]
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            return []
+        if isinstance(node, ast.Assign) and len(node.targets) == 1:
+            (target,) = node.targets
+            if isinstance(target, ast.Name):
+                if target.id != "ZEROS":
+                    self.values[target.id] = self._data(node.value)
+                return [target.id]
+        if isinstance(node, ast.FunctionDef) and not node.decorator_list:
+            if node.name in SIGNATURES:
+                self._function(node)
+            return [node.name]
+        raise self._unknown(node)
+
+    def _list(self, name: str) -> tuple[str, ...]:
+        found = self.values.get(name)
+        if not isinstance(found, tuple) or not all(isinstance(x, str) for x in found):
+            raise CodeError(f"{name} is no tuple of names")
+        return found
+
+    def _data(self, node: ast.expr) -> Any:
+        """Names and numbers in tuples, lists, dictionaries; what numpy.array would be given."""
+        if isinstance(node, (ast.Tuple, ast.List)):
+            return tuple(self._data(x) for x in node.elts)
+        if isinstance(node, ast.Dict):
+            keys = [self._data(x) if x else None for x in node.keys]
+            return dict(zip(keys, map(self._data, node.values), strict=True))
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            return node.value
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "numpy.array":
+            return self._data(node.args[0])
+        return self._number(self._expression(node), node)
+
+    def _number(self, e: Expression, node: ast.expr) -> Fraction:
+        if e[0] == "int" or e[0] == "lit":
+            return Fraction(e[1])
+        if e[0] not in ("neg", "div"):
+            raise self._unknown(node)
+        return Fraction(operated(e[0], [self._number(x, node) for x in e[1:]]))
+
+    # -- functions ---------------------------------------------------------------------------
+
+    def _function(self, node: ast.FunctionDef) -> None:
+        a = node.args
+        names = tuple(x.arg for x in a.args)
+        extra = [*a.posonlyargs, *a.kwonlyargs, *a.defaults, a.vararg, a.kwarg]
+        if names != SIGNATURES[node.name] or any(extra):
+            raise self._unknown(node, f"{node.name}({', '.join(names)}) has other arguments")
+        name = node.name[1:]
+        body = tuple(self._statement(x, names) for x in node.body)
+        self.functions[name] = Function(name, names, body)
+
+    def _statement(self, node: ast.stmt, arguments: tuple[str, ...]) -> Statement:
+        if isinstance(node, ast.Assign) and len(node.targets) == 1:
+            (target,), value = node.targets, node.value
+            if isinstance(target, ast.Name) and target.id not in ("_", "abs"):
+                return ("set", target.id, self._expression(value))
+            if isinstance(target, ast.Tuple) and isinstance(value, ast.Name):
+                names = tuple(x.id for x in target.elts if isinstance(x, ast.Name))
+                if len(names) == len(target.elts) and value.id in arguments and "abs" not in names:
+                    return ("unpack", names, value.id)
+        if isinstance(node, ast.Return) and node.value is not None:
+            value = node.value
+            if isinstance(value, ast.Tuple) and len(value.elts) == 2:
+                value = value.elts[0]  # beside the tests, which were computed before
+            return ("return", self._expression(value))
+        raise self._unknown(node)
+
+    def _expression(self, node: ast.expr) -> Expression:
+        if isinstance(node, ast.Name):
+            return ("var", node.id)
+        if isinstance(node, ast.Constant):
+            return self._constant(node)
+        if isinstance(node, ast.BinOp) and type(node.op) in SIGNS:
+            return (SIGNS[type(node.op)], *map(self._expression, (node.left, node.right)))
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+            return ("neg", self._expression(node.operand))
+        if isinstance(node, (ast.List, ast.Tuple)):
+            return ("list", *map(self._expression, node.elts))
+        if isinstance(node, ast.Call) and len(node.args) == 1 and not node.keywords:
+            return self._call(node.func, self._expression(node.args[0]))
+        raise self._unknown(node)
+
+    def _call(self, f: ast.expr, argument: Expression) -> Expression:
+        if isinstance(f, ast.Name) and f.id == "abs":
+            return ("abs", argument)
+        name = ast.unparse(f)
+        if name.startswith("xp.") and name[3:] in FUNCTIONS:
+            return ("fun", name[3:], argument)
+        raise self._unknown(f, f"the function {name[:40]} is not known here")
+
+    def _constant(self, node: ast.Constant) -> Expression:
+        if type(node.value) is int:
+            return ("int", node.value)
+        if type(node.value) is not float or node.lineno != node.end_lineno:
+            raise self._unknown(node)
+        text = self.lines[node.lineno - 1][node.col_offset : node.end_col_offset].decode()
+        if not DECIMAL.fullmatch(text):
+            raise self._unknown(node, f"the number {text[:40]!r} is not read")
+        return ("lit", text)

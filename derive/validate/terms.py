@@ -1,0 +1,202 @@
+"""What the readers make of emitted code, and its value over any ring.
+
+An expression is a tuple: ``("lit", text)`` a decimal, ``("int", n)``, ``("var", name)``,
+``("at", array, index)``, ``("neg", a)``, ``("add" | "sub" | "mul" | "div", a, b)``, ``("abs", a)``,
+``("fun", name, a)``, ``("gt" | "lt" | "eq", a, b)``, ``("not", a)``, ``("list", a, …)``.
+
+A statement is a tuple: ``("set", name, a)``, ``("unpack", names, array)``, ``("store", array,
+index, a)``, ``("if", condition, body)``, ``("for", name, bound, body)`` from 0, ``("return", a)``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from ..record.nilpotent import part
+
+Expression = tuple[Any, ...]
+Statement = tuple[Any, ...]
+Body = tuple[Statement, ...]
+Elementary = Callable[[str, Any], Any]
+Literal = Callable[[str], Fraction]
+
+FUNCTIONS = frozenset(("sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", "atan"))
+"""The elementary functions that a record has."""
+
+DECIMAL = re.compile(r"[0-9]{1,40}(\.[0-9]{0,40}(e[+-]?[0-9]{1,3})?|e[+-]?[0-9]{1,3})")
+"""A decimal number without sign or suffix."""
+
+
+class CodeError(ValueError):
+    """Code that cannot be read, or that has no value: the message says which."""
+
+
+class MissingParserError(Exception):
+    """The parser of a language is not installed: the message says how to get it."""
+
+
+@dataclass(frozen=True)
+class Function:
+    """A function: the names of its arguments in order, and what it does."""
+
+    name: str
+    arguments: tuple[str, ...]
+    body: Body
+
+
+class Array:
+    """Numbers that a function is given, or writes where they are ``None``."""
+
+    def __init__(self, values: Sequence[Any], name: str, *, written: bool = False):
+        self.values, self.name, self.written = list(values), name, written
+        self.read: set[int] = set()
+
+    @staticmethod
+    def empty(size: int, name: str) -> Array:
+        """An array of so many numbers to be written."""
+        return Array([None] * size, name, written=True)
+
+    def _place(self, i: Any) -> int:
+        if not isinstance(i, int) or not 0 <= i < len(self.values):
+            raise CodeError(f"{self.name}[{i}] is outside its {len(self.values)} numbers")
+        return i
+
+    def __getitem__(self, i: Any) -> Any:
+        value = self.values[self._place(i)]
+        if value is None:
+            raise CodeError(f"{self.name}[{i}] is read before it is written")
+        self.read.add(i)
+        return value
+
+    def __setitem__(self, i: Any, value: Any) -> None:
+        if not self.written or self.values[self._place(i)] is not None:
+            why = "twice" if self.written else "but is an input"
+            raise CodeError(f"{self.name}[{i}] is written {why}")
+        self.values[i] = value
+
+    def whole(self) -> list[Any]:
+        """All its numbers; ``CodeError`` where one was not written."""
+        for i, x in enumerate(self.values):
+            if x is None:
+                raise CodeError(f"{self.name}[{i}] is not written")
+        return self.values
+
+
+def run(f: Function, given: Mapping[str, Any], elementary: Elementary, literal: Literal) -> Any:
+    """What a function returns; arrays among ``given`` are written.
+
+    ``elementary(name, x)`` is the value of a function, ``literal(text)`` that of a decimal.
+    ``CodeError`` for what has no value, a division by zero among it.
+    """
+    names = {name: given[name] for name in f.arguments if name in given}
+    return Run(elementary, literal).body(f.body, names)[1]
+
+
+class Run:
+    """The interpreter: a name is set once, where it is seen."""
+
+    def __init__(self, elementary: Elementary, literal: Literal):
+        self.elementary, self.literal = elementary, literal
+
+    def body(self, body: Body, names: dict[str, Any]) -> tuple[bool, Any]:
+        """Whether a statement returned, and what."""
+        for statement in body:
+            done, value = self._statement(statement, names)
+            if done:
+                return True, value
+        return False, None
+
+    def _statement(self, s: Statement, names: dict[str, Any]) -> tuple[bool, Any]:
+        if s[0] == "set":
+            self._set(names, s[1], self.value(s[2], names))
+        elif s[0] == "unpack":
+            self._unpack(s[1], self._array(s[2], names), names)
+        elif s[0] == "store":
+            self._array(s[1], names)[self.value(s[2], names)] = self.value(s[3], names)
+        elif s[0] == "if":
+            if self.value(s[1], names):
+                return self.body(s[2], dict(names))
+        elif s[0] == "for":
+            for i in range(self.value(s[2], names)):
+                inner = dict(names)
+                self._set(inner, s[1], i)
+                done, value = self.body(s[3], inner)
+                if done:
+                    return True, value
+        else:
+            return True, self.value(s[1], names)
+        return False, None
+
+    @staticmethod
+    def _set(names: dict[str, Any], name: str, value: Any) -> None:
+        if name in names:
+            raise CodeError(f"{name} is set twice")
+        names[name] = value
+
+    def _unpack(self, wanted: Sequence[str], array: Array, names: dict[str, Any]) -> None:
+        if len(wanted) != len(array.values):
+            raise CodeError(f"{len(wanted)} names for the {len(array.values)} of {array.name}")
+        for i, name in enumerate(wanted):
+            if name != "_":
+                self._set(names, name, array[i])
+
+    @staticmethod
+    def _array(name: str, names: Mapping[str, Any]) -> Array:
+        found = names.get(name)
+        if not isinstance(found, Array):
+            raise CodeError(f"{name} is no array here")
+        return found
+
+    def value(self, e: Expression, names: dict[str, Any]) -> Any:
+        """The value of an expression."""
+        op = e[0]
+        if op == "var":
+            return self._name(e[1], names)
+        if op == "lit":
+            return self.literal(e[1])
+        if op == "int":
+            return e[1]
+        if op == "at":
+            return self._array(e[1], names)[self.value(e[2], names)]
+        if op == "fun":
+            return self.elementary(e[1], self.value(e[2], names))
+        return operated(op, [self.value(x, names) for x in e[1:]])
+
+    @staticmethod
+    def _name(name: str, names: Mapping[str, Any]) -> Any:
+        if name not in names or isinstance(names[name], Array):
+            raise CodeError(f"{name} has no value here")
+        return names[name]
+
+
+def plain(x: Any) -> Any:
+    """The number that a measured or a nilpotent one is near."""
+    return part(getattr(x, "value", x), 0)
+
+
+def operated(op: str, a: list[Any]) -> Any:
+    """The value of an operation on values; ``CodeError`` for a division by zero."""
+    if op == "div":
+        try:
+            return Fraction(*a) if all(isinstance(x, int) for x in a) else a[0] / a[1]
+        except ZeroDivisionError:
+            raise CodeError("a division by zero") from None
+    return OPERATIONS[op](*a)
+
+
+OPERATIONS: dict[str, Callable[..., Any]] = {
+    "neg": lambda a: -a,
+    "add": lambda a, b: a + b,
+    "sub": lambda a, b: a - b,
+    "mul": lambda a, b: a * b,
+    "abs": lambda a: a if plain(a) >= 0 else -a,
+    "gt": lambda a, b: plain(a) > plain(b),
+    "lt": lambda a, b: plain(a) < plain(b),
+    "eq": lambda a, b: plain(a) == plain(b),
+    "not": lambda a: not a,
+    "list": lambda *a: list(a),
+}

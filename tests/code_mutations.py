@@ -1,0 +1,115 @@
+"""Single changes of emitted C and Python: signs, products, terms, names, indices, numbers.
+
+Left alone are comments, the error checks of ``constants`` and what is computed for these alone.
+"""
+
+import math
+import re
+
+TOKEN = re.compile(r"[A-Za-z_]\w*|[0-9]+\.[0-9]*(?:e[+-]?[0-9]+)?f?|[0-9]+(?:e[+-]?[0-9]+)?|\S")
+BODIES = {
+    "c": re.compile(
+        r"^\w[^\n]*_(constants|rhs|rhs_batch|energy)\([^;{]*?\)\n\{\n(.*?)^\}", re.M | re.S
+    ),
+    "python": re.compile(r"^def _(constants|rhs|energy)\([^)]*\):\n(.*?)(?=^def |\Z)", re.M | re.S),
+}
+CHECKS = {"c": r"    if \(.*", "python": r"    tests = \[.*?^    \]$|, tests$"}
+COMMENTS = {"c": r"/\*.*?\*/|^#[^\n]*", "python": r"#[^\n]*"}
+WORDS = "const double float return int for void size_t xp fabs abs sqrt s n _ p x k u dx t"
+KEPT = frozenset(WORDS.split(" "))
+
+
+def blank(pattern, text):
+    """The text with all that matches as spaces."""
+    return re.sub(
+        pattern, lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.MULTILINE | re.DOTALL
+    )
+
+
+def live(function):
+    """The names that what a function gives depends on; none where it does so in a loop."""
+    found, body = set(), list(function.body)
+    for s in body:
+        found |= names_in(s[1:] if s[0] in ("store", "return") else ())
+        if s[0] == "for" and any(x[0] == "store" for x in s[3]):
+            return None
+    for s in reversed(body):
+        if s[0] == "set" and s[1] in found:
+            found |= names_in(s[2])
+    return found
+
+
+def names_in(e):
+    if not isinstance(e, tuple):
+        return set()
+    own = {e[1]} if e[:1] == ("var",) else set()
+    return own.union(*map(names_in, e))
+
+
+def mutants(text, language, module):
+    """(function, kind, position, changed text) for every change."""
+    for found in BODIES[language].finditer(text):
+        function, (start, _) = found[1], found.span(2)
+        body = blank(COMMENTS[language], found[2])
+        if function == "constants":
+            body = blank(CHECKS[language], body)
+        body = blank(r"\(void\)\w+;", body)
+        used = live(module.functions[function])
+        tokens = [(m[0], m.start()) for m in TOKEN.finditer(body)]
+        names = [x for x, _ in tokens if x[0].isalpha() and x not in KEPT]
+        for i, (_, place) in enumerate(tokens):
+            if used is not None and statement(body, place, language) not in used | {""}:
+                continue
+            for kind, new, length in changes(body, tokens, i, names, language):
+                at = start + place
+                yield function, kind, at, text[:at] + new + text[at + length :]
+
+
+def statement(body, place, language):
+    """The name that the statement around a place sets; empty for other statements."""
+    if language == "c":
+        begin = max(body.rfind(";", 0, place), body.rfind("{", 0, place)) + 1
+        found = re.match(r"\s*const \w+ (\w+) =", body[begin:])
+    else:
+        found = [*re.finditer(r"^    (\w+) = |^    [(]", body[: place + 1], re.MULTILINE)][-1:]
+        found = found[0] if found else None
+        if found and re.search(r"^    [\w(]", body[found.end() : place + 1], re.MULTILINE):
+            found = None
+    return found[1] if found else ""
+
+
+def changes(body, tokens, i, names, language):
+    """(kind, new text, length of what it replaces) for one token."""
+    token, place = tokens[i]
+    before = tokens[i - 1][0] if i else ""
+    binary = before not in ("", "(", "=", "return", "[", ",", "*", "+", "-")
+    after = tokens[i + 1][0] if i + 1 < len(tokens) else ""
+    if token in "+-" and after != token:
+        yield "sign", {"+": "-", "-": "+" if binary else " "}[token], 1
+        if binary:
+            yield "term", "", term(body, place + 1) - place
+    elif token == "*" and binary and before not in ("double", "float"):
+        yield "product", "+", 1
+    elif token == "/":
+        yield "product", "*", 1
+    elif re.fullmatch(r"[0-9]+\.[0-9]*(e[+-]?[0-9]+)?", token):
+        yield "number", repr(2 * float(token)), len(token)
+        yield "number", repr(math.nextafter(float(token), math.inf)), len(token)
+    elif token.isdigit() and language == "c":
+        yield "index", str(int(token) + 1), len(token)
+    elif token in names and before not in ("double", "float") and after not in ("[", "="):
+        other = names[names.index(token) - 1]  # one that stands before, so that it has a value
+        if other != token:
+            yield "name", other, len(token)
+        turned = re.sub(r"([0-9])([0-9])$", r"\2\1", token)
+        if turned != token and turned in names:
+            yield "indices", turned, len(token)
+
+
+def term(body, place):
+    """Where the term that begins at a place ends: a long one is broken before a sign only."""
+    depth = 0
+    while depth or body[place] not in "+-);],\n":
+        depth += (body[place] in "([") - (body[place] in ")]")
+        place += 1
+    return place

@@ -1,0 +1,338 @@
+"""Emitted files read back: they equal the record exactly, and no single change of one passes."""
+
+import ast
+import os
+import re
+import sys
+from fractions import Fraction
+from functools import cache
+from random import Random
+
+import pytest
+
+from derive.cli import main
+from derive.code import emit as emission
+from derive.code.emit import emit
+from derive.code.options import Options
+from derive.pipeline import program
+from derive.validate.compare import Comparison
+from derive.validate.emission import Emission
+from derive.validate.literals import Literals
+from derive.validate.module import Machine
+from derive.validate.names import DiffersError
+from derive.validate.points import Claims
+from derive.validate.read_c import read_c
+from derive.validate.read_python import read_python
+from derive.validate.state import Chart
+from derive.validate.terms import Array, CodeError
+from tests.code_mutations import mutants
+from tests.test_layers import ROOT, imported
+from tests.walks import NAMES, OTHERS, problem, record
+
+PROBLEMS = sorted({*NAMES, *OTHERS} - {"linear", "affine"})
+MUTATED = ("so3", "se3", "sl3", "comet", "jelly")
+ALL = "DERIVE_ALL_MUTATIONS" in os.environ
+SAMPLE = {"c": 35, "python": 120}
+SMALL = 2**40
+
+
+@cache
+def emitted(name, **chosen):
+    options = Options(**chosen)
+    compiled = program(problem(name), record(name), options)
+    files = emit(compiled, record(name), ("c", "python"), name, options)
+    return files, compiled.numbers(), Chart(options.layout, options.attitude, options.velocity)
+
+
+def reports(name, changed=None, **chosen):
+    files, numbers, chart = emitted(name, **chosen)
+    given = chosen.get("frame", "given") == "given"
+    return Emission(files | (changed or {}), name, chart, numbers, given).reports(record(name))
+
+
+@cache
+def claims(name):
+    return Claims(record(name), Chart(), SMALL)
+
+
+@cache
+def point(name):
+    return claims(name).point("one point for all changes")
+
+
+def read(name, language, text, **chosen):
+    files, _, _ = emitted(name, **chosen)
+    if language == "python":
+        return read_python(f"{name}.py", text)
+    return read_c(f"{name}.c", files | {f"{name}.c": text}, name)
+
+
+def compared(name, language, text, **chosen):
+    """Holds one text of a file against the record at one exact point."""
+    literals = Literals(emitted(name)[1])
+    module = read(name, language, text, **chosen)
+    return Comparison(module, claims(name), literals, point(name)).all()
+
+
+def meaning(name, language, text):
+    """All that the functions give at numbers drawn without regard to the group."""
+    module, random = read(name, language, text), Random("any numbers")
+    machine = Machine(module, point(name).elementary, Literals(emitted(name)[1]))
+    sizes = {"p": "PARAMETERS", "x": "STATE", "u": "INPUTS", "k": "CONSTANTS"}
+    given = {
+        a: Array([Fraction(random.randint(1, SMALL)) for _ in range(module.sizes[size])], a)
+        for a, size in sizes.items()
+    } | {"t": Fraction(random.randint(1, SMALL))}
+    k = machine.call("constants", given, k=module.sizes["CONSTANTS"])
+    dx = machine.call("rhs", given, dx=module.sizes["STATE"])
+    return k, dx, machine.call("energy", given, value=1)
+
+
+def text_of(name, language):
+    return emitted(name)[0][f"{name}.{'c' if language == 'c' else 'py'}"]
+
+
+# -- what is emitted equals the record ----------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_every_ready_made_problem_equals_its_record(name):
+    c, python = reports(name)
+    assert c.files == (f"{name}.h", f"{name}.c")
+    assert c.holds, c.text
+    assert python.holds, python.text
+    assert c.text.startswith("constants, rhs, energy, rhs_batch equal the record at 2 exact points")
+    assert float(c.text.partition("below ")[2].partition(";")[0]) < 1e-40
+    assert "no function reads" not in c.text + python.text
+
+
+CHOICES = [
+    ("so3", {"attitude": "quaternion", "jacobian": ("state", "inputs", "parameters")}),
+    ("se3", {"attitude": "quaternion", "form": "header", "real": "float"}),
+    ("se3", {"velocity": "tangent", "layout": "col", "jacobian": ("state", "inputs")}),
+    ("sl3", {"velocity": "tangent", "jacobian": ("state",)}),
+    ("top", {"layout": "col", "jacobian": ("parameters",)}),
+    ("ellipsoid", {"attitude": "quaternion", "jacobian": ("state", "inputs")}),
+    ("saff3", {"velocity": "tangent"}),
+    ("two_tops", {"layout": "col", "jacobian": ("state",)}),
+]
+
+
+@pytest.mark.parametrize(("name", "chosen"), CHOICES, ids=str)
+def test_every_form_of_the_state_and_the_jacobians_equal_the_record(name, chosen):
+    for report in reports(name, **chosen):
+        assert report.holds, report.text
+        assert report.text.count("jacobian") == len(chosen.get("jacobian", ()))
+
+
+def test_the_principal_frame_is_said_not_to_be_validated():
+    assert all("not validated" in r.text and r.holds for r in reports("so3", frame="principal"))
+
+
+def test_a_rounded_decimal_is_read_as_what_it_rounds_and_no_other_is():
+    text = text_of("ellipsoid", "c")
+    assert "0.8377580409572781*" in text  # 4π/15
+    assert "; 2 decimals are read as the numbers that they round" in reports("ellipsoid")[0].text
+    (c, _) = reports(
+        "ellipsoid", {"ellipsoid.c": text.replace("0.837758040957278", "0.8377580409572780")}
+    )
+    assert not c.holds
+    assert c.text.startswith("DIFFERS: rhs: the rate of zeta_2 differs from the record's: ")
+
+
+# -- no change passes ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("language", ["c", "python"])
+@pytest.mark.parametrize("name", MUTATED)
+def test_every_change_of_the_code_is_refused(name, language):
+    """What is spelt otherwise and is the same function of all numbers is no change of it."""
+    text = text_of(name, language)
+    compared(name, language, text)
+    found = list(mutants(text, language, read(name, language, text)))
+    step = 1 if ALL else max(1, len(found) // SAMPLE[language])
+    passed, same = [], 0
+    for function, kind, place, changed in found[::step]:
+        try:
+            compared(name, language, changed)
+        except CodeError:
+            continue
+        if meaning(name, language, changed) == meaning(name, language, text):
+            same += 1
+        else:
+            passed.append((function, kind, text.count("\n", 0, place) + 1))
+    total = len(found[::step]) - same
+    told = f"{name}, {language}: {total - len(passed)} of {total} caught, {same} change nothing"
+    print(told)
+    assert not passed, f"{told}; not {passed}"
+    assert {kind for _, kind, _, _ in found} >= {"sign", "term", "product", "name"}
+
+
+@pytest.mark.parametrize("chosen", [("state",), ("inputs",), ("parameters",)], ids=str)
+def test_a_change_of_a_jacobian_is_refused(chosen):
+    text = emitted("so3", jacobian=chosen)[0]["so3.c"]
+    start = text.index("void so3_jacobian")
+    outputs = re.findall(r"^    D\[\d+\] = ([^;]*);", text[start:], re.MULTILINE)
+    for old in {x for x in outputs if x != "0.0"}:
+        wrong = text[:start] + text[start:].replace(f"] = {old};", f"] = 2.0*({old});", 1)
+        with pytest.raises(DiffersError, match="jacobian"):
+            compared("so3", "c", wrong, jacobian=chosen)
+
+
+LISTS = [
+    ("so3.py", '    "A_12",\n    "A_13",', '    "A_13",\n    "A_12",', "names of state"),
+    ("so3.c", '    "A_12",\n    "A_13",', '    "A_13",\n    "A_12",', "names of state"),
+    ("so3.c", '    "c_1",\n    "c_2",', '    "c_2",\n    "c_1",', "parameters"),
+    ("so3.py", '    "u_1",\n', "", "names of inputs"),
+    ("so3.py", '"c_3": 0.2', '"c_3": 0.3', "defaults"),
+    ("so3.py", "[[0, 0, 0], [0, 0, -1]", "[[0, 0, 0], [0, 0, 1]", "basis"),
+    ("so3.h", "so3_N_INPUTS = 3", "so3_N_INPUTS = 4", "size INPUTS"),
+    ("so3.h", "so3_N_CONSTANTS = 20", "so3_N_CONSTANTS = 21", "k[20] is"),
+    ("so3.h", "so3_N_CONSTANTS = 20", "so3_N_CONSTANTS = 19", "k[19] is outside"),
+]
+
+
+@pytest.mark.parametrize(("file", "old", "new", "reason"), LISTS, ids=str)
+def test_a_wrong_list_or_size_is_refused(file, old, new, reason):
+    text = emitted("so3")[0][file]
+    assert old in text
+    found = [r for r in reports("so3", {file: text.replace(old, new)}) if not r.holds]
+    assert len(found) == 1
+    assert reason in found[0].text
+
+
+# -- files that cannot be read ------------------------------------------------------------------
+
+UNREAD = {
+    "c": [
+        ("so3_rhs(double t", "so3_rhs(double k", "is not known"),
+        ("const double *so3_RESTRICT u", "double *so3_RESTRICT u", "is not known"),
+        ("I_22*I_33 - J_23*J_23", "pow(I_22, 2)", "FuncCall"),
+        ("I_22*I_33 - J_23*J_23", "cbrt(I_22)", "cbrt"),
+        ("I_22*I_33 - J_23*J_23", "I_22 ? I_33 : J_23", "TernaryOp"),
+        ("I_22*I_33 - J_23*J_23", "(int)I_22", "Cast"),
+        ("I_22*I_33 - J_23*J_23", "fabs(I_22)", "depends on a size"),
+        ("I_22*I_33 - J_23*J_23", "size_I_1", "has no value"),
+        (
+            "    (void)t;\n    dx",
+            "    if (t > 1e40) {\n        return 1;\n    }\n    dx",
+            "condition",
+        ),
+        ("    k[0] = J_12;\n", "    if (p[0] > 0) { k[0] = J_12; }\n", "condition"),
+        ("I_22*I_33 - J_23*J_23", "(k[0] = 1.0)", "Assignment"),
+        ("1.0/det_I", "1/2/det_I", "quotient of integers"),
+        ("1.0/det_I", "1.0f/det_I", "1.0f"),
+        ("1.0/det_I", "0x1p0/det_I", "0x1p0"),
+        ("const double I_11 =", "double I_11 =", "Decl"),
+        ("const double I_11 =", "const float I_11 =", "TypeDecl"),
+        ("const double I_22 =", "const double I_11 =", "set twice"),
+        ("    k[0] = J_12;\n", "", "k[0] is read before it is written"),
+        ("    k[0] = J_12;\n", "    while (1) k[0] = J_12;\n", "While"),
+        ("    k[0] = J_12;\n", "    k[0] += J_12;\n", "Assignment"),
+        ("    k[0] = J_12;\n", "    k[20] = J_12;\n", "outside"),
+        ("    k[0] = J_12;\n", "    p[0] = J_12;\n", "input"),
+        ("    k[0] = J_12;\n", "#ifdef __GNUC__\n    k[0] = J_12;\n#endif\n", "under a condition"),
+        ("    k[0] = J_12;\n", "#define J_12 J_13\n    k[0] = J_12;\n", "macro"),
+        ("    k[0] = J_12;\n", "    k[0] = J_1\\\n2;\n", "backslash"),
+        ("#include <math.h>", "#include <complex.h>", "complex.h"),
+        ("#include <math.h>", "double fabs(double x) { return x; }", "fabs"),
+        ("#include <math.h>", "static double c_1 = 1.0;", "Decl"),
+    ],
+    "python": [
+        ("def _rhs(xp, t, x, k, u)", "def _rhs(xp, t, x, u, k)", "other arguments"),
+        ("def _rhs(", "@cache\ndef _rhs(", "FunctionDef"),
+        ("\n\ndef _inertia(", "\n\n_rhs = None\n\ndef _inertia(", ""),
+        (
+            "\n\ndef _inertia(",
+            "\n\ndef _rhs(xp, t, x, k, u):\n    return x\n\ndef _inertia(",
+            "twice",
+        ),
+        ("I_22*I_33 - J_23*J_23", "I_22**2", "BinOp"),
+        ("I_22*I_33 - J_23*J_23", "I_22 if I_33 else 0.0", "IfExp"),
+        ("I_22*I_33 - J_23*J_23", "print(I_22)", "print"),
+        ("    return [\n        J_12", "    return [\n        abs(J_12)", "depends on a size"),
+        ("    return [\n        J_12", "    return [\n        size_I_1", "depends on a size"),
+        ("I_22*I_33 - J_23*J_23", "xp.cbrt(I_22)", "xp.cbrt"),
+        ("I_22*I_33 - J_23*J_23", "(lambda: I_22)()", ""),
+        ("1.0/det_I", "1e9999/det_I", "1e9999"),
+        ("1.0/det_I", "1.0/(det_I - det_I)", "division by zero"),
+        ("    adj_I_11 = ", "    import os\n    adj_I_11 = ", "Import"),
+        ("    adj_I_11 = ", "    abs = ", "Assign"),
+        ("    I_22 = ", "    I_11 = ", "set twice"),
+    ],
+}
+BROKEN = [(language, *case) for language, cases in UNREAD.items() for case in cases]
+
+
+@pytest.mark.parametrize(("language", "old", "new", "reason"), BROKEN, ids=str)
+def test_what_is_not_known_is_an_error(language, old, new, reason):
+    text = text_of("so3", language)
+    assert old in text
+    with pytest.raises(CodeError) as caught:
+        compared("so3", language, text.replace(old, new, 1))
+    assert reason in str(caught.value)
+
+
+@pytest.mark.parametrize("language", ["c", "python"])
+def test_a_truncated_file_is_an_error(language):
+    text = text_of("so3", language)
+    for place in range(0, text.rindex("h_tilde"), len(text) // 40):
+        with pytest.raises(CodeError) as caught:
+            compared("so3", language, text[:place])
+        assert str(caught.value)
+
+
+# -- the command --------------------------------------------------------------------------------
+
+
+def test_the_readme_shows_what_is_said():
+    text = (ROOT.parent / "README.md").read_text(encoding="utf-8")
+    shown = re.search(r"<!-- output: derive emit hammer --validate -->\n```\n(.*?)\n```", text)[1]
+    said = f"{', '.join(reports('hammer')[0].files)}: {reports('hammer')[0].text}"
+    assert re.sub(r"1e-\d+", "", shown) == re.sub(r"1e-\d+", "", said)
+
+
+def test_the_command_says_what_was_validated_and_writes(tmp_path, capsys):
+    command = ["emit", "so3", "--lang", "c", "--lang", "python", "--lang", "rust", "--validate"]
+    assert main([*command, "--out", str(tmp_path)]) == 0
+    lines = capsys.readouterr().err.splitlines()
+    assert [x.partition(": ")[0] for x in lines] == ["so3.h, so3.c", "so3.py", "so3.rs"]
+    assert "a false pass has probability below 1e-6" in lines[0]
+    assert lines[2].endswith("not validated: only C and Python are read back")
+    assert len(os.listdir(tmp_path)) == 4
+
+
+def test_nothing_that_differs_is_written(tmp_path, capsys, monkeypatch):
+    def wrong(*given):
+        files = emit(*given)
+        return files | {"so3.c": files["so3.c"].replace("J_13*zeta_1 + J_23", "J_13*zeta_1 - J_23")}
+
+    monkeypatch.setattr(emission, "emit", wrong)
+    assert main(["emit", "so3", "--validate", "--out", str(tmp_path)]) == 1
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "so3.h, so3.c: DIFFERS: rhs: the rate of zeta_1 differs from the record's" in err
+    assert os.listdir(tmp_path) == []
+
+
+def test_without_the_parser_of_c_one_line_says_what_to_install(tmp_path, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pycparser", None)
+    assert main(["emit", "so3", "--validate", "--out", str(tmp_path)]) == 2
+    assert "pip install 'derive[validate]'" in capsys.readouterr().err
+    assert main(["emit", "so3", "--lang", "python", "--validate", "--out", str(tmp_path)]) == 0
+
+
+def test_the_validator_shares_nothing_with_what_makes_the_files():
+    """Neither directly nor through what it imports; and it runs none of their text."""
+    names = {str(p.relative_to(ROOT)) for p in imported(ROOT / "validate" / "emission.py")}
+    assert "record/model.py" in names
+    assert not any(n.startswith(("walk/", "code/", "views/", "mechanics/")) for n in names)
+    for path in (ROOT / "validate").iterdir():
+        if path.suffix == ".py":
+            calls = [x for x in ast.walk(ast.parse(path.read_text())) if isinstance(x, ast.Call)]
+            assert not {ast.unparse(x.func) for x in calls} & {
+                "exec",
+                "eval",
+                "compile",
+                "__import__",
+            }
