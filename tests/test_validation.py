@@ -214,8 +214,8 @@ UNREAD = {
         ("I_22*I_33 - J_23*J_23", "fabs(I_22)", "depends on a size"),
         ("I_22*I_33 - J_23*J_23", "size_I_1", "has no value"),
         (
-            "    (void)t;\n    dx",
-            "    if (t > 1e40) {\n        return 1;\n    }\n    dx",
+            "    (void)t;\n",
+            "    if (t > 1e40) {\n        return 1;\n    }\n",
             "condition",
         ),
         ("    k[0] = J_12;\n", "    if (p[0] > 0) { k[0] = J_12; }\n", "condition"),

@@ -130,7 +130,10 @@ class Reader:
     def _defined(self, found: tuple[Step, Equation], name: str) -> Value:
         step, equation = found
         outer, self.label = self.label, equation_key(step, equation)
-        value = self.named(self.tree(equation.rhs), name, given=True)
+        value = self.tree(equation.rhs)
+        # a J that comes from a given I goes back to it: its terms cancel before they are rounded
+        if equation.lhs != "J" or not _sums_of_parameters(value):
+            value = self.named(value, name, given=True)
         self.label = outer
         return value
 
@@ -220,6 +223,18 @@ def bound(t: Tree, values: Mapping[str, int]) -> Tree:
     if t[0] in ("at", "entry"):
         return (t[0], bound(t[1], values), *(values.get(i, i) for i in t[2:]))
     return (t[0], *(bound(x, values) for x in t[1:]))
+
+
+def _sums_of_parameters(value: Value) -> bool:
+    """Has a matrix entries that are ½(a + b − c), or simpler, in parameters a, b, c alone?"""
+    if isinstance(value, Node):
+        return False
+    entries = [x for row in value for x in row]
+    return any(x.op == "add" for x in entries) and all(map(_linear, entries))
+
+
+def _linear(x: Node) -> bool:
+    return x.is_atom or (x.op == "add" and all(map(_linear, x.args)))
 
 
 def equation_key(step: Step, equation: Equation) -> str:

@@ -10,6 +10,8 @@ from typing import Any
 
 from .terms import Body, CodeError, Function
 
+REFUSED = (1, 2)
+"""What ``constants`` returns of a body that is singular, or not finite."""
 UNSMOOTH = ("abs", "gt", "lt", "eq", "not")
 
 
@@ -22,7 +24,8 @@ def straight(f: Function) -> None:
 def _body(f: Function, body: Body, tainted: set[str], checks: list[str]) -> None:
     for s in body:
         if s[0] == "if":
-            if f.name != "constants" or s[2] != (("return", ("int", 1)),):
+            refused = [(("return", ("int", code)),) for code in REFUSED]
+            if f.name != "constants" or s[2] not in refused:
                 raise CodeError(f"{f.name}: what it computes is under a condition")
             checks.append(s[0])
         elif s[0] == "for":

@@ -5,7 +5,7 @@
 #include <math.h>
 
 /* gcc would pack a few of the scalars of rhs into vectors, and lose by the shuffles. */
-#if defined(__GNUC__) && !defined(__clang__)
+#if defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
 #pragma GCC optimize("no-tree-slp-vectorize")
 #endif
 

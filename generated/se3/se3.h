@@ -71,7 +71,8 @@ extern const char *const se3_parameter_names[se3_N_PARAMETERS];
 extern const char *const se3_input_names[se3_N_INPUTS];
 
 /* All that depends on the parameters alone.  Returns 0, se3_SINGULAR or
- * se3_NOT_FINITE; k is written in any case. */
+ * se3_NOT_FINITE; k is written in any case.  With -ffast-math a compiler takes every number
+ * for finite: se3_NOT_FINITE is never returned then. */
 int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k);
 
 /* dx/dt at time t.  u holds se3_N_INPUTS numbers. */

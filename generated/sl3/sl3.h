@@ -76,7 +76,8 @@ extern const char *const sl3_state_names[sl3_N_STATE];
 extern const char *const sl3_parameter_names[sl3_N_PARAMETERS];
 
 /* All that depends on the parameters alone.  Returns 0, sl3_SINGULAR or
- * sl3_NOT_FINITE; k is written in any case. */
+ * sl3_NOT_FINITE; k is written in any case.  With -ffast-math a compiler takes every number
+ * for finite: sl3_NOT_FINITE is never returned then. */
 int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k);
 
 /* dx/dt at time t.  u is not read and may be a null pointer. */

@@ -64,7 +64,8 @@ extern const char *const so3_parameter_names[so3_N_PARAMETERS];
 extern const char *const so3_input_names[so3_N_INPUTS];
 
 /* All that depends on the parameters alone.  Returns 0, so3_SINGULAR or
- * so3_NOT_FINITE; k is written in any case. */
+ * so3_NOT_FINITE; k is written in any case.  With -ffast-math a compiler takes every number
+ * for finite: so3_NOT_FINITE is never returned then. */
 int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k);
 
 /* dx/dt at time t.  u holds so3_N_INPUTS numbers. */
