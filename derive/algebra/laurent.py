@@ -142,7 +142,11 @@ def gathered(p: Laurent, together: Callable[[Tree], bool], last: Callable[[Tree]
     for m, q in p.terms.items():
         rest = tuple(x for x in m if not together(x[0]))
         groups.setdefault(rest, {})[tuple(x for x in m if together(x[0]))] = q
-    order = sorted(groups, key=lambda m: (any(last(s) for s, _ in m), repr(m)))
+    # what is added before what is taken away
+    order = sorted(
+        groups,
+        key=lambda m: (any(last(s) for s, _ in m), max(groups[m].values()) < 0, repr(m)),
+    )
     return add(*(_quotient(groups[m], m) for m in order))
 
 
@@ -151,7 +155,6 @@ def _quotient(terms: dict[Monomial, Fraction], others: Monomial) -> Tree:
     below = {s: e for m in terms for s, e in m if e < 0}
     common = tuple(sorted(((s, -e) for s, e in below.items()), key=_written))
     lifted = (Laurent(terms) * Laurent({common: ONE})).terms
-    # what is added before what is taken away
     order = sorted(lifted, key=lambda m: (lifted[m] < 0, repr(m)))
     if common and len(order) == 1:
         q = lifted[order[0]]

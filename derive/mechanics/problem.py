@@ -59,9 +59,9 @@ class MomentBody:
         """All the moments, in the order of the emitted parameters."""
         span = range(1, self.n + 1)
         meanings = {"m": "total mass"}
-        meanings |= {f"c_{i}": f"first moment, sum of m r_{i}" for i in span}
+        meanings |= {f"c_{i}": "first moment, the sum of m r" for i in span}
         meanings |= {
-            f"J_{i}{j}": f"matrix of moments, sum of m r_{i} r_{j}"
+            f"J_{i}{j}": "entry of J, the sum of m r r^T (not the tensor of inertia)"
             for i in span
             for j in span[i - 1 :]
         }

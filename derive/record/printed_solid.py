@@ -113,8 +113,8 @@ SOLID: tuple[Printed, ...] = (
             Equation(("call", "p̃", "δA", 0), tr(add(mul("J", bar("α")), mul("τ", bar("c"))), "δA")),
             Equation(("call", "p̃", 0, "δτ"), ("inner", add(mul("m", "τ"), mul("α", "c")), "δτ")),
         ),
-        "⟨δA c, τ⟩ = Tr cτ̄ δA: the factors are exchanged; and the displacement that the second "
-        "part measures is δT, not δτ.",
+        "As ⟨δA c, τ⟩ = Tr cτ̄ δA, the factors are exchanged; and the displacement that "
+        "the second part measures is δT, not δτ.",
         answers=(("call", "p̃", 0, "δT"),),
     ),
     Printed(

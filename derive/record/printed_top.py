@@ -21,8 +21,8 @@ def _euler(i: int, j: int, k: int) -> Equation:
 
 SAME_FORCE = "The force is a function of the point, not of the variation: the prime has no meaning."
 ORIENTATION = (
-    "With dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)], the convention under which (29) and (31) hold, "
-    "the sign is the opposite; (25) and (26) contradict (29)."
+    "With dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)], the convention of (29) and (31), the "
+    "sign is the opposite; (25) and (26) contradict (29)."
 )
 
 TOP: tuple[Printed, ...] = (
@@ -129,7 +129,7 @@ TOP: tuple[Printed, ...] = (
                 ),
             ),
         ),
-        "The bar is missing on δ′Z in the second term. " + SAME_FORCE,
+        "The transpose is missing on δ′Z in the second term. " + SAME_FORCE,
     ),
     Printed(
         30,
@@ -165,8 +165,7 @@ TOP: tuple[Printed, ...] = (
         "SO(3)",
         "I = J − Tr J",
         (Equation("I", add("J", neg(mul(("tr", "J"), ("one",))))),),
-        "The sign: the metric would be negative, against (31) and Tr j(ζ)Jj(ζ)‾ ≥ 0; (34) and "
-        "(35) do not see it.",
+        "The sign: ⟨ζ, Iζ⟩ would be negative, against (31); (34) and (35) do not see it.",
     ),
     Printed(
         33,

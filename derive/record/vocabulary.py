@@ -53,7 +53,7 @@ VOCABULARY: dict[str, tuple[str, str]] = {
         r"\delta y",
     ),
     "δ′y": ("another variation of y", r"\delta' y"),
-    "δx": ("a variation at constant time", r"\delta x"),
+    "δx": ("a variation of (g, ν), at constant time", r"\delta x"),
     "δ′x": ("another variation at constant time", r"\delta' x"),
     "X": ("a vector with δt = 1; the one of the kernel of dϖ gives the motion", "X"),
     "g": ("element of the group", "g"),
@@ -137,11 +137,11 @@ VOCABULARY: dict[str, tuple[str, str]] = {
     "f_u": ("input: the force part of a body wrench", "f_u"),
     "δ": ("first variation", r"\delta"),
     "δ′": ("another variation, which commutes with δ", r"\delta'"),
-    "ℓ": ("angular momentum in space", r"\ell"),
+    "ℓ": ("angular momentum in space, a skew matrix", r"\ell"),
     "ℓ̇": ("dℓ/dt along the motion", r"\dot\ell"),
     "p": ("momentum in space", "p"),
     "ṗ": ("dp/dt along the motion", r"\dot p"),
-    "ḣ": ("dh̃/dt along the motion", r"\dot h"),
+    "ḣ": ("dh̃/dt along the motion", r"\dot{\tilde h}"),
     "∂ₜŨ": ("partial derivative of Ũ in time", r"\partial_t\tilde U"),
 }
 
@@ -150,6 +150,7 @@ ROTATIONS: dict[str, str] = {
     "ζ": "angular velocity in the body",
     "λ": "principal moments of inertia, the eigenvalues of I",
     "u": "input: a torque about the fixed point, in the body frame",
+    "ℓ": "angular momentum in space",
 }
 DISPLACEMENTS: dict[str, str] = ROTATIONS | {
     "w": "velocity of the body's origin in the body frame, A⁻¹τ",

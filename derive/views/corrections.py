@@ -14,6 +14,8 @@ from .language import Language
 from .letters import NAMES
 from .tex import latex_tree
 
+READABLE = 60
+"""Values of a counterexample with more letters than this are left to ``derive paper``."""
 FORMULA = re.compile("\ue000([^\ue001]*)\ue001")
 """A formula in LaTeX among the words of a sentence."""
 
@@ -51,17 +53,23 @@ def _told(f: Finding, language: Language) -> Iterator[Told]:
     """What was printed, why it is wrong, and values that show it."""
     printed = ", ".join(_formula(e.lhs, e.rhs) for e in f.equations)
     *given, (_, left), (_, right) = (f.counterexample or {}).items()
+    sides = {"left": _formula(value_of(left)), "right": _formula(value_of(right))}
+    values = ", ".join(_formula(name, value_of(x)) for name, x in given)
+    if sum(len(x) for _, x in given) <= READABLE:
+        said = "For {values}, the left side is {left}, the printed right side {right}."
+        example = language.word(said, values=values, **sides)
+    else:
+        example = language.word(
+            "At the point that “derive paper” lists, the left side is {left}, the printed right "
+            "side {right}.",
+            **sides,
+        )
     sentences = (
         language.word(
             "The paper prints in {number}: {printed}.", number=f"({f.number})", printed=printed
         ),
         language.word(f.remark),
-        language.word(
-            "For {values}, the left side is {left}, the printed right side {right}.",
-            values=", ".join(_formula(name, value_of(x)) for name, x in given),
-            left=_formula(value_of(left)),
-            right=_formula(value_of(right)),
-        ),
+        example,
     )
     for k, piece in enumerate(FORMULA.split(" ".join(sentences))):
         if piece:

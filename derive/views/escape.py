@@ -227,6 +227,8 @@ def _joint(shown: str, piece: str) -> str:
 
 
 def _word(word: str) -> str:
+    if word == "Tr":
+        return r"\operatorname{Tr}"
     if len(word) == 2:
         return rf"\mathrm{{d}}{word[1]}" if word[0] == "d" else word
     return rf"\operatorname{{{word}}}"

@@ -28,6 +28,7 @@ from .outline import (
     FORMULAS_CONVENTIONS,
     PAPER,
     ROAD,
+    TRANSPOSES,
     capitalised,
     equation_label,
     notes,
@@ -70,7 +71,10 @@ def html(
         title=title(records[0], language) if len(records) == 1 else word(MOTION),
         about=capitalised(subtitle(records[0], language)) if len(records) == 1 else "",
         road=words(word(ROAD), chosen, ready=True),
-        conventions=words(word(FORMULAS_CONVENTIONS), chosen, ready=True),
+        conventions=" ".join(
+            words(word(x), chosen, ready=True)
+            for x in (TRANSPOSES[chosen.transpose], FORMULAS_CONVENTIONS)
+        ),
         regular=words(word(REGULAR), chosen),
         paper=word(PAPER),
         words={

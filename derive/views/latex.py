@@ -25,6 +25,7 @@ from .outline import (
     FORMULAS_CONVENTIONS,
     PAPER,
     ROAD,
+    TRANSPOSES,
     capitalised,
     equation_label,
     notes,
@@ -59,7 +60,9 @@ def latex(
     one = len(records) == 1
     parts = book(records, language)
     writer = _Writer(parts, language, findings)
-    conventions = between_dollars(language.word(FORMULAS_CONVENTIONS))
+    chosen = notation or Notation()
+    told = (TRANSPOSES[chosen.transpose], FORMULAS_CONVENTIONS)
+    conventions = " ".join(between_dollars(language.word(x)) for x in told)
     template = environment("latex", **DELIMITERS).get_template("walk.tex.jinja")
     return template.render(
         language=language.name,
@@ -67,7 +70,7 @@ def latex(
         subtitle=tex_text(capitalised(subtitle(records[0], language))) if one else "",
         contents="" if one else tex_text(language.word("Contents")),
         macros="\n".join(definitions(notation or Notation())),
-        road=styled(between_dollars(language.word(ROAD))),
+        road=styled(between_dollars(language.word(ROAD))).removesuffix("."),
         conventions=styled(f"{conventions} {tex_text(language.word(PAPER))}"),
         walk=styled("\n".join(writer.body())),
         drawn=any(writer.drawings.values()),
@@ -186,7 +189,9 @@ def _equations(step: Step, names: Mapping[str, str], language: Language) -> Iter
         for entry in block:
             label = rf"\label{{{anchor(equation_label(step, next(places).first))}}}"
             rows += [*(rf"{row} \notag" for row in entry[:-1]), f"{entry[-1]} {label}"]
-        yield " \\\\\n".join(rows)
+        # no page breaks inside an equation
+        ends = (r" \\*" if row.endswith(r"\notag") else r" \\" for row in rows[:-1])
+        yield "\n".join([*map("".join, zip(rows, ends, strict=False)), rows[-1]])
         yield r"\end{align}"
 
 

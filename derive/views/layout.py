@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from itertools import groupby
 
 from ..record.record import Equation
 from .entries import Entry, entries
@@ -38,7 +39,17 @@ def blocks(
     column = max(left)
     if column <= 0.4 * ROOM or column + EQUALS + max(right) <= ROOM:
         return [[rows(x, names, column, every) for x in numbered]]
-    return [[alone(x.only, names, every) if x.only else side(x, names)] for x in numbered]
+    found: list[list[Rows]] = []
+    for long, run in groupby(zip(numbered, left, strict=True), key=lambda x: x[1] > 0.4 * ROOM):
+        members = [*run]
+        if long:
+            found += [
+                [alone(x.only, names, every) if x.only else side(x, names)] for x, _ in members
+            ]
+        else:
+            narrow = max(w for _, w in members)
+            found.append([rows(x, names, narrow, every) for x, _ in members])
+    return found
 
 
 def for_every(language: Language) -> str:

@@ -10,14 +10,26 @@ from .language import ENGLISH, Language
 from .layout import blocks
 from .letters import names_of
 from .macros import standard
-from .outline import FORMULAS_CONVENTIONS, PAPER, capitalised, notes, sections, subtitle, title
+from .outline import (
+    FORMULAS_CONVENTIONS,
+    PAPER,
+    TRANSPOSES,
+    capitalised,
+    notes,
+    sections,
+    subtitle,
+    title,
+)
 
 
 def markdown(d: Derivation, *, language: Language = ENGLISH) -> str:
     """Headings, prose and display formulas; no raw HTML."""
     names = names_of(d.symbols)
     heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
-    conventions = between_dollars(language.word(FORMULAS_CONVENTIONS), markdown_text)
+    conventions = " ".join(
+        between_dollars(language.word(x), markdown_text)
+        for x in (TRANSPOSES["bar"], FORMULAS_CONVENTIONS)
+    )
     parts = [f"# {markdown_text(heading)}", f"{conventions} {markdown_text(language.word(PAPER))}"]
     for section, steps in sections(d, language):
         parts.append(f"## {markdown_text(section)}")

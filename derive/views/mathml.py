@@ -195,8 +195,8 @@ class _Parser:
     def transpose(self, inside: str, *, letter: bool) -> str:
         """With a bar or a ⊤."""
         if self.notation.transpose == "bar":
-            # fonts stretch no bar over an expression: the page draws it as a border
-            return _over(inside, "¯") if letter else f'<mrow class="overline">{inside}</mrow>'
+            # fonts stretch no bar over an expression, and set that of a letter on its stroke
+            return f'<mrow class="overline">{inside}</mrow>'
         base = inside if letter else _fenced(inside)
         return f"<msup><mrow>{base}</mrow><mo>⊤</mo></msup>"
 

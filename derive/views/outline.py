@@ -17,7 +17,7 @@ CONVENTIONS = (
     "the group and a velocity; 𝔤 is the Lie algebra."
 )
 FORMULAS_CONVENTIONS = (
-    r"Bars are transposes and $\mathbf{1}$ is the identity. For matrices "
+    r"For matrices "
     r"$\langle a, b\rangle_M = \operatorname{Tr} a M \bar b$, for vectors "
     r"$\langle a, b\rangle_M = \bar a M b$, without index for $M = \mathbf{1}$; "
     r"$\Vert a\Vert^2 = \langle a, a\rangle$; $[a, b] = ab - ba$ and "
@@ -27,7 +27,12 @@ FORMULAS_CONVENTIONS = (
     r"$y = (t, g, \nu)$ is a time, an element of the group and a velocity; $\mathfrak{g}$ is the "
     r"Lie algebra. Parameters of the problem are set in $\mathsf{sans\ serif}$."
 )
-"""The same with formulas between dollars, for LaTeX and Markdown."""
+"""The same with formulas between dollars, for LaTeX and Markdown, but for its first sentence."""
+TRANSPOSES = {
+    "bar": r"Bars are transposes and $\mathbf{1}$ is the identity.",
+    "top": r"The mark $\top$ is the transpose and $\mathbf{1}$ the identity.",
+}
+"""That sentence, in each notation."""
 ROAD = (
     r"The Lagrangian $L$ of the points is pulled back to the group, $\tilde L$; it gives the "
     r"Cartan form $\varpi$, whose exterior derivative $\mathrm{d}\varpi$ has a kernel: the "

@@ -24,9 +24,9 @@ def system(d: Derivation, language: Language) -> str:
     )
     acting = [*_acting(d.problem)]
     if not acting:
-        return f"{moved} {language.word('Nothing acts on it.')}"
+        return " ".join((moved, language.word("Nothing acts.")))
     forces = language.sentence(listed("{first}, {second}", acting))
-    return f"{moved} {language.word('What acts on it: {forces}.', forces=forces)}"
+    return " ".join((moved, language.word("What acts: {forces}.", forces=forces)))
 
 
 def _body(body: Mapping[str, Any]) -> Sentence:
@@ -45,7 +45,7 @@ def _acting(problem: Mapping[str, Any]) -> Iterator[Sentence]:
     kinds = [p.get("kind") for p in potentials] if isinstance(potentials, list) else []
     springs = kinds.count("spring")
     if "gravity" in kinds:
-        yield phrase("gravity")
+        yield phrase("its weight")
     if springs:
         yield phrase("{n} springs", n=str(springs)) if springs > 1 else phrase("a spring")
     if "attraction" in kinds:

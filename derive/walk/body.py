@@ -139,7 +139,7 @@ def _integrals(solids: tuple[Solid, ...], prefix: str, scope: str) -> Step:
         tuple(Equation(name, ("call", "∫", form)) for name, form in INTEGRANDS.items()),
         say(
             "For a continuous body the sums over the points are integrals over its measure of "
-            "mass, dm = ρ dV; all else stays."
+            "mass, dm = ρdV; all else stays."
         )
         + say("Here: {solids}.", solids=listed("{first}; {second}", [*map(_described, solids)])),
         (36, 37, 38, 39),

@@ -67,7 +67,7 @@ def conserved_steps(
         "Among what the motion keeps, where nothing acts from outside dϖ: {kept}.",
         kept=listed("{first}, {second}", told),
     ) + say(
-        "On a displacement that leaves it invariant the Cartan form is constant along "
+        "The Cartan form, on a displacement that leaves it invariant, is constant along "
         "the motion (Noether)."
     )
     return (c.step("conserved", "conservation", uses, [*definitions, *kept], prose),)

@@ -164,8 +164,8 @@ def steps_of(
             (f"{prefix}.vertical", f"{prefix}.contraction"),
             (*first, Equation(CONTRACTION, c.remaining())),
             say(
-                "As {regular}, it vanishes for all of these only if X has the velocity of the "
-                "motion, which is put in; {rates}.",
+                "As {regular}, this expression vanishes for all of these only if X has the "
+                "velocity of the motion, which is inserted; {rates}.",
                 regular=regular,
                 rates=rates,
             ),

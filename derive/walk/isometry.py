@@ -88,7 +88,7 @@ def _exterior(
         say("Its exterior derivative; the bracket comes from the structure equation.")
         + say(
             "It is the general form with C = 𝟏: as ξ and Z are skew and J is symmetric, the "
-            "terms in ξ′ξZ gather into a bracket and those in ZZ cancel."
+            "terms in ξ′ξZ gather into a bracket and those in Z² cancel."
         ),
         () if b.affine else (29,),
         scope,
