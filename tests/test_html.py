@@ -132,7 +132,7 @@ def test_nothing_of_a_stranger_is_markup(bad, records):
 @pytest.mark.parametrize(
     ("tex", "expected"),
     [
-        (r"\bar{A}", '<mover accent="true"><mrow><mi>A</mi></mrow>'),
+        (r"\bar{A}", '<mrow class="overline"><mi>A</mi></mrow>'),
         (r"\overline{AB}", '<mrow class="overline"><mi>A</mi><mi>B</mi></mrow>'),
         (r"\mathrm{d}\varpi", '<mi mathvariant="normal">d</mi><mi>ϖ</mi>'),
         (r"\tfrac{1}{24}", "<mfrac><mrow><mn>1</mn></mrow><mrow><mn>24</mn></mrow></mfrac>"),

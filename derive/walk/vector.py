@@ -222,13 +222,13 @@ def _identification(stage: Isometry, prefix: str, scope: str) -> Step:
         (f"{prefix}.relation",),
         tuple(equations),
         say(
-            "The linear part 𝔰𝔬(3) of the Lie algebra is identified with R³ by the "
-            "operators j(X), where j(X)Y = X ∧ Y; the bracket is the vector product."
+            "The linear part 𝔰𝔬(3) of the Lie algebra is identified with R³ by j(X)Y = X ∧ "
+            "Y; the bracket is the vector product."
         )
         if affine
         else say(
-            "The Lie algebra 𝔰𝔬(3) is identified with R³ by the operators j(X), where j(X)Y "
-            "= X ∧ Y; the bracket is the vector product."
+            "The Lie algebra 𝔰𝔬(3) is identified with R³ by j(X)Y = X ∧ Y; the bracket is "
+            "the vector product."
         ),
         () if affine else (33,),
         scope,
