@@ -141,18 +141,23 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
         }
     }
     /* each determinant or pivot against what rounding could make of a singular matrix */
-    if (!(m > 0)) {
-        return se3_SINGULAR;
+    const double margins[] = {
+        m,
+        I_c_11 - 1e-13*size_I_c_1,
+        adj_I_c_33 - 1e-13*(I_c_22*size_I_c_1 + I_c_11*size_I_c_2),
+        det_I_c - 1e-13*(I_c_22*I_c_33*size_I_c_1 + I_c_11*I_c_33*size_I_c_2
+            + I_c_11*I_c_22*size_I_c_3),
+    };
+    int large = 0; /* some number is too large */
+    for (int i = 0; i < 4; ++i) {
+        if (!(margins[i] - margins[i] == 0)) {
+            large = 1;
+        } else if (margins[i] <= 0) {
+            return se3_SINGULAR;
+        }
     }
-    if (!(I_c_11 > 1e-13*size_I_c_1)) {
-        return se3_SINGULAR;
-    }
-    if (!(adj_I_c_33 > 1e-13*(I_c_22*size_I_c_1 + I_c_11*size_I_c_2))) {
-        return se3_SINGULAR;
-    }
-    if (!(det_I_c > 1e-13*(I_c_22*I_c_33*size_I_c_1 + I_c_11*I_c_33*size_I_c_2
-            + I_c_11*I_c_22*size_I_c_3))) {
-        return se3_SINGULAR;
+    if (large) {
+        return se3_NOT_FINITE;
     }
     for (int i = 0; i < se3_N_CONSTANTS; ++i) {
         if (!(k[i] - k[i] == 0)) { /* too large a number */

@@ -205,14 +205,21 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
         }
     }
     /* each determinant or pivot against what rounding could make of a singular matrix */
-    if (!(J_11 > 1e-13*size_J_1)) {
-        return sl3_SINGULAR;
+    const double margins[] = {
+        J_11 - 1e-13*size_J_1,
+        adj_J_33 - 1e-13*(J_22*size_J_1 + J_11*size_J_2),
+        det_J - 1e-13*(J_22*J_33*size_J_1 + J_11*J_33*size_J_2 + J_11*J_22*size_J_3),
+    };
+    int large = 0; /* some number is too large */
+    for (int i = 0; i < 3; ++i) {
+        if (!(margins[i] - margins[i] == 0)) {
+            large = 1;
+        } else if (margins[i] <= 0) {
+            return sl3_SINGULAR;
+        }
     }
-    if (!(adj_J_33 > 1e-13*(J_22*size_J_1 + J_11*size_J_2))) {
-        return sl3_SINGULAR;
-    }
-    if (!(det_J > 1e-13*(J_22*J_33*size_J_1 + J_11*J_33*size_J_2 + J_11*J_22*size_J_3))) {
-        return sl3_SINGULAR;
+    if (large) {
+        return sl3_NOT_FINITE;
     }
     for (int i = 0; i < sl3_N_CONSTANTS; ++i) {
         if (!(k[i] - k[i] == 0)) { /* too large a number */

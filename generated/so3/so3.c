@@ -107,15 +107,22 @@ int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
         }
     }
     /* each determinant or pivot against what rounding could make of a singular matrix */
-    if (!(I_11 > 1e-13*size_I_1)) {
-        return so3_SINGULAR;
+    const double margins[] = {
+        I_11 - 1e-13*size_I_1,
+        adj_I_33 - 1e-13*(I_22*size_I_1 + I_11*size_I_2),
+        det_I - 1e-13*(I_22*I_33*size_I_1 + I_11*I_33*size_I_2 + I_11*I_22*(size_J_22
+            + size_J_11)),
+    };
+    int large = 0; /* some number is too large */
+    for (int i = 0; i < 3; ++i) {
+        if (!(margins[i] - margins[i] == 0)) {
+            large = 1;
+        } else if (margins[i] <= 0) {
+            return so3_SINGULAR;
+        }
     }
-    if (!(adj_I_33 > 1e-13*(I_22*size_I_1 + I_11*size_I_2))) {
-        return so3_SINGULAR;
-    }
-    if (!(det_I > 1e-13*(I_22*I_33*size_I_1 + I_11*I_33*size_I_2 + I_11*I_22*(size_J_22
-            + size_J_11)))) {
-        return so3_SINGULAR;
+    if (large) {
+        return so3_NOT_FINITE;
     }
     for (int i = 0; i < so3_N_CONSTANTS; ++i) {
         if (!(k[i] - k[i] == 0)) { /* too large a number */

@@ -129,7 +129,7 @@ def constants(p):
         margins = [value - least for value, least in tests]
     if not bool(xp.all(xp.isfinite(p))):
         raise ValueError("so3: a parameter is not finite")
-    if any(bool(xp.any(margin <= 0)) for margin in margins):
+    if any(bool(xp.any((x <= 0) & xp.isfinite(x))) for x in margins):
         raise ValueError("so3: the mass matrix is singular")
     if not all(bool(xp.all(xp.isfinite(x))) for x in (k, *margins)):
         raise ValueError("so3: a parameter is too large or too small")
