@@ -148,6 +148,4 @@ def optional(prefix, header):
     columns = {"": "2 * N", "_inputs": "U", "_parameters": "P"}
     for what in re.findall(rf"void {prefix}_jacobian(\w*)\(", header):
         given, rates = "p" if what == "_parameters" else "k", "" if what else "dx, "
-        yield JACOBIAN.format(
-            prefix, what=what, columns=columns[what], given=given, rates=rates
-        )
+        yield JACOBIAN.format(prefix, what=what, columns=columns[what], given=given, rates=rates)
