@@ -16,10 +16,12 @@ ALLOWED = {
     "reserved.py": set(),
     "templating.py": set(),
     "writing.py": set(),
+    "progress.py": set(),
     "listing.py": {"mechanics", "algebra"},
 }
 BOTH_SIDES = {
     "api.py",
+    "arguments.py",
     "compiled.py",
     "derived.py",
     "rendering.py",
