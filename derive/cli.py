@@ -5,15 +5,17 @@ from __future__ import annotations
 import argparse
 import difflib
 import io
+import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from contextlib import suppress
 from importlib import resources
 from pathlib import Path
 
-from . import __version__
 from .mechanics.problem import Problem, ProblemError
+from .progress import counted
 from .record.record import Derivation, RecordError
-from .rendering import FORMATS, NOTES, RenderError, notes, pdf, render
+from .rendering import NOTES, RenderError, notes, pdf, render
 
 READY = resources.files("derive") / "problems"
 
@@ -95,14 +97,16 @@ def command_notes(args: argparse.Namespace) -> int:
     out = Path(args.out)
     if out.suffix not in NOTES:
         raise UsageError(f"--out {args.out}: the name must end in {', '.join(NOTES)}")
-    records = [derive(name)[1] for name in dict.fromkeys(args.problem)]
+    names = dict.fromkeys(args.problem)
+    records = list(counted((derive(name)[1] for name in names), len(names), "walks"))
     chosen = {"fragment": args.fragment, **notation(args)}
     text = notes(records, out.suffix, args.lang, **chosen)
     if out.suffix != ".pdf":
         paths = write({out.name: text}, out.parent)
     else:
         paths = write({out.with_suffix(".tex").name: text}, out.parent)
-        paths += write({out.name: pdf(text)}, out.parent)
+        made = list(counted(map(pdf, [text]), 1, "LaTeX"))
+        paths += write({out.name: made[0]}, out.parent)
     for path in paths:
         print(path)
     return 0
@@ -142,7 +146,7 @@ def command_emit(args: argparse.Namespace) -> int:
 
 def command_check(args: argparse.Namespace) -> int:
     """Re-check every recorded step, independently of the code that derived it."""
-    from .record.check import check
+    from .record.check import verdicts as check
 
     failed = 0
     for name in args.problem:
@@ -150,7 +154,7 @@ def command_check(args: argparse.Namespace) -> int:
             record = read_record(name)
         else:
             record = derive(name, args.allow_negative_mass)[1]
-        verdicts = check(record)
+        verdicts = list(counted(check(record), len(record.steps), name))
         for v in verdicts:
             print(
                 f"{'holds' if v.holds else 'FAILS'}  {v.label}"
@@ -187,7 +191,8 @@ def command_paper(args: argparse.Namespace) -> int:
     from .record import paper
     from .views.paper import as_json, as_text
 
-    findings = paper.compare([derive(name)[1] for name in paper.PROBLEMS])
+    records = [derive(name)[1] for name in paper.PROBLEMS]
+    findings = list(counted(paper.findings(records), len(paper.PAPER), "equations"))
     save(as_json(findings) if args.format == "json" else as_text(findings), args.out)
     return 0
 
@@ -198,10 +203,12 @@ def command_build(args: argparse.Namespace) -> int:
     from .pipeline import program
     from .writing import write
 
-    for name in ("so3", "se3", "sl3"):
+    def made(name: str) -> tuple[str, dict[str, str]]:
         problem, record = derive(name)
         files = {f"walk.{end}": render(record, form) for form, end in FILES.items()}
-        files |= emit(program(problem, record), record, ("c", "python"), name)
+        return name, files | emit(program(problem, record), record, ("c", "python"), name)
+
+    for name, files in counted(map(made, BUILT), len(BUILT), "problems"):
         for path in write(files, Path(args.out) / name):
             print(path, file=sys.stderr)
         if args.print:
@@ -209,102 +216,64 @@ def command_build(args: argparse.Namespace) -> int:
     return 0
 
 
+BUILT = ("so3", "se3", "sl3")
 FILES = {"text": "txt", "latex": "tex", "json": "json"}
+COMMANDS = {
+    "list": command_list,
+    "walk": command_walk,
+    "notes": command_notes,
+    "emit": command_emit,
+    "check": command_check,
+    "paper": command_paper,
+    "build": command_build,
+}
 
 
-def emission(emit: argparse.ArgumentParser) -> None:
-    """The choices about the emitted code."""
-    from .code.languages import LANGUAGES
-    from .code.options import CHOICES, JACOBIANS
-
-    lang = f"one of {', '.join(LANGUAGES)}; may be repeated; C and Python when left out"
-    emit.add_argument("--lang", action="append", choices=LANGUAGES, metavar="LANG", help=lang)
-    for name, (values, meaning) in CHOICES.items():
-        about = f"{meaning} (default: {values[0]})"
-        emit.add_argument(f"--{name}", choices=values, default=values[0], help=about)
-    about = "also the linearised equations, in the state, the inputs or the parameters; repeated"
-    emit.add_argument("--jacobian", action="append", choices=JACOBIANS, help=about)
+def _silence() -> None:
+    """Drop what stdout still holds: the interpreter would write it in the end, and tell why not."""
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 ABOUT = """Equations of motion of bodies moved by Lie groups: derived step by step, checked,
 shown as text, LaTeX or a web page, and emitted as code."""
 
 
-def parser() -> argparse.ArgumentParser:
-    """The options of every command."""
-    from .views.language import LANGUAGES
-    from .views.notation import NOTATIONS
-
-    top = argparse.ArgumentParser(prog="derive", description=ABOUT)
-    top.add_argument("--version", action="version", version=f"derive {__version__}")
-    commands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
-
-    def command(name: str, run: Callable[[argparse.Namespace], int]) -> argparse.ArgumentParser:
-        made = commands.add_parser(name, help=run.__doc__, description=run.__doc__)
-        made.set_defaults(run=run)
-        return made
-
-    command("list", command_list)
-    walk = command("walk", command_walk)
-    walk.add_argument("problem", help="a ready-made name or a .toml file")
-    walk.add_argument("--format", choices=FORMATS, default="text")
-    walk.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
-    made = command("notes", command_notes)
-    made.add_argument("problem", nargs="*", help="ready-made names or .toml files")
-    made.add_argument("--out", metavar="FILE", required=True, help="FILE.tex, .pdf, .html or .sty")
-    made.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
-    for one in (walk, made):
-        one.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
-        for option, name in (("--notation", "transpose"), ("--hat", "hat")):
-            values, meaning = NOTATIONS[name]
-            about = f"{meaning} (default: {values[0]})"
-            one.add_argument(option, choices=values, default=values[0], help=about)
-    walk.add_argument("--out", metavar="FILE")
-    emit = command("emit", command_emit)
-    emit.add_argument("problem", help="a ready-made name or a .toml file")
-    emit.add_argument("--out", metavar="DIR", help="default: the current directory")
-    emit.add_argument("--prefix", metavar="NAME", help="default: the problem's name")
-    current = "write nothing; exit 1 if a file on disk is not what would be written"
-    emit.add_argument("--check", action="store_true", help=current)
-    about = "read the C and Python back before they are written, hold them against the record"
-    emit.add_argument("--validate", action="store_true", help=f"{about}; exit 1 if they differ")
-    emission(emit)
-    check = command("check", command_check)
-    check.add_argument("problem", nargs="+", help="ready-made names, .toml files or .json records")
-    for made in (walk, emit, check):
-        allowed = "warn of a negative mass instead of refusing it"
-        made.add_argument("--allow-negative-mass", action="store_true", help=allowed)
-    paper = command("paper", command_paper)
-    paper.add_argument("--format", choices=("text", "json"), default="text")
-    paper.add_argument("--out", metavar="FILE")
-    build = command("build", command_build)
-    build.add_argument("--out", metavar="DIR", default="generated")
-    build.add_argument("--print", action="store_true", help="print the walks as well")
-    return top
+def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:
+    """The exit code of what the arguments ask for."""
+    try:
+        args = options.parse_args(argv)
+    except SystemExit:
+        sys.stdout.flush()  # the help: main tells what cannot be written
+        raise
+    return int(args.run(args))
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command: 0, 1 when a check failed, 2 for bad input."""
+    from .arguments import parser
     from .code.emit import EmitError
     from .code.program import LoweringError
     from .validate.terms import MissingParserError
     from .writing import WriteError
 
-    args = parser().parse_args(argv)
+    if sys.stdout is None:  # closed by who started us
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="replace")  # a terminal without these letters shows ?
     try:
-        status = int(args.run(args))
+        status = run(parser(COMMANDS, ABOUT), argv)
         sys.stdout.flush()
         return status
     except (*REFUSED, EmitError, LoweringError, MissingParserError, WriteError) as error:
         print(f"derive: {error}", file=sys.stderr)
         return 2
-    except BrokenPipeError:
-        sys.stderr.close()
+    except BrokenPipeError:  # who reads has seen enough
+        _silence()
         return 0
     except OSError as error:
         print(f"derive: {error.filename or 'standard output'}: {error.strerror}", file=sys.stderr)
+        _silence()
         return 2
     except KeyboardInterrupt:
         return 130

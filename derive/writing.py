@@ -1,12 +1,29 @@
-"""Files are written whole or not at all: under a temporary name, then renamed."""
+"""Files are written whole or not at all: under a temporary name, then renamed.
+
+Who writes to a folder has it locked, so that the files of two emissions are not mixed; what an
+emission that was killed left over is removed by the next one.
+"""
 
 from __future__ import annotations
 
 import errno
 import os
 import tempfile
-from collections.abc import Mapping
+import time
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
+
+try:
+    import fcntl
+except ImportError:  # Windows: no lock
+    fcntl = None  # type: ignore[assignment]
+
+PREFIX, SUFFIX = ".derive-", ".part"
+"""Of temporary files."""
+
+PATIENCE = 60.0
+"""Seconds to wait for a folder; others hold it for as long as it takes to write a few files."""
 
 
 class WriteError(OSError):
@@ -16,24 +33,36 @@ class WriteError(OSError):
 def write(files: Mapping[str, str | bytes], out: Path) -> list[Path]:
     """Write every file under a temporary name, then rename them all.
 
-    ``WriteError`` when that fails: then no file has been touched, unless a rename fails.
+    A link is followed; a device or a pipe is written to at once.  ``WriteError`` when that fails:
+    then no file has been touched, unless a rename fails.
     """
-    place, ready = out, []
+    place = out
+    ready: list[tuple[Path, Path]] = []
     try:
         out.mkdir(parents=True, exist_ok=True)
+        paths, whole = [], {}
         for name, content in files.items():
             place = out / name
-            ready.append(prepared(place, content))
-        for place, temporary in ready:
-            if temporary is not None:
+            data = content.encode("utf-8") if isinstance(content, str) else content
+            paths.append(_target(place))
+            if paths[-1].exists() and not paths[-1].is_file():
+                paths[-1].write_bytes(data)  # before the lock: a pipe may wait for its reader
+            else:
+                whole[paths[-1]] = data
+        place = out
+        with _locked({path.parent.resolve() for path in whole}):
+            for place, data in whole.items():
+                ready.append((place, _temporary(place.parent)))
+                ready[-1][1].write_bytes(data)
+                os.chmod(ready[-1][1], 0o644)
+            for place, temporary in ready:
                 os.replace(temporary, place)
-        return [path for path, _ in ready]
+        return paths
     except OSError as error:
         raise WriteError(f"{place}: {error.strerror}; choose another --out") from None
     finally:
         for _, temporary in ready:
-            if temporary is not None:
-                temporary.unlink(missing_ok=True)
+            temporary.unlink(missing_ok=True)
 
 
 def stale(files: Mapping[str, str], out: Path) -> list[Path]:
@@ -46,25 +75,52 @@ def stale(files: Mapping[str, str], out: Path) -> list[Path]:
     return found
 
 
-def prepared(path: Path, content: str | bytes) -> tuple[Path, Path | None]:
-    """Where a file goes and the temporary one that holds it; none for a device or a pipe.
-
-    A link is followed; a device or a pipe is written to at once.
-    """
-    data = content.encode("utf-8") if isinstance(content, str) else content
+def _target(path: Path) -> Path:
+    """Where a file goes: not to a folder."""
     path = path.resolve() if path.is_symlink() else path
-    if path.exists() and not path.is_file() and not path.is_dir():
-        path.write_bytes(data)
-        return path, None
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
-    handle, name = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-    temporary = Path(name)
+    return path
+
+
+def _temporary(folder: Path) -> Path:
+    """A new file with a name of its own."""
+    handle, name = tempfile.mkstemp(SUFFIX, PREFIX, folder)
+    os.close(handle)
+    return Path(name)
+
+
+@contextmanager
+def _locked(folders: Iterable[Path]) -> Iterator[None]:
+    """Hold folders alone, in one order for all, and clear them of what was left over.
+
+    The lock is on the folder itself: no file remains, and the system frees it when a process ends.
+    """
+    with ExitStack() as held:
+        for folder in sorted(folders):
+            if fcntl is not None and _hold(folder, held):
+                for left in folder.glob(f"{PREFIX}*{SUFFIX}"):
+                    with suppress(OSError):
+                        left.unlink()
+        yield
+
+
+def _hold(folder: Path, held: ExitStack) -> bool:
+    """Lock a folder until ``held`` ends; no where the folder or its file system has no locks."""
     try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(data)
-        os.chmod(temporary, 0o644)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
-    return path, temporary
+        handle = os.open(folder, os.O_RDONLY)
+    except OSError:  # writing will tell
+        return False
+    held.callback(os.close, handle)
+    end = time.monotonic() + PATIENCE
+    while True:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return True
+        except BlockingIOError:
+            if time.monotonic() > end:
+                reason = "another process writes to it and does not end"
+                raise OSError(errno.EAGAIN, reason, str(folder)) from None
+            time.sleep(0.01)
+        except OSError:
+            return False

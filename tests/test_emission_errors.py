@@ -204,3 +204,23 @@ def test_why_constants_are_refused(tmp_path):
         so3.constants(given | {"J_33": float("nan")})
     with pytest.raises(ValueError, match="too large"):
         so3.constants({"J_11": 1e308, "J_22": 1.1e308, "J_33": 1e308, "c_3": 1e308})
+
+
+def test_a_build_on_a_disk_that_fills_up(tmp_path):
+    """What is written is whole, the rest is not there, and one line says why."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=256k", "derive-test", str(disk)]
+    if shutil.which("mount") is None or subprocess.run(mount, capture_output=True).returncode:
+        pytest.skip("no tmpfs may be mounted here")
+    try:
+        command = [sys.executable, "-B", "-m", "derive", "build", "--out", disk]
+        done = subprocess.run(command, capture_output=True, text=True)
+        lines = done.stderr.splitlines()
+        assert done.returncode == 2
+        assert "No space left" in lines[-1]
+        assert [x.startswith("derive: ") for x in lines] == [False] * 6 + [True]
+        written = [x for x in disk.rglob("*") if x.is_file()]
+        assert sorted(map(str, written)) == sorted(lines[:-1])
+    finally:
+        subprocess.run(["umount", str(disk)], check=True)

@@ -18,10 +18,12 @@ ALLOWED = {
     "templating.py": set(),
     "writing.py": set(),
     "validation.py": {"validate", "code", "record"},
+    "progress.py": set(),
     "listing.py": {"mechanics", "algebra"},
 }
 BOTH_SIDES = {
     "api.py",
+    "arguments.py",
     "compiled.py",
     "derived.py",
     "rendering.py",

@@ -55,7 +55,7 @@ def assemble(
         wanted |= _inertia(frame.old) | carrying(frame, lowering)
     # a pivot that is a number was seen not to vanish
     checks = [test for test in lowering.checks if test[0].op != "num"]
-    checks += [frame.regular] if frame else []
+    checks += frame.regular if frame else []
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
     parameters = _used_parameters(d, found)
     if "parameters" in chosen.jacobian and not parameters:

@@ -125,10 +125,11 @@ class Frame:
             self._set(self.given["moments"], found.values)
             self.H, self._H = self._kept("frame", found.rows), found.rows
             self.back = q.transposed(self.H)
-        self.regular = (
-            self._number_of("least_moment", least),
-            self._number_of("size_of_J", scale),
-        )
+        self.regular: list[tuple[Node, Node | None]] = []
+        if self.affine and self.given["per_unit"]:  # without mass, nothing below is a number
+            self.regular.append((self._number_of("mass", self._number("m")), None))
+        moments = self._number_of("least_moment", least), self._number_of("size_of_J", scale)
+        self.regular.append(moments)
 
     def _root(self, J: Axes) -> tuple[Matrix, Matrix]:
         """H with H J H̄ = μ1, and H⁻¹."""

@@ -97,7 +97,7 @@ class Names:
         """The name for an owner (the same owner gets the same name)."""
         name = wanted
         if re.search(
-            r"_N_|_RESTRICT|_names|_SINGULAR|_NOT_FINITE|_H$|_rhs|_energy|_constants", name
+            r"_N_|_RESTRICT|_names|_SINGULAR|_NOT_FINITE|_margin_|_H$|_rhs|_energy|_constants", name
         ):
             name += "_"  # the pattern of the emitted files' own names
         while self._taken.setdefault(name, owner) != owner:

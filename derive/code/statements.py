@@ -94,7 +94,7 @@ class Statements:
         scale = printer(c.scale) if c.scale is not None else ""
         value = printer(c.value)
         value = f"({value})" if " " in value else value
-        scale = wrapped(scale, TEXT - 28 - len(value), " " * 12)
+        scale = wrapped(scale, TEXT - 44 - len(value), " " * 8)
         return {"value": value, "scale": f"({scale})" if "+" in scale else scale}
 
 

@@ -193,11 +193,16 @@ def _action(problem: Mapping[str, Any]) -> str:
 
 
 def check(d: Derivation, seed: int = 20) -> list[Verdict]:
-    """A verdict for every step.
+    """A verdict for every step."""
+    return list(verdicts(d, seed))
+
+
+def verdicts(d: Derivation, seed: int = 20) -> Iterator[Verdict]:
+    """The verdicts one after the other.
 
     The points are drawn from a hash of the whole record and the seed: they are the same at every
     run, and whoever writes a record cannot aim it at them.
     """
     digest = hashlib.sha256(to_json(d).encode("utf-8", "surrogatepass")).hexdigest()
     checker = Checker(d.problem, f"{seed} {digest}")
-    return [checker.check(step) for step in d.steps]
+    yield from map(checker.check, d.steps)

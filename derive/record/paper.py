@@ -6,7 +6,7 @@ read from the records.  A printed name that means nothing (f′) is given a valu
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from random import Random
@@ -49,7 +49,12 @@ class Finding:
 
 def compare(records: Sequence[Derivation]) -> list[Finding]:
     """A finding for each of the numbered equations."""
-    return [_finding(p, records) for p in PAPER]
+    return list(findings(records))
+
+
+def findings(records: Sequence[Derivation]) -> Iterator[Finding]:
+    """The findings of :func:`compare`, one after the other."""
+    return (_finding(p, records) for p in PAPER)
 
 
 def misprints(numbers: Container[int]) -> list[Finding]:

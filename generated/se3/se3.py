@@ -154,7 +154,7 @@ def constants(p):
         margins = [value - least for value, least in tests]
     if not bool(xp.all(xp.isfinite(p))):
         raise ValueError("se3: a parameter is not finite")
-    if any(bool(xp.any(margin <= 0)) for margin in margins):
+    if any(bool(xp.any((x <= 0) & xp.isfinite(x))) for x in margins):
         raise ValueError("se3: the mass matrix is singular")
     if not all(bool(xp.all(xp.isfinite(x))) for x in (k, *margins)):
         raise ValueError("se3: a parameter is too large or too small")
@@ -299,8 +299,9 @@ def _constants(xp, p):
         (m, 0.0),
         (I_c_11, 1e-13*size_I_c_1),
         (adj_I_c_33, 1e-13*(I_c_22*size_I_c_1 + I_c_11*size_I_c_2)),
-        (det_I_c, 1e-13*(I_c_22*I_c_33*size_I_c_1 + I_c_11*I_c_33*size_I_c_2
-            + I_c_11*I_c_22*size_I_c_3)),
+        (det_I_c, 1e-13*(I_c_22*I_c_33*size_I_c_1
+        + I_c_11*I_c_33*size_I_c_2
+        + I_c_11*I_c_22*size_I_c_3)),
     ]
     return [
         J_12,

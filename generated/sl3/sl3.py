@@ -172,7 +172,7 @@ def constants(p):
         margins = [value - least for value, least in tests]
     if not bool(xp.all(xp.isfinite(p))):
         raise ValueError("sl3: a parameter is not finite")
-    if any(bool(xp.any(margin <= 0)) for margin in margins):
+    if any(bool(xp.any((x <= 0) & xp.isfinite(x))) for x in margins):
         raise ValueError("sl3: the mass matrix is singular")
     if not all(bool(xp.all(xp.isfinite(x))) for x in (k, *margins)):
         raise ValueError("sl3: a parameter is too large or too small")
@@ -357,7 +357,8 @@ def _constants(xp, p):
     tests = [
         (J_11, 1e-13*size_J_1),
         (adj_J_33, 1e-13*(J_22*size_J_1 + J_11*size_J_2)),
-        (det_J, 1e-13*(J_22*J_33*size_J_1 + J_11*J_33*size_J_2 + J_11*J_22*size_J_3)),
+        (det_J, 1e-13*(J_22*J_33*size_J_1 + J_11*J_33*size_J_2
+        + J_11*J_22*size_J_3)),
     ]
     return [
         J_11,

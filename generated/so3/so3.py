@@ -129,7 +129,7 @@ def constants(p):
         margins = [value - least for value, least in tests]
     if not bool(xp.all(xp.isfinite(p))):
         raise ValueError("so3: a parameter is not finite")
-    if any(bool(xp.any(margin <= 0)) for margin in margins):
+    if any(bool(xp.any((x <= 0) & xp.isfinite(x))) for x in margins):
         raise ValueError("so3: the mass matrix is singular")
     if not all(bool(xp.all(xp.isfinite(x))) for x in (k, *margins)):
         raise ValueError("so3: a parameter is too large or too small")
@@ -258,8 +258,8 @@ def _constants(xp, p):
     tests = [
         (I_11, 1e-13*size_I_1),
         (adj_I_33, 1e-13*(I_22*size_I_1 + I_11*size_I_2)),
-        (det_I, 1e-13*(I_22*I_33*size_I_1 + I_11*I_33*size_I_2 + I_11*I_22*(size_J_22
-            + size_J_11))),
+        (det_I, 1e-13*(I_22*I_33*size_I_1 + I_11*I_33*size_I_2
+        + I_11*I_22*(size_J_22 + size_J_11))),
     ]
     return [
         J_12,

@@ -1,0 +1,24 @@
+"""How far a long command is: one line on stderr, where that is a terminal, gone in the end."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator
+from typing import TypeVar
+
+Item = TypeVar("Item")
+
+
+def counted(items: Iterable[Item], total: int, what: str) -> Iterator[Item]:
+    """The same items; while one of them is made, ``what: done of total`` is shown."""
+    shown, left = sys.stderr is not None and sys.stderr.isatty(), iter(items)
+    for done in range(total):
+        line = f"{what}: {done} of {total}" if shown else ""
+        try:
+            if shown:
+                print(line, end="\r", file=sys.stderr, flush=True)
+            item = next(left)
+        finally:  # also before an error is told
+            if shown:
+                print(" " * len(line), end="\r", file=sys.stderr, flush=True)
+        yield item
