@@ -33,7 +33,12 @@ SIGNATURES = {
 
 SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS")
 LISTS = ("state", "parameter", "input")
-SIGNS = {"+": "add", "-": "sub", "*": "mul", "/": "div", ">": "gt", "<": "lt", "==": "eq"}
+SIGNS = {"+": "add", "-": "sub", "*": "mul", "/": "div"} | {
+    ">": "gt",
+    "<": "lt",
+    "<=": "le",
+    "==": "eq",
+}
 
 
 def read_c(name: str, files: Mapping[str, str], prefix: str) -> Module:

@@ -12,7 +12,7 @@ from .terms import Body, CodeError, Function
 
 REFUSED = (1, 2)
 """What ``constants`` returns of a body that is singular, or not finite."""
-UNSMOOTH = ("abs", "gt", "lt", "eq", "not")
+UNSMOOTH = ("abs", "gt", "lt", "le", "eq", "not")
 
 
 def straight(f: Function) -> None:

@@ -2,7 +2,7 @@
 
 An expression is a tuple: ``("lit", text)`` a decimal, ``("int", n)``, ``("var", name)``,
 ``("at", array, index)``, ``("neg", a)``, ``("add" | "sub" | "mul" | "div", a, b)``, ``("abs", a)``,
-``("fun", name, a)``, ``("gt" | "lt" | "eq", a, b)``, ``("not", a)``, ``("list", a, …)``.
+``("fun", name, a)``, ``("gt" | "lt" | "le" | "eq", a, b)``, ``("not", a)``, ``("list", a, …)``.
 
 A statement is a tuple: ``("set", name, a)``, ``("unpack", names, array)``, ``("store", array,
 index, a)``, ``("if", condition, body)``, ``("for", name, bound, body)`` from 0, ``("return", a)``.
@@ -196,6 +196,7 @@ OPERATIONS: dict[str, Callable[..., Any]] = {
     "abs": lambda a: a if plain(a) >= 0 else -a,
     "gt": lambda a, b: plain(a) > plain(b),
     "lt": lambda a, b: plain(a) < plain(b),
+    "le": lambda a, b: plain(a) <= plain(b),
     "eq": lambda a, b: plain(a) == plain(b),
     "not": lambda a: not a,
     "list": lambda *a: list(a),

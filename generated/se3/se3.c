@@ -147,29 +147,29 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
     const double se3_margin_4 = det_I_c - 1e-13*(I_c_22*I_c_33*size_I_c_1
         + I_c_11*I_c_33*size_I_c_2
         + I_c_11*I_c_22*size_I_c_3);
+    if (se3_margin_1 <= 0*se3_margin_1) { /* and finite */
+        return se3_SINGULAR;
+    }
+    if (se3_margin_2 <= 0*se3_margin_2) { /* and finite */
+        return se3_SINGULAR;
+    }
+    if (se3_margin_3 <= 0*se3_margin_3) { /* and finite */
+        return se3_SINGULAR;
+    }
+    if (se3_margin_4 <= 0*se3_margin_4) { /* and finite */
+        return se3_SINGULAR;
+    }
     if (!(se3_margin_1 - se3_margin_1 == 0)) { /* too large a number */
         return se3_NOT_FINITE;
-    }
-    if (!(se3_margin_1 > 0)) {
-        return se3_SINGULAR;
     }
     if (!(se3_margin_2 - se3_margin_2 == 0)) { /* too large a number */
         return se3_NOT_FINITE;
     }
-    if (!(se3_margin_2 > 0)) {
-        return se3_SINGULAR;
-    }
     if (!(se3_margin_3 - se3_margin_3 == 0)) { /* too large a number */
         return se3_NOT_FINITE;
     }
-    if (!(se3_margin_3 > 0)) {
-        return se3_SINGULAR;
-    }
     if (!(se3_margin_4 - se3_margin_4 == 0)) { /* too large a number */
         return se3_NOT_FINITE;
-    }
-    if (!(se3_margin_4 > 0)) {
-        return se3_SINGULAR;
     }
     for (int i = 0; i < se3_N_CONSTANTS; ++i) {
         if (!(k[i] - k[i] == 0)) { /* too large a number */

@@ -209,23 +209,23 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
     const double sl3_margin_2 = adj_J_33 - 1e-13*(J_22*size_J_1 + J_11*size_J_2);
     const double sl3_margin_3 = det_J - 1e-13*(J_22*J_33*size_J_1 + J_11*J_33*size_J_2
         + J_11*J_22*size_J_3);
+    if (sl3_margin_1 <= 0*sl3_margin_1) { /* and finite */
+        return sl3_SINGULAR;
+    }
+    if (sl3_margin_2 <= 0*sl3_margin_2) { /* and finite */
+        return sl3_SINGULAR;
+    }
+    if (sl3_margin_3 <= 0*sl3_margin_3) { /* and finite */
+        return sl3_SINGULAR;
+    }
     if (!(sl3_margin_1 - sl3_margin_1 == 0)) { /* too large a number */
         return sl3_NOT_FINITE;
-    }
-    if (!(sl3_margin_1 > 0)) {
-        return sl3_SINGULAR;
     }
     if (!(sl3_margin_2 - sl3_margin_2 == 0)) { /* too large a number */
         return sl3_NOT_FINITE;
     }
-    if (!(sl3_margin_2 > 0)) {
-        return sl3_SINGULAR;
-    }
     if (!(sl3_margin_3 - sl3_margin_3 == 0)) { /* too large a number */
         return sl3_NOT_FINITE;
-    }
-    if (!(sl3_margin_3 > 0)) {
-        return sl3_SINGULAR;
     }
     for (int i = 0; i < sl3_N_CONSTANTS; ++i) {
         if (!(k[i] - k[i] == 0)) { /* too large a number */

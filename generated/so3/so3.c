@@ -111,23 +111,23 @@ int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
     const double so3_margin_2 = adj_I_33 - 1e-13*(I_22*size_I_1 + I_11*size_I_2);
     const double so3_margin_3 = det_I - 1e-13*(I_22*I_33*size_I_1 + I_11*I_33*size_I_2
         + I_11*I_22*(size_J_22 + size_J_11));
+    if (so3_margin_1 <= 0*so3_margin_1) { /* and finite */
+        return so3_SINGULAR;
+    }
+    if (so3_margin_2 <= 0*so3_margin_2) { /* and finite */
+        return so3_SINGULAR;
+    }
+    if (so3_margin_3 <= 0*so3_margin_3) { /* and finite */
+        return so3_SINGULAR;
+    }
     if (!(so3_margin_1 - so3_margin_1 == 0)) { /* too large a number */
         return so3_NOT_FINITE;
-    }
-    if (!(so3_margin_1 > 0)) {
-        return so3_SINGULAR;
     }
     if (!(so3_margin_2 - so3_margin_2 == 0)) { /* too large a number */
         return so3_NOT_FINITE;
     }
-    if (!(so3_margin_2 > 0)) {
-        return so3_SINGULAR;
-    }
     if (!(so3_margin_3 - so3_margin_3 == 0)) { /* too large a number */
         return so3_NOT_FINITE;
-    }
-    if (!(so3_margin_3 > 0)) {
-        return so3_SINGULAR;
     }
     for (int i = 0; i < so3_N_CONSTANTS; ++i) {
         if (!(k[i] - k[i] == 0)) { /* too large a number */
