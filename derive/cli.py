@@ -11,6 +11,7 @@ from importlib import resources
 from pathlib import Path
 
 from . import __version__
+from .guard import StoppedError, one_line, within
 from .mechanics.problem import Problem, ProblemError
 from .record.record import Derivation, RecordError
 from .rendering import FORMATS, NOTES, RenderError, notes, pdf, render
@@ -54,7 +55,7 @@ def derive(name: str, negative_mass: bool = False) -> tuple[Problem, Derivation]
 
     problem = load_problem(name, negative_mass)
     if found := where(problem.body, problem.parameters):
-        print(f"derive: warning: {name}: {found} is negative", file=sys.stderr)
+        print(f"derive: warning: {one_line(name)}: {found} is negative", file=sys.stderr)
     try:
         return problem, walk(problem)
     except ProblemError as error:
@@ -69,7 +70,7 @@ def save(text: str, out: str | None) -> None:
         sys.stdout.write(text if text.endswith("\n") else text + "\n")
     else:
         path = Path(out)
-        write({path.name: text}, path.parent)
+        write({path.name: text}, path.parent, links=True)
 
 
 def command_list(_: argparse.Namespace) -> int:
@@ -98,10 +99,10 @@ def command_notes(args: argparse.Namespace) -> int:
     records = [derive(name)[1] for name in dict.fromkeys(args.problem)]
     text = notes(records, out.suffix, args.lang, **notation(args))
     if out.suffix != ".pdf":
-        paths = write({out.name: text}, out.parent)
+        paths = write({out.name: text}, out.parent, links=True)
     else:
         paths = write({out.with_suffix(".tex").name: text}, out.parent)
-        paths += write({out.name: pdf(text)}, out.parent)
+        paths += write({out.name: pdf(text)}, out.parent, links=True)
     for path in paths:
         print(path)
     return 0
@@ -139,43 +140,28 @@ def command_emit(args: argparse.Namespace) -> int:
 def command_check(args: argparse.Namespace) -> int:
     """Re-check every recorded step, independently of the code that derived it."""
     from .record.check import check
+    from .record.record import read
 
     failed = 0
     for name in args.problem:
         if name.endswith(".json"):
-            record = read_record(name)
+            record = read(Path(name))
         else:
             record = derive(name, args.allow_negative_mass)[1]
         verdicts = check(record)
         for v in verdicts:
             print(
                 f"{'holds' if v.holds else 'FAILS'}  {v.label}"
-                + (f": {v.reason}" if v.reason else "")
+                + (f": {one_line(v.reason)}" if v.reason else "")
             )
         bad = sum(not v.holds for v in verdicts)
         bound = max(v.bound for v in verdicts)
         print(
-            f"{name}: {len(verdicts) - bad} of {len(verdicts)} steps hold exactly"
+            f"{one_line(name)}: {len(verdicts) - bad} of {len(verdicts)} steps hold exactly"
             + ("" if bad else f"; a false one passes with probability below {bound:.0e}")
         )
         failed += bad
     return 1 if failed else 0
-
-
-def read_record(name: str) -> Derivation:
-    """A record from a JSON file."""
-    from .record.record import from_json
-
-    try:
-        text = Path(name).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise UsageError(
-            f"{name}: {getattr(error, 'strerror', None) or 'not UTF-8 text'}"
-        ) from None
-    try:
-        return from_json(text)
-    except RecordError as error:
-        raise UsageError(f"{name}: {error}") from None
 
 
 def command_paper(args: argparse.Namespace) -> int:
@@ -222,6 +208,13 @@ def emission(emit: argparse.ArgumentParser) -> None:
     emit.add_argument("--jacobian", action="append", choices=JACOBIANS, help=about)
 
 
+def positive(words: str) -> float:
+    """A number of seconds."""
+    if not 0 < (seconds := float(words)) < 1e9:
+        raise ValueError(words)
+    return seconds
+
+
 def parser() -> argparse.ArgumentParser:
     """The options of every command."""
     from .views.language import LANGUAGES
@@ -260,6 +253,9 @@ def parser() -> argparse.ArgumentParser:
     emission(emit)
     check = command("check", command_check)
     check.add_argument("problem", nargs="+", help="ready-made names, .toml files or .json records")
+    for one in (walk, made, emit, check):
+        about = "stop after so many seconds of processor time"
+        one.add_argument("--seconds", type=positive, metavar="N", help=about)
     for made in (walk, emit, check):
         allowed = "warn of a negative mass instead of refusing it"
         made.add_argument("--allow-negative-mass", action="store_true", help=allowed)
@@ -282,17 +278,23 @@ def main(argv: Sequence[str] | None = None) -> int:
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="replace")  # a terminal without these letters shows ?
     try:
-        status = int(args.run(args))
+        with within(getattr(args, "seconds", None)):
+            status = int(args.run(args))
         sys.stdout.flush()
         return status
-    except (*REFUSED, EmitError, LoweringError, WriteError) as error:
-        print(f"derive: {error}", file=sys.stderr)
+    except (*REFUSED, EmitError, LoweringError, WriteError, StoppedError) as error:
+        print(f"derive: {one_line(error)}", file=sys.stderr)
+        return 2
+    except (MemoryError, RecursionError) as error:
+        what = "out of memory" if isinstance(error, MemoryError) else "nested too deeply"
+        print(f"derive: {what}: the input is too large for this machine", file=sys.stderr)
         return 2
     except BrokenPipeError:
         sys.stderr.close()
         return 0
     except OSError as error:
-        print(f"derive: {error.filename or 'standard output'}: {error.strerror}", file=sys.stderr)
+        place = one_line(error.filename or "standard output")
+        print(f"derive: {place}: {error.strerror}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         return 130

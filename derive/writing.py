@@ -13,9 +13,10 @@ class WriteError(OSError):
     """Output that cannot be written: the message says where and why."""
 
 
-def write(files: Mapping[str, str | bytes], out: Path) -> list[Path]:
+def write(files: Mapping[str, str | bytes], out: Path, *, links: bool = False) -> list[Path]:
     """Write every file under a temporary name, then rename them all.
 
+    ``links``: may a file be a link that leads out of the folder, because the user named that file?
     ``WriteError`` when that fails: then no file has been touched, unless a rename fails.
     """
     place, ready = out, []
@@ -23,17 +24,29 @@ def write(files: Mapping[str, str | bytes], out: Path) -> list[Path]:
         out.mkdir(parents=True, exist_ok=True)
         for name, content in files.items():
             place = out / name
+            if not links and not inside(place, out):
+                raise WriteError(f"{place}: a link that leads out of the folder; remove it")
             ready.append(prepared(place, content))
         for place, temporary in ready:
             if temporary is not None:
                 os.replace(temporary, place)
         return [path for path, _ in ready]
+    except WriteError:
+        raise
     except OSError as error:
         raise WriteError(f"{place}: {error.strerror}; choose another --out") from None
     finally:
         for _, temporary in ready:
             if temporary is not None:
                 temporary.unlink(missing_ok=True)
+
+
+def inside(path: Path, folder: Path) -> bool:
+    """Is a file in the folder, wherever links lead?"""
+    try:
+        return path.resolve().is_relative_to(folder.resolve())
+    except RuntimeError:  # a link to itself
+        return False
 
 
 def stale(files: Mapping[str, str], out: Path) -> list[Path]:
@@ -49,7 +62,7 @@ def stale(files: Mapping[str, str], out: Path) -> list[Path]:
 def prepared(path: Path, content: str | bytes) -> tuple[Path, Path | None]:
     """Where a file goes and the temporary one that holds it; none for a device or a pipe.
 
-    A link is followed; a device or a pipe is written to at once.
+    A link is followed, to where it may lead; a device or a pipe is written to at once.
     """
     data = content.encode("utf-8") if isinstance(content, str) else content
     path = path.resolve() if path.is_symlink() else path
