@@ -23,6 +23,13 @@ def emission(emit: argparse.ArgumentParser) -> None:
     emit.add_argument("--jacobian", action="append", choices=JACOBIANS, help=about)
 
 
+def positive(words: str) -> float:
+    """A number of seconds."""
+    if not 0 < (seconds := float(words)) < 1e9:
+        raise ValueError(words)
+    return seconds
+
+
 Command = Callable[[argparse.Namespace], int]
 
 
@@ -46,7 +53,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     walk.add_argument("problem", help="a ready-made name or a .toml file")
     walk.add_argument("--format", choices=FORMATS, default="text")
     walk.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
-    made = command("notes")
+    made = notes = command("notes")
     made.add_argument("problem", nargs="*", help="ready-made names or .toml files")
     made.add_argument("--out", metavar="FILE", required=True, help="FILE.tex, .pdf, .html or .sty")
     made.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
@@ -68,6 +75,9 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     emission(emit)
     check = command("check")
     check.add_argument("problem", nargs="+", help="ready-made names, .toml files or .json records")
+    for one in (walk, notes, emit, check):
+        about = "stop after so many seconds of processor time"
+        one.add_argument("--seconds", type=positive, metavar="N", help=about)
     for made in (walk, emit, check):
         allowed = "warn of a negative mass instead of refusing it"
         made.add_argument("--allow-negative-mass", action="store_true", help=allowed)

@@ -12,6 +12,7 @@ from contextlib import suppress
 from importlib import resources
 from pathlib import Path
 
+from .guard import StoppedError, one_line, within
 from .mechanics.problem import Problem, ProblemError
 from .progress import counted
 from .record.record import Derivation, RecordError
@@ -56,7 +57,7 @@ def derive(name: str, negative_mass: bool = False) -> tuple[Problem, Derivation]
 
     problem = load_problem(name, negative_mass)
     if found := where(problem.body, problem.parameters):
-        print(f"derive: warning: {name}: {found} is negative", file=sys.stderr)
+        print(f"derive: warning: {one_line(name)}: {found} is negative", file=sys.stderr)
     try:
         return problem, walk(problem)
     except ProblemError as error:
@@ -71,7 +72,7 @@ def save(text: str, out: str | None) -> None:
         sys.stdout.write(text if text.endswith("\n") else text + "\n")
     else:
         path = Path(out)
-        write({path.name: text}, path.parent)
+        write({path.name: text}, path.parent, links=True)
 
 
 def command_list(_: argparse.Namespace) -> int:
@@ -102,11 +103,11 @@ def command_notes(args: argparse.Namespace) -> int:
     chosen = {"fragment": args.fragment, **notation(args)}
     text = notes(records, out.suffix, args.lang, **chosen)
     if out.suffix != ".pdf":
-        paths = write({out.name: text}, out.parent)
+        paths = write({out.name: text}, out.parent, links=True)
     else:
         paths = write({out.with_suffix(".tex").name: text}, out.parent)
         made = list(counted(map(pdf, [text]), 1, "LaTeX"))
-        paths += write({out.name: made[0]}, out.parent)
+        paths += write({out.name: made[0]}, out.parent, links=True)
     for path in paths:
         print(path)
     return 0
@@ -147,43 +148,28 @@ def command_emit(args: argparse.Namespace) -> int:
 def command_check(args: argparse.Namespace) -> int:
     """Re-check every recorded step, independently of the code that derived it."""
     from .record.check import verdicts as check
+    from .record.record import read
 
     failed = 0
     for name in args.problem:
         if name.endswith(".json"):
-            record = read_record(name)
+            record = read(Path(name))
         else:
             record = derive(name, args.allow_negative_mass)[1]
         verdicts = list(counted(check(record), len(record.steps), name))
         for v in verdicts:
             print(
                 f"{'holds' if v.holds else 'FAILS'}  {v.label}"
-                + (f": {v.reason}" if v.reason else "")
+                + (f": {one_line(v.reason)}" if v.reason else "")
             )
         bad = sum(not v.holds for v in verdicts)
         bound = max(v.bound for v in verdicts)
         print(
-            f"{name}: {len(verdicts) - bad} of {len(verdicts)} steps hold exactly"
+            f"{one_line(name)}: {len(verdicts) - bad} of {len(verdicts)} steps hold exactly"
             + ("" if bad else f"; a false one passes with probability below {bound:.0e}")
         )
         failed += bad
     return 1 if failed else 0
-
-
-def read_record(name: str) -> Derivation:
-    """A record from a JSON file."""
-    from .record.record import from_json
-
-    try:
-        text = Path(name).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise UsageError(
-            f"{name}: {getattr(error, 'strerror', None) or 'not UTF-8 text'}"
-        ) from None
-    try:
-        return from_json(text)
-    except RecordError as error:
-        raise UsageError(f"{name}: {error}") from None
 
 
 def command_paper(args: argparse.Namespace) -> int:
@@ -246,7 +232,8 @@ def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:
     except SystemExit:
         sys.stdout.flush()  # the help: main tells what cannot be written
         raise
-    return int(args.run(args))
+    with within(getattr(args, "seconds", None)):
+        return int(args.run(args))
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -266,13 +253,21 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
         return status
     except (*REFUSED, EmitError, LoweringError, MissingParserError, WriteError) as error:
-        print(f"derive: {error}", file=sys.stderr)
+        print(f"derive: {one_line(error)}", file=sys.stderr)
+        return 2
+    except StoppedError as error:
+        print(f"derive: {one_line(error)}", file=sys.stderr)
+        return 2
+    except (MemoryError, RecursionError) as error:
+        what = "out of memory" if isinstance(error, MemoryError) else "nested too deeply"
+        print(f"derive: {what}: the input is too large for this machine", file=sys.stderr)
         return 2
     except BrokenPipeError:  # who reads has seen enough
         _silence()
         return 0
     except OSError as error:
-        print(f"derive: {error.filename or 'standard output'}: {error.strerror}", file=sys.stderr)
+        place = one_line(error.filename or "standard output")
+        print(f"derive: {place}: {error.strerror}", file=sys.stderr)
         _silence()
         return 2
     except KeyboardInterrupt:

@@ -101,7 +101,7 @@ def pdf(tex: str) -> bytes:
             "no pdflatex: install TeX (Debian: texlive-latex-extra texlive-pictures lmodern); "
             "the .tex is written"
         )
-    quiet = ["-interaction=nonstopmode", "-halt-on-error"]
+    quiet = ["-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
     runs = (
         [[latexmk, "-pdf", *quiet, "notes.tex"]]
         if latexmk

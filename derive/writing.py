@@ -30,11 +30,12 @@ class WriteError(OSError):
     """Output that cannot be written: the message says where and why."""
 
 
-def write(files: Mapping[str, str | bytes], out: Path) -> list[Path]:
+def write(files: Mapping[str, str | bytes], out: Path, *, links: bool = False) -> list[Path]:
     """Write every file under a temporary name, then rename them all.
 
-    A link is followed; a device or a pipe is written to at once.  ``WriteError`` when that fails:
-    then no file has been touched, unless a rename fails.
+    ``links``: may a file be a link that leads out of the folder, because the user named that file?
+    A device or a pipe is written to at once.  ``WriteError`` when that fails: then no file has been
+    touched, unless a rename fails.
     """
     place = out
     ready: list[tuple[Path, Path]] = []
@@ -43,6 +44,8 @@ def write(files: Mapping[str, str | bytes], out: Path) -> list[Path]:
         paths, whole = [], {}
         for name, content in files.items():
             place = out / name
+            if not links and not inside(place, out):
+                raise WriteError(f"{place}: a link that leads out of the folder; remove it")
             data = content.encode("utf-8") if isinstance(content, str) else content
             paths.append(_target(place))
             if paths[-1].exists() and not paths[-1].is_file():
@@ -58,11 +61,21 @@ def write(files: Mapping[str, str | bytes], out: Path) -> list[Path]:
             for place, temporary in ready:
                 os.replace(temporary, place)
         return paths
+    except WriteError:
+        raise
     except OSError as error:
         raise WriteError(f"{place}: {error.strerror}; choose another --out") from None
     finally:
         for _, temporary in ready:
             temporary.unlink(missing_ok=True)
+
+
+def inside(path: Path, folder: Path) -> bool:
+    """Is a file in the folder, wherever links lead?"""
+    try:
+        return path.resolve().is_relative_to(folder.resolve())
+    except RuntimeError:  # a link to itself
+        return False
 
 
 def stale(files: Mapping[str, str], out: Path) -> list[Path]:

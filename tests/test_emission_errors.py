@@ -78,10 +78,30 @@ def test_out_is_a_device(refused):
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
-def test_a_link_to_a_full_device(refused, tmp_path):
-    (tmp_path / "so3.h").symlink_to("/dev/full")
-    assert "No space left" in refused("so3", "--out", tmp_path)
-    assert os.listdir(tmp_path) == ["so3.h"]
+def test_a_link_to_a_full_device(capsys, tmp_path):
+    (tmp_path / "walk.txt").symlink_to("/dev/full")
+    assert main(["walk", "so3", "--out", str(tmp_path / "walk.txt")]) == 2
+    assert "No space left" in capsys.readouterr().err
+    assert os.listdir(tmp_path) == ["walk.txt"]
+
+
+@pytest.mark.parametrize("target", ["../mine", "/dev/null", "missing/../../mine", "so3.h"])
+def test_a_link_out_of_the_folder(target, refused, tmp_path):
+    """The problem gives the names in the folder; whoever packed both could aim at any file."""
+    mine, out = tmp_path / "mine", tmp_path / "out"
+    mine.write_text("mine")
+    out.mkdir()
+    (out / "so3.h").symlink_to(target)
+    assert "so3.h: a link that leads out of the folder" in refused("so3", "--out", out)
+    assert mine.read_text() == "mine"
+    assert os.listdir(out) == ["so3.h"]
+
+
+def test_a_link_within_the_folder(tmp_path):
+    (tmp_path / "so3.h").symlink_to("real.h")
+    assert main(["emit", "so3", "--lang", "c", "--out", str(tmp_path)]) == 0
+    assert (tmp_path / "so3.h").is_symlink()
+    assert "so3_rhs" in (tmp_path / "real.h").read_text()
 
 
 @pytest.mark.skipif(not Path("/proc/sys").is_dir(), reason="needs /proc")

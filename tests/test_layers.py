@@ -8,13 +8,15 @@ import pytest
 ROOT = Path(__file__).parents[1] / "derive"
 ALLOWED = {
     "algebra": {"algebra"},
-    "mechanics": {"mechanics", "algebra", "reserved"},
-    "record": {"record", "algebra"},
+    "mechanics": {"mechanics", "algebra", "reserved", "limits"},
+    "record": {"record", "algebra", "limits"},
     "walk": {"walk", "record", "mechanics", "algebra"},
     "validate": {"validate", "record", "algebra"},
     "views": {"views", "record", "algebra", "templating"},
     "code": {"code", "record", "algebra", "templating", "reserved", "__init__"},
     "reserved.py": set(),
+    "limits.py": set(),
+    "guard.py": {"limits"},
     "templating.py": set(),
     "writing.py": set(),
     "validation.py": {"validate", "code", "record"},

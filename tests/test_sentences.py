@@ -5,8 +5,9 @@ import json
 import pytest
 
 from derive.cli import ready_made
+from derive.limits import SENTENCE
 from derive.record.record import RecordError, from_json, to_data, to_json
-from derive.record.sentence import DEPTH, english, listed, phrase, say
+from derive.record.sentence import english, listed, phrase, say
 from derive.views.language import language
 from derive.views.text import text
 from tests import walks
@@ -69,7 +70,7 @@ HOSTILE = {
     "a number in a place": [{"message": "{a}", "places": {"a": 1}}],
     "an attribute": [{"message": "{a.__class__}", "places": {"a": "x"}}],
     "a width": [{"message": "{a:>9999999999}", "places": {"a": "x"}}],
-    "too deep": [nested(DEPTH + 1)],
+    "too deep": [nested(SENTENCE + 1)],
     "far too deep": [nested(400)],
 }
 
@@ -86,7 +87,7 @@ def test_hostile_sentences_are_refused(case, kind, words):
 
 def test_sentences_as_deep_as_they_may_be():
     record = data()
-    record["steps"][0] |= {"prose": "x", "sentences": [nested(DEPTH)]}
+    record["steps"][0] |= {"prose": "x", "sentences": [nested(SENTENCE)]}
     read = from_json(json.dumps(record))
     assert language("fr").of(read.steps[0].prose) == "x"
 

@@ -12,6 +12,12 @@ Monomial = tuple[tuple[Tree, int], ...]
 
 
 ONE = Fraction(1)
+MOST = 40
+"""A tree is not multiplied out to more terms: a power of a sum has any number of them."""
+
+
+class OverlongError(ValueError):
+    """A tree that is too long when it is multiplied out."""
 
 
 class Laurent:
@@ -104,16 +110,19 @@ def _written(factor: tuple[Tree, int]) -> tuple[str, int]:
 
 
 def polynomial(t: Tree) -> Laurent:
-    """A tree of numbers as a polynomial; what is neither sum nor product in it is a symbol."""
+    """A tree of numbers as a polynomial; what is neither sum nor product in it is a symbol.
+
+    ``OverlongError`` where that has more than ``MOST`` terms.
+    """
     if isinstance(t, (int, Fraction)):
         return Laurent.of(t)
-    if isinstance(t, tuple) and t[0] == "add":
-        return sum(map(polynomial, t[1:]), Laurent({}))
-    if isinstance(t, tuple) and t[0] == "mul":
-        product = Laurent.of(1)
+    if isinstance(t, tuple) and t[0] in ("add", "mul"):
+        total = Laurent.of(int(t[0] == "mul"))
         for x in t[1:]:
-            product = product * polynomial(x)
-        return product
+            total = total + polynomial(x) if t[0] == "add" else total * polynomial(x)
+            if len(total.terms) > MOST:
+                raise OverlongError("too many terms")
+        return total
     if isinstance(t, tuple) and t[0] == "pow" and isinstance(t[2], int) and t[2] > 0:
         return polynomial(("mul", *[t[1]] * t[2]))
     if isinstance(t, tuple) and t[0] == "div":

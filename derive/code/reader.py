@@ -239,4 +239,4 @@ def _linear(x: Node) -> bool:
 
 def equation_key(step: Step, equation: Equation) -> str:
     """The label of an equation: that of its step and its number in it, ``so3.motion#2``."""
-    return f"{step.label}#{step.equations.index(equation) + 1}"
+    return f"{step.label}#{step.number(equation)}"

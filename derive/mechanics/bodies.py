@@ -13,6 +13,7 @@ from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.laurent import collected
 from ..algebra.tree import Tree, add, mul, neg
+from ..limits import TEXT
 from .expression import approximate
 from .fields import choice, expression, known, missing, tables, vector, whole
 from .problem import Body, GivenBody, MomentBody, PointBody, ProblemError
@@ -148,9 +149,12 @@ def _positive(size: Tree, where: str, zero: bool = False) -> Tree:
 
 def _file(value: Any, where: str, folder: Path) -> str:
     """The path of a mesh, inside the folder of the problem file."""
-    if not isinstance(value, str) or not value or "\0" in value:
-        raise ProblemError(f"{where}: expected a file name in quotes")
-    path = (folder / value).resolve()
+    if not isinstance(value, str) or not value or not value.isprintable() or len(value) > TEXT:
+        raise ProblemError(f"{where}: expected a file name in quotes, of letters that print")
+    try:
+        path = (folder / value).resolve()
+    except (OSError, RuntimeError):  # a link to itself
+        raise ProblemError(f"{where}: {value[:60]!r} leads nowhere") from None
     if not path.is_relative_to(folder.resolve()):
         raise ProblemError(f"{where}: {value[:60]!r} is outside the folder of the problem file")
     return str(path)

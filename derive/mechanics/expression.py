@@ -7,17 +7,18 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
 from ..algebra.differentiate import DERIVATIVES
 from ..algebra.tree import Tree, add, mul, neg
+from ..limits import BITS, DEGREE, DEPTH, DIGITS, EXPONENT, EXPRESSION, MAGNITUDE, NESTING, SLOPE
+from .weight import depth, weight
 
-LENGTH, NESTING, EXPONENT, DIGITS = 10_000, 100, 64, 40
-SMALLEST, LARGEST = Fraction(1, 10**300), Fraction(10**300)
+SMALLEST, LARGEST = Fraction(1, MAGNITUDE), Fraction(MAGNITUDE)
 TOKEN = re.compile(
-    r"\s*(?:(\d+\.?\d*(?:[eE][+-]?\d{1,3})?|\.\d+)|([A-Za-z][A-Za-z0-9_]*)|(.))", re.S
+    r"\s*(?:([0-9]+\.?[0-9]*(?:[eE][+-]?[0-9]{1,3})?|\.[0-9]+)|([A-Za-z][A-Za-z0-9_]*)|(.))", re.S
 )
 
 
@@ -27,13 +28,29 @@ class ExpressionError(ValueError):
 
 def parse(text: str) -> Tree:
     """The tree of an expression; names become parameters."""
-    if len(text) > LENGTH:
-        raise ExpressionError(f"an expression of {len(text)} characters; at most {LENGTH}")
+    if len(text) > EXPRESSION:
+        raise ExpressionError(f"an expression of {len(text)} characters; at most {EXPRESSION}")
     parser = _Parser(_tokens(text))
     tree = parser.sum(0)
     if parser.peek():
         raise ExpressionError(f"unexpected {parser.peek()[:20]!r}; a product needs a *, as 2*k")
+    _affordable(tree)
     return tree
+
+
+def _affordable(tree: Tree) -> None:
+    """``ExpressionError`` for what would take long to derive, or be too deep for recursion."""
+    if depth(tree) > DEPTH:
+        raise ExpressionError(f"operations nested deeper than {DEPTH}; gather factors")
+    for q in numbers(tree):
+        _number(q)
+    found = weight(tree)
+    if found.degree > DEGREE:
+        raise ExpressionError(f"an expression of degree {found.degree}; at most {DEGREE}")
+    if found.slope > SLOPE:
+        raise ExpressionError(
+            f"derivatives of about {found.slope} terms; at most {SLOPE}: split it into sums"
+        )
 
 
 def names(tree: Tree) -> list[str]:
@@ -43,6 +60,15 @@ def names(tree: Tree) -> list[str]:
             return [tree[1]]
         return [name for part in tree[1:] for name in names(part)]
     return []
+
+
+def numbers(tree: Tree) -> Iterator[int | Fraction]:
+    """The numbers that occur, exponents apart."""
+    if isinstance(tree, (int, Fraction)):
+        yield tree
+    elif isinstance(tree, tuple):
+        for part in tree[1:2] if tree[0] == "pow" else tree[1:]:
+            yield from numbers(part)
 
 
 def value(tree: Tree, parameter: Callable[[str], Any], other: Callable[[Tree], Any]) -> Any:
@@ -140,7 +166,7 @@ class _Parser:
         exponent = self.take()
         if self.peek() == "^":
             raise ExpressionError("write parentheses in a power of a power")
-        if not exponent.isdigit() or int(exponent[:9]) > EXPONENT or len(exponent) > 9:
+        if not re.fullmatch("[0-9]{1,9}", exponent) or int(exponent) > EXPONENT:
             raise ExpressionError(f"an exponent must be an integer up to {EXPONENT}")
         return _powered(base, -int(exponent) if negative else int(exponent))
 
@@ -176,6 +202,8 @@ def _number(value: Fraction | int) -> Tree:
     q = Fraction(value)
     if q and not SMALLEST < abs(q) < LARGEST:
         raise ExpressionError("a number outside 1e-300 … 1e300")
+    if max(q.numerator.bit_length(), q.denominator.bit_length()) > BITS:
+        raise ExpressionError("a fraction of too many digits; round its numbers")
     return int(q) if q.denominator == 1 else q
 
 

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..algebra.tree import Tree
+from ..limits import TABLES, TEXT
 from ..reserved import WORDS
 from .expression import ExpressionError, parse
 from .problem import ProblemError
@@ -46,6 +47,8 @@ def text(data: Mapping[str, Any], key: str, where: str) -> str:
         raise ProblemError(f"{where}: key {key!r} is missing")
     if not isinstance(data[key], str):
         raise ProblemError(f"{where}: key {key!r} must be a string")
+    if len(data[key]) > TEXT:
+        raise ProblemError(f"{where}: key {key!r} is longer than {TEXT} letters")
     return str(data[key])
 
 
@@ -62,10 +65,14 @@ def choice(
 
 
 def tables(data: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
-    """The tables of an array [[key]]."""
+    """The tables of an array [[key]]; not more than their limit."""
     tables = data.get(key, [])
     if not isinstance(tables, list) or not all(isinstance(t, dict) for t in tables):
         raise ProblemError(f"key {key!r} must be written [[{key}]]")
+    most = TABLES[key]
+    if len(tables) > most:
+        more = "; give their moments in [body]" if key == "point" else ""
+        raise ProblemError(f"more than {most} tables [[{key}]]{more}")
     return tables
 
 

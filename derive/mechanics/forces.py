@@ -8,7 +8,6 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..algebra.tree import Tree
-from .expression import names
 from .fields import (
     LIKE_A_PLACE,
     PLACE,
@@ -23,13 +22,16 @@ from .fields import (
 )
 from .problem import (
     Attraction,
+    Body,
     CovectorInput,
     Damping,
     Expression,
     ForceInput,
+    GivenBody,
     Gravity,
     Input,
     Place,
+    PointBody,
     Potential,
     ProblemError,
     Spring,
@@ -197,18 +199,23 @@ def damping(data: Mapping[str, Any], where: str, points: Points) -> Damping:
     return Damping(coefficient, on)
 
 
-def used_names(p: Potential | Damping | Place) -> list[str]:
-    """The parameters that occur."""
-    if isinstance(p, Gravity):
-        trees = list(p.acceleration)
-    elif isinstance(p, Spring):
-        trees = [p.stiffness, p.length, *p.anchor]
-    elif isinstance(p, Attraction):
-        trees = [p.strength, *p.centre]
-    elif isinstance(p, Expression):
-        trees = [p.energy]
-    elif isinstance(p, Damping):
-        trees = [p.coefficient]
-    else:
-        trees = list(p.at)
-    return [name for t in trees for name in names(t)]
+def trees(p: Potential | Damping | Place | Body | None) -> list[Tree]:
+    """The expressions of a part of a problem."""
+    match p:
+        case Gravity():
+            return [*p.acceleration]
+        case Spring():
+            return [p.stiffness, p.length, *p.anchor]
+        case Attraction():
+            return [p.strength, *p.centre]
+        case Expression():
+            return [p.energy]
+        case Damping():
+            return [p.coefficient]
+        case Place():
+            return [*p.at]
+        case PointBody():
+            return [*p.masses, *(x for r in p.positions for x in r)]
+        case GivenBody():
+            return [p.mass, *p.first, *(x for row in p.second for x in row)]
+    return []

@@ -19,11 +19,11 @@ from typing import Any
 import numpy as np
 
 from ..algebra.tree import mul
+from ..limits import COORDINATE_BITS, MESH_BYTES, MESH_LINE, MESH_LINES, TRIANGLES
 from .solids import Moments, SolidError
 
 Mesh = tuple[tuple[tuple[Fraction, ...], ...], tuple[tuple[int, ...], ...]]
 
-BYTES, TRIANGLES, LINES, LINE, BITS = 50_000_000, 200_000, 2_000_000, 20_000, 256
 NUMBERS = rb"[ \t]+(\S+[ \t]+\S+[ \t]+\S+)"
 AGAIN = "export the mesh again"
 
@@ -93,15 +93,15 @@ def _read(path: Path) -> Mesh:
     try:
         _must(path.is_file() or not path.exists(), "not a file")
         with path.open("rb") as file:
-            raw = file.read(BYTES + 1)
+            raw = file.read(MESH_BYTES + 1)
     except (OSError, ValueError) as error:
         raise MeshError(getattr(error, "strerror", None) or str(error)) from None
-    _must(len(raw) <= BYTES, f"larger than {BYTES} bytes; simplify the mesh")
+    _must(len(raw) <= MESH_BYTES, f"larger than {MESH_BYTES} bytes; simplify the mesh")
     binary = suffix == ".stl" and len(raw) == 84 + 50 * int.from_bytes(raw[80:84], "little")
     data, count = raw, (len(raw) - 84) // 50
     if not binary:
         text = b"\n" + raw.replace(b"\r\n", b"\n").replace(b"\r", b"\n").replace(b"\\\n", b" ")
-        _must(text.count(b"\n") <= LINES, f"more than {LINES} lines; simplify the mesh")
+        _must(text.count(b"\n") <= MESH_LINES, f"more than {MESH_LINES} lines; simplify the mesh")
         data, count = PREPARED[suffix](text)
     _limit(count)
     points, faces = _load(data, suffix[1:])
@@ -114,7 +114,7 @@ def _read(path: Path) -> Mesh:
     numbers = values.tolist() if binary else [Decimal(repr(x)) for x in values.tolist()]
     exact = [Fraction(*x.as_integer_ratio()) for x in numbers]
     largest = max(abs(exact[0]), abs(exact[-1])) * lcm(*{x.denominator for x in exact})
-    _must(largest < 2**BITS, "coordinates of too different sizes; round them")
+    _must(largest < 2**COORDINATE_BITS, "coordinates of too different sizes; round them")
     _closed(values[places], faces)
     vertices = tuple((exact[i], exact[j], exact[k]) for i, j, k in places.tolist())
     return vertices, tuple(map(tuple, faces.tolist()))
@@ -135,7 +135,9 @@ def _obj(text: bytes) -> tuple[bytes, int]:
 def _off(text: bytes) -> tuple[bytes, int]:
     """The text without comments."""
     lines = [x for x in re.sub(rb"#[^\n]*", b"", text).split(b"\n") if x and not x.isspace()]
-    _must(max(map(len, lines), default=0) <= LINE, f"a line of more than {LINE} characters")
+    _must(
+        max(map(len, lines), default=0) <= MESH_LINE, f"a line of more than {MESH_LINE} characters"
+    )
     text = b"\n".join(lines).lstrip()
     header = re.match(rb"C?OFF\s+(\d{1,9})\s+(\d{1,9})\b", text)
     if header is None:

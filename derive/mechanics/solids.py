@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from ..algebra.tree import Tree, add, coefficient, mul
-from .expression import EXPONENT, LARGEST, SMALLEST
+from ..limits import EXPONENT
+from .expression import LARGEST, SMALLEST
 
 Row = tuple[Tree, ...]
 Monomial = tuple[tuple[Any, int], ...]  # factors, each a tree that is no product, and powers

@@ -15,9 +15,18 @@ from ..algebra.given import group_of_basis
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
+from ..limits import (
+    BASIS,
+    COMMON_BITS,
+    LEAVES,
+    MAGNITUDE,
+    MATRIX,
+    PARAMETERS,
+    PROBLEM_BYTES,
+)
 from . import inertia
 from .bodies import body
-from .expression import names
+from .expression import names, numbers
 from .fields import (
     LIKE_A_PLACE,
     NAME,
@@ -30,7 +39,7 @@ from .fields import (
     tables,
     text,
 )
-from .forces import Points, damping, given_input, potential, used_names
+from .forces import Points, damping, given_input, potential, trees
 from .problem import (
     CovectorInput,
     GivenBody,
@@ -40,21 +49,24 @@ from .problem import (
     Problem,
     ProblemError,
 )
+from .weight import weight
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
 TOP |= {"damping", "solid"}
-LARGEST_FILE, LARGEST_BASIS, LARGEST_MATRIX = 1_000_000, 64, 9
 
 
 def load(path: Path, negative_mass: bool = False) -> Problem:
     """Read a problem file; :class:`ProblemError` names file, key and remedy."""
     try:
-        if path.stat().st_size > LARGEST_FILE:
-            raise ProblemError(f"{path}: larger than {LARGEST_FILE} bytes")
-        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        with path.open("rb") as file:
+            raw = file.read(PROBLEM_BYTES + 1)
     except OSError as error:
         raise ProblemError(f"{path}: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+    if len(raw) > PROBLEM_BYTES:
+        raise ProblemError(f"{path}: larger than {PROBLEM_BYTES} bytes")
+    try:
+        data = tomllib.loads(raw.decode("utf-8-sig"))
+    except (ValueError, RecursionError) as error:  # also of an integer of thousands of digits
         raise ProblemError(f"{path}: not TOML: {error}") from None
     try:
         return problem_of(data, path.parent, negative_mass)
@@ -113,6 +125,7 @@ def problem_of(
         tuple(points.places),
         drags,
     )
+    _affordable(problem)
     _declared(problem, data.get("parameters", {}))
     if moved and own and (still := inertia.still_direction(moved, own)):
         raise ProblemError(f"{still} moves no mass of this body: its motion is open; add masses")
@@ -148,8 +161,8 @@ def _given_group(data: Mapping[str, Any]) -> Group:
         raise ProblemError(f"{where}: key 'name': letters, digits and _ only")
     action = choice(data, "action", ("linear", "affine"), where, "linear")
     basis = missing(data, "basis", where)
-    if not isinstance(basis, list) or len(basis) > LARGEST_BASIS:
-        raise ProblemError(f"{where}: key 'basis' must list at most {LARGEST_BASIS} matrices")
+    if not isinstance(basis, list) or len(basis) > BASIS:
+        raise ProblemError(f"{where}: key 'basis' must list at most {BASIS} matrices")
     matrices = [_matrix(e, f"{where}, element {a} of the basis") for a, e in enumerate(basis, 1)]
     try:
         moved = group_of_basis(name, "affine" if action == "affine" else "linear", matrices)
@@ -161,8 +174,8 @@ def _given_group(data: Mapping[str, Any]) -> Group:
 def _matrix(value: Any, where: str) -> Matrix:
     if not isinstance(value, list) or not all(isinstance(row, list) for row in value):
         raise ProblemError(f"{where}: expected a list of rows")
-    if len(value) > LARGEST_MATRIX or any(len(row) > LARGEST_MATRIX for row in value):
-        raise ProblemError(f"{where}: larger than {LARGEST_MATRIX} × {LARGEST_MATRIX}")
+    if len(value) > MATRIX or any(len(row) > MATRIX for row in value):
+        raise ProblemError(f"{where}: larger than {MATRIX} × {MATRIX}")
     return tuple(tuple(_rational(x, where) for x in row) for row in value)
 
 
@@ -176,6 +189,8 @@ def _rational(value: Any, where: str) -> Fraction:
 def _parameters(data: Any) -> dict[str, Parameter]:
     if not isinstance(data, dict):
         raise ProblemError("key 'parameters' must be a table")
+    if len(data) > PARAMETERS:
+        raise ProblemError(f"key 'parameters': more than {PARAMETERS}")
     found = {}
     for name, value in data.items():
         where = f"parameter {name[:40]!r}"
@@ -194,8 +209,8 @@ def _parameters(data: Any) -> dict[str, Parameter]:
         ):
             raise ProblemError(f"{where}: key 'default' must be a number")
         texts = {k: text(value, k, where) for k in ("unit", "meaning") if k in value}
-        if default is not None and not math.isfinite(default):
-            raise ProblemError(f"{where}: key 'default' must be a finite number")
+        if default is not None and not abs(default) <= MAGNITUDE:
+            raise ProblemError(f"{where}: key 'default' must be a finite number, at most 1e300")
         found[name] = Parameter(None if default is None else float(default), **texts)
     return found
 
@@ -211,24 +226,37 @@ def _distinct(inputs: list[str], parameters: Mapping[str, Parameter]) -> None:
 
 def _declared(problem: Problem, given: Mapping[str, Any]) -> None:
     """Every name that is used is a parameter, and every parameter is used."""
-    used: dict[str, None] = {}
-    trees: list[Tree] = []
-    if problem.points:
-        trees += [*problem.points.masses, *(x for r in problem.points.positions for x in r)]
-    if isinstance(problem.body, GivenBody):
-        trees += [problem.body.mass, *problem.body.first]
-        trees += [x for row in problem.body.second for x in row]
-    used |= dict.fromkeys(x for t in trees for x in names(t))
-    for p in (*problem.potentials, *problem.damping, *problem.places):
-        used |= dict.fromkeys(used_names(p))
+    found = [*trees(problem.points), *trees(problem.body), *_forces(problem)]
+    used = dict.fromkeys(x for t in found for x in names(t))
     for name in used:
         if name not in problem.parameters:
             if name == "t" or LIKE_A_PLACE.fullmatch(name):
                 raise ProblemError(f"{name!r} is known in the 'U' of an expression alone")
-            near = difflib.get_close_matches(name, problem.parameters, 1)
+            near = difflib.get_close_matches(name[:40], problem.parameters, 1)
             hint = f"did you mean {near[0]!r}? Else " if near else ""
-            raise ProblemError(f"{name!r} is used but not declared; {hint}add it to [parameters]")
+            raise ProblemError(
+                f"{name[:40]!r} is used but not declared; {hint}add it to [parameters]"
+            )
     own = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}
     for name in given:
         if name not in used and name not in own:
             raise ProblemError(f"parameter {name!r} is declared but not used; leave it out")
+
+
+def _forces(problem: Problem) -> list[Tree]:
+    parts = (*problem.potentials, *problem.damping, *problem.places)
+    return [t for p in parts for t in trees(p)]
+
+
+def _affordable(problem: Problem) -> None:
+    """The expressions together are not too many, their numbers not too unlike one another."""
+    solids = isinstance(problem.body, GivenBody) and problem.body.solids
+    found = [*_forces(problem), *trees(problem.points if solids else problem.body)]
+    leaves = sum(weight(t).leaves for t in found)
+    if leaves > LEAVES:
+        raise ProblemError(f"{leaves} names and numbers in expressions; at most {LEAVES}")
+    common = 1
+    for q in (x for t in found for x in numbers(t)):
+        common = math.lcm(common, q.denominator)
+        if common.bit_length() > COMMON_BITS:
+            raise ProblemError("the fractions have no small common denominator; round them")

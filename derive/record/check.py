@@ -32,10 +32,14 @@ SIZE = 2**128
 """Random parameters are integers of at most this absolute value."""
 
 LARGEST_DEGREE = 2000
-"""Claims of a larger degree are refused before evaluation; those about the problem's group, for
-each of its dimensions and each degree of its body and forces, up to ``LARGEST_BODY``."""
+"""Claims of a larger degree are refused before evaluation: as they are written, whatever the body;
+those about the problem's group for each of its dimensions, ``WRITTEN_OUT`` times."""
 
-LARGEST_BODY = 64
+WRITTEN_OUT = 64
+"""A claim about a problem writes out its expressions and their derivatives."""
+
+LARGEST_BOUND = SIZE // 10**30
+"""A claim whose false pass would be more probable than 1e-30 is refused."""
 
 PANELS: dict[str, tuple[Callable[[], Group], ...]] = {
     "linear": tuple(partial(group, x) for x in ("GL(4)", "SL(2)", "SO(3)")),
@@ -109,20 +113,27 @@ class Checker:
             opaque=scope == ANY_GROUP,
         )
 
+    def bound(self, step: Step) -> int:
+        """The degree of its claims; ``RecordError`` for one that is too large."""
+        groups = self.groups(step.scope)
+        pairs = [(e, g) for g in groups for e in step.equations]
+        written = max(degree.bound(e, g, {}) for e, g in pairs)
+        most = LARGEST_DEGREE
+        if step.scope != ANY_GROUP:
+            most *= WRITTEN_OUT * max(g.dimension for g in groups)
+        if written > most:
+            raise RecordError(f"a claim of degree {written}, more than {most}")
+        if step.scope == ANY_GROUP:  # it is tried on points of its own, drawn at random
+            return written
+        found = max(degree.bound(e, g, self.problem) for e, g in pairs)
+        if found > LARGEST_BOUND:
+            raise RecordError(f"a claim of degree {found}, more than {LARGEST_BOUND}")
+        return found
+
     def check(self, step: Step) -> Verdict:
         """One step."""
         try:
-            # a claim about any group is tried on points of its own, drawn at random
-            problem = {} if step.scope == ANY_GROUP else self.problem
-            bound = max(
-                degree.bound(e, g, problem) for g in self.groups(step.scope) for e in step.equations
-            )
-            most = LARGEST_DEGREE
-            if step.scope != ANY_GROUP:
-                size = min(degree.body_degree(self.problem), LARGEST_BODY)
-                most *= size * max(g.dimension for g in self.groups(step.scope))
-            if bound > most:
-                raise RecordError(f"a claim of degree {bound}, more than {most}")
+            bound = self.bound(step)
             for g, env in self.environments(step):
                 for k, equation in enumerate(step.equations, 1):
                     reason = difference(equation, env)

@@ -8,19 +8,20 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 from ..algebra.tree import OPERATORS, Tree
+from ..limits import RECORD_BYTES, TREE
 from . import sentence
 from .rules import RULES
 from .sentence import Prose, english
+from .shape import ShapeError, deepest, problem_shape, tree_shape
 from .vocabulary import ANY_GROUP, GIVENS
-
-DEPTH = 200
-"""Trees deeper than this are refused on reading."""
 
 
 class RecordError(ValueError):
@@ -52,6 +53,14 @@ class Step:
     paper: tuple[int, ...] = ()
     scope: str = ANY_GROUP
     given: tuple[str, ...] = ()
+
+    def number(self, equation: Equation) -> int:
+        """The place of an equation in the step, counted from 1."""
+        return self._numbers[equation]
+
+    @cached_property
+    def _numbers(self) -> dict[Equation, int]:
+        return {e: k for k, e in reversed([*enumerate(self.equations, 1)])}
 
 
 @dataclass(frozen=True)
@@ -86,11 +95,12 @@ class Derivation:
 
     def definition(self, lhs: Tree) -> tuple[Step, Equation] | None:
         """The last equation with that left side, in the axes of the record, and its step."""
-        for step in reversed(self.steps):
-            for equation in reversed(step.equations):
-                if equation.lhs == lhs and "principal axes" not in step.given:
-                    return step, equation
-        return None
+        return self._definitions.get(lhs)
+
+    @cached_property
+    def _definitions(self) -> dict[Tree, tuple[Step, Equation]]:
+        own = (step for step in self.steps if "principal axes" not in step.given)
+        return {equation.lhs: (step, equation) for step in own for equation in step.equations}
 
 
 def encode(t: Tree) -> Any:
@@ -102,8 +112,8 @@ def encode(t: Tree) -> Any:
 
 def decode(data: Any, where: str, depth: int = 0) -> Tree:
     """The inverse of :func:`encode`; :class:`RecordError` for anything that is not a tree."""
-    if depth > DEPTH:
-        raise RecordError(f"{where}: tree deeper than {DEPTH}")
+    if depth > TREE:
+        raise RecordError(f"{where}: tree deeper than {TREE}")
     if isinstance(data, str):
         if re.fullmatch(r"-?[0-9]{1,4000}/0*[1-9][0-9]{0,4000}", data):
             return Fraction(data)
@@ -117,8 +127,11 @@ def decode(data: Any, where: str, depth: int = 0) -> Tree:
         least, most = arity
         if len(data) - 1 < least or (most is not None and len(data) - 1 > most):
             raise RecordError(f"{where}: {data[0]!r} with {len(data) - 1} operands")
-        return (data[0], *(decode(x, where, depth + 1) for x in data[1:]))
-    raise RecordError(f"{where}: not an operator tree: {json.dumps(data)[:40]}")
+        found = (data[0], *(decode(x, where, depth + 1) for x in data[1:]))
+        if wrong := tree_shape(found):
+            raise RecordError(f"{where}: {data[0]!r}: {wrong}")
+        return found
+    raise RecordError(f"{where}: not an operator tree: {type(data).__name__}")
 
 
 def to_data(d: Derivation) -> dict[str, Any]:
@@ -210,7 +223,7 @@ def _symbol(data: Any, where: str) -> Symbol:
     return Symbol(name, _prose(data, "meaning", where), latex)
 
 
-def _step(data: Any, where: str, earlier: set[str]) -> Step:
+def _step(data: Any, where: str, earlier: Set[str]) -> Step:
     label = _field(data, "label", str, where)
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_.]{0,99}", label):
         raise RecordError(f"{where}: key 'label' must be letters, digits, _ and dots")
@@ -242,19 +255,44 @@ def _step(data: Any, where: str, earlier: set[str]) -> Step:
 def from_json(text: str) -> Derivation:
     """Read a record; :class:`RecordError` says what is wrong and where."""
     try:
-        data = json.loads(text)
+        data = json.loads(text, parse_constant=_no_constant)
     except (ValueError, RecursionError) as error:
         raise RecordError(f"not JSON: {error}") from None
     problem = _field(data, "problem", dict, "record")
-    _field(problem, "name", str, "record, problem")
+    if deepest(problem) > TREE:
+        raise RecordError(f"record, problem: nested deeper than {TREE}")
+    try:
+        problem_shape(problem, decode)
+    except ShapeError as error:
+        raise RecordError(f"record, problem: {error}") from None
     listed = _field(data, "symbols", list, "record")
     symbols = [_symbol(item, f"symbol {k}") for k, item in enumerate(listed, 1)]
-    steps: list[Step] = []
-    for k, item in enumerate(_field(data, "steps", list, "record")):
-        step = _step(item, f"step {k + 1}", {s.label for s in steps})
-        if any(s.label == step.label for s in steps):
-            raise RecordError(f"step {k + 1}: label {step.label[:40]!r} stands twice")
-        steps.append(step)
+    steps: dict[str, Step] = {}
+    for k, item in enumerate(_field(data, "steps", list, "record"), 1):
+        step = _step(item, f"step {k}", steps.keys())
+        if step.label in steps:
+            raise RecordError(f"step {k}: label {step.label[:40]!r} stands twice")
+        steps[step.label] = step
     if not steps:
         raise RecordError("record: no step")
-    return Derivation(problem, tuple(symbols), tuple(steps))
+    return Derivation(problem, tuple(symbols), tuple(steps.values()))
+
+
+def read(path: Path) -> Derivation:
+    """A record from a file; :class:`RecordError` names it."""
+    try:
+        with path.open("rb") as file:
+            raw = file.read(RECORD_BYTES + 1)
+        if len(raw) > RECORD_BYTES:
+            raise RecordError(f"larger than {RECORD_BYTES} bytes")
+        return from_json(raw.decode("utf-8"))
+    except OSError as error:
+        raise RecordError(f"{path}: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise RecordError(f"{path}: not UTF-8 text") from None
+    except RecordError as error:
+        raise RecordError(f"{path}: {error}") from None
+
+
+def _no_constant(name: str) -> None:
+    raise ValueError(f"{name} is no number of JSON")

@@ -11,9 +11,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..limits import SENTENCE
+
 PLACE = re.compile(r"\{([a-z]+)\}")
-DEPTH = 30
-"""Sentences nested deeper than this are refused on reading."""
 
 
 @dataclass(frozen=True)
@@ -86,8 +86,8 @@ def of_data(data: Any, where: str) -> Prose:
 
 
 def _sentence(data: Any, where: str, depth: int) -> Sentence:
-    if depth > DEPTH:
-        raise ValueError(f"{where}: sentences nested deeper than {DEPTH}")
+    if depth > SENTENCE:
+        raise ValueError(f"{where}: sentences nested deeper than {SENTENCE}")
     if not isinstance(data, dict) or set(data) != {"message", "places"}:
         raise ValueError(f"{where}: expected an object with the keys 'message' and 'places'")
     message, places = data["message"], data["places"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 WIDTHLESS = "bar|overline|tilde|dot|hat|mathrm|mathsf|mathbf|operatorname|text|textsf|ensuremath"
 WIDTHS = (
@@ -34,6 +35,7 @@ SCRIPT = re.compile(r"[_^](?:\{((?:[^{}]|\{[^{}]*\})*)\}|(\\[A-Za-z]+|[^{\\]))")
 MATRIX = re.compile(r"\\begin\{pmatrix\}(.*?)\\end\{pmatrix\}", re.S)
 
 
+@lru_cache(4096)  # terms in terms are measured again at every depth
 def measure(tex: str) -> float:
     """About how wide a formula is, in em; rather too wide than too narrow."""
     wide = sum(

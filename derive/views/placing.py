@@ -12,6 +12,8 @@ from .drawing import Box, Dot, Label, Point, Stroke
 STEP = 0.6
 """Lines are looked at point by point, this far apart."""
 WEIGHTS = {"line": 2.2, "dashed": 1.6, "thin": 1.2, "hidden": 0.8, "solid": 3.0, "wash": 0.0}
+CROWD = 1000
+"""Of more points near a label only some are looked at, each for several."""
 OPTIONAL = 14.0
 """A label that may be left out is, where it would be in the way more than this."""
 
@@ -38,6 +40,8 @@ def placed(
     found: list[Label] = []
     for wish in wishes:
         near = [(p, w) for p, w in ink if math.dist(p, wish.at) < 22]
+        step = 1 + len(near) // CROWD
+        near = [(p, w * step) for p, w in near[::step]]
         boxes = [label.box for label in found]
         costs = [(_cost(x, wish, near, dots, boxes), x) for x in _choices(wish)]
         cost, choice = min(costs, key=lambda pair: pair[0])
@@ -75,7 +79,8 @@ def _cost(
     length = math.hypot(*wish.towards) * math.hypot(dx, dy)
     if length:
         cost += 2.5 * (1 - (dx * wish.towards[0] + dy * wish.towards[1]) / length)
-    cost += sum(weight for p, weight in ink if _holds(box, p, 0.35))
+    left, bottom, right, top = box[0] - 0.35, box[1] - 0.35, box[2] + 0.35, box[3] + 0.35
+    cost += sum(weight for (x, y), weight in ink if left < x < right and bottom < y < top)
     cost += sum(60.0 for d in dots if _holds(box, d.at, d.radius + 0.3))
     return cost + sum(1000.0 for other in boxes if overlap(box, other, 0.4))
 

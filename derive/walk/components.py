@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ..algebra.laurent import Laurent, gathered, polynomial, written
+from ..algebra.laurent import Laurent, OverlongError, gathered, polynomial, written
 from ..algebra.tree import Tree, add, mul, names
 from ..mechanics.problem import GivenBody, MomentBody, Problem
 from ..record.arithmetic import Value
@@ -59,7 +59,10 @@ def _is_rate(symbol: Tree) -> bool:
 def tensor_steps(problem: Problem, motion: Step, c: Chapter) -> tuple[Step, ...]:
     """The entries of I, or I_c, from the numbers of the body; the motion where it is diagonal."""
     name = "I_c" if problem.affine else "I"
-    found = _tensor(problem)
+    try:
+        found = _tensor(problem)
+    except OverlongError:
+        return ()
     if found is None or max(len(x.terms) for row in found for x in row) > LONGEST:
         return ()
     entries = [
@@ -78,6 +81,10 @@ def _motion(
     problem: Problem, name: str, found: Tensor, motion: Step, c: Chapter
 ) -> tuple[Step, ...]:
     """The accelerations component by component, where only letters that are known enter."""
+    try:
+        numbers = _numbers(problem)
+    except OverlongError:
+        return ()
     moments: list[Tree] = []
     for i in range(3):  # equal moments are one, so that what they cancel is seen
         same = next(j for j in range(3) if found[j][j] == found[i][i]) + 1
@@ -87,7 +94,7 @@ def _motion(
         name: diagonal(moments),
         "m": Laurent.symbol("m"),
         **{x: letters(x) for x in ("ζ", "w", "w_c", "u", "f_u", "ζ̇")},
-        **_numbers(problem),
+        **numbers,
     }
     rates = [e for e in motion.equations if e.lhs in ("ζ̇", "ẇ")]
     if not all({*names(e.rhs)} <= {*known} for e in rates):

@@ -1,0 +1,66 @@
+"""What a file of a stranger may cost: every limit on input in one place, each with its reason.
+
+Each is far above what a problem, a mesh or a record of use needs, and so low that a file at the
+limit is read, walked, emitted and set within seconds.  Only checking, which is exact, may take
+longer: ``--seconds`` stops it (SECURITY.md).
+"""
+
+from __future__ import annotations
+
+# -- problem files ------------------------------------------------------------------------------
+
+PROBLEM_BYTES = 1_000_000
+"""The TOML is parsed in well below a second."""
+TABLES = {"point": 500, "solid": 16, "potential": 100, "input": 100, "damping": 100}
+"""Of more points the moments are better given ([body] given); moments of solids have products that
+grow with the square of their number; each other table is a term of every view."""
+PARAMETERS = 1000
+"""Each may be a parameter of the emitted functions."""
+BASIS, MATRIX = 64, 9
+"""Elements of a basis of one's own, as many as gl(8) has, and rows of its matrices."""
+TEXT = 1000
+"""Letters of a title, a unit, a meaning: it stands in the head of every output."""
+
+# -- expressions --------------------------------------------------------------------------------
+
+EXPRESSION = 10_000
+"""Characters."""
+NESTING, DEPTH = 40, 60
+"""Parentheses, and operations, in one another: recursion is bounded, and derivatives by the chain
+rule are as long as that."""
+SLOPE = 5_000
+"""Operands of all first derivatives of an expression: those of a product of k factors have k²."""
+LEAVES = 5_000
+"""Names and numbers of all the expressions of one file."""
+EXPONENT = 64
+"""Powers are written as products."""
+DIGITS = 40
+"""Characters of a number; a double has 17 digits."""
+MAGNITUDE, BITS = 10**300, 1100
+"""What a double holds, and the bits of a numerator or denominator: 1e300 has 997."""
+COMMON_BITS = 1100
+"""Of the common denominator of all the numbers of a file: sums over the body have that cubed, and
+more than 4300 digits are not written by Python."""
+DEGREE = 1000
+"""Of an expression; the checker's bound on a false pass grows with it."""
+
+# -- meshes -------------------------------------------------------------------------------------
+
+MESH_BYTES, MESH_LINES, MESH_LINE = 50_000_000, 2_000_000, 20_000
+"""Bytes and lines of a file, characters of a line of OFF: read whole into memory."""
+TRIANGLES = 50_000
+"""Of a mesh: the exact sums over them take one second."""
+COORDINATE_BITS = 256
+"""Of a coordinate over the common denominator of all: the sums have five times as many."""
+
+# -- records ------------------------------------------------------------------------------------
+
+RECORD_BYTES = 20_000_000
+"""A record of a mesh with as many triangles as there may be has half of it."""
+TREE, SENTENCE = 200, 30
+"""Operators and sentences in one another: recursion is bounded."""
+
+# -- what is told -------------------------------------------------------------------------------
+
+MESSAGE = 1000
+"""Letters of one message: it may quote a file."""

@@ -1,0 +1,262 @@
+"""Is the problem of a record what the checker and the views expect?  Types and references alone.
+
+A record is read from strangers; what passes here has a value or is refused by name in the checker,
+and can be drawn.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ..algebra.differentiate import DERIVATIVES
+from ..algebra.tree import OPERATORS, Tree
+from ..limits import BASIS, TEXT
+
+FRACTION = re.compile(r"-?[0-9]{1,4000}(/0*[1-9][0-9]{0,4000})?")
+KINDS = ("points", "given", "moments", "any")
+SIZES = {
+    "ball": ("radius",),
+    "ellipsoid": ("semi_axes",),
+    "box": ("sides",),
+    "cylinder": ("radius", "height"),
+    "cone": ("radius", "height"),
+    "hollow_ball": ("outer", "inner"),
+    "tetrahedron": ("vertices",),
+    "mesh": ("vertices", "faces"),
+}
+LONGEST = 16
+"""Entries of a vector, rows of a matrix."""
+
+
+class ShapeError(ValueError):
+    """What is wrong, and under which key."""
+
+
+def problem_shape(data: Mapping[str, Any], tree: Callable[[Any, str], Tree]) -> None:
+    """``ShapeError`` for a problem of another form; ``tree`` reads an operator tree."""
+    _Shape(data, tree).problem()
+
+
+def tree_shape(t: tuple[Any, ...]) -> str:
+    """What is wrong with the operands of an operator that takes names or numbers; else empty."""
+    if t[0] == "fun":
+        return "" if isinstance(t[1], str) and t[1] in DERIVATIVES else "unknown function"
+    if t[0] == "pow":
+        return "" if type(t[2]) is int else "an exponent must be an integer"
+    if t[0] in ("par", "sum", "at"):
+        named = isinstance(t[1], str) and all(isinstance(i, (str, int)) for i in t[2:3])
+        return "" if named or (t[0] == "sum" and isinstance(t[1], str)) else "expected a name"
+    if t[0] == "entry":
+        return "" if all(isinstance(i, (str, int)) for i in t[2:]) else "expected indices"
+    if t[0] == "matrix":
+        return "" if all(isinstance(x, tuple) and x[0] == "row" for x in t[1:]) else "expected rows"
+    return ""
+
+
+def deepest(data: Any) -> int:
+    """How deep lists and objects are in one another; without recursion."""
+    level, inside = 0, [data]
+    while inside := [
+        x
+        for y in inside
+        if isinstance(y, (list, dict))
+        for x in (y.values() if isinstance(y, dict) else y)
+    ]:
+        level += 1
+    return level
+
+
+class _Shape:
+    def __init__(self, data: Mapping[str, Any], tree: Callable[[Any, str], Tree]):
+        self.data, self.tree = data, tree
+        self.points = 0
+
+    def problem(self) -> None:
+        """Key by key."""
+        data = self.data
+        for key in ("name", "title", "group"):
+            self.text(self.at(data, key, str, key), key)
+        self.one_of(self.at(data, "action", str, "action"), ("linear", "affine"), "action")
+        self.at(data, "homogeneous", bool, "homogeneous")
+        self.blocks = len(data["group"].split(" x "))
+        for name, about in self.at(data, "parameters", dict, "parameters").items():
+            self.parameter(about, f"parameters, {name[:40]!r}")
+        self.body(self.at(data, "body", dict, "body"))
+        for k, x in self.each("places"):
+            self.placed(x, f"place {k}")
+        self.points += len(data["places"])
+        for k, x in self.each("potentials"):
+            self.potential(x, f"potential {k}")
+        for k, x in self.each("inputs"):
+            self.input(x, f"input {k}")
+        for k, x in self.each("damping"):
+            self.tree(self.at(x, "coefficient", object, f"damping {k}"), f"damping {k}")
+            for i in self.at(x, "on", list, f"damping {k}"):
+                self.point(i, f"damping {k}")
+        self.basis(self.at(data, "basis", list, "basis"))
+
+    # -- the parts ---------------------------------------------------------------------------
+
+    def parameter(self, about: Any, where: str) -> None:
+        """{ default, unit, meaning }."""
+        default = self.at(about, "default", object, where)
+        number = isinstance(default, (int, float)) and not isinstance(default, bool)
+        if default is not None and not (number and abs(default) < math.inf):
+            raise ShapeError(f"{where}: key 'default' must be a number or null")
+        for key in ("unit", "meaning"):
+            self.text(self.at(about, key, str, where), where)
+
+    def body(self, body: Any) -> None:
+        """Points, moments, solids."""
+        kind = self.at(body, "kind", str, "body")
+        self.one_of(kind, KINDS, "body, kind")
+        listed = self.at(body, "points", list, "body") if "points" in body else []
+        for k, x in enumerate(listed, 1):
+            self.tree(self.at(x, "mass", object, f"point {k}"), f"point {k}, mass")
+            self.placed(x, f"point {k}")
+        self.points = len(listed)
+        if kind == "points" and not listed:
+            raise ShapeError("body: key 'points' must list points")
+        if kind != "given":
+            return
+        given = self.at(body, "given", dict, "body")
+        self.tree(self.at(given, "m", object, "body, given"), "body, m")
+        size = len(self.vector(self.at(given, "c", list, "body, given"), "body, c"))
+        self.square(self.at(given, "J", list, "body, given"), size, "body, J")
+        for k, x in enumerate(self.at(body, "solids", list, "body"), 1):
+            self.solid(x, f"solid {k}")
+
+    def solid(self, data: Any, where: str) -> None:
+        """Its sizes, by its kind; where it is."""
+        self.one_of(self.at(data, "kind", str, where), tuple(SIZES), f"{where}, kind")
+        self.tree(self.at(data, "density", object, where), f"{where}, density")
+        if (rotation := self.at(data, "rotation", object, where)) is not None:
+            self.square(rotation, 3, f"{where}, rotation")
+        if (shift := self.at(data, "shift", object, where)) is not None:
+            self.vector(shift, f"{where}, shift", 3)
+        sizes = self.at(data, "sizes", dict, where)
+        if {*sizes} != {*SIZES[data["kind"]]}:
+            raise ShapeError(f"{where}: the sizes must be {', '.join(SIZES[data['kind']])}")
+        for key, value in sizes.items():
+            if key in ("sides", "semi_axes"):
+                self.vector(value, f"{where}, {key}", 3)
+            elif key not in ("vertices", "faces"):
+                self.tree(value, f"{where}, {key}")
+        if "vertices" in sizes:
+            self.vertices(sizes, f"{where}, vertices")
+
+    def vertices(self, sizes: Mapping[str, Any], where: str) -> None:
+        """Of a tetrahedron, four; of a mesh, those of its faces."""
+        listed = self.at(sizes, "vertices", list, where)
+        if "faces" not in sizes and len(listed) != 4:
+            raise ShapeError(f"{where}: expected four points")
+        for x in listed:
+            self.vector(x, where, 3)
+        for face in self.at(sizes, "faces", list, where) if "faces" in sizes else ():
+            three = isinstance(face, list) and len(face) == 3
+            if not three or not all(type(i) is int and 0 <= i < len(listed) for i in face):
+                raise ShapeError(f"{where}: a face must be three numbers of vertices")
+        if "faces" in sizes and not sizes["faces"]:
+            raise ShapeError(f"{where}: no faces")
+
+    def placed(self, data: Any, where: str) -> None:
+        """A place and its block."""
+        self.vector(self.at(data, "at", list, where), f"{where}, at")
+        block = self.at(data, "block", int, where)
+        if isinstance(block, bool) or not 1 <= block <= max(self.blocks, 1):
+            raise ShapeError(f"{where}: key 'block' must be one of the factors of the group")
+
+    def potential(self, data: Any, where: str) -> None:
+        """By its kind."""
+        kind = self.at(data, "kind", str, where)
+        self.one_of(kind, ("gravity", "spring", "attraction", "expression"), f"{where}, kind")
+        trees = {"spring": ("stiffness", "length"), "attraction": ("strength",)}
+        for key in trees.get(kind, ("U",) if kind == "expression" else ()):
+            self.tree(self.at(data, key, object, where), f"{where}, {key}")
+        if kind == "gravity":
+            self.vector(self.at(data, "g", list, where), f"{where}, g")
+        if kind == "attraction":
+            self.vector(self.at(data, "centre", list, where), f"{where}, centre", least=0)
+            if "on" in data:
+                raise ShapeError(f"{where}: key 'on' is for a problem in its principal frame")
+        if kind == "spring" and "between" in data:
+            ends = self.at(data, "between", list, where)
+            if len(ends) != 2:
+                raise ShapeError(f"{where}: key 'between' must be two points")
+            for i in ends:
+                self.point(i, where)
+        elif kind == "spring":
+            self.point(self.at(data, "on", int, where), where)
+            self.vector(self.at(data, "anchor", list, where), f"{where}, anchor")
+
+    def input(self, data: Any, where: str) -> None:
+        """A covector or a force."""
+        self.text(self.at(data, "name", str, where), where)
+        kind = self.at(data, "kind", str, where)
+        self.one_of(kind, ("covector", "force"), f"{where}, kind")
+        if kind == "force":
+            self.point(self.at(data, "on", int, where), where)
+            self.one_of(self.at(data, "frame", str, where), ("space", "body"), f"{where}, frame")
+
+    def basis(self, basis: list[Any]) -> None:
+        """Matrices of fractions in quotes."""
+        for e in basis:
+            rows = e if isinstance(e, list) and len(e) <= LONGEST else []
+            if not rows or not all(isinstance(row, list) and len(row) == len(e) for row in rows):
+                raise ShapeError("basis: expected square matrices")
+            if not all(isinstance(x, str) and FRACTION.fullmatch(x) for row in e for x in row):
+                raise ShapeError("basis: expected fractions in quotes")
+        if len(basis) > 2 * BASIS:
+            raise ShapeError(f"basis: more than {2 * BASIS} matrices")
+
+    # -- of what everything is made --------------------------------------------------------------
+
+    def at(self, data: Any, key: str, kind: type, where: str) -> Any:
+        """A value of a type that must be there."""
+        if not isinstance(data, dict):
+            raise ShapeError(f"{where}: expected an object")
+        if key not in data:
+            raise ShapeError(f"{where}: key {key!r} is missing")
+        if not isinstance(data[key], kind):
+            raise ShapeError(f"{where}: key {key!r} must be a {kind.__name__}")
+        return data[key]
+
+    def each(self, key: str) -> list[tuple[int, Any]]:
+        """The members of a list."""
+        return [*enumerate(self.at(self.data, key, list, key), 1)]
+
+    def text(self, words: str, where: str) -> None:
+        """Not too long."""
+        if len(words) > TEXT:
+            raise ShapeError(f"{where}: a text longer than {TEXT} letters")
+
+    def one_of(self, value: str, allowed: tuple[str, ...], where: str) -> None:
+        """A word of a few."""
+        if value not in allowed:
+            raise ShapeError(f"{where}: key must be one of {', '.join(allowed)}")
+
+    def vector(self, data: Any, where: str, size: int | None = None, least: int = 1) -> Any:
+        """A list of trees, which is not a tree itself."""
+        most = LONGEST if size is None else size
+        if not isinstance(data, list) or not (size or least) <= len(data) <= most:
+            raise ShapeError(f"{where}: expected a list of {size or 'a few'} expressions")
+        if data and isinstance(data[0], str) and data[0] in OPERATORS:
+            raise ShapeError(f"{where}: expected a list of expressions")
+        for x in data:
+            self.tree(x, where)
+        return data
+
+    def square(self, data: Any, size: int, where: str) -> None:
+        """Rows of trees."""
+        if not isinstance(data, list) or len(data) != size:
+            raise ShapeError(f"{where}: expected {size} rows")
+        for row in data:
+            self.vector(row, where, size)
+
+    def point(self, i: Any, where: str) -> None:
+        """The number of a point or a place."""
+        if type(i) is not int or not 1 <= i <= self.points:
+            raise ShapeError(f"{where}: expected a point from 1 to {self.points}")
