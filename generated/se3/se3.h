@@ -59,7 +59,8 @@ enum {
     se3_N_INPUTS = 6
 };
 
-/* What se3_constants refuses: a singular mass matrix; a number that is infinite or none. */
+/* What se3_constants refuses: a singular mass matrix; a number that is infinite,
+ * none, or too large to compute with. */
 enum { se3_SINGULAR = 1, se3_NOT_FINITE = 2 };
 
 #ifdef __cplusplus

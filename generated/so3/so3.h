@@ -52,7 +52,8 @@ enum {
     so3_N_INPUTS = 3
 };
 
-/* What so3_constants refuses: a singular mass matrix; a number that is infinite or none. */
+/* What so3_constants refuses: a singular mass matrix; a number that is infinite,
+ * none, or too large to compute with. */
 enum { so3_SINGULAR = 1, so3_NOT_FINITE = 2 };
 
 #ifdef __cplusplus
