@@ -3,7 +3,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: help derive test notes bench lint clean
+.PHONY: help derive test dist notes bench lint lock clean
 
 help:            ## this list
 	@sed -n 's/^\([a-z]*\):.*## /  make \1  \t/p' Makefile
@@ -24,6 +24,17 @@ lint: $(STAMP)   ## ruff and mypy alone
 notes: $(STAMP)  ## lecture notes of SO(3), SE(3), SL(3): notes.pdf and notes.html
 	$(BIN)/derive notes so3 se3 sl3 --out notes.html
 	$(BIN)/derive notes so3 se3 sl3 --out notes.pdf
+
+dist: $(STAMP)   ## minutes more of tests: wheels, old and new versions, every build of the C
+	$(BIN)/python -m pytest -m dist -n 2 --dist loadfile -rP
+
+lock:            ## the versions that are newest now into requirements-dev.lock
+	rm -rf build/lock
+	$(PYTHON) -m venv build/lock
+	build/lock/bin/python -m pip install --quiet --disable-pip-version-check --editable ".[test]"
+	@{ echo "# make lock; to have these versions: PIP_CONSTRAINT=requirements-dev.lock make test"; \
+	  build/lock/bin/python -m pip freeze --exclude-editable | LC_ALL=C sort -f; } > requirements-dev.lock
+	rm -rf build/lock
 
 bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside its peers
 	$(BIN)/python -m benchmarks.road

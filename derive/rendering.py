@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import tempfile
@@ -101,6 +102,8 @@ def pdf(tex: str) -> bytes:
             "no pdflatex: install TeX (Debian: texlive-latex-extra texlive-pictures lmodern); "
             "the .tex is written"
         )
+    # the same text is the same PDF on any day: TeX has the time from here, if it asks for one
+    timeless = {"SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"} | os.environ
     quiet = ["-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
     runs = (
         [[latexmk, "-pdf", *quiet, "notes.tex"]]
@@ -110,7 +113,7 @@ def pdf(tex: str) -> bytes:
     with tempfile.TemporaryDirectory(prefix="derive-") as folder:
         (Path(folder) / "notes.tex").write_text(tex, encoding="utf-8")
         for command in runs:
-            done = subprocess.run(command, cwd=folder, capture_output=True, check=False)
+            done = subprocess.run(command, cwd=folder, env=timeless, capture_output=True)
         if done.returncode:
             log = done.stdout.decode(errors="replace").splitlines()
             wrong = next((line for line in log if line.startswith("!")), "! no PDF was made")

@@ -158,15 +158,18 @@ def test_a_folder_by_two_names(tmp_path):
     assert (tmp_path / "real" / "there.c").read_text() == "2"
 
 
-# SIGINT after some seconds from the first line of derive's own on
+# SIGINT some seconds after the command has begun to heed it, before it imports anything
 INTERRUPTED = """\
 import atexit, os, signal, sys
-import derive
-after = float(sys.argv.pop(1))
+from derive.__main__ import main
+after, install = float(sys.argv.pop(1)), signal.signal
+def heeded(*arguments):
+    install(*arguments)
+    signal.signal = install
+    signal.setitimer(signal.ITIMER_REAL, after)
 signal.signal(signal.SIGALRM, lambda *_: os.kill(os.getpid(), signal.SIGINT))
 atexit.register(lambda: signal.setitimer(signal.ITIMER_REAL, 0))
-signal.setitimer(signal.ITIMER_REAL, after)
-from derive.__main__ import main
+signal.signal = heeded
 sys.exit(main())
 """
 

@@ -16,9 +16,10 @@ ROOT = Path(__file__).parents[1]
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory):
-    """A build under another hash seed, locale and working directory."""
+    """A build under another hash seed, locale, encoding, day and working directory."""
     out = tmp_path_factory.mktemp("build")
     env = {**os.environ, "PYTHONHASHSEED": "12345", "LC_ALL": "C", "PYTHONPATH": str(ROOT)}
+    env |= {"PYTHONUTF8": "0", "TZ": "Pacific/Kiritimati", "SOURCE_DATE_EPOCH": "1"}
     made = subprocess.run(
         [sys.executable, "-m", "derive", "build", "--out", str(out)],
         capture_output=True,

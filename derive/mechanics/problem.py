@@ -61,7 +61,7 @@ class MomentBody:
         meanings = {"m": "total mass"}
         meanings |= {f"c_{i}": "first moment, the sum of m r" for i in span}
         meanings |= {
-            f"J_{i}{j}": "entry of J, the sum of m r r^T (not the tensor of inertia)"
+            f"J_{i}{j}": "entry of the matrix of moments J (not of the tensor of inertia)"
             for i in span
             for j in span[i - 1 :]
         }

@@ -65,7 +65,8 @@ enum {
     sl3_N_INPUTS = 0
 };
 
-/* What sl3_constants refuses: a singular mass matrix; a number that is infinite or none. */
+/* What sl3_constants refuses: a singular mass matrix; a number that is infinite,
+ * none, or too large to compute with. */
 enum { sl3_SINGULAR = 1, sl3_NOT_FINITE = 2 };
 
 #ifdef __cplusplus
