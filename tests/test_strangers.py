@@ -1,4 +1,4 @@
-"""Files of strangers: no traceback, no harm, within 2 s and 1 GB; see SECURITY.md and tests/fuzz."""
+"""Files of strangers: no traceback, no harm, within 2 s and 1 GB; see SECURITY.md, tests/fuzz."""
 
 import os
 import re
