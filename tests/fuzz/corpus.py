@@ -5,7 +5,7 @@ import sys
 import time
 from pathlib import Path
 
-from tests.fuzz.cases import COMMANDS, faults_of, problem_files, record_faults, warm
+from tests.fuzz.cases import COMMANDS, faults_of, own_faults, problem_files, record_faults, warm
 from tests.fuzz.hostile import STRINGS
 from tests.fuzz.mutate import at, paths, put, quoted, records
 from tests.fuzz.watch import limited, slack
@@ -65,6 +65,23 @@ def bombs():
     }
 
 
+def limits():
+    """What is just within the limits, and the dearest commands for it."""
+    points = [f"[[point]]\nmass = {i % 7 + 1}\nat = [{i}, {i * i % 9}, 1]\n" for i in range(500)]
+    turned = 'name = "top"\ngroup = "SO(3)"\n'
+    force = '[[input]]\nkind = "force"\nname = "F{0}"\nat = [{0}, 1, 2]\n'
+    solid = (
+        '[[solid]]\nkind = "ellipsoid"\ndensity = 1\nsemi_axes = [{0}, 2, 3]\nshift = [{0}, 1, 0]\n'
+    )
+    solid += 'rotation = {{ axis = [1, 2, 2], angle = "{0}/7" }}\n'
+    U = "*".join(f"(r{i}_x + {i})" for i in range(1, 50))
+    product = f'[[potential]]\nkind = "expression"\nU = "{U}"\n'
+    yield "points.toml", turned + "".join(points), ["html", "emit"]
+    yield "inputs.toml", turned + "".join([*points[:4], *map(force.format, range(100))]), ["html"]
+    yield "solids.toml", turned + "".join(map(solid.format, range(1, 17))), ["html", "emit"]
+    yield "product.toml", turned + "".join(points[:50]) + product, ["html", "emit"]
+
+
 def nodes():
     """A record with one node of another type, for every node."""
     record = records()[0]
@@ -104,10 +121,16 @@ def main():
             continue
         shown = path.name.startswith(("title", "meaning", "mesh-good"))
         judge(path.name, raw, SOME if shown else ["text"])
+        if path.name.startswith("hand"):
+            found.extend((path.name, *x) for x in own_faults({path.name: raw}, path.name))
     print(f"{count} files, {time.time() - start:.0f} s")
     for name, text in bombs().items():
         count += 1
         judge(name, text, ["check"] if name.endswith(".json") else ["text", "emit"])
+    print(f"{count} cases, {time.time() - start:.0f} s")
+    for name, text, commands in limits():
+        count += 1
+        judge(name, text, commands)
     print(f"{count} cases, {time.time() - start:.0f} s")
     for name, text in nodes():
         count += 1
