@@ -3,7 +3,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: help derive test dist notes bench lint lock clean
+.PHONY: help derive test dist notes bench fuzz lint lock clean
 
 help:            ## this list
 	@sed -n 's/^\([a-z]*\):.*## /  make \1  \t/p' Makefile
@@ -40,6 +40,10 @@ bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside
 	$(BIN)/python -m benchmarks.road
 	$(BIN)/python -m benchmarks.sizes
 	$(BIN)/python -m benchmarks.peers
+
+fuzz: $(STAMP)   ## random problems and 100000 changed files of every kind: hours; faults go to fuzz-faults/
+	EXAMPLES=300 $(BIN)/python -m pytest tests/test_random_problems.py
+	$(BIN)/python -m tests.fuzz 100000
 
 clean:           ## remove the virtual environment and caches
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache

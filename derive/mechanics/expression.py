@@ -44,6 +44,8 @@ def _affordable(tree: Tree) -> None:
         raise ExpressionError(f"operations nested deeper than {DEPTH}; gather factors")
     for q in numbers(tree):
         _number(q)
+    if any(approximate(x, {}) is None for x in constants(tree)):
+        raise ExpressionError("a part without names has no finite value, as log(0) has none")
     found = weight(tree)
     if found.degree > DEGREE:
         raise ExpressionError(f"an expression of degree {found.degree}; at most {DEGREE}")
@@ -69,6 +71,15 @@ def numbers(tree: Tree) -> Iterator[int | Fraction]:
     elif isinstance(tree, tuple):
         for part in tree[1:2] if tree[0] == "pow" else tree[1:]:
             yield from numbers(part)
+
+
+def constants(tree: Tree) -> Iterator[Tree]:
+    """The largest parts without a parameter, numbers apart."""
+    if isinstance(tree, tuple) and not names(tree):
+        yield tree
+    elif isinstance(tree, tuple) and tree[0] != "par":
+        for part in tree[1:]:
+            yield from constants(part)
 
 
 def value(tree: Tree, parameter: Callable[[str], Any], other: Callable[[Tree], Any]) -> Any:

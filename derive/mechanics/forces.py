@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..algebra.groups import Group
-from ..algebra.tree import Tree
+from ..algebra.tree import Tree, subtrees
 from .fields import (
     LIKE_A_PLACE,
     PLACE,
@@ -112,7 +112,10 @@ def potential(data: Mapping[str, Any], where: str, points: Points) -> Potential:
     if kind == "spring":
         return _spring(data, where, points)
     known(data, {"kind", "U"}, where)
-    return Expression(_placed(expression(missing(data, "U", where), f"{where}, U"), where, points))
+    U = _placed(expression(missing(data, "U", where), f"{where}, U"), where, points)
+    if not any(x[0] == "at" for _, x in subtrees(U) if isinstance(x, tuple)):
+        raise ProblemError(f"{where}, U: no place of a point, as r1_x, so no force; leave it out")
+    return Expression(U)
 
 
 def _spring(data: Mapping[str, Any], where: str, points: Points) -> Spring:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import re
 import tomllib
 from collections.abc import Mapping
 from fractions import Fraction
@@ -18,6 +19,7 @@ from ..algebra.tree import Tree
 from ..limits import (
     BASIS,
     COMMON_BITS,
+    KEY_PARTS,
     LEAVES,
     MAGNITUDE,
     MATRIX,
@@ -53,6 +55,10 @@ from .weight import weight
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
 TOP |= {"damping", "solid"}
+DOTTED = re.compile(
+    rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
+)
+"""Tried at dots alone, and possessive: no text makes it slow."""
 
 
 def load(path: Path, negative_mass: bool = False) -> Problem:
@@ -64,6 +70,8 @@ def load(path: Path, negative_mass: bool = False) -> Problem:
         raise ProblemError(f"{path}: {error.strerror}") from None
     if len(raw) > PROBLEM_BYTES:
         raise ProblemError(f"{path}: larger than {PROBLEM_BYTES} bytes")
+    if DOTTED.search(raw):
+        raise ProblemError(f"{path}: a key of more than {KEY_PARTS} parts; no key has so many")
     try:
         data = tomllib.loads(raw.decode("utf-8-sig"))
     except (ValueError, RecursionError) as error:  # also of an integer of thousands of digits

@@ -113,11 +113,10 @@ def exerted_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
         families.setdefault("d", {})[e,] = column(d)
         families.setdefault("χ", {})[e,] = _in_body(model, d)
         families.setdefault("σ", {})[e,] = sigma
-    pushes = model.exerted.forces(model.t, places, model.masses, SINGLE)
-    for i, f in enumerate(pushes, 1):
-        if any(f):
-            families.setdefault("Q", {})[i,] = column(f)
-            families.setdefault("P", {})[i,] = _in_body(model, f)
+    if any(x.kind == SINGLE for x in model.exerted.terms):
+        pushes = model.exerted.forces(model.t, places, model.masses, SINGLE)
+        families["Q"] = {(i,): column(f) for i, f in enumerate(pushes, 1)}
+        families["P"] = {(i,): _in_body(model, f) for i, f in enumerate(pushes, 1)}
     for i, kappa in damping_members(model).items():
         families.setdefault("κ", {})[i,] = kappa
     for e, (push, data) in enumerate(zip(model.pushes, model.given("force"), strict=True), 1):

@@ -73,8 +73,9 @@ class Numbers:
     def of(self, data: Any) -> float:
         """The number of a tree; 1 where the values at hand give none."""
         try:
-            known = isinstance(data, float)
-            value = data if known else float(evaluate(decode(data, "figure"), self.env))
+            value = _fraction(data)
+            if value is None:
+                value = float(evaluate(decode(data, "figure"), self.env))
         except (ValueError, OverflowError, ZeroDivisionError):
             return 1.0
         if not abs(value) < LARGEST:
@@ -89,6 +90,14 @@ class Numbers:
         """The first three coordinates."""
         x, y, z = (*(self.of(entry) for entry in data[:3]), 0.0, 0.0, 0.0)[:3]
         return x, y, z
+
+
+def _fraction(data: Any) -> float | None:
+    """A number as the record has it; a mesh has a hundred thousand of them."""
+    if isinstance(data, (int, float)):
+        return float(data)
+    over, stroke, under = data.partition("/") if isinstance(data, str) else ("", "", "")
+    return int(over) / int(under) if stroke and under.isdecimal() else None
 
 
 def _plausible(k: int) -> float:

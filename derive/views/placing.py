@@ -43,8 +43,13 @@ def placed(
         step = 1 + len(near) // CROWD
         near = [(p, w * step) for p, w in near[::step]]
         boxes = [label.box for label in found]
-        costs = [(_cost(x, wish, near, dots, boxes), x) for x in _choices(wish)]
-        cost, choice = min(costs, key=lambda pair: pair[0])
+        cost, choice = math.inf, wish.label
+        for label in _choices(wish):
+            least = _away(label, wish)
+            if least < cost:
+                least += _crowded(label, dots, boxes)
+            if least < cost and (whole := least + _crossed(label, near)) < cost:
+                cost, choice = whole, label
         if not (wish.optional and cost > OPTIONAL):
             found.append(choice)
     return tuple(found)
@@ -64,25 +69,29 @@ def _choices(wish: Wish) -> Iterator[Label]:
             return
 
 
-def _cost(
-    label: Label,
-    wish: Wish,
-    ink: Sequence[tuple[Point, float]],
-    dots: Sequence[Dot],
-    boxes: Sequence[Box],
-) -> float:
-    box = label.box
+def _away(label: Label, wish: Wish) -> float:
+    """The cost of being far, or in another direction than the one wished."""
     dx, dy = label.at[0] - wish.at[0], label.at[1] - wish.at[1]
     w, h = label.half
-    far = math.hypot(max(0.0, abs(dx) - w), max(0.0, abs(dy) - h))
-    cost = 1.8 * far
+    cost = 1.8 * math.hypot(max(0.0, abs(dx) - w), max(0.0, abs(dy) - h))
     length = math.hypot(*wish.towards) * math.hypot(dx, dy)
     if length:
         cost += 2.5 * (1 - (dx * wish.towards[0] + dy * wish.towards[1]) / length)
-    left, bottom, right, top = box[0] - 0.35, box[1] - 0.35, box[2] + 0.35, box[3] + 0.35
-    cost += sum(weight for (x, y), weight in ink if left < x < right and bottom < y < top)
-    cost += sum(60.0 for d in dots if _holds(box, d.at, d.radius + 0.3))
+    return cost
+
+
+def _crowded(label: Label, dots: Sequence[Dot], boxes: Sequence[Box]) -> float:
+    """The cost of the points and labels in the way."""
+    box = label.box
+    cost = sum(60.0 for d in dots if _holds(box, d.at, d.radius + 0.3))
     return cost + sum(1000.0 for other in boxes if overlap(box, other, 0.4))
+
+
+def _crossed(label: Label, ink: Sequence[tuple[Point, float]]) -> float:
+    """The cost of the lines in the way."""
+    left, bottom, right, top = label.box
+    left, bottom, right, top = left - 0.35, bottom - 0.35, right + 0.35, top + 0.35
+    return sum(weight for (x, y), weight in ink if left < x < right and bottom < y < top)
 
 
 def _holds(box: Box, p: Point, margin: float) -> bool:

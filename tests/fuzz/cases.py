@@ -1,0 +1,143 @@
+"""What is done with a file of a stranger: every command is watched, its files are looked at."""
+
+import os
+import shutil
+import tempfile
+from contextlib import contextmanager
+from pathlib import Path
+
+from derive.mechanics.problem import ProblemError
+from derive.mechanics.toml import load
+from derive.pipeline import walk
+from derive.record.check import Checker
+from derive.record.record import RecordError, from_json, to_json
+from derive.record.vocabulary import ANY_GROUP
+from derive.rendering import render
+from tests.fuzz.mutate import SOLID, binary_stl, mesh
+from tests.fuzz.outputs import wrong_with
+from tests.fuzz.watch import SECONDS, judged, run, uncaught, watched
+
+MESH = """
+name = "meshed"
+group = "SE(3)"
+[body]
+solid = "mesh"
+density = 2
+file = "{}"
+"""
+OTHERS = [x for name in ("cpp", "rust", "julia", "javascript", "cvode") for x in ("--lang", name)]
+COMMANDS = {
+    "text": ("walk", "{}", "--out", "out/walk.txt"),
+    "french": ("walk", "{}", "--lang", "fr", "--out", "out/walk.txt"),
+    "latex": ("walk", "{}", "--format", "latex", "--out", "out/walk.tex"),
+    "html": ("walk", "{}", "--format", "html", "--out", "out/walk.html"),
+    "markdown": ("walk", "{}", "--format", "markdown", "--out", "out/walk.md"),
+    "json": ("walk", "{}", "--format", "json", "--out", "out/walk.json"),
+    "emit": ("emit", "{}", "--lang", "c", "--lang", "python", "--out", "out"),
+    "others": ("emit", "{}", *OTHERS, "--out", "out"),
+    "every": ("emit", "{}", "--lang", "c", "--lang", "python", *OTHERS, "--out", "out"),
+    "framed": ("emit", "{}", "--frame", "principal", "--jacobian", "state", "--out", "out"),
+    "notes": ("notes", "{}", "--out", "out/notes.tex"),
+    "check": ("check", "{}", "--seconds", f"{SECONDS * 0.8}"),
+}
+"""Only checking may take longer than a case has, and is stopped."""
+REFUSED = "derive: stopped after"
+
+
+@contextmanager
+def folder_of(files):
+    """A fresh folder with these files, its own current folder for the command."""
+    home = tempfile.mkdtemp(prefix="strangers-")
+    try:
+        for name, content in files.items():
+            path = Path(home, name)
+            path.write_bytes(content if isinstance(content, bytes) else content.encode("utf-8"))
+        yield home
+    finally:
+        shutil.rmtree(home)
+
+
+def problem_files(name, content):
+    """The files of a case and the one that commands get: a mesh needs a problem that names it."""
+    if Path(name).suffix in (".off", ".obj", ".stl", ".ply"):
+        return {name: content, "meshed.toml": MESH.format(name)}, "meshed.toml"
+    return {name: content}, name
+
+
+def faults_of(files, main, commands, slack=1.0, *, watch=True):
+    """What is wrong, as (command, words)."""
+    found = []
+    with folder_of(files) as home:
+        out, names = os.path.join(home, "out"), {*files, "out"}
+        for command in commands:
+            shutil.rmtree(out, ignore_errors=True)
+            arguments = [x.format(main) if x == "{}" else x for x in COMMANDS[command]]
+            result = run(arguments, home, out, watch)
+            wrong = judged(result, slack, record=main.endswith(".json"))
+            made = sorted(Path(out).rglob("*")) if os.path.isdir(out) else []
+            for path in made:
+                words = wrong_with(path.name, path.read_text(encoding="utf-8"))
+                wrong += [f"{path.name}: {words}"] if words else []
+            if result.status == 2 and made:
+                wrong.append(f"refused, and wrote {made}")
+            if extra := {*os.listdir(home)} - names:
+                wrong.append(f"files {extra}")
+            found += [(command, words) for words in wrong]
+    return found
+
+
+def own_faults(files, main):
+    """What is wrong with the steps about the group itself of a problem that is accepted."""
+    with folder_of(files) as home:
+        try:
+            problem = load(Path(home, main))
+        except ProblemError:
+            return []
+        try:
+            record = walk(problem)
+            checker = Checker(from_json(to_json(record)).problem)
+            verdicts = [checker.check(x) for x in record.steps if x.scope != ANY_GROUP]
+        except BaseException as error:
+            return [("own", uncaught(error))]
+    return [("own", f"{v.label}: {v.reason}") for v in verdicts if not v.holds]
+
+
+def record_faults(text):
+    """What is wrong when a record is read, shown in every way and checked, step by step."""
+    with folder_of({}) as home, watched(home, home) as faults:
+        try:
+            record = from_json(text)
+        except RecordError as error:
+            one = str(error)
+            return [("read", repr(one))] if "\n" in one or len(one) > 800 else []
+        except BaseException as error:
+            return [("read", uncaught(error))]
+        found = []
+        for form in ("text", "latex", "html", "markdown", "json"):
+            try:
+                words = wrong_with(f"walk.{ENDINGS[form]}", render(record, form))
+                found += [(form, words)] if words else []
+            except BaseException as error:
+                found.append((form, uncaught(error)))
+        try:
+            assert from_json(to_json(record)) == record
+            checker = Checker(record.problem)
+            own = [step for step in record.steps if step.scope != ANY_GROUP]
+            for verdict in map(checker.check, own):
+                assert "\n" not in verdict.reason
+        except BaseException as error:
+            found.append(("check", uncaught(error)))
+    return found + [("watch", x) for x in faults]
+
+
+def warm():
+    """Import all that commands need, unwatched: modules make their classes by compiling text."""
+    record = faults_of({"warm.toml": SOLID}, "warm.toml", COMMANDS, 60, watch=False)
+    meshed = faults_of(*problem_files("warm.stl", mesh("stl")), COMMANDS, 60, watch=False)
+    meshed += faults_of(*problem_files("warm.off", mesh("off")), ["text"], 60, watch=False)
+    meshed += faults_of(*problem_files("warm.obj", mesh("obj")), ["text"], 60, watch=False)
+    meshed += faults_of(*problem_files("warm.stl", binary_stl()), ["text"], 60, watch=False)
+    assert not [*record, *meshed], [*record, *meshed]
+
+
+ENDINGS = {"text": "txt", "latex": "tex", "html": "html", "markdown": "md", "json": "json"}

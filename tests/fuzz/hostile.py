@@ -1,0 +1,72 @@
+"""Strings that mean something to a shell, a compiler, a template, a browser, TeX or a terminal."""
+
+STRINGS = (
+    "__import__('os').system('touch PWNED')",
+    '*/ #include "/etc/passwd" /* PWNED',
+    "*/ int PWNED; /*",
+    "\\input{/etc/passwd}",
+    "\\write18{touch PWNED}",
+    "\\immediate\\openout0=PWNED",
+    "^^5cinput{PWNED}",
+    "\\end{document}\\input PWNED",
+    "{{ 7*7 }} PWNED",
+    "{% for x in ().__class__.__bases__ %}PWNED{% endfor %}",
+    "<< 7*7 >> <% PWNED %> <# #>",
+    "<script>PWNED(1)</script>",
+    '" onmouseover="PWNED(1)',
+    "'><img src=x onerror=PWNED(1)>",
+    "javascript:PWNED(1)",
+    "]]><!-- PWNED --><?php PWNED ?>",
+    "$(touch PWNED)",
+    "`touch PWNED`",
+    "; rm -rf PWNED",
+    "%s%n%x PWNED",
+    '""" \nimport PWNED\n"""',
+    "''' + PWNED + '''",
+    "??/\nPWNED;",
+    "\\\nPWNED();",
+    "line\nPWNED();",
+    "line\r\nPWNED();",
+    "\u2028PWNED();\u2029",
+    "\u202ePWNED\u202c",
+    "zero\u200bwidth\ufeff\u2060",
+    "\x1b]0;PWNED\x07\x1b[2J",
+    "\x00NUL",
+    "../../PWNED",
+    "/etc/passwd",
+    "C:\\PWNED",
+    "-PWNED",
+    "con",
+    "é\u0301\u0301\u0301 ﷽ 𝔤 😀",
+    "∂U/∂r_i = Tr j(ζ) J̄",
+    'PWNED ends with "',
+    "PWNED ends with '",
+    "PWNED ends with ??/",
+    "PWNED ends with \\",
+    "PWNED =# PWNED #= --> -}",
+    "{PWNED} {name} {0} {first}",
+    "$x$ $$y$$ \\(z\\) #{PWNED} |> PWNED",
+)
+"""Each is text; where a file wants a name or an expression it is refused."""
+
+NUMBERS = (
+    *("1e999999", "-1e999999", "9^9^9", "9**9**9", "1e-400", "inf", "nan", "0x10", "1_000"),
+    *("1e300*1e300", "(((1.000000001)^64)^64)^64", "1/0", "0^0", "0^-1", "1/(1-1)", "9" * 41),
+    *("9" * 5000, "٣", "²", "((r1_x)^64)^64", "1/" + "/".join(["r1_x"] * 200)),
+    *("*".join(["r1_x"] * 300), "(" * 200 + "1" + ")" * 200, "sin(" * 60 + "r1_x" + ")" * 60),
+    *("-" * 5000 + "1", "+".join("1" * 3000), "sqrt(-1)", "log(0)", "log(-r1_x^2)", "atan(1/0)"),
+    *("tan(pi/2)", "exp(1000)", "exp(exp(exp(9)))", "", " ", "r1_x r2_x", "2r1_x", "r0_x"),
+    *("r9999_x", "r1_9", "t", "pi", "pi()", "sqrt", "sqrt()", "sqrt(1,2)", "import", "lambda"),
+    *("r1_x.__class__", "r1_x[0]", "a" * 10_000, "r1_x" + "+0" * 4000),
+    "*".join(f"1/{10**30 + i}" for i in range(99)) + "*r1_x",
+    "+".join(f"1/{10**30 + i}" for i in range(99)) + "+r1_x",
+)
+"""What stands where an expression is wanted."""
+
+VALUES = (
+    *(None, True, False, 0, -1, 1, 2, 10**400, -(10**400), 2**63, 0.5, -0.0, 1e308, 5e-324),
+    *("", "x", [], [[]], [1], [1, 2], [1, 2, 3], ["1", "2", "3"], {}, {"kind": "x"}, {"": 1}),
+    *([[1, 2], [3]], [{}], [None], "SO(3)", "any", "SL(2)", "m", "r1_x", "1/2", "k", "space"),
+    *("body", "force", "points", "given", "mesh", float("inf"), float("nan")),
+)
+"""What takes the place of any node; ``None`` leaves it out where a file has no null."""

@@ -1,0 +1,141 @@
+"""Files of strangers: no traceback, no harm, within 2 s and 1 GB; see SECURITY.md, tests/fuzz."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from derive import limits
+from derive.cli import main
+from derive.guard import one_line
+from tests.fuzz.corpus import CORPUS, TOP, TURNED, bombs
+from tests.fuzz.hostile import STRINGS
+from tests.fuzz.mutate import case, quoted
+
+ROOT = Path(__file__).parents[1]
+LIMITED = """
+import resource, sys
+resource.setrlimit(resource.RLIMIT_DATA, (1 << 30, 1 << 30))
+resource.setrlimit(resource.RLIMIT_CPU, (30, 30))
+from derive.cli import main
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+def python(*arguments, **options):
+    """Another process of Python in the checkout."""
+    environment = os.environ | {"OPENBLAS_NUM_THREADS": "1"}
+    command = [sys.executable, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, env=environment, **options)
+
+
+def test_the_corpus():
+    """Every file of tests/corpus and the large ones, watched, in a process of 1 GB."""
+    done = python("-m", "tests.fuzz.corpus", cwd=ROOT)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    assert len([*CORPUS.iterdir()]) >= 300
+    assert sum(path.stat().st_size for path in CORPUS.iterdir()) < 1_000_000
+
+
+def test_some_cases_of_the_fuzzer():
+    """The first of those that `make fuzz` runs."""
+    done = python("-m", "tests.fuzz", 150, 1, cwd=ROOT)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    assert case(3, 14)[:2] == case(3, 14)[:2]
+
+
+@pytest.mark.parametrize("name", ["keys.toml", "closed.toml", "dots.toml", "closed.json"])
+def test_in_a_process_of_its_own(name, tmp_path):
+    """Under limits of the system, and without anything imported before."""
+    (tmp_path / name).write_text(bombs()[name], encoding="utf-8")
+    done = python("-c", LIMITED, "check", name, cwd=tmp_path)
+    assert done.returncode == 2, done.stderr[-300:]
+    assert done.stderr.startswith(f"derive: {name}: ")
+    assert done.stderr.count("\n") == 1
+    assert os.listdir(tmp_path) == [name]
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
+def test_comments_of_strangers_compile(tmp_path):
+    """A title, a unit and a meaning that close comments, strings, lines."""
+    for k, words in enumerate(STRINGS):
+        path = tmp_path / "top.toml"
+        path.write_text(TURNED.format(quoted(words)), encoding="utf-8")
+        choices = ["--lang", "c", "--lang", "python", "--prefix", f"top{k}", "--out", str(tmp_path)]
+        assert main(["emit", str(path), *choices]) == 0
+        compile((tmp_path / f"top{k}.py").read_text(encoding="utf-8"), "top.py", "exec")
+    flags = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-trigraphs", "-fsyntax-only"]
+    sources = sorted(map(str, tmp_path.glob("*.c")))
+    done = subprocess.run(["gcc", *flags, *sources], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[:2000]
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs TeX")
+def test_notes_of_strangers_are_set(tmp_path, monkeypatch, capsys):
+    """TeX gets through all of it, and opens and starts nothing."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(CORPUS / "meaning.toml", tmp_path)
+    assert main(["notes", "meaning.toml", "--out", "notes.pdf"]) == 0, capsys.readouterr().err
+    assert sorted(os.listdir()) == ["meaning.toml", "notes.pdf", "notes.tex"]
+
+
+def test_time_is_over(tmp_path, capsys):
+    """One line, exit 2, nothing written."""
+    out = tmp_path / "out"
+    assert main(["emit", "so3", "--seconds", "0.01", "--out", str(out)]) == 2
+    assert "stopped after 0.01 s of processor time (--seconds)" in capsys.readouterr().err
+    assert not out.exists()
+    assert signal.getitimer(signal.ITIMER_PROF) == (0, 0)
+    assert main(["walk", "linear", "--seconds", "60"]) == 0
+
+
+@pytest.mark.parametrize("words", ["0", "-1", "nan", "inf", "x"])
+def test_seconds_are_a_positive_number(words, capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["walk", "so3", "--seconds", words])
+    assert end.value.code == 2
+    assert "--seconds" in capsys.readouterr().err
+
+
+def test_one_line():
+    assert one_line("a\nb\x1b[2J\u202e\ud800c") == r"a\nb\x1b[2J\u202e\ud800c"
+    assert len(one_line("x" * 10**6)) == limits.MESSAGE
+
+
+def test_a_name_of_a_file_that_moves_the_cursor(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    name = "a\nderive: all is well\x1b[2J.toml"
+    Path(name).write_text(TOP + "x = 1\n")
+    assert main(["walk", name]) == 2
+    err = capsys.readouterr().err
+    assert err.count("\n") == 1
+    assert err[:-1].isprintable()
+
+
+def test_a_mesh_behind_a_link(tmp_path, capsys):
+    """A link that leads out of the folder, or nowhere, is no mesh of the folder."""
+    home = tmp_path / "home"
+    home.mkdir()
+    shutil.copy(CORPUS / "mesh-good.off", tmp_path / "mesh.off")
+    (home / "out.off").symlink_to("../mesh.off")
+    (home / "loop.off").symlink_to("loop.off")
+    (home / "null.off").symlink_to("/dev/zero")
+    for name, says in {"out": "outside", "loop": "leads nowhere", "null": "outside"}.items():
+        head = 'name = "a"\ngroup = "SO(3)"\n[body]\nsolid = "mesh"\ndensity = 1\n'
+        (home / "a.toml").write_text(f'{head}file = "{name}.off"\n')
+        assert main(["walk", str(home / "a.toml")]) == 2
+        assert says in capsys.readouterr().err
+
+
+def test_limits_are_told(tmp_path, capsys):
+    """SECURITY.md has the numbers that the program has."""
+    text = (ROOT / "SECURITY.md").read_text(encoding="utf-8").replace("\u00a0", "")
+    numbers = {int(x) for x in re.findall(r"[0-9]+", text)}
+    told = (limits.PROBLEM_BYTES, limits.TRIANGLES, limits.RECORD_BYTES, limits.EXPRESSION)
+    told += (*limits.TABLES.values(), limits.PARAMETERS, limits.LEAVES, limits.DEPTH)
+    assert {*told} <= numbers
