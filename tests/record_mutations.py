@@ -1,0 +1,48 @@
+"""Single changes of the equations of a record: signs, factors, terms, bars."""
+
+from dataclasses import replace
+
+from derive.algebra.tree import mul, neg, replace_at, subtrees
+
+
+def without_term(k):
+    def change(t):
+        rest = t[1:k] + t[k + 1 :]
+        return rest[0] if len(rest) == 1 else ("add", *rest)
+
+    return change
+
+
+def corruptions(equation):
+    """Every change of sign, factor, term and bar on either side: (kind, equation)."""
+    for side in ("lhs", "rhs"):
+        tree = getattr(equation, side)
+        for path, t in subtrees(tree):
+            for kind, change in changes(t, side, path, equation):
+                yield kind, replace(equation, **{side: replace_at(tree, path, change)})
+
+
+def changes(t, side, path, equation):
+    if path == () and side == "rhs":
+        if t == 0:
+            yield "zero", lambda _: 1
+            return
+        yield "sign", neg
+        yield "factor", lambda x: mul(2, x)
+    if not isinstance(t, tuple):
+        return
+    if t[0] == "T":
+        yield "bar", lambda x: x[1]
+    if t[0] == "add":
+        for k in range(1, len(t)):
+            yield "term", without_term(k)
+            yield "sign", lambda x, k=k: (*x[:k], neg(x[k]), *x[k + 1 :])
+            yield "factor", lambda x, k=k: (*x[:k], mul(2, x[k]), *x[k + 1 :])
+
+
+def tried(step, checker):
+    """(kind, wrong equation, verdict of the checker) for every change of a step."""
+    for i, equation in enumerate(step.equations):
+        for kind, wrong in corruptions(equation):
+            equations = (*step.equations[:i], wrong, *step.equations[i + 1 :])
+            yield kind, wrong, checker.check(replace(step, equations=equations))
