@@ -1,8 +1,38 @@
 """Single changes of the equations of a record: signs, factors, terms, bars."""
 
+import tomllib
 from dataclasses import replace
 
 from derive.algebra.tree import mul, neg, replace_at, subtrees
+from derive.mechanics.toml import problem_of
+from derive.pipeline import walk
+from tests.problems import READY
+
+TURNED = 'rotation = { axis = [1, 2, 2], angle = "pi/3" }'
+TWINS = {
+    "ellipsoid": [('"c"]', f'"c"]\nshift = [0.1, 0.2, 0.3]\n{TURNED}')],
+    "saff3": [("at = [0, 0, 0]", "at = [1, 2, 3]")],
+    "jelly": [
+        ("at = [0, 0, 0]", "at = [0.1, 0.2, 0.3]"),
+        ("between = [1, 3]", "on = 3\nanchor = [2, 3, 5]"),
+    ],
+    "sim3": [
+        ("at = [0, 0, 0]", "at = [1, 2, 3]"),
+        ("between = [1, 2]", "on = 1\nanchor = [2, 3, 5]"),
+    ],
+    "su2": [("between = [1, 2]", "on = 1\nanchor = [2, 3, 5, 7]")],
+}
+"""Bodies of which more is true than of any: c = 0, a point at the origin, forces whose sum is zero.
+There some changes give other true equations; of a body and forces in general position, none."""
+
+
+def twin(name):
+    """The record of a ready-made problem with its body and forces in general position."""
+    text = (READY / f"{name}.toml").read_text(encoding="utf-8")
+    for old, new in TWINS[name]:
+        assert old in text
+        text = text.replace(old, new)
+    return walk(problem_of(tomllib.loads(text)))
 
 
 def without_term(k):

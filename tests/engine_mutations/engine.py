@@ -11,15 +11,16 @@ import pickle
 import resource
 import signal
 import sys
-import threading
 from importlib.machinery import ModuleSpec, SourceFileLoader
 from multiprocessing import Pipe
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from coverage import Coverage
+
 from tests.engine_mutations.jobs import Job
 from tests.engine_mutations.operators import Mutant
-from tests.test_layers import ROOT
+from tests.test_layers import ROOT, imported
 
 SECONDS, MEMORY = 20, 4 << 30
 """What one job may take of the processor, and one engine of memory."""
@@ -36,7 +37,7 @@ class Output(NamedTuple):
     """What became of a job: ``trouble`` is empty, or "refused", "crashed", "time", with ``why``."""
 
     record: str = ""
-    files: dict[str, str] = {}
+    files: Any = ()
     numbers: tuple[Any, ...] = ()
     trouble: str = ""
     why: str = ""
@@ -57,7 +58,7 @@ def produce(job: Job) -> Output:
     options = Options(**job.options)
     compiled = program(problem, record, options)
     files = emit(compiled, record, ("c", "python"), problem.name, options)
-    return Output(to_json(record), files, tuple(compiled.numbers()))
+    return Output(to_json(record), dict(files), tuple(compiled.numbers()))
 
 
 class OutOfTimeError(BaseException):
@@ -130,12 +131,11 @@ def install(mutant: Mutant, graph: dict[str, set[str]]) -> None:
     sys.meta_path.insert(0, Finder(mutant))
 
 
-def imports(imported: Any) -> dict[str, set[str]]:
+def imports() -> dict[str, set[str]]:
     """Module → the files of all that it imports, itself among them."""
-    paths = [p for p in ROOT.rglob("*.py")]
     return {
         dotted(str(p.relative_to(ROOT))): {str(x.relative_to(ROOT)) for x in imported(p)}
-        for p in paths
+        for p in ROOT.rglob("*.py")
     }
 
 
@@ -164,10 +164,13 @@ class Process:
         except (EOFError, OSError):
             return Output(trouble="crashed", why="the process died")
 
-    def refuses(self, labels: list[str]) -> bool:
-        """Does the checker that has the change too refuse one of these steps of the last job?"""
+    def refuses(self, job: Job, labels: list[str]) -> bool:
+        """Does a checker that has the change too refuse one of these steps of the last output?
+
+        Without labels, the validator its code.
+        """
         try:
-            self.connection.send((None, labels))
+            self.connection.send((job, labels))
             return self.connection.recv()
         except (EOFError, OSError):
             return True
@@ -193,20 +196,33 @@ def serve(mutant: Mutant, graph: dict[str, set[str]], connection: Any) -> None:
             last = broken if broken.trouble else attempted(job)
             connection.send(last)
         else:
-            connection.send(refuses(last.record, labels))
+            connection.send(refuses(job, last, labels))
 
 
-def refuses(record: str, labels: list[str]) -> bool:
-    """Does the checker of this process refuse one of these steps, or break on it?"""
+def refuses(job: Job, output: Output, labels: list[str]) -> bool:
+    """Does this process refuse one of these steps, or the code, or break on it?"""
     from derive.record.check import Checker
     from derive.record.record import from_json
 
     try:
-        d = from_json(record)
+        d = from_json(output.record)
+        if not labels:
+            return any(not r.holds for r in read_back(job, output))
         checker = Checker(d.problem)
         return not all(checker.check(s).holds for s in d.steps if s.label in labels)
     except Exception:
         return True
+
+
+def read_back(job: Job, output: Output) -> list[Any]:
+    """What the validator says of emitted code."""
+    from derive.record.record import from_json
+    from derive.validate.emission import Emission
+    from derive.validate.state import Chart
+
+    chosen = {k: x for k, x in job.options.items() if k in Chart.__dataclass_fields__}
+    name, record = job.data["name"], from_json(output.record)
+    return Emission(output.files, name, Chart(**chosen), output.numbers).reports(record)
 
 
 # -- what a job runs ----------------------------------------------------------------------------
@@ -214,25 +230,16 @@ def refuses(record: str, labels: list[str]) -> bool:
 
 def reached(job: Job, files: set[str]) -> dict[str, set[int]]:
     """The lines of some files of ``derive`` that a job runs, loading included."""
-    found: dict[str, set[int]] = {x: set() for x in files}
-    places = {str(ROOT / x): found[x] for x in files}
-
-    def local(frame: Any, event: str, _: Any) -> Any:
-        places[frame.f_code.co_filename].add(frame.f_lineno)
-        return local
-
-    def calls(frame: Any, event: str, arg: Any) -> Any:
-        return local(frame, event, arg) if frame.f_code.co_filename in places else None
-
     for name in [x for x in sys.modules if x.split(".")[0] == "derive"]:
         del sys.modules[name]
-    threading.settrace(calls)
-    sys.settrace(calls)
+    watch = Coverage(data_file=None, config_file=False, include=[str(ROOT / x) for x in files])
+    watch.start()
     try:
         produce(job)
     finally:
-        sys.settrace(None)
-    return found
+        watch.stop()
+    data = watch.get_data()
+    return {x: {*(data.lines(str(ROOT / x)) or ())} for x in files}
 
 
 def in_a_process(task: Any) -> Any:

@@ -14,11 +14,10 @@ from derive.algebra.tree import mul
 from derive.record.check import Checker
 from derive.record.record import Derivation, RecordError, Step, from_json
 from derive.record.vocabulary import ANY_GROUP
-from derive.validate.emission import Emission
-from derive.validate.state import Chart
-from tests.engine_mutations.engine import Output
+from tests.engine_mutations.engine import Output, read_back
 from tests.engine_mutations.jobs import Job
 from tests.oracles import general, relative_error
+from tests.test_general_oracle import algebra
 
 STATES, CLOSE = 3, 1e-8
 
@@ -60,22 +59,28 @@ def changed_steps(new: Derivation, old: Derivation) -> list[Step]:
     return [s for s in new.steps if claims(s) not in known or (other and s.scope != ANY_GROUP)]
 
 
-def judged(job: Job, new: Output, old: Output, certain: Callable[[list[str]], bool]) -> Verdict:
+def judged(
+    job: Job, new: Output, old: Output, certain: Callable[[Job, list[str]], bool]
+) -> Verdict:
     """The verdict on one job.
 
-    ``certain``: does the checker refuse one of these steps with the same change in it?
+    ``certain``: does the checker with the same change in it refuse one of these steps as well, or,
+    without steps, the validator the code?
     """
     if new.trouble:
         return Verdict(new.trouble, new.why)
     if (new.record, new.files) == (old.record, old.files):
         return Verdict("same")
     found = equations(new, old) if new.record != old.record else Verdict("same")
-    if found.outcome == "checker" and not certain([found.why.partition(":")[0]]):
+    if found.outcome == "checker" and not certain(job, [found.why.partition(":")[0]]):
         found = Verdict("survived", f"the checker has the same fault: {found.why}")
     if found.outcome == "checker":
         return found
     coded = not job.any_group and (new.files, new.record) != (old.files, old.record)
-    if coded and (wrong := code(job, new)):
+    wrong = code(job, new) if coded else None
+    if wrong and wrong.outcome == "validator" and not certain(job, []):
+        return Verdict("survived", f"the validator has the same fault: {wrong.why}")
+    if wrong:
         return wrong
     if found.outcome == "same":
         return Verdict("code", "; ".join(k for k in new.files if new.files[k] != old.files.get(k)))
@@ -139,9 +144,7 @@ def code(job: Job, new: Output) -> Verdict | None:
         return Verdict("oracle", f"{type(error).__name__}: {error}"[:200])
     if job.framed:
         return None
-    chosen = {k: x for k, x in job.options.items() if k in Chart.__dataclass_fields__}
-    record = from_json(new.record)
-    for report in Emission(new.files, name, Chart(**chosen), new.numbers).reports(record):
+    for report in read_back(job, new):
         if not report.holds:
             return Verdict("validator", report.text[:200])
     return None
@@ -157,6 +160,8 @@ def numbers(job: Job, text: str) -> str:
     }:
         return "other defaults"
     basis = np.array(space["BASIS"], float)
+    if not same_span(basis, algebra(data["group"])):
+        return "BASIS is of another algebra"
     k = space["constants"]([given[x] for x in space["PARAMETERS"]])
     rng = np.random.default_rng(7)
     for _ in range(STATES):
@@ -168,6 +173,14 @@ def numbers(job: Job, text: str) -> str:
             if not relative_error(found, right) < CLOSE:
                 return f"{what} differs"
     return ""
+
+
+def same_span(a: Any, b: Any) -> bool:
+    """Are two families of independent matrices bases of one space?"""
+    if a.shape != b.shape:
+        return False
+    both = np.concatenate([a, b]).reshape(2 * len(a), -1)
+    return np.linalg.matrix_rank(both) == np.linalg.matrix_rank(both[: len(a)]) == len(a)
 
 
 def compared(

@@ -14,7 +14,7 @@ from tests.engine_mutations.engine import (
     reached,
     source,
 )
-from tests.engine_mutations.jobs import JOBS, Job
+from tests.engine_mutations.jobs import Job
 from tests.engine_mutations.judge import CAUGHT, Verdict, judged
 from tests.engine_mutations.operators import Mutant, mutants
 from tests.test_layers import ROOT, imported
@@ -54,7 +54,7 @@ class Survey:
 
     def __init__(self, modules: Sequence[str], jobs: Sequence[Job]):
         self.jobs = jobs
-        self.graph = imports(imported)
+        self.graph = imports()
         self.shared = {str(p.relative_to(ROOT)) for p in imported(ROOT / "record" / "check.py")}
         self.outputs: list[Output] = [produce(job) for job in jobs]
         files = {*modules}
@@ -75,7 +75,7 @@ class Survey:
             for i in jobs:
                 job, old = self.jobs[i], self.outputs[i]
                 new = process.output(job)
-                certain = process.refuses if m.module in self.shared else lambda labels: True
+                certain = process.refuses if m.module in self.shared else lambda job, labels: True
                 found = judged(job, new, old, certain)
                 if found.outcome in CAUGHT:
                     return found._replace(why=f"{job.name}: {found.why}")

@@ -8,8 +8,8 @@ from tests.engine_mutations.operators import Mutant
 
 COLUMNS = ("not reached", *HARMLESS, *CAUGHT, "survived")
 HEAD = """\
-not reached: no problem that is tried runs the line; same: nothing changes; words: only names, prose,
-units; code: other code, equal to the record and to the oracle; equations: others, each proved true
+not reached: no problem that is tried runs the line; same: nothing changes; words: names, prose or
+units alone; code: another, equal to the record and to the oracle; equations: others, proved true
 caught: crashed or refused in the derivation, hung (time), refused by the checker, unequal to the
 oracle (Gauss's principle), or to the record when the code is read back (validator)
 """

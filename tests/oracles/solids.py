@@ -68,7 +68,7 @@ def nodes(solid, env):
 
 
 def simplex(corners, unit, half):
-    """A quadrature over a tetrahedron (4, 3): the cube with one face and one edge drawn together."""
+    """A quadrature over a tetrahedron (4, 3): the cube, one face and one edge drawn together."""
     a, b, c = (x.ravel() for x in np.meshgrid(unit, unit, unit, indexing="ij"))
     weights = np.einsum("i,j,k->ijk", half, half, half).ravel() * (1 - a) ** 2 * (1 - b)
     shares = np.stack([a, (1 - a) * b, (1 - a) * (1 - b) * c])
