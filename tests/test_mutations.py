@@ -53,6 +53,18 @@ def test_a_wrong_scope_is_refused():
     assert not checker("so3").check(replace(step, scope="SL(3)")).holds
 
 
+@pytest.mark.parametrize("k", [0, 1, 2, 3])
+def test_a_name_that_nothing_introduces_is_refused(k):
+    """Without Z = j(ζ), say: every equation that is left is true."""
+    d = record("so3")
+    step = d["so3.hat"]
+    name = step.equations[k].rhs[1]
+    fewer = replace(step, equations=step.equations[:k] + step.equations[k + 1 :])
+    wrong = replace(d, steps=tuple(fewer if s is step else s for s in d.steps))
+    first = next(v for v in check(wrong) if not v.holds)
+    assert first.reason.startswith(f"{name} is used, and neither this step nor one before it says")
+
+
 def test_an_unknown_name_is_refused():
     step = record("so3")["so3.exterior"]
     wrong = replace(step, equations=(Equation("Q", "Z"),))

@@ -23,6 +23,7 @@ from ..algebra.groups import Group
 from . import degree
 from .arithmetic import EvaluationError, scalar
 from .evaluate import Environment, evaluate, free_indices, index_values
+from .introduced import unexplained
 from .meaning import environment
 from .model import Model
 from .record import Derivation, Equation, RecordError, Step, to_json
@@ -37,6 +38,8 @@ those about the problem's group for each of its dimensions, ``WRITTEN_OUT`` time
 
 WRITTEN_OUT = 64
 """A claim about a problem writes out its expressions and their derivatives."""
+
+UNEXPLAINED = "{} is used, and neither this step nor one before it says what it is"
 
 LARGEST_BOUND = SIZE // 10**30
 """A claim whose false pass would be more probable than 1e-30 is refused."""
@@ -216,4 +219,6 @@ def verdicts(d: Derivation, seed: int = 20) -> Iterator[Verdict]:
     """
     digest = hashlib.sha256(to_json(d).encode("utf-8", "surrogatepass")).hexdigest()
     checker = Checker(d.problem, f"{seed} {digest}")
-    yield from map(checker.check, d.steps)
+    for verdict, name in zip(map(checker.check, d.steps), unexplained(d.steps), strict=True):
+        said = not name or not verdict.holds
+        yield verdict if said else Verdict(verdict.label, False, UNEXPLAINED.format(name), 1.0)

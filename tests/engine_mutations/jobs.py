@@ -59,6 +59,47 @@ anchor = [3, 0, 1]
 stiffness = 5
 length = "b"
 """
+MIXED = """
+name = "test"
+group = "Sim(3)"
+[parameters]
+b = 0.7
+[[point]]
+mass = "b"
+at = [1, "b", 2]
+[[point]]
+mass = 0.5
+at = ["b", -1, 0.5]
+[[solid]]
+kind = "box"
+density = 2
+sides = [1, 0.3, "b"]
+rotation = [[0.6, -0.8, 0], [0, 0, -1], [0.8, 0.6, 0]]
+[[solid]]
+kind = "ball"
+density = "b"
+radius = 0.5
+shift = [0, 0.5, "b"]
+[[potential]]
+kind = "gravity"
+g = [1, 2, "-9.81"]
+"""
+
+GIVEN = """
+name = "test"
+group = "SE(3)"
+[parameters]
+a = 1.1
+M = 2.0
+[body]
+given = { m = "M", c = [0.1, "a/4", -0.2], I = [["a", 0.1, 0], [0.1, 2, "a/9"], [0, "a/9", 2.2]] }
+[[potential]]
+kind = "gravity"
+g = [0, 0, "-9.81"]
+[[input]]
+name = "u"
+kind = "covector"
+"""
 
 
 class Job(NamedTuple):
@@ -84,8 +125,9 @@ class Job(NamedTuple):
         return not {"attitude", "velocity", "layout"} & {*self.options}
 
     def seen_by_the_oracle(self) -> dict[str, Any]:
-        """Solids are no points: the oracle has them with the moments of their integrals."""
-        return solids.by_moments(self.data) if "solid" in self.data else self.data
+        """The oracle knows points and moments: of other bodies it has the moments."""
+        known = "solid" not in self.data and "given" not in self.data.get("body", {})
+        return self.data if known else solids.by_moments(self.data)
 
 
 def ready(name: str) -> str:
@@ -94,7 +136,7 @@ def ready(name: str) -> str:
 
 
 TEXTS = PROBLEMS | {name: ready(name) for name in ("linear", "affine", "so3", "se3", "sl3")}
-TEXTS |= {"solids": SOLIDS}
+TEXTS |= {"solids": SOLIDS, "mixed": MIXED, "given": GIVEN}
 WHOLE = ("state", "inputs", "parameters")
 CHOSEN = [
     ("linear", {}),
@@ -105,6 +147,7 @@ CHOSEN = [
     ("so3", {"attitude": "quaternion", "jacobian": WHOLE}),
     ("Sim(3) forces", {}),
     ("sl3", {"velocity": "tangent", "jacobian": ("state",)}),
+    ("se3", {}),
     ("se3", {"frame": "principal"}),
     ("SE(3) x SO(3)", {}),
     ("solids", {}),
@@ -116,6 +159,8 @@ CHOSEN = [
     ("so3", {"frame": "principal"}),
     ("SU(2)", {}),
     ("UT(3)", {}),
+    ("mixed", {}),
+    ("given", {}),
     ("GL(2)", {}),
     ("comet", {"frame": "principal"}),
     ("SO(4)", {}),

@@ -3,6 +3,7 @@
 They run from unchanged sources, in another process than the engine.
 """
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
@@ -12,6 +13,7 @@ import numpy as np
 
 from derive.algebra.tree import mul
 from derive.record.check import Checker
+from derive.record.introduced import unexplained
 from derive.record.record import Derivation, RecordError, Step, from_json
 from derive.record.vocabulary import ANY_GROUP
 from tests.engine_mutations.engine import Output, read_back
@@ -20,6 +22,8 @@ from tests.oracles import general, relative_error
 from tests.test_general_oracle import algebra
 
 STATES, CLOSE = 3, 1e-8
+DEFINED = re.compile(r"^def ([a-z]\w*)", re.MULTILINE)
+"""The functions of an emitted module that are for others."""
 
 
 class Verdict(NamedTuple):
@@ -31,7 +35,8 @@ class Verdict(NamedTuple):
 
 CAUGHT = ("crashed", "refused", "time", "checker", "oracle", "validator")
 HARMLESS = ("same", "words", "code", "equations")
-"""The same output; other words; code in another order; other equations, each of them proved."""
+"""The same output; other words or references; other code, which is right; other equations, each
+of them proved."""
 
 
 @cache
@@ -48,8 +53,8 @@ def refused(step: Step, own: Checker) -> str:
 
 
 def claims(step: Step) -> tuple[Any, ...]:
-    """What a step says, but for its words."""
-    return step.label, step.scope, step.given, step.equations, step.rule, step.uses
+    """What a step says, but for its words and what it refers to."""
+    return step.label, step.scope, step.given, step.equations
 
 
 def changed_steps(new: Derivation, old: Derivation) -> list[Step]:
@@ -77,7 +82,7 @@ def judged(
     if found.outcome == "checker":
         return found
     coded = not job.any_group and (new.files, new.record) != (old.files, old.record)
-    wrong = code(job, new) if coded else None
+    wrong = code(job, new, old) if coded else None
     if wrong and wrong.outcome == "validator" and not certain(job, []):
         return Verdict("survived", f"the validator has the same fault: {wrong.why}")
     if wrong:
@@ -100,10 +105,14 @@ def equations(new: Output, old: Output) -> Verdict:
                 return Verdict("checker", why)
     except RecordError as error:
         return Verdict("checker", str(error))
+    for step, name in zip(d.steps, unexplained(d.steps), strict=True):
+        if name:
+            return Verdict("checker", f"{step.label}: nothing says what {name} is")
     if missing := {s.label for s in right.steps} - {s.label for s in d.steps}:
         return Verdict("survived", f"without {', '.join(sorted(missing))}")
+    before = {s.label: s for s in right.steps}
     for step in steps:
-        if why := weaker(step, right[step.label], own):
+        if step.label in before and (why := weaker(step, before[step.label], own)):
             return Verdict("survived", why)
     said = {claims(s): s for s in right.steps}
     other = [s for s in d.steps if claims(s) not in said]
@@ -134,9 +143,12 @@ def weaker(step: Step, right: Step, own: Checker) -> str:
 # -- code ---------------------------------------------------------------------------------------
 
 
-def code(job: Job, new: Output) -> Verdict | None:
+def code(job: Job, new: Output, old: Output) -> Verdict | None:
     """The verdict on code that is wrong; ``None`` when it is right."""
     name = job.data["name"]
+    before, after = ({*DEFINED.findall(x.files.get(f"{name}.py", ""))} for x in (old, new))
+    if before - after:
+        return Verdict("oracle", f"no {', '.join(sorted(before - after))} to call")
     try:
         if job.plain and (why := numbers(job, new.files[f"{name}.py"])):
             return Verdict("oracle", why)
@@ -191,6 +203,8 @@ def compared(
     if not job.framed:
         yield "rhs", space["rhs"](t, x, k, u), expected
         yield "energy", [space["energy"](t, x, k)], [energy]
+        if "turned" in space:
+            yield from in_principal_axes(job, space, t, x, energy)
         return
     y = space["into_frame"](x, k)
     v = space["inputs_into_frame"](u, k) if len(u) else u
@@ -201,3 +215,18 @@ def compared(
     rate = space["out_of_frame"](y + space["rhs"](t, y, k, v), k) - x
     yield "rhs", rate, expected
     yield "energy", [space["energy"](t, y, k)], [energy]
+
+
+def in_principal_axes(
+    job: Job, space: dict[str, Any], t: float, x: Any, energy: float
+) -> Iterator[tuple[str, Any, Any]]:
+    """(what, found, expected) of a rigid body that ``turned`` takes to its principal axes."""
+    defaults = general.parameters(job.data)
+    p = [defaults[name] for name in space["PARAMETERS"]]
+    moments, R = space["principal_axes"](p)
+    q = space["turned"](p, R)
+    yield "inertia", space["inertia"](q), np.diag(moments)
+    d = len(space["BASIS"])
+    A, T, vectors = x[:9].reshape(3, 3) @ R, x[9:-d], x[-d:].reshape(-1, 3) @ R
+    y = np.concatenate([A.ravel(), T, vectors.ravel()])
+    yield "turned energy", [space["energy"](t, y, space["constants"](q))], [energy]

@@ -1,4 +1,5 @@
-"""The moments of the solids of a problem file by quadrature, exact for their polynomials."""
+"""The moments of a body as numbers: solids by quadrature, exact for their polynomials; points with
+them; and what a file gives."""
 
 import numpy as np
 
@@ -6,17 +7,18 @@ from tests.oracles import general
 
 
 def moments(data):
-    """m, c_1 …, J_11 … of all solids, from the plain data that TOML gives."""
-    total = np.zeros((4, 4))
-    for solid in data["solid"]:
-        env = data["parameters"]
+    """m, c_1 …, J_11 … of the whole body, from the plain data that TOML gives."""
+    total, env = np.zeros((4, 4)), data["parameters"]
+    if "body" in data:
+        total += given(data["body"]["given"], env)
+    for point in data.get("point", ()):
+        r = np.array([general.evaluate(x, env) for x in (*point["at"], 1)])
+        total += general.evaluate(point["mass"], env) * np.outer(r, r)
+    for solid in data.get("solid", ()):
         weights, points = nodes(solid, env)
         turn, shift = np.eye(3), np.zeros((3, 1))
         if "rotation" in solid:
-            axis = np.array(solid["rotation"]["axis"], float)
-            angle = general.evaluate(solid["rotation"]["angle"], env)
-            x, y, z = axis / np.linalg.norm(axis)
-            turn = general.expm(angle * np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]))
+            turn = rotation(solid["rotation"], env)
         if "shift" in solid:
             shift = np.array([[general.evaluate(s, env)] for s in solid["shift"]])
         r = np.vstack([turn @ points + shift, np.ones(points.shape[1])])
@@ -26,9 +28,28 @@ def moments(data):
     return {k: float(x) for k, x in found.items()}
 
 
+def given(table, env):
+    """The moment matrix (4, 4) of { m, c, J } or { m, c, I }, J = (Tr I)/2 1 - I."""
+    m, c = general.evaluate(table["m"], env), [general.evaluate(x, env) for x in table["c"]]
+    name = "I" if "I" in table else "J"
+    J = np.array([[general.evaluate(x, env) for x in row] for row in table[name]])
+    if name == "I":
+        J = np.trace(J) / 2 * np.eye(3) - J
+    return np.block([[J, np.array(c)[:, None]], [np.array(c), np.array(m)]])
+
+
+def rotation(table, env):
+    """{ axis, angle }, or the rows, as a matrix (3, 3)."""
+    if isinstance(table, list):
+        return np.array([[general.evaluate(x, env) for x in row] for row in table])
+    axis, angle = np.array(table["axis"], float), general.evaluate(table["angle"], env)
+    x, y, z = axis / np.linalg.norm(axis)
+    return general.expm(angle * np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]))
+
+
 def by_moments(data):
-    """The problem with its solids replaced by their moments, as parameters."""
-    other = {k: x for k, x in data.items() if k != "solid"}
+    """The problem with its body replaced by its moments, as parameters."""
+    other = {k: x for k, x in data.items() if k not in ("solid", "point")}
     known = data["parameters"] | moments(data)
     return other | {"parameters": known, "body": {"moments": "symbolic"}}
 
