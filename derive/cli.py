@@ -175,11 +175,13 @@ def command_check(args: argparse.Namespace) -> int:
 def command_paper(args: argparse.Namespace) -> int:
     """The paper's numbered equations against the derivation."""
     from .record import paper
+    from .views.language import language
     from .views.paper import as_json, as_text
 
     records = [derive(name)[1] for name in paper.PROBLEMS]
     findings = list(counted(paper.findings(records), len(paper.PAPER), "equations"))
-    save(as_json(findings) if args.format == "json" else as_text(findings), args.out)
+    shown = as_json(findings) if args.format == "json" else as_text(findings, language(args.lang))
+    save(shown, args.out)
     return 0
 
 

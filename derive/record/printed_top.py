@@ -75,6 +75,7 @@ TOP: tuple[Printed, ...] = (
             ),
         ),
         ORIENTATION,
+        seed=384,
     ),
     Printed(
         26,
@@ -88,6 +89,7 @@ TOP: tuple[Printed, ...] = (
             ),
         ),
         ORIENTATION,
+        seed=26,
     ),
     Printed(
         27,
@@ -130,6 +132,7 @@ TOP: tuple[Printed, ...] = (
             ),
         ),
         "The transpose is missing on δ′Z in the second term. " + SAME_FORCE,
+        seed=35,
     ),
     Printed(
         30,
@@ -158,6 +161,7 @@ TOP: tuple[Printed, ...] = (
             ),
         ),
         SAME_FORCE,
+        seed=267,
     ),
     Printed(
         32,
@@ -166,6 +170,7 @@ TOP: tuple[Printed, ...] = (
         "I = J − Tr J",
         (Equation("I", add("J", neg(mul(("tr", "J"), ("one",))))),),
         "The sign: ⟨ζ, Iζ⟩ would be negative, against (31); (34) and (35) do not see it.",
+        seed=13,
     ),
     Printed(
         33,
@@ -183,7 +188,7 @@ TOP: tuple[Printed, ...] = (
         34,
         True,
         "SO(3)",
-        "Ω = ζ and dζ/dt = φ + I⁻¹(Iζ ∧ ζ)",
+        "Ω = ζ,  dζ/dt = φ + I⁻¹(Iζ ∧ ζ)",
         (
             Equation(("call", "Ω", "X"), "ζ"),
             Equation("ζ̇", add("φ", mul(("inv", "I"), ("wedge", mul("I", "ζ"), "ζ")))),
@@ -199,6 +204,7 @@ TOP: tuple[Printed, ...] = (
         "Said to be equivalent to (34), it has lost the term φ of the potential.",
         True,
         missing=("φ",),
+        seed=250,
     ),
     Printed(
         39,

@@ -12,10 +12,9 @@ from ..record.paper import Finding
 from .book import Part
 from .language import Language
 from .letters import NAMES
+from .paper import grouped
 from .tex import latex_tree
 
-READABLE = 60
-"""Values of a counterexample with more letters than this are left to ``derive paper``."""
 FORMULA = re.compile("\ue000([^\ue001]*)\ue001")
 """A formula in LaTeX among the words of a sentence."""
 
@@ -54,22 +53,14 @@ def _told(f: Finding, language: Language) -> Iterator[Told]:
     printed = ", ".join(_formula(e.lhs, e.rhs) for e in f.equations)
     *given, (_, left), (_, right) = (f.counterexample or {}).items()
     sides = {"left": _formula(value_of(left)), "right": _formula(value_of(right))}
-    values = ", ".join(_formula(name, value_of(x)) for name, x in given)
-    if sum(len(x) for _, x in given) <= READABLE:
-        said = "For {values}, the left side is {left}, the printed right side {right}."
-        example = language.word(said, values=values, **sides)
-    else:
-        example = language.word(
-            "At the point that “derive paper” lists, the left side is {left}, the printed right "
-            "side {right}.",
-            **sides,
-        )
+    values = ", ".join(_formula(*names, value_of(x)) for *names, x in grouped(given))
+    said = "For {values}, the left side is {left}, the printed right side {right}."
     sentences = (
         language.word(
             "The paper prints in {number}: {printed}.", number=f"({f.number})", printed=printed
         ),
         language.word(f.remark),
-        example,
+        language.word(said, values=values, **sides),
     )
     for k, piece in enumerate(FORMULA.split(" ".join(sentences))):
         if piece:

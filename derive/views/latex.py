@@ -26,9 +26,10 @@ from .outline import (
     PAPER,
     ROAD,
     TRANSPOSES,
+    assumed,
     capitalised,
     equation_label,
-    notes,
+    printed,
     subtitle,
     title,
 )
@@ -155,9 +156,9 @@ class _Writer:
     def step(self, part: Part, step: Step) -> Iterator[str]:
         """Heading, sentences, equations."""
         names, language = names_of(part.source.symbols), self.language
-        beside = "".join(f", {prose(note)}" for note in notes(step, language))
+        beside = "".join(f", {prose(x)}" for x in assumed(step, language)) + self.footnotes(step)
         rule = tex_text(capitalised(language.word(step.rule)))
-        yield rf"\step{{{rule}}}{{{beside}{self.footnotes(step)}}}{{{spelt(step.label)}}}"
+        yield rf"\step{{{tex_text(printed(step))}}}{{{rule}}}{{{beside}}}{{{spelt(step.label)}}}"
         used = ", ".join(reference(label, self.last) for label in step.uses)
         yield prose(language.of(step.prose)) + (rf" \from{{{used}}}" if used else "")
         yield from _equations(step, names, language)

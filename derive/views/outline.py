@@ -40,9 +40,9 @@ ROAD = (
 )
 """What is done, in one sentence."""
 PAPER = (
-    "Numbers beside the name of a step are those of the paper, P. Iglesias-Zemmour, "
-    "“D’où viennent les équations du mouvement des solides ?”; one marked * is "
-    "misprinted there; “derive paper” says how."
+    "Numbers in the margin or beside the name of a step are those of the paper, "
+    "P. Iglesias-Zemmour, “D’où viennent les équations du mouvement des solides ?”; one marked "
+    "* is misprinted there; “derive paper” says how."
 )
 
 GIVEN = {
@@ -85,11 +85,34 @@ def sections(d: Derivation, language: Language = ENGLISH) -> Iterator[tuple[str,
         yield heading(scope, language), list(steps)
 
 
+def printed(step: Step) -> str:
+    """The numbers of the paper, runs of them as (11)–(13); a star where it is misprinted."""
+    runs: list[list[int]] = []
+    for n in step.paper:
+        alone = n in MISPRINTED or not runs or runs[-1][-1] in MISPRINTED
+        if alone or n != runs[-1][-1] + 1:
+            runs.append([])
+        runs[-1].append(n)
+    return ", ".join(_run(run) for run in runs)
+
+
+def _run(run: list[int]) -> str:
+    """(11)–(13), or one after the other where there are fewer."""
+    if len(run) > 2:
+        return f"({run[0]})–({run[-1]})"
+    return ", ".join(f"({n})" + "*" * (n in MISPRINTED) for n in run)
+
+
+def assumed(step: Step, language: Language = ENGLISH) -> list[str]:
+    """What a step assumes further."""
+    return [language.word(GIVEN.get(x, x)) for x in step.given]
+
+
 def notes(step: Step, language: Language = ENGLISH) -> list[str]:
-    """What stands beside a rule: the numbers of the paper, further assumptions."""
-    numbers = ", ".join(f"({n})" + "*" * (n in MISPRINTED) for n in step.paper)
-    printed = [language.word("paper {numbers}", numbers=numbers)] if numbers else []
-    return [*printed, *(language.word(GIVEN.get(x, x)) for x in step.given)]
+    """What stands beside a rule where there is no margin."""
+    numbers = printed(step)
+    paper = [language.word("paper {numbers}", numbers=numbers)] if numbers else []
+    return [*paper, *assumed(step, language)]
 
 
 DOMAINS = {"δA": "T_A G", "δ′A": "T_A G", "ξ′": "𝔤", "Ω′": "R³"}
