@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -104,3 +105,14 @@ def test_counterexamples_can_be_followed():
         if f.verdict == "misprinted":
             found = [x for v in f.counterexample.values() for x in re.findall(r"[-\d/]+", v)]
             assert sum(x != "0" for x in found) <= 14, f.number
+
+
+def test_31_holds_with_the_force_in_place_of_its_prime():
+    p = next(p for p in PAPER if p.number == 31)
+
+    def unprimed(t):
+        return "φ" if t == "φ′" else tuple(map(unprimed, t)) if isinstance(t, tuple) else t
+
+    (printed,) = p.equations
+    assert not paper.holds(p, printed)
+    assert paper.holds(p, replace(printed, rhs=unprimed(printed.rhs)))

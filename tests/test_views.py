@@ -80,7 +80,7 @@ def test_every_step_is_in_every_view(name: str) -> None:
         heading = re.search(rf"^{re.escape(step.label)}  ·.*", plain, re.M)
         assert heading
         assert numbers(heading[0]) == set(step.paper)
-        assert rf"\step{{{tex_text(printed(step))}}}" in source
+        assert rf"\walkstep{{{tex_text(printed(step))}}}" in source
 
 
 def numbers(heading: str) -> set[int]:

@@ -49,7 +49,7 @@ class Inverting(Reader):
 
     def require_regular(self) -> None:
         """Where a multiplier solves the kernel, J must be regular even if no force asks for J⁻¹."""
-        if any(step.rule == "multiplier" for step in self.record.steps):
+        if any(step.label.endswith(".multiplier") for step in self.record.steps):
             central = self.record.definition("N_c") is not None
             self.tree(("inv", "J_c" if central else "J"))
 

@@ -22,7 +22,7 @@ def _euler(i: int, j: int, k: int) -> Equation:
 SAME_FORCE = "The force is a function of the point, not of the variation: the prime has no meaning."
 ORIENTATION = (
     "With dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)], the convention of (29) and (31), the "
-    "sign is the opposite; (25) and (26) contradict (29)."
+    "sign is the opposite; (25) and (26) contradict (29). The kernel is the same."
 )
 
 TOP: tuple[Printed, ...] = (
@@ -160,7 +160,7 @@ TOP: tuple[Printed, ...] = (
                 ),
             ),
         ),
-        SAME_FORCE,
+        SAME_FORCE + " With φ for φ′ the equation holds.",
         seed=267,
     ),
     Printed(

@@ -37,14 +37,14 @@ class Told:
 
 def corrections(
     parts: Sequence[Part], findings: Sequence[Finding], language: Language
-) -> dict[str, list[list[Told]]]:
+) -> dict[str, dict[int, list[Told]]]:
     """The corrections at each step, by its label: those of a number where it stands first."""
     left = {f.number: f for f in findings}
-    found: dict[str, list[list[Told]]] = {}
+    found: dict[str, dict[int, list[Told]]] = {}
     for part in parts:
         for step in part.steps:
             here = [left.pop(n) for n in step.paper if n in left]
-            found[step.label] = [[*_told(f, language)] for f in here]
+            found[step.label] = {f.number: [*_told(f, language)] for f in here}
     return found
 
 

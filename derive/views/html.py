@@ -27,6 +27,7 @@ from .notation import Notation
 from .outline import (
     FORMULAS_CONVENTIONS,
     PAPER,
+    REFERENCES,
     ROAD,
     TRANSPOSES,
     assumed,
@@ -84,7 +85,9 @@ def html(
             "names": word("Names"),
             "paper": word("paper {numbers}", numbers="").strip(),
             "copy": word("copy the LaTeX"),
+            "references": word("References"),
         },
+        references=[x[1:] for x in REFERENCES],
         parts=[p.fields(shown) for p in written],
     )
 
@@ -126,7 +129,7 @@ class _Part:
     notation: Notation
     language: Language
     numbers: Mapping[str, str]
-    told: Mapping[str, list[list[Told]]]
+    told: Mapping[str, Mapping[int, list[Told]]]
 
     @property
     def names(self) -> Mapping[str, str]:
@@ -165,7 +168,7 @@ class _Part:
             "rule": capitalised(self.language.word(step.rule)),
             "printed": printed(step),
             "notes": [words(x, self.notation) for x in assumed(step, self.language)],
-            "corrections": [*map(self.correction, self.told[step.label])],
+            "corrections": [*map(self.correction, self.told[step.label].values())],
             "prose": words(self.language.of(step.prose), self.notation),
             "equations": shown[step.label],
             "uses": [unfolded(x) for x in step.uses],

@@ -13,8 +13,8 @@ CONVENTIONS = (
     "Bars are transposes and 1 is the identity. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for "
     "vectors, without index for M = 1; ‖a‖² = ⟨a, a⟩. "
     "[a, b] = ab − ba and j(X)Y = X ∧ Y. Variations commute; dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)]; the "
-    "group is trivialised on the left, ξ = g⁻¹δg. The point y = (t, g, ν) is a time, an element of "
-    "the group and a velocity; 𝔤 is the Lie algebra."
+    "tangent bundle of the group is trivialised on the left, ξ = g⁻¹δg. The point y = (t, g, ν) is "
+    "a time, an element of the group and a velocity; 𝔤 is the Lie algebra."
 )
 FORMULAS_CONVENTIONS = (
     r"For matrices "
@@ -23,9 +23,10 @@ FORMULAS_CONVENTIONS = (
     r"$\Vert a\Vert^2 = \langle a, a\rangle$; $[a, b] = ab - ba$ and "
     r"$j(X)Y = X \wedge Y$. Variations commute, "
     r"$\mathrm{d}\varpi(\delta, \delta') = \delta[\varpi(\delta')] - \delta'[\varpi(\delta)]$, "
-    r"and the group is trivialised on the left, $\xi = g^{-1}\delta g$. The point "
-    r"$y = (t, g, \nu)$ is a time, an element of the group and a velocity; $\mathfrak{g}$ is the "
-    r"Lie algebra. Parameters of the problem are set in $\mathsf{sans\ serif}$."
+    r"and the tangent bundle of the group is trivialised on the left, $\xi = g^{-1}\delta g$. "
+    r"The point $y = (t, g, \nu)$ is a time, an element of the group and a velocity; "
+    r"$\mathfrak{g}$ is the Lie algebra. "
+    r"Parameters of the problem are set in $\mathsf{sans\ serif}$."
 )
 """The same with formulas between dollars, for LaTeX and Markdown, but for its first sentence."""
 TRANSPOSES = {
@@ -44,6 +45,18 @@ PAPER = (
     "P. Iglesias-Zemmour, “D’où viennent les équations du mouvement des solides ?”; one marked "
     "* is misprinted there; “derive paper” says how."
 )
+
+REFERENCES = (
+    ("paper", "P. Iglesias-Zemmour", "D’où viennent les équations du mouvement des solides ?", ""),
+    ("Aud", "M. Audin", "Spinning Tops", "Cambridge University Press, 1996"),
+    (
+        "Igl",
+        "P. Iglesias",
+        "Mécanique analytique et géométrie symplectiques",
+        "notes personnelles, 2000",
+    ),
+)
+"""The paper and what it refers to: key, author, title, where."""
 
 GIVEN = {
     "principal axes": "in principal axes",
