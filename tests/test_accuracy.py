@@ -18,15 +18,15 @@ from benchmarks.accuracy.terms import Terms
 from derive import derive
 from derive.code import inverses
 
-BODIES = 40
-FEW = {"jelly": 6, "sp4": 6, "sim3": 10}
-BOUNDS = {"dg": 4, "dζ": 20, "dw": 10, "dv": 8, "energy": 10, "constants": 8}
-"""Found: 1.6, 5, 3, 2, 3, 3."""
-FRAMED = {"dg": 20, "dζ": 20, "dv": 8, "energy": 25, "dw": 20}
-"""In the principal frame, whose axes are rounded; found: 6, 3, 1, 7, 6."""
-ROWS = [(name, form) for name, forms in PROBLEMS.items() for form in forms]
-SAMPLED = [x for x in ROWS if x[0] not in ("gl3", "heisenberg", "su2") and x[1] != "tangent"]
-SAMPLED += [("sl3", "tangent")]
+BODIES = 38
+FEW = {"jelly": 4, "sp4": 4, "sim3": 8}
+BOUNDS = {"dg": 4, "dζ": 20, "dw": 10, "dv": 15, "energy": 10, "constants": 10}
+"""Found: 1.5, 4.6, 2.8, 4.3, 3.2, 2.7."""
+FRAMED = {"dg": 60, "dζ": 30, "dw": 20, "dv": 8, "energy": 25}
+"""In the principal frame, whose axes are rounded; found: 18, 9.7, 3.7, 0.2, 7.5."""
+FORMS = [("so3", "Python"), ("so3", "quaternion"), ("sl3", "tangent")]
+FORMS += [(name, "principal") for name in ("so3", "se3", "sl3")]
+SAMPLED = [(name, "C") for name in PROBLEMS if name not in ("gl3", "heisenberg", "su2")] + FORMS
 
 pytestmark = pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
 
