@@ -88,13 +88,24 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
     const double J_23 = m1*y1*z1 + m2*y2*z2 + m3*y3*z3 + m4*y4*z4;
     const double J_33 = m1*z1*z1 + m2*z2*z2 + m3*z3*z3 + m4*z4*z4;
 
-    /* sl3.motion: 45 mul, 17 add, 1 div
+    /* sl3.motion: 47 mul, 18 add, 3 div
      * λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
-    const double adj_J_11 = J_22*J_33 - J_23*J_23;
-    const double adj_J_12 = J_13*J_23 - J_12*J_33;
-    const double adj_J_13 = J_12*J_23 - J_13*J_22;
-    const double adj_J_33 = J_11*J_22 - J_12*J_12;
-    const double det_J = J_11*adj_J_11 + J_12*adj_J_12 + J_13*adj_J_13;
+    const double J_r_1 = 1.0/J_11;
+    const double J_l_21 = J_12*J_r_1;
+    const double J_l_31 = J_13*J_r_1;
+    const double J_d_2 = J_22 - J_11*J_l_21*J_l_21;
+    const double J_r_2 = 1.0/J_d_2;
+    const double J_l_32 = J_r_2*(J_23 - J_11*J_l_21*J_l_31);
+    const double J_d_3 = J_33 - J_11*J_l_31*J_l_31 - J_d_2*J_l_32*J_l_32;
+    const double inv_J_33 = 1.0/J_d_3;
+    const double J_w_21 = -J_l_21;
+    const double J_w_31 = -(J_l_31 + J_l_32*J_w_21);
+    const double J_w_32 = -J_l_32;
+    const double inv_J_11 = J_r_1 + J_r_2*J_w_21*J_w_21 + inv_J_33*J_w_31*J_w_31;
+    const double inv_J_12 = J_r_2*J_w_21 + inv_J_33*J_w_31*J_w_32;
+    const double inv_J_13 = inv_J_33*J_w_31;
+    const double inv_J_22 = J_r_2 + inv_J_33*J_w_32*J_w_32;
+    const double inv_J_23 = inv_J_33*J_w_32;
     const double size_m1 = fabs(m1);
     const double size_m2 = fabs(m2);
     const double size_m3 = fabs(m3);
@@ -102,13 +113,6 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
     const double size_J_1 = x1*x1*size_m1 + x2*x2*size_m2 + x3*x3*size_m3 + x4*x4*size_m4;
     const double size_J_2 = y1*y1*size_m1 + y2*y2*size_m2 + y3*y3*size_m3 + y4*y4*size_m4;
     const double size_J_3 = z1*z1*size_m1 + z2*z2*size_m2 + z3*z3*size_m3 + z4*z4*size_m4;
-    const double inv_det_J = 1.0/det_J;
-    const double inv_J_11 = adj_J_11*inv_det_J;
-    const double inv_J_12 = adj_J_12*inv_det_J;
-    const double inv_J_13 = adj_J_13*inv_det_J;
-    const double inv_J_22 = (J_11*J_33 - J_13*J_13)*inv_det_J;
-    const double inv_J_23 = (J_12*J_13 - J_11*J_23)*inv_det_J;
-    const double inv_J_33 = adj_J_33*inv_det_J;
 
     /* sl3.potential: 3 add
      * s₁ = r₁ − r₂ */
@@ -177,12 +181,12 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
     k[3] = J_22;
     k[4] = J_23;
     k[5] = J_33;
-    k[6] = inv_J_11;
-    k[7] = inv_J_12;
-    k[8] = inv_J_13;
-    k[9] = inv_J_22;
-    k[10] = inv_J_23;
-    k[11] = inv_J_33;
+    k[6] = inv_J_33;
+    k[7] = inv_J_11;
+    k[8] = inv_J_12;
+    k[9] = inv_J_13;
+    k[10] = inv_J_22;
+    k[11] = inv_J_23;
     k[12] = K_11;
     k[13] = K_12;
     k[14] = K_13;
@@ -206,9 +210,10 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
     }
     /* each determinant or pivot against what rounding could make of a singular matrix */
     const double sl3_margin_1 = J_11 - 1e-13*size_J_1;
-    const double sl3_margin_2 = adj_J_33 - 1e-13*(J_22*size_J_1 + J_11*size_J_2);
-    const double sl3_margin_3 = det_J - 1e-13*(J_22*J_33*size_J_1 + J_11*J_33*size_J_2
-        + J_11*J_22*size_J_3);
+    const double sl3_margin_2 = J_d_2 - 1e-13*size_J_2;
+    const double sl3_margin_3 = J_d_3 - 1e-13*size_J_3;
+    const double sl3_margin_4 = 1.0/inv_J_11 - 1e-13*size_J_1;
+    const double sl3_margin_5 = 1.0/inv_J_22 - 1e-13*size_J_2;
     if (sl3_margin_1 <= 0*sl3_margin_1) { /* and finite */
         return sl3_SINGULAR;
     }
@@ -218,6 +223,12 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
     if (sl3_margin_3 <= 0*sl3_margin_3) { /* and finite */
         return sl3_SINGULAR;
     }
+    if (sl3_margin_4 <= 0*sl3_margin_4) { /* and finite */
+        return sl3_SINGULAR;
+    }
+    if (sl3_margin_5 <= 0*sl3_margin_5) { /* and finite */
+        return sl3_SINGULAR;
+    }
     if (!(sl3_margin_1 - sl3_margin_1 == 0)) { /* too large a number */
         return sl3_NOT_FINITE;
     }
@@ -225,6 +236,12 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
         return sl3_NOT_FINITE;
     }
     if (!(sl3_margin_3 - sl3_margin_3 == 0)) { /* too large a number */
+        return sl3_NOT_FINITE;
+    }
+    if (!(sl3_margin_4 - sl3_margin_4 == 0)) { /* too large a number */
+        return sl3_NOT_FINITE;
+    }
+    if (!(sl3_margin_5 - sl3_margin_5 == 0)) { /* too large a number */
         return sl3_NOT_FINITE;
     }
     for (int i = 0; i < sl3_N_CONSTANTS; ++i) {
@@ -238,12 +255,12 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
 void sl3_rhs(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT k,
     const double *sl3_RESTRICT u, double *sl3_RESTRICT dx)
 {
-    const double inv_J_11 = k[6];
-    const double inv_J_12 = k[7];
-    const double inv_J_13 = k[8];
-    const double inv_J_22 = k[9];
-    const double inv_J_23 = k[10];
-    const double inv_J_33 = k[11];
+    const double inv_J_33 = k[6];
+    const double inv_J_11 = k[7];
+    const double inv_J_12 = k[8];
+    const double inv_J_13 = k[9];
+    const double inv_J_22 = k[10];
+    const double inv_J_23 = k[11];
     const double tr_inv_J_K = k[18];
     const double K_inv_J_11 = k[19];
     const double K_inv_J_12 = k[20];
@@ -366,12 +383,12 @@ void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
 #pragma GCC ivdep
 #endif
     for (size_t s = 0; s < n; ++s) {
-        const double inv_J_11 = k[6];
-        const double inv_J_12 = k[7];
-        const double inv_J_13 = k[8];
-        const double inv_J_22 = k[9];
-        const double inv_J_23 = k[10];
-        const double inv_J_33 = k[11];
+        const double inv_J_33 = k[6];
+        const double inv_J_11 = k[7];
+        const double inv_J_12 = k[8];
+        const double inv_J_13 = k[9];
+        const double inv_J_22 = k[10];
+        const double inv_J_23 = k[11];
         const double tr_inv_J_K = k[18];
         const double K_inv_J_11 = k[19];
         const double K_inv_J_12 = k[20];

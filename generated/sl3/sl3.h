@@ -41,7 +41,7 @@
  *   p[20] k24: stiffness of the spring between points 2 and 4, [N/m], default 1.0
  *   p[21] k34: stiffness of the spring between points 3 and 4, [N/m], default 1.0
  *
- * Operations: constants 192 mul, 104 add, 1 div;
+ * Operations: constants 194 mul, 105 add, 3 div;
  *             rhs 107 mul, 88 add, 1 div; energy 91 mul, 63 add.
  */
 #ifndef SL3_H
