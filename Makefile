@@ -3,7 +3,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: help derive test dist notes bench accuracy fuzz lint lock clean
+.PHONY: help derive test coverage mutants dist notes bench accuracy fuzz lint lock clean
 
 help:            ## this list
 	@sed -n 's/^\([a-z]*\):.*## /  make \1  \t/p' Makefile
@@ -16,6 +16,13 @@ test: $(STAMP)   ## lint, types and all tests
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/python -m pytest -n 2
+
+coverage: $(STAMP) ## the tests, and the lines and branches of derive/ that none runs; fails below 95 %
+	$(BIN)/python -m pytest -n 2 --cov --cov-report= --cov-report=json
+	$(BIN)/python -m tests.covered 95
+
+mutants: $(STAMP) ## an hour or more: every record, emitted program and rule of the engine made wrong
+	$(BIN)/python -m tests.mutants
 
 lint: $(STAMP)   ## ruff and mypy alone
 	$(BIN)/ruff check .

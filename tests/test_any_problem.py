@@ -1,5 +1,6 @@
 """Every group × potential × input: the record holds, and C = Python = Gauss's principle."""
 
+import re
 import tomllib
 from fractions import Fraction
 
@@ -99,7 +100,8 @@ def test_solids_are_their_moments(group):
     checker = Checker(record.problem)
     verdicts = [checker.check(step) for step in record.steps if step.scope != ANY_GROUP]
     assert [f"{v.label}: {v.reason}" for v in verdicts if not v.holds] == []
-    _, space = emitted(problem, record)
+    files, space = emitted(problem, record)
+    assert re.sub(r"/\*.*?\*/", "", files["test.c"], flags=re.DOTALL).isascii()  # cos(π/3) too
     moments = gridded()
     listed = "".join(f"{k} = {v!r}\n" for k, v in moments.items())
     text = head + "[parameters]\n" + listed + '[body]\nmoments = "symbolic"\n' + gravity

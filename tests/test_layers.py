@@ -1,6 +1,7 @@
 """The direction of the house: algebra ← mechanics ← walk → record ← views, walk → code."""
 
 import ast
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -68,21 +69,28 @@ def test_files_and_functions_are_small(path):
             assert node.end_lineno - node.lineno < 60, node.name
 
 
+@cache
+def direct(path):
+    """The files of this package that one imports, also inside functions."""
+    found = []
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            base = path.parents[node.level - 1]
+            folder = base.joinpath(*(node.module or "").split("."))
+            candidates = [folder.with_suffix(".py")]
+            candidates += [folder / f"{a.name}.py" for a in node.names]
+            found += [c for c in candidates if c.is_file()]
+    return found
+
+
 def imported(start):
     """A file and all of this package that it imports, directly or not."""
     seen, stack = set(), [start]
     while stack:
         path = stack.pop()
-        if path in seen:
-            continue
-        seen.add(path)
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.ImportFrom) and node.level:
-                base = path.parents[node.level - 1]
-                folder = base.joinpath(*(node.module or "").split("."))
-                candidates = [folder.with_suffix(".py")]
-                candidates += [folder / f"{a.name}.py" for a in node.names]
-                stack += [c for c in candidates if c.is_file()]
+        if path not in seen:
+            seen.add(path)
+            stack += direct(path)
     return seen
 
 

@@ -7,13 +7,14 @@ import pytest
 
 from derive import pipeline
 from derive.algebra import calculus, forms, notation, words
-from derive.algebra.tree import mul, neg, replace_at, subtrees
+from derive.algebra.tree import mul, neg
 from derive.cli import load_problem
 from derive.pipeline import walk
 from derive.record.check import Checker, check
 from derive.record.record import Equation
 from derive.walk import pullback
 from derive.walk.contraction import NoKernelError
+from tests.record_mutations import corruptions, tried
 from tests.walks import NAMES, record
 
 
@@ -21,41 +22,6 @@ from tests.walks import NAMES, record
 def afresh(monkeypatch):
     """A wrong rule must neither find what the right ones left nor leave anything."""
     monkeypatch.setattr(pipeline, "general_road", pipeline.general_road.__wrapped__)
-
-
-def without_term(k):
-    def change(t):
-        rest = t[1:k] + t[k + 1 :]
-        return rest[0] if len(rest) == 1 else ("add", *rest)
-
-    return change
-
-
-def corruptions(equation):
-    """Every change of sign, factor, term and bar on either side: (kind, equation)."""
-    for side in ("lhs", "rhs"):
-        tree = getattr(equation, side)
-        for path, t in subtrees(tree):
-            for kind, change in changes(t, side, path, equation):
-                yield kind, replace(equation, **{side: replace_at(tree, path, change)})
-
-
-def changes(t, side, path, equation):
-    if path == () and side == "rhs":
-        if t == 0:
-            yield "zero", lambda _: 1
-            return
-        yield "sign", neg
-        yield "factor", lambda x: mul(2, x)
-    if not isinstance(t, tuple):
-        return
-    if t[0] == "T":
-        yield "bar", lambda x: x[1]
-    if t[0] == "add":
-        for k in range(1, len(t)):
-            yield "term", without_term(k)
-            yield "sign", lambda x, k=k: (*x[:k], neg(x[k]), *x[k + 1 :])
-            yield "factor", lambda x, k=k: (*x[:k], mul(2, x[k]), *x[k + 1 :])
 
 
 @cache
@@ -68,15 +34,11 @@ CASES = [(name, k) for name in NAMES for k in range(len(record(name).steps))]
 
 @pytest.mark.parametrize(("name", "k"), CASES, ids=lambda x: str(x))
 def test_every_corruption_of_a_step_is_refused(name, k):
-    step = record(name).steps[k]
-    kinds = set()
-    for i, equation in enumerate(step.equations):
-        for kind, wrong in corruptions(equation):
-            equations = (*step.equations[:i], wrong, *step.equations[i + 1 :])
-            verdict = checker(name).check(replace(step, equations=equations))
-            assert not verdict.holds, (step.label, kind, wrong)
-            assert verdict.reason
-            kinds.add(kind)
+    found = list(tried(record(name).steps[k], checker(name)))
+    for kind, wrong, verdict in found:
+        assert not verdict.holds, (kind, wrong)
+        assert verdict.reason
+    kinds = {kind for kind, _, _ in found}
     assert {"sign", "factor"} <= kinds or kinds == {"zero"}
 
 
@@ -89,6 +51,18 @@ def test_a_wrong_scope_is_refused():
     step = record("so3")["so3.exterior"]
     assert not checker("so3").check(replace(step, scope="any group")).holds
     assert not checker("so3").check(replace(step, scope="SL(3)")).holds
+
+
+@pytest.mark.parametrize("k", [0, 1, 2, 3])
+def test_a_name_that_nothing_introduces_is_refused(k):
+    """Without Z = j(ζ), say: every equation that is left is true."""
+    d = record("so3")
+    step = d["so3.hat"]
+    name = step.equations[k].rhs[1]
+    fewer = replace(step, equations=step.equations[:k] + step.equations[k + 1 :])
+    wrong = replace(d, steps=tuple(fewer if s is step else s for s in d.steps))
+    first = next(v for v in check(wrong) if not v.holds)
+    assert first.reason.startswith(f"{name} is used, and neither this step nor one before it says")
 
 
 def test_an_unknown_name_is_refused():

@@ -12,7 +12,7 @@ from ..reserved import WORDS
 GREEK = {
     "ζ": "zeta", "Ω": "omega", "φ": "phi", "λ": "lambda", "γ": "gravity", "ξ": "xi", "η": "eta",
     "μ": "moment", "α": "alpha", "τ": "tau", "β": "load", "σ": "tension", "χ": "reach",
-    "κ": "damping",
+    "κ": "damping", "π": "pi",
 }  # fmt: skip
 MARKS = {"\u0307": "_dot", "\u0303": "_tilde", "′": "_prime"}
 _LOCAL = "D axes dx frame i k n out p s t u x xp"
@@ -47,7 +47,8 @@ def ascii_name(name: str) -> str:
     """``ζ̇`` as ``zeta_dot``, ``I_c`` as ``I_c``."""
     out = ""
     for ch in unicodedata.normalize("NFD", name):
-        out += GREEK.get(ch, MARKS.get(ch, ch if ch.isalnum() or ch == "_" else ""))
+        kept = ch if ch.isascii() and (ch.isalnum() or ch == "_") else ""
+        out += GREEK.get(ch, MARKS.get(ch, kept))
     return out
 
 

@@ -25,6 +25,7 @@ from ..algebra.show import show
 from . import degree
 from .arithmetic import EvaluationError, scalar
 from .evaluate import Environment, evaluate, free_indices, index_values
+from .introduced import unexplained
 from .meaning import environment
 from .model import Model
 from .record import Derivation, Equation, RecordError, Step, to_json
@@ -45,6 +46,8 @@ SMALL = 3
 
 SHOWN = 120
 """Letters of an equation that fails, in the message."""
+
+UNEXPLAINED = "{} is used, and neither this step nor one before it says what it is"
 
 LARGEST_BOUND = SIZE // 10**30
 """A claim whose false pass would be more probable than 1e-30 is refused."""
@@ -257,4 +260,6 @@ def verdicts(d: Derivation, seed: int = 20) -> Iterator[Verdict]:
     """
     digest = hashlib.sha256(to_json(d).encode("utf-8", "surrogatepass")).hexdigest()
     checker = Checker(d.problem, f"{seed} {digest}")
-    yield from map(checker.check, d.steps)
+    for verdict, name in zip(map(checker.check, d.steps), unexplained(d.steps), strict=True):
+        said = not name or not verdict.holds
+        yield verdict if said else Verdict(verdict.label, False, UNEXPLAINED.format(name), 1.0)

@@ -1,0 +1,232 @@
+"""What a changed engine made, judged: by the checker, the oracles and the validator.
+
+They run from unchanged sources, in another process than the engine.
+"""
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from derive.algebra.tree import mul
+from derive.record.check import Checker
+from derive.record.introduced import unexplained
+from derive.record.record import Derivation, RecordError, Step, from_json
+from derive.record.vocabulary import ANY_GROUP
+from tests.engine_mutations.engine import Output, read_back
+from tests.engine_mutations.jobs import Job
+from tests.oracles import general, relative_error
+from tests.test_general_oracle import algebra
+
+STATES, CLOSE = 3, 1e-8
+DEFINED = re.compile(r"^def ([a-z]\w*)", re.MULTILINE)
+"""The functions of an emitted module that are for others."""
+
+
+class Verdict(NamedTuple):
+    """``outcome``: one of :data:`CAUGHT`, of :data:`HARMLESS`, or "survived"; and the reason."""
+
+    outcome: str
+    why: str = ""
+
+
+CAUGHT = ("crashed", "refused", "time", "checker", "oracle", "validator")
+HARMLESS = ("same", "words", "code", "equations")
+"""The same output; other words or references; other code, which is right; other equations, each
+of them proved."""
+
+
+@cache
+def of_any_group(action: str) -> Checker:
+    """Claims about any group are about no problem: one checker for all of them."""
+    return Checker({"group": "any group", "action": action})
+
+
+def refused(step: Step, own: Checker) -> str:
+    """Why the checker refuses a step; empty when it holds."""
+    some = of_any_group(own.problem["action"]) if step.scope == ANY_GROUP else own
+    verdict = some.check(step)
+    return "" if verdict.holds else f"{step.label}: {verdict.reason}"
+
+
+def claims(step: Step) -> tuple[Any, ...]:
+    """What a step says, but for its words and what it refers to."""
+    return step.label, step.scope, step.given, step.equations
+
+
+def changed_steps(new: Derivation, old: Derivation) -> list[Step]:
+    """The steps that claim something else; all of them where the problem is another."""
+    known = {claims(s) for s in old.steps}
+    other = new.problem != old.problem
+    return [s for s in new.steps if claims(s) not in known or (other and s.scope != ANY_GROUP)]
+
+
+def judged(
+    job: Job, new: Output, old: Output, certain: Callable[[Job, list[str]], bool]
+) -> Verdict:
+    """The verdict on one job.
+
+    ``certain``: does the checker with the same change in it refuse one of these steps as well, or,
+    without steps, the validator the code?
+    """
+    if new.trouble:
+        return Verdict(new.trouble, new.why)
+    if (new.record, new.files) == (old.record, old.files):
+        return Verdict("same")
+    found = equations(new, old) if new.record != old.record else Verdict("same")
+    if found.outcome == "checker" and not certain(job, [found.why.partition(":")[0]]):
+        found = Verdict("survived", f"the checker has the same fault: {found.why}")
+    if found.outcome == "checker":
+        return found
+    coded = not job.any_group and (new.files, new.record) != (old.files, old.record)
+    wrong = code(job, new, old) if coded else None
+    if wrong and wrong.outcome == "validator" and not certain(job, []):
+        return Verdict("survived", f"the validator has the same fault: {wrong.why}")
+    if wrong:
+        return wrong
+    if found.outcome == "same":
+        return Verdict("code", "; ".join(k for k in new.files if new.files[k] != old.files.get(k)))
+    return found
+
+
+def equations(new: Output, old: Output) -> Verdict:
+    """The verdict on a record that is not the same."""
+    try:
+        d, right = from_json(new.record), from_json(old.record)
+    except RecordError as error:
+        return Verdict("checker", str(error))
+    own, steps = Checker(d.problem), changed_steps(d, right)
+    try:
+        for step in steps:
+            if why := refused(step, own):
+                return Verdict("checker", why)
+    except RecordError as error:
+        return Verdict("checker", str(error))
+    for step, name in zip(d.steps, unexplained(d.steps), strict=True):
+        if name:
+            return Verdict("checker", f"{step.label}: nothing says what {name} is")
+    if missing := {s.label for s in right.steps} - {s.label for s in d.steps}:
+        return Verdict("survived", f"without {', '.join(sorted(missing))}")
+    before = {s.label: s for s in right.steps}
+    for step in steps:
+        if step.label in before and (why := weaker(step, before[step.label], own)):
+            return Verdict("survived", why)
+    said = {claims(s): s for s in right.steps}
+    other = [s for s in d.steps if claims(s) not in said]
+    if other:
+        return Verdict("equations", ", ".join(s.label for s in other))
+    other = [s for s in d.steps if said[claims(s)] != s]
+    return Verdict("words", ", ".join(s.label for s in other) or "the problem or the symbols")
+
+
+def weaker(step: Step, right: Step, own: Checker) -> str:
+    """What a true step leaves out: equations, an assumption more, or a claim that says nothing."""
+    if step.equations == right.equations:
+        return "" if step.given == right.given else f"{step.label}: given {step.given}"
+    if len(step.equations) < len(right.equations):
+        return f"{step.label}: fewer equations"
+    if {*step.given} - {*right.given}:
+        return f"{step.label}: given {step.given}"
+    for k, equation in enumerate(step.equations):
+        if equation in right.equations:
+            continue
+        doubled = 1 if equation.rhs == 0 else mul(2, equation.rhs)
+        false = (*step.equations[:k], replace(equation, rhs=doubled), *step.equations[k + 1 :])
+        if not refused(replace(step, equations=false), own):
+            return f"{step.label}: an equation that says nothing"
+    return ""
+
+
+# -- code ---------------------------------------------------------------------------------------
+
+
+def code(job: Job, new: Output, old: Output) -> Verdict | None:
+    """The verdict on code that is wrong; ``None`` when it is right."""
+    name = job.data["name"]
+    before, after = ({*DEFINED.findall(x.files.get(f"{name}.py", ""))} for x in (old, new))
+    if before - after:
+        return Verdict("oracle", f"no {', '.join(sorted(before - after))} to call")
+    try:
+        if job.plain and (why := numbers(job, new.files[f"{name}.py"])):
+            return Verdict("oracle", why)
+    except Exception as error:
+        return Verdict("oracle", f"{type(error).__name__}: {error}"[:200])
+    if job.framed:
+        return None
+    for report in read_back(job, new):
+        if not report.holds:
+            return Verdict("validator", report.text[:200])
+    return None
+
+
+def numbers(job: Job, text: str) -> str:
+    """Where emitted Python differs from Gauss's principle; empty where it does not."""
+    data, space = job.seen_by_the_oracle(), {"__name__": "emitted"}
+    exec(compile(text, "emitted.py", "exec"), space)
+    p, given = general.parameters(data), general.parameters(job.data)
+    if {k: x for k, x in space["DEFAULTS"].items() if x is not None} != {
+        k: given[k] for k in space["PARAMETERS"] if k in given
+    }:
+        return "other defaults"
+    basis = np.array(space["BASIS"], float)
+    if not same_span(basis, algebra(data["group"])):
+        return "BASIS is of another algebra"
+    k = space["constants"]([given[x] for x in space["PARAMETERS"]])
+    rng = np.random.default_rng(7)
+    for _ in range(STATES):
+        x = general.random_state(data, basis, rng)
+        t, u = rng.normal(), rng.normal(size=len(space["INPUTS"]))
+        expected = general.rhs(data, basis, p, t, x, u)
+        energy = general.energy(data, basis, p, t, x)
+        for what, found, right in compared(job, space, (t, x, k, u), expected, energy):
+            if not relative_error(found, right) < CLOSE:
+                return f"{what} differs"
+    return ""
+
+
+def same_span(a: Any, b: Any) -> bool:
+    """Are two families of independent matrices bases of one space?"""
+    if a.shape != b.shape:
+        return False
+    both = np.concatenate([a, b]).reshape(2 * len(a), -1)
+    return np.linalg.matrix_rank(both) == np.linalg.matrix_rank(both[: len(a)]) == len(a)
+
+
+def compared(
+    job: Job, space: dict[str, Any], at: tuple[Any, ...], expected: Any, energy: float
+) -> Iterator[tuple[str, Any, Any]]:
+    """(what, found, expected): in the principal frame after the way there, and back."""
+    t, x, k, u = at
+    if not job.framed:
+        yield "rhs", space["rhs"](t, x, k, u), expected
+        yield "energy", [space["energy"](t, x, k)], [energy]
+        if "turned" in space:
+            yield from in_principal_axes(job, space, t, x, energy)
+        return
+    y = space["into_frame"](x, k)
+    v = space["inputs_into_frame"](u, k) if len(u) else u
+    yield "the way back", space["out_of_frame"](y, k), x
+    if len(u):
+        yield "the way back of inputs", space["inputs_out_of_frame"](v, k), u
+    # the ways there and back are linear, but for the constant last row of an affine group
+    rate = space["out_of_frame"](y + space["rhs"](t, y, k, v), k) - x
+    yield "rhs", rate, expected
+    yield "energy", [space["energy"](t, y, k)], [energy]
+
+
+def in_principal_axes(
+    job: Job, space: dict[str, Any], t: float, x: Any, energy: float
+) -> Iterator[tuple[str, Any, Any]]:
+    """(what, found, expected) of a rigid body that ``turned`` takes to its principal axes."""
+    defaults = general.parameters(job.data)
+    p = [defaults[name] for name in space["PARAMETERS"]]
+    moments, R = space["principal_axes"](p)
+    q = space["turned"](p, R)
+    yield "inertia", space["inertia"](q), np.diag(moments)
+    d = len(space["BASIS"])
+    A, T, vectors = x[:9].reshape(3, 3) @ R, x[9:-d], x[-d:].reshape(-1, 3) @ R
+    y = np.concatenate([A.ravel(), T, vectors.ravel()])
+    yield "turned energy", [space["energy"](t, y, space["constants"](q))], [energy]

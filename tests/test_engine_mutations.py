@@ -1,0 +1,102 @@
+"""A sample of `python -m tests.engine_mutations`: a wrong rule of the engine does not pass.
+
+`make mutants` tries all of them.
+"""
+
+import ast
+
+import pytest
+
+from tests.engine_mutations.jobs import JOBS
+from tests.engine_mutations.judge import CAUGHT, numbers
+from tests.engine_mutations.known import EXPLAINED, reason
+from tests.engine_mutations.operators import mutants
+from tests.engine_mutations.run import LEFT, MODULES, Survey, chosen, results
+from tests.engine_mutations.table import counted, table, wrong
+from tests.test_layers import ROOT
+
+SAMPLE, SEED = 30, 7
+FIRST = JOBS[:4]
+"""The texts about any group, SL(3) by words and SO(3) by vectors, each with all its forces."""
+
+
+@pytest.fixture(scope="module")
+def survey():
+    return Survey(MODULES, FIRST)
+
+
+def changed(source):
+    return {f"{m.kind}: {ast.unparse(m.changed()).strip()}" for m in mutants("x.py", source)}
+
+
+def test_the_changes_of_an_expression():
+    assert changed("a - b.bar") == {
+        "sign: a + b.bar",
+        "term: a",
+        "transpose: a - b",
+    }
+    assert changed("add(x, neg(y))") == {
+        "term: add(neg(y))",
+        "term: add(x)",
+        "sign: add(('mul', -1, x), neg(y))",
+        "sign: add(x, ('mul', -1, neg(y)))",
+        "sign: add(x, y)",
+    }
+    assert changed("('mul', a, ('T', b))") == {
+        "factor: ('T', b)",
+        "factor: a",
+        "order: ('mul', ('T', b), a)",
+        "sign: ('mul', -1, ('mul', a, ('T', b)))",
+        "sign: ('mul', a, ('mul', -1, ('T', b)))",
+        "transpose: ('mul', a, b)",
+    }
+    assert changed("x = c[i][j] if n < 2 else c[i, j]") == {
+        "indices: x = c[j][i] if n < 2 else c[i, j]",
+        "indices: x = c[i][j] if n < 2 else c[j, i]",
+        "comparison: x = c[i][j] if n <= 2 else c[i, j]",
+        "condition: x = c[i][j] if not n < 2 else c[i, j]",
+        "number: x = c[i][j] if n < 3 else c[i, j]",
+    }
+    assert changed("def f(x: int = 1) -> 'T':\n    raise ValueError(x + 1)") == {
+        "number: def f(x: int=2) -> 'T':\n    raise ValueError(x + 1)"
+    }
+
+
+def test_every_module_is_changed_or_left_for_a_reason():
+    rooms = ("algebra", "walk", "mechanics", "code")
+    files = {str(p.relative_to(ROOT)) for room in rooms for p in (ROOT / room).glob("*.py")}
+    assert {x for x in files if not x.endswith("__init__.py")} <= {*MODULES, *LEFT}
+    assert {module for module, _ in EXPLAINED} <= {*MODULES}
+
+
+def test_the_oracle_agrees_with_what_is_not_changed(survey):
+    for job, output in zip(survey.jobs, survey.outputs, strict=True):
+        if not job.any_group:
+            assert numbers(job, output.files[f"{job.data['name']}.py"]) == ""
+
+
+RULES = [
+    ("algebra/forms.py", "sign: delta_prime - delta  →  delta_prime + delta"),
+    ("algebra/words.py", "condition: not bar  →  bar"),
+    ("algebra/calculus.py", "term: total + term  →  total"),
+    ("walk/cartan.py", "transpose: covector.bar  →  covector"),
+    ("walk/multipliers.py", "factor: ('inv', x.name)  →  x.name"),
+    ("code/lower.py", "comparison: i == j  →  i != j"),
+]
+
+
+@pytest.mark.parametrize(("module", "change"), RULES)
+def test_a_wrong_rule_is_caught(module, change, survey):
+    """The structure equation, the transpose, the product rule, and others."""
+    (one, *_) = [m for m in mutants(module, (ROOT / module).read_text()) if change in str(m)]
+    ((_, verdict),) = results([one], survey)
+    assert verdict.outcome in CAUGHT, verdict
+
+
+def test_a_sample_of_all_rules(survey):
+    found = list(results(chosen(MODULES, SAMPLE, SEED), survey))
+    print(table(counted(found)))
+    survived = [(str(m), v.why) for m, v in found if v.outcome == "survived" and not reason(m)]
+    assert not survived
+    caught, whole = map(sum, zip(*map(wrong, counted(found).values()), strict=True))
+    assert caught == whole > SAMPLE // 4
