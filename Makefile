@@ -3,7 +3,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: help derive test coverage mutants dist notes bench fuzz lint lock clean
+.PHONY: help derive test coverage mutants dist notes bench accuracy fuzz lint lock clean
 
 help:            ## this list
 	@sed -n 's/^\([a-z]*\):.*## /  make \1  \t/p' Makefile
@@ -47,6 +47,9 @@ bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside
 	$(BIN)/python -m benchmarks.road
 	$(BIN)/python -m benchmarks.sizes
 	$(BIN)/python -m benchmarks.peers
+
+accuracy: $(STAMP) ## worst error of each output against 50 digits, over 100000 states of each problem: an hour
+	$(BIN)/python -m benchmarks.accuracy
 
 fuzz: $(STAMP)   ## random problems and 100000 changed files of every kind: hours; faults go to fuzz-faults/
 	EXAMPLES=300 $(BIN)/python -m pytest tests/test_random_problems.py

@@ -83,6 +83,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
         made.add_argument("--allow-negative-mass", action="store_true", help=allowed)
     paper = command("paper")
     paper.add_argument("--format", choices=("text", "json"), default="text")
+    paper.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
     paper.add_argument("--out", metavar="FILE")
     build = command("build")
     build.add_argument("--out", metavar="DIR", default="generated")

@@ -11,12 +11,16 @@ from collections.abc import Sequence
 from contextlib import suppress
 from importlib import resources
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .guard import StoppedError, one_line, within
 from .mechanics.problem import Problem, ProblemError
 from .progress import counted
 from .record.record import Derivation, RecordError
 from .rendering import NOTES, RenderError, notes, pdf, render
+
+if TYPE_CHECKING:
+    from .record.check import Verdict
 
 READY = resources.files("derive") / "problems"
 
@@ -158,10 +162,8 @@ def command_check(args: argparse.Namespace) -> int:
             record = derive(name, args.allow_negative_mass)[1]
         verdicts = list(counted(check(record), len(record.steps), name))
         for v in verdicts:
-            print(
-                f"{'holds' if v.holds else 'FAILS'}  {v.label}"
-                + (f": {one_line(v.reason)}" if v.reason else "")
-            )
+            said = _tried(v) if v.holds else one_line(v.reason)
+            print(f"{'holds' if v.holds else 'FAILS'}  {v.label}: {said}")
         bad = sum(not v.holds for v in verdicts)
         bound = max(v.bound for v in verdicts)
         print(
@@ -172,14 +174,22 @@ def command_check(args: argparse.Namespace) -> int:
     return 1 if failed else 0
 
 
+def _tried(v: Verdict) -> str:
+    """On what a step was found to hold."""
+    count, groups = v.tried
+    return f"{count} equation{'s' * (count != 1)} on {', '.join(groups)}"
+
+
 def command_paper(args: argparse.Namespace) -> int:
     """The paper's numbered equations against the derivation."""
     from .record import paper
+    from .views.language import language
     from .views.paper import as_json, as_text
 
     records = [derive(name)[1] for name in paper.PROBLEMS]
     findings = list(counted(paper.findings(records), len(paper.PAPER), "equations"))
-    save(as_json(findings) if args.format == "json" else as_text(findings), args.out)
+    shown = as_json(findings) if args.format == "json" else as_text(findings, language(args.lang))
+    save(shown, args.out)
     return 0
 
 

@@ -13,6 +13,7 @@ from .record.record import Derivation, Equation, Step, Symbol
 
 if TYPE_CHECKING:
     from .code.expressions import Expressions
+    from .views.drawing import Scene
 
 
 @dataclass(frozen=True)
@@ -83,6 +84,25 @@ class Shown:
 
 
 @dataclass(frozen=True)
+class Figure:
+    """The drawing of a body, shown in a notebook."""
+
+    scene: Scene
+
+    def __repr__(self) -> str:
+        return f"<figure {self.scene.width:.0f} mm by {self.scene.height:.0f} mm>"
+
+    def svg(self) -> str:
+        """The drawing as SVG, a file of its own or an element of a page."""
+        from .views.figure import svg
+
+        return svg(self.scene)
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+
+@dataclass(frozen=True)
 class Derived:
     """A derivation: the record of a problem and what one does with it."""
 
@@ -119,6 +139,13 @@ class Derived:
 
     def _repr_markdown_(self) -> str:
         return self.markdown()
+
+    def figure(self) -> Figure | None:
+        """The drawing of the body, if there is one."""
+        from .views.scene import scene
+
+        drawn = scene(self.record)
+        return Figure(drawn) if drawn else None
 
     def latex(self, lang: str = "en", transpose: str = "bar", hat: str = "j") -> str:
         """A document for pdflatex, with transposes as "bar" or "top" and hats as "j" or "wedge"."""

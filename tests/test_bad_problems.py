@@ -1,9 +1,9 @@
 """What is wrong in a file of one's own: one line that names the file, the key, the remedy."""
 
 import os
+import resource
 import subprocess
 import sys
-import time
 
 import pytest
 
@@ -203,7 +203,7 @@ def holed_sphere():
 
 @pytest.mark.parametrize("case", HOSTILE)
 def test_hostile_files_cost_little(case, tmp_path):
-    """One line, in a process of 500 MB; the time is held against 2 s beyond starting Python."""
+    """One line, in a process of 500 MB; processor time, as the machine may be busy."""
     path = tmp_path / "bad.toml"
     path.write_text(HOSTILE[case], encoding="utf-8")
     if case == "mesh":
@@ -212,14 +212,14 @@ def test_hostile_files_cost_little(case, tmp_path):
     limited += "from derive.cli import main; import sys; sys.exit(main(sys.argv[1:]))"
     command = [sys.executable, "-c", limited, "walk", str(path)]
     environment = os.environ | {"OPENBLAS_NUM_THREADS": "1"}
-    start = time.perf_counter()
+    start = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     done = subprocess.run(command, capture_output=True, text=True, env=environment)
     assert done.returncode == 2, done.stderr[-300:]
     assert done.stderr.count("\n") == 1
     assert len(done.stderr) < 500
     assert done.stdout == ""
-    assert time.perf_counter() - start < 2 * SLACK
+    assert resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - start < 2 * SLACK
 
 
-SLACK = 3
-"""The machine that runs the tests may be busy; by itself each case takes below 2 s."""
+SLACK = 1.5
+"""A busy machine is slower; by itself each case takes below 2 s."""

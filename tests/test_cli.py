@@ -1,6 +1,8 @@
 """The command line: exit codes, one clear line for bad input, nothing half-written."""
 
+import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -202,3 +204,18 @@ def test_a_good_problem_file(capsys, tmp_path):
     assert main(["check", str(path)]) == 0
     assert main(["emit", str(path), "--out", str(tmp_path)]) == 0
     assert (tmp_path / "four.py").exists()
+
+
+def test_a_failing_step_says_what_and_where(capsys, tmp_path):
+    """The equation, the entry, and small numbers on both sides; of the others, on which groups."""
+    data = to_data(record("so3"))
+    step = next(s for s in data["steps"] if s["label"] == "so3.kernel")
+    step["equations"][0]["rhs"][1] = ["mul", -1, step["equations"][0]["rhs"][1]]
+    path = tmp_path / "wrong.json"
+    path.write_text(json.dumps(data), encoding="utf-8")
+    assert main(["check", str(path)]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    (failed,) = (line for line in lines if line.startswith("FAILS"))
+    assert failed.startswith("FAILS  so3.kernel: equation 1 on SO(3), Iζ̇ = −Iφ + Iζ ∧ ζ: the sides")
+    assert re.search(r"differ in entry \(\d, 1\): -?[\d/]{1,9} and -?[\d/]{1,9}$", failed)
+    assert "holds  linear.energy: 2 equations on GL(4), SL(2), SO(3)" in lines

@@ -42,3 +42,11 @@ def test_principal_axes_of_a_free_body():
     J2, J3, y, z = (named[x] for x in ("J_22", "J_33", "zeta_2", "zeta_3"))
     I2, I3 = named["J_11"] + J3, named["J_11"] + J2
     assert sympy.simplify(found - (I2 - I3) / (J2 + J3) * y * z) == 0
+
+
+def test_pi_is_a_symbol():
+    """The mass of an ellipsoid is ⁴⁄₃π ρ a b c."""
+    e = derive.derive("ellipsoid").expressions()
+    text = str([*e.k.values(), *e.rhs])
+    assert "pi" in text
+    assert not any(x.is_Float for y in (*e.k.values(), *e.rhs) for x in sympy.preorder_traversal(y))

@@ -15,10 +15,10 @@ from derive.mechanics.frame import principal
 from derive.mechanics.problem import ProblemError
 from derive.mechanics.toml import problem_of
 from derive.pipeline import program, walk
-from derive.record.check import check
 from tests.emitted import BUILDS, compile_c, import_python, present
 from tests.test_options import drawn as state_of_any
 from tests.test_options import state
+from tests.walks import own_verdicts
 
 FREE = ["1/2", "g", "-1/3"]
 
@@ -207,7 +207,7 @@ def test_the_frame_is_principal(name):
 @pytest.mark.parametrize("name", ["SO(3)", "SL(3)", "SAff(3)", "SE(2)", "comet"])
 def test_the_problem_in_the_frame_is_checked_like_any_other(name):
     record = walk(principal(PROBLEMS[name]()))
-    assert all(v.holds for v in check(record))
+    assert all(v.holds for v in own_verdicts(record))
 
 
 @pytest.mark.parametrize(

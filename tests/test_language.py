@@ -20,7 +20,7 @@ from derive.record.paper import PAPER
 from derive.record.record import from_json, to_json
 from derive.record.rules import RULES
 from derive.record.sentence import PLACE, english, phrase, say
-from derive.record.vocabulary import DISPLACEMENTS, MISPRINTED, ROTATIONS, VOCABULARY
+from derive.record.vocabulary import DISPLACEMENTS, ROTATIONS, VOCABULARY
 from derive.views import outline
 from derive.views.escape import markdown_text, prose, tex_text
 from derive.views.language import ENGLISH, LANGUAGES, THIN, WIDE, Language, entries, language
@@ -143,7 +143,7 @@ def test_every_message_of_the_walk_is_reached(records):
 def test_every_word_of_the_tables_is_in_the_catalogue():
     tables = (*(about for about, _ in VOCABULARY.values()), *ROTATIONS.values())
     words = {*tables, *DISPLACEMENTS.values(), *RULES, *outline.GIVEN.values()}
-    words |= {p.remark for p in PAPER if p.number in MISPRINTED}
+    words |= {p.remark for p in PAPER if p.remark}
     words |= {outline.CONVENTIONS, outline.FORMULAS_CONVENTIONS, outline.PAPER}
     assert words | titles_and_meanings() <= set(FRENCH.messages)
     assert set(KINDS) <= strings("walk/body.py")
@@ -166,7 +166,7 @@ def test_every_word_said_is_in_the_catalogue(path):
 
 def test_every_entry_is_used():
     sources = strings("walk/*.py", "record/vocabulary.py", "record/rules.py", "views/*.py")
-    sources |= {p.remark for p in PAPER if p.number in MISPRINTED}
+    sources |= {p.remark for p in PAPER if p.remark}
     used = sources | strings("pipeline.py") | titles_and_meanings()
     assert [x["en"] for x in ENTRIES if x["en"] not in used] == []
 

@@ -22,7 +22,8 @@ def shown():
 
 
 def test_walk_step_and_equation_are_formulas(shown):
-    walk, step, equation, *_ = shown
+    walk, figure, step, equation, *_ = shown
+    assert figure["image/svg+xml"].startswith("<svg")
     assert walk["text/markdown"].startswith("# A cone on its apex")
     assert "\\varpi" in walk["text/markdown"]
     assert "$$" in step["text/markdown"]

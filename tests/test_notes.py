@@ -91,15 +91,15 @@ def test_a_fragment_stands_in_a_lecturers_text(said, tmp_path):
     fragment = said("walk", "so3", "--format", "latex", "--fragment").out
     assert "documentclass" not in fragment
     (tmp_path / "so3.tex").write_text(fragment)
-    own = {"transpose": r"{#1}^{t}", "Tr": r"\mathrm{trace}"}
-    lines = [
-        rf"\newcommand{{\{name}}}{'[1]' * count}{{{own.get(name, '#1' if count else 'x')}}}"
-        for name, (count, _, _) in DEFINED.items()
-    ]
+    own = {"transpose": r"{#1#2}^{t}", "Tr": r"\mathrm{trace}"}
+    takes = {name: f"[{count}]" if count else "" for name, (count, _, _) in DEFINED.items()}
+    bodies = {name: own.get(name, "#1" if x else "x") for name, x in takes.items()}
+    lines = [rf"\newcommand{{\{name}}}{x}{{{bodies[name]}}}" for name, x in takes.items()]
     (tmp_path / "lecture.tex").write_text(
         "\\documentclass{article}\n\\usepackage{amsmath,amssymb}\n"
         + "\n".join(lines)
-        + "\n\\newcommand{\\step}[3]{\\subsection*{#1}}\n\\newcommand{\\from}[1]{}\n"
+        + "\n\\newcommand{\\walkstep}[4]{\\subsection*{#2}}\n\\newcommand{\\walkfrom}[1]{}\n"
+        + "\\newcommand{\\walkheading}[1]{\\section{#1}}\n"
         + "\\begin{document}\nBy \\eqref{so3.kernel}:\n\\input{so3}\n\\end{document}\n"
     )
     log = compiled(tmp_path / "lecture.tex")

@@ -22,7 +22,7 @@ from derive.views.escape import markdown_text, prose, tex_text
 from derive.views.latex import anchor, latex, spelt
 from derive.views.letters import bar, names_of, parameter
 from derive.views.markdown import markdown
-from derive.views.outline import equation_label
+from derive.views.outline import equation_label, printed
 from derive.views.tex import latex_tree
 from derive.views.text import text
 from derive.views.wrap import Piece, display_width, fill
@@ -77,8 +77,16 @@ def test_every_step_is_in_every_view(name: str) -> None:
         assert f"\n{step.label}  ·  {step.rule}" in plain
         assert f"— `{step.label}`\n" in marked
         assert f"{{{spelt(step.label)}}}" in source
-        for number in step.paper:
-            assert re.search(rf"^{re.escape(step.label)}  ·.*\({number}\)", plain, re.M)
+        heading = re.search(rf"^{re.escape(step.label)}  ·.*", plain, re.M)
+        assert heading
+        assert numbers(heading[0]) == set(step.paper)
+        assert rf"\walkstep{{{tex_text(printed(step))}}}" in source
+
+
+def numbers(heading: str) -> set[int]:
+    """The numbers of the paper in it, where (1)–(3) is three of them."""
+    runs = re.findall(r"\((\d+)\)\*?(?:–\((\d+)\))?", heading)
+    return {n for a, b in runs for n in range(int(a), int(b or a) + 1)}
 
 
 @pytest.mark.parametrize("name", NAMES)

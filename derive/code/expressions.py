@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import sympy
@@ -11,7 +13,8 @@ import sympy
 from .program import Expression, Function, Program
 
 LARGEST = 10**6
-"""A fraction beyond it stands for a number such as π."""
+"""A denominator beyond it is that of a number such as √2, which programs have to 53 bits."""
+PI = Fraction(math.pi)
 
 
 @dataclass(frozen=True)
@@ -70,8 +73,7 @@ def _values(f: Function, arrays: Mapping[str, Sequence[Any]]) -> list[Any]:
 def _expression(e: Expression, found: Mapping[str, Any]) -> Any:
     op = e[0]
     if op == "num":
-        q = sympy.Rational(e[1].numerator, e[1].denominator)
-        return q if e[1].denominator < LARGEST else sympy.Float(e[1].numerator / e[1].denominator)
+        return _number(e[1])
     if op == "var":
         return found[e[1]]
     if op == "add":
@@ -81,3 +83,12 @@ def _expression(e: Expression, found: Mapping[str, Any]) -> Any:
     if op == "div":
         return _expression(e[1], found) / _expression(e[2], found)
     return getattr(sympy, "Abs" if op == "abs" else e[1])(_expression(e[-1], found))
+
+
+def _number(q: Fraction) -> Any:
+    """A fraction, a fraction of π, or a decimal number."""
+    for unit, name in ((Fraction(1), sympy.Integer(1)), (PI, sympy.pi)):
+        part = q / unit
+        if part.denominator < LARGEST:
+            return sympy.Rational(part.numerator, part.denominator) * name
+    return sympy.Float(q.numerator / q.denominator)

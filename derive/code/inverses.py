@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
@@ -23,7 +25,6 @@ class Inverting(Reader):
     def __init__(self, d: Derivation, group: Group, options: Options, graph: Graph | None = None):
         super().__init__(d, group, options, graph)
         self.checks: list[tuple[Node, Node | None]] = []
-        self._single = options.real == "float"
 
     def _inverse(self, t: Tree) -> Value:
         if t == ("T", "A"):
@@ -41,15 +42,20 @@ class Inverting(Reader):
         if self._unit_determinant(t):
             if len(value) <= SMALL:
                 return self.named(dense.adjugate(g, value), name)
-        elif len(value) <= SMALL:
+        elif len(value) <= SMALL and dense.stage_of(value) != PARAMETER:
             return self._by_adjugate(t, value, name)
-        inverse, pivots = dense.symmetric_inverse(g, value, self._namer(name))
+        inverse, pivots = dense.symmetric_inverse(g, value, self._namer(name_of(t)))
+        if len(value) <= SMALL and _alike(value):
+            inverse = self._by_adjugate(t, value, name)  # type: ignore[assignment]
+        found = self.named(inverse, name, given=True)
         self._check_pivots(t, value, pivots)
-        return self.named(inverse, name)
+        if dense.stage_of(value) == PARAMETER:
+            self._check_diagonal(t, value, found)  # type: ignore[arg-type]
+        return found
 
     def require_regular(self) -> None:
         """Where a multiplier solves the kernel, J must be regular even if no force asks for J⁻¹."""
-        if any(step.rule == "multiplier" for step in self.record.steps):
+        if any(step.label.endswith(".multiplier") for step in self.record.steps):
             central = self.record.definition("N_c") is not None
             self.tree(("inv", "J_c" if central else "J"))
 
@@ -66,8 +72,7 @@ class Inverting(Reader):
 
     def _check_pivots(self, t: Tree, value: Matrix, pivots: list[Node]) -> None:
         if dense.stage_of(value) == PARAMETER:
-            scale = self.graph.magnitude(dense.diagonal(self.graph, value))
-            self.checks += [(d, scale) for d in pivots]
+            self._check(zip(pivots, self._sizes(t, value), strict=True))
         elif t == "M":
             # M is the metric at g of one space of displacements: singular at all g or at none
             still = self._at_identity(value)
@@ -87,39 +92,37 @@ class Inverting(Reader):
         return tuple(tuple(self.graph.replaced(x, images) for x in row) for row in m)
 
     def _by_adjugate(self, t: Tree, value: Matrix, name: str) -> Value:
-        g, base, units = self.graph, name_of(t), []
-        if self._single and dense.stage_of(value) == PARAMETER:
-            # three moments of a ship are 1e12 kg m² each: their product is no float
-            self.checks.append((value[-1][-1], None))
-            units = [g.value(g.recip(value[-1][-1]), f"unit_{base}", self.label)]
-            lighter = tuple(tuple(g.product((*units, x)) for x in row) for row in value)
-            value = self.named(lighter, f"{base}_in_units")  # type: ignore[assignment]
+        """For a matrix of the state: the fewest operations, though det may lose κ² (Higham 14.6).
+
+        One of the parameters is factorised instead, which is done once and loses κ alone; but where
+        all axes are alike, so are the entries of the adjugate, which rhs needs only once.
+        """
+        g, base = self.graph, name_of(t)
         adjugate = self.named(dense.adjugate(g, value), f"adj_{base}")
         assert not isinstance(adjugate, Node)
         row = [(x, adjugate[j][0]) for j, x in enumerate(value[0])]
         det = g.value(g.sum(g.product(pair) for pair in row), f"det_{base}", self.label)
-        if det.stage == PARAMETER:
-            self._check_minors(value, adjugate, det, base)
-        else:
+        if dense.stage_of(value) != PARAMETER:
             self._check_pivots(t, value, [])
-        scale = g.value(g.product((*units, g.recip(det))), f"inv_det_{base}", self.label)
+        scale = g.value(g.recip(det), f"inv_det_{base}", self.label)
         return self.named(tuple(tuple(g.product((scale, x)) for x in r) for r in adjugate), name)
 
-    def _check_minors(self, m: Matrix, adjugate: Matrix, det: Node, base: str) -> None:
-        """The leading minors of a positive M against Σ_i s_i Π_j≠i M_jj, s_i the terms of M_ii.
+    def _sizes(self, t: Tree, m: Matrix) -> list[Node]:
+        """The sizes of the terms of the diagonal: in units where it is 1 they are the rounding of a
+        positive M, however slender the body."""
+        g, base = self.graph, name_of(t)
+        pairs = [(suffixed(f"size_{base}", i), row[i - 1]) for i, row in enumerate(m, 1)]
+        return [g.value(g.magnitude(x), name, self.label) for name, x in pairs]
 
-        In units where the diagonal is 1 that is the rounding of M, however slender the body.
-        """
-        g, n = self.graph, len(m)
-        minors = [m[0][0], *([adjugate[2][2]] if n == 3 else []), det][-n:]
-        names = [suffixed(f"size_{base}", i) for i in range(1, n + 1)]
-        pairs = zip(range(n), names, strict=True)
-        sizes = [g.value(g.magnitude(m[i][i]), name, self.label) for i, name in pairs]
-        for k, minor in enumerate(minors, 1):
-            terms = (
-                g.product([sizes[i], *(m[j][j] for j in range(k) if j != i)]) for i in range(k)
-            )
-            self.checks.append((minor, g.sum(terms)))
+    def _check_diagonal(self, t: Tree, m: Matrix, inverse: Matrix) -> None:
+        """1/(M⁻¹)_ii too: after a small pivot, rounding could make a larger one of none."""
+        for i, scale in enumerate(self._sizes(t, m)):
+            x = inverse[i][i]
+            pivot = x.op == "value" and x.args[0].op == "recip"
+            self._check([] if pivot else [(self.graph.recip(x), scale)])
+
+    def _check(self, checks: Iterable[tuple[Node, Node | None]]) -> None:
+        self.checks += [x for x in dict.fromkeys(checks) if x not in self.checks]
 
     def _unit_determinant(self, t: Tree) -> bool:
         """A and C = ĀA where the record says det A = 1."""
@@ -127,3 +130,11 @@ class Inverting(Reader):
             e.lhs == ("det", "A") and e.rhs == 1 for s in self.record.steps for e in s.equations
         )
         return unimodular and t in ("A", "C")
+
+
+def _alike(m: Matrix) -> bool:
+    """Is a matrix the same in all axes, a on the diagonal and b beside it?"""
+    beside = {x for i, row in enumerate(m) for j, x in enumerate(row) if i != j}
+    if len({row[i] for i, row in enumerate(m)}) != 1 or len(beside) != 1:
+        return False
+    return not dense.is_constant(m) and not m[0][1].is_zero

@@ -132,13 +132,20 @@ class Lowering(Inverting):
         return self.named(value, name_of(t))
 
     def _gyroscopic(self, metric: Tree, vector: Tree) -> Matrix:
-        """M x for M x ∧ x: a multiple of 1 taken from M changes nothing, and leaves M_33 = 0."""
+        """M x for M x ∧ x: a multiple of 1 taken from M changes nothing, and leaves M_33 = 0.
+
+        Of M = (Tr J) 1 − J all of Tr J is taken: in a slender body the sums J_jj + J_kk differ by
+        less than their rounding.
+        """
         g, m = self.graph, self._matrix(metric)
+        found = self.record.definition(metric)
+        inside = untraced(found[1].rhs) if found else None
+        light = q.scaled(-1, self._matrix(inside)) if inside else m
         if all(x.is_zero for i, row in enumerate(m) for j, x in enumerate(row) if i != j):
-            return dense.times(g, m, self._matrix(vector))  # (M_j − M_k) x_j x_k, without names
+            return dense.times(g, light, self._matrix(vector))  # (M_j − M_k) x_j x_k, unnamed
         rows = tuple(
-            tuple(x - m[2][2] if i == j else x for j, x in enumerate(row))
-            for i, row in enumerate(m)
+            tuple(x - light[2][2] if i == j else x for j, x in enumerate(row))
+            for i, row in enumerate(light)
         )
         name = name_of(metric)
         lighter = self.named(rows, f"{name}_0") if dense.stage_of(m) == PARAMETER else m
@@ -245,6 +252,14 @@ class Lowering(Inverting):
 
 SCALARS = {"m", "λ", "t", "h̃", "Ũ", "L̃"}
 SCALAR_OPERATORS = {"tr", "inner", "metric", "norm2", "det", "par", "entry", "fun"}
+
+
+def untraced(t: Tree) -> Tree | None:
+    """J of (Tr J) 1 − J; ``None`` for any other tree."""
+    match t:
+        case ("add", ("mul", ("tr", inside), ("one",)), ("mul", -1, other)) if inside == other:
+            return inside  # type: ignore[no-any-return]
+    return None
 
 
 def is_solve(t: tuple[Any, ...]) -> bool:

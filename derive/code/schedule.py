@@ -100,15 +100,17 @@ class _Builder:
 
     def build(self, order: list[Node]) -> None:
         """Statements in the order of creation: operands come before what uses them."""
+        named = {x.args[0]: x for x in order if x.op == "value" and x not in self.inputs}
         for x in order:
-            if x in self.inputs or x.is_atom:
+            if x in self.inputs or x.is_atom or x in self.local:
                 continue
-            label = x.graph.titles[x][1] if x.op == "value" else ""
             if self._stands_alone(x):
-                name = self.scheduler.names.claim(self._wanted(x), f"node {x.id}")
+                value = named.get(x, x)  # what is used without its name as well has it all the same
+                label = x.graph.titles[value][1] if value.op == "value" else ""
+                name = self.scheduler.names.claim(self._wanted(value), f"node {value.id}")
                 inner = x.args[0] if x.op == "value" else x
                 self.statements.append((label, Assignment(name, self._operation(inner))))
-                self.local[x] = name
+                self.local[x] = self.local[value] = name
 
     def _stands_alone(self, x: Node) -> bool:
         if x.op == "value":

@@ -11,6 +11,7 @@ from __future__ import annotations
 import hashlib
 import itertools
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, partial
@@ -20,6 +21,7 @@ from typing import Any
 from ..algebra.families import group, on_homogeneous, turning_about_a_point
 from ..algebra.given import group_of_basis
 from ..algebra.groups import Group
+from ..algebra.show import show
 from . import degree
 from .arithmetic import EvaluationError, scalar
 from .evaluate import Environment, evaluate, free_indices, index_values
@@ -39,6 +41,12 @@ those about the problem's group for each of its dimensions, ``WRITTEN_OUT`` time
 WRITTEN_OUT = 64
 """A claim about a problem writes out its expressions and their derivatives."""
 
+SMALL = 3
+"""That of the example for a claim that fails."""
+
+SHOWN = 120
+"""Letters of an equation that fails, in the message."""
+
 UNEXPLAINED = "{} is used, and neither this step nor one before it says what it is"
 
 LARGEST_BOUND = SIZE // 10**30
@@ -54,12 +62,16 @@ translations are not free."""
 
 @dataclass(frozen=True)
 class Verdict:
-    """``holds``, with ``reason`` when it does not; ``bound`` on the probability of a false pass."""
+    """``holds``, with ``reason`` when it does not; ``bound`` on the probability of a false pass.
+
+    ``tried``: how many equations, on which groups.
+    """
 
     label: str
     holds: bool
     reason: str
     bound: float
+    tried: tuple[int, tuple[str, ...]] = (0, ())
 
 
 class Checker:
@@ -67,7 +79,7 @@ class Checker:
 
     def __init__(self, problem: Mapping[str, Any], seed: int | str = 20):
         self.problem, self.seed = problem, seed
-        self._environments: dict[tuple[str, tuple[str, ...]], Environment] = {}
+        self._environments: dict[tuple[str, tuple[str, ...], int], Environment] = {}
 
     def groups(self, scope: str) -> list[Group]:
         """The groups on which a step of this scope is tried."""
@@ -96,19 +108,23 @@ class Checker:
     def environments(self, step: Step) -> Iterator[tuple[Group, Environment]]:
         """The exact points at which a step is tried."""
         for g in self.groups(step.scope):
-            key = (g.name + step.scope, step.given)
-            if key not in self._environments:
-                self._environments[key] = environment(self.model(g, step.scope, step.given))
-            yield g, self._environments[key]
+            yield g, self.environment(g, step)
 
-    def model(self, g: Group, scope: str, given: tuple[str, ...]) -> Model:
+    def environment(self, g: Group, step: Step, size: int = SIZE) -> Environment:
+        """A random exact point, the same for all steps of a kind."""
+        key = (g.name + step.scope, step.given, size)
+        if key not in self._environments:
+            self._environments[key] = environment(self.model(g, step.scope, step.given, size))
+        return self._environments[key]
+
+    def model(self, g: Group, scope: str, given: tuple[str, ...], size: int = SIZE) -> Model:
         """A random exact point."""
         seed = f"{self.seed} {g.name} {scope} {given}"
         return Model(
             self.problem,
             g,
             Random(seed),
-            SIZE,
+            size,
             principal="principal axes" in given,
             driven="input" in given,
             motion="any" if "any X" in given else "coasting" if "any acceleration" in given else "",
@@ -141,7 +157,10 @@ class Checker:
                 for k, equation in enumerate(step.equations, 1):
                     reason = difference(equation, env)
                     if reason:
-                        where = f"equation {k} on {g.name}"
+                        said = f"{show(equation.lhs)} = {show(equation.rhs)}"
+                        said = said if len(said) <= SHOWN else f"{said[:SHOWN]} …"
+                        where = f"equation {k} on {g.name}, {said}"
+                        reason = self.example(g, step, equation) or reason
                         return Verdict(step.label, False, f"{where}: {reason}", 1.0)
         except (EvaluationError, RecordError, ZeroDivisionError) as error:
             return Verdict(step.label, False, str(error), 1.0)
@@ -150,7 +169,14 @@ class Checker:
             return Verdict(step.label, False, reason.splitlines()[0], 1.0)
         except (AttributeError, RecursionError) as error:
             return Verdict(step.label, False, f"not a claim: {type(error).__name__}", 1.0)
-        return Verdict(step.label, True, "", bound / SIZE)
+        tried = len(step.equations), tuple(g.name for g in self.groups(step.scope))
+        return Verdict(step.label, True, "", bound / SIZE, tried)
+
+    def example(self, g: Group, step: Step, equation: Equation) -> str:
+        """What differs at a point of small numbers; empty if nothing does there."""
+        with suppress(EvaluationError, ArithmeticError, AssertionError):
+            return difference(equation, self.environment(g, step, SMALL))
+        return ""
 
 
 def difference(equation: Equation, env: Environment) -> str:
@@ -182,7 +208,7 @@ def _difference(equation: Equation, env: Environment) -> str:
         return str(error)
     if _same(left, right):
         return ""
-    return f"the sides differ: {_brief(left)} and {_brief(right)}"
+    return f"the sides differ{_apart(scalar(left), scalar(right))}"
 
 
 def _same(a: Any, b: Any) -> bool:
@@ -193,9 +219,24 @@ def _same(a: Any, b: Any) -> bool:
     return bool(a == b)
 
 
+def _apart(a: Any, b: Any) -> str:
+    """Where, and the numbers there."""
+    if not isinstance(a, tuple) and not isinstance(b, tuple):
+        return f": {_brief(a)} and {_brief(b)}"
+    x, y = (c if isinstance(c, tuple) else None for c in (a, b))
+    if x and y and (len(x), len(x[0])) != (len(y), len(y[0])):
+        return f": a {len(x)}×{len(x[0])} and a {len(y)}×{len(y[0])} matrix"
+    for i, row in enumerate(x or y or ()):
+        for j in range(len(row)):
+            left, right = (c[i][j] if c else whole for c, whole in ((x, a), (y, b)))
+            if left != right:
+                return f" in entry ({i + 1}, {j + 1}): {_brief(left)} and {_brief(right)}"
+    return ""
+
+
 def _brief(x: Any) -> str:
-    if isinstance(x, tuple):
-        return f"a {len(x)}×{len(x[0])} matrix with first entry {_brief(x[0][0])}"
+    if Fraction(x).denominator < 10**6 and abs(x) < 10**9:
+        return str(x)
     return f"{float(x):.6g}" if abs(x) < Fraction(10) ** 300 else "a large number"
 
 

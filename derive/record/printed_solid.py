@@ -32,12 +32,12 @@ SOLID: tuple[Printed, ...] = (
     Printed(
         3, False, "SE(3)", "L(t, r, v) = Σ m_i v_i²/2 − U", (Equation("L", add(KINETIC, neg("U"))),)
     ),
-    Printed(4, False, "SE(3)", "r = (r_1, …, r_N) and v = (v_1, …, v_N) ∈ R^{3N}"),
+    Printed(4, False, "SE(3)", "r = (r_1, …, r_N),  v = (v_1, …, v_N) ∈ R^{3N}"),
     Printed(
         5,
         False,
         "SE(3)",
-        "δa = 0, with a = ∫_a^b L(t, r(t), v(t)) dt",
+        "δa = 0,  a = ∫_a^b L(t, r(t), v(t)) dt",
         remark="The letter a is both the action and the lower bound.",
     ),
     Printed(
@@ -108,7 +108,7 @@ SOLID: tuple[Printed, ...] = (
         20,
         True,
         "SE(3)",
-        "p_SO(3)(δA) = Tr[(Jᾱ + τc̄)δA] and p_R³(δτ) = ⟨mτ + αc, δτ⟩",
+        "p_SO(3)(δA) = Tr[(Jᾱ + τc̄)δA],  p_R³(δτ) = ⟨mτ + αc, δτ⟩",
         (
             Equation(("call", "p̃", "δA", 0), tr(add(mul("J", bar("α")), mul("τ", bar("c"))), "δA")),
             Equation(("call", "p̃", 0, "δτ"), ("inner", add(mul("m", "τ"), mul("α", "c")), "δτ")),
@@ -116,6 +116,7 @@ SOLID: tuple[Printed, ...] = (
         "As ⟨δA c, τ⟩ = Tr cτ̄ δA, the factors are exchanged; and the displacement that "
         "the second part measures is δT, not δτ.",
         answers=(("call", "p̃", 0, "δT"),),
+        seed=380,
     ),
     Printed(
         36,

@@ -22,7 +22,7 @@ def _euler(i: int, j: int, k: int) -> Equation:
 SAME_FORCE = "The force is a function of the point, not of the variation: the prime has no meaning."
 ORIENTATION = (
     "With dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)], the convention of (29) and (31), the "
-    "sign is the opposite; (25) and (26) contradict (29)."
+    "sign is the opposite; (25) and (26) contradict (29). The kernel is the same."
 )
 
 TOP: tuple[Printed, ...] = (
@@ -75,6 +75,7 @@ TOP: tuple[Printed, ...] = (
             ),
         ),
         ORIENTATION,
+        seed=384,
     ),
     Printed(
         26,
@@ -88,6 +89,7 @@ TOP: tuple[Printed, ...] = (
             ),
         ),
         ORIENTATION,
+        seed=26,
     ),
     Printed(
         27,
@@ -130,6 +132,7 @@ TOP: tuple[Printed, ...] = (
             ),
         ),
         "The transpose is missing on δ′Z in the second term. " + SAME_FORCE,
+        seed=35,
     ),
     Printed(
         30,
@@ -157,7 +160,8 @@ TOP: tuple[Printed, ...] = (
                 ),
             ),
         ),
-        SAME_FORCE,
+        SAME_FORCE + " With φ for φ′ the equation holds.",
+        seed=267,
     ),
     Printed(
         32,
@@ -166,6 +170,7 @@ TOP: tuple[Printed, ...] = (
         "I = J − Tr J",
         (Equation("I", add("J", neg(mul(("tr", "J"), ("one",))))),),
         "The sign: ⟨ζ, Iζ⟩ would be negative, against (31); (34) and (35) do not see it.",
+        seed=13,
     ),
     Printed(
         33,
@@ -183,7 +188,7 @@ TOP: tuple[Printed, ...] = (
         34,
         True,
         "SO(3)",
-        "Ω = ζ and dζ/dt = φ + I⁻¹(Iζ ∧ ζ)",
+        "Ω = ζ,  dζ/dt = φ + I⁻¹(Iζ ∧ ζ)",
         (
             Equation(("call", "Ω", "X"), "ζ"),
             Equation("ζ̇", add("φ", mul(("inv", "I"), ("wedge", mul("I", "ζ"), "ζ")))),
@@ -199,6 +204,7 @@ TOP: tuple[Printed, ...] = (
         "Said to be equivalent to (34), it has lost the term φ of the potential.",
         True,
         missing=("φ",),
+        seed=250,
     ),
     Printed(
         39,

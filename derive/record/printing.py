@@ -4,6 +4,7 @@ Each entry is the number, what kind of statement it is, where it holds, the prin
 trees, how they read in print, and a remark where the print needs one.  Nothing here was corrected.
 A *claim* has a truth value and is compared with the derivation; a *definition* introduces a name.
 ``missing``: names that the print has lost, and a counterexample needs.
+``seed``: from where a counterexample is sought; nearby is one with few numbers.
 ``answers``: left sides of the record that answer the print where its own are misprinted.
 """
 
@@ -36,6 +37,7 @@ class Printed:
     principal: bool = False
     answers: tuple[Tree, ...] = ()
     missing: tuple[str, ...] = ()
+    seed: int = 0
 
 
 def bar(x: Tree) -> Tree:

@@ -7,7 +7,7 @@ RULES: dict[str, str] = {
     "variation": "The derivation δ is applied: product rule on words.",
     "pull-back": "The motion by the group is substituted and summed over the points.",
     "fibre derivative": "The Lagrangian is differentiated along the velocity.",
-    "Legendre": "The momentum is paired with the velocity, less the Lagrangian.",
+    "Legendre transform": "The momentum is paired with the velocity, less the Lagrangian.",
     "Cartan form": "Momentum on the displacement, less energy on the time.",
     "exterior derivative": "dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)].",
     "restriction": "Some variations are set to zero.",

@@ -12,10 +12,9 @@ from ..record.paper import Finding
 from .book import Part
 from .language import Language
 from .letters import NAMES
+from .paper import grouped
 from .tex import latex_tree
 
-READABLE = 60
-"""Values of a counterexample with more letters than this are left to ``derive paper``."""
 FORMULA = re.compile("\ue000([^\ue001]*)\ue001")
 """A formula in LaTeX among the words of a sentence."""
 
@@ -38,14 +37,14 @@ class Told:
 
 def corrections(
     parts: Sequence[Part], findings: Sequence[Finding], language: Language
-) -> dict[str, list[list[Told]]]:
+) -> dict[str, dict[int, list[Told]]]:
     """The corrections at each step, by its label: those of a number where it stands first."""
     left = {f.number: f for f in findings}
-    found: dict[str, list[list[Told]]] = {}
+    found: dict[str, dict[int, list[Told]]] = {}
     for part in parts:
         for step in part.steps:
             here = [left.pop(n) for n in step.paper if n in left]
-            found[step.label] = [[*_told(f, language)] for f in here]
+            found[step.label] = {f.number: [*_told(f, language)] for f in here}
     return found
 
 
@@ -54,22 +53,14 @@ def _told(f: Finding, language: Language) -> Iterator[Told]:
     printed = ", ".join(_formula(e.lhs, e.rhs) for e in f.equations)
     *given, (_, left), (_, right) = (f.counterexample or {}).items()
     sides = {"left": _formula(value_of(left)), "right": _formula(value_of(right))}
-    values = ", ".join(_formula(name, value_of(x)) for name, x in given)
-    if sum(len(x) for _, x in given) <= READABLE:
-        said = "For {values}, the left side is {left}, the printed right side {right}."
-        example = language.word(said, values=values, **sides)
-    else:
-        example = language.word(
-            "At the point that “derive paper” lists, the left side is {left}, the printed right "
-            "side {right}.",
-            **sides,
-        )
+    values = ", ".join(_formula(*names, value_of(x)) for *names, x in grouped(given))
+    said = "For {values}, the left side is {left}, the printed right side {right}."
     sentences = (
         language.word(
             "The paper prints in {number}: {printed}.", number=f"({f.number})", printed=printed
         ),
         language.word(f.remark),
-        example,
+        language.word(said, values=values, **sides),
     )
     for k, piece in enumerate(FORMULA.split(" ".join(sentences))):
         if piece:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import groupby
@@ -43,17 +43,29 @@ def entries(equations: Sequence[Equation]) -> list[Entry]:
     numbered = list(enumerate(equations))
     kept = [(k, e) for k, e in numbered if not _itself(e)] or numbered
     found: list[Entry] = []
-    for short, run in groupby(kept, key=lambda x: bool(cell(x[1]))):
-        members = [*run]
-        size = columns([e for _, e in members]) if short and len(members) > TABLE else 1
-        for at in range(0, len(members), size):
-            row = members[at : at + size]
-            place = row[0][0] if found else 0
-            found.append(_apart(place, row[0][1]) if len(row) == 1 else Entry(place, told(row)))
+    for row in rows(kept):
+        place = row[0][0] if found else 0
+        found.append(_apart(place, row[0][1]) if len(row) == 1 else Entry(place, told(row)))
     return found
 
 
-def told(row: Sequence[tuple[int, Equation]]) -> tuple[Equation, ...]:
+Placed = tuple[int, Equation]
+
+
+def rows(equations: Iterable[Placed]) -> Iterator[list[Placed]]:
+    """Many short equations by the row, a few zeros in one, others each by itself."""
+    for short, run in groupby(equations, key=lambda x: bool(cell(x[1]))):
+        members = [*run]
+        if short and len(members) > TABLE:
+            size = columns([e for _, e in members])
+            yield from (members[at : at + size] for at in range(0, len(members), size))
+            continue
+        for zero, part in groupby(members, key=lambda x: short and x[1].rhs == 0):
+            together = [*part]
+            yield from [together] if zero else ([x] for x in together)
+
+
+def told(row: Sequence[Placed]) -> tuple[Equation, ...]:
     """The equations of a numbered row."""
     return tuple(e for _, e in row)
 

@@ -34,11 +34,14 @@ GREEK = {
     )
     for name in names.split()
 }  # fmt: skip
+NAMED = {"rho", "sigma", "omega", "gamma", "kappa", "theta", "lambda"}
+"""Parameters that equations have as Greek letters, and that are words of neither language."""
 SYMBOLS = {letter: rf"\{name}" for name, letter in GREEK.items()} | {
     "λ": r"\lambda", "Λ": r"\Lambda", "φ": r"\varphi", "ϕ": r"\phi", "ϖ": r"\varpi",
     "Σ": r"\sum", "∂": r"\partial", "−": "-", "∧": r"\wedge", "⟨": r"\langle", "⟩": r"\rangle",
     "‖": r"\Vert", "≅": r"\cong", "≠": r"\neq", "≤": r"\le", "≥": r"\ge", "∈": r"\in", "→": r"\to",
-    "×": r"\times", "𝔤": r"\mathfrak{g}", "′": "'", "½": r"\tfrac12", "∇": r"\nabla", "∘": r"\circ",
+    "×": r"\times", "𝔤": r"\mathfrak{g}", "′": "'", "½": r"\tfrac12", "⅓": r"\tfrac13",
+    "¼": r"\tfrac14", "⅔": r"\tfrac23", "∇": r"\nabla", "∘": r"\circ",
     "ℓ": r"\ell", "𝟏": r"\mathbf{1}", "𝔰": r"\mathfrak{s}", "𝔬": r"\mathfrak{o}",
 }  # fmt: skip
 RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
@@ -158,7 +161,7 @@ def _is_formula(word: str, first: bool) -> bool:
         return False
     if len(word) == 1 and word.isascii():
         return word.isalpha() and word != "a" and not (first and word in "AEIOY")
-    if re.fullmatch(r"d?[A-Za-z]/d?[a-z]", word):
+    if re.fullmatch(r"d?[A-Za-z]/d?[a-z]", word) or word in NAMED:
         return True
     decomposed = unicodedata.normalize("NFD", word)
     if len(word) > 1:
@@ -229,6 +232,8 @@ def _joint(shown: str, piece: str) -> str:
 def _word(word: str) -> str:
     if word == "Tr":
         return r"\operatorname{Tr}"
+    if word in NAMED:
+        return rf"\{word}"
     if len(word) == 2:
         return rf"\mathrm{{d}}{word[1]}" if word[0] == "d" else word
     return rf"\operatorname{{{word}}}"

@@ -27,11 +27,13 @@ from .notation import Notation
 from .outline import (
     FORMULAS_CONVENTIONS,
     PAPER,
+    REFERENCES,
     ROAD,
     TRANSPOSES,
+    assumed,
     capitalised,
     equation_label,
-    notes,
+    printed,
     subtitle,
     title,
 )
@@ -81,8 +83,11 @@ def html(
             "from": capitalised(word("from")),
             "coordinates": capitalised(word("coordinates")),
             "names": word("Names"),
+            "paper": word("paper {numbers}", numbers="").strip(),
             "copy": word("copy the LaTeX"),
+            "references": word("References"),
         },
+        references=[x[1:] for x in REFERENCES],
         parts=[p.fields(shown) for p in written],
     )
 
@@ -124,7 +129,7 @@ class _Part:
     notation: Notation
     language: Language
     numbers: Mapping[str, str]
-    told: Mapping[str, list[list[Told]]]
+    told: Mapping[str, Mapping[int, list[Told]]]
 
     @property
     def names(self) -> Mapping[str, str]:
@@ -161,8 +166,9 @@ class _Part:
             "label": step.label,
             "id": anchor(step.label),
             "rule": capitalised(self.language.word(step.rule)),
-            "notes": [words(x, self.notation) for x in notes(step, self.language)],
-            "corrections": [*map(self.correction, self.told[step.label])],
+            "printed": printed(step),
+            "notes": [words(x, self.notation) for x in assumed(step, self.language)],
+            "corrections": [*map(self.correction, self.told[step.label].values())],
             "prose": words(self.language.of(step.prose), self.notation),
             "equations": shown[step.label],
             "uses": [unfolded(x) for x in step.uses],

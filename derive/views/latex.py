@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -24,11 +24,13 @@ from .notation import Notation
 from .outline import (
     FORMULAS_CONVENTIONS,
     PAPER,
+    REFERENCES,
     ROAD,
     TRANSPOSES,
+    assumed,
     capitalised,
     equation_label,
-    notes,
+    printed,
     subtitle,
     title,
 )
@@ -77,6 +79,7 @@ def latex(
         regular=styled(prose(language.word(REGULAR))),
         from_these=tex_text(language.word("from")),
         references=tex_text(language.word("References")),
+        bibliography=[[*map(tex_text, x)] for x in REFERENCES],
     )
 
 
@@ -86,6 +89,7 @@ def package(notation: Notation | None = None, *, language: Language = ENGLISH) -
     return template.render(
         language=language.name,
         macros="\n".join(definitions(notation or Notation())),
+        paper=tex_text(language.word("paper {numbers}", numbers="").strip()),
         from_these=tex_text(language.word("from")),
     )
 
@@ -102,10 +106,15 @@ def fragment(
     """
     records = [d] if isinstance(d, Derivation) else [*d]
     writer = _Writer(book(records, language), language, findings)
-    steps = (
-        line for part in writer.parts for step in part.steps for line in writer.step(part, step)
+    lines = (
+        line
+        for part in writer.parts
+        for line in (
+            rf"\walkheading{{{tex_text(part.heading)}}}",
+            *(x for step in part.steps for x in writer.step(part, step)),
+        )
     )
-    return styled("\n".join(steps)) + "\n"
+    return styled("\n".join(lines)) + "\n"
 
 
 ROOM = "0.4\\textheight"
@@ -128,56 +137,86 @@ class _Writer:
     def body(self) -> Iterator[str]:
         """Sections with their figures, steps and names."""
         for part in self.parts:
-            yield rf"\room{{{ROOM}}}\section{{{tex_text(part.heading)}}}"
+            yield rf"\walkroom{{{ROOM}}}\section{{{tex_text(part.heading)}}}"
             if part.about:
                 yield rf"{{\large {prose(part.about)}\par}}"
             if drawn := self.drawings[part.name]:
                 caption = prose(self.language.of(drawn.caption))
-                yield rf"\drawing{{{tikz(drawn)}}}{{{caption}}}"
+                yield rf"\walkfigure{{{tikz(drawn)}}}{{{caption}}}"
             for step in part.steps:
                 yield from ("", *self.step(part, step))
             if names := [*_names(part, names_of(part.source.symbols), self.language)]:
                 heading = tex_text(self.language.word("Names"))
-                yield rf"\begin{{names}}{{{heading}}}"
-                yield from (*names, r"\end{names}", "")
+                yield rf"\begin{{walknames}}{{{heading}}}"
+                yield from (*names, r"\end{walknames}", "")
 
     @cached_property
-    def corrections(self) -> dict[str, list[list[Told]]]:
+    def corrections(self) -> dict[str, dict[int, list[Told]]]:
         """What is told of the print at each step."""
         return corrections(self.parts, self.findings, self.language)
 
     @cached_property
-    def last(self) -> dict[str, str]:
-        """Label of a step → that of its last equation."""
-        every = (step for _, step in steps(self.parts))
-        return {x.label: equation_label(x, entries(x.equations)[-1].first) for x in every}
+    def numbered(self) -> list[str]:
+        """The labels of all that has a number, in order."""
+        return [
+            equation_label(step, x.first)
+            for _, step in steps(self.parts)
+            for x in entries(step.equations)
+        ]
+
+    @cached_property
+    def spans(self) -> dict[str, tuple[int, int]]:
+        """Label of a step → the places of its first equation and of what follows its last."""
+        found, at = {}, 0
+        for _, step in steps(self.parts):
+            found[step.label] = at, at + len(entries(step.equations))
+            at = found[step.label][1]
+        return found
+
+    def references(self, labels: Iterable[str]) -> Iterator[str]:
+        """The numbers of all the equations of some steps, neighbours in one span."""
+        spans: list[tuple[int, int]] = []
+        for first, end in sorted(self.spans[x] for x in labels):
+            near = spans and spans[-1][1] == first and first not in self.begins
+            spans[-1:] = [(spans[-1][0], end)] if near else [*spans[-1:], (first, end)]
+        for first, end in spans:
+            ends = [rf"\eqref{{{anchor(self.numbered[k])}}}" for k in (first, end - 1)]
+            yield ends[0] if end == first + 1 else (", " if end == first + 2 else "--").join(ends)
+
+    @cached_property
+    def begins(self) -> set[int]:
+        """The places of the first equations of the parts."""
+        return {self.spans[part.steps[0].label][0] for part in self.parts if part.steps}
 
     def step(self, part: Part, step: Step) -> Iterator[str]:
         """Heading, sentences, equations."""
         names, language = names_of(part.source.symbols), self.language
-        beside = "".join(f", {prose(note)}" for note in notes(step, language))
+        beside = "".join(f", {prose(x)}" for x in assumed(step, language)) + self.footnotes(step)
         rule = tex_text(capitalised(language.word(step.rule)))
-        yield rf"\step{{{rule}}}{{{beside}{self.footnotes(step)}}}{{{spelt(step.label)}}}"
-        used = ", ".join(reference(label, self.last) for label in step.uses)
-        yield prose(language.of(step.prose)) + (rf" \from{{{used}}}" if used else "")
+        paper = tex_text(printed(step))
+        yield rf"\walkstep{{{paper}}}{{{rule}}}{{{beside}}}{{{spelt(step.label)}}}"
+        used = ", ".join(self.references(step.uses))
+        yield prose(language.of(step.prose)) + (rf" \walkfrom{{{used}}}" if used else "")
         yield from _equations(step, names, language)
 
     def footnotes(self, step: Step) -> str:
-        """Where the print of the paper is corrected."""
-        told = ("".join(x.shown(prose, _small) for x in t) for t in self.corrections[step.label])
-        return "".join(rf"\footnote{{{x}}}" for x in told)
+        """Where the print of the paper is corrected, or the number of the note that has said it."""
+        told = self.corrections[step.label]
+        shown = {n: "".join(x.shown(prose, _small) for x in t) for n, t in told.items()}
+        notes = [rf"\footnote{{\label{{paper.{n}}}{x}}}" for n, x in shown.items()]
+        again = [n for n in step.paper if n in self.corrected and n not in told]
+        marks = [rf"\textsuperscript{{\ref{{paper.{n}}}}}" for n in again]
+        return r"\textsuperscript{,}".join([*notes, *marks])
+
+    @cached_property
+    def corrected(self) -> set[int]:
+        """The numbers that are told of somewhere."""
+        return {n for told in self.corrections.values() for n in told}
 
 
 def _small(formula: str) -> str:
     """A formula of a footnote, its matrices small."""
     return f"${re.sub(r'pmatrix(?=[}])', 'psmallmatrix', formula)}$"
-
-
-def reference(label: str, last: Mapping[str, str]) -> str:
-    """The numbers of all the equations of a step."""
-    first, final = anchor(label), anchor(last[label])
-    span = "" if first == final else rf"--\eqref{{{final}}}"
-    return rf"\eqref{{{first}}}{span}"
 
 
 def _equations(step: Step, names: Mapping[str, str], language: Language) -> Iterator[str]:
@@ -209,10 +248,10 @@ def _names(part: Part, names: Mapping[str, str], language: Language) -> Iterator
     """The letters of a part with their meanings, then the parameters of the problem."""
     for symbol in part.symbols:
         meaning = prose(language.of(symbol.meaning))
-        yield rf"\name{{{latex_tree(symbol.name, names)}}}{{{meaning}}}"
+        yield rf"\walkname{{{latex_tree(symbol.name, names)}}}{{{meaning}}}"
     for run, meaning, unit in parameters(part.record, language):
         shown = ", ".join(map(parameter, run))
-        yield rf"\name{{{shown}}}{{{tex_text(meaning)}{f' [{_unit(unit)}]' if unit else ''}}}"
+        yield rf"\walkname{{{shown}}}{{{tex_text(meaning)}{f' [{_unit(unit)}]' if unit else ''}}}"
 
 
 def _unit(unit: str) -> str:

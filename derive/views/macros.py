@@ -12,7 +12,6 @@ from functools import partial
 from .notation import Notation
 
 RENAMED = (
-    (r"\\bar(?![A-Za-z])", r"\transpose"),
     (r"\\overline(?=\{)", r"\transposeof"),
     (r"\\operatorname\{Tr\}", r"\Tr"),
     (r"\\mathbf\{1\}", r"\unitmatrix"),
@@ -25,11 +24,17 @@ RENAMED = (
     (r"\\tilde(?![A-Za-z])", r"\pulled"),
     (r"\\dot(?![A-Za-z])", r"\rate"),
 )
+INDEX = r"'*(?:_(?:\{[^{}]*\}|[A-Za-z0-9]))?'*"
+BAR = re.compile(rf"\\bar(?:\{{((?:[^{{}}]|\{{[^{{}}]*\}})*)\}}|\s+([A-Za-z]))({INDEX})")
 HAT = re.compile(r"\\hatmap\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}")
 SPOKEN = re.compile(r"(?<![A-Za-z_\\{])j\(([^()]*)\)")
 
 DEFINED = {
-    "transpose": (1, {"bar": r"\bar{#1}", "top": r"{{#1}^{\top}}"}, "the transpose of a letter"),
+    "transpose": (
+        2,
+        {"bar": r"\bar{#1}#2", "top": r"{{#1#2}^{\top}}"},
+        "the transpose of a letter, its prime or index",
+    ),
     "transposeof": (
         1,
         {"bar": r"\overline{#1}", "top": r"{\left(#1\right)^{\top}}"},
@@ -53,6 +58,7 @@ DEFINED = {
 def styled(tex: str) -> str:
     """Formulas, or a text with formulas between dollars, in macros."""
     tex = re.sub(r"\$[^$]*\$", lambda m: SPOKEN.sub(r"\\hatmap{\1}", m[0]), tex)
+    tex = BAR.sub(r"\\transpose{\1\2}{\3}", tex)
     for pattern, macro in RENAMED:
         tex = re.sub(rf"{pattern}(?=([A-Za-z])?)", partial(_renamed, macro), tex)
     return tex
@@ -79,6 +85,6 @@ def definitions(notation: Notation) -> list[str]:
     chosen["hatmap"] = notation.hat
     lines = []
     for name, (count, bodies, meaning) in DEFINED.items():
-        body, arguments = bodies[chosen.get(name, "")], "[1]" if count else ""
+        body, arguments = bodies[chosen.get(name, "")], f"[{count}]" if count else ""
         lines.append(rf"\providecommand{{\{name}}}{arguments}{{{body}}} % {meaning}")
     return lines

@@ -30,6 +30,8 @@ FENCES = {"langle": "⟨", "rangle": "⟩", "lVert": "‖", "rVert": "‖", "Ver
 ACCENTS = {"dot": "˙", "tilde": "~", "hat": "^"}
 SPACES = {"quad": "1em", "qquad": "2em", ",": "0.17em", " ": "0.3em", ";": "0.28em"}
 SIGNS = {"-": "−", "*": "∗"}
+TOP = "<mo>⊤</mo>"
+RAISED = f"{TOP}</msup>"
 ENDS = {"}", "&", "\\\\"}
 PREFIXED = ("=", "(", "[", ",", "{")
 
@@ -72,6 +74,8 @@ class _Parser:
         base = self.atom()
         self.infix = False
         above, below = "", ""
+        raised = base.startswith("<msup>") and base.endswith(RAISED)
+        base = base.removeprefix("<msup>").removesuffix(RAISED) if raised else base
         while self.peek()[:1] in ("^", "_", "'") and self.peek():
             token = self.take()
             if token == "^":
@@ -81,6 +85,8 @@ class _Parser:
             else:
                 # ′ is a raised letter, which fonts raise again in an exponent
                 base = f'<mrow>{base}<mo lspace="0" rspace="0">{"′" * len(token)}</mo></mrow>'
+        if raised:  # the index and the prime of a letter stand before its ⊤
+            above, base = (above, f"<msup>{base}{RAISED}") if above else (TOP, base)
         if base.startswith('<mo movablelimits="false">') and below:
             return f"<munder>{base}{_one(below)}</munder>"
         if above and below:
@@ -198,7 +204,7 @@ class _Parser:
             # fonts stretch no bar over an expression, and set that of a letter on its stroke
             return f'<mrow class="overline">{inside}</mrow>'
         base = inside if letter else _fenced(inside)
-        return f"<msup><mrow>{base}</mrow><mo>⊤</mo></msup>"
+        return f"<msup><mrow>{base}</mrow>{RAISED}"
 
     def do_hatmap(self) -> str:
         """The skew matrix of a vector."""

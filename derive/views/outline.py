@@ -13,8 +13,8 @@ CONVENTIONS = (
     "Bars are transposes and 1 is the identity. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for "
     "vectors, without index for M = 1; ‖a‖² = ⟨a, a⟩. "
     "[a, b] = ab − ba and j(X)Y = X ∧ Y. Variations commute; dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)]; the "
-    "group is trivialised on the left, ξ = g⁻¹δg. The point y = (t, g, ν) is a time, an element of "
-    "the group and a velocity; 𝔤 is the Lie algebra."
+    "tangent bundle of the group is trivialised on the left, ξ = g⁻¹δg. The point y = (t, g, ν) is "
+    "a time, an element of the group and a velocity; 𝔤 is the Lie algebra."
 )
 FORMULAS_CONVENTIONS = (
     r"For matrices "
@@ -23,9 +23,10 @@ FORMULAS_CONVENTIONS = (
     r"$\Vert a\Vert^2 = \langle a, a\rangle$; $[a, b] = ab - ba$ and "
     r"$j(X)Y = X \wedge Y$. Variations commute, "
     r"$\mathrm{d}\varpi(\delta, \delta') = \delta[\varpi(\delta')] - \delta'[\varpi(\delta)]$, "
-    r"and the group is trivialised on the left, $\xi = g^{-1}\delta g$. The point "
-    r"$y = (t, g, \nu)$ is a time, an element of the group and a velocity; $\mathfrak{g}$ is the "
-    r"Lie algebra. Parameters of the problem are set in $\mathsf{sans\ serif}$."
+    r"and the tangent bundle of the group is trivialised on the left, $\xi = g^{-1}\delta g$. "
+    r"The point $y = (t, g, \nu)$ is a time, an element of the group and a velocity; "
+    r"$\mathfrak{g}$ is the Lie algebra. "
+    r"Parameters of the problem are set in $\mathsf{sans\ serif}$."
 )
 """The same with formulas between dollars, for LaTeX and Markdown, but for its first sentence."""
 TRANSPOSES = {
@@ -40,10 +41,22 @@ ROAD = (
 )
 """What is done, in one sentence."""
 PAPER = (
-    "Numbers beside the name of a step are those of the paper, P. Iglesias-Zemmour, "
-    "“D’où viennent les équations du mouvement des solides ?”; one marked * is "
-    "misprinted there; “derive paper” says how."
+    "Numbers in the margin or beside the name of a step are those of the paper, "
+    "P. Iglesias-Zemmour, “D’où viennent les équations du mouvement des solides ?”; one marked "
+    "* is misprinted there; “derive paper” says how."
 )
+
+REFERENCES = (
+    ("paper", "P. Iglesias-Zemmour", "D’où viennent les équations du mouvement des solides ?", ""),
+    ("Aud", "M. Audin", "Spinning Tops", "Cambridge University Press, 1996"),
+    (
+        "Igl",
+        "P. Iglesias",
+        "Mécanique analytique et géométrie symplectiques",
+        "notes personnelles, 2000",
+    ),
+)
+"""The paper and what it refers to: key, author, title, where."""
 
 GIVEN = {
     "principal axes": "in principal axes",
@@ -85,11 +98,34 @@ def sections(d: Derivation, language: Language = ENGLISH) -> Iterator[tuple[str,
         yield heading(scope, language), list(steps)
 
 
+def printed(step: Step) -> str:
+    """The numbers of the paper, runs of them as (11)–(13); a star where it is misprinted."""
+    runs: list[list[int]] = []
+    for n in step.paper:
+        alone = n in MISPRINTED or not runs or runs[-1][-1] in MISPRINTED
+        if alone or n != runs[-1][-1] + 1:
+            runs.append([])
+        runs[-1].append(n)
+    return ", ".join(_run(run) for run in runs)
+
+
+def _run(run: list[int]) -> str:
+    """(11)–(13), or one after the other where there are fewer."""
+    if len(run) > 2:
+        return f"({run[0]})–({run[-1]})"
+    return ", ".join(f"({n})" + "*" * (n in MISPRINTED) for n in run)
+
+
+def assumed(step: Step, language: Language = ENGLISH) -> list[str]:
+    """What a step assumes further."""
+    return [language.word(GIVEN.get(x, x)) for x in step.given]
+
+
 def notes(step: Step, language: Language = ENGLISH) -> list[str]:
-    """What stands beside a rule: the numbers of the paper, further assumptions."""
-    numbers = ", ".join(f"({n})" + "*" * (n in MISPRINTED) for n in step.paper)
-    printed = [language.word("paper {numbers}", numbers=numbers)] if numbers else []
-    return [*printed, *(language.word(GIVEN.get(x, x)) for x in step.given)]
+    """What stands beside a rule where there is no margin."""
+    numbers = printed(step)
+    paper = [language.word("paper {numbers}", numbers=numbers)] if numbers else []
+    return [*paper, *assumed(step, language)]
 
 
 DOMAINS = {"δA": "T_A G", "δ′A": "T_A G", "ξ′": "𝔤", "Ω′": "R³"}

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import json
 import textwrap
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 
 from ..record.paper import Finding
+from .language import ENGLISH, Language
 
 WIDTH = 100
+HEADS = ("printed", "derived", "but for", "remark")
+VERDICTS = ("confirmed", "misprinted", "definition")
 
 
 def as_json(findings: Sequence[Finding]) -> str:
@@ -27,28 +31,55 @@ def as_json(findings: Sequence[Finding]) -> str:
     return json.dumps(data, ensure_ascii=False, indent=1) + "\n"
 
 
-def as_text(findings: Sequence[Finding]) -> str:
+def as_text(findings: Sequence[Finding], language: Language = ENGLISH) -> str:
     """One paragraph for each equation; corrections and counterexamples for the misprints."""
-    lines = []
+    lines, word = [], language.word
+    heads = [word(x) for x in HEADS]
+    wide = max(map(len, heads))
     for f in findings:
-        lines.append(f"({f.number}) {f.verdict}")
-        lines += _indented("printed  ", f.printed)
-        if f.derived and f.verdict != "definition":
-            lines += _indented("derived  ", f.derived)
-        if f.counterexample:
-            shown = ",  ".join(f"{k} = {v}" for k, v in f.counterexample.items())
-            lines += _indented("at       ", shown)
-        if f.remark:
-            lines += _indented("remark   ", f.remark)
-    counts = {
-        v: sum(f.verdict == v for f in findings) for v in ("confirmed", "misprinted", "definition")
-    }
-    lines.append("")
-    lines.append(
-        f"{counts['confirmed']} confirmed, {counts['misprinted']} misprinted, "
-        f"{counts['definition']} definitions"
-    )
-    return "\n".join(lines) + "\n"
+        lines.append(f"({f.number}) {word(f.verdict)}")
+        derived = f.derived if f.verdict != "definition" else None
+        example = _example(f, language) if f.counterexample else None
+        told = (f.printed, derived, example, word(f.remark))
+        for head, text in zip(heads, told, strict=True):
+            lines += _indented(f"{head:{wide}}  ", text) if text else []
+    counts = Counter(f.verdict for f in findings)
+    numbers = {x: str(counts[x]) for x in VERDICTS}
+    total = "{confirmed} confirmed, {misprinted} misprinted, {definition} definitions"
+    return "\n".join([*lines, "", word(total, **numbers)]) + "\n"
+
+
+def _example(f: Finding, language: Language) -> str:
+    """Values at which a printed equation is false."""
+    *given, (_, left), (_, right) = (f.counterexample or {}).items()
+    values = ",  ".join(" = ".join(x) for x in grouped(given))
+    said = "{values}: the left side is {left}, the printed right side {right}"
+    return language.word(said, values=values, left=left, right=right)
+
+
+def grouped(values: Iterable[tuple[str, str]]) -> Iterator[tuple[str, ...]]:
+    """Names and what they are; those that are zero, or the identity, together with 0 or 1."""
+    together: dict[str, list[str]] = {"1": [], "0": []}
+    others = []
+    for name, value in values:
+        short = _short(value)
+        together.get(short, []).append(name)
+        if short not in together:
+            others.append((name, value))
+    yield from others
+    yield from ((*equal, value) for value, equal in together.items() if equal)
+
+
+def _short(value: str) -> str:
+    """0 or 1 for such a matrix."""
+    if not value.startswith("["):
+        return value
+    rows = [row.split(", ") for row in value[1:-1].split("; ")]
+    if all(x == "0" for row in rows for x in row):
+        return "0"
+    square = all(len(row) == len(rows) for row in rows)
+    one = [["1" if i == j else "0" for j in range(len(rows))] for i in range(len(rows))]
+    return "1" if square and rows == one else value
 
 
 def _indented(head: str, text: str) -> list[str]:

@@ -56,7 +56,7 @@ def cartan(stage: Pullback, a: Alphabet, prefix: str) -> Cartan:
         ),
         Step(
             f"{prefix}.energy",
-            "Legendre",
+            "Legendre transform",
             (f"{prefix}.momentum", f"{prefix}.pullback"),
             (
                 Equation("h̃", ("add", ("call", "p̃", *velocities), neg("L̃"))),

@@ -65,15 +65,14 @@ def tensor_steps(problem: Problem, motion: Step, c: Chapter) -> tuple[Step, ...]
         return ()
     if found is None or max(len(x.terms) for row in found for x in row) > LONGEST:
         return ()
-    entries = [
-        Equation(("entry", name, i, j), written(found[i - 1][j - 1]))
-        for i in AXES
-        for j in AXES[i - 1 :]
-    ]
+    straight = not any(found[i][j] for i in range(3) for j in range(3) if i != j)
+    order = [(i, j) for i in AXES for j in AXES[i - 1 :]]
+    if straight:  # the products of inertia, which vanish, together
+        order.sort(key=lambda x: x[0] != x[1])
+    entries = [Equation(("entry", name, i, j), written(found[i - 1][j - 1])) for i, j in order]
     uses = "body inertia" + (" elimination" if problem.affine else "")
     told = say("The tensor of inertia of this body, entry by entry.")
     step = c.step("tensor", "coordinates", uses, entries, told)
-    straight = not any(found[i][j] for i in range(3) for j in range(3) if i != j)
     return (step, *_motion(problem, name, found, motion, c)) if straight else (step,)
 
 

@@ -64,11 +64,10 @@ def conserved_steps(
     if not kept:
         return ()
     prose = say(
-        "Among what the motion keeps, where nothing acts from outside dϖ: {kept}.",
+        "Among what the motion keeps, without inputs and damping: {kept}.",
         kept=listed("{first}, {second}", told),
     ) + say(
-        "The Cartan form, on a displacement that leaves it invariant, is constant along "
-        "the motion (Noether)."
+        "The Cartan form, on an infinitesimal symmetry, is constant along the motion (Noether)."
     )
     return (c.step("conserved", "conservation", uses, [*definitions, *kept], prose),)
 

@@ -151,8 +151,8 @@ def steps_of(
             (f"{prefix}.contraction",),
             (Equation(CONTRACTION, c.on_vertical()),),
             say(
-                "X is in the kernel when this vanishes for every δ′y, to begin with for those that "
-                "move the velocity alone."
+                "X is in the kernel if and only if this expression vanishes for every δ′y; to "
+                "begin with, for every δ′y that varies the velocity alone."
             ),
             (),
             scope,
@@ -164,8 +164,8 @@ def steps_of(
             (f"{prefix}.vertical", f"{prefix}.contraction"),
             (*first, Equation(CONTRACTION, c.remaining())),
             say(
-                "As {regular}, this expression vanishes for all of these only if X has the "
-                "velocity of the motion, which is inserted; {rates}.",
+                "As {regular}, this expression vanishes for all such variations only if X has "
+                "the velocity of the motion, which is inserted; {rates}.",
                 regular=regular,
                 rates=rates,
             ),

@@ -129,8 +129,8 @@ def structure(a: Alphabet, prefix: str) -> tuple[dict[Letter, Expr], Step]:
         (f"{prefix}.trivialisation",),
         equations,
         say(
-            "The variations commute on the group, so that their images in the Lie algebra differ "
-            "by a bracket."
+            "The variations commute on the group; carried to the Lie algebra, the crossed "
+            "variations δξ′ and δ′ξ differ by a bracket."
         ),
     )
     return brackets, step

@@ -57,8 +57,8 @@ def kernel(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
         (f"{prefix}.second_order",),
         (*first_order, Equation(balance, 0, variations)),
         say(
-            "X is in the kernel when this vanishes for every displacement tangent to the group: "
-            "the equations of motion."
+            "X is in the kernel if and only if this expression vanishes for every "
+            "displacement tangent to the group: the equations of motion."
         )
         + say(
             "They fix the part of the acceleration that is tangent to the group; the velocity "

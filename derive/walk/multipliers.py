@@ -57,8 +57,9 @@ def multiplier_steps(
     equations += [Equation("Ż", tree_of(solved, notation)), *translation]
     prose = _prose(direction, letters)
     space = _in_space(solved, centred.rate if centred else None, b, display, c)
+    rule = "multiplier" if direction else "kernel"
     return (
-        c.step("multiplier", "multiplier", uses, (*definition, balance), prose),
+        c.step("multiplier", rule, uses, (*definition, balance), prose),
         c.step(
             "motion",
             "solution",

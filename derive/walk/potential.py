@@ -73,7 +73,7 @@ def _prose(over_points: list[Tree], *, spread: bool, springs: bool) -> Prose:
         return say("No potential: the motion is free.")
     prose = say("The potential of the problem, on the points and pulled back to the group.")
     if spread:
-        prose += say("The sum with m_i is over the whole mass of the body.")
+        prose += say("Here Σ m_i stands for the sum over the whole body.")
     if springs:
         prose += say(
             "K is the sum over the springs of natural length 0; s_e joins the ends of one "

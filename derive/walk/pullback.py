@@ -98,9 +98,9 @@ def pullback(stage: Lagrangian, a: Alphabet, prefix: str) -> Pullback:
             "and the sum over the points is carried out."
         )
         + say(
-            "From here on the masses are positive and no direction of the group leaves all of them "
-            "in their places: the kinetic energy is then half the square of a norm, a metric on "
-            "the group."
+            "From here on the masses are positive and no tangent vector of the group but 0 "
+            "leaves all the points at rest: the kinetic energy is then half the square of a "
+            "norm, a metric on the group."
         ),
         (11, 12, 13, 17) if a.affine else (11, 12, 13, 21, 22),
     )

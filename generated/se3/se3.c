@@ -78,22 +78,30 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
     const double J_c_22 = J_22 - inv_m*c_2*c_2;
     const double J_c_33 = J_33 - inv_m*c_3*c_3;
 
-    /* se3.elimination: 6 mul, 6 add
+    /* se3.elimination: 6 mul, 4 add
      * I_c = (Tr J_c) 1 − J_c */
     const double I_c_11 = J_c_22 + J_c_33;
     const double I_c_12 = -(J_12 - inv_m*c_1*c_2);
     const double I_c_13 = -(J_13 - inv_m*c_1*c_3);
-    const double I_c_22 = J_c_11 + J_c_33;
     const double I_c_23 = -(J_23 - inv_m*c_2*c_3);
-    const double I_c_33 = J_c_11 + J_c_22;
 
-    /* se3.motion: 17 mul, 15 add, 1 div
+    /* se3.motion: 24 mul, 19 add, 3 div
      * ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ) */
-    const double adj_I_c_11 = I_c_22*I_c_33 - I_c_23*I_c_23;
-    const double adj_I_c_12 = I_c_13*I_c_23 - I_c_12*I_c_33;
-    const double adj_I_c_13 = I_c_12*I_c_23 - I_c_13*I_c_22;
-    const double adj_I_c_33 = I_c_11*I_c_22 - I_c_12*I_c_12;
-    const double det_I_c = I_c_11*adj_I_c_11 + I_c_12*adj_I_c_12 + I_c_13*adj_I_c_13;
+    const double I_c_r_1 = 1.0/I_c_11;
+    const double I_c_l_21 = I_c_12*I_c_r_1;
+    const double I_c_l_31 = I_c_13*I_c_r_1;
+    const double I_c_d_2 = (J_c_11 + J_c_33) - I_c_11*I_c_l_21*I_c_l_21;
+    const double I_c_r_2 = 1.0/I_c_d_2;
+    const double I_c_l_32 = I_c_r_2*(I_c_23 - I_c_11*I_c_l_21*I_c_l_31);
+    const double I_c_d_3 = (J_c_11 + J_c_22) - I_c_11*I_c_l_31*I_c_l_31
+        - I_c_d_2*I_c_l_32*I_c_l_32;
+    const double inv_I_c_33 = 1.0/I_c_d_3;
+    const double I_c_w_21 = -I_c_l_21;
+    const double I_c_w_31 = -(I_c_l_31 + I_c_l_32*I_c_w_21);
+    const double I_c_w_32 = -I_c_l_32;
+    const double inv_I_c_11 = I_c_r_1 + I_c_r_2*I_c_w_21*I_c_w_21
+        + inv_I_c_33*I_c_w_31*I_c_w_31;
+    const double inv_I_c_22 = I_c_r_2 + inv_I_c_33*I_c_w_32*I_c_w_32;
     const double size_J_22 = fabs(J_22);
     const double size_inv_m = fabs(inv_m);
     const double c_2_c_2_size_inv_m = c_2*c_2*size_inv_m;
@@ -104,7 +112,6 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
     const double c_1_c_1_size_inv_m = c_1*c_1*size_inv_m;
     const double size_I_c_2 = size_J_33 + c_3_c_3_size_inv_m + size_J_11 + c_1_c_1_size_inv_m;
     const double size_I_c_3 = size_J_22 + c_2_c_2_size_inv_m + size_J_11 + c_1_c_1_size_inv_m;
-    const double inv_det_I_c = 1.0/det_I_c;
 
     k[0] = J_12;
     k[1] = J_13;
@@ -117,17 +124,17 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
     k[8] = I_c_12;
     k[9] = I_c_13;
     k[10] = I_c_23;
-    k[11] = adj_I_c_11*inv_det_I_c;
-    k[12] = adj_I_c_12*inv_det_I_c;
-    k[13] = adj_I_c_13*inv_det_I_c;
-    k[14] = (I_c_11*I_c_33 - I_c_13*I_c_13)*inv_det_I_c;
-    k[15] = (I_c_12*I_c_13 - I_c_11*I_c_23)*inv_det_I_c;
-    k[16] = adj_I_c_33*inv_det_I_c;
+    k[11] = inv_I_c_33;
+    k[12] = inv_I_c_11;
+    k[13] = I_c_r_2*I_c_w_21 + inv_I_c_33*I_c_w_31*I_c_w_32;
+    k[14] = inv_I_c_33*I_c_w_31;
+    k[15] = inv_I_c_22;
+    k[16] = inv_I_c_33*I_c_w_32;
     k[17] = inv_m*c_1;
     k[18] = inv_m*c_2;
     k[19] = inv_m*c_3;
-    k[20] = I_c_11 - I_c_33;
-    k[21] = I_c_22 - I_c_33;
+    k[20] = J_c_33 - J_c_11;
+    k[21] = J_c_33 - J_c_22;
     k[22] = g_1;
     k[23] = g_2;
     k[24] = g_3;
@@ -143,10 +150,10 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
     /* each determinant or pivot against what rounding could make of a singular matrix */
     const double se3_margin_1 = m;
     const double se3_margin_2 = I_c_11 - 1e-13*size_I_c_1;
-    const double se3_margin_3 = adj_I_c_33 - 1e-13*(I_c_22*size_I_c_1 + I_c_11*size_I_c_2);
-    const double se3_margin_4 = det_I_c - 1e-13*(I_c_22*I_c_33*size_I_c_1
-        + I_c_11*I_c_33*size_I_c_2
-        + I_c_11*I_c_22*size_I_c_3);
+    const double se3_margin_3 = I_c_d_2 - 1e-13*size_I_c_2;
+    const double se3_margin_4 = I_c_d_3 - 1e-13*size_I_c_3;
+    const double se3_margin_5 = 1.0/inv_I_c_11 - 1e-13*size_I_c_1;
+    const double se3_margin_6 = 1.0/inv_I_c_22 - 1e-13*size_I_c_2;
     if (se3_margin_1 <= 0*se3_margin_1) { /* and finite */
         return se3_SINGULAR;
     }
@@ -159,6 +166,12 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
     if (se3_margin_4 <= 0*se3_margin_4) { /* and finite */
         return se3_SINGULAR;
     }
+    if (se3_margin_5 <= 0*se3_margin_5) { /* and finite */
+        return se3_SINGULAR;
+    }
+    if (se3_margin_6 <= 0*se3_margin_6) { /* and finite */
+        return se3_SINGULAR;
+    }
     if (!(se3_margin_1 - se3_margin_1 == 0)) { /* too large a number */
         return se3_NOT_FINITE;
     }
@@ -169,6 +182,12 @@ int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
         return se3_NOT_FINITE;
     }
     if (!(se3_margin_4 - se3_margin_4 == 0)) { /* too large a number */
+        return se3_NOT_FINITE;
+    }
+    if (!(se3_margin_5 - se3_margin_5 == 0)) { /* too large a number */
+        return se3_NOT_FINITE;
+    }
+    if (!(se3_margin_6 - se3_margin_6 == 0)) { /* too large a number */
         return se3_NOT_FINITE;
     }
     for (int i = 0; i < se3_N_CONSTANTS; ++i) {
@@ -186,12 +205,12 @@ void se3_rhs(double t, const double *se3_RESTRICT x, const double *se3_RESTRICT 
     const double I_c_12 = k[8];
     const double I_c_13 = k[9];
     const double I_c_23 = k[10];
-    const double inv_I_c_11 = k[11];
-    const double inv_I_c_12 = k[12];
-    const double inv_I_c_13 = k[13];
-    const double inv_I_c_22 = k[14];
-    const double inv_I_c_23 = k[15];
-    const double inv_I_c_33 = k[16];
+    const double inv_I_c_33 = k[11];
+    const double inv_I_c_11 = k[12];
+    const double inv_I_c_12 = k[13];
+    const double inv_I_c_13 = k[14];
+    const double inv_I_c_22 = k[15];
+    const double inv_I_c_23 = k[16];
     const double r_c_1 = k[17];
     const double r_c_2 = k[18];
     const double r_c_3 = k[19];
@@ -295,12 +314,12 @@ void se3_rhs_batch(size_t n, double t, const double *se3_RESTRICT x,
         const double I_c_12 = k[8];
         const double I_c_13 = k[9];
         const double I_c_23 = k[10];
-        const double inv_I_c_11 = k[11];
-        const double inv_I_c_12 = k[12];
-        const double inv_I_c_13 = k[13];
-        const double inv_I_c_22 = k[14];
-        const double inv_I_c_23 = k[15];
-        const double inv_I_c_33 = k[16];
+        const double inv_I_c_33 = k[11];
+        const double inv_I_c_11 = k[12];
+        const double inv_I_c_12 = k[13];
+        const double inv_I_c_13 = k[14];
+        const double inv_I_c_22 = k[15];
+        const double inv_I_c_23 = k[16];
         const double r_c_1 = k[17];
         const double r_c_2 = k[18];
         const double r_c_3 = k[19];

@@ -35,7 +35,7 @@
  *
  * Input u = (u_1, u_2, u_3, u_4, u_5, u_6).
  *
- * Operations: constants 42 mul, 31 add, 2 div;
+ * Operations: constants 44 mul, 32 add, 4 div;
  *             rhs 86 mul, 65 add; energy 43 mul, 29 add.
  */
 #ifndef SE3_H

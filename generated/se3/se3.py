@@ -28,7 +28,7 @@ Parameters p:
     g_2: gravity in space, [m/s^2], default 0.0
     g_3: gravity in space, [m/s^2], default -9.81
 
-Operations: constants 42 mul, 31 add, 2 div;
+Operations: constants 44 mul, 32 add, 4 div;
 rhs 86 mul, 65 add; energy 43 mul, 29 add.
 """
 
@@ -107,12 +107,12 @@ CONSTANTS = (
     "I_c_12",
     "I_c_13",
     "I_c_23",
+    "inv_I_c_33",
     "inv_I_c_11",
     "inv_I_c_12",
     "inv_I_c_13",
     "inv_I_c_22",
     "inv_I_c_23",
-    "inv_I_c_33",
     "r_c_1",
     "r_c_2",
     "r_c_3",
@@ -267,22 +267,28 @@ def _constants(xp, p):
     J_c_22 = J_22 - inv_m*c_2*c_2
     J_c_33 = J_33 - inv_m*c_3*c_3
 
-    # se3.elimination: 6 mul, 6 add
+    # se3.elimination: 6 mul, 4 add
     # I_c = (Tr J_c) 1 − J_c
     I_c_11 = J_c_22 + J_c_33
     I_c_12 = -(J_12 - inv_m*c_1*c_2)
     I_c_13 = -(J_13 - inv_m*c_1*c_3)
-    I_c_22 = J_c_11 + J_c_33
     I_c_23 = -(J_23 - inv_m*c_2*c_3)
-    I_c_33 = J_c_11 + J_c_22
 
-    # se3.motion: 17 mul, 15 add, 1 div
+    # se3.motion: 24 mul, 19 add, 3 div
     # ζ̇ = I_c⁻¹(f_u ∧ r_c + u + I_c ζ ∧ ζ)
-    adj_I_c_11 = I_c_22*I_c_33 - I_c_23*I_c_23
-    adj_I_c_12 = I_c_13*I_c_23 - I_c_12*I_c_33
-    adj_I_c_13 = I_c_12*I_c_23 - I_c_13*I_c_22
-    adj_I_c_33 = I_c_11*I_c_22 - I_c_12*I_c_12
-    det_I_c = I_c_11*adj_I_c_11 + I_c_12*adj_I_c_12 + I_c_13*adj_I_c_13
+    I_c_r_1 = 1.0/I_c_11
+    I_c_l_21 = I_c_12*I_c_r_1
+    I_c_l_31 = I_c_13*I_c_r_1
+    I_c_d_2 = (J_c_11 + J_c_33) - I_c_11*I_c_l_21*I_c_l_21
+    I_c_r_2 = 1.0/I_c_d_2
+    I_c_l_32 = I_c_r_2*(I_c_23 - I_c_11*I_c_l_21*I_c_l_31)
+    I_c_d_3 = (J_c_11 + J_c_22) - I_c_11*I_c_l_31*I_c_l_31 - I_c_d_2*I_c_l_32*I_c_l_32
+    inv_I_c_33 = 1.0/I_c_d_3
+    I_c_w_21 = -I_c_l_21
+    I_c_w_31 = -(I_c_l_31 + I_c_l_32*I_c_w_21)
+    I_c_w_32 = -I_c_l_32
+    inv_I_c_11 = I_c_r_1 + I_c_r_2*I_c_w_21*I_c_w_21 + inv_I_c_33*I_c_w_31*I_c_w_31
+    inv_I_c_22 = I_c_r_2 + inv_I_c_33*I_c_w_32*I_c_w_32
     size_J_22 = abs(J_22)
     size_inv_m = abs(inv_m)
     c_2_c_2_size_inv_m = c_2*c_2*size_inv_m
@@ -293,15 +299,14 @@ def _constants(xp, p):
     c_1_c_1_size_inv_m = c_1*c_1*size_inv_m
     size_I_c_2 = size_J_33 + c_3_c_3_size_inv_m + size_J_11 + c_1_c_1_size_inv_m
     size_I_c_3 = size_J_22 + c_2_c_2_size_inv_m + size_J_11 + c_1_c_1_size_inv_m
-    inv_det_I_c = 1.0/det_I_c
 
     tests = [
         (m, 0.0),
         (I_c_11, 1e-13*size_I_c_1),
-        (adj_I_c_33, 1e-13*(I_c_22*size_I_c_1 + I_c_11*size_I_c_2)),
-        (det_I_c, 1e-13*(I_c_22*I_c_33*size_I_c_1
-        + I_c_11*I_c_33*size_I_c_2
-        + I_c_11*I_c_22*size_I_c_3)),
+        (I_c_d_2, 1e-13*size_I_c_2),
+        (I_c_d_3, 1e-13*size_I_c_3),
+        (1.0/inv_I_c_11, 1e-13*size_I_c_1),
+        (1.0/inv_I_c_22, 1e-13*size_I_c_2),
     ]
     return [
         J_12,
@@ -315,17 +320,17 @@ def _constants(xp, p):
         I_c_12,
         I_c_13,
         I_c_23,
-        adj_I_c_11*inv_det_I_c,
-        adj_I_c_12*inv_det_I_c,
-        adj_I_c_13*inv_det_I_c,
-        (I_c_11*I_c_33 - I_c_13*I_c_13)*inv_det_I_c,
-        (I_c_12*I_c_13 - I_c_11*I_c_23)*inv_det_I_c,
-        adj_I_c_33*inv_det_I_c,
+        inv_I_c_33,
+        inv_I_c_11,
+        I_c_r_2*I_c_w_21 + inv_I_c_33*I_c_w_31*I_c_w_32,
+        inv_I_c_33*I_c_w_31,
+        inv_I_c_22,
+        inv_I_c_33*I_c_w_32,
         inv_m*c_1,
         inv_m*c_2,
         inv_m*c_3,
-        I_c_11 - I_c_33,
-        I_c_22 - I_c_33,
+        J_c_33 - J_c_11,
+        J_c_33 - J_c_22,
         g_1,
         g_2,
         g_3,
@@ -338,8 +343,8 @@ def _constants(xp, p):
 def _rhs(xp, t, x, k, u):
     (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, _, _, _, zeta_1, zeta_2, zeta_3,
         w_1, w_2, w_3) = x
-    (_, _, _, _, inv_m, _, _, _, I_c_12, I_c_13, I_c_23, inv_I_c_11, inv_I_c_12, inv_I_c_13,
-        inv_I_c_22, inv_I_c_23, inv_I_c_33, r_c_1, r_c_2, r_c_3, I_c_0_11, I_c_0_22,
+    (_, _, _, _, inv_m, _, _, _, I_c_12, I_c_13, I_c_23, inv_I_c_33, inv_I_c_11, inv_I_c_12,
+        inv_I_c_13, inv_I_c_22, inv_I_c_23, r_c_1, r_c_2, r_c_3, I_c_0_11, I_c_0_22,
         g_1, g_2, g_3, _, _, _) = k
     (u_1, u_2, u_3, u_4, u_5, u_6) = u
 

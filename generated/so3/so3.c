@@ -66,19 +66,26 @@ int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
     const double I_22 = J_11 + J_33;
     const double I_33 = J_11 + J_22;
 
-    /* so3.motion: 11 mul, 8 add, 1 div
+    /* so3.motion: 18 mul, 10 add, 3 div
      * ζ̇ = I⁻¹(c ∧ Āγ + u + Iζ ∧ ζ) */
-    const double adj_I_11 = I_22*I_33 - J_23*J_23;
-    const double adj_I_12 = J_12*I_33 + J_13*J_23;
-    const double adj_I_13 = J_12*J_23 + J_13*I_22;
-    const double adj_I_33 = I_11*I_22 - J_12*J_12;
-    const double det_I = I_11*adj_I_11 - J_12*adj_I_12 - J_13*adj_I_13;
+    const double I_r_1 = 1.0/I_11;
+    const double I_l_21 = -J_12*I_r_1;
+    const double I_l_31 = -J_13*I_r_1;
+    const double I_d_2 = I_22 - I_11*I_l_21*I_l_21;
+    const double I_r_2 = 1.0/I_d_2;
+    const double I_l_32 = -I_r_2*(J_23 + I_11*I_l_21*I_l_31);
+    const double I_d_3 = I_33 - I_11*I_l_31*I_l_31 - I_d_2*I_l_32*I_l_32;
+    const double inv_I_33 = 1.0/I_d_3;
+    const double I_w_21 = -I_l_21;
+    const double I_w_31 = -(I_l_31 + I_l_32*I_w_21);
+    const double I_w_32 = -I_l_32;
+    const double inv_I_11 = I_r_1 + I_r_2*I_w_21*I_w_21 + inv_I_33*I_w_31*I_w_31;
+    const double inv_I_22 = I_r_2 + inv_I_33*I_w_32*I_w_32;
     const double size_J_22 = fabs(J_22);
     const double size_J_33 = fabs(J_33);
     const double size_I_1 = size_J_22 + size_J_33;
     const double size_J_11 = fabs(J_11);
     const double size_I_2 = size_J_33 + size_J_11;
-    const double inv_det_I = 1.0/det_I;
 
     k[0] = J_12;
     k[1] = J_13;
@@ -86,20 +93,20 @@ int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
     k[3] = I_11;
     k[4] = I_22;
     k[5] = I_33;
-    k[6] = adj_I_11*inv_det_I;
-    k[7] = adj_I_12*inv_det_I;
-    k[8] = adj_I_13*inv_det_I;
-    k[9] = (I_11*I_33 - J_13*J_13)*inv_det_I;
-    k[10] = (J_23*I_11 + J_12*J_13)*inv_det_I;
-    k[11] = adj_I_33*inv_det_I;
+    k[6] = inv_I_33;
+    k[7] = inv_I_11;
+    k[8] = I_r_2*I_w_21 + inv_I_33*I_w_31*I_w_32;
+    k[9] = inv_I_33*I_w_31;
+    k[10] = inv_I_22;
+    k[11] = inv_I_33*I_w_32;
     k[12] = c_1;
     k[13] = c_2;
     k[14] = c_3;
     k[15] = g_1;
     k[16] = g_2;
     k[17] = g_3;
-    k[18] = I_11 - I_33;
-    k[19] = I_22 - I_33;
+    k[18] = J_33 - J_11;
+    k[19] = J_33 - J_22;
 
     for (int i = 0; i < so3_N_PARAMETERS; ++i) {
         if (!(p[i] - p[i] == 0)) { /* infinite or not a number */
@@ -108,9 +115,10 @@ int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
     }
     /* each determinant or pivot against what rounding could make of a singular matrix */
     const double so3_margin_1 = I_11 - 1e-13*size_I_1;
-    const double so3_margin_2 = adj_I_33 - 1e-13*(I_22*size_I_1 + I_11*size_I_2);
-    const double so3_margin_3 = det_I - 1e-13*(I_22*I_33*size_I_1 + I_11*I_33*size_I_2
-        + I_11*I_22*(size_J_22 + size_J_11));
+    const double so3_margin_2 = I_d_2 - 1e-13*size_I_2;
+    const double so3_margin_3 = I_d_3 - 1e-13*(size_J_22 + size_J_11);
+    const double so3_margin_4 = 1.0/inv_I_11 - 1e-13*size_I_1;
+    const double so3_margin_5 = 1.0/inv_I_22 - 1e-13*size_I_2;
     if (so3_margin_1 <= 0*so3_margin_1) { /* and finite */
         return so3_SINGULAR;
     }
@@ -120,6 +128,12 @@ int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
     if (so3_margin_3 <= 0*so3_margin_3) { /* and finite */
         return so3_SINGULAR;
     }
+    if (so3_margin_4 <= 0*so3_margin_4) { /* and finite */
+        return so3_SINGULAR;
+    }
+    if (so3_margin_5 <= 0*so3_margin_5) { /* and finite */
+        return so3_SINGULAR;
+    }
     if (!(so3_margin_1 - so3_margin_1 == 0)) { /* too large a number */
         return so3_NOT_FINITE;
     }
@@ -127,6 +141,12 @@ int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
         return so3_NOT_FINITE;
     }
     if (!(so3_margin_3 - so3_margin_3 == 0)) { /* too large a number */
+        return so3_NOT_FINITE;
+    }
+    if (!(so3_margin_4 - so3_margin_4 == 0)) { /* too large a number */
+        return so3_NOT_FINITE;
+    }
+    if (!(so3_margin_5 - so3_margin_5 == 0)) { /* too large a number */
         return so3_NOT_FINITE;
     }
     for (int i = 0; i < so3_N_CONSTANTS; ++i) {
@@ -143,12 +163,12 @@ void so3_rhs(double t, const double *so3_RESTRICT x, const double *so3_RESTRICT 
     const double J_12 = k[0];
     const double J_13 = k[1];
     const double J_23 = k[2];
-    const double inv_I_11 = k[6];
-    const double inv_I_12 = k[7];
-    const double inv_I_13 = k[8];
-    const double inv_I_22 = k[9];
-    const double inv_I_23 = k[10];
-    const double inv_I_33 = k[11];
+    const double inv_I_33 = k[6];
+    const double inv_I_11 = k[7];
+    const double inv_I_12 = k[8];
+    const double inv_I_13 = k[9];
+    const double inv_I_22 = k[10];
+    const double inv_I_23 = k[11];
     const double c_1 = k[12];
     const double c_2 = k[13];
     const double c_3 = k[14];
@@ -219,12 +239,12 @@ void so3_rhs_batch(size_t n, double t, const double *so3_RESTRICT x,
         const double J_12 = k[0];
         const double J_13 = k[1];
         const double J_23 = k[2];
-        const double inv_I_11 = k[6];
-        const double inv_I_12 = k[7];
-        const double inv_I_13 = k[8];
-        const double inv_I_22 = k[9];
-        const double inv_I_23 = k[10];
-        const double inv_I_33 = k[11];
+        const double inv_I_33 = k[6];
+        const double inv_I_11 = k[7];
+        const double inv_I_12 = k[8];
+        const double inv_I_13 = k[9];
+        const double inv_I_22 = k[10];
+        const double inv_I_23 = k[11];
         const double c_1 = k[12];
         const double c_2 = k[13];
         const double c_3 = k[14];

@@ -28,7 +28,7 @@
  *
  * Input u = (u_1, u_2, u_3).
  *
- * Operations: constants 21 mul, 15 add, 1 div;
+ * Operations: constants 23 mul, 16 add, 3 div;
  *             rhs 56 mul, 38 add; energy 25 mul, 17 add.
  */
 #ifndef SO3_H

@@ -25,7 +25,7 @@ Parameters p:
     g_2: gravity in space, [m/s^2], default 0.0
     g_3: gravity in space, [m/s^2], default -9.81
 
-Operations: constants 21 mul, 15 add, 1 div;
+Operations: constants 23 mul, 16 add, 3 div;
 rhs 56 mul, 38 add; energy 25 mul, 17 add.
 """
 
@@ -88,12 +88,12 @@ CONSTANTS = (
     "I_11",
     "I_22",
     "I_33",
+    "inv_I_33",
     "inv_I_11",
     "inv_I_12",
     "inv_I_13",
     "inv_I_22",
     "inv_I_23",
-    "inv_I_33",
     "c_1",
     "c_2",
     "c_3",
@@ -241,25 +241,33 @@ def _constants(xp, p):
     I_22 = J_11 + J_33
     I_33 = J_11 + J_22
 
-    # so3.motion: 11 mul, 8 add, 1 div
+    # so3.motion: 18 mul, 10 add, 3 div
     # ζ̇ = I⁻¹(c ∧ Āγ + u + Iζ ∧ ζ)
-    adj_I_11 = I_22*I_33 - J_23*J_23
-    adj_I_12 = J_12*I_33 + J_13*J_23
-    adj_I_13 = J_12*J_23 + J_13*I_22
-    adj_I_33 = I_11*I_22 - J_12*J_12
-    det_I = I_11*adj_I_11 - J_12*adj_I_12 - J_13*adj_I_13
+    I_r_1 = 1.0/I_11
+    I_l_21 = -J_12*I_r_1
+    I_l_31 = -J_13*I_r_1
+    I_d_2 = I_22 - I_11*I_l_21*I_l_21
+    I_r_2 = 1.0/I_d_2
+    I_l_32 = -I_r_2*(J_23 + I_11*I_l_21*I_l_31)
+    I_d_3 = I_33 - I_11*I_l_31*I_l_31 - I_d_2*I_l_32*I_l_32
+    inv_I_33 = 1.0/I_d_3
+    I_w_21 = -I_l_21
+    I_w_31 = -(I_l_31 + I_l_32*I_w_21)
+    I_w_32 = -I_l_32
+    inv_I_11 = I_r_1 + I_r_2*I_w_21*I_w_21 + inv_I_33*I_w_31*I_w_31
+    inv_I_22 = I_r_2 + inv_I_33*I_w_32*I_w_32
     size_J_22 = abs(J_22)
     size_J_33 = abs(J_33)
     size_I_1 = size_J_22 + size_J_33
     size_J_11 = abs(J_11)
     size_I_2 = size_J_33 + size_J_11
-    inv_det_I = 1.0/det_I
 
     tests = [
         (I_11, 1e-13*size_I_1),
-        (adj_I_33, 1e-13*(I_22*size_I_1 + I_11*size_I_2)),
-        (det_I, 1e-13*(I_22*I_33*size_I_1 + I_11*I_33*size_I_2
-        + I_11*I_22*(size_J_22 + size_J_11))),
+        (I_d_2, 1e-13*size_I_2),
+        (I_d_3, 1e-13*(size_J_22 + size_J_11)),
+        (1.0/inv_I_11, 1e-13*size_I_1),
+        (1.0/inv_I_22, 1e-13*size_I_2),
     ]
     return [
         J_12,
@@ -268,26 +276,26 @@ def _constants(xp, p):
         I_11,
         I_22,
         I_33,
-        adj_I_11*inv_det_I,
-        adj_I_12*inv_det_I,
-        adj_I_13*inv_det_I,
-        (I_11*I_33 - J_13*J_13)*inv_det_I,
-        (J_23*I_11 + J_12*J_13)*inv_det_I,
-        adj_I_33*inv_det_I,
+        inv_I_33,
+        inv_I_11,
+        I_r_2*I_w_21 + inv_I_33*I_w_31*I_w_32,
+        inv_I_33*I_w_31,
+        inv_I_22,
+        inv_I_33*I_w_32,
         c_1,
         c_2,
         c_3,
         g_1,
         g_2,
         g_3,
-        I_11 - I_33,
-        I_22 - I_33,
+        J_33 - J_11,
+        J_33 - J_22,
     ], tests
 
 
 def _rhs(xp, t, x, k, u):
     (A_11, A_12, A_13, A_21, A_22, A_23, A_31, A_32, A_33, zeta_1, zeta_2, zeta_3) = x
-    (J_12, J_13, J_23, _, _, _, inv_I_11, inv_I_12, inv_I_13, inv_I_22, inv_I_23, inv_I_33,
+    (J_12, J_13, J_23, _, _, _, inv_I_33, inv_I_11, inv_I_12, inv_I_13, inv_I_22, inv_I_23,
         c_1, c_2, c_3, g_1, g_2, g_3, I_0_11, I_0_22) = k
     (u_1, u_2, u_3) = u
 

@@ -12,7 +12,7 @@ NAMES = """
     dt ellipse em figcaption figure footer g h1 h2 h3 h4 head header html i li line link main marker
     math meta mfrac mi mn mo mover mpadded mrow mspace msqrt mstyle msub msubsup msup mtable mtd
     mtext mtr munder munderover nav ol p path polygon polyline rect script section semantics small
-    span strong style sub summary sup svg table tbody td text th thead title tr tspan ul
+    span cite strong style sub summary sup svg table tbody td text th thead title tr tspan ul
     """
 TAGS = {*NAMES.split()}
 TEX = "input include write openout openin immediate csname catcode directlua special read newread"
