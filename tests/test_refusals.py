@@ -4,16 +4,23 @@ import json
 import re
 import tomllib
 from dataclasses import replace
+from fractions import Fraction
+from functools import cache
 
+import numpy as np
 import pytest
 
+from derive import SO, Points, Problem, derive
+from derive.code.emit import emit
 from derive.code.options import Options
 from derive.mechanics.problem import ProblemError
 from derive.mechanics.toml import problem_of
-from derive.record.arithmetic import EvaluationError
+from derive.pipeline import program
 from derive.record.check import Checker
 from derive.record.record import Equation, RecordError, from_json, to_json
-from tests.walks import record
+from derive.validate.read_c import read_c
+from derive.validate.terms import CodeError
+from tests.walks import problem, record
 
 HEAD = 'name = "test"\ngroup = "{}"\n'
 POINTS = "".join(f"[[point]]\nmass = 1\nat = {[int(i == j) for j in range(3)]}\n" for i in range(3))
@@ -78,6 +85,9 @@ def test_a_problem_is_refused(group, text, reason):
 
 BASES = [
     ("basis = 1", "must list at most"),
+    ('action = "affine"\nbasis = [[[1, 0, 0], [0, 0, 0], [0, 0, 1]]]', "last row of an affine one"),
+    ("basis = [[[1]]]", "move points of R.1"),
+    ("basis = [[[0, 1], [0, 0]], [[0, 0], [1, 0]]]", "not a Lie algebra"),
     (f"basis = [{[[0] * 20] * 20}]", "larger than"),
 ]
 
@@ -123,13 +133,88 @@ def test_a_claim_without_meaning_is_refused(lhs, rhs, reason):
 SPRING = {"kind": "spring", "stiffness": 1, "length": 0, "between": [1, 2]}
 
 
-def test_a_record_of_another_shape_is_refused():
-    for change, reason in (
-        (lambda p: p.update(potentials=[SPRING | {"between": [1]}]), "'between' must be two"),
-        (lambda p: p.update(basis=[[["0"]]] * 5000), "more than"),
-        (lambda p: p["body"].update(kind="given", given={"m": 1, "c": [0], "J": []}), "expected"),
-    ):
-        data = json.loads(to_json(record("so3")))
-        change(data["problem"])
-        with pytest.raises((RecordError, EvaluationError), match=reason):
-            from_json(json.dumps(data))
+TETRAHEDRON = {"kind": "tetrahedron", "density": 1, "sizes": {"vertices": [[0, 0, 0]]}}
+BALL = {"kind": "ball", "density": 1, "sizes": {"side": 1}}
+MESH = {"vertices": [[0, 0, 0]], "faces": [[0, 0, 9]]}
+BARE = {"m": 1, "c": [0, 0, 0], "J": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}
+
+GIVEN_BODY = {"kind": "given", "given": BARE | {"J": []}, "solids": []}
+
+
+def of_solid(solid):
+    solid |= {"rotation": None, "shift": None}
+    return lambda p: p.update(body={"kind": "given", "given": BARE, "solids": [solid]})
+
+
+SHAPES = [
+    (lambda p: p.update(potentials=[SPRING | {"between": [1]}]), "'between' must be two"),
+    (lambda p: p.update(basis=[[["0"]]] * 5000), "more than"),
+    (
+        lambda p: p["body"].update(kind="given", given=BARE | {"J": []}, solids=[]),
+        "expected 3 rows",
+    ),
+    (lambda p: p.update(title="long" * 1000), "longer than"),
+    (of_solid(BALL), "the sizes must be radius"),
+    (of_solid(TETRAHEDRON), "expected four points"),
+    (of_solid({"kind": "mesh", "density": 1, "sizes": MESH}), "three numbers of vertices"),
+    (of_solid({"kind": "mesh", "density": 1, "sizes": MESH | {"faces": []}}), "no faces"),
+]
+
+
+@pytest.mark.parametrize(("change", "reason"), SHAPES, ids=[x[1] for x in SHAPES])
+def test_a_record_of_another_shape_is_refused(change, reason):
+    data = json.loads(to_json(record("so3")))
+    change(data["problem"])
+    with pytest.raises(RecordError, match=reason):
+        from_json(json.dumps(data))
+
+
+@cache
+def so3():
+    compiled = program(problem("so3"), record("so3"))
+    return emit(compiled, record("so3"), ("c", "python"), "so3")
+
+
+IN_C = [
+    ("#include <math.h>", "#include <math.h>\ntypedef int whole;", "Typedef"),
+    ("#include <math.h>", "#include <math.h>\nconst double table[] = {1.0};", "Decl"),
+    ("#include <math.h>", "#include <math.h>\nenum { other };", "Enumerator"),
+    ("#include <math.h>", "#include <math.h>\nenum { other = 0x10 };", "'0x10' is not read"),
+    ("#include <math.h>", "#include <math.h>\nenum { other = 'a' };", "a character is not read"),
+    ("#include <math.h>", "#include <math.h>\n#if 1\n", "unknown condition|without #endif"),
+    ("#include <math.h>", "#include <math.h>\n#ifdef __cplusplus\n", "under a condition"),
+    ("#include <math.h>", "#include <math.h>\n#error no\n", "unknown directive"),
+    ("const double I_11 =", "const long I_11 =", "TypeDecl"),
+    ("const double I_11 =", "const unsigned long I_11 =", "TypeDecl"),
+    ("const double I_11 =", "const double *I_11 =", "PtrDecl"),
+    ("    k[0] = J_12;\n", "    for (;;) k[0] = J_12;\n", "For"),
+    ("    k[0] = J_12;\n", "    if (k) k[0] = J_12;\n", "Assignment"),
+    ("    k[0] = J_12;\n", "    k[p] = J_12;\n", "ArrayRef"),
+    ("    k[0] = J_12;\n", "    J_12 = 1.0;\n", "Assignment"),
+    ("    k[0] = J_12;\n", "    return;\n", "Return"),
+    ("double so3_energy(", "double so3_other(", "not known here"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "reason"), IN_C, ids=[x[1] for x in IN_C])
+def test_c_that_is_not_read(old, new, reason):
+    text = so3()["so3.c"]
+    assert old in text
+    with pytest.raises(CodeError, match=reason):
+        read_c("so3.c", {**so3(), "so3.c": text.replace(old, new, 1)}, "so3")
+
+
+def test_a_function_of_c_that_stands_twice():
+    text = so3()["so3.c"]
+    start = text.index("double so3_energy(")
+    with pytest.raises(CodeError, match="stands twice"):
+        read_c("so3.c", {**so3(), "so3.c": text + text[start:]}, "so3")
+
+
+def test_tables_from_python():
+    """Arrays, fractions and tuples are what a file has."""
+    places = np.array([[Fraction(1, 2), 0, 1], [0, 1, 0], [1, 1, 1]], dtype=object)
+    body = Points(*((Fraction(k, 2), tuple(r)) for k, r in enumerate(places, 1)))
+    assert derive(Problem("own", SO(3), body)).record["body"].equations
+    with pytest.raises(ProblemError, match="expected Points"):
+        Problem("own", SO(3), 5)

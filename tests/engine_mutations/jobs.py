@@ -115,7 +115,7 @@ kind = "expression"
 U = "log(3 + r1_x^2) + tan(r1_y) + tanh(r2_x) + cos(r2_y)*sin(r1_x) + sinh(r1_y)/cosh(r2_x)"
 [[potential]]
 kind = "expression"
-U = "atan(r2_y) + exp(r1_x*r2_y) + sqrt(5 + r1_y^2)"
+U = "r2_x*atan(r2_y) + exp(r1_x*r2_y) + sqrt(5 + r1_y^2) + r1_x*log(4 + r1_y^2)"
 """
 """Every elementary function."""
 
