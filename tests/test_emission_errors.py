@@ -10,6 +10,7 @@ import pytest
 from emitted import import_python
 
 from derive.cli import main
+from tests.unmeasured import environment
 
 
 @pytest.fixture
@@ -136,7 +137,7 @@ def test_a_write_that_stops_half_way(size, tmp_path):
     for name, text in old.items():
         (tmp_path / name).write_text(text)
     command = [sys.executable, "-B", "-c", LIMITED, str(size), "emit", "so3", "--out", tmp_path]
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, text=True, env=environment())
     assert done.returncode == 2
     assert done.stderr.startswith(f"derive: {tmp_path / 'so3.h'}: File too large")
     assert done.stderr.count("\n") == 1

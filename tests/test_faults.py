@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from derive.writing import PREFIX, SUFFIX, write
+from tests.unmeasured import environment
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="needs signals and locks of POSIX")
 ROOT = Path(__file__).parents[1]
@@ -179,11 +180,12 @@ def test_an_interruption_is_quiet(command, tmp_path):
     """In imports and in the work: 130 and not a word, or done before."""
     start = time.monotonic()
     where = ["--out", tmp_path] if command[0] == "emit" else []
-    python(INTERRUPTED, 100, *command, *where)
+    python(INTERRUPTED, 100, *command, *where, env=environment())
     takes, moments = time.monotonic() - start, 10
     statuses = []
     for i in range(moments):
-        done = python(INTERRUPTED, max(takes * i / moments, 1e-3), *command, *where)
+        after = max(takes * i / moments, 1e-3)
+        done = python(INTERRUPTED, after, *command, *where, env=environment())
         assert done.returncode in (0, 130)
         assert done.stderr == ""
         statuses.append(done.returncode)

@@ -4,6 +4,7 @@ import ast
 import os
 import re
 import sys
+import tomllib
 from fractions import Fraction
 from functools import cache
 from random import Random
@@ -14,7 +15,8 @@ from derive.cli import main
 from derive.code import emit as emission
 from derive.code.emit import emit
 from derive.code.options import Options
-from derive.pipeline import program
+from derive.mechanics.toml import problem_of
+from derive.pipeline import program, walk
 from derive.validate.compare import Comparison
 from derive.validate.emission import Emission
 from derive.validate.literals import Literals
@@ -26,6 +28,7 @@ from derive.validate.read_python import read_python
 from derive.validate.state import Chart
 from derive.validate.terms import Array, CodeError
 from tests.code_mutations import mutants
+from tests.engine_mutations.jobs import FUNCTIONS
 from tests.test_layers import ROOT, imported
 from tests.walks import NAMES, OTHERS, problem, record
 
@@ -172,6 +175,16 @@ def tried(name, language, some=0):
         else:
             passed.append((function, kind, text.count("\n", 0, place) + 1))
     return {kind for _, kind, _, _ in found}, len(taken) - same, same, passed
+
+
+def test_every_elementary_function_has_its_slope():
+    options, derived = Options(jacobian=("state",)), problem_of(tomllib.loads(FUNCTIONS))
+    d = walk(derived)
+    compiled = program(derived, d, options)
+    files = emit(compiled, d, ("c", "python"), "test", options)
+    for report in Emission(files, "test", Chart(), compiled.numbers()).reports(d):
+        assert report.holds, report.text
+        assert "jacobian" in report.text
 
 
 @pytest.mark.parametrize("chosen", [("state",), ("inputs",), ("parameters",)], ids=str)

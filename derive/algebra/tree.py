@@ -6,7 +6,7 @@ operators and the number of operands they take are in :data:`OPERATORS`; nothing
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from typing import Any
 
@@ -91,15 +91,6 @@ def names(t: Tree) -> Iterator[str]:
     elif isinstance(t, tuple) and t[0] != "par":
         for part in t[1:]:
             yield from names(part)
-
-
-def rename(t: Tree, images: Mapping[str, Tree]) -> Tree:
-    """The tree with names replaced by trees."""
-    if isinstance(t, str):
-        return images.get(t, t)
-    if isinstance(t, tuple):
-        return (t[0], *(rename(part, images) for part in t[1:]))
-    return t
 
 
 def replaced(t: Tree, old: Tree, new: Tree) -> Tree:

@@ -39,6 +39,9 @@ def main() -> int:
         if k % 50 == 0 or k == len(mutants):
             print(f"{k} of {len(mutants)}, {time.monotonic() - start:.0f} s", file=sys.stderr)
     print(table(counted(found)))
+    for m, v in found:
+        if v.outcome == "less":
+            print(f"says less: {m}: {v.why}")
     left = [(m, v) for m, v in found if v.outcome == "survived"]
     explained = [x for x in left if known.reason(x[0])]
     for m, v in left:

@@ -101,6 +101,24 @@ name = "u"
 kind = "covector"
 """
 
+FUNCTIONS = """
+name = "test"
+group = "GL(2)"
+[[point]]
+mass = 1
+at = [1, 0]
+[[point]]
+mass = 2
+at = [0, 1]
+[[potential]]
+kind = "expression"
+U = "log(3 + r1_x^2) + tan(r1_y) + tanh(r2_x) + cos(r2_y)*sin(r1_x) + sinh(r1_y)/cosh(r2_x)"
+[[potential]]
+kind = "expression"
+U = "atan(r2_y) + exp(r1_x*r2_y) + sqrt(5 + r1_y^2)"
+"""
+"""Every elementary function."""
+
 
 class Job(NamedTuple):
     """A problem as the plain data of its file, and the options of its emission."""
@@ -137,6 +155,7 @@ def ready(name: str) -> str:
 
 TEXTS = PROBLEMS | {name: ready(name) for name in ("linear", "affine", "so3", "se3", "sl3")}
 TEXTS |= {"solids": SOLIDS, "mixed": MIXED, "given": GIVEN}
+TEXTS["functions"] = FUNCTIONS
 WHOLE = ("state", "inputs", "parameters")
 CHOSEN = [
     ("linear", {}),
@@ -153,6 +172,7 @@ CHOSEN = [
     ("solids", {}),
     ("sl3", {"frame": "principal"}),
     ("screw", {"velocity": "tangent", "layout": "col", "jacobian": ("state",)}),
+    ("functions", {"jacobian": ("state",)}),
     ("Sp(2)", {}),
     ("SE(2)", {}),
     ("SAff(3) forces", {"layout": "col"}),

@@ -34,9 +34,9 @@ class Verdict(NamedTuple):
 
 
 CAUGHT = ("crashed", "refused", "time", "checker", "oracle", "validator")
-HARMLESS = ("same", "words", "code", "equations")
+HARMLESS = ("same", "words", "code", "equations", "less")
 """The same output; other words or references; other code, which is right; other equations, each
-of them proved."""
+of them proved; fewer of them, and the code is right."""
 
 
 @cache
@@ -108,12 +108,8 @@ def equations(new: Output, old: Output) -> Verdict:
     for step, name in zip(d.steps, unexplained(d.steps), strict=True):
         if name:
             return Verdict("checker", f"{step.label}: nothing says what {name} is")
-    if missing := {s.label for s in right.steps} - {s.label for s in d.steps}:
-        return Verdict("survived", f"without {', '.join(sorted(missing))}")
-    before = {s.label: s for s in right.steps}
-    for step in steps:
-        if step.label in before and (why := weaker(step, before[step.label], own)):
-            return Verdict("survived", why)
+    if why := less(d, right, steps, own):
+        return Verdict("less", why)
     said = {claims(s): s for s in right.steps}
     other = [s for s in d.steps if claims(s) not in said]
     if other:
@@ -122,22 +118,32 @@ def equations(new: Output, old: Output) -> Verdict:
     return Verdict("words", ", ".join(s.label for s in other) or "the problem or the symbols")
 
 
-def weaker(step: Step, right: Step, own: Checker) -> str:
-    """What a true step leaves out: equations, an assumption more, or a claim that says nothing."""
-    if step.equations == right.equations:
-        return "" if step.given == right.given else f"{step.label}: given {step.given}"
-    if len(step.equations) < len(right.equations):
-        return f"{step.label}: fewer equations"
-    if {*step.given} - {*right.given}:
-        return f"{step.label}: given {step.given}"
-    for k, equation in enumerate(step.equations):
-        if equation in right.equations:
+def less(d: Derivation, right: Derivation, steps: list[Step], own: Checker) -> str:
+    """What a true record leaves out: a step, equations, or what an equation says; empty if not."""
+    if missing := {s.label for s in right.steps} - {s.label for s in d.steps}:
+        return f"without {', '.join(sorted(missing))}"
+    before = {s.label: s for s in right.steps}
+    for step in steps:
+        old = before.get(step.label)
+        if old is None:
             continue
-        doubled = 1 if equation.rhs == 0 else mul(2, equation.rhs)
-        false = (*step.equations[:k], replace(equation, rhs=doubled), *step.equations[k + 1 :])
-        if not refused(replace(step, equations=false), own):
+        if more := {*step.given} - {*old.given}:
+            return f"{step.label}: given {', '.join(more)}"
+        if len(step.equations) < len(old.equations):
+            return f"{step.label}: fewer equations"
+        if idle(step, own) > idle(old, own):
             return f"{step.label}: an equation that says nothing"
     return ""
+
+
+def idle(step: Step, own: Checker) -> int:
+    """How many equations of a true step stay true when one side is doubled, as 0 = 0 does."""
+    found = 0
+    for k, equation in enumerate(step.equations):
+        doubled = 1 if equation.rhs == 0 else mul(2, equation.rhs)
+        false = (*step.equations[:k], replace(equation, rhs=doubled), *step.equations[k + 1 :])
+        found += not refused(replace(step, equations=false), own)
+    return found
 
 
 # -- code ---------------------------------------------------------------------------------------

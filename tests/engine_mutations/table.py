@@ -9,7 +9,8 @@ from tests.engine_mutations.operators import Mutant
 COLUMNS = ("not reached", *HARMLESS, *CAUGHT, "survived")
 HEAD = """\
 not reached: no problem that is tried runs the line; same: nothing changes; words: names, prose or
-units alone; code: another, equal to the record and to the oracle; equations: others, proved true
+units alone; code: another, equal to the record and to the oracle; equations: others, proved true;
+less: fewer, each true, and the code is right
 caught: crashed or refused in the derivation, hung (time), refused by the checker, unequal to the
 oracle (Gauss's principle), or to the record when the code is read back (validator)
 """

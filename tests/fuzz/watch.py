@@ -181,7 +181,7 @@ def limited(memory=MEMORY):
 
 
 def slack():
-    """How many times slower than usual this machine is: it may have other work."""
+    """How many times slower than usual this machine is: it may have other work, or be measured."""
     start = time.process_time()
     sum(i * i for i in range(2_000_000))
-    return max(1.0, (time.process_time() - start) / 0.2)
+    return max(1.0, (time.process_time() - start) / 0.2) * (3 if sys.gettrace() else 1)
