@@ -70,7 +70,8 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     emit.add_argument("--prefix", metavar="NAME", help="default: the problem's name")
     current = "write nothing; exit 1 if a file on disk is not what would be written"
     emit.add_argument("--check", action="store_true", help=current)
-    about = "read the C and Python back before they are written, hold them against the record"
+    about = "read the C and Python back before they are written (with --check: those on disk), "
+    about += "hold them against the record"
     emit.add_argument("--validate", action="store_true", help=f"{about}; exit 1 if they differ")
     emission(emit)
     check = command("check")

@@ -128,7 +128,7 @@ def command_emit(args: argparse.Namespace) -> int:
     from .code.options import CHOICES, Options
     from .pipeline import program
     from .validation import validated
-    from .writing import stale, write
+    from .writing import stale, there, write
 
     problem, record = derive(args.problem, args.allow_negative_mass)
     chosen = {name: getattr(args, name) for name in CHOICES}
@@ -137,12 +137,14 @@ def command_emit(args: argparse.Namespace) -> int:
     languages = tuple(dict.fromkeys(args.lang or ("c", "python")))
     prefix = problem.name if args.prefix is None else args.prefix
     files, folder = emit(compiled, record, languages, prefix, options), Path(args.out or ".")
-    if args.validate and not validated(files, record, compiled, prefix, options):
-        return 1  # and nothing is written
+    old = stale(files, folder) if args.check else []
+    for path in old:
+        print(f"{path}: not current; run the same command without --check")
+    if args.validate:
+        kept = {x: there(folder / x) for x in files} if args.check else files
+        if not validated(kept, record, compiled, prefix, options):
+            return 1  # and nothing is written
     if args.check:
-        old = stale(files, folder)
-        for path in old:
-            print(f"{path}: not current; run the same command without --check")
         return 1 if old else 0
     for path in write(files, folder):
         print(path)

@@ -49,6 +49,8 @@ def write(files: Mapping[str, str | bytes], out: Path, *, links: bool = False) -
             data = content.encode("utf-8") if isinstance(content, str) else content
             paths.append(_target(place))
             if paths[-1].exists() and not paths[-1].is_file():
+                if not links:
+                    raise WriteError(f"{place}: a pipe or a device; remove it")
                 paths[-1].write_bytes(data)  # before the lock: a pipe may wait for its reader
             else:
                 whole[paths[-1]] = data
@@ -86,6 +88,13 @@ def stale(files: Mapping[str, str], out: Path) -> list[Path]:
         if not path.is_file() or path.read_bytes() != text.encode("utf-8"):
             found.append(path)
     return found
+
+
+def there(path: Path) -> str:
+    """The text of a file that someone may have changed; empty where there is none."""
+    if not path.is_file():
+        return ""
+    return path.read_bytes().decode("utf-8", "replace").replace("\r\n", "\n")
 
 
 def _target(path: Path) -> Path:

@@ -1,5 +1,6 @@
 """Files of strangers: no traceback, no harm, within 2 s and 1 GB; see SECURITY.md, tests/fuzz."""
 
+import itertools
 import os
 import re
 import shutil
@@ -12,6 +13,7 @@ import pytest
 
 from derive import limits
 from derive.cli import main
+from derive.code.statements import comment
 from derive.guard import one_line
 from tests.fuzz.corpus import CORPUS, TOP, TURNED, bombs
 from tests.fuzz.hostile import STRINGS
@@ -23,6 +25,7 @@ import resource, sys
 resource.setrlimit(resource.RLIMIT_DATA, (1 << 30, 1 << 30))
 resource.setrlimit(resource.RLIMIT_CPU, (30, 30))
 from derive.cli import main
+from derive.code.statements import comment
 sys.exit(main(sys.argv[1:]))
 """
 
@@ -139,3 +142,37 @@ def test_limits_are_told(tmp_path, capsys):
     told = (limits.PROBLEM_BYTES, limits.TRIANGLES, limits.RECORD_BYTES, limits.EXPRESSION)
     told += (*limits.TABLES.values(), limits.PARAMETERS, limits.LEAVES, limits.DEPTH)
     assert {*told} <= numbers
+
+
+def test_no_text_ends_a_comment_or_a_docstring():
+    for length in range(8):
+        for letters in itertools.product('*/\\"', repeat=length):
+            shown = comment("".join(letters))
+            assert not any(x in shown for x in ("*/", "/*", '"""', "\\"))
+
+
+@pytest.mark.parametrize("number", ["0x" + "f" * 4000, "0b" + "1" * 20000, "9" * 5000])
+def test_integers_that_no_message_could_show(number, tmp_path, capsys):
+    path = tmp_path / "a.toml"
+    path.write_text(TOP + f"[[point]]\nmass = {number}\nat = [1, 0, 0]\n")
+    assert main(["walk", str(path)]) == 2
+    assert capsys.readouterr().err == (
+        f"derive: {path}: an integer of hundreds of digits; numbers go up to 1e300\n"
+    )
+
+
+def test_a_pipe_where_a_file_should_be(tmp_path, capsys):
+    os.mkfifo(tmp_path / "so3.c")
+    assert main(["emit", "so3", "--out", str(tmp_path)]) == 2
+    assert "a pipe or a device; remove it" in capsys.readouterr().err
+    assert os.listdir(tmp_path) == ["so3.c"]
+
+
+@pytest.mark.parametrize("form", ["html", "json", "text", "latex", "markdown"])
+def test_no_control_characters(form, tmp_path, capsys):
+    path = tmp_path / "a.toml"
+    words = r"a\u001b[31m\u202e\u0000\u009b31m\u0007 b"
+    path.write_text(TURNED.format(f'"{words}"'), encoding="utf-8")
+    assert main(["walk", str(path), "--format", form]) == 0
+    out = capsys.readouterr().out
+    assert not {*"\x1b\x00\x07\x9b\u202e"} & {*out}

@@ -355,3 +355,22 @@ def test_the_validator_shares_nothing_with_what_makes_the_files():
                 "compile",
                 "__import__",
             }
+
+
+def test_files_on_disk_are_read_back_too(tmp_path, capsys):
+    """`emit --check --validate` judges what someone has changed since."""
+    command = ["emit", "so3", "--out", str(tmp_path), "--check", "--validate"]
+    assert main(command[:4]) == 0
+    assert main(command) == 0
+    path = tmp_path / "so3.c"
+    text = path.read_text(encoding="utf-8")
+    path.write_text(f"/* mine */\n{text}", encoding="utf-8")
+    assert main(command) == 1
+    told = capsys.readouterr()
+    assert "so3.c: not current" in told.out
+    assert "so3.c: constants, rhs, energy, rhs_batch equal the record" in told.err
+    changed = text.replace("I_0_11*zeta_1 - J_12", "I_0_11*zeta_1 + J_12", 1)
+    assert changed != text
+    path.write_text(changed, encoding="utf-8")
+    assert main(command) == 1
+    assert "so3.h, so3.c: DIFFERS: rhs: the rate of zeta_1" in capsys.readouterr().err

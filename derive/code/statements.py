@@ -100,8 +100,8 @@ class Statements:
 
 def comment(text: str) -> str:
     """Text that is safe inside a comment or a docstring of any language."""
-    plain = "".join(ch if ch.isprintable() else " " for ch in text)
-    return plain.replace("*/", "* /").replace("/*", "/ *").replace('"""', "'''").replace("\\", "/")
+    plain = "".join(ch if ch.isprintable() else " " for ch in text).replace("\\", "/")
+    return plain.replace("*/", "* /").replace("/*", "/ *").replace('"""', "'''")
 
 
 def operations(f: Function) -> str:

@@ -18,6 +18,7 @@ from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
 from ..limits import (
     BASIS,
+    BITS,
     COMMON_BITS,
     KEY_PARTS,
     LEAVES,
@@ -74,12 +75,30 @@ def load(path: Path, negative_mass: bool = False) -> Problem:
         raise ProblemError(f"{path}: a key of more than {KEY_PARTS} parts; no key has so many")
     try:
         data = tomllib.loads(raw.decode("utf-8-sig"))
-    except (ValueError, RecursionError) as error:  # also of an integer of thousands of digits
+    except (tomllib.TOMLDecodeError, UnicodeError, RecursionError) as error:
         raise ProblemError(f"{path}: not TOML: {error}") from None
+    except ValueError:  # Python reads no integer of thousands of digits
+        raise ProblemError(f"{path}: {HUGE}") from None
+    if _huge(data):
+        raise ProblemError(f"{path}: {HUGE}")
     try:
         return problem_of(data, path.parent, negative_mass)
     except ProblemError as error:
         raise ProblemError(f"{path}: {error}") from None
+
+
+HUGE = "an integer of hundreds of digits; numbers go up to 1e300"
+
+
+def _huge(data: Any) -> bool:
+    """Is there an integer that no message could show?"""
+    left = [data]
+    while left:
+        x = left.pop()
+        if isinstance(x, int) and x.bit_length() > BITS:
+            return True
+        left += x.values() if isinstance(x, dict) else x if isinstance(x, list) else ()
+    return False
 
 
 def problem_of(

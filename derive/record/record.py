@@ -177,14 +177,15 @@ def to_json(d: Derivation) -> str:
 def _laid_out(data: Any, indent: str) -> str:
     inner = indent + " "
     if isinstance(data, dict) and data:
-        items = (
-            f"{inner}{json.dumps(k, ensure_ascii=False)}: {_laid_out(v, inner)}"
-            for k, v in data.items()
-        )
+        items = (f"{inner}{_laid_out(k, inner)}: {_laid_out(v, inner)}" for k, v in data.items())
         return "{\n" + ",\n".join(items) + f"\n{indent}}}"
     if isinstance(data, list) and data and isinstance(data[0], dict):
         return "[\n" + ",\n".join(inner + _laid_out(x, inner) for x in data) + f"\n{indent}]"
-    return json.dumps(data, ensure_ascii=False)
+    text = json.dumps(data, ensure_ascii=False)
+    if text.isprintable():
+        return text
+    # what moves a terminal's cursor or turns the direction of its text
+    return "".join(c if c.isprintable() else json.dumps(c)[1:-1] for c in text)
 
 
 def _field(data: Any, key: str, kind: type, where: str) -> Any:

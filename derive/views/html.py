@@ -70,8 +70,8 @@ def html(
     template = environment("html", autoescape=True).get_template("page.html.jinja")
     return template.render(
         language=language.name,
-        title=title(records[0], language) if len(records) == 1 else word(MOTION),
-        about=capitalised(subtitle(records[0], language)) if len(records) == 1 else "",
+        title=visible(title(records[0], language)) if len(records) == 1 else word(MOTION),
+        about=visible(capitalised(subtitle(records[0], language))) if len(records) == 1 else "",
         road=words(word(ROAD), chosen, ready=True),
         conventions=" ".join(
             words(word(x), chosen, ready=True)
@@ -117,8 +117,13 @@ def movable(tex: str, markup: str) -> str:
 
 
 def escaped(text: str) -> str:
-    """Text as markup; what would turn its direction or hide is left out."""
-    return escape("".join(c for c in text if c.isprintable() or c in SPACES), quote=False)
+    """Text as markup."""
+    return escape(visible(text), quote=False)
+
+
+def visible(text: str) -> str:
+    """Text without what would turn its direction or hide."""
+    return "".join(c for c in text if c.isprintable() or c in SPACES)
 
 
 @dataclass(frozen=True)
@@ -141,7 +146,7 @@ class _Part:
         return {
             "id": anchor(self.part.name),
             "number": self.numbers[self.part.name],
-            "heading": self.part.heading,
+            "heading": visible(self.part.heading),
             "about": words(self.part.about, self.notation),
             "steps": [self.step(step, shown) for step in self.part.steps],
             "names": [*self.symbols(), *self.parameters()],

@@ -53,9 +53,9 @@ def conserved_steps(
         kept.append(Equation(rate, 0))
         whole = rate == "ℓ̇"
         told += say(
-            "the angular momentum ℓ"
+            "the angular momentum ℓ about the origin of space"
             if whole
-            else "the angular momentum ℓ about the direction of gravity"
+            else "the component along gravity of the angular momentum ℓ about the origin of space"
         )
     if momenta.shifting is not None and (rate := _shifting(problem, v, b)) is not None:
         definitions.append(Equation("p", momenta.shifting))

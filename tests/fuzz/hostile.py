@@ -4,6 +4,8 @@ STRINGS = (
     "__import__('os').system('touch PWNED')",
     '*/ #include "/etc/passwd" /* PWNED',
     "*/ int PWNED; /*",
+    "*\\ int PWNED; \\*",
+    "*\\/ enum { PWNED = 7 }; /\\*",
     "\\input{/etc/passwd}",
     "\\write18{touch PWNED}",
     "\\immediate\\openout0=PWNED",
