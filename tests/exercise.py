@@ -112,7 +112,9 @@ static void {0}_exercise(void)
             p[j] = scales[i] * body[j];
         }}
         const int wanted = i ? {0}_NOT_FINITE : {0}_SINGULAR, status = {0}_constants(p, k);
-        expect(status == wanted || {fixed}, "{0}", i ? "too large, and not told so" : "no mass");
+        const int held = i && status == 0 && finite_all(k, K); /* by pivots, not by a determinant */
+        expect(status == wanted || held || {fixed}, "{0}",
+            i ? "too large, and not told so" : "no mass");
     }}
     printf("{0} %d %d %d\\n", seen[0], seen[1], seen[2]);
     free(p), free(k), free(x), free(u), free(dx), free(xs), free(us), free(dxs);
