@@ -51,7 +51,7 @@ bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside
 accuracy: $(STAMP) ## worst error of each output against 50 digits, over 100000 states of each problem: an hour
 	$(BIN)/python -m benchmarks.accuracy
 
-fuzz: $(STAMP)   ## random problems and 100000 changed files of every kind: hours; faults go to fuzz-faults/
+fuzz: $(STAMP)   ## random problems and 100000 changed files of every kind: half an hour; faults go to fuzz-faults/
 	EXAMPLES=300 $(BIN)/python -m pytest tests/test_random_problems.py
 	$(BIN)/python -m tests.fuzz 100000
 

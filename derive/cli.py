@@ -17,7 +17,7 @@ from .guard import StoppedError, one_line, within
 from .mechanics.problem import Problem, ProblemError
 from .progress import counted
 from .record.record import Derivation, RecordError
-from .rendering import NOTES, RenderError, notes, pdf, render
+from .rendering import NOTES, RenderError, notes, pdf, render, unprinted
 
 if TYPE_CHECKING:
     from .record.check import Verdict
@@ -91,6 +91,8 @@ def command_walk(args: argparse.Namespace) -> int:
     """Print the walk of a problem."""
     record = derive(args.problem, args.allow_negative_mass)[1]
     shown = render(record, args.format, args.lang, fragment=args.fragment, **notation(args))
+    if args.format == "latex":
+        warn_of_letters([record])
     save(shown, args.out)
     return 0
 
@@ -106,6 +108,8 @@ def command_notes(args: argparse.Namespace) -> int:
     records = list(counted((derive(name)[1] for name in names), len(names), "walks"))
     chosen = {"fragment": args.fragment, **notation(args)}
     text = notes(records, out.suffix, args.lang, **chosen)
+    if out.suffix in (".tex", ".pdf"):
+        warn_of_letters(records)
     if out.suffix != ".pdf":
         paths = write({out.name: text}, out.parent, links=True)
     else:
@@ -117,6 +121,13 @@ def command_notes(args: argparse.Namespace) -> int:
     return 0
 
 
+def warn_of_letters(records: Sequence[Derivation]) -> None:
+    """Say which letters LaTeX will not have."""
+    if lost := unprinted(records):
+        shown = ", ".join(lost[:20])
+        print(f"derive: warning: LaTeX has no {one_line(shown)} here, and shows ?", file=sys.stderr)
+
+
 def notation(args: argparse.Namespace) -> dict[str, str]:
     """How transposes and skew matrices are to be written."""
     return {"transpose": args.notation, "hat": args.hat}
@@ -124,7 +135,7 @@ def notation(args: argparse.Namespace) -> dict[str, str]:
 
 def command_emit(args: argparse.Namespace) -> int:
     """Write the numeric code of a problem."""
-    from .code.emit import emit
+    from .code.emit import emit, included
     from .code.options import CHOICES, Options
     from .pipeline import program
     from .validation import validated
@@ -137,12 +148,12 @@ def command_emit(args: argparse.Namespace) -> int:
     languages = tuple(dict.fromkeys(args.lang or ("c", "python")))
     prefix = problem.name if args.prefix is None else args.prefix
     files, folder = emit(compiled, record, languages, prefix, options), Path(args.out or ".")
-    old = stale(files, folder) if args.check else []
-    for path in old:
-        print(f"{path}: not current; run the same command without --check")
+    old = stale(files, folder, included(languages)) if args.check else {}
+    for path, how in old.items():
+        print(f"{path}: {how}")
     if args.validate:
         kept = {x: there(folder / x) for x in files} if args.check else files
-        if not validated(kept, record, compiled, prefix, options):
+        if not validated(kept, files, record, compiled, prefix, options):
             return 1  # and nothing is written
     if args.check:
         return 1 if old else 0

@@ -31,7 +31,8 @@ def within(seconds: float | None) -> Iterator[None]:
         raise StoppedError(f"stopped after {seconds:g} s of processor time (--seconds)")
 
     before = signal.signal(signal.SIGPROF, stop)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
+    # and again each second: Python drops what is raised while it collects garbage
+    signal.setitimer(signal.ITIMER_PROF, seconds, 1)
     try:
         yield
     finally:

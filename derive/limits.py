@@ -16,6 +16,8 @@ KEY_PARTS = 20
 TABLES = {"point": 500, "solid": 12, "potential": 100, "input": 60, "damping": 100}
 """Of more points the moments are better given ([body] given); moments of solids have products that
 grow with the square of their number; each other table is a term of every view."""
+PULLS = 150
+"""Points times attractions: each is a sum with a root in the emitted code."""
 PARAMETERS = 1000
 """Each may be a parameter of the emitted functions."""
 BASIS, MATRIX = 64, 9

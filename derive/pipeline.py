@@ -32,7 +32,7 @@ from .mechanics.frame import principal
 from .mechanics.problem import ForceInput, Problem, ProblemError
 from .record.record import Derivation, Step, Symbol, encode
 from .record.sentence import Sentence, listed, phrase, say
-from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, ROTATIONS, VOCABULARY
+from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
 from .walk.alphabet import Alphabet
 from .walk.body import body_step
 from .walk.cartan import cartan, trivialise
@@ -209,8 +209,10 @@ def _symbols(steps: Steps, problem: Problem) -> tuple[Symbol, ...]:
         for equation in step.equations:
             for side in (equation.lhs, equation.rhs):
                 used |= dict.fromkeys(names(side))
+    blocks = PRODUCTS if group and group.factors and not group.affine else {}
     turning = group is not None and group.turns_space
     own = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
+    own |= blocks
     meanings = {x: say(own.get(x, about)) for x, (about, _) in VOCABULARY.items()}
     if problem.pushes:
         forces = [_force(x) for x in problem.pushes]

@@ -78,11 +78,28 @@ def notes(
         return latex.package(chosen, language=words)
     if not records:
         raise RenderError("which problems? give names or files, as in: derive notes so3 se3")
+    for name in (names := [d.name for d in records]):
+        if names.count(name) > 1:
+            raise RenderError(
+                f"{names.count(name)} problems have the name {name!r}, and their equations the "
+                "same labels; give each its own (key 'name' of its file)"
+            )
     found = corrections(records)
     if fragment:
         return latex.fragment(records, language=words, findings=found)
     view = html if ending == ".html" else latex.latex
     return view(records, chosen, language=words, findings=found)
+
+
+def unprinted(records: Sequence[Derivation]) -> str:
+    """The characters of titles, units and meanings that LaTeX shows as question marks."""
+    from .views.escape import unknown_to_tex
+
+    words = [str(d.problem["title"]) for d in records]
+    for d in records:
+        for about in d.problem["parameters"].values():
+            words += (str(about[key]) for key in ("unit", "meaning") if about.get(key))
+    return unknown_to_tex("".join(words))
 
 
 def corrections(records: Sequence[Derivation]) -> list[Finding]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,8 +19,9 @@ def folder(name: str) -> Path:
     raise FileNotFoundError(f"no templates for {name!r} beside the package")
 
 
+@cache
 def environment(name: str, **delimiters: Any) -> Environment:
-    """The Jinja environment of one folder of templates."""
+    """The Jinja environment of one folder of templates, which it reads once."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     return Environment(

@@ -12,6 +12,7 @@ import tempfile
 import time
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
+from itertools import zip_longest
 from pathlib import Path
 
 try:
@@ -80,13 +81,26 @@ def inside(path: Path, folder: Path) -> bool:
         return False
 
 
-def stale(files: Mapping[str, str], out: Path) -> list[Path]:
-    """The files of a folder that are missing or are not these; ``OSError`` for unreadable ones."""
-    found = []
+REMEDY = "run the same command without --check"
+
+
+def stale(files: Mapping[str, str], out: Path, foreign: Iterable[str] = ()) -> dict[Path, str]:
+    """The files of a folder that are not these, and how; ``OSError`` for unreadable ones.
+
+    ``foreign``: names of files that must not be beside them.
+    """
+    found = {}
     for name, text in files.items():
-        path = out / name
-        if not path.is_file() or path.read_bytes() != text.encode("utf-8"):
-            found.append(path)
+        path, wanted = out / name, text.encode("utf-8")
+        if not path.is_file():
+            found[path] = f"missing; {REMEDY}"
+        elif (old := path.read_bytes()) != wanted:
+            lines = zip_longest(old.split(b"\n"), wanted.split(b"\n"))
+            first = next(k for k, (a, b) in enumerate(lines, 1) if a != b)
+            found[path] = f"not current from line {first} on; {REMEDY}"
+    for path in (out / x for x in foreign):
+        if path.exists():
+            found[path] = "would be read in place of the compiler's own; remove it"
     return found
 
 

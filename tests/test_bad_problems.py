@@ -81,7 +81,36 @@ FILES = {
     ),
     "parameter t": (TWO + "[parameters]\nt = 1", "this is the time"),
     "parameter r1_x": (TWO + "[parameters]\nr1_x = 1", "a place of a point"),
-    "time in a mass": (TOP + '[[point]]\nmass = "t"\nat = [1, 0, 0]', "'t' is known in the 'U'"),
+    "time in a mass": (
+        U.replace("mass = 1", 'mass = "t"', 1) + '"t*r1_x"',
+        "point 1, key 'mass': 't' is known in the 'U'",
+    ),
+    "not declared": (
+        TWO + '[parameters]\nkappa = 1\n[[potential]]\nkind = "gravity"\ng = [0, "kapa*kappa", 0]',
+        "potential 1, key 'g': 'kapa' is not declared; did you mean 'kappa'?",
+    ),
+    "not declared in a body": (
+        TOP + '[body]\nsolid = "ball"\ndensity = 1\nradius = "R"',
+        "body, key 'radius': 'R' is not declared; add it to [parameters]",
+    ),
+    "no gravity": (TWO + '[[potential]]\nkind = "gravity"', "potential 1: key 'g' is missing"),
+    "decimals with a comma": (U + '"9,81*r1_x"', "decimals have a point, as 0.5"),
+    "a unit": (U + '"9.81 N"', "units stand in [parameters] alone"),
+    "name of the general text": (TWO.replace('"top"', '"linear"'), "'linear' names what is said"),
+    "solid and moments": (
+        TOP + '[body]\nmoments = "symbolic"\nsolid = "ball"\ndensity = 1\nradius = 1',
+        "body: give either 'solid' or 'moments'",
+    ),
+    "solid without a table of its own": (
+        TOP + '[body]\nsolid = "ball"\nradius = 1\nmass = 2',
+        "body: unknown key 'mass'",
+    ),
+    "one table for a list": (
+        TWO + '[potential]\nkind = "gravity"\n[[potential]]\nkind = "gravity"',
+        "a list of tables is written [[…]]",
+    ),
+    "an accent": (TWO + "[parameters]\né = 1", "names have the letters A to Z, a to z"),
+    "not declared in U": (U + '"R*r1_x"', "potential 1, key 'U': 'R' is not declared"),
     "infinite default": (TWO + "[parameters]\nk = inf", "finite"),
     "no damped point": (TWO + "[[damping]]\ncoefficient = 1\non = []", "list of points"),
     "hole outside": (
@@ -102,6 +131,10 @@ FILES = {
     "zero in a basis": (OWN + "[[[0, 0], [0, 0]]]", "element 1 of the basis is zero"),
     "group with a letter": (TOP.replace("SO(3)", "SO(x)"), "unknown group 'SO(x)'"),
     "half a product": (TOP.replace("SO(3)", "SO(3) x"), "unknown group 'SO(3) x'"),
+    "zero below": (U + '"1/((r1_x + r2_y)^2 - r1_x^2 - r2_y^2 - 2*r1_x*r2_y)"', "division by zero"),
+    "root of nothing": (U + '"sqrt(r1_x - r1_x)"', "division by zero"),
+    "point with a zero": (U + '"r01_x"', "a place in space is r1_x"),
+    "no place to be at": (U + '"r0_x"', "the points are r1 … r2"),
     "place of another name": (U + '"r1_w"', "r1_1, r1_2"),
     "block": (
         'name = "two"\ngroup = "SO(3) x SO(3)"\n[[point]]\nmass = 1\nat = [1, 0, 0]\nblock = 3',

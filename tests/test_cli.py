@@ -74,6 +74,8 @@ def test_missing_and_broken_files(capsys, tmp_path):
     broken = tmp_path / "broken.toml"
     broken.write_text("name = [", encoding="utf-8")
     assert "not TOML" in refused(capsys, "walk", str(broken))
+    broken.write_bytes('name = "x"\ntitle = "é"'.encode("latin-1"))
+    assert "line 2 has a byte that is not UTF-8; save" in refused(capsys, "walk", str(broken))
     assert "No such file" in refused(capsys, "check", str(tmp_path / "none.json"))
     for text in ("{", "[]", '{"problem": {"name": "x"}}', "\x00"):
         record_file = tmp_path / "broken.json"
@@ -218,4 +220,4 @@ def test_a_failing_step_says_what_and_where(capsys, tmp_path):
     (failed,) = (line for line in lines if line.startswith("FAILS"))
     assert failed.startswith("FAILS  so3.kernel: equation 1 on SO(3), Iζ̇ = −Iφ + Iζ ∧ ζ: the sides")
     assert re.search(r"differ in entry \(\d, 1\): -?[\d/]{1,9} and -?[\d/]{1,9}$", failed)
-    assert "holds  linear.energy: 2 equations on GL(4), SL(2), SO(3)" in lines
+    assert "holds  linear.energy: 2 equations on GL(4), SL(3), SO(3), B(2)" in lines

@@ -177,7 +177,7 @@ def test_an_output_that_is_a_folder(refused, tmp_path):
 def test_check_writes_nothing(tmp_path, capsys):
     new = tmp_path / "new"
     assert main(["emit", "so3", "--out", str(new), "--check"]) == 1
-    assert capsys.readouterr().out.count("not current") == 3
+    assert capsys.readouterr().out.count("missing; run the same") == 3
     assert not new.exists()
 
 

@@ -8,13 +8,14 @@ import ast
 import pytest
 
 from tests.engine_mutations.jobs import JOBS
-from tests.engine_mutations.judge import CAUGHT, numbers
+from tests.engine_mutations.judge import CAUGHT, LATE, Verdict, numbers
 from tests.engine_mutations.known import EXPLAINED, reason
 from tests.engine_mutations.operators import mutants
 from tests.engine_mutations.run import LEFT, MODULES, Survey, chosen, results
-from tests.engine_mutations.table import counted, table, wrong
+from tests.engine_mutations.table import counted, line, table, told, wrong
 from tests.test_layers import ROOT
 
+pytestmark = pytest.mark.no_cover
 SAMPLE, SEED = 30, 7
 FIRST = JOBS[:4]
 """The texts about any group, SL(3) by words and SO(3) by vectors, each with all its forces."""
@@ -83,6 +84,17 @@ RULES = [
     ("walk/multipliers.py", "factor: ('inv', x.name)  →  x.name"),
     ("code/lower.py", "comparison: i == j  →  i != j"),
 ]
+
+
+def test_a_run_goes_on_where_it_ended():
+    """With what has a verdict; a change that stands twice on a line is two."""
+    some = list(mutants("x.py", "def f(x):\n    return g(x, 1), g(x, 1), x + 2"))
+    done = [*some[:3], some[-1]]
+    lines = [line(m, Verdict("same", str(k))) for k, m in enumerate(done)]
+    lines.append(line(some[4], Verdict("survived", LATE)))
+    found, left = told(lines, some)
+    assert sorted(map(str, left)) == sorted(map(str, some[3:-1]))
+    assert len(found) == len(done)
 
 
 @pytest.mark.parametrize(("module", "change"), RULES)

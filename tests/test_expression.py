@@ -71,3 +71,25 @@ def test_refused(text):
     with pytest.raises(ExpressionError) as caught:
         parse(text)
     assert 0 < len(str(caught.value)) < 120
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_zero_divisors_are_those_of_fractions(seed):
+    """An expression is refused where Python divides by zero whatever the names are."""
+    ours, python = random_text(Random(f"zero {seed}"), 3)
+    ours, python = (
+        f"1/({ours} - ({ours}) + {seed % 2})",
+        f"1/(({python}) - ({python}) + {seed % 2})",
+    )
+    zero = []
+    for shift in (0, 1):
+        try:
+            values = {name: x + shift for name, x in VALUES.items()}
+            eval(python, {"Fraction": Fraction}, values)
+        except ZeroDivisionError:
+            zero.append(shift)
+    if zero == [0, 1]:
+        with pytest.raises(ExpressionError, match="division by zero"):
+            parse(ours)
+    elif not zero:
+        parse(ours)

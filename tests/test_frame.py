@@ -23,36 +23,38 @@ from tests.walks import own_verdicts
 FREE = ["1/2", "g", "-1/3"]
 
 
-def pushed(group, gravity, **more):
+def pushed(group, gravity):
+    """A problem of :func:`pushed_data`."""
+    return problem_of(pushed_data(group, gravity))
+
+
+def pushed_data(group, gravity):
     """Four points with all that can act on them: springs of all kinds, inputs, damping, gravity."""
     points = [[1, 0, 0], ["1/3", 1, 0], [0, "1/4", 1], [-1, "-1/2", "-2/3"]]
-    return problem_of(
-        {
-            "name": "test",
-            "group": group,
-            "parameters": {"m1": 1.3, "k": 2.0, "g": 0.7, "b": 0.9},
-            "point": [{"mass": m, "at": at} for m, at in zip(["m1", 1, 2, 1], points, strict=True)],
-            "potential": [
-                {"kind": "gravity", "g": gravity},
-                {"kind": "spring", "between": [1, 2], "stiffness": "k"},
-                {"kind": "spring", "between": [2, 3], "stiffness": "k^2"},
-                {"kind": "spring", "between": [1, 4], "stiffness": "k", "length": "1/2"},
-                {"kind": "spring", "at": [0, "b", 1], "anchor": ["b", 1, 2], "stiffness": "k/3"},
-                {"kind": "attraction", "strength": 2, "centre": [3, "b", -2]},
-            ],
-            "input": [
-                {"kind": "covector", "name": "u"},
-                {"kind": "force", "name": "F", "on": 3},
-                {"kind": "force", "name": "B", "at": [1, "b", 0], "frame": "body"},
-            ],
-            "damping": [{"coefficient": "1/5", "on": [1, 3]}],
-            **more,
-        }
-    )
+    return {
+        "name": "test",
+        "group": group,
+        "parameters": {"m1": 1.3, "k": 2.0, "g": 0.7, "b": 0.9},
+        "point": [{"mass": m, "at": at} for m, at in zip(["m1", 1, 2, 1], points, strict=True)],
+        "potential": [
+            {"kind": "gravity", "g": gravity},
+            {"kind": "spring", "between": [1, 2], "stiffness": "k"},
+            {"kind": "spring", "between": [2, 3], "stiffness": "k^2"},
+            {"kind": "spring", "between": [1, 4], "stiffness": "k", "length": "1/2"},
+            {"kind": "spring", "at": [0, "b", 1], "anchor": ["b", 1, 2], "stiffness": "k/3"},
+            {"kind": "attraction", "strength": 2, "centre": [3, "b", -2]},
+        ],
+        "input": [
+            {"kind": "covector", "name": "u"},
+            {"kind": "force", "name": "F", "on": 3},
+            {"kind": "force", "name": "B", "at": [1, "b", 0], "frame": "body"},
+        ],
+        "damping": [{"coefficient": "1/5", "on": [1, 3]}],
+    }
 
 
-def small(group):
-    """Three points of the plane, gravity and a spring inside."""
+def small(group, *springs):
+    """Three points of the plane and gravity."""
     return problem_of(
         {
             "name": "test",
@@ -63,18 +65,24 @@ def small(group):
             ],
             "potential": [
                 {"kind": "gravity", "g": ["1/2", -1]},
-                {"kind": "spring", "between": [1, 3], "stiffness": 2},
+                *springs,
             ],
         }
     )
 
+
+INSIDE = {"kind": "spring", "between": [1, 3], "stiffness": 2}
 
 GROUPS = ("SO(3)", "SE(3)", "SL(3)", "SAff(3)", "GL(3)", "Aff(3)")
 PROBLEMS = {
     **{name: (lambda name=name: pushed(name, FREE)) for name in GROUPS},
     "upright SE(3)": lambda: pushed("SE(3)", [0, 0, "-g"]),
     "upright SL(3)": lambda: pushed("SL(3)", [0, "-g", 0]),
-    **{name: (lambda name=name: small(name)) for name in ("SE(2)", "SL(2)", "SO(2)", "SAff(2)")},
+    **{
+        name: (lambda name=name: small(name, INSIDE))
+        for name in ("SE(2)", "SL(2)", "SO(2)", "SAff(2)")
+    },
+    "free GL(2)": lambda: small("GL(2)"),
     **{name: (lambda name=name: derive(name).problem) for name in ("so3", "se3", "sl3", "so4")},
     **{name: (lambda name=name: derive(name).problem) for name in ("comet", "saff3", "gl3", "top")},
 }
@@ -90,6 +98,7 @@ CASES = [(name, "plain") for name in PROBLEMS] + [
     for form in ("tangent", "columns", "quaternion")
     if form != "quaternion" or name != "SAff(3)"
 ]
+CASES.append(("top", "quaternion"))
 
 
 @pytest.fixture(scope="module")

@@ -20,7 +20,7 @@ from derive.record.paper import PAPER
 from derive.record.record import from_json, to_json
 from derive.record.rules import RULES
 from derive.record.sentence import PLACE, english, phrase, say
-from derive.record.vocabulary import DISPLACEMENTS, ROTATIONS, VOCABULARY
+from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
 from derive.views import outline
 from derive.views.escape import markdown_text, prose, tex_text
 from derive.views.language import ENGLISH, LANGUAGES, THIN, WIDE, Language, entries, language
@@ -70,6 +70,7 @@ def own_problems(folder):
         Problem("solids", "SE(3)", [*ON_TURNED]),
         load(folder / "corner.toml"),
         Problem("tied", Aff(2), THREE, [Spring(1, 2, 1, length=1)]),
+        Problem("anchored", Aff(2), THREE, [Spring(1, [0, 1], 1)]),
         Problem("pushed", Aff(2), THREE, [Spring(1, 2, 1), *pushed]),
         Problem("moments", "SE(3)", Moments(), parameters={}),
     ]
@@ -141,7 +142,7 @@ def test_every_message_of_the_walk_is_reached(records):
 
 
 def test_every_word_of_the_tables_is_in_the_catalogue():
-    tables = (*(about for about, _ in VOCABULARY.values()), *ROTATIONS.values())
+    tables = (*(about for about, _ in VOCABULARY.values()), *ROTATIONS.values(), *PRODUCTS.values())
     words = {*tables, *DISPLACEMENTS.values(), *RULES, *outline.GIVEN.values()}
     words |= {p.remark for p in PAPER if p.remark}
     words |= {outline.CONVENTIONS, outline.FORMULAS_CONVENTIONS, outline.PAPER}

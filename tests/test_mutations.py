@@ -17,6 +17,8 @@ from derive.walk.contraction import NoKernelError
 from tests.record_mutations import corruptions, tried
 from tests.walks import NAMES, record
 
+pytestmark = pytest.mark.no_cover
+
 
 @pytest.fixture(autouse=True)
 def afresh(monkeypatch):

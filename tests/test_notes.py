@@ -8,6 +8,7 @@ import pytest
 
 from derive.cli import main
 from derive.views.macros import DEFINED
+from tests.problems import READY
 
 GROUPS = ("so3", "se3", "sl3")
 
@@ -69,6 +70,31 @@ def test_without_tex_the_source_is_written(said, tmp_path, monkeypatch):
 
 def test_other_endings_are_refused(said, tmp_path):
     assert ".tex, .pdf, .html" in said("notes", "so3", "--out", tmp_path / "x.doc", code=2).err
+
+
+def test_two_problems_of_one_name(said, tmp_path):
+    """Their equations would have the same labels."""
+    source = (READY / "top.toml").read_text(encoding="utf-8")
+    (tmp_path / "mine.toml").write_text(source.replace("800.0", "900.0"), encoding="utf-8")
+    for ending in (".tex", ".html"):
+        out = tmp_path / f"notes{ending}"
+        err = said("notes", "top", tmp_path / "mine.toml", "--out", out, code=2).err
+        assert "2 problems have the name 'top'" in err
+        assert not out.exists()
+    said("notes", "screw", "screw", "--out", tmp_path / "notes.tex")
+
+
+def test_letters_of_titles_and_units(said, tmp_path):
+    """What LaTeX has is printed, also where the PDF has its title; the rest is told."""
+    source = (READY / "screw.toml").read_text(encoding="utf-8")
+    for k, more in enumerate(["½⅓¼⅔¾µ∞√±≈⋅∑∫∆ħ⊥⋉↦⊗€†‰", "力 x"]):
+        text = re.sub('(?m)^title *= *"', f"\\g<0>{more} ", source)
+        assert text != source
+        (tmp_path / "screw.toml").write_text(text, encoding="utf-8")
+        err = said("notes", tmp_path / "screw.toml", "--out", tmp_path / "notes.tex").err
+        assert ("LaTeX has no 力 here" in err) == bool(k)
+        assert bool(err) == bool(k)
+        compiled(tmp_path / "notes.tex")
 
 
 def test_corrections_are_told(said, tmp_path):

@@ -3,6 +3,7 @@
 import json
 import re
 from dataclasses import replace
+from fractions import Fraction
 from functools import cache
 
 import pytest
@@ -105,6 +106,13 @@ def test_counterexamples_can_be_followed():
         if f.verdict == "misprinted":
             found = [x for v in f.counterexample.values() for x in re.findall(r"[-\d/]+", v)]
             assert sum(x != "0" for x in found) <= 14, f.number
+
+
+def test_moments_of_inertia_of_a_counterexample_are_those_of_a_body():
+    example = findings()[35].counterexample
+    a, b, c = sorted(map(Fraction, example["λ"].strip("[]").split(";")))
+    assert a > 0
+    assert c <= a + b
 
 
 def test_31_holds_with_the_force_in_place_of_its_prime():

@@ -3,6 +3,7 @@
 import os
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, assume, given, settings
 
 from derive.code.assemble import assemble
@@ -17,6 +18,7 @@ from tests.emitted import compile_c, present
 from tests.oracles import general, relative_error, solids
 from tests.random_problems import of_points, of_solids
 
+pytestmark = pytest.mark.no_cover
 EXAMPLES = int(os.environ.get("EXAMPLES", "16"))
 """`make fuzz` takes more."""
 STATES = 3

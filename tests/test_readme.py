@@ -21,6 +21,7 @@ def blocks(language):
 COMMANDS = [line.split("#")[0].split() for line in blocks("sh")[0].splitlines()]
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 def test_commands(command, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)

@@ -2,13 +2,18 @@
 
 import json
 import re
+import tomllib
 from dataclasses import replace
 
 import pytest
 
+from derive.mechanics.toml import problem_of
+from derive.pipeline import walk
 from derive.record.check import SIZE, check
 from derive.record.record import RecordError, from_json, to_data, to_json
 from derive.record.rules import RULES
+from tests import steps
+from tests.engine_mutations.jobs import MIXED
 from tests.walks import NAMES, own_verdicts, record
 
 
@@ -75,6 +80,7 @@ def set_step(key, value):
 BROKEN = {
     "not JSON": "{",
     "a list": "[]",
+    "key twice": to_json(record("sl3")).replace('"steps":', '"steps": [], "steps":', 1),
     "deep": "[" * 100_000,
     "no problem": damaged(delete("problem")),
     "no steps": damaged(delete("steps")),
@@ -85,9 +91,18 @@ BROKEN = {
     "no equation": damaged(set_step("equations", [])),
     "unknown operator": damaged(set_step("equations", [{"lhs": ["eval", "x"], "rhs": 1}])),
     "wrong arity": damaged(set_step("equations", [{"lhs": ["inv", "x", "y"], "rhs": 1}])),
+    "a ragged matrix": damaged(
+        set_step("equations", [{"lhs": "x", "rhs": ["matrix", ["row", 1, 2], ["row", 3]]}])
+    ),
+    "a line in a name": damaged(set_step("equations", [{"lhs": "x\nholds", "rhs": 1}])),
     "not a tree": damaged(set_step("equations", [{"lhs": {"a": 1}, "rhs": 1}])),
     "a number with a point": damaged(set_step("equations", [{"lhs": "L", "rhs": 1.5}])),
 }
+
+
+def test_nothing_is_left_out():
+    """What a rule leaves out makes nothing false: `python -m tests.steps` has what there is."""
+    assert steps.table() == json.loads(steps.TABLE.read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("case", BROKEN)
@@ -166,6 +181,31 @@ def test_a_problem_of_another_shape_is_not_read(case):
     with pytest.raises(RecordError, match="record, problem: ") as caught:
         from_json(to_json(HOSTILE[case]))
     assert "\n" not in str(caught.value)
+
+
+MOMENTS = {
+    "m": lambda given: given.update(m=["par", "l"]),
+    "c": lambda given: given.update(c=[0, 0, 1]),
+    "J": lambda given: given["J"][0].__setitem__(0, ["par", "l"]),
+}
+
+
+@pytest.mark.parametrize("moment", MOMENTS)
+def test_moments_that_are_not_those_of_the_solids_are_found(moment):
+    data = json.loads(json.dumps(to_data(record("hammer"))))
+    MOMENTS[moment](data["problem"]["body"]["given"])
+    wrong = [v for v in check(from_json(json.dumps(data))) if not v.holds]
+    assert "hammer.motion" in {v.label for v in wrong}
+    assert all("not those of its solids" in v.reason for v in wrong)
+
+
+def test_solids_and_points_together():
+    """The given moments are those of both."""
+    d = walk(problem_of(tomllib.loads(MIXED)))
+    assert all(v.holds for v in check(d))
+    data = json.loads(json.dumps(to_data(d)))
+    data["problem"]["body"]["points"][0]["mass"] = 3
+    assert any("not those of its solids" in v.reason for v in check(from_json(json.dumps(data))))
 
 
 def test_a_label_cannot_forge_a_line():

@@ -45,7 +45,7 @@ def enclosing(g: Group) -> Sampler:
 
 
 def _shapes(action: str, basis: Sequence[Matrix]) -> None:
-    if not basis:
+    if not basis or not basis[0]:
         raise ValueError("the basis is empty; give at least one matrix")
     size = len(basis[0])
     for a, e in enumerate(basis, 1):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Container
 from fractions import Fraction
 
 from .tree import Tree, coefficient, mul, neg
@@ -43,6 +44,15 @@ def show_name(name: str) -> str:
     """``J_11`` as ``J₁₁``, ``I_c`` as it is."""
     base, _, index = name.partition("_")
     return base + index.translate(SUBSCRIPTS) if re.fullmatch(r"[0-9]+", index) else name
+
+
+def in_quotes(t: Tree, names: Container[str]) -> Tree:
+    """The tree with the parameters of these names in quotes: so text has those like its letters."""
+    if not isinstance(t, tuple):
+        return t
+    if t[0] == "par":
+        return ("par", f"‘{show_name(t[1])}’") if t[1] in names else t
+    return (t[0], *(in_quotes(x, names) for x in t[1:]))
 
 
 def _indices(indices: tuple[object, ...]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -88,9 +89,16 @@ def _places(problem: Mapping[str, Any]) -> dict[int, str]:
     masses = len(problem.get("body", {}).get("points", []))
     found = {}
     for k, place in enumerate(problem.get("places", []), masses + 1):
-        at = ", ".join(show(decode(x, "place")) for x in place["at"]).replace("\u2212", "-")
+        at = ", ".join(_ascii(show(decode(x, "place"))) for x in place["at"])
         found[k] = f" at ({at})" if at.isascii() else ""
     return found
+
+
+def _ascii(text: str) -> str:
+    """An expression as it may stand in a comment: 1/4 for the one letter, pi, ^2."""
+    for letter, shown in (("\u2212", "-"), ("π", "pi"), ("²", "^2"), ("³", "^3")):
+        text = text.replace(letter, shown)
+    return unicodedata.normalize("NFKD", text).replace("\u2044", "/")
 
 
 def _factors(group: Group, order: str) -> list[str]:

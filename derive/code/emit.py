@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -60,6 +60,12 @@ def emit(
             template = templates.get_template(f"problem{source or suffix}.jinja")
             files[prefix + suffix] = template.render(fields)
     return files
+
+
+def included(languages: Iterable[str]) -> tuple[str, ...]:
+    """The headers of the C library that the files of these languages include."""
+    compiled = [x for name in languages for x in (name, LANGUAGES[name].needs)]
+    return ("math.h", "stddef.h") if "c" in compiled else ()
 
 
 def problem_hash(d: Derivation) -> str:

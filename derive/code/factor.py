@@ -24,7 +24,7 @@ def factored(graph: Graph, roots: Sequence[Node]) -> list[Node]:
     """The same values with fewer multiplications: of four ways the one that counts fewest."""
     ways = [
         _factored(graph, start, numbers)
-        for start in (list(roots), spread(graph, roots))
+        for start in dict.fromkeys((tuple(roots), tuple(spread(graph, roots))))
         for numbers in (False, True)
     ]
     return min(ways, key=cost)

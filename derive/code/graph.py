@@ -159,7 +159,7 @@ class Graph:
                 if y.op == "num":
                     constant += k * y.data
                 else:
-                    gathered[y] = gathered.get(y, Fraction(0)) + k
+                    gathered[y] = gathered[y] + k if y in gathered else k
         parts = [(c, x) for x, c in sorted(gathered.items(), key=lambda i: i[0].id) if c]
         parts = self._collected(parts)
         if constant:
@@ -169,8 +169,10 @@ class Graph:
         if len(parts) == 1 and parts[0][1].op == "num":
             return self.num(parts[0][0])
         content = _content([c for c, _ in parts])
+        if content == 1:
+            return self._sum_of(parts)
         core = self._sum_of([(c / content, x) for c, x in parts])
-        return core if content == 1 else self._intern("add", (content,), (core,), core.stage)
+        return self._intern("add", (content,), (core,), core.stage)
 
     def _terms(self, c: Fraction, x: Node) -> list[tuple[Fraction, Node]]:
         if x.op != "add":
@@ -248,6 +250,8 @@ class Graph:
 
 def _content(coefficients: list[Fraction]) -> Fraction:
     """The rational factor to take out: common to all, with the sign of the first."""
+    if all(c == 1 for c in coefficients):  # as most are
+        return Fraction(1)
     numerator = gcd(*(c.numerator for c in coefficients))
     denominator = 1
     for c in coefficients:

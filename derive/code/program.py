@@ -175,13 +175,6 @@ def _collect(e: Any, found: set[str]) -> None:
             _collect(part, found)
 
 
-def count(e: Expression) -> dict[str, int]:
-    """Operations of one expression."""
-    total = dict.fromkeys(OPERATIONS, 0)
-    _count(e, total)
-    return total
-
-
 def _count(e: Expression, total: dict[str, int]) -> None:
     if e[0] in ("abs", "fun"):
         total["call"] += e[0] == "fun"

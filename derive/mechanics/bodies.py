@@ -24,13 +24,13 @@ PLACING = {"density", "rotation", "shift"}
 
 def body(data: Mapping[str, Any], moved: Group | None, folder: Path) -> Body | None:
     """The body of a file; ``folder``: where its mesh files are looked for."""
-    listed, solids = tables(data, "point"), tables(data, "solid")
+    masses, solids = tables(data, "point"), tables(data, "solid")
     table = data.get("body")
     if moved is None:
-        if listed or solids or table is not None:
+        if masses or solids or table is not None:
             raise ProblemError("a text about any group has no body of its own; leave it out")
         return None
-    points = _points(listed, moved)
+    points = _points(masses, moved)
     if table is None and not solids:
         return points
     if table is not None and (not isinstance(table, dict) or solids):
@@ -45,9 +45,15 @@ def body(data: Mapping[str, Any], moved: Group | None, folder: Path) -> Body | N
     if moved.n != 3:
         raise ProblemError(f"a solid is in R^3, and {moved.name} moves points of R^{moved.n}")
     if table is not None:
-        kinds = {"kind" if key == "solid" else key: x for key, x in table.items()}
-        solids = [kinds]
-    return _mixture([_solid(s, k, folder) for k, s in enumerate(solids, 1)], points)
+        for key in ("moments", "given"):
+            if key in table:
+                raise ProblemError(f"body: give either 'solid' or {key!r}")
+        listed: dict[str, Mapping[str, Any]] = {
+            "body": {"kind" if k == "solid" else k: x for k, x in table.items()}
+        }
+    else:
+        listed = {f"solid {k}": s for k, s in enumerate(solids, 1)}
+    return _mixture({where: _solid(s, where, folder) for where, s in listed.items()}, points)
 
 
 def _points(listed: list[Mapping[str, Any]], moved: Group) -> PointBody | None:
@@ -104,8 +110,7 @@ def _half(*terms: Tree) -> Tree:
     return int(total) if total.denominator == 1 else total
 
 
-def _solid(data: Mapping[str, Any], k: int, folder: Path) -> Solid:
-    where = f"solid {k}"
+def _solid(data: Mapping[str, Any], where: str, folder: Path) -> Solid:
     kind = choice(data, "kind", tuple(KINDS), where)
     known(data, {"kind", *PLACING, *KINDS[kind]}, where)
     sizes: dict[str, Any] = {}
@@ -190,17 +195,17 @@ def _rotation(value: Any, where: str) -> tuple[tuple[Tree, ...], ...]:
     return rows
 
 
-def _mixture(solids: list[Solid], points: PointBody | None) -> GivenBody:
-    """The moments of solids and points together."""
+def _mixture(solids: Mapping[str, Solid], points: PointBody | None) -> GivenBody:
+    """The moments of solids, each under its place in the file, and points together."""
     parts = []
-    for k, solid in enumerate(solids, 1):
+    for where, solid in solids.items():
         try:
             parts.append(moments(solid, relations=False))
         except SolidError as error:
-            raise ProblemError(f"solid {k}: {error}") from None
+            raise ProblemError(f"{where}: {error}") from None
     total = reduce(add_moments, parts)
     own = total if points is None else total + _of_points(points)
-    return GivenBody(own.mass, own.first, own.second, points, tuple(solids))
+    return GivenBody(own.mass, own.first, own.second, points, tuple(solids.values()))
 
 
 def _of_points(body: PointBody) -> Moments:

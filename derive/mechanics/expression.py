@@ -14,6 +14,7 @@ from typing import Any
 from ..algebra.differentiate import DERIVATIVES
 from ..algebra.tree import Tree, add, mul, neg
 from ..limits import BITS, DEGREE, DEPTH, DIGITS, EXPONENT, EXPRESSION, MAGNITUDE, NESTING, SLOPE
+from .divisors import has_zero_divisor
 from .weight import depth, weight
 
 SMALLEST, LARGEST = Fraction(1, MAGNITUDE), Fraction(MAGNITUDE)
@@ -33,7 +34,10 @@ def parse(text: str) -> Tree:
     parser = _Parser(_tokens(text))
     tree = parser.sum(0)
     if parser.peek():
-        raise ExpressionError(f"unexpected {parser.peek()[:20]!r}; a product needs a *, as 2*k")
+        raise ExpressionError(
+            f"unexpected {parser.peek()[:20]!r}; a product needs a *, as 2*k, and units stand in "
+            "[parameters] alone"
+        )
     _affordable(tree)
     return tree
 
@@ -46,6 +50,8 @@ def _affordable(tree: Tree) -> None:
         _number(q)
     if any(approximate(x, {}) is None for x in constants(tree)):
         raise ExpressionError("a part without names has no finite value, as log(0) has none")
+    if has_zero_divisor(tree):
+        raise ExpressionError("division by zero, whatever the names in it; or a root or log of it")
     found = weight(tree)
     if found.degree > DEGREE:
         raise ExpressionError(f"an expression of degree {found.degree}; at most {DEGREE}")
@@ -117,7 +123,8 @@ def _tokens(text: str) -> list[str]:
     for match in TOKEN.finditer(text.rstrip()):
         number, name, other = match.groups()
         if other is not None and other not in "+-*/^()":
-            raise ExpressionError(f"character {other!r} is not part of an expression")
+            point = "; decimals have a point, as 0.5" if other == "," else ""
+            raise ExpressionError(f"character {other!r} is not part of an expression{point}")
         found.append(number or name or other)
     return found
 

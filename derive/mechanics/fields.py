@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -14,7 +15,7 @@ from .expression import ExpressionError, parse
 from .problem import ProblemError
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
-PLACE = re.compile(r"r([0-9]{1,4})_(?:([xyz])|([0-9]))")
+PLACE = re.compile(r"r(0|[1-9][0-9]{0,3})_(?:([xyz])|([0-9]))")
 """A coordinate of a point in space, as an expression names it: r1_x, r2_1."""
 LIKE_A_PLACE = re.compile(r"[rv][0-9]+_\w+")
 
@@ -80,6 +81,8 @@ def expression(value: Any, where: str) -> Tree:
     """A number or a string of the grammar."""
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         raise ProblemError(f"{where}: expected a number or an expression in quotes")
+    if isinstance(value, float) and not math.isfinite(value):
+        raise ProblemError(f"{where}: {value} is not a finite number")
     try:
         return parse(value if isinstance(value, str) else repr(value))
     except ExpressionError as error:
@@ -105,3 +108,30 @@ def missing(data: Mapping[str, Any], key: str, where: str) -> Any:
     if key not in data:
         raise ProblemError(f"{where}: key {key!r} is missing")
     return data[key]
+
+
+def unread(raw: bytes, error: ValueError) -> str:
+    """What is wrong with a text that is not TOML, and the remedy where it is known."""
+    if isinstance(error, UnicodeDecodeError):
+        line = raw[: error.start].count(b"\n") + 1
+        return f"line {line} has a byte that is not UTF-8; save the file as UTF-8"
+    said = str(error)
+    if said.startswith(("Cannot overwrite", "Cannot declare", "Cannot mutate")):
+        said += "; a key or a table stands twice, where a list of tables is written [[…]]"
+    at = re.search(r"at line ([0-9]+)", said)
+    lines = raw.decode("utf-8-sig", "replace").split("\n")
+    if at and not lines[int(at[1]) - 1].partition("=")[0].isascii():
+        said += "; names have the letters A to Z, a to z, digits and _ only"
+    return said
+
+
+def used_at(data: Mapping[str, Any], name: str, *but: str) -> str:
+    """The first table and key, but some, in which a name stands, as other messages say it."""
+    word = re.compile(rf"(?<![A-Za-z0-9_]){re.escape(name)}(?![A-Za-z0-9_])")
+    for kind in (*TABLES, "body"):
+        listed = isinstance(data.get(kind), list)
+        for k, table in enumerate(data[kind] if listed else [data.get(kind, {})], 1):
+            for key, value in table.items():
+                if key not in but and word.search(str(value)):
+                    return f"{kind} {k}, key {key!r}" if listed else f"{kind}, key {key!r}"
+    return "file"

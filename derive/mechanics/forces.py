@@ -98,7 +98,7 @@ def potential(data: Mapping[str, Any], where: str, points: Points) -> Potential:
         sizes = {g.n for _, g in points.group.places}
         if len(sizes) > 1:
             raise ProblemError(f"{where}: gravity needs blocks of one dimension; use 'expression'")
-        return Gravity(vector(data.get("g"), sizes.pop(), f"{where}, g"))
+        return Gravity(vector(missing(data, "g", where), sizes.pop(), f"{where}, g"))
     if kind == "attraction":
         known(data, {"kind", "strength", "centre"}, where)
         if not points.masses or points.heavy:

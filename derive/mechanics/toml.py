@@ -7,43 +7,38 @@ import math
 import re
 import tomllib
 from collections.abc import Mapping
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from ..algebra.families import group, on_homogeneous
-from ..algebra.given import group_of_basis
 from ..algebra.groups import Group
-from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
 from ..limits import (
-    BASIS,
     BITS,
     COMMON_BITS,
     KEY_PARTS,
     LEAVES,
     MAGNITUDE,
-    MATRIX,
     PARAMETERS,
     PROBLEM_BYTES,
+    PULLS,
 )
 from . import inertia
 from .bodies import body
 from .expression import names, numbers
 from .fields import (
     LIKE_A_PLACE,
-    NAME,
     PLACE,
-    choice,
-    expression,
     identifier,
     known,
-    missing,
     tables,
     text,
+    unread,
+    used_at,
 )
 from .forces import Points, damping, given_input, potential, trees
+from .group import group_of
 from .problem import (
+    Attraction,
     CovectorInput,
     GivenBody,
     MomentBody,
@@ -75,8 +70,15 @@ def load(path: Path, negative_mass: bool = False) -> Problem:
         raise ProblemError(f"{path}: a key of more than {KEY_PARTS} parts; no key has so many")
     try:
         data = tomllib.loads(raw.decode("utf-8-sig"))
-    except (tomllib.TOMLDecodeError, UnicodeError, RecursionError) as error:
-        raise ProblemError(f"{path}: not TOML: {error}") from None
+    except RecursionError:
+        raise ProblemError(f"{path}: tables or lists nested deeper than can be read") from None
+    except (tomllib.TOMLDecodeError, UnicodeError) as error:
+        kind = (
+            ""
+            if path.suffix == ".toml"
+            else "; a problem is a .toml file, and records (.json) are for check"
+        )
+        raise ProblemError(f"{path}: not TOML: {unread(raw, error)}{kind}") from None
     except ValueError:  # Python reads no integer of thousands of digits
         raise ProblemError(f"{path}: {HUGE}") from None
     if _huge(data):
@@ -109,8 +111,8 @@ def problem_of(
     ``negative_mass``: may a mass be given as a negative number?
     """
     known(data, TOP, "file")
-    name = identifier(text(data, "name", "file"), "key 'name'")
-    moved, action = _group(data)
+    moved, action = group_of(data)
+    name = _name(data, moved)
     parameters = _parameters(data.get("parameters", {}))
     own = body(data, moved, folder)
     if moved and own is None:
@@ -153,64 +155,29 @@ def problem_of(
         drags,
     )
     _affordable(problem)
-    _declared(problem, data.get("parameters", {}))
-    if moved and own and (still := inertia.still_direction(moved, own)):
-        raise ProblemError(f"{still} moves no mass of this body: its motion is open; add masses")
-    if not negative_mass and inertia.impossible(own):
-        raise ProblemError("body, given: no masses have these moments: J − c c̄/m must be positive")
+    _declared(problem, data)
+    _massive(problem, negative_mass)
     return problem
 
 
-def _group(data: Mapping[str, Any]) -> tuple[Group | None, str]:
-    """The group, by its name or by a table with a basis, and its action."""
-    which = data.get("group")
-    if isinstance(which, dict):
-        moved = _given_group(which)
-        if "action" in data:
-            raise ProblemError("key 'action' belongs into the table [group]")
-        return moved, moved.action
-    which = text(data, "group", "file")
-    try:
-        named = None if which == "any" else group(which)
-    except ValueError as error:
-        raise ProblemError(f"key 'group': {error}") from None
-    action = choice(data, "action", ("linear", "affine"), "file", named.action if named else "")
-    if named and action != named.action:
-        raise ProblemError(f"key 'action': {named.name} acts by {named.action} maps")
-    return named, action
+def _name(data: Mapping[str, Any], moved: Group | None) -> str:
+    """The name of the problem: a prefix of labels that nothing else has."""
+    name = identifier(text(data, "name", "file"), "key 'name'")
+    if moved and name in ("linear", "affine"):
+        raise ProblemError(f"key 'name': {name!r} names what is said of any group; choose another")
+    return name
 
 
-def _given_group(data: Mapping[str, Any]) -> Group:
-    where = "group"
-    known(data, {"name", "action", "basis"}, where)
-    name = text(data, "name", where)
-    if not NAME.fullmatch(name):
-        raise ProblemError(f"{where}: key 'name': letters, digits and _ only")
-    action = choice(data, "action", ("linear", "affine"), where, "linear")
-    basis = missing(data, "basis", where)
-    if not isinstance(basis, list) or len(basis) > BASIS:
-        raise ProblemError(f"{where}: key 'basis' must list at most {BASIS} matrices")
-    matrices = [_matrix(e, f"{where}, element {a} of the basis") for a, e in enumerate(basis, 1)]
-    try:
-        moved = group_of_basis(name, "affine" if action == "affine" else "linear", matrices)
-    except ValueError as error:
-        raise ProblemError(f"{where}: {error}") from None
-    return moved if not moved.affine or moved.free_translations else on_homogeneous(moved)
-
-
-def _matrix(value: Any, where: str) -> Matrix:
-    if not isinstance(value, list) or not all(isinstance(row, list) for row in value):
-        raise ProblemError(f"{where}: expected a list of rows")
-    if len(value) > MATRIX or any(len(row) > MATRIX for row in value):
-        raise ProblemError(f"{where}: larger than {MATRIX} × {MATRIX}")
-    return tuple(tuple(_rational(x, where) for x in row) for row in value)
-
-
-def _rational(value: Any, where: str) -> Fraction:
-    tree = expression(value, where)
-    if not isinstance(tree, (int, Fraction)):
-        raise ProblemError(f"{where}: the entries of a basis must be rational numbers")
-    return Fraction(tree)
+def _massive(problem: Problem, negative_mass: bool) -> None:
+    """The body has inertia in every direction, and masses that can be."""
+    moved, own = problem.group, problem.body
+    if moved and own and (still := inertia.still_direction(moved, own)):
+        raise ProblemError(f"{still} moves no mass of this body: its motion is open; add masses")
+    if not negative_mass and inertia.impossible(own):
+        raise ProblemError(
+            "body, given: no masses have these moments: J − c c̄/m must be positive "
+            "(about the centre no moment of inertia exceeds the sum of the two others)"
+        )
 
 
 def _parameters(data: Any) -> dict[str, Parameter]:
@@ -251,21 +218,21 @@ def _distinct(inputs: list[str], parameters: Mapping[str, Parameter]) -> None:
             raise ProblemError(f"input {k}: {name!r} is a parameter as well; choose another name")
 
 
-def _declared(problem: Problem, given: Mapping[str, Any]) -> None:
+def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     """Every name that is used is a parameter, and every parameter is used."""
     found = [*trees(problem.points), *trees(problem.body), *_forces(problem)]
     used = dict.fromkeys(x for t in found for x in names(t))
     for name in used:
         if name not in problem.parameters:
             if name == "t" or LIKE_A_PLACE.fullmatch(name):
-                raise ProblemError(f"{name!r} is known in the 'U' of an expression alone")
-            near = difflib.get_close_matches(name[:40], problem.parameters, 1)
+                where = used_at(data, name, "U")
+                raise ProblemError(f"{where}: {name!r} is known in the 'U' of an expression alone")
+            where, shown = used_at(data, name), name[:40]
+            near = difflib.get_close_matches(shown, problem.parameters, 1)
             hint = f"did you mean {near[0]!r}? Else " if near else ""
-            raise ProblemError(
-                f"{name[:40]!r} is used but not declared; {hint}add it to [parameters]"
-            )
+            raise ProblemError(f"{where}: {shown!r} is not declared; {hint}add it to [parameters]")
     own = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}
-    for name in given:
+    for name in data.get("parameters", {}):
         if name not in used and name not in own:
             raise ProblemError(f"parameter {name!r} is declared but not used; leave it out")
 
@@ -282,6 +249,9 @@ def _affordable(problem: Problem) -> None:
     leaves = sum(weight(t).leaves for t in found)
     if leaves > LEAVES:
         raise ProblemError(f"{leaves} names and numbers in expressions; at most {LEAVES}")
+    pulls = sum(problem.masses for p in problem.potentials if isinstance(p, Attraction))
+    if pulls > PULLS:
+        raise ProblemError(f"{pulls} attractions of points; at most {PULLS}")
     common = 1
     for q in (x for t in found for x in numbers(t)):
         common = math.lcm(common, q.denominator)

@@ -10,15 +10,15 @@ from __future__ import annotations
 
 import hashlib
 import itertools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import cached_property
 from random import Random
 from typing import Any
 
-from ..algebra.families import group, on_homogeneous, turning_about_a_point
+from ..algebra.families import group, on_homogeneous
 from ..algebra.given import group_of_basis
 from ..algebra.groups import Group
 from ..algebra.show import show
@@ -28,6 +28,7 @@ from .evaluate import Environment, evaluate, free_indices, index_values
 from .introduced import unexplained
 from .meaning import environment
 from .model import Model
+from .panel import PANELS
 from .record import Derivation, Equation, RecordError, Step, to_json
 from .vocabulary import ANY_GROUP
 
@@ -52,12 +53,8 @@ UNEXPLAINED = "{} is used, and neither this step nor one before it says what it 
 LARGEST_BOUND = SIZE // 10**30
 """A claim whose false pass would be more probable than 1e-30 is refused."""
 
-PANELS: dict[str, tuple[Callable[[], Group], ...]] = {
-    "linear": tuple(partial(group, x) for x in ("GL(4)", "SL(2)", "SO(3)")),
-    "affine": (*(partial(group, x) for x in ("Aff(3)", "SE(2)")), turning_about_a_point),
-}
-"""Groups on which a claim about any group is tried: one without relations, one with, and one whose
-translations are not free."""
+DIGITS = 10**6
+"""Bits of the numbers that a step has, its powers multiplied out."""
 
 
 @dataclass(frozen=True)
@@ -93,12 +90,16 @@ class Checker:
     def _own(self) -> Group:
         """The problem's group: a named one, or that of the basis in the record."""
         name = str(self.problem.get("group"))
-        try:
-            return group(name)
-        except ValueError as error:
-            if not self.problem.get("basis"):
-                raise RecordError(str(error)) from None
         rows = [tuple(tuple(Fraction(x) for x in row) for row in e) for e in self.problem["basis"]]
+        try:
+            named = group(name)
+        except ValueError as error:
+            if not rows:
+                raise RecordError(str(error)) from None
+        else:
+            if tuple(rows) != named.basis:
+                raise RecordError(f"the basis is not that of {name}, in its order")
+            return named
         if self.problem.get("homogeneous"):
             return on_homogeneous(group_of_basis(name, "affine", rows))
         return group_of_basis(
@@ -142,9 +143,12 @@ class Checker:
             most *= WRITTEN_OUT * max(g.dimension for g in groups)
         if written > most:
             raise RecordError(f"a claim of degree {written}, more than {most}")
+        if any(degree.digits(x) > DIGITS for e in step.equations for x in (e.lhs, e.rhs)):
+            raise RecordError("a claim of powers of numbers that are too large")
         if step.scope == ANY_GROUP:  # it is tried on points of its own, drawn at random
             return written
-        found = max(degree.bound(e, g, self.problem) for e, g in pairs)
+        axes = "principal axes" in step.given
+        found = max(degree.bound(e, g, self.problem, principal=axes) for e, g in pairs)
         if found > LARGEST_BOUND:
             raise RecordError(f"a claim of degree {found}, more than {LARGEST_BOUND}")
         return found

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 from ..algebra.groups import Group
@@ -51,9 +52,16 @@ class Degree:
         return Degree(self.num * max(size - 1, 0), ((whole, 1),)) * Degree(self.denominator)
 
 
-def bound(equation: Equation, group: Group, problem: Mapping[str, Any]) -> int:
-    """The degree of the numerator of  lhs − rhs."""
-    table = _table(group, body_degree(problem))
+MOMENTS = 12
+"""Times n: the degree of a body of points among which some make J diagonal (4 n) of cubes."""
+
+
+def bound(
+    equation: Equation, group: Group, problem: Mapping[str, Any], *, principal: bool = False
+) -> int:
+    """The degree of the numerator of  lhs − rhs; ``principal``: for a body with diagonal J."""
+    least = MOMENTS * group.n if principal else 1
+    table = _table(group, max(least, body_degree(problem)))
     total = _degree(equation.lhs, table, group) + _degree(equation.rhs, table, group)
     return total.num + total.denominator
 
@@ -98,6 +106,17 @@ def _size(t: Tree) -> int:
         return int(_size(t[1]) * abs(int(t[2])))
     own = FUNCTION if t[0] == "fun" else 0
     return own + sum(_size(x) for x in t[1:])
+
+
+def digits(t: Tree) -> int:
+    """About how many bits the numbers written in a tree have together once it is evaluated."""
+    if isinstance(t, (int, Fraction)):
+        return abs(t.numerator).bit_length() + t.denominator.bit_length()
+    if not isinstance(t, tuple):
+        return 0
+    if t[0] == "pow":
+        return digits(t[1]) * abs(int(t[2]))
+    return sum(digits(x) for x in t[1:])
 
 
 ALGEBRA = (

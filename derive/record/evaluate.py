@@ -164,8 +164,15 @@ def free_indices(t: Tree) -> set[str]:
 
 
 def index_values(t: Tree, index: str, env: Environment) -> list[int]:
-    """The values that an index takes in a tree."""
-    return _range(t, index, env)
+    """The values of a free index, the same for all families but the basis, which may have more.
+
+    ``EvaluationError`` else: an equation would be held for a few members only, or for none.
+    """
+    found = _range(t, index, env)
+    whole = [x for x in _spans(t, index, env) if x != set(found)]
+    if not found or any(x != {key[0] for key in env.families.get("E", ())} for x in whole):
+        raise EvaluationError(f"the index {index!r} is not that of the same members everywhere")
+    return found
 
 
 def _index(i: Any, env: Environment) -> int:

@@ -232,7 +232,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         "p̃": momentum,
         "ϖ": lambda _, a, env: model.cartan(direction(a[0])),
         "dϖ": lambda _, a, env: model.exterior(direction(a[0]), direction(a[1])),
-        "ω": lambda _, a, env: model.exterior(direction(a[0]), direction(a[1])),
+        "ω": lambda _, a, env: model.exterior(*(direction(at_one_time(x)) for x in a[:2])),
         "r": point,
         "∫": lambda _, a, env: integral(model, a[0]),
         "δA": lambda _, a, env: _linear(model, q.times(model.g, direction(a[0]).xi)),
@@ -245,10 +245,17 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
     }
 
 
+def at_one_time(name: Tree) -> Tree:
+    """The name of a direction without time, which is all that ω takes."""
+    if name not in ("δx", "δ′x"):
+        raise EvaluationError(f"ω takes δx and δ′x, not {name!r}")
+    return name
+
+
 def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
     """δ or δ′ of a moved point, or of the fields ξ, ξ′, η, η′ on the two-parameter family."""
     _, g, _ = model.family(model.first, model.second)
-    if isinstance(what, tuple) and what[0] == "call":
+    if isinstance(what, tuple) and what[0] == "call" and what[1][:2] == ("at", "r"):
         index = what[1][2]
         i = index if isinstance(index, int) else env.indices[index]
         return tuple((part(x, mask),) for x in model.moved(g)[i - 1])

@@ -60,6 +60,7 @@ class Model:
     ):
         self.problem, self.group, self.random, self.size = problem, group, random, size
         self.driven, self.along, self.opaque = driven, motion, opaque
+        self.principal = principal
         self.n, self.s = group.n, group.size
         self._exteriors: dict[tuple[Direction, Direction], Fraction] = {}
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}

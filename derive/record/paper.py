@@ -139,7 +139,7 @@ def _counterexample(p: Printed, equation: Equation, tries: int = 1000) -> dict[s
             env = point(p, READABLE, seed, Sparse)
         except (ZeroDivisionError, AssertionError):
             continue
-        if difference(equation, env):
+        if difference(equation, env) and _of_a_body(env.names.get("λ")):
             used = dict.fromkeys(x for side in (equation.lhs, equation.rhs) for x in names(side))
             used = dict.fromkeys([*["A"] * ("α" in used), *used, *p.missing])
             values = {x: text(env.names[x]) for x in used if x in env.names}
@@ -149,6 +149,14 @@ def _counterexample(p: Printed, equation: Equation, tries: int = 1000) -> dict[s
             }
             return values | sides
     return None
+
+
+def _of_a_body(moments: Any) -> bool:
+    """Are these principal moments of inertia, where there are any, those of some masses?"""
+    if moments is None:
+        return True
+    a, b, c = sorted(x for (x,) in moments)
+    return bool(a > 0 and c <= a + b)
 
 
 def text(x: Any) -> str:

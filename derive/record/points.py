@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from ..algebra import rational as q
 from .evaluate import evaluate
-from .realised import realised
+from .realised import points_with, realised
 from .record import decode
 
 if TYPE_CHECKING:
@@ -38,18 +39,23 @@ def points_of(model: Model) -> Points:
 
 
 def principal_points(model: Model) -> Points:
-    """As many points, on the axes: J is diagonal, c is not zero."""
-    listed = model.problem.get("body", {}).get("points", [])
-    places, blocks = _placed(model, model.problem.get("places", []))
-    count, n = max(model.n, len(listed)), model.n
+    """As many points anywhere and what makes J diagonal, and m and c any."""
+    n, count = model.n, len(model.problem.get("body", {}).get("points", []))
     masses = [model.draw(positive=True) for _ in range(count)]
-    axes: list[Vector] = [
-        tuple(model.draw() if i % n == j else Fraction(0) for j in range(n)) for i in range(count)
-    ]
+    points: list[Vector] = [tuple(model.draw() for _ in range(n)) for _ in range(count)]
+    places, blocks = _placed(model, model.problem.get("places", []))
+    m, c = model.draw(positive=True), [model.draw() for _ in range(n)]
+    J = [[model.draw() if i == j else Fraction(0) for j in range(n)] for i in range(n)]
+    for mass, r in zip(masses, points, strict=True):
+        m -= mass
+        c = [x - mass * y for x, y in zip(c, r, strict=True)]
+        J = [
+            [x - mass * a * b for x, b in zip(row, r, strict=True)]
+            for row, a in zip(J, r, strict=True)
+        ]
+    more, rest = points_with(m, tuple(c), q.matrix(J))
     empty = [Fraction(0)] * len(places)
-    if listed:
-        return masses + empty, axes + places, [1] * count + blocks
-    return empty + masses, places + axes, blocks + [1] * count
+    return masses + empty + more, points + places + rest, [1] * count + blocks + [1] * len(rest)
 
 
 def _placed(model: Model, listed: list[Mapping[str, Any]]) -> tuple[list[Vector], list[int]]:

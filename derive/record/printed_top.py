@@ -204,7 +204,6 @@ TOP: tuple[Printed, ...] = (
         "Said to be equivalent to (34), it has lost the term φ of the potential.",
         True,
         missing=("φ",),
-        seed=250,
     ),
     Printed(
         39,

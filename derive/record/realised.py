@@ -7,7 +7,7 @@ are computed by slices, not by the integrals of the derivation.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -27,7 +27,11 @@ Vector = tuple[Any, ...]
 
 def realised(model: Model) -> tuple[list[Fraction], list[Vector]]:
     """Masses and places of the body without its listed points."""
-    m, c, J = moments_of(model)
+    return points_with(*moments_of(model))
+
+
+def points_with(m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list[Vector]]:
+    """Masses, some of them negative it may be, and places that have these moments."""
     if m == 0:
         raise ZeroDivisionError("a body without mass")
     s = tuple(x / m for x in c)
@@ -59,17 +63,40 @@ def squares(a: Matrix) -> list[tuple[Fraction, Vector]]:
 
 
 def moments_of(model: Model) -> tuple[Fraction, Vector, Matrix]:
-    """m, c, J of the body without its listed points: by slices, or as they are given."""
+    """m, c, J of the body without its listed points: by slices where it is of solids.
+
+    ``RecordError`` where these and the points do not have the given ones.
+    """
     body = model.problem["body"]
+    m, c, J = (_value(model, body["given"][key]) for key in ("m", "c", "J"))
     if not body["solids"]:
-        given = body["given"]
-        return _value(model, given["m"]), _value(model, given["c"]), _value(model, given["J"])
+        return m, c, J
+    solids = sliced(model, body["solids"])
+    if (m, c, J) != _with_points(model, solids, body.get("points", [])):
+        raise RecordError("body: the given moments are not those of its solids")
+    return solids
+
+
+def sliced(model: Model, solids: Iterable[Mapping[str, Any]]) -> tuple[Fraction, Vector, Matrix]:
+    """m, c, J of solids, summed over their slices."""
     m, c = Fraction(0), tuple([Fraction(0)] * 3)
     J = q.scaled(Fraction(0), q.identity(3))
-    for solid in body["solids"]:
+    for solid in solids:
         mass, first, second = _solid(model, solid)
         m, J = m + mass, q.plus(J, second)
         c = tuple(x + y for x, y in zip(c, first, strict=True))
+    return m, c, J
+
+
+def _with_points(
+    model: Model, solids: tuple[Fraction, Vector, Matrix], points: Iterable[Mapping[str, Any]]
+) -> tuple[Fraction, Vector, Matrix]:
+    m, c, J = solids
+    for p in points:
+        mass, r = _value(model, p["mass"]), _value(model, p["at"])
+        m, c = m + mass, tuple(x + mass * y for x, y in zip(c, r, strict=True))
+        column = tuple((x,) for x in r)
+        J = q.plus(J, q.scaled(mass, q.times(column, q.transposed(column))))
     return m, c, J
 
 

@@ -21,6 +21,7 @@ from . import sentence
 from .rules import RULES
 from .sentence import Prose, english
 from .shape import ShapeError, deepest, problem_shape, tree_shape
+from .strict import loads
 from .vocabulary import ANY_GROUP, GIVENS
 
 
@@ -117,6 +118,8 @@ def decode(data: Any, where: str, depth: int = 0) -> Tree:
     if isinstance(data, str):
         if re.fullmatch(r"-?[0-9]{1,4000}/0*[1-9][0-9]{0,4000}", data):
             return Fraction(data)
+        if not data or not data.isprintable():
+            raise RecordError(f"{where}: a name may not be {ascii(data)[:40]}")
         return data
     if isinstance(data, int) and not isinstance(data, bool):
         return data
@@ -256,9 +259,9 @@ def _step(data: Any, where: str, earlier: Set[str]) -> Step:
 def from_json(text: str) -> Derivation:
     """Read a record; :class:`RecordError` says what is wrong and where."""
     try:
-        data = json.loads(text, parse_constant=_no_constant)
-    except (ValueError, RecursionError) as error:
-        raise RecordError(f"not JSON: {error}") from None
+        data = loads(text)
+    except ValueError as error:
+        raise RecordError(f"not JSON that can be read: {error}") from None
     problem = _field(data, "problem", dict, "record")
     if deepest(problem) > TREE:
         raise RecordError(f"record, problem: nested deeper than {TREE}")
@@ -293,7 +296,3 @@ def read(path: Path) -> Derivation:
         raise RecordError(f"{path}: not UTF-8 text") from None
     except RecordError as error:
         raise RecordError(f"{path}: {error}") from None
-
-
-def _no_constant(name: str) -> None:
-    raise ValueError(f"{name} is no number of JSON")

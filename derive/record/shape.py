@@ -14,6 +14,7 @@ from typing import Any
 from ..algebra.differentiate import DERIVATIVES
 from ..algebra.tree import OPERATORS, Tree
 from ..limits import BASIS, TEXT
+from .vocabulary import CONVENTIONS
 
 FRACTION = re.compile(r"-?[0-9]{1,4000}(/0*[1-9][0-9]{0,4000})?")
 KINDS = ("points", "given", "moments", "any")
@@ -52,7 +53,8 @@ def tree_shape(t: tuple[Any, ...]) -> str:
     if t[0] == "entry":
         return "" if all(isinstance(i, (str, int)) for i in t[2:]) else "expected indices"
     if t[0] == "matrix":
-        return "" if all(isinstance(x, tuple) and x[0] == "row" for x in t[1:]) else "expected rows"
+        lengths = {len(x) if isinstance(x, tuple) and x[0] == "row" else 0 for x in t[1:]}
+        return "" if len(lengths) == 1 and 0 not in lengths else "expected rows of one length"
     return ""
 
 
@@ -69,9 +71,19 @@ def deepest(data: Any) -> int:
     return level
 
 
+def _is_scalar(t: Tree) -> bool:
+    """Is it made of numbers, parameters and entries of places by what keeps to numbers?"""
+    if not isinstance(t, tuple) or t[0] == "par":
+        return True
+    if t[0] == "entry":
+        return isinstance(t[1], tuple) and t[1][0] == "call"
+    kept = {"add": t[1:], "mul": t[1:], "div": t[1:], "pow": t[1:2], "fun": t[2:]}
+    return t[0] in kept and all(map(_is_scalar, kept[t[0]]))
+
+
 class _Shape:
     def __init__(self, data: Mapping[str, Any], tree: Callable[[Any, str], Tree]):
-        self.data, self.tree = data, tree
+        self.data, self.read = data, tree
         self.points = 0
 
     def problem(self) -> None:
@@ -93,10 +105,12 @@ class _Shape:
         for k, x in self.each("inputs"):
             self.input(x, f"input {k}")
         for k, x in self.each("damping"):
-            self.tree(self.at(x, "coefficient", object, f"damping {k}"), f"damping {k}")
+            self.scalar(self.at(x, "coefficient", object, f"damping {k}"), f"damping {k}")
             for i in self.at(x, "on", list, f"damping {k}"):
                 self.point(i, f"damping {k}")
         self.basis(self.at(data, "basis", list, "basis"))
+        if self.at(data, "conventions", list, "conventions") != [*CONVENTIONS]:
+            raise ShapeError("conventions: not those by which equations are checked")
 
     # -- the parts ---------------------------------------------------------------------------
 
@@ -115,7 +129,7 @@ class _Shape:
         self.one_of(kind, KINDS, "body, kind")
         listed = self.at(body, "points", list, "body") if "points" in body else []
         for k, x in enumerate(listed, 1):
-            self.tree(self.at(x, "mass", object, f"point {k}"), f"point {k}, mass")
+            self.scalar(self.at(x, "mass", object, f"point {k}"), f"point {k}, mass")
             self.placed(x, f"point {k}")
         self.points = len(listed)
         if kind == "points" and not listed:
@@ -123,7 +137,7 @@ class _Shape:
         if kind != "given":
             return
         given = self.at(body, "given", dict, "body")
-        self.tree(self.at(given, "m", object, "body, given"), "body, m")
+        self.scalar(self.at(given, "m", object, "body, given"), "body, m")
         size = len(self.vector(self.at(given, "c", list, "body, given"), "body, c"))
         self.square(self.at(given, "J", list, "body, given"), size, "body, J")
         for k, x in enumerate(self.at(body, "solids", list, "body"), 1):
@@ -132,7 +146,7 @@ class _Shape:
     def solid(self, data: Any, where: str) -> None:
         """Its sizes, by its kind; where it is."""
         self.one_of(self.at(data, "kind", str, where), tuple(SIZES), f"{where}, kind")
-        self.tree(self.at(data, "density", object, where), f"{where}, density")
+        self.scalar(self.at(data, "density", object, where), f"{where}, density")
         if (rotation := self.at(data, "rotation", object, where)) is not None:
             self.square(rotation, 3, f"{where}, rotation")
         if (shift := self.at(data, "shift", object, where)) is not None:
@@ -144,7 +158,7 @@ class _Shape:
             if key in ("sides", "semi_axes"):
                 self.vector(value, f"{where}, {key}", 3)
             elif key not in ("vertices", "faces"):
-                self.tree(value, f"{where}, {key}")
+                self.scalar(value, f"{where}, {key}")
         if "vertices" in sizes:
             self.vertices(sizes, f"{where}, vertices")
 
@@ -175,7 +189,7 @@ class _Shape:
         self.one_of(kind, ("gravity", "spring", "attraction", "expression"), f"{where}, kind")
         trees = {"spring": ("stiffness", "length"), "attraction": ("strength",)}
         for key in trees.get(kind, ("U",) if kind == "expression" else ()):
-            self.tree(self.at(data, key, object, where), f"{where}, {key}")
+            self.scalar(self.at(data, key, object, where), f"{where}, {key}")
         if kind == "gravity":
             self.vector(self.at(data, "g", list, where), f"{where}, g")
         if kind == "attraction":
@@ -214,6 +228,11 @@ class _Shape:
 
     # -- of what everything is made --------------------------------------------------------------
 
+    def scalar(self, data: Any, where: str) -> None:
+        """A tree of a number."""
+        if not _is_scalar(self.read(data, where)):
+            raise ShapeError(f"{where}: expected the expression of a number")
+
     def at(self, data: Any, key: str, kind: type, where: str) -> Any:
         """A value of a type that must be there."""
         if not isinstance(data, dict):
@@ -246,7 +265,7 @@ class _Shape:
         if data and isinstance(data[0], str) and data[0] in OPERATORS:
             raise ShapeError(f"{where}: expected a list of expressions")
         for x in data:
-            self.tree(x, where)
+            self.scalar(x, where)
         return data
 
     def square(self, data: Any, size: int, where: str) -> None:

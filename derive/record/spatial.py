@@ -38,7 +38,8 @@ def spatial_values(model: Model) -> Values:
     centre = tuple(x[0] / m for x in c)
     values["I"] = _tensor(model, (Fraction(0),) * 3)
     values["I_c"] = _tensor(model, centre)
-    values["λ"] = tuple((values["I"][i][i],) for i in range(3))
+    if model.principal:  # else the diagonal of I is not its eigenvalues
+        values["λ"] = tuple((values["I"][i][i],) for i in range(3))
     return values
 
 

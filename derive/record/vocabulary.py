@@ -19,6 +19,7 @@ CONVENTIONS = (
     "par(name) is a parameter; at(name, i) a member of a family, over which sum(i, x) runs",
     "an equation holds for every value of a free index and of the names in for_all; ζ are the "
     "coordinates of Z in the basis of the group (Z = j(ζ) for rotations)",
+    "a step that does not list 'input' among what is given has neither inputs nor damping",
 )
 """What another reader of the JSON must know."""
 
@@ -158,6 +159,12 @@ DISPLACEMENTS: dict[str, str] = ROTATIONS | {
     "f_u": "input: a force on the body's origin, in the body frame",
 }
 """What names mean more precisely for rotations and displacements of R³."""
+
+PRODUCTS: dict[str, str] = {
+    "A": "element of the group, a block for each of its factors",
+    "c": "first moment Σ m_i r_i, a block for each factor",
+}
+"""What names mean where the group is a product, whose affine factors act on (r, 1)."""
 
 MISPRINTED = frozenset({20, 25, 26, 29, 31, 32, 35})
 """The numbered equations whose print the derivation corrects; ``derive paper`` finds them."""

@@ -117,7 +117,8 @@ class Comparison:
         energy = self._call("energy", given, value=1)["value"]
         self._same("energy", ("the energy",), energy, (point.energy,))
         if "rhs_batch" in self.module.functions:
-            self._batch(given)
+            for count in (1, self.random.randint(2, 3), self.random.randint(4, 9)):
+                self._batch(given, count)
             found.append("rhs_batch")
         if "inertia" in self.module.functions:
             names = tuple(f"I_{i}{j}" for i in range(1, 4) for j in range(i, 4))
@@ -160,10 +161,10 @@ class Comparison:
         self.largest = max([self.largest, *(x.degree for x in measured)])
         return found
 
-    def _batch(self, given: Mapping[str, Any]) -> None:
-        """Three states at once: that of the point, and any others, for which ``rhs`` answers."""
+    def _batch(self, given: Mapping[str, Any], count: int) -> None:
+        """So many states at once: that of the point, and any others, for which ``rhs`` answers."""
         size, degrees = len(self.point.rates), {"x": self.claims.entry_degree, "u": (1, 0)}
-        states = [dict(given), dict(given), dict(given)]
+        states = [dict(given) for _ in range(count)]
         for other in states[1:]:
             for name, d in degrees.items():
                 count = len(given[name].values)
@@ -201,10 +202,13 @@ class Comparison:
         for name, x, y in zip(names, found, wanted, strict=True):
             if x != y:
                 values = " and ".join(brief(v) for v in (x, y))
+                if brief(x) == brief(y):
+                    off = getattr(x, "value", x) - getattr(y, "value", y)
+                    values += f", {brief(off)} apart"
                 raise DiffersError(f"{function}: {name} differs from the record's: {values}")
 
 
 def brief(x: Any) -> str:
-    """A number in short."""
+    """A number in short, by its first digits: it may differ from another in the last alone."""
     value = Fraction(getattr(x, "value", x))
-    return f"{float(value):.6g}" if abs(value) < Fraction(10) ** 300 else "a large number"
+    return f"{float(value):.6g} …" if abs(value) < Fraction(10) ** 300 else "a large number"

@@ -6,6 +6,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import zip_longest
 
 from ..record.record import Derivation
 from .compare import SIZE, Verdict, compare
@@ -13,28 +14,35 @@ from .module import Module
 from .names import DiffersError
 from .points import Claims
 from .read_c import read_c
-from .read_python import read_python
+from .read_python import read_python, unread
 from .state import Chart
 from .terms import CodeError
 
 UNREAD = "not validated: only C and Python are read back"
+SHOWN = 3
+"""How many decimals are listed."""
 FRAMED = "not validated: the principal frame has eigenvectors, which are not rational"
 
 
 @dataclass(frozen=True)
 class Report:
-    """What is said of some files; ``holds`` unless they differ from the record, or do not read."""
+    """What is said of some files; ``holds`` unless they differ from the record, or do not read.
+
+    ``read``: are they in a language that is read back?
+    """
 
     files: tuple[str, ...]
     text: str
     holds: bool = True
+    read: bool = True
 
 
 @dataclass(frozen=True)
 class Emission:
     """``files``: name → text; ``numbers``: what their decimals may be roundings of.
 
-    ``given``: is the body as it is given, not in its principal frame?
+    ``given``: is the body as it is given, not in its principal frame?  ``fresh``: what is emitted
+    now, if the files are others; Python that is not read must be that.
     """
 
     files: Mapping[str, str]
@@ -42,6 +50,7 @@ class Emission:
     chart: Chart
     numbers: Collection[Fraction] = ()
     given: bool = True
+    fresh: Mapping[str, str] | None = None
 
     def reports(self, d: Derivation) -> list[Report]:
         """One for each file, or for a header with its source; ``MissingParserError`` for C."""
@@ -59,9 +68,9 @@ class Emission:
 
     def _report(self, names: tuple[str, ...], claims: Claims) -> Report:
         if names[-1] not in (f"{self.prefix}{end}" for end in (".h", ".c", ".py")):
-            return Report(names, UNREAD)
+            return Report(names, UNREAD, read=False)
         if not self.given:
-            return Report(names, FRAMED)
+            return Report(names, FRAMED, read=False)
         whole = "".join(self.files.values())  # all of one emission are tried at the same points
         try:
             verdict = compare(self._module(names), claims, self.numbers, whole)
@@ -75,8 +84,18 @@ class Emission:
 
     def _module(self, names: tuple[str, ...]) -> Module:
         if names[-1].endswith(".py"):
+            self._same_unread(names[-1])
             return read_python(names[-1], self.files[names[-1]])
         return read_c(names[-1], self.files, self.prefix)
+
+    def _same_unread(self, name: str) -> None:
+        if self.fresh is None:
+            return
+        pairs = zip_longest(unread(name, self.files[name]), unread(name, self.fresh[name]))
+        for here, wanted in pairs:
+            if here != wanted:
+                shown = (here or wanted or "").split("\n")[0][:60]
+                raise DiffersError(f"{shown!r} is not read, and not what is emitted")
 
 
 def said(v: Verdict) -> str:
@@ -86,7 +105,8 @@ def said(v: Verdict) -> str:
         f"a false pass has probability below 1e{math.ceil(math.log10(v.bound))}"
     )
     if v.rounded:
-        text += f"; {len(v.rounded)} decimals are read as the numbers that they round"
+        shown = ", ".join(v.rounded[:SHOWN]) + (", …" if len(v.rounded) > SHOWN else "")
+        text += f"; {len(v.rounded)} decimals are read as the numbers that they round: {shown}"
     if v.unread:
         text += f"; not validated, for no function reads them: {', '.join(v.unread)}"
     return text

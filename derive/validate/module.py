@@ -50,11 +50,6 @@ class Machine:
             return _returned(value, sizes)
         return {x: array.whole() for x, array in empty.items()}
 
-    def number(self, name: str, given: Mapping[str, Any]) -> Any:
-        """The one number that a function returns."""
-        found = self.call(name, given, value=1)
-        return found["value"][0]
-
 
 def _returned(value: Any, sizes: Mapping[str, int]) -> dict[str, list[Any]]:
     """What was returned, cut into the arrays of these sizes."""

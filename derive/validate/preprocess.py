@@ -1,17 +1,20 @@
 """Emitted C as a plain C99 compiler sees it: without comments, directives and macros.
 
-Only what the emitted files contain is understood.  Lines that such a compiler skips may hold other
-spellings of ``restrict`` and ``inline`` and nothing that computes; all else is an error.
+Only what the emitted files contain is understood.  Under a condition, the guard of a header apart,
+stand spellings of ``restrict`` and ``inline`` and nothing that computes, whether or not a compiler
+would skip it; all else is an error.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 
-from .terms import CodeError
+from .terms import CodeError, plain_text
 
 COMMENT = re.compile(r'"[^"\n]*"|/\*.*?\*/|//[^\n]*', re.DOTALL)
+WORD = re.compile(r'"[^"]*"|[A-Za-z_]\w*')
 SPELLINGS = {
     "RESTRICT": ("", "restrict", "__restrict"),
     "FUNCTION": ("static inline", "static __host__ __device__ inline"),
@@ -19,21 +22,47 @@ SPELLINGS = {
 """What the macros of the files may stand for: none of it changes what is computed."""
 SKIPPED = ('extern "C" {', "}")
 LIBRARY = ("<math.h>", "<stddef.h>")
+PRAGMAS = (
+    'GCC optimize("no-tree-slp-vectorize")',
+    "GCC ivdep",
+    "clang loop vectorize(assume_safety)",
+    *(f"omp parallel for{simd} if (parallel : n > 4096)" for simd in ("", " simd")),
+)
+"""All that the files have; others may change what is computed."""
 VERSION = "__STDC_VERSION__ >= 199901L"
 
 
-def preprocessed(name: str, files: Mapping[str, str]) -> str:
-    """The text of a file with those that it includes; ``CodeError`` for what is not known here."""
-    return Preprocessor(files).text(name)
+@dataclass(frozen=True)
+class Branch:
+    """Of an #if: is it taken, was one before; is it the guard of a header, or for C++ alone?"""
+
+    taken: bool
+    before: bool
+    guard: bool = False
+    cplusplus: bool = False
+
+
+def _left(comment: re.Match[str]) -> str:
+    """What is left of a comment: a space, and its line ends; strings stay."""
+    return comment[0] if comment[0][0] == '"' else " " + "\n" * comment[0].count("\n")
+
+
+def preprocessed(name: str, files: Mapping[str, str], prefix: str) -> str:
+    """The text of a file with those that it includes; ``CodeError`` for what is not known here.
+
+    Lines of the form ``# 7 "file"`` say where the next line stands.
+    """
+    return Preprocessor(files, prefix).text(name)
 
 
 class Preprocessor:
-    """``files``: name → text."""
+    """``files``: name → text; ``prefix``: of the names of macros."""
 
-    def __init__(self, files: Mapping[str, str]):
-        self.files = files
+    def __init__(self, files: Mapping[str, str], prefix: str):
+        self.files, self.prefix = files, prefix
         self.macros: dict[str, str] = {}
         self.seen: list[str] = []
+        self.guards: set[str] = set()
 
     def text(self, name: str) -> str:
         """One file, its macros put in."""
@@ -43,42 +72,55 @@ class Preprocessor:
         source = self.files[name]
         if "\\" in source or "??" in source:
             raise CodeError("a backslash or a trigraph is not read")
-        plain = COMMENT.sub(lambda m: m[0] if m[0][0] == '"' else " ", source)
+        plain_text(source)
+        plain = COMMENT.sub(_left, source)
         if "'" in re.sub(r'"[^"\n]*"', "", plain):
             raise CodeError("a character is not read")
-        branches: list[list[bool]] = []  # is it taken, was one taken before
-        lines = [self._line(line.strip(), branches) for line in plain.split("\n")]
+        branches: list[Branch] = []
+        lines = [f'# 1 "{name}"']
+        for k, line in enumerate(plain.split("\n"), 1):
+            try:
+                lines.append(self._line(line.strip(), branches))
+            except CodeError as error:
+                raise CodeError(f"{name}, line {k}: {error}") from None
+            if "\n" in lines[-1]:  # another file stands here
+                lines.append(f'# {k + 1} "{name}"')
         if branches:
             raise CodeError("an #if without #endif")
         return "\n".join(lines)
 
-    def _line(self, line: str, branches: list[list[bool]]) -> str:
-        taken = all(b[0] for b in branches)
+    def _line(self, line: str, branches: list[Branch]) -> str:
+        taken = all(b.taken for b in branches)
+        plain = all(b.guard for b in branches)
         if not line.startswith("#"):
-            if not taken and line and line not in SKIPPED:
+            if line and not plain and not (line in SKIPPED and branches[-1].cplusplus):
                 raise CodeError(f"code under a condition: {line[:60]!r}")
             return self._expanded(line) if taken else ""
         word, _, rest = line[1:].strip().partition(" ")
         rest = rest.strip()
         if word in ("if", "ifdef", "ifndef"):
             value = self._condition(word, rest)
-            branches.append([value, value])
+            guard = plain and word == "ifndef" and rest.endswith("_H") and value
+            self.guards |= {rest} if guard else set()
+            branches.append(Branch(value, value, guard, line == "#ifdef __cplusplus"))
         elif word in ("elif", "else", "endif") and branches:
             self._branch(word, rest, branches)
         elif word == "define":
             self._define(rest, taken)
-        elif word == "include" and taken:
+        elif word == "include" and plain:
             return "" if rest in LIBRARY else self.text(rest.strip('"'))
-        elif word != "pragma":
+        elif word != "pragma" or rest not in PRAGMAS:
             raise CodeError(f"an unknown directive: {line[:60]!r}")
         return ""
 
-    def _branch(self, word: str, rest: str, branches: list[list[bool]]) -> None:
+    def _branch(self, word: str, rest: str, branches: list[Branch]) -> None:
+        last = branches.pop()
         if word == "endif":
-            branches.pop()
             return
-        value = not branches[-1][1] and (word == "else" or self._condition("if", rest))
-        branches[-1] = [value, branches[-1][1] or value]
+        if last.guard:
+            raise CodeError("another branch of the guard of a header")
+        value = not last.before and (word == "else" or self._condition("if", rest))
+        branches.append(Branch(value, last.before or value))
 
     def _condition(self, word: str, text: str) -> bool:
         if word != "if":
@@ -97,13 +139,12 @@ class Preprocessor:
     def _define(self, text: str, taken: bool) -> None:
         name, _, value = text.partition(" ")
         value = value.strip()
-        spellings = SPELLINGS.get(name.rpartition("_")[2], ("",) if name.endswith("_H") else ())
-        if value not in spellings or not re.fullmatch(r"[A-Za-z]\w*", name):
+        spellings = {f"{self.prefix}_{x}": y for x, y in SPELLINGS.items()}
+        spellings |= dict.fromkeys(self.guards, ("",))
+        if value not in spellings.get(name, ()):
             raise CodeError(f"an unknown macro: {text[:60]!r}")
         if taken:
             self.macros[name] = value
 
     def _expanded(self, line: str) -> str:
-        if '"' in line:
-            return line
-        return re.sub(r"[A-Za-z_]\w*", lambda m: self.macros.get(m[0], m[0]), line)
+        return WORD.sub(lambda m: self.macros.get(m[0], m[0]), line)

@@ -33,6 +33,8 @@ SIGNATURES = {
 
 SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS")
 LISTS = ("state", "parameter", "input")
+REFUSALS = ("SINGULAR", "NOT_FINITE")
+"""What ``constants`` returns of a body that has no rates; these and SIZES are all the enums."""
 SIGNS = {"+": "add", "-": "sub", "*": "mul", "/": "div"} | {
     ">": "gt",
     "<": "lt",
@@ -49,7 +51,7 @@ def read_c(name: str, files: Mapping[str, str], prefix: str) -> Module:
         raise MissingParserError(
             "C is read back by pycparser: install it by  pip install 'derive[validate]'"
         ) from None
-    text = "typedef unsigned long size_t;\n" + preprocessed(name, files)
+    text = "typedef unsigned long size_t;\n" + preprocessed(name, files, prefix)
     try:
         tree = c_parser.CParser().parse(text, name)
     except (c_parser.ParseError, RecursionError) as error:
@@ -92,34 +94,51 @@ class Reader:
         return Module(state, parameters, inputs, self.functions, sizes)
 
     def _unknown(self, node: Any) -> CodeError:
-        kind, line = type(node).__name__, getattr(node.coord, "line", None)
-        where = f" in line {line - 1} of the text without directives" if line else ""
+        kind, at = type(node).__name__, getattr(node, "coord", None)
+        where = f" in {at.file}, line {at.line}" if at else ""
         return CodeError(f"C that is not known here: {kind}{where}")
 
     # -- declarations ------------------------------------------------------------------------
+
+    @property
+    def _enumerators(self) -> dict[str, int]:
+        """Name → value, or 0 for those that are compared with the record."""
+        sizes = dict.fromkeys((f"{self.prefix}_N_{x}" for x in SIZES), 0)
+        return sizes | {f"{self.prefix}_{x}": k for k, x in enumerate(REFUSALS, 1)}
+
+    @property
+    def _tables(self) -> set[str]:
+        return {f"{self.prefix}_{x}_names" for x in LISTS}
 
     def _declaration(self, node: Any) -> None:
         c, kind = self.c, node.type
         if isinstance(kind, c.Enum) and kind.values:
             for x in kind.values.enumerators:
-                if not isinstance(x.value, c.Constant) or x.name in self.sizes:
+                known = x.name in self._enumerators and x.name not in self.sizes
+                if not known or not isinstance(x.value, c.Constant):
                     raise self._unknown(x)
                 self.sizes[x.name] = self._integer(x.value)[1]
+                wanted = self._enumerators[x.name]
+                if wanted and self.sizes[x.name] != wanted:
+                    raise CodeError(f"{x.name} is {self.sizes[x.name]}, not {wanted}")
         elif isinstance(kind, c.FuncDecl):
             self._arguments(node)
             self.declared.add(node.name.removeprefix(f"{self.prefix}_"))
-        elif isinstance(kind, c.ArrayDecl) and node.init is None and node.storage == ["extern"]:
-            pass
-        elif isinstance(kind, c.ArrayDecl) and isinstance(node.init, c.InitList):
-            if node.name in self.lists or not node.name.endswith("_names"):
+        elif isinstance(kind, c.ArrayDecl) and node.name in self._tables:
+            if isinstance(node.init, c.InitList) and node.name not in self.lists:
+                if not all(isinstance(x, c.Constant) for x in node.init.exprs):
+                    raise self._unknown(node)
+                self.lists[node.name] = tuple(x.value.strip('"') for x in node.init.exprs)
+            elif node.init is not None or node.storage != ["extern"]:
                 raise self._unknown(node)
-            self.lists[node.name] = tuple(x.value.strip('"') for x in node.init.exprs)
         else:
             raise self._unknown(node)
 
     def _arguments(self, node: Any) -> tuple[str, ...]:
         """The names of the arguments of a declared function, after a look at its signature."""
         name = node.name.removeprefix(f"{self.prefix}_")
+        if node.type.args is None:
+            raise self._unknown(node)
         found = [self._type(node.type.type), *(self._argument(x) for x in node.type.args.params)]
         if name not in SIGNATURES or tuple(found) != SIGNATURES[name]:
             raise CodeError(f"the function {node.name}({', '.join(found[1:])}) is not known here")
@@ -165,7 +184,8 @@ class Reader:
     def _statement(self, node: Any) -> Statement | None:
         c = self.c
         if isinstance(node, c.Decl) and node.init is not None and node.quals == ["const"]:
-            if self._type(node.type) == "real":
+            plain = not node.storage and not node.funcspec and node.name not in self.sizes
+            if self._type(node.type) == "real" and plain:
                 return ("set", node.name, self._expression(node.init))
         elif isinstance(node, c.Assignment) and node.op == "=":
             if isinstance(node.lvalue, c.ArrayRef):
@@ -205,9 +225,9 @@ class Reader:
             and step.op == "++"
             and all(isinstance(x, c.ID) and x.name == i.name for x in (test.left, step.expr))
         )
-        if not plain or not self._whole(test.right):
+        if not plain:
             raise self._unknown(node)
-        bound = self._expression(test.right)
+        bound = self._place(test.right)
         self.integers.add(i.name)
         body = self._body(node.stmt)
         self.integers.discard(i.name)
@@ -218,17 +238,18 @@ class Reader:
     def _expression(self, node: Any) -> Expression:
         c = self.c
         if isinstance(node, c.ID):
+            if node.name in self.integers:
+                raise CodeError(f"the integer {node.name} stands for a number")
             return ("int", self.sizes[node.name]) if node.name in self.sizes else ("var", node.name)
         if isinstance(node, c.Constant):
             return self._integer(node) if node.type == "int" else self._decimal(node)
         if isinstance(node, c.ArrayRef) and isinstance(node.name, c.ID):
-            if self._whole(node.subscript):
-                return ("at", node.name.name, self._expression(node.subscript))
+            return ("at", node.name.name, self._place(node.subscript))
         elif isinstance(node, c.UnaryOp) and node.op in "-!":
             return ("neg" if node.op == "-" else "not", self._expression(node.expr))
         elif isinstance(node, c.BinaryOp) and node.op in SIGNS:
-            if node.op == "/" and self._whole(node.left) and self._whole(node.right):
-                raise CodeError("a quotient of integers, which C cuts off")
+            if self._whole(node.left) and self._whole(node.right):
+                raise CodeError("C cuts off a quotient of integers, and their sums and products")
             return (SIGNS[node.op], self._expression(node.left), self._expression(node.right))
         elif isinstance(node, c.FuncCall) and isinstance(node.name, c.ID):
             return self._call(node)
@@ -237,7 +258,7 @@ class Reader:
     def _call(self, node: Any) -> Expression:
         suffix = "f" if self.real == "float" else ""
         name = node.name.name.removesuffix(suffix) if suffix else node.name.name
-        if f"{name}{suffix}" != node.name.name or len(node.args.exprs) != 1:
+        if f"{name}{suffix}" != node.name.name or not node.args or len(node.args.exprs) != 1:
             raise self._unknown(node)
         (argument,) = node.args.exprs
         if name == "fabs":
@@ -245,6 +266,21 @@ class Reader:
         if name not in FUNCTIONS:
             raise CodeError(f"the function {node.name.name} is not known here")
         return ("fun", name, self._expression(argument))
+
+    def _place(self, node: Any) -> Expression:
+        """An index or the bound of one: sums and multiples of the integers, without overflow."""
+        c = self.c
+        if isinstance(node, c.ID) and node.name in self.integers:
+            return ("var", node.name)
+        if isinstance(node, c.ID) and node.name in self.sizes:
+            return ("int", self.sizes[node.name])
+        if isinstance(node, c.Constant):
+            return self._integer(node)
+        if isinstance(node, c.BinaryOp) and node.op in "+*":
+            sides = (node.left, node.right)
+            if node.op == "+" or any(isinstance(x, c.ID) for x in sides):
+                return (SIGNS[node.op], *map(self._place, sides))
+        raise self._unknown(node)
 
     def _whole(self, node: Any) -> bool:
         """Is it an integer for C?"""
@@ -258,7 +294,7 @@ class Reader:
         return isinstance(node, c.Constant) and node.type == "int"
 
     def _integer(self, node: Any) -> Expression:
-        if node.type != "int" or not re.fullmatch(r"0|[1-9][0-9]{0,8}", node.value):
+        if node.type != "int" or not re.fullmatch(r"0|[1-9][0-9]{0,6}", node.value):
             raise CodeError(f"the number {node.value[:40]!r} is not read")
         return ("int", int(node.value))
 

@@ -2,17 +2,27 @@
 
 Read are the functions in plain numbers: ``_constants``, ``_rhs``, ``_energy``, ``_inertia`` and the
 Jacobians, with the names, the defaults and the basis.  The public functions, which hand arrays to
-these and are the same in every file, are not.
+these, are not: :func:`unread` gives their text, to be compared with what is emitted.
 """
 
 from __future__ import annotations
 
 import ast
+import re
 from fractions import Fraction
 from typing import Any
 
 from .module import Module
-from .terms import DECIMAL, FUNCTIONS, CodeError, Expression, Function, Statement, operated
+from .terms import (
+    DECIMAL,
+    FUNCTIONS,
+    CodeError,
+    Expression,
+    Function,
+    Statement,
+    operated,
+    plain_text,
+)
 
 SIGNATURES = {
     "_constants": ("xp", "p"),
@@ -24,16 +34,36 @@ SIGNATURES = {
     "_jacobian_parameters": ("xp", "t", "x", "p", "u"),
 }
 SIGNS: dict[type, str] = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div"}
+COOKIE = re.compile(r"[ \t\f]*#.*?coding[:=]")
 LISTS = ("STATE", "PARAMETERS", "INPUTS", "CONSTANTS")
+DATA = (*LISTS, "BASIS", "DEFAULTS")
 
 
 def read_python(name: str, text: str) -> Module:
     """The functions of a module in Python; ``CodeError`` says what cannot be read, and where."""
+    return Reader(text).module(parsed(name, text))
+
+
+def parsed(name: str, text: str) -> ast.Module:
+    """Its syntax; ``CodeError`` where Python would read other letters than are here."""
+    plain_text(text)
+    if any(COOKIE.match(line) for line in text.split("\n")[:2]):
+        raise CodeError("a line that names an encoding is not read")
     try:
-        tree = ast.parse(text, name)
+        return ast.parse(text, name)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         raise CodeError(f"not Python: {error}") from None
-    return Reader(text).module(tree)
+
+
+def unread(name: str, text: str) -> list[str]:
+    """The statements of a module that are run and not read, as they stand."""
+    tree, found = parsed(name, text), []
+    for node in tree.body:
+        read = isinstance(node, ast.FunctionDef) and node.name in SIGNATURES
+        data = isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "") in DATA
+        if not read and not data and node is not tree.body[0]:  # the docstring
+            found.append(ast.get_source_segment(text, node) or "")
+    return found
 
 
 class Reader:
@@ -113,7 +143,8 @@ class Reader:
     def _function(self, node: ast.FunctionDef) -> None:
         a = node.args
         names = tuple(x.arg for x in a.args)
-        extra = [*a.posonlyargs, *a.kwonlyargs, *a.defaults, a.vararg, a.kwarg]
+        extra = [*a.posonlyargs, *a.kwonlyargs, *a.defaults, a.vararg, a.kwarg, node.returns]
+        extra += [x.annotation for x in a.args]
         if names != SIGNATURES[node.name] or any(extra):
             raise self._unknown(node, f"{node.name}({', '.join(names)}) has other arguments")
         name = node.name[1:]

@@ -35,6 +35,12 @@ class CodeError(ValueError):
     """Code that cannot be read, or that has no value: the message says which."""
 
 
+def plain_text(text: str) -> None:
+    """``CodeError`` for characters that end a line, or hide it, for some readers alone."""
+    if control := next((c for c in text if ord(c) < 32 and c not in "\n\t"), ""):
+        raise CodeError(f"the character {control!r} is not read")
+
+
 class MissingParserError(Exception):
     """The parser of a language is not installed: the message says how to get it."""
 

@@ -57,7 +57,9 @@ def _told(f: Finding, language: Language) -> Iterator[Told]:
     said = "For {values}, the left side is {left}, the printed right side {right}."
     sentences = (
         language.word(
-            "The paper prints in {number}: {printed}.", number=f"({f.number})", printed=printed
+            "The paper prints in {number}, here in the letters of these notes: {printed}.",
+            number=f"({f.number})",
+            printed=printed,
         ),
         language.word(f.remark),
         language.word(said, values=values, **sides),

@@ -44,6 +44,16 @@ SYMBOLS = {letter: rf"\{name}" for name, letter in GREEK.items()} | {
     "¼": r"\tfrac14", "⅔": r"\tfrac23", "∇": r"\nabla", "∘": r"\circ",
     "ℓ": r"\ell", "𝟏": r"\mathbf{1}", "𝔰": r"\mathfrak{s}", "𝔬": r"\mathfrak{o}",
 }  # fmt: skip
+TEXT = {
+    "½": r"\textonehalf{}", "¼": r"\textonequarter{}", "¾": r"\textthreequarters{}",
+    "⅓": "1/3", "⅔": "2/3", "µ": r"\ensuremath{\mu}", "∞": r"\ensuremath{\infty}",
+    "√": r"\ensuremath{\surd}", "±": r"\ensuremath{\pm}", "≈": r"\ensuremath{\approx}",
+    "⋅": r"\ensuremath{\cdot}", "∑": r"\ensuremath{\sum}", "∫": r"\ensuremath{\int}",
+    "∆": r"\ensuremath{\Delta}", "ħ": r"\ensuremath{\hbar}", "⊥": r"\ensuremath{\perp}",
+    "⋉": r"\ensuremath{\ltimes}", "↦": r"\ensuremath{\mapsto}", "⊗": r"\ensuremath{\otimes}",
+    "€": r"\texteuro{}", "†": r"\textdagger{}", "‰": r"\textperthousand{}",
+}  # fmt: skip
+"""Outside formulas; a fraction of mathematics in a title would end TeX."""
 RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
 LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ", "0123456789ijet", strict=True))
 PLAIN = "+=/(),[].:0123456789 "
@@ -59,7 +69,9 @@ def tex_text(words: str) -> str:
     shown: list[str] = []
     plain = re.sub(r"([-'`])(?=\1)", "\\1\u200b", " ".join(WORD.findall(words)))
     for c in unicodedata.normalize("NFD", plain):
-        if c == "\u200b":
+        if c in TEXT:
+            shown.append(TEXT[c])
+        elif c == "\u200b":
             shown.append("{}")
         elif c in TEXT_ACCENTS and shown and re.fullmatch("[A-Za-z]", shown[-1]):
             base = rf"\{shown[-1]}" if shown[-1] in "ij" else shown[-1]
@@ -73,6 +85,11 @@ def tex_text(words: str) -> str:
         elif not unicodedata.category(c).startswith(("M", "C")):
             shown.append("?")
     return "".join(shown)
+
+
+def unknown_to_tex(words: str) -> str:
+    """The characters that :func:`tex_text` shows as question marks."""
+    return "".join(dict.fromkeys(c for c in words if c != "?" and "?" in tex_text(c)))
 
 
 def markdown_text(words: str) -> str:

@@ -33,6 +33,7 @@ from .outline import (
     assumed,
     capitalised,
     equation_label,
+    labels,
     printed,
     subtitle,
     title,
@@ -97,10 +98,8 @@ def numbered(parts: Sequence[Part]) -> dict[str, str]:
     found = {}
     for i, part in enumerate(parts, 1):
         found[part.name] = str(i)
-        labels = (
-            equation_label(step, x.first) for step in part.steps for x in entries(step.equations)
-        )
-        found |= {label: f"{i}.{k}" for k, label in enumerate(labels, 1)}
+        listed = (label for step in part.steps for label in labels(step))
+        found |= {label: f"{i}.{k}" for k, label in enumerate(listed, 1)}
     return found
 
 

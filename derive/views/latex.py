@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate, pairwise
 
 from ..record.paper import Finding
 from ..record.record import Derivation, Step
@@ -13,7 +14,6 @@ from ..templating import environment
 from .book import MOTION, REGULAR, Part, book, parameters, steps
 from .corrections import Told, corrections
 from .drawing import Scene
-from .entries import entries
 from .escape import between_dollars, prose, tex_text
 from .figure import tikz
 from .language import ENGLISH, Language
@@ -29,7 +29,7 @@ from .outline import (
     TRANSPOSES,
     assumed,
     capitalised,
-    equation_label,
+    labels,
     printed,
     subtitle,
     title,
@@ -71,7 +71,7 @@ def latex(
         title=tex_text(title(records[0], language) if one else language.word(MOTION)),
         subtitle=tex_text(capitalised(subtitle(records[0], language))) if one else "",
         contents="" if one else tex_text(language.word("Contents")),
-        macros="\n".join(definitions(notation or Notation())),
+        macros="\n".join(definitions(chosen)),
         road=styled(between_dollars(language.word(ROAD))).removesuffix("."),
         conventions=styled(f"{conventions} {tex_text(language.word(PAPER))}"),
         walk=styled("\n".join(writer.body())),
@@ -156,22 +156,20 @@ class _Writer:
         return corrections(self.parts, self.findings, self.language)
 
     @cached_property
+    def labels(self) -> dict[str, list[str]]:
+        """Label of a step → those of all in it that has a number."""
+        return {step.label: labels(step) for _, step in steps(self.parts)}
+
+    @cached_property
     def numbered(self) -> list[str]:
         """The labels of all that has a number, in order."""
-        return [
-            equation_label(step, x.first)
-            for _, step in steps(self.parts)
-            for x in entries(step.equations)
-        ]
+        return [label for found in self.labels.values() for label in found]
 
     @cached_property
     def spans(self) -> dict[str, tuple[int, int]]:
         """Label of a step → the places of its first equation and of what follows its last."""
-        found, at = {}, 0
-        for _, step in steps(self.parts):
-            found[step.label] = at, at + len(entries(step.equations))
-            at = found[step.label][1]
-        return found
+        ends = [*accumulate(map(len, self.labels.values()), initial=0)]
+        return dict(zip(self.labels, pairwise(ends), strict=True))
 
     def references(self, labels: Iterable[str]) -> Iterator[str]:
         """The numbers of all the equations of some steps, neighbours in one span."""
@@ -197,7 +195,7 @@ class _Writer:
         yield rf"\walkstep{{{paper}}}{{{rule}}}{{{beside}}}{{{spelt(step.label)}}}"
         used = ", ".join(self.references(step.uses))
         yield prose(language.of(step.prose)) + (rf" \walkfrom{{{used}}}" if used else "")
-        yield from _equations(step, names, language)
+        yield from _equations(step, self.labels[step.label], names, language)
 
     def footnotes(self, step: Step) -> str:
         """Where the print of the paper is corrected, or the number of the note that has said it."""
@@ -219,14 +217,16 @@ def _small(formula: str) -> str:
     return f"${re.sub(r'pmatrix(?=[}])', 'psmallmatrix', formula)}$"
 
 
-def _equations(step: Step, names: Mapping[str, str], language: Language) -> Iterator[str]:
-    """The alignments of a step."""
-    places = iter(entries(step.equations))
+def _equations(
+    step: Step, numbered: Iterable[str], names: Mapping[str, str], language: Language
+) -> Iterator[str]:
+    """The alignments of a step, whose equations have these labels."""
+    listed = iter(numbered)
     for block in blocks(step.equations, names, language):
         yield r"\begin{align}"
         rows: list[str] = []
         for entry in block:
-            label = rf"\label{{{anchor(equation_label(step, next(places).first))}}}"
+            label = rf"\label{{{anchor(next(listed))}}}"
             rows += [*(rf"{row} \notag" for row in entry[:-1]), f"{entry[-1]} {label}"]
         # no page breaks inside an equation
         ends = (r" \\*" if row.endswith(r"\notag") else r" \\" for row in rows[:-1])

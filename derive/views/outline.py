@@ -7,6 +7,7 @@ from itertools import groupby
 
 from ..record.record import Derivation, Step
 from ..record.vocabulary import ANY_GROUP, MISPRINTED
+from .entries import entries
 from .language import ENGLISH, Language
 
 CONVENTIONS = (
@@ -26,7 +27,7 @@ FORMULAS_CONVENTIONS = (
     r"and the tangent bundle of the group is trivialised on the left, $\xi = g^{-1}\delta g$. "
     r"The point $y = (t, g, \nu)$ is a time, an element of the group and a velocity; "
     r"$\mathfrak{g}$ is the Lie algebra. "
-    r"Parameters of the problem are set in $\mathsf{sans\ serif}$."
+    r"In equations, parameters of the problem are set in $\mathsf{sans\ serif}$."
 )
 """The same with formulas between dollars, for LaTeX and Markdown, but for its first sentence."""
 TRANSPOSES = {
@@ -75,7 +76,12 @@ def title(d: Derivation, language: Language = ENGLISH) -> str:
 
 def group(d: Derivation) -> str:
     """The name of the group."""
-    return " ".join(str(d.problem.get("group", ANY_GROUP)).split())
+    return product(" ".join(str(d.problem.get("group", ANY_GROUP)).split()))
+
+
+def product(name: str) -> str:
+    """The name of a group with × between its factors."""
+    return name.replace(" x ", " × ")
 
 
 def subtitle(d: Derivation, language: Language = ENGLISH) -> str:
@@ -89,7 +95,7 @@ def heading(scope: str, language: Language = ENGLISH) -> str:
     """The heading of the steps that hold in a scope."""
     if scope == ANY_GROUP:
         return language.word("For any group of matrices")
-    return language.word("For {group}", group=scope)
+    return language.word("For {group}", group=product(scope))
 
 
 def sections(d: Derivation, language: Language = ENGLISH) -> Iterator[tuple[str, list[Step]]]:
@@ -140,6 +146,11 @@ def domain(for_all: tuple[str, ...]) -> str:
 def equation_label(step: Step, k: int) -> str:
     """The label of equation k (counted from 0): the step's own for the first one."""
     return step.label if k == 0 else f"{step.label}.{k + 1}"
+
+
+def labels(step: Step) -> list[str]:
+    """Of all that has a number in a step, in order."""
+    return [equation_label(step, x.first) for x in entries(step.equations)]
 
 
 def capitalised(text: str) -> str:

@@ -53,7 +53,7 @@ def _acting(problem: Mapping[str, Any]) -> Iterator[Sentence]:
     if "expression" in kinds:
         yield phrase("a potential given as an expression")
     if _many(problem.get("damping")):
-        yield phrase("damping")
+        yield phrase("viscous damping")
     for x in inputs if isinstance(inputs, list) else []:
         yield phrase("the input {name}", name=str(x.get("name")))
 

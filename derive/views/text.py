@@ -7,8 +7,7 @@ import textwrap
 from collections.abc import Iterator, Mapping
 from itertools import groupby
 
-from ..algebra.show import show, show_name
-from ..algebra.tree import Tree
+from ..algebra.show import in_quotes, show, show_name
 from ..record.record import Derivation, Equation, Step
 from .entries import TABLE, cell
 from .escape import NO_BREAK
@@ -73,7 +72,7 @@ def _parameters(
         words += [f"[{unit}]"] if unit else []
         if isinstance(default, (int, float)):
             words.append(language.word("default {value}", value=language.decimal(default)))
-        yield show(_marked(("par", str(name)), quoted)), ", ".join(words)
+        yield show(in_quotes(("par", str(name)), quoted)), ", ".join(words)
 
 
 def clashing(d: Derivation) -> frozenset[str]:
@@ -89,15 +88,6 @@ def clashing(d: Derivation) -> frozenset[str]:
     return frozenset(found)
 
 
-def _marked(t: Tree, quoted: frozenset[str]) -> Tree:
-    """The tree with some parameters in quotes."""
-    if not isinstance(t, tuple):
-        return t
-    if t[0] == "par":
-        return ("par", f"‘{show_name(t[1])}’") if t[1] in quoted else t
-    return (t[0], *(_marked(x, quoted) for x in t[1:]))
-
-
 def _step(step: Step, width: int, quoted: frozenset[str], language: Language) -> Iterator[str]:
     head = [step.label, language.word(step.rule), *notes(step, language)]
     yield from _paragraph("  ·  ".join(head), 0, width)
@@ -106,7 +96,8 @@ def _step(step: Step, width: int, quoted: frozenset[str], language: Language) ->
         used = language.word("From {labels}.", labels=", ".join(step.uses))
         yield from _paragraph(used, MARGIN, width)
     equations = (
-        Equation(_marked(e.lhs, quoted), _marked(e.rhs, quoted), e.for_all) for e in step.equations
+        Equation(in_quotes(e.lhs, quoted), in_quotes(e.rhs, quoted), e.for_all)
+        for e in step.equations
     )
     yield from _equations(tuple(equations), width - EQUATION, language)
 

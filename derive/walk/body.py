@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..algebra.show import show
+from ..algebra.show import in_quotes, show
 from ..algebra.tree import Tree
 from ..mechanics.problem import GivenBody, MomentBody, PointBody, Problem
 from ..mechanics.solids import Solid
@@ -114,7 +114,7 @@ def _described(s: Solid) -> Sentence:
     solid = phrase(
         "{kind} of density {density} ({sizes})",
         kind=SOLIDS[s.kind],
-        density=show(s.density),
+        density=_size(s.density),
         sizes=listed("{first}, {second}", sizes),
     )
     if s.rotation and s.shift:
@@ -128,7 +128,7 @@ def _described(s: Solid) -> Sentence:
 def _size(x: Any) -> str:
     if isinstance(x, tuple) and x and not isinstance(x[0], str):
         return "(" + ", ".join(map(_size, x)) + ")"
-    return show(x)
+    return show(in_quotes(x, {*INTEGRANDS, "r"}))  # the letters of the step itself
 
 
 def _integrals(solids: tuple[Solid, ...], prefix: str, scope: str) -> Step:
@@ -138,8 +138,8 @@ def _integrals(solids: tuple[Solid, ...], prefix: str, scope: str) -> Step:
         (),
         tuple(Equation(name, ("call", "∫", form)) for name, form in INTEGRANDS.items()),
         say(
-            "For a continuous body the sums over the points are integrals over its measure of "
-            "mass, dm = ρdV; all else stays."
+            "For a continuous body the sums over the points are integrals over its measure "
+            "of mass dm, density times volume; all else stays."
         )
         + say("Here: {solids}.", solids=listed("{first}; {second}", [*map(_described, solids)])),
         (36, 37, 38, 39),

@@ -17,7 +17,7 @@ from .alphabet import Alphabet
 from .chapter import Chapter
 from .contraction import AND
 from .inverse import cancel_scalar, inverse_letter
-from .potential import Potentials
+from .potential import U_Q, Potentials
 from .translation import central_moments
 
 
@@ -69,24 +69,25 @@ def potential_separation(
     """Ũ by the centre of mass, and whether the motion of this problem separates."""
     energy = _centred(v.energy, b)
     place = Letter("R", b.n)
-    both = any(
-        {place, b.A.position} <= {x for cycle in (*traces, w) for x, _ in cycle}
-        for traces, w in energy.terms
-    )
+    terms = [{x for cycle in (*traces, w) for x, _ in cycle} for traces, w in energy.terms]
     inside = all(isinstance(p, Spring) and p.between[1] is not None for p in problem.elements)
-    prose = _prose(problem, decided=inside and not both)
+    both = any({place, b.A.position} <= letters for letters in terms)
+    rest = any(U_Q not in letters for letters in terms) and not both
+    prose = _prose(problem, decided=inside and not both, rest=rest)
     equation = Equation("Ũ", tree_of(energy, _notation(b)))
     return (c.step("separation", "identification", "potential .separation", (equation,), prose),)
 
 
-def _prose(problem: Problem, *, decided: bool) -> Prose:
+def _prose(problem: Problem, *, decided: bool, rest: bool) -> Prose:
     damping = [phrase("damping")] if problem.damping else []
     outside = damping + ([phrase("inputs")] if problem.inputs else [])
     if not decided:
         prose = say(
             "The motion separates if U_Q, which is given point by point, is a sum of a function of "
-            "the linear part and one of R; the rest of the potential is."
+            "the linear part and one of R."
         )
+        if rest:
+            prose += say("The rest of the potential is such a sum.")
         if outside:
             prose += say(
                 "The forces outside dϖ, {forces}, may tie the two as well.",

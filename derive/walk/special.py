@@ -112,7 +112,23 @@ def _relation(group: Group, c: Chapter) -> tuple[Step, ...]:
     else:
         return ()
     equations = tuple(Equation(*claim) for claim in claims)
-    return (c.step("relation", "relation", ".trivialisation", equations, _kept(group)),)
+    prose = _kept(group) + _smaller(group)
+    return (c.step("relation", "relation", ".trivialisation", equations, prose),)
+
+
+def _smaller(group: Group) -> Prose:
+    """That the relations are not all, where others have them, too."""
+    n, skew = group.n, "orthogonal" in group.relations
+    whole = n * (n - 1) // 2 if skew else n * n - 1
+    if group.affine:
+        whole += n
+    if group.dimension == whole:
+        return ()
+    return say(
+        "There are more relations: the Lie algebra has dimension {dimension}, and its elements are "
+        "those in the step of the coordinates.",
+        dimension=str(group.dimension),
+    )
 
 
 def _kept(group: Group) -> Prose:
@@ -135,8 +151,8 @@ def _kept(group: Group) -> Prose:
     return (
         prose
         + say(
-            "Only maps that fix the origin are allowed: a further constraint, whose "
-            "reaction at the origin is α̇c less the sum of the forces."
+            "Only maps that fix the origin are allowed: a constraint, whose reaction at the "
+            "origin is α̇c less the sum of the forces."
         )
         + say("It vanishes if c = 0 and the forces have no resultant.")
     )

@@ -11,6 +11,8 @@ import pickle
 import resource
 import signal
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib.machinery import ModuleSpec, SourceFileLoader
 from multiprocessing import Pipe
 from pathlib import Path
@@ -65,16 +67,26 @@ class OutOfTimeError(BaseException):
     """A job that hangs: no handler of the engine stops it."""
 
 
-def attempted(job: Job) -> Output:
-    """The same, whatever goes wrong."""
+@contextmanager
+def limited() -> Iterator[None]:
+    """What is inside ends after so many seconds of processor time, with :class:`OutOfTimeError`."""
 
     def late(*_: object) -> None:
         raise OutOfTimeError
 
     signal.signal(signal.SIGPROF, late)
-    signal.setitimer(signal.ITIMER_PROF, SECONDS)
+    signal.setitimer(signal.ITIMER_PROF, SECONDS, 1)
     try:
-        return produce(job)
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+
+
+def attempted(job: Job) -> Output:
+    """The same, whatever goes wrong."""
+    try:
+        with limited():
+            return produce(job)
     except (OutOfTimeError, MemoryError):
         return Output(trouble="time", why=f"more than {SECONDS} s, or {MEMORY >> 30} GiB")
     except Exception as error:
@@ -83,8 +95,6 @@ def attempted(job: Job) -> Output:
         meant = name.startswith(REFUSALS) and "values to unpack" not in str(error)
         trouble = "refused" if meant else "crashed"
         return Output(trouble=trouble, why=f"{name}: {error}"[:200])
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
 
 
 # -- the mutant in place of its module ----------------------------------------------------------
@@ -200,17 +210,18 @@ def serve(mutant: Mutant, graph: dict[str, set[str]], connection: Any) -> None:
 
 
 def refuses(job: Job, output: Output, labels: list[str]) -> bool:
-    """Does this process refuse one of these steps, or the code, or break on it?"""
+    """Does this process refuse one of these steps, or the code, or break on it, or hang?"""
     from derive.record.check import Checker
     from derive.record.record import from_json
 
     try:
-        d = from_json(output.record)
-        if not labels:
-            return any(not r.holds for r in read_back(job, output))
-        checker = Checker(d.problem)
-        return not all(checker.check(s).holds for s in d.steps if s.label in labels)
-    except Exception:
+        with limited():
+            d = from_json(output.record)
+            if not labels:
+                return any(not r.holds for r in read_back(job, output))
+            checker = Checker(d.problem)
+            return not all(checker.check(s).holds for s in d.steps if s.label in labels)
+    except (Exception, OutOfTimeError):
         return True
 
 
@@ -229,13 +240,13 @@ def read_back(job: Job, output: Output) -> list[Any]:
 
 
 def reached(job: Job, files: set[str]) -> dict[str, set[int]]:
-    """The lines of some files of ``derive`` that a job runs, loading included."""
-    for name in [x for x in sys.modules if x.split(".")[0] == "derive"]:
+    """The lines of some files of ``derive`` that a job runs, loading included if it is derived."""
+    for name in [x for x in sys.modules if x.split(".")[0] == "derive" and not job.refused]:
         del sys.modules[name]
     watch = Coverage(data_file=None, config_file=False, include=[str(ROOT / x) for x in files])
     watch.start()
     try:
-        produce(job)
+        attempted(job)
     finally:
         watch.stop()
     data = watch.get_data()

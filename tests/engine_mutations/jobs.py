@@ -5,6 +5,8 @@ from typing import Any, NamedTuple
 
 from tests.oracles import solids
 from tests.problems import PROBLEMS, READY
+from tests.test_bad_problems import FILES, SINGULAR
+from tests.test_frame import FREE, pushed_data
 
 SOLIDS = """
 name = "test"
@@ -80,6 +82,18 @@ kind = "ball"
 density = "b"
 radius = 0.5
 shift = [0, 0.5, "b"]
+[[solid]]
+kind = "cylinder"
+density = 1
+radius = 0.3
+height = "b"
+rotation = { axis = [1, 1, 0], angle = "b" }
+[[solid]]
+kind = "cone"
+density = 1
+radius = 0.3
+height = 1
+rotation = { axis = [0, 3, 4], angle = "pi/2" }
 [[potential]]
 kind = "gravity"
 g = [1, 2, "-9.81"]
@@ -99,6 +113,18 @@ g = [0, 0, "-9.81"]
 [[input]]
 name = "u"
 kind = "covector"
+"""
+
+NUMBERS = """
+name = "test"
+group = "Aff(3)"
+[parameters]
+b = 0.7
+[body]
+given = { m = 2, c = [0.1, 0.2, -0.2], J = [[1, 0.1, 0], [0.1, 2, 0.2], [0, 0.2, 2.2]] }
+[[potential]]
+kind = "gravity"
+g = [1, 2, "-b"]
 """
 
 FUNCTIONS = """
@@ -126,6 +152,8 @@ class Job(NamedTuple):
     name: str
     data: dict[str, Any]
     options: dict[str, Any]
+    refused: str = ""
+    """What must be said of it, where it is none that can be derived."""
 
     @property
     def framed(self) -> bool:
@@ -153,8 +181,8 @@ def ready(name: str) -> str:
     return (READY / f"{name}.toml").read_text(encoding="utf-8")
 
 
-TEXTS = PROBLEMS | {name: ready(name) for name in ("linear", "affine", "so3", "se3", "sl3")}
-TEXTS |= {"solids": SOLIDS, "mixed": MIXED, "given": GIVEN}
+TEXTS = PROBLEMS | {name: ready(name) for name in ("linear", "affine", "so3", "se3", "sl3", "top")}
+TEXTS |= {"solids": SOLIDS, "mixed": MIXED, "given": GIVEN, "numbers": NUMBERS}
 TEXTS["functions"] = FUNCTIONS
 WHOLE = ("state", "inputs", "parameters")
 CHOSEN = [
@@ -176,11 +204,16 @@ CHOSEN = [
     ("Sp(2)", {}),
     ("SE(2)", {}),
     ("SAff(3) forces", {"layout": "col"}),
+    ("SAff(2)", {"velocity": "tangent", "jacobian": ("state",)}),
+    ("SL(4)", {"velocity": "tangent"}),
     ("so3", {"frame": "principal"}),
+    ("pushed SE(3)", {"frame": "principal", "attitude": "quaternion"}),
+    ("pushed SAff(3)", {"frame": "principal", "velocity": "tangent"}),
     ("SU(2)", {}),
     ("UT(3)", {}),
     ("mixed", {}),
     ("given", {}),
+    ("numbers", {}),
     ("GL(2)", {}),
     ("comet", {"frame": "principal"}),
     ("SO(4)", {}),
@@ -189,9 +222,24 @@ CHOSEN = [
     ("a cylinder", {}),
     ("translations", {}),
     ("jelly", {}),
+    ("top", {"frame": "principal", "attitude": "quaternion"}),
+    ("GL(2)", {"frame": "principal"}),
     ("Aff(2)", {"frame": "principal"}),
     ("SO(2)", {"frame": "principal"}),
 ]
 """From the telling to the special: a change is tried on the first that reach it."""
 
-JOBS = [Job(name, tomllib.loads(TEXTS[name]), options) for name, options in CHOSEN]
+REFUSED = (
+    "negative mass", "negative by pi", "negative by default", "moments of no masses",
+    "skew moments", "no rotation", "reflection", "hole outside", "negative sides", "not closed",
+    "dependent", "zero in a basis", "zero below", "root of nothing", "two inputs of one name",
+    "damping", "point that is not there", "coordinate that is not there", "unknown function",
+    "half an expression", "odd", "product too large", "not declared", "unused parameter",
+)  # fmt: skip
+"""Mistakes in files, from those that are tested."""
+
+DATA = {name: tomllib.loads(text) for name, text in TEXTS.items()}
+DATA |= {f"pushed {group}": pushed_data(group, FREE) for group in ("SE(3)", "SAff(3)")}
+JOBS = [Job(name, DATA[name], options) for name, options in CHOSEN]
+MISTAKES = SINGULAR | {name: FILES[name] for name in REFUSED}
+JOBS += [Job(name, tomllib.loads(text), {}, says) for name, (text, says) in MISTAKES.items()]

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,9 +17,10 @@ from derive.record.check import Checker
 from derive.record.introduced import unexplained
 from derive.record.record import Derivation, RecordError, Step, from_json
 from derive.record.vocabulary import ANY_GROUP
-from tests.engine_mutations.engine import Output, read_back
-from tests.engine_mutations.jobs import Job
+from tests.engine_mutations.engine import Output, produce, read_back
+from tests.engine_mutations.jobs import JOBS, Job
 from tests.oracles import general, relative_error
+from tests.test_frame import loose
 from tests.test_general_oracle import algebra
 
 STATES, CLOSE = 3, 1e-8
@@ -33,7 +35,8 @@ class Verdict(NamedTuple):
     why: str = ""
 
 
-CAUGHT = ("crashed", "refused", "time", "checker", "oracle", "validator")
+LATE = "no verdict in time"
+CAUGHT = ("crashed", "refused", "time", "refusal", "checker", "oracle", "validator")
 HARMLESS = ("same", "words", "code", "equations", "less")
 """The same output; other words or references; other code, which is right; other equations, each
 of them proved; fewer of them, and the code is right."""
@@ -72,6 +75,8 @@ def judged(
     ``certain``: does the checker with the same change in it refuse one of these steps as well, or,
     without steps, the validator the code?
     """
+    if job.refused:
+        return refusal(job, new, old)
     if new.trouble:
         return Verdict(new.trouble, new.why)
     if (new.record, new.files) == (old.record, old.files):
@@ -90,6 +95,14 @@ def judged(
     if found.outcome == "same":
         return Verdict("code", "; ".join(k for k in new.files if new.files[k] != old.files.get(k)))
     return found
+
+
+def refusal(job: Job, new: Output, old: Output) -> Verdict:
+    """The verdict on a mistake in a file, which must be refused in the right words."""
+    if new.trouble == "refused" and job.refused in new.why:
+        return Verdict("same" if new.why == old.why else "words")
+    other = new.trouble in ("crashed", "time")
+    return Verdict(new.trouble if other else "refusal", new.why or "not refused")
 
 
 def equations(new: Output, old: Output) -> Verdict:
@@ -155,8 +168,9 @@ def code(job: Job, new: Output, old: Output) -> Verdict | None:
     before, after = ({*DEFINED.findall(x.files.get(f"{name}.py", ""))} for x in (old, new))
     if before - after:
         return Verdict("oracle", f"no {', '.join(sorted(before - after))} to call")
+    asked = numbers if job.plain else in_the_frame if job.framed else None
     try:
-        if job.plain and (why := numbers(job, new.files[f"{name}.py"])):
+        if asked and (why := asked(job, new.files[f"{name}.py"])):
             return Verdict("oracle", why)
     except Exception as error:
         return Verdict("oracle", f"{type(error).__name__}: {error}"[:200])
@@ -170,8 +184,7 @@ def code(job: Job, new: Output, old: Output) -> Verdict | None:
 
 def numbers(job: Job, text: str) -> str:
     """Where emitted Python differs from Gauss's principle; empty where it does not."""
-    data, space = job.seen_by_the_oracle(), {"__name__": "emitted"}
-    exec(compile(text, "emitted.py", "exec"), space)
+    data, space = job.seen_by_the_oracle(), run(text)
     p, given = general.parameters(data), general.parameters(job.data)
     if {k: x for k, x in space["DEFAULTS"].items() if x is not None} != {
         k: given[k] for k in space["PARAMETERS"] if k in given
@@ -191,6 +204,39 @@ def numbers(job: Job, text: str) -> str:
             if not relative_error(found, right) < CLOSE:
                 return f"{what} differs"
     return ""
+
+
+def run(text: str) -> dict[str, Any]:
+    """What an emitted module defines."""
+    space: dict[str, Any] = {"__name__": "emitted"}
+    exec(compile(text, "emitted.py", "exec"), space)
+    return space
+
+
+def in_the_frame(job: Job, text: str) -> str:
+    """Where emitted Python in the principal frame differs from that in the given one, unchanged."""
+    space, given = run(text), run(in_the_given_frame(job.name))
+    for name in ("PARAMETERS", "DEFAULTS", "STATE", "INPUTS", "BASIS"):
+        if not np.array_equal(space[name], given[name]):
+            return f"other {name}"
+    for seed in range(STATES):
+        p, x, u = loose(SimpleNamespace(**given), seed)
+        t, k = float(seed), given["constants"](p)
+        expected, energy = given["rhs"](t, x, k, u), given["energy"](t, x, k)
+        for what, found, right in compared(
+            job, space, (t, x, space["constants"](p), u), expected, energy
+        ):
+            if not relative_error(found, right) < CLOSE:
+                return f"{what} differs"
+    return ""
+
+
+@cache
+def in_the_given_frame(name: str) -> str:
+    """The Python of a job without its frame, by the unchanged engine."""
+    job = next(x for x in JOBS if x.name == name and x.framed and not x.plain)
+    options = {k: x for k, x in job.options.items() if k != "frame"}
+    return produce(job._replace(options=options)).files[f"{job.data['name']}.py"]
 
 
 def same_span(a: Any, b: Any) -> bool:
@@ -217,8 +263,8 @@ def compared(
     yield "the way back", space["out_of_frame"](y, k), x
     if len(u):
         yield "the way back of inputs", space["inputs_out_of_frame"](v, k), u
-    # the ways there and back are linear, but for the constant last row of an affine group
-    rate = space["out_of_frame"](y + space["rhs"](t, y, k, v), k) - x
+    step = 1e-30j  # the way back of a rate is the derivative of the way back
+    rate = space["out_of_frame"](y + step * space["rhs"](t, y, k, v), k).imag / step.imag
     yield "rhs", rate, expected
     yield "energy", [space["energy"](t, y, k)], [energy]
 

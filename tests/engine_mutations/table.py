@@ -3,7 +3,7 @@
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping
 
-from tests.engine_mutations.judge import CAUGHT, HARMLESS, Verdict
+from tests.engine_mutations.judge import CAUGHT, HARMLESS, LATE, Verdict
 from tests.engine_mutations.operators import Mutant
 
 COLUMNS = ("not reached", *HARMLESS, *CAUGHT, "survived")
@@ -11,8 +11,9 @@ HEAD = """\
 not reached: no problem that is tried runs the line; same: nothing changes; words: names, prose or
 units alone; code: another, equal to the record and to the oracle; equations: others, proved true;
 less: fewer, each true, and the code is right
-caught: crashed or refused in the derivation, hung (time), refused by the checker, unequal to the
-oracle (Gauss's principle), or to the record when the code is read back (validator)
+caught: crashed or refused in the derivation, hung (time), a mistake in a file not told (refusal),
+refused by the checker, unequal to the oracle (Gauss's principle), or to the record when the code is
+read back (validator)
 """
 
 
@@ -48,3 +49,20 @@ def table(counts: Mapping[str, Counter[str]]) -> str:
 def line(mutant: Mutant, verdict: Verdict) -> str:
     """A mutant with its verdict and the reason."""
     return f"{verdict.outcome}\t{mutant}\t{verdict.why}".replace("\n", " ")
+
+
+def told(
+    lines: Iterable[str], mutants: Iterable[Mutant]
+) -> tuple[list[tuple[Mutant, Verdict]], list[Mutant]]:
+    """Those with a verdict in some lines, and the others; no verdict in time is none."""
+    known: dict[str, list[Verdict]] = defaultdict(list)
+    for outcome, what, why in (x.rstrip("\n").split("\t", 2) for x in lines):
+        if why != LATE:
+            known[what].append(Verdict(outcome, why))
+    found, left = [], []
+    for m in mutants:
+        if verdicts := known[str(m).replace("\n", " ")]:
+            found.append((m, verdicts.pop()))
+        else:
+            left.append(m)
+    return found, left

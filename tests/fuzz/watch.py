@@ -113,7 +113,10 @@ class Result:
 
 
 def run(arguments, folder, out, watch=True):
-    """A command line, in the folder of the case; an exception is its status, in words."""
+    """A command line, in the folder of the case; an exception is its status, in words.
+
+    Untraced where it may be stopped: that could be where coverage holds its own lock, for ever.
+    """
 
     def hang(*_):
         raise HangError
@@ -121,10 +124,12 @@ def run(arguments, folder, out, watch=True):
     stdout, stderr, status = io.StringIO(), io.StringIO(), None
     before, here = signal.signal(signal.SIGALRM, hang), os.getcwd()
     os.chdir(folder)
+    tracer = sys.gettrace()
+    sys.settrace(None if "--seconds" in arguments else tracer)
     start = time.process_time()
     with watched(folder, out) if watch else contextlib.nullcontext([]) as faults:
         try:
-            signal.alarm(HANG)
+            signal.setitimer(signal.ITIMER_REAL, HANG, 5)
             with contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
                 status = main([str(x) for x in arguments])
         except SystemExit as end:
@@ -132,7 +137,8 @@ def run(arguments, folder, out, watch=True):
         except BaseException as error:
             status = uncaught(error)
         finally:
-            signal.alarm(0)
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            sys.settrace(tracer)
     seconds = time.process_time() - start
     os.chdir(here)
     signal.signal(signal.SIGALRM, before)

@@ -1,0 +1,42 @@
+"""The groups on which a claim about any group is tried."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from functools import partial
+
+from ..algebra.families import group, turning_about_a_point
+from ..algebra.given import group_of_basis
+from ..algebra.groups import Group
+from ..algebra.rational import Matrix
+
+
+def _unit(size: int, i: int, j: int) -> Matrix:
+    """1 in row i, column j, counted from 1."""
+    return tuple(
+        tuple(Fraction((a, b) == (i, j)) for b in range(1, size + 1)) for a in range(1, size + 1)
+    )
+
+
+def triangular() -> Group:
+    """The upper triangular maps of the plane."""
+    return group_of_basis("B(2)", "linear", [_unit(2, *at) for at in ((1, 1), (1, 2), (2, 2))])
+
+
+def triangular_affine() -> Group:
+    """The same with the translations along the first axis."""
+    basis = [_unit(3, *at) for at in ((1, 1), (1, 2), (2, 2), (1, 3))]
+    return group_of_basis("B(2) ⋉ R", "affine", basis)
+
+
+PANELS: dict[str, tuple[Callable[[], Group], ...]] = {
+    "linear": (*(partial(group, x) for x in ("GL(4)", "SL(3)", "SO(3)")), triangular),
+    "affine": (
+        *(partial(group, x) for x in ("Aff(3)", "SE(2)")),
+        turning_about_a_point,
+        triangular_affine,
+    ),
+}
+"""By the action: one without relations, some with, one whose translations are not free, one whose
+Lie algebra has neither transposes nor odd powers."""

@@ -1,0 +1,21 @@
+"""How the tests are run."""
+
+import sys
+
+import pytest
+
+
+@pytest.hookimpl(wrapper=True, trylast=True)
+def pytest_runtest_call(item):
+    """``no_cover`` in the processes of xdist too, where a second tracer of coverage waits.
+
+    For long tests that run again what others run: to measure them takes three times as long.
+    """
+    if item.get_closest_marker("no_cover") is None:
+        return (yield)
+    tracer = sys.gettrace()
+    sys.settrace(None)
+    try:
+        return (yield)
+    finally:
+        sys.settrace(tracer)
