@@ -7,6 +7,7 @@ import ast
 
 import pytest
 
+from tests.engine_mutations import ledger
 from tests.engine_mutations.jobs import JOBS
 from tests.engine_mutations.judge import CAUGHT, LATE, Verdict, numbers
 from tests.engine_mutations.known import EXPLAINED, reason
@@ -95,6 +96,30 @@ def test_a_run_goes_on_where_it_ended():
     found, left = told(lines, some)
     assert sorted(map(str, left)) == sorted(map(str, some[3:-1]))
     assert len(found) == len(done)
+
+
+def test_the_ledger(tmp_path, monkeypatch):
+    """A module is in it until its text changes; what survived is told with it."""
+    monkeypatch.setattr(ledger, "FILE", tmp_path / "figures.json")
+    one, two, three = list(mutants("pipeline.py", "x = f(a - b, 1)"))[:3]
+    other = two._replace(module="walk/cartan.py")
+    found = [(one, Verdict("checker")), (two, Verdict("survived", "why")), (other, Verdict("same"))]
+    ledger.save("pipeline.py", [*found, (three, Verdict("checker"))])
+    ledger.save("walk/cartan.py", found)
+    kept = ledger.load()
+    assert kept["pipeline.py"] == ({"checker": 2, "survived": 1}, [f"survived: {two}: why"])
+    assert kept["walk/cartan.py"] == ({"same": 1}, [])
+    monkeypatch.setattr(ledger, "digest", lambda module: module)
+    assert ledger.load() == {}
+
+
+def test_what_was_judged_whole():
+    """Each module with all its changes, and none that nothing notices."""
+    kept = ledger.load()
+    for module, row in kept.items():
+        assert row.outcomes.total() == len(list(mutants(module, (ROOT / module).read_text())))
+        assert not [x for x in row.told if x.startswith("survived")]
+    assert {*kept} <= {*MODULES}
 
 
 @pytest.mark.parametrize(("module", "change"), RULES)
