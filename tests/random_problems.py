@@ -92,7 +92,7 @@ def forces(draw, data, sizes):
         anchor[0] = draw(st.sampled_from([7, "7 + a", -9]))
         spring = {"kind": "spring", **on, "anchor": anchor, "stiffness": draw(coefficient)}
         potentials.append(spring | ({"length": draw(length)} if draw(st.booleans()) else {}))
-    if listed and draw(st.booleans()):
+    if len(listed) > 1 and draw(st.booleans()):
         i, j = draw(st.lists(st.integers(1, len(listed)), min_size=2, max_size=2, unique=True))
         if sizes[blocks[i - 1] - 1] == sizes[blocks[j - 1] - 1]:
             quadratic = draw(st.booleans())
@@ -100,7 +100,8 @@ def forces(draw, data, sizes):
             potentials.append(
                 {"kind": "spring", "between": [i, j], "stiffness": draw(coefficient), **more}
             )
-    if listed and len({*sizes}) == 1 and draw(st.integers(0, 3)) == 0:
+    alone = listed and "solid" not in data
+    if alone and len({*sizes}) == 1 and draw(st.integers(0, 3)) == 0:
         centre = [9, *draw(vectors(sizes[0]))[1:]]
         potentials.append({"kind": "attraction", "strength": draw(coefficient), "centre": centre})
     if listed and draw(st.booleans()):
@@ -138,6 +139,16 @@ def of_solids(draw):
     solids = draw(st.lists(solid(), min_size=1, max_size=2))
     data = {"name": "test", "group": name, "parameters": dict(PARAMETERS), "solid": solids}
     return used(draw(forces(data, [3])))
+
+
+@st.composite
+def of_both(draw):
+    """A problem of one or two solids in R³ and up to three points beside them."""
+    data = draw(of_solids())
+    listed = st.fixed_dictionaries({"mass": length, "at": vectors(3)})
+    found = {"point": draw(st.lists(listed, min_size=1, max_size=3))}
+    found |= {k: x for k, x in data.items() if k not in ("potential", "input")}
+    return used(draw(forces(found | {"parameters": dict(PARAMETERS)}, [3])))
 
 
 @st.composite

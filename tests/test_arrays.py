@@ -8,6 +8,7 @@ import sys
 import numpy as np
 import pytest
 
+from derive import derive
 from tests.emitted import GENERATED, import_python
 
 JAX = """
@@ -38,6 +39,17 @@ split = jax.sharding.NamedSharding(mesh, jax.sharding.PartitionSpec("states"))
 shared = jitted(0.0, jax.device_put(x, split), k, jax.device_put(u, split))
 assert len(shared.sharding.device_set) == 4
 assert np.allclose(shared, expected, rtol=1e-13)
+"""
+TURNED = """
+name = "test"
+group = "SO(3)"
+[parameters]
+rho = 2.0
+[[solid]]
+kind = "box"
+density = "rho"
+sides = [1, 2, 3]
+rotation = { axis = [1, 2, 2], angle = "0.7" }
 """
 
 
@@ -78,6 +90,39 @@ def test_other_arrays(name, library):
     assert np.allclose(np.asarray(m.energy(0.1, asarray(x), k)), m.energy(0.1, x, m.constants(p)))
     with pytest.raises(ValueError, match="singular"):
         m.constants(asarray(0 * p))
+
+
+def test_functions_of_numbers_alone(tmp_path):
+    """Strict libraries have no cosine of a plain number."""
+    xp = pytest.importorskip("array_api_strict")
+    (tmp_path / "test.toml").write_text(TURNED)
+    derive(tmp_path / "test.toml").emit(tmp_path, languages=["python"])
+    assert "xp.cos(0.7)" in (tmp_path / "test.py").read_text()
+    m = import_python("test", tmp_path)
+    k, x = m.constants([2.0]), np.random.default_rng(0).normal(size=(5, len(m.STATE)))
+    found = m.constants(xp.asarray([2.0]))
+    assert np.allclose(np.asarray(found), k, rtol=1e-14)
+    assert np.allclose(np.asarray(m.rhs(0.0, xp.asarray(x), found)), m.rhs(0.0, x, k), rtol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda t, x, k, u: (t, x[:-1], k, u), "x has 11 numbers, not 12"),
+        (lambda t, x, k, u: (t, x, k[1:], u), "k has"),
+        (lambda t, x, k, u: (t, x, k, 1.0), "u has no numbers, not 3"),
+        (lambda t, x, k, u: (t, [x, x], k, [u[:2]] * 2), "u has 2 numbers, not 3"),
+    ],
+)
+def test_arrays_of_another_size(change, says):
+    """The message names the array, how long it is and how long it should be."""
+    m = import_python("so3")
+    k = m.constants(np.array([m.DEFAULTS[x] for x in m.PARAMETERS]))
+    given = (0.1, np.ones(len(m.STATE)), k, np.ones(len(m.INPUTS)))
+    with pytest.raises(ValueError, match=f"so3: {says}"):
+        m.rhs(*change(*given))
+    with pytest.raises(ValueError, match="so3: p has 2 numbers"):
+        m.constants([1.0, 2.0])
 
 
 def test_one_state_is_computed_in_plain_numbers():

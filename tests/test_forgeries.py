@@ -55,6 +55,8 @@ def basis_in_another_order(data, step):
 RATIOS = [
     ["mul", ["pow", ["entry", "c", i], 2], ["pow", ["entry", "J", i, i], -1]] for i in (1, 2, 3)
 ]
+MEAN = ["add", ["at", "r", "i"], ["mul", -1, ["pow", "m", -1], "c"]]
+"""r_i − c/m."""
 FALSE = {
     "transposes": ("linear", "linear.equations", put("ξ′", ["T", "ξ′"])),
     "a cube": ("linear", "linear.equations", put("ξ′", ["pow", "Z", 3])),
@@ -91,6 +93,45 @@ FALSE = {
             ["add", ["at", "r", 1], ["mul", 0, ["entry", "J", "i", 1], ["at", "m", "i"]]],
         ),
     ),
+    "an input of any group": (
+        "so3",
+        "linear.equations",
+        lambda data, step: step.update(given=["input"]),
+    ),
+    "four points": (
+        "so3",
+        "so3.cartan",
+        claims("m", ["add", *(["at", "m", i] for i in (1, 2, 3, 4))]),
+    ),
+    "equal masses of a solid": ("top", "top.cartan", claims(["at", "m", 2], ["at", "m", 3])),
+    "a symmetric solid": (
+        "top",
+        "top.cartan",
+        claims(["sum", "i", ["mul", ["at", "m", "i"], ["norm2", MEAN], MEAN]], 0),
+    ),
+    "points in principal axes": (
+        "so3",
+        "so3.principal",
+        claims(
+            ["add", ["at", "r", 1], ["at", "r", 2]], ["add", ["at", "r", 3], ["at", "r", 4]]
+        ),
+    ),
+    "damped points alone": (
+        "jelly",
+        "jelly.input",
+        claims(
+            ["sum", "i", ["at", "κ", "i"]],
+            ["sum", "i", ["add", ["at", "κ", "i"], ["mul", 0, ["entry", "ζ", "i"]]]],
+        ),
+    ),
+    "fewer members of a basis": (
+        "so3",
+        "so3.cartan",
+        claims(
+            ["sum", "a", ["mul", ["at", "m", "a"], ["at", "E", "a"]]],
+            ["mul", 2, ["sum", "a", ["mul", ["at", "m", "a"], ["at", "E", "a"]]]],
+        ),
+    ),
     "large powers": (
         "so3",
         "so3.energy",
@@ -106,6 +147,12 @@ WHY = {
     "another basis": "the basis is not that of SO(3)",
     "no value of an index": "not that of the same members",
     "few values of an index": "not that of the same members",
+    "an input of any group": "an input is of a problem",
+    "four points": "lists no point 1",
+    "equal masses of a solid": "lists no point 2",
+    "points in principal axes": "lists no point 1",
+    "damped points alone": "not that of the same members",
+    "fewer members of a basis": "not that of the same members",
     "large powers": "too large",
 }
 

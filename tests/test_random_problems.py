@@ -16,7 +16,7 @@ from derive.record.record import from_json, to_json
 from derive.record.vocabulary import ANY_GROUP
 from tests.emitted import compile_c, present
 from tests.oracles import general, relative_error, solids
-from tests.random_problems import of_points, of_solids
+from tests.random_problems import of_both, of_points, of_solids
 
 pytestmark = pytest.mark.no_cover
 EXAMPLES = int(os.environ.get("EXAMPLES", "16"))
@@ -91,4 +91,13 @@ def test_solids(tmp_path_factory, data):
     """The oracle gets the moments of the solids by quadrature."""
     problem, record = derived(data)
     other = solids.by_moments(data)
+    agree(problem, record, other, tmp_path_factory.mktemp("random"), data["parameters"])
+
+
+@FEWER
+@given(data=of_both())
+def test_solids_and_points(tmp_path_factory, data):
+    """The oracle gets points in place of the solids, with their moments."""
+    problem, record = derived(data)
+    other = solids.by_points(data)
     agree(problem, record, other, tmp_path_factory.mktemp("random"), data["parameters"])

@@ -7,13 +7,14 @@ from dataclasses import replace
 
 import pytest
 
+from derive.algebra.show import show
 from derive.mechanics.toml import problem_of
 from derive.pipeline import walk
 from derive.record.check import SIZE, check
 from derive.record.record import RecordError, from_json, to_data, to_json
 from derive.record.rules import RULES
 from tests import steps
-from tests.engine_mutations.jobs import MIXED
+from tests.engine_mutations.jobs import BOTH, MIXED
 from tests.walks import NAMES, own_verdicts, record
 
 
@@ -206,6 +207,17 @@ def test_solids_and_points_together():
     data = json.loads(json.dumps(to_data(d)))
     data["problem"]["body"]["points"][0]["mass"] = 3
     assert any("not those of its solids" in v.reason for v in check(from_json(json.dumps(data))))
+
+
+@pytest.mark.parametrize("name", ["SO(3)", "SE(3)"])
+def test_the_tensor_of_solids_and_points_together(name):
+    """A ball of density ½ and radius b, and a mass b at ⅛ e₃, each counted once."""
+    d = walk(problem_of(tomllib.loads(BOTH.replace("SE(3)", name))))
+    assert all(v.holds for v in check(d))
+    entries = {show(e.lhs): show(e.rhs) for e in d["test.tensor"].equations}
+    centred = "I_c" if name == "SE(3)" else "I"
+    assert entries[f"{centred}₃₃"] == "4/15 π b⁵"
+    assert entries[f"{centred}₁₁"].startswith("4/15 π b⁵ + 1/64 b")
 
 
 def test_a_label_cannot_forge_a_line():

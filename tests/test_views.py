@@ -276,3 +276,10 @@ def test_long_formulas_keep_inside_the_margins(tmp_path: Path) -> None:
     equations = (Equation(("add", *terms), long, ("ξ′",)), Equation("r", entries))
     d = Derivation({"name": "n"}, (), (Step("n.long", "definition", (), equations, say("Long.")),))
     assert "Overfull \\hbox" not in compiled(latex(d), tmp_path)
+
+
+def test_what_is_raised_or_divides_is_in_brackets():
+    assert show(("pow", Fraction(3, 2), 2)) == "(3/2)²"
+    assert show(("div", "m", Fraction(3, 2))) == "m/(3/2)"
+    assert show(("norm2", ("add", "m", "J"), "ζ")) == "‖ζ‖²_(m + J)"
+    assert show(("metric", ("add", "m", "J"), "ζ", "ζ")) == "⟨ζ, ζ⟩_(m + J)"

@@ -71,6 +71,11 @@ def _atom(t: Tree) -> str:
     return text if level == ATOM else f"({text})"
 
 
+def _base(t: Tree) -> str:
+    """What is raised to a power or divides: a fraction is in brackets, too."""
+    return f"({_show(t)[0]})" if isinstance(t, Fraction) else _atom(t)
+
+
 def _letter(text: str) -> bool:
     """One mathematical letter with its marks, so that a product needs no space."""
     return re.fullmatch(r"[^\W\d_][\u0300-\u036f]*′?(⁻¹|²)?", text) is not None
@@ -138,7 +143,7 @@ def _node(t: tuple[object, ...]) -> tuple[str, int]:
         c, rest = coefficient(arguments[0])
         above, level = _show(mul(abs(c), rest))
         above = f"({above})" if level == SUM else above
-        text = f"{above}/{_atom(arguments[1])}"
+        text = f"{above}/{_base(arguments[1])}"
         return (text, PRODUCT) if c >= 0 else (f"−{text}", SUM)
     if op == "wedge":
         return " ∧ ".join(_operand(a) for a in arguments), PRODUCT
@@ -181,13 +186,13 @@ def _atomic(op: object, a: tuple[Tree, ...]) -> str:
     if op == "one":
         return "1"
     if op == "pow":
-        return _atom(a[0]) + str(a[1]).translate(str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"))
+        return _base(a[0]) + str(a[1]).translate(str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"))
     if op == "inner":
         return f"⟨{show(a[0])}, {show(a[1])}⟩"
     if op == "metric":
-        return f"⟨{show(a[1])}, {show(a[2])}⟩_{show(a[0])}"
+        return f"⟨{show(a[1])}, {show(a[2])}⟩_{_atom(a[0])}"
     if op == "norm2":
-        return f"‖{show(a[-1])}‖²" + (f"_{show(a[0])}" if len(a) == 2 else "")
+        return f"‖{show(a[-1])}‖²" + (f"_{_atom(a[0])}" if len(a) == 2 else "")
     if op == "fun":
         name, inside = a
         norm = name == "sqrt" and isinstance(inside, tuple) and inside[0] == "norm2"

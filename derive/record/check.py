@@ -78,9 +78,11 @@ class Checker:
         self.problem, self.seed = problem, seed
         self._environments: dict[tuple[str, tuple[str, ...], int], Environment] = {}
 
-    def groups(self, scope: str) -> list[Group]:
-        """The groups on which a step of this scope is tried."""
+    def groups(self, scope: str, given: tuple[str, ...] = ()) -> list[Group]:
+        """The groups on which a step of this scope, with these hypotheses, is tried."""
         if scope == ANY_GROUP:
+            if "input" in given:
+                raise RecordError("an input is of a problem, not of any group")
             return [make() for make in PANELS[_action(self.problem)]]
         if scope != self.problem.get("group"):
             raise RecordError(f"scope {scope!r} is neither {ANY_GROUP!r} nor the problem's group")
@@ -108,7 +110,7 @@ class Checker:
 
     def environments(self, step: Step) -> Iterator[tuple[Group, Environment]]:
         """The exact points at which a step is tried."""
-        for g in self.groups(step.scope):
+        for g in self.groups(step.scope, step.given):
             yield g, self.environment(g, step)
 
     def environment(self, g: Group, step: Step, size: int = SIZE) -> Environment:
@@ -135,7 +137,7 @@ class Checker:
 
     def bound(self, step: Step) -> int:
         """The degree of its claims; ``RecordError`` for one that is too large."""
-        groups = self.groups(step.scope)
+        groups = self.groups(step.scope, step.given)
         pairs = [(e, g) for g in groups for e in step.equations]
         written = max(degree.bound(e, g, {}) for e, g in pairs)
         most = LARGEST_DEGREE
@@ -173,7 +175,7 @@ class Checker:
             return Verdict(step.label, False, reason.splitlines()[0], 1.0)
         except (AttributeError, RecursionError) as error:
             return Verdict(step.label, False, f"not a claim: {type(error).__name__}", 1.0)
-        tried = len(step.equations), tuple(g.name for g in self.groups(step.scope))
+        tried = len(step.equations), tuple(g.name for g in self.groups(step.scope, step.given))
         return Verdict(step.label, True, "", bound / SIZE, tried)
 
     def example(self, g: Group, step: Step, equation: Equation) -> str:

@@ -69,15 +69,16 @@ def bound(
 def body_degree(problem: Mapping[str, Any]) -> int:
     """The largest degree of a mass, a coordinate or a coefficient of a force in the parameters.
 
-    A body of given moments is realised by points whose masses and places are quotients of minors of
-    the n × n moments: 4 n times the degree of a moment is more than enough.
+    A body of given moments is realised by points, some anywhere, the others with masses and places
+    that are quotients of minors of the n × n moments that are left: 4 n times the degree of these,
+    cubes where the moments are none, is more than enough.
     """
     body = problem.get("body", {})
     forces = [problem.get(key, []) for key in ("potentials", "places", "damping")]
     own = max([1, *map(_size, _trees([body.get("points", []), *forces]))])
     given = [*map(_size, _trees([body.get("given", []), body.get("solids", [])]))]
     n = len(body.get("given", {}).get("c", ()))
-    return max([own, 4 * n * max([1, *given])])
+    return max([own, 4 * n * max([3, *given])])
 
 
 def _trees(data: Any) -> Iterator[Tree]:

@@ -30,13 +30,16 @@ from .arithmetic import (
 )
 
 LARGEST_NESTING = 3
+POINTWISE = ("m", "r", "v", "F", "Q", "P", "κ")
+"""The families whose members belong to the points."""
 
 
 @dataclass
 class Environment:
     """Values of names, of the members of indexed families, and of functions.
 
-    ``functions[name](arguments, environment)`` receives the argument trees.
+    ``functions[name](arguments, environment)`` receives the argument trees.  ``listed``: of the
+    points, those that may be named by their numbers.
     """
 
     size: int
@@ -46,6 +49,7 @@ class Environment:
     parameters: Mapping[str, Value] = field(default_factory=dict)
     indices: Mapping[str, int] = field(default_factory=dict)
     elementary: Callable[[str, Value], Value] | None = None
+    listed: int = 0
 
     def with_index(self, name: str, value: int) -> Environment:
         """The same with an index bound."""
@@ -130,9 +134,14 @@ def _sum(t: tuple[Any, ...], env: Environment) -> Value:
 
 
 def _range(body: Tree, index: str, env: Environment) -> list[int]:
-    """The values of the index: those that all the families have in which it stands."""
+    """The values of the index, the same for all the families in which it stands.
+
+    ``EvaluationError`` else: a sum, or an equation, would be held for a few members only.
+    """
     spans = [*_spans(body, index, env)]
-    return sorted(set.intersection(*spans)) if spans else []
+    if any(x != spans[0] for x in spans):
+        raise EvaluationError(f"the index {index!r} is not that of the same members everywhere")
+    return sorted(spans[0]) if spans else []
 
 
 def _spans(t: Tree, index: str, env: Environment) -> Iterator[set[int]]:
@@ -164,15 +173,18 @@ def free_indices(t: Tree) -> set[str]:
 
 
 def index_values(t: Tree, index: str, env: Environment) -> list[int]:
-    """The values of a free index, the same for all families but the basis, which may have more.
-
-    ``EvaluationError`` else: an equation would be held for a few members only, or for none.
-    """
+    """The values of a free index; ``EvaluationError`` where there is none."""
     found = _range(t, index, env)
-    whole = [x for x in _spans(t, index, env) if x != set(found)]
-    if not found or any(x != {key[0] for key in env.families.get("E", ())} for x in whole):
-        raise EvaluationError(f"the index {index!r} is not that of the same members everywhere")
+    if not found:
+        raise EvaluationError(f"the index {index!r} has no values")
     return found
+
+
+def point_index(i: Any, env: Environment) -> int:
+    """The number of a point: by an index, or named where the problem lists it."""
+    if isinstance(i, int) and i > env.listed:
+        raise EvaluationError(f"the problem lists no point {i}")
+    return _index(i, env)
 
 
 def _index(i: Any, env: Environment) -> int:
@@ -184,7 +196,8 @@ def _index(i: Any, env: Environment) -> int:
 
 
 def _at(t: tuple[Any, ...], env: Environment) -> Value:
-    key = tuple(_index(i, env) for i in t[2:])
+    number = point_index if t[1] in POINTWISE else _index
+    key = tuple(number(i, env) for i in t[2:])
     try:
         return env.families[t[1]][key]
     except KeyError:

@@ -117,8 +117,8 @@ def exerted_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
         pushes = model.exerted.forces(model.t, places, model.masses, SINGLE)
         families["Q"] = {(i,): column(f) for i, f in enumerate(pushes, 1)}
         families["P"] = {(i,): _in_body(model, f) for i, f in enumerate(pushes, 1)}
-    for i, kappa in damping_members(model).items():
-        families.setdefault("κ", {})[i,] = kappa
+    if damped := damping_members(model):
+        families["κ"] = {(i,): damped.get(i, Fraction(0)) for i in range(1, len(places) + 1)}
     for e, (push, data) in enumerate(zip(model.pushes, model.given("force"), strict=True), 1):
         here = model.group.of_block(model.blocks[data["on"] - 1])
         families.setdefault("f_u", {})[e,] = column(push[here])

@@ -10,10 +10,11 @@ from ..algebra import rational as q
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
 from .arithmetic import EvaluationError, is_matrix
-from .evaluate import Environment, evaluate
+from .evaluate import Environment, evaluate, point_index
 from .given import exerted_families, exerted_values
-from .model import Direction, Model, Vector, derivative_in
-from .nilpotent import EPS, EPS_PRIME, nilpotent, part
+from .model import Direction, Model, Vector
+from .nilpotent import EPS, EPS_PRIME, derivative_of, nilpotent, part
+from .points import listed
 from .realised import integral
 from .solved import solved_values
 from .spatial import axial, moments_about, spatial_values
@@ -39,6 +40,7 @@ def environment(model: Model) -> Environment:
         _functions(model),
         model.parameters,
         elementary=model.elementary,
+        listed=listed(model),
     )
 
 
@@ -184,8 +186,8 @@ def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
         "F": {(i,): column(f) for i, f in enumerate(model.forces, 1)},
     }
     if not model.opaque:
-        elements = map(model.group.linear_part, model.group.basis)
-        families["E"] = {(a,): e for a, e in enumerate(elements, 1)}
+        own = model.group.basis[: len(model.group.linear_basis)]
+        families["E"] = {(a,): model.group.linear_part(e) for a, e in enumerate(own, 1)}
         families |= exerted_families(model)
     return families
 
@@ -224,8 +226,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
     def point(head: Any, arguments: tuple[Tree, ...], env: Environment) -> Matrix:
         if arguments != ("t",):
             raise EvaluationError("a point is a function of t")
-        index = head[2] if isinstance(head[2], int) else env.indices[head[2]]
-        return tuple((x,) for x in model.moved(model.g)[index - 1])
+        return tuple((x,) for x in model.moved(model.g)[point_index(head[2], env) - 1])
 
     return {
         "dŨ": lambda _, a, env: model.work(tangent(a, env)),
@@ -256,11 +257,10 @@ def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
     """δ or δ′ of a moved point, or of the fields ξ, ξ′, η, η′ on the two-parameter family."""
     _, g, _ = model.family(model.first, model.second)
     if isinstance(what, tuple) and what[0] == "call" and what[1][:2] == ("at", "r"):
-        index = what[1][2]
-        i = index if isinstance(index, int) else env.indices[index]
+        i = point_index(what[1][2], env)
         return tuple((part(x, mask),) for x in model.moved(g)[i - 1])
     other = EPS_PRIME if mask == EPS else EPS
-    derivative = tuple(tuple(derivative_in(x, other) for x in row) for row in g)
+    derivative = derivative_of(g, other)
     field = q.times(_inverse(model, g, mask), derivative)
     value = part(field, mask)
     letter = {("ξ′", EPS): _linear, ("ξ", EPS_PRIME): _linear}

@@ -19,11 +19,14 @@ from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from .evaluate import Environment
 from .exerted import AnyPotential, Exerted, given_forces
-from .nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, nilpotent, part
+from .nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, derivative_in, derivative_of, nilpotent, part
 from .opaque import Opaque
 from .points import points_of, principal_points
 
 Vector = tuple[Any, ...]
+SPARE = 2
+"""At most so many points more than are needed, where the problem leaves them open: no equation may
+rest on how many there are, or on a symmetry of theirs."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +44,8 @@ class Model:
     ``principal``: the body has a diagonal J; ``driven``: the input does not vanish; ``opaque``: the
     potential is any polynomial; ``pi``: its value, else any.  X is the motion, or a vector with
     δt = 1: ``motion`` "any" for the first variation, "coasting" for the velocity of the motion with
-    any acceleration.  ``vertical``: the second variation moves the velocity alone.
+    any acceleration.  ``vertical``: the second variation moves the velocity alone.  ``spare``: at
+    most so many points more than a body needs that is not of listed ones.
     """
 
     def __init__(
@@ -57,10 +61,11 @@ class Model:
         vertical: bool = False,
         opaque: bool = False,
         pi: Fraction | None = None,
+        spare: int = SPARE,
     ):
         self.problem, self.group, self.random, self.size = problem, group, random, size
         self.driven, self.along, self.opaque = driven, motion, opaque
-        self.principal = principal
+        self.principal, self.most_spare = principal, spare
         self.n, self.s = group.n, group.size
         self._exteriors: dict[tuple[Direction, Direction], Fraction] = {}
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
@@ -96,6 +101,10 @@ class Model:
     def draw(self, *, positive: bool = False) -> Fraction:
         """A random integer, as a fraction."""
         return Fraction(self.random.randint(1 if positive else -self.size, self.size))
+
+    def spare(self, *, least: int) -> int:
+        """How many points more than are needed."""
+        return self.random.randint(least, self.most_spare) if self.most_spare else 0
 
     def algebra(self) -> Matrix:
         """A random element of the Lie algebra."""
@@ -206,7 +215,7 @@ class Model:
 
             def form(mask: int) -> Any:
                 """ϖ on the derivative of the family in one parameter, a function of the other."""
-                dt, dg = derivative_in(t, mask), _derivative_matrix(g, mask)
+                dt, dg = derivative_in(t, mask), derivative_of(g, mask)
                 return self.momentum(t, g, nu, dg) - energy * dt
 
             found = part(form(EPS_PRIME), EPS) - part(form(EPS), EPS_PRIME)
@@ -298,12 +307,3 @@ class Model:
         if self.along == "any":
             return self.first
         return Direction(Fraction(1), self.Z, self.acceleration)
-
-
-def derivative_in(x: Any, mask: int) -> Any:
-    """The derivative in one parameter, at zero, as a function of the others."""
-    return Nilpotent({k ^ mask: v for k, v in Nilpotent.of(x).parts.items() if k & mask})
-
-
-def _derivative_matrix(x: Matrix, mask: int) -> Matrix:
-    return tuple(tuple(derivative_in(y, mask) for y in row) for row in x)

@@ -8,6 +8,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
+from ..algebra.rational import Matrix
+
 EPS, EPS_PRIME, ETA = 1, 2, 4
 
 
@@ -85,3 +87,13 @@ def part(x: Any, mask: int) -> Any:
 def nilpotent(mask: int) -> Nilpotent:
     """ε, ε′ or η itself."""
     return Nilpotent({mask: Fraction(1)})
+
+
+def derivative_in(x: Any, mask: int) -> Any:
+    """The derivative in one parameter, at zero, as a function of the others."""
+    return Nilpotent({k ^ mask: v for k, v in Nilpotent.of(x).parts.items() if k & mask})
+
+
+def derivative_of(x: Matrix, mask: int) -> Matrix:
+    """The same of a matrix."""
+    return tuple(tuple(derivative_in(y, mask) for y in row) for row in x)

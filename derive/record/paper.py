@@ -88,9 +88,10 @@ def point(p: Printed, size: int, seed: int, draw: type[Random] = Random) -> Envi
     g = group(p.group)
     random = draw(f"paper {p.number} {seed}")
     problem = {"name": "paper", "group": p.group, "action": g.action}
-    model = Model(problem, g, random, size, opaque=True, principal=p.principal)
+    model = Model(problem, g, random, size, opaque=True, principal=p.principal, spare=0)
     env = environment(model)
-    return replace(env, names={**env.names, **_meaningless(model)})
+    numbered = len(model.points)  # a counterexample may name one
+    return replace(env, names={**env.names, **_meaningless(model)}, listed=numbered)
 
 
 def _meaningless(model: Model) -> dict[str, Any]:

@@ -7,8 +7,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from ..algebra import rational as q
+from ..algebra.rational import Matrix
 from .evaluate import evaluate
-from .realised import points_with, realised
+from .realised import moments_of, points_with, without
 from .record import decode
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ Points = tuple[list[Fraction], list[Vector], list[int]]
 
 
 def points_of(model: Model) -> Points:
-    """Masses and points of the problem, then its other places."""
+    """Masses and points of the problem, then its other places, then what is not listed."""
     body = model.problem.get("body", {})
     listed = [] if model.opaque else model.problem.get("places", [])
     places, blocks = _placed(model, listed)
@@ -29,33 +30,43 @@ def points_of(model: Model) -> Points:
         listed = body.get("points", [])
         own = [evaluate(decode(p["mass"], "mass"), model.expressions) for p in listed]
         points, first = _placed(model, listed)
-        masses, rest = realised(model) if body["kind"] == "given" else ([], [])
+        masses, rest = _cloud(model, *moments_of(model)) if body["kind"] == "given" else ([], [])
         blocks = first + blocks + [1] * len(rest)
         return own + empty + masses, points + places + rest, blocks
-    count = model.n + 1
-    masses = [model.draw(positive=True) for _ in range(count)]
-    points = [tuple(model.draw() for _ in range(model.n)) for _ in range(count)]
-    return empty + masses, places + points, blocks + [1] * count
+    masses, points = _anywhere(model, model.n + 1 + model.spare(least=0))
+    return empty + masses, places + points, blocks + [1] * len(points)
+
+
+def listed(model: Model) -> int:
+    """How many points the problem lists: they come first, and an equation may name them."""
+    if model.opaque:
+        return 0
+    body = model.problem.get("body", {})
+    return len(body.get("points", [])) + len(model.problem.get("places", []))
 
 
 def principal_points(model: Model) -> Points:
     """As many points anywhere and what makes J diagonal, and m and c any."""
     n, count = model.n, len(model.problem.get("body", {}).get("points", []))
-    masses = [model.draw(positive=True) for _ in range(count)]
-    points: list[Vector] = [tuple(model.draw() for _ in range(n)) for _ in range(count)]
+    masses, points = _anywhere(model, count)
     places, blocks = _placed(model, model.problem.get("places", []))
-    m, c = model.draw(positive=True), [model.draw() for _ in range(n)]
-    J = [[model.draw() if i == j else Fraction(0) for j in range(n)] for i in range(n)]
-    for mass, r in zip(masses, points, strict=True):
-        m -= mass
-        c = [x - mass * y for x, y in zip(c, r, strict=True)]
-        J = [
-            [x - mass * a * b for x, b in zip(row, r, strict=True)]
-            for row, a in zip(J, r, strict=True)
-        ]
-    more, rest = points_with(m, tuple(c), q.matrix(J))
+    m, c = model.draw(positive=True), tuple(model.draw() for _ in range(n))
+    J = q.matrix([[model.draw() if i == j else Fraction(0) for j in range(n)] for i in range(n)])
+    more, rest = _cloud(model, *without(masses, points, m, c, J))
     empty = [Fraction(0)] * len(places)
     return masses + empty + more, points + places + rest, [1] * count + blocks + [1] * len(rest)
+
+
+def _cloud(model: Model, m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list[Vector]]:
+    """Points of these moments, some of them anywhere: nothing but m, c and J is known of them."""
+    masses, points = _anywhere(model, model.spare(least=1))
+    more, rest = points_with(*without(masses, points, m, c, J))
+    return masses + more, points + rest
+
+
+def _anywhere(model: Model, count: int) -> tuple[list[Fraction], list[Vector]]:
+    masses = [model.draw(positive=True) for _ in range(count)]
+    return masses, [tuple(model.draw() for _ in range(model.n)) for _ in range(count)]
 
 
 def _placed(model: Model, listed: list[Mapping[str, Any]]) -> tuple[list[Vector], list[int]]:

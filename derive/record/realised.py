@@ -25,11 +25,6 @@ if TYPE_CHECKING:
 Vector = tuple[Any, ...]
 
 
-def realised(model: Model) -> tuple[list[Fraction], list[Vector]]:
-    """Masses and places of the body without its listed points."""
-    return points_with(*moments_of(model))
-
-
 def points_with(m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list[Vector]]:
     """Masses, some of them negative it may be, and places that have these moments."""
     if m == 0:
@@ -43,6 +38,17 @@ def points_with(m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list
             masses.append(weight / 2)
             points.append(tuple(x + sign * y for x, y in zip(s, direction, strict=True)))
     return [*masses, m - sum(masses, Fraction(0))], [*points, s]
+
+
+def without(
+    masses: Iterable[Fraction], points: Iterable[Vector], m: Fraction, c: Vector, J: Matrix
+) -> tuple[Fraction, Vector, Matrix]:
+    """What some point masses leave of m, c, J."""
+    for mass, r in zip(masses, points, strict=True):
+        m, c = m - mass, tuple(x - mass * y for x, y in zip(c, r, strict=True))
+        column = tuple((x,) for x in r)
+        J = q.minus(J, q.scaled(mass, q.times(column, q.transposed(column))))
+    return m, c, J
 
 
 def squares(a: Matrix) -> list[tuple[Fraction, Vector]]:
@@ -72,7 +78,9 @@ def moments_of(model: Model) -> tuple[Fraction, Vector, Matrix]:
     if not body["solids"]:
         return m, c, J
     solids = sliced(model, body["solids"])
-    if (m, c, J) != _with_points(model, solids, body.get("points", [])):
+    listed = body.get("points", [])
+    own = [_value(model, p["mass"]) for p in listed]
+    if without(own, [_value(model, p["at"]) for p in listed], m, c, J) != solids:
         raise RecordError("body: the given moments are not those of its solids")
     return solids
 
@@ -85,18 +93,6 @@ def sliced(model: Model, solids: Iterable[Mapping[str, Any]]) -> tuple[Fraction,
         mass, first, second = _solid(model, solid)
         m, J = m + mass, q.plus(J, second)
         c = tuple(x + y for x, y in zip(c, first, strict=True))
-    return m, c, J
-
-
-def _with_points(
-    model: Model, solids: tuple[Fraction, Vector, Matrix], points: Iterable[Mapping[str, Any]]
-) -> tuple[Fraction, Vector, Matrix]:
-    m, c, J = solids
-    for p in points:
-        mass, r = _value(model, p["mass"]), _value(model, p["at"])
-        m, c = m + mass, tuple(x + mass * y for x, y in zip(c, r, strict=True))
-        column = tuple((x,) for x in r)
-        J = q.plus(J, q.scaled(mass, q.times(column, q.transposed(column))))
     return m, c, J
 
 

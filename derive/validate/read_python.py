@@ -110,6 +110,8 @@ class Reader:
             if node.name in SIGNATURES:
                 self._function(node)
             return [node.name]
+        if isinstance(node, ast.ClassDef) and node.name not in SIGNATURES:
+            return [node.name]
         raise self._unknown(node)
 
     def _list(self, name: str) -> tuple[str, ...]:

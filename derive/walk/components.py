@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from ..algebra.laurent import Laurent, OverlongError, gathered, polynomial, written
 from ..algebra.tree import Tree, add, mul, names
-from ..mechanics.problem import GivenBody, MomentBody, Problem
+from ..mechanics.problem import GivenBody, MomentBody, PointBody, Problem
 from ..record.arithmetic import Value
 from ..record.evaluate import Environment, evaluate
 from ..record.record import Equation, Step
@@ -139,20 +139,20 @@ def _tensor(problem: Problem) -> Tensor | None:
 
 def moments_of(problem: Problem) -> tuple[Tree, tuple[Tree, ...], Rows]:
     """m, c and J of all that the body is made of, as trees in the parameters."""
+    body = problem.body
+    if isinstance(body, MomentBody):
+        return body.mass(), body.first(), body.second()
+    if isinstance(body, GivenBody):  # its points are counted in
+        return body.mass, body.first, body.second
+    assert isinstance(body, PointBody)
     m: Tree = 0
     c: tuple[Tree, ...] = (0, 0, 0)
     J: Rows = ((0, 0, 0),) * 3
-    body = problem.body
-    if isinstance(body, MomentBody):
-        m, c, J = body.mass(), body.first(), body.second()
-    elif isinstance(body, GivenBody):
-        m, c, J = body.mass, body.first, body.second
-    if problem.points:
-        for mass, r in zip(problem.points.masses, problem.points.positions, strict=True):
-            m = add(m, mass)
-            c = tuple(add(x, mul(mass, y)) for x, y in zip(c, r, strict=True))
-            J = tuple(
-                tuple(add(x, mul(mass, r[i], r[j])) for j, x in enumerate(row))
-                for i, row in enumerate(J)
-            )
+    for mass, r in zip(body.masses, body.positions, strict=True):
+        m = add(m, mass)
+        c = tuple(add(x, mul(mass, y)) for x, y in zip(c, r, strict=True))
+        J = tuple(
+            tuple(add(x, mul(mass, r[i], r[j])) for j, x in enumerate(row))
+            for i, row in enumerate(J)
+        )
     return m, c, J

@@ -165,6 +165,7 @@ def constants(p):
     p: the numbers in the order of PARAMETERS, or by name, the others by DEFAULTS.
     """
     xp, (p,) = _arrays(_named(p))
+    _sized("p", p, PARAMETERS)
     with numpy.errstate(divide="ignore", invalid="ignore", over="ignore"):
         k, tests = _constants(xp, _entries(p))
         k = _stack(xp, k) if k else p[..., :0]
@@ -202,8 +203,11 @@ def _named(given):
     return [given.get(x, DEFAULTS.get(x)) for x in PARAMETERS]
 
 
-def _evaluated(function, t, x, k, u=None):
-    """A function of one state in plain numbers, or of a batch in the arrays of its library."""
+def _evaluated(function, t, x, k, u=None, kept=CONSTANTS):
+    """A function of one state in plain numbers, or of a batch in the arrays of its library.
+
+    kept: the names of what is in k.
+    """
     if type(x) is type(k) is numpy.ndarray and x.ndim == k.ndim == 1:
         if x.dtype.char == k.dtype.char == "d" and (u is None or _plain(u)):
             try:
@@ -212,8 +216,19 @@ def _evaluated(function, t, x, k, u=None):
             except (ArithmeticError, TypeError, ValueError):
                 pass  # what is infinite or no number is so in arrays as well
     xp, (x, k, u) = _arrays(x, k, ZEROS if u is None else u)
+    _sized("x", x, STATE)
+    _sized("k" if kept is CONSTANTS else "p", k, kept)
+    _sized("u", u, INPUTS)
     t = xp.asarray(t, dtype=x.dtype)
     return _stack(xp, function(xp, t, _entries(x), _entries(k), _entries(u)))
+
+
+def _sized(letter, array, names):
+    """ValueError where the last axis of an array is not that of the names."""
+    if array.shape[-1:] != (len(names),):
+        found = array.shape[-1] if array.shape else "no"
+        wanted = f"not {len(names)}, along its last axis"
+        raise ValueError(f"sl3: {letter} has {found} numbers, {wanted}")
 
 
 def _plain(u):
@@ -230,7 +245,8 @@ def _arrays(*values):
             xp = importlib.import_module("array_api_compat." + library)
         else:
             continue
-        return xp, [value if hasattr(value, "shape") else xp.asarray(value) for value in values]
+        array = [value if hasattr(value, "shape") else xp.asarray(value) for value in values]
+        return xp, array
     return numpy, [numpy.asarray(value, dtype=float) for value in values]
 
 

@@ -99,6 +99,21 @@ kind = "gravity"
 g = [1, 2, "-9.81"]
 """
 
+BOTH = """
+name = "test"
+group = "SE(3)"
+[parameters]
+b = 0.7
+[[point]]
+mass = "b"
+at = [0, 0, 0.125]
+[[solid]]
+kind = "ball"
+density = 0.5
+radius = "b"
+"""
+"""A solid and a point in principal axes."""
+
 GIVEN = """
 name = "test"
 group = "SE(3)"
@@ -182,7 +197,7 @@ def ready(name: str) -> str:
 
 
 TEXTS = PROBLEMS | {name: ready(name) for name in ("linear", "affine", "so3", "se3", "sl3", "top")}
-TEXTS |= {"solids": SOLIDS, "mixed": MIXED, "given": GIVEN, "numbers": NUMBERS}
+TEXTS |= {"solids": SOLIDS, "mixed": MIXED, "both": BOTH, "given": GIVEN, "numbers": NUMBERS}
 TEXTS["functions"] = FUNCTIONS
 WHOLE = ("state", "inputs", "parameters")
 CHOSEN = [
@@ -212,6 +227,7 @@ CHOSEN = [
     ("SU(2)", {}),
     ("UT(3)", {}),
     ("mixed", {}),
+    ("both", {}),
     ("given", {}),
     ("numbers", {}),
     ("GL(2)", {}),

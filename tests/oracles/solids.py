@@ -54,6 +54,15 @@ def by_moments(data):
     return other | {"parameters": known, "body": {"moments": "symbolic"}}
 
 
+def by_points(data):
+    """The problem with its solids replaced by points of the same moments, after those it lists."""
+    solids = moments({k: x for k, x in data.items() if k != "point"})
+    masses, places = general.realised(solids, 3, True)
+    more = [{"mass": m, "at": [*r]} for m, r in zip(masses.tolist(), places.tolist(), strict=True)]
+    other = {k: x for k, x in data.items() if k != "solid"}
+    return other | {"point": [*data["point"], *more]}
+
+
 def nodes(solid, env):
     """Weights (k,) and points (3, k) of a quadrature over a solid in its own frame."""
     kind = solid["kind"]
