@@ -216,6 +216,9 @@ def _symbols(steps: Steps, problem: Problem) -> tuple[Symbol, ...]:
     meanings = {x: say(own.get(x, about)) for x, (about, _) in VOCABULARY.items()}
     if problem.pushes:
         forces = [_force(x) for x in problem.pushes]
+        if problem.covector and "f_u" in own:
+            at_origin = "{name}, a force on the body's origin, in the body frame"
+            forces.insert(0, phrase(at_origin, name=problem.covector.name))
         meanings["f_u"] = say("input: {forces}", forces=listed("{first}; {second}", forces))
     return tuple(Symbol(x, meanings[x], VOCABULARY[x][1]) for x in used if x in VOCABULARY)
 

@@ -1,16 +1,20 @@
 """Sentences as data: written beside their English, and what is refused on reading."""
 
 import json
+import tomllib
 
 import pytest
 
 from derive.cli import ready_made
 from derive.limits import SENTENCE
+from derive.mechanics.toml import problem_of
+from derive.pipeline import walk
 from derive.record.record import RecordError, from_json, to_data, to_json
 from derive.record.sentence import english, listed, phrase, say
 from derive.views.language import language
 from derive.views.text import text
 from tests import walks
+from tests.engine_mutations.jobs import GIVEN
 
 
 def test_many_as_one():
@@ -43,6 +47,17 @@ def test_meanings_with_places_are_written():
     assert symbols["f_u"]["meaning"].startswith("input: thrust, a force on point 2")
     assert symbols["f_u"]["sentences"][0]["message"] == "input: {forces}"
     assert "sentences" not in symbols["m"]
+
+
+def test_a_wrench_beside_forces():
+    """Both are called f_u: the one of the wrench has no index."""
+    forces = '[[input]]\nname = "F"\nkind = "force"\nat = [1, 0, 0]\nframe = "body"\n'
+    d = walk(problem_of(tomllib.loads(GIVEN + forces)))
+    (meaning,) = (s.meaning for s in d.symbols if s.name == "f_u")
+    assert english(meaning) == (
+        "input: u, a force on the body's origin, in the body frame; "
+        "F, a force on point 1, in the body frame"
+    )
 
 
 def nested(depth):

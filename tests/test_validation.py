@@ -425,3 +425,6 @@ def test_files_on_disk_are_read_back_too(tmp_path, capsys):
     path.write_text(changed, encoding="utf-8")
     assert main(command) == 1
     assert "so3.h, so3.c: DIFFERS: rhs: the rate of zeta_1" in capsys.readouterr().err
+    (tmp_path / "so3.h").unlink()
+    assert main(command) == 1
+    assert "so3.h, so3.c: cannot be read back: so3.h is empty or missing" in capsys.readouterr().err

@@ -112,7 +112,8 @@ def _input(group: Group, given: Mapping[str, Any], places: Mapping[int, str]) ->
     name, where = given["name"], places.get(given.get("on", 0), "")
     if given["kind"] == "force":
         frame = "the space frame" if given["frame"] == "space" else "the body frame"
-        return [f"Input {name}: a force on point {given['on']}{where}, in {frame}."]
+        point = f"the body{where}" if where else f"point {given['on']}"
+        return [f"Input {name}: a force on {point}, in {frame}."]
     if group.turns_space and group.affine:
         return [
             f"Input {name}: a moment about the body's origin (its first 3 components) and a force",

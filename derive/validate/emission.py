@@ -71,6 +71,8 @@ class Emission:
             return Report(names, UNREAD, read=False)
         if not self.given:
             return Report(names, FRAMED, read=False)
+        if gone := [name for name in names if not self.files[name]]:
+            return Report(names, f"cannot be read back: {gone[0]} is empty or missing", holds=False)
         whole = "".join(self.files.values())  # all of one emission are tried at the same points
         try:
             verdict = compare(self._module(names), claims, self.numbers, whole)
