@@ -42,6 +42,9 @@ TOP: tuple[Printed, ...] = (
             Equation(metric("J", "α", "δA"), tr("α", "J", bar("δA"))),
             Equation("L̃", add(("div", ("norm2", "J", "α"), 2), neg("Ũ"))),
         ),
+        remark="Before it, J is called positive definite: it is where the masses are not all in "
+        "one plane through the fixed point. A metric on SO(3) needs less: not all on one line "
+        "through it.",
     ),
     Printed(
         23,
