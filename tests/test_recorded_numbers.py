@@ -59,7 +59,8 @@ def environment(name, p, x, u):
     given["ζ"] = column(x[start : start + size])
     given["u"] = column(u[:size])
     names = Names(d, given)
-    env = Environment(n, names, parameters=p)
+    listed = [*d.problem["body"].get("points", []), *d.problem.get("places", [])]
+    env = Environment(n, names, parameters=p, listed=len(listed))
     names.env = env
     for step in d.steps:
         for e in step.equations:
