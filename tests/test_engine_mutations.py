@@ -130,6 +130,15 @@ def test_a_wrong_rule_is_caught(module, change, survey):
     assert verdict.outcome in CAUGHT, verdict
 
 
+def test_another_basis_of_the_same_algebra_is_no_fault(survey):
+    """Transposed units are one of SL(3): all that is derived is true of it, and so is the code."""
+    module, change = "algebra/families.py", "order: q.unit(n, i, j)  →  q.unit(n, j, i)"
+    found = [m for m in mutants(module, (ROOT / module).read_text()) if change in str(m)]
+    one = found[1]  # the first is in so_basis
+    ((_, verdict),) = results([one], survey)
+    assert verdict.outcome == "equations", verdict
+
+
 def test_a_sample_of_all_rules(survey):
     found = list(results(chosen(MODULES, SAMPLE, SEED), survey))
     print(table(counted(found)))

@@ -3,6 +3,7 @@
 They run from unchanged sources, in another process than the engine.
 """
 
+import json
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -35,6 +36,7 @@ class Verdict(NamedTuple):
     why: str = ""
 
 
+ANOTHER = "a group of another basis"
 LATE = "no verdict in time"
 CAUGHT = ("crashed", "refused", "time", "refusal", "checker", "oracle", "validator")
 HARMLESS = ("same", "words", "code", "equations", "less")
@@ -79,6 +81,7 @@ def judged(
         return refusal(job, new, old)
     if new.trouble:
         return Verdict(new.trouble, new.why)
+    new = new._replace(record=of_its_basis(new.record, old.record))
     if (new.record, new.files) == (old.record, old.files):
         return Verdict("same")
     found = equations(new, old) if new.record != old.record else Verdict("same")
@@ -95,6 +98,21 @@ def judged(
     if found.outcome == "same":
         return Verdict("code", "; ".join(k for k in new.files if new.files[k] != old.files.get(k)))
     return found
+
+
+def of_its_basis(new: str, old: str) -> str:
+    """A record of a named group on another basis than the right one, as of a group of that basis.
+
+    The checker knows the bases of the groups by their names, and has it from the same module.
+    """
+    data, right = json.loads(new), json.loads(old)
+    name, basis = data["problem"]["group"], data["problem"]["basis"]
+    if (name, basis) == (right["problem"]["group"], right["problem"]["basis"]):
+        return new
+    data["problem"]["group"] = ANOTHER
+    for step in data["steps"]:
+        step["scope"] = ANOTHER if step["scope"] == name else step["scope"]
+    return json.dumps(data)
 
 
 def refusal(job: Job, new: Output, old: Output) -> Verdict:

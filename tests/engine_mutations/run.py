@@ -119,6 +119,8 @@ def results(
             return k, survey.verdict(found[k])
         except TimeoutError:
             return k, Verdict("survived", LATE)
+        except Exception as error:  # the judge has to be mended; the run goes on
+            return k, Verdict("survived", f"no verdict: {type(error).__name__}: {error}"[:200])
         finally:
             signal.alarm(0)
 
