@@ -14,7 +14,7 @@ from .evaluate import Environment, evaluate, point_index
 from .given import exerted_families, exerted_values
 from .model import Direction, Model, Vector
 from .nilpotent import EPS, EPS_PRIME, derivative_of, nilpotent, part
-from .points import listed
+from .points import listed_count
 from .realised import integral
 from .solved import solved_values
 from .spatial import axial, moments_about, spatial_values
@@ -40,7 +40,7 @@ def environment(model: Model) -> Environment:
         _functions(model),
         model.parameters,
         elementary=model.elementary,
-        listed=listed(model),
+        listed=listed_count(model),
     )
 
 

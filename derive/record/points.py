@@ -37,7 +37,7 @@ def points_of(model: Model) -> Points:
     return empty + masses, places + points, blocks + [1] * len(points)
 
 
-def listed(model: Model) -> int:
+def listed_count(model: Model) -> int:
     """How many points the problem lists: they come first, and an equation may name them."""
     if model.opaque:
         return 0
