@@ -103,6 +103,11 @@ FALSE = {
         "so3.cartan",
         claims("m", ["add", *(["at", "m", i] for i in (1, 2, 3, 4))]),
     ),
+    "the point before the first": (
+        "so3",
+        "linear.action",
+        claims(["call", ["at", "r", 0], "t"], ["mul", "A", ["at", "r", 0]]),
+    ),
     "equal masses of a solid": ("top", "top.cartan", claims(["at", "m", 2], ["at", "m", 3])),
     "a symmetric solid": (
         "top",
@@ -148,6 +153,7 @@ WHY = {
     "no value of an index": "not that of the same members",
     "few values of an index": "not that of the same members",
     "an input of any group": "an input is of a problem",
+    "the point before the first": "lists no point 0",
     "four points": "lists no point 1",
     "equal masses of a solid": "lists no point 2",
     "points in principal axes": "lists no point 1",

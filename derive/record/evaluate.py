@@ -182,7 +182,7 @@ def index_values(t: Tree, index: str, env: Environment) -> list[int]:
 
 def point_index(i: Any, env: Environment) -> int:
     """The number of a point: by an index, or named where the problem lists it."""
-    if isinstance(i, int) and i > env.listed:
+    if isinstance(i, int) and not 1 <= i <= env.listed:
         raise EvaluationError(f"the problem lists no point {i}")
     return _index(i, env)
 

@@ -3,30 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 from functools import partial
 
+from ..algebra import rational as q
 from ..algebra.families import group, turning_about_a_point
 from ..algebra.given import group_of_basis
 from ..algebra.groups import Group
-from ..algebra.rational import Matrix
-
-
-def _unit(size: int, i: int, j: int) -> Matrix:
-    """1 in row i, column j, counted from 1."""
-    return tuple(
-        tuple(Fraction((a, b) == (i, j)) for b in range(1, size + 1)) for a in range(1, size + 1)
-    )
 
 
 def triangular() -> Group:
     """The upper triangular maps of the plane."""
-    return group_of_basis("B(2)", "linear", [_unit(2, *at) for at in ((1, 1), (1, 2), (2, 2))])
+    return group_of_basis("B(2)", "linear", [q.unit(2, *at) for at in ((0, 0), (0, 1), (1, 1))])
 
 
 def triangular_affine() -> Group:
     """The same with the translations along the first axis."""
-    basis = [_unit(3, *at) for at in ((1, 1), (1, 2), (2, 2), (1, 3))]
+    basis = [q.unit(3, *at) for at in ((0, 0), (0, 1), (1, 1), (0, 2))]
     return group_of_basis("B(2) ⋉ R", "affine", basis)
 
 
