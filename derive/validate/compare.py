@@ -167,8 +167,7 @@ class Comparison:
         states = [dict(given) for _ in range(count)]
         for other in states[1:]:
             for name, d in degrees.items():
-                count = len(given[name].values)
-                drawn = [Fraction(self.random.randint(1, self.claims.size)) for _ in range(count)]
+                drawn = [self._draw() for _ in given[name].values]
                 other[name] = self._array(drawn, name, d)
         both = dict(given) | {"n": len(states)}
         for name in degrees:
@@ -179,6 +178,9 @@ class Comparison:
         for s, other in enumerate(states[1:], 1):
             rates = self._call("rhs", other, dx=size)["dx"]
             self._same("rhs_batch", self._rates, found[s :: len(states)], rates)
+
+    def _draw(self) -> Fraction:
+        return Fraction(self.random.randint(1, self.claims.size))
 
     def _jacobians(self, given: Mapping[str, Any]) -> list[str]:
         plain = Machine(self.module, self.point.elementary, self.literal)
