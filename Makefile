@@ -1,7 +1,9 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
-STAMP := $(VENV)/.installed
+# LOCKED=1: the very files whose hashes are in requirements-dev.lock, and no others
+STAMP := $(VENV)/.installed$(if $(LOCKED),-locked)
+INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 .PHONY: help derive test coverage mutants dist notes bench accuracy fuzz lint lock clean
 
@@ -12,7 +14,8 @@ derive: $(STAMP) ## walk SO(3), SE(3), SL(3): print every equation, regenerate g
 	$(BIN)/derive build --print
 
 test: $(STAMP)   ## lint, types and all tests
-	@command -v gcc >/dev/null || { echo "make test: gcc is not on the path; install a C compiler" >&2; exit 2; }
+	@{ command -v cc || command -v gcc || command -v clang; } >/dev/null || \
+	  { echo "make test: no C compiler on the path: install gcc or clang" >&2; exit 2; }
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/python -m pytest -n 2
@@ -35,12 +38,14 @@ notes: $(STAMP)  ## lecture notes of SO(3), SE(3), SL(3): notes.pdf and notes.ht
 dist: $(STAMP)   ## minutes more of tests: wheels, old and new versions, every build of the C
 	$(BIN)/python -m pytest -m dist -n 2 --dist loadfile -rP
 
-lock:            ## the versions that are newest now into requirements-dev.lock
+lock:            ## the versions that are newest now, and the hashes of their files, into requirements-dev.lock
 	rm -rf build/lock
 	$(PYTHON) -m venv build/lock
-	build/lock/bin/python -m pip install --quiet --disable-pip-version-check --editable ".[test]"
-	@{ echo "# make lock; to have these versions: PIP_CONSTRAINT=requirements-dev.lock make test"; \
-	  build/lock/bin/python -m pip freeze --exclude-editable | LC_ALL=C sort -f; } > requirements-dev.lock
+	build/lock/bin/python -m pip install --quiet --disable-pip-version-check uv
+	printf 'hatchling\neditables\n' | build/lock/bin/uv pip compile --quiet --upgrade --universal \
+	  --generate-hashes --extra test --no-annotate --no-emit-find-links \
+	  --custom-compile-command "make lock; to have these versions: make test LOCKED=1" \
+	  --output-file requirements-dev.lock pyproject.toml -
 	rm -rf build/lock
 
 bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside its peers
@@ -58,7 +63,12 @@ fuzz: $(STAMP)   ## random problems and 100000 changed files of every kind: half
 clean:           ## remove the virtual environment and caches
 	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache
 
-$(STAMP): pyproject.toml
-	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[test]"
+$(STAMP): pyproject.toml $(if $(LOCKED),requirements-dev.lock)
+	@$(BIN)/python -m pip --version >/dev/null 2>&1 || $(PYTHON) -m venv $(VENV)
+ifdef LOCKED
+	$(INSTALL) --require-hashes --requirement requirements-dev.lock
+	$(INSTALL) --no-deps --no-build-isolation --editable .
+else
+	$(INSTALL) --editable ".[test]"
+endif
 	touch $(STAMP)

@@ -1,4 +1,4 @@
-"""What the emitted C of a problem is made from: a depfile for ninja, or a stamp for make.
+"""What the emitted code of a problem is made from: a depfile for ninja, or a stamp for make.
 
     python derive_depfile.py FILE.d OUTPUT PROBLEM
     python derive_depfile.py --stamp FILE PROBLEM       # written when any of it has changed
@@ -14,16 +14,18 @@ from pathlib import Path
 from typing import Any
 
 import derive
+from derive.code.languages import LANGUAGES
 from derive.templating import folder
 
 
 def sources(problem: str) -> Iterator[Path]:
-    """The files that the emitted C of a problem is made from."""
+    """The files that the emitted code of a problem is made from."""
     package = Path(derive.__file__).parent
     yield from package.rglob("*.py")
-    yield from folder("c").iterdir()
+    for name in LANGUAGES:
+        yield from folder(name).iterdir()
     # named by the version: gone after an upgrade, whatever the times of the new files are
-    yield from package.parent.glob("derive-*.dist-info/METADATA")
+    yield from package.parent.glob("derive_mechanics-*.dist-info/METADATA")
     if not problem.endswith(".toml"):
         yield package / "problems" / f"{problem}.toml"
         return

@@ -178,10 +178,12 @@ def Problem(
     parameters: Mapping[str, Any] | None = None,
     title: str | None = None,
     negative_mass: bool = False,
+    negative_stiffness: bool = False,
 ) -> mechanics.Problem:
     """A problem from its tables; ``ProblemError`` says what is wrong.
 
-    ``negative_mass``: may a mass be given as a negative number?
+    ``negative_mass``, ``negative_stiffness``: may a mass, or the stiffness of a spring and the
+    coefficient of a damping, be given as a negative number?
     """
     named = Group(group) if isinstance(group, str) else group
     data: dict[str, Any] = {"name": name, "group": named.table()}
@@ -193,7 +195,7 @@ def Problem(
             data["body"] = table.fields
         else:
             data.setdefault(table.key, []).append(table.fields)
-    return problem_of(data, negative_mass=negative_mass)
+    return problem_of(data, negative_mass=negative_mass, negative_stiffness=negative_stiffness)
 
 
 def _tables(given: Any) -> list[Table]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import difflib
-import io
 import os
 import sys
 from collections.abc import Sequence
@@ -13,6 +12,7 @@ from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .encoding import as_in_a_file, said
 from .guard import StoppedError, one_line, within
 from .mechanics.problem import Problem, ProblemError
 from .progress import counted
@@ -20,7 +20,7 @@ from .record.record import Derivation, RecordError
 from .rendering import NOTES, RenderError, notes, pdf, render, unprinted
 
 if TYPE_CHECKING:
-    from .record.check import Verdict
+    from .check.checker import Verdict
 
 READY = resources.files("derive") / "problems"
 
@@ -37,42 +37,53 @@ def ready_made() -> list[str]:
     return sorted(f.name.removesuffix(".toml") for f in READY.iterdir() if f.name.endswith(".toml"))
 
 
-def load_problem(name: str, negative_mass: bool = False) -> Problem:
-    """A ready-made problem by name, or a TOML file by path."""
+def load_problem(name: str, **allowed: bool) -> Problem:
+    """A ready-made problem by name, or a TOML file by path; ``allowed``: as ``load`` has it."""
     from .mechanics.toml import load
 
     if name in ready_made():
         return load(Path(str(READY / f"{name}.toml")))
     path = Path(name)
     if path.suffix == ".toml" or path.exists():
-        return load(path, negative_mass)
+        return load(path, **allowed)
     near = difflib.get_close_matches(name.lower(), ready_made(), 1)
-    hint = f"did you mean {near[0]!r}? " if near else ""
+    if path.with_name(f"{path.name}.toml").is_file():
+        near = [f"{name}.toml"]
+    hint = f"did you mean {near[0][:60]!r}? " if near else ""
     raise UsageError(
         f"unknown problem {name[:60]!r}; {hint}ready-made: {', '.join(ready_made())}; "
         "or give a .toml file"
     )
 
 
-def derive(name: str, negative_mass: bool = False) -> tuple[Problem, Derivation]:
-    """A problem and its record; a negative mass that is allowed gets a warning."""
-    from .mechanics.inertia import negative_mass as where
+def derive(name: str, **allowed: bool) -> tuple[Problem, Derivation]:
+    """A problem and its record; what may be doubted in it gets a warning."""
+    from .mechanics.doubts import doubts
     from .pipeline import walk
 
-    problem = load_problem(name, negative_mass)
-    if found := where(problem.body, problem.parameters):
-        print(f"derive: warning: {one_line(name)}: {found} is negative", file=sys.stderr)
+    problem = load_problem(name, **allowed)
+    for doubt in doubts(problem):
+        print(f"derive: warning: {one_line(name)}: {one_line(doubt)}", file=sys.stderr)
     try:
         return problem, walk(problem)
     except ProblemError as error:
         raise UsageError(f"{name}: {error}") from None
 
 
-def save(text: str, out: str | None) -> None:
-    """To stdout, or whole to a file."""
+def allowed(args: argparse.Namespace) -> dict[str, bool]:
+    """What may be negative, as the flags say."""
+    from .arguments import ALLOWED
+
+    return {f"negative_{x}": getattr(args, f"allow_negative_{x}") for x in ALLOWED}
+
+
+def save(text: str, out: str | None, form: str) -> None:
+    """A text of one of the formats to stdout, or whole to a file."""
     from .writing import write
 
     if out is None:
+        if form != "text":
+            as_in_a_file()
         sys.stdout.write(text if text.endswith("\n") else text + "\n")
     else:
         path = Path(out)
@@ -89,11 +100,11 @@ def command_list(_: argparse.Namespace) -> int:
 
 def command_walk(args: argparse.Namespace) -> int:
     """Print the walk of a problem."""
-    record = derive(args.problem, args.allow_negative_mass)[1]
+    record = derive(args.problem, **allowed(args))[1]
     shown = render(record, args.format, args.lang, fragment=args.fragment, **notation(args))
     if args.format == "latex":
         warn_of_letters([record])
-    save(shown, args.out)
+    save(shown, args.out, args.format)
     return 0
 
 
@@ -135,17 +146,23 @@ def notation(args: argparse.Namespace) -> dict[str, str]:
 
 def command_emit(args: argparse.Namespace) -> int:
     """Write the numeric code of a problem."""
-    from .code.emit import emit, included
+    from .code.emit import emit, included, planned
     from .code.options import CHOICES, Options
     from .pipeline import program
     from .validation import validated
     from .writing import stale, there, write
 
-    problem, record = derive(args.problem, args.allow_negative_mass)
+    languages = tuple(dict.fromkeys(args.lang or ("c", "python")))
+    if args.names:
+        prefix = args.prefix  # with one, the problem need not be there
+        if prefix is None:
+            prefix = load_problem(args.problem, **allowed(args)).name
+        print(*planned(languages, prefix, args.form), sep="\n")
+        return 0
+    problem, record = derive(args.problem, **allowed(args))
     chosen = {name: getattr(args, name) for name in CHOICES}
     options = Options(**chosen, jacobian=tuple(dict.fromkeys(args.jacobian or ())))
     compiled = program(problem, record, options)
-    languages = tuple(dict.fromkeys(args.lang or ("c", "python")))
     prefix = problem.name if args.prefix is None else args.prefix
     files, folder = emit(compiled, record, languages, prefix, options), Path(args.out or ".")
     old = stale(files, folder, included(languages)) if args.check else {}
@@ -164,45 +181,46 @@ def command_emit(args: argparse.Namespace) -> int:
 
 def command_check(args: argparse.Namespace) -> int:
     """Re-check every recorded step, independently of the code that derived it."""
-    from .record.check import verdicts as check
+    from .check.checker import fresh_seed
+    from .check.checker import verdicts as check
     from .record.record import read
 
-    failed = 0
+    failed, seed = 0, fresh_seed() if args.seed is None else args.seed
     for name in args.problem:
-        if name.endswith(".json"):
-            record = read(Path(name))
-        else:
-            record = derive(name, args.allow_negative_mass)[1]
-        verdicts = list(counted(check(record), len(record.steps), name))
+        stored = name.endswith(".json")
+        record = read(Path(name)) if stored else derive(name, **allowed(args))[1]
+        verdicts = list(counted(check(record, seed), 1 + len(record.steps), name))
         for v in verdicts:
             said = _tried(v) if v.holds else one_line(v.reason)
             print(f"{'holds' if v.holds else 'FAILS'}  {v.label}: {said}")
-        bad = sum(not v.holds for v in verdicts)
-        bound = max(v.bound for v in verdicts)
+        bad, steps = sum(not v.holds for v in verdicts), [v for v in verdicts if v.of == "equation"]
+        holding, bound = sum(v.holds for v in steps), max(v.bound for v in verdicts)
         print(
-            f"{one_line(name)}: {len(verdicts) - bad} of {len(verdicts)} steps hold exactly"
+            f"{one_line(name)}: {holding} of {len(steps)} steps hold exactly"
+            + (", but the symbols are not as declared" if bad + holding > len(steps) else "")
             + ("" if bad else f"; a false one passes with probability below {bound:.0e}")
         )
         failed += bad
+    print(f"seed {seed} (--seed repeats this run)")
     return 1 if failed else 0
 
 
 def _tried(v: Verdict) -> str:
     """On what a step was found to hold."""
     count, groups = v.tried
-    return f"{count} equation{'s' * (count != 1)} on {', '.join(groups)}"
+    return f"{count} {v.of}{'s' * (count != 1)} on {', '.join(groups)}"
 
 
 def command_paper(args: argparse.Namespace) -> int:
     """The paper's numbered equations against the derivation."""
-    from .record import paper
+    from .paper import findings as paper
     from .views.language import language
     from .views.paper import as_json, as_text
 
     records = [derive(name)[1] for name in paper.PROBLEMS]
     findings = list(counted(paper.findings(records), len(paper.PAPER), "equations"))
     shown = as_json(findings) if args.format == "json" else as_text(findings, language(args.lang))
-    save(shown, args.out)
+    save(shown, args.out, args.format)
     return 0
 
 
@@ -269,11 +287,10 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     if sys.stdout is None:  # closed by who started us
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
-    if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(errors="replace")  # a terminal without these letters shows ?
     try:
-        status = run(parser(COMMANDS, ABOUT), argv)
-        sys.stdout.flush()
+        with said():
+            status = run(parser(COMMANDS, ABOUT), argv)
+            sys.stdout.flush()
         return status
     except (*REFUSED, EmitError, LoweringError, MissingParserError, WriteError) as error:
         print(f"derive: {one_line(error)}", file=sys.stderr)

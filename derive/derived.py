@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .check.checker import Verdict
 from .mechanics.problem import Problem
-from .record.check import Verdict
 from .record.record import Derivation, Equation, Step, Symbol
 
 if TYPE_CHECKING:
@@ -153,11 +153,12 @@ class Derived:
 
         return render(self.record, "latex", lang, transpose=transpose, hat=hat)
 
-    def check(self) -> list[Verdict]:
-        """A verdict for every step, by exact arithmetic and another road."""
-        from .record.check import check
+    def check(self, seed: int | None = None) -> list[Verdict]:
+        """A verdict for every step, by exact arithmetic and another road, at points that are new
+        each time; the same ``seed`` gives the same points."""
+        from .check.checker import check
 
-        return check(self.record)
+        return check(self.record, seed)
 
     def expressions(self) -> Expressions:
         """The equations of motion in coordinates, as SymPy expressions."""

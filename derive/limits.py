@@ -48,6 +48,16 @@ more than 4300 digits are not written by Python."""
 DEGREE = 1000
 """Of an expression; the checker's bound on a false pass grows with it."""
 
+# -- emitted code -------------------------------------------------------------------------------
+
+OPERANDS = 300_000
+"""Of all values of one program.  Sp(8) has 158656, of which 66436 operations are left: gcc takes
+half a minute and 0.5 GB for them."""
+SLOPES = 4000
+"""Entries of the linearised equations by the state: 3600 are those of Aff(5)."""
+SLOPES_BY_PARAMETERS = 2000
+"""The same by parameters: Aff(5) with symbolic moments has 1260, and takes seconds."""
+
 # -- meshes -------------------------------------------------------------------------------------
 
 MESH_BYTES, MESH_LINES, MESH_LINE = 50_000_000, 2_000_000, 20_000

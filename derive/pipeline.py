@@ -6,9 +6,12 @@
     pull-back   Lagrangian            Pullback      walk.pullback
     Cartan      Pullback              Cartan        walk.cartan
     exterior    Cartan                Exterior      walk.exterior
-    kernel      Exterior              Kernel        walk.kernel
+    kernel      Exterior              Ambient       walk.kernel
+    trivial     Cartan, Ambient       steps         walk.cartan, exterior, kernel
+    momentum    Cartan                Momenta       walk.momentum
     isometry    Cartan                Isometry      walk.isometry      SO(3), SE(3)
     vectors     Isometry              VectorForm    walk.vector        n = 3
+    coadjoint   Momenta               steps         walk.coadjoint     SO(n), SE(n)
     elimination VectorForm            Eliminated    walk.elimination   SE(3)
     special     General, Potentials   Special       walk.special       any other group
     translation Special               Centred       walk.translation   H ⋉ Rⁿ
@@ -16,7 +19,8 @@
     mass        Special or Centred    steps         walk.mass          the others, in coordinates
     motion      all of these          steps         walk.rotation
 
-Every stage returns its value together with the steps it took; the record is their sequence.
+Every stage returns its value together with the steps it took; the record is their sequence, with
+what each uses (walk.lineage) and supposes (walk.supposed).
 """
 
 from __future__ import annotations
@@ -26,17 +30,18 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from .algebra.groups import Group
-from .algebra.tree import names
 from .mechanics.data import data
 from .mechanics.frame import principal
 from .mechanics.problem import ForceInput, Problem, ProblemError
 from .record.record import Derivation, Step, Symbol, encode
-from .record.sentence import Sentence, listed, phrase, say
-from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
+from .record.sentence import Prose, Sentence, listed, phrase, say
+from .record.uses import of_steps
+from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, Name
 from .walk.alphabet import Alphabet
 from .walk.body import body_step
 from .walk.cartan import cartan, trivialise
 from .walk.chapter import Chapter
+from .walk.coadjoint import coadjoint_vectors
 from .walk.components import tensor_steps
 from .walk.conserved import conserved_steps, matrix_momenta, vector_momenta
 from .walk.coordinates import coordinates_step
@@ -46,7 +51,9 @@ from .walk.inputs import given_matrices, given_vectors
 from .walk.isometry import Isometry, isometry
 from .walk.kernel import kernel, kernel_trivialised
 from .walk.lagrangian import lagrangian
+from .walk.lineage import traced
 from .walk.mass import mass_steps
+from .walk.momentum import Momenta, momentum_form
 from .walk.multipliers import multiplier_steps
 from .walk.potential import potentials
 from .walk.pullback import pullback
@@ -60,8 +67,9 @@ from .walk.rotation import (
 )
 from .walk.separation import kinetic_separation, potential_separation
 from .walk.special import General, Special, specialise
+from .walk.supposed import supposing_all
 from .walk.translation import eliminate_translation
-from .walk.vector import vector_form
+from .walk.vector import identified, vector_form
 
 if TYPE_CHECKING:
     from .code.options import Options
@@ -76,10 +84,11 @@ emitted code are then fewer than through the mass matrix (tests/test_roads.py)."
 
 def walk(problem: Problem) -> Derivation:
     """Derive the equations of motion of a problem."""
-    road = general_road(affine=problem.affine)
+    road = general_road(affine=problem.affine, signed=problem.signed)
     steps = road.steps
     if problem.group is not None:
         steps += road_of(problem, problem.group, road)
+    steps = supposing_all(traced(steps))
     return Derivation(_data(problem), _symbols(steps, problem), steps)
 
 
@@ -98,90 +107,105 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
 
 
 @cache
-def general_road(*, affine: bool) -> General:
-    """The road of any group, which several problems share."""
-    return road_of_any_group(Alphabet("n", affine=affine), "affine" if affine else "linear")
+def general_road(*, affine: bool, signed: bool = False) -> General:
+    """The road of any group, which several problems share; ``signed``: masses may be negative."""
+    return road_of_any_group(Alphabet("n", affine=affine, signed=signed))
 
 
-def road_of_any_group(a: Alphabet, name: str) -> General:
+def road_of_any_group(a: Alphabet) -> General:
     """Exercise 1: L → L̃ → ϖ → dϖ → kernel for every matrix group, in space and trivialised."""
-    L = lagrangian(a, name)
-    pulled = pullback(L, a, name)
-    form = cartan(pulled, a, name)
-    derivative = exterior(form, a, name)
-    ambient = kernel(derivative, a, name)
-    trivial = trivialise(form, a, name)
-    trivial_derivative = exterior_trivialised(derivative, trivial, a, name)
-    motion = kernel_trivialised(trivial_derivative, a, name)
-    stages = (L, pulled, form, derivative, ambient, trivial, trivial_derivative, motion)
-    steps = tuple(step for stage in stages for step in stage.steps)
+    c = Chapter(a.chapter)
+    L = lagrangian(a, c)
+    pulled = pullback(L, a, c)
+    form = cartan(pulled, a, c)
+    derivative = exterior(form, a, c)
+    ambient = kernel(derivative, a, c)
+    trivial = trivialise(form, a, c)
+    trivial_derivative = exterior_trivialised(derivative, trivial, a, c)
+    motion = kernel_trivialised(trivial_derivative, ambient, trivial, a, c)
+    momenta = momentum_form(trivial, a, c)
+    stages = (L, pulled, form, derivative, ambient, trivial, trivial_derivative)
+    steps = (*(step for stage in stages for step in stage.steps), *motion, *momenta.steps)
     if a.affine:
-        steps += (kinetic_separation(pulled.kinetic, a, name),)
-    return General(name, a, form.momentum, trivial, trivial_derivative, motion, steps)
+        steps += (kinetic_separation(pulled.kinetic, a, c),)
+    return General(a, form.momentum, pulled.pushed, trivial, trivial_derivative, momenta, steps)
 
 
 def road_of(problem: Problem, group: Group, road: General) -> Steps:
     """The specialisation to the group, the body and the potentials of the problem."""
-    name, scope = problem.name, group.name
-    first = body_step(problem, name, scope)
-    chapter = Chapter(name, road.name, scope)
+    c = Chapter(problem.name, group.name)
+    first = body_step(problem, c)
     if group.turns_space:
-        stage = isometry(road.cartan, road.letters, group.n, name, road.name, scope)
-        return first + stage.steps + road_of_space(problem, stage, chapter)
-    v = potentials(problem, Alphabet(group.n, affine=group.affine), name, road.name, scope)
-    own = specialise(road, group, v, chapter)
-    last = potential_separation(problem, v, own.letters, chapter) if group.affine else ()
+        stage = isometry(road.cartan, road.letters, group.n, c)
+        return first + stage.steps + road_of_space(problem, road.momenta, stage, first, c)
+    v = potentials(problem, Alphabet(group.n, affine=group.affine), c)
+    own = specialise(road, group, v, c)
+    last = potential_separation(problem, v, own.letters, c) if group.affine else ()
     momenta = matrix_momenta(road.momentum, road.letters)
-    kept = conserved_steps(problem, v, momenta, own.letters, chapter, vectors=False)
-    return first + road_of_matrices(problem, group, own, chapter) + last + kept
+    steps, motion = road_of_matrices(problem, group, own, c)
+    kept = conserved_steps(problem, v, momenta, motion, own.letters, c, vectors=False)
+    return (*first, *steps, *own.last, *last, *kept)
 
 
-def road_of_matrices(problem: Problem, group: Group, stage: Special, c: Chapter) -> Steps:
-    """Any other group: the translation eliminated, then one multiplier or the mass matrix."""
-    b, steps, uses = stage.letters, stage.steps, ".equations force"
+def road_of_matrices(
+    problem: Problem, group: Group, stage: Special, c: Chapter
+) -> tuple[Steps, Step]:
+    """Any other group: the translation eliminated, then one multiplier or the mass matrix.
+
+    Also: the step of the motion.
+    """
+    b, steps = stage.letters, stage.steps
     multiplied = len(group.normal_space_of_linear_parts) <= MULTIPLIERS
     place = coordinates_step(group, b, c, reading=multiplied)
     given = given_matrices(problem, b, stage.gram, c.with_input())
     if given is not None:
         stage = stage.pushed(given.moments, given.resultant)
-        c, uses = c.with_input(), f"{uses} input"
+        c = c.with_input()
         steps += given.steps
     inertial, force, metric = stage.inertial, stage.forces[b.Z.xi_prime], b.J
-    centred = eliminate_translation(stage, uses, c) if group.affine else None
+    centred = eliminate_translation(stage, c) if group.affine else None
     if centred is not None:
         inertial, force, metric = centred.inertial, centred.force, centred.metric
-        steps, uses = steps + centred.steps, "elimination"
+        steps += centred.steps
     if multiplied:
-        motion = multiplier_steps(inertial, force, metric, group, b, uses, c, centred)
-        return (*steps, *motion, place, *stage.last)
-    return (*steps, place, *mass_steps(inertial, force, b, uses, c, centred), *stage.last)
+        _, motion, _ = solved = multiplier_steps(inertial, force, metric, group, b, c, centred)
+        return (*steps, *solved, place), motion
+    _, motion = solved = mass_steps(inertial, force, place, b, c, centred)
+    return (*steps, place, *solved), motion
 
 
-def road_of_space(problem: Problem, stage: Isometry, c: Chapter) -> Steps:
+def road_of_space(
+    problem: Problem, momenta: Momenta, stage: Isometry, body: Steps, c: Chapter
+) -> Steps:
     """SO(3) and SE(3) in vectors: Euler's equations and principal axes, or the translation
     eliminated; then the forces of the problem and what is given."""
-    name, general, scope, b = c.name, c.general, c.scope, stage.letters
-    vectors = vector_form(stage, name, general, scope)
-    v = potentials(problem, b, name, general, scope, vectors=True)
-    given = given_vectors(problem, b, c.with_input())
+    b = stage.letters
+    read, named = identified(stage, c)
+    vectors = vector_form(stage, read, c)
+    v = potentials(problem, b, c, stage.gram)
+    given = given_vectors(problem, b, stage.gram, read, c.with_input())
+    forces, torque = torque_step(v, stage, read, c)
     if b.affine:
-        eliminated = eliminate(vectors, b, name, scope)
+        eliminated = eliminate(vectors, b, c)
         steps: Steps = eliminated.steps
-        motion = displacement_motion(eliminated, v, b, given, c)
+        motion = displacement_motion(eliminated, forces, b, read, given, c)
     else:
-        euler = euler_step(vectors, name, scope)
-        steps = (euler, principal_step(name, scope, euler.equations[0].rhs))
-        motion = spherical_motion(vectors, v, stage, given, c)
+        euler = euler_step(vectors, b, c)
+        steps = (euler, principal_step(euler, c))
+        motion = spherical_motion(vectors, forces, b, read, given, c)
+    inertia = steps[0] if b.affine else named[1]
     return (
+        *named,
+        *coadjoint_vectors(momenta, stage, read, c),
         *vectors.steps,
         *steps,
         *v.steps,
-        torque_step(v, stage, name, general, scope),
+        torque,
         *(given.steps if given else ()),
         motion,
-        *tensor_steps(problem, motion, c),
-        energy_step(stage, v, name, scope),
-        *conserved_steps(problem, v, vector_momenta(stage), b, c, vectors=True),
+        *(tensor_steps(problem, body[-1], inertia, motion, c) if body else ()),
+        energy_step(stage, v, read, c),
+        *conserved_steps(problem, v, vector_momenta(stage, read), motion, b, c, vectors=True),
     )
 
 
@@ -197,30 +221,45 @@ def _data(problem: Problem) -> dict[str, object]:
 
     basis = problem.group.basis if problem.group else ()
     rows = [[[str(x) for x in row] for row in e] for e in basis]
-    found = data(problem) | {"basis": rows, "conventions": list(CONVENTIONS)}
+    n = problem.group.n if problem.group else "any"
+    found = data(problem) | {"n": n, "basis": rows, "conventions": list(CONVENTIONS)}
     return {k: plain(v) for k, v in found.items()}
 
 
 def _symbols(steps: Steps, problem: Problem) -> tuple[Symbol, ...]:
     """The names that the steps use, in the order in which they appear."""
+    meant, group = _meant(problem), problem.group
+    sizes = _sizes(group) if group else {}
+    said = {x: say(about.meaning) for x, about in meant.items()}
+    if problem.pushes:
+        said["f_u"] = _inputs(problem)
+    used = of_steps(steps, meant, sizes)
+    return tuple(Symbol(x, said[x], meant[x].latex, uses) for x, uses in used.items())
+
+
+def _sizes(group: Group) -> dict[str, int]:
+    """What the letters of sizes stand for; a block is of none where the factors are of several."""
+    sizes = {"n": group.n, "d": len(group.linear_basis), "dim": group.dimension}
+    blocks = {factor.n for _, factor in group.places}
+    return sizes | ({"block": blocks.pop()} if len(blocks) == 1 else {})
+
+
+def _meant(problem: Problem) -> dict[str, Name]:
+    """What the names mean in a problem."""
     group = problem.group
-    used: dict[str, None] = {}
-    for step in steps:
-        for equation in step.equations:
-            for side in (equation.lhs, equation.rhs):
-                used |= dict.fromkeys(names(side))
     blocks = PRODUCTS if group and group.factors and not group.affine else {}
     turning = group is not None and group.turns_space
     own = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
-    own |= blocks
-    meanings = {x: say(own.get(x, about)) for x, (about, _) in VOCABULARY.items()}
-    if problem.pushes:
-        forces = [_force(x) for x in problem.pushes]
-        if problem.covector and "f_u" in own:
-            at_origin = "{name}, a force on the body's origin, in the body frame"
-            forces.insert(0, phrase(at_origin, name=problem.covector.name))
-        meanings["f_u"] = say("input: {forces}", forces=listed("{first}; {second}", forces))
-    return tuple(Symbol(x, meanings[x], VOCABULARY[x][1]) for x in used if x in VOCABULARY)
+    return VOCABULARY | own | blocks
+
+
+def _inputs(problem: Problem) -> Prose:
+    """What f_u means where forces are given."""
+    forces, group = [_force(x) for x in problem.pushes], problem.group
+    if problem.covector and group and group.turns_space and group.affine:
+        at_origin = "{name}, a force on the body's origin, in the body frame"
+        forces.insert(0, phrase(at_origin, name=problem.covector.name))
+    return say("input: {forces}", forces=listed("{first}; {second}", forces))
 
 
 def _force(given: ForceInput) -> Sentence:

@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from .record.paper import Finding
+from .paper.findings import Finding
 from .record.record import Derivation
 
 FORMATS = ("text", "latex", "markdown", "html", "json")
@@ -103,12 +103,12 @@ def unprinted(records: Sequence[Derivation]) -> str:
 
 
 def corrections(records: Sequence[Derivation]) -> list[Finding]:
-    """The findings about the numbers that these records have and the paper misprints."""
-    from .record.paper import misprints
-    from .record.vocabulary import MISPRINTED
+    """The findings about the numbers that these records have and the paper prints otherwise."""
+    from .paper.findings import amendments
+    from .record.vocabulary import AMENDED
 
-    numbers = {n for d in records for step in d.steps for n in step.paper} & MISPRINTED
-    return misprints(numbers) if numbers else []
+    numbers = {n for d in records for step in d.steps for n in step.paper} & AMENDED
+    return amendments(numbers) if numbers else []
 
 
 def pdf(tex: str) -> bytes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import keyword
+import re
 
 _C = """
     auto bool break case char const constexpr continue default do double else enum extern false
@@ -25,7 +26,7 @@ _MATH = """
 _MACROS = """
     isfinite isinf isnan isnormal signbit fpclassify isgreater isless isunordered signgam
     M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2
-    HUGE_VAL INFINITY NAN FP_NAN FP_INFINITE FP_ZERO FP_NORMAL FP_SUBNORMAL math_errhandling
+    NULL HUGE_VAL INFINITY NAN FP_NAN FP_INFINITE FP_ZERO FP_NORMAL FP_SUBNORMAL math_errhandling
     """
 
 _FUNCTIONS = [name + suffix for name in _MATH.split() for suffix in ("", "f", "l")]
@@ -38,3 +39,13 @@ WORDS: dict[str, str] = (
     | dict.fromkeys(_C.split(), "a keyword of C")
 )
 """Each word with what it is."""
+
+PLACE = re.compile(r"r(0|[1-9][0-9]{0,3})_(?:([xyz])|([0-9]))")
+"""A coordinate of a point in space, as an expression names it: r1_x, r2_1."""
+CONSTANTS = {"t": "the time", "pi": "the number π"}
+"""What a name means in every expression."""
+
+
+def taken(name: str) -> str:
+    """What a name means in an expression, so that no parameter has it; else empty."""
+    return CONSTANTS.get(name, "a place of a point" if PLACE.fullmatch(name) else "")

@@ -9,13 +9,16 @@ import re
 TOKEN = re.compile(r"[A-Za-z_]\w*|[0-9]+\.[0-9]*(?:e[+-]?[0-9]+)?f?|[0-9]+(?:e[+-]?[0-9]+)?|\S")
 BODIES = {
     "c": re.compile(
-        r"^\w[^\n]*_(constants|rhs|rhs_batch|energy)\([^;{]*?\)\n\{\n(.*?)^\}", re.M | re.S
+        r"^\w[^\n]*_(constants|rhs|rhs_batch|energy|project|defect)\([^;{]*?\)\n\{\n(.*?)^\}",
+        re.M | re.S,
     ),
-    "python": re.compile(r"^def _(constants|rhs|energy)\([^)]*\):\n(.*?)(?=^def |\Z)", re.M | re.S),
+    "python": re.compile(
+        r"^def _(constants|rhs|energy|project|defect)\([^)]*\):\n(.*?)(?=^def |\Z)", re.M | re.S
+    ),
 }
 CHECKS = {"c": r"    if \(.*", "python": r"    tests = \[.*?^    \]$|, tests$"}
 COMMENTS = {"c": r"/\*.*?\*/|^#[^\n]*", "python": r"#[^\n]*"}
-WORDS = "const double float return int for void size_t xp fabs abs sqrt s n _ p x k u dx t"
+WORDS = "const double float return int for void size_t xp fabs abs sqrt s n _ p x k u dx out t"
 KEPT = frozenset(WORDS.split(" "))
 
 

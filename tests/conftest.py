@@ -4,6 +4,8 @@ import sys
 
 import pytest
 
+from tests.needs import left_out
+
 
 @pytest.hookimpl(wrapper=True, trylast=True)
 def pytest_runtest_call(item):
@@ -19,3 +21,11 @@ def pytest_runtest_call(item):
         return (yield)
     finally:
         sys.settrace(tracer)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_terminal_summary(terminalreporter):
+    """What was left out and what brings it, in the line before the last."""
+    skipped = terminalreporter.stats.get("skipped", [])
+    if line := left_out([report.longrepr[2] for report in skipped]):
+        terminalreporter.write_line(line)

@@ -2,17 +2,18 @@
 
 import ctypes
 import importlib.util
-import shutil
 import subprocess
 from pathlib import Path
 
 import numpy as np
 
+from tests.needs import CC, need
+
 GENERATED = Path(__file__).resolve().parents[1] / "generated"
 STRICT = ["-Wall", "-Wextra", "-Werror", "-O2", "-shared", "-fPIC"]
 C99 = ["-std=c99", "-pedantic", *STRICT]
 BUILDS = {
-    "gcc": ["gcc", *C99],
+    "cc": [CC, *C99],
     "clang": ["clang", *C99],
     "g++": ["g++", "-std=c++11", *STRICT, "-x", "c++"],
 }
@@ -32,11 +33,6 @@ void probe_sizes(int *sizes)
 {lines}
 }}
 """
-
-
-def present(build):
-    """Whether the compiler of ``build`` is on the path."""
-    return shutil.which(BUILDS[build][0]) is not None
 
 
 def vector(values):
@@ -91,11 +87,21 @@ class CLibrary:
         return dx
 
     def carried(self, what, k, x):
-        """A state or inputs ``x`` taken into or out of the principal frame."""
+        """A state or inputs ``x`` taken elsewhere; by the constants ``k``, if there are any."""
         array = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
-        out = np.full(len(x), np.nan)
-        self._function(f"{self.name}_{what}", None, [array] * 3)(vector(x), k, out)
-        return out
+        given = [vector(x), *([] if k is None else [k]), np.full(len(x), np.nan)]
+        self._function(f"{self.name}_{what}", None, [array] * len(given))(*given)
+        return given[-1]
+
+    def project(self, x):
+        """A state taken back to the group."""
+        return self.carried("project", None, x)
+
+    def defect(self, x):
+        """How far a state is off the group, in an array."""
+        array = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
+        function = self._function(f"{self.name}_defect", ctypes.c_double, [array])
+        return np.array([function(vector(x))])
 
     def jacobian(self, t, x, k, u):
         """dx/dt and D."""
@@ -109,7 +115,11 @@ class CLibrary:
 
 
 def compile_c(build, name, folder, source=None):
-    """Compile NAME.c of ``source`` (generated/NAME) into ``folder`` and load it, or fail loudly."""
+    """Compile NAME.c of ``source`` (generated/NAME) into ``folder`` and load it, or fail loudly.
+
+    Where there is no such compiler, the test that asks is left out.
+    """
+    need(build)
     source = source or GENERATED / name
     lines = [f"    sizes[{i}] = {name}_N_{key};" for i, key in enumerate(SIZES)]
     probe = Path(folder) / "probe.c"

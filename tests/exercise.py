@@ -124,6 +124,12 @@ CARRY = """\
         double *out_{what} = room({size});
         {0}_{what}({array}, k, out_{what});
         free(out_{what});"""
+DRIFT = """\
+        double *there = room(X);
+        {0}_project(x, there);
+        expect(!calm || finite_all(there, X), "{0}", "a projection that is not finite");
+        expect(!calm || isfinite({0}_defect(x)), "{0}", "a defect that is not finite");
+        free(there);"""
 JACOBIAN = """\
         double *D{what} = room(2 * N * {columns});
         {0}_jacobian{what}(t, x, {given}, u, {rates}D{what});
@@ -147,6 +153,8 @@ def optional(prefix, header):
     for what in re.findall(rf"void {prefix}_(\w*(?:into|out_of)_frame)\(", header):
         array, size = ("u", "U") if what.startswith("inputs") else ("x", "X")
         yield CARRY.format(prefix, what=what, array=array, size=size)
+    if f"void {prefix}_project(" in header:
+        yield DRIFT.format(prefix)
     columns = {"": "2 * N", "_inputs": "U", "_parameters": "P"}
     for what in re.findall(rf"void {prefix}_jacobian(\w*)\(", header):
         given, rates = "p" if what == "_parameters" else "k", "" if what else "dx, "

@@ -1,5 +1,7 @@
 """Everything made wrong, once at a time: records, emitted programs, rules of the engine.
 
+Of records the equations, and the heads, arguments, indices, quantifiers and headers.
+
 python -m tests.mutants prints what is caught of each, and exits with 1 when something is not.
 """
 
@@ -7,11 +9,11 @@ import subprocess
 import sys
 from collections import Counter
 
-from derive.record.check import Checker
+from derive.check.checker import Checker
 from derive.record.vocabulary import ANY_GROUP
-from tests import record_mutations
+from tests import record_forgeries, record_mutations
 from tests.test_validation import MUTATED, tried
-from tests.walks import NAMES, OTHERS, record
+from tests.walks import NAMES, OTHERS, SEED, record
 
 TEXTS = ("linear", "affine")
 """Whose steps about any group are those of the others."""
@@ -35,7 +37,7 @@ def records():
             rows[f"{name}, moved"] = record_mutations.twin(name)
         for shown, d in rows.items():
             steps = [s for s in d.steps if name in TEXTS or s.scope != ANY_GROUP]
-            checker = Checker(d.problem)
+            checker = Checker(d.problem, SEED)
             holds = [v.holds for s in steps for _, _, v in record_mutations.tried(s, checker)]
             refused, true = holds.count(False), holds.count(True)
             total.update(steps=len(steps), refused=refused, true=true, all=len(holds))
@@ -43,6 +45,22 @@ def records():
         fine = fine and true == special
     row = (total[x] for x in ("steps", "refused", "true", "all"))
     print("{:17} {:7} {:8} {:11} {:11}\n".format("together", *row))
+    return fine
+
+
+def forgeries():
+    """A row for each record; whether all that has no meaning, or is not so, is refused."""
+    print("record           forged  refused")
+    fine = True
+    for name in dict.fromkeys((*NAMES, *OTHERS)):
+        d = record(name)
+        steps = [s for s in d.steps if name in TEXTS or s.scope != ANY_GROUP]
+        checker = Checker(d.problem, SEED)
+        held = [v.holds for s in steps for *_, v in record_forgeries.tried(s, checker)]
+        held += [record_forgeries.read_and_held(data) for _, data in record_forgeries.headers(d)]
+        print(f"{name:16} {len(held):6} {held.count(False):8}", flush=True)
+        fine = fine and not any(held)
+    print()
     return fine
 
 
@@ -67,4 +85,4 @@ def rules():
 
 
 if __name__ == "__main__":
-    sys.exit(not all([records(), programs(), rules()]))
+    sys.exit(not all([records(), forgeries(), programs(), rules()]))

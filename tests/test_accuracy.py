@@ -3,7 +3,6 @@
 A bound is a few times the worst that was found over the states that the README counts.
 """
 
-import shutil
 from types import ModuleType
 
 import mpmath
@@ -17,6 +16,7 @@ from benchmarks.accuracy.rows import PROBLEMS, Row
 from benchmarks.accuracy.terms import Terms
 from derive import derive
 from derive.code import inverses
+from tests.needs import needs
 
 BODIES = 38
 FEW = {"jelly": 4, "sp4": 4, "sim3": 8}
@@ -29,7 +29,7 @@ FORMS = [("so3", "Python"), ("so3", "quaternion"), ("sl3", "tangent")]
 FORMS += [(name, "principal") for name in ("so3", "se3", "sl3")]
 SAMPLED = [(name, "C") for name in PROBLEMS if name not in ("gl3", "heisenberg", "su2")] + FORMS
 
-pytestmark = pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
+pytestmark = needs("cc")
 
 
 @pytest.mark.parametrize(("problem", "form"), SAMPLED)

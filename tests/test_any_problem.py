@@ -8,18 +8,20 @@ import numpy as np
 import pytest
 
 from derive.algebra.tree import mul, neg
+from derive.check.checker import Checker
 from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.mechanics.toml import problem_of
 from derive.pipeline import walk
-from derive.record.check import Checker
 from derive.record.record import from_json, to_json
 from derive.record.sentence import english
 from derive.record.vocabulary import ANY_GROUP
 from tests import walks
-from tests.emitted import compile_c, present
+from tests.emitted import compile_c
+from tests.needs import present
 from tests.oracles import general, relative_error
 from tests.problems import PROBLEMS
+from tests.walks import SEED
 
 STATES = 12
 HALF = Fraction(1, 2)
@@ -37,7 +39,7 @@ def test_the_record_holds(case):
     _, _, record = case
     again = from_json(to_json(record))
     assert again == record
-    checker = Checker(again.problem)
+    checker = Checker(again.problem, SEED)
     verdicts = [checker.check(step) for step in again.steps if step.scope != ANY_GROUP]
     assert [f"{v.label}: {v.reason}" for v in verdicts if not v.holds] == []
     assert max(v.bound for v in verdicts) < 1e-30
@@ -56,7 +58,7 @@ def test_code_agrees_with_the_oracle(case, tmp_path):
     files, space = emitted(problem, record)
     for name, text in files.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
-    library = compile_c("gcc", "test", tmp_path, tmp_path) if present("gcc") else None
+    library = compile_c("cc", "test", tmp_path, tmp_path) if present("cc") else None
     rng = np.random.default_rng(5)
     p = general.parameters(data)
     basis = space["BASIS"]
@@ -97,7 +99,7 @@ def test_solids_are_their_moments(group):
     own = "[parameters]\na = 1.1\nb = 0.7\nrho = 2.0\n"
     problem = problem_of(tomllib.loads(head + own + SOLIDS + gravity))
     record = walk(problem)
-    checker = Checker(record.problem)
+    checker = Checker(record.problem, SEED)
     verdicts = [checker.check(step) for step in record.steps if step.scope != ANY_GROUP]
     assert [f"{v.label}: {v.reason}" for v in verdicts if not v.holds] == []
     files, space = emitted(problem, record)
@@ -156,7 +158,7 @@ def test_separation_of_the_centre_of_mass(name, says):
     assert kinetic.rhs[1:3] == (mul(HALF, inertia), mul(HALF, "m", ("norm2", "Ṙ")))
     assert kinetic.rhs[3:] == (neg("Ũ"),)
     assert says in english(record[f"{name}.separation"].prose)
-    assert Checker(record.problem).check(record[f"{name}.separation"]).holds
+    assert Checker(record.problem, SEED).check(record[f"{name}.separation"]).holds
 
 
 def test_a_potential_that_ties_the_centre_of_mass():

@@ -10,6 +10,7 @@ import pytest
 
 from derive import derive
 from tests.emitted import GENERATED, import_python
+from tests.needs import need, needs
 
 JAX = """
 import importlib.util, sys
@@ -27,6 +28,8 @@ expected = m.rhs(0.0, x, np.asarray(k), u)
 jitted = jax.jit(m.rhs)
 assert np.allclose(jitted(0.0, x, k, u), expected, rtol=1e-13)
 assert np.allclose(jax.vmap(m.rhs, (None, 0, None, 0))(0.0, x, k, u), expected, rtol=1e-13)
+assert np.allclose(jax.jit(m.project)(x), m.project(x), rtol=1e-13)
+assert np.allclose(jax.vmap(m.defect)(x), m.defect(x), rtol=1e-13)
 slope = jax.grad(lambda y: m.energy(0.0, y, k))(jnp.array(x[0]))
 i, h = 3, 1e-6
 step = h * np.eye(len(m.STATE))[i]
@@ -53,15 +56,10 @@ rotation = { axis = [1, 2, 2], angle = "0.7" }
 """
 
 
-def have(library):
-    return importlib.util.find_spec(library) is not None
-
-
+@needs("the module jax")
 @pytest.mark.parametrize("name", ["so3", "se3", "sl3"])
 def test_jax(name):
     """jit, vmap, grad, and a batch sharded over four devices of the host."""
-    if not have("jax"):
-        pytest.skip("no jax")
     path = GENERATED / name / f"{name}.py"
     flags = {"XLA_FLAGS": "--xla_force_host_platform_device_count=4", "JAX_PLATFORMS": "cpu"}
     command = [sys.executable, "-c", JAX, str(path)]
@@ -73,8 +71,9 @@ def test_jax(name):
 @pytest.mark.parametrize("name", ["so3", "se3", "sl3"])
 def test_other_arrays(name, library):
     """Nothing beyond the standard; the results are arrays of the library."""
-    if not have(library) or (library == "torch" and not have("array_api_compat")):
-        pytest.skip(f"no {library}")
+    need(f"the module {library}")
+    if library == "torch":
+        need("the module array_api_compat")
     xp, m = importlib.import_module(library), import_python(name)
     asarray = xp.asarray if hasattr(xp, "asarray") else xp.tensor
     p = np.array([m.DEFAULTS[x] for x in m.PARAMETERS])
@@ -88,13 +87,37 @@ def test_other_arrays(name, library):
         wanted = expected if given is not None else m.rhs(0.1, x, m.constants(p))
         assert np.allclose(np.asarray(found), wanted, rtol=1e-13)
     assert np.allclose(np.asarray(m.energy(0.1, asarray(x), k)), m.energy(0.1, x, m.constants(p)))
+    for function in (m.project, m.defect):
+        found = function(asarray(x))
+        assert type(found) is type(k)
+        assert np.allclose(np.asarray(found), function(x), rtol=1e-13)
     with pytest.raises(ValueError, match="singular"):
         m.constants(asarray(0 * p))
 
 
+@pytest.mark.parametrize("library", ["array_api_strict", "torch", "jax.numpy"])
+def test_a_length_of_0(library, tmp_path):
+    """Asking whether a parameter is 0 needs nothing beyond the standard."""
+    need(f"the module {library.partition('.')[0]}")
+    if library == "torch":
+        need("the module array_api_compat")
+    xp = importlib.import_module(library)
+    derive("two_tops").emit(tmp_path, languages=["python"])
+    m = import_python("two_tops", tmp_path)
+    asarray = getattr(xp, "asarray", None) or xp.tensor
+    p = np.array([m.DEFAULTS[x] for x in m.PARAMETERS])
+    for length in (0.0, 0.4):
+        p[m.PARAMETERS.index("l")] = length
+        found = np.asarray(m.constants(asarray(p)))
+        assert np.allclose(found, m.constants(p), rtol=1e-6)
+        assert (found[m.CONSTANTS.index("slack_l")] > 0) == (length == 0)
+
+
+@needs("the module array_api_strict")
 def test_functions_of_numbers_alone(tmp_path):
     """Strict libraries have no cosine of a plain number."""
-    xp = pytest.importorskip("array_api_strict")
+    import array_api_strict as xp
+
     (tmp_path / "test.toml").write_text(TURNED)
     derive(tmp_path / "test.toml").emit(tmp_path, languages=["python"])
     assert "xp.cos(0.7)" in (tmp_path / "test.py").read_text()

@@ -1,13 +1,13 @@
 """The emitted C under sanitizers, on numbers of every size: no undefined behaviour, no trap."""
 
 import re
-import shutil
 import subprocess
 
 import pytest
 
 from tests.exercise import program
 from tests.forms import PROBLEMS, emit_forms, some_parameters
+from tests.needs import need, needs
 
 TRIALS = 900
 SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
@@ -28,18 +28,9 @@ def exercise(tmp_path_factory):
     return folder, tuple(made)
 
 
-def sanitized(compiler):
-    """Whether this compiler is here with its sanitizers."""
-    if shutil.which(compiler) is None:
-        return False
-    command = [compiler, *SANITIZERS, "-x", "c", "-", "-o", "/dev/null"]
-    return not subprocess.run(command, input=b"int main(void){return 0;}", stderr=-3).returncode
-
-
 @pytest.mark.parametrize("compiler", ["gcc", "clang"])
 def test_no_undefined_behaviour(compiler, exercise):
-    if not sanitized(compiler):
-        pytest.skip(f"no {compiler} with sanitizers")
+    need(f"sanitizers of {compiler}")
     folder, prefixes = exercise
     command = [compiler, "-std=gnu99", "-O0", "-g1", *SANITIZERS, "exercise.c"]
     command += [*(f"{x}.c" for x in prefixes), "-lm", "-o", f"exercise-{compiler}"]
@@ -103,8 +94,7 @@ def told(tool, folder, prefixes):
 
 @pytest.mark.parametrize("tool", TOOLS)
 def test_nothing_to_remark(tool, exercise, tmp_path):
-    if shutil.which(tool) is None:
-        pytest.skip(f"no {tool}")
+    need(tool)
     folder, prefixes = exercise
     assert not told(tool, folder, prefixes if tool == "clang-tidy" else SOME)
     (tmp_path / "wrong.c").write_text(WRONG)
@@ -112,7 +102,6 @@ def test_nothing_to_remark(tool, exercise, tmp_path):
 
 
 @pytest.mark.dist
+@needs("gcc")
 def test_gcc_remarks_nothing_in_any_form(exercise):
-    if shutil.which("gcc") is None:
-        pytest.skip("no gcc")
     assert not told("gcc", *exercise)

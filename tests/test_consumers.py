@@ -4,6 +4,7 @@ derive is a copy as well, so that it can be changed: the builds must notice, and
 """
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -12,15 +13,11 @@ from pathlib import Path
 import pytest
 
 import derive
+from tests.needs import CC, needs
 
 ROOT = Path(__file__).parents[1]
 CONSUMERS = ROOT / "tests" / "consumers"
-METADATA = "derive-{}.dist-info"
-
-
-def needs(*programs):
-    missing = [name for name in programs if shutil.which(name) is None]
-    return pytest.mark.skipif(bool(missing), reason=f"needs {', '.join(missing)} on the PATH")
+METADATA = "derive_mechanics-{}.dist-info"
 
 
 class Project:
@@ -37,7 +34,8 @@ class Project:
         (self.generator / METADATA.format(1) / "METADATA").touch()
         path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
         self.environment = os.environ | {"PATH": path, "PYTHONPATH": str(self.generator)}
-        for name in ("DESTDIR", "MAKEFLAGS", "MAKELEVEL", "CC", "CFLAGS", "PREFIX"):
+        self.environment["CC"] = CC
+        for name in ("DESTDIR", "MAKEFLAGS", "MAKELEVEL", "CFLAGS", "PREFIX"):
             self.environment.pop(name, None)
 
     def run(self, *command, expected=0, **more):
@@ -136,6 +134,97 @@ def test_cmake_options_and_ready_made_problems(tmp_path):
     assert "float" in header.read_text()
 
 
+MANY = """
+cmake_minimum_required(VERSION 3.20)
+project(many C CXX)
+list(APPEND CMAKE_MODULE_PATH "${MODULES}")
+include(DeriveEmit)
+set(all c cpp cvode python rust julia javascript)
+set(place "made $dollar")
+derive_emit(PROBLEM so2.toml TARGET so2 LANG ${all} OUTPUT_DIR "${place}"
+  OPTIONS --jacobian state --layout col --validate)
+derive_emit(PROBLEM so3 TARGET solid LANG cpp OUTPUT_DIR "${place}"
+  OPTIONS --form=header --attitude quaternion --real float)
+derive_emit(PROBLEM so3 TARGET top OUTPUT_DIR "${place}"
+  OPTIONS --frame principal --allow-negative-mass --seconds 60)
+derive_emit(PROBLEM "in $1 a;b #/so2.toml" TARGET text LANG rust python OUTPUT_DIR "${place}")
+get_target_property(files text DERIVE_FILES)
+message(STATUS "text: ${files}")
+add_executable(main main.cpp)
+target_link_libraries(main PRIVATE so2 solid top)
+add_executable(other main.cpp)
+target_link_libraries(other PRIVATE so2 solid top)
+"""
+USED = """
+#include "so2.hpp"
+#include "solid.hpp"
+#include "top.h"
+int main()
+{
+    const derive::so2::State x{1, 0, 0, 1, 0.5};
+    const auto k = derive::so2::constants({}).value();
+    static_assert(sizeof(derive::solid::Real) == 4 && top_N_STATE == 12);
+    return !(derive::so2::jacobian(0, x, k).D.size() == 4);
+}
+"""
+
+
+@needs("cmake", "cc", "g++")
+@pytest.mark.parametrize(
+    ("builder", "build"),
+    [
+        pytest.param("Ninja", "b d", marks=needs("ninja")),
+        pytest.param("Ninja", "b $d", marks=needs("ninja")),
+        ("Unix Makefiles", "b $d"),
+    ],
+)
+def test_cmake_all_languages_and_strange_paths(builder, build, tmp_path):
+    """Libraries and plain files of several targets in one folder, linked to several programs."""
+    project = Project("cmake", tmp_path)
+    project.folder = project.folder.rename(tmp_path / "a $pro ject")
+    odd = project.folder / "in $1 a;b #"
+    odd.mkdir()
+    for path in (project.folder, odd):
+        (path / "so2.toml").write_text(SO2)
+    (project.folder / "CMakeLists.txt").write_text(MANY)
+    (project.folder / "main.cpp").write_text(USED)
+    common = ("-S", ".", "-B", build, "-G", builder, f"-DMODULES={ROOT / 'cmake'}")
+    log = project.run("cmake", *common, f"-DDERIVE_COMMAND={sys.executable};-m;derive")
+    made = project.folder / build / "made $dollar"
+    assert f"text: {made}/text.rs;{made}/text.py" in log
+
+    def emitted():
+        return set(re.findall(r"Emitting (\w+) from", project.run("cmake", "--build", build)))
+
+    assert emitted() == {"so2", "solid", "top", "text"}
+    project.run(f"{build}/main")
+    project.run(f"{build}/other")
+    names = {f"so2{x}" for x in (".h", ".c", ".hpp", "_cvode.h", ".py", ".rs", ".jl", ".mjs")}
+    names |= {"solid.h", "solid.hpp", "top.h", "top.c", "text.rs", "text.py"}
+    assert {x.name for x in made.iterdir()} == names
+    assert emitted() == set()
+    changed_text(odd / "so2.toml", "mass = 1", "mass = 2")
+    assert emitted() == {"text"}
+    changed_text(project.folder / "so2.toml", "mass = 1", "mass = 3")
+    assert emitted() == {"so2"}
+    (made / "text.py").unlink()
+    assert emitted() == {"text"}
+    assert emitted() == set()
+
+
+@needs("cmake")
+def test_cmake_without_a_language_of_its_own(tmp_path):
+    """Python and Rust are files: no compiler is asked for."""
+    lines = ["cmake_minimum_required(VERSION 3.20)", "project(x NONE)", "include(DeriveEmit)"]
+    lines += ["derive_emit(PROBLEM so3 TARGET body LANG python rust)"]
+    (tmp_path / "CMakeLists.txt").write_text("\n".join(lines))
+    command = ["cmake", "-S", ".", "-B", "b", f"-DCMAKE_MODULE_PATH={ROOT / 'cmake'}"]
+    command += [f"-DDERIVE_COMMAND={sys.executable};-m;derive"]
+    for words in (command, ["cmake", "--build", "b"]):
+        subprocess.run(words, cwd=tmp_path, check=True, capture_output=True)
+    assert sorted(x.name for x in (tmp_path / "b/derive/body").iterdir()) == ["body.py", "body.rs"]
+
+
 @needs("cmake")
 @pytest.mark.parametrize(
     ("call", "told"),
@@ -144,7 +233,18 @@ def test_cmake_options_and_ready_made_problems(tmp_path):
         ("PROBLEM so3", "TARGET is missing"),
         ("PROBLEM none.toml TARGET x", "none.toml: no such file"),
         ("PROBLEM so3 TARGET x-y", "add PREFIX name"),
-        ("PROBLEM so3 TARGET x LANG c", "unknown argument"),
+        ("PROBLEM so3 TARGET x LANGUAGE c", "unknown argument"),
+        ("PROBLEM so3 TARGET x LANG fortran", "invalid choice: 'fortran'"),
+        ("PROBLEM so3 TARGET x OPTIONS --frobnicate", "unknown option '--frobnicate'"),
+        ("PROBLEM so3 TARGET x LANG rust OPTIONS --form header", "--form header is one of c"),
+        ("PROBLEM so3 TARGET x PREFIX stdio", "the prefix 'stdio' cannot be used"),
+        ("PROBLEM so3 TARGET x OPTIONS --lang=c", "--lang=c cannot be among OPTIONS"),
+        ("PROBLEM so3 TARGET x OUTPUT_DIR [[a;b]]", "CMake can build no file whose path has a ;"),
+        (
+            "PROBLEM so3 TARGET x LANG python)\nderive_emit(PROBLEM so3 TARGET y PREFIX x "
+            "OUTPUT_DIR derive/x LANG python",
+            "y would write",
+        ),
         ("PROBLEM so3 TARGET x OPTIONS --check", "--check cannot be among OPTIONS"),
         ("PROBLEM so3 TARGET x", "add enable_language(C)"),
     ],
@@ -170,7 +270,7 @@ def test_cmake_without_derive(tmp_path):
         assert f"`{program} --version` is not derive" in " ".join(log.split())
 
 
-@needs("make", "cc")
+@needs("make", "cc", "ar")
 def test_make(tmp_path):
     project = Project("make", tmp_path)
     make = ("make", f"PYTHON={sys.executable}")
@@ -188,14 +288,14 @@ def test_make(tmp_path):
     project.check("emit", "hoop.toml", "--lang", "c", "--out", "build", expected=1)
 
 
-@needs("make", "cc", "pkg-config")
+@needs("make", "cc", "ar", "pkg-config")
 def test_pkg_config(tmp_path):
     project, prefix = Project("make", tmp_path), tmp_path / "prefix"
     project.run("make", f"PYTHON={sys.executable}", f"PREFIX={prefix}", "install")
     path = {"PKG_CONFIG_PATH": prefix / "lib" / "pkgconfig"}
     flags = project.run("pkg-config", "--cflags", "--libs", "hoop", **path).split()
     assert "-lhoop" in flags
-    project.run("cc", "-std=c99", "main.c", *flags, "-o", "installed")
+    project.run(CC, "-std=c99", "main.c", *flags, "-o", "installed")
     assert "energy drift" in project.run("./installed")
 
 

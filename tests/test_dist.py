@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.needs import need, needs
 from tests.test_readme import README, blocks
 
 pytestmark = pytest.mark.dist
@@ -81,7 +82,7 @@ def installed(wheels, tmp_path_factory):
 
 def test_two_wheels_are_the_same_bytes(wheels):
     first, second = wheels
-    assert first.name == second.name == f"derive-{version()}-py3-none-any.whl"
+    assert first.name == second.name == f"derive_mechanics-{version()}-py3-none-any.whl"
     assert first.read_bytes() == second.read_bytes()
 
 
@@ -103,8 +104,7 @@ def everything(python, folder, cwd=ROOT, shifted=(), pdf="pdf", **environment):
 
 @pytest.fixture(scope="module")
 def base(tmp_path_factory):
-    if shutil.which("pdflatex") is None:
-        pytest.skip("no pdflatex")
+    need("pdflatex")
     options = {"PYTHONPATH": ROOT, "PYTHONHASHSEED": 0, "LC_ALL": "C.UTF-8", "TZ": "UTC"}
     where, found = everything(sys.executable, tmp_path_factory.mktemp("base"), **options)
     assert where == str(ROOT / "derive")
@@ -123,7 +123,7 @@ def newest_python():
             command = [python, "-c", "import venv, ensurepip"]
             if python.is_file() and not subprocess.run(command, stderr=-3).returncode:
                 return str(python)
-    pytest.skip(f"no Python newer than 3.{sys.version_info.minor}")
+    pytest.skip(f"there is no Python newer than 3.{sys.version_info.minor}")
     return ""
 
 
@@ -134,8 +134,9 @@ def test_another_folder_locale_zone_and_seed(base, tmp_path):
     assert everything(sys.executable, tmp_path, tmp_path, **options)[1] == base
 
 
+@needs("faketime", "the locale fr_FR")
 def test_french_and_years_later(base, tmp_path):
-    clock = ["faketime", "2037-12-31 23:59:50"] if shutil.which("faketime") else []
+    clock = ["faketime", "2037-12-31 23:59:50"]
     options = {"PYTHONPATH": ROOT, "PYTHONHASHSEED": 2, "PYTHONUTF8": 0}
     options |= {"LC_ALL": "fr_FR.UTF-8", "LANG": "fr_FR.UTF-8", "TZ": "America/St_Johns"}
     # latexmk believes no clock that is so far from that of its files
@@ -185,8 +186,7 @@ def test_the_readme_where_only_the_wheel_is(installed, tmp_path):
     first, second, third = blocks("python")[:3]
     for program in (f"{first}\n{second}", third):
         run(python, "-c", program, cwd=tmp_path, PATH=path)
-    if shutil.which("cmake") is None:
-        return
+    need("cmake")
     lines = ["cmake_minimum_required(VERSION 3.20)", "project(app C)", "add_executable(app main.c)"]
     lines.append(blocks("cmake")[0])
     (tmp_path / "CMakeLists.txt").write_text("\n".join(lines), encoding="utf-8")

@@ -10,6 +10,7 @@ import pytest
 from emitted import import_python
 
 from derive.cli import main
+from tests.needs import CC, needs
 from tests.unmeasured import environment
 
 
@@ -51,14 +52,14 @@ int main(void)
 """
 
 
-@pytest.mark.skipif(shutil.which("cc") is None, reason="needs cc on the PATH")
+@needs("cc")
 @pytest.mark.parametrize("prefix", ["printf", "main", "free", "size_t"])
 def test_prefixes_of_libc_are_harmless(prefix, tmp_path):
     """Every name gets an ending, so these collide with nothing but a file of the same name."""
     assert main(["emit", "so3", "--lang", "c", "--prefix", prefix, "--out", str(tmp_path)]) == 0
     (tmp_path / "user.c").write_text(USE.format(prefix))
     options = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-I.", "-lm"]
-    command = ["cc", *options[:-1], "user.c", f"{prefix}.c", options[-1], "-o", "user"]
+    command = [CC, *options[:-1], "user.c", f"{prefix}.c", options[-1], "-o", "user"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert subprocess.run([tmp_path / "user"], capture_output=True, text=True).stdout == "0"
@@ -73,12 +74,12 @@ def test_out_is_a_file(refused, tmp_path):
     assert os.listdir(tmp_path) == ["file"]
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
 def test_out_is_a_device(refused):
     assert "/dev/full" in refused("so3", "--out", "/dev/full")
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
 def test_a_link_to_a_full_device(capsys, tmp_path):
     (tmp_path / "walk.txt").symlink_to("/dev/full")
     assert main(["walk", "so3", "--out", str(tmp_path / "walk.txt")]) == 2
@@ -105,7 +106,7 @@ def test_a_link_within_the_folder(tmp_path):
     assert "so3_rhs" in (tmp_path / "real.h").read_text()
 
 
-@pytest.mark.skipif(not Path("/proc/sys").is_dir(), reason="needs /proc")
+@pytest.mark.skipif(not Path("/proc/sys").is_dir(), reason="there is no /proc")
 def test_a_folder_that_root_may_not_write_to(refused):
     for out in ("/proc", "/proc/new", "/proc/sys/kernel"):
         assert out in refused("so3", "--out", out)
@@ -129,7 +130,7 @@ sys.exit(main(sys.argv[2:]))
 """
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="needs limits on the size of files")
+@pytest.mark.skipif(sys.platform == "win32", reason="files have no limit on their size")
 @pytest.mark.parametrize("size", [0, 1000])
 def test_a_write_that_stops_half_way(size, tmp_path):
     """As on a full disk; what was there stays, and nothing is left over."""

@@ -6,8 +6,8 @@ from random import Random
 import pytest
 
 from derive.algebra.tree import mul
+from derive.check.evaluate import Environment, evaluate
 from derive.mechanics.expression import ExpressionError, names, parse
-from derive.record.evaluate import Environment, evaluate
 
 VALUES = {"a": Fraction(3, 7), "b1": Fraction(-5), "c_x": Fraction(11, 2)}
 ENV = Environment(3, {}, parameters=VALUES)

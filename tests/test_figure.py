@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import shutil
 import subprocess
 import tomllib
 from dataclasses import replace
@@ -23,6 +22,7 @@ from derive.views.drawing import Scene, Stroke
 from derive.views.figure import svg, tikz
 from derive.views.placing import overlap
 from derive.views.scene import WIDTH, scene
+from tests.needs import need
 
 PROBLEMS = sorted((Path(__file__).parents[1] / "derive" / "problems").glob("*.toml"))
 GENERAL = ("affine", "linear")
@@ -103,8 +103,7 @@ def changed(name: str, **problem: Any) -> Scene:
 
 def compiled(source: str, folder: Path) -> str:
     """The log of pdflatex, of a document with nothing but TikZ."""
-    if shutil.which("pdflatex") is None:
-        pytest.skip("pdflatex is not on PATH")
+    need("pdflatex")
     head = "\\documentclass{article}\n\\usepackage{tikz}\n\\begin{document}\n"
     (folder / "figure.tex").write_text(f"{head}{source}\n\\end{{document}}\n", encoding="utf-8")
     command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "figure.tex"]

@@ -1,6 +1,5 @@
 """The principal frame: the same motion as in the frame that is given, with fewer operations."""
 
-import shutil
 import subprocess
 
 import numpy as np
@@ -15,7 +14,8 @@ from derive.mechanics.frame import principal
 from derive.mechanics.problem import ProblemError
 from derive.mechanics.toml import problem_of
 from derive.pipeline import program, walk
-from tests.emitted import BUILDS, compile_c, import_python, present
+from tests.emitted import BUILDS, compile_c, import_python
+from tests.needs import CC, needs, present
 from tests.test_options import drawn as state_of_any
 from tests.test_options import state
 from tests.walks import own_verdicts
@@ -185,8 +185,6 @@ def test_states_are_in_a_frame_of_their_own(modules):
 def test_the_c_moves_alike(name, build, derived, modules, tmp_path):
     """C finds its own axes, and the same."""
     folder, given, framed = modules(name, "plain")
-    if not present(build):
-        pytest.skip(f"no {build}")
     c = compile_c(build, "principal", tmp_path, folder)
     p, x, u = drawn(given, "plain")
     status, k = c.constants(p)
@@ -243,8 +241,8 @@ def test_bodies_without_a_frame_are_refused_by_the_code(modules, tmp_path):
             p[at[f"J_{i + 1}{j + 1}"]] = r[i] * r[j]
     with pytest.raises(ValueError, match="singular"):
         framed.constants(p)
-    if shutil.which("gcc"):
-        c = compile_c("gcc", "principal", tmp_path, folder)
+    if present("cc"):
+        c = compile_c("cc", "principal", tmp_path, folder)
         assert (c.constants(p)[0], c.constants(np.full_like(p, np.nan))[0]) == (1, 2)
 
 
@@ -258,8 +256,8 @@ def test_numbers_that_are_not_finite_are_refused(name, bad, modules, tmp_path):
         p[given.PARAMETERS.index(which)] = bad
         with pytest.raises(ValueError, match="not finite"):
             framed.constants(p)
-        if shutil.which("gcc"):
-            assert compile_c("gcc", "principal", tmp_path, folder).constants(p)[0] == 2
+        if present("cc"):
+            assert compile_c("cc", "principal", tmp_path, folder).constants(p)[0] == 2
 
 
 @pytest.mark.parametrize("gravity", [0.0, 1e-9, 1e200])
@@ -367,15 +365,14 @@ def test_the_jacobian_in_the_frame(derived, tmp_path):
         assert np.allclose(D[n:, n + a], slope, rtol=1e-11, atol=1e-11)
 
 
+@needs("cc")
 @pytest.mark.parametrize("form", ["source", "header"])
 def test_floats_for_small_machines(form, derived, tmp_path):
-    if shutil.which("gcc") is None:
-        pytest.skip("no gcc")
     derived("SE(3)").emit(tmp_path, ("c",), "m", frame="principal", real="float", form=form)
     (tmp_path / "use.c").write_text('#include "m.h"\nint main(void) { return 0; }\n')
     flags = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-Wdouble-promotion"]
     flags += ["-Wno-unused-function"]
     sources = [str(x) for x in tmp_path.glob("*.c")]
     subprocess.run(
-        ["gcc", *flags, "-Wshadow", *sources, "-o", str(tmp_path / "use"), "-lm"], check=True
+        [CC, *flags, "-Wshadow", *sources, "-o", str(tmp_path / "use"), "-lm"], check=True
     )

@@ -8,15 +8,15 @@ from html.parser import HTMLParser
 import pytest
 
 from derive import derive
-from derive.record.paper import misprints
-from derive.record.vocabulary import MISPRINTED
+from derive.paper.findings import amendments
+from derive.record.vocabulary import AMENDED
 from derive.views.html import html
 from derive.views.language import language
 from derive.views.mathml import mathml
 from derive.views.notation import Notation
+from tests.needs import BROWSERS, need
 
 NAMES = ("so3", "se3", "sl3", "saff3", "hammer", "two_tops", "jelly", "comet", "so4")
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 VOID = {"meta", "link", "br", "circle", "line", "path", "ellipse", "rect", "polyline", "polygon"}
 FITTED = """() => {
     const width = document.documentElement.clientWidth;
@@ -64,11 +64,11 @@ def records():
 
 @pytest.fixture(scope="module")
 def browser():
-    sync = pytest.importorskip("playwright.sync_api")
-    path = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if path is None:
-        pytest.skip("no Chromium")
-    with sync.sync_playwright() as playwright:
+    need("the module playwright", "chromium")
+    from playwright.sync_api import sync_playwright
+
+    path = next(filter(None, map(shutil.which, BROWSERS)))
+    with sync_playwright() as playwright:
         running = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
         yield running
         running.close()
@@ -78,9 +78,7 @@ def browser():
 @pytest.mark.parametrize("width", [390, 1280])
 def test_in_a_browser(width, lang, browser, records, tmp_path):
     file = tmp_path / "page.html"
-    shown = html(
-        [records(x) for x in NAMES], language=language(lang), findings=misprints(MISPRINTED)
-    )
+    shown = html([records(x) for x in NAMES], language=language(lang), findings=amendments(AMENDED))
     file.write_text(shown, encoding="utf-8")
     page = browser.new_page(viewport={"width": width, "height": 900})
     said = []

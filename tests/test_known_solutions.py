@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from mpmath import mp
 
-from tests.emitted import arrange, compile_c, import_python, present
+from tests.emitted import arrange, compile_c, import_python
 from tests.flows import emitted, flow
 from tests.oracles import free_top, lagrange_top, sampling
 
@@ -48,9 +48,7 @@ def by_python(body, x, times, folder):
 
 
 def by_c(body, x, times, folder):
-    if not present("gcc"):
-        pytest.skip("no gcc on the path")
-    code = compile_c("gcc", "so3", folder)
+    code = compile_c("cc", "so3", folder)
     p = arrange(import_python("so3"), sampling.parameters("so3", body))
     return flow(code, code.constants(p)[1], x, times)
 

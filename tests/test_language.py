@@ -15,8 +15,8 @@ from derive.cli import main, ready_made
 from derive.mechanics.problem import MomentBody
 from derive.mechanics.solids import KINDS
 from derive.mechanics.toml import load, problem_of
+from derive.paper.findings import PAPER
 from derive.pipeline import walk
-from derive.record.paper import PAPER
 from derive.record.record import from_json, to_json
 from derive.record.rules import RULES
 from derive.record.sentence import PLACE, english, phrase, say
@@ -27,6 +27,7 @@ from derive.views.language import ENGLISH, LANGUAGES, THIN, WIDE, Language, entr
 from derive.views.latex import latex
 from derive.views.markdown import markdown, step_markdown
 from derive.views.text import step_text, text
+from derive.walk.supposed import WORDS
 from tests import walks
 from tests.problems import PROBLEMS
 from tests.test_views import compiled
@@ -135,15 +136,18 @@ def test_every_sentence_is_in_the_catalogue(records):
 
 
 def test_every_message_of_the_walk_is_reached(records):
-    """The problems above go through every branch that says something."""
+    """The problems above go through every branch that says something, but for what is said of
+    masses of any sign (tests/test_signed_masses.py)."""
     written = strings("walk/*.py", "pipeline.py") & set(FRENCH.messages) - set(RULES)
+    written -= {signed for _, signed in WORDS.values()}
     meanings = titles_and_meanings()
     assert written - meanings <= set().union(*map(said, records))
 
 
 def test_every_word_of_the_tables_is_in_the_catalogue():
-    tables = (*(about for about, _ in VOCABULARY.values()), *ROTATIONS.values(), *PRODUCTS.values())
-    words = {*tables, *DISPLACEMENTS.values(), *RULES, *outline.GIVEN.values()}
+    tables = (VOCABULARY, ROTATIONS, PRODUCTS, DISPLACEMENTS)
+    words = {x.meaning for table in tables for x in table.values()}
+    words |= {*RULES, *(words for _, words in outline.GIVEN)}
     words |= {p.remark for p in PAPER if p.remark}
     words |= {outline.CONVENTIONS, outline.FORMULAS_CONVENTIONS, outline.PAPER}
     assert words | titles_and_meanings() <= set(FRENCH.messages)
@@ -167,6 +171,7 @@ def test_every_word_said_is_in_the_catalogue(path):
 
 def test_every_entry_is_used():
     sources = strings("walk/*.py", "record/vocabulary.py", "record/rules.py", "views/*.py")
+    sources |= strings("paper/findings.py")
     sources |= {p.remark for p in PAPER if p.remark}
     used = sources | strings("pipeline.py") | titles_and_meanings()
     assert [x["en"] for x in ENTRIES if x["en"] not in used] == []

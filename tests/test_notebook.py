@@ -4,16 +4,18 @@ from pathlib import Path
 
 import pytest
 
-nbclient = pytest.importorskip("nbclient")
-nbformat = pytest.importorskip("nbformat")
-pytest.importorskip("ipykernel")
+from tests.needs import needs
 
+pytestmark = needs("the module nbclient", "the module nbformat", "the module ipykernel")
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 
 
 @pytest.fixture(scope="module")
 def shown():
     """What each code cell shows last: MIME type → text."""
+    import nbclient
+    import nbformat
+
     notebook = nbformat.read(EXAMPLES / "top.ipynb", as_version=4)
     assert not any(c.get("outputs") for c in notebook.cells)  # committed without results
     nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3").execute()

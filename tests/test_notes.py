@@ -1,13 +1,13 @@
 """Lecture notes: LaTeX, PDF, fragments, corrections of the print."""
 
 import re
-import shutil
 import subprocess
 
 import pytest
 
 from derive.cli import main
 from derive.views.macros import DEFINED
+from tests.needs import need, needs
 from tests.problems import READY
 
 GROUPS = ("so3", "se3", "sl3")
@@ -24,8 +24,7 @@ def said(capsys):
 
 def compiled(file):
     """The log of pdflatex, thrice."""
-    if shutil.which("pdflatex") is None:
-        pytest.skip("no pdflatex")
+    need("pdflatex")
     for _ in range(3):
         done = subprocess.run(
             ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", file.name],
@@ -47,9 +46,8 @@ def test_notes_of_three_groups(options, said, tmp_path):
     assert "multiply defined" not in log
 
 
+@needs("pdflatex", "pdftoppm")
 def test_the_pdf_is_not_blank(said, tmp_path):
-    if shutil.which("pdflatex") is None or shutil.which("pdftoppm") is None:
-        pytest.skip("no pdflatex or pdftoppm")
     said("notes", "so3", "--out", tmp_path / "notes.pdf")
     assert (tmp_path / "notes.tex").exists()
     subprocess.run(["pdftoppm", "-r", "40", "-gray", "notes.pdf", "page"], cwd=tmp_path, check=True)

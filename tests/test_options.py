@@ -1,15 +1,18 @@
 """Every form of the emitted code is the same equations: held against the plain one."""
 
+import os
 import platform
-import shutil
 import subprocess
 
 import numpy as np
 import pytest
 
 from derive import derive
+from derive.cli import main
+from derive.code.languages import LANGUAGES
 from derive.code.program import LoweringError
-from tests.emitted import compile_c, import_python, present, some_body
+from tests.emitted import compile_c, import_python, some_body
+from tests.needs import need, needs
 
 GROUPS = ("so3", "se3", "sl3", "saff3", "two_tops", "screw", "jelly", "heisenberg", "so4")
 TURNING = ("so3", "se3")
@@ -157,12 +160,13 @@ def test_what_does_not_go_together(emitted):
         emitted("sl3", jacobian=("inputs",))
 
 
-@pytest.mark.parametrize("options", [{}, {"velocity": "tangent"}, {"attitude": "quaternion"}])
-@pytest.mark.parametrize("name", GROUPS)
+DERIVED = [(name, x) for name in GROUPS for x in ({}, {"velocity": "tangent"})]
+DERIVED += [(name, {"attitude": "quaternion"}) for name in TURNING]
+
+
+@pytest.mark.parametrize(("name", "options"), DERIVED)
 def test_the_jacobian_is_the_derivative(name, options, emitted):
     """Against complex steps of rhs along the group; the matrix of ad_Z by the brackets."""
-    if options.get("attitude") == "quaternion" and name not in TURNING:
-        pytest.skip("no quaternion")
     plain = module_of(emitted, name)
     module = module_of(emitted, name, jacobian=ALL, **options)
     p, x, u, g, zeta = state(plain)
@@ -223,15 +227,13 @@ def test_derivatives_by_inputs_and_parameters(name, emitted):
 PLAIN, FORMED = {}, {"layout": "col", "velocity": "tangent"}
 
 
-FORMS = [("gcc", PLAIN), ("gcc", FORMED), ("clang", FORMED), ("g++", PLAIN)]
+FORMS = [("cc", PLAIN), ("cc", FORMED), ("clang", FORMED), ("g++", PLAIN)]
 
 
 @pytest.mark.parametrize(("build", "options"), FORMS)
 @pytest.mark.parametrize("name", ["so3", "se3", "sl3", "saff3"])
 def test_c_in_every_form(name, build, options, emitted, tmp_path):
     """A header of inline functions, batches and the jacobian in C equal the same in Python."""
-    if not present(build):
-        pytest.skip(f"no {build} on the path")
     source = emitted(name, ("c", "python"), jacobian=ALL, **options)
     header = emitted(name, ("c",), jacobian=ALL, form="header", **options)
     (header / f"{name}.c").write_text(WRAPPED.format(name=name))
@@ -260,21 +262,32 @@ WRAPPED = """\
 """
 
 
-def test_batches_are_vectorised(emitted, tmp_path):
+@needs("objdump")
+@pytest.mark.parametrize("compiler", ["gcc", "clang"])
+def test_batches_are_vectorised(compiler, emitted, tmp_path):
     """gcc and clang use packed multiplications in the loop over states."""
-    if shutil.which("objdump") is None:
-        pytest.skip("no objdump on the path")
-    for compiler in ("gcc", "clang"):
-        if shutil.which(compiler) is None:
-            continue
-        for name in ("so3", "se3", "sl3"):
-            source, out = emitted(name, ("c",)) / f"{name}.c", tmp_path / "batch.o"
-            flags = ["-std=c99", "-O3", "-fno-math-errno", "-c", str(source), "-o", str(out)]
-            subprocess.run([compiler, *flags], check=True)
-            shown = subprocess.run(
-                ["objdump", "-d", f"--disassemble={name}_rhs_batch", str(out)],
-                check=True, capture_output=True, text=True,
-            ).stdout  # fmt: skip
-            packed, single = shown.count("mulpd"), shown.count("mulsd")
-            if platform.machine() == "x86_64":
-                assert packed > 50, (compiler, name, packed, single)
+    need(compiler)
+    for name in ("so3", "se3", "sl3"):
+        source, out = emitted(name, ("c",)) / f"{name}.c", tmp_path / "batch.o"
+        flags = ["-std=c99", "-O3", "-fno-math-errno", "-c", str(source), "-o", str(out)]
+        subprocess.run([compiler, *flags], check=True)
+        shown = subprocess.run(
+            ["objdump", "-d", f"--disassemble={name}_rhs_batch", str(out)],
+            check=True, capture_output=True, text=True,
+        ).stdout  # fmt: skip
+        packed, single = shown.count("mulpd"), shown.count("mulsd")
+        if platform.machine() == "x86_64":
+            assert packed > 50, (name, packed, single)
+
+
+@pytest.mark.parametrize("form", ["source", "header"])
+def test_the_names_are_those_of_the_files(form, emitted, tmp_path, capsys):
+    """In every language; with a prefix no problem is read, without one it has its own."""
+    chosen = [x for name in LANGUAGES for x in ("--lang", name)]
+    assert main(["emit", "none.toml", *chosen, "--prefix", "so3", "--form", form, "--names"]) == 0
+    names = capsys.readouterr().out.splitlines()
+    assert sorted(names) == sorted(os.listdir(emitted("so3", tuple(LANGUAGES), form=form)))
+    assert main(["emit", "top", "--names"]) == 0
+    assert capsys.readouterr().out.splitlines() == ["top.h", "top.c", "top.py"]
+    assert main(["emit", "so3", "--lang", "rust", "--form", "header", "--names"]) == 2
+    assert "--form header is one of c" in capsys.readouterr().err

@@ -1,6 +1,7 @@
-"""What installing derive brings, and what its developers have installed."""
+"""What installing derive brings, under which name, and what its developers have installed."""
 
 import re
+import subprocess
 import tomllib
 from importlib import metadata
 from pathlib import Path
@@ -8,13 +9,19 @@ from pathlib import Path
 from packaging.requirements import Requirement
 from packaging.version import Version
 
+from tests.needs import needs
+
 ROOT = Path(__file__).parents[1]
-PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+PROJECT = PYPROJECT["project"]
 LOCK = (ROOT / "requirements-dev.lock").read_text(encoding="utf-8")
+TEXTS = [ROOT / x for x in ("README.md", "SECURITY.md", "CHANGELOG.md", "pyproject.toml")]
+TEXTS += [x for x in ROOT.glob("examples/*") if x.is_file()]
+TEXTS += [x for room in ("derive", "cmake", "templates") for x in ROOT.glob(f"{room}/**/*.*")]
 
 
 def test_installing_it_brings_three_libraries():
-    wanted = [Requirement(x) for x in metadata.requires("derive")]
+    wanted = [Requirement(x) for x in metadata.requires(PROJECT["name"])]
     plain = sorted(x.name for x in wanted if x.marker is None)
     assert plain == ["jinja2", "numpy", "sympy"]
     assert all("extra ==" in str(x.marker) for x in wanted if x.marker)
@@ -34,20 +41,62 @@ def test_what_they_bring_is_small():
 
 
 def test_the_command_is_in_the_package():
-    (command,) = [x for x in metadata.entry_points(group="console_scripts") if x.name == "derive"]
+    points = metadata.distribution(PROJECT["name"]).entry_points
+    (command,) = [x for x in points if x.group == "console_scripts"]
+    assert command.name == "derive"
     assert callable(command.load())
 
 
-def test_the_lock_holds_exact_versions_and_nothing_else():
-    lines = LOCK.splitlines()
-    assert lines[0].startswith("# make lock")
-    assert all(re.fullmatch(r"[A-Za-z0-9._-]+==[0-9][A-Za-z0-9.]*", x) for x in lines[1:])
-    assert lines[1:] == sorted(lines[1:], key=str.upper)
+def test_what_one_is_told_to_install_is_this():
+    """On the package index `derive` is a program of others, which would replace this one."""
+    assert PROJECT["name"] == "derive-mechanics"
+    told = []
+    for path in TEXTS:
+        if path.suffix != ".pyc":
+            text = path.read_text(encoding="utf-8")
+            found = re.findall(r"pip install (?:-\S+ )*['\"]?([\w.-]+)(?:\[(\w+)\])?", text)
+            told += [(path.name, *words) for words in found]
+    for place, name, extra in told:
+        assert name.lower() != "derive", place
+        if extra:
+            assert name in (".", PROJECT["name"]), place
+            assert extra in PROJECT["optional-dependencies"], place
+    named = {(place, extra) for place, name, extra in told if name == PROJECT["name"]}
+    assert {("README.md", "validate"), ("README.md", "mesh"), ("mesh.py", "mesh")} < named
+
+
+# ---------------------------------------------------------------- requirements-dev.lock
+
+LOCKED = re.findall(r"^([\w.-]+)==(\S+)(?: ; .*?)? \\\n((?:    --hash=.*\n)+)", LOCK, flags=re.M)
+
+
+def test_the_lock_holds_exact_versions_and_hashes_and_nothing_else():
+    assert LOCK.splitlines()[1] == "#    make lock; to have these versions: make test LOCKED=1"
+    assert "".join(LOCK.splitlines(keepends=True)[2:]) == "".join(
+        x[0] for x in re.finditer(r"^[\w.-]+==\S+(?: ; .*?)? \\\n(?:    --hash=.*\n)+", LOCK, re.M)
+    )
+    for name, version, hashes in LOCKED:
+        assert str(Version(version)) == version, name
+        for line in hashes.splitlines():
+            assert re.fullmatch(r"    --hash=sha256:[0-9a-f]{64}(?: \\)?", line), name
 
 
 def test_the_lock_has_all_that_tests_need():
-    locked = dict(x.lower().replace("_", "-").split("==") for x in LOCK.splitlines()[1:])
+    """For every version of Python that there may be, and what builds the package as well."""
     wanted = [*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["test"]]
+    wanted += [*PYPROJECT["build-system"]["requires"], "editables"]
     for each in map(Requirement, wanted):
-        assert Version(locked[each.name.lower()]) in each.specifier, each
-    assert "derive" not in locked
+        name = each.name.lower().replace("_", "-")
+        versions = [Version(version) for found, version, _ in LOCKED if found == name]
+        assert versions, each
+        assert all(version in each.specifier for version in versions), each
+    assert PROJECT["name"] not in {name for name, *_ in LOCKED}
+
+
+@needs("make")
+def test_the_locked_environment_takes_nothing_without_a_hash():
+    command = ["make", "-n", "VENV=build/none", "test", "LOCKED=1"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    first, second = [x for x in done.stdout.splitlines() if " pip install " in x]
+    assert "--require-hashes --requirement requirements-dev.lock" in first
+    assert "--no-deps --no-build-isolation --editable ." in second

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from tests.emitted import arrange, import_python
+from tests.needs import needs
 from tests.oracles import articulated, relative_error, sampling, sympy_mechanics
 
 SOLIDS = ("so3", "se3")
@@ -43,10 +44,12 @@ def test_lagranges_method_of_sympy():
     assert worst < 1e-12
 
 
+@needs("the module pinocchio")
 @pytest.mark.parametrize("name", SOLIDS)
 def test_pinocchio(name):
     """Featherstone's articulated-body algorithm on a spherical joint and on a free flyer."""
-    pin = pytest.importorskip("pinocchio")
+    import pinocchio as pin
+
     for body, x, u, found in cases(name, 3):
         # 4e-15 is found
         assert relative_error(found, articulated.acceleration(pin, name, x, body, u)) < 1e-12

@@ -63,6 +63,7 @@ def test_the_motion_is_the_same(name, body, tmp_path):
     rng = np.random.default_rng(4)
     p = parameters(name, body, module, rng)
     moments, R = module.principal_axes(p)
+    assert np.allclose(module.inertia(p), R @ np.diag(moments) @ R.T, atol=1e-13 * moments[-1])
     assert np.allclose(R.T @ R, np.eye(3), atol=1e-14)
     assert np.linalg.det(R) > 0
     assert np.all(np.diff(moments) >= 0)

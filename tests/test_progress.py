@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-pty = pytest.importorskip("pty")
+pty = pytest.importorskip("pty", reason="this system has no pty")
 
 
 def on_a_terminal(*command, cwd):

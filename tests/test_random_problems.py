@@ -6,17 +6,19 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 
+from derive.check.checker import Checker
 from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.mechanics.problem import ProblemError
 from derive.mechanics.toml import problem_of
 from derive.pipeline import walk
-from derive.record.check import Checker
 from derive.record.record import from_json, to_json
 from derive.record.vocabulary import ANY_GROUP
-from tests.emitted import compile_c, present
+from tests.emitted import compile_c
+from tests.needs import present
 from tests.oracles import general, relative_error, solids
 from tests.random_problems import of_both, of_points, of_solids
+from tests.walks import SEED
 
 pytestmark = pytest.mark.no_cover
 EXAMPLES = int(os.environ.get("EXAMPLES", "16"))
@@ -44,7 +46,7 @@ def derived(data):
     record = walk(problem)
     again = from_json(to_json(record))
     assert again == record
-    checker = Checker(again.problem)
+    checker = Checker(again.problem, SEED)
     verdicts = [checker.check(step) for step in again.steps if step.scope != ANY_GROUP]
     assert [f"{v.label}: {v.reason}" for v in verdicts if not v.holds] == []
     assert max(v.bound for v in verdicts) < 1e-30
@@ -59,10 +61,10 @@ def agree(problem, record, data, folder, p):
     rng = np.random.default_rng(len(files["test.py"]))
     values = [{**general.parameters(data), **p}[name] for name in space["PARAMETERS"]]
     k, basis, library = space["constants"](values), space["BASIS"], None
-    if len(files["test.py"]) % COMPILED == 0 and present("gcc"):
+    if len(files["test.py"]) % COMPILED == 0 and present("cc"):
         for name, text in files.items():
             (folder / name).write_text(text, encoding="utf-8")
-        library = compile_c("gcc", "test", folder, folder)
+        library = compile_c("cc", "test", folder, folder)
     for _ in range(STATES):
         x = general.random_state(data, basis, rng)
         t, u = rng.normal(), rng.normal(size=len(space["INPUTS"]))

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from derive.cli import main
+from tests.needs import CC, needs
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -21,8 +22,13 @@ def blocks(language):
 COMMANDS = [line.split("#")[0].split() for line in blocks("sh")[0].splitlines()]
 
 
+CASES = [
+    pytest.param(x, marks=needs("pdflatex") if x[-1].endswith(".pdf") else ()) for x in COMMANDS
+]
+
+
 @pytest.mark.no_cover
-@pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
+@pytest.mark.parametrize("command", CASES, ids=" ".join)
 def test_commands(command, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert command[0] == "derive"
@@ -36,11 +42,12 @@ def test_the_shown_output_is_printed(capsys):
     assert 15 < len(shown.splitlines()) < 60
 
 
+@needs("cc")
 def test_the_c_program(tmp_path):
     (tmp_path / "main.c").write_text(blocks("c")[0], encoding="utf-8")
     compile_line = re.search(r"`(cc -std=c99 .*?)`", README)[1].split()
     flags = [x.replace("generated/", f"{ROOT}/generated/") for x in compile_line[1:]]
-    subprocess.run(["cc", *flags, "-o", "main"], cwd=tmp_path, check=True)
+    subprocess.run([CC, *flags, "-o", "main"], cwd=tmp_path, check=True)
     out = subprocess.run([tmp_path / "main"], capture_output=True, text=True, check=True).stdout
     assert abs(float(out.split()[-1])) < 1e-4
 
@@ -69,6 +76,7 @@ def test_the_named_files_exist():
         assert (ROOT / name).exists(), name
 
 
+@needs("make")
 def test_every_make_target_is_described():
     help_text = subprocess.run(
         ["make", "help"], cwd=ROOT, capture_output=True, text=True, check=True

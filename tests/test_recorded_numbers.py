@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from derive.record.evaluate import Environment, evaluate
+from derive.check.evaluate import Environment, evaluate
 from tests.walks import SPECIAL, problem, record
 
 ROOT = Path(__file__).parents[1]

@@ -114,3 +114,10 @@ def test_braces_without_places_are_letters():
     read = from_json(json.dumps(record))
     assert english(read.steps[0].prose) == "{a.b} {c!r:>99}"
     assert from_json(to_json(read)) == read
+
+
+@pytest.mark.parametrize("name", ["so3", "se3", "sl3"])
+def test_noether_is_said_of_symmetries_of_the_lagrangian(name):
+    """A boost of a free point, δr = tb, keeps dϖ and not L̃: ϖ on it is t⟨p, b⟩."""
+    told = next(s for s in walks.record(name).steps if s.label.endswith(".conserved"))
+    assert "on an infinitesimal symmetry of L̃, is constant" in english(told.prose)

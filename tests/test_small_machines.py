@@ -1,6 +1,5 @@
 """The emitted C in float on a Cortex-M4F: built, measured, and run under qemu beside the host."""
 
-import shutil
 import subprocess
 
 import numpy as np
@@ -8,6 +7,7 @@ import pytest
 
 from derive import derive
 from tests.emitted import import_python
+from tests.needs import CC, need, needs
 
 ARM = ["-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16"]
 STRICT = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wdouble-promotion", "-Werror", "-O2"]
@@ -43,8 +43,7 @@ def listed(values):
 @pytest.fixture(scope="module", params=["so3", "se3", "sl3"])
 def built(request, tmp_path_factory):
     """The name, the folder with the object file, and the module."""
-    if shutil.which("arm-none-eabi-gcc") is None:
-        pytest.skip("no arm-none-eabi-gcc on the path")
+    need("arm-none-eabi-gcc")
     name, folder = request.param, tmp_path_factory.mktemp("arm")
     derive(name).emit(folder, ["c", "python"], real="float")
     command = ["arm-none-eabi-gcc", *ARM, *STRICT, "-fstack-usage", "-c", f"{name}.c"]
@@ -78,9 +77,8 @@ def test_nothing_but_libm(built):
     assert not wanted.split()
 
 
+@needs("qemu-arm")
 def test_it_computes_what_the_host_does(built):
-    if shutil.which("qemu-arm") is None:
-        pytest.skip("no qemu-arm on the path")
     name, folder, module = built
     rng = np.random.default_rng(2)
     p = np.array([module.DEFAULTS[x] for x in module.PARAMETERS])
@@ -100,6 +98,7 @@ def test_it_computes_what_the_host_does(built):
         assert np.allclose(found, expected, rtol=2e-4, atol=2e-6 * np.abs(expected).max())
 
 
+@needs("cc")
 @pytest.mark.parametrize("name", ["so3", "se3"])
 def test_a_ship_in_single_numbers(name, tmp_path):
     """Moments of 1e13 kg m²: their determinant is no float, and is not needed."""
@@ -120,7 +119,7 @@ def test_a_ship_in_single_numbers(name, tmp_path):
         f"if ({name}_constants(p, k)) return 1; {name}_rhs(0, x, k, u, dx);\n"
         f'for (int i = 0; i < {name}_N_STATE; ++i) printf("%.9g ", (double)dx[i]); return 0; }}\n'
     )
-    command = ["gcc", "-std=c99", "main.c", f"{name}.c", "-lm", "-o", "main"]
+    command = [CC, "-std=c99", "main.c", f"{name}.c", "-lm", "-o", "main"]
     subprocess.run(command, cwd=tmp_path, check=True)
     done = subprocess.run([tmp_path / "main"], capture_output=True, text=True, check=True)
     expected = module.rhs(0.0, np.array(x), module.constants(p))

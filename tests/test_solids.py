@@ -4,7 +4,7 @@ import math
 import struct
 import sys
 from fractions import Fraction
-from importlib.util import find_spec
+from functools import reduce
 from itertools import product
 from random import Random
 
@@ -13,20 +13,15 @@ import pytest
 
 from derive.algebra import rational as q
 from derive.algebra.tree import mul
+from derive.check.arithmetic import EvaluationError
+from derive.check.evaluate import Environment, evaluate
+from derive.check.slices import slice_moments
 from derive.mechanics.mesh import MeshError, mesh_moments, read
-from derive.mechanics.solids import (
-    KINDS,
-    Solid,
-    SolidError,
-    moments,
-    rotation_about,
-    unit_moments,
-)
-from derive.record.arithmetic import EvaluationError
-from derive.record.evaluate import Environment, evaluate
-from derive.record.slices import slice_moments
+from derive.mechanics.moments import SolidError
+from derive.mechanics.solids import KINDS, Solid, moments, rotation_about, together, unit_moments
+from tests.needs import needs
 
-needs_trimesh = pytest.mark.skipif(find_spec("trimesh") is None, reason="trimesh is an extra")
+needs_trimesh = needs("the module trimesh")
 PLAIN = [kind for kind in KINDS if kind != "mesh"]
 RHO, A, B, H, M, PHI = (("par", x) for x in ("rho", "a", "b", "h", "m", "phi"))
 COS, SIN = ("fun", "cos", PHI), ("fun", "sin", PHI)
@@ -286,10 +281,10 @@ def test_mixtures():
     hole = moments(Solid("ball", mul(-1, RHO), {"radius": B}))
     names = {RHO: Fraction(5), A: Fraction(3), B: Fraction(2), "π": Fraction(3)}
     hollow = moments(Solid("hollow_ball", RHO, {"outer": A, "inner": B}))
-    assert values(ball + hole, names) == values(hollow, names)
+    assert values(together(ball, hole), names) == values(hollow, names)
     halves = [Solid("box", 2, {"sides": (1, A, 3)}, None, (x, 0, 0)) for x in (0, 1)]
     whole = Solid("box", 2, {"sides": (2, A, 3)}, None, (Fraction(1, 2), 0, 0))
-    assert moments(halves[0]) + moments(halves[1]) == moments(whole)
+    assert together(*map(moments, halves)) == moments(whole)
 
 
 @pytest.mark.parametrize(
@@ -440,7 +435,7 @@ def test_meshes_against_fluxes_and_tetrahedra(seed):
     assert values(found, {}) == lists(expected)
     corners = [(o, *(points[k] for k in face)) for face in OCTANTS]
     parts = [unit_moments(Solid("tetrahedron", 1, {"vertices": c})) for c in corners]
-    assert sum(parts[1:], parts[0]) == found
+    assert reduce(together, parts) == found
 
 
 T = split(QUADS)
@@ -535,5 +530,5 @@ def test_nothing_else_is_opened(tmp_path, monkeypatch):
 def test_without_the_library(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "trimesh", None)
     path = written(tmp_path, off(CUBE, QUADS))
-    with pytest.raises(MeshError, match=r"pip install 'derive\[mesh\]'"):
+    with pytest.raises(MeshError, match=r"pip install 'derive-mechanics\[mesh\]'"):
         moments(Solid("mesh", RHO, {"file": str(path)}))

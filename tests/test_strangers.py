@@ -18,6 +18,7 @@ from derive.guard import StoppedError, one_line, within
 from tests.fuzz.corpus import CORPUS, TOP, TURNED, bombs
 from tests.fuzz.hostile import STRINGS
 from tests.fuzz.mutate import case, quoted
+from tests.needs import CC, needs
 
 ROOT = Path(__file__).parents[1]
 LIMITED = """
@@ -65,7 +66,7 @@ def test_in_a_process_of_its_own(name, tmp_path):
     assert os.listdir(tmp_path) == [name]
 
 
-@pytest.mark.skipif(shutil.which("gcc") is None, reason="needs gcc")
+@needs("cc")
 def test_comments_of_strangers_compile(tmp_path):
     """A title, a unit and a meaning that close comments, strings, lines."""
     for k, words in enumerate(STRINGS):
@@ -76,11 +77,11 @@ def test_comments_of_strangers_compile(tmp_path):
         compile((tmp_path / f"top{k}.py").read_text(encoding="utf-8"), "top.py", "exec")
     flags = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-trigraphs", "-fsyntax-only"]
     sources = sorted(map(str, tmp_path.glob("*.c")))
-    done = subprocess.run(["gcc", *flags, *sources], capture_output=True, text=True)
+    done = subprocess.run([CC, *flags, *sources], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr[:2000]
 
 
-@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="needs TeX")
+@needs("pdflatex")
 def test_notes_of_strangers_are_set(tmp_path, monkeypatch, capsys):
     """TeX gets through all of it, and opens and starts nothing."""
     monkeypatch.chdir(tmp_path)

@@ -88,7 +88,11 @@ def meaning(name, language, text):
     } | {"t": Fraction(random.randint(1, SMALL))}
     k = machine.call("constants", given, k=module.sizes["CONSTANTS"])
     dx = machine.call("rhs", given, dx=module.sizes["STATE"])
-    return k, dx, machine.call("energy", given, value=1)
+    energy = machine.call("energy", given, value=1)
+    if "project" not in module.functions:
+        return k, dx, energy
+    moved = machine.call("project", given, out=module.sizes["STATE"])
+    return k, dx, energy, moved, machine.call("defect", given, value=1)
 
 
 def text_of(name, language):
@@ -104,7 +108,9 @@ def test_every_ready_made_problem_equals_its_record(name):
     assert c.files == (f"{name}.h", f"{name}.c")
     assert c.holds, c.text
     assert python.holds, python.text
-    assert c.text.startswith("constants, rhs, energy, rhs_batch equal the record at 2 exact points")
+    drift = {"gl3": "", "jelly": "", "screw": ", project, defect (at the unit of the group)"}
+    seen = f"constants, rhs, energy, rhs_batch{drift.get(name, ', project, defect')}"
+    assert c.text.startswith(f"{seen} equal the record at 2 exact points")
     assert float(c.text.partition("below ")[2].partition(";")[0]) < 1e-40
     assert "no function reads" not in c.text + python.text
 
@@ -200,6 +206,28 @@ def test_a_change_of_a_jacobian_is_refused(chosen):
             compared("so3", "c", wrong, jacobian=chosen)
 
 
+DRIFT = {
+    "a sign": ("-0.5*left_11", "0.5*left_11", "not taken back"),
+    "half a step": ("-0.5*left_11", "-0.25*left_11", "not taken back"),
+    "another state": ("out[9] = zeta_1", "out[9] = zeta_2", "a state of the group is changed"),
+    "in place": ("out[9] = zeta_1", "out[9] = x[9]", "cannot work in place"),
+    "left out": (" + fabs(left_22)", "", "does not see all"),
+    "hidden": (" + fabs(left_22)", " - fabs(left_22)", "no sum of sizes"),
+    "no size": ("fabs(left_22)", "left_22*left_22", "no sum of sizes"),
+    "elsewhere": ("fabs(left_22)", "fabs(left_22 - 1.0)", "does not vanish"),
+}
+
+
+@pytest.mark.parametrize("case", DRIFT)
+def test_a_change_of_project_or_defect_is_refused(case):
+    old, new, reason = DRIFT[case]
+    text = text_of("so3", "c")
+    start = text.index("void so3_project")
+    assert old in text[start:]
+    with pytest.raises(CodeError, match=reason):
+        compared("so3", "c", text[:start] + text[start:].replace(old, new, 1))
+
+
 LISTS = [
     ("so3.py", '    "A_12",\n    "A_13",', '    "A_13",\n    "A_12",', "names of state"),
     ("so3.c", '    "A_12",\n    "A_13",', '    "A_13",\n    "A_12",', "names of state"),
@@ -207,9 +235,10 @@ LISTS = [
     ("so3.py", '    "u_1",\n', "", "names of inputs"),
     ("so3.py", '"c_3": 0.2', '"c_3": 0.3', "defaults"),
     ("so3.py", "[[0, 0, 0], [0, 0, -1]", "[[0, 0, 0], [0, 0, 1]", "basis"),
-    ("so3.h", "so3_N_INPUTS = 3", "so3_N_INPUTS = 4", "size INPUTS"),
-    ("so3.h", "so3_N_CONSTANTS = 20", "so3_N_CONSTANTS = 21", "k[20] is"),
-    ("so3.h", "so3_N_CONSTANTS = 20", "so3_N_CONSTANTS = 19", "k[19] is outside"),
+    ("so3.h", "so3_N_INPUTS = 3", "so3_N_INPUTS = 4", "so3_SIZE_U is 3, not 4"),
+    ("so3.h", "so3_N_CONSTANTS = 20", "so3_N_CONSTANTS = 21", "so3_SIZE_K is 20, not 21"),
+    ("so3.h", "so3_SIZE_U = 3", "so3_SIZE_U = 2", "so3_SIZE_U is 2, not 3"),
+    ("so3.h", "so3_SIZE_K = 20", "so3_SIZE_K = 19", "so3_SIZE_K is 19, not 20"),
 ]
 
 
@@ -218,6 +247,23 @@ def test_a_wrong_list_or_size_is_refused(file, old, new, reason):
     text = emitted("so3")[0][file]
     assert old in text
     found = [r for r in reports("so3", {file: text.replace(old, new)}) if not r.holds]
+    assert len(found) == 1
+    assert reason in found[0].text
+
+
+SIZES = [
+    ("N_INPUTS|SIZE_U", 3, 4, "size INPUTS"),
+    ("N_CONSTANTS|SIZE_K", 20, 21, "k[20] is"),
+    ("N_CONSTANTS|SIZE_K", 20, 19, "k[19] is outside"),
+]
+
+
+@pytest.mark.parametrize(("sizes", "right", "wrong", "reason"), SIZES)
+def test_a_count_wrong_with_its_size_is_refused(sizes, right, wrong, reason):
+    text = emitted("so3")[0]["so3.h"]
+    text, count = re.subn(rf"({sizes}) = {right}\b", rf"\1 = {wrong}", text)
+    assert count == 2
+    found = [r for r in reports("so3", {"so3.h": text}) if not r.holds]
     assert len(found) == 1
     assert reason in found[0].text
 
@@ -343,14 +389,14 @@ def test_nothing_that_differs_is_written(tmp_path, capsys, monkeypatch):
 def test_without_the_parser_of_c_one_line_says_what_to_install(tmp_path, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "pycparser", None)
     assert main(["emit", "so3", "--validate", "--out", str(tmp_path)]) == 2
-    assert "pip install 'derive[validate]'" in capsys.readouterr().err
+    assert "pip install 'derive-mechanics[validate]'" in capsys.readouterr().err
     assert main(["emit", "so3", "--lang", "python", "--validate", "--out", str(tmp_path)]) == 0
 
 
 def test_the_validator_shares_nothing_with_what_makes_the_files():
     """Neither directly nor through what it imports; and it runs none of their text."""
     names = {str(p.relative_to(ROOT)) for p in imported(ROOT / "validate" / "emission.py")}
-    assert "record/model.py" in names
+    assert "check/model.py" in names
     assert not any(n.startswith(("walk/", "code/", "views/", "mechanics/")) for n in names)
     for path in (ROOT / "validate").iterdir():
         if path.suffix == ".py":
@@ -393,6 +439,27 @@ def test_batches_are_tried_with_several_sizes(old):
     assert not c.holds
 
 
+LATER = {
+    "the velocity of the first": ("= x[9*n + s];", "= x[9*n];"),
+    "an input of the first": ("= u[2*n + s];", "= u[2*n];"),
+    "more than its own": ("= x[9*n + s];", "= x[9*n + s] + (u[1*n + s] - u[1*n]);"),
+    "right in the first two": ("= x[4*n + s];", "= x[4*n + s*s];"),
+    "another constant": ("= k[12];", "= k[12 + s];"),
+    "what another state has": ("zeta_2*I_0_zeta_3", "x[10*n]*I_0_zeta_3"),
+}
+"""Changes of ``rhs_batch`` that leave the first of its states right."""
+
+
+@pytest.mark.parametrize("case", LATER)
+def test_every_state_of_a_batch_is_compared(case):
+    """And each with its own state and inputs, one by one."""
+    old, new = LATER[case]
+    before, mark, batch = text_of("so3", "c").partition("so3_rhs_batch(")
+    assert old in batch
+    (c, _) = reports("so3", {"so3.c": before + mark + batch.replace(old, new, 1)})
+    assert c.text.startswith("DIFFERS: rhs_batch: the rate of ")
+
+
 def test_nothing_validated_is_no_success(tmp_path, capsys):
     command = ["emit", "so3", "--lang", "rust", "--validate", "--out", str(tmp_path / "new")]
     assert main(command) == 1
@@ -419,7 +486,7 @@ def test_files_on_disk_are_read_back_too(tmp_path, capsys):
     assert main(command) == 1
     told = capsys.readouterr()
     assert "so3.c: not current from line 1 on" in told.out
-    assert "so3.c: constants, rhs, energy, rhs_batch equal the record" in told.err
+    assert "so3.c: constants, rhs, energy, rhs_batch, project, defect equal the record" in told.err
     changed = text.replace("I_0_11*zeta_1 - J_12", "I_0_11*zeta_1 + J_12", 1)
     assert changed != text
     path.write_text(changed, encoding="utf-8")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 import subprocess
 from dataclasses import replace
 from fractions import Fraction
@@ -17,15 +16,15 @@ from derive.mechanics.toml import load
 from derive.pipeline import walk
 from derive.record.record import Derivation, Equation, Step, Symbol
 from derive.record.sentence import say
-from derive.views.entries import entries
 from derive.views.escape import markdown_text, prose, tex_text
-from derive.views.latex import anchor, latex, spelt
+from derive.views.latex import anchor, labels, latex, spelt
 from derive.views.letters import bar, names_of, parameter
 from derive.views.markdown import markdown
-from derive.views.outline import equation_label, printed
+from derive.views.outline import printed
 from derive.views.tex import latex_tree
 from derive.views.text import text
 from derive.views.wrap import Piece, display_width, fill
+from tests.needs import need
 
 PROBLEMS = Path(__file__).parents[1] / "derive" / "problems"
 NAMES = ("so3", "se3", "sl3", "linear", "affine")
@@ -51,8 +50,7 @@ def titled(title: str) -> Derivation:
 
 def compiled(source: str, folder: Path, runs: int = 1) -> str:
     """The log of pdflatex, after as many runs as references need."""
-    if shutil.which("pdflatex") is None:
-        pytest.skip("pdflatex is not on PATH")
+    need("pdflatex")
     (folder / "walk.tex").write_text(source, encoding="utf-8")
     command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "walk.tex"]
     for _ in range(runs):
@@ -90,13 +88,33 @@ def numbers(heading: str) -> set[int]:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_every_equation_has_one_label_in_latex(name: str) -> None:
+def test_every_equation_has_its_key_in_latex_and_the_first_its_step_as_well(name: str) -> None:
     d = record(name)
-    labels = re.findall(r"\\label\{(.*?)\}", latex(d))
-    assert labels == [
-        anchor(equation_label(step, x.first)) for step in d.steps for x in entries(step.equations)
-    ]
-    assert len(set(labels)) == len(labels)
+    source = latex(d)
+    found = re.findall(r"\\label\{(.*?)\}", source)
+    assert found == [anchor(label) for step in d.steps for label in labels(step)]
+    assert len(set(found)) == len(found)
+    also = re.findall(r"\\label\{(.*?)\}\\walkalso\{(.*?)\}\{(.*?)\}", source)
+    assert also == [(s.label, f"{s.label}.1", s.label) for s in d.steps]
+
+
+@pytest.mark.parametrize("packages", ["", r"\usepackage{cleveref}"])
+def test_an_equation_is_found_by_its_key_and_the_first_by_its_step(
+    packages: str, tmp_path: Path
+) -> None:
+    names = ("so3.hat", "so3.hat.1", "so3.hat.2", "so3.kernel", "so3.kernel.1")
+    said = "".join(rf"\typeout{{<{x}: \getrefnumber{{{x}}}>}}\eqref{{{x}}}" for x in names)
+    if packages:
+        said += r"\cref{so3.hat}, \cref{so3.hat.1}"
+    source = latex(record("so3")).replace(
+        r"\begin{document}", rf"{packages}\usepackage{{refcount}}\begin{{document}}{said}"
+    )
+    log = compiled(source, tmp_path, runs=3)
+    numbers = dict(re.findall(r"<(so3[a-z0-9.]*): ([0-9.]+)>", log))
+    assert numbers["so3.hat"] == numbers["so3.hat.1"] != numbers["so3.hat.2"]
+    assert numbers["so3.kernel"] == numbers["so3.kernel.1"]
+    assert set(numbers) == set(names)
+    assert not re.search(r"undefined|multiply defined|may have changed", log)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from . import batch, generators, mechanics, native, oracle, ours, python_calls
+from .builds import builds_table
 from .cases import GROUPS, Array, Case, Emitted, draw, states
 from .count import number
 from .limits import Limits
@@ -131,16 +132,18 @@ def run(name: str, chosen: list[str], rounds: int, folder: Path, limits: Limits)
     )
     if first is None or hand is None:
         raise SystemExit(f"{name}: {refused}")
-    made = [first, hand]
+    made, own_ways = [first, hand], [(first, wanted)]
     for one, there in ours.framed(case, x, wanted, folder):
         checked = attempt(one.name, lambda m=one: m, there, folder, refused)  # type: ignore[misc]
         made += [checked] if checked else []
+        own_ways += [(checked, there)] if checked else []
     for peer in chosen:
         maker = PEERS[peer]
         built = attempt(peer, lambda m=maker: m(case, x, folder), first.out, folder, refused)  # type: ignore[misc]
         made += [built] if built else []
     title = f"{name}: {GROUPS[name]}, {case.size} numbers of state"
     print(scalar_table(title, made, refused, rounds), flush=True)
+    print(builds_table(name, hand, own_ways, folder, 3 * rounds), flush=True)
     pair = {"ours": first, "expert": hand}
     print(batch_table(case, pair, emitted, limits, max(5, rounds // 3)), flush=True)
     if name == "p1":

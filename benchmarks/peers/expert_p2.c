@@ -6,12 +6,6 @@
  */
 #include <stddef.h>
 
-#if defined(__GNUC__) && !defined(__clang__)
-/* Vectors put together from scalars of one state cost more than they save; loops over many states
- * are vectorised all the same. */
-#pragma GCC optimize("no-tree-slp-vectorize")
-#endif
-
 #define X(i) x[(i)*n]
 #define DX(i) dx[(i)*n]
 

@@ -19,8 +19,9 @@ import numpy as np
 
 from .cases import Array, command
 
-FLAGS = ["-O3", "-march=native", "-ffp-contract=off", "-fno-semantic-interposition", "-DNDEBUG"]
-COMPILERS = {".c": ["gcc", "-std=c99"], ".cpp": ["g++", "-std=c++17"]}
+LEVEL = ("-O3", "-march=native")
+FLAGS = ["-ffp-contract=off", "-fno-semantic-interposition", "-DNDEBUG"]
+STANDARDS = {".c": "-std=c99", ".cpp": "-std=c++17"}
 PLAIN = "void {0}(const double *x, const double *k, double *dx);"
 
 LOOP = """#include <stddef.h>
@@ -67,11 +68,32 @@ def aligned(shape: int | tuple[int, ...]) -> Array:
     return raw[start : start + size].reshape(shape)
 
 
-def compile_shared(sources: Sequence[Path], options: Sequence[str], folder: Path) -> ctypes.CDLL:
+@dataclass(frozen=True)
+class Build:
+    """A compiler of C and its level of optimisation; C++ is compiled by g++."""
+
+    compiler: str = "gcc"
+    level: tuple[str, ...] = LEVEL
+
+    def __str__(self) -> str:
+        return " ".join([self.compiler, *self.level])
+
+    def command(self, source: Path) -> list[str]:
+        """What compiles a source."""
+        compiler = self.compiler if source.suffix == ".c" else "g++"
+        return [compiler, STANDARDS[source.suffix], *self.level, *FLAGS]
+
+
+NATIVE = Build()
+
+
+def compile_shared(
+    sources: Sequence[Path], options: Sequence[str], folder: Path, build: Build = NATIVE
+) -> ctypes.CDLL:
     """The sources, each compiled alone, as one library; what is there already is kept."""
     objects = []
     for source in sources:
-        words = [*COMPILERS[source.suffix], *FLAGS, "-fPIC", *options, f"-I{source.parent}"]
+        words = [*build.command(source), "-fPIC", *options, f"-I{source.parent}"]
         key = hashlib.sha256("\0".join([*words, source.read_text(encoding="utf-8")]).encode())
         for other in sorted(source.parent.glob("*.h")):
             key.update(other.read_bytes())
@@ -106,7 +128,7 @@ class Native:
     note: str = ""
     prepare: Callable[[ctypes.CDLL], object] | None = None
 
-    def build(self, folder: Path) -> None:
+    def build(self, folder: Path, build: Build = NATIVE) -> None:
         """Compile it with the loop that calls it."""
         folder.mkdir(parents=True, exist_ok=True)
         self.states, self.out = self.place(self.states), aligned((len(self.states), self.outputs))
@@ -122,7 +144,7 @@ class Native:
             encoding="utf-8",
         )
         sources = [*self.sources, loop]
-        self.library = compile_shared(sources, self.options, folder)
+        self.library = compile_shared(sources, self.options, folder, build)
         if self.prepare is not None:
             self.prepare(self.library)
 

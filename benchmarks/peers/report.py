@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 import platform
+import shutil
 from collections.abc import Sequence
 from importlib import metadata
 from pathlib import Path
 
 from .cases import command
-from .native import FLAGS
+from .native import FLAGS, NATIVE
 
 PACKAGES = [
     "casadi",
@@ -44,6 +45,13 @@ def table(title: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> str
     return "\n".join([title, rule, line(head), rule, *map(line, rows), rule, ""])
 
 
+def version(compiler: str) -> str:
+    """What a compiler says that it is."""
+    if shutil.which(compiler) is None:
+        return f"no {compiler}"
+    return command(compiler, "--version").splitlines()[0]
+
+
 def machine(cpu: int) -> str:
     """Processor, compilers, versions."""
     model = platform.processor()
@@ -61,9 +69,8 @@ def machine(cpu: int) -> str:
             versions.append(f"{name} not installed")
     lines = [
         f"processor  {model}, {os.cpu_count()} cores, on core {cpu}",
-        f"compilers  {command('gcc', '--version').splitlines()[0]}, "
-        f"{command('g++', '--version').splitlines()[0]}",
-        f"flags      {' '.join(FLAGS)}",
+        f"compilers  {', '.join(map(version, ('gcc', 'g++', 'clang')))}",
+        f"flags      {' '.join([*NATIVE.level, *FLAGS])}, where no others are said",
         f"python     {platform.python_version()}; {', '.join(versions[:6])},",
         f"           {', '.join(versions[6:])}",
     ]

@@ -24,7 +24,6 @@ from .words import (
     row_dim,
     trace,
     transpose_word,
-    zero,
 )
 
 Image = Callable[[Letter], Expr | None]
@@ -54,7 +53,7 @@ def leibniz(w: Word, delta: Image) -> Expr | None:
 
 def derivation(e: Expr, delta: Image) -> Expr:
     """``δe`` for the derivation whose value on letters is ``delta`` (``None`` for constants)."""
-    total = zero(e.rows, e.cols)
+    total = e.like({})
     for (traces, w), c in e.terms.items():
         for k, cycle in enumerate(traces):
             varied = leibniz(cycle, delta)
@@ -85,7 +84,7 @@ def substitute(e: Expr, images: Mapping[Letter, Expr]) -> Expr:
         assert result is not None
         return result
 
-    total = zero(e.rows, e.cols)
+    total = e.like({})
     for (traces, w), c in e.terms.items():
         product = number(c)
         for cycle in traces:
@@ -106,7 +105,7 @@ def reduce(e: Expr, *rules: PairRule) -> Expr:
     """Rewrite adjacent pairs, also across the seam of a trace, until no rule applies."""
     work = e
     while True:
-        total, changed = zero(e.rows, e.cols), False
+        total, changed = work.like({}), False
         for (traces, w), c in work.terms.items():
             rewritten = _rewrite_term(traces, w, c, rules, work)
             changed = changed or rewritten is not None
@@ -158,7 +157,7 @@ def gradient(e: Expr, letter: Letter) -> Expr:
 
     For a symmetric or skew letter only that part of G is determined, and it is what is returned.
     """
-    total = zero(letter.rows, letter.cols)
+    total = Expr(letter.rows, letter.cols, {}, e.lineage)
     for (traces, _), c in e.terms.items():
         for k, cycle in enumerate(traces):
             places = [i for i, (x, _) in enumerate(cycle) if x == letter]
@@ -189,4 +188,4 @@ def without(e: Expr, *letters: Letter) -> Expr:
     def kept(traces: Traces, w: Word) -> bool:
         return not any(x in gone for part in (*traces, w) for x, _ in part)
 
-    return Expr(e.rows, e.cols, {(t, w): c for (t, w), c in e.terms.items() if kept(t, w)})
+    return e.like({(t, w): c for (t, w), c in e.terms.items() if kept(t, w)})

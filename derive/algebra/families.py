@@ -6,6 +6,7 @@ parameter of Sp is the size of its matrices; U(n) and SU(n) act on R²ⁿ by [[X
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -205,15 +206,29 @@ def group(name: str) -> Group:
     match = re.fullmatch(r"([A-Za-z]+)\(\s*([0-9]{1,3})\s*\)", parts[0])
     if match is None or match[1] not in FAMILIES:
         known = ", ".join(f"{family}(n)" for family in FAMILIES)
+        near = _nearest(name[:40])
+        hint = f"did you mean {near!r}? " if near else ""
         raise ValueError(
-            f"unknown group {name[:40]!r}; known: {known}, with a number for n, and products such "
-            "as 'SO(3) x SO(3)'"
+            f"unknown group {name[:40]!r}; {hint}known: {known}, with a number for n, and products "
+            "such as 'SO(3) x SO(3)'"
         )
     family, n = FAMILIES[match[1]], int(match[2])
     if not family.least <= n <= family.most or n % family.step:
         even = "even and " if family.step == 2 else ""
         raise ValueError(f"{match[1]}({n}): n must be {even}from {family.least} to {family.most}")
     return family.make(f"{match[1]}({n})", n)
+
+
+def _nearest(name: str) -> str:
+    """The group that is meant by a name in other letters or without parentheses; "" if none."""
+    families, parts = {x.casefold(): x for x in FAMILIES}, []
+    for part in re.split(r"\s*[x×*]\s*", name.strip()):
+        match = re.fullmatch(r"([A-Za-z]+)[\s_(\[]*([0-9]{1,3})[\s)\]]*", part)
+        near = difflib.get_close_matches(match[1].casefold() if match else "", families, 1, 0.7)
+        if not near or not match:
+            return ""
+        parts.append(f"{families[near[0]]}({match[2]})")
+    return " x ".join(parts)
 
 
 def product(factors: tuple[Group, ...]) -> Group:

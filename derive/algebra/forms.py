@@ -42,4 +42,4 @@ def strip_left(e: Expr, frame: Letter) -> Expr:
         if not w or w[0] != (frame, False):
             raise ValueError(f"{frame.name} is not a common left factor")
         terms[traces, w[1:]] = c
-    return Expr(e.rows, e.cols, terms)
+    return e.like(terms)

@@ -69,6 +69,12 @@ class Group:
             found.add("unimodular")
         return frozenset(found)
 
+    @cached_property
+    def conformal(self) -> bool:
+        """Is ĀA a multiple of 1 in the connected group?"""
+        stretched = (q.plus(e, q.transposed(e)) for e in self.linear_basis)
+        return all(s == q.scaled(s[0][0], q.identity(self.n)) for s in stretched)
+
     def linear_part(self, e: Matrix) -> Matrix:
         """The n × n block of a matrix of the group or of its algebra."""
         return tuple(row[: self.n] for row in e[: self.n])

@@ -17,15 +17,20 @@ from .words import Expr, Factor, Letter, Word, rotations, row_dim, transpose_wor
 
 @dataclass(frozen=True)
 class Notation:
-    """``metrics``: letters written as ⟨·,·⟩_M; ``display``: trees that letters stand for."""
+    """``metrics``: letters written as ⟨·,·⟩_M; ``display``: trees that letters stand for.
+
+    ``covectors``: letters whose traces with another are written ⟨·,·⟩.
+    """
 
     metrics: frozenset[str] = frozenset()
     display: Mapping[Letter, Tree] = field(default_factory=dict)
+    covectors: frozenset[Letter] = frozenset()
 
 
 PLAIN = Notation()
 
 READING = [
+    *("Π̇", "ṗ_b", "δΠ", "δp_b", "δ′Π", "δ′p_b", "Π", "p_b", "Φ"),
     "α",
     "τ",
     "F̃",
@@ -173,10 +178,21 @@ def _reading_order(w: Word) -> tuple[object, ...]:
     )
 
 
+def _paired(candidates: list[tuple[int, Word]], notation: Notation) -> Tree | None:
+    """⟨P, x⟩ for Tr P x̄, where P is a covector."""
+    for sign, ((left, barred), right) in candidates:
+        if left in notation.covectors and not barred and (right[1] or right[0].symmetry < 0):
+            pair = (_factor((x, False), notation) for x in (left, right[0]))
+            return _signed(sign if right[1] else -sign, ("inner", *pair))
+    return None
+
+
 def _trace(w: Word, notation: Notation) -> Tree:
     sign, other = transpose_word(w)
     candidates = [(1, turned) for turned in rotations(w)]
     candidates += [(sign, turned) for turned in rotations(other)]
+    if len(w) == 2 and (pair := _paired(candidates, notation)):
+        return pair
     best_sign, best = min(candidates, key=lambda item: _reading_order(item[1]))
     if len(best) == 3 and best[1][0].name in notation.metrics:
         a, metric, b = best

@@ -138,3 +138,20 @@ def nullspace(a: Matrix) -> list[tuple[Any, ...]]:
             x[col] = -reduced[r][free]
         basis.append(tuple(x))
     return basis
+
+
+def semidefinite(a: Sequence[Sequence[Any]]) -> bool:
+    """Is x̄ a x ≥ 0 for every x?  By elimination, for a symmetric a."""
+    m = [[*row] for row in a]
+    for k in range(len(m)):
+        if m[k][k] < 0 or (m[k][k] == 0 and any(m[k][k:])):
+            return False
+        for i in range(k + 1, len(m)):
+            factor = m[i][k] / m[k][k] if m[k][k] else Fraction(0)
+            m[i] = [x - factor * y for x, y in zip(m[i], m[k], strict=True)]
+    return True
+
+
+def definite(a: Matrix) -> bool:
+    """Is x̄ a x > 0 for every x but 0?"""
+    return semidefinite(a) and rank(a) == len(a)

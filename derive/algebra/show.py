@@ -72,8 +72,9 @@ def _atom(t: Tree) -> str:
 
 
 def _base(t: Tree) -> str:
-    """What is raised to a power or divides: a fraction is in brackets, too."""
-    return f"({_show(t)[0]})" if isinstance(t, Fraction) else _atom(t)
+    """What is raised to a power or divides: what has a number above it is in brackets, too."""
+    raised = isinstance(t, tuple) and t[0] in ("pow", "inv", "norm2")
+    return f"({_show(t)[0]})" if raised or isinstance(t, Fraction) else _atom(t)
 
 
 def _letter(text: str) -> bool:
@@ -180,7 +181,7 @@ def _atomic(op: object, a: tuple[Tree, ...]) -> str:
     if op == "T":
         return _barred(a[0])
     if op == "inv":
-        return f"{_atom(a[0])}⁻¹"
+        return f"{_base(a[0])}⁻¹"
     if op == "det":
         return f"det({show(a[0])})"
     if op == "one":

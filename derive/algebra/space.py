@@ -54,9 +54,9 @@ def normal_form(e: Expr) -> Expr:
     return reduce(e, *RULES)
 
 
-def fold_inertia(e: Expr, moments: Letter, inertia: Letter) -> Expr:
+def fold_inertia(e: Expr, moments: Letter, inertia: Expr) -> Expr:
     """``Tr j(x) J j(y)‾ = ⟨x, y⟩_I`` wherever the left side stands as a trace."""
-    total = zero(e.rows, e.cols)
+    total = e.like({})
     for (traces, w), c in e.terms.items():
         term = Expr(e.rows, e.cols, {((), w): c}) if w or e.is_scalar else one(e.rows) * c
         for cycle in traces:
@@ -65,10 +65,10 @@ def fold_inertia(e: Expr, moments: Letter, inertia: Letter) -> Expr:
     return total
 
 
-def _metric_of(cycle: tuple[Factor, ...], moments: Letter, inertia: Letter) -> Expr:
+def _metric_of(cycle: tuple[Factor, ...], moments: Letter, inertia: Expr) -> Expr:
     axes = [x.axis for x, _ in cycle if x.axis is not None]
     if len(cycle) == 3 and len(axes) == 2 and any(x == moments for x, _ in cycle):
-        return -inner(word(axes[0]), word(axes[1]), word(inertia))
+        return -inner(word(axes[0]), word(axes[1]), inertia)
     return Expr(1, 1, {((cycle,), ()): number(1).terms[(), ()]})
 
 
@@ -84,7 +84,7 @@ def fold_double(e: Expr) -> Expr:
                 del terms[key], terms[twin]
                 folded = folded + others * c * word(hat(x)) * word(hat(z)) * word(y)
                 break
-    return Expr(e.rows, e.cols, terms) + folded
+    return e.like(terms) + folded
 
 
 def _inner_factors(key: Key) -> list[tuple[Letter, Letter, Expr]]:

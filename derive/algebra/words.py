@@ -131,13 +131,35 @@ def _collect(items: Iterable[tuple[Fraction, list[Word], Word]]) -> Terms:
     return {key: c for key, c in total.items() if c}
 
 
+Lineage = frozenset[str]
+NONE: Lineage = frozenset()
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Expr:
-    """A sum of words of one shape; immutable, comparable, hash-free."""
+    """A sum of words of one shape; immutable, comparable, hash-free.
+
+    ``lineage``: marks of what it was made from, which every operation hands on; equality and
+    arithmetic do not see it.
+    """
 
     rows: Dim
     cols: Dim
     terms: Terms
+    lineage: Lineage = NONE
+
+    def marked(self, *marks: str) -> Expr:
+        """The same with these marks alone."""
+        return Expr(self.rows, self.cols, self.terms, frozenset(marks))
+
+    def like(self, terms: Terms) -> Expr:
+        """Other terms of the same shape, made from this."""
+        return Expr(self.rows, self.cols, terms, self.lineage)
+
+    def of(self, *others: Expr) -> Expr:
+        """The same, made from others as well."""
+        lineage = self.lineage.union(*(x.lineage for x in others))
+        return Expr(self.rows, self.cols, self.terms, lineage)
 
     @property
     def is_scalar(self) -> bool:
@@ -165,10 +187,11 @@ class Expr:
         total = dict(self.terms)
         for key, c in other.terms.items():
             total[key] = total.get(key, Fraction(0)) + c
-        return Expr(self.rows, self.cols, {k: c for k, c in total.items() if c})
+        lineage = _both(self.lineage, other.lineage)
+        return Expr(self.rows, self.cols, {k: c for k, c in total.items() if c}, lineage)
 
     def __neg__(self) -> Expr:
-        return Expr(self.rows, self.cols, {k: -c for k, c in self.terms.items()})
+        return self.like({k: -c for k, c in self.terms.items()})
 
     def __sub__(self, other: Expr) -> Expr:
         return self + (-other)
@@ -176,8 +199,7 @@ class Expr:
     def __mul__(self, other: Expr | int | Fraction) -> Expr:
         if not isinstance(other, Expr):
             q = Fraction(other)
-            terms = {k: c * q for k, c in self.terms.items() if q}
-            return Expr(self.rows, self.cols, terms)
+            return self.like({k: c * q for k, c in self.terms.items() if q})
         if not self.is_scalar and not other.is_scalar and self.cols != other.rows:
             raise ValueError(
                 f"shapes {self.rows}×{self.cols} and {other.rows}×{other.cols} do not multiply"
@@ -192,7 +214,7 @@ class Expr:
             for (m1, w1), c1 in self.terms.items()
             for (m2, w2), c2 in other.terms.items()
         )
-        return Expr(rows, cols, _collect(items))
+        return Expr(rows, cols, _collect(items), _both(self.lineage, other.lineage))
 
     def __rmul__(self, other: int | Fraction) -> Expr:
         return self * other
@@ -204,7 +226,7 @@ class Expr:
         for (traces, word), c in self.terms.items():
             sign, turned = transpose_word(word)
             items.append((c * sign, list(traces), turned))
-        return Expr(self.cols, self.rows, _collect(items))
+        return Expr(self.cols, self.rows, _collect(items), self.lineage)
 
     def letters(self) -> set[Letter]:
         """Every letter that occurs, plain or barred, inside or outside a trace."""
@@ -214,13 +236,9 @@ class Expr:
                 found.update(letter for letter, _ in w)
         return found
 
-    def __str__(self) -> str:
-        from .notation import tree_of
-        from .show import show
 
-        return show(tree_of(self))
-
-    __repr__ = __str__
+def _both(a: Lineage, b: Lineage) -> Lineage:
+    return a | b if a and b and a is not b else a or b
 
 
 def word(*letters: Letter) -> Expr:
@@ -263,7 +281,7 @@ def trace(e: Expr) -> Expr:
             items.append((c * size, list(traces), ()))
         else:
             items.append((c, [*traces, ((Letter(str(e.rows)), False),)], ()))
-    return Expr(1, 1, _collect(items))
+    return Expr(1, 1, _collect(items), e.lineage)
 
 
 def inner(a: Expr, b: Expr, metric: Expr | None = None) -> Expr:

@@ -7,10 +7,12 @@ from dataclasses import replace
 
 from ..algebra.groups import Group
 from ..algebra.show import show
+from ..limits import SLOPES, SLOPES_BY_PARAMETERS
 from ..record.record import Derivation
 from .axes import inertia, turning
 from .carry import carrying
 from .conventions import conventions
+from .drift import TEXTS, drift
 from .factor import factored
 from .frame import Frame
 from .graph import Node
@@ -19,12 +21,16 @@ from .lower import Lowering
 from .naming import Names, suffixed
 from .options import Options
 from .program import Framing, Function, LoweringError, Program
-from .reader import equation_key
 from .schedule import Scheduler, frontier
 from .titles import titles
 
 Place = tuple[str, tuple[str, int]]
 """The name of a number that is read, and its array and index."""
+
+LOCAL = (
+    "Masses may be negative: constants tests the metric at g = 1; where the state takes it to a",
+    "singular one, dx/dt is without bound.",
+)
 
 Check = tuple[Node, Node | None]
 """What must not vanish, and the scale of its rounding error."""
@@ -53,8 +59,7 @@ def assemble(
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
         wanted |= _inertia(frame.old) | carrying(frame, lowering)
-    # a pivot that is a number was seen not to vanish
-    checks = [test for test in lowering.checks if test[0].op != "num"]
+    checks = [(x, size) for x, size in lowering.checks if x.op != "num" or x.data <= 0]
     checks += frame.regular if frame else []
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
     parameters = _used_parameters(d, found)
@@ -66,7 +71,10 @@ def assemble(
         str(d.problem.get("title", "")),
         group.name,
         group.dimension,
-        conventions(group, d.problem, chosen, framed.problem["frame"] if framed else None),
+        (
+            *conventions(group, d.problem, chosen, framed.problem["frame"] if framed else None),
+            *(LOCAL if lowering.local else ()),
+        ),
         tuple(lowering.space.names),
         tuple(_parameter(d, name) for name in parameters),
         tuple(lowering.inputs),
@@ -93,7 +101,7 @@ def _functions(
     for kind, members in (("state", state), ("input", inputs)):
         for name in members:
             names.claim(name, f"{kind} {name}")
-    scheduler = Scheduler(names, _equations(lowering.record))
+    scheduler = Scheduler(names, _equations(lowering.record) | TEXTS)
     fixed = frontier(x for name in wanted if name != "inertia" for x in wanted[name])
     leaves = [lowering.leaf(x, "parameter") for x in parameters]
     given = _leaf_places(names, leaves, "p")
@@ -110,11 +118,25 @@ def _functions(
         slopes = by_leaves(lowering.space, lowering.space.velocity(lowering.component), leaves)
         slopes = factored(lowering.graph, slopes)
         functions["jacobian_parameters"] = scheduler.function(slopes, moving | given)
-    return functions, constants, _framing(frame, scheduler, given, numbers) if frame else None
+    framing = _framing(frame, scheduler, given, numbers) if frame else None
+    for name, nodes in drift(lowering.space).items():
+        functions[name] = scheduler.function(nodes, moving)
+    return functions, constants, framing
 
 
 def _refused(d: Derivation, group: Group, chosen: Options) -> None:
-    """What cannot be had together."""
+    """What cannot be had together, or is too much."""
+    rows = 2 * group.dimension
+    columns = {
+        "state": (rows, SLOPES),
+        "parameters": (len(d.problem["parameters"]), SLOPES_BY_PARAMETERS),
+    }
+    for by, (width, most) in columns.items():
+        if by in chosen.jacobian and rows * width > most:
+            raise LoweringError(
+                f"{d.name}: --jacobian {by} is a matrix of {rows * width} entries on {group.name}, "
+                f"of dimension {group.dimension}; compilers manage {most}: leave it out"
+            )
     if chosen.attitude == "quaternion" and not group.turns_space:
         raise LoweringError(f"{d.name}: a quaternion needs SO(3) or SE(3), not {group.name}")
     if chosen.attitude == "quaternion" and chosen.velocity == "tangent":
@@ -244,7 +266,5 @@ def _parameter(d: Derivation, name: str) -> tuple[str, float | None, str, str]:
 
 
 def _equations(d: Derivation) -> dict[str, str]:
-    """Label of an equation → its text, for comments."""
-    return {
-        equation_key(s, e): f"{show(e.lhs)} = {show(e.rhs)}" for s in d.steps for e in s.equations
-    }
+    """Key of an equation → its text, for comments."""
+    return {s.key(e): f"{show(e.lhs)} = {show(e.rhs)}" for s in d.steps for e in s.equations}

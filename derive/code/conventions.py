@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import textwrap
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from ..algebra import rational as q
 from ..algebra.groups import Group
+from ..algebra.relations import Relations, relations
 from ..algebra.show import show
 from ..record.record import decode
 from .options import Options
@@ -28,8 +31,6 @@ def conventions(
             "The names that end in _dot are the entries of the velocity dg/dt; the basis below is"
         )
         lines.append("that of the Lie algebra, in which the linearised equations are written.")
-        if "orthogonal" in group.relations:
-            lines.append("An error of the integrator in dA/dt grows: A drifts off the rotations.")
     elif group.turns_space:
         lines.append(
             "zeta is the angular velocity in the body frame: dA/dt = A j(zeta), j(x) y = x cross y."
@@ -43,7 +44,65 @@ def conventions(
             "w is the velocity of the body's origin (r = 0) in the body frame: dT/dt = A w."
         )
     given = (line for x in inputs for line in _input(group, x, places))
-    return (*lines, *given, *(_frame(group, frame, bool(inputs)) if frame else ()))
+    framed = _frame(group, frame, bool(inputs)) if frame else ()
+    return (*lines, *given, *_lengths(problem), *framed, *textwrap.wrap(_drift(group, options), 92))
+
+
+def _lengths(problem: Mapping[str, Any]) -> list[str]:
+    """Where a spring has no direction."""
+    springs = [p for p in problem.get("potentials", []) if p["kind"] == "spring"]
+    if not any(p.get("length", 0) != 0 for p in springs):
+        return []
+    text = (
+        "Where the ends of a spring meet, its natural length must be 0: else its force has no "
+        "direction there, and rhs is not a number; with length 0 it is linear, there too."
+    )
+    return textwrap.wrap(text, 92)
+
+
+def _drift(group: Group, options: Options) -> str:
+    """What project and defect are for, and how far they go."""
+    quaternion = options.attitude == "quaternion"
+    several = len(group.places) > 1
+    told, left = ["|q| = 1"] if quaternion else [], 0
+    for k, (_, factor) in enumerate(() if quaternion else group.places, 1):
+        kept = relations(factor)
+        told += _relations(kept, str(k) if several else "")
+        left += kept.left
+    if not told:
+        return "Every invertible matrix is in the group: there is nothing to project a state to."
+    text = (
+        f"Integrators err, and the state drifts off the group: project takes it back by one Newton "
+        f"step for {', '.join(told)}; defect is the sum of the sizes of what these leave."
+    )
+    if left > group.dimension and not quaternion:
+        text += f" They leave a group of dimension {left}, of which this one is a part."
+    if options.velocity == "tangent":
+        text += (
+            " Errors in dA/dt grow, on SL(n) exponentially, until nothing is a number: project once"
+            " a step, which takes from dA/dt what leaves the group."
+        )
+    return text
+
+
+def _relations(kept: Relations, mark: str) -> Iterator[str]:
+    """The relations of one factor in words."""
+    A, S, one = f"A{mark}", f"S{mark}", q.identity(len(kept.form))
+    if kept.hull:
+        yield f"{A} in the affine span of the group"
+    if kept.form == one and kept.form:
+        yield f"{A}^T {A} = mu 1" if kept.conformal else f"{A}^T {A} = 1"
+    elif kept.form:
+        law = f"{A}^T {S} {A} = {'mu ' if kept.conformal else ''}{S}"
+        entries = (
+            f"{'+' if x > 0 else '-'} {'' if abs(x) == 1 else f'{abs(x)} '}e_{i}{j}"
+            for i, row in enumerate(kept.form, 1)
+            for j, x in enumerate(row, 1)
+            if x
+        )
+        yield f"{law} with {S} = {' '.join(entries).removeprefix('+ ')}"
+    if kept.determinant:
+        yield f"det {A} = 1{' over the complex numbers' if kept.frame else ''}"
 
 
 def _frame(group: Group, frame: Mapping[str, Any], driven: bool) -> list[str]:
@@ -74,7 +133,7 @@ def _attitude(group: Group) -> list[str]:
     shift = " + T" if group.affine else ""
     return [
         f"q is a unit quaternion, scalar first: a point r of the body stands at q r q*{shift}",
-        "in space; dq/dt = q zeta / 2 keeps its norm, which the caller may renew.",
+        "in space; dq/dt = q zeta / 2 keeps its norm.",
     ]
 
 

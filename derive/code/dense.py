@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import product
+from typing import Any
 
 from ..algebra.rational import Matrix
 from .graph import PARAMETER, Graph, Node
@@ -78,6 +79,25 @@ def determinant(g: Graph, m: Matrix) -> Node:
         g.linear([((-1) ** j, g.product((m[0][j], determinant(g, minor(m, 0, j)))))])
         for j in range(len(m))
     )
+
+
+def expanded(m: Sequence[Sequence[Any]]) -> Any:
+    """The determinant in any ring, by expansion along the rows, each minor once."""
+    n = len(m)
+
+    @cache
+    def below(columns: tuple[int, ...]) -> Any:
+        """That of the last rows in as many columns."""
+        row = m[n - len(columns)]
+        if len(columns) == 1:
+            return row[columns[0]]
+        parts = [row[j] * below((*columns[:k], *columns[k + 1 :])) for k, j in enumerate(columns)]
+        total = parts[0]
+        for k, x in enumerate(parts[1:], 1):
+            total = total - x if k % 2 else total + x
+        return total
+
+    return below(tuple(range(n)))
 
 
 def minor(m: Matrix, i: int, j: int) -> Matrix:

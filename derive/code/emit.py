@@ -12,6 +12,7 @@ from typing import Any
 from .. import __version__
 from ..record.record import Derivation
 from ..templating import environment
+from .apart import apart, hollow, identifiers
 from .languages import LANGUAGES, Language
 from .naming import PREFIXES
 from .options import Options
@@ -32,34 +33,41 @@ def emit(
 ) -> dict[str, str]:
     """File name → text, for each language; ``EmitError`` for a prefix that is no name."""
     chosen = options or Options()
+    places = planned(languages, prefix, chosen.form)
+    plain = [name for name in languages if program.framing and not LANGUAGES[name].framed]
+    if plain:
+        framed = ", ".join(name for name, x in LANGUAGES.items() if x.framed)
+        raise EmitError(f"--frame principal is written in {framed}, not in {', '.join(plain)}")
+    files: dict[str, str] = {}
+    for name in dict.fromkeys(language for language, _ in places.values()):
+        own = {file: template for file, (language, template) in places.items() if language == name}
+        language = LANGUAGES[name]
+        frame = "\n".join(_rendered(hollow(program), d, prefix, language, chosen, own).values())
+        named = apart(program, identifiers(frame, language))
+        files |= _rendered(named, d, prefix, language, chosen, own)
+    return files
+
+
+def planned(languages: Sequence[str], prefix: str, form: str) -> dict[str, tuple[str, str]]:
+    """File name → its language and template; ``EmitError`` for a prefix that is no name."""
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,63}", prefix) or prefix in PREFIXES:
         raise EmitError(
             f"the prefix {prefix[:40]!r} cannot be used: give --prefix NAME, letters, digits and "
             "_, starting with a letter, at most 64, no word of a language or of the emitted code, "
             "and no header of C or module of Python"
         )
-    plain = [name for name in languages if program.framing and not LANGUAGES[name].framed]
-    if plain:
-        framed = ", ".join(name for name, x in LANGUAGES.items() if x.framed)
-        raise EmitError(f"--frame principal is written in {framed}, not in {', '.join(plain)}")
     forms = {name: x for name, x in LANGUAGES.items() if x.files["header"] != x.files["source"]}
-    if chosen.form == "header" and not any(
-        name in forms or LANGUAGES[name].needs for name in languages
-    ):
+    if form == "header" and not any(name in forms or LANGUAGES[name].needs for name in languages):
         raise EmitError(
             f"--form header is one of {', '.join(forms)}: add --lang {next(iter(forms))}"
         )
     needed = (LANGUAGES[name].needs for name in languages)
-    files = {}
+    places = {}
     for name in dict.fromkeys([*filter(None, needed), *languages]):
-        language = LANGUAGES[name]
-        templates = environment(name)
-        fields = _fields(program, d, prefix, language, chosen)
-        for file in language.files[chosen.form]:
+        for file in LANGUAGES[name].files[form]:
             source, _, suffix = file.rpartition(":")
-            template = templates.get_template(f"problem{source or suffix}.jinja")
-            files[prefix + suffix] = template.render(fields)
-    return files
+            places[prefix + suffix] = name, f"problem{source or suffix}.jinja"
+    return places
 
 
 def included(languages: Iterable[str]) -> tuple[str, ...]:
@@ -72,6 +80,19 @@ def problem_hash(d: Derivation) -> str:
     """A short hash of the problem as the record states it."""
     data = json.dumps(dict(d.problem), sort_keys=True, ensure_ascii=False)
     return hashlib.sha256(data.encode()).hexdigest()[:16]
+
+
+def _rendered(
+    p: Program,
+    d: Derivation,
+    prefix: str,
+    language: Language,
+    options: Options,
+    places: Mapping[str, str],
+) -> dict[str, str]:
+    """The files of one language, by the templates of their names."""
+    templates, fields = environment(language.name), _fields(p, d, prefix, language, options)
+    return {file: templates.get_template(x).render(fields) for file, x in places.items()}
 
 
 def _fields(
@@ -112,6 +133,7 @@ def _fields(
         "jacobians": {x: f for x, f in functions.items() if x.startswith("jacobian")},
         "framing": _framing(p, written, sizes),
         "carrying": [x for x in functions if x.endswith("_frame")],
+        "asks_for_zero": p.asks_for_zero,
         "calls": sorted({x for f in p.all_functions() for x in f.calls()}),
         "tolerance": printer.number(Fraction(TOLERANCE[real])),
     }

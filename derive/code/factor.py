@@ -162,6 +162,8 @@ def _rebuilt(
             images[x] = graph.recip(args[0])
         elif x.op == "fun":
             images[x] = graph.function(x.data, args[0])
+        elif x.op == "none":
+            images[x] = graph.none(args[0])
         else:
             images[x] = graph.magnitude(args[0])
     return images

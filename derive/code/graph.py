@@ -14,12 +14,15 @@ from fractions import Fraction
 from math import gcd
 from typing import Any
 
+from ..limits import OPERANDS
+from .program import LoweringError
+
 PARAMETER, STATE = 0, 1
 
 
 @dataclass(frozen=True, eq=False)
 class Node:
-    """``op`` is one of num, leaf, add, mul, recip, abs, fun, value.
+    """``op`` is one of num, leaf, add, mul, recip, abs, none, fun, value.
 
     ``data``: the number, the leaf's (kind, name), the coefficients of a sum, or the function.
     """
@@ -63,12 +66,19 @@ class Graph:
 
     def __init__(self) -> None:
         self._nodes: dict[tuple[Any, ...], Node] = {}
+        self._operands = 0
         self.titles: dict[Node, tuple[str, str, bool]] = {}
         """Value node → name, label of the equation, and whether the record gave the name."""
 
     def _intern(self, op: str, data: Any, args: tuple[Node, ...], stage: int) -> Node:
         key = (op, data, *(a.id for a in args))
         if key not in self._nodes:
+            self._operands += len(args)
+            if self._operands > OPERANDS:
+                raise LoweringError(
+                    f"the code would have more than {OPERANDS} operands, too many for compilers; "
+                    "leave out --jacobian, or give numbers for parameters, or take a smaller group"
+                )
             self._nodes[key] = Node(self, len(self._nodes), op, data, args, stage)
         return self._nodes[key]
 
@@ -107,6 +117,16 @@ class Graph:
         """An elementary function of a value."""
         return self._intern("fun", name, (x,), x.stage)
 
+    def none(self, x: Node) -> Node:
+        """1 where x is 0, else 0."""
+        return (
+            self.num(int(x.is_zero)) if x.op == "num" else self._intern("none", None, (x,), x.stage)
+        )
+
+    def absolute(self, x: Node) -> Node:
+        """|x|."""
+        return self.num(abs(x.data)) if x.op == "num" else self._intern("abs", None, (x,), x.stage)
+
     def magnitude(self, x: Node) -> Node:
         """The size of a value before its terms cancel: what its rounding error is measured by."""
         if x.op == "num":
@@ -121,7 +141,7 @@ class Graph:
             return self.product([*even, *(self.magnitude(y) for y in odd)])
         if x.op == "value" and x.args[0].op in ("add", "mul"):
             return self.magnitude(x.args[0])
-        return self._intern("abs", None, (x,), x.stage)
+        return self.absolute(x)
 
     def replaced(self, x: Node, images: Mapping[Node, Node]) -> Node:
         """The value of a node when some leaves are others; names are left behind."""
@@ -140,6 +160,8 @@ class Graph:
                     done[y] = self.recip(args[0])
                 elif y.op == "abs":
                     done[y] = self.magnitude(args[0])
+                elif y.op == "none":
+                    done[y] = self.none(args[0])
                 else:
                     done[y] = args[0] if y.op == "value" else y
             return done[y]

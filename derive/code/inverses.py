@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from fractions import Fraction
 
 from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
-from ..record.record import Derivation
+from ..record.masses import ANY_SIGN
+from ..record.record import Derivation, decode
 from . import dense
 from .graph import PARAMETER, Graph, Node
 from .naming import name_of, suffixed
@@ -18,13 +20,21 @@ from .reader import Reader, Value
 SMALL = 3
 """Up to this size a matrix is inverted by its adjugate."""
 
+SLACK = {"double": Fraction(1, 10**7), "float": Fraction(1, 10**3)}
+"""Added to moments that may be 0, in units of their trace: the root of what rounding makes of them,
+as elimination divides by it."""
+
 
 class Inverting(Reader):
-    """``checks``: what must not vanish in constants, and the scale of its rounding error."""
+    """``checks``: what must be positive in constants, and the scale of its rounding error.
+
+    ``local``: do they hold the metric at g = 1 alone?
+    """
 
     def __init__(self, d: Derivation, group: Group, options: Options, graph: Graph | None = None):
         super().__init__(d, group, options, graph)
         self.checks: list[tuple[Node, Node | None]] = []
+        self.local = False
 
     def _inverse(self, t: Tree) -> Value:
         if t == ("T", "A"):
@@ -54,10 +64,13 @@ class Inverting(Reader):
         return found
 
     def require_regular(self) -> None:
-        """Where a multiplier solves the kernel, J must be regular even if no force asks for J⁻¹."""
+        """J and m must be positive even if no force asks for their inverses, where a multiplier
+        solves the kernel and where the group has all translations."""
         if any(step.label.endswith(".multiplier") for step in self.record.steps):
             central = self.record.definition("N_c") is not None
             self.tree(("inv", "J_c" if central else "J"))
+        if self.group.free_translations:
+            self._check([(self._number("m"), None)])
 
     def solved(self, t: Tree, right: Matrix) -> Matrix:
         """The column x with t x = right, for a positive definite t."""
@@ -74,11 +87,54 @@ class Inverting(Reader):
         if dense.stage_of(value) == PARAMETER:
             self._check(zip(pivots, self._sizes(t, value), strict=True))
         elif t == "M":
-            # M is the metric at g of one space of displacements: singular at all g or at none
             still = self._at_identity(value)
             factors = dense.factorised(self.graph, still, lambda part, x: x)
             scale = self.graph.magnitude(dense.diagonal(self.graph, still))
-            self.checks += [(d, scale) for d in factors.pivots if d.op != "num" or d.is_zero]
+            self._check((d, scale) for d in factors.pivots)
+            self._check_moments()
+
+    def _check_moments(self) -> None:
+        """M at g is Tr Z μ Z̄ C: where no moment is negative it is singular at all g or at none, as
+        it is where C is a multiple of 1.  Elsewhere, where masses may be negative, who knows?
+        """
+        body = self.record.problem["body"]
+        masses = [decode(p["mass"], "mass") for p in body.get("points", [])]
+        if self.group.conformal or (body["kind"] == "points" and all(map(_positive, masses))):
+            return
+        g, J, tests = self.graph, self._matrix("J"), []
+        if self.group.affine:
+            m, c = self._number("m"), self._matrix("c")
+            square = dense.times(g, c, q.transposed(c))
+            tests.append(m)
+            J = q.minus(J, tuple(tuple(g.product((g.recip(m), x)) for x in row) for row in square))
+        J = self._seen(J)
+        slack = g.product((g.num(SLACK[self.options.real]), g.magnitude(dense.diagonal(g, J))))
+        slack = g.value(slack, "slack", self.label)
+        span = range(len(J))
+        least = tuple(tuple(J[i][j] + slack if i == j else J[i][j] for j in span) for i in span)
+        tests += dense.factorised(g, least, self._namer("moments")).pivots
+        if self.record.problem.get("masses") == ANY_SIGN:
+            self.local = not all(x.op == "num" and x.data > 0 for x in tests)
+        if not self.local:
+            self._check((x, None) for x in tests)
+
+    def _seen(self, J: Matrix) -> Matrix:
+        """R J R̄, the rows of R spanning those of 𝔤: what the metric has of J."""
+        g = self.graph
+        rows = tuple(row for e in self.group.linear_basis for row in e)
+        reduced, pivots = q.echelon(rows)
+        R = tuple(tuple(g.num(x) for x in row) for row in reduced[: len(pivots)])
+        return dense.times(g, dense.times(g, R, J), q.transposed(R))
+
+    def _matrix(self, t: Tree) -> Matrix:
+        value = self.tree(t)
+        assert not isinstance(value, Node)
+        return value
+
+    def _number(self, name: str) -> Node:
+        value = self.tree(name)
+        assert isinstance(value, Node)
+        return value
 
     def _at_identity(self, m: Matrix) -> Matrix:
         """A matrix that depends on the group element alone, at g = 1."""
@@ -130,6 +186,10 @@ class Inverting(Reader):
             e.lhs == ("det", "A") and e.rhs == 1 for s in self.record.steps for e in s.equations
         )
         return unimodular and t in ("A", "C")
+
+
+def _positive(x: object) -> bool:
+    return isinstance(x, (int, Fraction)) and x > 0
 
 
 def _alike(m: Matrix) -> bool:

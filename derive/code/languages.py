@@ -41,9 +41,14 @@ def _c(real: str) -> Printer:
     return Printer(lambda q: decimal(q, suffix), "fabs" + suffix, lambda name: f"{name}{suffix}")
 
 
-def _plain(function: str, absolute: str) -> Callable[[str], Printer]:
+def _plain(function: str, absolute: str, none: str) -> Callable[[str], Printer]:
     """Numbers without suffix; functions by a pattern."""
-    return lambda real: Printer(decimal, absolute, lambda name: function.format(name))
+    return lambda real: Printer(decimal, absolute, lambda name: function.format(name), none)
+
+
+def _rust(real: str) -> Printer:
+    none = f"{'f32' if real == 'float' else 'f64'}::from(u8::from({{}} == 0.0))"
+    return Printer(decimal, "abs", none=none)
 
 
 def _julia(real: str) -> Printer:
@@ -53,7 +58,7 @@ def _julia(real: str) -> Printer:
             return text
         return "/".join(x.replace("e", "f") if "e" in x else f"{x}f0" for x in text.split("/"))
 
-    return Printer(number)
+    return Printer(number, none="iszero({})")
 
 
 BLOCK, HASH, SLASH = ("/* ", " * ", " */"), ("# ", "# ", ""), ("// ", "// ", "")
@@ -93,7 +98,7 @@ LANGUAGES: dict[str, Language] = {
     "python": Language(
         "python",
         {"source": (".py",), "header": (".py",)},
-        _plain("xp.{}", "abs"),
+        _plain("xp.{}", "abs", "_is_zero(xp, {})"),
         "{name} = {text}",
         HASH,
         {"double": "float64", "float": "float32"},
@@ -103,7 +108,7 @@ LANGUAGES: dict[str, Language] = {
     "rust": Language(
         "rust",
         {"source": (".rs",), "header": (".rs",)},
-        _plain("{}", "abs"),
+        _rust,
         "let {name}: {real} = {text};",
         SLASH,
         {"double": "f64", "float": "f32"},
@@ -121,7 +126,7 @@ LANGUAGES: dict[str, Language] = {
     "javascript": Language(
         "javascript",
         {"source": (".mjs",), "header": (".mjs",)},
-        _plain("Math.{}", "Math.abs"),
+        _plain("Math.{}", "Math.abs", "Number({} === 0)"),
         "const {name} = {text};",
         SLASH,
         {"double": "Float64Array", "float": "Float32Array"},

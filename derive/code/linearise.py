@@ -34,7 +34,7 @@ class Varied:
 
     def _derivative(self, x: Node) -> Node:
         g = self.graph
-        if x.op in ("num", "leaf"):
+        if x.op in ("num", "leaf", "none"):
             return self.zero
         if x.op == "value":
             title, label, _ = g.titles[x]

@@ -16,8 +16,8 @@ from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree, mul
-from ..record.arithmetic import hat, wedge
-from ..record.record import Derivation
+from ..algebra.values import hat, wedge
+from ..record.record import Derivation, step_of
 from . import dense
 from .graph import PARAMETER, Graph, Node
 from .inverses import SMALL, Inverting
@@ -25,6 +25,7 @@ from .naming import name_of
 from .options import Options
 from .program import LoweringError
 from .reader import Value, bound
+from .springs import SLACK, tension
 
 
 class Lowering(Inverting):
@@ -45,7 +46,7 @@ class Lowering(Inverting):
     @property
     def solving(self) -> bool:
         """Is it an equation of the solved motion that is read?"""
-        return self.label.partition("#")[0].endswith(".motion")
+        return step_of(self.label).endswith(".motion")
 
     def tree(self, t: Tree) -> Value:
         """The value of a tree."""
@@ -87,11 +88,25 @@ class Lowering(Inverting):
             return self._metric(t)
         if op == "wedge" and isinstance(t[1], tuple) and t[1][0] == "mul" and t[1][2:] == (t[2],):
             return wedge(self._gyroscopic(t[1][1], t[2]), self.tree(t[2]))  # type: ignore[no-any-return]
+        if op == "div" and (spring := tension(t)):
+            return self._tension(*spring)
         if op == "entry":
             value = self.tree(t[1])
             assert not isinstance(value, Node)
             return value[t[2] - 1][t[3] - 1 if len(t) == 4 else 0]  # type: ignore[no-any-return]
         return self._simple(op, [self.tree(x) for x in t[1:] if op != "pow" or x != t[2]], t)
+
+    def _tension(self, factors: tuple[Tree, ...], distance: Tree, length: Tree) -> Node:
+        """c(s − l)/s as c − cl/s, with s not 0 where l is: there cl/s is 0 even at distance 0."""
+        g = self.graph
+        c = g.product(self.tree(x) for x in factors)  # type: ignore[misc]
+        square, at_rest = self.tree(distance[2]), self.tree(length)  # type: ignore[index]
+        assert isinstance(square, Node)
+        assert isinstance(at_rest, Node)
+        slack = g.linear([(SLACK[self.options.real], g.none(at_rest))])
+        slack = g.value(slack, f"slack_{name_of(length)}", self.label)
+        s = g.value(g.function("sqrt", g.sum((square, slack))), name_of(distance), self.label)
+        return c - g.product((c, at_rest, g.recip(s)))
 
     def _simple(self, op: str, a: list[Any], t: tuple[Any, ...]) -> Value:
         g = self.graph
@@ -233,11 +248,6 @@ class Lowering(Inverting):
                 runs[-1].append((x, v))
         between = [self._chain(run) if run else None for run in runs]
         return dense.sparse_trace(self.graph, constants, between)
-
-    def _matrix(self, t: Tree) -> Matrix:
-        value = self.tree(t)
-        assert not isinstance(value, Node)
-        return value
 
     def _metric(self, t: tuple[Any, ...]) -> Value:
         if t[0] == "norm2":

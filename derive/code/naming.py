@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 import unicodedata
 
@@ -19,6 +18,7 @@ _LOCAL = "D axes dx frame i k n out p s t u x xp"
 _EMITTED = """
     abs all importlib numpy math regular std NULL STATE PARAMETERS INPUTS CONSTANTS DEFAULTS BASIS
     ZERO_INPUTS ZEROS Singular NotFinite Refused N_STATE N_ALGEBRA N_PARAMETERS N_CONSTANTS N_INPUTS
+    core Base Core Main constants energy driven project defect iszero
     """
 _OTHER_LANGUAGES = """
     abstract become box crate dyn final fn gen impl let loop macro match mod move mut override priv
@@ -28,9 +28,12 @@ _OTHER_LANGUAGES = """
     arguments debugger eval extends implements instanceof interface null package var
     Math Float64Array Float32Array Number RangeError char8_t char16_t char32_t
     """
-_WORDS = set(WORDS) | set(_EMITTED.split()) | set(_OTHER_LANGUAGES.split())
+_WORDS = set(WORDS) | set(_OTHER_LANGUAGES.split())
 RESERVED = _WORDS | set(_LOCAL.split())
-"""What no name in the emitted code is: words of some language, or its own."""
+"""What no name of a program is: words of some language, and the arrays and loops of all of them.
+
+What else the text of one language uses, ``apart.py`` finds there.
+"""
 _HEADERS = """
     assert complex ctype errno features fenv float inttypes iso646 limits locale malloc math memory
     sched setjmp signal stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn
@@ -39,7 +42,7 @@ _HEADERS = """
 FILES = set(_HEADERS.split()) | set(sys.stdlib_module_names)
 """Files of these names would stand before those of C and of Python."""
 
-PREFIXES = FILES | _WORDS | {"core", "Base", "Core", "Main", "constants", "energy", "driven"}
+PREFIXES = FILES | _WORDS | set(_EMITTED.split())
 """What no prefix is."""
 
 
@@ -97,10 +100,6 @@ class Names:
     def claim(self, wanted: str, owner: str) -> str:
         """The name for an owner (the same owner gets the same name)."""
         name = wanted
-        if re.search(
-            r"_N_|_RESTRICT|_names|_SINGULAR|_NOT_FINITE|_margin_|_H$|_rhs|_energy|_constants", name
-        ):
-            name += "_"  # the pattern of the emitted files' own names
         while self._taken.setdefault(name, owner) != owner:
             name += "_"
         return name

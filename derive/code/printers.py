@@ -14,11 +14,15 @@ SUM, PRODUCT, ATOM = 1, 2, 3
 
 @dataclass(frozen=True)
 class Printer:
-    """How a language writes a number and |x|; the rest is common to all that have + − * /."""
+    """How a language writes a number, |x|, and 1 where x is 0, else 0.
+
+    The rest is common to all that have + − * /.
+    """
 
     number: Callable[[Fraction], str]
     absolute: str = "abs"
     function: Callable[[str], str] = str
+    none: str = "({} == 0)"
 
     def __call__(self, e: Expression) -> str:
         """An expression as source text."""
@@ -34,6 +38,8 @@ class Printer:
             return f"{self.function(e[1])}({self(e[2])})", ATOM
         if e[0] == "abs":
             return f"{self.absolute}({self(e[1])})", ATOM
+        if e[0] == "none":
+            return self.none.format(self(e[1])), ATOM
         if e[0] == "add":
             return self._sum(e[1]), SUM
         if e[0] == "mul":

@@ -6,13 +6,13 @@ and only what is left comes here.  Not supported: branches (a potential with if,
 loops, complex numbers, tables, implicit equations, matrices whose size is not a number.
 
 An expression is a tuple ``(operator, operand, …)``: ``num``, ``var``, ``add`` (signed terms),
-``mul``, ``div``, ``abs``, ``fun``.  A function loads inputs, computes sections of
+``mul``, ``div``, ``abs``, ``none``, ``fun``.  A function loads inputs, computes sections of
 named values and stores outputs.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -26,7 +26,7 @@ OPERATIONS = ("mul", "add", "div", "call")
 
 Expression = tuple[Any, ...]
 """("num", q), ("var", name), ("add", ((sign, e), …)), ("mul", (e, …)), ("div", e, f), ("abs", e),
-("fun", name, e)"""
+("none", e): 1 where e is 0, else 0; ("fun", name, e)"""
 
 
 @dataclass(frozen=True)
@@ -153,18 +153,23 @@ class Program:
 
     def numbers(self) -> set[Fraction]:
         """The exact numbers that its expressions contain, which a language writes as decimals."""
-        found: set[Fraction] = set()
+        return {x for x in self._parts() if isinstance(x, Fraction)}
+
+    @property
+    def asks_for_zero(self) -> bool:
+        """Is there an expression ("none", e)?"""
+        return any(isinstance(x, tuple) and x[:1] == ("none",) for x in self._parts())
+
+    def _parts(self) -> Iterator[Any]:
+        """All that its expressions are made of."""
         for f in self.all_functions():
             checked = [x for c in f.checks for x in (c.value, c.scale)]
             values = [v.expression for s in f.sections for v in s.values]
             stack: list[Any] = [*checked, *values, *f.outputs]
             while stack:
                 e = stack.pop()
-                if isinstance(e, Fraction):
-                    found.add(e)
-                elif isinstance(e, tuple):
-                    stack.extend(e)
-        return found
+                yield e
+                stack.extend(e if isinstance(e, tuple) else ())
 
 
 def _collect(e: Any, found: set[str]) -> None:
@@ -176,7 +181,7 @@ def _collect(e: Any, found: set[str]) -> None:
 
 
 def _count(e: Expression, total: dict[str, int]) -> None:
-    if e[0] in ("abs", "fun"):
+    if e[0] in ("abs", "none", "fun"):
         total["call"] += e[0] == "fun"
         _count(e[-1], total)
     elif e[0] == "add":

@@ -22,7 +22,7 @@ class Reader:
 
     def __init__(self, d: Derivation, group: Group, options: Options, graph: Graph | None = None):
         self.record, self.group, self.n = d, group, group.n
-        self.graph = graph or Graph()
+        self.graph, self.options = graph or Graph(), options
         self.space = State(self.graph, group, options)
         self.label = ""
         self.memo: dict[Tree, Value] = {}
@@ -115,7 +115,7 @@ class Reader:
     def _table(self, step: Step, e: Equation, indices: list[str]) -> Matrix:
         span = range(1, len(self.group.linear_basis) + 1)
         name = name_of(e.lhs[1])  # type: ignore[index]
-        outer, self.label = self.label, equation_key(step, e)
+        outer, self.label = self.label, step.key(e)
 
         def entry(*values: int) -> Node:
             value = self.tree(bound(e.rhs, dict(zip(indices, values, strict=True))))
@@ -129,7 +129,7 @@ class Reader:
 
     def _defined(self, found: tuple[Step, Equation], name: str) -> Value:
         step, equation = found
-        outer, self.label = self.label, equation_key(step, equation)
+        outer, self.label = self.label, step.key(equation)
         value = self.tree(equation.rhs)
         # a J that comes from a given I goes back to it: its terms cancel before they are rounded
         if equation.lhs != "J" or not _sums_of_parameters(value):
@@ -208,7 +208,7 @@ class Reader:
                 if isinstance(e.lhs, tuple) and e.lhs[0] == "call" and e.lhs[2] == argument:
                     pattern = e.lhs[1]
                     if isinstance(pattern, tuple) and pattern[1] == head[1]:
-                        outer, self.label = self.label, equation_key(step, e)
+                        outer, self.label = self.label, step.key(e)
                         value = self.tree(bound(e.rhs, {pattern[2]: head[2]}))
                         value = self.named(value, f"place_{head[2]}")
                         self.label = outer
@@ -235,8 +235,3 @@ def _sums_of_parameters(value: Value) -> bool:
 
 def _linear(x: Node) -> bool:
     return x.is_atom or (x.op == "add" and all(map(_linear, x.args)))
-
-
-def equation_key(step: Step, equation: Equation) -> str:
-    """The label of an equation: that of its step and its number in it, ``so3.motion#2``."""
-    return f"{step.label}#{step.number(equation)}"

@@ -177,8 +177,8 @@ class _Builder:
             return ("div", ("num", Fraction(1)), self.expression(x.args[0]))
         if x.op == "fun":
             return ("fun", x.data, self.expression(x.args[0]))
-        if x.op == "abs":
-            return ("abs", self.expression(x.args[0]))
+        if x.op in ("abs", "none"):
+            return (x.op, self.expression(x.args[0]))
         if x.op == "mul":
             return self._product(x.args)
         if x.op == "add":

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from .blocks import Block, blocks
 from .languages import Language
 from .printers import wrapped
 from .program import Check, Function, Load, Section
@@ -32,7 +33,7 @@ class Statements:
             "loads": [self._load(x, self.language.load) for x in loads if x.array != "u"],
             "input_loads": [self._load(x, self.language.load) for x in loads if x.array == "u"],
             "unpacked": {array: self._unpacked(array, f) for array in self.sizes},
-            "batch_loads": [self._batch_load(x) for x in loads] if self.language.batch else [],
+            "blocks": [self._block(x) for x in blocks(f)] if self.language.batch else [],
             "sections": [self._section(s) for s in f.sections],
             "outputs": [wrapped(printer(e), TEXT - 12, " " * 8) for e in f.outputs],
             "titles": [self._comment(f.titles.get(i, "")) for i in range(len(f.outputs))],
@@ -60,14 +61,26 @@ class Statements:
         listed = ", ".join(names) + "," * (len(names) == 1)
         return textwrap.fill(listed, TEXT - 8, subsequent_indent=" " * 8)
 
-    def _batch_load(self, x: Load) -> str:
-        return self._load(x, self.language.load if x.array == "k" else self.language.batch)
+    def _block(self, block: Block) -> dict[str, Any]:
+        loads = {"loads": block.loads, "output_loads": block.output_loads}
+        return {
+            **{name: self._loads(xs, self.language.load) for name, xs in loads.items()},
+            **{f"batch_{name}": self._loads(xs, self.language.batch) for name, xs in loads.items()},
+            **self._section(block.section),
+            "outputs": block.outputs,
+        }
+
+    def _loads(self, loads: Iterable[Load], pattern: str) -> list[str]:
+        """Constants are the same for each state of a batch."""
+        plain = self.language.load
+        return [
+            self._load(x, plain if x.array == "k" else pattern) for x in loads if x.array != "t"
+        ]
 
     def _section(self, s: Section) -> dict[str, Any]:
-        label = s.label.partition("#")[0]
         cost = operations(Function((), (s,), ()))
         return {
-            "comment": self._comment(f"{label}: {cost}" if label else cost, s.equation),
+            "comment": self._comment(f"{s.label}: {cost}" if s.label else cost, s.equation),
             "statements": [self._statement(v.name, v.expression) for v in s.values],
         }
 

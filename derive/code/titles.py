@@ -14,7 +14,7 @@ def titles(lowering: Lowering) -> dict[int, str]:
         known = (lowering.record.definition(name) for name in names)
         if at := next(filter(None, known), None):
             step, equation = at
-            found[start] = f"{step.label}: {show(equation.lhs)} = {show(equation.rhs)}"
+            found[start] = f"{step.key(equation)}: {show(equation.lhs)} = {show(equation.rhs)}"
     return found
 
 

@@ -5,19 +5,30 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 from functools import reduce
-from operator import add as add_moments
 from pathlib import Path
 from typing import Any
 
 from ..algebra import rational as q
+from ..algebra.differentiate import product, quotient
 from ..algebra.groups import Group
-from ..algebra.laurent import collected
+from ..algebra.laurent import OverlongError, collected
 from ..algebra.tree import Tree, add, mul, neg
 from ..limits import TEXT
 from .expression import approximate
 from .fields import choice, expression, known, missing, tables, vector, whole
+from .moments import Moments, SolidError
 from .problem import Body, GivenBody, MomentBody, PointBody, ProblemError
-from .solids import KINDS, Moments, Solid, SolidError, moments, rotation_about
+from .solids import KINDS, Solid, moments, rotation_about, together
+
+FIRST, SECOND = ("c", "centre"), ("J", "I", "I_centre")
+MEANINGS = {
+    "c": "the first moment, mass times centre of mass",
+    "centre": "the centre of mass",
+    "J": "the matrix of moments about the origin",
+    "I": "the tensor of inertia about the origin",
+    "I_centre": "that about the centre of mass",
+}
+"""How a body's first and second moments are given; I in R³ alone."""
 
 PLACING = {"density", "rotation", "shift"}
 
@@ -78,20 +89,33 @@ def _moments(table: Mapping[str, Any], n: int) -> Body:
     if not isinstance(given, dict) or "moments" in table:
         raise ProblemError('body: give either moments = "symbolic" or given = { m, c, J }')
     where = "body, given"
-    known(given, {"m", "c", "J", "I"}, where)
-    if "I" in given and ("J" in given or n != 3):
-        raise ProblemError(f"{where}: give J, or in R^3 the tensor of inertia I about the origin")
-    name = "I" if "I" in given else "J"
-    rows = missing(given, name, where)
+    known(given, {"m", *FIRST, *SECOND}, where)
+    mass = expression(missing(given, "m", where), f"{where}, m")
+    named = _one_of(given, FIRST, where)
+    first = vector(given[named], n, f"{where}, {named}")
+    if named == "centre":
+        first = tuple(_exact(product(mass, x)) for x in first)
+    name = _one_of(given, SECOND if n == 3 else SECOND[:1], where)
+    rows = given[name]
     if not isinstance(rows, list) or len(rows) != n:
         raise ProblemError(f"{where}, {name}: expected a list of {n} rows")
     J = tuple(vector(row, n, f"{where}, {name}, row {i}") for i, row in enumerate(rows, 1))
     if any(J[i][j] != J[j][i] for i in range(n) for j in range(i)):
         raise ProblemError(f"{where}, {name}: the matrix must be symmetric")
-    if name == "I":
+    if name != "J":
         J = _from_inertia(J)
-    mass = expression(missing(given, "m", where), f"{where}, m")
-    return GivenBody(mass, vector(missing(given, "c", where), n, f"{where}, c"), J)
+    if name == "I_centre":
+        J = _from_centre(J, mass, first, where)
+    return GivenBody(mass, first, J)
+
+
+def _one_of(given: Mapping[str, Any], names: tuple[str, ...], where: str) -> str:
+    """The one key of some that is there."""
+    found = [x for x in names if x in given]
+    if len(found) != 1:
+        listed = ", or ".join(f"{x}, {MEANINGS[x]}" for x in names)
+        raise ProblemError(f"{where}: give {'one of ' * (len(names) > 1)}{listed}")
+    return found[0]
 
 
 def _from_inertia(tensor: tuple[tuple[Tree, ...], ...]) -> tuple[tuple[Tree, ...], ...]:
@@ -99,6 +123,32 @@ def _from_inertia(tensor: tuple[tuple[Tree, ...], ...]) -> tuple[tuple[Tree, ...
     span = range(3)
     half = [_half(*(tensor[j][j] for j in span if j != i), neg(tensor[i][i])) for i in span]
     return tuple(tuple(half[i] if i == j else neg(tensor[i][j]) for j in span) for i in span)
+
+
+def _from_centre(
+    J: tuple[tuple[Tree, ...], ...], mass: Tree, first: tuple[Tree, ...], where: str
+) -> tuple[tuple[Tree, ...], ...]:
+    """J + c c̄/m, from J about the centre of mass (Steiner)."""
+    if mass == 0:
+        raise ProblemError(f"{where}, m: a body without mass has no centre of mass")
+
+    def entry(i: int, j: int) -> Tree:
+        return _exact(add(J[i][j], quotient(product(first[i], first[j]), mass)))
+
+    span = range(len(first))
+    return tuple(tuple(entry(min(i, j), max(i, j)) for j in span) for i in span)
+
+
+def _exact(t: Tree) -> Tree:
+    """The same with like terms added, a number where it is one."""
+    try:
+        found = collected(t)
+    except OverlongError:
+        raise ProblemError(
+            "body, given: centre or I_centre is too long to be carried to the origin; give c and I "
+            "or J, or a parameter of its own for each sum"
+        ) from None
+    return int(found) if isinstance(found, Fraction) and found.denominator == 1 else found
 
 
 def _half(*terms: Tree) -> Tree:
@@ -203,8 +253,8 @@ def _mixture(solids: Mapping[str, Solid], points: PointBody | None) -> GivenBody
             parts.append(moments(solid, relations=False))
         except SolidError as error:
             raise ProblemError(f"{where}: {error}") from None
-    total = reduce(add_moments, parts)
-    own = total if points is None else total + _of_points(points)
+    total = reduce(together, parts)
+    own = total if points is None else together(total, _of_points(points))
     return GivenBody(own.mass, own.first, own.second, points, tuple(solids.values()))
 
 

@@ -37,6 +37,7 @@ def data(problem: Problem) -> dict[str, Any]:
         "places": [{"at": list(p.at), "block": p.block} for p in problem.places],
         "damping": [{"coefficient": d.coefficient, "on": list(d.on)} for d in problem.damping],
         **({"frame": dict(problem.frame)} if problem.frame else {}),
+        **({"masses": "of any sign"} if problem.signed else {}),
     }
 
 

@@ -15,8 +15,6 @@ from .expression import ExpressionError, parse
 from .problem import ProblemError
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
-PLACE = re.compile(r"r(0|[1-9][0-9]{0,3})_(?:([xyz])|([0-9]))")
-"""A coordinate of a point in space, as an expression names it: r1_x, r2_1."""
 LIKE_A_PLACE = re.compile(r"[rv][0-9]+_\w+")
 
 

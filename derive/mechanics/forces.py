@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from ..algebra.groups import Group
 from ..algebra.tree import Tree, subtrees
+from ..reserved import PLACE
 from .fields import (
     LIKE_A_PLACE,
-    PLACE,
     choice,
     expression,
     identifier,
@@ -20,6 +20,7 @@ from .fields import (
     vector,
     whole,
 )
+from .inertia import is_negative
 from .problem import (
     Attraction,
     Body,
@@ -30,6 +31,7 @@ from .problem import (
     GivenBody,
     Gravity,
     Input,
+    Parameter,
     Place,
     PointBody,
     Potential,
@@ -200,6 +202,24 @@ def damping(data: Mapping[str, Any], where: str, points: Points) -> Damping:
     if len(set(on)) != len(on):
         raise ProblemError(f"{where}: key 'on' names a point twice")
     return Damping(coefficient, on)
+
+
+def negative_stiffness_of(
+    potentials: Sequence[Potential],
+    damping: Sequence[Damping],
+    parameters: Mapping[str, Parameter],
+) -> str | None:
+    """Where a stiffness or a damping is negative, for the defaults of the parameters."""
+    listed = [
+        (f"{kind} {k}: key {key!r}", getattr(p, key))
+        for kind, parts, of, key in (
+            ("potential", potentials, Spring, "stiffness"),
+            ("damping", damping, Damping, "coefficient"),
+        )
+        for k, p in enumerate(parts, 1)
+        if isinstance(p, of)
+    ]
+    return next((where for where, t in listed if is_negative(t, parameters)), None)
 
 
 def trees(p: Potential | Damping | Place | Body | None) -> list[Tree]:

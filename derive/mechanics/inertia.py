@@ -21,11 +21,18 @@ from .problem import Body, GivenBody, MomentBody, Parameter, PointBody
 
 Vector = tuple[Any, ...]
 
+ROUNDED = 10**9
+"""Moments of solids are numbers to less than this part of them."""
+LARGEST_SHOWN = 3
+"""Rows of a matrix that is written out in a message."""
+
 
 def still_direction(group: Group, body: Body) -> str | None:
     """What moves no mass, in words; ``None`` when every direction of the group moves some."""
     if isinstance(body, MomentBody):
         return None
+    if isinstance(body, PointBody) and (empty := _empty_block(group, body)):
+        return empty
     used = dict.fromkeys(x for t in _trees(body) for x in names(t))
     chosen = {name: Fraction(k) for k, name in enumerate(used, 2)}
     found = _kernel(group, body, _Values(chosen))
@@ -38,6 +45,14 @@ def still_direction(group: Group, body: Body) -> str | None:
         return None  # singular at the first choice of the parameters, not at all of them
     where = ", ".join(f"{name} = {x}" for name, x in chosen.items())
     return _words(group, found) + (f" (at {where})" if found != again else "")
+
+
+def _empty_block(group: Group, body: PointBody) -> str | None:
+    """The first factor of a product that has no point at all."""
+    for block, (_, factor) in enumerate(group.places, 1):
+        if block not in (body.blocks or (1,)):
+            return f"block {block}, {factor.name}, which has no [[point]] with block = {block},"
+    return None
 
 
 def _kernel(group: Group, body: Body, values: _Values) -> Vector | None:
@@ -111,6 +126,12 @@ class _Values:
 def _words(group: Group, coordinates: Vector) -> str:
     """The direction: an axis for rotations of space, else the matrix Z."""
     x = _whole(coordinates)
+    if len(group.factors) > 1:
+        start = 0
+        for block, factor in enumerate(group.factors, 1):
+            part, start = x[start : start + factor.dimension], start + factor.dimension
+            if sum(map(bool, part)) == sum(map(bool, x)):
+                return f"in block {block}, {_words(factor, part)}"
     if group.turns_space:
         turn, shift = x[:3], x[3:]
         if not any(turn):
@@ -119,6 +140,11 @@ def _words(group: Group, coordinates: Vector) -> str:
             return f"turning about {_axis(turn, shift)}"
         return f"turning about the axis {_listed(turn)}"
     Z = group.hat(x)
+    if len(Z) > LARGEST_SHOWN:
+        entries = ((y, i, j) for i, row in enumerate(Z, 1) for j, y in enumerate(row, 1) if y)
+        terms = (f"{'+-'[y < 0]} {abs(y) if abs(y) != 1 else ''}e_{i},{j}" for y, i, j in entries)
+        shown = " ".join(terms).removeprefix("+ ")
+        return f"the direction Z = {shown} of the Lie algebra (e_i,j: a 1 in row i, column j)"
     rows = ", ".join("[" + ", ".join(str(y) for y in row) + "]" for row in Z)
     return f"the direction Z = [{rows}] of the Lie algebra"
 
@@ -149,45 +175,87 @@ def _listed(x: Vector) -> str:
 
 def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str | None:
     """Where a mass is negative, for the defaults of the parameters; ``None`` when nowhere."""
-    defaults = {name: p.default for name, p in parameters.items() if p.default is not None}
-
-    def negative(t: Tree) -> bool:
-        mass = approximate(t, defaults)
-        return mass is not None and mass < 0
-
     points = body if isinstance(body, PointBody) else None
     if isinstance(body, GivenBody):
         points = body.points
-        if negative(body.mass):
+        if is_negative(body.mass, parameters):
             return "body: the mass"
     masses = points.masses if points else ()
-    return next((f"point {k}: key 'mass'" for k, m in enumerate(masses, 1) if negative(m)), None)
+    where = (k for k, m in enumerate(masses, 1) if is_negative(m, parameters))
+    return next((f"point {k}: key 'mass'" for k in where), None)
 
 
-def impossible(body: Body | None) -> bool:
-    """Are the given moments, all numbers, those of no masses?  J − m⁻¹cc̄ must not be negative."""
-    if not isinstance(body, GivenBody) or body.solids:
+def is_negative(t: Tree, parameters: Mapping[str, Parameter]) -> bool:
+    """Is it negative for the defaults of the parameters?  No, where one has none."""
+    found = approximate(t, _defaults(parameters))
+    return found is not None and found < 0
+
+
+def _defaults(parameters: Mapping[str, Parameter]) -> dict[str, float]:
+    return {name: p.default for name, p in parameters.items() if p.default is not None}
+
+
+def massless(body: Body) -> bool:
+    """Is the mass the number 0?"""
+    masses = body.masses if isinstance(body, PointBody) else ()
+    masses = (body.mass,) if isinstance(body, GivenBody) else masses
+    numbers = [Fraction(x) for x in masses if isinstance(x, (int, Fraction))]
+    return bool(masses) and len(numbers) == len(masses) and sum(numbers) == 0
+
+
+def impossible(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
+    """Are the moments those of no masses?  J − m⁻¹cc̄ must not be negative.
+
+    Given ones are tried where all are numbers; those of solids by the defaults of the parameters.
+    """
+    if not isinstance(body, GivenBody):
         return False
-    trees = [*_trees(body)]
-    if not all(isinstance(x, (int, Fraction)) for x in trees):
+    if body.solids:
+        found = [approximate(t, _defaults(parameters)) for t in _trees(body)]
+        if any(x is None for x in found):
+            return False
+        m, *rest = (Fraction(x) for x in found if x is not None)
+        J = [rest[3 * k : 3 * k + 3] for k in (1, 2, 3)]
+        allowance = sum((abs(J[k][k]) for k in range(3)), Fraction(0)) / ROUNDED
+        J = [[x + allowance * (i == j) for j, x in enumerate(row)] for i, row in enumerate(J)]
+        return _unlike_masses(m, rest[:3], J)
+    if not all(isinstance(x, (int, Fraction)) for x in _trees(body)):
         return False
     values = _Values({})
     m, c = values.of(body.mass), [values.of(x) for x in body.first]
-    J = [[values.of(x) for x in row] for row in body.second]
+    return _unlike_masses(m, c, [[values.of(x) for x in row] for row in body.second])
+
+
+CAD = (
+    "with c as the centre of mass and the moments about it, as CAD programs give them, they would "
+    "be: then write centre and I_centre"
+)
+
+
+def of_cad(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
+    """Are given moments, for the defaults, those of masses about the centre c alone?
+
+    The first moment is m · centre, and J is about the origin; a program for drawing gives the
+    centre itself, and the tensor of inertia about it.
+    """
+    if not isinstance(body, GivenBody) or body.solids or len(body.first) != 3:
+        return False
+    found = [approximate(t, _defaults(parameters)) for t in _trees(body)]
+    if any(x is None for x in found):
+        return False
+    numbers = [Fraction(x) for x in found if x is not None]
+    n = len(body.first)
+    m, c, J = numbers[0], numbers[1 : n + 1], numbers[n + 1 :]
+    rows = [J[n * i : n * i + n] for i in range(n)]
+    moved = [[x + m * c[i] * c[j] for j, x in enumerate(row)] for i, row in enumerate(rows)]
+    return m > 0 and _unlike_masses(m, c, rows) and not _unlike_masses(m, [m * x for x in c], moved)
+
+
+def _unlike_masses(m: Fraction, c: list[Fraction], J: list[list[Fraction]]) -> bool:
+    """Is J − m⁻¹cc̄ negative in some direction?"""
     if m == 0:
         return any(c) or any(map(any, J))
     central = [
         [x - a * b / m for x, b in zip(row, c, strict=True)] for row, a in zip(J, c, strict=True)
     ]
-    return not _semidefinite(central)
-
-
-def _semidefinite(m: list[list[Fraction]]) -> bool:
-    """Is x̄ m x ≥ 0 for every x?  By elimination, exact."""
-    for k in range(len(m)):
-        if m[k][k] < 0 or (m[k][k] == 0 and any(m[k][k:])):
-            return False
-        for i in range(k + 1, len(m)):
-            factor = m[i][k] / m[k][k] if m[k][k] else Fraction(0)
-            m[i] = [x - factor * y for x, y in zip(m[i], m[k], strict=True)]
-    return True
+    return not q.semidefinite(central)

@@ -20,7 +20,7 @@ import numpy as np
 
 from ..algebra.tree import mul
 from ..limits import COORDINATE_BITS, MESH_BYTES, MESH_LINE, MESH_LINES, TRIANGLES
-from .solids import Moments, SolidError
+from .moments import Moments, SolidError
 
 Mesh = tuple[tuple[tuple[Fraction, ...], ...], tuple[tuple[int, ...], ...]]
 
@@ -165,7 +165,9 @@ def _load(data: bytes, kind: str) -> tuple[Any, Any]:
     try:
         trimesh = importlib.import_module("trimesh")
     except ImportError:
-        raise MeshError("reading a mesh needs trimesh: pip install 'derive[mesh]'") from None
+        raise MeshError(
+            "reading a mesh needs trimesh: pip install 'derive-mechanics[mesh]'"
+        ) from None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

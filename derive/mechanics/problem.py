@@ -157,6 +157,7 @@ class Problem:
     """``group`` is ``None`` for the general text: any group with the given ``action``.
 
     ``frame``: what its parameters stand for, if it is in a principal frame (``frame.py``).
+    ``signed``: masses may be negative, so that nothing is said of the sign of the metric.
     """
 
     name: str
@@ -170,6 +171,7 @@ class Problem:
     places: tuple[Place, ...] = ()
     damping: tuple[Damping, ...] = ()
     frame: Mapping[str, Any] | None = None
+    signed: bool = False
 
     @property
     def affine(self) -> bool:

@@ -16,8 +16,8 @@ from typing import Any
 from ..algebra.tree import Tree, add, coefficient, mul
 from ..limits import EXPONENT
 from .expression import LARGEST, SMALLEST
+from .moments import Moments, Row, SolidError
 
-Row = tuple[Tree, ...]
 Monomial = tuple[tuple[Any, int], ...]  # factors, each a tree that is no product, and powers
 
 KINDS: dict[str, dict[str, tuple[int, ...] | None]] = {
@@ -35,10 +35,6 @@ KINDS: dict[str, dict[str, tuple[int, ...] | None]] = {
 SPAN, UNIT, TERMS = range(3), ((1, 0, 0), (0, 1, 0), (0, 0, 1)), 3
 
 
-class SolidError(ValueError):
-    """What is wrong with a solid, in one line."""
-
-
 @dataclass(frozen=True)
 class Solid:
     """The points R r + s of a kind of solid: ``rotation`` R, 3 × 3, and ``shift`` s, 3 entries.
@@ -54,21 +50,15 @@ class Solid:
     mesh: Any = None
 
 
-@dataclass(frozen=True)
-class Moments:
-    """m, c (3 entries) and J (3 × 3); those of a mixture are the sums of those of its parts."""
+def together(a: Moments, b: Moments) -> Moments:
+    """The moments of a mixture of two bodies."""
 
-    mass: Tree
-    first: Row
-    second: tuple[Row, ...]
+    def total(x: Tree, y: Tree) -> Tree:
+        return _flat(_terms(x) + _terms(y))
 
-    def __add__(self, other: Moments) -> Moments:
-        def total(a: Tree, b: Tree) -> Tree:
-            return _flat(_terms(a) + _terms(b))
-
-        parts = (((x.mass,), x.first, *x.second) for x in (self, other))
-        mass, first, *second = (tuple(map(total, *rows)) for rows in zip(*parts, strict=True))
-        return Moments(mass[0], first, tuple(second))
+    parts = (((x.mass,), x.first, *x.second) for x in (a, b))
+    mass, first, *second = (tuple(map(total, *rows)) for rows in zip(*parts, strict=True))
+    return Moments(mass[0], first, tuple(second))
 
 
 def unit_moments(solid: Solid) -> Moments:

@@ -22,12 +22,12 @@ from ..limits import (
     PROBLEM_BYTES,
     PULLS,
 )
+from ..reserved import taken
 from . import inertia
 from .bodies import body
 from .expression import names, numbers
 from .fields import (
     LIKE_A_PLACE,
-    PLACE,
     identifier,
     known,
     tables,
@@ -35,7 +35,7 @@ from .fields import (
     unread,
     used_at,
 )
-from .forces import Points, damping, given_input, potential, trees
+from .forces import Points, damping, given_input, negative_stiffness_of, potential, trees
 from .group import group_of
 from .problem import (
     Attraction,
@@ -57,8 +57,11 @@ DOTTED = re.compile(
 """Tried at dots alone, and possessive: no text makes it slow."""
 
 
-def load(path: Path, negative_mass: bool = False) -> Problem:
-    """Read a problem file; :class:`ProblemError` names file, key and remedy."""
+def load(path: Path, **allowed: bool) -> Problem:
+    """Read a problem file; :class:`ProblemError` names file, key and remedy.
+
+    ``allowed``: what may be negative, as :func:`problem_of` has it.
+    """
     try:
         with path.open("rb") as file:
             raw = file.read(PROBLEM_BYTES + 1)
@@ -84,10 +87,12 @@ def load(path: Path, negative_mass: bool = False) -> Problem:
     if _huge(data):
         raise ProblemError(f"{path}: {HUGE}")
     try:
-        return problem_of(data, path.parent, negative_mass)
+        return problem_of(data, path.parent, **allowed)
     except ProblemError as error:
         raise ProblemError(f"{path}: {error}") from None
 
+
+"""What names mean in every expression."""
 
 HUGE = "an integer of hundreds of digits; numbers go up to 1e300"
 
@@ -104,11 +109,14 @@ def _huge(data: Any) -> bool:
 
 
 def problem_of(
-    data: Mapping[str, Any], folder: Path = Path(), negative_mass: bool = False
+    data: Mapping[str, Any],
+    folder: Path = Path(),
+    negative_mass: bool = False,
+    negative_stiffness: bool = False,
 ) -> Problem:
     """A problem from the plain data of a file in a folder, where its meshes are.
 
-    ``negative_mass``: may a mass be given as a negative number?
+    ``negative_mass``, ``negative_stiffness`` (damping included): may they be negative numbers?
     """
     known(data, TOP, "file")
     moved, action = group_of(data)
@@ -120,11 +128,8 @@ def problem_of(
     if isinstance(own, MomentBody):
         named = {x: parameters.get(x, p) for x, p in own.parameters().items()}
         parameters = {**named, **{k: p for k, p in parameters.items() if k not in named}}
-    if not negative_mass and (where := inertia.negative_mass(own, parameters)):
-        raise ProblemError(
-            f"{where} is negative; correct it, or allow it with --allow-negative-mass "
-            "(in Python: negative_mass=True)"
-        )
+    if not negative_mass:
+        _positive(inertia.negative_mass(own, parameters), "mass")
     listed = own.points if isinstance(own, GivenBody) else own
     masses = len(listed.masses) if isinstance(listed, PointBody) else 0
     blocks = listed.blocks if isinstance(listed, PointBody) else ()
@@ -140,6 +145,8 @@ def problem_of(
     )
     if sum(isinstance(i, CovectorInput) for i in inputs) > 1:
         raise ProblemError("key 'input': one covector holds every component; give one such table")
+    if not negative_stiffness:
+        _positive(negative_stiffness_of(potentials, drags, parameters), "stiffness")
     _distinct([i.name for i in inputs], parameters)
     title = text(data, "title", "file") if "title" in data else name
     problem = Problem(
@@ -153,6 +160,7 @@ def problem_of(
         inputs,
         tuple(points.places),
         drags,
+        signed=negative_mass,
     )
     _affordable(problem)
     _declared(problem, data)
@@ -168,15 +176,39 @@ def _name(data: Mapping[str, Any], moved: Group | None) -> str:
     return name
 
 
+def _positive(where: str | None, what: str) -> None:
+    """``ProblemError`` where something is negative that no flag allows to be."""
+    if where:
+        raise ProblemError(
+            f"{where} is negative; correct it, or allow it with --allow-negative-{what} "
+            f"(in Python: negative_{what}=True)"
+        )
+
+
 def _massive(problem: Problem, negative_mass: bool) -> None:
     """The body has inertia in every direction, and masses that can be."""
     moved, own = problem.group, problem.body
     if moved and own and (still := inertia.still_direction(moved, own)):
-        raise ProblemError(f"{still} moves no mass of this body: its motion is open; add masses")
-    if not negative_mass and inertia.impossible(own):
+        raise ProblemError(
+            f"{still} has no kinetic energy together with any motion: the metric of these masses, "
+            "some of them negative, is degenerate at g = 1; change them"
+            if negative_mass
+            else f"{still} moves no mass of this body: its motion is open; add masses"
+        )
+    if moved and own and moved.free_translations and inertia.massless(own):
+        raise ProblemError("body: its mass is 0, and it has no centre of mass; change the masses")
+    if negative_mass or not inertia.impossible(own, problem.parameters):
+        return
+    if isinstance(own, GivenBody) and own.solids:
+        raise ProblemError(
+            "body: no masses have the moments of these solids: what has a negative density must be "
+            "a hole inside of others; or allow it with --allow-negative-mass"
+        )
+    else:
         raise ProblemError(
             "body, given: no masses have these moments: J − c c̄/m must be positive "
             "(about the centre no moment of inertia exceeds the sum of the two others)"
+            + (f"; {inertia.CAD}" if inertia.of_cad(own, problem.parameters) else "")
         )
 
 
@@ -189,8 +221,7 @@ def _parameters(data: Any) -> dict[str, Parameter]:
     for name, value in data.items():
         where = f"parameter {name[:40]!r}"
         identifier(name, where)
-        if name == "t" or PLACE.fullmatch(name):
-            what = "the time" if name == "t" else "a place of a point"
+        if what := taken(name):
             raise ProblemError(f"{where}: this is {what} in an expression; choose another name")
         if isinstance(value, (int, float)) and not isinstance(value, bool):
             value = {"default": value}

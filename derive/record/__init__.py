@@ -1,1 +1,1 @@
-"""The record of a walk, its checker, and the paper as printed."""
+"""The record of a walk: steps as data, their JSON, vocabulary and sentences."""

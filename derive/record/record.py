@@ -2,6 +2,12 @@
 
 ``Derivation`` = the problem, the declared symbols and the ordered steps.  A step names the rule it
 used and the earlier steps it rests on; its equations are pairs of trees.  Nothing here computes.
+
+In JSON: ``commentary``, the fields that are words for people; ``problem``, with the dimension ``n``
+of its space, a number or "any"; ``symbols``, each a name with its first use, ``type``, ``role`` and
+the key of the equation that says first what it is, ``defined``, and ``also``, its other uses; and
+``steps``, each of a ``kind`` that follows from its rule, each of their equations with its ``key``.
+What the rest says already (commentary, kind, key) may be absent; if it is there, it must be right.
 """
 
 from __future__ import annotations
@@ -18,32 +24,48 @@ from typing import Any
 from ..algebra.tree import OPERATORS, Tree
 from ..limits import RECORD_BYTES, TREE
 from . import sentence
+from .hypotheses import PROPERTIES, SPACES, Hypothesis
 from .rules import RULES
 from .sentence import Prose, english
 from .shape import ShapeError, deepest, problem_shape, tree_shape
 from .strict import loads
-from .vocabulary import ANY_GROUP, GIVENS
+from .vocabulary import ACTIONS, ANY_GROUP, COMMENTARY, ROLES, VOCABULARY, Type, Use
+
+TYPE = 4
+"""Lists in one another in the type of a symbol."""
 
 
 class RecordError(ValueError):
     """A record that is not well formed: the message says where."""
 
 
+def equation_key(label: str, place: int) -> str:
+    """The name of an equation everywhere: its step and its place there, ``so3.kernel.2``."""
+    return f"{label}.{place}"
+
+
+def step_of(key: str) -> str:
+    """The label of the step of an equation."""
+    return key.rpartition(".")[0]
+
+
 @dataclass(frozen=True)
 class Equation:
-    """lhs = rhs, for every value of the names in ``for_all``."""
+    """lhs = rhs, for every value of the names in ``for_all`` and some of those in ``exists``."""
 
     lhs: Tree
     rhs: Tree
     for_all: tuple[str, ...] = ()
+    exists: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class Step:
     """One step of the walk.
 
-    ``scope`` is ``"any group"`` or the name of the group on which the equations hold; ``given``
-    lists further assumptions (``"principal axes"``, ``"input"``).
+    ``scope`` is ``"any group"`` or the name of the group on which the equations hold; ``given``:
+    equations that are supposed to hold; ``driven``: inputs and damping act; ``hypotheses``: what
+    is inverted, or tells the velocity of X, can be.
     """
 
     label: str
@@ -53,24 +75,37 @@ class Step:
     prose: Prose
     paper: tuple[int, ...] = ()
     scope: str = ANY_GROUP
-    given: tuple[str, ...] = ()
+    given: tuple[Equation, ...] = ()
+    driven: bool = False
+    hypotheses: tuple[Hypothesis, ...] = ()
 
-    def number(self, equation: Equation) -> int:
-        """The place of an equation in the step, counted from 1."""
-        return self._numbers[equation]
+    @property
+    def kind(self) -> str:
+        """What its equations are: a definition, an identity, … by its rule."""
+        return RULES[self.rule].kind
 
     @cached_property
-    def _numbers(self) -> dict[Equation, int]:
-        return {e: k for k, e in reversed([*enumerate(self.equations, 1)])}
+    def keys(self) -> tuple[str, ...]:
+        """The keys of the equations, in order."""
+        return tuple(equation_key(self.label, k) for k, _ in enumerate(self.equations, 1))
+
+    def key(self, equation: Equation) -> str:
+        """The key of an equation of the step; of two that are the same, that of the first."""
+        return self._keys[equation]
+
+    @cached_property
+    def _keys(self) -> dict[Equation, str]:
+        return dict(reversed([*zip(self.equations, self.keys, strict=True)]))
 
 
 @dataclass(frozen=True)
 class Symbol:
-    """A declared name: what it means and how LaTeX writes it."""
+    """A declared name: what it means, how LaTeX writes it, in which ways the steps use it."""
 
     name: str
     meaning: Prose
     latex: str
+    uses: tuple[Use, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -94,13 +129,27 @@ class Derivation:
                 return step
         raise KeyError(label)
 
+    @cached_property
+    def remarks(self) -> frozenset[str]:
+        """The labels of the steps on which the motion does not rest; none where there is none."""
+        uses = {s.label: s.uses for s in self.steps}
+        left = [f"{self.name}.motion"]
+        if left[0] not in uses:
+            return frozenset()
+        found = set(left)
+        while left:
+            new = {*uses[left.pop()]} - found
+            found |= new
+            left += new
+        return frozenset({*uses} - found)
+
     def definition(self, lhs: Tree) -> tuple[Step, Equation] | None:
-        """The last equation with that left side, in the axes of the record, and its step."""
+        """The last equation with that left side, of a step to which nothing is given; the step."""
         return self._definitions.get(lhs)
 
     @cached_property
     def _definitions(self) -> dict[Tree, tuple[Step, Equation]]:
-        own = (step for step in self.steps if "principal axes" not in step.given)
+        own = (step for step in self.steps if not step.given)
         return {equation.lhs: (step, equation) for step in own for equation in step.equations}
 
 
@@ -140,35 +189,57 @@ def decode(data: Any, where: str, depth: int = 0) -> Tree:
 def to_data(d: Derivation) -> dict[str, Any]:
     """The record as plain data."""
     return {
+        "commentary": list(COMMENTARY),
         "problem": dict(d.problem),
         "symbols": [_symbol_data(s) for s in d.symbols],
-        "steps": [_step_data(s) for s in d.steps],
+        "steps": [
+            _step_data(s) | ({"remark": True} if s.label in d.remarks else {}) for s in d.steps
+        ],
     }
 
 
 def _symbol_data(s: Symbol) -> dict[str, Any]:
     data: dict[str, Any] = {"name": s.name, "meaning": english(s.meaning), "latex": s.latex}
-    return data if sentence.plain(s.meaning) else data | {"sentences": sentence.to_data(s.meaning)}
+    if not sentence.plain(s.meaning):
+        data["sentences"] = sentence.to_data(s.meaning)
+    first, *also = [*map(_use_data, s.uses)] or [{}]
+    return data | first | ({"also": also} if also else {})
+
+
+def _use_data(use: Use) -> dict[str, Any]:
+    data = {"type": use.type, "role": use.role}
+    return data | ({"defined": use.defined} if use.defined else {})
 
 
 def _step_data(s: Step) -> dict[str, Any]:
-    return {
+    data: dict[str, Any] = {
         "label": s.label,
         "rule": s.rule,
+        "kind": s.kind,
         "uses": list(s.uses),
         "paper": list(s.paper),
         "scope": s.scope,
-        "given": list(s.given),
+        "given": [_equation_data(e) for e in s.given],
+        "hypotheses": [_hypothesis_data(x) for x in s.hypotheses],
         "prose": english(s.prose),
         "sentences": sentence.to_data(s.prose),
-        "equations": [_equation_data(e) for e in s.equations],
+        "equations": [
+            {"key": key} | _equation_data(e) for key, e in zip(s.keys, s.equations, strict=True)
+        ],
     }
+    return data | {"driven": True} if s.driven else data
+
+
+def _hypothesis_data(x: Hypothesis) -> dict[str, Any]:
+    data: dict[str, Any] = {"is": x.property, "of": encode(x.of)}
+    return data | {"on": x.space} if x.space else data
 
 
 def _equation_data(e: Equation) -> dict[str, Any]:
     data: dict[str, Any] = {"lhs": encode(e.lhs), "rhs": encode(e.rhs)}
-    if e.for_all:
-        data["for_all"] = list(e.for_all)
+    for key, names in (("for_all", e.for_all), ("exists", e.exists)):
+        if names:
+            data[key] = list(names)
     return data
 
 
@@ -222,38 +293,96 @@ def _prose(data: Any, key: str, where: str) -> Prose:
     return prose
 
 
+def _derived(data: dict[str, Any], key: str, right: Any, where: str) -> None:
+    """What the rest of a record says already: if it stands there, as it must be."""
+    if key in data and data[key] != right:
+        said = right if isinstance(right, str) else json.dumps(right)
+        raise RecordError(f"{where}: key {key!r} must be {said}")
+
+
 def _symbol(data: Any, where: str) -> Symbol:
     name, latex = (_field(data, key, str, where) for key in ("name", "latex"))
-    return Symbol(name, _prose(data, "meaning", where), latex)
+    if name not in VOCABULARY or latex != VOCABULARY[name].latex:
+        raise RecordError(f"{where}: {ascii(name)[:40]} is no name of the walk, or not so in LaTeX")
+    where = f"{where} ({name})"
+    uses = [_use(data, where)]
+    if "also" in data:
+        uses += [_use(x, where) for x in _field(data, "also", list, where)]
+    return Symbol(name, _prose(data, "meaning", where), latex, tuple(uses))
 
 
-def _step(data: Any, where: str, earlier: Set[str]) -> Step:
+def _use(data: Any, where: str) -> Use:
+    kind, role = _type(_field(data, "type", object, where), where), _field(data, "role", str, where)
+    if role not in ROLES:
+        raise RecordError(f"{where}: key 'role' must be one of {', '.join(ROLES)}")
+    return Use(kind, role, _field(data, "defined", str, where) if "defined" in data else "")
+
+
+def _type(data: Any, where: str, depth: int = 0) -> Type:
+    """Names and sizes in lists; what they mean is the checker's to judge."""
+    if isinstance(data, str) or type(data) is int:
+        return data  # type: ignore[return-value]
+    if not isinstance(data, list) or not data or depth > TYPE:
+        raise RecordError(f"{where}: key 'type' must be a name, or lists of names and sizes")
+    return tuple(_type(x, where, depth + 1) for x in data)
+
+
+def _step(data: Any, where: str, earlier: Set[str], group: str) -> Step:
+    """A step; its scope is that of its chapter."""
     label = _field(data, "label", str, where)
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_.]{0,99}", label):
         raise RecordError(f"{where}: key 'label' must be letters, digits, _ and dots")
+    if step_of(label) and label.rpartition(".")[2].isdecimal():
+        raise RecordError(f"{where}: {label!r} would be the key of an equation, not of a step")
     where = f"{where} ({label})"
     rule = _field(data, "rule", str, where)
     if rule not in RULES:
         raise RecordError(f"{where}: unknown rule {rule[:40]!r}")
+    _derived(data, "kind", RULES[rule].kind, where)
     uses = _strings(data, "uses", where)
     missing = [u for u in uses if u not in earlier]
     if missing:
         raise RecordError(f"{where}: uses {missing[0][:40]!r}, which is no earlier step")
-    given = _strings(data, "given", where) if "given" in data else ()
-    if not set(given) <= set(GIVENS):
-        raise RecordError(f"{where}: 'given' may list {', '.join(GIVENS)}")
-    equations = []
-    for k, item in enumerate(_field(data, "equations", list, where)):
-        place = f"{where}, equation {k + 1}"
-        _field(item, "lhs", object, place), _field(item, "rhs", object, place)
-        for_all = _strings(item, "for_all", place) if "for_all" in item else ()
-        equations.append(Equation(decode(item["lhs"], place), decode(item["rhs"], place), for_all))
+    equations = _equations(data, "equations", where)
     if not equations:
         raise RecordError(f"{where}: no equation")
+    for k, item in enumerate(data["equations"], 1):
+        _derived(item, "key", equation_key(label, k), f"{where}, equation {k}")
     paper = tuple(x for x in _field(data, "paper", list, where) if isinstance(x, int))
-    scope = str(data.get("scope", ANY_GROUP))
+    scope = ANY_GROUP if label.partition(".")[0] in ACTIONS else group
+    _derived(data, "scope", scope, where)
     prose = _prose(data, "prose", where)
-    return Step(label, rule, uses, tuple(equations), prose, paper, scope, given)
+    given = _equations(data, "given", where, quantified=False) if "given" in data else ()
+    driven = bool(_field(data, "driven", bool, where)) if "driven" in data else False
+    supposed = _hypotheses(data, where) if "hypotheses" in data else ()
+    return Step(label, rule, uses, equations, prose, paper, scope, given, driven, supposed)
+
+
+def _equations(data: Any, key: str, where: str, *, quantified: bool = True) -> tuple[Equation, ...]:
+    """Those under a key; of what is given, without quantifiers."""
+    found = []
+    for k, item in enumerate(_field(data, key, list, where), 1):
+        place = f"{where}, {'equation' if quantified else key} {k}"
+        lhs, rhs = (decode(_field(item, side, object, place), place) for side in ("lhs", "rhs"))
+        names = (_strings(item, x, place) if x in item else () for x in ("for_all", "exists"))
+        found.append(Equation(lhs, rhs, *names))
+        if not quantified and (found[-1].for_all or found[-1].exists):
+            raise RecordError(f"{place}: what is given has no quantifiers")
+    return tuple(found)
+
+
+def _hypotheses(data: Any, where: str) -> tuple[Hypothesis, ...]:
+    found = []
+    for k, item in enumerate(_field(data, "hypotheses", list, where), 1):
+        place = f"{where}, hypothesis {k}"
+        what = _field(item, "is", str, place)
+        if what not in PROPERTIES:
+            raise RecordError(f"{place}: key 'is' must be one of {', '.join(PROPERTIES)}")
+        space = _field(item, "on", str, place) if "on" in item else ""
+        if (space in SPACES) != (what == "nondegenerate") or (space and space not in SPACES):
+            raise RecordError(f"{place}: key 'on' is of a form: one of {', '.join(SPACES)}")
+        found.append(Hypothesis(what, decode(_field(item, "of", object, place), place), space))
+    return tuple(found)
 
 
 def from_json(text: str) -> Derivation:
@@ -263,6 +392,7 @@ def from_json(text: str) -> Derivation:
     except ValueError as error:
         raise RecordError(f"not JSON that can be read: {error}") from None
     problem = _field(data, "problem", dict, "record")
+    _derived(data, "commentary", [*COMMENTARY], "record")
     if deepest(problem) > TREE:
         raise RecordError(f"record, problem: nested deeper than {TREE}")
     try:
@@ -271,15 +401,22 @@ def from_json(text: str) -> Derivation:
         raise RecordError(f"record, problem: {error}") from None
     listed = _field(data, "symbols", list, "record")
     symbols = [_symbol(item, f"symbol {k}") for k, item in enumerate(listed, 1)]
-    steps: dict[str, Step] = {}
+    prefixes, steps = (problem["name"], *ACTIONS), dict[str, Step]()
     for k, item in enumerate(_field(data, "steps", list, "record"), 1):
-        step = _step(item, f"step {k}", steps.keys())
+        step = _step(item, f"step {k}", steps.keys(), problem["group"])
+        if step.label.partition(".")[0] not in prefixes:
+            raise RecordError(
+                f"step {k} ({step.label}): key 'label' must begin with the problem's name"
+            )
         if step.label in steps:
             raise RecordError(f"step {k}: label {step.label[:40]!r} stands twice")
         steps[step.label] = step
     if not steps:
         raise RecordError("record: no step")
-    return Derivation(problem, tuple(symbols), tuple(steps.values()))
+    found = Derivation(problem, tuple(symbols), tuple(steps.values()))
+    for k, (item, label) in enumerate(zip(data["steps"], steps, strict=True), 1):
+        _derived(item, "remark", label in found.remarks, f"step {k} ({label})")
+    return found
 
 
 def read(path: Path) -> Derivation:

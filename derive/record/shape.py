@@ -14,8 +14,10 @@ from typing import Any
 from ..algebra.differentiate import DERIVATIVES
 from ..algebra.tree import OPERATORS, Tree
 from ..limits import BASIS, TEXT
-from .vocabulary import CONVENTIONS
+from ..reserved import WORDS, taken
+from .vocabulary import ACTIONS, CONVENTIONS
 
+IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
 FRACTION = re.compile(r"-?[0-9]{1,4000}(/0*[1-9][0-9]{0,4000})?")
 KINDS = ("points", "given", "moments", "any")
 SIZES = {
@@ -71,16 +73,6 @@ def deepest(data: Any) -> int:
     return level
 
 
-def _is_scalar(t: Tree) -> bool:
-    """Is it made of numbers, parameters and entries of places by what keeps to numbers?"""
-    if not isinstance(t, tuple) or t[0] == "par":
-        return True
-    if t[0] == "entry":
-        return isinstance(t[1], tuple) and t[1][0] == "call"
-    kept = {"add": t[1:], "mul": t[1:], "div": t[1:], "pow": t[1:2], "fun": t[2:]}
-    return t[0] in kept and all(map(_is_scalar, kept[t[0]]))
-
-
 class _Shape:
     def __init__(self, data: Mapping[str, Any], tree: Callable[[Any, str], Tree]):
         self.data, self.read = data, tree
@@ -89,13 +81,20 @@ class _Shape:
     def problem(self) -> None:
         """Key by key."""
         data = self.data
-        for key in ("name", "title", "group"):
+        for key in ("title", "group"):
             self.text(self.at(data, key, str, key), key)
-        self.one_of(self.at(data, "action", str, "action"), ("linear", "affine"), "action")
+        self.identifier(self.at(data, "name", str, "name"), "name")
+        self.one_of(self.at(data, "action", str, "action"), ACTIONS, "action")
         self.at(data, "homogeneous", bool, "homogeneous")
+        n = self.at(data, "n", object, "n")
+        if n != "any" and not (type(n) is int and 1 <= n <= 2 * LONGEST):
+            raise ShapeError("n: key must be the dimension of the space, or 'any'")
         self.blocks = len(data["group"].split(" x "))
         for name, about in self.at(data, "parameters", dict, "parameters").items():
-            self.parameter(about, f"parameters, {name[:40]!r}")
+            self.identifier(name, "parameters")
+            if taken(name):
+                raise ShapeError(f"parameters: {name!r} is {taken(name)} in an expression")
+            self.parameter(about, f"parameters, {name!r}")
         self.body(self.at(data, "body", dict, "body"))
         for k, x in self.each("places"):
             self.placed(x, f"place {k}")
@@ -104,6 +103,9 @@ class _Shape:
             self.potential(x, f"potential {k}")
         for k, x in self.each("inputs"):
             self.input(x, f"input {k}")
+        inputs = [x["name"] for x in data["inputs"]]
+        if len({*inputs, *data["parameters"]}) < len(inputs) + len(data["parameters"]):
+            raise ShapeError("inputs: two of one name, or one of a parameter's name")
         for k, x in self.each("damping"):
             self.scalar(self.at(x, "coefficient", object, f"damping {k}"), f"damping {k}")
             for i in self.at(x, "on", list, f"damping {k}"):
@@ -134,8 +136,12 @@ class _Shape:
         self.points = len(listed)
         if kind == "points" and not listed:
             raise ShapeError("body: key 'points' must list points")
+        if kind in ("moments", "any") and listed:
+            raise ShapeError(f"body: {kind!r} leaves the points open; it lists none")
         if kind != "given":
             return
+        if listed and not body.get("solids"):
+            raise ShapeError("body: given moments are of no listed points; leave these out")
         given = self.at(body, "given", dict, "body")
         self.scalar(self.at(given, "m", object, "body, given"), "body, m")
         size = len(self.vector(self.at(given, "c", list, "body, given"), "body, c"))
@@ -189,13 +195,15 @@ class _Shape:
         self.one_of(kind, ("gravity", "spring", "attraction", "expression"), f"{where}, kind")
         trees = {"spring": ("stiffness", "length"), "attraction": ("strength",)}
         for key in trees.get(kind, ("U",) if kind == "expression" else ()):
-            self.scalar(self.at(data, key, object, where), f"{where}, {key}")
+            self.scalar(self.at(data, key, object, where), f"{where}, {key}", placed=key == "U")
         if kind == "gravity":
             self.vector(self.at(data, "g", list, where), f"{where}, g")
         if kind == "attraction":
             self.vector(self.at(data, "centre", list, where), f"{where}, centre", least=0)
             if "on" in data:
                 raise ShapeError(f"{where}: key 'on' is for a problem in its principal frame")
+            if self.data["body"]["kind"] != "points":
+                raise ShapeError(f"{where}: attraction is of a body of points alone")
         if kind == "spring" and "between" in data:
             ends = self.at(data, "between", list, where)
             if len(ends) != 2:
@@ -208,7 +216,7 @@ class _Shape:
 
     def input(self, data: Any, where: str) -> None:
         """A covector or a force."""
-        self.text(self.at(data, "name", str, where), where)
+        self.identifier(self.at(data, "name", str, where), where)
         kind = self.at(data, "kind", str, where)
         self.one_of(kind, ("covector", "force"), f"{where}, kind")
         if kind == "force":
@@ -228,10 +236,34 @@ class _Shape:
 
     # -- of what everything is made --------------------------------------------------------------
 
-    def scalar(self, data: Any, where: str) -> None:
-        """A tree of a number."""
-        if not _is_scalar(self.read(data, where)):
+    def scalar(self, data: Any, where: str, *, placed: bool = False) -> None:
+        """A tree of a number; ``placed``: of t and coordinates of the points in space as well."""
+        if not self.is_scalar(self.read(data, where), placed):
             raise ShapeError(f"{where}: expected the expression of a number")
+
+    def is_scalar(self, t: Tree, placed: bool) -> bool:
+        """Is it made of what is known, by what keeps to numbers?"""
+        if not isinstance(t, tuple):
+            return not isinstance(t, str) or t == "π" or (placed and t == "t")
+        if t[0] == "par":
+            return t[1] in self.data["parameters"]
+        if t[0] == "entry":
+            return placed and len(t) == 3 and self.is_place(t[1])
+        kept = {"add": t[1:], "mul": t[1:], "div": t[1:], "pow": t[1:2], "fun": t[2:]}
+        return t[0] in kept and all(self.is_scalar(x, placed) for x in kept[t[0]])
+
+    def is_place(self, t: Tree) -> bool:
+        """Is it r_i(t) of a point or a place?"""
+        i = t[1][2] if isinstance(t, tuple) and t[:1] == ("call",) and len(t[1]) == 3 else 0
+        known = isinstance(i, int) and 1 <= i <= self.points
+        return known and t == ("call", ("at", "r", i), "t")
+
+    def identifier(self, name: str, where: str) -> None:
+        """A name as the files of problems have them."""
+        if not IDENTIFIER.fullmatch(name):
+            raise ShapeError(f"{where}: {ascii(name)[:60]} is no name of letters, digits and _")
+        if name in WORDS:
+            raise ShapeError(f"{where}: {name!r} is {WORDS[name]}")
 
     def at(self, data: Any, key: str, kind: type, where: str) -> Any:
         """A value of a type that must be there."""

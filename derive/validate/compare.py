@@ -10,18 +10,20 @@ import hashlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from random import Random
 from typing import Any
 
 from ..record.record import to_json
+from .drift import compare_drift
 from .jacobians import Varied
 from .literals import Literals
 from .measured import Measured, Opaque
 from .module import Machine, Module
 from .names import DiffersError, compare_names
 from .points import Claims, Point
-from .straight import straight
-from .terms import Array, CodeError
+from .straight import asked, straight, summands
+from .terms import Array, CodeError, run
 
 SIZE = 2**128
 """Random integers are of at most this absolute value."""
@@ -73,9 +75,29 @@ def compare(
             raise CodeError("its degree is too large for a proof")
         Comparison(module, claims, literal, claims.point(f"{digest} {points}")).all()
         points += 1
+    for zero in _zeros(module):
+        _at_zero(module, claims, literal, digest, zero)
     size = module.sizes.get("CONSTANTS", 0)
     unread = tuple(f"k[{i}]" for i in range(size) if i not in first.read)
     return Verdict(functions, points, one**points, tuple(sorted(literal.rounded)), unread)
+
+
+def _zeros(module: Module) -> list[tuple[str, ...]]:
+    """The parameters that the code asks whether they are 0: each alone, and all at once."""
+    found = sorted({i for f in module.functions.values() for i in asked(f)})
+    names = tuple((module.parameters or ())[i] for i in found)
+    return list(dict.fromkeys([*((x,) for x in names), names])) if names else []
+
+
+def _at_zero(
+    module: Module, claims: Claims, literal: Literals, seed: str, zero: tuple[str, ...]
+) -> None:
+    """The same where some parameters are 0, if the record has values there."""
+    try:
+        point = claims.point(f"{seed} zero", zero)
+    except CodeError:
+        return
+    Comparison(module, claims, literal, point).all()
 
 
 class Comparison:
@@ -125,6 +147,9 @@ class Comparison:
             tensor = self._call("inertia", given, value=6)["value"]
             self._same("inertia", names, tensor, point.inertia)
             found.append("inertia")
+        if "project" in self.module.functions:
+            alone = partial(self._alone, given)
+            found.append(compare_drift(alone, self._draw, self.claims.state, point))
         return (*found, *self._jacobians(given))
 
     @property
@@ -157,12 +182,18 @@ class Comparison:
             raise CodeError(f"{name}: {error}") from None
         if "k" in given:
             self.read |= given["k"].read
-        measured = (x for values in found.values() for x in values if isinstance(x, Measured))
-        self.largest = max([self.largest, *(x.degree for x in measured)])
+        self._measure([x for values in found.values() for x in values])
         return found
 
+    def _measure(self, values: Iterable[Any]) -> None:
+        degrees = (x.degree for x in values if isinstance(x, Measured))
+        self.largest = max([self.largest, *degrees])
+
     def _batch(self, given: Mapping[str, Any], count: int) -> None:
-        """So many states at once: that of the point, and any others, for which ``rhs`` answers."""
+        """So many states at once: that of the point, and any others, for which ``rhs`` answers.
+
+        An index is made of n and s by sums and products alone, so three counts tell two apart.
+        """
         size, degrees = len(self.point.rates), {"x": self.claims.entry_degree, "u": (1, 0)}
         states = [dict(given) for _ in range(count)]
         for other in states[1:]:
@@ -178,6 +209,21 @@ class Comparison:
         for s, other in enumerate(states[1:], 1):
             rates = self._call("rhs", other, dx=size)["dx"]
             self._same("rhs_batch", self._rates, found[s :: len(states)], rates)
+
+    def _alone(self, given: Mapping[str, Any], name: str, x: Sequence[Any]) -> Sequence[Any]:
+        """The numbers of ``project``, or what ``defect`` is the sum of the sizes of."""
+        exact = all(isinstance(y, Fraction) for y in x)
+        state = self._array(x, "x", self.claims.entry_degree) if exact else Array(x, "x")
+        given, function = {**given, "x": state}, self.module.functions.get("defect")
+        if name == "project":
+            found = self._call(name, given, out=len(x))["out"]
+        elif function is None:
+            raise CodeError("defect: there is no such function")
+        else:
+            elementary, literal = self.machine.elementary, self.machine.literal
+            found = run(summands(function), given, elementary, literal)
+            self._measure(found)
+        return [getattr(y, "value", y) for y in found]
 
     def _draw(self) -> Fraction:
         return Fraction(self.random.randint(1, self.claims.size))

@@ -12,7 +12,7 @@ from typing import Any
 
 from ..algebra import rational as q
 from ..algebra.rational import Matrix
-from ..record.nilpotent import EPS, part
+from ..check.nilpotent import EPS, part
 from .module import Machine
 from .points import Point
 from .state import EPSILON, State

@@ -18,12 +18,12 @@ from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.samplers import Sampler, affine, by_cayley
-from ..record import degree
-from ..record.arithmetic import EvaluationError
-from ..record.check import Checker
-from ..record.evaluate import Environment, evaluate
-from ..record.meaning import environment
-from ..record.model import Model
+from ..check import degree
+from ..check.arithmetic import EvaluationError
+from ..check.checker import Checker
+from ..check.evaluate import Environment, evaluate
+from ..check.meaning import environment
+from ..check.model import Model
 from ..record.record import Derivation, Equation, RecordError
 from .state import Chart, Numbers, State
 from .terms import CodeError
@@ -54,7 +54,7 @@ class Claims:
 
     def __init__(self, d: Derivation, chart: Chart, size: int):
         self.record, self.size = d, size
-        self._points: dict[str, Point] = {}
+        self._points: dict[tuple[str, tuple[str, ...]], Point] = {}
         self.scope = str(d.problem.get("group"))
         (group,) = Checker(d.problem).groups(self.scope)
         if chart.attitude == "quaternion":
@@ -64,8 +64,7 @@ class Claims:
     @cached_property
     def driven(self) -> bool:
         """Is there anything given from outside?"""
-        given = [s.given for s in self.record.steps if s.label.endswith(".motion")]
-        return any("input" in x for x in given)
+        return any(s.driven for s in self.record.steps if s.label.endswith(".motion"))
 
     @cached_property
     def inputs(self) -> tuple[str, ...]:
@@ -85,19 +84,18 @@ class Claims:
     def _factor(self, i: int) -> Group:
         return self.group.places[self._block(i) - 1][1]
 
-    def point(self, seed: str) -> Point:
-        """The point of a seed; ``CodeError`` where the record has no value there."""
-        if seed not in self._points:
+    def point(self, seed: str, zero: tuple[str, ...] = ()) -> Point:
+        """The point of a seed, some parameters 0; ``CodeError`` where the record has no value."""
+        if (seed, zero) not in self._points:
             try:
-                self._points[seed] = self._point(seed)
+                self._points[seed, zero] = self._point(seed, zero)
             except (EvaluationError, RecordError, ZeroDivisionError) as error:
                 raise CodeError(f"the record has no value: {error}") from None
-        return self._points[seed]
+        return self._points[seed, zero]
 
-    def _point(self, seed: str) -> Point:
-        model = Model(
-            self.record.problem, self.group, Random(seed), self.size, driven=self.driven, pi=PI
-        )
+    def _point(self, seed: str, zero: tuple[str, ...]) -> Point:
+        random, problem = Random(seed), self.record.problem
+        model = Model(problem, self.group, random, self.size, driven=self.driven, pi=PI, zero=zero)
         env = environment(model)
         g_dot = self._whole(self._value("Ȧ", env), self._value("Ṫ", env))
         rates = self.state.rates(model.g, model.Z, g_dot, self._acceleration(env))

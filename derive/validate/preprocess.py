@@ -23,7 +23,6 @@ SPELLINGS = {
 SKIPPED = ('extern "C" {', "}")
 LIBRARY = ("<math.h>", "<stddef.h>")
 PRAGMAS = (
-    'GCC optimize("no-tree-slp-vectorize")',
     "GCC ivdep",
     "clang loop vectorize(assume_safety)",
     *(f"omp parallel for{simd} if (parallel : n > 4096)" for simd in ("", " simd")),

@@ -25,6 +25,8 @@ SIGNATURES = {
     "rhs": ("void", "t", "const* x", "const* k", "const* u", "* dx"),
     "rhs_batch": ("void", "size_t n", "t", "const* x", "const* k", "const* u", "* dx"),
     "energy": ("real", "t", "const* x", "const* k"),
+    "project": ("void", "const* x", "* out"),
+    "defect": ("real", "const* x"),
     "jacobian": ("void", "t", "const* x", "const* k", "const* u", "* dx", "* D"),
     "jacobian_inputs": ("void", "t", "const* x", "const* k", "const* u", "* D"),
     "jacobian_parameters": ("void", "t", "const* x", "const* p", "const* u", "* D"),
@@ -32,6 +34,8 @@ SIGNATURES = {
 """What each function returns and takes, in order: the contract with its callers."""
 
 SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS")
+DECLARED = {"P": "PARAMETERS", "K": "CONSTANTS", "U": "INPUTS"}
+"""Arrays that may be empty, which C does not declare: their SIZE is 1 then."""
 LISTS = ("state", "parameter", "input")
 REFUSALS = ("SINGULAR", "NOT_FINITE")
 """What ``constants`` returns of a body that has no rates; these and SIZES are all the enums."""
@@ -49,7 +53,7 @@ def read_c(name: str, files: Mapping[str, str], prefix: str) -> Module:
         from pycparser import c_ast, c_parser
     except ImportError:
         raise MissingParserError(
-            "C is read back by pycparser: install it by  pip install 'derive[validate]'"
+            "C is read back by pycparser: install it by  pip install 'derive-mechanics[validate]'"
         ) from None
     text = "typedef unsigned long size_t;\n" + preprocessed(name, files, prefix)
     try:
@@ -104,6 +108,8 @@ class Reader:
     def _enumerators(self) -> dict[str, int]:
         """Name → value, or 0 for those that are compared with the record."""
         sizes = dict.fromkeys((f"{self.prefix}_N_{x}" for x in SIZES), 0)
+        counts = {x: self.sizes.get(f"{self.prefix}_N_{n}", 0) for x, n in DECLARED.items()}
+        sizes |= {f"{self.prefix}_SIZE_{x}": max(1, n) for x, n in counts.items()}
         return sizes | {f"{self.prefix}_{x}": k for k, x in enumerate(REFUSALS, 1)}
 
     @property
@@ -250,7 +256,9 @@ class Reader:
         elif isinstance(node, c.BinaryOp) and node.op in SIGNS:
             if self._whole(node.left) and self._whole(node.right):
                 raise CodeError("C cuts off a quotient of integers, and their sums and products")
-            return (SIGNS[node.op], self._expression(node.left), self._expression(node.right))
+            left, right = self._expression(node.left), self._expression(node.right)
+            asked = node.op == "==" and left[0] == "var" and right == ("int", 0)
+            return ("none", left) if asked else (SIGNS[node.op], left, right)
         elif isinstance(node, c.FuncCall) and isinstance(node.name, c.ID):
             return self._call(node)
         raise self._unknown(node)

@@ -1,8 +1,9 @@
 """Emitted Python as terms, by its syntax tree; nothing of the text is ever run.
 
-Read are the functions in plain numbers: ``_constants``, ``_rhs``, ``_energy``, ``_inertia`` and the
-Jacobians, with the names, the defaults and the basis.  The public functions, which hand arrays to
-these, are not: :func:`unread` gives their text, to be compared with what is emitted.
+Read are the functions in plain numbers: ``_constants``, ``_rhs``, ``_energy``, ``_inertia``,
+``_project``, ``_defect`` and the Jacobians, with the names, the defaults and the basis.  The public
+functions, which hand arrays to these, are not: :func:`unread` gives their text, to be compared with
+what is emitted.
 """
 
 from __future__ import annotations
@@ -29,6 +30,8 @@ SIGNATURES = {
     "_rhs": ("xp", "t", "x", "k", "u"),
     "_energy": ("xp", "t", "x", "k", "u"),
     "_inertia": ("xp", "p"),
+    "_project": ("xp", "t", "x", "k", "u"),
+    "_defect": ("xp", "t", "x", "k", "u"),
     "_jacobian": ("xp", "t", "x", "k", "u"),
     "_jacobian_inputs": ("xp", "t", "x", "k", "u"),
     "_jacobian_parameters": ("xp", "t", "x", "p", "u"),
@@ -180,6 +183,8 @@ class Reader:
             return ("neg", self._expression(node.operand))
         if isinstance(node, (ast.List, ast.Tuple)):
             return ("list", *map(self._expression, node.elts))
+        if isinstance(node, ast.Call) and ast.unparse(node).startswith("_is_zero(xp, "):
+            return ("none", *map(self._expression, node.args[1:]))
         if isinstance(node, ast.Call) and len(node.args) == 1 and not node.keywords:
             return self._call(node.func, self._expression(node.args[0]))
         raise self._unknown(node)

@@ -6,6 +6,7 @@ factor; or a unit quaternion for A; then the coordinates of Z = g⁻¹ġ, or the
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -15,7 +16,7 @@ from typing import Any
 from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
-from ..record.nilpotent import EPS, nilpotent
+from ..check.nilpotent import EPS, nilpotent
 
 Numbers = tuple[Any, ...]
 EPSILON = nilpotent(EPS)
@@ -90,14 +91,35 @@ class State:
         varied = (x + EPSILON * y for x, y in zip(p, rates, strict=True))
         return (*varied, *self._read(moved), *self.group.nearest(Z))
 
+    def tangent(self, g: Matrix, Z: Matrix, change: Sequence[Any]) -> bool:
+        """Is a change of the numbers of the state (g, Z) one that stays in the group?"""
+        back = q.inverse(g)
+        assert back is not None
+        if self.chart.attitude == "quaternion":
+            p = quaternion(g)
+            return bool(sum(x * y for x, y in zip(p, change, strict=False)) == 0)
+        count = len(self.entries)
+        eta = q.times(back, self._matrix(change[:count], len(g)))
+        if self.group.vee(eta) is None:
+            return False
+        if self.chart.velocity == "body":
+            return True
+        rate = q.times(back, self._matrix(change[count:], len(g)))
+        return self.group.vee(q.minus(rate, q.times(eta, Z))) is not None
+
+    def _matrix(self, values: Sequence[Any], size: int) -> Matrix:
+        """The matrix with these entries of the state, and 0 elsewhere."""
+        found = [[Fraction(0)] * size for _ in range(size)]
+        for (_, i, j), x in zip(self.entries, values, strict=True):
+            found[i][j] = x
+        return q.matrix(found)
+
     def acceleration(self, Z: Matrix, back: Matrix, rates: Numbers) -> Numbers:
         """The coordinates of Ż = g⁻¹g̈ − Z² from the rates of the state; ``back``: g⁻¹."""
         if self.chart.velocity == "body":
             return rates[-self.group.dimension :]
-        second = [[Fraction(0)] * len(Z) for _ in Z]
-        for (_, i, j), x in zip(self.entries, rates[len(self.entries) :], strict=True):
-            second[i][j] = x
-        return self.group.nearest(q.minus(q.times(back, q.matrix(second)), q.times(Z, Z)))
+        second = self._matrix(rates[len(self.entries) :], len(Z))
+        return self.group.nearest(q.minus(q.times(back, second), q.times(Z, Z)))
 
     def rates(self, g: Matrix, Z: Matrix, g_dot: Matrix, Z_dot: Matrix) -> Numbers:
         """Its derivative where ġ and Ż are these: g̈ = ġZ + gŻ, and q̇ = ½ q ζ."""

@@ -1,11 +1,12 @@
 """What a proof at random points needs: one rational function everywhere.
 
-A size |x| or a comparison may serve the checks of ``constants``, nothing else: it could be one
-thing at the points that are tried and another elsewhere.
+A size |x| or a comparison may serve the checks of ``constants``, and ``defect`` is a sum of sizes;
+else it could be one thing at the points that are tried and another elsewhere.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from .terms import Body, CodeError, Function
@@ -18,7 +19,64 @@ UNSMOOTH = ("abs", "gt", "lt", "le", "eq", "not")
 def straight(f: Function) -> None:
     """``CodeError`` unless what is written and returned depends on no size and no condition."""
     tainted: set[str] = set()
-    _body(f, f.body, tainted, [])
+    body = f.body
+    if f.name == "defect":
+        body = summands(f).body
+    if f.name == "project":
+        stored = [s[0] == "store" for s in body]
+        if stored != sorted(stored) or any(_read(s[3]) for s in body if s[0] == "store"):
+            raise CodeError("project: it reads after it has written, so it cannot work in place")
+    _body(f, body, tainted, [])
+
+
+def _read(e: Any) -> bool:
+    """Does an expression read an array?"""
+    return isinstance(e, tuple) and (e[:1] == ("at",) or any(map(_read, e)))
+
+
+def asked(f: Function) -> set[int]:
+    """The numbers of the parameters p that a function asks whether they are 0, which is tried.
+
+    ``CodeError`` where it asks that of anything else.
+    """
+    places: dict[str, int] = {}
+    found: set[int] = set()
+
+    def visit(e: Any) -> None:
+        if isinstance(e, tuple) and e:
+            if e[0] == "none":
+                if e[1][0] != "var" or e[1][1] not in places:
+                    raise CodeError(f"{f.name}: it asks whether something is 0, and no parameter")
+                found.add(places[e[1][1]])
+            for x in e:
+                visit(x)
+
+    for s in f.body:
+        if s[0] == "set" and s[2][:2] == ("at", "p") and s[2][2][0] == "int":
+            places[s[1]] = s[2][2][1]
+        elif s[0] == "unpack" and s[2] == "p":
+            places |= {name: i for i, name in enumerate(s[1])}
+        visit(s)
+    return found
+
+
+def summands(f: Function) -> Function:
+    """The function that returns a, b, … in the place of |a| + |b| + …, of which none can hide
+    another; ``CodeError`` where it is no such sum."""
+    body, last = f.body[:-1], f.body[-1:]
+    if not last or last[0][0] != "return":
+        raise CodeError(f"{f.name}: it does not end with a sum of sizes")
+    return replace(f, body=(*body, ("return", ("list", *_sizes(f, last[0][1])))))
+
+
+def _sizes(f: Function, e: Any) -> list[Any]:
+    if e[0] == "list" and len(e) == 2:
+        return _sizes(f, e[1])
+    if e[0] == "add":
+        return [x for y in e[1:] for x in _sizes(f, y)]
+    if e[0] != "abs":
+        raise CodeError(f"{f.name}: it is no sum of sizes")
+    return [e[1]]
 
 
 def _body(f: Function, body: Body, tainted: set[str], checks: list[str]) -> None:

@@ -2,7 +2,8 @@
 
 An expression is a tuple: ``("lit", text)`` a decimal, ``("int", n)``, ``("var", name)``,
 ``("at", array, index)``, ``("neg", a)``, ``("add" | "sub" | "mul" | "div", a, b)``, ``("abs", a)``,
-``("fun", name, a)``, ``("gt" | "lt" | "le" | "eq", a, b)``, ``("not", a)``, ``("list", a, …)``.
+``("fun", name, a)``, ``("gt" | "lt" | "le" | "eq", a, b)``, ``("not", a)``,
+``("none", a)`` 1 where a is 0, else 0, ``("list", a, …)``.
 
 A statement is a tuple: ``("set", name, a)``, ``("unpack", names, array)``, ``("store", array,
 index, a)``, ``("if", condition, body)``, ``("for", name, bound, body)`` from 0, ``("return", a)``.
@@ -16,7 +17,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ..record.nilpotent import part
+from ..check.nilpotent import part
 
 Expression = tuple[Any, ...]
 Statement = tuple[Any, ...]
@@ -204,6 +205,7 @@ OPERATIONS: dict[str, Callable[..., Any]] = {
     "lt": lambda a, b: plain(a) < plain(b),
     "le": lambda a, b: plain(a) <= plain(b),
     "eq": lambda a, b: plain(a) == plain(b),
+    "none": lambda a: int(plain(a) == 0),
     "not": lambda a: not a,
     "list": lambda *a: list(a),
 }

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..record.evaluate import Environment, evaluate
+from ..algebra.values import value
 from ..record.record import decode
 
 Vector = tuple[float, float, float]
@@ -66,21 +66,20 @@ class Numbers:
         for k, (name, default) in enumerate(known.items(), 1):
             own = MOMENTS.get(name, 0.0) if moments and name[:1] in "mcJ" else _plausible(k)
             values[name] = own if default is None else float(default)
-        self.env = Environment(
-            1, {"π": math.pi}, parameters=values, elementary=lambda name, x: FUNCTIONS[name](x)
-        )
+        self.parameters = values
 
     def of(self, data: Any) -> float:
         """The number of a tree; 1 where the values at hand give none."""
         try:
-            value = _fraction(data)
-            if value is None:
-                value = float(evaluate(decode(data, "figure"), self.env))
+            found = _fraction(data)
+            if found is None:
+                tree = decode(data, "figure")
+                found = float(value(tree, {"π": math.pi}, self.parameters, _function))
         except (ValueError, OverflowError, ZeroDivisionError):
             return 1.0
-        if not abs(value) < LARGEST:
+        if not abs(found) < LARGEST:
             return 1.0
-        return value if abs(value) > 1 / LARGEST else 0.0
+        return found if abs(found) > 1 / LARGEST else 0.0
 
     def length(self, data: Any) -> float:
         """A positive number."""
@@ -90,6 +89,10 @@ class Numbers:
         """The first three coordinates."""
         x, y, z = (*(self.of(entry) for entry in data[:3]), 0.0, 0.0, 0.0)[:3]
         return x, y, z
+
+
+def _function(name: str, x: float) -> float:
+    return float(FUNCTIONS[name](x))
 
 
 def _fraction(data: Any) -> float | None:

@@ -94,7 +94,7 @@ def parameters(d: Derivation | None, language: Language) -> list[tuple[list[str]
 def of_any_group(s: Symbol) -> Symbol:
     """A letter with the meaning that it has whatever the group."""
     known = VOCABULARY.get(s.name)
-    return replace(s, meaning=say(known[0])) if known else s
+    return replace(s, meaning=say(known.meaning)) if known else s
 
 
 def _regular(name: str) -> bool:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..algebra.tree import Tree
-from ..record.paper import Finding
+from ..paper.findings import OMISSION, SIGN, Finding
 from .book import Part
 from .language import Language
 from .letters import NAMES
@@ -17,6 +17,12 @@ from .tex import latex_tree
 
 FORMULA = re.compile("\ue000([^\ue001]*)\ue001")
 """A formula in LaTeX among the words of a sentence."""
+
+TRUE = {
+    SIGN: "This is true in the other convention of signs, with −dϖ for dϖ.",
+    OMISSION: "This is true where there are no forces.",
+}
+"""How a print that is false as it stands is true."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +55,7 @@ def corrections(
 
 
 def _told(f: Finding, language: Language) -> Iterator[Told]:
-    """What was printed, why it is wrong, and values that show it."""
+    """What was printed, how it is true if it is, what is wrong with it, and values that show it."""
     printed = ", ".join(_formula(e.lhs, e.rhs) for e in f.equations)
     *given, (_, left), (_, right) = (f.counterexample or {}).items()
     sides = {"left": _formula(value_of(left)), "right": _formula(value_of(right))}
@@ -61,10 +67,11 @@ def _told(f: Finding, language: Language) -> Iterator[Told]:
             number=f"({f.number})",
             printed=printed,
         ),
+        language.word(TRUE[f.verdict]) if f.holds else "",
         language.word(f.remark),
         language.word(said, values=values, **sides),
     )
-    for k, piece in enumerate(FORMULA.split(" ".join(sentences))):
+    for k, piece in enumerate(FORMULA.split(" ".join(filter(None, sentences)))):
         if piece:
             yield Told(piece, formula=k % 2 == 1)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import groupby
 
@@ -89,7 +89,7 @@ def _apart(place: int, e: Equation) -> Entry:
         for i, row in enumerate(e.rhs[1:], 1)  # type: ignore[index]
     ]
     where = tuple(Equation(name, x) for x, name in letters.items())
-    return Entry(place, (Equation(e.lhs, ("matrix", *rows), e.for_all),), where)
+    return Entry(place, (replace(e, rhs=("matrix", *rows)),), where)
 
 
 def breadth(matrix: Tree) -> float:
@@ -116,7 +116,11 @@ def cell(e: Equation) -> str:
     named = isinstance(e.lhs, tuple) and e.lhs[0] in ("at", "entry")
     simple = isinstance(e.rhs, (str, int, Fraction)) or e.rhs[0] in SIMPLE
     text = f"{show(e.lhs)} = {show(e.rhs)}"
-    return text if named and simple and not e.for_all and display_width(text) <= CELL else ""
+    return (
+        text
+        if named and simple and not (e.for_all or e.exists) and display_width(text) <= CELL
+        else ""
+    )
 
 
 def _itself(e: Equation) -> bool:

@@ -197,7 +197,7 @@ def _math_char(c: str) -> str:
     return SYMBOLS.get(c, c)
 
 
-KNOWN = {unicodedata.normalize("NFC", name): tex for name, (_, tex) in VOCABULARY.items()}
+KNOWN = {unicodedata.normalize("NFC", name): x.latex for name, x in VOCABULARY.items()}
 TOKEN = re.compile(
     "("
     + "|".join(re.escape(name) for name in sorted(KNOWN, key=len, reverse=True) if len(name) > 1)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from html import escape
 from typing import Any
 
-from ..record.paper import Finding
+from ..paper.findings import Finding
 from ..record.record import Derivation, Equation, Step
 from ..templating import environment
 from .book import MOTION, REGULAR, Part, book, parameters
@@ -18,7 +19,7 @@ from .escape import prose
 from .figure import svg
 from .language import ENGLISH, Language
 from .latex import anchor
-from .layout import ROOM, clause, for_every
+from .layout import ROOM, clause, quantifiers
 from .letters import names_of, parameter
 from .macros import spoken, standard
 from .mathml import mathml
@@ -32,8 +33,7 @@ from .outline import (
     TRANSPOSES,
     assumed,
     capitalised,
-    equation_label,
-    labels,
+    keys,
     printed,
     subtitle,
     title,
@@ -94,12 +94,12 @@ def html(
 
 
 def numbered(parts: Sequence[Part]) -> dict[str, str]:
-    """The numbers of parts, by name, and of equations, by label: those of the LaTeX."""
+    """The numbers of parts, by name, and of equations, by key: those of the LaTeX."""
     found = {}
     for i, part in enumerate(parts, 1):
         found[part.name] = str(i)
-        listed = (label for step in part.steps for label in labels(step))
-        found |= {label: f"{i}.{k}" for k, label in enumerate(listed, 1)}
+        listed = (key for step in part.steps for key in keys(step))
+        found |= {key: f"{i}.{k}" for k, key in enumerate(listed, 1)}
     return found
 
 
@@ -135,7 +135,7 @@ class _Part:
     numbers: Mapping[str, str]
     told: Mapping[str, Mapping[int, list[Told]]]
 
-    @property
+    @cached_property
     def names(self) -> Mapping[str, str]:
         """How its names are written."""
         return names_of(self.part.source.symbols)
@@ -194,11 +194,11 @@ class _Part:
     def equations(self, step: Step) -> Iterable[Fields]:
         """What has a number in a step, with its anchor and its LaTeX."""
         for x in entries(step.equations):
-            label = equation_label(step, x.first)
+            key = step.keys[x.first]
             first, cells = x.equations[0], x.equations if x.only is None else ()
             yield {
-                "id": anchor(label),
-                "number": self.numbers[label],
+                "id": anchor(key),
+                "number": self.numbers[key],
                 "long": measure(latex_tree(first.lhs, self.names)) > LONG,
                 "left": self.cut(marked(first.lhs, self.names)),
                 "right": self.cut(marked(first.rhs, self.names), equals=True),
@@ -234,16 +234,16 @@ class _Part:
 
     def spoken(self, e: Equation) -> str:
         """For which names the equation holds, as LaTeX."""
-        return clause(e, self.names, for_every(self.language))
+        return clause(e, self.names, quantifiers(self.language))
 
     def clause(self, e: Equation) -> str:
         """The same as markup."""
-        return mathml(self.spoken(e), self.notation) if e.for_all else ""
+        return mathml(said, self.notation) if (said := self.spoken(e)) else ""
 
     def source(self, e: Equation) -> str:
         """The LaTeX of an equation."""
         shown = standard(f"{latex_tree(e.lhs, self.names)} = {latex_tree(e.rhs, self.names)}")
-        return f"{shown} \\quad {plain(self.spoken(e))}" if e.for_all else shown
+        return f"{shown} \\quad {plain(said)}" if (said := self.spoken(e)) else shown
 
     def symbols(self) -> Iterable[dict[str, str]]:
         """The letters and their meanings."""

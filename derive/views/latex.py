@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate, pairwise
 
-from ..record.paper import Finding
+from ..paper.findings import Finding
 from ..record.record import Derivation, Step
 from ..templating import environment
 from .book import MOTION, REGULAR, Part, book, parameters, steps
@@ -29,7 +29,7 @@ from .outline import (
     TRANSPOSES,
     assumed,
     capitalised,
-    labels,
+    keys,
     printed,
     subtitle,
     title,
@@ -114,8 +114,11 @@ def fragment(
             *(x for step in part.steps for x in writer.step(part, step)),
         )
     )
-    return styled("\n".join(lines)) + "\n"
+    return "\n".join((WITHOUT_KEYS, styled("\n".join(lines)))) + "\n"
 
+
+WITHOUT_KEYS = r"\providecommand{\walkalso}[2]{}"
+"""So that a fragment needs no more macros than before in a document that has its own."""
 
 ROOM = "0.4\\textheight"
 """What must be left on a page for a section and its figure to begin there."""
@@ -226,12 +229,19 @@ def _equations(
         yield r"\begin{align}"
         rows: list[str] = []
         for entry in block:
-            label = rf"\label{{{anchor(next(listed))}}}"
+            label = rf"\label{{{anchor(here := next(listed))}}}"
+            if here == step.label:
+                label += rf"\walkalso{{{anchor(step.keys[0])}}}{{{anchor(here)}}}"
             rows += [*(rf"{row} \notag" for row in entry[:-1]), f"{entry[-1]} {label}"]
         # no page breaks inside an equation
         ends = (r" \\*" if row.endswith(r"\notag") else r" \\" for row in rows[:-1])
         yield "\n".join([*map("".join, zip(rows, ends, strict=False)), rows[-1]])
         yield r"\end{align}"
+
+
+def labels(step: Step) -> list[str]:
+    """Of all that has a number in a step: the keys, but the step's own for the first."""
+    return [step.label, *keys(step)[1:]]
 
 
 def anchor(label: str) -> str:

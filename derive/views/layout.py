@@ -11,7 +11,7 @@ from .entries import Entry, entries
 from .escape import math_text, tex_text
 from .language import ENGLISH, Language
 from .measure import measure
-from .outline import domain
+from .outline import domain, quantified
 from .tex import guarded, latex_tree, marked, pieces, plain
 from .wrap import Line, fill
 
@@ -20,6 +20,7 @@ ROOM = 38.0
 EQUALS, INDENT = 1.4, 1.5
 
 Rows = list[str]
+Quantifiers = tuple[str, str]
 
 
 def blocks(
@@ -29,7 +30,7 @@ def blocks(
 
     The entries of a step share one alignment unless a long left side forbids it.
     """
-    every = for_every(language)
+    every = quantifiers(language)
     numbered = entries(equations)
     leading = [x.equations[0] for x in numbered]
     left = [measure(latex_tree(e.lhs, names)) for e in leading]
@@ -52,12 +53,14 @@ def blocks(
     return found
 
 
-def for_every(language: Language) -> str:
-    """The words before the names for which an equation holds."""
-    return rf"\text{{{tex_text(language.word('for every'))} }} "
+def quantifiers(language: Language) -> Quantifiers:
+    """The words before the names for which an equation holds: "for every", "for some"."""
+    words = (language.word("for every"), language.word("for some"))
+    first, second = (rf"\text{{{tex_text(x)} }} " for x in words)
+    return first, second
 
 
-def rows(x: Entry, names: Mapping[str, str], column: float, every: str) -> Rows:
+def rows(x: Entry, names: Mapping[str, str], column: float, every: Quantifiers) -> Rows:
     """An entry whose left side has a column of the given width."""
     if x.only is None:
         return side(x, names)
@@ -73,7 +76,7 @@ def side(x: Entry, names: Mapping[str, str]) -> Rows:
     return [r",\qquad ".join([f"{guarded(head)} &= {first}", *more])]
 
 
-def aligned(e: Equation, names: Mapping[str, str], column: float, every: str) -> Rows:
+def aligned(e: Equation, names: Mapping[str, str], column: float, every: Quantifiers) -> Rows:
     """An equation whose left side has a column of the given width."""
     lines = broken(marked(e.rhs, names), ROOM - column - EQUALS)
     head = guarded(latex_tree(e.lhs, names))
@@ -81,7 +84,7 @@ def aligned(e: Equation, names: Mapping[str, str], column: float, every: str) ->
     return closed(rows, clause(e, names, every), measure(lines[-1].text) + column + EQUALS)
 
 
-def alone(e: Equation, names: Mapping[str, str], every: str) -> Rows:
+def alone(e: Equation, names: Mapping[str, str], every: Quantifiers) -> Rows:
     """An equation by itself; a left side that leaves no room has lines of its own."""
     head = latex_tree(e.lhs, names)
     column = measure(head)
@@ -108,14 +111,17 @@ def indented(line: Line, quads: int) -> str:
     return r"\quad" * (quads + line.inside) + " " + sign + line.text
 
 
-def clause(e: Equation, names: Mapping[str, str], every: str) -> str:
-    """For which names the equation holds: ``every`` says "for every"."""
-    if not e.for_all:
-        return ""
-    shown, space = ", ".join(latex_tree(x, names) for x in e.for_all), domain(e.for_all)
-    shown = f"({shown})" if len(e.for_all) > 1 and space else shown
-    within = rf" \in {math_text(space)}" if space else ""
-    return f"{every}{shown}{within}"
+def clause(e: Equation, names: Mapping[str, str], words: Quantifiers) -> str:
+    """For which names the equation holds: every one, or some."""
+    said = []
+    if over := quantified(e):
+        shown, space = ", ".join(latex_tree(x, names) for x in over), domain(over)
+        shown = f"({shown})" if len(over) > 1 and space else shown
+        within = rf" \in {math_text(space)}" if space else ""
+        said.append(f"{words[0]}{shown}{within}")
+    if e.exists:
+        said.append(words[1] + ", ".join(latex_tree(x, names) for x in e.exists))
+    return r",\ ".join(said)
 
 
 def clause_width(words: str) -> float:

@@ -9,7 +9,7 @@ from ..record.record import Symbol
 from ..record.vocabulary import VOCABULARY
 from .escape import GREEK, tex_text
 
-NAMES = {name: latex for name, (_, latex) in VOCABULARY.items()}
+NAMES = {name: x.latex for name, x in VOCABULARY.items()}
 HARMLESS = re.compile(
     r"(?:(?:\\delta|\\partial_t|\\mathrm\{d\})(?![A-Za-z])'?\s*)?"
     r"(?:\\(?:tilde|bar|dot|hat|mathrm|mathbf)(?![A-Za-z])\s*)?"

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import groupby
 
-from ..record.record import Derivation, Step
-from ..record.vocabulary import ANY_GROUP, MISPRINTED
+from ..algebra.show import show
+from ..record.record import Derivation, Equation, Step
+from ..record.vocabulary import AMENDED, ANY_GROUP
 from .entries import entries
 from .language import ENGLISH, Language
 
@@ -43,8 +44,9 @@ ROAD = (
 """What is done, in one sentence."""
 PAPER = (
     "Numbers in the margin or beside the name of a step are those of the paper, "
-    "P. Iglesias-Zemmour, “D’où viennent les équations du mouvement des solides ?”; one marked "
-    "* is misprinted there; “derive paper” says how."
+    "P. Iglesias-Zemmour, “D’où viennent les équations du mouvement des solides ?”; what is "
+    "printed there at one marked * differs, by a misprint, an omission or the convention of "
+    "signs; “derive paper” says how."
 )
 
 REFERENCES = (
@@ -59,13 +61,20 @@ REFERENCES = (
 )
 """The paper and what it refers to: key, author, title, where."""
 
-GIVEN = {
-    "principal axes": "in principal axes",
-    "input": "with input",
-    "any X": "for any X with δt = 1",
-    "vertical": "for δ′t = 0, δ′g = 0",
-    "any acceleration": "for any acceleration",
-}
+DIAGONAL = tuple(
+    ("row", *(("entry", "λ", i) if i == j else 0 for j in (1, 2, 3))) for i in (1, 2, 3)
+)
+STILL = (("δ′A",), ("ξ′",), ("Ω′",), ("δ′A", "δ′T"), ("ξ′", "η′"), ("Ω′", "η′"))
+GIVEN: tuple[tuple[frozenset[Equation], str], ...] = (
+    (frozenset({Equation("I", ("matrix", *DIAGONAL))}), "in principal axes"),
+    (frozenset({Equation("δt", 1)}), "for any X with δt = 1"),
+    *(
+        (frozenset(Equation(x, 0) for x in ("δ′t", *parts)), "for δ′t = 0, δ′g = 0")
+        for parts in reversed(STILL)
+    ),
+)
+"""What is given, and how that is said."""
+ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇")
 
 
 def title(d: Derivation, language: Language = ENGLISH) -> str:
@@ -105,10 +114,10 @@ def sections(d: Derivation, language: Language = ENGLISH) -> Iterator[tuple[str,
 
 
 def printed(step: Step) -> str:
-    """The numbers of the paper, runs of them as (11)–(13); a star where it is misprinted."""
+    """The numbers of the paper, runs of them as (11)–(13); a star where the print is false."""
     runs: list[list[int]] = []
     for n in step.paper:
-        alone = n in MISPRINTED or not runs or runs[-1][-1] in MISPRINTED
+        alone = n in AMENDED or not runs or runs[-1][-1] in AMENDED
         if alone or n != runs[-1][-1] + 1:
             runs.append([])
         runs[-1].append(n)
@@ -119,12 +128,26 @@ def _run(run: list[int]) -> str:
     """(11)–(13), or one after the other where there are fewer."""
     if len(run) > 2:
         return f"({run[0]})–({run[-1]})"
-    return ", ".join(f"({n})" + "*" * (n in MISPRINTED) for n in run)
+    return ", ".join(f"({n})" + "*" * (n in AMENDED) for n in run)
 
 
 def assumed(step: Step, language: Language = ENGLISH) -> list[str]:
-    """What a step assumes further."""
-    return [language.word(GIVEN.get(x, x)) for x in step.given]
+    """What a step assumes further: in words where there are some, else as equations."""
+    left = dict.fromkeys(step.given)
+    found = [language.word("with input")] if step.driven else []
+    for equations, words in GIVEN:
+        if equations <= left.keys():
+            found.append(language.word(words))
+            left = {e: None for e in left if e not in equations}
+    if any(x in ACCELERATIONS for e in step.equations for x in e.for_all):
+        found.append(language.word("for any acceleration"))
+        left = {e: None for e in left if not _velocity(e)}
+    return [*found, *(f"{show(e.lhs)} = {show(e.rhs)}" for e in left)]
+
+
+def _velocity(e: Equation) -> bool:
+    """Is it said of the velocity of X, which goes with any acceleration?"""
+    return isinstance(e.lhs, tuple) and e.lhs[0] == "call" and e.lhs[2:] == ("X",)
 
 
 def notes(step: Step, language: Language = ENGLISH) -> list[str]:
@@ -143,14 +166,14 @@ def domain(for_all: tuple[str, ...]) -> str:
     return (DOMAINS if len(for_all) == 1 else PAIRS).get(for_all[0], "")
 
 
-def equation_label(step: Step, k: int) -> str:
-    """The label of equation k (counted from 0): the step's own for the first one."""
-    return step.label if k == 0 else f"{step.label}.{k + 1}"
+def quantified(e: Equation) -> tuple[str, ...]:
+    """The names of "for every …": accelerations are spoken of beside the step."""
+    return tuple(x for x in e.for_all if x not in ACCELERATIONS)
 
 
-def labels(step: Step) -> list[str]:
-    """Of all that has a number in a step, in order."""
-    return [equation_label(step, x.first) for x in entries(step.equations)]
+def keys(step: Step) -> list[str]:
+    """The keys of all that has a number in a step, in order: of a row, that of its first."""
+    return [step.keys[x.first] for x in entries(step.equations)]
 
 
 def capitalised(text: str) -> str:

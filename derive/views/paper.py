@@ -7,12 +7,15 @@ import textwrap
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
-from ..record.paper import Finding
+from ..paper.findings import VERDICTS, Finding
 from .language import ENGLISH, Language
 
 WIDTH = 100
-HEADS = ("printed", "derived", "but for", "remark")
-VERDICTS = ("confirmed", "misprinted", "definition")
+TOTAL = (
+    "{confirmed} confirmed, {sign} in another sign convention, {omission} with an omission, "
+    "{misprint} misprinted, {definition} definitions"
+)
+HEADS = ("printed", "derived", "holds", "but for", "remark")
 
 
 def as_json(findings: Sequence[Finding]) -> str:
@@ -23,6 +26,7 @@ def as_json(findings: Sequence[Finding]) -> str:
             "verdict": f.verdict,
             "printed": f.printed,
             "derived": f.derived,
+            "holds": f.holds,
             "counterexample": f.counterexample,
             "remark": f.remark or None,
         }
@@ -32,7 +36,7 @@ def as_json(findings: Sequence[Finding]) -> str:
 
 
 def as_text(findings: Sequence[Finding], language: Language = ENGLISH) -> str:
-    """One paragraph for each equation; corrections and counterexamples for the misprints."""
+    """One paragraph for each equation; corrections and counterexamples of what is false."""
     lines, word = [], language.word
     heads = [word(x) for x in HEADS]
     wide = max(map(len, heads))
@@ -40,13 +44,13 @@ def as_text(findings: Sequence[Finding], language: Language = ENGLISH) -> str:
         lines.append(f"({f.number}) {word(f.verdict)}")
         derived = f.derived if f.verdict != "definition" else None
         example = _example(f, language) if f.counterexample else None
-        told = (f.printed, derived, example, word(f.remark))
+        holds = word(f.holds) if f.holds else None
+        told = (f.printed, derived, holds, example, word(f.remark))
         for head, text in zip(heads, told, strict=True):
             lines += _indented(f"{head:{wide}}  ", text) if text else []
     counts = Counter(f.verdict for f in findings)
-    numbers = {x: str(counts[x]) for x in VERDICTS}
-    total = "{confirmed} confirmed, {misprinted} misprinted, {definition} definitions"
-    return "\n".join([*lines, "", word(total, **numbers)]) + "\n"
+    numbers = {x.split()[0]: str(counts[x]) for x in VERDICTS}
+    return "\n".join([*lines, "", word(TOTAL, **numbers)]) + "\n"
 
 
 def _example(f: Finding, language: Language) -> str:

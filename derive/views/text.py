@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from itertools import groupby
 
 from ..algebra.show import in_quotes, show, show_name
@@ -12,7 +13,7 @@ from ..record.record import Derivation, Equation, Step
 from .entries import TABLE, cell
 from .escape import NO_BREAK
 from .language import ENGLISH, Language
-from .outline import CONVENTIONS, PAPER, domain, notes, sections, subtitle, title
+from .outline import CONVENTIONS, PAPER, domain, notes, quantified, sections, subtitle, title
 from .wrap import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
 
 MARGIN, EQUATION, INSIDE = 2, 6, 4
@@ -96,7 +97,7 @@ def _step(step: Step, width: int, quoted: frozenset[str], language: Language) ->
         used = language.word("From {labels}.", labels=", ".join(step.uses))
         yield from _paragraph(used, MARGIN, width)
     equations = (
-        Equation(in_quotes(e.lhs, quoted), in_quotes(e.rhs, quoted), e.for_all)
+        replace(e, lhs=in_quotes(e.lhs, quoted), rhs=in_quotes(e.rhs, quoted))
         for e in step.equations
     )
     yield from _equations(tuple(equations), width - EQUATION, language)
@@ -148,7 +149,7 @@ def _equation(lhs: str, e: Equation, column: int, room: int, language: Language)
     indent = display_width(lead) + 3
     first, *others = [*_broken(right, room - indent, indent)]
     lines = [f"{lead} = {first[indent:]}", *others]
-    clause = _clause(e, language.word("for every"))
+    clause = _clause(e, language)
     if clause and display_width(f"{lines[-1]}  {clause}") <= room:
         lines[-1] += f"  {clause}"
         clause = ""
@@ -157,12 +158,16 @@ def _equation(lhs: str, e: Equation, column: int, room: int, language: Language)
         yield from _paragraph(clause, indent, room)
 
 
-def _clause(e: Equation, every: str) -> str:
-    if not e.for_all:
-        return ""
-    names, space = ", ".join(map(show_name, e.for_all)), domain(e.for_all)
-    names = f"({names})" if len(e.for_all) > 1 and space else names
-    return f"{every} {names} ∈ {space}" if space else f"{every} {names}"
+def _clause(e: Equation, language: Language) -> str:
+    said = []
+    if names := quantified(e):
+        shown, space = ", ".join(map(show_name, names)), domain(names)
+        shown = f"({shown})" if len(names) > 1 and space else shown
+        within = f" ∈ {space}" if space else ""
+        said.append(f"{language.word('for every')} {shown}{within}")
+    if e.exists:
+        said.append(f"{language.word('for some')} {', '.join(map(show_name, e.exists))}")
+    return ", ".join(said)
 
 
 def _broken(formula: str, room: int, indent: int) -> list[str]:

@@ -45,15 +45,41 @@ class Frame:
     second_velocity: Letter
 
 
+@dataclass(frozen=True)
+class Dual:
+    """What pairs with a frame: a momentum P, δP, δ′P, Ṗ, and the derivative of L̃ along g."""
+
+    momentum: Letter
+    d_momentum: Letter
+    dp_momentum: Letter
+    rate: Letter
+    push: Letter
+
+    @property
+    def letters(self) -> tuple[Letter, ...]:
+        """All of them."""
+        return self.momentum, self.d_momentum, self.dp_momentum, self.rate, self.push
+
+
 class Alphabet:
     """Letters for points of Rⁿ moved linearly or affinely.
 
     ``skew``: Z and its kin are skew, as in so(n); ``traceless``: their trace vanishes, as in sl(n).
+    ``signed``: masses may be negative.
     """
 
-    def __init__(self, n: Dim, *, affine: bool, skew: bool = False, traceless: bool = False):
+    def __init__(
+        self,
+        n: Dim,
+        *,
+        affine: bool,
+        skew: bool = False,
+        traceless: bool = False,
+        signed: bool = False,
+    ):
         self.n = n
         self.affine = affine
+        self.signed = signed
         self.t, self.dt, self.dpt = (Letter(x) for x in ("t", "δt", "δ′t"))
         self.m, self.c, self.J = Letter("m"), Letter("c", n), Letter("J", n, n, 1)
         self.m_i, self.r_i = Letter("m_i"), Letter("r_i", n)
@@ -71,6 +97,9 @@ class Alphabet:
         self.Z = Frame(*(self._algebra(x, skew, traceless) for x in names))
         names = ("w", "η", "η′", "δw", "δ′w", "ẇ", "δδ′η", "δδ′w")
         self.w = Frame(*(Letter(x, n) for x in names))
+        self.Pi = Dual(*(Letter(x, n, n) for x in ("Π", "δΠ", "δ′Π", "Π̇", "Φ")))
+        self.p_b = Dual(*(Letter(x, n) for x in ("p_b", "δp_b", "δ′p_b", "ṗ_b", "F_b")))
+        self.spin, self.torque = Letter("ℓ_b", n, n, -1), Letter("ℓ̇_b", n, n, -1)
 
     @staticmethod
     def _part(x: str, v: str) -> tuple[str, ...]:
@@ -78,6 +107,16 @@ class Alphabet:
 
     def _algebra(self, name: str, skew: bool, traceless: bool) -> Letter:
         return Letter(name, self.n, self.n, -1 if skew else 0, traceless)
+
+    @property
+    def chapter(self) -> str:
+        """The chapter about any group, which says what the letters mean."""
+        return "affine" if self.affine else "linear"
+
+    @property
+    def bodily(self) -> tuple[tuple[Letter, Letter], ...]:
+        """N and N_b, F and F_b."""
+        return (self.N, self.N_body), (self.F, self.F_body)
 
     @property
     def parts(self) -> tuple[Part, ...]:
@@ -88,6 +127,11 @@ class Alphabet:
     def frames(self) -> tuple[Frame, ...]:
         """Z, and w for an affine action, in the order of :attr:`parts`."""
         return (self.Z, self.w) if self.affine else (self.Z,)
+
+    @property
+    def duals(self) -> tuple[Dual, ...]:
+        """What pairs with :attr:`frames`."""
+        return (self.Pi, self.p_b) if self.affine else (self.Pi,)
 
     def freed(self) -> Alphabet:
         """The same with a ξ′ that may be any matrix: what pairs with it is then a whole matrix."""
@@ -105,7 +149,7 @@ class Alphabet:
         """Every letter of the alphabet by its name."""
         found: dict[str, Letter] = {}
         for value in vars(self).values():
-            members = vars_of(value) if isinstance(value, (Part, Frame)) else [value]
+            members = vars_of(value) if isinstance(value, (Part, Frame, Dual)) else [value]
             found |= {x.name: x for x in members if isinstance(x, Letter)}
         return found
 
@@ -116,7 +160,7 @@ class Alphabet:
         if gram is not None:
             images |= {x: gram for x in e.letters() if x.name == self.C.name}
         rows, cols = (self.n if isinstance(x, str) else x for x in (e.rows, e.cols))
-        return substitute(Expr(rows, cols, e.terms), images)
+        return substitute(Expr(rows, cols, e.terms, e.lineage), images)
 
     @property
     def unit(self) -> Expr:
@@ -124,6 +168,6 @@ class Alphabet:
         return one(self.n)
 
 
-def vars_of(value: Part | Frame) -> list[object]:
+def vars_of(value: Part | Frame | Dual) -> list[object]:
     """The fields of a part or a frame."""
     return [getattr(value, name) for name in value.__dataclass_fields__]

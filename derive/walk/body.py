@@ -8,9 +8,12 @@ from ..algebra.show import in_quotes, show
 from ..algebra.tree import Tree
 from ..mechanics.problem import GivenBody, MomentBody, PointBody, Problem
 from ..mechanics.solids import Solid
+from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, Sentence, listed, phrase, say
+from .chapter import Chapter
 from .elements import column, embedded
+from .supposed import of_moments, told
 
 INTEGRANDS: dict[str, Tree] = {"m": 1, "c": "r", "J": ("mul", "r", ("T", "r"))}
 """(36)–(39): the moments of a measure of mass."""
@@ -37,18 +40,20 @@ SIZES = {
 """The kinds of solids and their sizes in words."""
 
 
-def body_step(problem: Problem, prefix: str, scope: str) -> tuple[Step, ...]:
+def body_step(problem: Problem, c: Chapter) -> tuple[Step, ...]:
     """One step, and for solids the integrals that it evaluates; none for no body."""
     body = problem.body
     steps: list[Step] = []
     equations: list[Equation] = []
     prose: Prose = ()
+    supposed: tuple[Hypothesis, ...] = ()
     if isinstance(body, MomentBody):
         equations += _moments(body.mass(), body.first(), body.second())
-        prose = say("The moments of the body are parameters: those of some positive masses.")
+        prose = told("moments", problem.signed)
+        supposed = of_moments(problem.signed)
     elif isinstance(body, GivenBody):
         if body.solids:
-            steps.append(_integrals(body.solids, prefix, scope))
+            steps.append(_integrals(body.solids, c))
         equations += _moments(body.mass, body.first, body.second)
         given = say("The moments of the body are given.")
         prose = say("The moments of the body.") if body.solids else given
@@ -66,9 +71,9 @@ def body_step(problem: Problem, prefix: str, scope: str) -> tuple[Step, ...]:
         prose += _massless(low, high)
     if not equations:
         return ()
-    uses = (steps[0].label,) if steps else ()
-    last = Step(f"{prefix}.body", "definition", uses, tuple(equations), prose, (), scope)
-    return (*steps, last)
+    draft = c.draft("body", "definition")
+    draft.read(*steps)
+    return (*steps, draft.step(equations, prose, hypotheses=supposed))
 
 
 def _massless(low: int, high: int) -> Prose:
@@ -131,17 +136,13 @@ def _size(x: Any) -> str:
     return show(in_quotes(x, {*INTEGRANDS, "r"}))  # the letters of the step itself
 
 
-def _integrals(solids: tuple[Solid, ...], prefix: str, scope: str) -> Step:
-    return Step(
-        f"{prefix}.integrals",
-        "definition",
-        (),
-        tuple(Equation(name, ("call", "∫", form)) for name, form in INTEGRANDS.items()),
+def _integrals(solids: tuple[Solid, ...], c: Chapter) -> Step:
+    return c.draft("integrals", "definition").step(
+        (Equation(name, ("call", "∫", form)) for name, form in INTEGRANDS.items()),
         say(
             "For a continuous body the sums over the points are integrals over its measure "
             "of mass dm, density times volume; all else stays."
         )
         + say("Here: {solids}.", solids=listed("{first}; {second}", [*map(_described, solids)])),
         (36, 37, 38, 39),
-        scope,
     )

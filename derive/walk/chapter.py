@@ -1,34 +1,86 @@
-"""The part of a record that is about one group: its labels, scope and assumptions, said once."""
+"""A part of a record, and a step in the making.
+
+What a step uses is not typed: an expression bears the labels of the steps it was made from
+(``Expr.lineage``), and a draft notes those of all that it writes.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
+from ..algebra.notation import PLAIN, Notation, tree_of
+from ..algebra.tree import Tree
+from ..algebra.words import Expr
+from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
+from ..record.vocabulary import ANY_GROUP
 
 
 @dataclass(frozen=True)
 class Chapter:
-    """``name`` prefixes the labels, ``general`` those of the text about any group."""
+    """``name`` prefixes the labels of its steps, whose equations hold on ``scope``."""
 
     name: str
-    general: str
-    scope: str
-    given: tuple[str, ...] = ()
+    scope: str = ANY_GROUP
+    driven: bool = False
 
     def with_input(self) -> Chapter:
         """The same where an input acts."""
-        return replace(self, given=("input",))
+        return replace(self, driven=True)
+
+    def label(self, short: str) -> str:
+        """``so3.kernel`` for ``kernel``."""
+        return f"{self.name}.{short}"
+
+    def draft(self, label: str, rule: str) -> Draft:
+        """A step of it in the making."""
+        return Draft(self, self.label(label), rule)
+
+
+class Draft:
+    """A step in the making: it notes what each expression that it writes was made from."""
+
+    def __init__(self, chapter: Chapter, label: str, rule: str):
+        self.chapter, self.label, self.rule = chapter, label, rule
+        self.uses: dict[str, None] = {}
+
+    def read(self, *made: Expr | Step) -> None:
+        """Note an expression, or another step, that enters the equations."""
+        for x in made:
+            marks = (x.label,) if isinstance(x, Step) else sorted(x.lineage)
+            self.uses |= dict.fromkeys(marks)
+
+    def tree(self, e: Expr, notation: Notation = PLAIN) -> Tree:
+        """An expression, written."""
+        self.read(e)
+        return tree_of(e, notation)
 
     def step(
-        self, label: str, rule: str, uses: str, equations: Iterable[Equation], prose: Prose
+        self,
+        equations: Iterable[Equation],
+        prose: Prose,
+        paper: Sequence[int] = (),
+        given: Iterable[Equation] = (),
+        hypotheses: Iterable[Hypothesis] = (),
     ) -> Step:
-        """A step; ``uses`` lists labels, those of the general text with a leading dot."""
-        used = tuple(
-            f"{self.general}{x}" if x.startswith(".") else f"{self.name}.{x}" for x in uses.split()
-        )
+        """The step, whose equations hold where those ``given`` and its ``hypotheses`` do."""
+        written = tuple(equations)  # before the uses are read off, for it may be a generator
+        c = self.chapter
         return Step(
-            f"{self.name}.{label}", rule, used, tuple(equations), prose, (), self.scope, self.given
+            self.label,
+            self.rule,
+            tuple(self.uses),
+            written,
+            prose,
+            tuple(paper),
+            c.scope,
+            tuple(given),
+            c.driven,
+            tuple(hypotheses),
         )
+
+    def said(self, e: Expr) -> Expr:
+        """An expression as this step says it."""
+        return e.marked(self.label)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from ..algebra import rational as q
 from ..algebra.laurent import Laurent, OverlongError, gathered, polynomial, written
-from ..algebra.tree import Tree, add, mul, names
+from ..algebra.tree import Tree, add, mul, names, replaced
+from ..algebra.values import Value, value
 from ..mechanics.problem import GivenBody, MomentBody, PointBody, Problem
-from ..record.arithmetic import Value
-from ..record.evaluate import Environment, evaluate
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .chapter import Chapter
@@ -16,6 +16,7 @@ from .chapter import Chapter
 AXES = (1, 2, 3)
 RATES = ("ζ", "w", "w_c")
 """Terms with these come after the forces."""
+UNIT = "1"
 LONGEST = 8
 """Entries with more terms than this are not written out."""
 
@@ -48,19 +49,24 @@ def components(t: Tree, known: Mapping[str, Value], moments: Sequence[Tree]) -> 
     Terms of the same velocities stand together, over the one of the ``moments`` that divides them.
     """
     vectors = {x: letters(x) for x in names(t) if x not in known}
-    value = evaluate(t, Environment(3, {**vectors, **known}))
-    return [gathered(x, {*moments}.__contains__, _is_rate) for (x,) in value]
+    found = value(t, {**vectors, **known})
+    return [gathered(x, {*moments}.__contains__, _is_rate) for (x,) in found]
 
 
 def _is_rate(symbol: Tree) -> bool:
     return isinstance(symbol, tuple) and symbol[0] == "entry" and symbol[1] in RATES
 
 
-def tensor_steps(problem: Problem, motion: Step, c: Chapter) -> tuple[Step, ...]:
-    """The entries of I, or I_c, from the numbers of the body; the motion where it is diagonal."""
+def tensor_steps(
+    problem: Problem, body: Step, inertia: Step, motion: Step, c: Chapter
+) -> tuple[Step, ...]:
+    """The entries of I, or I_c, from the numbers of the body; the motion where it is diagonal.
+
+    ``inertia``: the step that says I, or I_c.
+    """
     name = "I_c" if problem.affine else "I"
     try:
-        found = _tensor(problem)
+        found = _tensor(problem, inertia)
     except OverlongError:
         return ()
     if found is None or max(len(x.terms) for row in found for x in row) > LONGEST:
@@ -70,16 +76,21 @@ def tensor_steps(problem: Problem, motion: Step, c: Chapter) -> tuple[Step, ...]
     if straight:  # the products of inertia, which vanish, together
         order.sort(key=lambda x: x[0] != x[1])
     entries = [Equation(("entry", name, i, j), written(found[i - 1][j - 1])) for i, j in order]
-    uses = "body inertia" + (" elimination" if problem.affine else "")
+    draft = c.draft("tensor", "coordinates")
+    draft.read(body, inertia)
     told = say("The tensor of inertia of this body, entry by entry.")
-    step = c.step("tensor", "coordinates", uses, entries, told)
-    return (step, *_motion(problem, name, found, motion, c)) if straight else (step,)
+    step = draft.step(entries, told)
+    return (step, *_motion(problem, name, found, (body, step, motion), c)) if straight else (step,)
 
 
 def _motion(
-    problem: Problem, name: str, found: Tensor, motion: Step, c: Chapter
+    problem: Problem, name: str, found: Tensor, made_from: tuple[Step, Step, Step], c: Chapter
 ) -> tuple[Step, ...]:
-    """The accelerations component by component, where only letters that are known enter."""
+    """The accelerations component by component, where only letters that are known enter.
+
+    ``made_from``: the steps of the body, of its tensor, and of the motion.
+    """
+    *_, motion = made_from
     try:
         numbers = _numbers(problem)
     except OverlongError:
@@ -104,9 +115,10 @@ def _motion(
         for i, x in enumerate(components(e.rhs, known, moments), 1)
     ]
     told = say("The equations of motion in coordinates: the axes of the body are principal ones.")
-    uses = "tensor motion potential body"
-    given = Chapter(c.name, c.general, c.scope, motion.given)
-    return (given.step("components", "coordinates", uses, equations, told),)
+    driven = c.with_input() if motion.driven else c
+    draft = driven.draft("components", "coordinates")
+    draft.read(*made_from)
+    return (draft.step(equations, told),)
 
 
 def _numbers(problem: Problem) -> dict[str, Value]:
@@ -124,17 +136,22 @@ def _column(entries: Sequence[Tree]) -> tuple[tuple[Laurent], ...]:
     return tuple((polynomial(x),) for x in entries)
 
 
-def _tensor(problem: Problem) -> Tensor | None:
-    """(Tr J)1 − J; about the centre of mass the same less m⁻¹(‖c‖² 1 − cc̄)."""
+def _tensor(problem: Problem, inertia: Step) -> Tensor | None:
+    """The tensor of a body with numbers, by the last equation for it."""
     if problem.body is None:
         return None
     _, first, second = moments_of(problem)
-    J = [[polynomial(x) for x in row] for row in second]
-    if problem.affine:
-        c, m = [polynomial(x) for x in first], Laurent.symbol("m")
-        J = [[J[i][j] - c[i] * c[j] / m for j in range(3)] for i in range(3)]
-    trace = J[0][0] + J[1][1] + J[2][2]
-    return tuple(tuple(trace - J[i][j] if i == j else -J[i][j] for j in range(3)) for i in range(3))
+    known: dict[str, Value] = {
+        UNIT: q.identity(3),
+        "m": Laurent.symbol("m"),
+        "c": _column(first),
+        "J": tuple(tuple(polynomial(x) for x in row) for row in second),
+    }
+    name = "I_c" if problem.affine else "I"
+    for x in ("J_c", name) if problem.affine else (name,):
+        rhs = [e.rhs for e in inertia.equations if e.lhs == x][-1]
+        known[x] = value(replaced(rhs, ("one",), UNIT), known, number=Laurent.of)
+    return known[name]  # type: ignore[no-any-return]
 
 
 def moments_of(problem: Problem) -> tuple[Tree, tuple[Tree, ...], Rows]:

@@ -23,7 +23,7 @@ from .alphabet import Alphabet
 from .chapter import Chapter
 from .isometry import Isometry
 from .potential import U_Q, Potentials
-from .vector import OMEGA, isolate, to_vectors
+from .vector import Reader, body_momenta, isolate
 from .wedge import vector_sum
 
 GAMMA = Letter("γ", 3)
@@ -32,24 +32,33 @@ AXIS = Letter("y", 3)
 
 @dataclass(frozen=True)
 class Momenta:
-    """``turning``: ℓ, a skew matrix or a vector; ``shifting``: p; as trees."""
+    """``turning``: ℓ, a skew matrix or a vector; ``shifting``: p."""
 
-    turning: Tree
-    shifting: Tree | None
+    turning: Expr
+    shifting: Expr | None
 
 
 def conserved_steps(
-    problem: Problem, v: Potentials, momenta: Momenta, b: Alphabet, c: Chapter, *, vectors: bool
+    problem: Problem,
+    v: Potentials,
+    momenta: Momenta,
+    motion: Step,
+    b: Alphabet,
+    c: Chapter,
+    *,
+    vectors: bool,
 ) -> tuple[Step, ...]:
     """The energy, ℓ and p, as far as this problem keeps them."""
     group = problem.group
     assert group is not None
+    draft = c.draft("conserved", "conservation")
+    write = vector_sum if vectors else tree_of
     kept = [Equation("ḣ", 0)] if _autonomous(problem) else []
-    uses = "motion energy" if kept else "motion"
     told = say("the energy") if kept else ()
     definitions = []
     if _turned(group) and (rate := _turning(problem, v, b, vectors=vectors)) is not None:
-        definitions.append(Equation("ℓ", momenta.turning))
+        draft.read(momenta.turning, v.energy)
+        definitions.append(Equation("ℓ", write(momenta.turning)))
         kept.append(Equation(rate, 0))
         whole = rate == "ℓ̇"
         told += say(
@@ -58,7 +67,8 @@ def conserved_steps(
             else "the component along gravity of the angular momentum ℓ about the origin of space"
         )
     if momenta.shifting is not None and (rate := _shifting(problem, v, b)) is not None:
-        definitions.append(Equation("p", momenta.shifting))
+        draft.read(momenta.shifting, v.energy)
+        definitions.append(Equation("p", write(momenta.shifting)))
         kept.append(Equation(rate, 0))
         told += say("the momentum p" if rate == "ṗ" else "the momentum p across gravity")
     if not kept:
@@ -67,9 +77,11 @@ def conserved_steps(
         "Among what the motion keeps, without inputs and damping: {kept}.",
         kept=listed("{first}, {second}", told),
     ) + say(
-        "The Cartan form, on an infinitesimal symmetry, is constant along the motion (Noether)."
+        "The Cartan form, on an infinitesimal symmetry of L̃, is constant along the motion "
+        "(Noether)."
     )
-    return (c.step("conserved", "conservation", uses, [*definitions, *kept], prose),)
+    draft.read(motion)
+    return (draft.step([*definitions, *kept], prose),)
 
 
 def matrix_momenta(momentum: Expr, a: Alphabet) -> Momenta:
@@ -80,24 +92,20 @@ def matrix_momenta(momentum: Expr, a: Alphabet) -> Momenta:
         images[a.T.d_position] = word(Y) * word(a.T.position) + word(shift)
     paired = substitute(momentum, images)
     whole = gradient(paired, Y)
-    pushed = tree_of(gradient(paired, shift)) if a.affine else None
-    return Momenta(tree_of(whole - whole.bar), pushed)
+    return Momenta(whole - whole.bar, gradient(paired, shift) if a.affine else None)
 
 
-def vector_momenta(stage: Isometry) -> Momenta:
+def vector_momenta(stage: Isometry, read: Reader) -> Momenta:
     """The same in R³, from p̃(Ω, η) with Ω = Āy and η = Ā(y ∧ T + b)."""
     b = stage.letters
-    momentum = to_vectors(stage.cartan.momentum, stage)
-    turned = gradient(reduce(normal_form(momentum), isolate(OMEGA)), OMEGA)
+    turned, pushed = body_momenta(stage, read)
     g, shift = word(b.A.position), Letter("b", 3)
     paired = inner(turned, g.bar * word(AXIS))
     if b.affine:
-        pushed = gradient(momentum, b.w.xi)
         moved = word(hat(AXIS)) * word(b.T.position) + word(shift)
         paired = paired + inner(pushed, g.bar * moved)
     whole = gradient(reduce(paired, isolate(AXIS)), AXIS)
-    shifting = vector_sum(gradient(paired, shift)) if b.affine else None
-    return Momenta(vector_sum(whole), shifting)
+    return Momenta(whole, gradient(paired, shift) if b.affine else None)
 
 
 def _autonomous(problem: Problem) -> bool:

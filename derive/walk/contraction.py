@@ -8,21 +8,26 @@ the accelerations.  One code for the three forms of dϖ: in space, trivialised, 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from ..algebra.calculus import substitute, without
-from ..algebra.notation import Notation, tree_of
+from ..algebra.notation import Notation
+from ..algebra.space import hat
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, number, word
+from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import Sentence, phrase, say
-from ..record.vocabulary import ANY_GROUP
+from .alphabet import Alphabet
+from .chapter import Chapter, Draft
 from .gather import gathered, terms_with
+from .supposed import told, vertical_metric
 
 CONTRACTION: Tree = ("call", "dϖ", "X", "δ′y")
 REGULAR = phrase("the metric is not degenerate")
-LINE = say("With δt = 0 the same two tests leave X = 0: the kernel is a line.")
+CONTRACTED = Equation("δt", 1)
+"""The components of X are those of δ."""
 AND = "{first} and {second}"
 
 
@@ -36,7 +41,7 @@ class Contraction:
 
     ``velocity``: δx ↦ its value on the kernel, for δt = 1; ``acceleration``: δv ↦ v̇; ``vertical``:
     the letters δ′v; ``times``: δt and δ′t; ``display``: how letters read once X has its velocity;
-    ``opening``: what is worked out then.
+    ``opening``: what is worked out then.  ``resting``: δ′v ↦ δ′x, tangent vectors of ``space``.
     """
 
     form: Expr
@@ -49,6 +54,8 @@ class Contraction:
     notation: Notation
     display: Mapping[Letter, Tree] = field(default_factory=dict)
     opening: Callable[[Expr], Expr] = lambda e: e
+    resting: Mapping[Letter, Letter] = field(default_factory=dict)
+    space: str = "𝔤"
 
     @property
     def _now(self) -> dict[Letter, Expr]:
@@ -58,18 +65,35 @@ class Contraction:
     def _shifts(self) -> dict[Letter, Expr]:
         return {x: substitute(y, self._now) for x, y in self.images.items()}
 
-    def any_vector(self) -> Tree:
+    def any_vector(self, d: Draft) -> Tree:
         """dϖ(X, δ′): the components of X are those of δ."""
-        return gathered(substitute(self.form, self._now), self.core, self._shifts, self.notation)
+        form = substitute(self.form, self._now)
+        return gathered(d, form, self.core, self._shifts, self.notation)
 
-    def on_vertical(self) -> Tree:
+    def on_vertical(self, d: Draft) -> Tree:
         """The same for δ′t = 0, δ′g = 0; ``NoKernelError`` if the velocity is not its zero."""
         vertical = terms_with(without(self.form, self.times[1]), *self.vertical)
         vertical = substitute(vertical, self._now)
         if substitute(vertical, self.velocity):
             raise NoKernelError("the kernel of dϖ has not the velocity of the motion")
         shifts = {x: y for x, y in self._shifts.items() if x in self.velocity}
-        return gathered(vertical, terms_with(self.core, *self.vertical), shifts, self.notation)
+        core = terms_with(self.core, *self.vertical)
+        return gathered(d, vertical, core, shifts, self.notation)
+
+    def at_rest(self) -> tuple[Equation, ...]:
+        """δ′t = 0 and δ′x = 0."""
+        return tuple(Equation(x.name, 0) for x in (self.times[1], *self.resting.values()))
+
+    def rates(self) -> tuple[str, ...]:
+        """The names of the accelerations."""
+        return tuple(dict.fromkeys(x.name for x in self.acceleration.values() if x.axis is None))
+
+    def metric(self) -> Hypothesis:
+        """The metric of the kinetic energy, by the vertical part of dϖ, is not degenerate."""
+        vertical = terms_with(without(self.form, *self.times), *self.vertical)
+        hats = {hat(x): word(hat(y)) for x, y in self.resting.items() if y.cols == 1}
+        images = {x: word(y) for x, y in self.resting.items()} | hats
+        return vertical_metric(vertical, images, self.notation, self.space)
 
     @cached_property
     def _along(self) -> dict[Letter, Expr]:
@@ -98,16 +122,16 @@ class Contraction:
         core = self.opening(substitute(without(self.core, *self.vertical), self._along))
         return terms_with(core, *self.acceleration.values())
 
-    def remaining(self) -> Tree:
+    def remaining(self, d: Draft) -> Tree:
         """How dϖ(X, δ′) is written for X with the velocity of the motion."""
         display = {**self.notation.display, **self.display}
-        notation = Notation(self.notation.metrics, display)
-        return gathered(self.second_order, self.remaining_core, self.shifts, notation)
+        notation = replace(self.notation, display=display)
+        return gathered(d, self.second_order, self.remaining_core, self.shifts, notation)
 
 
-def velocities(along: Mapping[Letter, Expr], letters: Iterable[Letter]) -> list[Equation]:
+def velocities(d: Draft, along: Mapping[Letter, Expr], letters: Iterable[Letter]) -> list[Equation]:
     """δx(X) = ẋ."""
-    return [Equation(("call", x.name, "X"), tree_of(along[x])) for x in letters]
+    return [Equation(("call", x.name, "X"), d.tree(along[x])) for x in letters]
 
 
 def rate(dotted: str, varied: str) -> Sentence:
@@ -117,60 +141,51 @@ def rate(dotted: str, varied: str) -> Sentence:
 
 def steps_of(
     c: Contraction,
-    first: list[Equation],
+    known: Iterable[Letter],
     unknown: Sentence,
     rates: Sentence,
-    prefix: str,
-    exterior: str,
+    a: Alphabet,
+    chapter: Chapter,
     paper: tuple[int, ...] = (),
-    scope: str = ANY_GROUP,
     regular: Sentence = REGULAR,
-) -> tuple[Step, ...]:
-    """X put into dϖ, its vertical part, and what remains once the velocity is known."""
-    return (
-        Step(
-            f"{prefix}.contraction",
-            "contraction",
-            (exterior,),
-            (Equation(CONTRACTION, c.any_vector()),),
-            say(
-                "The motions are the extremals of the action, the integral of L̃: curves whose "
-                "tangent X is in the kernel of dϖ."
-            )
-            + say(
-                "A vector X with δt = 1 is inserted; its other components, {unknown}, are unknown.",
-                unknown=unknown,
-            ),
-            (),
-            scope,
-            ("any X",),
+) -> tuple[Contraction, tuple[Step, ...]]:
+    """X put into dϖ, its vertical part, and what remains once the velocity is known.
+
+    ``known``: the letters whose values on X are told; ``a``: the alphabet.  Also: the contraction
+    as these steps say it.
+    """
+    putting = chapter.draft("contraction", "contraction")
+    testing = chapter.draft("vertical", "restriction")
+    finding = chapter.draft("second_order", "kernel")
+    first = putting.step(
+        (Equation(CONTRACTION, c.any_vector(putting)),),
+        say(
+            "The motions are the extremals of the action, the integral of L̃: curves whose "
+            "tangent X is in the kernel of dϖ."
+        )
+        + say(
+            "A vector X with δt = 1 is inserted; its other components, {unknown}, are unknown.",
+            unknown=unknown,
         ),
-        Step(
-            f"{prefix}.vertical",
-            "restriction",
-            (f"{prefix}.contraction",),
-            (Equation(CONTRACTION, c.on_vertical()),),
-            say(
-                "X is in the kernel if and only if this expression vanishes for every δ′y; to "
-                "begin with, for every δ′y that varies the velocity alone."
-            ),
-            (),
-            scope,
-            ("any X", "vertical"),
-        ),
-        Step(
-            f"{prefix}.second_order",
-            "kernel",
-            (f"{prefix}.vertical", f"{prefix}.contraction"),
-            (*first, Equation(CONTRACTION, c.remaining())),
-            say(
-                "As {regular}, this expression vanishes for all such variations only if X has "
-                "the velocity of the motion, which is inserted; {rates}.",
-                regular=regular,
-                rates=rates,
-            ),
-            paper,
-            scope,
-            ("any acceleration",),
-        ),
+        given=(CONTRACTED,),
     )
+    images = {x: putting.said(y) for x, y in c.images.items()}
+    c = replace(c, form=putting.said(c.form), images=images)
+    second = testing.step(
+        (Equation(CONTRACTION, c.on_vertical(testing)),),
+        say(
+            "X is in the kernel if and only if this expression vanishes for every δ′y; to "
+            "begin with, for every δ′y that varies the velocity alone."
+        ),
+        given=(CONTRACTED, *c.at_rest()),
+    )
+    c = replace(c, velocity={x: testing.said(y) for x, y in c.velocity.items()})
+    along = velocities(finding, c.velocity, known)
+    third = finding.step(
+        (*along, Equation(CONTRACTION, c.remaining(finding), c.rates())),
+        told("velocity of X", a.signed, regular=regular, rates=rates),
+        paper,
+        along,
+        (c.metric(),),
+    )
+    return c, (first, second, third)

@@ -20,11 +20,10 @@ def coordinates_step(group: Group, b: Alphabet, c: Chapter, *, reading: bool) ->
     equations = [Equation("Z", whole), Equation("Z", ("matrix", *rows))]
     if reading:
         equations += [Equation(("entry", "ζ̇", a + 1), _reading(group, a)) for a in span]
-    uses = "relation" if group.relations else ".trivialisation"
     prose = say("Coordinates of the Lie algebra in the basis of the group.")
     if b.affine:
         prose = say("Coordinates of the linear parts of the Lie algebra in the basis of the group.")
-    return c.step("coordinates", "coordinates", uses, equations, prose)
+    return c.draft("coordinates", "coordinates").step(equations, prose)
 
 
 def _terms(group: Group, i: int, j: int) -> list[Tree]:

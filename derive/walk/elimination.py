@@ -18,7 +18,9 @@ from ..algebra.words import Expr, Letter, number, word
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
+from .chapter import Chapter
 from .inverse import cancel_scalar, inverse_letter, inverse_tree
+from .supposed import told
 from .translation import central_moments
 from .vector import INERTIA, OMEGA_P, ZETA, ZETA_DOT, VectorForm, isolate
 from .wedge import vector_sum
@@ -41,9 +43,9 @@ def notation(a: Alphabet) -> Notation:
     return Notation(display={inverse_letter(a.m): inverse_tree(a.m)})
 
 
-def eliminate(stage: VectorForm, a: Alphabet, prefix: str, scope: str) -> Eliminated:
+def eliminate(stage: VectorForm, a: Alphabet, c: Chapter) -> Eliminated:
     """Solve the balance of forces for ẇ, then put it into the balance of moments."""
-    w_dot = a.w.acceleration
+    draft, w_dot = c.draft("elimination", "elimination"), a.w.acceleration
     forces, moments = stage.balance[a.w.xi_prime], stage.balance[OMEGA_P]
     acceleration = -simplified(word(inverse_letter(a.m)) * without(forces, w_dot), a)
     reduced = simplified(substitute(moments, {w_dot: acceleration}), a)
@@ -58,10 +60,8 @@ def eliminate(stage: VectorForm, a: Alphabet, prefix: str, scope: str) -> Elimin
     carried = word(a.w.velocity) + word(CENTRE_VELOCITY) - velocity
     ending = reduce(acceleration, isolate(a.w.velocity))
     acceleration = from_centre(substitute(ending, {a.w.velocity: carried}), a)
-    step = Step(
-        f"{prefix}.elimination",
-        "elimination",
-        (f"{prefix}.kernel",),
+    draft.read(acceleration, central, torque)
+    step = draft.step(
         (
             Equation(CENTRE.name, tree_of(word(inverse_letter(a.m)) * word(a.c), notation(a))),
             Equation(CENTRE_VELOCITY.name, vector_tree(velocity, a)),
@@ -71,16 +71,10 @@ def eliminate(stage: VectorForm, a: Alphabet, prefix: str, scope: str) -> Elimin
             Equation(CENTRAL.name, tree_of(central, notation(a))),
             Equation(("mul", CENTRAL.name, "ζ̇"), vector_tree(torque, a)),
         ),
-        say(
-            "As m > 0, the balance of forces gives ẇ; inserted into the balance of moments, "
-            "it makes I_c appear there, the tensor of inertia about the centre of mass r_c, "
-            "which follows from J_c as I does from J."
-        )
+        told("mass", a.signed)
         + say("The velocity of the centre of mass, in the body frame, is w_c."),
-        (),
-        scope,
     )
-    return Eliminated(torque, acceleration, (step,))
+    return Eliminated(draft.said(torque), draft.said(acceleration), (step,))
 
 
 def simplified(e: Expr, a: Alphabet) -> Expr:
@@ -97,7 +91,7 @@ def from_centre(e: Expr, a: Alphabet) -> Expr:
 
 def coefficient_matrix(e: Expr, v: Letter) -> Expr:
     """M with e = M v + (terms without v), for a vector expression linear in v."""
-    total = Expr(v.rows, v.rows, {})
+    total = Expr(v.rows, v.rows, {}, e.lineage)
     for (traces, w), c in e.terms.items():
         if w and w[-1] == (v, False):
             body = Expr(v.rows, v.rows, {(traces, w[:-1]): c})
@@ -120,7 +114,7 @@ def vector_tree(e: Expr, a: Alphabet) -> Tree:
         for k, c in e.terms.items()
         if inverse in k[0]
     }
-    parts = [vector_sum(Expr(e.rows, e.cols, light), notation(a))] if light else []
+    parts = [vector_sum(e.like(light), notation(a))] if light else []
     if heavy:
-        parts.append(mul(inverse_tree(a.m), vector_sum(Expr(e.rows, e.cols, heavy), notation(a))))
+        parts.append(mul(inverse_tree(a.m), vector_sum(e.like(heavy), notation(a))))
     return add(*parts)

@@ -5,15 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..algebra import forms
-from ..algebra.calculus import Image, PairRule, gradient, reduce, substitute, without
+from ..algebra.calculus import Image, gradient, reduce, substitute, without
 from ..algebra.notation import Notation, metrics, tree_of
 from ..algebra.tree import Tree
-from ..algebra.words import Expr, Letter, inner, word
+from ..algebra.words import Expr, Letter, word
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
-from .cartan import Cartan, frame_rule, trivial_images, varied_gram
+from .cartan import Cartan
+from .chapter import Chapter
 from .gather import at_constant_time, gathered, solve_for, terms_with
+from .trivialisation import frame_rule, gram, trivial_images, varied_gram
 
 DOMEGA: Tree = ("call", "dϖ", "δy", "δ′y")
 
@@ -43,16 +45,12 @@ def primed(e: Expr, a: Alphabet) -> Expr:
     return substitute(e, {x: word(y) for x, y in primes(a).items()})
 
 
-def work(a: Alphabet) -> Expr:
-    """−dŨ(δg): ⟨F̃, δA⟩_J, or by the moments of the forces for an affine action."""
-    if not a.affine:
-        return inner(word(a.F_group), word(a.A.d_position), word(a.J))
-    return inner(word(a.N), word(a.A.d_position)) + inner(word(a.F), word(a.T.d_position))
+def natural_variations(work: Expr, a: Alphabet) -> tuple[Image, Image]:
+    """δ and δ′ on the letters t, A, α, (T, τ), Ũ; second variations commute.
 
-
-def natural_variations(a: Alphabet) -> tuple[Image, Image]:
-    """δ and δ′ on the letters t, A, α, (T, τ), Ũ; second variations commute."""
-    delta: dict[Letter, Expr] = {a.U: word(a.dU_dt) * word(a.dt) - work(a)}
+    ``work``: −dŨ(δg).
+    """
+    delta: dict[Letter, Expr] = {a.U: word(a.dU_dt) * word(a.dt) - work}
     delta_prime: dict[Letter, Expr] = {a.U: primed(delta[a.U], a)}
     for p in a.parts:
         delta |= {p.position: word(p.d_position), p.velocity: word(p.d_velocity)}
@@ -62,27 +60,22 @@ def natural_variations(a: Alphabet) -> tuple[Image, Image]:
     return delta.get, delta_prime.get
 
 
-def exterior(stage: Cartan, a: Alphabet, prefix: str) -> Exterior:
+def exterior(stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
     """dϖ in the variables (t, g, ν)."""
-    form = forms.exterior(stage.form(a), primes(a), *natural_variations(a))
+    form = forms.exterior(stage.form, primes(a), *natural_variations(stage.work, a))
     images = horizontal_images(form, a)
     static = at_constant_time(form, a.dt, a.dpt)
     notation = metrics() if a.affine else metrics("J")
+    whole = c.draft("exterior", "exterior derivative")
+    resting = c.draft("symplectic", "restriction")
     steps = (
-        Step(
-            f"{prefix}.exterior",
-            "exterior derivative",
-            (f"{prefix}.cartan", f"{prefix}.energy", f"{prefix}.force")
-            + (() if a.affine else (f"{prefix}.gradient",)),
-            (Equation(DOMEGA, gathered(form, static, images, notation)),),
+        whole.step(
+            (Equation(DOMEGA, gathered(whole, form, static, images, notation)),),
             say("The exterior derivative of the Cartan form.") + say("The terms in ∂Ũ/∂t cancel."),
             (25,),
         ),
-        Step(
-            f"{prefix}.symplectic",
-            "restriction",
-            (f"{prefix}.exterior",),
-            (Equation(("call", "ω", "δx", "δ′x"), tree_of(static, notation)),),
+        resting.step(
+            (Equation(("call", "ω", "δx", "δ′x"), resting.tree(whole.said(static), notation)),),
             say(
                 "At constant time it is dp ∧ dq, which the metric carries from the cotangent "
                 "bundle of the group to its tangent bundle: a symplectic form."
@@ -90,7 +83,7 @@ def exterior(stage: Cartan, a: Alphabet, prefix: str) -> Exterior:
             (26,),
         ),
     )
-    return Exterior(form, images, steps)
+    return Exterior(whole.said(form), {x: whole.said(y) for x, y in images.items()}, steps)
 
 
 def horizontal_images(form: Expr, a: Alphabet) -> dict[Letter, Expr]:
@@ -110,30 +103,39 @@ def horizontal_images(form: Expr, a: Alphabet) -> dict[Letter, Expr]:
     return images | {table[x]: primed(y, a) for x, y in images.items()}
 
 
-def structure(a: Alphabet, prefix: str) -> tuple[dict[Letter, Expr], Step]:
-    """δξ′ − δ′ξ (and δη′ − δ′η), with the step that records it."""
-    brackets = {
-        f.xi_prime: forms.structure_equation(a.A.position, a.Z.xi, a.Z.xi_prime, f.xi, f.xi_prime)
+def brackets_of(a: Alphabet) -> dict[Letter, Expr]:
+    """δξ′ − δ′ξ (and δη′ − δ′η), as the structure equation says."""
+    mark = Chapter(a.chapter).label("structure")
+    return {
+        f.xi_prime: forms.structure_equation(
+            a.A.position, a.Z.xi, a.Z.xi_prime, f.xi, f.xi_prime
+        ).marked(mark)
         for f in a.frames
     }
-    bracket = brackets[a.Z.xi_prime]
-    display = ("bracket", "ξ′", "ξ") if bracket == _bracket(a) else tree_of(bracket)
-    shown = [display, *(tree_of(brackets[f.xi_prime]) for f in a.frames[1:])]
-    equations = tuple(
+
+
+def shown_brackets(a: Alphabet) -> list[Tree]:
+    """How they are written."""
+    first, *others = brackets_of(a).values()
+    return [
+        ("bracket", "ξ′", "ξ") if first == _bracket(a) else tree_of(first),
+        *map(tree_of, others),
+    ]
+
+
+def structure(a: Alphabet, c: Chapter) -> Step:
+    """The structure equation."""
+    equations = (
         Equation(("add", ("call", "δ", f.xi_prime.name), ("mul", -1, ("call", "δ′", f.xi.name))), t)
-        for f, t in zip(a.frames, shown, strict=True)
+        for f, t in zip(a.frames, shown_brackets(a), strict=True)
     )
-    step = Step(
-        f"{prefix}.structure",
-        "structure equation",
-        (f"{prefix}.trivialisation",),
+    return c.draft("structure", "structure equation").step(
         equations,
         say(
             "The variations commute on the group; carried to the Lie algebra, the crossed "
             "variations δξ′ and δ′ξ differ by a bracket."
         ),
     )
-    return brackets, step
 
 
 def _bracket(a: Alphabet) -> Expr:
@@ -141,20 +143,21 @@ def _bracket(a: Alphabet) -> Expr:
 
 
 def trivial_variations(
-    a: Alphabet, brackets: dict[Letter, Expr], relations: tuple[PairRule, ...]
+    a: Alphabet, brackets: dict[Letter, Expr], work: Expr
 ) -> tuple[Image, Image]:
-    """δ and δ′ on Z, ξ, C, Ũ, with the structure equation for the second variations."""
-    g = a.A.position
+    """δ and δ′ on Z, ξ, C, Ũ, with the structure equation for the second variations.
+
+    ``work``: −dŨ(gξ).
+    """
     images = trivial_images(a)
-    potential = reduce(word(a.dU_dt) * word(a.dt) - substitute(work(a), images), *relations)
+    potential = word(a.dU_dt) * word(a.dt) - work
     delta: dict[Letter, Expr] = {a.U: potential, a.C: varied_gram(a, a.Z.xi)}
     delta_prime: dict[Letter, Expr] = {
         a.U: primed(potential, a),
         a.C: varied_gram(a, a.Z.xi_prime),
     }
-    for p, f in zip(a.parts, a.frames, strict=True):
-        delta[p.position] = word(g) * word(f.xi)
-        delta_prime[p.position] = word(g) * word(f.xi_prime)
+    for p in a.parts:
+        delta[p.position], delta_prime[p.position] = images[p.d_position], images[p.dp_position]
     for f in a.frames:
         delta[f.velocity], delta_prime[f.velocity] = word(f.d_velocity), word(f.dp_velocity)
         delta[f.xi_prime] = word(f.second) + brackets[f.xi_prime]
@@ -180,29 +183,18 @@ def trivialised_images(stage: Exterior, a: Alphabet) -> dict[Letter, Expr]:
     return images
 
 
-def exterior_trivialised(natural: Exterior, stage: Cartan, a: Alphabet, prefix: str) -> Exterior:
+def exterior_trivialised(natural: Exterior, stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
     """dϖ in the variables (t, g, Z), for any group, with C = ĀA."""
-    brackets, step = structure(a, prefix)
-    relations = (frame_rule(a, word(a.C)),)
-    delta, delta_prime = trivial_variations(a, brackets, relations)
-    form = reduce(forms.exterior(stage.form(a), primes(a), delta, delta_prime), *relations)
+    draft = c.draft("exterior_trivialised", "exterior derivative")
+    delta, delta_prime = trivial_variations(a, brackets_of(a), stage.work)
+    derivative = forms.exterior(stage.form, primes(a), delta, delta_prime)
+    form = reduce(derivative, frame_rule(a, gram(a)))
     images = trivialised_images(natural, a)
     variations = [x for f in a.frames for x in (f.d_velocity, f.dp_velocity)]
     core = terms_with(without(form, a.dt, a.dpt), *variations)
-    steps = (
-        step,
-        Step(
-            f"{prefix}.exterior_trivialised",
-            "exterior derivative",
-            (
-                f"{prefix}.cartan_trivialised",
-                f"{prefix}.structure",
-                f"{prefix}.exterior",
-                f"{prefix}.trivialisation",
-                f"{prefix}.force" if a.affine else f"{prefix}.gradient",
-            ),
-            (Equation(DOMEGA, gathered(form, core, images, Notation())),),
-            say("The exterior derivative in the trivialisation, for any group."),
-        ),
+    step = draft.step(
+        (Equation(DOMEGA, gathered(draft, form, core, images, Notation())),),
+        say("The exterior derivative in the trivialisation, for any group."),
     )
-    return Exterior(form, images, steps)
+    said = {x: draft.said(y) for x, y in images.items()}
+    return Exterior(draft.said(form), said, (structure(a, c), step))

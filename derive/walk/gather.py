@@ -9,11 +9,13 @@ is always equal to what was derived.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from ..algebra.calculus import substitute
 from ..algebra.notation import Notation, tree_of
 from ..algebra.tree import Tree, add
 from ..algebra.words import Expr, Letter, Traces, Word, number
+from .chapter import Draft
 
 
 def solve_for(e: Expr, x: Letter) -> Expr | None:
@@ -35,7 +37,7 @@ def _same_place(e: Expr, head: Word, tail: Word, x: Letter, factor: object) -> E
         shape = middle and _shape(middle) == (x.rows, x.cols)
         if fits and shape and not any(y == x for y, _ in middle):
             terms[traces, middle] = c * factor  # type: ignore[operator]
-    return Expr(x.rows, x.cols, terms)  # type: ignore[arg-type]
+    return Expr(x.rows, x.cols, terms, e.lineage)  # type: ignore[arg-type]
 
 
 def _shape(w: Word) -> tuple[object, object]:
@@ -50,14 +52,17 @@ def terms_with(e: Expr, *letters: Letter) -> Expr:
     def has(traces: Traces, w: Word) -> bool:
         return any(x in wanted for part in (*traces, w) for x, _ in part)
 
-    return Expr(e.rows, e.cols, {key: c for key, c in e.terms.items() if has(*key)})
+    return e.like({key: c for key, c in e.terms.items() if has(*key)})
 
 
-def gathered(e: Expr, core: Expr, images: Mapping[Letter, Expr], notation: Notation) -> Tree:
+def gathered(
+    d: Draft, e: Expr, core: Expr, images: Mapping[Letter, Expr], notation: Notation
+) -> Tree:
     """``core`` with letters replaced by parenthesised sums, plus whatever of ``e`` that leaves."""
+    d.read(e, *(images[x] for x in core.letters() if x in images))
     display = {**notation.display, **{x: tree_of(y) for x, y in images.items()}}
     remainder = e - substitute(core, images)
-    shown = tree_of(core, Notation(notation.metrics, display))
+    shown = tree_of(core, replace(notation, display=display))
     return add(shown, tree_of(remainder, notation))
 
 

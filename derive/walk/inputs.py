@@ -11,20 +11,20 @@ from dataclasses import dataclass
 from ..algebra.calculus import gradient, reduce, substitute
 from ..algebra.groups import Group
 from ..algebra.notation import tree_of
-from ..algebra.space import fold_inertia, hat, normal_form
+from ..algebra.space import fold_inertia, normal_form
 from ..algebra.tree import Tree, add, mul
 from ..algebra.words import Expr, Letter, inner, number, word
 from ..mechanics.problem import ForceInput, Problem
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, listed, phrase, say
 from .alphabet import Alphabet
-from .cartan import frame_rule
-from .chapter import Chapter
+from .chapter import Chapter, Draft
 from .contraction import AND
 from .elements import embedded
 from .pullback import sum_over
-from .pushes import Applied, applied
-from .vector import OMEGA_P, ZETA, inertia_of, isolate
+from .pushes import applied
+from .trivialisation import frame_rule
+from .vector import OMEGA_P, ZETA, Reader, inertia_of, isolate
 from .wedge import vector_sum
 
 GIVEN = phrase("the forces that are given as functions of time and state")
@@ -56,18 +56,18 @@ def prose(problem: Problem) -> Prose:
 
 
 def given_matrices(problem: Problem, b: Alphabet, gram: Expr, c: Chapter) -> Given | None:
-    """N_u and F_u."""
+    """N_u and F_u; ``gram``: ĀA, as a step says it."""
     if not acts(problem):
         return None
     group = problem.group
     assert group is not None
-    forces = applied(b, "u", vectors=False)
+    forces, draft = applied(b, "u", vectors=False), c.draft("input", "input")
     definitions, drag = _damping(problem, b)
     drag = reduce(drag, frame_rule(b, gram))
     xi, eta = Letter("ξ′", b.n, b.n), Letter("η′", b.n)
-    moments, pulls = [tree_of(gradient(drag, xi))], [tree_of(gradient(drag, eta))]
+    moments, pulls = [draft.tree(gradient(drag, xi))], [draft.tree(gradient(drag, eta))]
     for e, push in enumerate(problem.pushes, 1):
-        force = _carried(problem, e, push, gram, b)
+        force = _carried(draft, problem, e, push, gram, b)
         moments.append(mul(force, ("T", ("at", "r", push.on))))
         pulls.append(force)
     if problem.covector:
@@ -77,11 +77,11 @@ def given_matrices(problem: Problem, b: Alphabet, gram: Expr, c: Chapter) -> Giv
     equations = [*definitions, Equation(forces.moments.name, add(*moments))]
     if b.affine:
         equations.append(Equation(forces.resultant.name, add(*pulls)))
-    step = c.step("input", "input", ".velocity .trivialisation", equations, prose(problem))
-    return Given(word(forces.moments), word(forces.resultant), (step,))
+    step = draft.step(equations, prose(problem))
+    return Given(draft.said(word(forces.moments)), draft.said(word(forces.resultant)), (step,))
 
 
-def _carried(problem: Problem, e: int, push: ForceInput, gram: Expr, b: Alphabet) -> Tree:
+def _carried(d: Draft, problem: Problem, e: int, push: ForceInput, gram: Expr, b: Alphabet) -> Tree:
     """A given force in the body: Āf for one in space, ĀA f for one that turns with the body."""
     f: Tree = ("at", "f_u", e)
     group = problem.group
@@ -91,6 +91,7 @@ def _carried(problem: Problem, e: int, push: ForceInput, gram: Expr, b: Alphabet
         f = embedded(problem, push.on, tuple(("entry", f, k) for k in range(1, n + 1)), 0)
     if push.frame == "space":
         return mul(("T", "A"), f)
+    d.read(gram)
     return f if gram == b.unit else mul("C", f)
 
 
@@ -114,7 +115,7 @@ def _damping(problem: Problem, b: Alphabet) -> tuple[list[Equation], Expr]:
     kappa, g = Letter("κ_i"), word(b.A.position)
     D, first, total = Letter("D", b.n, b.n, 1), Letter("D_c", b.n), Letter("D_m")
     xi, eta = word(Letter("ξ′", b.n, b.n)), word(Letter("η′", b.n))
-    v = g * word(b.Z.velocity) * word(b.r_i)
+    v = (g * word(b.Z.velocity) * word(b.r_i)).marked(Chapter(b.chapter).label("velocity"))
     moved = g * xi * word(b.r_i)
     if b.affine:
         v, moved = v + g * word(b.w.velocity), moved + g * eta
@@ -139,20 +140,23 @@ def _damping(problem: Problem, b: Alphabet) -> tuple[list[Equation], Expr]:
     return equations, work
 
 
-def given_vectors(problem: Problem, b: Alphabet, c: Chapter) -> Given | None:
+def given_vectors(
+    problem: Problem, b: Alphabet, gram: Expr, read: Reader, c: Chapter
+) -> Given | None:
     """μ_u and F_u in R³; a covector alone keeps its own name."""
     if not acts(problem):
         return None
     if not problem.pushes and not problem.damping:
         return Given(word(TORQUE), word(FORCE), ())
-    forces: Applied = applied(b, "u", vectors=True)
+    forces, draft = applied(b, "u", vectors=True), c.draft("input", "input")
     definitions, drag = _damping(problem, b)
-    turned, pulled = _in_vectors(drag, b)
+    turned, pulled = _in_vectors(drag, b, gram, read)
+    draft.read(turned, pulled)
     moments, pulls = [vector_sum(turned)], [vector_sum(pulled)]
     if problem.damping:
         definitions.append(Equation("I_D", tree_of(inertia_of(Letter("D", 3, 3, 1)))))
     for e, push in enumerate(problem.pushes, 1):
-        force = _carried(problem, e, push, b.unit, b)
+        force = _carried(draft, problem, e, push, gram, b)
         moments.append(("wedge", ("at", "r", push.on), force))
         pulls.append(force)
     if problem.covector:
@@ -161,15 +165,15 @@ def given_vectors(problem: Problem, b: Alphabet, c: Chapter) -> Given | None:
     equations = [*definitions, Equation(forces.moments.name, add(*moments))]
     if b.affine:
         equations.append(Equation(forces.resultant.name, add(*pulls)))
-    step = c.step("input", "input", ".velocity hat", equations, prose(problem))
-    return Given(word(forces.moments), word(forces.resultant), (step,))
+    step = draft.step(equations, prose(problem))
+    return Given(draft.said(word(forces.moments)), draft.said(word(forces.resultant)), (step,))
 
 
-def _in_vectors(drag: Expr, b: Alphabet) -> tuple[Expr, Expr]:
+def _in_vectors(drag: Expr, b: Alphabet, gram: Expr, read: Reader) -> tuple[Expr, Expr]:
     """The moment and the resultant of the damping: coefficients of Ω′ and η′."""
-    images = {b.Z.velocity: word(hat(ZETA)), Letter("ξ′", 3, 3): word(hat(OMEGA_P))}
-    work = substitute(reduce(drag, frame_rule(b, b.unit)), images)
-    work = normal_form(fold_inertia(work, Letter("D", 3, 3, 1), Letter("I_D", 3, 3, 1)))
+    images = {b.Z.velocity: read.hatted(ZETA), Letter("ξ′", 3, 3): read.hatted(OMEGA_P)}
+    work = substitute(reduce(drag, frame_rule(b, gram)), images)
+    work = normal_form(fold_inertia(work, Letter("D", 3, 3, 1), word(Letter("I_D", 3, 3, 1))))
     turned = normal_form(gradient(reduce(work, isolate(OMEGA_P)), OMEGA_P))
     eta = Letter("η′", 3)
     return turned, normal_form(gradient(reduce(work, isolate(eta)), eta))

@@ -42,4 +42,4 @@ def cancel_scalar(e: Expr, x: Letter) -> Expr:
             kept.remove(down)
         key = (tuple(kept), w)
         total[key] = total.get(key, Fraction(0)) + c
-    return Expr(e.rows, e.cols, {key: c for key, c in total.items() if c})
+    return e.like({key: c for key, c in total.items() if c})

@@ -11,31 +11,42 @@ from ..algebra.words import Expr, Letter, word
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
-from .cartan import Cartan, form_equation, frame_rule
-from .exterior import DOMEGA, Exterior, primed, primes, structure, trivial_variations
+from .cartan import Cartan, form_equation
+from .chapter import Chapter
+from .exterior import (
+    DOMEGA,
+    Exterior,
+    brackets_of,
+    primed,
+    primes,
+    shown_brackets,
+    trivial_variations,
+)
 from .gather import gathered, solve_for
 
 
 @dataclass(frozen=True)
 class Isometry:
-    """ϖ and dϖ in skew letters; ``brackets``: their letters' values."""
+    """ϖ and dϖ in skew letters; ``gram``: ĀA = 1; ``brackets``: their letters' values."""
 
     letters: Alphabet
+    gram: Expr
     cartan: Cartan
     exterior: Exterior
     brackets: dict[Letter, Expr]
     steps: tuple[Step, ...]
 
 
-def isometry(stage: Cartan, a: Alphabet, n: int, prefix: str, general: str, scope: str) -> Isometry:
+def isometry(stage: Cartan, a: Alphabet, n: int, c: Chapter) -> Isometry:
     """Specialise the trivialised form of any group to isometries, and differentiate it."""
-    b = Alphabet(n, affine=a.affine, skew=True)
-    momentum, energy = (b.respell(e, b.unit) for e in (stage.momentum, stage.energy))
-    form = Cartan(momentum, energy, ())
-    relation = Step(
-        f"{prefix}.relation",
-        "relation",
-        (f"{general}.trivialisation",),
+    b = Alphabet(n, affine=a.affine, skew=True, signed=a.signed)
+    relating, writing = c.draft("relation", "relation"), c.draft("cartan", "relation")
+    gram = relating.said(b.unit)
+    momentum, energy = (b.respell(e, gram).of(gram) for e in (stage.momentum, stage.energy))
+    work = b.respell(stage.work, gram)
+    whole = writing.said(momentum - energy * word(b.dt))
+    form = Cartan(writing.said(momentum), writing.said(energy), whole, work, ())
+    relation = relating.step(
         (
             Equation("C", ("one",)),
             Equation(("T", "Z"), ("mul", -1, "Z")),
@@ -47,43 +58,30 @@ def isometry(stage: Cartan, a: Alphabet, n: int, prefix: str, general: str, scop
         )
         if a.affine
         else say("For isometries ĀA = 𝟏, so that C drops out, and Z and ξ are skew."),
-        scope=scope,
     )
-    cartan = Step(
-        f"{prefix}.cartan",
-        "relation",
-        (f"{general}.cartan_trivialised", f"{prefix}.relation"),
-        (form_equation(momentum, energy, Notation()),),
+    cartan = writing.step(
+        (form_equation(writing, momentum, energy, Notation()),),
         say("The Cartan form, trivialised."),
         () if a.affine else (28,),
-        scope,
     )
-    exterior, brackets, step = _exterior(form, b, prefix, general, scope)
-    return Isometry(b, form, exterior, brackets, (relation, cartan, step))
+    exterior, brackets, step = _exterior(form, gram, b, c)
+    return Isometry(b, gram, form, exterior, brackets, (relation, cartan, step))
 
 
 def _exterior(
-    form: Cartan, b: Alphabet, prefix: str, general: str, scope: str
+    form: Cartan, gram: Expr, b: Alphabet, c: Chapter
 ) -> tuple[Exterior, dict[Letter, Expr], Step]:
-    derived, recorded = structure(b, prefix)
+    derived = brackets_of(b)
     abbreviation = {b.Z.xi_prime: b.bracket, b.w.xi_prime: b.bracket_w}
-    brackets = {x: word(abbreviation[x]) for x in derived}
-    delta, delta_prime = trivial_variations(b, brackets, (frame_rule(b, b.unit),))
-    domega = forms.exterior(form.form(b), primes(b), delta, delta_prime)
+    brackets = {x: word(abbreviation[x]).of(derived[x]) for x in derived}
+    draft = c.draft("exterior", "exterior derivative")
+    delta, delta_prime = trivial_variations(b, brackets, form.work)
+    domega = forms.exterior(form.form, primes(b), delta, delta_prime).of(gram)
     images = horizontal(domega, b)
     letters = (abbreviation[x] for x in derived)
-    shown_as = (e.rhs for e in recorded.equations)
-    display = Notation(display=dict(zip(letters, shown_as, strict=True)))
-    shown = gathered(domega, without(domega, b.dt, b.dpt), images, display)
-    step = Step(
-        f"{prefix}.exterior",
-        "exterior derivative",
-        (
-            f"{prefix}.cartan",
-            f"{general}.structure",
-            f"{general}.force" if b.affine else f"{general}.gradient",
-            f"{general}.trivialisation",
-        ),
+    display = Notation(display=dict(zip(letters, shown_brackets(b), strict=True)))
+    shown = gathered(draft, domega, without(domega, b.dt, b.dpt), images, display)
+    step = draft.step(
         (Equation(DOMEGA, shown),),
         say("Its exterior derivative; the bracket comes from the structure equation.")
         + say(
@@ -91,10 +89,10 @@ def _exterior(
             "terms in ξ′ξZ gather into a bracket and those in Z² cancel."
         ),
         () if b.affine else (29,),
-        scope,
     )
     values = {abbreviation[x]: e for x, e in derived.items()}
-    return Exterior(domega, images, ()), values, step
+    said = {x: draft.said(y) for x, y in images.items()}
+    return Exterior(draft.said(domega), said, ()), values, step
 
 
 def horizontal(domega: Expr, b: Alphabet) -> dict[Letter, Expr]:

@@ -2,59 +2,77 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 from ..algebra.calculus import gradient, substitute, without
-from ..algebra.notation import Notation, metrics, tree_of
+from ..algebra.forms import strip_left
+from ..algebra.notation import Notation, metrics
 from ..algebra.tree import Tree, add
 from ..algebra.words import Expr, Letter, number, word
 from ..record.record import Equation, Step
 from ..record.sentence import listed, phrase, say
 from .alphabet import Alphabet
-from .cartan import carry, rates
-from .contraction import AND, CONTRACTION, LINE, Contraction, rate, steps_of, velocities
-from .exterior import Exterior, primed, work
+from .cartan import Cartan
+from .chapter import Chapter, Draft
+from .contraction import AND, CONTRACTION, Contraction, rate, steps_of, velocities
+from .exterior import Exterior, primed
 from .gather import at_constant_time, gathered, terms_with
+from .supposed import told
+from .trivialisation import rates, trivial_images
 
 
 @dataclass(frozen=True)
-class Kernel:
-    """``form`` = dϖ(X, δ′) on words, linear in the primed letters, for X with δt = 1."""
+class Ambient:
+    """``velocity``: δg(X), part by part; ``told``: the equations that say it."""
 
-    form: Expr
+    velocity: Mapping[Letter, Expr]
+    told: tuple[Equation, ...]
     steps: tuple[Step, ...]
 
 
-def kernel(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
+def kernel(stage: Exterior, a: Alphabet, chapter: Chapter) -> Ambient:
     """The kernel in the variables (t, g, ν): the motion in the ambient matrices."""
     notation = metrics() if a.affine else metrics("J")
-    c = Contraction(
-        stage.form,
-        at_constant_time(stage.form, a.dt, a.dpt),
-        stage.images,
-        {p.d_position: along_motion(stage, p.d_position, a) for p in a.parts},
-        {p.d_velocity: p.acceleration for p in a.parts},
-        tuple(p.dp_velocity for p in a.parts),
-        (a.dt, a.dpt),
-        notation,
+    draft = chapter.draft("kernel", "kernel")
+    unknown = tuple(x.name for p in a.parts for x in (p.d_position, p.d_velocity))
+    *others, last_one = unknown
+    dots = [rate(p.acceleration.name, p.d_velocity.name) for p in a.parts]
+    c, steps = steps_of(
+        Contraction(
+            stage.form,
+            at_constant_time(stage.form, a.dt, a.dpt),
+            stage.images,
+            {p.d_position: along_motion(stage, p.d_position, a) for p in a.parts},
+            {p.d_velocity: p.acceleration for p in a.parts},
+            tuple(p.dp_velocity for p in a.parts),
+            (a.dt, a.dpt),
+            notation,
+            resting={p.dp_velocity: p.dp_position for p in a.parts},
+            space="T_g G",
+        ),
+        [p.d_position for p in a.parts],
+        phrase(AND, first=", ".join(others), second=last_one),
+        listed(AND, dots),
+        a,
+        chapter,
     )
-    virtual = without(c.second_order, a.dpt)
+    mark = chapter.label("second_order")
+    virtual = without(c.second_order.marked(mark), a.dpt)
     if a.affine:
         pairs = [
-            ("inner", tree_of(gradient(virtual, p.dp_position)), p.dp_position.name)
+            ("inner", draft.tree(gradient(virtual, p.dp_position)), p.dp_position.name)
             for p in a.parts
         ]
         balance = add(*pairs)
     else:
-        kept = {a.A.acceleration: c.shifts[a.A.acceleration]}
-        balance = gathered(virtual, c.remaining_core, kept, notation)
-    first_order = tuple(Equation(p.rate, tree_of(c.velocity[p.d_position])) for p in a.parts)
+        kept = {a.A.acceleration: c.shifts[a.A.acceleration].marked(mark)}
+        balance = gathered(draft, virtual, c.remaining_core, kept, notation)
+    along = {x: e.marked(mark) for x, e in c.velocity.items()}
+    first_order = tuple(Equation(p.rate, draft.tree(along[p.d_position])) for p in a.parts)
     variations = tuple(p.dp_position.name for p in a.parts)
     velocity = ", ".join(f"{p.dp_position.name} = {p.velocity.name}" for p in a.parts)
-    last = Step(
-        f"{prefix}.kernel",
-        "kernel",
-        (f"{prefix}.second_order",),
+    last = draft.step(
         (*first_order, Equation(balance, 0, variations)),
         say(
             "X is in the kernel if and only if this expression vanishes for every "
@@ -68,15 +86,9 @@ def kernel(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
             "The coefficient of δ′t then vanishes as well, for {velocity} is such a displacement.",
             velocity=velocity,
         )
-        + LINE,
+        + told("line", a.signed),
     )
-    unknown = tuple(x.name for p in a.parts for x in (p.d_position, p.d_velocity))
-    first = velocities(c.velocity, c.velocity)
-    *others, last_one = unknown
-    names = phrase(AND, first=", ".join(others), second=last_one)
-    dots = [rate(p.acceleration.name, p.d_velocity.name) for p in a.parts]
-    steps = steps_of(c, first, names, listed(AND, dots), prefix, f"{prefix}.exterior")
-    return Kernel(c.second_order, (*steps, last))
+    return Ambient(along, steps[-1].given, (*steps, last))
 
 
 def along_motion(stage: Exterior, x: Letter, a: Alphabet) -> Expr:
@@ -84,53 +96,63 @@ def along_motion(stage: Exterior, x: Letter, a: Alphabet) -> Expr:
     return substitute(word(x) - stage.images.get(x, word(x)), {a.dt: number(1)})
 
 
-def kernel_trivialised(stage: Exterior, a: Alphabet, prefix: str) -> Kernel:
+def kernel_trivialised(
+    stage: Exterior, natural: Ambient, forms: Cartan, a: Alphabet, chapter: Chapter
+) -> tuple[Step, ...]:
     """The kernel in the variables (t, g, Z): Exercise 1 for every group that moves points."""
     variations = [x for f in a.frames for x in (f.d_velocity, f.dp_velocity)]
+    draft = chapter.draft("second_order_trivialised", "trivialisation")
     c = Contraction(
         stage.form,
         terms_with(without(stage.form, a.dt, a.dpt), *variations),
         stage.images,
-        {f.xi: along_motion(stage, f.xi, a) for f in a.frames},
+        carried_velocity(natural, a),
         {f.d_velocity: f.acceleration for f in a.frames},
         tuple(f.dp_velocity for f in a.frames),
         (a.dt, a.dpt),
         Notation(),
     )
-    steps = (
-        Step(
-            f"{prefix}.second_order_trivialised",
-            "trivialisation",
-            (
-                f"{prefix}.exterior_trivialised",
-                f"{prefix}.second_order",
-                f"{prefix}.trivialisation",
-            ),
-            (*velocities(c.velocity, c.velocity), Equation(CONTRACTION, c.remaining())),
-            say("The velocity of X is carried to the Lie algebra, and put into this form of dϖ."),
-            given=("any acceleration",),
+    first = draft.step(
+        (
+            *velocities(draft, c.velocity, c.velocity),
+            Equation(CONTRACTION, c.remaining(draft), c.rates()),
         ),
-        _equations(c, a, prefix),
+        say("The velocity of X is carried to the Lie algebra, and put into this form of dϖ."),
+        given=natural.told,
     )
-    return Kernel(c.second_order, steps)
+    images, velocity = (
+        {x: draft.said(e) for x, e in found.items()} for found in (c.images, c.velocity)
+    )
+    said = replace(c, form=draft.said(c.form), images=images, velocity=velocity)
+    return first, _equations(said, forms.work, a, chapter)
 
 
-def _equations(c: Contraction, a: Alphabet, prefix: str) -> Step:
+def carried_velocity(stage: Ambient, a: Alphabet) -> dict[Letter, Expr]:
+    """ξ(X) = Z, from gξ(X) = δg(X)."""
+    carried, g = trivial_images(a), a.A.position
+    return {
+        f.xi: strip_left(substitute(stage.velocity[p.d_position], carried), g)
+        for p, f in zip(a.parts, a.frames, strict=True)
+    }
+
+
+def balanced(d: Draft, c: Contraction, work: Expr, a: Alphabet) -> tuple[Expr, Tree]:
+    """dϖ(X, δ′) for X with the velocity of the motion and δ′t = 0, without the ``work`` of the
+    forces; and as it is written, by Ż + Z²."""
+    inertial = without(c.second_order, a.dpt) + work
+    shifts = {f.acceleration: without(c.shifts[f.acceleration], a.f) for f in a.frames}
+    core = without(c.remaining_core, a.dpt)
+    return inertial, gathered(d, inertial, core, shifts, Notation())
+
+
+def _equations(c: Contraction, work: Expr, a: Alphabet, chapter: Chapter) -> Step:
     """dϖ(X, δ′) = 0 with the work of the forces carried to the right: −dŨ(gξ′)."""
-    force = without(primed(carry(work(a), a), a), a.dpt)
-    inertial = without(c.second_order, a.dpt) + force
-    quadratic = {f.acceleration: without(c.shifts[f.acceleration], a.f) for f in a.frames}
-    shown = gathered(inertial, without(c.remaining_core, a.dpt), quadratic, Notation())
-    g = word(a.A.position)
-    variations = [tree_of(g * word(f.xi_prime)) for f in a.frames]
-    rhs: Tree = ("mul", -1, ("call", "dŨ", *variations))
-    names = tuple(f.xi_prime.name for f in a.frames)
-    force_steps = (f"{prefix}.force",) if a.affine else (f"{prefix}.force", f"{prefix}.gradient")
-    return Step(
-        f"{prefix}.equations",
-        "kernel",
-        (f"{prefix}.second_order_trivialised", f"{prefix}.trivialisation", *force_steps),
-        (*rates(a), Equation(shown, rhs, names)),
+    draft = chapter.draft("equations", "kernel")
+    _, shown = balanced(draft, c, without(primed(work, a), a.dpt), a)
+    images = trivial_images(a)
+    rhs: Tree = ("mul", -1, ("call", "dŨ", *(draft.tree(images[p.dp_position]) for p in a.parts)))
+    return draft.step(
+        (*rates(draft, a), Equation(shown, rhs, tuple(f.xi_prime.name for f in a.frames))),
         say(
             "The equations of motion of any group of matrices that moves points (Exercise 1), one "
             "for each direction of its Lie algebra, to which {acceleration} belongs.",

@@ -12,6 +12,7 @@ from ..algebra.words import Expr, Letter, inner, word
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
+from .chapter import Chapter
 
 POINT: Tree = ("call", ("at", "r", "i"), "t")
 """r_i(t), the point in space; r_i alone is the point in the body."""
@@ -19,47 +20,44 @@ POINT: Tree = ("call", ("at", "r", "i"), "t")
 
 @dataclass(frozen=True)
 class Lagrangian:
-    """``kinetic``: the summand ½ m_i ⟨v_i, v_i⟩ on words, with v_i given by ``velocity``."""
+    """``kinetic``: the summand ½ m_i ⟨v_i, v_i⟩ on words, with v_i given by ``velocity``.
+
+    ``variation``: δ of the place of a point.
+    """
 
     kinetic: Expr
     v_i: Letter
     velocity: Expr
-    position: Expr
+    variation: Expr
     steps: tuple[Step, ...]
 
 
-def lagrangian(a: Alphabet, prefix: str) -> Lagrangian:
+def lagrangian(a: Alphabet, c: Chapter) -> Lagrangian:
     """L, and the points and velocities that an element of the group and a tangent vector give."""
     v_i = Letter("v_i", a.n)
+    first = c.draft("lagrangian", "definition")
     kinetic = Fraction(1, 2) * word(a.m_i) * inner(word(v_i), word(v_i))
-    position = a.moved(word(a.A.position), word(a.T.position))
+    acting = c.draft("action", "definition")
+    position = acting.said(a.moved(word(a.A.position), word(a.T.position)))
+    varied = c.draft("velocity", "variation")
     velocity = derivation(position, {p.position: word(p.velocity) for p in a.parts}.get)
     variation = derivation(position, {p.position: word(p.d_position) for p in a.parts}.get)
-    summand = indexed_tree(kinetic, v_i, a)
+    varied.read(velocity, variation)
     steps = (
-        Step(
-            f"{prefix}.lagrangian",
-            "definition",
-            (),
-            (Equation("L", add(("sum", "i", summand), neg("U"))),),
+        first.step(
+            (Equation("L", add(("sum", "i", indexed_tree(kinetic, v_i, a)), neg("U"))),),
             say(
                 "A body is made of points r_i of mass m_i, which have the velocities v_i in "
                 "space. Its Lagrangian is the kinetic energy less the potential."
             ),
             (3,),
         ),
-        Step(
-            f"{prefix}.action",
-            "definition",
-            (),
+        acting.step(
             (Equation(POINT, indexed_tree(position, v_i, a)),),
             _moved(a),
             (7, 8),
         ),
-        Step(
-            f"{prefix}.velocity",
-            "variation",
-            (f"{prefix}.action",),
+        varied.step(
             (
                 Equation(("at", "v", "i"), indexed_tree(velocity, v_i, a)),
                 Equation(("call", "δ", POINT), indexed_tree(variation, v_i, a)),
@@ -72,7 +70,9 @@ def lagrangian(a: Alphabet, prefix: str) -> Lagrangian:
             (9, 10, 14),
         ),
     )
-    return Lagrangian(kinetic, v_i, velocity, position, steps)
+    return Lagrangian(
+        first.said(kinetic), v_i, varied.said(velocity), varied.said(variation), steps
+    )
 
 
 def _moved(a: Alphabet) -> Prose:

@@ -12,10 +12,11 @@ from ..algebra.words import Expr, Letter, inner, word
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
-from .cartan import rates
 from .chapter import Chapter
 from .inverse import inverse_letter
+from .supposed import told
 from .translation import Centred
+from .trivialisation import rates
 
 RATE = Letter("ζ̇_b")
 
@@ -23,49 +24,47 @@ RATE = Letter("ζ̇_b")
 def mass_steps(
     inertial: Expr,
     force: Expr,
+    place: Step,
     b: Alphabet,
-    uses: str,
     c: Chapter,
     centred: Centred | None = None,
 ) -> tuple[Step, ...]:
-    """M, β and the solved equations from  inertial = Tr ξ′ force‾  for every ξ′ in 𝔤."""
+    """M, β and the solved equations from  inertial = Tr ξ′ force‾  for every ξ′ in 𝔤.
+
+    ``place``: the step of the coordinates, Ż = Σ ζ̇_b E_b.
+    """
+    weighing, solving = c.draft("mass", "coordinates"), c.draft("motion", "solution")
     E_a, E_b = _member("a", b), _member("b", b)
     display: dict[Letter, Tree] = {E_a: ("at", "E", "a"), E_b: ("at", "E", "b")}
     notation = Notation(display=display)
-    along = {b.Z.xi_prime: word(E_a), b.Z.acceleration: word(RATE) * word(E_b)}
+    rate = (word(RATE) * word(E_b)).marked(place.label)
+    along = {b.Z.xi_prime: word(E_a), b.Z.acceleration: rate}
     mass = gradient(substitute(inertial, along), RATE)
     rest = force - gradient(without(inertial, b.Z.acceleration), b.Z.xi_prime)
     lighter = Notation(display={inverse_letter(b.m): ("inv", "m")})
+    if centred:
+        solving.read(*centred.steps)
     translation = (Equation("ẇ", centred.acceleration),) if centred else ()
     load = inner(word(E_a), word(Letter("B", b.n, b.n)))
     row: Tree = ("mul", ("entry", "M", "a", "b"), ("entry", "ζ̇", "b"))
-    return (
-        c.step(
-            "mass",
-            "coordinates",
-            f"{uses} coordinates",
-            (
-                Equation(("entry", "M", "a", "b"), tree_of(mass, notation)),
-                Equation("B", tree_of(rest, lighter)),
-                Equation(("entry", "β", "a"), tree_of(load, notation)),
-                Equation(("sum", "b", row), ("entry", "β", "a")),
-            ),
-            say(
-                "For ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are linear in the ζ̇_b: M "
-                "is the mass matrix of the basis, β_a the load along E_a."
-            ),
+    mass_step = weighing.step(
+        (
+            Equation(("entry", "M", "a", "b"), weighing.tree(mass, notation)),
+            Equation("B", weighing.tree(rest, lighter)),
+            Equation(("entry", "β", "a"), tree_of(load, notation)),
+            Equation(("sum", "b", row), ("entry", "β", "a")),
         ),
-        c.step(
-            "motion",
-            "solution",
-            f"mass {uses}" if centred else "mass",
-            (*rates(b), Equation("ζ̇", ("mul", ("inv", "M"), "β")), *_whole(b), *translation),
-            say("The equations of motion of this problem.")
-            + say(
-                "M is invertible where no direction of the group leaves every mass in its place."
-            ),
+        say(
+            "For ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are linear in the ζ̇_b: M "
+            "is the mass matrix of the basis, β_a the load along E_a."
         ),
     )
+    solving.read(mass_step)
+    motion = solving.step(
+        (*rates(solving, b), Equation("ζ̇", ("mul", ("inv", "M"), "β")), *_whole(b), *translation),
+        say("The equations of motion of this problem.") + told("mass matrix", b.signed),
+    )
+    return mass_step, motion
 
 
 def _whole(b: Alphabet) -> list[Equation]:

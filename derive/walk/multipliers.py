@@ -12,17 +12,18 @@ from fractions import Fraction
 from ..algebra import rational as q
 from ..algebra.calculus import gradient, reduce, substitute, without
 from ..algebra.groups import Group
-from ..algebra.notation import Notation, tree_of
+from ..algebra.notation import Notation
 from ..algebra.tree import Tree, add
 from ..algebra.words import Expr, Factor, Letter, inner, number, one, word
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
-from .cartan import rates
 from .chapter import Chapter
 from .gather import terms_with
 from .inverse import cancelling, inverse_letter
+from .supposed import told
 from .translation import Centred
+from .trivialisation import gram, rates
 
 LAMBDA = Letter("λ")
 
@@ -33,41 +34,50 @@ def multiplier_steps(
     metric: Letter,
     group: Group,
     b: Alphabet,
-    uses: str,
     c: Chapter,
     centred: Centred | None = None,
 ) -> tuple[Step, ...]:
     """Ż and λ from  Tr ξ′ (residue − force)‾ = 0,  with J (or J_c) as ``metric``."""
     residue = gradient(inertial, b.Z.xi_prime)
     direction, letters, definition = _direction(group, b)
+    rule = "multiplier" if direction else "kernel"
+    balancing, solving = c.draft("multiplier", rule), c.draft("motion", "solution")
     pressed = word(LAMBDA) * direction if direction else force * 0
     lighter = Notation(display={inverse_letter(b.m): ("inv", "m")})
-    balance = Equation(tree_of(residue), add(tree_of(force, lighter), tree_of(pressed)))
+    balance = Equation(
+        balancing.tree(residue),
+        add(balancing.tree(force, lighter), balancing.tree(pressed)),
+        exists=(LAMBDA.name,) if direction else (),
+    )
     left, right = word(inverse_letter(b.C)), word(inverse_letter(metric))
-    free = reduce(left * (force + pressed - residue) * right, cancelling(b.C, metric))
+    open_balance = balancing.said(force + pressed - residue)
+    free = reduce(left * open_balance * right, cancelling(b.C, metric))
     solved = free + word(b.Z.acceleration)
     display = {inverse_letter(x): ("inv", x.name) for x in (b.C, metric, b.m)}
     notation = Notation(display=display)
-    equations = rates(b)
+    equations = rates(solving, b)
     if direction:
         numerator, denominator = _multiplier(solved, direction)
-        ratio: Tree = ("div", tree_of(numerator, notation), tree_of(denominator, notation))
+        if group.relations:
+            solving.read(number(1).marked(c.label("relation")))  # Tr Ż = 0
+        ratio: Tree = (
+            "div",
+            solving.tree(numerator, notation),
+            solving.tree(denominator, notation),
+        )
         equations.append(Equation("λ", ratio))
+    if centred:
+        solving.read(*centred.steps)
     translation = (Equation("ẇ", centred.acceleration),) if centred else ()
-    equations += [Equation("Ż", tree_of(solved, notation)), *translation]
-    prose = _prose(direction, letters)
-    space = _in_space(solved, centred.rate if centred else None, b, display, c)
-    rule = "multiplier" if direction else "kernel"
+    equations += [Equation("Ż", solving.tree(solved, notation)), *translation]
+    said = solving.said(solved)
     return (
-        c.step("multiplier", rule, uses, (*definition, balance), prose),
-        c.step(
-            "motion",
-            "solution",
-            f"multiplier {uses}" if translation else "multiplier",
+        balancing.step((*definition, balance), _prose(direction, letters)),
+        solving.step(
             equations,
-            _invertible(metric.name, affine=b.affine, multiplier=direction is not None),
+            _invertible(metric.name, b, multiplier=direction is not None),
         ),
-        space,
+        _in_space(said, solving.said(centred.rate) if centred else None, b, display, c),
     )
 
 
@@ -75,8 +85,10 @@ def _in_space(
     solved: Expr, drift: Expr | None, b: Alphabet, display: Mapping[Letter, Tree], c: Chapter
 ) -> Step:
     """α̇ = A(Ż + Z²) and τ̇ = A(ẇ + Zw), with C⁻¹ = A⁻¹Ā⁻¹: the point r has α̇r + τ̇."""
+    draft = c.draft("space", "solution")
     left, right = Letter("A⁻¹", b.n, b.n), Letter("Ā⁻¹", b.n, b.n)
     g, Z, within = b.A.position, word(b.Z.velocity), Letter("Y", b.n, b.n)
+    twice = gram(b)
 
     def rule(x: Factor, y: Factor) -> Expr | None:
         """Ā⁻¹Ā = 1, and AY = α̇ for Y = Ż + Z²."""
@@ -85,21 +97,18 @@ def _in_space(
         return b.unit if (x, y) == ((right, False), (g, True)) else None
 
     def carried(e: Expr) -> Expr:
-        inside = substitute(e, {inverse_letter(b.C): word(left) * word(right)})
+        inside = substitute(e, {inverse_letter(b.C): (word(left) * word(right)).of(twice)})
         return reduce(word(g) * inside, cancelling(g), rule)
 
     shown = {**display, left: ("inv", "A"), right: ("inv", ("T", "A"))}
     notation = Notation(display=shown)
     total = carried(solved + Z * Z)
-    equations = [Equation(b.A.acceleration.name, tree_of(total, notation))]
+    equations = [Equation(b.A.acceleration.name, draft.tree(total, notation))]
     if drift is not None:
         turning = {b.Z.acceleration: word(within) - Z * Z}
         pulled = carried(substitute(drift, turning) + Z * word(b.w.velocity))
-        equations.append(Equation(b.T.acceleration.name, tree_of(pulled, notation)))
-    return c.step(
-        "space",
-        "solution",
-        "motion .trivialisation",
+        equations.append(Equation(b.T.acceleration.name, draft.tree(pulled, notation)))
+    return draft.step(
         equations,
         say(
             "The same in space, by C⁻¹ = A⁻¹Ā⁻¹: A(Ż + Z²) is the acceleration of A, A(ẇ + Zw) "
@@ -147,27 +156,6 @@ def _prose(direction: Expr | None, letters: list[Letter]) -> Prose:
     )
 
 
-def _invertible(metric: str, *, affine: bool, multiplier: bool) -> Prose:
-    if affine and multiplier:
-        return say(
-            "The equations of motion of this problem: {metric} is invertible where the masses do "
-            "not lie in one hyperplane, and that Ż is in the Lie algebra gives λ.",
-            metric=metric,
-        )
-    if affine:
-        return say(
-            "The equations of motion of this problem: {metric} is invertible where the masses do "
-            "not lie in one hyperplane.",
-            metric=metric,
-        )
-    if multiplier:
-        return say(
-            "The equations of motion of this problem: {metric} is invertible where the masses span "
-            "the space, and that Ż is in the Lie algebra gives λ.",
-            metric=metric,
-        )
-    return say(
-        "The equations of motion of this problem: {metric} is invertible where the masses span the "
-        "space.",
-        metric=metric,
-    )
+def _invertible(metric: str, b: Alphabet, *, multiplier: bool) -> Prose:
+    maps = "affine maps" if b.affine else "maps"
+    return told(f"{maps} of a volume" if multiplier else maps, b.signed, metric=metric)

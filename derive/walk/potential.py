@@ -11,13 +11,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..algebra.calculus import derivation
-from ..algebra.notation import tree_of
 from ..algebra.tree import Tree, add, neg
 from ..algebra.words import Expr, Letter, inner, number, word
 from ..mechanics.problem import PointBody, Problem, Spring
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
+from .chapter import Chapter
 from .elements import column, elements
 from .lagrangian import POINT
 from .pullback import sum_over
@@ -35,12 +35,14 @@ class Potentials:
     work: Callable[[Expr, Expr | None], Expr]
 
 
-def potentials(
-    problem: Problem, a: Alphabet, prefix: str, general: str, scope: str, *, vectors: bool = False
-) -> Potentials:
-    """Ũ of the problem, with the vectors and matrices it needs."""
+def potentials(problem: Problem, a: Alphabet, c: Chapter, gram: Expr | None = None) -> Potentials:
+    """Ũ of the problem, with the vectors and matrices it needs.
+
+    ``gram``: ĀA = 1, where the forces are to be said in vectors.
+    """
+    draft = c.draft("potential", "pull-back")
     energy, definitions, over_points = _summed(problem, a)
-    found, forces = elements(problem), applied(a, "Q", vectors=vectors)
+    found, forces = elements(problem), applied(a, "Q", vectors=gram is not None)
     spread = problem.gravity is not None and not isinstance(problem.body, PointBody)
     spread = spread and problem.body is not None
     if found.energies:
@@ -49,23 +51,18 @@ def potentials(
         definitions += found.differences
         definitions.append(Equation("U_Q", add(*found.energies)))
     steps = [
-        Step(
-            f"{prefix}.potential",
-            "pull-back",
-            (f"{general}.action", f"{general}.moments"),
+        draft.step(
             (
                 *definitions,
                 Equation("U", add(*over_points)),
-                Equation("Ũ", tree_of(energy)),
+                Equation("Ũ", draft.tree(energy)),
             ),
             _prose(over_points, spread=spread, springs=bool(problem.springs)),
-            (),
-            scope,
         )
     ]
     if found.energies:
-        steps.append(pushes_step(found, forces, a, prefix, scope, vectors=vectors))
-    return Potentials(energy, tuple(steps), forces.work)
+        steps.append(pushes_step(found, forces, a, c, gram))
+    return Potentials(draft.said(energy), tuple(steps), forces.work)
 
 
 def _prose(over_points: list[Tree], *, spread: bool, springs: bool) -> Prose:
@@ -87,16 +84,21 @@ def _summed(problem: Problem, a: Alphabet) -> tuple[Expr, list[Equation], list[T
     energy, definitions, over_points = number(0), [], []
     gamma, K = Letter("γ", a.n), Letter("K", a.n, a.n, 1)
     if problem.gravity is not None:
-        position = a.moved(word(a.A.position), word(a.T.position))
+        general = Chapter(a.chapter)
+        position = a.moved(word(a.A.position), word(a.T.position)).marked(general.label("action"))
         summand = -word(a.m_i) * inner(word(gamma), position)
-        table = {(a.m_i,): word(a.m), (a.m_i, a.r_i): word(a.c)}
+        table = {
+            (a.m_i,): word(a.m).marked(general.label("moments")),
+            (a.m_i, a.r_i): word(a.c).marked(general.label("moments")),
+        }
         energy = energy + sum_over(summand, {a.m_i, a.r_i}, table)
         assert problem.group is not None
         definitions.append(Equation("γ", column(problem.group.in_every_block(problem.gravity))))
         over_points.append(neg(("sum", "i", ("mul", ("at", "m", "i"), ("inner", "γ", POINT)))))
     if problem.springs:
         k_e, s_e = Letter("k_e"), Letter("s_e", a.n)
-        stretched = word(a.A.position) * word(s_e)
+        turned = word(a.A.position).marked(Chapter(a.chapter).label("action"))
+        stretched = turned * word(s_e)
         summand = Fraction(1, 2) * word(k_e) * inner(stretched, stretched)
         energy = energy + sum_over(summand, {k_e, s_e}, {(k_e, s_e, s_e): word(K)})
         definitions += _springs(problem)

@@ -10,8 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..algebra.calculus import substitute
-from ..algebra.notation import metrics, tree_of
+from ..algebra.notation import metrics
 from ..algebra.tree import Tree, neg
 from ..algebra.words import (
     Expr,
@@ -26,10 +25,13 @@ from ..algebra.words import (
     transpose_word,
     word,
 )
+from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
+from .chapter import Chapter
 from .lagrangian import Lagrangian, kinetic_of_motion
+from .supposed import kinetic_metric, of_masses, told
 
 Moments = Mapping[tuple[Letter, ...], Expr]
 """Σ of a product of members: (m, r, r) ↦ Σ m_i r_i r̄_i, (F, r) ↦ Σ F_i r̄_i, (m,) ↦ Σ m_i, …"""
@@ -37,9 +39,15 @@ Moments = Mapping[tuple[Letter, ...], Expr]
 
 @dataclass(frozen=True)
 class Pullback:
-    """``kinetic``: the quadratic part of L̃ on words, so that L̃ = kinetic − Ũ."""
+    """``kinetic``: the quadratic part of L̃ on words, so that L̃ = kinetic − Ũ.
+
+    ``work``: −dŨ(δg), by the force on the group, or by the moments of forces for an affine action;
+    ``pushed``: by these always.
+    """
 
     kinetic: Expr
+    work: Expr
+    pushed: Expr
     steps: tuple[Step, ...]
 
 
@@ -48,7 +56,7 @@ def sum_over(e: Expr, members: set[Letter], moments: Moments) -> Expr:
 
     ``ValueError`` for a product of two moments; ``KeyError`` for a moment that is not in the table.
     """
-    total = number(0)
+    total = e.like({})
     for (traces, _), c in e.terms.items():
         term = number(c)
         weights: list[Letter] = []
@@ -83,87 +91,84 @@ def _moment(weights: tuple[Letter, ...], w: Word, members: set[Letter], moments:
     return sign * trace(expr_of_word(middle, x.rows, y.rows) * second)
 
 
-def pullback(stage: Lagrangian, a: Alphabet, prefix: str) -> Pullback:
+def pullback(stage: Lagrangian, a: Alphabet, c: Chapter) -> Pullback:
     """Put the motion into L and sum over the points; then the force on the group."""
-    table = {(a.m_i,): word(a.m), (a.m_i, a.r_i): word(a.c), (a.m_i, a.r_i, a.r_i): word(a.J)}
-    kinetic = sum_over(kinetic_of_motion(stage), {a.m_i, a.r_i}, table)
+    moments, definitions = _moments(a, c)
+    draft = c.draft("pullback", "pull-back")
+    kinetic = sum_over(kinetic_of_motion(stage), {a.m_i, a.r_i}, moments)
+    metric = kinetic_metric(kinetic, a)
     notations = (metrics(),) if a.affine else (metrics(), metrics("J"))
-    step = Step(
-        f"{prefix}.pullback",
-        "pull-back",
-        (f"{prefix}.lagrangian", f"{prefix}.velocity", f"{prefix}.moments"),
-        tuple(Equation("L̃", tree_of(kinetic - word(a.U), n)) for n in notations),
+    step = draft.step(
+        [Equation("L̃", draft.tree(kinetic - word(a.U), n)) for n in notations],
         say(
             "The Lagrangian is pulled back to the group: the velocities of the motion are put in "
             "and the sum over the points is carried out."
         )
-        + say(
-            "From here on the masses are positive and no tangent vector of the group but 0 "
-            "leaves all the points at rest: the kinetic energy is then half the square of a "
-            "norm, a metric on the group."
-        ),
+        + told("kinetic energy", a.signed),
         (11, 12, 13, 17) if a.affine else (11, 12, 13, 21, 22),
+        hypotheses=(*of_masses(a), metric),
     )
-    steps = [_moments(a, prefix), step, _force(stage, a, prefix)]
-    if not a.affine:
-        steps.append(_gradient(a, prefix))
-    return Pullback(kinetic, tuple(steps))
+    pushed, force = _force(stage, a, c)
+    steps = (definitions, step, force)
+    if a.affine:
+        return Pullback(draft.said(kinetic), pushed, pushed, steps)
+    work, gradient = _gradient(a, c, metric)
+    return Pullback(draft.said(kinetic), work, pushed, (*steps, gradient))
 
 
-def _moments(a: Alphabet, prefix: str) -> Step:
+def _moments(a: Alphabet, c: Chapter) -> tuple[Moments, Step]:
+    """m, c and J: the letters that the sums over the points become, and their definitions."""
     r_i: Tree = ("at", "r", "i")
     m_i: Tree = ("at", "m", "i")
-    equations = [
-        Equation("m", ("sum", "i", m_i)),
-        Equation("c", ("sum", "i", ("mul", m_i, r_i))),
-        Equation("J", ("sum", "i", ("mul", m_i, r_i, ("T", r_i)))),
-    ]
-    return Step(
-        f"{prefix}.moments",
-        "definition",
-        (),
-        tuple(equations),
+    draft = c.draft("moments", "definition")
+    step = draft.step(
+        (
+            Equation("m", ("sum", "i", m_i)),
+            Equation("c", ("sum", "i", ("mul", m_i, r_i))),
+            Equation("J", ("sum", "i", ("mul", m_i, r_i, ("T", r_i)))),
+        ),
         say(
             "The body enters the kinetic energy through its moments only: mass, first moment, "
             "matrix of moments."
         ),
         (18, 19),
     )
+    table = {(a.m_i,): a.m, (a.m_i, a.r_i): a.c, (a.m_i, a.r_i, a.r_i): a.J}
+    return {key: draft.said(word(x)) for key, x in table.items()}, step
 
 
-def _force(stage: Lagrangian, a: Alphabet, prefix: str) -> Step:
-    """dŨ by the forces on the points, F_i = −∂U/∂r_i: a sum like that of the moments."""
+def _force(stage: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Expr, Step]:
+    """−dŨ by the forces on the points, F_i = −∂U/∂r_i: a sum like that of the moments."""
     F_i = Letter("F_i", a.n)
-    varied = substitute(stage.position, {p.position: word(p.d_position) for p in a.parts})
     table = {(F_i, a.r_i): word(a.N), (F_i,): word(a.F)}
-    work = sum_over(inner(word(F_i), varied), {F_i, a.r_i}, table)
+    draft = c.draft("force", "pull-back")
+    work = sum_over(inner(word(F_i), stage.variation), {F_i, a.r_i}, table)
     pair: Tree = ("mul", ("at", "F", "i"), ("T", ("at", "r", "i")))
     definitions = [Equation("N", ("sum", "i", pair))]
     if a.affine:
         definitions.append(Equation("F", ("sum", "i", ("at", "F", "i"))))
     variations = tuple(p.d_position.name for p in a.parts)
-    return Step(
-        f"{prefix}.force",
-        "pull-back",
-        (f"{prefix}.lagrangian", f"{prefix}.velocity"),
-        (*definitions, Equation(("call", "dŨ", *variations), tree_of(-work))),
+    step = draft.step(
+        (*definitions, Equation(("call", "dŨ", *variations), draft.tree(-work))),
         say(
             "The forces F_i, opposite to the derivatives of U with respect to the places "
             "r_i(t) in space, act on the group through their moments."
         ),
         (2,),
     )
+    return draft.said(work), step
 
 
-def _gradient(a: Alphabet, prefix: str) -> Step:
+def _gradient(a: Alphabet, c: Chapter, metric: Hypothesis) -> tuple[Expr, Step]:
+    """−dŨ by the force on the group."""
+    draft = c.draft("gradient", "definition")
     pairing = inner(word(a.F_group), word(a.A.d_position), word(a.J))
-    return Step(
-        f"{prefix}.gradient",
-        "definition",
-        (f"{prefix}.force",),
-        (Equation(tree_of(pairing, metrics("J")), neg(("call", "dŨ", "δA")), ("δA",)),),
+    step = draft.step(
+        (Equation(draft.tree(pairing, metrics("J")), neg(("call", "dŨ", "δA")), ("δA",)),),
         say(
             "The force F̃, tangent to the group, is the opposite of the gradient of Ũ in the metric."
         ),
         (24,),
+        hypotheses=(metric,),
     )
+    return draft.said(pairing), step

@@ -13,8 +13,9 @@ from ..mechanics.problem import Problem
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
-from .cartan import frame_rule
+from .chapter import Chapter, Draft
 from .elements import Elements, Radial, column, embedded
+from .trivialisation import frame_rule
 from .vector import OMEGA_P, isolate
 
 
@@ -38,14 +39,14 @@ def applied(a: Alphabet, mark: str, *, vectors: bool) -> Applied:
 
 
 def pushes_step(
-    found: Elements, forces: Applied, a: Alphabet, prefix: str, scope: str, *, vectors: bool
+    found: Elements, forces: Applied, a: Alphabet, c: Chapter, gram: Expr | None
 ) -> Step:
     """The tensions, the forces and their sums: in the body frame where ĀA = 1 is at hand."""
-    equations = _in_body(found, a) if vectors else _in_space(found)
-    prose = _prose(vectors=vectors, radials=bool(found.radials))
-    uses = (f"{prefix}.potential", *((f"{prefix}.relation",) if vectors else ()))
-    sums = tuple(_sums_over_points(a, forces, vectors=vectors))
-    return Step(f"{prefix}.pushes", "variation", uses, (*equations, *sums), prose, (), scope)
+    draft = c.draft("pushes", "variation")
+    equations = _in_space(found) if gram is None else _in_body(draft, found, a, gram)
+    prose = _prose(vectors=gram is not None, radials=bool(found.radials))
+    sums = _sums_over_points(draft, a, forces, gram)
+    return draft.step((*equations, *sums), prose)
 
 
 def _prose(*, vectors: bool, radials: bool) -> Prose:
@@ -90,13 +91,13 @@ def _placed(problem: Problem, i: int, sigma: Tree, d: Tree, sign: int) -> Tree:
     return embedded(problem, i, entries, 0)
 
 
-def _in_body(found: Elements, a: Alphabet) -> list[Equation]:
+def _in_body(d: Draft, found: Elements, a: Alphabet, gram: Expr) -> list[Equation]:
     """χ_e = Ād_e, σ_e and P_i = Σ ± σ_e χ_e − Ā ∂U/∂r_i(t)."""
     equations = []
     terms: dict[int, list[Tree]] = {}
     for x in found.radials:
         chi: Tree = ("at", "χ", x.d[2])  # type: ignore[index]
-        equations.append(Equation(chi, _carried(x, a)))
+        equations.append(Equation(chi, _carried(d, x, a, gram)))
         equations.append(Equation(x.sigma, replaced(x.tension, x.d, chi)))
         for i, sign in x.signs.items():
             terms.setdefault(i, []).append(mul(sign, x.sigma, chi))
@@ -105,7 +106,7 @@ def _in_body(found: Elements, a: Alphabet) -> list[Equation]:
     return equations + [Equation(("at", "P", i), add(*x)) for i, x in sorted(terms.items())]
 
 
-def _carried(x: Radial, a: Alphabet) -> Tree:
+def _carried(d: Draft, x: Radial, a: Alphabet, gram: Expr) -> Tree:
     """Ād_e: the places in the body, by ĀA = 1, and Ā on what is in space."""
     g, total = word(a.A.position), zero(a.n, 1)
     display: dict[Letter, Tree] = {}
@@ -121,25 +122,27 @@ def _carried(x: Radial, a: Alphabet) -> Tree:
         display[anchor] = column(x.anchor)
         outside = outside - word(anchor)
     notation = Notation(display=display)
-    body = tree_of(reduce(g.bar * inside, frame_rule(a, a.unit)), notation)
+    body = d.tree(reduce(g.bar * inside, frame_rule(a, gram)), notation)
     return add(body, mul(("T", "A"), tree_of(outside, notation)) if outside else 0)
 
 
-def _sums_over_points(a: Alphabet, forces: Applied, *, vectors: bool) -> list[Equation]:
+def _sums_over_points(d: Draft, a: Alphabet, forces: Applied, gram: Expr | None) -> list[Equation]:
     """N_Q = Σ ĀQ_i r̄_i and F_Q = Σ ĀQ_i, or μ_Q = Σ r_i ∧ P_i and F_Q = Σ P_i with AP_i = Q_i."""
+    vectors = gram is not None
     push, xi = Letter("P_i" if vectors else "Q_i", a.n), Letter("ξ′", a.n, a.n)
     eta = Letter("η′", a.n)
     g = word(a.A.position)
-    rule = frame_rule(a, a.unit)
-    force = reduce(g.bar * g * word(push), rule) if vectors else g.bar * word(push)
+    force = g.bar * word(push)
+    if gram is not None:
+        force = reduce(g.bar * g * word(push), frame_rule(a, gram))
     turned = word(hat(OMEGA_P)) if vectors else word(xi)
     work = inner(force, turned * word(a.r_i))
     if vectors:
         work = reduce(work, isolate(OMEGA_P))
     moment = gradient(work, OMEGA_P if vectors else xi)
     display = metrics(display={push: ("at", push.name[0], "i"), a.r_i: ("at", "r", "i")})
-    equations = [Equation(forces.moments.name, ("sum", "i", tree_of(moment, display)))]
+    equations = [Equation(forces.moments.name, ("sum", "i", d.tree(moment, display)))]
     if a.affine:
         pull = gradient(inner(force, word(eta)), eta)
-        equations.append(Equation(forces.resultant.name, ("sum", "i", tree_of(pull, display))))
+        equations.append(Equation(forces.resultant.name, ("sum", "i", d.tree(pull, display))))
     return equations

@@ -7,7 +7,7 @@ separates where the potential is one as well.
 from __future__ import annotations
 
 from ..algebra.calculus import substitute
-from ..algebra.notation import Notation, tree_of
+from ..algebra.notation import Notation
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, word
 from ..mechanics.problem import Problem, Spring
@@ -25,8 +25,8 @@ def _notation(a: Alphabet) -> Notation:
     return Notation(display={inverse_letter(a.m): ("inv", "m")})
 
 
-def _centred(e: Expr, a: Alphabet) -> Expr:
-    """An expression with T and τ by the centre of mass R, Ṙ, and J by J_c."""
+def _centred(e: Expr, a: Alphabet, mark: str = "") -> Expr:
+    """An expression with T and τ by the centre of mass R, Ṙ, and J by J_c; ``mark``: said where."""
     moment, value = central_moments(a)
     lighter, first = word(inverse_letter(a.m)), word(a.c)
     place, rate = Letter("R", a.n), Letter("Ṙ", a.n)
@@ -35,22 +35,22 @@ def _centred(e: Expr, a: Alphabet) -> Expr:
         a.T.velocity: word(rate) - lighter * word(a.A.velocity) * first,
         a.J: word(moment) + word(a.J) - value,
     }
+    if mark:
+        images = {x: y.marked(mark) for x, y in images.items()}
     return cancel_scalar(substitute(e, images), a.m)
 
 
-def kinetic_separation(kinetic: Expr, a: Alphabet, prefix: str) -> Step:
+def kinetic_separation(kinetic: Expr, a: Alphabet, c: Chapter) -> Step:
     """L̃ by the centre of mass: no term has both α and Ṙ."""
+    draft = c.draft("separation", "identification")
     lighter: Tree = ("inv", "m")
     equations = (
         Equation("R", ("add", "T", ("mul", lighter, "A", "c"))),
         Equation("Ṙ", ("add", "τ", ("mul", lighter, "α", "c"))),
-        Equation("J_c", tree_of(central_moments(a)[1], _notation(a))),
-        Equation("L̃", tree_of(_centred(kinetic, a) - word(a.U), _notation(a))),
+        Equation("J_c", draft.tree(central_moments(a)[1], _notation(a))),
+        Equation("L̃", draft.tree(_centred(kinetic, a) - word(a.U), _notation(a))),
     )
-    return Step(
-        f"{prefix}.separation",
-        "identification",
-        (f"{prefix}.pullback", f"{prefix}.moments"),
+    return draft.step(
         equations,
         say(
             "With the centre of mass R in place of T the kinetic energy is that of the linear part "
@@ -67,15 +67,15 @@ def potential_separation(
     problem: Problem, v: Potentials, b: Alphabet, c: Chapter
 ) -> tuple[Step, ...]:
     """Ũ by the centre of mass, and whether the motion of this problem separates."""
-    energy = _centred(v.energy, b)
+    draft = c.draft("separation", "identification")
+    energy = _centred(v.energy, b, Chapter(b.chapter).label("separation"))
     place = Letter("R", b.n)
     terms = [{x for cycle in (*traces, w) for x, _ in cycle} for traces, w in energy.terms]
     inside = all(isinstance(p, Spring) and p.between[1] is not None for p in problem.elements)
     both = any({place, b.A.position} <= letters for letters in terms)
     rest = any(U_Q not in letters for letters in terms) and not both
     prose = _prose(problem, decided=inside and not both, rest=rest)
-    equation = Equation("Ũ", tree_of(energy, _notation(b)))
-    return (c.step("separation", "identification", "potential .separation", (equation,), prose),)
+    return (draft.step((Equation("Ũ", draft.tree(energy, _notation(b))),), prose),)
 
 
 def _prose(problem: Problem, *, decided: bool, rest: bool) -> Prose:

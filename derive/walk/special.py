@@ -6,38 +6,43 @@ more: where Z is skew, C = 1; where its trace vanishes, so do those of ξ and Ż
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from ..algebra import forms
 from ..algebra.calculus import Image, gradient, reduce, substitute, without
 from ..algebra.groups import Group
-from ..algebra.notation import Notation, tree_of
+from ..algebra.notation import Notation
 from ..algebra.tree import Tree
-from ..algebra.words import Expr, Letter, word
+from ..algebra.words import Expr, Letter, inner, number, word
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
-from .cartan import Cartan, form_equation, frame_rule
-from .chapter import Chapter
-from .exterior import DOMEGA, Exterior, primes, structure, trivial_variations
+from .cartan import Cartan, form_equation
+from .chapter import Chapter, Draft
+from .coadjoint import coadjoint_steps
+from .contraction import Contraction
+from .exterior import DOMEGA, Exterior, brackets_of, primes, trivial_variations
 from .gather import gathered, terms_with
-from .kernel import Kernel
+from .kernel import balanced
+from .momentum import Momenta
 from .potential import U_Q, Potentials, virtual_work
+from .trivialisation import frame_rule, gram, rates
 
 
 @dataclass(frozen=True)
 class General:
     """What is known of every group of one action: letters, trivialised forms, kernel.
 
-    ``momentum``: p̃(δg) in space.
+    ``momentum``: p̃(δg) in space; ``pushed``: −dŨ(δg) by the moments of forces.
     """
 
-    name: str
     letters: Alphabet
     momentum: Expr
+    pushed: Expr
     cartan: Cartan
     exterior: Exterior
-    kernel: Kernel
+    momenta: Momenta
     steps: tuple[Step, ...]
 
 
@@ -62,41 +67,60 @@ class Special:
         return replace(self, forces={x: e + more[x] for x, e in self.forces.items()})
 
 
-def letters_of(group: Group) -> Alphabet:
-    """The alphabet of a group: skew or traceless letters where its relations say so."""
+def letters_of(group: Group, *, signed: bool) -> Alphabet:
+    """The alphabet of a group: skew or traceless letters where its relations say so.
+
+    ``signed``: masses may be negative.
+    """
     skew = "orthogonal" in group.relations
     traceless = "unimodular" in group.relations and not skew
-    return Alphabet(group.n, affine=group.affine, skew=skew, traceless=traceless)
+    known = {"skew": skew, "traceless": traceless, "signed": signed}
+    return Alphabet(group.n, affine=group.affine, **known)
 
 
 def specialise(road: General, group: Group, v: Potentials, c: Chapter) -> Special:
     """The forms, forces and energy of a problem."""
-    a, b = road.letters, letters_of(group)
-    free = b.freed()
-    gram = b.unit if "orthogonal" in group.relations else word(b.C)
-    carried = frame_rule(b, gram)
+    b = letters_of(group, signed=road.letters.signed)
+    plain = Alphabet(group.n, affine=group.affine, signed=b.signed)
+    free, turned = b.freed(), "orthogonal" in group.relations
+    whole = b.unit.marked(c.label("relation")) if turned else gram(b)
+    carried = frame_rule(b, whole)
+
+    def restricted(e: Expr, letters: Alphabet = plain) -> Expr:
+        """An expression about any group on this one, where C may be 1."""
+        found = letters.respell(e, whole)
+        return found.of(whole) if turned else found
+
     eta = word(b.w.xi_prime) if b.affine else None
     virtual = virtual_work(v, b, word(free.Z.xi_prime), eta)
     primed = [f.xi_prime for f in free.frames]
     forces = {x: reduce(gradient(virtual, x), carried) for x in primed}
-    energy = substitute(b.respell(road.cartan.energy, gram), {b.U: reduce(v.energy, carried)})
-    form = Cartan(b.respell(road.cartan.momentum, gram), energy, ())
-    kernel = without(road.kernel.form, a.dpt, a.f, a.N_body, a.F_body)
-    inertial = free.respell(kernel, gram)
+    potential = {plain.U: reduce(v.energy, frame_rule(plain, gram(plain)))}
+    energy = substitute(plain.respell(road.cartan.energy), potential)
+    momentum = plain.respell(road.cartan.momentum)
+    pushing, weighing = c.draft("force", "variation"), c.draft("energy", "pull-back")
+    pushes = _forces(forces, pushing)
+    said = {x: pushing.said(e).of(road.pushed) for x, e in forces.items()}
+    contraction, formed = _forms(momentum, energy, road.exterior, v, plain, restricted, c)
+    inertial, motion = _kernel(contraction, [*said.values()], plain, c)
     steps = (
         *_relation(group, c),
         *v.steps,
-        *_forms(form, road.exterior, v, b, gram, c),
-        _forces(forces, c),
+        *formed,
+        *(coadjoint_steps(road.momenta, b, whole, c) if turns_whole(group) else ()),
+        pushes,
+        motion,
     )
-    last = c.step(
-        "energy",
-        "pull-back",
-        ".cartan_trivialised potential",
-        (Equation("h̃", tree_of(energy)),),
-        say("The energy of this problem."),
+    last = weighing.step(
+        (Equation("h̃", weighing.tree(restricted(energy))),), say("The energy of this problem.")
     )
-    return Special(free, gram, inertial, forces, steps, (last,))
+    return Special(free, whole, free.respell(inertial), said, steps, (last,))
+
+
+def turns_whole(group: Group) -> bool:
+    """Are the linear parts all skew matrices, so that a skew coefficient of ξ′ vanishes?"""
+    n = group.n
+    return "orthogonal" in group.relations and len(group.linear_basis) == n * (n - 1) // 2 > 0
 
 
 def _relation(group: Group, c: Chapter) -> tuple[Step, ...]:
@@ -112,8 +136,7 @@ def _relation(group: Group, c: Chapter) -> tuple[Step, ...]:
     else:
         return ()
     equations = tuple(Equation(*claim) for claim in claims)
-    prose = _kept(group) + _smaller(group)
-    return (c.step("relation", "relation", ".trivialisation", equations, prose),)
+    return (c.draft("relation", "relation").step(equations, _kept(group) + _smaller(group)),)
 
 
 def _smaller(group: Group) -> Prose:
@@ -159,39 +182,75 @@ def _kept(group: Group) -> Prose:
 
 
 def _forms(
-    form: Cartan, exterior: Exterior, v: Potentials, b: Alphabet, gram: Expr, c: Chapter
-) -> tuple[Step, Step]:
-    """ϖ and dϖ with the potential of the problem, whose variation is that of the group."""
-    brackets, _ = structure(b, c.name)
-    delta, delta_prime = trivial_variations(b, brackets, (frame_rule(b, gram),))
-    etas = (word(b.w.xi), word(b.w.xi_prime)) if b.affine else (None, None)
-    pushed = [v.work(word(x), y) for x, y in zip((b.Z.xi, b.Z.xi_prime), etas, strict=True)]
-    delta = _with(delta, word(b.dU_dt) * word(b.dt) - pushed[0])
-    delta_prime = _with(delta_prime, word(b.dU_dt) * word(b.dpt) - pushed[1])
-    domega = forms.exterior(form.form(b), primes(b), delta, delta_prime)
-    domega = reduce(domega, frame_rule(b, gram))
-    letters = b.letters()
-    images = {letters[x.name]: without(b.respell(y), b.f) for x, y in exterior.images.items()}
-    moving = [x for f in b.frames for x in (f.d_velocity, f.dp_velocity)]
-    core = terms_with(without(domega, b.dt, b.dpt), *moving)
-    if gram == b.unit:  # where C drops out the terms ξZ of the images are gone
-        images = {x: _without_products(y) for x, y in images.items()}
-    return (
-        c.step(
-            "cartan",
-            "relation",
-            ".cartan_trivialised potential",
-            (form_equation(form.momentum, form.energy, Notation()),),
+    momentum: Expr,
+    energy: Expr,
+    exterior: Exterior,
+    v: Potentials,
+    a: Alphabet,
+    restricted: Callable[[Expr], Expr],
+    c: Chapter,
+) -> tuple[Contraction, tuple[Step, Step]]:
+    """ϖ and dϖ with the potential of the problem, whose variation is that of the group.
+
+    They are varied with C, which is restricted to the group afterwards.
+    """
+    writing, varying = c.draft("cartan", "relation"), c.draft("exterior", "exterior derivative")
+    form = writing.said(momentum - energy * word(a.dt))
+    delta, delta_prime = trivial_variations(a, brackets_of(a), number(0))
+    etas = (word(a.w.xi), word(a.w.xi_prime)) if a.affine else (None, None)
+    pushed = [v.work(word(x), y) for x, y in zip((a.Z.xi, a.Z.xi_prime), etas, strict=True)]
+    delta = _with(delta, word(a.dU_dt) * word(a.dt) - pushed[0])
+    delta_prime = _with(delta_prime, word(a.dU_dt) * word(a.dpt) - pushed[1])
+    varied = forms.exterior(form, primes(a), delta, delta_prime)
+    domega = restricted(reduce(varied, frame_rule(a, gram(a))))
+    letters = a.letters()
+    images = {letters[x.name]: without(a.respell(y), a.f) for x, y in exterior.images.items()}
+    moving = [x for f in a.frames for x in (f.d_velocity, f.dp_velocity)]
+    core = terms_with(without(domega, a.dt, a.dpt), *moving)
+    steps = (
+        writing.step(
+            (form_equation(writing, restricted(momentum), restricted(energy), Notation()),),
             say("The Cartan form of this problem."),
         ),
-        c.step(
-            "exterior",
-            "exterior derivative",
-            "cartan .structure .trivialisation",
-            (Equation(DOMEGA, gathered(domega, core, images, Notation())),),
+        varying.step(
+            (Equation(DOMEGA, gathered(varying, domega, core, images, Notation())),),
             say("Its exterior derivative."),
         ),
     )
+    found = Chapter(a.chapter).label("second_order_trivialised")
+    return (
+        Contraction(
+            varying.said(domega),
+            core,
+            {x: varying.said(y) for x, y in images.items()},
+            {f.xi: word(f.velocity).marked(found) for f in a.frames},
+            {f.d_velocity: f.acceleration for f in a.frames},
+            tuple(f.dp_velocity for f in a.frames),
+            (a.dt, a.dpt),
+            Notation(),
+        ),
+        steps,
+    )
+
+
+def _kernel(
+    contraction: Contraction, forces: list[Expr], a: Alphabet, c: Chapter
+) -> tuple[Expr, Step]:
+    """dϖ(X, δ′) = 0 for X with the velocity of the motion; also without the work of the forces."""
+    draft = c.draft("kernel", "kernel")
+    tested = [f.xi_prime for f in a.frames]
+    pairs = zip(forces, tested, strict=True)
+    work = sum((inner(e, word(x)) for e, x in pairs), number(0))
+    inertial, shown = balanced(draft, contraction, work, a)
+    step = draft.step(
+        (*rates(draft, a), Equation(shown, draft.tree(work), tuple(x.name for x in tested))),
+        say(
+            "X is in the kernel if and only if dϖ(X, δ′y) vanishes for every {variation} of the "
+            "Lie algebra, with the work of the forces on the right.",
+            variation="(ξ′, η′)" if a.affine else "ξ′",
+        ),
+    )
+    return draft.said(inertial), step
 
 
 def _with(delta: Image, varied: Expr) -> Image:
@@ -199,18 +258,10 @@ def _with(delta: Image, varied: Expr) -> Image:
     return lambda x: varied if x == U_Q else delta(x)
 
 
-def _without_products(e: Expr) -> Expr:
-    """The terms of an image that are single letters, times δt."""
-    return Expr(e.rows, e.cols, {k: c for k, c in e.terms.items() if len(k[1]) == 1})
-
-
-def _forces(forces: dict[Letter, Expr], c: Chapter) -> Step:
+def _forces(forces: dict[Letter, Expr], d: Draft) -> Step:
     sides: list[Tree] = [("mul", ("T", "A"), "N"), ("mul", ("T", "A"), "F")]
-    return c.step(
-        "force",
-        "variation",
-        "potential .trivialisation .force",
-        (Equation(x, tree_of(e)) for x, e in zip(sides, forces.values(), strict=False)),
+    return d.step(
+        (Equation(x, d.tree(e)) for x, e in zip(sides, forces.values(), strict=False)),
         say(
             "The moments of this problem's forces in the body: the potential is varied over all "
             "matrices δA, of which those of the group are a part."

@@ -9,15 +9,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, reduce, substitute, without
-from ..algebra.notation import Notation, tree_of
+from ..algebra.notation import Notation
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, inner, word
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .inverse import cancel_scalar, cancelling, inverse_letter
 from .special import Special
+from .supposed import told
 
 
 @dataclass(frozen=True)
@@ -41,9 +41,9 @@ def central_moments(b: Alphabet) -> tuple[Letter, Expr]:
     return Letter("J_c", b.n, b.n, 1), word(b.J) - word(inverse_letter(b.m)) * first * first.bar
 
 
-def eliminate_translation(stage: Special, uses: str, c: Chapter) -> Centred:
+def eliminate_translation(stage: Special, c: Chapter) -> Centred:
     """Solve for ẇ; then the equations of the linear parts."""
-    b = stage.letters
+    b, draft = stage.letters, c.draft("elimination", "elimination")
     xi, eta, w_dot = b.Z.xi_prime, b.w.xi_prime, b.w.acceleration
     cancel = cancelling(b.C)
     display: dict[Letter, Tree] = {inverse_letter(x): ("inv", x.name) for x in (b.C, b.m)}
@@ -66,31 +66,25 @@ def eliminate_translation(stage: Special, uses: str, c: Chapter) -> Centred:
     remaining = substitute(without(stage.inertial, eta), {w_dot: -free})
     remaining = remaining - inner(stage.forces[xi], word(xi))
     remaining = tidy(substitute(remaining, {b.J: word(metric) + word(b.J) - value}))
-    inertial = Expr(1, 1, {k: c for k, c in remaining.terms.items() if _has(k, metric)})
+    inertial = remaining.like({k: x for k, x in remaining.terms.items() if _has(k, metric)})
     force = gradient(inertial - remaining, xi)
     force = tidy(substitute(force, {b.c: word(b.m) * word(centre)}))
-    solved = tree_of(tidy(substitute(-free, from_centre)), notation)
+    solved = draft.tree(tidy(substitute(-free, from_centre)), notation)
     pairing = inner(word(Letter("N_c", b.n, b.n)), word(xi))
-    step = c.step(
-        "elimination",
-        "elimination",
-        uses,
+    step = draft.step(
         (
-            Equation("r_c", tree_of(word(inverse_letter(b.m)) * word(b.c), notation)),
-            Equation("w_c", tree_of(velocity, notation)),
+            Equation("r_c", draft.tree(word(inverse_letter(b.m)) * word(b.c), notation)),
+            Equation("w_c", draft.tree(velocity, notation)),
             Equation("ẇ", solved),
-            Equation("J_c", tree_of(value, notation)),
-            Equation("N_c", tree_of(force, notation)),
-            Equation(tree_of(inertial), tree_of(pairing), (xi.name,)),
+            Equation("J_c", draft.tree(value, notation)),
+            Equation("N_c", draft.tree(force, notation)),
+            Equation(draft.tree(inertial), draft.tree(pairing), (xi.name,)),
         ),
-        say(
-            "As the group has every translation, the coefficient of η′ gives ẇ; put into that of "
-            "ξ′, it leaves the equations of the linear parts about the centre of mass r_c, with "
-            "the moments of masses and forces about it; here ξ′ runs over the linear parts of 𝔤."
-        ),
+        told("mass of a map", b.signed),
     )
     rate = tidy(substitute(-free, {b.c: from_centre[b.c]}))
-    return Centred(inertial, force, metric, solved, rate, (step,))
+    left_over, pushed = draft.said(inertial), draft.said(force)
+    return Centred(left_over, pushed, metric, solved, draft.said(rate), (step,))
 
 
 def _has(key: tuple[tuple[tuple[tuple[Letter, bool], ...], ...], object], x: Letter) -> bool:

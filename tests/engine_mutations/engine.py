@@ -24,6 +24,9 @@ from tests.engine_mutations.jobs import Job
 from tests.engine_mutations.operators import Mutant
 from tests.test_layers import ROOT, imported
 
+SEED = 20
+"""Of the checker: the same changes get the same verdicts."""
+
 SECONDS, MEMORY = 20, 4 << 30
 """What one job may take of the processor, and one engine of memory."""
 REFUSALS = (
@@ -211,7 +214,7 @@ def serve(mutant: Mutant, graph: dict[str, set[str]], connection: Any) -> None:
 
 def refuses(job: Job, output: Output, labels: list[str]) -> bool:
     """Does this process refuse one of these steps, or the code, or break on it, or hang?"""
-    from derive.record.check import Checker
+    from derive.check.checker import Checker
     from derive.record.record import from_json
 
     try:
@@ -219,7 +222,7 @@ def refuses(job: Job, output: Output, labels: list[str]) -> bool:
             d = from_json(output.record)
             if not labels:
                 return any(not r.holds for r in read_back(job, output))
-            checker = Checker(d.problem)
+            checker = Checker(d.problem, SEED)
             return not all(checker.check(s).holds for s in d.steps if s.label in labels)
     except (Exception, OutOfTimeError):
         return True

@@ -14,11 +14,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from derive.algebra.tree import mul
-from derive.record.check import Checker
-from derive.record.introduced import unexplained
+from derive.check.checker import Checker
+from derive.check.introduced import unexplained
 from derive.record.record import Derivation, RecordError, Step, from_json
 from derive.record.vocabulary import ANY_GROUP
-from tests.engine_mutations.engine import Output, produce, read_back
+from tests.engine_mutations.engine import SEED, Output, produce, read_back
 from tests.engine_mutations.jobs import JOBS, Job
 from tests.oracles import general, relative_error
 from tests.test_frame import loose
@@ -36,7 +36,7 @@ class Verdict(NamedTuple):
     why: str = ""
 
 
-ANOTHER = "a group of another basis"
+ANOTHER = "a_group_of_another_basis"
 LATE = "no verdict in time"
 CAUGHT = ("crashed", "refused", "time", "refusal", "checker", "oracle", "validator")
 HARMLESS = ("same", "words", "code", "equations", "less")
@@ -47,7 +47,7 @@ of them proved; fewer of them, and the code is right."""
 @cache
 def of_any_group(action: str) -> Checker:
     """Claims about any group are about no problem: one checker for all of them."""
-    return Checker({"group": "any group", "action": action})
+    return Checker({"group": "any group", "action": action}, SEED)
 
 
 def refused(step: Step, own: Checker) -> str:
@@ -59,7 +59,7 @@ def refused(step: Step, own: Checker) -> str:
 
 def claims(step: Step) -> tuple[Any, ...]:
     """What a step says, but for its words and what it refers to."""
-    return step.label, step.scope, step.given, step.equations
+    return step.label, step.scope, step.given, step.driven, step.hypotheses, step.equations
 
 
 def changed_steps(new: Derivation, old: Derivation) -> list[Step]:
@@ -129,7 +129,7 @@ def equations(new: Output, old: Output) -> Verdict:
         d, right = from_json(new.record), from_json(old.record)
     except RecordError as error:
         return Verdict("checker", str(error))
-    own, steps = Checker(d.problem), changed_steps(d, right)
+    own, steps = Checker(d.problem, SEED), changed_steps(d, right)
     try:
         for step in steps:
             if why := refused(step, own):
@@ -158,8 +158,8 @@ def less(d: Derivation, right: Derivation, steps: list[Step], own: Checker) -> s
         old = before.get(step.label)
         if old is None:
             continue
-        if more := {*step.given} - {*old.given}:
-            return f"{step.label}: given {', '.join(more)}"
+        if {*step.given} - {*old.given} or {*step.hypotheses} - {*old.hypotheses}:
+            return f"{step.label}: it supposes more"
         if len(step.equations) < len(old.equations):
             return f"{step.label}: fewer equations"
         if idle(step, own) > idle(old, own):

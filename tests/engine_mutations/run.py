@@ -57,7 +57,7 @@ class Survey:
     def __init__(self, modules: Sequence[str], jobs: Sequence[Job]):
         self.jobs = jobs
         self.graph = imports()
-        self.shared = {str(p.relative_to(ROOT)) for p in imported(ROOT / "record" / "check.py")}
+        self.shared = {str(p.relative_to(ROOT)) for p in imported(ROOT / "check" / "checker.py")}
         self.outputs: list[Output] = [attempted(job) for job in jobs]
         for job, output in zip(jobs, self.outputs, strict=True):
             assert job.refused in output.why, (job.name, output.why)

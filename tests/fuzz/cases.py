@@ -6,16 +6,17 @@ import tempfile
 from contextlib import contextmanager
 from pathlib import Path
 
+from derive.check.checker import Checker
 from derive.mechanics.problem import ProblemError
 from derive.mechanics.toml import load
 from derive.pipeline import walk
-from derive.record.check import Checker
 from derive.record.record import RecordError, from_json, to_json
 from derive.record.vocabulary import ANY_GROUP
 from derive.rendering import render
 from tests.fuzz.mutate import SOLID, binary_stl, mesh
 from tests.fuzz.outputs import wrong_with
 from tests.fuzz.watch import SECONDS, judged, run, uncaught, watched
+from tests.walks import SEED
 
 MESH = """
 name = "meshed"
@@ -70,9 +71,8 @@ def faults_of(files, main, commands, slack=1.0, *, watch=True):
     with folder_of(files) as home:
         out, names = os.path.join(home, "out"), {*files, "out"}
         for command in commands:
-            shutil.rmtree(out, ignore_errors=True)
             arguments = [x.format(main) if x == "{}" else x for x in COMMANDS[command]]
-            result = run(arguments, home, out, watch)
+            result = repeated(arguments, home, out, watch, SECONDS * slack)
             wrong = judged(result, slack, record=main.endswith(".json"))
             made = sorted(Path(out).rglob("*")) if os.path.isdir(out) else []
             for path in made:
@@ -86,6 +86,16 @@ def faults_of(files, main, commands, slack=1.0, *, watch=True):
     return found
 
 
+def repeated(arguments, home, out, watch, seconds):
+    """One run; what is too slow has two more: other work on the machine is no fault of it."""
+    for _ in range(3):
+        shutil.rmtree(out, ignore_errors=True)
+        result = run(arguments, home, out, watch)
+        if result.seconds <= seconds:
+            break
+    return result
+
+
 def own_faults(files, main):
     """What is wrong with the steps about the group itself of a problem that is accepted."""
     with folder_of(files) as home:
@@ -95,7 +105,7 @@ def own_faults(files, main):
             return []
         try:
             record = walk(problem)
-            checker = Checker(from_json(to_json(record)).problem)
+            checker = Checker(from_json(to_json(record)).problem, SEED)
             verdicts = [checker.check(x) for x in record.steps if x.scope != ANY_GROUP]
         except BaseException as error:
             return [("own", uncaught(error))]
@@ -121,7 +131,7 @@ def record_faults(text):
                 found.append((form, uncaught(error)))
         try:
             assert from_json(to_json(record)) == record
-            checker = Checker(record.problem)
+            checker = Checker(record.problem, SEED)
             own = [step for step in record.steps if step.scope != ANY_GROUP]
             for verdict in map(checker.check, own):
                 assert "\n" not in verdict.reason

@@ -23,7 +23,7 @@ int main(void)
 {
     const double p[swing_N_PARAMETERS] = {2.0}; /* k */
     double x[N] = {1, 0, 0, 1, 0.3, 0.2, -0.5};
-    double k[swing_N_CONSTANTS];
+    double k[swing_SIZE_K];
     const int steps = 2000;
     const double h = 1.0 / steps;
 

@@ -23,7 +23,7 @@ int main(void)
 {
     const double p[hoop_N_PARAMETERS] = {0.5, 3.0}; /* m, k */
     double x[N] = {1, 0, 0, 1, 0, 0, 4, 0.2, 0};
-    double k[hoop_N_CONSTANTS];
+    double k[hoop_SIZE_K];
     const int steps = 2000;
     const double h = 1.0 / steps;
 

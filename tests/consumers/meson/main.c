@@ -23,7 +23,7 @@ int main(void)
 {
     const double p[top_N_PARAMETERS] = {9.81}; /* g */
     double x[N] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0.2, 0, 9};
-    double k[top_N_CONSTANTS];
+    double k[top_SIZE_K];
     const int steps = 2000;
     const double h = 1.0 / steps;
 

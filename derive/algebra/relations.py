@@ -1,0 +1,280 @@
+"""What keeps the matrices of a group, read off its Lie algebra: polynomial relations as data.
+
+Three kinds, each sought only where those before it leave too much:
+
+    the hull          A − 1 is in E₀, the associative algebra that 𝔤 generates: linear in A
+    a form            ĀSA = S, or ĀSA = μS where 𝔤 has dilations; S is symmetric or skew
+    the determinant   det A = 1, real, or complex where the matrices are those of Cᵐ
+
+A form with the hull implies every other form that 𝔤 keeps: S₁⁻¹S₂ commutes with 𝔤, so with E₀.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from itertools import combinations_with_replacement
+from math import isqrt
+
+from . import rational as q
+from .groups import Group
+from .rational import Matrix
+
+Vector = tuple[Fraction, ...]
+"""The entries of a matrix row by row, and of a map r ↦ A r + T those of T after them."""
+
+Linear = Callable[[Matrix], Sequence[Fraction]]
+"""A linear function of n × n matrices."""
+
+
+@dataclass(frozen=True)
+class Relations:
+    """What the elements A, or (A, T), of a group satisfy that is no product.
+
+    ``hull``: H with v = H v for the entries v of A − 1, then of T; empty where they are free.
+    ``form``: S, or empty; ``conformal``: up to a factor μ.  ``determinant``: is it 1?
+    ``frame``: P where it is complex, with P⁻¹AP = [[X, −Y], [Y, X]] for the complex X + iY.
+    ``left``: the dimension of what they leave, at least that of the group.
+    """
+
+    hull: Matrix
+    form: Matrix
+    conformal: bool
+    determinant: bool
+    frame: Matrix
+    left: int
+
+    @property
+    def none(self) -> bool:
+        """Is the group open among all maps, so that nothing keeps it?"""
+        return not (self.hull or self.form or self.determinant)
+
+
+@cache
+def relations(g: Group) -> Relations:
+    """Those of one group; of a product, those of its factors are wanted."""
+    n, linear = g.n, [e for e in map(g.linear_part, g.basis) if any(map(any, e))]
+    conformal = any(q.trace(e) for e in linear)
+    hull = left = _generated(g)
+    form: Matrix = ()
+    frame: Matrix = ()
+    determinant = False
+
+    def kept(value: Linear) -> list[Vector]:
+        return _kernel(left, lambda v: value(_square(v, n)))
+
+    S = _form(linear, n)
+    if S and len(fewer := kept(lambda e: _variation(S, e, conformal))) < len(left):
+        form, left = S, fewer
+    if not conformal and len(fewer := kept(lambda e: (q.trace(e),))) < len(left):
+        determinant, left = True, fewer
+    K = _complex_structure(linear, hull, n) if len(left) > g.dimension and not conformal else ()
+    if K and not any(q.trace(q.times(K, e)) for e in linear):
+        determinant, frame = True, _complex_frame(K)
+        left = kept(lambda e: (q.trace(q.times(K, e)),))
+    free = len(hull) == n * (n + g.affine)
+    projector = () if free else _projector(hull, n)
+    return Relations(projector, form, conformal, determinant, frame, len(left))
+
+
+# -- spaces of vectors ---------------------------------------------------------------------------
+
+
+class _Span:
+    """A space that grows; ``rows``: sparse, by the place of their first entry, which is 1."""
+
+    def __init__(self) -> None:
+        self.rows: dict[int, dict[int, Fraction]] = {}
+
+    def rest(self, v: Iterable[Fraction]) -> dict[int, Fraction]:
+        """What is left of a vector when its first entries are eliminated."""
+        rest = {i: x for i, x in enumerate(v) if x}
+        while rest and (first := min(rest)) in self.rows:
+            lead = rest[first]
+            for i, x in self.rows[first].items():
+                rest[i] = rest.get(i, Fraction(0)) - lead * x
+                if not rest[i]:
+                    del rest[i]
+        return rest
+
+    def add(self, v: Iterable[Fraction]) -> bool:
+        """Is a vector new?  Then it is taken in."""
+        rest = self.rest(v)
+        if rest:
+            first = min(rest)
+            self.rows[first] = {i: x / rest[first] for i, x in rest.items()}
+        return bool(rest)
+
+
+def _kernel(space: Sequence[Vector], value: Callable[[Vector], Sequence[Fraction]]) -> list[Vector]:
+    """A basis of the vectors of a space where a linear function vanishes."""
+    span, found = _Span(), []
+    for v in space:
+        image = tuple(value(v))
+        rest = span.rest((*image, *v))
+        if min(rest) < len(image):
+            span.rows[min(rest)] = {i: x / rest[min(rest)] for i, x in rest.items()}
+        else:
+            found.append(tuple(rest.get(len(image) + i, Fraction(0)) for i in range(len(v))))
+    return found
+
+
+def _square(v: Vector, n: int) -> Matrix:
+    return tuple(v[n * i : n * i + n] for i in range(n))
+
+
+# -- the hull ------------------------------------------------------------------------------------
+
+
+def _generated(g: Group) -> list[Vector]:
+    """A basis of E₀: products of matrices of 𝔤, until nothing is added or all is there."""
+    n, most, span = g.n, g.n * (g.n + g.affine), _Span()
+    found: list[Matrix] = []
+
+    def take(e: Matrix) -> None:
+        shift = [row[n] for row in e[:n]] if g.affine else []
+        if len(found) < most and span.add((*q.flatten(g.linear_part(e)), *shift)):
+            found.append(e)
+
+    for e in g.basis:
+        take(e)
+    for e in found:
+        for x in g.basis if len(found) < most else ():
+            take(_product(e, x))
+    rows = [tuple(row.get(i, Fraction(0)) for i in range(most)) for row in span.rows.values()]
+    return [row for row in q.echelon(tuple(rows))[0] if any(row)]
+
+
+def _product(a: Matrix, b: Matrix) -> Matrix:
+    """a b, for matrices with few entries."""
+    rows = []
+    for row in a:
+        total = [Fraction(0)] * len(b)
+        for x, other in zip(row, b, strict=True):
+            if x:
+                total = [t + x * y if y else t for t, y in zip(total, other, strict=True)]
+        rows.append(tuple(total))
+    return tuple(rows)
+
+
+def _projector(hull: Sequence[Vector], n: int) -> Matrix:
+    """Onto the hull: orthogonally in A, then in T among what A leaves to it."""
+    size, width = n * n, len(hull[0]) - n * n
+    turning = [v for v in hull if any(v[:size])]
+    a, t = (tuple(v[part] for v in turning) for part in (slice(size), slice(size, None)))
+    shifts = tuple(v[size:] for v in hull if not any(v[:size]))
+    across = _onto(shifts, _dual(shifts), width, width)
+    dual = _dual(a)
+    carried = _onto(t, dual, width, size)
+    if width:
+        carried = q.times(q.minus(q.identity(width), across), carried)
+    upper = _onto(a, dual, size, size)
+    return (
+        *((*row, *(Fraction(0),) * width) for row in upper),
+        *((*x, *y) for x, y in zip(carried, across, strict=True)),
+    )
+
+
+def _onto(rows: Matrix, dual: Matrix, height: int, width: int) -> Matrix:
+    """The map of vectors with the coefficients ``dual`` gives to combinations of the rows."""
+    if rows:
+        return q.times(q.transposed(rows), dual)
+    return ((Fraction(0),) * width,) * height
+
+
+def _dual(rows: Matrix) -> Matrix:
+    """(bb̄)⁻¹b: the coefficients of the orthogonal projection onto independent rows b."""
+    if not rows:
+        return ()
+    gram = q.inverse(q.times(rows, q.transposed(rows)))
+    assert gram is not None
+    return q.times(gram, rows)
+
+
+# -- the form ------------------------------------------------------------------------------------
+
+
+def _traceless(e: Matrix) -> Matrix:
+    return q.minus(e, q.scaled(q.trace(e) / len(e), q.identity(len(e))))
+
+
+def _variation(S: Matrix, e: Matrix, conformal: bool) -> Vector:
+    """ēS + Se; ``conformal``: for the traceless part of e."""
+    e = _traceless(e) if conformal else e
+    return q.flatten(q.plus(_product(q.transposed(e), S), _product(S, e)))
+
+
+def _form(linear: Sequence[Matrix], n: int) -> Matrix:
+    """S that all traceless parts keep, not degenerate: 1, else symmetric, else skew; or none.
+
+    In the plane a skew form is the determinant.
+    """
+    for sign in (1, -1) if n > 2 else (1,):
+        pairs = combinations_with_replacement(range(n), 2)
+        space = [_unit(n, i, j, sign) for i, j in pairs if sign == 1 or i != j]
+        for e in linear:
+            space = _kernel(space, lambda S, e=e: _variation(_square(S, n), e, True))  # type: ignore[misc]
+        for S in _candidates(space, n):
+            if linear and q.inverse(S) is not None:
+                return S
+    return ()
+
+
+def _unit(n: int, i: int, j: int, sign: int) -> Vector:
+    unit = q.unit(n, i, j)
+    return q.flatten(unit if i == j else q.plus(unit, q.scaled(sign, q.unit(n, j, i))))
+
+
+def _candidates(space: Sequence[Vector], n: int) -> Iterable[Matrix]:
+    """Members of a space, simple ones first."""
+    if not space:
+        return
+    one = q.identity(n)
+    if q.rank((*space, q.flatten(one))) == len(space):
+        yield one
+    matrices = [_square(S, n) for S in space]
+    yield from matrices
+    for k in range(1, n + 2):
+        yield q.combine([Fraction(k) ** i for i in range(len(space))], matrices)
+
+
+# -- the complex determinant ---------------------------------------------------------------------
+
+
+def _complex_structure(linear: Sequence[Matrix], hull: Sequence[Vector], n: int) -> Matrix:
+    """K with K² = −1 where the centre of the hull is that of the multiples of 1 and K; or none."""
+    centre = [v[: n * n] for v in hull if any(v[: n * n])]
+    for e in linear:
+        centre = _kernel(
+            centre,
+            lambda S, e=e: q.flatten(
+                q.minus(_product(_square(S, n), e), _product(e, _square(S, n)))
+            ),  # type: ignore[misc]
+        )
+    span = _Span()
+    turning = [K for K in (_traceless(_square(v, n)) for v in centre) if span.add(q.flatten(K))]
+    if len(turning) != 1:
+        return ()
+    square = _product(turning[0], turning[0])
+    size = -square[0][0]
+    if size <= 0 or square != q.scaled(-size, q.identity(n)):
+        return ()
+    root = Fraction(isqrt(size.numerator), isqrt(size.denominator))
+    return q.scaled(1 / root, turning[0]) if root * root == size else ()
+
+
+def _complex_frame(K: Matrix) -> Matrix:
+    """P, whose columns are v₁ … v_m, Kv₁ … Kv_m."""
+    n, chosen = len(K), _Span()
+    first: list[Vector] = []
+    for v in q.identity(n):
+        if chosen.add(v):
+            first.append(v)
+            chosen.add(_image(K, v))
+    return q.transposed((*first, *(_image(K, v) for v in first)))
+
+
+def _image(K: Matrix, v: Vector) -> Vector:
+    return tuple(sum((x * y for x, y in zip(row, v, strict=True)), Fraction(0)) for row in K)

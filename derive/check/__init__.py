@@ -1,0 +1,1 @@
+"""The independent checker: every equation of a record at exact points, by another road."""

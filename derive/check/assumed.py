@@ -1,0 +1,86 @@
+"""What is given in a step, read equation by equation: at which points it is to be tried."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra.show import show
+from ..algebra.tree import Tree
+from ..record.record import Equation, RecordError, Step
+from .heads import RATES
+
+TIME, LINEAR, TRANSLATION = "time", "linear", "translation"
+
+PRINCIPAL: Tree = (
+    "matrix",
+    *(("row", *(("entry", "λ", i) if i == j else 0 for j in (1, 2, 3))) for i in (1, 2, 3)),
+)
+"""diag(λ₁, λ₂, λ₃)."""
+
+STILL: dict[str, str] = {
+    "δ′t": TIME,
+    **dict.fromkeys(("δ′A", "ξ′", "Ω′"), LINEAR),
+    **dict.fromkeys(("δ′T", "η′"), TRANSLATION),
+}
+"""The parts of δ′ that may be said to vanish."""
+
+ALONG: dict[tuple[str, str], str] = {
+    **dict.fromkeys((("δA", "α"), ("ξ", "Z"), ("Ω", "ζ")), LINEAR),
+    **dict.fromkeys((("δT", "τ"), ("η", "w")), TRANSLATION),
+}
+"""The parts of the velocity of X, with what they are along the motion."""
+
+
+@dataclass(frozen=True)
+class Assumed:
+    """Where an equation is to hold.
+
+    ``principal``: I = diag(λ₁, λ₂, λ₃).  ``contracted``: δt = 1, and X is the vector of δ.
+    ``still``: the parts of δ′ that vanish; ``along``: those of the velocity of X that are of the
+    motion.  ``coasting``: the acceleration is any, that of X.  ``driven``: inputs and damping act.
+    """
+
+    principal: bool = False
+    contracted: bool = False
+    still: frozenset[str] = frozenset()
+    along: frozenset[str] = frozenset()
+    coasting: bool = False
+    driven: bool = False
+
+    @property
+    def said(self) -> str:
+        """The same in words that do not depend on the order of sets."""
+        sets = sorted(self.still), sorted(self.along)
+        return f"{self.principal} {self.contracted} {sets} {self.coasting} {self.driven}"
+
+
+def assumed(step: Step, equation: Equation | None = None) -> Assumed:
+    """What is given in a step, and for which accelerations one of its equations is to hold.
+
+    ``RecordError`` for a hypothesis that is none of these.
+    """
+    principal = contracted = False
+    still: set[str] = set()
+    along: set[str] = set()
+    for e in step.given:
+        lhs, rhs = e.lhs, e.rhs
+        if (lhs, rhs) == ("I", PRINCIPAL):
+            principal = True
+        elif (lhs, rhs) == ("δt", 1):
+            contracted = True
+        elif isinstance(lhs, str) and lhs in STILL and rhs == 0:
+            still.add(STILL[lhs])
+        elif part := _of_velocity(lhs, rhs):
+            along.add(part)
+        else:
+            said = f"{show(lhs)} = {show(rhs)}"
+            raise RecordError(f"the hypothesis {said[:80]} is not one that can be tried")
+    coasting = equation is not None and any({*equation.for_all} & {*form} for form in RATES)
+    return Assumed(principal, contracted, frozenset(still), frozenset(along), coasting, step.driven)
+
+
+def _of_velocity(lhs: Tree, rhs: Tree) -> str:
+    """The part of δA(X) = α and its like; empty for any other equation."""
+    if isinstance(lhs, tuple) and lhs[0] == "call" and lhs[2:] == ("X",):
+        return ALONG.get((lhs[1], rhs), "") if isinstance(rhs, str) else ""
+    return ""

@@ -1,0 +1,141 @@
+"""Is every head of a tree one of the vocabulary, with arguments of its kinds, every index a letter?
+
+What stands about a head, or beside the arguments, has no value of its own: it is judged here, by
+the tables of :mod:`derive.check.heads`, before anything is evaluated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Set
+from typing import Any
+
+from ..algebra.show import show
+from ..algebra.tree import Tree
+from ..record.record import Equation
+from .assumed import TIME, Assumed
+from .heads import (
+    COUNTED,
+    FORMS,
+    HEADS,
+    INDICES,
+    MOVED,
+    QUANTIFIED,
+    RATES,
+    SOLVED,
+    TRANSLATION,
+    Kind,
+)
+
+SHOWN = 40
+"""Letters of what is wrong, in the message."""
+
+
+def wrong(t: Tree, *, affine: bool, inside: str = "") -> str:
+    """What is wrong with the first head, argument or index that is no such thing; else empty.
+
+    ``affine``: does the group translate?  ``inside``: the operator of which the tree is a part.
+    """
+    if not isinstance(t, tuple):
+        return ""
+    parts = (wrong(x, affine=affine, inside=t[0]) for x in t[1:])
+    return _wrong(t, inside, affine) or next(filter(None, parts), "")
+
+
+def wrong_quantifier(equation: Equation, at: Assumed) -> str:
+    """What an equation cannot hold for all values of: it is drawn freely, and stands in it; or
+    what it cannot say to exist.
+
+    ``at``: the hypotheses of the step, which may fix a variation.
+    """
+    used = {*_values_of(equation.lhs), *_values_of(equation.rhs)}
+    if wrong := _wrong_existence(equation, used, at):
+        return wrong
+    first, second, rates = ({x for form in forms for x in form} for forms in (*FORMS, RATES))
+    fixed = (second if at.still - {TIME} else set()) | (first if at.contracted else set())
+    for name in equation.for_all:
+        if name not in QUANTIFIED:
+            return f"nothing holds for all {_said(name)}: it is no variation"
+        if name not in used or equation.for_all.count(name) > 1:
+            return f"it says nothing of {name}, for all values of which it is to hold"
+        if name in fixed:
+            return f"{name} is fixed by a hypothesis of the step: nothing holds for all of it"
+        if name in rates and "X" not in used:
+            return f"nothing holds for all {name}: it is the acceleration of the motion"
+        if name in rates and not used & rates <= {*equation.for_all}:
+            return f"it is to hold for all {name}, and not for all of the acceleration"
+        together = used & next(x for x in (first, second, rates) if name in x)
+        if not any(together <= {*form} for forms in (*FORMS, RATES) for form in forms):
+            return f"it has {', '.join(sorted(together))}, which are tied to one another"
+    return ""
+
+
+def _wrong_existence(equation: Equation, used: Set[str], at: Assumed) -> str:
+    for name in equation.exists:
+        if name not in SOLVED:
+            return f"that there is some {_said(name)} is not found: it is no multiplier"
+        if name not in used or equation.exists.count(name) > 1:
+            return f"it says nothing of {name}, which is to exist"
+        if at.principal:
+            return f"{name} is fixed by a hypothesis of the step: it is not one that there is"
+    return ""
+
+
+def _values_of(t: Tree) -> Iterator[str]:
+    """The names in a tree that stand for their values, not for functions."""
+    if isinstance(t, str):
+        yield t
+    elif isinstance(t, tuple):
+        for x in t[2:] if t[0] in ("call", "par") else t[1:]:
+            yield from _values_of(x)
+
+
+def _wrong(t: tuple[Any, ...], inside: str, affine: bool) -> str:
+    if t[0] == "call":
+        return _wrong_call(t[1], t[2:], affine)
+    if t[0] == "row" and inside != "matrix":
+        return "a row is part of a matrix"
+    if t[0] == "at" and len(t) != 3:
+        return f"a member of {_said(t[1])} has one index"
+    if t[0] == "at" and t[1] not in COUNTED:
+        return f"no members of {_said(t[1])}, which is no family"
+    index = next((x for x in _indices(t) if x not in INDICES), None)
+    return "" if index is None else f"{_said(index)} is no index: {', '.join(INDICES)} are"
+
+
+def _indices(t: tuple[Any, ...]) -> Iterator[str]:
+    places = {"sum": t[1:2], "at": t[2:], "entry": t[2:]}.get(t[0], ())
+    return (x for x in places if isinstance(x, str))
+
+
+def _wrong_call(head: Tree, arguments: tuple[Tree, ...], affine: bool) -> str:
+    kinds = _kinds(head)
+    if kinds is None:
+        return f"no function is called {_said(head)}"
+    kinds = tuple(x for x in kinds if affine or x is not TRANSLATION)
+    if len(arguments) != len(kinds):
+        expected = f"{len(kinds)} argument{'s' * (len(kinds) != 1)}"
+        return f"{_said(head)} has {expected}, not {len(arguments)}"
+    for kind, x in zip(kinds, arguments, strict=True):
+        if not _is_of(kind, x):
+            return f"{_said(head)} is of {kind.said}, not of {_said(x)}"
+    return ""
+
+
+def _kinds(head: Tree) -> tuple[Kind, ...] | None:
+    """Of the arguments of a head; ``None`` for what is none."""
+    if isinstance(head, str):
+        return HEADS.get(head)
+    member = isinstance(head, tuple) and head[0] == "at" and len(head) == 3
+    return MOVED.get(head[1]) if member and isinstance(head, tuple) else None
+
+
+def _is_of(kind: Kind, x: Tree) -> bool:
+    if x in kind.letters:
+        return True
+    called = isinstance(x, tuple) and x[0] == "call" and isinstance(x[1], tuple)
+    return bool(kind.family and called and x[1][:2] == ("at", kind.family))  # type: ignore[index]
+
+
+def _said(t: Tree) -> str:
+    said = show(t)
+    return said if len(said) <= SHOWN else f"{said[:SHOWN]} …"

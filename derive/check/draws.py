@@ -1,0 +1,66 @@
+"""What is drawn at random for a model before it has points: parameters, π, functions."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from fractions import Fraction
+from functools import cached_property
+from random import Random
+from typing import Any
+
+from ..algebra.groups import Group
+from ..algebra.rational import Matrix
+from .evaluate import Environment
+from .opaque import Opaque
+
+SPARE = 2
+"""So many points more than are needed, where the problem leaves them open: no equation may rest on
+a symmetry of theirs."""
+
+
+class Draws:
+    """The problem, its group, and the numbers that its own expressions need.
+
+    ``opaque``: the potential is left open, and with it inputs and places.  ``pi``: its value, else
+    any; ``few``: no spare points; ``zero``: parameters that vanish.
+    """
+
+    def __init__(
+        self,
+        problem: Mapping[str, Any],
+        group: Group,
+        random: Random,
+        size: int,
+        *,
+        opaque: bool = False,
+        pi: Fraction | None = None,
+        few: bool = False,
+        zero: Collection[str] = (),
+    ):
+        self.problem, self.group, self.random, self.size = problem, group, random, size
+        self.opaque, self.spare, self.n = opaque, 0 if few else SPARE, group.n
+        self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
+        self.parameters |= dict.fromkeys(zero, Fraction(0))
+        self.elementary = Opaque(Random(random.getrandbits(64)), size)
+        self.pi = self.draw(positive=True) if pi is None else pi
+
+    def draw(self, *, positive: bool = False) -> Fraction:
+        """A random integer, as a fraction."""
+        return Fraction(self.random.randint(1 if positive else -self.size, self.size))
+
+    def algebra(self) -> Matrix:
+        """A random element of the Lie algebra."""
+        return self.group.hat([self.draw() for _ in self.group.basis])
+
+    @cached_property
+    def expressions(self) -> Environment:
+        """Where the expressions of the problem are evaluated."""
+        return Environment(
+            self.n, {"π": self.pi}, parameters=self.parameters, elementary=self.elementary
+        )
+
+    def given(self, kind: str) -> list[Mapping[str, Any]]:
+        """The inputs of a kind."""
+        if self.opaque:
+            return []
+        return [i for i in self.problem.get("inputs", []) if i["kind"] == kind]

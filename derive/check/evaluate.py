@@ -1,0 +1,247 @@
+"""The value of a tree over any ring: fractions, dual numbers, floats, SymPy expressions.
+
+A value is a scalar, or a matrix as a tuple of rows (a vector is a matrix of one column).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import reduce
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.tree import Tree
+from .arithmetic import (
+    EvaluationError,
+    Value,
+    determinant,
+    hat,
+    inner,
+    inverse,
+    is_matrix,
+    plus,
+    power,
+    scalar,
+    times,
+    trace,
+    transpose,
+    wedge,
+)
+from .heads import AXIS, COUNTED, MATRIX, POINT
+
+LARGEST_NESTING = 3
+
+
+@dataclass
+class Environment:
+    """Values of names, of the members of indexed families, and of functions.
+
+    ``functions[name](arguments, environment)`` receives the argument trees.  ``listed``: of the
+    points, those that may be named by their numbers.  ``copies``: how often each point is there.
+    """
+
+    size: int
+    names: Mapping[str, Value]
+    families: Mapping[str, Mapping[tuple[int, ...], Value]] = field(default_factory=dict)
+    functions: Mapping[str, Callable[..., Value]] = field(default_factory=dict)
+    parameters: Mapping[str, Value] = field(default_factory=dict)
+    indices: Mapping[str, int] = field(default_factory=dict)
+    elementary: Callable[[str, Value], Value] | None = None
+    listed: int = 0
+    copies: Sequence[Fraction] = ()
+
+    def with_index(self, name: str, value: int) -> Environment:
+        """The same with an index bound."""
+        return replace(self, indices={**self.indices, name: value})
+
+
+def evaluate(t: Tree, env: Environment) -> Value:
+    """The value of a tree; :class:`EvaluationError` when it has none."""
+    if isinstance(t, str):
+        try:
+            return env.names[t]
+        except KeyError:
+            raise EvaluationError(f"no value for {t!r}") from None
+    if isinstance(t, (int, Fraction)):
+        return Fraction(t)
+    op = t[0]
+    try:
+        if op in STRUCTURAL:
+            return STRUCTURAL[op](t, env)
+        return OPERATIONS[op](*(evaluate(x, env) for x in t[1:]), env=env)
+    except (IndexError, TypeError, ZeroDivisionError) as error:
+        raise EvaluationError(f"{op}: {error}") from error
+
+
+def _add(*terms: Value, env: Environment) -> Value:
+    del env
+    total = terms[0]
+    for term in terms[1:]:
+        total = plus(total, term)
+    return total
+
+
+def _mul(*factors: Value, env: Environment) -> Value:
+    del env
+    scalars = [x for x in factors if not is_matrix(x)]
+    matrices = [x for x in factors if is_matrix(x)]
+    product = matrices[0] if matrices else Fraction(1)
+    for x in matrices[1:]:
+        product = times(product, x)
+    for x in scalars:
+        product = times(x, product)
+    return product
+
+
+OPERATIONS: dict[str, Callable[..., Value]] = {
+    "add": _add,
+    "mul": _mul,
+    "div": lambda a, b, env: times(a, 1 / b),
+    "T": lambda x, env: transpose(x),
+    "tr": lambda x, env: trace(x),
+    "det": lambda x, env: determinant(x),
+    "inv": lambda x, env: inverse(x),
+    "one": lambda env: q.identity(env.size),
+    "inner": lambda a, b, env: inner(a, b),
+    "metric": lambda m, a, b, env: inner(a, b, m),
+    "norm2": lambda *x, env: inner(x[-1], x[-1], x[0] if len(x) == 2 else None),
+    "bracket": lambda a, b, env: q.bracket(a, b),
+    "wedge": lambda a, b, env: wedge(a, b),
+    "hat": lambda a, env: hat(a),
+    "row": lambda *x, env: tuple(scalar(v) for v in x),
+    "matrix": lambda *rows, env: _matrix(rows),
+    "pow": lambda x, n, env: power(x, n),
+}
+
+
+def _matrix(rows: tuple[Any, ...]) -> Value:
+    if len({len(row) for row in rows}) != 1:
+        raise EvaluationError("the rows of a matrix must be of one length")
+    return rows
+
+
+def _sum(t: tuple[Any, ...], env: Environment) -> Value:
+    _, index, body = t
+    if index in env.indices or len(env.indices) >= LARGEST_NESTING:
+        raise EvaluationError(f"sums nested deeper than {LARGEST_NESTING}, or an index bound twice")
+    counted, members = _range(body, index, env)
+    if not members:
+        raise EvaluationError(f"the sum over {index!r} has no members")
+    often = env.copies if counted == POINT else ()
+    terms = (evaluate(body, env.with_index(index, i)) for i in members)
+    if often:
+        terms = (times(often[i - 1], x) for i, x in zip(members, terms, strict=True))
+    return reduce(plus, terms)
+
+
+def _range(body: Tree, index: str, env: Environment) -> tuple[str, list[int]]:
+    """What the index counts, and its values: the same for all the families in which it stands.
+
+    ``EvaluationError`` else: a sum, or an equation, would be held for a few members only.
+    """
+    spans = [*_spans(body, index, env)]
+    if any(x != spans[0] for x in spans):
+        raise EvaluationError(f"the index {index!r} is not that of the same members everywhere")
+    return (spans[0][0], sorted(spans[0][1])) if spans else ("", [])
+
+
+def _spans(t: Tree, index: str, env: Environment) -> Iterator[tuple[str, set[int]]]:
+    if not isinstance(t, tuple):
+        return
+    if t[0] == "entry" and index in t[2:]:
+        value = evaluate(t[1], env)
+        if not is_matrix(value):
+            raise EvaluationError("entries of matrices and vectors only")
+        yield AXIS, {*range(1, len(value if t[2] == index else value[0]) + 1)}
+    elif t[0] == "at" and index in t[2:]:
+        family = env.families.get(t[1])
+        if not family:
+            raise EvaluationError(f"no members of {t[1]!r}")
+        yield COUNTED[t[1]], {i for (i,) in family}
+    else:
+        for part in t[1:]:
+            yield from _spans(part, index, env)
+
+
+def free_indices(t: Tree) -> set[str]:
+    """The indices of families that no sum binds: the equation holds for each of their values."""
+    if not isinstance(t, tuple):
+        return set()
+    if t[0] in ("at", "entry"):
+        return {i for i in t[2:] if isinstance(i, str)}
+    inside: set[str] = set().union(*(free_indices(x) for x in t[1:]))
+    return inside - {t[1]} if t[0] == "sum" else inside
+
+
+def index_values(t: Tree, index: str, env: Environment) -> list[int]:
+    """The values of a free index; ``EvaluationError`` where there is none."""
+    _, found = _range(t, index, env)
+    if not found:
+        raise EvaluationError(f"the index {index!r} has no values")
+    return found
+
+
+def point_index(i: Any, env: Environment) -> int:
+    """The number of a point: by an index, or named where the problem lists it."""
+    if isinstance(i, int) and not 1 <= i <= env.listed:
+        raise EvaluationError(f"the problem lists no point {i}")
+    return _index(i, env)
+
+
+def _index(i: Any, env: Environment) -> int:
+    if isinstance(i, int):
+        return i
+    if i not in env.indices:
+        raise EvaluationError(f"unbound index {i!r}")
+    return env.indices[i]
+
+
+def _at(t: tuple[Any, ...], env: Environment) -> Value:
+    number = point_index if COUNTED.get(t[1]) == POINT else _index
+    key = tuple(number(i, env) for i in t[2:])
+    try:
+        return env.families[t[1]][key]
+    except KeyError:
+        raise EvaluationError(f"no member {key} of {t[1]!r}") from None
+
+
+def _entry(t: tuple[Any, ...], env: Environment) -> Value:
+    value = evaluate(t[1], env)
+    places = [_index(i, env) for i in t[2:]]
+    if min(places) < 1 or not is_matrix(value):
+        raise EvaluationError("entries of matrices and vectors are counted from 1")
+    if len(places) != 1 + (len(value[0]) > 1 or t[1] == MATRIX):
+        raise EvaluationError("a vector has entries of one index, a matrix of two")
+    return value[places[0] - 1][places[-1] - 1 if len(places) == 2 else 0]
+
+
+def _call(t: tuple[Any, ...], env: Environment) -> Value:
+    key = t[1][1] if isinstance(t[1], tuple) else t[1]
+    if key not in env.functions:
+        raise EvaluationError(f"no function {key!r}")
+    return env.functions[key](t[1], t[2:], env)
+
+
+def _function(t: tuple[Any, ...], env: Environment) -> Value:
+    value = evaluate(t[2], env)
+    if env.elementary is None or is_matrix(value):
+        raise EvaluationError(f"no value of the function {t[1]!r}")
+    return env.elementary(t[1], value)
+
+
+def _parameter(t: tuple[Any, ...], env: Environment) -> Value:
+    if t[1] not in env.parameters:
+        raise EvaluationError(f"no parameter {t[1]!r}")
+    return env.parameters[t[1]]
+
+
+STRUCTURAL: dict[str, Callable[[tuple[Any, ...], Environment], Value]] = {
+    "sum": _sum,
+    "at": _at,
+    "entry": _entry,
+    "call": _call,
+    "fun": _function,
+    "par": _parameter,
+}

@@ -1,0 +1,60 @@
+"""The group of a record's problem, recomputed: what its header claims of it must be so."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from ..algebra.families import group, on_homogeneous
+from ..algebra.given import group_of_basis
+from ..algebra.groups import Group
+from ..record.record import RecordError
+from ..record.shape import IDENTIFIER
+from ..record.vocabulary import ANY_GROUP
+
+
+def group_of(problem: Mapping[str, Any]) -> Group | None:
+    """A named group, or that of the basis in the record; ``None`` for the text on any group.
+
+    ``RecordError`` where the name, the action, the basis, 'n' or 'homogeneous' say otherwise.
+    """
+    name, rows = str(problem.get("group")), problem.get("basis", [])
+    basis = tuple(tuple(tuple(Fraction(x) for x in row) for row in e) for e in rows)
+    if name == ANY_GROUP:
+        if basis or problem.get("homogeneous"):
+            raise RecordError(f"{ANY_GROUP} has no basis and is not homogeneous")
+        if problem.get("n") != "any":
+            raise RecordError(f"key 'n': {ANY_GROUP} moves the points of a space of any dimension")
+        return None
+    found = _given(problem, name, basis) if IDENTIFIER.fullmatch(name) else _named(name, basis)
+    homogeneous = len(found.factors) == 1
+    if homogeneous != problem.get("homogeneous"):
+        said = "an affine group kept as a linear one on (r, 1)"
+        raise RecordError(f"key 'homogeneous': {name} is {'' if homogeneous else 'not '}{said}")
+    if found.n != problem.get("n"):
+        raise RecordError(f"key 'n': {name} moves the points of a space of dimension {found.n}")
+    if found.action != problem.get("action"):
+        raise RecordError(f"key 'action': {name} acts by {found.action} maps")
+    return found
+
+
+def _named(name: str, basis: tuple[Any, ...]) -> Group:
+    try:
+        named = group(name)
+    except ValueError as error:
+        raise RecordError(str(error)) from None
+    if named.name != name:
+        raise RecordError(f"key 'group': {named.name} is written {ascii(name)[:60]}")
+    if named.basis != basis:
+        raise RecordError(f"the basis is not that of {name}, in its order")
+    return named
+
+
+def _given(problem: Mapping[str, Any], name: str, basis: tuple[Any, ...]) -> Group:
+    affine = bool(problem.get("homogeneous")) or problem.get("action") == "affine"
+    try:
+        found = group_of_basis(name, "affine" if affine else "linear", basis)
+    except ValueError as error:
+        raise RecordError(f"the basis of {name}: {error}") from None
+    return found if not affine or found.free_translations else on_homogeneous(found)

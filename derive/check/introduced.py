@@ -1,0 +1,128 @@
+"""Is every name of a record said what it is, before it is used?
+
+A name is introduced where it stands alone on one side of an equation, as in Z = j(ζ), or is the one
+unknown of a pairing or a sum: Z = Σ ζ_a E_a, Tr N j(Ω′)‾ = ⟨μ, Ω′⟩, Tr j(ζ) J j(Ω)‾ = ⟨ζ, Ω⟩_I;
+where an equation says that there is one; and λ in what is given, there alone, as principal moments.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from ..algebra.tree import Tree, names
+from ..record.record import Equation, Step
+
+_FIRST = """
+    t π i a b e m U v r F A T E u f_u X δ δ′ α τ α̇ τ̇ Ż ẇ ζ̇ ṗ ℓ̇ Ũ dŨ ∂ₜŨ
+    δΠ δ′Π Π̇ δp_b δ′p_b ṗ_b ℓ̇_b
+    δA δT δt δα δτ δx δy δZ δw δζ δ′A δ′T δ′t δ′α δ′τ δ′x δ′y δ′Z δ′w δ′ζ
+    sqrt sin cos tan exp log sinh cosh tanh atan
+    """
+FIRST = frozenset(_FIRST.split())
+"""What the walk starts from: the element and its parts, variations, rates of known names, indices,
+functions, what the problem gives."""
+
+
+def alone(t: Tree) -> set[str]:
+    """The name that stands alone on a side, also as j(ζ), an entry or a function."""
+    if isinstance(t, str):
+        return {t}
+    if isinstance(t, tuple) and t[0] in ("hat", "at", "call", "T", "inv", "entry"):
+        return alone(t[1])
+    return set()
+
+
+def introduced(equation: Equation, known: set[str]) -> set[str]:
+    """The names that an equation says what they are, when others are known."""
+    found, both = {*equation.exists}, (equation.lhs, equation.rhs)
+    for side in both:
+        found |= alone(side)
+    unknown = {x for side in both for x in names(side)} - known - found
+    pairing = any(isinstance(x, tuple) and x[0] in ("inner", "metric", "sum") for x in both)
+    return found | unknown if pairing and len(unknown) == 1 else found
+
+
+def unexplained(steps: Iterable[Step]) -> Iterator[str]:
+    """For each step a name that it uses and nothing introduces; empty when there is none."""
+    known = set(FIRST)
+    for step in steps:
+        here = {"λ"} if any("λ" in names(e.rhs) for e in step.given) else set()
+        used = dict.fromkeys(x for t in _supposed(step) for x in names(t))
+        for equation in step.equations:
+            known |= introduced(equation, known)
+            for side in (equation.lhs, equation.rhs):
+                used |= dict.fromkeys(names(side))
+        yield next((x for x in used if x not in known | here), "")
+
+
+def _supposed(step: Step) -> Iterator[Tree]:
+    """What is given, and what there are hypotheses about."""
+    for e in step.given:
+        yield from (e.lhs, e.rhs)
+    yield from (x.of for x in step.hypotheses)
+
+
+Way = tuple[str, str]
+"""A name, and how it stands there: value, member, function, or moved for r_i(t)."""
+
+
+def ways(t: Tree) -> Iterator[tuple[Way, tuple[Tree, ...]]]:
+    """Every name that a tree uses and how, with the arguments of a function; no index is one."""
+    if isinstance(t, str):
+        yield (t, "value"), ()
+    if not isinstance(t, tuple) or t[0] == "par":
+        return
+    op, *parts = t
+    if op == "call":
+        whole, *arguments = parts
+        member = isinstance(whole, tuple)
+        yield (whole[1], "moved") if member else (whole, "function"), tuple(arguments)
+        parts = arguments
+    elif op == "at":
+        yield (parts[0], "member"), ()
+        parts = []
+    for part in parts[:1] if op == "entry" else parts[op in ("sum", "fun") :]:
+        yield from ways(part)
+
+
+def definitions(steps: Iterable[Step]) -> dict[Way, tuple[str, tuple[Tree, ...]]]:
+    """The key of the equation that first says what a name in some way is, and of which arguments.
+
+    Of what the walk starts from that can only be the left side, alone.
+    """
+    said: dict[Way, tuple[str, tuple[Tree, ...]]] = {}
+    known = {(name, way) for name in FIRST for way in ("value", "member", "function", "moved")}
+    known -= {(name, "value") for name in SUMS}
+    for step in steps:
+        for key, equation in zip(step.keys, step.equations, strict=True):
+            left, right = _stands(equation.lhs), _stands(equation.rhs)
+            there = {way for way, _ in ways(equation.rhs)}
+            for way, arguments in left:
+                if way not in there:
+                    said.setdefault(way, (key, arguments))
+            for way, arguments in right:
+                if way not in known and way[1] in ("value", "member"):
+                    said.setdefault(way, (key, arguments))
+            known |= {way for way, _ in (*left, *right)}
+            there |= {way for way, _ in ways(equation.lhs)}
+            unknown = {x for x in there - known if x[1] in ("value", "member") and x[0] != "π"}
+            if len(unknown) == 1 and _pairing(equation):
+                said |= dict.fromkeys(unknown, (key, ()))
+                known |= unknown
+    return said
+
+
+SUMS = ("m", "F")
+"""Of the names above, those that stand for the members of a family, and are defined as its sum."""
+
+
+def _stands(t: Tree) -> list[tuple[Way, tuple[Tree, ...]]]:
+    """What :func:`alone` finds, and how it stands there."""
+    while isinstance(t, tuple) and t[0] in ("hat", "T", "inv", "entry"):
+        t = t[1]
+    return [*ways(t)][:1] if alone(t) else []
+
+
+def _pairing(equation: Equation) -> bool:
+    both = (equation.lhs, equation.rhs)
+    return any(isinstance(x, tuple) and x[0] in ("inner", "metric", "sum") for x in both)

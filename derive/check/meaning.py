@@ -1,0 +1,292 @@
+"""From a model to an environment: every name of the vocabulary gets the value that it means."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from fractions import Fraction
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.rational import Matrix
+from ..algebra.tree import Tree
+from .arithmetic import EvaluationError, is_matrix, times
+from .duals import dual_values
+from .evaluate import Environment, evaluate, point_index
+from .given import exerted_families, exerted_values
+from .heads import SHARED
+from .model import Direction, Model, Vector
+from .nilpotent import EPS, EPS_PRIME, derivative_of, nilpotent, part
+from .points import listed_count
+from .solved import solved_values
+from .spatial import axial, moments_about, spatial_values
+
+Values = dict[str, Any]
+
+
+class Names(Mapping[str, Any]):
+    """The values of all names, some of them at a time, when the first of these is asked for."""
+
+    def __init__(self, model: Model):
+        self.model = model
+        self.known: Values = {}
+        self.left = [_times, _bodies, _group, _forces, _energies, spatial_values]
+        self.left += [_motion, dual_values]
+
+    def __getitem__(self, name: str) -> Any:
+        while name not in self.known and self.left:
+            self._more()
+        return self.known[name]
+
+    def _more(self) -> None:
+        self.known = self.left[0](self.model) | self.known
+        del self.left[0]
+
+    def __iter__(self) -> Iterator[str]:
+        while self.left:
+            self._more()
+        return iter(self.known)
+
+    def __len__(self) -> int:
+        return len([*self])
+
+
+def environment(model: Model) -> Environment:
+    """The environment in which the equations of a record are claims."""
+    return Environment(
+        model.n,
+        Names(model),
+        _families(model),
+        _functions(model),
+        model.parameters,
+        elementary=model.elementary,
+        listed=listed_count(model),
+        copies=model.copies,
+    )
+
+
+def _linear(model: Model, x: Matrix) -> Matrix:
+    return tuple(row[: model.n] for row in x[: model.n])
+
+
+def _translation(model: Model, x: Matrix) -> Matrix:
+    return tuple((row[model.n],) for row in x[: model.n])
+
+
+def _parts(model: Model, linear: str, vector: str, x: Matrix) -> Values:
+    values: Values = {linear: _linear(model, x)}
+    if model.group.affine:
+        values[vector] = _translation(model, x)
+    return values
+
+
+def _times(model: Model) -> Values:
+    return {"π": model.pi, "t": model.t, "δt": model.first.time, "δ′t": model.second.time}
+
+
+def _bodies(model: Model) -> Values:
+    m, c, J = model.moments
+    centre = tuple(x[0] / m for x in c)
+    return {"m": m, "c": c, "J": J, "J_c": moments_about(model, centre)}
+
+
+def _group(model: Model) -> Values:
+    """g, ν, their variations in space and carried to the identity."""
+    _, g, Z = model.family(model.first, model.second)
+    nu = q.times(g, Z)
+    values = _parts(model, "A", "T", model.g) | _parts(model, "α", "τ", part(nu, 0))
+    for mark, mask, direction in (("δ", EPS, model.first), ("δ′", EPS_PRIME, model.second)):
+        values |= _parts(model, mark + "A", mark + "T", part(g, mask))
+        values |= _parts(model, mark + "α", mark + "τ", part(nu, mask))
+        prime = mark[1:]
+        values |= _parts(model, "ξ" + prime, "η" + prime, direction.xi)
+        values |= _parts(model, mark + "Z", mark + "w", direction.velocity)
+    values |= _parts(model, "Z", "w", model.Z)
+    A = values["A"]
+    values["C"] = q.times(q.transposed(A), A)
+    if model.group.affine:
+        m, c, _ = model.moments
+        for name, linear, shift in (("R", "A", "T"), ("Ṙ", "α", "τ")):
+            values[name] = q.plus(values[shift], q.scaled(1 / m, q.times(values[linear], c)))
+    moved = _linear(model, g)
+    values["δC"] = part(q.times(q.transposed(moved), moved), EPS)
+    return values
+
+
+def _forces(model: Model) -> Values:
+    pairs = list(zip(model.forces, model.points, strict=True))
+    span = range(model.n)
+    N = tuple(tuple(sum((f[i] * r[j] for f, r in pairs), Fraction(0)) for j in span) for i in span)
+    F = tuple((sum((f[i] for f, _ in pairs), Fraction(0)),) for i in span)
+    back = q.transposed(_linear(model, model.g))
+    values: Values = {"N": N, "F": F, "N_b": q.times(back, N), "F_b": q.times(back, F)}
+    if not model.group.affine:
+        values["f"] = model.gradient
+        values["F̃"] = q.times(model.g, model.gradient)
+    return values if model.opaque else values | exerted_values(model)
+
+
+def _energies(model: Model) -> Values:
+    nu = q.times(model.g, model.Z)
+    value = part(model.lagrangian(model.t, model.g, nu), 0)
+    potential = part(model.potential(model.t, model.moved(model.g)), 0)
+    energy = part(model.energy(model.t, model.g, nu), 0)
+    return {"L": value, "L̃": value, "U": potential, "Ũ": potential, "h̃": energy}
+
+
+def _momenta(model: Model, acceleration: Matrix) -> Values:
+    """ℓ = Σ m r ∧ v and p = Σ m v in space, as sums over the points; rates along the motion.
+
+    ℓ is a vector in R³ turned about, else the matrix Σ m (v r̄ − r v̄).
+    """
+    places, speeds = model.moved(model.g), model.moved(q.times(model.g, model.Z))
+    forces = model.moved(acceleration)
+    t, nu = model.t, q.times(model.g, model.Z)
+    e = nilpotent(EPS)
+    varied = model.energy(
+        t + e,
+        q.plus(model.g, q.scaled(e, nu)),
+        q.plus(nu, q.scaled(e, acceleration)),
+    )
+    return {
+        "ℓ": _turning(model, places, speeds),
+        "ℓ̇": _turning(model, places, forces),
+        "p": _resultant(model, speeds),
+        "ṗ": _resultant(model, forces),
+        "ḣ": part(varied, EPS),
+    }
+
+
+def _turning(model: Model, places: list[Vector], vectors: list[Vector]) -> Matrix:
+    """Σ m (v r̄ − r v̄), or in R³ turned about its axis Σ m r ∧ v."""
+    span = range(model.n)
+    pairs = list(zip(model.masses, places, vectors, strict=True))
+    whole = tuple(
+        tuple(
+            sum((m * (v[i] * r[j] - r[i] * v[j]) for m, r, v in pairs), Fraction(0)) for j in span
+        )
+        for i in span
+    )
+    return axial(whole) if model.group.turns_space else whole
+
+
+def _resultant(model: Model, vectors: list[Vector]) -> Matrix:
+    """Σ m v."""
+    pairs = list(zip(model.masses, vectors, strict=True))
+    return tuple((sum((m * v[i] for m, v in pairs), Fraction(0)),) for i in range(model.n))
+
+
+def _motion(model: Model) -> Values:
+    """Rates along the motion, and what the equations are solved with."""
+    Z, Z_dot = model.Z, model.acceleration
+    acceleration = q.times(model.g, q.plus(Z_dot, q.times(Z, Z)))
+    values = _parts(model, "Ż", "ẇ", Z_dot)
+    values |= _parts(model, "α̇", "τ̇", acceleration)
+    values |= _parts(model, "Ȧ", "Ṫ", q.times(model.g, Z))
+    values |= _momenta(model, acceleration)
+    d = len(model.group.linear_basis)
+    for name, element in (("ζ", Z), ("ζ̇", Z_dot)):
+        coordinates = model.group.vee(element)
+        assert coordinates is not None
+        values[name] = tuple((x,) for x in coordinates[:d])
+    if model.driven:
+        values["u"] = tuple((x,) for x in model.covector)
+    return values | ({} if model.opaque else solved_values(model))
+
+
+def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
+    nu = q.times(model.g, model.Z)
+
+    def column(r: Any) -> Matrix:
+        return tuple((x,) for x in r)
+
+    families: dict[str, dict[tuple[int, ...], Any]] = {
+        "m": {(i,): m for i, m in enumerate(model.masses, 1)},
+        "r": {(i,): column(r) for i, r in enumerate(model.points, 1)},
+        "v": {(i,): column(v) for i, v in enumerate(model.moved(nu), 1)},
+        "F": {(i,): column(f) for i, f in enumerate(model.forces, 1)},
+    }
+    if not model.opaque:
+        own = model.group.basis[: len(model.group.linear_basis)]
+        families["E"] = {(a,): model.group.linear_part(e) for a, e in enumerate(own, 1)}
+        families |= exerted_families(model)
+    for name in {*SHARED} & {*families}:
+        whole = families[name].items()
+        families[name] = {(i,): times(1 / model.copies[i - 1], x) for (i,), x in whole}
+    return families
+
+
+def _functions(model: Model) -> dict[str, Callable[..., Any]]:
+    """By the heads of :mod:`derive.check.heads`, of arguments that are of their kinds."""
+    first, second = model.first, model.second
+    directions = {"δy": first, "δ′y": second, "X": model.motion}
+    for name, full in (("δx", first), ("δ′x", second)):
+        directions[name] = Direction(Fraction(0), full.xi, full.velocity)
+
+    def tangent(arguments: tuple[Tree, ...], env: Environment) -> Matrix:
+        n = model.n
+        blocks = [evaluate(x, env) for x in arguments]
+        linear = blocks[0] if is_matrix(blocks[0]) else ((Fraction(0),) * n,) * n
+        if not model.group.affine:
+            return linear
+        vector = blocks[1] if is_matrix(blocks[1]) else ((Fraction(0),),) * n
+        rows = tuple((*row, x[0]) for row, x in zip(linear, vector, strict=True))
+        return (*rows, (Fraction(0),) * (n + 1))
+
+    def momentum(_: Tree, arguments: tuple[Tree, ...], env: Environment) -> Any:
+        nu = q.times(model.g, model.Z)
+        return part(model.momentum(model.t, model.g, nu, tangent(arguments, env)), 0)
+
+    def point(head: Any, _: tuple[Tree, ...], env: Environment) -> Matrix:
+        return tuple((x,) for x in model.moved(model.g)[point_index(head[2], env) - 1])
+
+    return {
+        "dŨ": lambda _, a, env: model.work(tangent(a, env)),
+        "p̃": momentum,
+        "ϖ": lambda _, a, env: model.cartan(directions[a[0]]),
+        **dict.fromkeys(("dϖ", "ω"), lambda _, a, env: model.exterior(*(directions[x] for x in a))),
+        "r": point,
+        "∫": lambda _, a, env: _integral(model, a[0]),
+        "δA": lambda _, a, env: _linear(model, q.times(model.g, directions[a[0]].xi)),
+        "δT": lambda _, a, env: _translation(model, q.times(model.g, directions[a[0]].xi)),
+        "ξ": lambda _, a, env: _linear(model, directions[a[0]].xi),
+        "η": lambda _, a, env: _translation(model, directions[a[0]].xi),
+        "Ω": lambda _, a, env: _rotation_vector(model, directions[a[0]].xi),
+        "δ": lambda _, a, env: _varied(model, a[0], EPS, env),
+        "δ′": lambda _, a, env: _varied(model, a[0], EPS_PRIME, env),
+    }
+
+
+def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
+    """δ or δ′ of a moved point, or of the fields ξ, ξ′, η, η′ on the two-parameter family."""
+    _, g, _ = model.family(model.first, model.second)
+    if isinstance(what, tuple):
+        i = point_index(what[1][2], env)
+        return tuple((part(x, mask),) for x in model.moved(g)[i - 1])
+    other = EPS_PRIME if mask == EPS else EPS
+    derivative = derivative_of(g, other)
+    field = q.times(_inverse(model, g, mask), derivative)
+    value = part(field, mask)
+    return (_linear if what in ("ξ", "ξ′") else _translation)(model, value)
+
+
+def _inverse(model: Model, g: Matrix, mask: int) -> Matrix:
+    """g⁻¹ to first order in one parameter: (g₀ + ε g₁)⁻¹ = g₀⁻¹ − ε g₀⁻¹ g₁ g₀⁻¹."""
+    base = q.inverse(part(g, 0))
+    assert base is not None
+    first = q.times(q.times(base, part(g, mask)), base)
+    return q.minus(base, q.scaled(nilpotent(mask), first))
+
+
+def _integral(model: Model, form: Tree) -> Any:
+    """∫ of 1, r or r r̄ over the body, its points among it."""
+    if model.problem.get("body", {}).get("kind") != "given":
+        raise EvaluationError("integrals are over solids")
+    m, c, J = model.moments
+    return {1: m, "r": c}.get(form, J)
+
+
+def _rotation_vector(model: Model, xi: Matrix) -> Matrix:
+    """Ω with ξ = j(Ω)."""
+    if not model.group.turns_space:
+        raise EvaluationError("Ω is of the rotations of space alone")
+    return axial(xi)

@@ -1,0 +1,322 @@
+"""What the names of a record mean, computed from equation (3) alone, at one exact random point.
+
+The checker's other road: points with masses and places, a Lagrangian, a group element, two
+variations, all in rational numbers.  Derivatives come from nilpotent numbers, accelerations from
+d'Alembert's principle on the points.  No word of the algebra and no code of the walk is used.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from random import Random
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.groups import Group
+from ..algebra.rational import Matrix
+from .draws import Draws
+from .exerted import AnyPotential, Exerted, damping_members
+from .nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, derivative_in, derivative_of, nilpotent, part
+from .points import listed_count, points_of, principal_points
+
+Vector = tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A tangent vector of the evolution space: δt, ξ̂ = g⁻¹δg and δẐ in 𝔤 (matrices)."""
+
+    time: Any
+    xi: Matrix
+    velocity: Matrix
+
+
+class Model(Draws):
+    """One random point of the evolution space of a problem, with two variations and the motion.
+
+    ``principal``: the body has a diagonal J; ``driven``: the input does not vanish; ``opaque``: the
+    potential is any polynomial; ``pi``: its value, else any.  ``few``: no more points than are
+    needed, and each of them once.  ``zero``: parameters that vanish.  X is the motion; or, where
+    ``along`` is there, any vector with δt = 1 that has these parts of its velocity from the motion,
+    δ itself where this is ``contracted``.  ``coasting``: the acceleration is that of X.
+    ``still``: the parts of δ′ that vanish.
+    """
+
+    def __init__(
+        self,
+        problem: Mapping[str, Any],
+        group: Group,
+        random: Random,
+        size: int,
+        *,
+        principal: bool = False,
+        driven: bool = False,
+        along: Collection[str] | None = None,
+        contracted: bool = False,
+        coasting: bool = False,
+        still: Collection[str] = (),
+        opaque: bool = False,
+        pi: Fraction | None = None,
+        few: bool = False,
+        zero: Collection[str] = (),
+    ):
+        super().__init__(problem, group, random, size, opaque=opaque, pi=pi, few=few, zero=zero)
+        self.driven, self.coasting, self.principal = driven, coasting, principal
+        self.s = group.size
+        self._exteriors: dict[tuple[Direction, Direction], Fraction] = {}
+        self.masses, self.points, self.blocks = (
+            principal_points(self) if principal else points_of(self)
+        )
+        self._moments_as_parameters()
+        self.exerted = Exerted({} if opaque else problem, group, self.blocks, self.expressions)
+        self.any_potential = AnyPotential(
+            [[self.draw() for _ in range(self.n + 2)] for _ in self.points]
+        )
+        self.t = self.draw()
+        self.g = group.sample(random, size)
+        self.Z = self.algebra()
+        self.first, self.second, self.mixed = (
+            Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
+        )
+        if still:
+            time = Fraction(0) if "time" in still else self.second.time
+            self.second = replace(self.second, time=time, xi=self._still(still, self.second.xi))
+        self.vector = None if along is None else self._vector(along, contracted=contracted)
+        if contracted and self.vector is not None:
+            self.first = self.vector
+        pulled = driven and bool(self.given("covector"))
+        self.covector = [self.draw() if pulled else Fraction(0) for _ in group.basis]
+        self.pushes = [
+            tuple(self.draw() if driven else Fraction(0) for _ in range(self.n))
+            for _ in self.given("force")
+        ]
+        once = len(self.points) if few else listed_count(self)
+        self.copies = [
+            Fraction(1) if i < once else self.draw(positive=True) for i in range(len(self.points))
+        ]
+
+    def _still(self, parts: Collection[str], xi: Matrix) -> Matrix:
+        """An element of 𝔤 of which these parts vanish; where it is free of them, the given one."""
+        basis = self.group.basis
+        rows = []
+        for e in basis:
+            linear = q.flatten(self.group.linear_part(e)) if "linear" in parts else ()
+            moved = self.group.affine and "translation" in parts
+            rows.append((*linear, *(row[-1] for row in e[:-1] if moved)))
+        if not rows[0]:
+            return xi
+        kept = q.nullspace(q.transposed(tuple(rows)))
+        total = q.scaled(Fraction(0), xi)
+        for weights in kept:
+            total = q.plus(total, q.scaled(self.draw(), self.group.hat(weights)))
+        return total
+
+    def _vector(self, along: Collection[str], *, contracted: bool) -> Direction:
+        """X, with δt = 1: the velocity is that of the motion but for parts that are free."""
+        free = self._still(along, self.first.xi if contracted else self.algebra())
+        xi = q.plus(self.Z, free) if along else free
+        return Direction(Fraction(1), xi, self.algebra())
+
+    # -- body and potential ------------------------------------------------------------------
+
+    def _moments_as_parameters(self) -> None:
+        if self.problem.get("body", {}).get("kind") != "moments":
+            return
+        m, c, J = self.moments
+        self.parameters |= {"m": m} | {f"c_{i + 1}": c[i][0] for i in range(self.n)}
+        self.parameters |= {
+            f"J_{i + 1}{j + 1}": J[i][j] for i in range(self.n) for j in range(i, self.n)
+        }
+
+    @cached_property
+    def moments(self) -> tuple[Fraction, Matrix, Matrix]:
+        """m, c, J as sums over the points."""
+        total = sum(self.masses, Fraction(0))
+        span = range(self.n)
+        pairs = list(zip(self.masses, self.points, strict=True))
+        first = tuple((sum((m * r[i] for m, r in pairs), Fraction(0)),) for i in span)
+        second = tuple(
+            tuple(sum((m * r[i] * r[j] for m, r in pairs), Fraction(0)) for j in span) for i in span
+        )
+        return total, first, second
+
+    def homogeneous(self, r: Vector) -> Matrix:
+        """r, or (r, 1) for an affine action, as a column."""
+        return tuple((x,) for x in (*r, *((Fraction(1),) if self.group.affine else ())))
+
+    def moved(self, g: Matrix) -> list[Vector]:
+        """g applied to the points (also a tangent matrix)."""
+        return [tuple(x[0] for x in q.times(g, self.homogeneous(r))[: self.n]) for r in self.points]
+
+    def potential(self, t: Any, r: list[Vector]) -> Any:
+        """U(t, r): that of the problem, or any polynomial where the walk leaves it open."""
+        if self.opaque:
+            return self.any_potential.energy(t, r)
+        return self.exerted.potential(t, r, self.masses)
+
+    # -- Lagrangian, Cartan form and its derivative --------------------------------------------
+
+    def lagrangian(self, t: Any, g: Matrix, nu: Matrix) -> Any:
+        """L̃(t, g, ν) = L at the moved points: equation (3)."""
+        kinetic = sum(
+            (
+                m * Fraction(1, 2) * sum((x * x for x in v), Fraction(0))
+                for m, v in zip(self.masses, self.moved(nu), strict=True)
+            ),
+            Fraction(0),
+        )
+        return kinetic - self.potential(t, self.moved(g))
+
+    def momentum(self, t: Any, g: Matrix, nu: Matrix, w: Matrix) -> Any:
+        """p̃(w): the derivative of L̃ along the velocity."""
+        shifted = q.plus(nu, q.scaled(nilpotent(ETA), w))
+        value = Nilpotent.of(self.lagrangian(t, g, shifted))
+        return Nilpotent({k ^ ETA: x for k, x in value.parts.items() if k & ETA})
+
+    def energy(self, t: Any, g: Matrix, nu: Matrix) -> Any:
+        """h̃ = p̃(ν) − L̃."""
+        return self.momentum(t, g, nu, nu) - self.lagrangian(t, g, nu)
+
+    def family(self, a: Direction, b: Direction) -> tuple[Any, Matrix, Matrix]:
+        """t, g and Z on a two-parameter family with the given directions, to first order in each.
+
+        The mixed part is arbitrary: dϖ does not depend on it, but δξ′ and δ′ξ do.
+        """
+        e, f = nilpotent(EPS), nilpotent(EPS_PRIME)
+        one = q.identity(self.s)
+        factors = ((e, a.xi), (f, b.xi), (e * f, self.mixed.xi))
+        g = self.g
+        for weight, xi in factors:
+            g = q.times(g, q.plus(one, q.scaled(weight, xi)))
+        t = self.t + e * a.time + f * b.time + e * f * self.mixed.time
+        Z = self.Z
+        for weight, x in ((e, a.velocity), (f, b.velocity), (e * f, self.mixed.velocity)):
+            Z = q.plus(Z, q.scaled(weight, x))
+        return t, g, Z
+
+    def cartan(self, a: Direction) -> Fraction:
+        """ϖ(δ) at the point."""
+        nu = q.times(self.g, self.Z)
+        momentum = self.momentum(self.t, self.g, nu, q.times(self.g, a.xi))
+        return Fraction(part(momentum - self.energy(self.t, self.g, nu) * a.time, 0))
+
+    def exterior(self, a: Direction, b: Direction) -> Fraction:
+        """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family."""
+        if (a, b) not in self._exteriors:
+            t, g, Z = self.family(a, b)
+            nu = q.times(g, Z)
+            energy = self.energy(t, g, nu)
+
+            def form(mask: int) -> Any:
+                """ϖ on the derivative of the family in one parameter, a function of the other."""
+                dt, dg = derivative_in(t, mask), derivative_of(g, mask)
+                return self.momentum(t, g, nu, dg) - energy * dt
+
+            found = part(form(EPS_PRIME), EPS) - part(form(EPS), EPS_PRIME)
+            self._exteriors[a, b] = Fraction(found)
+        return self._exteriors[a, b]
+
+    # -- forces and the motion -------------------------------------------------------------------
+
+    def work(self, w: Matrix) -> Fraction:
+        """dŨ(w) for a tangent matrix w."""
+        shifted = q.plus(self.g, q.scaled(nilpotent(ETA), w))
+        value = self.potential(self.t, self.moved(shifted))
+        return Nilpotent.of(value).part(ETA)
+
+    @cached_property
+    def forces(self) -> list[Vector]:
+        """F_i = −∂U/∂r_i."""
+        if self.opaque:
+            return self.any_potential.forces(self.t, self.moved(self.g))
+        return self.exerted.forces(self.t, self.moved(self.g), self.masses)
+
+    @cached_property
+    def given_forces(self) -> list[Vector]:
+        """Force inputs and damping on every point, in space."""
+        total = [[Fraction(0)] * self.n for _ in self.points]
+        linear = self.group.linear_part(self.g)
+        for push, data in zip(self.pushes, self.given("force"), strict=True):
+            block = self.blocks[data["on"] - 1]
+            here = push[self.group.of_block(block)]
+            inside = tuple((x,) for x in self.group.in_block(block, here))
+            force = q.times(linear, inside) if data["frame"] == "body" else inside
+            for k, (x,) in enumerate(force):
+                total[data["on"] - 1][k] += x
+        if self.driven:
+            velocities = self.moved(q.times(self.g, self.Z))
+            for i, kappa in damping_members(self).items():
+                for k, x in enumerate(velocities[i - 1]):
+                    total[i - 1][k] -= kappa * x
+        return [tuple(f) for f in total]
+
+    @cached_property
+    def input(self) -> list[Fraction]:
+        """The covector of all that is given from outside, on the basis."""
+        found = []
+        for u, e in zip(self.covector, self.group.basis, strict=True):
+            moved = self.moved(q.times(self.g, e))
+            work = sum(
+                (
+                    x * y
+                    for f, v in zip(self.given_forces, moved, strict=True)
+                    for x, y in zip(f, v, strict=True)
+                ),
+                Fraction(0),
+            )
+            found.append(u + work)
+        return found
+
+    def pairing(self, a: Matrix, b: Matrix) -> Fraction:
+        """Σ m_i ⟨a r_i, b r_i⟩ for tangent matrices at g."""
+        return sum(
+            (
+                m * sum((x * y for x, y in zip(u, v, strict=True)), Fraction(0))
+                for m, u, v in zip(self.masses, self.moved(a), self.moved(b), strict=True)
+            ),
+            Fraction(0),
+        )
+
+    def gram(self, frames: list[Matrix]) -> Matrix:
+        """The metric on tangent matrices at g: their displacements are computed once."""
+        moved = [[x for v in self.moved(a) for x in v] for a in frames]
+        weights = [m for m in self.masses for _ in range(self.n)]
+        rows = [[m * x for m, x in zip(weights, u, strict=True)] for u in moved]
+        return q.times(q.matrix(rows), q.transposed(q.matrix(moved)))
+
+    @cached_property
+    def metric(self) -> Matrix:
+        """That of the kinetic energy at g, on the basis."""
+        return self.gram([q.times(self.g, e) for e in self.group.basis])
+
+    def solve_metric(self, covector: list[Fraction]) -> Matrix:
+        """The element of 𝔤 that the kinetic metric at g sends to a covector."""
+        solution = q.solve(self.metric, tuple((x,) for x in covector))
+        if solution is None:
+            raise ZeroDivisionError("the kinetic metric is singular at this point")
+        return self.group.hat([row[0] for row in solution])
+
+    @cached_property
+    def acceleration(self) -> Matrix:
+        """Ż by d'Alembert: Σ ⟨m_i a_i − F_i, v′_i⟩ = u(ξ′) for every ξ′, with a = g(Ż + Z²)r."""
+        if self.coasting and self.vector is not None:
+            return self.vector.velocity
+        centripetal = q.times(self.g, q.times(self.Z, self.Z))
+        covector = []
+        for u, e in zip(self.input, self.group.basis, strict=True):
+            frame = q.times(self.g, e)
+            covector.append(u - self.work(frame) - self.pairing(centripetal, frame))
+        return self.solve_metric(covector)
+
+    @cached_property
+    def gradient(self) -> Matrix:
+        """f in 𝔤: the metric sends A f to −dŨ."""
+        return self.solve_metric([-self.work(q.times(self.g, e)) for e in self.group.basis])
+
+    @property
+    def motion(self) -> Direction:
+        """X, with δt = 1: the direction of the motion, unless it is to be any."""
+        return self.vector or Direction(Fraction(1), self.Z, self.acceleration)

@@ -1,0 +1,210 @@
+"""The hypotheses of a step: those that its equations need, and whether each is so at a point.
+
+An inverse needs its matrix or number to have one, a velocity or a force that the kinetic energy
+tells its metric not to be degenerate, the Lagrangian on the group the masses that the problem has.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections import ChainMap
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.rational import Matrix
+from ..algebra.show import show
+from ..algebra.tree import Tree, names
+from ..record import masses
+from ..record.hypotheses import OF_MASSES, Hypothesis
+from ..record.record import Equation, RecordError, Step
+from ..record.vocabulary import ANY_GROUP
+from .arithmetic import EvaluationError, is_matrix, scalar
+from .assumed import ALONG
+from .evaluate import Environment, evaluate, free_indices, index_values
+from .heads import FORMS
+from .model import Model
+from .spatial import axial
+
+SHOWN = 80
+"""Letters of a hypothesis, in the message."""
+INVERSE = ("invertible", "nonzero", "positive")
+"""What lets one divide."""
+REGULAR = "the metric of the kinetic energy is not degenerate"
+MASSES = Hypothesis("positive", ("at", "m", "i"))
+CENTRAL: Tree = ("add", "J", ("mul", -1, ("inv", "m"), "c", ("T", "c")))
+MOMENTS = (Hypothesis("positive", "m"), Hypothesis("semidefinite", CENTRAL))
+INVERTIBLE = ("A", "C", ("T", "A"))
+"""The element of the group and what is made of it have inverses."""
+
+
+def denominators(t: Tree) -> Iterator[Tree]:
+    """What a tree divides by, or inverts: not numbers, nor the element of the group."""
+    if not isinstance(t, tuple):
+        return
+    if t[0] in ("inv", "div") or (t[0] == "pow" and int(t[2]) < 0):
+        x = t[1] if t[0] != "div" else t[2]
+        if x not in INVERTIBLE and not _number(x):
+            yield x
+    for x in t[1:]:
+        yield from denominators(x)
+
+
+def _number(t: Tree) -> bool:
+    if isinstance(t, tuple):
+        known = t[0] in ("add", "mul", "div", "pow", "fun")
+        return known and all(map(_number, t[2:] if t[0] == "fun" else t[1:]))
+    return not isinstance(t, str) or t == "π"
+
+
+def tells_velocity(equation: Equation) -> bool:
+    """Is it δA(X) = α, or its like?"""
+    lhs, rhs = equation.lhs, equation.rhs
+    about = isinstance(lhs, tuple) and lhs[0] == "call" and lhs[2:] == ("X",)
+    return about and isinstance(lhs, tuple) and (lhs[1], rhs) in ALONG
+
+
+def needs_metric(step: Step) -> bool:
+    """Does it conclude what the velocity of X is, or introduce F̃ by its pairing with all δA?"""
+    if any(tells_velocity(e) and e in step.given for e in step.equations):
+        return True
+    return any("δA" in e.for_all and "F̃" in {*names(e.lhs)} for e in step.equations)
+
+
+def needs_moments(step: Step, problem: Mapping[str, Any]) -> bool:
+    """Are m, c, J introduced as parameters, which are those of some positive masses?"""
+    free = problem.get("body", {}).get("kind") == "moments" and step.scope != ANY_GROUP
+    introduced = free and any(e.lhs == "J" for e in step.equations)
+    return introduced and not masses.any_sign(problem)
+
+
+def unfounded(steps: Iterable[Step], problem: Mapping[str, Any]) -> Iterator[str]:
+    """For each step what it does not suppose of the masses where it introduces L̃; else empty."""
+    known = False
+    for step in steps:
+        here = not known and any(e.lhs == "L̃" for e in step.equations)
+        known = known or here
+        yield _unfounded(step, problem) if here else ""
+
+
+def _unfounded(step: Step, problem: Mapping[str, Any]) -> str:
+    with suppress(RecordError):  # its own verdict says so
+        if MASSES not in step.hypotheses and not masses.any_sign(problem):
+            return "it introduces L̃, and does not suppose that the masses are positive"
+    if not any(x.property == "nondegenerate" for x in step.hypotheses):
+        return f"it introduces L̃, and does not suppose that {REGULAR}"
+    return ""
+
+
+def untrue(step: Step, problem: Mapping[str, Any], env: Environment, model: Model) -> str:
+    """The hypothesis of a step that is not so, at a point or of the problem; empty for none."""
+    if any(x.property in OF_MASSES for x in step.hypotheses) and masses.any_sign(problem):
+        return masses.SUPPOSED
+    for x in step.hypotheses:
+        if why := _false(x, env, model):
+            return f"the hypothesis that {_said(x.of)} is {x.property} is {why}"
+    return ""
+
+
+def unsaid(step: Step, problem: Mapping[str, Any], env: Environment, model: Model) -> str:
+    """What the equations of a step need, and it does not suppose; empty for nothing."""
+    inverted = {x.of for x in step.hypotheses if x.property in INVERSE}
+    for e in step.equations:
+        for t in (*denominators(e.lhs), *denominators(e.rhs)):
+            if t not in inverted:
+                return f"it divides by {_said(t)}, and does not suppose that this has an inverse"
+    for x in MOMENTS if needs_moments(step, problem) else ():
+        if x not in step.hypotheses:
+            return f"it does not suppose that {_said(x.of)} is {x.property}"
+    if needs_metric(step) and not any(_is_metric(x, env, model) for x in step.hypotheses):
+        return f"it does not suppose that {REGULAR}"
+    return ""
+
+
+def _said(t: Tree) -> str:
+    return show(t)[:SHOWN]
+
+
+# -- at a point ----------------------------------------------------------------------------------
+
+
+def _false(x: Hypothesis, env: Environment, model: Model) -> str:
+    """Why a hypothesis is not so; empty where it is."""
+    if x.property == "nondegenerate":
+        if not all({*letters} & {*names(x.of)} for letters in _letters(x.space)):
+            return f"of no form in two variations on {x.space}"
+        if gram(x.of, env, model) != model.metric:
+            return "of another form than the metric of the kinetic energy"
+        return "" if q.rank(model.metric) == model.group.dimension else "false"
+    for value in values(x.of, env):
+        found = scalar(value)
+        if is_matrix(found) and x.property in ("positive", "nonzero"):
+            return "of a matrix"
+        if not HOLDS[x.property](found if is_matrix(found) else ((found,),)):
+            return "false"
+    return ""
+
+
+HOLDS: dict[str, Callable[[Matrix], bool]] = {
+    "positive": lambda x: bool(x[0][0] > 0),
+    "nonzero": lambda x: bool(x[0][0] != 0),
+    "invertible": lambda x: len(x) == len(x[0]) and q.inverse(x) is not None,
+    "semidefinite": lambda x: x == q.transposed(x) and q.semidefinite(x),
+}
+"""Is a property that of a matrix, or of a number as a matrix of one entry?"""
+
+
+def values(t: Tree, env: Environment) -> Iterator[Any]:
+    """The value of a tree for each value of its free indices."""
+    free = sorted(free_indices(t))
+    if len(free) > 2:
+        raise EvaluationError("more than two free indices")
+    for numbers in itertools.product(*(index_values(t, index, env) for index in free)):
+        bound = env
+        for index, number in zip(free, numbers, strict=True):
+            bound = bound.with_index(index, number)
+        yield evaluate(t, bound)
+
+
+def _letters(space: str) -> tuple[tuple[str, ...], ...]:
+    """The letters of the first variation on a space, and of the second."""
+    chosen = slice(0, 1) if space == "T_g G" else slice(1, None)
+    return tuple(tuple(x for form in forms[chosen] for x in form) for forms in FORMS)
+
+
+def gram(form: Tree, env: Environment, model: Model) -> Matrix:
+    """The values of a form in two variations on all pairs of elements of the basis."""
+    first, second = ([_varied(e, model, k) for e in model.group.basis] for k in (0, 1))
+
+    def value(a: Mapping[str, Any], b: Mapping[str, Any]) -> Any:
+        there = replace(env, names=ChainMap({**a, **b}, env.names))  # type: ignore[arg-type]
+        return scalar(evaluate(form, there))
+
+    rows = tuple(tuple(value(a, b) for b in second) for a in first)
+    if any(is_matrix(x) for row in rows for x in row):
+        raise EvaluationError("a form has numbers as values")
+    return rows
+
+
+def _varied(e: Matrix, model: Model, which: int) -> dict[str, Matrix]:
+    """The names of the first or the second variation along an element of 𝔤."""
+    space, *algebra = FORMS[which]
+    found: dict[str, Matrix] = {}
+    for x, letters in ((q.times(model.g, e), [space]), (e, algebra)):
+        for linear, shift in letters:
+            turned = linear[0] == "Ω"
+            if turned and not model.group.turns_space:
+                continue
+            found[linear] = axial(x) if turned else model.group.linear_part(x)
+            if model.group.affine:
+                found[shift] = tuple((row[model.n],) for row in x[: model.n])
+    return found
+
+
+def _is_metric(x: Hypothesis, env: Environment, model: Model) -> bool:
+    """Does it say of the metric of the kinetic energy, or of its matrix, that it has no kernel?"""
+    if x.property == "invertible":
+        return all(value == model.metric for value in values(x.of, env))
+    return x.property == "nondegenerate"

@@ -1,0 +1,79 @@
+"""The points of a model: those of the problem, or any where it leaves them open."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.rational import Matrix
+from ..record.record import decode
+from .draws import Draws
+from .evaluate import evaluate
+from .realised import moments_of, points_with, without
+
+Vector = tuple[Any, ...]
+Points = tuple[list[Fraction], list[Vector], list[int]]
+"""Masses, places in the body, blocks; the places without a mass are among them."""
+
+
+def points_of(model: Draws) -> Points:
+    """Masses and points of the problem, then its other places, then what is not listed."""
+    body = model.problem.get("body", {})
+    listed = [] if model.opaque else model.problem.get("places", [])
+    places, blocks = _placed(model, listed)
+    empty = [Fraction(0)] * len(places)
+    if body.get("kind") in ("points", "given") and not model.opaque:
+        listed = body.get("points", [])
+        own = [evaluate(decode(p["mass"], "mass"), model.expressions) for p in listed]
+        points, first = _placed(model, listed)
+        masses, rest = _cloud(model, *moments_of(model)) if body["kind"] == "given" else ([], [])
+        blocks = first + blocks + [1] * len(rest)
+        return own + empty + masses, points + places + rest, blocks
+    masses, points = _anywhere(model, model.n + 1 + model.spare)
+    return empty + masses, places + points, blocks + [1] * len(points)
+
+
+def listed_count(model: Draws) -> int:
+    """How many points the problem lists: they come first, and an equation may name them."""
+    if model.opaque:
+        return 0
+    body = model.problem.get("body", {})
+    return len(body.get("points", [])) + len(model.problem.get("places", []))
+
+
+def principal_points(model: Draws) -> Points:
+    """As many points anywhere and what makes J diagonal, and m and c any."""
+    n, count = model.n, len(model.problem.get("body", {}).get("points", []))
+    masses, points = _anywhere(model, count)
+    places, blocks = _placed(model, model.problem.get("places", []))
+    m, c = model.draw(positive=True), tuple(model.draw() for _ in range(n))
+    J = q.matrix([[model.draw() if i == j else Fraction(0) for j in range(n)] for i in range(n)])
+    more, rest = _cloud(model, *without(masses, points, m, c, J))
+    empty = [Fraction(0)] * len(places)
+    return masses + empty + more, points + places + rest, [1] * count + blocks + [1] * len(rest)
+
+
+def _cloud(model: Draws, m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list[Vector]]:
+    """Points of these moments, some of them anywhere: nothing but m, c and J is known of them."""
+    masses, points = _anywhere(model, model.spare)
+    more, rest = points_with(*without(masses, points, m, c, J))
+    return masses + more, points + rest
+
+
+def _anywhere(model: Draws, count: int) -> tuple[list[Fraction], list[Vector]]:
+    masses = [model.draw(positive=True) for _ in range(count)]
+    return masses, [tuple(model.draw() for _ in range(model.n)) for _ in range(count)]
+
+
+def _placed(model: Draws, listed: list[Mapping[str, Any]]) -> tuple[list[Vector], list[int]]:
+    """Places of the problem, each in its block of a product."""
+    places, blocks = [], []
+    for data in listed:
+        at = tuple(evaluate(decode(x, "at"), model.expressions) for x in data["at"])
+        block = data.get("block", 1)
+        blocks.append(block)
+        at = model.group.in_block(block, at, 1)
+        places.append(at)
+    return places, blocks

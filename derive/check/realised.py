@@ -1,0 +1,118 @@
+"""A body of given moments as exact point masses, so that it can be moved like any other.
+
+Moments m, c, J are those of the points s ± l_k with the masses d_k / 2 and of s with what is left
+of m, where s = c / m and J − m s s̄ = Σ d_k l_k l̄_k (Gauss's elimination).  The moments of solids
+are computed by slices, not by the integrals of the derivation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.rational import Matrix
+from ..algebra.tree import OPERATORS
+from ..record.record import RecordError, decode
+from .draws import Draws
+from .evaluate import evaluate
+from .slices import slice_moments
+
+Vector = tuple[Any, ...]
+
+
+def points_with(m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list[Vector]]:
+    """Masses, some of them negative it may be, and places that have these moments."""
+    if m == 0:
+        raise ZeroDivisionError("a body without mass")
+    s = tuple(x / m for x in c)
+    column = tuple((x,) for x in s)
+    central = q.minus(J, q.scaled(m, q.times(column, q.transposed(column))))
+    masses, points = [], []
+    for weight, direction in squares(central):
+        for sign in (1, -1):
+            masses.append(weight / 2)
+            points.append(tuple(x + sign * y for x, y in zip(s, direction, strict=True)))
+    return [*masses, m - sum(masses, Fraction(0))], [*points, s]
+
+
+def without(
+    masses: Iterable[Fraction], points: Iterable[Vector], m: Fraction, c: Vector, J: Matrix
+) -> tuple[Fraction, Vector, Matrix]:
+    """What some point masses leave of m, c, J."""
+    for mass, r in zip(masses, points, strict=True):
+        m, c = m - mass, tuple(x - mass * y for x, y in zip(c, r, strict=True))
+        column = tuple((x,) for x in r)
+        J = q.minus(J, q.scaled(mass, q.times(column, q.transposed(column))))
+    return m, c, J
+
+
+def squares(a: Matrix) -> list[tuple[Fraction, Vector]]:
+    """A symmetric matrix as Σ d l l̄; ``ZeroDivisionError`` where a pivot is missing."""
+    found = []
+    n = len(a)
+    for k in range(n):
+        pivot = a[k][k]
+        if pivot == 0:
+            if any(a[k]):
+                raise ZeroDivisionError("no pivot for the moments of the body")
+            continue
+        direction = tuple(a[i][k] / pivot for i in range(n))
+        column = tuple((x,) for x in direction)
+        a = q.minus(a, q.scaled(pivot, q.times(column, q.transposed(column))))
+        found.append((pivot, direction))
+    return found
+
+
+def moments_of(model: Draws) -> tuple[Fraction, Vector, Matrix]:
+    """m, c, J of the body without its listed points: by slices where it is of solids.
+
+    ``RecordError`` where these and the points do not have the given ones.
+    """
+    body = model.problem["body"]
+    m, c, J = (_value(model, body["given"][key]) for key in ("m", "c", "J"))
+    if not body["solids"]:
+        return m, c, J
+    solids = sliced(model, body["solids"])
+    listed = body.get("points", [])
+    own = [_value(model, p["mass"]) for p in listed]
+    if without(own, [_value(model, p["at"]) for p in listed], m, c, J) != solids:
+        raise RecordError("body: the given moments are not those of its solids")
+    return solids
+
+
+def sliced(model: Draws, solids: Iterable[Mapping[str, Any]]) -> tuple[Fraction, Vector, Matrix]:
+    """m, c, J of solids, summed over their slices."""
+    m, c = Fraction(0), tuple([Fraction(0)] * 3)
+    J = q.scaled(Fraction(0), q.identity(3))
+    for solid in solids:
+        mass, first, second = _solid(model, solid)
+        m, J = m + mass, q.plus(J, second)
+        c = tuple(x + y for x, y in zip(c, first, strict=True))
+    return m, c, J
+
+
+def _value(model: Draws, x: Any) -> Any:
+    """The value of an expression of the problem, or of a list of them."""
+    if isinstance(x, list) and x and x[0] not in list(OPERATORS):
+        return tuple(_value(model, y) for y in x)
+    return evaluate(decode(x, "body"), model.expressions)
+
+
+def _solid(model: Draws, data: Mapping[str, Any]) -> tuple[Fraction, Vector, Matrix]:
+    def value(x: Any) -> Any:
+        return _value(model, x)
+
+    sizes = {k: x if k == "faces" else value(x) for k, x in data["sizes"].items()}
+    V, f, S = slice_moments(data["kind"], sizes, model.pi)
+    density = value(data["density"])
+    R = value(data["rotation"]) if data.get("rotation") else q.identity(3)
+    shift = value(data["shift"]) if data.get("shift") else (Fraction(0),) * 3
+    s, turned = tuple((x,) for x in shift), q.times(R, tuple((x,) for x in f))
+    mixed = q.times(turned, q.transposed(s))
+    second = q.times(q.times(R, S), q.transposed(R))
+    second = q.plus(q.plus(second, mixed), q.transposed(mixed))
+    second = q.plus(second, q.scaled(V, q.times(s, q.transposed(s))))
+    first = q.plus(turned, q.scaled(V, s))
+    return density * V, tuple(density * x for (x,) in first), q.scaled(density, second)

@@ -1,0 +1,270 @@
+"""Are the symbols of a record what it says they are?
+
+Each has the type of the values that its name has in the exact models of the steps that use it, and
+the role and the defining equation that the steps give it; and the steps use no others.
+"""
+
+from __future__ import annotations
+
+from collections import ChainMap
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.groups import Group
+from ..algebra.show import show
+from ..algebra.tree import Tree
+from ..record.record import Derivation, Equation, Step, Symbol
+from ..record.vocabulary import ANY_GROUP, Type, Use
+from . import calls
+from .arithmetic import is_matrix
+from .evaluate import Environment, evaluate, free_indices
+from .heads import AT_ONE_TIME, AXIS, COUNTED, HEADS, MOTION, VARIATION
+from .introduced import Way, definitions, ways
+
+RATES = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "ṗ_b", "ℓ̇_b")
+"""What has its value on X: rates along the motion."""
+
+MULTIPLIER = "λ"
+"""Where it is a number; else λ are the principal moments."""
+
+INDEX = {x: x for x in COUNTED.values()} | {"forces along a distance": "distances", AXIS: "basis"}
+"""How a record says what the index of a family counts."""
+
+VARIATIONS = dict.fromkeys(VARIATION.letters, "variation")
+VARIATIONS |= dict.fromkeys(AT_ONE_TIME.letters, "variation at one time")
+"""The type of what has no value in a model but directions."""
+
+CONSTANTS = ("π",)
+"""Names that need no symbol."""
+
+Given = tuple[tuple[Equation, ...], bool]
+Places = Mapping[tuple[str, Given], list[tuple[Group, Environment]]]
+Points = Callable[[Step], Iterable[tuple[Group, Environment]]]
+Arguments = tuple[Tree, ...]
+
+
+@dataclass
+class Seen:
+    """How steps use a name in one way: of which arguments, in which scopes, with what given in one
+    of the steps; in the text about any group?"""
+
+    where: dict[Arguments, dict[str, Given]] = field(default_factory=dict)
+    general: bool = False
+
+
+def wrong(d: Derivation, points: Points) -> str:
+    """What is not so, in words; empty where all is.  ``points``: where the checker tries a step."""
+    listed, names = [s.name for s in d.symbols], dict.fromkeys(name for name, _ in used(d.steps))
+    for told, names_so in (
+        ("is declared twice", (x for k, x in enumerate(listed) if x in listed[:k])),
+        ("is used, and not declared", (x for x in names if x not in listed)),
+        ("is declared, and no step uses it", (x for x in listed if x not in names)),
+    ):
+        if name := next(names_so, ""):
+            return f"{name} {told}"
+    affine = d.problem.get("action") == "affine"
+    heads = (_call(way, x) for way, seen in used(d.steps).items() for x in seen.where)
+    if reason := next(filter(None, (calls.wrong(t, affine=affine) for t in heads)), ""):
+        return reason  # nothing else is evaluated
+    return next(filter(None, map(judge(d.steps, points).wrong, d.symbols)), "")
+
+
+def judge(steps: Sequence[Step], points: Points) -> Judge:
+    """For the symbols of some steps."""
+    kinds = {(s.scope, _given(s)): s for s in steps}
+    places = {kind: [*points(step)] for kind, step in kinds.items()}
+    return Judge(used(steps), definitions(steps), places)
+
+
+def _given(step: Step) -> Given:
+    """What is given in a step, inputs among it."""
+    return step.given, step.driven
+
+
+def used(steps: Iterable[Step]) -> dict[Way, Seen]:
+    """All ways in which steps use names."""
+    found: dict[Way, Seen] = {}
+    for step in steps:
+        for side in (x for e in step.equations for x in (e.lhs, e.rhs)):
+            for way, arguments in ways(side):
+                if way[0] not in CONSTANTS:
+                    here = found.setdefault(way, Seen())
+                    here.where.setdefault(arguments, {})[step.scope] = _given(step)
+                    here.general |= step.scope == ANY_GROUP
+    return found
+
+
+@dataclass(frozen=True)
+class Judge:
+    """What the steps do with names, what they say of them, and the points where they are tried."""
+
+    seen: Mapping[Way, Seen]
+    said: Mapping[Way, tuple[str, Arguments]]
+    places: Places
+    memo: dict[tuple[int, Tree], list[Any]] = field(default_factory=dict)
+
+    def wrong(self, symbol: Symbol) -> str:
+        """What of a symbol is not so."""
+        name, uses = symbol.name, symbol.uses
+        here = {way for x, way in self.seen if x == name}
+        declared = {way_of(use.type) for use in uses}
+        if here != declared:
+            return f"{name} is used as a {_list(here)}, and declared as a {_list(declared)}"
+        for k, use in enumerate(uses):
+            if any(x.type == use.type for x in uses[:k]):
+                return f"{name} is declared twice as the same"
+            if reason := self.use(name, use):
+                return f"{name}: {reason}"
+        return next(filter(None, (self.left(name, way, uses) for way in sorted(here))), "")
+
+    def use(self, name: str, use: Use) -> str:
+        """What of one use is not so: type, key, role."""
+        way = (name, way_of(use.type))
+        if not [*self.taken(way, use.type)]:
+            return f"type {said(use.type)} is not that of its values"
+        key, arguments = self.said.get(way, ("", ()))
+        key = key if self.fits(way, use.type, arguments) else ""
+        if use.defined != key:
+            wanted, found = (x or "no equation" for x in (key, use.defined))
+            return f"{wanted} says first what it is, not {found:.60}"
+        role = _role(way, use.type, key)
+        return "" if use.role == role else f"its role is {role!r}, not {use.role!r}"
+
+    def left(self, name: str, way: str, uses: Iterable[Use]) -> str:
+        """Arguments, or values, that none of the declared types is of."""
+        kept = {x for use in uses for x in self.taken((name, way), use.type)}
+        over = [x for x in self.seen[name, way].where if x not in kept]
+        return f"{show(_call((name, way), over[0]))} has none of its types" if over else ""
+
+    def taken(self, way: Way, type_: Type) -> Iterator[Arguments]:
+        """The arguments of which a type is right; () for what is no function."""
+        return (x for x in self.seen[way].where if self.fits(way, type_, x))
+
+    def fits(self, way: Way, type_: Type, arguments: Arguments) -> bool:
+        """Is a type that of a name in some way, at these arguments where it is a function?"""
+        name, how = way
+        if how != way_of(type_) or arguments not in self.seen[way].where:
+            return False
+        if how in ("member", "moved"):
+            if type_[1] != INDEX.get(COUNTED.get(name, "")):
+                return False
+            type_ = type_[2]
+        kinds = type_[1:] if how in ("function", "moved") else (type_,)
+        trees = (*arguments, _call(way, arguments))
+        where, general = self.seen[way].where[arguments], self.seen[way].general
+        return len(kinds) == len(trees) and all(
+            x == 0 or self.right(kind, x, where, general)
+            for kind, x in zip(kinds, trees, strict=True)
+        )
+
+    def right(self, type_: Type, t: Tree, where: Mapping[str, Given], general: bool) -> bool:
+        """Is it the narrowest type of what a tree is?  Its shape is that of any hypotheses."""
+        if isinstance(t, str) and t in VARIATIONS:
+            return type_ == VARIATIONS[t]
+        places = [at for kind in where.items() for at in self.places[kind]]
+        found = [(x, g) for g, env in places for x in self.values(t, env)]
+        if not found or not all(_is(type_, x, g, general) for x, g in found):
+            return False
+        basis = isinstance(t, tuple) and t[0] == "at" and COUNTED.get(t[1]) == AXIS
+        if type_ == ("algebra",):  # of one group alone that may be by chance
+            return general or basis
+        proper = [(x, g) for x, g in found if len(g.linear_basis) < g.n**2]
+        narrower = proper and all(_in_algebra(x, g) for x, g in proper) and (general or basis)
+        return type_[0] != "matrix" or not narrower
+
+    def values(self, t: Tree, env: Environment) -> list[Any]:
+        """Those of :func:`values`, found once."""
+        key = (id(env), t)
+        if key not in self.memo:
+            self.memo[key] = values(t, env)
+        return self.memo[key]
+
+
+def way_of(type_: Type) -> str:
+    """How a name of a type stands in equations."""
+    match type_:
+        case ("family", _, ("function", *_)):
+            return "moved"
+        case ("family", _, _):
+            return "member"
+        case ("function", *_):
+            return "function"
+    return "value"
+
+
+def _role(way: Way, type_: Type, key: str) -> str:
+    name, how = way
+    if how in ("function", "moved"):
+        return "value on X" if HEADS.get(name) == (MOTION,) else "function"
+    if name in RATES:
+        return "value on X"
+    if name == MULTIPLIER and type_ == "scalar":
+        return "unknown"
+    return "definition" if key else "letter"
+
+
+def _call(way: Way, arguments: Arguments) -> Tree:
+    """What stands in equations, for any index."""
+    name, how = way
+    head: Tree = ("at", name, "i") if how in ("member", "moved") else name
+    return ("call", head, *arguments) if how in ("function", "moved") else head
+
+
+def values(t: Tree, env: Environment) -> list[Any]:
+    """Of a tree, for the first value of its indices; all members of a family.
+
+    What an integral is taken of is a function of the place r.
+    """
+    if isinstance(t, tuple) and t[0] == "at":
+        return [*env.families[t[1]].values()]
+    first = {i: 1 for i in free_indices(t) if isinstance(i, str)}
+    place = {"r": env.families["r"][1,]}
+    there = replace(env, names=ChainMap(place, env.names), indices=first)  # type: ignore[arg-type]
+    return [evaluate(t, there)]
+
+
+def _is(type_: Type, x: Any, g: Group, general: bool) -> bool:
+    """Is a value of a type, whose sizes are n where it is of any group, and numbers elsewhere?
+
+    Of a product with factors in spaces of several dimensions a vector may be one of any of them.
+    """
+    rows, columns = (len(x), len(x[0])) if is_matrix(x) else (0, 0)
+
+    def size(k: Any) -> int:
+        blocks = {factor.n for _, factor in g.places}
+        if general:
+            return g.n if k == "n" else -1
+        if k == "block":
+            return rows if len(blocks) > 1 and rows in blocks else -1
+        return k if type(k) is int else -1
+
+    match type_:
+        case "scalar":
+            return rows == 0
+        case ("vector", n):
+            return (rows, columns) == (size(n), 1)
+        case ("matrix", n, m):
+            return (rows, columns) == (size(n), size(m)) and (columns > 1 or rows == 1)
+        case ("algebra",):
+            return rows == columns == g.n and _in_algebra(x, g)
+    return False
+
+
+def _in_algebra(x: Any, g: Group) -> bool:
+    """Is a matrix one of the linear parts of 𝔤?"""
+    if not is_matrix(x) or not len(x) == len(x[0]) == g.n:
+        return False
+    rows = tuple(q.flatten(e) for e in g.linear_basis)
+    return q.rank((*rows, q.flatten(x))) == len(rows)
+
+
+def said(type_: Type) -> str:
+    """A type in a message."""
+    words = type_ if isinstance(type_, str) else f"[{', '.join(map(str, type_))}]"
+    return f"{words:.60}"
+
+
+def _list(words: Iterable[str]) -> str:
+    return " and a ".join(sorted(words)) or "nothing"

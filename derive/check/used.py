@@ -1,0 +1,41 @@
+"""Does a step use the steps from which it has its names?
+
+Of every name but those that all begins with, the first step that has it must say what it is
+(:mod:`derive.check.introduced`); a later one must use a step that speaks of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from ..algebra.tree import Tree
+from ..record.record import Step
+from .introduced import FIRST
+
+MEMBERS = frozenset(f"{x}_" for x in ("m", "r", "v", "F", "E", "f_u"))
+"""Families that all begins with: a member m_i is not the sum m."""
+
+
+def unused(steps: Iterable[Step]) -> Iterator[str]:
+    """For each step a name that it has from none of the steps it uses; empty when there is none."""
+    spoken: dict[str, set[str]] = {}
+    known: set[str] = set()
+    for step in steps:
+        here = {x for e in step.equations for side in (e.lhs, e.rhs) for x in spoken_of(side)}
+        told = set().union(*(spoken.get(x, ()) for x in step.uses))
+        yield next(iter(sorted((here & known) - told)), "")
+        spoken[step.label] = here
+        known |= here
+
+
+def spoken_of(t: Tree) -> Iterator[str]:
+    """The names in a tree; dϖ speaks of ϖ, and a member m_i is ``m_``."""
+    if isinstance(t, str):
+        if t not in FIRST:
+            yield t.removeprefix("d") if t == "dϖ" else t
+    elif isinstance(t, tuple) and t[0] == "at":
+        if f"{t[1]}_" not in MEMBERS:
+            yield f"{t[1]}_"
+    elif isinstance(t, tuple) and t[0] != "par":
+        for part in t[1:]:
+            yield from spoken_of(part)

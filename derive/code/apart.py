@@ -1,0 +1,123 @@
+"""Names of a program that mean nothing else in the text of a language that stands around them.
+
+The words of a template are not listed anywhere: a program of the same form, but with nothing in it,
+is emitted, and what identifiers that text has are its own.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+from .languages import HASH, Language
+from .program import Assignment, Check, Expression, Framing, Function, Program, Section
+
+NAMELESS = "·"
+"""Stands for every name of the empty program: no identifier of any language."""
+
+_STRING = r'(?<![A-Za-z])"(?:[^"\\\n]|\\.)*"'
+"""But for one with a letter before it: an f-string holds names."""
+_SILENT = {
+    True: re.compile(rf'"""(?s:.*?)"""|{_STRING}|#.*'),
+    False: re.compile(rf"/\*(?s:.*?)\*/|//.*|#\s*include.*|{_STRING}"),
+}
+"""What no name is read in, in a language whose comments begin with # and in the others."""
+_IDENTIFIER = re.compile(r"(?<!\w)(?<!(?<!\.)\.)[^\W\d]\w*")
+"""Not after one dot: a member of something is no name by itself, but ``...x`` is."""
+
+MACROS = {"I", "EOF", "assert", "complex", "errno", "imaginary", "stderr", "stdin", "stdout"}
+"""Of complex.h, stdio.h, errno.h and assert.h, in lower case or of few letters."""
+
+ONE: Expression = ("num", Fraction(1))
+
+
+def identifiers(text: str, language: Language) -> set[str]:
+    """The names that a text of a language has, comments and strings left out.
+
+    And in C what standard headers that the user may include before define as macros.
+    """
+    own = set(_IDENTIFIER.findall(_SILENT[language.comment == HASH].sub(" ", text)))
+    return own | MACROS if "c" in (language.name, language.needs) else own
+
+
+def hollow(p: Program) -> Program:
+    """A program of the same form without names and statements: all that is emitted is template.
+
+    Each function still reads the same arrays, calls the same functions and has as many results.
+    """
+    called = sorted({name for f in p.all_functions() for name in f.calls()})
+    calls: list[Expression] = [("fun", name, ONE) for name in called]
+    first: Expression = ("add", tuple((1, e) for e in (("abs", ONE), *calls)))
+
+    def emptied(f: Function) -> Function:
+        arrays = {x.array: replace(x, name=NAMELESS) for x in f.loads}
+        return Function(
+            tuple(arrays.values()),
+            (Section("", "", (Assignment(NAMELESS, first),)),) * bool(f.sections),
+            (ONE,) * len(f.outputs),
+            tuple(Check(ONE, c.scale and ONE) for c in f.checks),
+        )
+
+    return replace(
+        _each(p, emptied),
+        title="",
+        conventions=(),
+        state=(NAMELESS,) * len(p.state),
+        inputs=(NAMELESS,) * len(p.inputs),
+        constants=(NAMELESS,) * len(p.constants),
+        parameters=tuple((NAMELESS, x[1], "", "") for x in p.parameters),
+    )
+
+
+def apart(p: Program, words: Iterable[str]) -> Program:
+    """The same program; an underscore is added to what its functions call by one of the words."""
+    functions = p.all_functions()
+    # the time is an argument, whose name the templates give
+    own = dict.fromkeys(x.name for f in functions for x in f.loads if x.array != "t")
+    own |= dict.fromkeys(v.name for f in functions for s in f.sections for v in s.values)
+    taken = set(words)
+    clash = [name for name in own if name in taken]
+    if not clash:
+        return p
+    taken |= set(own)
+    new = {}
+    for name in clash:
+        other = name
+        while other in taken:
+            other += "_"
+        taken.add(other)
+        new[name] = other
+    return _each(p, lambda f: _renamed(f, new))
+
+
+def _each(p: Program, change: Any) -> Program:
+    """A program with another one in place of each function."""
+    framing = p.framing and Framing(
+        tuple((n, change(f)) for n, f in p.framing.matrices), change(p.framing.numbers)
+    )
+    changed = {name: change(f) for name, f in p.functions.items()}
+    return replace(p, functions=changed, framing=framing)
+
+
+def _renamed(f: Function, new: Mapping[str, str]) -> Function:
+    def expression(e: Any) -> Any:
+        if not isinstance(e, tuple):
+            return e
+        if e[:1] == ("var",):
+            return ("var", new.get(e[1], e[1]))
+        return tuple(map(expression, e))
+
+    def section(s: Section) -> Section:
+        values = (Assignment(new.get(v.name, v.name), expression(v.expression)) for v in s.values)
+        return replace(s, values=tuple(values))
+
+    return replace(
+        f,
+        loads=tuple(replace(x, name=new.get(x.name, x.name)) for x in f.loads),
+        sections=tuple(map(section, f.sections)),
+        outputs=expression(f.outputs),
+        checks=tuple(Check(expression(c.value), expression(c.scale)) for c in f.checks),
+    )

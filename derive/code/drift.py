@@ -1,0 +1,234 @@
+"""Back to the group: one Newton step for its relations, and how far a state is off them.
+
+With A in the affine span of the group already, the step is A ← A + AX, where X solves the relations
+linearised on the group, SX + X̄S = −R and Tr X = −(det A − 1), with R = ĀSA − S:
+
+    X = −½ S⁻¹R,    with R = ĀSA/μ − S and nμ = Tr S⁻¹ĀSA up to a factor,
+    X = −(det A − 1 + Tr X_S)/n,    X_S the other one where there are both.
+
+A velocity dA/dt goes along by the derivative of the step: what leaves the group is taken from it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from ..algebra import rational as q
+from ..algebra.groups import Group
+from ..algebra.rational import Matrix
+from ..algebra.relations import Relations, relations
+from . import dense
+from .graph import Graph, Node
+from .linearise import Varied
+from .naming import suffixed
+from .quaternion import conjugate, multiplied
+from .state import State
+
+TEXTS = {
+    "hull": "A in the affine span of the group",
+    "orthogonal": "ĀA = 1",
+    "similar": "ĀA = μ 1",
+    "form": "ĀSA = S",
+    "conformal": "ĀSA = μS",
+    "determinant": "det A = 1",
+    "unit": "q̄q = 1",
+}
+"""The label of the values of a relation, and what stands in a comment before them."""
+
+
+def drift(x: State) -> dict[str, list[Node]]:
+    """What ``project`` and ``defect`` of a state compute; nothing where nothing keeps the group."""
+    g, leaves = x.graph, [x.graph.leaf(name, "state") for name in x.names]
+    steps = [_unit_quaternion(x)] if x.quaternion else _blocks(x)
+    images = {leaf: image for step in steps for leaf, image in step.images.items()}
+    residuals = [y for step in steps for y in step.residuals]
+    if not residuals:
+        return {}
+    if x.tangent:
+        here, there = leaves[: len(leaves) // 2], leaves[len(leaves) // 2 :]
+        moving = Varied(g, dict(zip(here, there, strict=True)), "t")
+        pairs = zip(here, there, strict=True)
+        images |= {rate: moving.of(images.get(y, y)) for y, rate in pairs}
+        residuals += [moving.of(y) for y in residuals]
+    sizes = g.sum(g.absolute(y) for y in residuals)
+    return {"project": [images.get(y, y) for y in leaves], "defect": [sizes]}
+
+
+@dataclass
+class _Step:
+    """Leaf of the state → what it becomes; what the relations leave at the state."""
+
+    images: dict[Node, Node] = field(default_factory=dict)
+    residuals: list[Node] = field(default_factory=list)
+
+
+def _unit_quaternion(x: State) -> _Step:
+    """q ← q − ½ q (q̄q − 1)."""
+    square = multiplied(conjugate(x.q), x.q)[0]
+    left = x.graph.value(square - 1, "left", "unit")
+    change = x.graph.value(left * Fraction(-1, 2), "step", "unit")
+    return _Step({y: y + y * change for y in x.q}, [left])
+
+
+def _blocks(x: State) -> list[_Step]:
+    """A step for each factor that something keeps."""
+    found = []
+    for place, (offset, factor) in enumerate(x.group.places, 1):
+        kept, mark = relations(factor), str(place) if len(x.group.places) > 1 else ""
+        if not kept.none:
+            found.append(_Block(x.graph, factor, kept, mark).step(_entries(x, offset, factor)))
+    return found
+
+
+def _entries(x: State, offset: int, factor: Group) -> list[Node]:
+    """The leaves of the A of a factor row by row, then of its T."""
+    found = {(s.letter, s.row, s.column): x.graph.leaf(s.name, "state") for s in x.slots}
+    span, last = range(offset, offset + factor.n), offset + factor.n
+    A = [found["A", i, j] for i in span for j in span]
+    if not factor.affine:
+        return A
+    return A + [found["A", i, last] if x.group.factors else found["T", i, 0] for i in span]
+
+
+@dataclass
+class _Block:
+    """One factor and what keeps it; ``mark``: its number among several."""
+
+    graph: Graph
+    factor: Group
+    kept: Relations
+    mark: str
+    residuals: list[Node] = field(default_factory=list)
+
+    def step(self, leaves: list[Node]) -> _Step:
+        """The step from the entries of A, then T."""
+        n = self.factor.n
+        placed = self._in_hull(leaves) if self.kept.hull else leaves
+        A = tuple(tuple(placed[i * n : i * n + n]) for i in range(n))
+        X = self._form(A) if self.kept.form else ()
+        if self.kept.determinant:
+            X = self._complex(A, X) if self.kept.frame else self._determinant(A)
+        if X:
+            moved = zip(placed, q.flatten(dense.times(self.graph, A, X)), strict=False)
+            placed = [*(a + change for a, change in moved), *placed[n * n :]]
+        return _Step(dict(zip(leaves, placed, strict=True)), self.residuals)
+
+    def _in_hull(self, leaves: list[Node]) -> list[Node]:
+        """The entries in the affine span of the group."""
+        g, n, found = self.graph, self.factor.n, []
+        one = (*q.flatten(q.identity(n)), *[Fraction(0)] * (len(leaves) - n * n))
+        for y, start, row in zip(leaves, one, self.kept.hull, strict=True):
+            shift = start - sum(c * s for c, s in zip(row, one, strict=True))
+            terms = ((c, z) for c, z in zip(row, leaves, strict=True) if c)
+            inside = g.linear([*terms, (Fraction(1), g.num(shift))])
+            found.append(self._named(inside, f"{y.data[1]}_in", "hull"))
+            if found[-1] is not y:
+                self.residuals.append(y - found[-1])
+        return found
+
+    def _form(self, A: Matrix) -> Matrix:
+        """X = −½ S⁻¹R."""
+        g, n, S = self.graph, self.factor.n, self._numbers(self.kept.form)
+        inverse = self._inverse(self.kept.form)
+        sign = 1 if self.kept.form == q.transposed(self.kept.form) else -1
+        label = _label(self.kept)
+        SA = self._names(dense.times(g, S, A), f"SA{self.mark}", label)
+        gram = self._mirrored(dense.times(g, q.transposed(A), SA), sign)
+        if self.kept.conformal:
+            gram = self._names(gram, f"gram{self.mark}", label)
+            mu = dense.diagonal(g, dense.times(g, inverse, gram)) * Fraction(1, n)
+            inv_mu = self._named(g.recip(mu), f"inv_mu{self.mark}", label)
+            gram = tuple(tuple(y * inv_mu for y in row) for row in gram)
+        R = q.plus(gram, self._numbers(q.scaled(-1, self.kept.form)))
+        R = self._mirrored(self._names(R, f"left{self.mark}", label), sign)
+        self.residuals += [R[i][j] for i in range(n) for j in range(i, n) if not R[i][j].is_zero]
+        X = dense.times(g, inverse, R)
+        X = tuple(tuple(y * Fraction(-1, 2) for y in row) for row in X)
+        return self._names(X, f"step{self.mark}", label)
+
+    def _mirrored(self, m: Matrix, sign: int) -> Matrix:
+        """The symmetric or skew matrix with these entries above the diagonal."""
+        span = range(len(m))
+        return tuple(tuple(m[i][j] if i <= j else m[j][i] * sign for j in span) for i in span)
+
+    def _determinant(self, A: Matrix) -> Matrix:
+        """X = −(det A − 1)/n."""
+        left = self._left(dense.expanded(A) - 1, "left")
+        step = self._named(left * Fraction(-1, len(A)), f"step{self.mark}", "determinant")
+        return self._multiple(step, len(A))
+
+    def _multiple(self, y: Node, n: int) -> Matrix:
+        return tuple(tuple(y if i == j else self.graph.num(0) for j in range(n)) for i in range(n))
+
+    def _complex(self, A: Matrix, X: Matrix) -> Matrix:
+        """X − (det A − 1 + Tr X)/m, all complex."""
+        g, P, back = self.graph, self._numbers(self.kept.frame), self._inverse(self.kept.frame)
+        m = len(P) // 2
+
+        def complexes(M: Matrix) -> list[list[_Complex]]:
+            inside = dense.times(g, dense.times(g, back, M), P)
+            top, bottom = inside[:m], inside[m:]
+            pairs = (zip(x[:m], y[:m], strict=True) for x, y in zip(top, bottom, strict=True))
+            return [[_Complex(*pair) for pair in row] for row in pairs]
+
+        det = dense.expanded(complexes(A))
+        total = _Complex(self._left(det.re - 1, "left_re"), self._left(det.im, "left_im"))
+        for i, row in enumerate(complexes(X) if X else ()):
+            total = total + row[i]
+        re, im = (
+            self._named(y * Fraction(-1, m), f"{name}{self.mark}", "determinant")
+            for name, y in (("step_re", total.re), ("step_im", total.im))
+        )
+        diagonal, beside = self._multiple(re, m), self._multiple(im, m)
+        rows = [(*a, *(-y for y in b)) for a, b in zip(diagonal, beside, strict=True)]
+        rows += [(*b, *a) for a, b in zip(diagonal, beside, strict=True)]
+        change = dense.times(g, dense.times(g, P, tuple(rows)), back)
+        return self._names(q.plus(X, change), f"step{self.mark}", "determinant") if X else change
+
+    def _left(self, y: Node, name: str) -> Node:
+        """What a determinant leaves, named and listed."""
+        self.residuals.append(self._named(y, f"{name}{self.mark}", "determinant"))
+        return self.residuals[-1]
+
+    def _inverse(self, m: Matrix) -> Matrix:
+        found = q.inverse(m)
+        assert found is not None
+        return self._numbers(found)
+
+    def _numbers(self, m: Matrix) -> Matrix:
+        return tuple(tuple(self.graph.num(y) for y in row) for row in m)
+
+    def _named(self, y: Node, name: str, label: str) -> Node:
+        return self.graph.value(y, name, label)
+
+    def _names(self, m: Matrix, name: str, label: str) -> Matrix:
+        return tuple(
+            tuple(self._named(y, suffixed(name, i, j), label) for j, y in enumerate(row, 1))
+            for i, row in enumerate(m, 1)
+        )
+
+
+def _label(kept: Relations) -> str:
+    """That of the form."""
+    if kept.form == q.identity(len(kept.form)):
+        return "similar" if kept.conformal else "orthogonal"
+    return "conformal" if kept.conformal else "form"
+
+
+@dataclass(frozen=True)
+class _Complex:
+    """re + i im, of nodes."""
+
+    re: Node
+    im: Node
+
+    def __add__(self, other: _Complex) -> _Complex:
+        return _Complex(self.re + other.re, self.im + other.im)
+
+    def __sub__(self, other: _Complex) -> _Complex:
+        return _Complex(self.re - other.re, self.im - other.im)
+
+    def __mul__(self, other: _Complex) -> _Complex:
+        re = self.re * other.re - self.im * other.im
+        return _Complex(re, self.re * other.im + self.im * other.re)

@@ -1,0 +1,46 @@
+"""Standard output in an encoding that lacks letters: they become ?, and that is said, once."""
+
+from __future__ import annotations
+
+import codecs
+import io
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+HANDLER = "derive.lost"
+
+
+@contextmanager
+def said() -> Iterator[None]:
+    """Within, what standard output cannot encode is written as ?; in the end stderr says so."""
+    lost: set[str] = set()
+
+    def shown(error: UnicodeError) -> tuple[str, int]:
+        if not isinstance(error, UnicodeEncodeError):
+            raise error
+        lost.update(error.object[error.start : error.end])
+        return "?" * (error.end - error.start), error.end
+
+    out = sys.stdout
+    if isinstance(out, io.TextIOWrapper):
+        codecs.register_error(HANDLER, shown)
+        out.reconfigure(errors=HANDLER)
+    try:
+        yield
+    finally:
+        if lost:
+            count = f"{len(lost)} letter{'s' * (len(lost) != 1)}"
+            print(
+                f"derive: warning: the encoding of standard output, {out.encoding}, lacks {count}, "
+                "shown as ?; where UTF-8 is read set PYTHONIOENCODING=utf-8; files of --out are "
+                "in UTF-8",
+                file=sys.stderr,
+            )
+
+
+def as_in_a_file() -> None:
+    """Write what follows in UTF-8, as formats that name their encoding do, but to a terminal."""
+    out = sys.stdout
+    if isinstance(out, io.TextIOWrapper) and not out.isatty():
+        out.reconfigure(encoding="utf-8", errors=out.errors)

@@ -1,0 +1,1 @@
+"""The equations of the note as printed, beside what is derived."""

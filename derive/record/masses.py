@@ -1,0 +1,62 @@
+"""May the masses of a record's problem be negative: does it say so, or its numbers?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.values import value
+from .record import RecordError, decode
+
+ANY_SIGN = "of any sign"
+"""The key ``masses`` of such a problem in its record."""
+
+SUPPOSED = "it supposes positive masses, and some of this problem may be negative"
+
+
+def any_sign(problem: Mapping[str, Any]) -> bool:
+    """May masses be negative in a record's problem: does it say so, or its numbers?"""
+    if problem.get("masses") not in (None, ANY_SIGN):
+        raise RecordError(f"record, problem: key 'masses' can only be {ANY_SIGN!r}")
+    body = problem.get("body", {})
+    defaults = {
+        name: about["default"]
+        for name, about in problem.get("parameters", {}).items()
+        if about["default"] is not None
+    }
+    masses = [p["mass"] for p in body.get("points", [])]
+    masses += [x["density"] for x in body.get("solids", [])] + [body.get("given", {}).get("m", 1)]
+    negative = any((_value(x, defaults) or 0) < 0 for x in masses)
+    return "masses" in problem or negative or _impossible(body)
+
+
+def _impossible(body: Mapping[str, Any]) -> bool:
+    """Are given moments, all numbers, those of no positive masses?"""
+    given = body.get("given", {})
+    if not given or body.get("solids"):
+        return False
+    m, *c = (_number(x) for x in (given["m"], *given["c"]))
+    J = [[_number(x) for x in row] for row in given["J"]]
+    whole = [[*row, x] for row, x in zip(J, c, strict=True)] + [[*c, m]]
+    return all(x is not None for row in whole for x in row) and not q.semidefinite(whole)
+
+
+def _number(x: Any) -> Fraction | None:
+    t = decode(x, "problem")
+    return Fraction(t) if isinstance(t, (int, Fraction)) else None
+
+
+def _value(x: Any, defaults: Mapping[str, float]) -> float | None:
+    """The value of an expression for the defaults of its parameters, if there is one."""
+    try:
+        t = decode(x, "problem")
+        return float(value(t, {"π": math.pi}, defaults, _elementary, float))
+    except (ArithmeticError, TypeError, ValueError):
+        return None
+
+
+def _elementary(name: str, x: float) -> float:
+    return float(getattr(math, name)(x))

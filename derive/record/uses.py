@@ -1,0 +1,197 @@
+"""In which ways the steps of a record use a name, and which equation says first what it is.
+
+A use is a name and how it stands there: as a value, as the members of a family (m_i), as a function
+(ϖ(δy)) or as a family of functions (r_i(t)).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
+
+from ..algebra.tree import Tree
+from .record import Equation, Step
+from .vocabulary import ALGEBRA, ANY_GROUP, SCALAR, SQUARE, VECTOR, VOCABULARY, Name, Type, Use
+
+Way = tuple[str, str]
+"""A name, and one of value, member, function, moved."""
+
+
+INSIDE: dict[str, Any] = {
+    "entry": lambda t: t[1:2],
+    **dict.fromkeys(("sum", "fun", "call"), lambda t: t[2:]),
+}
+"""The operands that are trees, where not all are."""
+
+
+class Occurrence(NamedTuple):
+    """A use in an equation; of a function, its arguments."""
+
+    way: Way
+    arguments: tuple[Tree, ...] = ()
+
+
+def occurrences(t: Tree) -> list[Occurrence]:
+    """All uses in a tree, from left to right; neither parameters nor indices are any."""
+    found: list[Occurrence] = []
+    _gather(t, found)
+    return found
+
+
+def _gather(t: Tree, found: list[Occurrence]) -> None:
+    if isinstance(t, str):
+        found.append(Occurrence((t, "value")))
+    elif isinstance(t, tuple) and t[0] == "at":
+        found.append(Occurrence((t[1], "member")))
+    elif isinstance(t, tuple) and t[0] != "par":
+        if t[0] == "call":
+            found.append(Occurrence(_called(t[1]), t[2:]))
+        for part in INSIDE.get(t[0], lambda x: x[1:])(t):
+            if isinstance(part, (str, tuple)):
+                _gather(part, found)
+
+
+def _called(head: Any) -> Way:
+    return (head, "function") if isinstance(head, str) else (head[1], "moved")
+
+
+def way_of(type_: Type) -> str:
+    """How a name of this type stands in equations."""
+    if type_[0] == "family":
+        return "moved" if type_[2][0] == "function" else "member"
+    return "function" if type_[0] == "function" else "value"
+
+
+class Read(NamedTuple):
+    """An equation of a step, and the uses on its two sides."""
+
+    scope: str
+    key: str
+    equation: Equation
+    left: dict[Occurrence, None]
+    right: dict[Occurrence, None]
+
+
+def read(steps: Iterable[Step]) -> list[Read]:
+    """The equations of some steps."""
+
+    def side(t: Tree) -> dict[Occurrence, None]:
+        return dict.fromkeys(occurrences(t))
+
+    return [
+        Read(step.scope, key, e, side(e.lhs), side(e.rhs))
+        for step in steps
+        for key, e in zip(step.keys, step.equations, strict=True)
+    ]
+
+
+def of_steps(
+    steps: Iterable[Step], meant: Mapping[str, Name], sizes: Mapping[str, int]
+) -> dict[str, tuple[Use, ...]]:
+    """Name → its uses in some steps, in the order of the names; ``meant``: all that it may be.
+
+    ``sizes``: of n and d, for what only the text about the problem's group has.
+    """
+    equations = read(steps)
+    listed = [(e.scope, x) for e in equations for x in (*e.left, *e.right)]
+    general = {x.way for scope, x in listed if scope == ANY_GROUP}
+    found = definitions(equations, meant)
+    seen: dict[str, dict[Occurrence, None]] = {}
+    for _, x in listed:
+        if x.way[0] in meant:
+            seen.setdefault(x.way[0], {})[x] = None
+
+    def use(name: str, kept: Use) -> Use:
+        way = (name, way_of(kept.type))
+        sized = {k: x for k, x in sizes.items() if k != "n" or way not in general}
+        key, there = found.get(way, ("", Occurrence(way)))
+        key = key if _fits(name, kept, [there]) else ""
+        role = ("definition" if key else "letter") if kept.role in FIRST else kept.role
+        return Use(filled(kept.type, sized), role, key)
+
+    return {
+        name: tuple(use(name, x) for x in meant[name].uses if _fits(name, x, there))
+        for name, there in seen.items()
+    }
+
+
+FIRST = ("letter", "definition")
+"""The roles that the steps decide between: is there an equation that defines it?"""
+
+
+def filled(type_: Type, sizes: Mapping[str, int]) -> Type:
+    """A type with the sizes in the place of their letters."""
+    if isinstance(type_, str):
+        return type_
+    inside = (sizes.get(x, x) if isinstance(x, str) else filled(x, sizes) for x in type_[1:])
+    return (type_[0], *inside)
+
+
+def _fits(name: str, use: Use, there: Iterable[Occurrence]) -> bool:
+    """Does a name occur in this way; is a function one of such arguments?"""
+    way = (name, way_of(use.type))
+    if way[1] != "function":
+        return any(x.way == way for x in there)
+    kinds = tuple(use.type[1:-1])
+    taken = (x.arguments for x in there if x.way == way)
+    return any(
+        len(xs) == len(kinds)
+        and all(x == 0 or type_of(x) == k for x, k in zip(xs, kinds, strict=True))
+        for xs in taken
+    )
+
+
+def type_of(argument: Tree) -> Type:
+    """The type of what a function is taken of: a name, a product with A, r r̄, r_i(t), a number."""
+    if isinstance(argument, str):
+        return next(x.type for x in VOCABULARY[argument].uses if way_of(x.type) == "value")
+    if not isinstance(argument, tuple):
+        return SCALAR
+    last = argument[-1]
+    if argument[0] == "call":
+        return VECTOR
+    if isinstance(last, tuple):
+        return SQUARE
+    inside = type_of(last)
+    return SQUARE if inside == ALGEBRA else inside
+
+
+def definitions(
+    equations: Iterable[Read], meant: Mapping[str, Name]
+) -> dict[Way, tuple[str, Occurrence]]:
+    """Way → the key of the equation that defines it (of a family that is listed, of its first
+    member), and how it stands there.
+
+    It stands alone on the left; or it is new and alone on the right, as in Z = j(ζ), or the one new
+    name of a pairing or a sum: Z = Σ ζ_a E_a.
+    """
+    listed = [(x, way_of(y.type), y.role) for x, about in meant.items() for y in about.uses]
+    known = {(x, way) for x, way, role in listed if role != "definition"}
+    mine = {(x, way) for x, way, _ in listed}
+    found: dict[Way, tuple[str, Occurrence]] = {}
+    for e in equations:
+        left, right = head(e.equation.lhs), head(e.equation.rhs)
+        if left and left.way not in {x.way for x in e.right}:
+            found.setdefault(left.way, (e.key, left))
+        if right and right.way not in known:
+            found.setdefault(right.way, (e.key, right))
+        known |= {x.way for x in (left, right) if x}
+        if _pairs(e.equation.lhs) or _pairs(e.equation.rhs):
+            new = {x.way for x in (*e.left, *e.right)} & mine - known
+            if len(new) == 1:
+                (way,) = new
+                found.setdefault(way, (e.key, Occurrence(way)))
+                known.add(way)
+    return found
+
+
+def head(t: Tree) -> Occurrence | None:
+    """The use that stands alone, also under j, a bar, an inverse or as an entry."""
+    while isinstance(t, tuple) and t[0] in ("hat", "T", "inv", "entry"):
+        t = t[1]
+    alone = isinstance(t, str) or (isinstance(t, tuple) and t[0] in ("at", "call"))
+    return occurrences(t)[0] if alone else None
+
+
+def _pairs(t: Tree) -> bool:
+    return isinstance(t, tuple) and t[0] in ("inner", "metric", "sum")

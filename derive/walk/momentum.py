@@ -1,0 +1,178 @@
+"""The momentum form: dϖ of any group in a momentum P of 𝔤*, and its kernel (Euler–Poincaré).
+
+With ℓ the Lagrangian in (t, g, Z), P = ∂ℓ/∂Z and F its derivative along the group,
+
+    ϖ  = ⟨P, ξ⟩ − h δt,      h = ⟨P, Z⟩ − ℓ,
+    dϖ = ⟨δP − F δt, ξ′ − Z δ′t⟩ − ⟨δ′P − F δ′t, ξ − Z δt⟩ + ⟨P, [ξ′, ξ]⟩,
+
+whatever ℓ is: the proof has the letters P, Z, F and the bracket alone.  Points are one source of ℓ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+from ..algebra import forms
+from ..algebra.calculus import Image, derivation, gradient, reduce, substitute
+from ..algebra.notation import Notation, tree_of
+from ..algebra.tree import Tree, add, neg
+from ..algebra.words import Expr, Letter, inner, number, word
+from ..record.record import Equation, Step
+from ..record.sentence import say
+from .alphabet import Alphabet
+from .cartan import Cartan
+from .chapter import Chapter
+from .exterior import DOMEGA, brackets_of, primed, primes, shown_brackets
+from .gather import at_constant_time, gathered
+from .trivialisation import frame_rule, gram, varied_gram
+
+
+@dataclass(frozen=True)
+class Momenta:
+    """``values``: P and F on words, by their letters; ``balance``: ⟨Ṗ − F, ξ′⟩ − ⟨P, [Z, ξ′]⟩."""
+
+    values: Mapping[Letter, Expr]
+    balance: Expr
+    steps: tuple[Step, ...]
+
+
+def momentum_form(stage: Cartan, a: Alphabet, c: Chapter) -> Momenta:
+    """P and F of the points, then ϖ, dϖ and its kernel by them."""
+    values, told = _values(stage, a, c)
+    balance, steps = _forms(a, c)
+    return Momenta(values, balance, (told, *steps))
+
+
+def _values(stage: Cartan, a: Alphabet, c: Chapter) -> tuple[dict[Letter, Expr], Step]:
+    """P = ∂ℓ/∂Z and F, the derivative of ℓ along gξ, with ℓ = ⟨P, Z⟩ − h."""
+    draft = c.draft("momenta", "fibre derivative")
+    along = substitute(stage.momentum, {f.xi: word(f.velocity) for f in a.frames})
+    moved = {a.C: varied_gram(a, a.Z.xi), a.U: -stage.work}
+    varied = reduce(derivation(along - stage.energy, moved.get), frame_rule(a, gram(a)))
+    pairs = [*zip(a.duals, a.frames, strict=True)]
+    values = {d.momentum: gradient(stage.momentum, f.xi) for d, f in pairs}
+    values |= {d.push: gradient(varied, f.xi) for d, f in pairs}
+    step = draft.step(
+        [Equation(x.name, draft.tree(e)) for x, e in values.items() if e != word(x)],
+        say(
+            "The momentum of 𝔤* is the derivative of L̃ with respect to {velocity}, and {push} the "
+            "one along the group, at a fixed velocity; both are told by what they give on 𝔤.",
+            velocity="(Z, w)" if a.affine else "Z",
+            push="(Φ, F_b)" if a.affine else "Φ",
+        ),
+    )
+    return {x: draft.said(e) for x, e in values.items()}, step
+
+
+def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, tuple[Step, ...]]:
+    """ϖ, dϖ and the kernel in the letters P, F, Z, ξ and the bracket."""
+    writing = c.draft("cartan_momentum", "Cartan form")
+    varying = c.draft("exterior_momentum", "exterior derivative")
+    momentum, lagrangian = _paired(a, [f.xi for f in a.frames], c), Letter("L̃")
+    energy = _paired(a, [f.velocity for f in a.frames], c) - word(lagrangian)
+    notation = Notation(covectors=frozenset(x for d in a.duals for x in d.letters))
+    told = writing.step(
+        (
+            Equation(
+                ("call", "ϖ", "δy"),
+                add(writing.tree(momentum, notation), neg(("mul", "h̃", "δt"))),
+            ),
+        ),
+        say("The Cartan form by the momentum."),
+    )
+    form = writing.said(momentum - energy * word(a.dt))
+    twins = primes(a) | {d.d_momentum: d.dp_momentum for d in a.duals}
+    derived = forms.exterior(form, twins, *_variations(lagrangian, a, c))
+    core = at_constant_time(derived, a.dt, a.dpt)
+    display = dict(zip((a.bracket, a.bracket_w), shown_brackets(a), strict=False))
+    shown = replace(notation, display=display)
+    derivative = varying.step(
+        (Equation(DOMEGA, gathered(varying, derived, core, _horizontal(a), shown)),),
+        say(
+            "Its exterior derivative, whatever the Lagrangian: {varied}; the bracket comes from "
+            "the structure equation.",
+            varied="δL̃ = ⟨Π, δZ⟩ + ⟨p_b, δw⟩ + ⟨Φ, ξ⟩ + ⟨F_b, η⟩ + ∂L̃/∂t δt"
+            if a.affine
+            else "δL̃ = ⟨Π, δZ⟩ + ⟨Φ, ξ⟩ + ∂L̃/∂t δt",
+        ),
+    )
+    balance, motion = _kernel(varying.said(derived), notation, a, c)
+    return balance, (told, derivative, motion)
+
+
+def _paired(a: Alphabet, along: Iterable[Letter], c: Chapter) -> Expr:
+    """⟨P, x⟩."""
+    pairs = zip(a.duals, along, strict=True)
+    terms = (inner(word(d.momentum).marked(c.label("momenta")), word(x)) for d, x in pairs)
+    return sum(terms, number(0))
+
+
+def _variations(lagrangian: Letter, a: Alphabet, c: Chapter) -> tuple[Image, Image]:
+    """δ and δ′ on L̃, P, Z and ξ, with the structure equation for the second variations."""
+    varied = word(Letter("∂ₜL̃")) * word(a.dt)
+    brackets = brackets_of(a)
+    letters = dict(zip(brackets, (a.bracket, a.bracket_w), strict=False))
+    delta: dict[Letter, Expr] = {}
+    delta_prime: dict[Letter, Expr] = {}
+    for d, f in zip(a.duals, a.frames, strict=True):
+        push = inner(word(d.push).marked(c.label("momenta")), word(f.xi))
+        varied = varied + inner(word(d.momentum), word(f.d_velocity)) + push
+        delta |= {d.momentum: word(d.d_momentum), f.velocity: word(f.d_velocity)}
+        delta_prime |= {d.momentum: word(d.dp_momentum), f.velocity: word(f.dp_velocity)}
+        bracket = word(letters[f.xi_prime]).of(brackets[f.xi_prime])
+        delta[f.xi_prime], delta_prime[f.xi] = word(f.second) + bracket, word(f.second)
+    delta |= {lagrangian: varied} | {f.dp_velocity: word(f.second_velocity) for f in a.frames}
+    delta_prime |= {lagrangian: primed(varied, a)}
+    delta_prime |= {f.d_velocity: word(f.second_velocity) for f in a.frames}
+    return delta.get, delta_prime.get
+
+
+def _horizontal(a: Alphabet) -> dict[Letter, Expr]:
+    """δP ↦ δP − F δt and ξ ↦ ξ − Z δt, and the same for δ′."""
+    images = {}
+    for d, f in zip(a.duals, a.frames, strict=True):
+        for rate, x, twin in (
+            (d.push, d.d_momentum, d.dp_momentum),
+            (f.velocity, f.xi, f.xi_prime),
+        ):
+            images[x] = word(x) - word(rate) * word(a.dt)
+            images[twin] = word(twin) - word(rate) * word(a.dpt)
+    return images
+
+
+def _kernel(form: Expr, notation: Notation, a: Alphabet, c: Chapter) -> tuple[Expr, Step]:
+    """Ṗ = F + ad*_Z P: the coefficient of ξ′, for X with the velocity of the motion."""
+    draft, mark = c.draft("coadjoint", "kernel"), c.label("second_order_trivialised")
+    here = {f.xi: word(f.velocity).marked(mark) for f in a.frames}
+    here |= {d.d_momentum: word(d.rate) for d in a.duals}
+    here |= {a.dt: number(1), a.dpt: number(0)}
+    turned = {}
+    for x, e in zip((a.bracket, a.bracket_w), brackets_of(a).values(), strict=False):
+        opposite = Letter(f"−{x.name}", x.rows, x.cols)
+        here[x], turned[opposite] = -word(opposite), -substitute(e, here)
+    balance = substitute(form, here)
+    first, *others = turned
+    # the bracket is a letter to the end: a Lagrangian from elsewhere has the same equations
+    commutator = word(a.Z.velocity) * word(a.Z.xi_prime) - word(a.Z.xi_prime) * word(a.Z.velocity)
+    display: dict[Letter, Tree] = {x: tree_of(turned[x]) for x in others}
+    if turned[first] == commutator:
+        display[first] = ("bracket", "Z", "ξ′")
+    shown = replace(notation, display=display)
+    pairs = zip(a.duals, a.frames, strict=True)
+    moving = sum((inner(word(d.rate), word(f.xi_prime)) for d, f in pairs), number(0))
+    step = draft.step(
+        (
+            Equation(
+                draft.tree(moving, shown),
+                draft.tree(moving - balance, shown),
+                tuple(f.xi_prime.name for f in a.frames),
+            ),
+        ),
+        say(
+            "The equations of motion of any Lagrangian on the group (Euler–Poincaré): the rate of "
+            "the momentum is the force, {push}, and the coadjoint term of the momentum.",
+            push="(Φ, F_b)" if a.affine else "Φ",
+        ),
+    )
+    return draft.said(substitute(balance, turned)), step

@@ -1,0 +1,106 @@
+"""Step 3, trivialised: tangent vectors are carried to the Lie algebra by g⁻¹ (27), (30)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ..algebra.calculus import PairRule, derivation, reduce, substitute
+from ..algebra.notation import tree_of
+from ..algebra.tree import Tree
+from ..algebra.words import Expr, Factor, Letter, word
+from ..record.record import Equation, Step
+from ..record.sentence import say
+from .alphabet import Alphabet
+from .chapter import Chapter, Draft
+
+
+def frame_rule(a: Alphabet, gram: Expr) -> PairRule:
+    """``ĀA = gram``, ``ĀN = N_b``, ``ĀF = F_b``: what g leaves in a word carried to 1.
+
+    ``gram`` is the letter C for any group and the identity for isometries.
+    """
+    pairs = {a.A.position: gram} | {x: _told(word(y), a) for x, y in a.bodily}
+
+    def rule(left: Factor, right: Factor) -> Expr | None:
+        if left == (a.A.position, True) and not right[1] and right[0] in pairs:
+            return pairs[right[0]]
+        if right == (a.A.position, False) and left[1] and left[0] in (a.N, a.F):
+            return pairs[left[0]].bar
+        return None
+
+    return rule
+
+
+def varied_gram(a: Alphabet, xi: Letter) -> Expr:
+    """δC for C = ĀA and δA = Aξ."""
+    g = word(a.A.position)
+    return reduce(derivation(g.bar * g, {a.A.position: g * word(xi)}.get), frame_rule(a, gram(a)))
+
+
+def trivial_images(a: Alphabet) -> dict[Letter, Expr]:
+    """ν = gZ, δg = gξ, δ′g = gξ′, F̃ = A f, and the velocities varied by the product rule."""
+    g = _told(word(a.A.position), a)
+    images: dict[Letter, Expr] = {a.F_group: g * word(a.f)}
+    for part, frame in zip(a.parts, a.frames, strict=True):
+        images[part.velocity] = g * word(frame.velocity)
+        images[part.d_position] = g * word(frame.xi)
+        images[part.dp_position] = g * word(frame.xi_prime)
+        delta = {a.A.position: g * word(a.Z.xi), frame.velocity: word(frame.d_velocity)}
+        images[part.d_velocity] = derivation(images[part.velocity], delta.get)
+        delta = {a.A.position: g * word(a.Z.xi_prime), frame.velocity: word(frame.dp_velocity)}
+        images[part.dp_velocity] = derivation(images[part.velocity], delta.get)
+    return images
+
+
+def rates(d: Draft, a: Alphabet, turned: Mapping[Letter, Expr] | None = None) -> list[Equation]:
+    """Ȧ = AZ and Ṫ = Aw, with Z as given."""
+    images, first = trivial_images(a), Chapter(a.chapter).label("kernel")
+    speeds = {p.rate: substitute(word(p.velocity).marked(first), images) for p in a.parts}
+    return [Equation(x, d.tree(substitute(e, turned or {}))) for x, e in speeds.items()]
+
+
+def carry(e: Expr, a: Alphabet) -> Expr:
+    """A scalar expression carried to the identity."""
+    return reduce(substitute(e, trivial_images(a)), frame_rule(a, gram(a)))
+
+
+def gram(a: Alphabet) -> Expr:
+    """C = ĀA."""
+    return _told(word(a.C), a)
+
+
+def _told(e: Expr, a: Alphabet) -> Expr:
+    """An expression as the step below says it."""
+    return e.marked(Chapter(a.chapter).label("trivialisation"))
+
+
+def trivialisation(a: Alphabet, c: Chapter) -> Step:
+    """The definitions of Z, ξ, ξ′, C and what they make of variations."""
+    inverse: Tree = ("inv", "A")
+    definitions = [
+        Equation(frame_letter.name, ("mul", inverse, part_letter.name))
+        for part, frame in zip(a.parts, a.frames, strict=True)
+        for frame_letter, part_letter in (
+            (frame.velocity, part.velocity),
+            (frame.xi, part.d_position),
+            (frame.xi_prime, part.dp_position),
+        )
+    ]
+    if a.affine:
+        definitions += [Equation(f"{x}_b", ("mul", ("T", "A"), x)) for x in ("N", "F")]
+    else:
+        definitions.append(Equation("f", ("mul", inverse, "F̃")))
+    images = trivial_images(a)
+    return c.draft("trivialisation", "trivialisation").step(
+        (
+            *definitions,
+            Equation("C", ("mul", ("T", "A"), "A")),
+            *(Equation(p.d_velocity.name, tree_of(images[p.d_velocity])) for p in a.parts),
+            Equation("δC", tree_of(varied_gram(a, a.Z.xi))),
+        ),
+        say(
+            "Tangent vectors are carried to the Lie algebra by g⁻¹ (Maurer–Cartan); the metric "
+            "depends on g through C = ĀA only."
+        ),
+        (27, 30),
+    )
