@@ -90,6 +90,7 @@ def test_an_unknown_option(words, named, meant, capsys):
     assert (f"did you mean {meant}?" in err) == bool(meant)
 
 
+@pytest.mark.no_cover  # what is stopped under a tracer may bring the interpreter down
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_may_be_stopped(command, tmp_path, capsys, monkeypatch):
     def unhurried(problems):  # a list may be done before the clock of the machine ticks
