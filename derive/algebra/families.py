@@ -16,7 +16,7 @@ from . import rational as q
 from . import samplers as draw
 from .groups import Group
 from .rational import Matrix
-from .samplers import Sampler
+from .samplers import Sampler, Source
 
 Basis = tuple[Matrix, ...]
 
@@ -267,11 +267,10 @@ def turning_about_a_point() -> Group:
 
     turn = _so(3)
     basis = tuple(carried(draw.block_diagonal((e, ((Fraction(0),),)))) for e in so_basis(3))
-    sampler = Sampler(
-        lambda r, size: carried(draw.block_diagonal((turn.draw(r, size), ((Fraction(1),),)))),
-        turn.degree,
-        turn.denominators,
-    )
+
+    def sampler(random: Source, size: int) -> Matrix:
+        return carried(draw.block_diagonal((turn(random, size), ((Fraction(1),),))))
+
     return Group("SO(3) about a point", 3, "affine", basis, sampler)
 
 

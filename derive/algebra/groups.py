@@ -12,12 +12,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from random import Random
 from typing import Any, Literal
 
 from . import rational as q
 from .rational import Matrix
-from .samplers import Sampler
+from .samplers import Sampler, Source
 
 Relation = Literal["orthogonal", "unimodular"]
 
@@ -208,6 +207,6 @@ class Group:
         one = q.identity(self.n)
         return one if normal == q.scaled(normal[0][0], one) else normal
 
-    def sample(self, random: Random, size: int = 9) -> Matrix:
+    def sample(self, random: Source, size: int = 9) -> Matrix:
         """An exact rational element of the group."""
-        return self.sampler.draw(random, size)
+        return self.sampler(random, size)

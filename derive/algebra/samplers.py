@@ -1,41 +1,37 @@
 """Exact rational elements of groups, for checking: their entries are polynomials or quotients.
 
-Each sampler says how large the degree of its entries is in the integers that it draws: what a
-Schwartz–Zippel bound asks for.
+A sampler takes what draws integers, and their range: a :class:`random.Random`, or anything else
+with its ``randint``, whose numbers need be no integers but of some ring over Q.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
-from random import Random
+from functools import reduce
+from typing import Any, Protocol
 
 from . import rational as q
 from .rational import Matrix
 
-Denominators = tuple[tuple[tuple[str, int], int], ...]
+
+class Source(Protocol):
+    """What draws numbers."""
+
+    def randint(self, a: int, b: int, /) -> Any:
+        """One from a to b."""
 
 
-@dataclass(frozen=True)
-class Sampler:
-    """``draw(random, size)``: an element, from integers within ±``size``.
-
-    Its entries are numerators of ``degree`` over the product of ``denominators``: a polynomial's
-    (name, degree) and its power.
-    """
-
-    draw: Callable[[Random, int], Matrix]
-    degree: int
-    denominators: Denominators = ()
+Sampler = Callable[[Source, int], Matrix]
+"""(source, size): an element, from integers within ±size."""
 
 
-def integer(random: Random, size: int) -> Fraction:
+def integer(random: Source, size: int) -> Any:
     """A random integer, as a fraction."""
-    return Fraction(random.randint(-size, size))
+    return Fraction(1) * random.randint(-size, size)
 
 
-def combination(random: Random, size: int, basis: Sequence[Matrix]) -> Matrix:
+def combination(random: Source, size: int, basis: Sequence[Matrix]) -> Matrix:
     """A random element of a linear space of matrices."""
     return q.combine([integer(random, size) for _ in basis], basis)
 
@@ -50,30 +46,15 @@ def cayley(skew: Matrix) -> Matrix:
 
 def by_cayley(basis: Sequence[Matrix]) -> Sampler:
     """The group of a Lie algebra of skew matrices that its Cayley transforms stay in."""
-    n = len(basis[0])
-    return Sampler(
-        lambda random, size: cayley(combination(random, size, basis)), n, ((("cayley", n), 1),)
-    )
+    return lambda random, size: cayley(combination(random, size, basis))
 
 
 def product(samplers: Sequence[Sampler]) -> Sampler:
     """Products of one element of each."""
-
-    def draw(random: Random, size: int) -> Matrix:
-        element = samplers[0].draw(random, size)
-        for s in samplers[1:]:
-            element = q.times(element, s.draw(random, size))
-        return element
-
-    denominators = tuple(
-        ((f"{k} {name}", degree), power)
-        for k, s in enumerate(samplers)
-        for (name, degree), power in s.denominators
-    )
-    return Sampler(draw, sum(s.degree for s in samplers), denominators)
+    return lambda random, size: reduce(q.times, [draw(random, size) for draw in samplers])
 
 
-def triangular(random: Random, n: int, size: int, *, lower: bool) -> Matrix:
+def triangular(random: Source, n: int, size: int, *, lower: bool) -> Matrix:
     """A unitriangular matrix."""
     return tuple(
         tuple(
@@ -86,7 +67,7 @@ def triangular(random: Random, n: int, size: int, *, lower: bool) -> Matrix:
 
 def unitriangular(n: int, *, lower: bool = False) -> Sampler:
     """UT(n), or its transposes."""
-    return Sampler(lambda random, size: triangular(random, n, size, lower=lower), 1)
+    return lambda random, size: triangular(random, n, size, lower=lower)
 
 
 def special_linear(n: int) -> Sampler:
@@ -97,39 +78,35 @@ def special_linear(n: int) -> Sampler:
 def general_linear(n: int) -> Sampler:
     """GL(n): any matrix; singular with probability ≤ n / size, then drawn again."""
 
-    def draw(random: Random, size: int) -> Matrix:
+    def draw(random: Source, size: int) -> Matrix:
         while True:
             a = tuple(tuple(integer(random, size) for _ in range(n)) for _ in range(n))
             if q.rank(a) == n:
                 return a
 
-    return Sampler(draw, 1)
+    return draw
 
 
 def shears(basis: Sequence[Matrix]) -> Sampler:
     """1 + N for N in a space of matrices whose products vanish."""
     one = q.identity(len(basis[0]))
-    return Sampler(lambda random, size: q.plus(one, combination(random, size, basis)), 1)
+    return lambda random, size: q.plus(one, combination(random, size, basis))
 
 
 def dilations(n: int) -> Sampler:
     """Positive multiples of 1."""
-
-    def draw(random: Random, size: int) -> Matrix:
-        return q.scaled(Fraction(random.randint(1, size)), q.identity(n))
-
-    return Sampler(draw, 1)
+    return lambda random, size: q.scaled(random.randint(1, size), q.identity(n))
 
 
 def affine(linear: Sampler, n: int) -> Sampler:
     """A linear element and any translation."""
 
-    def draw(random: Random, size: int) -> Matrix:
-        a = linear.draw(random, size)
+    def draw(random: Source, size: int) -> Matrix:
+        a = linear(random, size)
         rows = tuple((*row, integer(random, size)) for row in a)
         return (*rows, (*(Fraction(0),) * n, Fraction(1)))
 
-    return Sampler(draw, linear.degree, linear.denominators)
+    return draw
 
 
 def block_diagonal(blocks: Sequence[Matrix]) -> Matrix:
@@ -145,9 +122,4 @@ def block_diagonal(blocks: Sequence[Matrix]) -> Matrix:
 
 def blocks(samplers: Sequence[Sampler]) -> Sampler:
     """Independent elements along the diagonal."""
-    joint = product(samplers)
-    return Sampler(
-        lambda random, size: block_diagonal([s.draw(random, size) for s in samplers]),
-        joint.degree,
-        joint.denominators,
-    )
+    return lambda random, size: block_diagonal([draw(random, size) for draw in samplers])

@@ -23,24 +23,49 @@ def is_matrix(x: Value) -> bool:
     return isinstance(x, tuple)
 
 
-def _same_kind(a: Value, b: Value) -> None:
-    shapes = [(len(x), len(x[0])) if is_matrix(x) else () for x in (a, b)]
-    if shapes[0] != shapes[1]:
-        raise EvaluationError(f"shapes {shapes[0]} and {shapes[1]} do not add")
+Shape = tuple[int, ...]
+
+
+def shape(x: Value) -> Shape:
+    """Rows and columns; nothing of a number."""
+    return (len(x), len(x[0]) if x else 0) if is_matrix(x) else ()
+
+
+def told(*shapes: Shape) -> str:
+    """Shapes in words."""
+    return " and ".join(f"a {s[0]}×{s[1]} matrix" if s else "a number" for s in shapes)
+
+
+def number(x: Value) -> Value:
+    """What must be one."""
+    if is_matrix(x):
+        raise EvaluationError(f"{told(shape(x))} in the place of a number")
+    return x
+
+
+def _square(x: Value, of: str) -> Value:
+    if not is_matrix(x):
+        raise EvaluationError(f"{of} of a number")
+    if len({*shape(x)}) != 1:
+        raise EvaluationError(f"{of} of a matrix that is not square")
+    return x
 
 
 def plus(a: Value, b: Value) -> Value:
     """a + b, of one shape."""
-    _same_kind(a, b)
+    if shape(a) != shape(b):
+        raise EvaluationError(f"{told(shape(a), shape(b))} do not add")
     return q.plus(a, b) if is_matrix(a) else a + b
 
 
 def times(a: Value, b: Value) -> Value:
-    """Scalar or matrix product; a 1 × 1 matrix is a scalar."""
+    """Scalar or matrix product; a row times a column is a number."""
     if is_matrix(a) and is_matrix(b):
-        if len(a[0]) != len(b):
-            raise EvaluationError(f"{len(a)}×{len(a[0])} times {len(b)}×{len(b[0])}")
-        return scalar(q.times(a, b))
+        (rows, inside), (lines, columns) = shape(a), shape(b)
+        if inside != lines:
+            raise EvaluationError(f"{told(shape(a), shape(b))} have no product")
+        product = q.times(a, b)
+        return product[0][0] if rows == columns == 1 < inside else product
     if is_matrix(a):
         return q.scaled(b, a)
     return q.scaled(a, b) if is_matrix(b) else a * b
@@ -48,53 +73,64 @@ def times(a: Value, b: Value) -> Value:
 
 def scalar(x: Value) -> Value:
     """A 1 × 1 matrix as its entry."""
-    return x[0][0] if is_matrix(x) and len(x) == 1 == len(x[0]) else x
+    return x[0][0] if shape(x) == (1, 1) else x
 
 
 def transpose(x: Value) -> Value:
-    """The transpose; a scalar is its own."""
-    return q.transposed(x) if is_matrix(x) else x
+    """The transpose of a matrix."""
+    if not is_matrix(x):
+        raise EvaluationError("transpose of a number")
+    return q.transposed(x)
 
 
 def trace(x: Value) -> Value:
     """Tr x."""
-    if is_matrix(x) and len(x) != len(x[0]):
-        raise EvaluationError("trace of a matrix that is not square")
-    return q.trace(x) if is_matrix(x) else x
+    return q.trace(_square(x, "trace"))
 
 
 def inner(a: Value, b: Value, metric: Value | None = None) -> Value:
     """⟨a, b⟩ with a metric: ā M b for vectors, Tr a M b̄ for matrices."""
     if not is_matrix(a) and not is_matrix(b):
-        if is_matrix(metric):
-            raise EvaluationError("numbers have no inner product of a matrix")
-        return a * b if metric is None else a * metric * b
+        with_metric = " of a matrix" if is_matrix(metric) else ""
+        raise EvaluationError(f"numbers have no inner product{with_metric}")
     if not (is_matrix(a) and is_matrix(b)):
         raise EvaluationError("inner product of a scalar and a matrix")
+    if shape(a) != shape(b):
+        raise EvaluationError(f"{told(shape(a), shape(b))} have no inner product")
     if len(a[0]) == 1:
-        return times(transpose(a), b if metric is None else times(metric, b))
+        return scalar(times(transpose(a), b if metric is None else times(metric, b)))
     return trace(times(a if metric is None else times(a, metric), transpose(b)))
+
+
+def _entries(a: Value) -> Any:
+    if shape(a) != (3, 1):
+        raise EvaluationError(f"{told(shape(a))} in the place of a vector of space")
+    return (x for (x,) in a)
 
 
 def wedge(a: Value, b: Value) -> Value:
     """The vector product in R³."""
-    (x,), (y,), (z,) = a
-    (u,), (v,), (w,) = b
+    (x, y, z), (u, v, w) = _entries(a), _entries(b)
     return ((y * w - z * v,), (z * u - x * w,), (x * v - y * u,))
 
 
 def hat(a: Value) -> Value:
     """j(a)."""
-    (x,), (y,), (z,) = a
+    x, y, z = _entries(a)
     zero = x * 0
     return ((zero, -z, y), (z, zero, -x), (-y, x, zero))
+
+
+def reciprocal(x: Value) -> Value:
+    """1/x of a number."""
+    return 1 / number(x)
 
 
 def inverse(x: Value) -> Value:
     """x⁻¹."""
     if not is_matrix(x):
         return 1 / x
-    result = q.inverse(x)
+    result = q.inverse(_square(x, "inverse"))
     if result is None:
         raise EvaluationError("inverse of a singular matrix")
     return result

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from fractions import Fraction
 from functools import cached_property
-from random import Random
 from typing import Any
 
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
+from ..algebra.samplers import Source
+from .counted import Counted, Degrees, letter
 from .evaluate import Environment
 from .opaque import Opaque
 
@@ -29,7 +30,7 @@ class Draws:
         self,
         problem: Mapping[str, Any],
         group: Group,
-        random: Random,
+        random: Source,
         size: int,
         *,
         opaque: bool = False,
@@ -41,16 +42,24 @@ class Draws:
         self.opaque, self.spare, self.n = opaque, 0 if few else SPARE, group.n
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
         self.parameters |= dict.fromkeys(zero, Fraction(0))
-        self.elementary = Opaque(Random(random.getrandbits(64)), size)
+        self.elementary = Opaque(lambda: self.draw(positive=True))
+        self.counted = isinstance(random, Degrees)
+        self.unit = letter(0, 1) if self.counted else Fraction(1)
         self.pi = self.draw(positive=True) if pi is None else pi
 
-    def draw(self, *, positive: bool = False) -> Fraction:
-        """A random integer, as a fraction."""
-        return Fraction(self.random.randint(1 if positive else -self.size, self.size))
+    def draw(self, *, positive: bool = False, slots: int = 0) -> Any:
+        """A random integer, as a fraction or of the ring that is drawn from; ``slots``: it is an
+        entry of a tensor of so many indices."""
+        x = Fraction(1) * self.random.randint(1 if positive else -self.size, self.size)
+        return letter(slots) if isinstance(x, Counted) else x
+
+    def vector(self) -> tuple[Any, ...]:
+        """A random one of the space."""
+        return tuple(self.draw(slots=1) for _ in range(self.n))
 
     def algebra(self) -> Matrix:
         """A random element of the Lie algebra."""
-        return self.group.hat([self.draw() for _ in self.group.basis])
+        return self.group.hat([self.draw(slots=2) for _ in self.group.basis])
 
     @cached_property
     def expressions(self) -> Environment:

@@ -21,9 +21,10 @@ from .arithmetic import (
     inner,
     inverse,
     is_matrix,
+    number,
     plus,
     power,
-    scalar,
+    reciprocal,
     times,
     trace,
     transpose,
@@ -40,6 +41,7 @@ class Environment:
 
     ``functions[name](arguments, environment)`` receives the argument trees.  ``listed``: of the
     points, those that may be named by their numbers.  ``copies``: how often each point is there.
+    ``unit``: the 1 of the identity, and of sums over all axes.
     """
 
     size: int
@@ -50,7 +52,8 @@ class Environment:
     indices: Mapping[str, int] = field(default_factory=dict)
     elementary: Callable[[str, Value], Value] | None = None
     listed: int = 0
-    copies: Sequence[Fraction] = ()
+    copies: Sequence[Any] = ()
+    unit: Any = Fraction(1)
 
     def with_index(self, name: str, value: int) -> Environment:
         """The same with an index bound."""
@@ -98,19 +101,19 @@ def _mul(*factors: Value, env: Environment) -> Value:
 OPERATIONS: dict[str, Callable[..., Value]] = {
     "add": _add,
     "mul": _mul,
-    "div": lambda a, b, env: times(a, 1 / b),
+    "div": lambda a, b, env: times(a, reciprocal(b)),
     "T": lambda x, env: transpose(x),
     "tr": lambda x, env: trace(x),
     "det": lambda x, env: determinant(x),
     "inv": lambda x, env: inverse(x),
-    "one": lambda env: q.identity(env.size),
+    "one": lambda env: q.scaled(env.unit, q.identity(env.size)),
     "inner": lambda a, b, env: inner(a, b),
     "metric": lambda m, a, b, env: inner(a, b, m),
     "norm2": lambda *x, env: inner(x[-1], x[-1], x[0] if len(x) == 2 else None),
-    "bracket": lambda a, b, env: q.bracket(a, b),
+    "bracket": lambda a, b, env: plus(times(a, b), times(Fraction(-1), times(b, a))),
     "wedge": lambda a, b, env: wedge(a, b),
     "hat": lambda a, env: hat(a),
-    "row": lambda *x, env: tuple(scalar(v) for v in x),
+    "row": lambda *x, env: tuple(map(number, x)),
     "matrix": lambda *rows, env: _matrix(rows),
     "pow": lambda x, n, env: power(x, n),
 }
@@ -131,6 +134,8 @@ def _sum(t: tuple[Any, ...], env: Environment) -> Value:
         raise EvaluationError(f"the sum over {index!r} has no members")
     often = env.copies if counted == POINT else ()
     terms = (evaluate(body, env.with_index(index, i)) for i in members)
+    if counted == AXIS:
+        terms = (times(env.unit, x) for x in terms)
     if often:
         terms = (times(often[i - 1], x) for i, x in zip(members, terms, strict=True))
     return reduce(plus, terms)

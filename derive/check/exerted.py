@@ -29,23 +29,30 @@ class Term:
     kind: str
 
 
-class AnyPotential:
-    """A polynomial that stands for any potential; ``weights``: n + 2 numbers for each point."""
+RATE = 2
+"""Indices of Ż, which may be anything where any forces act; f = Ż + Z² has twice as many."""
 
-    def __init__(self, weights: Sequence[Sequence[Any]]):
-        self.weights = weights
+PUSH = 3 * RATE + 1
+"""Those of F_i = m_i A f r_i and more, of which a force has what Ż needs."""
+
+
+class AnyPotential:
+    """A polynomial that stands for any potential: any value and any forces at the places of a model
+    at its time, and somewhere else others."""
+
+    def __init__(self, model: Draws, t: Any, places: Sequence[Vector]):
+        self.t, self.places, self.value = t, places, model.draw()
+        self.pushes = [tuple(model.draw(slots=PUSH) for _ in r) for r in places]
+        self.later, *self.weights = (model.draw() for _ in (None, *places))
 
     def energy(self, t: Any, r: Sequence[Vector]) -> Any:
         """U(t, r)."""
-        total = t * t
-        for weights, point in zip(self.weights, r, strict=True):
-            linear = sum((a * x for a, x in zip(weights, point, strict=False)), Fraction(0))
-            total = total + linear + weights[-2] * _square(point) + weights[-1] * (linear * t)
+        later = t - self.t
+        total = self.value + later * self.later
+        for force, weight, x, x0 in zip(self.pushes, self.weights, r, self.places, strict=True):
+            y = tuple(a - b for a, b in zip(x, x0, strict=True))
+            total = total - _dot(force, y) * (1 + later) + weight * _square(y)
         return total
-
-    def forces(self, t: Any, r: Sequence[Vector]) -> list[Vector]:
-        """−∂U/∂r_i."""
-        return pushed(lambda places: self.energy(t, places), r)
 
 
 def pushed(energy: Callable[[Sequence[Vector]], Any], r: Sequence[Vector]) -> list[Vector]:
@@ -167,9 +174,9 @@ class Exerted:
         """−∂U/∂r_i for every point."""
         return pushed(lambda places: self.potential(t, places, masses, kind), r)
 
-    def tension(self, energy: Any) -> Fraction:
+    def tension(self, energy: Any) -> Any:
         """−2 dU/dq, from U at q + η."""
-        return Fraction(-2 * part(Nilpotent.of(energy), ETA))
+        return -2 * part(Nilpotent.of(energy), ETA)
 
     def radial(self, r: Sequence[Vector], masses: Sequence[Any]) -> list[tuple[Vector, Fraction]]:
         """d_e and σ_e of the elements that are functions of a distance, in order."""

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from typing import Any
 
 from ..algebra import rational as q
@@ -30,7 +32,7 @@ class Names(Mapping[str, Any]):
         self.model = model
         self.known: Values = {}
         self.left = [_times, _bodies, _group, _forces, _energies, spatial_values]
-        self.left += [_motion, dual_values]
+        self.left += [_gradients, _motion, dual_values]
 
     def __getitem__(self, name: str) -> Any:
         while name not in self.known and self.left:
@@ -61,6 +63,7 @@ def environment(model: Model) -> Environment:
         elementary=model.elementary,
         listed=listed_count(model),
         copies=model.copies,
+        unit=model.unit,
     )
 
 
@@ -119,10 +122,14 @@ def _forces(model: Model) -> Values:
     F = tuple((sum((f[i] for f, _ in pairs), Fraction(0)),) for i in span)
     back = q.transposed(_linear(model, model.g))
     values: Values = {"N": N, "F": F, "N_b": q.times(back, N), "F_b": q.times(back, F)}
-    if not model.group.affine:
-        values["f"] = model.gradient
-        values["F̃"] = q.times(model.g, model.gradient)
     return values if model.opaque else values | exerted_values(model)
+
+
+def _gradients(model: Model) -> Values:
+    """What is solved for: f and the force on the group."""
+    if model.group.affine:
+        return {}
+    return {"f": model.gradient, "F̃": q.times(model.g, model.gradient)}
 
 
 def _energies(model: Model) -> Values:
@@ -185,9 +192,7 @@ def _motion(model: Model) -> Values:
     values |= _momenta(model, acceleration)
     d = len(model.group.linear_basis)
     for name, element in (("ζ", Z), ("ζ̇", Z_dot)):
-        coordinates = model.group.vee(element)
-        assert coordinates is not None
-        values[name] = tuple((x,) for x in coordinates[:d])
+        values[name] = tuple((x,) for x in model.group.nearest(element)[:d])
     if model.driven:
         values["u"] = tuple((x,) for x in model.covector)
     return values | ({} if model.opaque else solved_values(model))
@@ -218,9 +223,17 @@ def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
 def _functions(model: Model) -> dict[str, Callable[..., Any]]:
     """By the heads of :mod:`derive.check.heads`, of arguments that are of their kinds."""
     first, second = model.first, model.second
-    directions = {"δy": first, "δ′y": second, "X": model.motion}
-    for name, full in (("δx", first), ("δ′x", second)):
-        directions[name] = Direction(Fraction(0), full.xi, full.velocity)
+
+    @cache
+    def direction(name: str) -> Direction:
+        if name == "X":
+            return model.motion
+        full = second if "′" in name else first
+        return replace(full, time=Fraction(0)) if "x" in name else full
+
+    @cache
+    def exterior(*names: str) -> Any:
+        return model.exterior(*map(direction, names))
 
     def tangent(arguments: tuple[Tree, ...], env: Environment) -> Matrix:
         n = model.n
@@ -234,7 +247,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
 
     def momentum(_: Tree, arguments: tuple[Tree, ...], env: Environment) -> Any:
         nu = q.times(model.g, model.Z)
-        return part(model.momentum(model.t, model.g, nu, tangent(arguments, env)), 0)
+        return part(model.momentum(nu, tangent(arguments, env)), 0)
 
     def point(head: Any, _: tuple[Tree, ...], env: Environment) -> Matrix:
         return tuple((x,) for x in model.moved(model.g)[point_index(head[2], env) - 1])
@@ -242,39 +255,32 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
     return {
         "dŨ": lambda _, a, env: model.work(tangent(a, env)),
         "p̃": momentum,
-        "ϖ": lambda _, a, env: model.cartan(directions[a[0]]),
-        **dict.fromkeys(("dϖ", "ω"), lambda _, a, env: model.exterior(*(directions[x] for x in a))),
+        "ϖ": lambda _, a, env: model.cartan(direction(a[0])),
+        **dict.fromkeys(("dϖ", "ω"), lambda _, a, env: exterior(*a)),
         "r": point,
         "∫": lambda _, a, env: _integral(model, a[0]),
-        "δA": lambda _, a, env: _linear(model, q.times(model.g, directions[a[0]].xi)),
-        "δT": lambda _, a, env: _translation(model, q.times(model.g, directions[a[0]].xi)),
-        "ξ": lambda _, a, env: _linear(model, directions[a[0]].xi),
-        "η": lambda _, a, env: _translation(model, directions[a[0]].xi),
-        "Ω": lambda _, a, env: _rotation_vector(model, directions[a[0]].xi),
+        "δA": lambda _, a, env: _linear(model, q.times(model.g, direction(a[0]).xi)),
+        "δT": lambda _, a, env: _translation(model, q.times(model.g, direction(a[0]).xi)),
+        "ξ": lambda _, a, env: _linear(model, direction(a[0]).xi),
+        "η": lambda _, a, env: _translation(model, direction(a[0]).xi),
+        "Ω": lambda _, a, env: _rotation_vector(model, direction(a[0]).xi),
         "δ": lambda _, a, env: _varied(model, a[0], EPS, env),
         "δ′": lambda _, a, env: _varied(model, a[0], EPS_PRIME, env),
     }
 
 
 def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
-    """δ or δ′ of a moved point, or of the fields ξ, ξ′, η, η′ on the two-parameter family."""
-    _, g, _ = model.family(model.first, model.second)
+    """δ or δ′ of a moved point, or of the fields ξ, ξ′, η, η′ on the two-parameter family, which
+    are those of h = g₀⁻¹g; h⁻¹ is 1 − (h − 1) to first order in one parameter."""
     if isinstance(what, tuple):
+        _, g, _ = model.family(model.first, model.second)
         i = point_index(what[1][2], env)
         return tuple((part(x, mask),) for x in model.moved(g)[i - 1])
     other = EPS_PRIME if mask == EPS else EPS
-    derivative = derivative_of(g, other)
-    field = q.times(_inverse(model, g, mask), derivative)
-    value = part(field, mask)
+    h = model.displaced(model.first, model.second)
+    back = q.minus(q.identity(model.s), q.scaled(nilpotent(mask), part(h, mask)))
+    value = part(q.times(back, derivative_of(h, other)), mask)
     return (_linear if what in ("ξ", "ξ′") else _translation)(model, value)
-
-
-def _inverse(model: Model, g: Matrix, mask: int) -> Matrix:
-    """g⁻¹ to first order in one parameter: (g₀ + ε g₁)⁻¹ = g₀⁻¹ − ε g₀⁻¹ g₁ g₀⁻¹."""
-    base = q.inverse(part(g, 0))
-    assert base is not None
-    first = q.times(q.times(base, part(g, mask)), base)
-    return q.minus(base, q.scaled(nilpotent(mask), first))
 
 
 def _integral(model: Model, form: Tree) -> Any:

@@ -11,14 +11,15 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from random import Random
 from typing import Any
 
 from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
+from ..algebra.samplers import Source
+from .counted import indexed
 from .draws import Draws
-from .exerted import AnyPotential, Exerted, damping_members
+from .exerted import RATE, AnyPotential, Exerted, damping_members
 from .nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, derivative_in, derivative_of, nilpotent, part
 from .points import listed_count, points_of, principal_points
 
@@ -49,7 +50,7 @@ class Model(Draws):
         self,
         problem: Mapping[str, Any],
         group: Group,
-        random: Random,
+        random: Source,
         size: int,
         *,
         principal: bool = False,
@@ -66,17 +67,14 @@ class Model(Draws):
         super().__init__(problem, group, random, size, opaque=opaque, pi=pi, few=few, zero=zero)
         self.driven, self.coasting, self.principal = driven, coasting, principal
         self.s = group.size
-        self._exteriors: dict[tuple[Direction, Direction], Fraction] = {}
         self.masses, self.points, self.blocks = (
             principal_points(self) if principal else points_of(self)
         )
         self._moments_as_parameters()
         self.exerted = Exerted({} if opaque else problem, group, self.blocks, self.expressions)
-        self.any_potential = AnyPotential(
-            [[self.draw() for _ in range(self.n + 2)] for _ in self.points]
-        )
         self.t = self.draw()
         self.g = group.sample(random, size)
+        self.any_potential = AnyPotential(self, self.t, self.moved(self.g)) if opaque else None
         self.Z = self.algebra()
         self.first, self.second, self.mixed = (
             Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
@@ -153,7 +151,7 @@ class Model(Draws):
 
     def potential(self, t: Any, r: list[Vector]) -> Any:
         """U(t, r): that of the problem, or any polynomial where the walk leaves it open."""
-        if self.opaque:
+        if self.any_potential:
             return self.any_potential.energy(t, r)
         return self.exerted.potential(t, r, self.masses)
 
@@ -170,15 +168,13 @@ class Model(Draws):
         )
         return kinetic - self.potential(t, self.moved(g))
 
-    def momentum(self, t: Any, g: Matrix, nu: Matrix, w: Matrix) -> Any:
-        """p̃(w): the derivative of L̃ along the velocity."""
-        shifted = q.plus(nu, q.scaled(nilpotent(ETA), w))
-        value = Nilpotent.of(self.lagrangian(t, g, shifted))
-        return Nilpotent({k ^ ETA: x for k, x in value.parts.items() if k & ETA})
+    def momentum(self, nu: Matrix, w: Matrix) -> Any:
+        """p̃(w), the derivative of L̃ along the velocity: Σ m_i ⟨v_i, w r_i⟩, as ½ ‖v‖² has it."""
+        return self.pairing(nu, w)
 
     def energy(self, t: Any, g: Matrix, nu: Matrix) -> Any:
         """h̃ = p̃(ν) − L̃."""
-        return self.momentum(t, g, nu, nu) - self.lagrangian(t, g, nu)
+        return self.momentum(nu, nu) - self.lagrangian(t, g, nu)
 
     def family(self, a: Direction, b: Direction) -> tuple[Any, Matrix, Matrix]:
         """t, g and Z on a two-parameter family with the given directions, to first order in each.
@@ -186,38 +182,38 @@ class Model(Draws):
         The mixed part is arbitrary: dϖ does not depend on it, but δξ′ and δ′ξ do.
         """
         e, f = nilpotent(EPS), nilpotent(EPS_PRIME)
-        one = q.identity(self.s)
-        factors = ((e, a.xi), (f, b.xi), (e * f, self.mixed.xi))
-        g = self.g
-        for weight, xi in factors:
-            g = q.times(g, q.plus(one, q.scaled(weight, xi)))
         t = self.t + e * a.time + f * b.time + e * f * self.mixed.time
         Z = self.Z
         for weight, x in ((e, a.velocity), (f, b.velocity), (e * f, self.mixed.velocity)):
             Z = q.plus(Z, q.scaled(weight, x))
-        return t, g, Z
+        return t, q.times(self.g, self.displaced(a, b)), Z
 
-    def cartan(self, a: Direction) -> Fraction:
+    def displaced(self, a: Direction, b: Direction) -> Matrix:
+        """g₀⁻¹g on that family."""
+        e, f = nilpotent(EPS), nilpotent(EPS_PRIME)
+        g = one = q.identity(self.s)
+        for weight, xi in ((e, a.xi), (f, b.xi), (e * f, self.mixed.xi)):
+            g = q.times(g, q.plus(one, q.scaled(weight, xi)))
+        return g
+
+    def cartan(self, a: Direction) -> Any:
         """ϖ(δ) at the point."""
         nu = q.times(self.g, self.Z)
-        momentum = self.momentum(self.t, self.g, nu, q.times(self.g, a.xi))
-        return Fraction(part(momentum - self.energy(self.t, self.g, nu) * a.time, 0))
+        momentum = self.momentum(nu, q.times(self.g, a.xi))
+        return part(momentum - self.energy(self.t, self.g, nu) * a.time, 0)
 
-    def exterior(self, a: Direction, b: Direction) -> Fraction:
+    def exterior(self, a: Direction, b: Direction) -> Any:
         """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family."""
-        if (a, b) not in self._exteriors:
-            t, g, Z = self.family(a, b)
-            nu = q.times(g, Z)
-            energy = self.energy(t, g, nu)
+        t, g, Z = self.family(a, b)
+        nu = q.times(g, Z)
+        energy = self.energy(t, g, nu)
 
-            def form(mask: int) -> Any:
-                """ϖ on the derivative of the family in one parameter, a function of the other."""
-                dt, dg = derivative_in(t, mask), derivative_of(g, mask)
-                return self.momentum(t, g, nu, dg) - energy * dt
+        def form(mask: int) -> Any:
+            """ϖ on the derivative of the family in one parameter, a function of the other."""
+            dt, dg = derivative_in(t, mask), derivative_of(g, mask)
+            return self.momentum(nu, dg) - energy * dt
 
-            found = part(form(EPS_PRIME), EPS) - part(form(EPS), EPS_PRIME)
-            self._exteriors[a, b] = Fraction(found)
-        return self._exteriors[a, b]
+        return part(form(EPS_PRIME), EPS) - part(form(EPS), EPS_PRIME)
 
     # -- forces and the motion -------------------------------------------------------------------
 
@@ -230,8 +226,8 @@ class Model(Draws):
     @cached_property
     def forces(self) -> list[Vector]:
         """F_i = −∂U/∂r_i."""
-        if self.opaque:
-            return self.any_potential.forces(self.t, self.moved(self.g))
+        if self.any_potential:
+            return self.any_potential.pushes
         return self.exerted.forces(self.t, self.moved(self.g), self.masses)
 
     @cached_property
@@ -270,7 +266,7 @@ class Model(Draws):
             found.append(u + work)
         return found
 
-    def pairing(self, a: Matrix, b: Matrix) -> Fraction:
+    def pairing(self, a: Matrix, b: Matrix) -> Any:
         """Σ m_i ⟨a r_i, b r_i⟩ for tangent matrices at g."""
         return sum(
             (
@@ -299,6 +295,13 @@ class Model(Draws):
             raise ZeroDivisionError("the kinetic metric is singular at this point")
         return self.group.hat([row[0] for row in solution])
 
+    def letters(self, x: Matrix, slots: int) -> Matrix:
+        """A matrix that is solved for, where any forces act: they are counted as what it needs, the
+        matrix as a letter of so many indices."""
+        if not self.opaque:
+            return x
+        return tuple(tuple(indexed(y, slots) for y in row) for row in x)
+
     @cached_property
     def acceleration(self) -> Matrix:
         """Ż by d'Alembert: Σ ⟨m_i a_i − F_i, v′_i⟩ = u(ξ′) for every ξ′, with a = g(Ż + Z²)r."""
@@ -309,12 +312,13 @@ class Model(Draws):
         for u, e in zip(self.input, self.group.basis, strict=True):
             frame = q.times(self.g, e)
             covector.append(u - self.work(frame) - self.pairing(centripetal, frame))
-        return self.solve_metric(covector)
+        return self.letters(self.solve_metric(covector), RATE)
 
     @cached_property
     def gradient(self) -> Matrix:
         """f in 𝔤: the metric sends A f to −dŨ."""
-        return self.solve_metric([-self.work(q.times(self.g, e)) for e in self.group.basis])
+        covector = [-self.work(q.times(self.g, e)) for e in self.group.basis]
+        return self.letters(self.solve_metric(covector), 2 * RATE)
 
     @property
     def motion(self) -> Direction:

@@ -6,7 +6,6 @@ tells its metric not to be degenerate, the Lagrangian on the group the masses th
 
 from __future__ import annotations
 
-import itertools
 from collections import ChainMap
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
@@ -23,7 +22,8 @@ from ..record.record import Equation, RecordError, Step
 from ..record.vocabulary import ANY_GROUP
 from .arithmetic import EvaluationError, is_matrix, scalar
 from .assumed import ALONG
-from .evaluate import Environment, evaluate, free_indices, index_values
+from .differ import everywhere
+from .evaluate import Environment, evaluate
 from .heads import FORMS
 from .model import Model
 from .spatial import axial
@@ -98,12 +98,17 @@ def _unfounded(step: Step, problem: Mapping[str, Any]) -> str:
     return ""
 
 
-def untrue(step: Step, problem: Mapping[str, Any], env: Environment, model: Model) -> str:
-    """The hypothesis of a step that is not so, at a point or of the problem; empty for none."""
+def untrue(
+    step: Step, problem: Mapping[str, Any], env: Environment, model: Model, ordered: Environment
+) -> str:
+    """The hypothesis of a step that is not so, at a point or of the problem; empty for none.
+
+    ``ordered``: a point whose numbers are greater or smaller than others.
+    """
     if any(x.property in OF_MASSES for x in step.hypotheses) and masses.any_sign(problem):
         return masses.SUPPOSED
     for x in step.hypotheses:
-        if why := _false(x, env, model):
+        if why := _false(x, ordered if x.property in ORDER else env, model):
             return f"the hypothesis that {_said(x.of)} is {x.property} is {why}"
     return ""
 
@@ -147,6 +152,8 @@ def _false(x: Hypothesis, env: Environment, model: Model) -> str:
     return ""
 
 
+ORDER = ("positive", "semidefinite")
+
 HOLDS: dict[str, Callable[[Matrix], bool]] = {
     "positive": lambda x: bool(x[0][0] > 0),
     "nonzero": lambda x: bool(x[0][0] != 0),
@@ -158,14 +165,7 @@ HOLDS: dict[str, Callable[[Matrix], bool]] = {
 
 def values(t: Tree, env: Environment) -> Iterator[Any]:
     """The value of a tree for each value of its free indices."""
-    free = sorted(free_indices(t))
-    if len(free) > 2:
-        raise EvaluationError("more than two free indices")
-    for numbers in itertools.product(*(index_values(t, index, env) for index in free)):
-        bound = env
-        for index, number in zip(free, numbers, strict=True):
-            bound = bound.with_index(index, number)
-        yield evaluate(t, bound)
+    return (evaluate(t, there) for there in everywhere(t, env))
 
 
 def _letters(space: str) -> tuple[tuple[str, ...], ...]:

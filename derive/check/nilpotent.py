@@ -24,16 +24,20 @@ class Nilpotent:
     @staticmethod
     def of(x: Any) -> Nilpotent:
         """A plain number as a nilpotent one."""
-        return x if isinstance(x, Nilpotent) else Nilpotent({0: Fraction(x)})
+        return x if isinstance(x, Nilpotent) else Nilpotent({0: Fraction(x) if isinstance(x, int) else x})
 
     def part(self, mask: int) -> Fraction:
         """The coefficient of a product of nilpotents."""
         return self.parts.get(mask, Fraction(0))
 
     def __add__(self, other: Any) -> Nilpotent:
+        if not isinstance(other, Nilpotent):
+            if other == 0:
+                return self
+            other = Nilpotent.of(other)
         parts = dict(self.parts)
-        for mask, x in Nilpotent.of(other).parts.items():
-            parts[mask] = parts.get(mask, Fraction(0)) + x
+        for mask, x in other.parts.items():
+            parts[mask] = parts[mask] + x if mask in parts else x
         return Nilpotent(parts)
 
     __radd__ = __add__
@@ -54,13 +58,14 @@ class Nilpotent:
         for a, x in self.parts.items():
             for b, y in other.parts.items():
                 if not a & b:
-                    parts[a | b] = parts.get(a | b, Fraction(0)) + x * y
+                    product, mask = x * y, a | b
+                    parts[mask] = parts[mask] + product if mask in parts else product
         return Nilpotent(parts)
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> Nilpotent:
-        return self * (_inverse(other) if isinstance(other, Nilpotent) else 1 / Fraction(other))
+        return self * (_inverse(other) if isinstance(other, Nilpotent) else Fraction(1) / other)
 
     def __rtruediv__(self, other: Any) -> Nilpotent:
         return Nilpotent.of(other) * _inverse(self)

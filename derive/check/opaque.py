@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from random import Random
 from typing import Any
 
 from .arithmetic import EvaluationError
+from .counted import Counted
 from .nilpotent import Nilpotent
 
 Derivatives = tuple[Any, Any, Any]
@@ -36,18 +36,26 @@ ALGEBRAIC: dict[str, Callable[[Any, Any], Derivatives]] = {
 class Opaque:
     """The values of the functions at one point of a model."""
 
-    def __init__(self, random: Random, size: int):
-        self.random, self.size = random, size
-        self.values: dict[tuple[str, Fraction], Fraction] = {}
+    def __init__(self, draw: Callable[[], Any]):
+        self.draw = draw
+        self.values: dict[tuple[str, Any], Any] = {}
+        self.counted: list[Counted] = []
 
-    def value(self, name: str, x: Fraction) -> Fraction:
-        """y at x, always the same."""
-        key = (name, x)
+    def value(self, name: str, x: Any) -> Any:
+        """y at x, always the same; of a number that is only counted no other is known to be it."""
+        key = (name, id(x) if isinstance(x, Counted) else x)
         if key not in self.values:
-            self.values[key] = Fraction(self.random.randint(1, self.size))
+            self.values[key] = self.draw()
+            if isinstance(x, Counted):
+                self.counted.append(x)  # kept, so that its id is
         return self.values[key]
 
-    def derivatives(self, name: str, x: Fraction) -> Derivatives:
+    @property
+    def coincidence(self) -> int:
+        """The degree of what makes two arguments equal that are not the same."""
+        return len(self.counted) * sum(x.degree.whole for x in self.counted)
+
+    def derivatives(self, name: str, x: Any) -> Derivatives:
         """The first three."""
         y = self.value(name, x)
         if name in PARTNERS:
@@ -62,8 +70,8 @@ class Opaque:
     def __call__(self, name: str, x: Any) -> Any:
         """The function of a number, or by Taylor's formula of one with nilpotent parts."""
         if not isinstance(x, Nilpotent):
-            self.derivatives(name, Fraction(x))
-            return self.value(name, Fraction(x))
+            self.derivatives(name, x)
+            return self.value(name, x)
         base = x.part(0)
         small = Nilpotent({k: v for k, v in x.parts.items() if k})
         result, power, factorial = Nilpotent.of(self.value(name, base)), small, 1

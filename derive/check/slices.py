@@ -36,13 +36,15 @@ def slice_moments(kind: str, sizes: Sizes, pi: Fraction) -> Found:
     """
     try:
         exact = {k: x if k == "faces" else _fractions(x) for k, x in sizes.items()}
-        return ROADS[kind](exact, Fraction(pi))
+        return ROADS[kind](exact, _fractions(pi))
     except (LookupError, TypeError, ValueError, ArithmeticError) as error:
         raise EvaluationError(f"no moments of {kind[:40]!r} of such sizes: {error}") from error
 
 
 def _fractions(x: Any) -> Any:
-    return tuple(map(_fractions, x)) if isinstance(x, (tuple, list)) else Fraction(x)
+    if isinstance(x, (tuple, list)):
+        return tuple(map(_fractions, x))
+    return Fraction(x) if isinstance(x, int) else x
 
 
 def _integral(p: Row, ends: Row) -> Fraction:
@@ -116,8 +118,11 @@ def _mesh(points: Sequence[Row], faces: Sequence[Sequence[int]]) -> Found:
 
     They are x along the first axis, and r_i²/2 and r_i² r_j/2 along axis i, r_i³/3 for i = j.
     """
-    unit = lcm(*(x.denominator for v in points for x in v))
-    vertices = [tuple(int(x * unit) for x in v) for v in points]
+    numbers = [x for v in points for x in v if isinstance(x, Fraction)]
+    unit = lcm(*(x.denominator for x in numbers))
+    vertices = [
+        tuple(int(x * unit) if isinstance(x, Fraction) else x * unit for x in v) for v in points
+    ]
     volume, first, second = 0, [0] * 3, [[0] * 3 for _ in SPAN]
     for a, b, c in ((vertices[k] for k in face) for face in faces):
         normal = _cross([b[i] - a[i] for i in SPAN], [c[i] - a[i] for i in SPAN])
@@ -130,8 +135,9 @@ def _mesh(points: Sequence[Row], faces: Sequence[Sequence[int]]) -> Found:
                 for j in SPAN:
                     second[i][j] += (2 if i == j else 3) * flux * r[j]
     scale = [120 * unit**2 * (6 * unit) ** k for k in range(4)]
-    square = tuple(tuple(Fraction(x, 6 * scale[3]) for x in row) for row in second)
-    return Fraction(volume, scale[1]), tuple(Fraction(x, 2 * scale[2]) for x in first), square
+    square = q.scaled(Fraction(1, 6 * scale[3]), q.matrix(second))
+    center = tuple(Fraction(1, 2 * scale[2]) * x for x in first)
+    return Fraction(1, scale[1]) * volume, center, square
 
 
 ROADS: dict[str, Callable[[Sizes, Fraction], Found]] = {

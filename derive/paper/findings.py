@@ -20,10 +20,11 @@ from ..algebra import rational as q
 from ..algebra.families import group
 from ..algebra.show import show
 from ..algebra.tree import Tree, names, neg
-from ..check.checker import SIZE, difference
+from ..check.differ import difference
 from ..check.evaluate import Environment, evaluate
 from ..check.meaning import environment
 from ..check.model import Model
+from ..check.tried import SIZE
 from ..record.record import Derivation, Equation
 from .printed_solid import SOLID
 from .printed_top import TOP

@@ -1,0 +1,202 @@
+"""Numbers of which only the degree is known: a model drawn in them tells how large a claim is.
+
+Such a number stands for a rational function of all that is drawn: a numerator, and powers of a few
+named polynomials.  Dividing by a number names it; sums go over the least common denominator.  What
+is zero by its form alone stays a plain 0; every other number counts as one that is not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+from functools import lru_cache, reduce
+from itertools import count
+from typing import Any, NamedTuple
+
+from ..algebra.rational import Matrix, flatten
+
+MEMO = 2**16
+
+
+class Grade(NamedTuple):
+    """Of a polynomial.
+
+    ``degree``: in all that is drawn.  ``slots``: indices of the tensors that it contracts, two for
+    each matrix, one for each vector.  ``loops``: traces of 1, powers of n at most.
+    """
+
+    degree: int
+    slots: int
+    loops: int
+
+
+NONE = Grade(0, 0, 0)
+Factor = tuple[int, Grade]
+Powers = tuple[tuple[Factor, int], ...]
+
+
+class Degree:
+    """``num`` over powers of named polynomials, negative ones of those in the numerator."""
+
+    __slots__ = ("den", "num")
+
+    def __init__(self, num: Grade, den: Powers):
+        self.num, self.den = num, den
+
+    @property
+    def numerator(self) -> Grade:
+        """All of it, written out."""
+        return _raised(self.num, ((f, -k) for f, k in self.den if k < 0))
+
+    @property
+    def denominator(self) -> Grade:
+        """All of it, written out."""
+        return _raised(NONE, ((f, k) for f, k in self.den if k > 0))
+
+    @property
+    def whole(self) -> int:
+        """Of numerator and denominator together: neither vanishes but with this over the size."""
+        return self.numerator.degree + self.denominator.degree
+
+
+def _raised(g: Grade, powers: Iterable[tuple[Factor, int]]) -> Grade:
+    for (_, own), k in powers:
+        g = Grade(g[0] + k * own[0], g[1] + k * own[1], g[2] + k * own[2])
+    return g
+
+
+@lru_cache(MEMO)
+def _degree(num: Grade, den: Powers) -> Degree:
+    return Degree(num, den)
+
+
+def _made(num: Grade, powers: dict[Factor, int]) -> Degree:
+    return _degree(num, tuple(sorted((f, k) for f, k in powers.items() if k)))
+
+
+@lru_cache(MEMO)
+def _times(a: Degree, b: Degree) -> Degree:
+    powers = dict(a.den)
+    for f, k in b.den:
+        powers[f] = powers.get(f, 0) + k
+    return _made(_raised(a.num, [((0, b.num), 1)]), powers)
+
+
+@lru_cache(MEMO)
+def _plus(a: Degree, b: Degree) -> Degree:
+    if a is b:
+        return a
+    first, second = dict(a.den), dict(b.den)
+    powers = {f: max(first.get(f, 0), second.get(f, 0)) for f in first | second}
+    lifted = (
+        _raised(x.num, ((f, k - own.get(f, 0)) for f, k in powers.items()))
+        for x, own in ((a, first), (b, second))
+    )
+    return _made(Grade(*map(max, *lifted)), powers)
+
+
+CONSTANT = _degree(NONE, ())
+_number = count(1)
+
+
+def _named(g: Grade) -> Factor:
+    """Another polynomial of this grade."""
+    return next(_number), g
+
+
+class Counted:
+    """A number of this kind, equal to itself alone."""
+
+    __slots__ = ("_inverse", "degree")
+
+    def __init__(self, degree: Degree):
+        self.degree, self._inverse = degree, None
+
+    def __add__(self, other: Any) -> Any:
+        if isinstance(other, Counted):
+            return Counted(_plus(self.degree, other.degree))
+        if not isinstance(other, (int, Fraction)):
+            return NotImplemented
+        return Counted(_plus(self.degree, CONSTANT)) if other else self
+
+    __radd__ = __sub__ = __rsub__ = __add__
+
+    def __mul__(self, other: Any) -> Any:
+        if isinstance(other, Counted):
+            return Counted(_times(self.degree, other.degree))
+        if not isinstance(other, (int, Fraction)):
+            return NotImplemented
+        return self if other else Fraction(0)
+
+    __rmul__ = __mul__
+
+    def __neg__(self) -> Counted:
+        return self
+
+    __abs__ = __neg__
+
+    def __truediv__(self, other: Any) -> Any:
+        if isinstance(other, Counted):
+            return self * other.inverse
+        return self * (1 / Fraction(other)) if isinstance(other, (int, Fraction)) else NotImplemented
+
+    def __rtruediv__(self, other: Any) -> Any:
+        return self.inverse * other
+
+    def __pow__(self, n: int) -> Any:
+        return reduce(lambda x, y: x * y, [self if n > 0 else self.inverse] * abs(n), Fraction(1))
+
+    @property
+    def inverse(self) -> Counted:
+        """1 over it, the same each time."""
+        if self._inverse is None:
+            powers = {f: -k for f, k in self.degree.den}
+            powers[_named(self.degree.num)] = 1
+            self._inverse = Counted(_made(NONE, powers))
+        return self._inverse
+
+    @staticmethod
+    def solved(a: Matrix, b: Matrix) -> Matrix:
+        """x with a x = b, by Cramer's rule; slots: as if a⁻¹ were a letter like a."""
+        left, right, size = joint(flatten(a)), joint(flatten(b)), len(a)
+        top, other = left.numerator, right.num
+        powers = dict(right.den)
+        for f, k in left.den:
+            if k > 0:
+                powers[f] = powers.get(f, 0) - k
+        powers[_named(Grade(size * top.degree, 0, 0))] = 1
+        slots, loops = top.slots + other.slots, top.loops + other.loops
+        found = _made(Grade((size - 1) * top.degree + other.degree, slots, loops), powers)
+        return tuple(tuple(Counted(found) for _ in b[0]) for _ in a)
+
+
+def joint(entries: Iterable[Any]) -> Degree:
+    """Of numbers over one denominator."""
+    return reduce(_plus, degrees(entries), CONSTANT)
+
+
+def degrees(entries: Iterable[Any]) -> Iterator[Degree]:
+    """Of numbers; a plain one is constant."""
+    return (x.degree if isinstance(x, Counted) else CONSTANT for x in entries)
+
+
+def letter(slots: int = 2, loops: int = 0) -> Counted:
+    """A number that is drawn, an entry of a tensor with so many indices; or a 1 of so many."""
+    return Counted(_degree(Grade(int(not loops), slots, loops), ()))
+
+
+def indexed(x: Any, slots: int) -> Any:
+    """A number as an entry of a tensor with so many indices, where it is counted."""
+    if not isinstance(x, Counted):
+        return x
+    top = x.degree.num
+    return Counted(_degree(Grade(top.degree, slots, top.loops), x.degree.den))
+
+
+class Degrees:
+    """A source of them in the place of a random one."""
+
+    def randint(self, low: int, high: int) -> Counted:
+        """An entry of a matrix, whatever the range."""
+        del low, high
+        return letter()

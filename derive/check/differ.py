@@ -1,0 +1,99 @@
+"""The two sides of an equation at a point: do they differ, and how large is what is claimed?"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+from ..algebra.rational import flatten
+from ..algebra.tree import Tree
+from ..record.record import Equation
+from .arithmetic import EvaluationError, is_matrix, shape, told
+from .counted import NONE, Degree, Grade, degrees, joint
+from .evaluate import Environment, evaluate, free_indices, index_values
+
+MOST_INDICES = 2
+
+
+def everywhere(t: Tree, env: Environment) -> Iterator[Environment]:
+    """For every value of the free indices of a tree."""
+    free = sorted(free_indices(t))
+    if len(free) > MOST_INDICES:
+        raise EvaluationError("more than two free indices")
+    for numbers in itertools.product(*(index_values(t, index, env) for index in free)):
+        bound = env
+        for index, number in zip(free, numbers, strict=True):
+            bound = bound.with_index(index, number)
+        yield bound
+
+
+def difference(equation: Equation, env: Environment) -> str:
+    """Empty when both sides agree, for every value of a free index; else what differs."""
+    if equation.lhs == equation.rhs:
+        return "both sides are the same tree: it claims nothing"
+    try:
+        found = (_difference(*both) for both in _sides(equation, env))
+        return next(filter(None, found), "")
+    except EvaluationError as error:
+        return str(error)
+
+
+def _sides(equation: Equation, env: Environment) -> Iterator[tuple[Any, Any]]:
+    """The values, of one shape; 0 alone on a side is of any."""
+    trees = (equation.lhs, equation.rhs)
+    for there in everywhere(("add", *trees), env):
+        left, right = values = [evaluate(x, there) for x in trees]
+        if shape(left) != shape(right) and 0 not in trees:
+            raise EvaluationError(f"the sides differ: {told(*map(shape, values))}")
+        yield left, right
+
+
+def _entries(x: Any) -> tuple[Any, ...]:
+    return flatten(x) if is_matrix(x) else (x,)
+
+
+def _difference(a: Any, b: Any) -> str:
+    whole = a if is_matrix(a) else b
+    pairs = [*itertools.product(_entries(a), _entries(b))]
+    if shape(a) == shape(b):
+        pairs = [*zip(_entries(a), _entries(b), strict=True)]
+    for k, (x, y) in enumerate(pairs):
+        if x != y:
+            row, column = divmod(k, len(whole[0])) if is_matrix(whole) else (0, 0)
+            where = f" in entry ({row + 1}, {column + 1})" if is_matrix(whole) else ""
+            numbers = isinstance(x, (int, Fraction)) and isinstance(y, (int, Fraction))
+            return f"the sides differ{where}" + (f": {brief(x)} and {brief(y)}" if numbers else "")
+    return ""
+
+
+def brief(x: Any) -> str:
+    """A number in a message."""
+    if Fraction(x).denominator < 10**6 and abs(x) < 10**9:
+        return str(x)
+    return f"{float(x):.6g}" if abs(x) < Fraction(10) ** 300 else "a large number"
+
+
+def graded(equation: Equation, env: Environment) -> tuple[int, Grade]:
+    """At a point of numbers that are counted: the degree of a claim, of numerators and denominators
+    together, and the grade of its numerators, open indices closed."""
+    whole, top = 0, NONE
+    for a, b in _sides(equation, env):
+        pairs = zip(_entries(a), _entries(b), strict=True)
+        if shape(a) != shape(b):
+            pairs = itertools.product(_entries(a), _entries(b))  # type: ignore[assignment]
+        open_ = sum(k > 1 for k in max(shape(a), shape(b)))
+        open_ += len(free_indices(("add", equation.lhs, equation.rhs)))
+        for x in map(joint, pairs):
+            g = x.numerator
+            whole = max(whole, x.whole)
+            top = Grade(*map(max, top, (g.degree, g.slots + open_, g.loops)))
+    return whole, top
+
+
+def size_of(t: Tree, env: Environment) -> int:
+    """The degree of a tree at such a point."""
+    values = (evaluate(t, there) for there in everywhere(t, env))
+    found: Iterator[Degree] = (d for x in values for d in degrees(_entries(x)))
+    return max((d.whole for d in found), default=0)
