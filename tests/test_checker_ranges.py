@@ -1,4 +1,4 @@
-"""The degree of a bound counts every part of a problem; indices range over all its points."""
+"""The degree of a bound is of what is computed; indices range over all the points of a problem."""
 
 import tomllib
 from dataclasses import replace
@@ -6,9 +6,9 @@ from fractions import Fraction
 
 import pytest
 
-from derive.check import degree
 from derive.check.arithmetic import scalar
 from derive.check.checker import Checker, check
+from derive.check.counted import Counted
 from derive.mechanics.toml import problem_of
 from derive.pipeline import walk
 from derive.record.record import Equation
@@ -73,13 +73,17 @@ def exceeding(d, **supposed):
             yield claim.lhs
 
 
+def forgetful(self, other):
+    """A product that forgets the degree of a factor."""
+    return self if other else Fraction(0)
+
+
 @pytest.mark.parametrize("part", PARTS)
 def test_no_degree_is_larger_than_that_of_the_bound(part, monkeypatch):
-    """And it would be, for some name, if a part of the problem were left out of it."""
+    """And it would be, for some name, if a product forgot a factor."""
     d, driven = walked(PARTS[part]), part == "damping"
     assert [*exceeding(d, driven=driven)] == []
-    key, whole = "body" if part == "given" else part, degree.body_degree
-    monkeypatch.setattr(degree, "body_degree", lambda problem: whole({**problem, key: {}}))
+    monkeypatch.setattr(Counted, "__mul__", forgetful)
     assert [*exceeding(d, driven=driven)]
 
 
@@ -88,7 +92,7 @@ def test_the_degree_of_a_body_in_principal_axes_counts(monkeypatch):
     d = walked(SOLID.replace("mass = 1", 'mass = "a"'), "SO(3)")
     given = d["large.principal"].given
     assert [*exceeding(d, given=given)] == []
-    monkeypatch.setattr(degree, "MOMENTS", 0)
+    monkeypatch.setattr(Counted, "__mul__", forgetful)
     assert ("at", "m", "i") in [*exceeding(d, given=given)]
 
 

@@ -88,7 +88,7 @@ class Checker(Tried):
         super().__init__(problem, fresh_seed() if seed is None else seed)
 
     def groups_for(self, step: Step, equation: Equation) -> tuple[Group, ...]:
-        """Those on which an equation of a step is tried: about any group, of as many n as it needs."""
+        """Those on which an equation is tried: about any group, of as many n as it needs."""
         found = self.groups(step.scope, driven=step.driven)
         if step.scope != ANY_GROUP:
             return found

@@ -110,7 +110,8 @@ class Counted:
     __slots__ = ("_inverse", "degree")
 
     def __init__(self, degree: Degree):
-        self.degree, self._inverse = degree, None
+        self.degree = degree
+        self._inverse: Counted | None = None
 
     def __add__(self, other: Any) -> Any:
         if isinstance(other, Counted):
@@ -138,7 +139,9 @@ class Counted:
     def __truediv__(self, other: Any) -> Any:
         if isinstance(other, Counted):
             return self * other.inverse
-        return self * (1 / Fraction(other)) if isinstance(other, (int, Fraction)) else NotImplemented
+        return (
+            self * (1 / Fraction(other)) if isinstance(other, (int, Fraction)) else NotImplemented
+        )
 
     def __rtruediv__(self, other: Any) -> Any:
         return self.inverse * other

@@ -53,7 +53,7 @@ class Draws:
         x = Fraction(1) * self.random.randint(1 if positive else -self.size, self.size)
         return letter(slots) if isinstance(x, Counted) else x
 
-    def vector(self) -> tuple[Any, ...]:
+    def place(self) -> tuple[Any, ...]:
         """A random one of the space."""
         return tuple(self.draw(slots=1) for _ in range(self.n))
 

@@ -26,6 +26,7 @@ from .differ import everywhere
 from .evaluate import Environment, evaluate
 from .heads import FORMS
 from .model import Model
+from .panel import inverted
 from .spatial import axial
 
 SHOWN = 80
@@ -44,10 +45,7 @@ def denominators(t: Tree) -> Iterator[Tree]:
     """What a tree divides by, or inverts: not numbers, nor the element of the group."""
     if not isinstance(t, tuple):
         return
-    if t[0] in ("inv", "div") or (t[0] == "pow" and int(t[2]) < 0):
-        x = t[1] if t[0] != "div" else t[2]
-        if x not in INVERTIBLE and not _number(x):
-            yield x
+    yield from (x for x in inverted(t) if x not in INVERTIBLE and not _number(x))
     for x in t[1:]:
         yield from denominators(x)
 

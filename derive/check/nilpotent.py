@@ -24,7 +24,11 @@ class Nilpotent:
     @staticmethod
     def of(x: Any) -> Nilpotent:
         """A plain number as a nilpotent one."""
-        return x if isinstance(x, Nilpotent) else Nilpotent({0: Fraction(x) if isinstance(x, int) else x})
+        return (
+            x
+            if isinstance(x, Nilpotent)
+            else Nilpotent({0: Fraction(x) if isinstance(x, int) else x})
+        )
 
     def part(self, mask: int) -> Fraction:
         """The coefficient of a product of nilpotents."""

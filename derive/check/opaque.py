@@ -8,7 +8,6 @@ calculus, (√x)′ = 1/(2y): what holds for every y holds for the true one.
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 from typing import Any
 
 from .arithmetic import EvaluationError

@@ -4,14 +4,16 @@ Both sides of such a claim are sums of contractions: traces of words, pairings. 
 letters are free, those with 2m indices are perfect matchings of these, which are independent for
 n ≥ m (second fundamental theorem of the invariants of O(n)): a relation that holds for one such n
 has no coefficient that is not 0, so that it holds for each.  Traces of 1 make the coefficients
-polynomials in n of degree e at most: 0 if they vanish for e + 1 of these n.  The inverse of a letter
-is a letter: the words are reduced.  Some groups in which letters are tied to one another come first.
+polynomials in n of degree e at most: 0 if they vanish for e + 1 of these n.  The inverse of a
+letter is a letter: the words are reduced.  Some small groups in which letters are tied to one
+another come first.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import cache, partial
+from typing import Any
 
 from ..algebra import rational as q
 from ..algebra.families import LARGEST, group, turning_about_a_point
@@ -84,13 +86,18 @@ def unsayable(t: Tree) -> str:
 def _foreign(t: Tree) -> Iterator[Tree]:
     if not isinstance(t, tuple):
         return
-    inverted = t[1:2] if t[0] == "inv" or (t[0] == "pow" and int(t[2]) < 0) else t[2:]
-    if t[0] in OF_ONE_SPACE or (t[0] == "entry" and any(isinstance(i, int) for i in t[2:])):
-        yield t
-    elif (t[0] in ("inv", "div") or (t[0] == "pow" and int(t[2]) < 0)) and not _word(*inverted):
+    numbered = t[0] == "entry" and any(isinstance(i, int) for i in t[2:])
+    if t[0] in OF_ONE_SPACE or numbered or not all(map(_word, inverted(t))):
         yield t
     for x in t[1:]:
         yield from _foreign(x)
+
+
+def inverted(t: tuple[Any, ...]) -> tuple[Tree, ...]:
+    """What an operator inverts."""
+    if t[0] == "div":
+        return t[2:]
+    return t[1:2] if t[0] == "inv" or (t[0] == "pow" and int(t[2]) < 0) else ()
 
 
 def _word(t: Tree) -> bool:

@@ -48,8 +48,10 @@ def principal_points(model: Draws) -> Points:
     n, count = model.n, len(model.problem.get("body", {}).get("points", []))
     masses, points = _anywhere(model, count)
     places, blocks = _placed(model, model.problem.get("places", []))
-    m, c = model.draw(positive=True), model.vector()
-    J = q.matrix([[model.draw(slots=2) if i == j else Fraction(0) for j in range(n)] for i in range(n)])
+    m, c = model.draw(positive=True), model.place()
+    J = q.matrix(
+        [[model.draw(slots=2) if i == j else Fraction(0) for j in range(n)] for i in range(n)]
+    )
     more, rest = _cloud(model, *without(masses, points, m, c, J))
     empty = [Fraction(0)] * len(places)
     return masses + empty + more, points + places + rest, [1] * count + blocks + [1] * len(rest)
@@ -64,7 +66,7 @@ def _cloud(model: Draws, m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fracti
 
 def _anywhere(model: Draws, count: int) -> tuple[list[Fraction], list[Vector]]:
     masses = [model.draw(positive=True) for _ in range(count)]
-    return masses, [model.vector() for _ in range(count)]
+    return masses, [model.place() for _ in range(count)]
 
 
 def _placed(model: Draws, listed: list[Mapping[str, Any]]) -> tuple[list[Vector], list[int]]:

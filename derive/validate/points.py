@@ -7,7 +7,7 @@ names mean for the points of the body; π is the double next to it, as in the co
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -17,13 +17,14 @@ from typing import Any
 from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
-from ..algebra.samplers import Sampler, affine, by_cayley
-from ..check import degree
+from ..algebra.samplers import Sampler, Source, affine, by_cayley
 from ..check.arithmetic import EvaluationError
-from ..check.checker import Checker
+from ..check.counted import Degree, Degrees, degrees
+from ..check.differ import size_of
 from ..check.evaluate import Environment, evaluate
 from ..check.meaning import environment
 from ..check.model import Model
+from ..check.tried import Tried
 from ..record.record import Derivation, Equation, RecordError
 from .state import Chart, Numbers, State
 from .terms import CodeError
@@ -56,7 +57,7 @@ class Claims:
         self.record, self.size = d, size
         self._points: dict[tuple[str, tuple[str, ...]], Point] = {}
         self.scope = str(d.problem.get("group"))
-        (group,) = Checker(d.problem).groups(self.scope)
+        (group,) = Tried(d.problem, 0).groups(self.scope)
         if chart.attitude == "quaternion":
             group = replace(group, sampler=squares(group))
         self.group, self.state = group, State(group, chart)
@@ -133,20 +134,25 @@ class Claims:
     @property
     def degree(self) -> int:
         """A bound on the degree of what is computed from the record, as a function of the draws."""
-        bounds = (degree.bound(e, self.group, self.record.problem) for e in self.equations.values())
-        return (self.group.size + 1) * sum(bounds)
+        env = environment(self._counted)
+        return (self.group.size + 1) * sum(size_of(e.rhs, env) for e in self.equations.values())
+
+    @cached_property
+    def _counted(self) -> Model:
+        """A point of which the degrees alone are known."""
+        return Model(self.record.problem, self.group, Degrees(), self.size, driven=self.driven)
 
     @property
     def entry_degree(self) -> tuple[int, int]:
-        """The degrees of numerator and denominator of a number of the state."""
-        s = self.group.sampler
-        return s.degree + 1, sum(p[1] * k for p, k in s.denominators)
+        """The degrees of numerator and denominator of a number of the state, products with one that
+        is drawn among them."""
+        num, den = _largest(degrees(q.flatten(self._counted.g)))
+        return num + 1, den
 
     @property
     def moment_degree(self) -> tuple[int, int]:
         """The same of a parameter: sums of m, m r and m r r̄, where these are the parameters."""
-        moments = self.record.problem.get("body", {}).get("kind") == "moments"
-        return (3 if moments else 1), 0
+        return _largest(degrees(self._counted.parameters.values()))
 
     def _value(self, name: str, env: Environment) -> Any:
         e = self.equations.get(name)
@@ -174,15 +180,19 @@ class Claims:
         return (*rows, (Fraction(0),) * (n + 1))
 
 
+def _largest(found: Iterable[Degree]) -> tuple[int, int]:
+    """Of numerators and of denominators."""
+    pairs = [(x.numerator.degree, x.denominator.degree) for x in found]
+    return max((x for x, _ in pairs), default=1), max((x for _, x in pairs), default=0)
+
+
 def squares(group: Group) -> Sampler:
     """Rotations whose quaternion is rational: squares of Cayley transforms; and any translation."""
     basis = tuple(group.linear_part(e) for e in group.linear_basis)
     root = by_cayley(basis)
 
-    def draw(random: Random, size: int) -> Matrix:
-        a = root.draw(random, size)
+    def turns(random: Source, size: int) -> Matrix:
+        a = root(random, size)
         return q.times(a, a)
 
-    twice = tuple((p, 2 * k) for p, k in root.denominators)
-    turns = Sampler(draw, 2 * root.degree, twice)
     return affine(turns, group.n) if group.affine else turns
