@@ -85,7 +85,7 @@ def test_code_against_points(name, seed):
     motion = q.times(model.g, model.Z)
     assert np.allclose(dx[: n * n], [float(x) for row in motion[:n] for x in row[:n]])
     nu = q.times(model.g, model.Z)
-    energy = float(model.energy(model.t, model.g, nu).part(0))
+    energy = float(model.energy(model.t, model.g, nu))
     assert code["energy"](0.0, x, k) == pytest.approx(energy, rel=1e-9)
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import secrets
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -26,7 +26,7 @@ from .arithmetic import EvaluationError
 from .assumed import Assumed, assumed
 from .differ import difference, size_of
 from .introduced import unexplained
-from .needed import unfounded, unsaid, untrue
+from .needed import ORDER, unfounded, unsaid, untrue
 from .panel import LEAST, free, sizes, unsayable
 from .tried import SIZE, Tried, action_of
 from .used import unused
@@ -38,8 +38,8 @@ less than 1e-30, the largest probability of a false pass that is allowed."""
 SMALL = 3
 """The largest random parameters of the example for a claim that fails."""
 
-ORDERED = 2**16
-"""Those of a point where one number is larger than another, as no residue is."""
+ORDERED = range(2**16, 2**16 + 6)
+"""Those of points where one number is larger than another, as no residue is."""
 
 SHOWN = 120
 """Letters of an equation that fails, in the message."""
@@ -101,13 +101,17 @@ class Checker(Tried):
 
     def bound(self, step: Step) -> int:
         """The degree of its claims; ``RecordError`` for one that is too large."""
-        degrees = [1, *(self.degree(step, e) for e in step.equations)]
+        degrees = [0, *(self.degree(step, e) for e in step.equations)]
         for g in self.groups(step.scope, driven=step.driven):
             env = self.counted(g, step)[1]
             degrees += (size_of(x.of, env) for x in step.hypotheses)
-        if max(degrees) > LARGEST_DEGREE:
-            raise RecordError(f"a claim of degree {max(degrees)}, more than {LARGEST_DEGREE}")
-        return max(degrees)
+        return self.bounded(max(degrees))
+
+    def bounded(self, degree: int) -> int:
+        """A degree that is not too large; one more for two residues that are equal by chance."""
+        if degree > LARGEST_DEGREE:
+            raise RecordError(f"a claim of degree {degree}, more than {LARGEST_DEGREE}")
+        return degree + 1
 
     def degree(self, step: Step, equation: Equation) -> int:
         """The largest of an equation, on all groups; ``RefusedError`` where it has none."""
@@ -136,6 +140,7 @@ class Checker(Tried):
     def held(self, step: Step) -> int:
         """The degree of a step that holds; an error for one that does not."""
         at, affine = assumed(step), action_of(self.problem) == "affine"
+        groups = self.groups(step.scope, driven=step.driven)
         for e in step.equations:
             if reason := ill_formed(e, at, affine=affine):
                 raise RefusedError(refused(step, e, reason))
@@ -146,27 +151,40 @@ class Checker(Tried):
         if any(digits(x) > DIGITS for x in (*sides, *(x.of for x in step.hypotheses))):
             raise RecordError("a claim of powers of numbers that are too large")
         bound = self.bound(step)
-        for g in self.groups(step.scope, driven=step.driven):
-            if reason := self.unfounded(g, step):
-                raise RefusedError(Verdict(step.label, False, reason, 1.0))
+        self.suppose(step, groups, self.false)
         for e in step.equations:
             for g in self.groups_for(step, e):
                 if reason := difference(e, self.environment(g, step, SIZE, e)):
                     reason = self.example(g, step, e) or reason
                     raise RefusedError(refused(step, e, reason, f" on {g.name}"))
-        return bound
+        self.suppose(step, groups, self.unsaid)
+        return self.bounded(bound + self.coincidence)
 
-    def unfounded(self, g: Group, step: Step) -> str:
-        """On one group: a hypothesis that is not so, or what is not supposed and must be."""
+    def suppose(
+        self, step: Step, groups: Iterable[Group], wrong: Callable[[Group, Step], str]
+    ) -> None:
+        """Refuse what is wrong about the hypotheses of a step on one of these groups."""
+        for reason in (wrong(g, step) for g in groups):
+            if reason:
+                raise RefusedError(Verdict(step.label, False, reason, 1.0))
+
+    def unsaid(self, g: Group, step: Step) -> str:
+        """What is not supposed and must be."""
+        model, env = self.point(g, step)
+        return unsaid(step, self.problem, env, model)
+
+    def false(self, g: Group, step: Step) -> str:
+        """A hypothesis that is not so."""
         model, env = self.point(g, step)
         for e in step.given:
             if reason := difference(e, env):
                 said = f"what is given, {show(e.lhs)} = {show(e.rhs)}, cannot be tried"
                 return f"{said}: {reason}"
-        ordered = self.environment(g, step, ORDERED) if step.scope == ANY_GROUP else env
-        return untrue(step, self.problem, env, model, ordered) or unsaid(
-            step, self.problem, env, model
-        )
+        if any(x.property in ORDER for x in step.hypotheses):
+            ordered = [self.environment(g, step, size) for size in ORDERED]
+        else:
+            ordered = []
+        return untrue(step, self.problem, env, model, ordered)
 
     def symbols(self, d: Derivation) -> Verdict:
         """The names of a record: types, roles, the equations that define them, and no others."""

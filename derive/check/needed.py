@@ -97,16 +97,21 @@ def _unfounded(step: Step, problem: Mapping[str, Any]) -> str:
 
 
 def untrue(
-    step: Step, problem: Mapping[str, Any], env: Environment, model: Model, ordered: Environment
+    step: Step,
+    problem: Mapping[str, Any],
+    env: Environment,
+    model: Model,
+    ordered: Iterable[Environment],
 ) -> str:
     """The hypothesis of a step that is not so, at a point or of the problem; empty for none.
 
-    ``ordered``: a point whose numbers are greater or smaller than others.
+    ``ordered``: points whose numbers are greater or smaller than others.
     """
     if any(x.property in OF_MASSES for x in step.hypotheses) and masses.any_sign(problem):
         return masses.SUPPOSED
     for x in step.hypotheses:
-        if why := _false(x, ordered if x.property in ORDER else env, model):
+        places = ordered if x.property in ORDER else [env]
+        if why := next(filter(None, (_false(x, at, model) for at in places)), ""):
             return f"the hypothesis that {_said(x.of)} is {x.property} is {why}"
     return ""
 

@@ -50,9 +50,9 @@ class Opaque:
         return self.values[key]
 
     @property
-    def coincidence(self) -> int:
-        """The degree of what makes two arguments equal that are not the same."""
-        return len(self.counted) * sum(x.degree.whole for x in self.counted)
+    def largest(self) -> int:
+        """The largest degree of an argument."""
+        return max((x.degree.whole for x in self.counted), default=0)
 
     def derivatives(self, name: str, x: Any) -> Derivatives:
         """The first three."""

@@ -27,8 +27,8 @@ def points_with(m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list
     if m == 0:
         raise ZeroDivisionError("a body without mass")
     s = tuple(x / m for x in c)
-    column = tuple((x,) for x in s)
-    central = q.minus(J, q.scaled(m, q.times(column, q.transposed(column))))
+    column = tuple((x,) for x in c)
+    central = q.minus(J, q.scaled(1 / m, q.times(column, q.transposed(column))))
     masses, points = [], []
     for weight, direction in squares(central):
         for sign in (1, -1):

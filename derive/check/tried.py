@@ -102,7 +102,7 @@ class Tried:
         at, opaque = assumed(step, equation), step.scope == ANY_GROUP
         key = g.name + step.scope, at, size
         if key not in self._places:
-            random = Random(f"{self.seed} {g.name} {step.scope} {at.said}")
+            random = Random(f"{self.seed} {g.name} {step.scope} {at.said} {size}")
             source = Residues(random, self._prime) if opaque and size == SIZE else random
             model = modelled(self.problem, g, source, at, size, opaque=opaque)
             self._places[key] = model, environment(model)
@@ -125,10 +125,15 @@ class Tried:
         if key not in known:
             if len(known) > MOST:
                 known.clear()
-            model, env = self.counted(g, step, equation)
-            whole, grade = graded(equation, env)
-            known[key] = whole + model.elementary.coincidence, grade
+            known[key] = graded(equation, self.counted(g, step, equation)[1])
         return known[key]
+
+    @property
+    def coincidence(self) -> int:
+        """The degree of what makes arguments of functions equal that are not, by chance."""
+        largest = max((m.elementary.largest for m, _ in self._counted.values()), default=0)
+        distinct = max((len(m.elementary.values) for m, _ in self._places.values()), default=0)
+        return distinct**2 * largest
 
 
 MOST = 10_000
