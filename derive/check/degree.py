@@ -174,7 +174,9 @@ def _table(group: Group, body: int) -> dict[str, Degree]:
         **dict.fromkeys(("I_c", "J_c"), J + Degree(2 * J.num, ((("mass", mass.num), 2),))),
     }
     momentum = A * A * J * one
-    motion |= dict.fromkeys(("Π", "p_b", "δΠ", "δp_b", "δ′Π", "δ′p_b", "ℓ_b"), momentum * one)
+    motion |= dict.fromkeys(
+        ("Π", "p_b", "δΠ", "δp_b", "δ′Π", "δ′p_b", "ℓ_b", "δℓ_b", "δ′ℓ_b"), momentum * one
+    )
     motion |= dict.fromkeys(("Π̇", "ṗ_b", "ℓ̇_b"), A * A * J * twice)
     motion["Φ"] = momentum * one + force * A + A * A * solved * J
     multiplier = {"λ": A * A * twice * J + force * A * place}
