@@ -7,12 +7,13 @@ from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, without
 from ..algebra.notation import Notation
+from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, word
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
 from .cartan import Cartan, form_equation
-from .chapter import Chapter
+from .chapter import Chapter, Draft
 from .exterior import DOMEGA, primed, primes, shown_brackets
 from .gather import gathered, solve_for
 from .momentum import Momenta, fibre, horizontal
@@ -77,16 +78,25 @@ def isometry(general: Cartan, momenta: Momenta, a: Alphabet, n: int, c: Chapter)
 
 def _exterior(domega: Expr, images: Mapping[Letter, Expr], b: Alphabet, c: Chapter) -> Step:
     draft = c.draft("exterior", "relation")
-    display = dict(zip((b.bracket, b.bracket_w), shown_brackets(b), strict=False))
-    core = without(domega, b.dt, b.dpt)
-    shown = gathered(draft, domega, core, images, Notation(display=display))
+    shown = bracketed(draft, domega, images, b)
     return draft.step((Equation(DOMEGA, shown),), restricted_prose(b), () if b.affine else (29,))
 
 
-def _images(domega: Expr, b: Alphabet) -> dict[Letter, Expr]:
-    """ξ ↦ ξ − Z δt, and δZ ↦ δZ − f δt where the force has a letter of its own."""
+def bracketed(d: Draft, domega: Expr, images: Mapping[Letter, Expr], b: Alphabet) -> Tree:
+    """dϖ with [ξ′, ξ] and ξ′η − ξη′ for their letters."""
+    display = dict(zip((b.bracket, b.bracket_w), shown_brackets(b), strict=False))
+    return gathered(d, domega, without(domega, b.dt, b.dpt), images, Notation(display=display))
+
+
+def resting(b: Alphabet) -> dict[Letter, Expr]:
+    """ξ ↦ ξ − Z δt and η ↦ η − w δt, and the same for δ′."""
     found = horizontal(zip(b.duals, b.frames, strict=True), b, {})
-    images = {x: found[x] for f in b.frames for x in (f.xi, f.xi_prime)}
+    return {x: found[x] for f in b.frames for x in (f.xi, f.xi_prime)}
+
+
+def _images(domega: Expr, b: Alphabet) -> dict[Letter, Expr]:
+    """Also δZ ↦ δZ − f δt where the force has a letter of its own."""
+    images = resting(b)
     if not b.affine:
         flat = without(domega, b.bracket)
         solution = solve_for(gradient(flat, b.Z.xi_prime), b.Z.d_velocity)

@@ -6,6 +6,7 @@ more: where Z is skew, C = 1; where its trace vanishes, so do those of ξ and Ż
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from ..algebra.calculus import gradient, reduce, substitute, without
@@ -22,6 +23,7 @@ from .coadjoint import coadjoint_steps
 from .contraction import Contraction
 from .exterior import DOMEGA, Exterior, brackets_of
 from .gather import gathered, terms_with
+from .isometry import bracketed, resting
 from .kernel import balanced
 from .momentum import Momenta, fibre
 from .potential import Potentials, virtual_work
@@ -101,21 +103,21 @@ def specialise(road: General, group: Group, v: Potentials, c: Chapter) -> Specia
     pushes = _forces(forces, pushing)
     said = {x: pushing.said(e).of(road.pushed) for x, e in forces.items()}
     writing = c.draft("cartan", "relation")
-    varied = {plain.C: varied_gram(plain, plain.Z.xi)} | v.moved(
-        plain, *(word(f.xi) for f in plain.frames)
-    )
-    values = fibre(writing.said(momentum), writing.said(energy), varied, plain)
-    commutators = dict(
-        zip((plain.bracket, plain.bracket_w), brackets_of(plain).values(), strict=False)
-    )
-    domega = reduce(
-        restrict(road.momenta.form, values, plain, commutators), frame_rule(plain, gram(plain))
+    opened = dict(zip((plain.bracket, plain.bracket_w), brackets_of(plain).values(), strict=False))
+    last = weighing.step(
+        (Equation("h̃", weighing.tree(restricted(energy))),), say("The energy of this problem.")
     )
     written = writing.step(
         (form_equation(writing, restricted(momentum), restricted(energy), Notation()),),
         say("The Cartan form of this problem."),
     )
-    contraction, derivative = _exterior(restricted(domega), road, plain, c)
+    momentum, energy = writing.said(momentum), writing.said(energy)
+    domega = restricted(_derived(momentum, energy, road, v, plain, opened))
+    varying, by_bracket = c.draft("exterior", "relation"), []
+    if turned:
+        skew = _derived(b.respell(momentum, whole), b.respell(energy, whole), road, v, b, {})
+        by_bracket = [bracketed(varying, skew.of(whole), resting(b), b)]
+    contraction, derivative = _exterior(domega, road, plain, varying, by_bracket)
     inertial, motion = _kernel(contraction, [*said.values()], plain, c)
     steps = (
         *_relation(group, c),
@@ -125,9 +127,6 @@ def specialise(road: General, group: Group, v: Potentials, c: Chapter) -> Specia
         derivative,
         *(coadjoint_steps(road.momenta, b, whole, c) if turns_whole(group) else ()),
         motion,
-    )
-    last = weighing.step(
-        (Equation("h̃", weighing.tree(restricted(energy))),), say("The energy of this problem.")
     )
     return Special(free, whole, free.respell(inertial), said, steps, (last,))
 
@@ -196,16 +195,30 @@ def _kept(group: Group) -> Prose:
     )
 
 
-def _exterior(domega: Expr, road: General, a: Alphabet, c: Chapter) -> tuple[Contraction, Step]:
-    """dϖ with the potential of the problem."""
-    varying, letters = c.draft("exterior", "relation"), a.letters()
+def _derived(
+    momentum: Expr,
+    energy: Expr,
+    road: General,
+    v: Potentials,
+    a: Alphabet,
+    brackets: Mapping[Letter, Expr],
+) -> Expr:
+    """dϖ by the values of P and F, with the potential of the problem."""
+    moved = {a.C: varied_gram(a, a.Z.xi), **v.moved(a, *(word(f.xi) for f in a.frames))}
+    values = fibre(momentum, energy, moved, a)
+    return reduce(restrict(road.momenta.form, values, a, brackets), frame_rule(a, gram(a)))
+
+
+def _exterior(
+    domega: Expr, road: General, a: Alphabet, varying: Draft, by_bracket: Iterable[Tree]
+) -> tuple[Contraction, Step]:
+    """dϖ with the potential of the problem; also as it is written ``by_bracket``."""
+    letters = a.letters()
     images = {letters[x.name]: without(a.respell(y), a.f) for x, y in road.exterior.images.items()}
     moving = [x for f in a.frames for x in (f.d_velocity, f.dp_velocity)]
     core = terms_with(without(domega, a.dt, a.dpt), *moving)
-    step = varying.step(
-        (Equation(DOMEGA, gathered(varying, domega, core, images, Notation())),),
-        restricted_prose(a),
-    )
+    shown = gathered(varying, domega, core, images, Notation())
+    step = varying.step((Equation(DOMEGA, t) for t in (shown, *by_bracket)), restricted_prose(a))
     found = Chapter(a.chapter).label("second_order_trivialised")
     return (
         Contraction(
