@@ -1,23 +1,25 @@
 """The whole road on one screen: from a problem to its record.
 
-    stage       input                 output        module
-    ----------  --------------------  ------------  ----------------
-    lagrangian  letters               Lagrangian    walk.lagrangian
-    pull-back   Lagrangian            Pullback      walk.pullback
-    Cartan      Pullback              Cartan        walk.cartan
-    exterior    Cartan                Exterior      walk.exterior
-    kernel      Exterior              Ambient       walk.kernel
-    trivial     Cartan, Ambient       steps         walk.cartan, exterior, kernel
-    momentum    Cartan                Momenta       walk.momentum
-    isometry    Cartan                Isometry      walk.isometry      SO(3), SE(3)
-    vectors     Isometry              VectorForm    walk.vector        n = 3
-    coadjoint   Momenta               steps         walk.coadjoint     SO(n), SE(n)
-    elimination VectorForm            Eliminated    walk.elimination   SE(3)
-    special     General, Potentials   Special       walk.special       any other group
-    translation Special               Centred       walk.translation   H ⋉ Rⁿ
-    multipliers Special or Centred    steps         walk.multipliers   codimension 0 or 1 in gl(n)
-    mass        Special or Centred    steps         walk.mass          the others, in coordinates
-    motion      all of these          steps         walk.rotation
+    stage       input                     output        module
+    ----------  ------------------------  ------------  -----------------------------
+    lagrangian  letters                   Lagrangian    walk.lagrangian
+    pull-back   Lagrangian                Pullback      walk.pullback
+    Cartan      Pullback                  Cartan        walk.cartan
+    exterior    Cartan                    Exterior      walk.exterior
+    kernel      Exterior                  Ambient       walk.kernel
+    trivial     Cartan, Ambient           steps         walk.cartan, exterior, kernel
+    momentum    Cartan                    Momenta       walk.momentum     ϖ, dϖ, kernel by P, F
+    restrict    Momenta, values of P, F   dϖ of a group walk.restrict
+    isometry    Cartan, Momenta           Isometry      walk.isometry     SO(3), SE(3)
+    hat         Isometry                  Reader        walk.hat          so(3) ≅ R³
+    vectors     Momenta, Isometry         VectorForm    walk.vector
+    elimination VectorForm                Eliminated    walk.elimination  SE(3)
+    special     General, Potentials       Special       walk.special      any other group
+    coadjoint   Momenta                   steps         walk.coadjoint    SO(n), SE(n)
+    translation Special                   Centred       walk.translation  H ⋉ Rⁿ
+    multipliers Special or Centred        steps         walk.multipliers  codimension 0, 1 in gl(n)
+    mass        Special or Centred        steps         walk.mass         the others, coordinates
+    motion      all of these              steps         walk.rotation     SO(3), SE(3)
 
 Every stage returns its value together with the steps it took; the record is their sequence, with
 what each uses (walk.lineage) and supposes (walk.supposed).
