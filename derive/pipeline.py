@@ -1,23 +1,25 @@
 """The whole road on one screen: from a problem to its record.
 
-    stage       input                 output        module
-    ----------  --------------------  ------------  ----------------
-    lagrangian  letters               Lagrangian    walk.lagrangian
-    pull-back   Lagrangian            Pullback      walk.pullback
-    Cartan      Pullback              Cartan        walk.cartan
-    exterior    Cartan                Exterior      walk.exterior
-    kernel      Exterior              Ambient       walk.kernel
-    trivial     Cartan, Ambient       steps         walk.cartan, exterior, kernel
-    momentum    Cartan                Momenta       walk.momentum
-    isometry    Cartan                Isometry      walk.isometry      SO(3), SE(3)
-    vectors     Isometry              VectorForm    walk.vector        n = 3
-    coadjoint   Momenta               steps         walk.coadjoint     SO(n), SE(n)
-    elimination VectorForm            Eliminated    walk.elimination   SE(3)
-    special     General, Potentials   Special       walk.special       any other group
-    translation Special               Centred       walk.translation   H ⋉ Rⁿ
-    multipliers Special or Centred    steps         walk.multipliers   codimension 0 or 1 in gl(n)
-    mass        Special or Centred    steps         walk.mass          the others, in coordinates
-    motion      all of these          steps         walk.rotation
+    stage       input                     output        module
+    ----------  ------------------------  ------------  -----------------------------
+    lagrangian  letters                   Lagrangian    walk.lagrangian
+    pull-back   Lagrangian                Pullback      walk.pullback
+    Cartan      Pullback                  Cartan        walk.cartan
+    exterior    Cartan                    Exterior      walk.exterior
+    kernel      Exterior                  Ambient       walk.kernel
+    trivial     Cartan, Ambient           steps         walk.cartan, exterior, kernel
+    momentum    Cartan                    Momenta       walk.momentum     ϖ, dϖ, kernel by P, F
+    restrict    Momenta, values of P, F   dϖ of a group walk.restrict
+    isometry    Cartan, Momenta           Isometry      walk.isometry     SO(3), SE(3)
+    hat         Isometry                  Reader        walk.hat          so(3) ≅ R³
+    vectors     Momenta, Isometry         VectorForm    walk.vector
+    elimination VectorForm                Eliminated    walk.elimination  SE(3)
+    special     General, Potentials       Special       walk.special      any other group
+    coadjoint   Momenta                   steps         walk.coadjoint    SO(n), SE(n)
+    translation Special                   Centred       walk.translation  H ⋉ Rⁿ
+    multipliers Special or Centred        steps         walk.multipliers  codimension 0, 1 in gl(n)
+    mass        Special or Centred        steps         walk.mass         the others, coordinates
+    motion      all of these              steps         walk.rotation     SO(3), SE(3)
 
 Every stage returns its value together with the steps it took; the record is their sequence, with
 what each uses (walk.lineage) and supposes (walk.supposed).
@@ -41,12 +43,12 @@ from .walk.alphabet import Alphabet
 from .walk.body import body_step
 from .walk.cartan import cartan, trivialise
 from .walk.chapter import Chapter
-from .walk.coadjoint import coadjoint_vectors
 from .walk.components import tensor_steps
 from .walk.conserved import conserved_steps, matrix_momenta, vector_momenta
 from .walk.coordinates import coordinates_step
 from .walk.elimination import eliminate
 from .walk.exterior import exterior, exterior_trivialised
+from .walk.hat import identified
 from .walk.inputs import given_matrices, given_vectors
 from .walk.isometry import Isometry, isometry
 from .walk.kernel import kernel, kernel_trivialised
@@ -69,7 +71,7 @@ from .walk.separation import kinetic_separation, potential_separation
 from .walk.special import General, Special, specialise
 from .walk.supposed import supposing_all
 from .walk.translation import eliminate_translation
-from .walk.vector import identified, vector_form
+from .walk.vector import vector_form
 
 if TYPE_CHECKING:
     from .code.options import Options
@@ -136,7 +138,7 @@ def road_of(problem: Problem, group: Group, road: General) -> Steps:
     c = Chapter(problem.name, group.name)
     first = body_step(problem, c)
     if group.turns_space:
-        stage = isometry(road.cartan, road.letters, group.n, c)
+        stage = isometry(road.cartan, road.momenta, road.letters, group.n, c)
         return first + stage.steps + road_of_space(problem, road.momenta, stage, first, c)
     v = potentials(problem, Alphabet(group.n, affine=group.affine), c)
     own = specialise(road, group, v, c)
@@ -180,8 +182,8 @@ def road_of_space(
     """SO(3) and SE(3) in vectors: Euler's equations and principal axes, or the translation
     eliminated; then the forces of the problem and what is given."""
     b = stage.letters
-    read, named = identified(stage, c)
-    vectors = vector_form(stage, read, c)
+    read, named = identified(b, stage.gram, c)
+    vectors = vector_form(momenta, stage, read, c)
     v = potentials(problem, b, c, stage.gram)
     given = given_vectors(problem, b, stage.gram, read, c.with_input())
     forces, torque = torque_step(v, stage, read, c)
@@ -194,9 +196,9 @@ def road_of_space(
         steps = (euler, principal_step(euler, c))
         motion = spherical_motion(vectors, forces, b, read, given, c)
     inertia = steps[0] if b.affine else named[1]
+    kept = vector_momenta(vectors.momenta.values(), b)
     return (
         *named,
-        *coadjoint_vectors(momenta, stage, read, c),
         *vectors.steps,
         *steps,
         *v.steps,
@@ -205,7 +207,7 @@ def road_of_space(
         motion,
         *(tensor_steps(problem, body[-1], inertia, motion, c) if body else ()),
         energy_step(stage, v, read, c),
-        *conserved_steps(problem, v, vector_momenta(stage, read), motion, b, c, vectors=True),
+        *conserved_steps(problem, v, kept, motion, b, c, vectors=True),
     )
 
 

@@ -29,6 +29,19 @@ _MACROS = """
     NULL HUGE_VAL INFINITY NAN FP_NAN FP_INFINITE FP_ZERO FP_NORMAL FP_SUBNORMAL math_errhandling
     """
 
+STANDARD_MACROS = {
+    "I",
+    "EOF",
+    "assert",
+    "complex",
+    "errno",
+    "imaginary",
+    "stderr",
+    "stdin",
+    "stdout",
+}
+"""Of complex.h, stdio.h, errno.h and assert.h, in lower case or of few letters."""
+
 _FUNCTIONS = [name + suffix for name in _MATH.split() for suffix in ("", "f", "l")]
 
 WORDS: dict[str, str] = (

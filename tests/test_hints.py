@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from derive import SE, Damping, Gravity, Moments, Points, Problem, Spring
+from derive.algebra.values import approximate
 from derive.cli import COMMANDS, main
-from derive.mechanics.expression import approximate
 from derive.mechanics.problem import ProblemError
 from derive.mechanics.toml import load
 

@@ -248,8 +248,10 @@ def test_what_the_user_said_stays():
 
 def test_a_step_alone_in_french():
     d = walks.record("so3")
-    assert "D’après so3.second_order." in step_text(d["kernel"], language=FRENCH)
-    assert "(d’après `so3.second_order`)" in step_markdown(d["kernel"], d.symbols, language=FRENCH)
+    assert "D’après so3.momenta, so3.coadjoint." in step_text(d["kernel"], language=FRENCH)
+    assert "(d’après `so3.momenta`, `so3.coadjoint`)" in step_markdown(
+        d["kernel"], d.symbols, language=FRENCH
+    )
 
 
 @pytest.mark.parametrize("name", ["so3", "se3", "sl3"])

@@ -8,10 +8,11 @@ import pytest
 
 from derive import SO, Points, Potential, Problem, derive
 from derive.algebra.differentiate import derivative
+from derive.algebra.values import value
 from derive.check.checker import Checker
 from derive.check.evaluate import Environment, evaluate
 from derive.limits import EXPONENT
-from derive.mechanics.expression import ExpressionError, parse, value
+from derive.mechanics.expression import ExpressionError, parse
 from derive.record.record import from_json, to_json
 from tests.emitted import compile_c, import_python
 from tests.needs import CC, need
@@ -40,7 +41,7 @@ def test_expressions(form):
     environment = Environment(3, {}, parameters=VALUES)
     for n in (*EXPONENTS, 0):
         tree, expected = parse(form.format(n=n)), FORMS[form](n)
-        assert value(tree, VALUES.__getitem__, lambda t: None) == expected, n
+        assert value(tree, {}, VALUES) == expected, n
         assert evaluate(tree, environment) == expected, n
 
 

@@ -5,11 +5,13 @@ A value is a scalar of any ring, or a matrix as a tuple of rows (a vector is one
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any
 
 from . import rational as q
+from .differentiate import DERIVATIVES
 from .tree import Tree
 
 Value = Any
@@ -45,6 +47,25 @@ def value(
         return OPERATIONS[op](*map(of, operands))
 
     return of(t)
+
+
+def approximate(
+    t: Tree,
+    parameters: Mapping[str, float],
+    number: Callable[[int | Fraction], Value] = Fraction,
+) -> float | None:
+    """The value in floats; ``None`` where a parameter is missing, or there is no value."""
+    try:
+        return float(value(t, {"π": math.pi}, parameters, elementary, number))
+    except (ArithmeticError, TypeError, ValueError):
+        return None
+
+
+def elementary(name: str, x: float) -> float:
+    """A function of :data:`derive.algebra.differentiate.DERIVATIVES`; ``ValueError`` for others."""
+    if name not in DERIVATIVES:
+        raise ValueError(f"no function {name!r}")
+    return float(getattr(math, name)(x))
 
 
 def _looked_up(table: Mapping[str, Value], name: str) -> Value:
@@ -83,8 +104,9 @@ def _times(a: Value, b: Value) -> Value:
 def _power(x: Value, n: Tree) -> Value:
     if not isinstance(n, int) or abs(n) > LARGEST_POWER:
         raise ValueError(f"the exponent is no integer up to {LARGEST_POWER}")
-    base = _inverse(x) if n < 0 else x
-    return _product(*[base] * abs(n)) if n else Fraction(1)
+    if not _is_matrix(x):
+        return x**n
+    return _product(*[_inverse(x) if n < 0 else x] * abs(n)) if n else Fraction(1)
 
 
 def _inverse(x: Value) -> Value:

@@ -17,6 +17,7 @@ from .spatial import axial
 
 NAMES = (("Π", "δΠ", "δ′Π", "Π̇"), ("p_b", "δp_b", "δ′p_b", "ṗ_b"))
 """Of the linear part and of the translation: the value, its two variations, its rate."""
+SPINS = ("ℓ_b", "δℓ_b", "δ′ℓ_b", "ℓ̇_b")
 
 
 def dual_values(model: Model) -> dict[str, Any]:
@@ -31,7 +32,7 @@ def dual_values(model: Model) -> dict[str, Any]:
     for names, arms in zip(NAMES, (model.points, units), strict=True):
         for name, (at, velocity, mask) in zip(names, places, strict=True):
             values[name] = part(_carried(model, at, _momenta(model, at, velocity), arms), mask)
-    for name, Pi in (("ℓ_b", "Π"), ("ℓ̇_b", "Π̇")):
+    for name, Pi in zip(SPINS, NAMES[0], strict=True):
         skew = q.minus(values[Pi], q.transposed(values[Pi]))
         values[name] = axial(skew) if model.group.turns_space else skew
     return values | {"Φ": _push(model)}

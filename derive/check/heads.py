@@ -73,7 +73,7 @@ INDICES = ("a", "b", "e", "i", "j")
 FORMS = ((("δA", "δT"), ("ξ", "η"), ("Ω", "η")), (("δ′A", "δ′T"), ("ξ′", "η′"), ("Ω′", "η′")))
 """The two variations of g, each in three forms, which are tied to one another."""
 
-RATES = (("α̇", "τ̇"), ("Ż", "ẇ"), ("ζ̇", "ẇ"))
+RATES = (("α̇", "τ̇"), ("Ż", "ẇ"), ("ζ̇", "ẇ"), ("ℓ̇_b", "ṗ_b"))
 """The acceleration in the same forms."""
 
 QUANTIFIED = tuple({x: 0 for forms in (*FORMS, RATES) for form in forms for x in form})

@@ -12,6 +12,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+from ..reserved import STANDARD_MACROS
 from .languages import HASH, Language
 from .program import Assignment, Check, Expression, Framing, Function, Program, Section
 
@@ -28,9 +29,6 @@ _SILENT = {
 _IDENTIFIER = re.compile(r"(?<!\w)(?<!(?<!\.)\.)[^\W\d]\w*")
 """Not after one dot: a member of something is no name by itself, but ``...x`` is."""
 
-MACROS = {"I", "EOF", "assert", "complex", "errno", "imaginary", "stderr", "stdin", "stdout"}
-"""Of complex.h, stdio.h, errno.h and assert.h, in lower case or of few letters."""
-
 ONE: Expression = ("num", Fraction(1))
 
 
@@ -40,7 +38,7 @@ def identifiers(text: str, language: Language) -> set[str]:
     And in C what standard headers that the user may include before define as macros.
     """
     own = set(_IDENTIFIER.findall(_SILENT[language.comment == HASH].sub(" ", text)))
-    return own | MACROS if "c" in (language.name, language.needs) else own
+    return own | STANDARD_MACROS if "c" in (language.name, language.needs) else own
 
 
 def hollow(p: Program) -> Program:

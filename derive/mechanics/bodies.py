@@ -13,8 +13,8 @@ from ..algebra.differentiate import product, quotient
 from ..algebra.groups import Group
 from ..algebra.laurent import OverlongError, collected
 from ..algebra.tree import Tree, add, mul, neg
+from ..algebra.values import approximate
 from ..limits import TEXT
-from .expression import approximate
 from .fields import choice, expression, known, missing, tables, vector, whole
 from .moments import Moments, SolidError
 from .problem import Body, GivenBody, MomentBody, PointBody, ProblemError

@@ -5,14 +5,13 @@ Text is turned into a tree by this parser alone; it never reaches Python's or Sy
 
 from __future__ import annotations
 
-import math
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import Any
 
 from ..algebra.differentiate import DERIVATIVES
 from ..algebra.tree import Tree, add, mul, neg
+from ..algebra.values import approximate
 from ..limits import BITS, DEGREE, DEPTH, DIGITS, EXPONENT, EXPRESSION, MAGNITUDE, NESTING, SLOPE
 from .divisors import has_zero_divisor
 from .weight import depth, weight
@@ -86,36 +85,6 @@ def constants(tree: Tree) -> Iterator[Tree]:
     elif isinstance(tree, tuple) and tree[0] != "par":
         for part in tree[1:]:
             yield from constants(part)
-
-
-def value(tree: Tree, parameter: Callable[[str], Any], other: Callable[[Tree], Any]) -> Any:
-    """The value of a tree; ``other`` is asked for π and for functions."""
-    if isinstance(tree, (int, Fraction)):
-        return Fraction(tree)
-    if isinstance(tree, str) or tree[0] == "fun":
-        return other(tree)
-    if tree[0] == "par":
-        return parameter(tree[1])
-    if tree[0] == "pow":
-        return value(tree[1], parameter, other) ** int(tree[2])
-    parts = [value(x, parameter, other) for x in tree[1:]]
-    if tree[0] == "div":
-        return parts[0] / parts[1]
-    return sum(parts) if tree[0] == "add" else math.prod(parts)
-
-
-def approximate(tree: Tree, values: Mapping[str, float]) -> float | None:
-    """The value for some parameters; ``None`` where one is missing or there is no value."""
-
-    def other(t: Tree) -> float:
-        if isinstance(t, tuple):
-            return float(getattr(math, t[1])(value(t[2], values.__getitem__, other)))
-        return math.pi
-
-    try:
-        return float(value(tree, values.__getitem__, other))
-    except (ArithmeticError, KeyError, ValueError):
-        return None
 
 
 def _tokens(text: str) -> list[str]:

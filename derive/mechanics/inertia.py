@@ -16,7 +16,8 @@ from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
-from .expression import approximate, names, value
+from ..algebra.values import approximate, value
+from .expression import names
 from .problem import Body, GivenBody, MomentBody, Parameter, PointBody
 
 Vector = tuple[Any, ...]
@@ -106,7 +107,7 @@ class _Values:
     def __init__(self, parameters: Mapping[str, Fraction]):
         self.parameters = parameters
         self.negative = False
-        self._own: dict[Tree, Fraction] = {}
+        self._own: dict[tuple[Fraction | str, ...], Fraction] = {}
         self._random = Random(2)
 
     def mass(self, t: Tree) -> Fraction:
@@ -117,10 +118,10 @@ class _Values:
 
     def of(self, t: Tree) -> Fraction:
         """The value of a tree."""
-        return Fraction(value(t, self.parameters.__getitem__, self._opaque))
+        return Fraction(value(t, {"π": self._opaque("π")}, self.parameters, self._opaque))
 
-    def _opaque(self, t: Tree) -> Fraction:
-        return self._own.setdefault(t, Fraction(self._random.randint(1, 999), 1000))
+    def _opaque(self, *function: Fraction | str) -> Fraction:
+        return self._own.setdefault(function, Fraction(self._random.randint(1, 999), 1000))
 
 
 def _words(group: Group, coordinates: Vector) -> str:

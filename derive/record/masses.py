@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
 from ..algebra import rational as q
-from ..algebra.values import value
+from ..algebra.values import approximate
 from .record import RecordError, decode
 
 ANY_SIGN = "of any sign"
@@ -52,11 +51,6 @@ def _number(x: Any) -> Fraction | None:
 def _value(x: Any, defaults: Mapping[str, float]) -> float | None:
     """The value of an expression for the defaults of its parameters, if there is one."""
     try:
-        t = decode(x, "problem")
-        return float(value(t, {"π": math.pi}, defaults, _elementary, float))
-    except (ArithmeticError, TypeError, ValueError):
+        return approximate(decode(x, "problem"), defaults, float)
+    except ValueError:
         return None
-
-
-def _elementary(name: str, x: float) -> float:
-    return float(getattr(math, name)(x))

@@ -213,6 +213,8 @@ VOCABULARY: dict[str, Name] = {
     "ℓ_b": name(
         "angular momentum in the body frame, Āℓ A, a skew matrix", r"\ell_b", defined(SQUARE)
     ),
+    "δℓ_b": name("variation of ℓ_b", r"\delta\ell_b", letter(SQUARE)),
+    "δ′ℓ_b": name("variation δ′ of ℓ_b", r"\delta'\ell_b", letter(SQUARE)),
     "ℓ̇_b": name("dℓ_b/dt along the motion", r"\dot\ell_b", rate(SQUARE)),
     "Φ": name("derivative of L̃ along the group, at a fixed velocity", r"\Phi", defined(SQUARE)),
     "ζ": name("coordinates of Z in the basis of the Lie algebra", r"\zeta", defined(COORDINATES)),
@@ -310,6 +312,8 @@ ROTATIONS: dict[str, Name] = {
     "ℓ_b": name(
         "angular momentum in the body frame, about the body's origin", r"\ell_b", defined(VECTOR)
     ),
+    "δℓ_b": name("variation of ℓ_b", r"\delta\ell_b", letter(VECTOR)),
+    "δ′ℓ_b": name("variation δ′ of ℓ_b", r"\delta'\ell_b", letter(VECTOR)),
     "ℓ̇_b": name("dℓ_b/dt along the motion", r"\dot\ell_b", rate(VECTOR)),
 }
 DISPLACEMENTS: dict[str, Name] = ROTATIONS | {
@@ -333,7 +337,8 @@ AMENDED = frozenset({20, 25, 26, 29, 31, 32, 35})
 """The numbered equations whose print the derivation corrects; ``derive paper`` finds them."""
 
 OF = {"dϖ": "ϖ", "ḣ": "h̃", "ℓ̇": "ℓ", "ṗ": "p"}
-OF |= {"δΠ": "Π", "δ′Π": "Π", "Π̇": "Π", "δp_b": "p_b", "δ′p_b": "p_b", "ṗ_b": "p_b", "ℓ̇_b": "ℓ_b"}
+OF |= {"δΠ": "Π", "δ′Π": "Π", "Π̇": "Π", "δp_b": "p_b", "δ′p_b": "p_b", "ṗ_b": "p_b"}
+OF |= dict.fromkeys(("δℓ_b", "δ′ℓ_b", "ℓ̇_b"), "ℓ_b")
 """Names that say something of another."""
 
 COMMENTARY = ("meaning", "latex", "prose", "sentences", "paper", "title", "unit")

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..algebra.values import value
+from ..algebra.values import approximate
 from ..record.record import decode
 
 Vector = tuple[float, float, float]
@@ -16,10 +15,6 @@ Matrix = tuple[Vector, ...]
 
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 TRANSLATING = ("SE(", "SAff(", "Aff(", "Sim(")
-FUNCTIONS = {
-    name: getattr(math, name)
-    for name in ("sqrt", "sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh", "atan")
-}
 LARGEST = 1e30
 """Beyond it a number cannot be drawn, and below its inverse it is 0."""
 MOMENTS = {"m": 1.0, "J_11": 1.0, "J_22": 0.8, "J_33": 0.6}
@@ -73,11 +68,10 @@ class Numbers:
         try:
             found = _fraction(data)
             if found is None:
-                tree = decode(data, "figure")
-                found = float(value(tree, {"π": math.pi}, self.parameters, _function))
+                found = approximate(decode(data, "figure"), self.parameters)
         except (ValueError, OverflowError, ZeroDivisionError):
             return 1.0
-        if not abs(found) < LARGEST:
+        if found is None or not abs(found) < LARGEST:
             return 1.0
         return found if abs(found) > 1 / LARGEST else 0.0
 
@@ -89,10 +83,6 @@ class Numbers:
         """The first three coordinates."""
         x, y, z = (*(self.of(entry) for entry in data[:3]), 0.0, 0.0, 0.0)[:3]
         return x, y, z
-
-
-def _function(name: str, x: float) -> float:
-    return float(FUNCTIONS[name](x))
 
 
 def _fraction(data: Any) -> float | None:

@@ -74,7 +74,7 @@ GIVEN: tuple[tuple[frozenset[Equation], str], ...] = (
     ),
 )
 """What is given, and how that is said."""
-ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇")
+ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇_b", "ṗ_b")
 
 
 def title(d: Derivation, language: Language = ENGLISH) -> str:

@@ -99,7 +99,8 @@ class Alphabet:
         self.w = Frame(*(Letter(x, n) for x in names))
         self.Pi = Dual(*(Letter(x, n, n) for x in ("Π", "δΠ", "δ′Π", "Π̇", "Φ")))
         self.p_b = Dual(*(Letter(x, n) for x in ("p_b", "δp_b", "δ′p_b", "ṗ_b", "F_b")))
-        self.spin, self.torque = Letter("ℓ_b", n, n, -1), Letter("ℓ̇_b", n, n, -1)
+        spin = [Letter(x, n, n, -1) for x in ("ℓ_b", "δℓ_b", "δ′ℓ_b", "ℓ̇_b")]
+        self.spin = Dual(*[*spin, self.N_body])
 
     @staticmethod
     def _part(x: str, v: str) -> tuple[str, ...]:

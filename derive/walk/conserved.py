@@ -7,6 +7,7 @@ keep the kinetic energy whatever the group, where they belong to it.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ..algebra import rational as q
@@ -21,9 +22,8 @@ from ..record.record import Equation, Step
 from ..record.sentence import listed, say
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .isometry import Isometry
+from .hat import isolate
 from .potential import U_Q, Potentials
-from .vector import Reader, body_momenta, isolate
 from .wedge import vector_sum
 
 GAMMA = Letter("γ", 3)
@@ -95,15 +95,14 @@ def matrix_momenta(momentum: Expr, a: Alphabet) -> Momenta:
     return Momenta(whole - whole.bar, gradient(paired, shift) if a.affine else None)
 
 
-def vector_momenta(stage: Isometry, read: Reader) -> Momenta:
-    """The same in R³, from p̃(Ω, η) with Ω = Āy and η = Ā(y ∧ T + b)."""
-    b = stage.letters
-    turned, pushed = body_momenta(stage, read)
+def vector_momenta(momenta: Iterable[Expr], b: Alphabet) -> Momenta:
+    """The same in R³, from ⟨ℓ_b, Ω⟩ + ⟨p_b, η⟩ with Ω = Āy and η = Ā(y ∧ T + b)."""
+    turned, *pushed = momenta
     g, shift = word(b.A.position), Letter("b", 3)
     paired = inner(turned, g.bar * word(AXIS))
     if b.affine:
         moved = word(hat(AXIS)) * word(b.T.position) + word(shift)
-        paired = paired + inner(pushed, g.bar * moved)
+        paired = paired + inner(pushed[0], g.bar * moved)
     whole = gradient(reduce(paired, isolate(AXIS)), AXIS)
     return Momenta(whole, gradient(paired, shift) if b.affine else None)
 

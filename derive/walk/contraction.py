@@ -7,7 +7,7 @@ the accelerations.  One code for the three forms of dϖ: in space, trivialised, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -64,6 +64,15 @@ class Contraction:
     @cached_property
     def _shifts(self) -> dict[Letter, Expr]:
         return {x: substitute(y, self._now) for x, y in self.images.items()}
+
+    def whole(self, d: Draft) -> Tree:
+        """dϖ(δ, δ′)."""
+        return gathered(d, self.form, self.core, self.images, self.notation)
+
+    def said_by(self, d: Draft) -> Contraction:
+        """The same as a step says it."""
+        images = {x: d.said(y) for x, y in self.images.items()}
+        return replace(self, form=d.said(self.form), images=images)
 
     def any_vector(self, d: Draft) -> Tree:
         """dϖ(X, δ′): the components of X are those of δ."""
@@ -140,7 +149,7 @@ def rate(dotted: str, varied: str) -> Sentence:
 
 
 def steps_of(
-    c: Contraction,
+    forms: Sequence[Contraction],
     known: Iterable[Letter],
     unknown: Sentence,
     rates: Sentence,
@@ -151,14 +160,14 @@ def steps_of(
 ) -> tuple[Contraction, tuple[Step, ...]]:
     """X put into dϖ, its vertical part, and what remains once the velocity is known.
 
-    ``known``: the letters whose values on X are told; ``a``: the alphabet.  Also: the contraction
-    as these steps say it.
+    ``forms``: how dϖ is written, the last of them by velocities; ``known``: the letters whose
+    values on X are told; ``a``: the alphabet.  Also: the first form as these steps say it.
     """
     putting = chapter.draft("contraction", "contraction")
     testing = chapter.draft("vertical", "restriction")
     finding = chapter.draft("second_order", "kernel")
     first = putting.step(
-        (Equation(CONTRACTION, c.any_vector(putting)),),
+        [Equation(CONTRACTION, x.any_vector(putting)) for x in forms],
         say(
             "The motions are the extremals of the action, the integral of L̃: curves whose "
             "tangent X is in the kernel of dϖ."
@@ -169,23 +178,24 @@ def steps_of(
         ),
         given=(CONTRACTED,),
     )
-    images = {x: putting.said(y) for x, y in c.images.items()}
-    c = replace(c, form=putting.said(c.form), images=images)
+    forms = [x.said_by(putting) for x in forms]
+    last = forms[-1]
     second = testing.step(
-        (Equation(CONTRACTION, c.on_vertical(testing)),),
+        [Equation(CONTRACTION, x.on_vertical(testing)) for x in forms],
         say(
             "X is in the kernel if and only if this expression vanishes for every δ′y; to "
             "begin with, for every δ′y that varies the velocity alone."
         ),
-        given=(CONTRACTED, *c.at_rest()),
+        given=(CONTRACTED, *last.at_rest()),
     )
-    c = replace(c, velocity={x: testing.said(y) for x, y in c.velocity.items()})
-    along = velocities(finding, c.velocity, known)
+    found = {x: testing.said(y) for x, y in last.velocity.items()}
+    forms = [replace(x, velocity=found) for x in forms]
+    along = velocities(finding, found, known)
     third = finding.step(
-        (*along, Equation(CONTRACTION, c.remaining(finding), c.rates())),
+        (*along, *(Equation(CONTRACTION, x.remaining(finding), x.rates()) for x in forms)),
         told("velocity of X", a.signed, regular=regular, rates=rates),
         paper,
         along,
-        (c.metric(),),
+        (last.metric(),),
     )
-    return c, (first, second, third)
+    return forms[0], (first, second, third)

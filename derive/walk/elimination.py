@@ -19,10 +19,11 @@ from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter
+from .hat import INERTIA, OMEGA_P, ZETA, ZETA_DOT, isolate
 from .inverse import cancel_scalar, inverse_letter, inverse_tree
 from .supposed import told
 from .translation import central_moments
-from .vector import INERTIA, OMEGA_P, ZETA, ZETA_DOT, VectorForm, isolate
+from .vector import VectorForm
 from .wedge import vector_sum
 
 CENTRAL = Letter("I_c", 3, 3, 1)

@@ -21,10 +21,10 @@ from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .contraction import AND
 from .elements import embedded
+from .hat import OMEGA_P, ZETA, Reader, inertia_of, isolate
 from .pullback import sum_over
 from .pushes import applied
 from .trivialisation import frame_rule
-from .vector import OMEGA_P, ZETA, Reader, inertia_of, isolate
 from .wedge import vector_sum
 
 GIVEN = phrase("the forces that are given as functions of time and state")

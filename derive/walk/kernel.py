@@ -39,18 +39,20 @@ def kernel(stage: Exterior, a: Alphabet, chapter: Chapter) -> Ambient:
     *others, last_one = unknown
     dots = [rate(p.acceleration.name, p.d_velocity.name) for p in a.parts]
     c, steps = steps_of(
-        Contraction(
-            stage.form,
-            at_constant_time(stage.form, a.dt, a.dpt),
-            stage.images,
-            {p.d_position: along_motion(stage, p.d_position, a) for p in a.parts},
-            {p.d_velocity: p.acceleration for p in a.parts},
-            tuple(p.dp_velocity for p in a.parts),
-            (a.dt, a.dpt),
-            notation,
-            resting={p.dp_velocity: p.dp_position for p in a.parts},
-            space="T_g G",
-        ),
+        [
+            Contraction(
+                stage.form,
+                at_constant_time(stage.form, a.dt, a.dpt),
+                stage.images,
+                {p.d_position: along_motion(stage, p.d_position, a) for p in a.parts},
+                {p.d_velocity: p.acceleration for p in a.parts},
+                tuple(p.dp_velocity for p in a.parts),
+                (a.dt, a.dpt),
+                notation,
+                resting={p.dp_velocity: p.dp_position for p in a.parts},
+                space="T_g G",
+            )
+        ],
         [p.d_position for p in a.parts],
         phrase(AND, first=", ".join(others), second=last_one),
         listed(AND, dots),

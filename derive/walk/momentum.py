@@ -20,7 +20,7 @@ from ..algebra.tree import Tree, add, neg
 from ..algebra.words import Expr, Letter, inner, number, word
 from ..record.record import Equation, Step
 from ..record.sentence import say
-from .alphabet import Alphabet
+from .alphabet import Alphabet, Dual, Frame
 from .cartan import Cartan
 from .chapter import Chapter
 from .exterior import DOMEGA, brackets_of, primed, primes, shown_brackets
@@ -30,9 +30,12 @@ from .trivialisation import frame_rule, gram, varied_gram
 
 @dataclass(frozen=True)
 class Momenta:
-    """``values``: P and F on words, by their letters; ``balance``: ⟨Ṗ − F, ξ′⟩ − ⟨P, [Z, ξ′]⟩."""
+    """``values``: P and F on words, by their letters.  In these letters, whatever the Lagrangian:
+    ``form``: dϖ(δ, δ′), and ``balance``: ⟨Ṗ − F, ξ′⟩ − ⟨P, [Z, ξ′]⟩.
+    """
 
     values: Mapping[Letter, Expr]
+    form: Expr
     balance: Expr
     steps: tuple[Step, ...]
 
@@ -40,19 +43,15 @@ class Momenta:
 def momentum_form(stage: Cartan, a: Alphabet, c: Chapter) -> Momenta:
     """P and F of the points, then ϖ, dϖ and its kernel by them."""
     values, told = _values(stage, a, c)
-    balance, steps = _forms(a, c)
-    return Momenta(values, balance, (told, *steps))
+    form, balance, steps = _forms(a, c)
+    return Momenta(values, form, balance, (told, *steps))
 
 
 def _values(stage: Cartan, a: Alphabet, c: Chapter) -> tuple[dict[Letter, Expr], Step]:
     """P = ∂ℓ/∂Z and F, the derivative of ℓ along gξ, with ℓ = ⟨P, Z⟩ − h."""
     draft = c.draft("momenta", "fibre derivative")
-    along = substitute(stage.momentum, {f.xi: word(f.velocity) for f in a.frames})
     moved = {a.C: varied_gram(a, a.Z.xi), a.U: -stage.work}
-    varied = reduce(derivation(along - stage.energy, moved.get), frame_rule(a, gram(a)))
-    pairs = [*zip(a.duals, a.frames, strict=True)]
-    values = {d.momentum: gradient(stage.momentum, f.xi) for d, f in pairs}
-    values |= {d.push: gradient(varied, f.xi) for d, f in pairs}
+    values = fibre(stage.momentum, stage.energy, moved, a)
     step = draft.step(
         [Equation(x.name, draft.tree(e)) for x, e in values.items() if e != word(x)],
         say(
@@ -65,7 +64,24 @@ def _values(stage: Cartan, a: Alphabet, c: Chapter) -> tuple[dict[Letter, Expr],
     return {x: draft.said(e) for x, e in values.items()}, step
 
 
-def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, tuple[Step, ...]]:
+def fibre(
+    momentum: Expr, energy: Expr, moved: Mapping[Letter, Expr], a: Alphabet
+) -> dict[Letter, Expr]:
+    """P = ∂ℓ/∂Z, and F, the derivative of ℓ = ⟨P, Z⟩ − h where ξ moves the group: each by a whole
+    matrix, of which the elements of 𝔤 determine a part.
+
+    ``moved``: what ξ (and η) make of the other letters.
+    """
+    along = substitute(momentum, {f.xi: word(f.velocity) for f in a.frames})
+    varied = reduce(derivation(along - energy, moved.get), frame_rule(a, gram(a)))
+    any_xi = {f.xi: Letter(f.xi.name, f.xi.rows, f.xi.cols) for f in a.frames}
+    told = [substitute(e, {x: word(y) for x, y in any_xi.items()}) for e in (momentum, varied)]
+    pairs = [*zip(a.duals, a.frames, strict=True)]
+    values = {d.momentum: gradient(told[0], any_xi[f.xi]) for d, f in pairs}
+    return values | {d.push: gradient(told[1], any_xi[f.xi]) for d, f in pairs}
+
+
+def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
     """ϖ, dϖ and the kernel in the letters P, F, Z, ξ and the bracket."""
     writing = c.draft("cartan_momentum", "Cartan form")
     varying = c.draft("exterior_momentum", "exterior derivative")
@@ -85,10 +101,11 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, tuple[Step, ...]]:
     twins = primes(a) | {d.d_momentum: d.dp_momentum for d in a.duals}
     derived = forms.exterior(form, twins, *_variations(lagrangian, a, c))
     core = at_constant_time(derived, a.dt, a.dpt)
+    images = horizontal(zip(a.duals, a.frames, strict=True), a, {})
     display = dict(zip((a.bracket, a.bracket_w), shown_brackets(a), strict=False))
     shown = replace(notation, display=display)
     derivative = varying.step(
-        (Equation(DOMEGA, gathered(varying, derived, core, _horizontal(a), shown)),),
+        (Equation(DOMEGA, gathered(varying, derived, core, images, shown)),),
         say(
             "Its exterior derivative, whatever the Lagrangian: {varied}; the bracket comes from "
             "the structure equation.",
@@ -97,8 +114,9 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, tuple[Step, ...]]:
             else "δL̃ = ⟨Π, δZ⟩ + ⟨Φ, ξ⟩ + ∂L̃/∂t δt",
         ),
     )
-    balance, motion = _kernel(varying.said(derived), notation, a, c)
-    return balance, (told, derivative, motion)
+    found = varying.said(derived)
+    balance, motion = _kernel(found, notation, a, c)
+    return found, balance, (told, derivative, motion)
 
 
 def _paired(a: Alphabet, along: Iterable[Letter], c: Chapter) -> Expr:
@@ -128,16 +146,18 @@ def _variations(lagrangian: Letter, a: Alphabet, c: Chapter) -> tuple[Image, Ima
     return delta.get, delta_prime.get
 
 
-def _horizontal(a: Alphabet) -> dict[Letter, Expr]:
-    """δP ↦ δP − F δt and ξ ↦ ξ − Z δt, and the same for δ′."""
+def horizontal(
+    pairs: Iterable[tuple[Dual, Frame]], a: Alphabet, pushes: Mapping[Letter, Expr]
+) -> dict[Letter, Expr]:
+    """δP ↦ δP − F δt and ξ ↦ ξ − Z δt, and the same for δ′, with F by ``pushes``."""
     images = {}
-    for d, f in zip(a.duals, a.frames, strict=True):
+    for d, f in pairs:
         for rate, x, twin in (
-            (d.push, d.d_momentum, d.dp_momentum),
-            (f.velocity, f.xi, f.xi_prime),
+            (pushes.get(d.push, word(d.push)), d.d_momentum, d.dp_momentum),
+            (word(f.velocity), f.xi, f.xi_prime),
         ):
-            images[x] = word(x) - word(rate) * word(a.dt)
-            images[twin] = word(twin) - word(rate) * word(a.dpt)
+            images[x] = word(x) - rate * word(a.dt)
+            images[twin] = word(twin) - rate * word(a.dpt)
     return images
 
 

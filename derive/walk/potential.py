@@ -34,6 +34,14 @@ class Potentials:
     steps: tuple[Step, ...]
     work: Callable[[Expr, Expr | None], Expr]
 
+    def moved(
+        self, a: Alphabet, xi: Expr, eta: Expr | None = None, axis: Expr | None = None
+    ) -> dict[Letter, Expr]:
+        """What δA = Aξ, δT = Aη make of the letters of Ũ; ``axis``: x for ξ = j(x)."""
+        g = word(a.A.position)
+        images = {a.A.position: g * xi, U_Q: -self.work(xi if axis is None else axis, eta)}
+        return images if eta is None else images | {a.T.position: g * eta}
+
 
 def potentials(problem: Problem, a: Alphabet, c: Chapter, gram: Expr | None = None) -> Potentials:
     """Ũ of the problem, with the vectors and matrices it needs.
@@ -127,8 +135,4 @@ def virtual_work(
     v: Potentials, a: Alphabet, xi: Expr, eta: Expr | None, axis: Expr | None = None
 ) -> Expr:
     """−dŨ(Aξ, Aη) on words; the moments of Q are paired with the axis of ξ = j(axis), if given."""
-    g = word(a.A.position)
-    images = {a.A.position: g * xi, U_Q: -v.work(xi if axis is None else axis, eta)}
-    if eta is not None:
-        images[a.T.position] = g * eta
-    return -derivation(v.energy, images.get)
+    return -derivation(v.energy, v.moved(a, xi, eta, axis).get)

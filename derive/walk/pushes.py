@@ -15,8 +15,8 @@ from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .elements import Elements, Radial, column, embedded
+from .hat import OMEGA_P, isolate
 from .trivialisation import frame_rule
-from .vector import OMEGA_P, isolate
 
 
 @dataclass(frozen=True)

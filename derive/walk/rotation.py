@@ -13,31 +13,14 @@ from .alphabet import Alphabet
 from .chapter import Chapter
 from .components import components, diagonal
 from .elimination import CENTRAL, Eliminated, from_centre, vector_tree
-from .exterior import primed
+from .hat import INERTIA, MU, OMEGA_P, PHI, ZETA, ZETA_DOT, Reader, isolate
 from .inputs import Given
 from .isometry import Isometry
 from .potential import Potentials, virtual_work
 from .supposed import told
 from .trivialisation import rates
-from .vector import (
-    INERTIA,
-    MU,
-    OMEGA_P,
-    PHI,
-    ZETA,
-    ZETA_DOT,
-    Reader,
-    VectorForm,
-    isolate,
-)
+from .vector import VectorForm, pairing
 from .wedge import vector_sum
-
-
-def pairing(stage: Isometry, read: Reader) -> dict[Letter, Expr]:
-    """The force of the walk in vectors, read off −dŨ(AΩ′, Aη′): Iφ, or μ and F_b."""
-    b = stage.letters
-    virtual = read.scalar(primed(stage.cartan.work, b))
-    return {v: gradient(virtual, v) for v in (OMEGA_P, *((b.w.xi_prime,) if b.affine else ()))}
 
 
 def torque(v: Potentials, b: Alphabet) -> dict[Letter, Expr]:

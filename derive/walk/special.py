@@ -6,11 +6,10 @@ more: where Z is skew, C = 1; where its trace vanishes, so do those of ξ and Ż
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from ..algebra import forms
-from ..algebra.calculus import Image, gradient, reduce, substitute, without
+from ..algebra.calculus import gradient, reduce, substitute, without
 from ..algebra.groups import Group
 from ..algebra.notation import Notation
 from ..algebra.tree import Tree
@@ -22,12 +21,14 @@ from .cartan import Cartan, form_equation
 from .chapter import Chapter, Draft
 from .coadjoint import coadjoint_steps
 from .contraction import Contraction
-from .exterior import DOMEGA, Exterior, brackets_of, primes, trivial_variations
+from .exterior import DOMEGA, Exterior, brackets_of
 from .gather import gathered, terms_with
+from .isometry import bracketed, resting
 from .kernel import balanced
-from .momentum import Momenta
-from .potential import U_Q, Potentials, virtual_work
-from .trivialisation import frame_rule, gram, rates
+from .momentum import Momenta, fibre
+from .potential import Potentials, virtual_work
+from .restrict import restrict, restricted_prose
+from .trivialisation import frame_rule, gram, rates, varied_gram
 
 
 @dataclass(frozen=True)
@@ -101,18 +102,31 @@ def specialise(road: General, group: Group, v: Potentials, c: Chapter) -> Specia
     pushing, weighing = c.draft("force", "variation"), c.draft("energy", "pull-back")
     pushes = _forces(forces, pushing)
     said = {x: pushing.said(e).of(road.pushed) for x, e in forces.items()}
-    contraction, formed = _forms(momentum, energy, road.exterior, v, plain, restricted, c)
+    writing = c.draft("cartan", "relation")
+    opened = dict(zip((plain.bracket, plain.bracket_w), brackets_of(plain).values(), strict=False))
+    last = weighing.step(
+        (Equation("h̃", weighing.tree(restricted(energy))),), say("The energy of this problem.")
+    )
+    written = writing.step(
+        (form_equation(writing, restricted(momentum), restricted(energy), Notation()),),
+        say("The Cartan form of this problem."),
+    )
+    momentum, energy = writing.said(momentum), writing.said(energy)
+    domega = restricted(_derived(momentum, energy, road, v, plain, opened))
+    varying, by_bracket = c.draft("exterior", "relation"), []
+    if turned:
+        skew = _derived(b.respell(momentum, whole), b.respell(energy, whole), road, v, b, {})
+        by_bracket = [bracketed(varying, skew.of(whole), resting(b), b)]
+    contraction, derivative = _exterior(domega, road, plain, varying, by_bracket)
     inertial, motion = _kernel(contraction, [*said.values()], plain, c)
     steps = (
         *_relation(group, c),
         *v.steps,
-        *formed,
-        *(coadjoint_steps(road.momenta, b, whole, c) if turns_whole(group) else ()),
         pushes,
+        written,
+        derivative,
+        *(coadjoint_steps(road.momenta, b, whole, c) if turns_whole(group) else ()),
         motion,
-    )
-    last = weighing.step(
-        (Equation("h̃", weighing.tree(restricted(energy))),), say("The energy of this problem.")
     )
     return Special(free, whole, free.respell(inertial), said, steps, (last,))
 
@@ -181,42 +195,30 @@ def _kept(group: Group) -> Prose:
     )
 
 
-def _forms(
+def _derived(
     momentum: Expr,
     energy: Expr,
-    exterior: Exterior,
+    road: General,
     v: Potentials,
     a: Alphabet,
-    restricted: Callable[[Expr], Expr],
-    c: Chapter,
-) -> tuple[Contraction, tuple[Step, Step]]:
-    """ϖ and dϖ with the potential of the problem, whose variation is that of the group.
+    brackets: Mapping[Letter, Expr],
+) -> Expr:
+    """dϖ by the values of P and F, with the potential of the problem."""
+    moved = {a.C: varied_gram(a, a.Z.xi), **v.moved(a, *(word(f.xi) for f in a.frames))}
+    values = fibre(momentum, energy, moved, a)
+    return reduce(restrict(road.momenta.form, values, a, brackets), frame_rule(a, gram(a)))
 
-    They are varied with C, which is restricted to the group afterwards.
-    """
-    writing, varying = c.draft("cartan", "relation"), c.draft("exterior", "exterior derivative")
-    form = writing.said(momentum - energy * word(a.dt))
-    delta, delta_prime = trivial_variations(a, brackets_of(a), number(0))
-    etas = (word(a.w.xi), word(a.w.xi_prime)) if a.affine else (None, None)
-    pushed = [v.work(word(x), y) for x, y in zip((a.Z.xi, a.Z.xi_prime), etas, strict=True)]
-    delta = _with(delta, word(a.dU_dt) * word(a.dt) - pushed[0])
-    delta_prime = _with(delta_prime, word(a.dU_dt) * word(a.dpt) - pushed[1])
-    varied = forms.exterior(form, primes(a), delta, delta_prime)
-    domega = restricted(reduce(varied, frame_rule(a, gram(a))))
+
+def _exterior(
+    domega: Expr, road: General, a: Alphabet, varying: Draft, by_bracket: Iterable[Tree]
+) -> tuple[Contraction, Step]:
+    """dϖ with the potential of the problem; also as it is written ``by_bracket``."""
     letters = a.letters()
-    images = {letters[x.name]: without(a.respell(y), a.f) for x, y in exterior.images.items()}
+    images = {letters[x.name]: without(a.respell(y), a.f) for x, y in road.exterior.images.items()}
     moving = [x for f in a.frames for x in (f.d_velocity, f.dp_velocity)]
     core = terms_with(without(domega, a.dt, a.dpt), *moving)
-    steps = (
-        writing.step(
-            (form_equation(writing, restricted(momentum), restricted(energy), Notation()),),
-            say("The Cartan form of this problem."),
-        ),
-        varying.step(
-            (Equation(DOMEGA, gathered(varying, domega, core, images, Notation())),),
-            say("Its exterior derivative."),
-        ),
-    )
+    shown = gathered(varying, domega, core, images, Notation())
+    step = varying.step((Equation(DOMEGA, t) for t in (shown, *by_bracket)), restricted_prose(a))
     found = Chapter(a.chapter).label("second_order_trivialised")
     return (
         Contraction(
@@ -229,7 +231,7 @@ def _forms(
             (a.dt, a.dpt),
             Notation(),
         ),
-        steps,
+        step,
     )
 
 
@@ -251,11 +253,6 @@ def _kernel(
         ),
     )
     return draft.said(inertial), step
-
-
-def _with(delta: Image, varied: Expr) -> Image:
-    """The same derivation with a value on U_Q."""
-    return lambda x: varied if x == U_Q else delta(x)
 
 
 def _forces(forces: dict[Letter, Expr], d: Draft) -> Step:

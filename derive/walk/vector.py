@@ -1,316 +1,253 @@
-"""so(3) ≅ R³: the vector form (31)–(34) of the equations of SO(3) and SE(3)."""
+"""SO(3) and SE(3) in vectors: dϖ by the momenta in the body, its kernel, and Euler's equations.
+
+    dϖ = ⟨δℓ_b − μ δt, Ω′ − ζ δ′t⟩ + ⟨δp_b − F_b δt, η′ − w δ′t⟩ + ⟨ℓ_b, Ω′ ∧ Ω⟩ + … ,
+
+the general form read by j; then with the values of ℓ_b and p_b, (31) and (34).
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
-from ..algebra.calculus import PairRule, gradient, reduce, substitute, without
+from ..algebra.calculus import gradient, reduce, substitute, without
 from ..algebra.notation import Notation, metrics, tree_of
-from ..algebra.space import antisymmetry, double, fold_inertia, hat, normal_form
-from ..algebra.tree import Tree
-from ..algebra.words import Expr, Factor, Letter, inner, number, trace, word, zero
+from ..algebra.space import antisymmetry, hat, normal_form
+from ..algebra.tree import Tree, add
+from ..algebra.words import Expr, Letter, word
 from ..record.record import Equation, Step
-from ..record.sentence import listed, phrase, say
+from ..record.sentence import Sentence, listed, phrase, say
+from .alphabet import Alphabet, Dual, Frame
 from .chapter import Chapter
-from .contraction import AND, Contraction, NoKernelError, rate, steps_of
-from .exterior import DOMEGA
-from .gather import gathered
+from .coadjoint import halved, momenta_told, motion_told
+from .contraction import AND, Contraction, rate, steps_of
+from .exterior import DOMEGA, primed
+from .gather import at_constant_time
+from .hat import (
+    BRACKET,
+    D_SPIN,
+    D_ZETA,
+    INERTIA,
+    OMEGA,
+    OMEGA_P,
+    SPIN,
+    SPIN_RATE,
+    SPINNING,
+    TURNING,
+    ZETA,
+    ZETA_DOT,
+    Reader,
+    axis,
+    inertia_of,
+    isolate,
+)
 from .isometry import Isometry
+from .momentum import Momenta, horizontal
+from .restrict import moved
 from .supposed import told
 from .wedge import vector_sum
 
-
-def _vector(name: str) -> Letter:
-    return Letter(name, 3)
-
-
-ZETA, OMEGA, OMEGA_P = _vector("ζ"), _vector("Ω"), _vector("Ω′")
-D_ZETA, DP_ZETA, ZETA_DOT = _vector("δζ"), _vector("δ′ζ"), _vector("ζ̇")
-PHI, MU, BRACKET = _vector("φ"), _vector("μ"), _vector("Ω′ ∧ Ω")
-SPIN, SPIN_RATE = _vector("ℓ_b"), _vector("ℓ̇_b")
-INERTIA = Letter("I", 3, 3, 1)
-AXES = {"Z": ZETA, "ξ": OMEGA, "ξ′": OMEGA_P, "δZ": D_ZETA, "δ′Z": DP_ZETA, "f": PHI}
-AXES |= {x.name: x for x in (SPIN, SPIN_RATE)}
+HATS = tuple({hat(ZETA): word(hat(x))} for x in (TURNING.d_velocity, TURNING.dp_velocity, ZETA_DOT))
+"""How j(ζ) varies with ζ: under δ, δ′ and along the motion."""
 
 
 @dataclass(frozen=True)
 class VectorForm:
-    """The kernel in vectors: ``balance[v]`` = 0 for each free v of δ′; ``inertia`` = I by J."""
+    """The kernel in vectors: ``balance[v]`` = 0 for each free v of δ′; ``inertia`` = I by J.
+
+    ``momenta``: ℓ_b and p_b by their letters.
+    """
 
     balance: dict[Letter, Expr]
     inertia: Expr
+    momenta: dict[Letter, Expr]
     steps: tuple[Step, ...]
 
 
-def identified(stage: Isometry, chapter: Chapter) -> tuple[Reader, tuple[Step, Step]]:
-    """so(3) read by vectors: j and the tensor of inertia."""
-    naming, weighing = _identification(stage, chapter), _inertia(stage, chapter)
-    return Reader(stage, naming.label, weighing.label), (naming, weighing)
+def pairs_of(b: Alphabet) -> list[tuple[Dual, Frame]]:
+    """(ℓ_b, ζ) and (p_b, w)."""
+    return [(SPINNING, TURNING), *([(b.p_b, b.w)] if b.affine else [])]
 
 
-def vector_form(stage: Isometry, read: Reader, chapter: Chapter) -> VectorForm:
+def vector_form(general: Momenta, stage: Isometry, read: Reader, c: Chapter) -> VectorForm:
     """Write ϖ's derivative by vectors and read the kernel off it."""
-    b = stage.letters
-    domega = read.scalar(stage.exterior.form)
-    images = {axis(x): _flat(read.matrix(y)) for x, y in stage.exterior.images.items()}
-    display = {BRACKET: tree_of(axis_of_bracket(stage))}
-    if b.affine:
-        display[b.bracket_w] = tree_of(_bracket_w(stage))
-    notation = metrics("I", display=display)
-    draft = chapter.draft("exterior_vector", "identification")
-    flat = gathered(draft, domega, without(domega, b.dt, b.dpt), images, notation)
-    written = draft.step(
-        (Equation(DOMEGA, flat),),
-        say("The exterior derivative in vectors."),
+    b, pairs = stage.letters, pairs_of(stage.letters)
+    momenta = body_momenta(stage, read)
+    telling, varying = c.draft("momenta", "identification"), c.draft("exterior_vector", "relation")
+    telling.read(*momenta.values())
+    naming = telling.step(
+        [Equation(x.name, vector_sum(e)) for x, e in momenta.items()], momenta_told(b)
+    )
+    values = {x: telling.said(e) for x, e in momenta.items()}
+    forces = pairing(stage, read)
+    pushes = {d.push: forces[f.xi_prime] for d, f in pairs}
+    by_value = moved(values | pushes, [d for d, _ in pairs], [f for _, f in pairs], HATS)
+    domega = read.scalar(substitute(b.respell(general.form), halved(stage.values, b)))
+    forms = _by_momenta(domega, pairs, pushes, read), _by_value(stage, read)
+    written = varying.step(
+        [Equation(DOMEGA, x.whole(varying)) for x in forms],
+        say("The exterior derivative in vectors, by the momenta and with their values."),
         () if b.affine else (31,),
     )
-    c = _contraction(
-        draft.said(domega), {x: draft.said(y) for x, y in images.items()}, notation, stage
-    )
-    known = [x for x in c.velocity if x.axis is None]
-    c, steps = steps_of(
-        c,
-        known,
-        phrase(AND, first="Ω, η, δζ", second="δw")
-        if b.affine
-        else phrase(AND, first="Ω", second="δζ"),
-        listed(AND, [rate("ζ̇", "δζ"), *([rate("ẇ", "δw")] if b.affine else [])]),
+    found, steps = steps_of(
+        [x.said_by(varying) for x in forms],
+        [f.xi for _, f in pairs if f.xi.axis is None],
+        _unknown(pairs),
+        listed("{first}, {second}", _rates(pairs)),
         b,
-        chapter,
+        c,
         () if b.affine else (34,),
         *told(f"metric of a {'displacement' if b.affine else 'rotation'}", b.signed),
     )
-    bracket = {BRACKET: substitute(axis_of_bracket(stage), c.velocity).marked()}
-    opened = substitute(without(c.second_order, b.dpt), bracket)
-    opened = opened.marked(chapter.label("second_order"))
-    balance = {
-        v: normal_form(gradient(reduce(opened, isolate(v)), v))
-        for v in ((OMEGA_P, b.w.xi_prime) if b.affine else (OMEGA_P,))
-    }
-    motion = _kernel(balance, stage, chapter)
-    said = {v: e.marked(motion.label) for v, e in balance.items()}
+    balance, moving = _coadjoint(found, pairs, read, b, c)
+    apart = [isolate(d.momentum) for d, _ in pairs]
+    solved = {v: normal_form(substitute(reduce(e, *apart), by_value)) for v, e in balance.items()}
+    motion = _kernel(solved, b, c)
     return VectorForm(
-        said,
+        {v: e.marked(motion.label) for v, e in solved.items()},
         inertia_of(b.J).marked(read.inertia),
-        (written, *steps, motion),
+        values,
+        (naming, written, *steps, moving, motion),
     )
 
 
-def _contraction(
-    domega: Expr, images: dict[Letter, Expr], notation: Notation, stage: Isometry
-) -> Contraction:
-    """dϖ(X, δ′) in vectors, with Ω(X) (and η(X)) read off the horizontal variations."""
+def body_momenta(stage: Isometry, read: Reader) -> dict[Letter, Expr]:
+    """ℓ_b and p_b: the coefficients of Ω and η in p̃."""
+    momentum = read.scalar(stage.cartan.momentum)
+    found = {SPIN: gradient(reduce(normal_form(momentum), isolate(OMEGA)), OMEGA)}
     b = stage.letters
-    unknown = (OMEGA, b.w.xi) if b.affine else (OMEGA,)
-    if any(x not in images for x in unknown):
-        raise NoKernelError("the velocity of the kernel cannot be read off dϖ")
-    velocity = {x: substitute(word(x) - images[x], {b.dt: number(1)}) for x in unknown}
-    (turning,) = velocity[OMEGA].letters()
-    velocity[hat(OMEGA)] = word(hat(turning))
-    rates = {D_ZETA: ZETA_DOT, hat(D_ZETA): hat(ZETA_DOT)}
-    vertical: tuple[Letter, ...] = (DP_ZETA, hat(DP_ZETA))
-    brackets = {}
-    if b.affine:
-        rates[b.w.d_velocity] = b.w.acceleration
-        vertical = (*vertical, b.w.dp_velocity)
-        brackets[b.bracket_w] = substitute(_bracket_w(stage), velocity).marked()
-    resting = {DP_ZETA: OMEGA_P, **({b.w.dp_velocity: b.w.xi_prime} if b.affine else {})}
-    display = {BRACKET: tree_of(substitute(axis_of_bracket(stage), velocity))}
-    core, times = without(domega, b.dt, b.dpt), (b.dt, b.dpt)
+    return found | ({b.p_b.momentum: gradient(momentum, b.w.xi)} if b.affine else {})
+
+
+def pairing(stage: Isometry, read: Reader) -> dict[Letter, Expr]:
+    """The force of the walk in vectors, read off −dŨ(AΩ′, Aη′): Iφ, or μ and F_b."""
+    virtual = read.scalar(primed(stage.cartan.work, stage.letters))
+    return {f.xi_prime: gradient(virtual, f.xi_prime) for _, f in pairs_of(stage.letters)}
+
+
+def _by_momenta(
+    domega: Expr, pairs: Sequence[tuple[Dual, Frame]], pushes: Mapping[Letter, Expr], read: Reader
+) -> Contraction:
+    """dϖ in ℓ_b, p_b and their variations."""
+    b = read.letters
     return Contraction(
         domega,
-        core,
-        images,
-        velocity,
-        rates,
-        vertical,
-        times,
-        notation,
-        display,
-        lambda e: reduce(substitute(e, brackets), antisymmetry),
-        resting,
+        at_constant_time(domega, b.dt, b.dpt),
+        horizontal(pairs, b, pushes),
+        _velocity(pairs),
+        {d.d_momentum: d.rate for d, _ in pairs} | {hat(D_SPIN): hat(SPIN_RATE)},
+        tuple(x for d, _ in pairs for x in (d.dp_momentum, hat(d.dp_momentum))),
+        (b.dt, b.dpt),
+        _notation(read),
+        **_brackets(pairs, read),
     )
 
 
-def isolate(v: Letter) -> PairRule:
-    """``v ∧ y = −y ∧ v``: carry the vector v out of every j(v)."""
-
-    def rule(left: Factor, right: Factor) -> Expr | None:
-        (a, a_bar), (b, b_bar) = left, right
-        if a.axis == v and b.cols == 1 and not b_bar:
-            return -(word(hat(b)) * word(v))
-        if b.axis == v and a.cols == 1 and a_bar:
-            return -(word(v).bar * word(hat(a)))
-        return None
-
-    return rule
-
-
-@dataclass(frozen=True)
-class Reader:
-    """Reads so(3) by vectors; the labels of the steps that say Z = j(ζ) and I."""
-
-    stage: Isometry
-    hat: str
-    inertia: str
-
-    def scalar(self, e: Expr) -> Expr:
-        """Z → j(ζ), traces with J by the inertia, N_b by the moment μ."""
-        b = self.stage.letters
-        images = self._hats(e) | {b.bracket: self.hatted(BRACKET)}
-        work = fold_inertia(substitute(e, images), b.J, word(INERTIA).marked(self.inertia))
-        return normal_form(_fold_moment(work, b.N_body))
-
-    def matrix(self, e: Expr) -> Expr:
-        """A combination of skew letters as the combination of their hats (vectors stay)."""
-        images = self._hats(e)
-        return substitute(e, images) if images else e
-
-    def hatted(self, x: Letter) -> Expr:
-        """j(x)."""
-        return word(hat(x)).marked(self.hat)
-
-    def _hats(self, e: Expr) -> dict[Letter, Expr]:
-        return {x: self.hatted(axis(x)) for x in e.letters() if x.name in AXES}
+def _by_value(stage: Isometry, read: Reader) -> Contraction:
+    """dϖ in ζ and w, as (31)."""
+    b, pairs, form = stage.letters, pairs_of(stage.letters), read.scalar(stage.form)
+    return Contraction(
+        form,
+        without(form, b.dt, b.dpt),
+        {axis(x): read.vector(y) for x, y in stage.images.items()},
+        _velocity(pairs),
+        {f.d_velocity: f.acceleration for _, f in pairs} | {hat(D_ZETA): hat(ZETA_DOT)},
+        tuple(x for _, f in pairs for x in (f.dp_velocity, hat(f.dp_velocity))),
+        (b.dt, b.dpt),
+        _notation(read),
+        resting={f.dp_velocity: f.xi_prime for _, f in pairs},
+        **_brackets(pairs, read),
+    )
 
 
-def axis(x: Letter) -> Letter:
-    """The vector X of a skew letter j(X); any other letter itself."""
-    return AXES.get(x.name, x)
+def _velocity(pairs: Sequence[tuple[Dual, Frame]]) -> dict[Letter, Expr]:
+    """Ω(X) = ζ and η(X) = w."""
+    return {f.xi: word(f.velocity) for _, f in pairs} | {hat(OMEGA): word(hat(ZETA))}
 
 
-def _flat(e: Expr) -> Expr:
-    """j(a) + j(b) ↦ a + b for a sum of single hats; sums of vectors stay."""
-    terms = {}
-    for (traces, w), c in e.terms.items():
-        axis = w[0][0].axis
-        terms[traces, w if axis is None else ((axis, False),)] = c
-    return Expr(e.rows, 1, terms, e.lineage)
+def _notation(read: Reader) -> Notation:
+    return metrics("I", display={x: tree_of(e) for x, e in read.brackets().items()})
 
 
-def _fold_moment(e: Expr, moment: Letter) -> Expr:
-    """``Tr N_b j(x)‾ = ⟨μ, x⟩``: what defines the moment of the forces."""
-    total = e.like({})
-    for (traces, _), c in e.terms.items():
-        term = number(c)
-        for cycle in traces:
-            axes = [x.axis for x, _ in cycle if x.axis is not None]
-            if len(cycle) == 2 and axes and any(x == moment for x, _ in cycle):
-                barred = any(bar for x, bar in cycle if x == moment)
-                folded = inner(word(MU), word(axes[0])) * (1 if barred else -1)
-            else:
-                folded = Expr(1, 1, {((cycle,), ()): number(1).terms[(), ()]})
-            term = term * folded
-        total = total + term
-    return total
+def _brackets(pairs: Sequence[tuple[Dual, Frame]], read: Reader) -> dict[str, Any]:
+    """How the brackets read, and what they are, once X has the velocity of the motion."""
+    velocity, brackets = _velocity(pairs), read.brackets()
+    turning = tree_of(substitute(brackets.pop(BRACKET), velocity))
+    opened = {x: substitute(e, velocity).marked() for x, e in brackets.items()}
+    return {
+        "display": {BRACKET: turning},
+        "opening": lambda e: reduce(substitute(e, opened), antisymmetry),
+    }
 
 
-def axis_of_bracket(stage: Isometry) -> Expr:
-    """The vector of the bracket [ξ′, ξ], from the structure equation with ξ = j(Ω), ξ′ = j(Ω′)."""
-    bracket = _hatted_bracket(stage, stage.letters.bracket)
-    return reduce(axial(normal_form(bracket)), isolate(OMEGA))
+def _unknown(pairs: Sequence[tuple[Dual, Frame]]) -> Sentence:
+    """The components of X that are unknown, in words."""
+    *others, last = [f.xi.name for _, f in pairs] + [f.d_velocity.name for _, f in pairs]
+    return phrase(AND, first=", ".join(others), second=last)
 
 
-def _hatted_bracket(stage: Isometry, x: Letter) -> Expr:
-    value = stage.brackets[x]
-    return substitute(value, {y: word(hat(axis(y))) for y in value.letters() if y.name in AXES})
+def _rates(pairs: Sequence[tuple[Dual, Frame]]) -> list[Sentence]:
+    """What the dotted letters are, in words."""
+    told = [(f.acceleration, f.d_velocity) for _, f in pairs]
+    told += [(d.rate, d.d_momentum) for d, _ in pairs]
+    return [rate(x.name, y.name) for x, y in told]
 
 
-def body_momenta(stage: Isometry, read: Reader) -> tuple[Expr, Expr]:
-    """The angular momentum and the momentum in the body: the coefficients of Ω and η in p̃."""
-    momentum = read.scalar(stage.cartan.momentum)
-    spin = gradient(reduce(normal_form(momentum), isolate(OMEGA)), OMEGA)
-    return spin, gradient(momentum, stage.letters.w.xi)
-
-
-def axial(e: Expr) -> Expr:
-    """X with j(X) the given skew sum of words y x̄: from  j(x ∧ y) = y x̄ − x ȳ."""
-    total = zero(3, 1).of(e)
-    for (traces, w), c in e.terms.items():
-        (y, _), (x, _) = w
-        term = Expr(1, 1, {(traces, ()): c / 2})
-        total = total + term * (word(hat(x)) * word(y))
-    return normal_form(total)
-
-
-def _bracket_w(stage: Isometry) -> Expr:
-    """The translation part of the bracket in vectors."""
-    return normal_form(_hatted_bracket(stage, stage.letters.bracket_w))
-
-
-def _identification(stage: Isometry, c: Chapter) -> Step:
-    affine = stage.letters.affine
-    draft = c.draft("hat", "identification")
-    pairs = [("Z", "ζ"), ("ξ", "Ω"), ("ξ′", "Ω′")] + ([] if affine else [("f", "φ")])
-    equations = [Equation(x, ("hat", y)) for x, y in pairs]
-    draft.read(stage.gram)  # only a skew matrix is a j(X)
-    cross = draft.tree(axis_of_bracket(stage))
-    equations.append(Equation(("bracket", "ξ′", "ξ"), ("hat", cross)))
-    if affine:
-        pairing: Tree = ("tr", ("mul", "N_b", ("T", ("hat", "Ω′"))))
-        equations.append(Equation(pairing, ("inner", "μ", "Ω′"), ("Ω′",)))
-    return draft.step(
-        equations,
-        say(
-            "The linear part 𝔰𝔬(3) of the Lie algebra is identified with R³ by j(X)Y = X ∧ "
-            "Y; the bracket is the vector product."
+def _coadjoint(
+    c: Contraction, pairs: Sequence[tuple[Dual, Frame]], read: Reader, b: Alphabet, chapter: Chapter
+) -> tuple[dict[Letter, Expr], Step]:
+    """ℓ̇_b and ṗ_b (Euler, Kirchhoff): the coefficients of Ω′ and η′."""
+    draft = chapter.draft("coadjoint", "kernel")
+    bracket = substitute(read.brackets()[BRACKET], c.velocity).marked()
+    opened = substitute(without(c.second_order, b.dpt), {BRACKET: bracket})
+    opened = opened.marked(chapter.label("second_order"))
+    balance = {
+        f.xi_prime: normal_form(gradient(reduce(opened, isolate(f.xi_prime)), f.xi_prime))
+        for _, f in pairs
+    }
+    rates = {d.rate: word(d.rate) - balance[f.xi_prime] for d, f in pairs}
+    draft.read(*rates.values())
+    step = draft.step(
+        [Equation(x.name, _spun(vector_sum(e))) for x, e in rates.items()],
+        (
+            say("The coefficients of Ω′ and of η′ must vanish.")
+            if b.affine
+            else say("The coefficient of Ω′ must vanish.")
         )
-        if affine
-        else say(
-            "The Lie algebra 𝔰𝔬(3) is identified with R³ by j(X)Y = X ∧ Y; the bracket is "
-            "the vector product."
-        ),
-        () if affine else (33,),
+        + say(
+            "That of δ′t then vanishes as well: it is the opposite of what the rest gives for "
+            "{motion}.",
+            motion="Ω′ = ζ, η′ = w" if b.affine else "Ω′ = ζ",
+        )
+        + told("line", b.signed)
+        + motion_told(b),
     )
+    return {v: draft.said(e) for v, e in balance.items()}, step
 
 
-def _inertia(stage: Isometry, c: Chapter) -> Step:
-    draft = c.draft("inertia", "identification")
-    tensor = inertia_of(stage.letters.J)
-    traced: Tree = ("tr", ("mul", ("hat", "ζ"), "J", ("T", ("hat", "Ω"))))
-    return draft.step(
-        (Equation(traced, ("metric", "I", "ζ", "Ω")), Equation("I", draft.tree(tensor))),
-        say("The metric of J on 𝔰𝔬(3) is that of the tensor of inertia on R³."),
-        () if stage.letters.affine else (32,),
-    )
+def _spun(t: Tree) -> Tree:
+    """A sum with −(ζ ∧ ℓ_b) as ℓ_b ∧ ζ, before the other terms."""
+    against: Tree = ("mul", -1, ("wedge", ZETA.name, SPIN.name))
+    terms = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
+    if against not in terms:
+        return t
+    return add(("wedge", SPIN.name, ZETA.name), *(x for x in terms if x != against))
 
 
-def inertia_of(J: Letter) -> Expr:
-    """I with  Tr j(ζ) J j(Ω)‾ = ⟨ζ, IΩ⟩,  by the double vector product under the trace."""
-    pairing = reduce(trace(word(hat(ZETA)) * word(J) * word(hat(OMEGA)).bar), double)
-    return strip_right(gradient(pairing, ZETA), OMEGA)
-
-
-def strip_right(e: Expr, vector: Letter) -> Expr:
-    """The matrix M with e = M x, for a last letter x common to every term."""
-    terms = {}
-    for (traces, w), c in e.terms.items():
-        if not w or w[-1] != (vector, False):
-            raise ValueError(f"{vector.name} is not a common right factor")
-        terms[traces, w[:-1]] = c
-    return Expr(e.rows, vector.rows, terms, e.lineage)
-
-
-def _kernel(balance: dict[Letter, Expr], stage: Isometry, c: Chapter) -> Step:
-    b, draft = stage.letters, c.draft("kernel", "kernel")
+def _kernel(balance: dict[Letter, Expr], b: Alphabet, c: Chapter) -> Step:
+    draft = c.draft("kernel", "kernel")
     inertial = {OMEGA_P: word(INERTIA) * word(ZETA_DOT)}
     equations = []
     for v, e in balance.items():
         left = inertial[v] if not b.affine else _accelerations(e, b.w.acceleration)
         draft.read(e)
         equations.append(Equation(tree_of(left), vector_sum(left - e)))
-    motion = say("The coefficient of Ω′ must vanish: the equations of motion.")
-    if b.affine:
-        motion = say("The coefficients of Ω′ and of η′ must vanish: the equations of motion.")
     return draft.step(
         equations,
-        motion
-        + say(
-            "That of δ′t then vanishes as well: it is the opposite of what the rest gives for "
-            "{motion}.",
-            motion="Ω′ = ζ, η′ = w" if b.affine else "Ω′ = ζ",
-        )
-        + told("line", b.signed),
+        say("The same with the values of the momenta.")
+        if b.affine
+        else say("The same with the value of the momentum."),
         () if b.affine else (34,),
     )
 

@@ -1,0 +1,183 @@
+"""so(3) ≅ R³ by j(X)Y = X ∧ Y (33): skew letters read as vectors, the metric of J as I's (32)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra.calculus import PairRule, gradient, reduce, substitute
+from ..algebra.space import double, fold_inertia, hat, normal_form
+from ..algebra.tree import Tree
+from ..algebra.words import Expr, Factor, Letter, inner, number, trace, word, zero
+from ..record.record import Equation, Step
+from ..record.sentence import say
+from .alphabet import Alphabet, Dual, Frame
+from .chapter import Chapter
+from .exterior import brackets_of
+
+
+def _vector(name: str) -> Letter:
+    return Letter(name, 3)
+
+
+ZETA, OMEGA, OMEGA_P = _vector("ζ"), _vector("Ω"), _vector("Ω′")
+D_ZETA, DP_ZETA, ZETA_DOT = _vector("δζ"), _vector("δ′ζ"), _vector("ζ̇")
+PHI, MU, BRACKET = _vector("φ"), _vector("μ"), _vector("Ω′ ∧ Ω")
+SPIN, D_SPIN, DP_SPIN, SPIN_RATE = map(_vector, ("ℓ_b", "δℓ_b", "δ′ℓ_b", "ℓ̇_b"))
+INERTIA = Letter("I", 3, 3, 1)
+AXES = {"Z": ZETA, "ξ": OMEGA, "ξ′": OMEGA_P, "δZ": D_ZETA, "δ′Z": DP_ZETA, "f": PHI}
+AXES |= {x.name: x for x in (SPIN, D_SPIN, DP_SPIN, SPIN_RATE)}
+TURNING = Frame(ZETA, OMEGA, OMEGA_P, D_ZETA, DP_ZETA, ZETA_DOT, _vector("δδ′Ω"), _vector("δδ′ζ"))
+SPINNING = Dual(SPIN, D_SPIN, DP_SPIN, SPIN_RATE, MU)
+
+
+def isolate(v: Letter) -> PairRule:
+    """``v ∧ y = −y ∧ v``: carry the vector v out of every j(v)."""
+
+    def rule(left: Factor, right: Factor) -> Expr | None:
+        (a, a_bar), (b, b_bar) = left, right
+        if a.axis == v and b.cols == 1 and not b_bar:
+            return -(word(hat(b)) * word(v))
+        if b.axis == v and a.cols == 1 and a_bar:
+            return -(word(v).bar * word(hat(a)))
+        return None
+
+    return rule
+
+
+@dataclass(frozen=True)
+class Reader:
+    """Reads so(3) by vectors; the labels of the steps that say Z = j(ζ) and I."""
+
+    letters: Alphabet
+    hat: str
+    inertia: str
+
+    def scalar(self, e: Expr) -> Expr:
+        """Z → j(ζ), traces with J by the inertia, N_b by the moment μ."""
+        b = self.letters
+        images = self._hats(e) | {b.bracket: self.hatted(BRACKET)}
+        work = fold_inertia(substitute(e, images), b.J, word(INERTIA).marked(self.inertia))
+        return normal_form(_fold_moment(work, b.N_body))
+
+    def vector(self, e: Expr) -> Expr:
+        """A sum of skew letters as the sum of their axes (sums of vectors stay)."""
+        images = self._hats(e)
+        return _flat(substitute(e, images) if images else e)
+
+    def hatted(self, x: Letter) -> Expr:
+        """j(x)."""
+        return word(hat(x)).marked(self.hat)
+
+    def brackets(self) -> dict[Letter, Expr]:
+        """[ξ′, ξ] and ξ′η − ξη′, from the structure equation with ξ = j(Ω), ξ′ = j(Ω′)."""
+        derived = brackets_of(self.letters).values()
+        turning, *others = (normal_form(substitute(e, self._axes(e))) for e in derived)
+        found = {BRACKET: reduce(axial(turning), isolate(OMEGA))}
+        return found | dict(zip((self.letters.bracket_w,), others, strict=False))
+
+    def _hats(self, e: Expr) -> dict[Letter, Expr]:
+        return {x: y.marked(self.hat) for x, y in self._axes(e).items()}
+
+    @staticmethod
+    def _axes(e: Expr) -> dict[Letter, Expr]:
+        return {x: word(hat(axis(x))) for x in e.letters() if x.name in AXES}
+
+
+def identified(b: Alphabet, gram: Expr, chapter: Chapter) -> tuple[Reader, tuple[Step, Step]]:
+    """so(3) read by vectors: j and the tensor of inertia; ``gram``: ĀA = 1."""
+    read = Reader(b, chapter.label("hat"), chapter.label("inertia"))
+    cross = read.brackets()[BRACKET]
+    return read, (_identification(b, gram, cross, chapter), _inertia(b, chapter))
+
+
+def axis(x: Letter) -> Letter:
+    """The vector X of a skew letter j(X); any other letter itself."""
+    return AXES.get(x.name, x)
+
+
+def _flat(e: Expr) -> Expr:
+    """j(a) + j(b) ↦ a + b for a sum of single hats; sums of vectors stay."""
+    terms = {}
+    for (traces, w), c in e.terms.items():
+        axis = w[0][0].axis
+        terms[traces, w if axis is None else ((axis, False),)] = c
+    return Expr(e.rows, 1, terms, e.lineage)
+
+
+def _fold_moment(e: Expr, moment: Letter) -> Expr:
+    """``Tr N_b j(x)‾ = ⟨μ, x⟩``: what defines the moment of the forces."""
+    total = e.like({})
+    for (traces, _), c in e.terms.items():
+        term = number(c)
+        for cycle in traces:
+            axes = [x.axis for x, _ in cycle if x.axis is not None]
+            if len(cycle) == 2 and axes and any(x == moment for x, _ in cycle):
+                barred = any(bar for x, bar in cycle if x == moment)
+                folded = inner(word(MU), word(axes[0])) * (1 if barred else -1)
+            else:
+                folded = Expr(1, 1, {((cycle,), ()): number(1).terms[(), ()]})
+            term = term * folded
+        total = total + term
+    return total
+
+
+def axial(e: Expr) -> Expr:
+    """X with j(X) the given skew sum of words y x̄: from  j(x ∧ y) = y x̄ − x ȳ."""
+    total = zero(3, 1).of(e)
+    for (traces, w), c in e.terms.items():
+        (y, _), (x, _) = w
+        term = Expr(1, 1, {(traces, ()): c / 2})
+        total = total + term * (word(hat(x)) * word(y))
+    return normal_form(total)
+
+
+def _identification(b: Alphabet, gram: Expr, cross: Expr, c: Chapter) -> Step:
+    affine = b.affine
+    draft = c.draft("hat", "identification")
+    pairs = [("Z", "ζ"), ("ξ", "Ω"), ("ξ′", "Ω′")] + ([] if affine else [("f", "φ")])
+    equations = [Equation(x, ("hat", y)) for x, y in pairs]
+    draft.read(gram)  # only a skew matrix is a j(X)
+    equations.append(Equation(("bracket", "ξ′", "ξ"), ("hat", draft.tree(cross))))
+    if affine:
+        pairing: Tree = ("tr", ("mul", "N_b", ("T", ("hat", "Ω′"))))
+        equations.append(Equation(pairing, ("inner", "μ", "Ω′"), ("Ω′",)))
+    return draft.step(
+        equations,
+        say(
+            "The linear part 𝔰𝔬(3) of the Lie algebra is identified with R³ by j(X)Y = X ∧ "
+            "Y; the bracket is the vector product."
+        )
+        if affine
+        else say(
+            "The Lie algebra 𝔰𝔬(3) is identified with R³ by j(X)Y = X ∧ Y; the bracket is "
+            "the vector product."
+        ),
+        () if affine else (33,),
+    )
+
+
+def _inertia(b: Alphabet, c: Chapter) -> Step:
+    draft = c.draft("inertia", "identification")
+    tensor = inertia_of(b.J)
+    traced: Tree = ("tr", ("mul", ("hat", "ζ"), "J", ("T", ("hat", "Ω"))))
+    return draft.step(
+        (Equation(traced, ("metric", "I", "ζ", "Ω")), Equation("I", draft.tree(tensor))),
+        say("The metric of J on 𝔰𝔬(3) is that of the tensor of inertia on R³."),
+        () if b.affine else (32,),
+    )
+
+
+def inertia_of(J: Letter) -> Expr:
+    """I with  Tr j(ζ) J j(Ω)‾ = ⟨ζ, IΩ⟩,  by the double vector product under the trace."""
+    pairing = reduce(trace(word(hat(ZETA)) * word(J) * word(hat(OMEGA)).bar), double)
+    return strip_right(gradient(pairing, ZETA), OMEGA)
+
+
+def strip_right(e: Expr, vector: Letter) -> Expr:
+    """The matrix M with e = M x, for a last letter x common to every term."""
+    terms = {}
+    for (traces, w), c in e.terms.items():
+        if not w or w[-1] != (vector, False):
+            raise ValueError(f"{vector.name} is not a common right factor")
+        terms[traces, w[:-1]] = c
+    return Expr(e.rows, vector.rows, terms, e.lineage)

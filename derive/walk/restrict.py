@@ -1,0 +1,60 @@
+"""The one way from any group to a problem's: the letters of 𝔤* take their values.
+
+What the general road says in P, δP, Ṗ, F, Z, ξ and the bracket is not expanded there: the values of
+P and F on a group are put in here, with their variations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from ..algebra.calculus import derivation, substitute
+from ..algebra.words import Expr, Letter, word
+from ..record.sentence import Prose, say
+from .alphabet import Alphabet, Dual, Frame
+from .trivialisation import varied_gram
+
+
+def restrict(
+    e: Expr,
+    values: Mapping[Letter, Expr],
+    a: Alphabet,
+    brackets: Mapping[Letter, Expr] | None = None,
+) -> Expr:
+    """An expression about any group, in the letters ``a``, with P and F by their ``values``.
+
+    ``brackets``: what those letters stand for, where they are to be opened.
+    """
+    grams = [{a.C: varied_gram(a, x)} for x in (a.Z.xi, a.Z.xi_prime, a.Z.velocity)]
+    return substitute(a.respell(e), moved(values, a.duals, a.frames, grams) | dict(brackets or {}))
+
+
+def moved(
+    values: Mapping[Letter, Expr],
+    duals: Iterable[Dual],
+    frames: Sequence[Frame],
+    further: Iterable[Mapping[Letter, Expr]],
+) -> dict[Letter, Expr]:
+    """P, δP, δ′P, Ṗ and F by their values in Z and w.
+
+    ``further``: what else varies, under δ, under δ′ and along the motion.
+    """
+    letters = zip(*((f.d_velocity, f.dp_velocity, f.acceleration) for f in frames), strict=True)
+    varied = [
+        {f.velocity: word(x) for f, x in zip(frames, found, strict=True)} | dict(others)
+        for found, others in zip(letters, further, strict=True)
+    ]
+    images = dict(values)
+    for d in duals:
+        for x, delta in zip((d.d_momentum, d.dp_momentum, d.rate), varied, strict=True):
+            images[x] = derivation(values[d.momentum], delta.get)
+    return images
+
+
+def restricted_prose(a: Alphabet) -> Prose:
+    """What is said where dϖ is restricted."""
+    return say(
+        "Its exterior derivative: that of any group by {momenta}, whose values here are read off "
+        "the Cartan form.",
+        momenta="(Π, p_b, Φ, F_b)" if a.affine else "(Π, Φ)",
+    )
