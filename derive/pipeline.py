@@ -48,6 +48,7 @@ from .walk.conserved import conserved_steps, matrix_momenta, vector_momenta
 from .walk.coordinates import coordinates_step
 from .walk.elimination import eliminate
 from .walk.exterior import exterior, exterior_trivialised
+from .walk.failure import naming_steps
 from .walk.hat import identified
 from .walk.inputs import given_matrices, given_vectors
 from .walk.isometry import Isometry, isometry
@@ -84,8 +85,10 @@ MULTIPLIERS = 1
 emitted code are then fewer than through the mass matrix (tests/test_roads.py)."""
 
 
+@naming_steps()
 def walk(problem: Problem) -> Derivation:
-    """Derive the equations of motion of a problem."""
+    """Derive the equations of motion of a problem; ``WalkError`` names the step that a rule of the
+    engine breaks."""
     road = general_road(affine=problem.affine, signed=problem.signed)
     steps = road.steps
     if problem.group is not None:

@@ -16,6 +16,7 @@ from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
 from ..record.vocabulary import ANY_GROUP
+from .failure import begin, end
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,7 @@ class Draft:
     def __init__(self, chapter: Chapter, label: str, rule: str):
         self.chapter, self.label, self.rule = chapter, label, rule
         self.uses: dict[str, None] = {}
+        begin(label, rule)
 
     def read(self, *made: Expr | Step) -> None:
         """Note an expression, or another step, that enters the equations."""
@@ -68,6 +70,7 @@ class Draft:
         """The step, whose equations hold where those ``given`` and its ``hypotheses`` do."""
         written = tuple(equations)  # before the uses are read off, for it may be a generator
         c = self.chapter
+        end(self.label, self.rule)
         return Step(
             self.label,
             self.rule,

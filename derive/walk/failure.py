@@ -1,0 +1,75 @@
+"""An error of the engine names the step on whose way it came about."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..mechanics.problem import ProblemError
+
+BROKEN = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError)
+"""What a rule ends in that makes something else of an equation."""
+SHOWN = 200
+
+
+class WalkError(Exception):
+    """A rule of the engine is wrong: no fault of a problem."""
+
+
+@dataclass
+class Way:
+    """The steps that are begun, with their rules, and the one that was ended last."""
+
+    begun: dict[str, str] = field(default_factory=dict)
+    last: str = ""
+
+    def told(self, error: Exception) -> str:
+        """Where on the way an error came, and what it is."""
+        steps = " or ".join(f"{label} ({rule})" for label, rule in self.begun.items())
+        before = f"after the step {self.last}" if self.last else "before the first step of its own"
+        place = f"in the step {steps}" if steps else before
+        what = f"{type(error).__name__}: {error}"
+        return f"{place}, in {_functions(error)}: {what[:SHOWN]}"
+
+
+def _functions(error: Exception) -> str:
+    """Those of the walk in which it came about, the last one innermost."""
+    room = Path(__file__).parent
+    frames = [(Path(x.filename), x.name) for x in traceback.extract_tb(error.__traceback__)]
+    inside = [f"{p.stem}.{x}" for p, x in frames if p.parent == room and p != Path(__file__)]
+    return ", ".join(inside) or "the pipeline"
+
+
+WAY: ContextVar[Way] = ContextVar("WAY")
+
+
+def begin(label: str, rule: str) -> None:
+    """A step is being drafted."""
+    if way := WAY.get(None):
+        way.begun[label] = rule
+
+
+def end(label: str, rule: str) -> None:
+    """It is written."""
+    if way := WAY.get(None):
+        way.begun.pop(label, None)
+        way.last = f"{label} ({rule})"
+
+
+@contextmanager
+def naming_steps() -> Iterator[None]:
+    """``WalkError`` for what the engine does not expect."""
+    way = Way()
+    token = WAY.set(way)
+    try:
+        yield
+    except ProblemError:
+        raise
+    except BROKEN as error:
+        raise WalkError(way.told(error)) from error
+    finally:
+        WAY.reset(token)
