@@ -50,7 +50,7 @@ def of_forces(change):
         for arguments, work in ((A[:1], linear), (A, ["add", linear, affine])):
             put(["call", "dŨ", *arguments], ["mul", -1, work])(data, step)
         for e in step["equations"]:
-            e["for_all"] = [x for x in e.get("for_all", ()) if x in ("ζ̇", "ẇ")]
+            e["for_all"] = [x for x in e.get("for_all", ()) if x in ("ζ̇", "ẇ", "ℓ̇_b", "ṗ_b")]
         change(data, step)
 
     return changed
