@@ -11,7 +11,8 @@ from typing import Any
 
 from ..algebra import rational as q
 from ..algebra.rational import Matrix
-from .model import Model, Vector
+from .body import Vector
+from .model import Model
 from .nilpotent import EPS, EPS_PRIME, nilpotent, part
 from .spatial import axial
 

@@ -12,11 +12,12 @@ from ..algebra import rational as q
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
 from .arithmetic import EvaluationError, is_matrix, times
+from .body import Vector
 from .duals import dual_values
 from .evaluate import Environment, evaluate, point_index
 from .given import exerted_families, exerted_values
 from .heads import SHARED
-from .model import Direction, Model, Vector
+from .model import Direction, Model
 from .nilpotent import EPS, EPS_PRIME, derivative_of, nilpotent, part
 from .points import listed_count
 from .solved import solved_values

@@ -17,13 +17,11 @@ from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.samplers import Source
+from .body import Body, Vector
 from .counted import indexed
-from .draws import Draws
 from .exerted import RATE, AnyPotential, Exerted, damping_members
 from .nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, derivative_in, derivative_of, nilpotent, part
-from .points import listed_count, points_of, principal_points
-
-Vector = tuple[Any, ...]
+from .points import listed_count
 
 
 @dataclass(frozen=True)
@@ -35,7 +33,7 @@ class Direction:
     velocity: Matrix
 
 
-class Model(Draws):
+class Model(Body):
     """One random point of the evolution space of a problem, with two variations and the motion.
 
     ``principal``: the body has a diagonal J; ``driven``: the input does not vanish; ``opaque``: the
@@ -67,10 +65,7 @@ class Model(Draws):
         super().__init__(problem, group, random, size, opaque=opaque, pi=pi, few=few, zero=zero)
         self.driven, self.coasting, self.principal = driven, coasting, principal
         self.s = group.size
-        self.masses, self.points, self.blocks = (
-            principal_points(self) if principal else points_of(self)
-        )
-        self._moments_as_parameters()
+        self.embody(principal=principal)
         self.exerted = Exerted({} if opaque else problem, group, self.blocks, self.expressions)
         self.t = self.draw()
         self.g = group.sample(random, size)
@@ -118,36 +113,7 @@ class Model(Draws):
         xi = q.plus(self.Z, free) if along else free
         return Direction(Fraction(1), xi, self.algebra())
 
-    # -- body and potential ------------------------------------------------------------------
-
-    def _moments_as_parameters(self) -> None:
-        if self.problem.get("body", {}).get("kind") != "moments":
-            return
-        m, c, J = self.moments
-        self.parameters |= {"m": m} | {f"c_{i + 1}": c[i][0] for i in range(self.n)}
-        self.parameters |= {
-            f"J_{i + 1}{j + 1}": J[i][j] for i in range(self.n) for j in range(i, self.n)
-        }
-
-    @cached_property
-    def moments(self) -> tuple[Fraction, Matrix, Matrix]:
-        """m, c, J as sums over the points."""
-        total = sum(self.masses, Fraction(0))
-        span = range(self.n)
-        pairs = list(zip(self.masses, self.points, strict=True))
-        first = tuple((sum((m * r[i] for m, r in pairs), Fraction(0)),) for i in span)
-        second = tuple(
-            tuple(sum((m * r[i] * r[j] for m, r in pairs), Fraction(0)) for j in span) for i in span
-        )
-        return total, first, second
-
-    def homogeneous(self, r: Vector) -> Matrix:
-        """r, or (r, 1) for an affine action, as a column."""
-        return tuple((x,) for x in (*r, *((Fraction(1),) if self.group.affine else ())))
-
-    def moved(self, g: Matrix) -> list[Vector]:
-        """g applied to the points (also a tangent matrix)."""
-        return [tuple(x[0] for x in q.times(g, self.homogeneous(r))[: self.n]) for r in self.points]
+    # -- potential ----------------------------------------------------------------------------
 
     def potential(self, t: Any, r: list[Vector]) -> Any:
         """U(t, r): that of the problem, or any polynomial where the walk leaves it open."""
@@ -265,23 +231,6 @@ class Model(Draws):
             )
             found.append(u + work)
         return found
-
-    def pairing(self, a: Matrix, b: Matrix) -> Any:
-        """Σ m_i ⟨a r_i, b r_i⟩ for tangent matrices at g."""
-        return sum(
-            (
-                m * sum((x * y for x, y in zip(u, v, strict=True)), Fraction(0))
-                for m, u, v in zip(self.masses, self.moved(a), self.moved(b), strict=True)
-            ),
-            Fraction(0),
-        )
-
-    def gram(self, frames: list[Matrix]) -> Matrix:
-        """The metric on tangent matrices at g: their displacements are computed once."""
-        moved = [[x for v in self.moved(a) for x in v] for a in frames]
-        weights = [m for m in self.masses for _ in range(self.n)]
-        rows = [[m * x for m, x in zip(weights, u, strict=True)] for u in moved]
-        return q.times(q.matrix(rows), q.transposed(q.matrix(moved)))
 
     @cached_property
     def metric(self) -> Matrix:

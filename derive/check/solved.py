@@ -11,7 +11,8 @@ from typing import Any
 
 from ..algebra import rational as q
 from ..algebra.rational import Matrix
-from .model import Model, Vector
+from .body import Vector
+from .model import Model
 
 Values = dict[str, Any]
 
