@@ -55,7 +55,7 @@ class Sparse(Random):
 
     def randint(self, a: int, b: int) -> int:
         """An integer from a to b."""
-        zero = self.random() < 0.6
+        zero = self.random() < 0.7
         return 0 if zero and a <= 0 <= b else super().randint(a, b)
 
 

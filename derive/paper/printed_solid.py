@@ -116,7 +116,7 @@ SOLID: tuple[Printed, ...] = (
         "As ⟨δA c, τ⟩ = Tr cτ̄ δA, the factors are exchanged; and the displacement that "
         "the second part measures is δT, not δτ.",
         answers=(("call", "p̃", 0, "δT"),),
-        seed=2054,
+        seed=1329,
     ),
     Printed(
         36,

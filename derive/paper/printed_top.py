@@ -78,7 +78,7 @@ TOP: tuple[Printed, ...] = (
             ),
         ),
         ORIENTATION,
-        seed=3244,
+        seed=2436,
     ),
     Printed(
         26,
@@ -92,7 +92,7 @@ TOP: tuple[Printed, ...] = (
             ),
         ),
         ORIENTATION,
-        seed=2259,
+        seed=2958,
     ),
     Printed(
         27,
@@ -135,7 +135,7 @@ TOP: tuple[Printed, ...] = (
             ),
         ),
         "The transpose is missing on δ′Z in the second term. " + SAME_FORCE,
-        seed=1038,
+        seed=6311,
     ),
     Printed(
         30,
@@ -164,7 +164,7 @@ TOP: tuple[Printed, ...] = (
             ),
         ),
         SAME_FORCE + " With φ for φ′ the equation holds.",
-        seed=2757,
+        seed=4855,
     ),
     Printed(
         32,
@@ -173,7 +173,7 @@ TOP: tuple[Printed, ...] = (
         "I = J − Tr J",
         (Equation("I", add("J", neg(mul(("tr", "J"), ("one",))))),),
         "The sign: ⟨ζ, Iζ⟩ would be negative, against (31); (34) and (35) do not see it.",
-        seed=335,
+        seed=39,
     ),
     Printed(
         33,
@@ -207,7 +207,7 @@ TOP: tuple[Printed, ...] = (
         "Said to be equivalent to (34), it has lost the term φ of the potential.",
         True,
         missing=("φ",),
-        seed=1182,
+        seed=4100,
     ),
     Printed(
         39,
