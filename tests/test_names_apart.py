@@ -5,6 +5,7 @@ with a reason, or the code that has it gives the numbers of the same problem und
 """
 
 import re
+from functools import cache
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ PARTS = 2
 PLACES = ([1, 0], ["1/3", 1], [-1, "1/4"])
 
 
+@cache
 def words(language, *, framed=False):
     """What stands in the files of a language, and the same with an underscore, as names go."""
     chosen = {"frame": "principal", "jacobian": LINEARISED[:2]} if framed else {}
@@ -30,6 +32,7 @@ def words(language, *, framed=False):
     return [w for w in both if accepted(w)]
 
 
+@cache
 def refusal(name):
     """Why it may not be a parameter."""
     try:

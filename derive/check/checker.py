@@ -32,7 +32,7 @@ from .introduced import unexplained
 from .meaning import environment
 from .model import Model
 from .needed import unfounded, unsaid, untrue
-from .panel import PANELS
+from .panel import PANELS, panel
 from .used import unused
 
 SIZE = 2**128
@@ -96,7 +96,7 @@ class Checker:
         if scope == ANY_GROUP:
             if driven:
                 raise RecordError("an input is of a problem, not of any group")
-            return [make() for make in PANELS[_action(self.problem)]]
+            return [*panel(_action(self.problem))]
         if own is None or scope != own.name:
             raise RecordError(f"scope {scope!r} is neither {ANY_GROUP!r} nor the problem's group")
         return [own]

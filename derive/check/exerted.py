@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.tree import Tree
 from ..record.record import RecordError, decode
@@ -39,7 +40,7 @@ class AnyPotential:
         """U(t, r)."""
         total = t * t
         for weights, point in zip(self.weights, r, strict=True):
-            linear = sum((a * x for a, x in zip(weights, point, strict=False)), Fraction(0))
+            linear = q.dot(weights[: len(point)], point)
             total = total + linear + weights[-2] * _square(point) + weights[-1] * (linear * t)
         return total
 
@@ -105,7 +106,7 @@ class Exerted:
         heavy = [i for i, m in enumerate(masses, 1) if m]
         if kind == "gravity":
             g = self.group.in_every_block(self.vector(p["g"]))
-            return -sum((masses[i - 1] * _dot(g, r[i - 1]) for i in heavy), Fraction(0))
+            return -sum((masses[i - 1] * q.dot(g, r[i - 1]) for i in heavy), Fraction(0))
         if kind == "spring":
             return self.stretch(p, _square(self.difference(p, r)))
         if kind == "attraction":
@@ -185,12 +186,8 @@ class Exerted:
         return found
 
 
-def _dot(a: Vector, b: Vector) -> Any:
-    return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
-
-
 def _square(a: Vector) -> Any:
-    return _dot(a, a)
+    return q.dot(a, a)
 
 
 def damping_members(model: Draws) -> dict[int, Fraction]:

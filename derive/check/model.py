@@ -163,7 +163,7 @@ class Model(Draws):
         """L̃(t, g, ν) = L at the moved points: equation (3)."""
         kinetic = sum(
             (
-                m * Fraction(1, 2) * sum((x * x for x in v), Fraction(0))
+                m * Fraction(1, 2) * q.dot(v, v)
                 for m, v in zip(self.masses, self.moved(nu), strict=True)
             ),
             Fraction(0),
@@ -173,8 +173,7 @@ class Model(Draws):
     def momentum(self, t: Any, g: Matrix, nu: Matrix, w: Matrix) -> Any:
         """p̃(w): the derivative of L̃ along the velocity."""
         shifted = q.plus(nu, q.scaled(nilpotent(ETA), w))
-        value = Nilpotent.of(self.lagrangian(t, g, shifted))
-        return Nilpotent({k ^ ETA: x for k, x in value.parts.items() if k & ETA})
+        return derivative_in(self.lagrangian(t, g, shifted), ETA)
 
     def energy(self, t: Any, g: Matrix, nu: Matrix) -> Any:
         """h̃ = p̃(ν) − L̃."""
@@ -274,7 +273,7 @@ class Model(Draws):
         """Σ m_i ⟨a r_i, b r_i⟩ for tangent matrices at g."""
         return sum(
             (
-                m * sum((x * y for x, y in zip(u, v, strict=True)), Fraction(0))
+                m * q.dot(u, v)
                 for m, u, v in zip(self.masses, self.moved(a), self.moved(b), strict=True)
             ),
             Fraction(0),

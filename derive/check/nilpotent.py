@@ -1,14 +1,17 @@
 """Numbers with nilpotent parts ε, ε′, η (each squares to zero): exact first and mixed derivatives.
 
-A number is a map  subset of {ε, ε′, η} → fraction,  the subset as a bit mask.
+A number is a map  subset of {ε, ε′, η} → integer,  the subset as a bit mask, over one denominator:
+a product reduces it once, and not each of its parts.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
+from math import gcd, lcm
 from typing import Any
 
-from ..algebra.rational import Matrix
+from ..algebra.rational import EXACT, Matrix
 
 EPS, EPS_PRIME, ETA = 1, 2, 4
 
@@ -16,30 +19,71 @@ EPS, EPS_PRIME, ETA = 1, 2, 4
 class Nilpotent:
     """Element of Q[ε, ε′, η] / (ε², ε′², η²)."""
 
-    __slots__ = ("parts",)
+    __slots__ = ("over", "tops")
 
-    def __init__(self, parts: dict[int, Fraction]):
-        self.parts = parts
+    def __init__(self, tops: dict[int, int], over: int = 1):
+        self.tops, self.over = tops, over
 
     @staticmethod
     def of(x: Any) -> Nilpotent:
         """A plain number as a nilpotent one."""
-        return x if isinstance(x, Nilpotent) else Nilpotent({0: Fraction(x)})
+        if isinstance(x, Nilpotent):
+            return x
+        if type(x) not in EXACT:
+            raise TypeError(f"{type(x).__name__}: no exact number")
+        top, over = x.as_integer_ratio()
+        return Nilpotent({0: top} if top else {}, over)
 
     def part(self, mask: int) -> Fraction:
         """The coefficient of a product of nilpotents."""
-        return self.parts.get(mask, Fraction(0))
+        return Fraction(self.tops.get(mask, 0), self.over)
+
+    def small(self) -> Nilpotent:
+        """Without the number."""
+        return Nilpotent({mask: x for mask, x in self.tops.items() if mask}, self.over)
+
+    def derivative(self, mask: int) -> Nilpotent:
+        """In one parameter, at zero, as a function of the others."""
+        return Nilpotent({k ^ mask: x for k, x in self.tops.items() if k & mask}, self.over)
+
+    @staticmethod
+    def dot(a: Iterable[Any], b: Iterable[Any]) -> Nilpotent:
+        """Σ a_i b_i, whose parts are reduced once."""
+        total: dict[int, int] = {}
+        over = 1
+        for x, y in zip(map(Nilpotent.of, a), map(Nilpotent.of, b), strict=True):
+            if not (x.tops and y.tops):
+                continue
+            whole = x.over * y.over
+            more = 1
+            if whole != over:
+                common = lcm(over, whole)
+                if common != over:
+                    total = {mask: z * (common // over) for mask, z in total.items()}
+                over, more = common, common // whole
+            for m, top in x.tops.items():
+                top *= more
+                for k, other in y.tops.items():
+                    if not m & k:
+                        total[m | k] = total.get(m | k, 0) + top * other
+        common = gcd(over, *total.values())
+        if common == 1:
+            return Nilpotent(total, over)
+        return Nilpotent({mask: x // common for mask, x in total.items()}, over // common)
 
     def __add__(self, other: Any) -> Nilpotent:
-        parts = dict(self.parts)
-        for mask, x in Nilpotent.of(other).parts.items():
-            parts[mask] = parts.get(mask, Fraction(0)) + x
-        return Nilpotent(parts)
+        other = Nilpotent.of(other)
+        over = lcm(self.over, other.over)
+        mine, its = over // self.over, over // other.over
+        tops = {mask: x * mine for mask, x in self.tops.items()}
+        for mask, x in other.tops.items():
+            tops[mask] = tops.get(mask, 0) + x * its
+        return Nilpotent(tops, over)
 
     __radd__ = __add__
 
     def __neg__(self) -> Nilpotent:
-        return Nilpotent({mask: -x for mask, x in self.parts.items()})
+        return Nilpotent({mask: -x for mask, x in self.tops.items()}, self.over)
 
     def __sub__(self, other: Any) -> Nilpotent:
         return self + (-Nilpotent.of(other))
@@ -48,14 +92,7 @@ class Nilpotent:
         return Nilpotent.of(other) - self
 
     def __mul__(self, other: Any) -> Nilpotent:
-        if not isinstance(other, Nilpotent):
-            return Nilpotent({mask: x * other for mask, x in self.parts.items()})
-        parts: dict[int, Fraction] = {}
-        for a, x in self.parts.items():
-            for b, y in other.parts.items():
-                if not a & b:
-                    parts[a | b] = parts.get(a | b, Fraction(0)) + x * y
-        return Nilpotent(parts)
+        return Nilpotent.dot((self,), (other,))
 
     __rmul__ = __mul__
 
@@ -68,9 +105,9 @@ class Nilpotent:
 
 def _inverse(x: Nilpotent) -> Nilpotent:
     """1/x by the geometric series, which ends."""
-    base = x.part(0)
-    small = Nilpotent({k: -v / base for k, v in x.parts.items() if k})
-    result = power = Nilpotent({0: 1 / base})
+    base = 1 / x.part(0)
+    small = x.small() * -base
+    result = power = Nilpotent.of(base)
     for _ in range(3):
         power = power * small
         result = result + power
@@ -86,12 +123,12 @@ def part(x: Any, mask: int) -> Any:
 
 def nilpotent(mask: int) -> Nilpotent:
     """ε, ε′ or η itself."""
-    return Nilpotent({mask: Fraction(1)})
+    return Nilpotent({mask: 1})
 
 
 def derivative_in(x: Any, mask: int) -> Any:
     """The derivative in one parameter, at zero, as a function of the others."""
-    return Nilpotent({k ^ mask: v for k, v in Nilpotent.of(x).parts.items() if k & mask})
+    return Nilpotent.of(x).derivative(mask)
 
 
 def derivative_of(x: Matrix, mask: int) -> Matrix:

@@ -64,8 +64,7 @@ class Opaque:
         if not isinstance(x, Nilpotent):
             self.derivatives(name, Fraction(x))
             return self.value(name, Fraction(x))
-        base = x.part(0)
-        small = Nilpotent({k: v for k, v in x.parts.items() if k})
+        base, small = x.part(0), x.small()
         result, power, factorial = Nilpotent.of(self.value(name, base)), small, 1
         for k, d in enumerate(self.derivatives(name, base), 1):
             factorial *= k

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
+from functools import cache, partial
 
 from ..algebra import rational as q
 from ..algebra.families import group, turning_about_a_point
@@ -32,3 +32,9 @@ PANELS: dict[str, tuple[Callable[[], Group], ...]] = {
 }
 """By the action: one without relations, some with, one whose translations are not free, one whose
 Lie algebra has neither transposes nor odd powers."""
+
+
+@cache
+def panel(action: str) -> tuple[Group, ...]:
+    """The groups themselves, made once."""
+    return tuple(make() for make in PANELS[action])
