@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from typing import Any
 
 from ..algebra.groups import Group
@@ -70,10 +71,11 @@ def bound(
 ) -> int:
     """The degree of the numerator of  lhs − rhs; ``principal``: for a body with diagonal J."""
     least = MOMENTS * group.n if principal else 1
-    table = _table(group, max(least, body_degree(problem)))
+    A = Degree(group.sampler.degree, group.sampler.denominators)
+    table = _table(A, group.dimension, max(least, body_degree(problem)))
     count, body = point_count(group, problem), problem.get("body", {})
     quotients = principal or body.get("kind") == "given"
-    table |= {"points": Degree(count), "quotients": Degree(count if quotients else 1)}
+    table = {**table, "points": Degree(count), "quotients": Degree(count if quotients else 1)}
     total = _degree(equation.lhs, table, group) + _degree(equation.rhs, table, group)
     return total.num + total.denominator
 
@@ -145,10 +147,11 @@ ALGEBRA = (
 """Names whose entries are drawn at random."""
 
 
-def _table(group: Group, body: int) -> dict[str, Degree]:
-    """Degrees of the names, from the degrees of mass, place, group element and algebra element."""
-    d = group.dimension
-    A = Degree(group.sampler.degree, group.sampler.denominators)
+@cache
+def _table(A: Degree, d: int, body: int) -> Mapping[str, Degree]:
+    """Degrees of the names, from those of a group element and of a mass or place of the body; d is
+    the dimension of the group.
+    """
     mass = place = Degree(body)
     one = Degree(1)
     velocity, variation = A * one, A * one * one

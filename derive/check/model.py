@@ -42,7 +42,7 @@ class Model(Draws):
     needed, and each of them once.  ``zero``: parameters that vanish.  X is the motion; or, where
     ``along`` is there, any vector with δt = 1 that has these parts of its velocity from the motion,
     δ itself where this is ``contracted``.  ``coasting``: the acceleration is that of X.
-    ``still``: the parts of δ′ that vanish.
+    ``still``: the parts of δ′ that vanish.  ``supposed``: what was found of hypotheses here.
     """
 
     def __init__(
@@ -67,6 +67,7 @@ class Model(Draws):
         self.driven, self.coasting, self.principal = driven, coasting, principal
         self.s = group.size
         self._exteriors: dict[tuple[Direction, Direction], Fraction] = {}
+        self.supposed: dict[Any, str] = {}
         self.masses, self.points, self.blocks = (
             principal_points(self) if principal else points_of(self)
         )
