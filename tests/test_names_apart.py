@@ -17,6 +17,7 @@ from tests.languages import BUILDS, Emitted, agree, known
 from tests.needs import CC, needs
 
 LINEARISED = ("state", "inputs", "parameters")
+pytestmark = pytest.mark.no_cover
 PARTS = 2
 """One problem has not room for all of them."""
 PLACES = ([1, 0], ["1/3", 1], [-1, "1/4"])

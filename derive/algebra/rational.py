@@ -75,13 +75,12 @@ def transposed(a: Matrix) -> Matrix:
 def times(a: Matrix, b: Matrix) -> Matrix:
     """a b."""
     columns = transposed(b)
-    left, right = [over_one(row) for row in a], [over_one(col) for col in columns]
-    if None in left or None in right or not {*map(len, a)} <= {len(b)}:
+    left = [x for row in a if (x := over_one(row))]
+    right = [x for col in columns if (x := over_one(col))]
+    exact = len(left) == len(a) and len(right) == len(columns)
+    if not exact or not {*map(len, a)} <= {len(b)}:
         return tuple(tuple(dot(row, col) for col in columns) for row in a)
-    whole = [[x for x in side if x] for side in (left, right)]
-    return tuple(
-        tuple(Fraction(sum(map(mul, x, y)), d * e) for y, e in whole[1]) for x, d in whole[0]
-    )
+    return tuple(tuple(Fraction(sum(map(mul, x, y)), d * e) for y, e in right) for x, d in left)
 
 
 def trace(a: Matrix) -> Any:
