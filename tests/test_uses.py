@@ -10,7 +10,7 @@ from derive.check.checker import UNUSED, check
 from derive.check.used import spoken_of, unused
 from derive.record.record import Equation
 from derive.walk.chapter import Draft
-from tests.walks import NAMES, OTHERS, SEED, problem, record
+from tests.walks import NAMES, OTHERS, SEED, problem, record, repeated
 
 WALKED = ("so3", "saff3")
 
@@ -79,6 +79,7 @@ def short(label):
     return label.rpartition(".")[2]
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("name", WALKED)
 def test_a_rule_misses_what_is_withdrawn(name, monkeypatch, withdraw):
     """What a step says is doubled: all that use it change, and nothing else does by itself."""
@@ -130,7 +131,7 @@ def _holds(d, k, uses):
     return not _verdict(d, k, uses)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", repeated(NAMES))
 def test_an_emptied_list_is_refused_by_the_command(name):
     """As a whole record, by the checker that `derive check` runs."""
     d = record(name)

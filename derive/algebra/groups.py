@@ -89,7 +89,7 @@ class Group:
                 rows.append(q.flatten(e))
         return tuple(found)
 
-    @property
+    @cached_property
     def free_translations(self) -> bool:
         """Is it H ⋉ Rⁿ, H not trivial, with the basis of 𝔥 first and then e_1, …, e_n of Rⁿ?"""
         n = self.n
@@ -99,7 +99,7 @@ class Group:
         no_shift = all(row[n] == 0 for e in self.basis[:-n] for row in e)
         return self.basis[-n:] == last and no_shift
 
-    @property
+    @cached_property
     def turns_space(self) -> bool:
         """Is it so(3) in the basis j(e₁), j(e₂), j(e₃), alone or with all translations of R³?"""
         if self.n != 3 or self.factors:
@@ -109,7 +109,7 @@ class Group:
         whole = self.free_translations if self.affine else self.dimension == 3
         return whole and self.linear_basis == hats
 
-    @property
+    @cached_property
     def places(self) -> tuple[tuple[int, Group], ...]:
         """The blocks of a product: (first row, factor); one block for any other group."""
         found, offset = [], 0
