@@ -32,6 +32,7 @@ from typing import TYPE_CHECKING
 from .algebra.groups import Group
 from .mechanics.data import data
 from .mechanics.frame import principal
+from .mechanics.invariance import invariant
 from .mechanics.problem import ForceInput, Problem, ProblemError
 from .record.record import Derivation, Step, Symbol, encode
 from .record.sentence import Prose, Sentence, listed, phrase, say
@@ -139,7 +140,7 @@ def road_of(problem: Problem, group: Group, road: General) -> Steps:
         stage = isometry(road.cartan, road.letters, group.n, c)
         return first + stage.steps + road_of_space(problem, road.momenta, stage, first, c)
     v = potentials(problem, Alphabet(group.n, affine=group.affine), c)
-    own = specialise(road, group, v, c)
+    own = specialise(road, group, v, c, invariant(problem))
     last = potential_separation(problem, v, own.letters, c) if group.affine else ()
     momenta = matrix_momenta(road.momentum, road.letters)
     steps, motion = road_of_matrices(problem, group, own, c)
@@ -170,7 +171,8 @@ def road_of_matrices(
     if multiplied:
         _, motion, _ = solved = multiplier_steps(inertial, force, metric, group, b, c, centred)
         return (*steps, *solved, place), motion
-    _, motion = solved = mass_steps(inertial, force, place, b, c, centred)
+    told = stage.bodies is None
+    _, motion = solved = mass_steps(inertial, force, place, b, c, centred, balanced=told)
     return (*steps, place, *solved), motion
 
 

@@ -26,7 +26,22 @@ def group_of_basis(
     n = len(basis[0]) - (action == "affine")
     bare = Group(name, n, action, tuple(basis), draw.general_linear(n))
     _closed(bare)
-    return Group(name, n, action, bare.basis, enclosing(bare))
+    exact = nilpotent(bare.basis) and "orthogonal" not in bare.relations
+    sampler = draw.exponentials(bare.basis) if exact else enclosing(bare)
+    return Group(name, n, action, bare.basis, sampler, larger=not exact)
+
+
+def nilpotent(basis: Sequence[Matrix]) -> bool:
+    """Do the products of n matrices of the basis, of size n, all vanish?"""
+    products = [*basis]
+    for _ in basis[0][1:]:
+        rows: tuple[tuple[Fraction, ...], ...] = ()
+        found: list[Matrix] = []
+        for x in (q.times(e, f) for e in products for f in basis):
+            if any(map(any, x)) and q.rank((*rows, q.flatten(x))) > len(rows):
+                rows, found = (*rows, q.flatten(x)), [*found, x]
+        products = found
+    return not products
 
 
 def enclosing(g: Group) -> Sampler:

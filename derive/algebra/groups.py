@@ -27,7 +27,7 @@ class Group:
     """A matrix group moving points of Rⁿ.
 
     ``basis``: d matrices of size n (linear) or n + 1 with last row zero (affine), over Q.
-    ``sampler``: exact elements, or of a larger group that has the same relations.
+    ``sampler``: exact elements; or, of a ``larger`` group that has the same relations.
     ``factors``: of a product, in order; its n is the size of its block diagonal matrices.
     """
 
@@ -37,6 +37,7 @@ class Group:
     basis: tuple[Matrix, ...]
     sampler: Sampler
     factors: tuple[Group, ...] = ()
+    larger: bool = False
 
     @property
     def dimension(self) -> int:

@@ -112,6 +112,20 @@ def shears(basis: Sequence[Matrix]) -> Sampler:
     return Sampler(lambda random, size: q.plus(one, combination(random, size, basis)), 1)
 
 
+def exponentials(basis: Sequence[Matrix]) -> Sampler:
+    """1 + N + ½N² + … for N in an algebra of matrices of size n whose products of n vanish."""
+    n = len(basis[0])
+
+    def draw(random: Random, size: int) -> Matrix:
+        N, power, total = combination(random, size, basis), q.identity(n), q.identity(n)
+        for k in range(1, n):
+            power = q.scaled(Fraction(1, k), q.times(power, N))
+            total = q.plus(total, power)
+        return total
+
+    return Sampler(draw, n - 1)
+
+
 def dilations(n: int) -> Sampler:
     """Positive multiples of 1."""
 

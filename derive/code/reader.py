@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree, subtrees
@@ -15,6 +16,8 @@ from .program import LoweringError
 from .state import State
 
 Value = Node | Matrix
+
+DROPPED = Equation(("mul", ("T", "ξ"), "C", "Z"), ("mul", ("T", "ξ"), "Z"))
 
 
 class Reader:
@@ -100,7 +103,24 @@ class Reader:
                 self.memo[name] = self._defined(found, name_of(name))
             else:
                 self.memo[name] = self._entries(name)
+            if name == "C":
+                self.memo[name] = self._kept(self.memo[name])  # type: ignore[arg-type]
         return self.memo[name]
+
+    def _kept(self, C: Matrix) -> Matrix:
+        """C with 1 for what it is in the images of 𝔤, where the record has ξ̄CZ = ξ̄Z."""
+        if not any(e == DROPPED for step in self.record.steps for e in step.equations):
+            return C
+        images = tuple(column for e in self.group.basis for column in q.transposed(e))
+        rank, one = q.rank(images), q.identity(self.n)
+        inside = [q.rank((*images, e)) == rank for e in one]
+        return tuple(
+            tuple(
+                self.graph.num(one[i][j]) if inside[i] and inside[j] else x
+                for j, x in enumerate(row)
+            )
+            for i, row in enumerate(C)
+        )
 
     def _entries(self, name: str) -> Matrix:
         """A vector or matrix that the record defines entry by entry, for any indices."""

@@ -6,7 +6,7 @@ With ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are  Σ_b M_ab �
 from __future__ import annotations
 
 from ..algebra.calculus import gradient, substitute, without
-from ..algebra.notation import Notation, tree_of
+from ..algebra.notation import Notation
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, inner, word
 from ..record.record import Equation, Step
@@ -28,10 +28,13 @@ def mass_steps(
     b: Alphabet,
     c: Chapter,
     centred: Centred | None = None,
+    *,
+    balanced: bool = True,
 ) -> tuple[Step, ...]:
     """M, β and the solved equations from  inertial = Tr ξ′ force‾  for every ξ′ in 𝔤.
 
-    ``place``: the step of the coordinates, Ż = Σ ζ̇_b E_b.
+    ``place``: the step of the coordinates, Ż = Σ ζ̇_b E_b.  ``balanced``: is there a B, the balance
+    as a matrix?  Not where C dropped out for what pairs with 𝔤 alone.
     """
     weighing, solving = c.draft("mass", "coordinates"), c.draft("motion", "solution")
     E_a, E_b = _member("a", b), _member("b", b)
@@ -45,13 +48,14 @@ def mass_steps(
     if centred:
         solving.read(*centred.steps)
     translation = (Equation("ẇ", centred.acceleration),) if centred else ()
-    load = inner(word(E_a), word(Letter("B", b.n, b.n)))
+    balance = [Equation("B", weighing.tree(rest, lighter))] if balanced else []
+    load = inner(word(E_a), word(Letter("B", b.n, b.n)) if balanced else rest)
     row: Tree = ("mul", ("entry", "M", "a", "b"), ("entry", "ζ̇", "b"))
     mass_step = weighing.step(
         (
             Equation(("entry", "M", "a", "b"), weighing.tree(mass, notation)),
-            Equation("B", weighing.tree(rest, lighter)),
-            Equation(("entry", "β", "a"), tree_of(load, notation)),
+            *balance,
+            Equation(("entry", "β", "a"), weighing.tree(load, notation)),
             Equation(("sum", "b", row), ("entry", "β", "a")),
         ),
         say(
