@@ -41,11 +41,12 @@ from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, 
 from .walk.alphabet import Alphabet
 from .walk.body import body_step
 from .walk.cartan import cartan, trivialise
+from .walk.centre import seen_from_centres
 from .walk.chapter import Chapter
 from .walk.coadjoint import coadjoint_vectors
 from .walk.components import tensor_steps
 from .walk.conserved import conserved_steps, matrix_momenta, vector_momenta
-from .walk.coordinates import coordinates_step
+from .walk.coordinates import coordinates_step, stated_basis_step
 from .walk.elimination import eliminate
 from .walk.exterior import exterior, exterior_trivialised
 from .walk.inputs import given_matrices, given_vectors
@@ -157,7 +158,7 @@ def road_of_matrices(
     """
     b, steps = stage.letters, stage.steps
     multiplied = len(group.normal_space_of_linear_parts) <= MULTIPLIERS
-    place = coordinates_step(group, b, c, reading=multiplied)
+    place = coordinates_step(group, b, c, reading=multiplied or bool(group.centred))
     given = given_matrices(problem, b, stage.gram, c.with_input())
     if given is not None:
         stage = stage.pushed(given.moments, given.resultant)
@@ -171,6 +172,12 @@ def road_of_matrices(
     if multiplied:
         _, motion, _ = solved = multiplier_steps(inertial, force, metric, group, b, c, centred)
         return (*steps, *solved, place), motion
+    seen = seen_from_centres(inertial, force, group, b, c)
+    if seen is not None:
+        _, motion = solved = mass_steps(
+            seen.inertial, seen.force, place, b, c, balanced=False, seen=seen
+        )
+        return (*steps, *seen.steps, *solved, place), motion
     told = stage.bodies is None
     _, motion = solved = mass_steps(inertial, force, place, b, c, centred, balanced=told)
     return (*steps, place, *solved), motion
@@ -208,6 +215,7 @@ def road_of_space(
         *(tensor_steps(problem, body[-1], inertia, motion, c) if body else ()),
         energy_step(stage, v, read, c),
         *conserved_steps(problem, v, vector_momenta(stage, read), motion, b, c, vectors=True),
+        *stated_basis_step(problem.group, b, c),
     )
 
 
@@ -221,7 +229,7 @@ def _data(problem: Problem) -> dict[str, object]:
             return [plain(v) for v in x]
         return encode(x) if isinstance(x, (tuple, Fraction)) else x
 
-    basis = problem.group.basis if problem.group else ()
+    basis = problem.group.stated.basis if problem.group else ()
     rows = [[[str(x) for x in row] for row in e] for e in basis]
     n = problem.group.n if problem.group else "any"
     found = data(problem) | {"n": n, "basis": rows, "conventions": list(CONVENTIONS)}

@@ -166,7 +166,8 @@ def _table(group: Group, body: int) -> dict[str, Degree]:
     algebra = dict.fromkeys(ALGEBRA, one)
     spatial = dict.fromkeys(["δA", "δ′A", "δT", "δ′T", "δα", "δ′α", "δτ", "δ′τ"], variation)
     forces = dict.fromkeys(["N", "F", "N_b", "F_b", "μ", "γ", "K", "k", "s"], force * A)
-    motion = dict.fromkeys(["Ż", "ẇ", "ζ̇", "f", "φ"], solved)
+    centre = Degree(mass.num + place.num, ((("mass of a factor", mass.num), 1),))
+    motion = dict.fromkeys(["Ż", "ẇ", "ζ̇", "f", "φ"], solved) | {"ψ": solved * centre}
     motion |= dict.fromkeys(("α̇", "τ̇", "F̃"), A * twice)
     energies = dict.fromkeys(["L", "L̃", "U", "Ũ", "h̃"], energy)
     inertia = {
@@ -177,6 +178,7 @@ def _table(group: Group, body: int) -> dict[str, Degree]:
     motion |= dict.fromkeys(("Π", "p_b", "δΠ", "δp_b", "δ′Π", "δ′p_b", "ℓ_b"), momentum * one)
     motion |= dict.fromkeys(("Π̇", "ṗ_b", "ℓ̇_b"), A * A * J * twice)
     motion["Φ"] = momentum * one + force * A + A * A * solved * J
+    algebra |= {"Z_c": one * centre, "S": centre, "c_c": mass * place * centre}
     multiplier = {"λ": A * A * twice * J + force * A * place}
     values = scalars | group_names | algebra | spatial | forces | motion | energies | inertia
     values |= multiplier

@@ -54,16 +54,23 @@ class Reader:
             self.state["u"] = self._given(name, d - n if moved else d)
             if moved:
                 self.state["f_u"] = self._given(name, n, d - n)
+        both = [self.state[name] for name in ("u", "f_u") if name in self.state]
+        self.covector: list[Node] = [x for value in both for (x,) in value]  # type: ignore[union-attr]
+        if self.group.given and self.covector:
+            self._restated()
+
+    def _restated(self) -> None:
+        """u and f_u of the basis of the record, from the inputs, which are in the stated one."""
+        columns = [self.group.stated.nearest(e) for e in self.group.basis]
+        rows = tuple((self.graph.linear(zip(c, self.covector, strict=True)),) for c in columns)
+        self.state["u"] = rows[:3]
+        if self.group.affine:
+            self.state["f_u"] = rows[3:]
 
     @property
     def in_space(self) -> bool:
         """Are ġ and its rate wanted, and does the record have the accelerations in space?"""
         return self.space.tangent and self.record.definition("α̇") is not None
-
-    @property
-    def covector(self) -> list[Node]:
-        """The components of the covector input."""
-        return [x for name in ("u", "f_u") for (x,) in self.state.get(name, ())]  # type: ignore[union-attr]
 
     def force(self, i: int) -> Matrix:
         """Force input i, counted from 1, as a column."""

@@ -78,7 +78,8 @@ class State:
     """``names`` in order; ``values``: A, T, ζ, w as nodes in the leaves of these names."""
 
     def __init__(self, graph: Graph, group: Group, options: Options):
-        self.graph, self.group, self.n = graph, group, group.n
+        self.graph, self.group, self.n = graph, group.stated, group.n
+        self.standard = group
         self.slots = layout(group, options.layout == "col")
         self.quaternion = options.attitude == "quaternion"
         self.tangent = options.velocity == "tangent"
@@ -167,12 +168,17 @@ class State:
     # -- the velocity ------------------------------------------------------------------------
 
     def _velocity(self) -> None:
-        d, n = self.group.dimension, self.n
+        n, turns = self.n, self._turns
         if not self.tangent:
-            turns = d - n if self.group.affine else d
-            self.values["ζ"] = tuple((self._leaf(suffixed("zeta", a)),) for a in self._span(turns))
+            zeta = [self._leaf(suffixed("zeta", a)) for a in self._span(self._stated_turns)]
+            moved = self._span(self.group.dimension - len(zeta))
+            self.coordinates = [*zeta, *(self._leaf(suffixed("w", i)) for i in moved)]
+            values = self.coordinates
+            if self.standard is not self.group:
+                values = self._by(self.standard, self.hat(values))
+            self.values["ζ"] = tuple((x,) for x in values[:turns])
             if self.group.affine:
-                self.values["w"] = tuple((self._leaf(suffixed("w", i)),) for i in self._span(n))
+                self.values["w"] = tuple((x,) for x in values[turns:])
             return
         placed = self._placed("_dot", self.slots)
         inverse = self.inverse
@@ -183,8 +189,34 @@ class State:
             self.values["w"] = self._named("w", w)
             rows = ((*row, x) for row, (x,) in zip(Z, w, strict=True))
             Z = (*rows, (self.graph.num(0),) * (n + 1))
-        coordinates = [(self.read(a, Z),) for a in range(d - n if self.group.affine else d)]
-        self.values["ζ"] = self._named("zeta", tuple(coordinates))
+        turning = tuple((x,) for x in self._by(self.standard, Z)[:turns])
+        self.values["ζ"] = self._named("zeta", turning)
+        found = [*self.values["ζ"], *self.values.get("w", ())]
+        self.coordinates = self._restated([x for (x,) in found])
+
+    @property
+    def _turns(self) -> int:
+        """How many numbers ζ has."""
+        return self.group.dimension - (self.n if self.group.affine else 0)
+
+    @property
+    def _stated_turns(self) -> int:
+        """How many of the stated coordinates come before those of w; all, where these are mixed."""
+        return self._turns if self.group.free_translations else self.group.dimension
+
+    def read(self, a: int, z: Matrix, group: Group | None = None) -> Node:
+        """Coordinate a of a matrix of the Lie algebra in the stated basis, or that of a group."""
+        group = group or self.group
+        return self.graph.linear((c, z[i][j]) for c, i, j in group.reading(a))
+
+    def _by(self, group: Group, z: Matrix) -> list[Node]:
+        return [self.read(a, z, group) for a in range(group.dimension)]
+
+    def _restated(self, coordinates: list[Node]) -> list[Node]:
+        """ζ and w, in the stated basis."""
+        if self.standard is self.group:
+            return coordinates
+        return self._by(self.group, self._matrix(self.standard, coordinates))
 
     @staticmethod
     def _span(count: int) -> range:
@@ -194,10 +226,6 @@ class State:
         return tuple(
             (self.graph.value(x, suffixed(name, i), ""),) for i, (x,) in enumerate(column, 1)
         )
-
-    def read(self, a: int, z: Matrix) -> Node:
-        """Coordinate a of a matrix of the Lie algebra."""
-        return self.graph.linear((c, z[i][j]) for c, i, j in self.group.reading(a))
 
     @cached_property
     def inverse(self) -> Matrix:
@@ -224,20 +252,13 @@ class State:
         scale = g.value(g.recip(dense.determinant(g, A)), "inv_det_A", "")
         return tuple(tuple(g.product((scale, x)) for x in row) for row in adjugate)
 
-    @property
-    def coordinates(self) -> list[Node]:
-        """ζ and w: the coordinates of Z in the basis of the group."""
-        names = ("ζ", "w") if self.group.affine else ("ζ",)
-        return [x for name in names for (x,) in self.values[name]]
-
     # -- rates and variations ----------------------------------------------------------------
 
     def velocity(self, component: Component) -> list[Node]:
-        """ζ̇, and ẇ where there is w."""
-        d, n = self.group.dimension, self.n
-        turns = d - n if self.group.affine else d
-        found = [component("ζ̇", a) for a in self._span(turns)]
-        return found + ([component("ẇ", i) for i in self._span(n)] if self.group.affine else [])
+        """ζ̇, and ẇ where there is w, in the stated basis."""
+        found = [component("ζ̇", a) for a in self._span(self._turns)]
+        found += [component("ẇ", i) for i in self._span(self.n)] if self.group.affine else []
+        return self._restated(found)
 
     def rates(self, name: Named, component: Component, *, in_space: bool = False) -> list[Node]:
         """The time derivative of each number, from the names and components of the record.
@@ -282,7 +303,10 @@ class State:
 
     def hat(self, coordinates: Sequence[Node]) -> Matrix:
         """Σ x_a E_a."""
-        basis, span = self.group.basis, range(self.group.size)
+        return self._matrix(self.group, coordinates)
+
+    def _matrix(self, group: Group, coordinates: Sequence[Node]) -> Matrix:
+        basis, span = group.basis, range(group.size)
         return tuple(
             tuple(
                 self.graph.linear(

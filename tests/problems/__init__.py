@@ -179,10 +179,16 @@ def with_forces(name):
 
 SPATIAL = ("SE(3)", "SO(3)", "SL(3)", "SAff(3)", "Sim(3)")
 PRODUCTS = ("SO(3) x SO(3)", "SE(3) x SO(3)")
+MORE = ("SE(3) x SE(3)", "SL(3) x SE(3)")  # one point more: a rod may not turn
 
 PROBLEMS = {name: of_group(name) for name in GROUPS}
 PROBLEMS |= {f"{name} forces": with_forces(name) for name in SPATIAL}
 PROBLEMS |= {name: f'name = "test"\ngroup = "{name}"\n{PRODUCT}' for name in PRODUCTS}
+THIRD = "[[point]]\nmass = 3.0\nat = [0, 0, -1]\nblock = 2\n[[potential]]"
+PROBLEMS |= {
+    name: f'name = "test"\ngroup = "{name}"\n{PRODUCT.replace("[[potential]]", THIRD, 1)}'
+    for name in MORE
+}
 PROBLEMS |= {"screw": 'name = "test"\n' + SCREW, "weighted": 'name = "test"\n' + WEIGHTED}
 
 # so(3) otherwise: some of it, in another order, and with the translations
@@ -211,6 +217,47 @@ PROBLEMS |= {
     "so(3) otherwise": own_group(OTHERWISE),
     "a cylinder": own_group(CYLINDER, "affine"),
     "translations": own_group(TRANSLATIONS, "affine"),
+}
+
+# C is not 1, and drops out: of every body's metric where lengths of images are kept; of this one's
+SHEARS = "[[0, 0, 1], [0, 0, 0], [0, 0, 0]], [[0, 0, 0], [0, 0, 1], [0, 0, 0]]"
+JORDAN = "[[0, 1, 0], [0, 0, 1], [0, 0, 0]]"
+FLAT = """
+[parameters]
+a = 2.0
+b = 1.0
+[[point]]
+mass = "a"
+at = ["a", "b", 0]
+[[point]]
+mass = "a*(a + b)/b"
+at = ["b", "a", "b - a - (b^2 - a^2)/(a + b)"]
+[[potential]]
+kind = "gravity"
+g = [1, 2, -3]
+[[potential]]
+kind = "spring"
+between = [1, 2]
+stiffness = 3
+[[damping]]
+coefficient = 0.3
+[[input]]
+name = "F"
+kind = "force"
+on = 2
+frame = "body"
+"""
+
+
+def flat(body=FLAT):
+    """A body in the plane that one Jordan block keeps, unless the text is changed."""
+    return f'name = "test"\n{body}[group]\nname = "Jordan"\nbasis = [{JORDAN}]\n'
+
+
+PROBLEMS |= {
+    "shears": own_group(SHEARS),
+    "a flat body": flat(),
+    "a solid body": flat(FLAT.replace("(b^2 - a^2)", "b^2")),
 }
 
 # solids are no points: the oracle has them with the moments of their integrals, see below
