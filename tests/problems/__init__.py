@@ -212,7 +212,26 @@ def own_group(basis, action="linear"):
     return f'name = "test"\n{TURNING}{table}'
 
 
+# so(3) and se(3) in bases of which no member is j(e_i) up to a factor, or in which they are mixed
+SKEWED = "[[0, -2, 1], [2, 0, -3], [-1, 3, 0]], [[0, 0, 1], [0, 0, 0], [-1, 0, 0]], " + AXIS
+
+
+def displacement(turn, shift):
+    """j(turn) with a translation, as a matrix of se(3)."""
+    x, y, z = turn
+    rows = [[0, -z, y], [z, 0, -x], [-y, x, 0]]
+    return str([[*row, s] for row, s in zip(rows, shift, strict=True)] + [[0, 0, 0, 0]])
+
+
+SCREWS = [((3, 1, 2), (1, 2, 3)), ((1, 0, 0), (0, 0, 1)), ((0, 0, 1), (0, 0, 0))]
+TURNS = [(turn, (0, 0, 0)) for turn, _ in SCREWS]
+MIXED = ", ".join([displacement(*SCREWS[0]), TRANSLATIONS, *(displacement(*x) for x in SCREWS[1:])])
+APART = ", ".join([*(displacement(*x) for x in TURNS), TRANSLATIONS])
+
 PROBLEMS |= {
+    "so(3) skewed": own_group(SKEWED),
+    "se(3) mixed": own_group(MIXED, "affine"),
+    "se(3) apart": own_group(APART, "affine"),
     "an axis": own_group(AXIS),
     "so(3) otherwise": own_group(OTHERWISE),
     "a cylinder": own_group(CYLINDER, "affine"),
