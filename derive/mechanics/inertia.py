@@ -195,20 +195,10 @@ def _defaults(parameters: Mapping[str, Parameter]) -> dict[str, float]:
     return {name: p.default for name, p in parameters.items() if p.default is not None}
 
 
-def without_centre(group: Group, body: Body) -> str | None:
-    """What should have a centre of mass, and has the number 0 as its mass: the body, or a block."""
-    if group.free_translations:
-        masses = body.masses if isinstance(body, PointBody) else ()
-        return "body" if _cancel((body.mass,) if isinstance(body, GivenBody) else masses) else None
-    for block, place in enumerate(group.places, 1):
-        if place in group.centred and isinstance(body, PointBody):
-            pairs = zip(body.masses, body.blocks, strict=True)
-            if _cancel(tuple(m for m, k in pairs if k == block)):
-                return f"block {block}"
-    return None
-
-
-def _cancel(masses: tuple[Tree, ...]) -> bool:
+def massless(body: Body) -> bool:
+    """Is the mass the number 0?"""
+    masses = body.masses if isinstance(body, PointBody) else ()
+    masses = (body.mass,) if isinstance(body, GivenBody) else masses
     numbers = [Fraction(x) for x in masses if isinstance(x, (int, Fraction))]
     return bool(masses) and len(numbers) == len(masses) and sum(numbers) == 0
 

@@ -195,10 +195,8 @@ def _massive(problem: Problem, negative_mass: bool) -> None:
             if negative_mass
             else f"{still} moves no mass of this body: its motion is open; add masses"
         )
-    if moved and own and (empty := inertia.without_centre(moved, own)):
-        raise ProblemError(
-            f"{empty}: its mass is 0, and it has no centre of mass; change the masses"
-        )
+    if moved and own and moved.free_translations and inertia.massless(own):
+        raise ProblemError("body: its mass is 0, and it has no centre of mass; change the masses")
     if negative_mass or not inertia.impossible(own, problem.parameters):
         return
     if isinstance(own, GivenBody) and own.solids:
