@@ -9,69 +9,24 @@ Z = g⁻¹ġ (and w), or the entries of ġ.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 from ..algebra import rational as q
 from ..algebra.groups import Group
+from ..algebra.invariance import skew
 from ..algebra.rational import Matrix
 from . import dense
 from .graph import Graph, Node
 from .naming import suffixed
 from .options import Options
 from .quaternion import halves, matrix_of, multiplied
+from .slots import Slot, fixed_entries, layout
 
 Seeds = dict[Node, Node]
 """A variation: leaf of the state → its derivative."""
 
 Named = Callable[[str], Matrix]
 Component = Callable[[str, int], Node]
-
-
-@dataclass(frozen=True)
-class Slot:
-    """One number of the state: entry (row, column), from 0, of the matrix A or the vector T."""
-
-    name: str
-    letter: str
-    row: int
-    column: int = 0
-
-
-def layout(group: Group, columns: bool = False) -> list[Slot]:
-    """The slots of a group element kept as matrices; ``columns``: column by column."""
-    if not group.factors:
-        return _factor(group, "", 0, group.affine, columns)
-    several = len(group.factors) > 1
-    return [
-        slot
-        for k, (offset, factor) in enumerate(group.places, 1)
-        for slot in _factor(factor, str(k) if several else "", offset, False, columns)
-    ]
-
-
-def _factor(g: Group, mark: str, offset: int, apart: bool, columns: bool) -> list[Slot]:
-    """``apart``: the translation is a vector of its own, not a column of A."""
-    span = range(g.n)
-    pairs = [(j, i) if columns else (i, j) for i in span for j in span]
-    slots = [
-        Slot(suffixed(f"A{mark}", i + 1, j + 1), "A", offset + i, offset + j) for i, j in pairs
-    ]
-    if g.affine:
-        slots += [
-            Slot(suffixed(f"T{mark}", i + 1), "T", i)
-            if apart
-            else Slot(suffixed(f"T{mark}", i + 1), "A", offset + i, offset + g.n)
-            for i in span
-        ]
-    return slots
-
-
-def fixed_entries(group: Group) -> dict[tuple[int, int], int]:
-    """The entries of A that are no part of the state but 1: the corners of affine factors."""
-    return {
-        (offset + f.n, offset + f.n): 1 for offset, f in group.places if group.factors and f.affine
-    }
 
 
 class State:
@@ -194,6 +149,23 @@ class State:
         found = [*self.values["ζ"], *self.values.get("w", ())]
         self.coordinates = self._restated([x for (x,) in found])
 
+    def _back(self) -> Matrix:
+        """[[Ā, −ĀT], [0, 1]] in every block, where the linear parts of all factors are skew."""
+        A, num = self.values["A"], self.graph.num
+        corners = {i for i, _ in fixed_entries(self.group)}
+        span = range(self.n)
+        bar = tuple(
+            tuple(num(0) if i in corners or j in corners else A[j][i] for j in span) for i in span
+        )
+        moved = dense.times(self.graph, bar, A)
+        return tuple(
+            tuple(
+                num(int(i == j)) if i in corners else -moved[i][j] if j in corners else bar[i][j]
+                for j in span
+            )
+            for i in span
+        )
+
     @property
     def _turns(self) -> int:
         """How many numbers ζ has."""
@@ -240,6 +212,8 @@ class State:
         A, g = self.values["A"], self.graph
         if "orthogonal" in self.group.relations:
             return q.transposed(A)
+        if self.group.factors and all(skew(factor) for factor in self.group.factors):
+            return self._back()
         if self.n > 3:
             bar = q.transposed(A)
             gram, _ = dense.symmetric_inverse(
