@@ -15,8 +15,9 @@
     elimination VectorForm            Eliminated    walk.elimination   SE(3)
     special     General, Potentials   Special       walk.special       any other group
     translation Special               Centred       walk.translation   H ⋉ Rⁿ
+    centre      Special               Seen          walk.centre        products of H ⋉ Rⁿ, H skew
     multipliers Special or Centred    steps         walk.multipliers   codimension 0 or 1 in gl(n)
-    mass        Special or Centred    steps         walk.mass          the others, in coordinates
+    mass        any of the three      steps         walk.mass          the others, in coordinates
     motion      all of these          steps         walk.rotation
 
 Every stage returns its value together with the steps it took; the record is their sequence, with
