@@ -195,7 +195,7 @@ def test_a_constant_mass_matrix_is_inverted_once():
 
 def test_a_factor_without_mass_has_no_centre():
     """With skew H the translation along c has then no kinetic energy, so that S need not say it."""
-    more = '[[point]]\nmass = 1.0\nat = [2, 1, 5]\nblock = 2\n[[point]]\nmass = -4.0'
+    more = "[[point]]\nmass = 1.0\nat = [2, 1, 5]\nblock = 2\n[[point]]\nmass = -4.0"
     text = PROBLEMS["SE(3) x SE(3)"].replace("[[point]]\nmass = 3.0", more)
     with pytest.raises(ProblemError, match="in block 2, the translation along"):
         read(text, negative_mass=True)
