@@ -64,8 +64,8 @@ def mass_steps(
             Equation(("sum", "b", row), ("entry", "β", "a")),
         ),
         say(
-            "For ξ′ = E_a(1 − S) and Ż = Σ ψ_b E_b(1 − S) the equations of motion are linear in "
-            "the ψ_b: M is the mass matrix of these, β_a the load along E_a(1 − S)."
+            "For ξ′ = E_a(𝟏 − S) and Ż = Σ ψ_b E_b(𝟏 − S) the equations of motion are linear in "
+            "the ψ_b: M is the mass matrix of these, β_a the load along E_a(𝟏 − S)."
             if seen
             else "For ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are linear in the ζ̇_b: M "
             "is the mass matrix of the basis, β_a the load along E_a."
