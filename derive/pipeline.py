@@ -17,8 +17,9 @@
     special     General, Potentials       Special       walk.special      any other group
     coadjoint   Momenta                   steps         walk.coadjoint    SO(n), SE(n)
     translation Special                   Centred       walk.translation  H ⋉ Rⁿ
+    centre      Special                   Seen          walk.centre       products of H ⋉ Rⁿ, H skew
     multipliers Special or Centred        steps         walk.multipliers  codimension 0, 1 in gl(n)
-    mass        Special or Centred        steps         walk.mass         the others, coordinates
+    mass        any of the three          steps         walk.mass         the others, coordinates
     motion      all of these              steps         walk.rotation     SO(3), SE(3)
 
 Every stage returns its value together with the steps it took; the record is their sequence, with
@@ -34,6 +35,7 @@ from typing import TYPE_CHECKING
 from .algebra.groups import Group
 from .mechanics.data import data
 from .mechanics.frame import principal
+from .mechanics.invariance import invariant
 from .mechanics.problem import ForceInput, Problem, ProblemError
 from .record.record import Derivation, Step, Symbol, encode
 from .record.sentence import Prose, Sentence, listed, phrase, say
@@ -42,10 +44,11 @@ from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, 
 from .walk.alphabet import Alphabet
 from .walk.body import body_step
 from .walk.cartan import cartan, trivialise
+from .walk.centre import seen_from_centres
 from .walk.chapter import Chapter
 from .walk.components import tensor_steps
 from .walk.conserved import conserved_steps, matrix_momenta, vector_momenta
-from .walk.coordinates import coordinates_step
+from .walk.coordinates import coordinates_step, stated_basis_step
 from .walk.elimination import eliminate
 from .walk.exterior import exterior, exterior_trivialised
 from .walk.failure import naming_steps
@@ -144,7 +147,7 @@ def road_of(problem: Problem, group: Group, road: General) -> Steps:
         stage = isometry(road.cartan, road.momenta, road.letters, group.n, c)
         return first + stage.steps + road_of_space(problem, road.momenta, stage, first, c)
     v = potentials(problem, Alphabet(group.n, affine=group.affine), c)
-    own = specialise(road, group, v, c)
+    own = specialise(road, group, v, c, invariant(problem))
     last = potential_separation(problem, v, own.letters, c) if group.affine else ()
     momenta = matrix_momenta(road.momentum, road.letters)
     steps, motion = road_of_matrices(problem, group, own, c)
@@ -161,7 +164,7 @@ def road_of_matrices(
     """
     b, steps = stage.letters, stage.steps
     multiplied = len(group.normal_space_of_linear_parts) <= MULTIPLIERS
-    place = coordinates_step(group, b, c, reading=multiplied)
+    place = coordinates_step(group, b, c, reading=multiplied or bool(group.centred))
     given = given_matrices(problem, b, stage.gram, c.with_input())
     if given is not None:
         stage = stage.pushed(given.moments, given.resultant)
@@ -175,7 +178,14 @@ def road_of_matrices(
     if multiplied:
         _, motion, _ = solved = multiplier_steps(inertial, force, metric, group, b, c, centred)
         return (*steps, *solved, place), motion
-    _, motion = solved = mass_steps(inertial, force, place, b, c, centred)
+    seen = seen_from_centres(inertial, force, group, b, c)
+    if seen is not None:
+        _, motion = solved = mass_steps(
+            seen.inertial, seen.force, place, b, c, balanced=False, seen=seen
+        )
+        return (*steps, *seen.steps, *solved, place), motion
+    told = stage.bodies is None
+    _, motion = solved = mass_steps(inertial, force, place, b, c, centred, balanced=told)
     return (*steps, place, *solved), motion
 
 
@@ -211,6 +221,7 @@ def road_of_space(
         *(tensor_steps(problem, body[-1], inertia, motion, c) if body else ()),
         energy_step(stage, v, read, c),
         *conserved_steps(problem, v, kept, motion, b, c, vectors=True),
+        *stated_basis_step(problem.group, b, c),
     )
 
 
@@ -224,7 +235,7 @@ def _data(problem: Problem) -> dict[str, object]:
             return [plain(v) for v in x]
         return encode(x) if isinstance(x, (tuple, Fraction)) else x
 
-    basis = problem.group.basis if problem.group else ()
+    basis = problem.group.stated.basis if problem.group else ()
     rows = [[[str(x) for x in row] for row in e] for e in basis]
     n = problem.group.n if problem.group else "any"
     found = data(problem) | {"n": n, "basis": rows, "conventions": list(CONVENTIONS)}

@@ -26,8 +26,9 @@ class Group:
     """A matrix group moving points of Rⁿ.
 
     ``basis``: d matrices of size n (linear) or n + 1 with last row zero (affine), over Q.
-    ``sampler``: exact elements, or of a larger group that has the same relations.
+    ``sampler``: exact elements; or, of a ``larger`` group that has the same relations.
     ``factors``: of a product, in order; its n is the size of its block diagonal matrices.
+    ``given``: a basis of one's own, where ``basis`` is another one of the same 𝔤.
     """
 
     name: str
@@ -36,6 +37,13 @@ class Group:
     basis: tuple[Matrix, ...]
     sampler: Sampler
     factors: tuple[Group, ...] = ()
+    larger: bool = False
+    given: tuple[Matrix, ...] = ()
+
+    @cached_property
+    def stated(self) -> Group:
+        """The same group in the basis that was given: its coordinates are those of the state."""
+        return replace(self, basis=self.given, given=()) if self.given else self
 
     @property
     def dimension(self) -> int:
@@ -117,6 +125,12 @@ class Group:
             found.append((offset, factor))
             offset += factor.size
         return tuple(found)
+
+    @property
+    def centred(self) -> tuple[tuple[int, Group], ...]:
+        """The blocks H ⋉ Rⁿ of a product of groups with skew linear parts."""
+        skew = all("orthogonal" in factor.relations for factor in self.factors)
+        return tuple(x for x in self.places if skew and self.factors and x[1].free_translations)
 
     def in_block(self, block: int, entries: Sequence[Any], corner: Any = 0) -> tuple[Any, ...]:
         """A vector of the space of a block (from 1) among all: ``corner`` for an affine factor."""

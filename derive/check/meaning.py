@@ -20,7 +20,7 @@ from .heads import SHARED
 from .model import Direction, Model
 from .nilpotent import EPS, EPS_PRIME, derivative_of, nilpotent, part
 from .points import listed_count
-from .solved import solved_values
+from .solved import centred_values, solved_values
 from .spatial import axial, moments_about, spatial_values
 
 Values = dict[str, Any]
@@ -89,8 +89,10 @@ def _times(model: Model) -> Values:
 
 def _bodies(model: Model) -> Values:
     m, c, J = model.moments
-    centre = tuple(x[0] / m for x in c)
-    return {"m": m, "c": c, "J": J, "J_c": moments_about(model, centre)}
+    values: Values = {"m": m, "c": c, "J": J}
+    if model.group.centred and not model.opaque:
+        return values | centred_values(model)
+    return values | {"J_c": moments_about(model, tuple(x[0] / m for x in c))}
 
 
 def _group(model: Model) -> Values:
@@ -194,6 +196,8 @@ def _motion(model: Model) -> Values:
     d = len(model.group.linear_basis)
     for name, element in (("ζ", Z), ("ζ̇", Z_dot)):
         values[name] = tuple((x,) for x in model.group.nearest(element)[:d])
+    if model.group.given:
+        values["z"] = tuple((x,) for x in model.group.stated.nearest(Z))
     if model.driven:
         values["u"] = tuple((x,) for x in model.covector)
     return values | ({} if model.opaque else solved_values(model))

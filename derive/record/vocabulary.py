@@ -228,6 +228,19 @@ VOCABULARY: dict[str, Name] = {
     "I_c": name("tensor of inertia about the centre of mass", "I_c", defined(SQUARE)),
     "J_c": name("matrix of moments about the centre of mass", "J_c", defined(SQUARE)),
     "r_c": name("centre of mass in the body, m⁻¹c", "r_c", defined(VECTOR)),
+    "c_c": name("first moment seen from the centres of mass", "c_c", defined(VECTOR)),
+    "S": name(
+        "centre of mass of each factor, in the column of its translations", "S", defined(SQUARE)
+    ),
+    "Z_c": name("Z(1 + S), the velocity seen from the centres of mass", "Z_c", defined(SQUARE)),
+    "ψ": name(
+        "coordinates of Ż(1 + S) in the basis of the Lie algebra", r"\psi", defined(COORDINATES)
+    ),
+    "z": name(
+        "coordinates of the velocity in the basis that the problem states",
+        "z",
+        letter(("vector", "dim")),
+    ),
     "w_c": name("velocity of the centre of mass in the body frame", "w_c", defined(VECTOR)),
     "R": name("centre of mass in space, T + m⁻¹Ac", "R", defined(VECTOR)),
     "Ṙ": name("velocity of the centre of mass, τ + m⁻¹αc", r"\dot R", defined(VECTOR)),
@@ -330,6 +343,7 @@ DISPLACEMENTS: dict[str, Name] = ROTATIONS | {
 PRODUCTS: dict[str, Name] = {
     "A": VOCABULARY["A"]._replace(meaning="element of the group, a block for each of its factors"),
     "c": VOCABULARY["c"]._replace(meaning="first moment Σ m_i r_i, a block for each factor"),
+    "J_c": VOCABULARY["J_c"]._replace(meaning="matrix of moments about the centres of mass"),
 }
 """What names mean where the group is a product, whose affine factors act on (r, 1)."""
 
