@@ -6,7 +6,8 @@
     pull-back   Lagrangian            Pullback      walk.pullback
     Cartan      Pullback              Cartan        walk.cartan
     exterior    Cartan                Exterior      walk.exterior
-    kernel      Exterior              Ambient       walk.kernel
+    principle   Pullback, Cartan      Principle     walk.variation
+    kernel      Exterior, Principle   Ambient       walk.kernel
     trivial     Cartan, Ambient       steps         walk.cartan, exterior, kernel
     momentum    Cartan                Momenta       walk.momentum
     isometry    Cartan                Isometry      walk.isometry      SO(3), SE(3)
@@ -69,6 +70,7 @@ from .walk.separation import kinetic_separation, potential_separation
 from .walk.special import General, Special, specialise
 from .walk.supposed import supposing_all
 from .walk.translation import eliminate_translation
+from .walk.variation import principle
 from .walk.vector import identified, vector_form
 
 if TYPE_CHECKING:
@@ -119,12 +121,13 @@ def road_of_any_group(a: Alphabet) -> General:
     pulled = pullback(L, a, c)
     form = cartan(pulled, a, c)
     derivative = exterior(form, a, c)
-    ambient = kernel(derivative, a, c)
+    extremal = principle(L, pulled, form, a, c)
+    ambient = kernel(derivative, extremal, a, c)
     trivial = trivialise(form, a, c)
     trivial_derivative = exterior_trivialised(derivative, trivial, a, c)
     motion = kernel_trivialised(trivial_derivative, ambient, trivial, a, c)
     momenta = momentum_form(trivial, a, c)
-    stages = (L, pulled, form, derivative, ambient, trivial, trivial_derivative)
+    stages = (L, pulled, form, derivative, extremal, ambient, trivial, trivial_derivative)
     steps = (*(step for stage in stages for step in stage.steps), *motion, *momenta.steps)
     if a.affine:
         steps += (kinetic_separation(pulled.kinetic, a, c),)

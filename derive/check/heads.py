@@ -31,8 +31,9 @@ TRANSLATION = Kind(
     "a variation or a velocity of T, or 0",
     (0, "τ", "δT", "δ′T", ("mul", "A", "η"), ("mul", "A", "η′"), ("mul", "A", "w")),
 )
+FORM = Kind("ϖ(δy)", (("call", "ϖ", "δy"),))
 INTEGRAND = Kind("1, r or r r̄", (1, "r", ("mul", "r", ("T", "r"))))
-VARIED = Kind("r_i(t), ξ′ or η′", ("ξ′", "η′"), "r")
+VARIED = Kind("r_i(t), ξ′, η′ or ϖ(X)", ("ξ′", "η′", ("call", "ϖ", "X")), "r")
 VARIED_PRIME = Kind("r_i(t), ξ or η", ("ξ", "η"), "r")
 
 HEADS: dict[str, tuple[Kind, ...]] = {
@@ -43,6 +44,7 @@ HEADS: dict[str, tuple[Kind, ...]] = {
     "dŨ": (LINEAR, TRANSLATION),
     "δ": (VARIED,),
     "δ′": (VARIED_PRIME,),
+    "d/dt": (FORM,),
     **dict.fromkeys(("δA", "δT", "ξ", "η", "Ω"), (MOTION,)),
     "∫": (INTEGRAND,),
 }

@@ -14,6 +14,7 @@ from .duals import dual_values
 from .evaluate import Environment, evaluate, point_index
 from .given import exerted_families, exerted_values
 from .heads import SHARED
+from .lifts import ON_TANGENT, action_varied, form_rate
 from .model import Direction, Model, Vector
 from .nilpotent import EPS, EPS_PRIME, derivative_of, nilpotent, part
 from .points import listed_count
@@ -246,6 +247,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         **dict.fromkeys(("dϖ", "ω"), lambda _, a, env: model.exterior(*(directions[x] for x in a))),
         "r": point,
         "∫": lambda _, a, env: _integral(model, a[0]),
+        "d/dt": lambda *_: form_rate(model),
         "δA": lambda _, a, env: _linear(model, q.times(model.g, directions[a[0]].xi)),
         "δT": lambda _, a, env: _translation(model, q.times(model.g, directions[a[0]].xi)),
         "ξ": lambda _, a, env: _linear(model, directions[a[0]].xi),
@@ -257,7 +259,9 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
 
 
 def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
-    """δ or δ′ of a moved point, or of the fields ξ, ξ′, η, η′ on the two-parameter family."""
+    """δ or δ′ of a moved point, or of the fields ξ, ξ′, η, η′ on the two-parameter family; of L̃."""
+    if what == ON_TANGENT:
+        return action_varied(model)
     _, g, _ = model.family(model.first, model.second)
     if isinstance(what, tuple):
         i = point_index(what[1][2], env)

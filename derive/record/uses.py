@@ -149,7 +149,7 @@ def type_of(argument: Tree) -> Type:
         return SCALAR
     last = argument[-1]
     if argument[0] == "call":
-        return VECTOR
+        return SCALAR if argument[1] == "ϖ" else VECTOR
     if isinstance(last, tuple):
         return SQUARE
     inside = type_of(last)

@@ -15,7 +15,8 @@ CONVENTIONS = (
     "T is the transpose, a bar in the paper; names are compared letter by letter, as written",
     "inner(a, b) and metric(M, a, b) are Tr a M b̄ for matrices and ā M b for vectors",
     "bracket(a, b) = ab − ba; hat(X) = j(X), j(X)Y = X ∧ Y; entries are counted from 1",
-    "dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] for commuting variations; ξ = g⁻¹δg, Z = g⁻¹ν",
+    "dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] for commuting variations; ξ = g⁻¹δg, Z = g⁻¹ν; where X is the "
+    "tangent of a lift, ν = ġ, δ varies it through lifts, and commutes with d/dt",
     "par(name) is a parameter; at(name, i) a member of a family, over which sum(i, x) runs",
     "an equation holds for every value of a free index and of the names in for_all, and there is a "
     "value of each name in exists, which has it from there on; ζ are the coordinates of Z in the "
@@ -285,7 +286,18 @@ VOCABULARY: dict[str, Name] = {
         letter(VECTOR),
         letter(family("inputs", PLACE)),
     ),
-    "δ": name("first variation", r"\delta", function(VECTOR, VECTOR), function(ALGEBRA, ALGEBRA)),
+    "δ": name(
+        "first variation",
+        r"\delta",
+        function(VECTOR, VECTOR),
+        function(ALGEBRA, ALGEBRA),
+        function(SCALAR, SCALAR),
+    ),
+    "d/dt": name(
+        "derivative in time along a curve",
+        r"\frac{\mathrm{d}}{\mathrm{d}t}",
+        function(SCALAR, SCALAR),
+    ),
     "δ′": name(
         "another variation, which commutes with δ",
         r"\delta'",

@@ -20,6 +20,7 @@ from .exterior import Exterior, primed
 from .gather import at_constant_time, gathered, terms_with
 from .supposed import told
 from .trivialisation import rates, trivial_images
+from .variation import Principle
 
 
 @dataclass(frozen=True)
@@ -31,8 +32,11 @@ class Ambient:
     steps: tuple[Step, ...]
 
 
-def kernel(stage: Exterior, a: Alphabet, chapter: Chapter) -> Ambient:
-    """The kernel in the variables (t, g, ν): the motion in the ambient matrices."""
+def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Ambient:
+    """The kernel in the variables (t, g, ν): the motion in the ambient matrices.
+
+    ``law``: by which the tangents of the motions are in it.
+    """
     notation = metrics() if a.affine else metrics("J")
     draft = chapter.draft("kernel", "kernel")
     unknown = tuple(x.name for p in a.parts for x in (p.d_position, p.d_velocity))
@@ -40,7 +44,7 @@ def kernel(stage: Exterior, a: Alphabet, chapter: Chapter) -> Ambient:
     dots = [rate(p.acceleration.name, p.d_velocity.name) for p in a.parts]
     c, steps = steps_of(
         Contraction(
-            stage.form,
+            stage.form.of(law.across),
             at_constant_time(stage.form, a.dt, a.dpt),
             stage.images,
             {p.d_position: along_motion(stage, p.d_position, a) for p in a.parts},
