@@ -39,6 +39,7 @@ from .record.sentence import Prose, Sentence, listed, phrase, say
 from .record.uses import of_steps
 from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, Name
 from .walk.alphabet import Alphabet
+from .walk.axes import isomorphism
 from .walk.body import body_step
 from .walk.cartan import cartan, trivialise
 from .walk.chapter import Chapter
@@ -56,6 +57,7 @@ from .walk.lineage import traced
 from .walk.mass import mass_steps
 from .walk.momentum import Momenta, momentum_form
 from .walk.multipliers import multiplier_steps
+from .walk.orbit import distances, rigid, unique
 from .walk.potential import potentials
 from .walk.pullback import pullback
 from .walk.rotation import (
@@ -127,11 +129,15 @@ def road_of_any_group(a: Alphabet) -> General:
     trivial_derivative = exterior_trivialised(derivative, trivial, a, c)
     motion = kernel_trivialised(trivial_derivative, ambient, trivial, a, c)
     momenta = momentum_form(trivial, a, c)
-    stages = (L, pulled, form, derivative, extremal, ambient, trivial, trivial_derivative)
-    steps = (*(step for stage in stages for step in stage.steps), *motion, *momenta.steps)
+    lengths = distances(L, a, c)
+    steps = (*L.steps, *pulled.steps, unique(L, pulled.moments, a, c))
+    stages = (form, derivative, extremal, ambient, trivial, trivial_derivative)
+    steps += (*(step for stage in stages for step in stage.steps), *motion, *momenta.steps)
+    steps += (lengths.step,)
     if a.affine:
         steps += (kinetic_separation(pulled.kinetic, a, c),)
-    return General(a, form.momentum, pulled.pushed, trivial, trivial_derivative, momenta, steps)
+    forms = form.momentum, pulled.pushed, trivial, trivial_derivative, momenta
+    return General(a, *forms, lengths, steps)
 
 
 def road_of(problem: Problem, group: Group, road: General) -> Steps:
@@ -140,13 +146,17 @@ def road_of(problem: Problem, group: Group, road: General) -> Steps:
     first = body_step(problem, c)
     if group.turns_space:
         stage = isometry(road.cartan, road.letters, group.n, c)
-        return first + stage.steps + road_of_space(problem, road.momenta, stage, first, c)
+        solid = rigid(road.distances, stage.gram, stage.letters, c)
+        opening = (*first, *stage.steps, solid)
+        return opening + road_of_space(problem, road.momenta, stage, first, c)
     v = potentials(problem, Alphabet(group.n, affine=group.affine), c)
     own = specialise(road, group, v, c)
-    last = potential_separation(problem, v, own.letters, c) if group.affine else ()
+    last: Steps = potential_separation(problem, v, own.letters, c) if group.affine else ()
     momenta = matrix_momenta(road.momentum, road.letters)
     steps, motion = road_of_matrices(problem, group, own, c)
     kept = conserved_steps(problem, v, momenta, motion, own.letters, c, vectors=False)
+    if "orthogonal" in group.relations:
+        last = (rigid(road.distances, own.gram, own.letters, c), *last)
     return (*first, *steps, *own.last, *last, *kept)
 
 
@@ -198,7 +208,9 @@ def road_of_space(
         motion = spherical_motion(vectors, forces, b, read, given, c)
     inertia = steps[0] if b.affine else named[1]
     return (
-        *named,
+        named[0],
+        isomorphism(named[0], c),
+        named[1],
         *coadjoint_vectors(momenta, stage, read, c),
         *vectors.steps,
         *steps,

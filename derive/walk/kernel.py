@@ -33,10 +33,7 @@ class Ambient:
 
 
 def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Ambient:
-    """The kernel in the variables (t, g, ν): the motion in the ambient matrices.
-
-    ``law``: by which the tangents of the motions are in it.
-    """
+    """The kernel in the variables (t, g, ν): by the ``law`` it is the tangents of the motions."""
     notation = metrics() if a.affine else metrics("J")
     draft = chapter.draft("kernel", "kernel")
     unknown = tuple(x.name for p in a.parts for x in (p.d_position, p.d_velocity))

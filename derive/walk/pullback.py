@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..algebra.notation import metrics
-from ..algebra.tree import Tree, neg
+from ..algebra.tree import Tree, add, neg
 from ..algebra.words import (
     Expr,
     Letter,
@@ -30,7 +30,7 @@ from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .lagrangian import Lagrangian, kinetic_of_motion
+from .lagrangian import Lagrangian, kinetic_of_motion, moving_tree
 from .supposed import kinetic_metric, of_masses, told
 
 Moments = Mapping[tuple[Letter, ...], Expr]
@@ -100,10 +100,14 @@ def pullback(stage: Lagrangian, a: Alphabet, c: Chapter) -> Pullback:
     metric = kinetic_metric(kinetic, a)
     notations = (metrics(),) if a.affine else (metrics(), metrics("J"))
     step = draft.step(
-        [Equation("L̃", draft.tree(kinetic - word(a.U), n)) for n in notations],
+        [
+            Equation("Ũ", "U"),
+            Equation("L̃", add(("sum", "i", moving_tree(stage, a)), neg("Ũ"))),
+            *(Equation("L̃", draft.tree(kinetic - word(a.U), n)) for n in notations),
+        ],
         say(
-            "The Lagrangian is pulled back to the group: the velocities of the motion are put in "
-            "and the sum over the points is carried out."
+            "The Lagrangian is pulled back to the group by r̂ : (t, g, ν) ↦ (t, g(r), ν(r)): the "
+            "velocities of the motion are put in and the sum over the points is carried out."
         )
         + told("kinetic energy", a.signed),
         (11, 12, 13, 17) if a.affine else (11, 12, 13, 21, 22),

@@ -26,6 +26,7 @@ from .exterior import DOMEGA, Exterior, brackets_of, primes, trivial_variations
 from .gather import gathered, terms_with
 from .kernel import balanced
 from .momentum import Momenta
+from .orbit import Distances
 from .potential import U_Q, Potentials, virtual_work
 from .trivialisation import frame_rule, gram, rates
 
@@ -34,7 +35,8 @@ from .trivialisation import frame_rule, gram, rates
 class General:
     """What is known of every group of one action: letters, trivialised forms, kernel.
 
-    ``momentum``: p̃(δg) in space; ``pushed``: −dŨ(δg) by the moments of forces.
+    ``momentum``: p̃(δg) in space; ``pushed``: −dŨ(δg) by the moments of forces; ``distances``: of
+    the points, by C.
     """
 
     letters: Alphabet
@@ -43,6 +45,7 @@ class General:
     cartan: Cartan
     exterior: Exterior
     momenta: Momenta
+    distances: Distances
     steps: tuple[Step, ...]
 
 

@@ -114,6 +114,9 @@ WORDS: dict[str, tuple[str, str]] = {
 }
 """What is said where the masses are positive, and where they may be of any sign."""
 
+CENTRAL: Tree = ("add", "J", ("mul", -1, ("inv", "m"), "c", ("T", "c")))
+"""The moments about the centre of mass."""
+
 ALWAYS = ("A", "C", ("T", "A"))
 """The element of the group and C = ĀA have inverses."""
 
@@ -159,8 +162,7 @@ def of_moments(signed: bool) -> tuple[Hypothesis, ...]:
     """m, c, J are those of some positive masses: m > 0, and J − m⁻¹cc̄ has no negative square."""
     if signed:
         return ()
-    central: Tree = ("add", "J", ("mul", -1, ("inv", "m"), "c", ("T", "c")))
-    return Hypothesis("positive", "m"), Hypothesis("semidefinite", central)
+    return Hypothesis("positive", "m"), Hypothesis("semidefinite", CENTRAL)
 
 
 MATRICES = frozenset({"J", "J_c", "I", "I_c", "M"})

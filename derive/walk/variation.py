@@ -57,7 +57,9 @@ def principle(
     first = varying.step(
         (
             Equation(ON_TANGENT, add("L̃", varying.tree(apart))),
-            Equation(("call", "δ", ON_TANGENT), add(ACROSS, RATE, varying.tree(varied - exterior - rate))),
+            Equation(
+                ("call", "δ", ON_TANGENT), add(ACROSS, RATE, varying.tree(varied - exterior - rate))
+            ),
         ),
         say(
             "The action of a curve in the group is the integral of L̃ in time along its lift, where "
