@@ -56,6 +56,7 @@ from .walk.lagrangian import lagrangian
 from .walk.lineage import traced
 from .walk.mass import mass_steps
 from .walk.momentum import Momenta, momentum_form
+from .walk.motions import held, motions
 from .walk.multipliers import multiplier_steps
 from .walk.orbit import distances, rigid, unique
 from .walk.potential import potentials
@@ -69,7 +70,7 @@ from .walk.rotation import (
     torque_step,
 )
 from .walk.separation import kinetic_separation, potential_separation
-from .walk.special import General, Special, specialise
+from .walk.special import General, Special, specialise, turns_whole
 from .walk.supposed import supposing_all
 from .walk.translation import eliminate_translation
 from .walk.variation import principle
@@ -130,14 +131,15 @@ def road_of_any_group(a: Alphabet) -> General:
     motion = kernel_trivialised(trivial_derivative, ambient, trivial, a, c)
     momenta = momentum_form(trivial, a, c)
     lengths = distances(L, a, c)
-    steps = (*L.steps, *pulled.steps, unique(L, pulled.moments, a, c))
-    stages = (form, derivative, extremal, ambient, trivial, trivial_derivative)
-    steps += (*(step for stage in stages for step in stage.steps), *motion, *momenta.steps)
-    steps += (lengths.step,)
+    whole = motions(form, ambient, a, c)
+    first = (*L.steps, *pulled.steps, unique(L, pulled.moments, a, c))
+    second = (*form.steps, *derivative.steps, *extremal.steps, *ambient.steps, whole)
+    third = (*trivial.steps, lengths.step, *trivial_derivative.steps, *motion, *momenta.steps)
+    steps = (*first, *second, *third)
     if a.affine:
         steps += (kinetic_separation(pulled.kinetic, a, c),)
     forms = form.momentum, pulled.pushed, trivial, trivial_derivative, momenta
-    return General(a, *forms, lengths, steps)
+    return General(a, *forms, lengths, ambient, steps)
 
 
 def road_of(problem: Problem, group: Group, road: General) -> Steps:
@@ -146,8 +148,10 @@ def road_of(problem: Problem, group: Group, road: General) -> Steps:
     first = body_step(problem, c)
     if group.turns_space:
         stage = isometry(road.cartan, road.letters, group.n, c)
-        solid = rigid(road.distances, stage.gram, stage.letters, c)
-        opening = (*first, *stage.steps, solid)
+        solid: Steps = (rigid(road.distances, stage.gram, stage.letters, c),)
+        if not group.affine:
+            solid += (held(road.ambient, stage.gram, group.n, c),)
+        opening = (*first, *stage.steps, *solid)
         return opening + road_of_space(problem, road.momenta, stage, first, c)
     v = potentials(problem, Alphabet(group.n, affine=group.affine), c)
     own = specialise(road, group, v, c)
@@ -157,6 +161,8 @@ def road_of(problem: Problem, group: Group, road: General) -> Steps:
     kept = conserved_steps(problem, v, momenta, motion, own.letters, c, vectors=False)
     if "orthogonal" in group.relations:
         last = (rigid(road.distances, own.gram, own.letters, c), *last)
+    if turns_whole(group) and not group.affine:
+        last = (*last, held(road.ambient, own.gram, group.n, c))
     return (*first, *steps, *own.last, *last, *kept)
 
 

@@ -25,10 +25,12 @@ from .variation import Principle
 
 @dataclass(frozen=True)
 class Ambient:
-    """``velocity``: δg(X), part by part; ``told``: the equations that say it."""
+    """``velocity``: δg(X), part by part; ``told``: the equations that say it; ``balance``: what
+    vanishes for every displacement δ′g tangent to the group."""
 
     velocity: Mapping[Letter, Expr]
     told: tuple[Equation, ...]
+    balance: Expr
     steps: tuple[Step, ...]
 
 
@@ -89,7 +91,7 @@ def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Am
         )
         + told("line", a.signed),
     )
-    return Ambient(along, steps[-1].given, (*steps, last))
+    return Ambient(along, steps[-1].given, draft.said(virtual), (*steps, last))
 
 
 def along_motion(stage: Exterior, x: Letter, a: Alphabet) -> Expr:

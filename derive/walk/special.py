@@ -24,7 +24,7 @@ from .coadjoint import coadjoint_steps
 from .contraction import Contraction
 from .exterior import DOMEGA, Exterior, brackets_of, primes, trivial_variations
 from .gather import gathered, terms_with
-from .kernel import balanced
+from .kernel import Ambient, balanced
 from .momentum import Momenta
 from .orbit import Distances
 from .potential import U_Q, Potentials, virtual_work
@@ -36,7 +36,7 @@ class General:
     """What is known of every group of one action: letters, trivialised forms, kernel.
 
     ``momentum``: p̃(δg) in space; ``pushed``: −dŨ(δg) by the moments of forces; ``distances``: of
-    the points, by C.
+    the points, by C; ``ambient``: the kernel in space.
     """
 
     letters: Alphabet
@@ -46,6 +46,7 @@ class General:
     exterior: Exterior
     momenta: Momenta
     distances: Distances
+    ambient: Ambient
     steps: tuple[Step, ...]
 
 
