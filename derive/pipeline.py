@@ -139,13 +139,13 @@ def road_of_any_group(a: Alphabet) -> General:
     if a.affine:
         steps += (kinetic_separation(pulled.kinetic, a, c),)
     forms = form.momentum, pulled.pushed, trivial, trivial_derivative, momenta
-    return General(a, *forms, lengths, ambient, steps)
+    return General(a, L, *forms, lengths, ambient, steps)
 
 
 def road_of(problem: Problem, group: Group, road: General) -> Steps:
     """The specialisation to the group, the body and the potentials of the problem."""
     c = Chapter(problem.name, group.name)
-    first = body_step(problem, c)
+    first = body_step(problem, road.points, road.letters, c)
     if group.turns_space:
         stage = isometry(road.cartan, road.letters, group.n, c)
         solid: Steps = (rigid(road.distances, stage.gram, stage.letters, c),)

@@ -10,10 +10,11 @@ from ..algebra import rational as q
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
 from .arithmetic import EvaluationError, is_matrix, times
+from .continuum import integral, moved, place_values
 from .duals import dual_values
 from .evaluate import Environment, evaluate, point_index
 from .given import exerted_families, exerted_values
-from .heads import SHARED
+from .heads import MOVED_PLACE, SHARED
 from .lifts import ON_TANGENT, action_varied, form_rate
 from .model import Direction, Model, Vector
 from .nilpotent import EPS, EPS_PRIME, derivative_of, nilpotent, part
@@ -31,7 +32,7 @@ class Names(Mapping[str, Any]):
         self.model = model
         self.known: Values = {}
         self.left = [_times, _bodies, _group, _forces, _energies, spatial_values]
-        self.left += [_motion, dual_values]
+        self.left += [_motion, dual_values, place_values]
 
     def __getitem__(self, name: str) -> Any:
         while name not in self.known and self.left:
@@ -246,7 +247,8 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         "ϖ": lambda _, a, env: model.cartan(directions[a[0]]),
         **dict.fromkeys(("dϖ", "ω"), lambda _, a, env: model.exterior(*(directions[x] for x in a))),
         "r": point,
-        "∫": lambda _, a, env: _integral(model, a[0]),
+        "∫": lambda _, a, env: integral(model, a[0], env),
+        "g": lambda _, a, env: moved(model, model.g, evaluate(a[0], env)),
         "d/dt": lambda *_: form_rate(model),
         "δA": lambda _, a, env: _linear(model, q.times(model.g, directions[a[0]].xi)),
         "δT": lambda _, a, env: _translation(model, q.times(model.g, directions[a[0]].xi)),
@@ -263,6 +265,8 @@ def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
     if what == ON_TANGENT:
         return action_varied(model)
     _, g, _ = model.family(model.first, model.second)
+    if what == MOVED_PLACE:
+        return part(moved(model, g, evaluate("r", env)), mask)
     if isinstance(what, tuple):
         i = point_index(what[1][2], env)
         return tuple((part(x, mask),) for x in model.moved(g)[i - 1])
@@ -279,14 +283,6 @@ def _inverse(model: Model, g: Matrix, mask: int) -> Matrix:
     assert base is not None
     first = q.times(q.times(base, part(g, mask)), base)
     return q.minus(base, q.scaled(nilpotent(mask), first))
-
-
-def _integral(model: Model, form: Tree) -> Any:
-    """∫ of 1, r or r r̄ over the body, its points among it."""
-    if model.problem.get("body", {}).get("kind") != "given":
-        raise EvaluationError("integrals are over solids")
-    m, c, J = model.moments
-    return {1: m, "r": c}.get(form, J)
 
 
 def _rotation_vector(model: Model, xi: Matrix) -> Matrix:

@@ -150,6 +150,8 @@ def type_of(argument: Tree) -> Type:
     last = argument[-1]
     if argument[0] == "call":
         return SCALAR if argument[1] == "ϖ" else VECTOR
+    if argument[0] in ("inner", "norm2"):
+        return SCALAR
     if isinstance(last, tuple):
         return SQUARE
     inside = type_of(last)

@@ -121,7 +121,12 @@ VOCABULARY: dict[str, Name] = {
         letter(family("points", VECTOR)),
         Use(family("points", ("function", SCALAR, VECTOR)), "function"),
     ),
-    "v": name("velocities of the points in space", "v", letter(family("points", VECTOR))),
+    "v": name(
+        "velocities of the points in space",
+        "v",
+        defined(VECTOR),
+        letter(family("points", VECTOR)),
+    ),
     "F": name(
         "forces on the points; without index their resultant",
         "F",
@@ -169,7 +174,7 @@ VOCABULARY: dict[str, Name] = {
     "X": name(
         "a vector with δt = 1; the one of the kernel of dϖ gives the motion", "X", letter(VARIATION)
     ),
-    "g": name("element of the group", "g"),
+    "g": name("element of the group", "g", function(VECTOR, VECTOR)),
     "ν": name("velocity in the group", r"\nu"),
     "δg": name("variation of g", r"\delta g"),
     "A": name("linear part of g", "A", letter(SQUARE)),

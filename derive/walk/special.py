@@ -25,6 +25,7 @@ from .contraction import Contraction
 from .exterior import DOMEGA, Exterior, brackets_of, primes, trivial_variations
 from .gather import gathered, terms_with
 from .kernel import Ambient, balanced
+from .lagrangian import Lagrangian
 from .momentum import Momenta
 from .orbit import Distances
 from .potential import U_Q, Potentials, virtual_work
@@ -35,11 +36,12 @@ from .trivialisation import frame_rule, gram, rates
 class General:
     """What is known of every group of one action: letters, trivialised forms, kernel.
 
-    ``momentum``: p̃(δg) in space; ``pushed``: −dŨ(δg) by the moments of forces; ``distances``: of
-    the points, by C; ``ambient``: the kernel in space.
+    ``points``: what is said of them, ``distances``: by C; ``momentum``: p̃(δg) in space;
+    ``pushed``: −dŨ(δg) by the moments of forces; ``ambient``: the kernel in space.
     """
 
     letters: Alphabet
+    points: Lagrangian
     momentum: Expr
     pushed: Expr
     cartan: Cartan
