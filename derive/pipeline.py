@@ -41,6 +41,7 @@ from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, 
 from .walk.alphabet import Alphabet
 from .walk.axes import isomorphism
 from .walk.body import body_step
+from .walk.brackets import bracket_step
 from .walk.cartan import cartan, trivialise
 from .walk.chapter import Chapter
 from .walk.coadjoint import coadjoint_vectors
@@ -163,7 +164,7 @@ def road_of(problem: Problem, group: Group, road: General) -> Steps:
         last = (rigid(road.distances, own.gram, own.letters, c), *last)
     if turns_whole(group) and not group.affine:
         last = (*last, held(road.ambient, own.gram, group.n, c))
-    return (*first, *steps, *own.last, *last, *kept)
+    return (*first, *bracket_step(group, c), *steps, *own.last, *last, *kept)
 
 
 def road_of_matrices(
