@@ -43,16 +43,23 @@ def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Ste
         equations.insert(0, Equation(first, draft.tree(gradient(paired, any_vector))))
     return draft.step(
         equations,
-        say(
-            "The places of the points tell g where the points are not in one hyperplane: g_t "
-            "is then the only element that moves the body so, and is as smooth in t as they are."
+        (
+            say(
+                "The places of the points tell g where the points are not in one hyperplane: g_t "
+                "is then the only element that moves the body so, and is as smooth in t as they "
+                "are."
+            )
+            if a.affine
+            else say(
+                "The places of the points tell g where the points span the space: g_t is then the "
+                "only element that moves the body so, and is as smooth in t as they are."
+            )
         )
-        if a.affine
-        else say(
-            "The places of the points tell g where the points span the space: g_t is then the only "
-            "element that moves the body so, and is as smooth in t as they are."
+        + say(
+            "Elsewhere the path is told by its start, if no tangent vector but 0 leaves all the "
+            "points at rest."
         ),
-        (7, 8),
+        (8,),
         hypotheses=(
             (Hypothesis("nonzero", "m"), Hypothesis("invertible", CENTRAL))
             if a.affine
