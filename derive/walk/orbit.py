@@ -9,18 +9,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..algebra.calculus import derivation, gradient, reduce, substitute
-from ..algebra.notation import metrics
+from ..algebra import forms
+from ..algebra.calculus import derivation, gradient, reduce, substitute, without
+from ..algebra.notation import Notation, metrics
 from ..algebra.tree import Tree, add, neg
-from ..algebra.words import Expr, Letter, inner, word
-from ..record.hypotheses import Hypothesis
+from ..algebra.words import Expr, Letter, inner, number, word
 from ..record.record import Equation, Step
-from ..record.sentence import say
+from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
+from .gather import terms_with
 from .lagrangian import POINT, Lagrangian
 from .pullback import Moments, sum_over
-from .supposed import CENTRAL
 from .trivialisation import frame_rule, gram
 
 R_I, R_J, M_I = (("at", x, i) for x, i in (("r", "i"), ("r", "j"), ("m", "i")))
@@ -30,41 +30,50 @@ VARIED: Tree = add(("call", "δ", POINT), neg(("call", "δ", OTHER)))
 
 
 def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Step:
-    """Σ m_i r_i(t) r̄_i = AJ, and for an affine action two equations for A and T."""
+    """A, and for an affine action T, by sums over the points where they are."""
     draft = c.draft("unique", "pull-back")
-    any_matrix, any_vector = Letter("Y", a.n, a.n), Letter("y", a.n)
-    placed, members = word(a.m_i) * points.position, {a.m_i, a.r_i}
-    paired = sum_over(inner(placed * word(a.r_i).bar, word(any_matrix)), members, moments)
-    second: Tree = ("sum", "i", ("mul", M_I, POINT, ("T", R_I)))
-    equations = [Equation(second, draft.tree(gradient(paired, any_matrix)))]
+    centre = Letter("m⁻¹c", a.n)
+    shown: Tree = ("mul", ("inv", "m"), "c")
+    arm, seen = word(a.r_i), R_I
     if a.affine:
-        paired = sum_over(inner(placed, word(any_vector)), members, moments)
-        first: Tree = ("sum", "i", ("mul", M_I, POINT))
-        equations.insert(0, Equation(first, draft.tree(gradient(paired, any_vector))))
-    return draft.step(
-        equations,
-        (
-            say(
-                "The places of the points tell g where the points are not in one hyperplane: g_t "
-                "is then the only element that moves the body so, and is as smooth in t as they "
-                "are."
-            )
-            if a.affine
-            else say(
-                "The places of the points tell g where the points span the space: g_t is then the "
-                "only element that moves the body so, and is as smooth in t as they are."
-            )
+        arm, seen = arm - word(centre), add(R_I, neg(shown))
+    turned = _summed(points, arm, moments, a)
+    inertia = forms.strip_left(terms_with(turned, a.A.position), a.A.position)
+    # what is left of T, nothing as m m⁻¹c = c
+    rest = substitute(without(turned, a.A.position), {a.c: word(a.m) * word(centre)})
+    notation = Notation(display={centre: shown})
+    second: Tree = ("sum", "i", ("mul", M_I, POINT, ("T", seen)))
+    told = add(second, neg(draft.tree(rest, notation)))
+    equations = [Equation(("mul", told, ("inv", draft.tree(inertia, notation))), "A")]
+    if a.affine:
+        mass, first = moments[a.m_i,], ("sum", "i", ("mul", M_I, POINT))
+        others = _summed(points, number(1), moments, a) - mass * word(a.T.position)
+        left = add(first, neg(draft.tree(others)))
+        equations.append(Equation(("mul", ("inv", draft.tree(mass)), left), "T"))
+    return draft.step(equations, _told(a), (8,))
+
+
+def _summed(points: Lagrangian, arm: Expr, moments: Moments, a: Alphabet) -> Expr:
+    """Σ m_i r_i(t) x̄ for a vector x of each point, or Σ m_i r_i(t) for x = 1."""
+    tested = Letter("Y", a.n, arm.rows)
+    summand = inner(word(a.m_i) * points.position * arm.bar, word(tested))
+    return gradient(sum_over(summand, {a.m_i, a.r_i}, moments), tested)
+
+
+def _told(a: Alphabet) -> Prose:
+    if a.affine:
+        where = say(
+            "The places of the points tell g where they are not in one hyperplane: g_t is then the "
+            "only element that moves the body so, and is as smooth in t as they are."
         )
-        + say(
-            "Elsewhere the path is told by its start, if no tangent vector but 0 leaves all the "
-            "points at rest."
-        ),
-        (8,),
-        hypotheses=(
-            (Hypothesis("nonzero", "m"), Hypothesis("invertible", CENTRAL))
-            if a.affine
-            else (Hypothesis("invertible", "J"),)
-        ),
+    else:
+        where = say(
+            "The places of the points tell g where they span the space: g_t is then the only "
+            "element that moves the body so, and is as smooth in t as they are."
+        )
+    return where + say(
+        "Elsewhere the path is told by its start, if no tangent vector but 0 leaves all the points "
+        "at rest."
     )
 
 

@@ -114,9 +114,6 @@ WORDS: dict[str, tuple[str, str]] = {
 }
 """What is said where the masses are positive, and where they may be of any sign."""
 
-CENTRAL: Tree = ("add", "J", ("mul", -1, ("inv", "m"), "c", ("T", "c")))
-"""The moments about the centre of mass."""
-
 ALWAYS = ("A", "C", ("T", "A"))
 """The element of the group and C = ĀA have inverses."""
 
@@ -162,7 +159,8 @@ def of_moments(signed: bool) -> tuple[Hypothesis, ...]:
     """m, c, J are those of some positive masses: m > 0, and J − m⁻¹cc̄ has no negative square."""
     if signed:
         return ()
-    return Hypothesis("positive", "m"), Hypothesis("semidefinite", CENTRAL)
+    central: Tree = ("add", "J", ("mul", -1, ("inv", "m"), "c", ("T", "c")))
+    return Hypothesis("positive", "m"), Hypothesis("semidefinite", central)
 
 
 MATRICES = frozenset({"J", "J_c", "I", "I_c", "M"})
@@ -172,8 +170,12 @@ MATRICES = frozenset({"J", "J_c", "I", "I_c", "M"})
 def supposing(step: Step) -> Step:
     """The step with the hypotheses of all that its equations divide by, or invert."""
     trees = (t for e in step.equations for side in (e.lhs, e.rhs) for t in _inverted(side))
-    needed = (Hypothesis("invertible" if t in MATRICES else "nonzero", t) for t in trees)
+    needed = (Hypothesis("invertible" if _matrix(t) else "nonzero", t) for t in trees)
     return replace(step, hypotheses=tuple(dict.fromkeys((*step.hypotheses, *needed))))
+
+
+def _matrix(t: Tree) -> bool:
+    return _matrix(t[1]) if isinstance(t, tuple) and t[0] == "add" else t in MATRICES
 
 
 def supposing_all(steps: Iterable[Step]) -> tuple[Step, ...]:
