@@ -34,7 +34,8 @@ def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Ste
     draft = c.draft("unique", "pull-back")
     centre = Letter("m⁻¹c", a.n)
     shown: Tree = ("mul", ("inv", "m"), "c")
-    arm, seen = word(a.r_i), R_I
+    arm = word(a.r_i)
+    seen: Tree = R_I
     if a.affine:
         arm, seen = arm - word(centre), add(R_I, neg(shown))
     turned = _summed(points, arm, moments, a)
