@@ -6,7 +6,8 @@
     pull-back   Lagrangian                Pullback      walk.pullback
     Cartan      Pullback                  Cartan        walk.cartan
     exterior    Cartan                    Exterior      walk.exterior
-    kernel      Exterior                  Ambient       walk.kernel
+    principle   Pullback, Cartan          Principle     walk.variation
+    kernel      Exterior, Principle       Ambient       walk.kernel
     trivial     Cartan, Ambient           steps         walk.cartan, exterior, kernel
     momentum    Cartan                    Momenta       walk.momentum     ϖ, dϖ, kernel by P, F
     restrict    Momenta, values of P, F   dϖ of a group walk.restrict
@@ -42,7 +43,9 @@ from .record.sentence import Prose, Sentence, listed, phrase, say
 from .record.uses import of_steps
 from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, Name
 from .walk.alphabet import Alphabet
+from .walk.axes import isomorphism
 from .walk.body import body_step
+from .walk.brackets import bracket_step
 from .walk.cartan import cartan, trivialise
 from .walk.centre import seen_from_centres
 from .walk.chapter import Chapter
@@ -60,7 +63,9 @@ from .walk.lagrangian import lagrangian
 from .walk.lineage import traced
 from .walk.mass import mass_steps
 from .walk.momentum import Momenta, momentum_form
+from .walk.motions import held, motions
 from .walk.multipliers import multiplier_steps
+from .walk.orbit import distances, rigid, unique
 from .walk.potential import potentials
 from .walk.pullback import pullback
 from .walk.rotation import (
@@ -72,9 +77,10 @@ from .walk.rotation import (
     torque_step,
 )
 from .walk.separation import kinetic_separation, potential_separation
-from .walk.special import General, Special, specialise
+from .walk.special import General, Special, specialise, turns_whole
 from .walk.supposed import supposing_all
 from .walk.translation import eliminate_translation
+from .walk.variation import principle
 from .walk.vector import vector_form
 
 if TYPE_CHECKING:
@@ -127,32 +133,46 @@ def road_of_any_group(a: Alphabet) -> General:
     pulled = pullback(L, a, c)
     form = cartan(pulled, a, c)
     derivative = exterior(form, a, c)
-    ambient = kernel(derivative, a, c)
+    extremal = principle(L, pulled, form, a, c)
+    ambient = kernel(derivative, extremal, a, c)
     trivial = trivialise(form, a, c)
     trivial_derivative = exterior_trivialised(derivative, trivial, a, c)
     motion = kernel_trivialised(trivial_derivative, ambient, trivial, a, c)
     momenta = momentum_form(trivial, a, c)
-    stages = (L, pulled, form, derivative, ambient, trivial, trivial_derivative)
-    steps = (*(step for stage in stages for step in stage.steps), *motion, *momenta.steps)
+    lengths = distances(L, a, c)
+    whole = motions(form, ambient, a, c)
+    first = (*L.steps, *pulled.steps, unique(L, pulled.moments, a, c))
+    second = (*form.steps, *derivative.steps, *extremal.steps, *ambient.steps, whole)
+    third = (*trivial.steps, lengths.step, *trivial_derivative.steps, *motion, *momenta.steps)
+    steps = (*first, *second, *third)
     if a.affine:
         steps += (kinetic_separation(pulled.kinetic, a, c),)
-    return General(a, form.momentum, pulled.pushed, trivial, trivial_derivative, momenta, steps)
+    forms = form.momentum, pulled.pushed, trivial, trivial_derivative, momenta
+    return General(a, L, *forms, lengths, ambient, steps)
 
 
 def road_of(problem: Problem, group: Group, road: General) -> Steps:
     """The specialisation to the group, the body and the potentials of the problem."""
     c = Chapter(problem.name, group.name)
-    first = body_step(problem, c)
+    first = body_step(problem, road.points, road.letters, c)
     if group.turns_space:
         stage = isometry(road.cartan, road.momenta, road.letters, group.n, c)
-        return first + stage.steps + road_of_space(problem, road.momenta, stage, first, c)
+        solid: Steps = (rigid(road.distances, stage.gram, stage.letters, c),)
+        if not group.affine:
+            solid += (held(road.ambient, stage.gram, group.n, c),)
+        opening = (*first, *stage.steps, *solid)
+        return opening + road_of_space(problem, road.momenta, stage, first, c)
     v = potentials(problem, Alphabet(group.n, affine=group.affine), c)
     own = specialise(road, group, v, c, invariant(problem))
-    last = potential_separation(problem, v, own.letters, c) if group.affine else ()
+    last: Steps = potential_separation(problem, v, own.letters, c) if group.affine else ()
     momenta = matrix_momenta(road.momentum, road.letters)
     steps, motion = road_of_matrices(problem, group, own, c)
     kept = conserved_steps(problem, v, momenta, motion, own.letters, c, vectors=False)
-    return (*first, *steps, *own.last, *last, *kept)
+    if "orthogonal" in group.relations:
+        last = (rigid(road.distances, own.gram, own.letters, c), *last)
+    if turns_whole(group) and not group.affine:
+        last = (*last, held(road.ambient, own.gram, group.n, c))
+    return (*first, *bracket_step(group, c), *steps, *own.last, *last, *kept)
 
 
 def road_of_matrices(
@@ -211,7 +231,9 @@ def road_of_space(
     inertia = steps[0] if b.affine else named[1]
     kept = vector_momenta(vectors.momenta.values(), b)
     return (
-        *named,
+        named[0],
+        isomorphism(named[0], c),
+        named[1],
         *vectors.steps,
         *steps,
         *v.steps,

@@ -55,6 +55,14 @@ def withdraw(monkeypatch):
 
 NOMINAL = {
     ("kernel", "force"): "the work of the forces is carried to the right",
+    ("extremal", "pullback"): "it holds of any Lagrangian on the group",
+    ("extremal", "force"): "and of any forces",
+    ("dalembert", "force"): "both sides are summed over the points alike",
+    ("dalembert", "moments"): "both sides are summed over the points alike",
+    ("motions", "gradient"): "the work of the forces is that of the acceleration",
+    ("motions", "force"): "the same",
+    ("geodesics", "relation"): "every skew matrix is in the Lie algebra",
+    ("contraction", "dalembert"): "that the extremals are tangent to the kernel",
     ("equations", "gradient"): "the work of the forces is told by its name, dŨ",
     ("equations", "force"): "the same",
     ("multiplier", "force"): "dŨ is told by the moments of the forces, whose own step has them",

@@ -26,8 +26,10 @@ from .exterior import DOMEGA, Exterior, brackets_of
 from .gather import gathered, terms_with
 from .invariance import claims, told, without_gram
 from .isometry import bracketed, resting
-from .kernel import balanced
+from .kernel import Ambient, balanced
+from .lagrangian import Lagrangian
 from .momentum import Momenta, fibre
+from .orbit import Distances
 from .potential import Potentials, virtual_work
 from .restrict import restrict, restricted_prose
 from .trivialisation import frame_rule, gram, rates, varied_gram
@@ -37,15 +39,19 @@ from .trivialisation import frame_rule, gram, rates, varied_gram
 class General:
     """What is known of every group of one action: letters, trivialised forms, kernel.
 
-    ``momentum``: p̃(δg) in space; ``pushed``: −dŨ(δg) by the moments of forces.
+    ``points``: what is said of them, ``distances``: by C; ``momentum``: p̃(δg) in space;
+    ``pushed``: −dŨ(δg) by the moments of forces; ``ambient``: the kernel in space.
     """
 
     letters: Alphabet
+    points: Lagrangian
     momentum: Expr
     pushed: Expr
     cartan: Cartan
     exterior: Exterior
     momenta: Momenta
+    distances: Distances
+    ambient: Ambient
     steps: tuple[Step, ...]
 
 
