@@ -6,7 +6,8 @@
     pull-back   Lagrangian                Pullback      walk.pullback
     Cartan      Pullback                  Cartan        walk.cartan
     exterior    Cartan                    Exterior      walk.exterior
-    kernel      Exterior                  Ambient       walk.kernel
+    principle   Pullback, Cartan          Principle     walk.variation
+    kernel      Exterior, Principle       Ambient       walk.kernel
     trivial     Cartan, Ambient           steps         walk.cartan, exterior, kernel
     momentum    Cartan                    Momenta       walk.momentum     ϖ, dϖ, kernel by P, F
     restrict    Momenta, values of P, F   dϖ of a group walk.restrict
@@ -17,8 +18,9 @@
     special     General, Potentials       Special       walk.special      any other group
     coadjoint   Momenta                   steps         walk.coadjoint    SO(n), SE(n)
     translation Special                   Centred       walk.translation  H ⋉ Rⁿ
+    centre      Special                   Seen          walk.centre       products of H ⋉ Rⁿ, H skew
     multipliers Special or Centred        steps         walk.multipliers  codimension 0, 1 in gl(n)
-    mass        Special or Centred        steps         walk.mass         the others, coordinates
+    mass        any of the three          steps         walk.mass         the others, coordinates
     motion      all of these              steps         walk.rotation     SO(3), SE(3)
 
 Every stage returns its value together with the steps it took; the record is their sequence, with
@@ -34,18 +36,22 @@ from typing import TYPE_CHECKING
 from .algebra.groups import Group
 from .mechanics.data import data
 from .mechanics.frame import principal
+from .mechanics.invariance import invariant
 from .mechanics.problem import ForceInput, Problem, ProblemError
 from .record.record import Derivation, Step, Symbol, encode
 from .record.sentence import Prose, Sentence, listed, phrase, say
 from .record.uses import of_steps
 from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, Name
 from .walk.alphabet import Alphabet
+from .walk.axes import isomorphism
 from .walk.body import body_step
+from .walk.brackets import bracket_step
 from .walk.cartan import cartan, trivialise
+from .walk.centre import seen_from_centres
 from .walk.chapter import Chapter
 from .walk.components import tensor_steps
 from .walk.conserved import conserved_steps, matrix_momenta, vector_momenta
-from .walk.coordinates import coordinates_step
+from .walk.coordinates import coordinates_step, stated_basis_step
 from .walk.elimination import eliminate
 from .walk.exterior import exterior, exterior_trivialised
 from .walk.failure import naming_steps
@@ -57,7 +63,9 @@ from .walk.lagrangian import lagrangian
 from .walk.lineage import traced
 from .walk.mass import mass_steps
 from .walk.momentum import Momenta, momentum_form
+from .walk.motions import held, motions
 from .walk.multipliers import multiplier_steps
+from .walk.orbit import distances, rigid, unique
 from .walk.potential import potentials
 from .walk.pullback import pullback
 from .walk.rotation import (
@@ -69,9 +77,10 @@ from .walk.rotation import (
     torque_step,
 )
 from .walk.separation import kinetic_separation, potential_separation
-from .walk.special import General, Special, specialise
+from .walk.special import General, Special, specialise, turns_whole
 from .walk.supposed import supposing_all
 from .walk.translation import eliminate_translation
+from .walk.variation import principle
 from .walk.vector import vector_form
 
 if TYPE_CHECKING:
@@ -124,32 +133,46 @@ def road_of_any_group(a: Alphabet) -> General:
     pulled = pullback(L, a, c)
     form = cartan(pulled, a, c)
     derivative = exterior(form, a, c)
-    ambient = kernel(derivative, a, c)
+    extremal = principle(L, pulled, form, a, c)
+    ambient = kernel(derivative, extremal, a, c)
     trivial = trivialise(form, a, c)
     trivial_derivative = exterior_trivialised(derivative, trivial, a, c)
     motion = kernel_trivialised(trivial_derivative, ambient, trivial, a, c)
     momenta = momentum_form(trivial, a, c)
-    stages = (L, pulled, form, derivative, ambient, trivial, trivial_derivative)
-    steps = (*(step for stage in stages for step in stage.steps), *motion, *momenta.steps)
+    lengths = distances(L, a, c)
+    whole = motions(form, ambient, a, c)
+    first = (*L.steps, *pulled.steps, unique(L, pulled.moments, a, c))
+    second = (*form.steps, *derivative.steps, *extremal.steps, *ambient.steps, whole)
+    third = (*trivial.steps, lengths.step, *trivial_derivative.steps, *motion, *momenta.steps)
+    steps = (*first, *second, *third)
     if a.affine:
         steps += (kinetic_separation(pulled.kinetic, a, c),)
-    return General(a, form.momentum, pulled.pushed, trivial, trivial_derivative, momenta, steps)
+    forms = form.momentum, pulled.pushed, trivial, trivial_derivative, momenta
+    return General(a, L, *forms, lengths, ambient, steps)
 
 
 def road_of(problem: Problem, group: Group, road: General) -> Steps:
     """The specialisation to the group, the body and the potentials of the problem."""
     c = Chapter(problem.name, group.name)
-    first = body_step(problem, c)
+    first = body_step(problem, road.points, road.letters, c)
     if group.turns_space:
         stage = isometry(road.cartan, road.momenta, road.letters, group.n, c)
-        return first + stage.steps + road_of_space(problem, road.momenta, stage, first, c)
+        solid: Steps = (rigid(road.distances, stage.gram, stage.letters, c),)
+        if not group.affine:
+            solid += (held(road.ambient, stage.gram, group.n, c),)
+        opening = (*first, *stage.steps, *solid)
+        return opening + road_of_space(problem, road.momenta, stage, first, c)
     v = potentials(problem, Alphabet(group.n, affine=group.affine), c)
-    own = specialise(road, group, v, c)
-    last = potential_separation(problem, v, own.letters, c) if group.affine else ()
+    own = specialise(road, group, v, c, invariant(problem))
+    last: Steps = potential_separation(problem, v, own.letters, c) if group.affine else ()
     momenta = matrix_momenta(road.momentum, road.letters)
     steps, motion = road_of_matrices(problem, group, own, c)
     kept = conserved_steps(problem, v, momenta, motion, own.letters, c, vectors=False)
-    return (*first, *steps, *own.last, *last, *kept)
+    if "orthogonal" in group.relations:
+        last = (rigid(road.distances, own.gram, own.letters, c), *last)
+    if turns_whole(group) and not group.affine:
+        last = (*last, held(road.ambient, own.gram, group.n, c))
+    return (*first, *bracket_step(group, c), *steps, *own.last, *last, *kept)
 
 
 def road_of_matrices(
@@ -161,7 +184,7 @@ def road_of_matrices(
     """
     b, steps = stage.letters, stage.steps
     multiplied = len(group.normal_space_of_linear_parts) <= MULTIPLIERS
-    place = coordinates_step(group, b, c, reading=multiplied)
+    place = coordinates_step(group, b, c, reading=multiplied or bool(group.centred))
     given = given_matrices(problem, b, stage.gram, c.with_input())
     if given is not None:
         stage = stage.pushed(given.moments, given.resultant)
@@ -175,7 +198,14 @@ def road_of_matrices(
     if multiplied:
         _, motion, _ = solved = multiplier_steps(inertial, force, metric, group, b, c, centred)
         return (*steps, *solved, place), motion
-    _, motion = solved = mass_steps(inertial, force, place, b, c, centred)
+    seen = seen_from_centres(inertial, force, group, b, c)
+    if seen is not None:
+        _, motion = solved = mass_steps(
+            seen.inertial, seen.force, place, b, c, balanced=False, seen=seen
+        )
+        return (*steps, *seen.steps, *solved, place), motion
+    told = stage.bodies is None
+    _, motion = solved = mass_steps(inertial, force, place, b, c, centred, balanced=told)
     return (*steps, place, *solved), motion
 
 
@@ -201,7 +231,9 @@ def road_of_space(
     inertia = steps[0] if b.affine else named[1]
     kept = vector_momenta(vectors.momenta.values(), b)
     return (
-        *named,
+        named[0],
+        isomorphism(named[0], c),
+        named[1],
         *vectors.steps,
         *steps,
         *v.steps,
@@ -211,6 +243,7 @@ def road_of_space(
         *(tensor_steps(problem, body[-1], inertia, motion, c) if body else ()),
         energy_step(stage, v, read, c),
         *conserved_steps(problem, v, kept, motion, b, c, vectors=True),
+        *stated_basis_step(problem.group, b, c),
     )
 
 
@@ -224,7 +257,7 @@ def _data(problem: Problem) -> dict[str, object]:
             return [plain(v) for v in x]
         return encode(x) if isinstance(x, (tuple, Fraction)) else x
 
-    basis = problem.group.basis if problem.group else ()
+    basis = problem.group.stated.basis if problem.group else ()
     rows = [[[str(x) for x in row] for row in e] for e in basis]
     n = problem.group.n if problem.group else "any"
     found = data(problem) | {"n": n, "basis": rows, "conventions": list(CONVENTIONS)}

@@ -1,5 +1,6 @@
 """How the tests are run."""
 
+import os
 import sys
 
 import pytest
@@ -11,16 +12,20 @@ from tests.needs import left_out
 def pytest_runtest_call(item):
     """``no_cover`` in the processes of xdist too, where a second tracer of coverage waits.
 
-    For long tests that run again what others run: to measure them takes three times as long.
+    For long tests that run again what others run: to measure them takes three times as long.  The
+    processes that they start are not measured either.
     """
     if item.get_closest_marker("no_cover") is None:
         return (yield)
     tracer = sys.gettrace()
     sys.settrace(None)
+    measured = os.environ.pop("COVERAGE_PROCESS_CONFIG", None)
     try:
         return (yield)
     finally:
         sys.settrace(tracer)
+        if measured is not None:
+            os.environ["COVERAGE_PROCESS_CONFIG"] = measured
 
 
 @pytest.hookimpl(trylast=True)

@@ -173,7 +173,7 @@ int main()
 @pytest.mark.parametrize(
     ("builder", "build"),
     [
-        pytest.param("Ninja", "b d", marks=needs("ninja")),
+        pytest.param("Ninja", "b d", marks=(needs("ninja"), pytest.mark.dist)),
         pytest.param("Ninja", "b $d", marks=needs("ninja")),
         ("Unix Makefiles", "b $d"),
     ],

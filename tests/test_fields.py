@@ -13,7 +13,7 @@ from derive.check.used import unused
 from derive.record.record import RecordError, from_json, to_data
 from derive.record.rules import RULES
 from derive.record.vocabulary import ANY_GROUP, COMMENTARY
-from tests.walks import SEED, record
+from tests.walks import SEED, record, repeated
 
 NAMES = ("so3", "sl3")
 HARMLESS = {
@@ -110,7 +110,7 @@ def refused(name, path, value):
     return not checker(name).symbols(d).holds
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", repeated(NAMES))
 def test_no_field_can_be_changed_unseen(name):
     kinds = set()
     for kind, found in sampled(name):
@@ -122,7 +122,7 @@ def test_no_field_can_be_changed_unseen(name):
     assert {"problem.n", "symbols.*.role", "steps.*.kind", "steps.*.equations.*.key"} <= kinds
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", repeated(NAMES))
 def test_no_field_can_be_left_out_unseen(name):
     for _, found in sampled(name, 1):
         for path, _ in found:

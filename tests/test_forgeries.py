@@ -9,7 +9,7 @@ from derive.check.checker import Checker, check
 from derive.record.record import RecordError, from_json, to_data
 from derive.record.vocabulary import ANY_GROUP
 from tests import record_forgeries
-from tests.walks import SEED, record
+from tests.walks import SEED, record, repeated
 
 
 def replaced(tree, old, new):
@@ -233,7 +233,7 @@ FALSE = {
 
 WHY = {
     "not principal": "no value for 'λ'",
-    "no point": "δ is of r_i(t), ξ′ or η′, not of vᵢ(t)",
+    "no point": "δ is of r_i(t), g(r), ξ′, η′ or ϖ(X), not of vᵢ(t)",
     "no time": "ω is of a variation δx or δ′x, at constant time, not of δy",
     "another basis": "the basis is not that of SO(3)",
     "no value of an index": "not that of the same members",
@@ -284,6 +284,7 @@ def test_unchanged_steps_hold():
         assert verdict(name, label, of_forces(lambda data, step: None)).holds
 
 
+@pytest.mark.no_cover
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize("case", [x for x in FALSE if "points" in x])
 def test_no_seed_lets_a_number_of_points_through(case, seed):
@@ -301,7 +302,7 @@ def test_no_title_lets_a_number_of_points_through():
         assert not any(v.holds for v in check(from_json(json.dumps(data))))
 
 
-@pytest.mark.parametrize("name", ["so3", "affine", "screw"])
+@pytest.mark.parametrize("name", repeated(["so3", "affine", "screw"]))
 def test_forgeries_around_heads_arguments_indices_and_quantifiers(name):
     """A sample of `make mutants`, which tries those of all records."""
     checker, kinds = Checker(record(name).problem, SEED), set()
@@ -314,7 +315,7 @@ def test_forgeries_around_heads_arguments_indices_and_quantifiers(name):
     assert kinds == {"head", "argument", "index", "quantifier"}
 
 
-@pytest.mark.parametrize("name", ["so3", "se3", "screw", "jelly"])
+@pytest.mark.parametrize("name", repeated(["so3", "se3", "screw", "jelly"]))
 def test_forgeries_of_headers(name):
     """Of the group and its action, of names, of the basis, of the symbols."""
     for what, data in record_forgeries.headers(record(name)):

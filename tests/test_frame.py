@@ -1,5 +1,6 @@
 """The principal frame: the same motion as in the frame that is given, with fewer operations."""
 
+import json
 import subprocess
 
 import numpy as np
@@ -16,6 +17,7 @@ from derive.mechanics.toml import problem_of
 from derive.pipeline import program, walk
 from tests.emitted import BUILDS, compile_c, import_python
 from tests.needs import CC, needs, present
+from tests.problems import MIXED, SKEWED
 from tests.test_options import drawn as state_of_any
 from tests.test_options import state
 from tests.walks import own_verdicts
@@ -74,7 +76,18 @@ def small(group, *springs):
 INSIDE = {"kind": "spring", "between": [1, 3], "stiffness": 2}
 
 GROUPS = ("SO(3)", "SE(3)", "SL(3)", "SAff(3)", "GL(3)", "Aff(3)")
+OWN = {"so(3) skewed": ("linear", SKEWED), "se(3) mixed": ("affine", MIXED)}
+
+
+def own(name):
+    """so(3) or se(3) in a basis of one's own."""
+    action, basis = OWN[name]
+    table = {"name": "Own", "action": action, "basis": json.loads(f"[{basis}]")}
+    return pushed(table, FREE)
+
+
 PROBLEMS = {
+    **{name: (lambda name=name: own(name)) for name in OWN},
     **{name: (lambda name=name: pushed(name, FREE)) for name in GROUPS},
     "upright SE(3)": lambda: pushed("SE(3)", [0, 0, "-g"]),
     "upright SL(3)": lambda: pushed("SL(3)", [0, "-g", 0]),
@@ -94,7 +107,7 @@ CHOICES = {
 }
 CASES = [(name, "plain") for name in PROBLEMS] + [
     (name, form)
-    for name in ("SO(3)", "SE(3)", "SAff(3)")
+    for name in ("SO(3)", "SE(3)", "SAff(3)", "se(3) mixed")
     for form in ("tangent", "columns", "quaternion")
     if form != "quaternion" or name != "SAff(3)"
 ]

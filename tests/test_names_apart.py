@@ -5,6 +5,7 @@ with a reason, or the code that has it gives the numbers of the same problem und
 """
 
 import re
+from functools import cache
 
 import numpy as np
 import pytest
@@ -16,11 +17,13 @@ from tests.languages import BUILDS, Emitted, agree, known
 from tests.needs import CC, needs
 
 LINEARISED = ("state", "inputs", "parameters")
+pytestmark = pytest.mark.no_cover
 PARTS = 2
 """One problem has not room for all of them."""
 PLACES = ([1, 0], ["1/3", 1], [-1, "1/4"])
 
 
+@cache
 def words(language, *, framed=False):
     """What stands in the files of a language, and the same with an underscore, as names go."""
     chosen = {"frame": "principal", "jacobian": LINEARISED[:2]} if framed else {}
@@ -30,6 +33,7 @@ def words(language, *, framed=False):
     return [w for w in both if accepted(w)]
 
 
+@cache
 def refusal(name):
     """Why it may not be a parameter."""
     try:

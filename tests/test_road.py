@@ -17,6 +17,9 @@ Terms of a sum and the two sides of a product of vectors may change places.
 REWRITTEN = {"so4.exterior", "su2.exterior", "two_tops.exterior"}
 """Tr ξJZξ̄′ − Tr ξ′JZξ̄ is now the bracket, Tr [ξ′, ξ] JZ̄; everything else is as it was."""
 
+LOST_C = {f"screw.{x}" for x in ("cartan", "exterior", "mass", "energy")}
+"""Screws keep lengths: C is 1 between elements of the Lie algebra, and no longer written there."""
+
 GENERAL = [
     "lagrangian",
     "velocity",
@@ -76,7 +79,7 @@ def test_no_equation_is_lost():
             chapter = step.label.split(".")[0]
             now.setdefault(chapter, set()).update(digest(e) for e in step.equations)
     gone = {x for x, found in SHOWN.items() if not {*found} <= now[x.split(".")[0]]}
-    assert gone == REWRITTEN
+    assert gone == REWRITTEN | LOST_C
 
 
 def digest(equation):

@@ -26,6 +26,7 @@ from derive.views.text import text
 from derive.walk.supposed import WORDS
 from tests.emitted import BUILDS, import_python
 from tests.needs import need
+from tests.walks import repeated
 
 BOOST = {"name": "Boost", "action": "linear", "basis": [[[0, 1], [1, 0]]]}
 FLAT = {  # SL(2) beside an axis that stays
@@ -94,7 +95,7 @@ def said(d):
     return {m for step in d.steps for x in step.prose for m in messages(x)}
 
 
-@pytest.mark.parametrize("name", WALKS)
+@pytest.mark.parametrize("name", repeated(WALKS, 2))
 def test_no_hypothesis_that_does_not_hold(name):
     d = walked(name, signed=True)
     words = " ".join(text(d).split())

@@ -13,7 +13,7 @@ from derive.check.heads import HEADS
 from derive.record.record import RecordError, from_json, to_data
 from derive.record.uses import way_of
 from derive.record.vocabulary import ROLES, VOCABULARY
-from tests.walks import NAMES, OTHERS, SEED, SPECIAL, record
+from tests.walks import NAMES, OTHERS, SEED, SPECIAL, record, repeated
 
 EVERY = (*NAMES, *OTHERS)
 TYPES = (
@@ -86,14 +86,14 @@ def wrong_uses(use, keys):
         yield {k: x for k, x in use.items() if k != key}
 
 
-@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.parametrize("name", repeated(EVERY, 5))
 def test_the_symbols_of_every_record_hold(name):
     verdict = checker(name).symbols(from_json(json.dumps(data(name))))
     assert (verdict.label, verdict.reason) == (f"{name}.symbols", "")
     assert verdict.tried[0] == len(record(name).symbols)
 
 
-@pytest.mark.parametrize("name", SPECIAL)
+@pytest.mark.parametrize("name", repeated(SPECIAL))
 def test_every_change_of_a_symbol_is_refused(name):
     keys = [key for step in record(name).steps for key in step.keys]
     fields = ("type", "role", "defined")
@@ -112,7 +112,7 @@ def test_every_change_of_a_symbol_is_refused(name):
             assert refused(name, changed), changed
 
 
-@pytest.mark.parametrize("name", SPECIAL)
+@pytest.mark.parametrize("name", repeated(SPECIAL))
 def test_another_name_is_refused(name):
     for k, symbol in enumerate(listed := data(name)["symbols"]):
         for other in {"A", "Λ", "0", ""} - {symbol["name"]}:
@@ -124,7 +124,7 @@ def test_another_name_is_refused(name):
             assert d is None or not checker(name).symbols(d).holds
 
 
-@pytest.mark.parametrize("name", SPECIAL)
+@pytest.mark.parametrize("name", repeated(SPECIAL))
 def test_a_symbol_too_few_too_many_or_twice_is_refused(name):
     listed, known = data(name)["symbols"], {s.name for s in record(name).symbols}
     for k, symbol in enumerate(listed):
@@ -137,7 +137,7 @@ def test_a_symbol_too_few_too_many_or_twice_is_refused(name):
     assert verdict.reason == f"{spare} is declared, and no step uses it"
 
 
-@pytest.mark.parametrize("name", SPECIAL)
+@pytest.mark.parametrize("name", repeated(SPECIAL))
 def test_the_keys_of_definitions_are_keys(name):
     """A definition is known by its key and no letter has one."""
     keys = {key for step in record(name).steps for key in step.keys}

@@ -2,6 +2,8 @@
 
 from functools import cache
 
+import pytest
+
 from derive.check.checker import Checker
 from derive.cli import derive, ready_made
 from derive.record.vocabulary import ANY_GROUP
@@ -12,6 +14,13 @@ SPECIAL = ("so3", "se3", "sl3")
 
 SEED = 20
 """Of a check that is to be the same at every run of the tests."""
+
+
+def repeated(cases, first=1):
+    """Cases of a long test: all are run, and the coverage of the first alone is measured, for the
+    others take the same lines."""
+    cases = [*cases]
+    return cases[:first] + [pytest.param(x, marks=pytest.mark.no_cover) for x in cases[first:]]
 
 
 @cache

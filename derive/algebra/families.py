@@ -243,14 +243,13 @@ def product(factors: tuple[Group, ...]) -> Group:
         after = q.scaled(0, q.identity(size - offset - g.size))
         basis += [draw.block_diagonal((before, e, after)) for e in g.basis]
         offset += g.size
-    return Group(
-        name, size, "linear", tuple(basis), draw.blocks([g.sampler for g in factors]), factors
-    )
+    sampler = draw.blocks([g.sampler for g in factors])
+    return Group(name, size, "linear", tuple(basis), sampler, factors)
 
 
 def on_homogeneous(g: Group) -> Group:
     """An affine group as the linear one of its matrices on (r, 1): a product of one factor."""
-    return Group(g.name, g.n + 1, "linear", g.basis, g.sampler, (g,))
+    return Group(g.name, g.n + 1, "linear", g.basis, g.sampler, (g,), g.larger)
 
 
 def turning_about_a_point() -> Group:

@@ -8,7 +8,7 @@ from typing import Literal
 
 from . import rational as q
 from . import samplers as draw
-from .families import LARGEST, so_basis
+from .families import LARGEST, affine_basis, so_basis
 from .groups import Group
 from .rational import Matrix
 from .samplers import Sampler
@@ -26,7 +26,31 @@ def group_of_basis(
     n = len(basis[0]) - (action == "affine")
     bare = Group(name, n, action, tuple(basis), draw.general_linear(n))
     _closed(bare)
-    return Group(name, n, action, bare.basis, enclosing(bare))
+    if n == 3 and bare.dimension == 3 + 3 * bare.affine and "orthogonal" in bare.relations:
+        return _turning(bare)
+    exact = nilpotent(bare.basis) and "orthogonal" not in bare.relations
+    sampler = draw.exponentials(bare.basis) if exact else enclosing(bare)
+    return Group(name, n, action, bare.basis, sampler, larger=not exact)
+
+
+def _turning(g: Group) -> Group:
+    """so(3), alone or with all translations, in the basis that j gives it."""
+    basis = affine_basis(so_basis(3), 3) if g.affine else so_basis(3)
+    given = () if g.basis == basis else g.basis
+    return Group(g.name, 3, g.action, basis, enclosing(g), larger=True, given=given)
+
+
+def nilpotent(basis: Sequence[Matrix]) -> bool:
+    """Do the products of n matrices of the basis, of size n, all vanish?"""
+    products = [*basis]
+    for _ in basis[0][1:]:
+        rows: tuple[tuple[Fraction, ...], ...] = ()
+        found: list[Matrix] = []
+        for x in (q.times(e, f) for e in products for f in basis):
+            if any(map(any, x)) and q.rank((*rows, q.flatten(x))) > len(rows):
+                rows, found = (*rows, q.flatten(x)), [*found, x]
+        products = found
+    return not products
 
 
 def enclosing(g: Group) -> Sampler:

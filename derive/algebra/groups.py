@@ -26,8 +26,9 @@ class Group:
     """A matrix group moving points of Rⁿ.
 
     ``basis``: d matrices of size n (linear) or n + 1 with last row zero (affine), over Q.
-    ``sampler``: exact elements, or of a larger group that has the same relations.
+    ``sampler``: exact elements; or, of a ``larger`` group that has the same relations.
     ``factors``: of a product, in order; its n is the size of its block diagonal matrices.
+    ``given``: a basis of one's own, where ``basis`` is another one of the same 𝔤.
     """
 
     name: str
@@ -36,6 +37,13 @@ class Group:
     basis: tuple[Matrix, ...]
     sampler: Sampler
     factors: tuple[Group, ...] = ()
+    larger: bool = False
+    given: tuple[Matrix, ...] = ()
+
+    @cached_property
+    def stated(self) -> Group:
+        """The same group in the basis that was given: its coordinates are those of the state."""
+        return replace(self, basis=self.given, given=()) if self.given else self
 
     @property
     def dimension(self) -> int:
@@ -89,7 +97,7 @@ class Group:
                 rows.append(q.flatten(e))
         return tuple(found)
 
-    @property
+    @cached_property
     def free_translations(self) -> bool:
         """Is it H ⋉ Rⁿ, H not trivial, with the basis of 𝔥 first and then e_1, …, e_n of Rⁿ?"""
         n = self.n
@@ -99,7 +107,7 @@ class Group:
         no_shift = all(row[n] == 0 for e in self.basis[:-n] for row in e)
         return self.basis[-n:] == last and no_shift
 
-    @property
+    @cached_property
     def turns_space(self) -> bool:
         """Is it so(3) in the basis j(e₁), j(e₂), j(e₃), alone or with all translations of R³?"""
         if self.n != 3 or self.factors:
@@ -109,7 +117,7 @@ class Group:
         whole = self.free_translations if self.affine else self.dimension == 3
         return whole and self.linear_basis == hats
 
-    @property
+    @cached_property
     def places(self) -> tuple[tuple[int, Group], ...]:
         """The blocks of a product: (first row, factor); one block for any other group."""
         found, offset = [], 0
@@ -117,6 +125,12 @@ class Group:
             found.append((offset, factor))
             offset += factor.size
         return tuple(found)
+
+    @property
+    def centred(self) -> tuple[tuple[int, Group], ...]:
+        """The blocks H ⋉ Rⁿ of a product of groups with skew linear parts."""
+        skew = all("orthogonal" in factor.relations for factor in self.factors)
+        return tuple(x for x in self.places if skew and self.factors and x[1].free_translations)
 
     def in_block(self, block: int, entries: Sequence[Any], corner: Any = 0) -> tuple[Any, ...]:
         """A vector of the space of a block (from 1) among all: ``corner`` for an affine factor."""

@@ -132,6 +132,53 @@ def polynomial(t: Tree) -> Laurent:
     return Laurent.symbol(t)
 
 
+LONGEST = 5000
+"""As many terms has a polynomial at most that is asked whether it is 0."""
+
+
+def vanishes(t: Tree) -> bool:
+    """Is a rational function of parameters 0 everywhere?  Functions of them count as parameters."""
+    return not _quotient_of(t)[0]
+
+
+def _quotient_of(t: Tree) -> tuple[Laurent, Laurent]:
+    """Numerator and denominator; ``OverlongError`` where one has more than ``LONGEST`` terms."""
+    above, below = Laurent.symbol(t), Laurent.of(1)
+    if isinstance(t, (int, Fraction)):
+        above = Laurent.of(t)
+    elif isinstance(t, tuple) and t[0] == "pow":
+        above, below = (_power(x, abs(t[2])) for x in _quotient_of(t[1]))
+        above, below = (above, below) if t[2] > 0 else (below, above)
+    elif isinstance(t, tuple) and t[0] == "div":
+        (above, below), (over, under) = map(_quotient_of, t[1:])
+        above, below = _long(above, under), _long(below, over)
+    elif isinstance(t, tuple) and t[0] in ("add", "mul"):
+        (above, below), *others = map(_quotient_of, t[1:])
+        for over, under in others:
+            if t[0] == "mul":
+                above = _long(above, over)
+            elif under == below:
+                above, under = above + over, Laurent.of(1)
+            else:
+                above = _long(above, under) + _long(over, below)
+            below = _long(below, under)
+    return above, below
+
+
+def _power(p: Laurent, k: int) -> Laurent:
+    whole = Laurent.of(1)
+    for _ in range(k):
+        whole = _long(whole, p)
+    return whole
+
+
+def _long(p: Laurent, r: Laurent) -> Laurent:
+    """A product that is not too long."""
+    if len(p.terms) * len(r.terms) > LONGEST:
+        raise OverlongError("too many terms")
+    return p * r
+
+
 def collected(t: Tree) -> Tree:
     """A tree of numbers with its like terms added."""
     return written(polynomial(t))

@@ -93,6 +93,20 @@ def shears(basis: Sequence[Matrix]) -> Sampler:
     return lambda random, size: q.plus(one, combination(random, size, basis))
 
 
+def exponentials(basis: Sequence[Matrix]) -> Sampler:
+    """1 + N + ½N² + … for N in an algebra of matrices of size n whose products of n vanish."""
+    n = len(basis[0])
+
+    def draw(random: Source, size: int) -> Matrix:
+        N, power, total = combination(random, size, basis), q.identity(n), q.identity(n)
+        for k in range(1, n):
+            power = q.scaled(Fraction(1, k), q.times(power, N))
+            total = q.plus(total, power)
+        return total
+
+    return draw
+
+
 def dilations(n: int) -> Sampler:
     """Positive multiples of 1."""
     return lambda random, size: q.scaled(random.randint(1, size), q.identity(n))

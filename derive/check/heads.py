@@ -31,8 +31,17 @@ TRANSLATION = Kind(
     "a variation or a velocity of T, or 0",
     (0, "τ", "δT", "δ′T", ("mul", "A", "η"), ("mul", "A", "η′"), ("mul", "A", "w")),
 )
-INTEGRAND = Kind("1, r or r r̄", (1, "r", ("mul", "r", ("T", "r"))))
-VARIED = Kind("r_i(t), ξ′ or η′", ("ξ′", "η′"), "r")
+FORM = Kind("ϖ(δy)", (("call", "ϖ", "δy"),))
+MOVED_PLACE: Tree = ("call", "g", "r")
+INTEGRAND = Kind(
+    "1, r, r r̄, ‖v‖² or ⟨v, δ(g(r))⟩",
+    (
+        *(1, "r", ("mul", "r", ("T", "r"))),
+        *(("norm2", "v"), ("inner", "v", ("call", "δ", MOVED_PLACE))),
+    ),
+)
+PLACE = Kind("r", ("r",))
+VARIED = Kind("r_i(t), g(r), ξ′, η′ or ϖ(X)", ("ξ′", "η′", MOVED_PLACE, ("call", "ϖ", "X")), "r")
 VARIED_PRIME = Kind("r_i(t), ξ or η", ("ξ", "η"), "r")
 
 HEADS: dict[str, tuple[Kind, ...]] = {
@@ -43,8 +52,10 @@ HEADS: dict[str, tuple[Kind, ...]] = {
     "dŨ": (LINEAR, TRANSLATION),
     "δ": (VARIED,),
     "δ′": (VARIED_PRIME,),
+    "d/dt": (FORM,),
     **dict.fromkeys(("δA", "δT", "ξ", "η", "Ω"), (MOTION,)),
     "∫": (INTEGRAND,),
+    "g": (PLACE,),
 }
 """The kinds of the arguments of each function; a translation is one of affine groups alone."""
 

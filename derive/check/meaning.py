@@ -13,14 +13,16 @@ from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
 from .arithmetic import EvaluationError, is_matrix, times
 from .body import Vector
+from .continuum import integral, moved, place_values
 from .duals import dual_values
 from .evaluate import Environment, evaluate, point_index
 from .given import exerted_families, exerted_values
-from .heads import SHARED
+from .heads import MOVED_PLACE, SHARED
+from .lifts import ON_TANGENT, action_varied, form_rate
 from .model import Direction, Model
 from .nilpotent import EPS, EPS_PRIME, derivative_of, nilpotent, part
 from .points import listed_count
-from .solved import solved_values
+from .solved import centred_values, solved_values
 from .spatial import axial, moments_about, spatial_values
 
 Values = dict[str, Any]
@@ -33,7 +35,7 @@ class Names(Mapping[str, Any]):
         self.model = model
         self.known: Values = {}
         self.left = [_times, _bodies, _group, _forces, _energies, spatial_values]
-        self.left += [_gradients, _motion, dual_values]
+        self.left += [_gradients, _motion, dual_values, place_values]
 
     def __getitem__(self, name: str) -> Any:
         while name not in self.known and self.left:
@@ -89,8 +91,10 @@ def _times(model: Model) -> Values:
 
 def _bodies(model: Model) -> Values:
     m, c, J = model.moments
-    centre = tuple(x[0] / m for x in c)
-    return {"m": m, "c": c, "J": J, "J_c": moments_about(model, centre)}
+    values: Values = {"m": m, "c": c, "J": J}
+    if model.group.centred and not model.opaque:
+        return values | centred_values(model)
+    return values | {"J_c": moments_about(model, tuple(x[0] / m for x in c))}
 
 
 def _group(model: Model) -> Values:
@@ -194,6 +198,8 @@ def _motion(model: Model) -> Values:
     d = len(model.group.linear_basis)
     for name, element in (("ζ", Z), ("ζ̇", Z_dot)):
         values[name] = tuple((x,) for x in model.group.nearest(element)[:d])
+    if model.group.given:
+        values["z"] = tuple((x,) for x in model.group.stated.nearest(Z))
     if model.driven:
         values["u"] = tuple((x,) for x in model.covector)
     return values | ({} if model.opaque else solved_values(model))
@@ -259,7 +265,9 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         "ϖ": lambda _, a, env: model.cartan(direction(a[0])),
         **dict.fromkeys(("dϖ", "ω"), lambda _, a, env: exterior(*a)),
         "r": point,
-        "∫": lambda _, a, env: _integral(model, a[0]),
+        "∫": lambda _, a, env: integral(model, a[0], env),
+        "g": lambda _, a, env: moved(model, model.g, evaluate(a[0], env)),
+        "d/dt": lambda *_: form_rate(model),
         "δA": lambda _, a, env: _linear(model, q.times(model.g, direction(a[0]).xi)),
         "δT": lambda _, a, env: _translation(model, q.times(model.g, direction(a[0]).xi)),
         "ξ": lambda _, a, env: _linear(model, direction(a[0]).xi),
@@ -272,7 +280,12 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
 
 def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
     """δ or δ′ of a moved point, or of the fields ξ, ξ′, η, η′ on the two-parameter family, which
-    are those of h = g₀⁻¹g; h⁻¹ is 1 − (h − 1) to first order in one parameter."""
+    are those of h = g₀⁻¹g; h⁻¹ is 1 − (h − 1) to first order in one parameter; of L̃."""
+    if what == ON_TANGENT:
+        return action_varied(model)
+    if what == MOVED_PLACE:
+        _, g, _ = model.family(model.first, model.second)
+        return part(moved(model, g, evaluate("r", env)), mask)
     if isinstance(what, tuple):
         _, g, _ = model.family(model.first, model.second)
         i = point_index(what[1][2], env)
@@ -284,12 +297,6 @@ def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
     return (_linear if what in ("ξ", "ξ′") else _translation)(model, value)
 
 
-def _integral(model: Model, form: Tree) -> Any:
-    """∫ of 1, r or r r̄ over the body, its points among it."""
-    if model.problem.get("body", {}).get("kind") != "given":
-        raise EvaluationError("integrals are over solids")
-    m, c, J = model.moments
-    return {1: m, "r": c}.get(form, J)
 
 
 def _rotation_vector(model: Model, xi: Matrix) -> Matrix:

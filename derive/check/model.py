@@ -65,6 +65,7 @@ class Model(Body):
         super().__init__(problem, group, random, size, opaque=opaque, pi=pi, few=few, zero=zero)
         self.driven, self.coasting, self.principal = driven, coasting, principal
         self.s = group.size
+        self.supposed: dict[Any, str] = {}
         self.embody(principal=principal)
         self.exerted = Exerted({} if opaque else problem, group, self.blocks, self.expressions)
         self.t = self.draw()

@@ -139,7 +139,13 @@ def _said(t: Tree) -> str:
 
 
 def _false(x: Hypothesis, env: Environment, model: Model) -> str:
-    """Why a hypothesis is not so; empty where it is."""
+    """Why a hypothesis is not so; empty where it is.  It is tried once: many steps suppose it."""
+    if x not in model.supposed:
+        model.supposed[x] = _tried(x, env, model)
+    return model.supposed[x]
+
+
+def _tried(x: Hypothesis, env: Environment, model: Model) -> str:
     if x.property == "nondegenerate":
         if not all({*letters} & {*names(x.of)} for letters in _letters(x.space)):
             return f"of no form in two variations on {x.space}"

@@ -73,8 +73,8 @@ def sizes(grade: Grade) -> range:
     return range(first, first + grade.loops + 1)
 
 
-LETTERS = ("A", "C", "J", "m", "t", "δt", "δ′t", ("at", "m", "i"))
-"""Of which an inverse is a letter, or a number."""
+LETTERS = ("A", "C", "J", "J_c", "m", "t", "δt", "δ′t", ("at", "m", "i"))
+"""Of which an inverse is a letter, or a number; of J and J_c, of which one is free, the one."""
 OF_ONE_SPACE = ("det", "hat", "wedge", "matrix", "row", "par", "fun")
 
 

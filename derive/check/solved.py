@@ -38,6 +38,9 @@ class Solved:
     def elements(self) -> list[Matrix]:
         """The basis of the linear parts, each with the translation that keeps the centre."""
         count = len(self.group.linear_basis)
+        if self.group.centred:
+            back = q.minus(q.identity(self.model.n), centres(self.model))
+            return [q.times(e, back) for e in self.group.basis]
         if not self.group.free_translations:
             return list(self.group.basis)
         n = self.model.n
@@ -87,6 +90,32 @@ class Solved:
         return total
 
 
+def centres(model: Model) -> Matrix:
+    """The centre of mass of each factor H ⋉ Rⁿ of a product, in its last column."""
+    total = q.scaled(Fraction(0), q.identity(model.n))
+    for offset, factor in model.group.centred:
+        corner = offset + factor.n
+        inside = [(m, r) for m, r in zip(model.masses, model.points, strict=True) if r[corner] != 0]
+        whole = sum((m for m, _ in inside), Fraction(0))
+        for i in range(offset, corner):
+            place = sum((m * r[i] for m, r in inside), Fraction(0)) / whole
+            total = q.plus(total, q.scaled(place, q.unit(model.n, i, corner)))
+    return total
+
+
+def centred_values(model: Model) -> Values:
+    """What is seen from the centres of mass of the factors of a product."""
+    S = centres(model)
+    back = q.minus(q.identity(model.n), S)
+    columns = [q.times(back, tuple((x,) for x in r)) for r in model.points]
+    seen = [*zip(model.masses, columns, strict=True)]
+    first, second = q.scaled(Fraction(0), columns[0]), q.scaled(Fraction(0), S)
+    for m, r in seen:
+        first = q.plus(first, q.scaled(m, r))
+        second = q.plus(second, q.scaled(m, q.times(r, q.transposed(r))))
+    return {"S": S, "c_c": first, "J_c": second, "Z_c": q.plus(model.Z, q.times(model.Z, S))}
+
+
 def solved_values(model: Model) -> Values:
     """Ż, M, β, B, λ and their kin."""
     group, Z, Z_dot = model.group, model.Z, model.acceleration
@@ -105,6 +134,9 @@ def solved_values(model: Model) -> Values:
         (load(model, e) - model.pairing(convective, x),)
         for e, x in zip(s.elements, frames, strict=True)
     )
+    if group.centred:
+        rate = q.plus(Z_dot, q.times(Z_dot, centres(model)))
+        values["ψ"] = tuple((x,) for x in group.nearest(rate))
     normal = group.normal_space_of_linear_parts
     if len(normal) == 1:
         left = q.minus(s.inertia_of(q.plus(Z_dot, q.times(Z, Z))), s.applied)

@@ -79,9 +79,9 @@ def assemble(
         tuple(_parameter(d, name) for name in parameters),
         tuple(lowering.inputs),
         tuple(constants),
-        group.basis,
+        group.stated.basis,
         functions,
-        group.affine,
+        group.stated.free_translations,
         turning(d.problem, parameters) if "inertia" in wanted and not frame else None,
         framing,
     )

@@ -57,6 +57,7 @@ def names(e: Any) -> set[str]:
 def _placed(f: Function) -> list[tuple[Section, list[int]]]:
     """The sections, cut where outputs stand after a value, with these outputs."""
     loaded = {x.name for x in f.loads}
+    read = [names(x) for x in f.outputs]
     pending = _equations(f)
     known: set[str] = set()
     seen: set[str] = set()
@@ -69,9 +70,9 @@ def _placed(f: Function) -> list[tuple[Section, list[int]]]:
             seen |= names([v.expression for v in vector]) & loaded
             outputs = []
             for equation in pending:
-                reads = names([f.outputs[i] for i in equation]) & loaded
+                reads = loaded & {x for i in equation for x in read[i]}
                 if 2 * len(reads & seen) >= len(reads):
-                    ready = [i for i in equation if names(f.outputs[i]) <= known | loaded]
+                    ready = [i for i in equation if read[i] <= known | loaded]
                     outputs += ready
                     equation[:] = [i for i in equation if i not in ready]
             if outputs:

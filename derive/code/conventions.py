@@ -31,15 +31,15 @@ def conventions(
             "The names that end in _dot are the entries of the velocity dg/dt; the basis below is"
         )
         lines.append("that of the Lie algebra, in which the linearised equations are written.")
-    elif group.turns_space:
+    elif group.turns_space and not group.given:
         lines.append(
             "zeta is the angular velocity in the body frame: dA/dt = A j(zeta), j(x) y = x cross y."
         )
-    elif not group.affine:
+    elif not group.affine or group.given:
         lines.append("zeta are the coordinates of Z = g^-1 dg/dt in the basis below.")
     else:
         lines.append("zeta are the coordinates of Z = A^-1 dA/dt in the basis below.")
-    if group.affine and options.velocity == "body":
+    if group.stated.free_translations and options.velocity == "body":
         lines.append(
             "w is the velocity of the body's origin (r = 0) in the body frame: dT/dt = A w."
         )
@@ -173,12 +173,12 @@ def _input(group: Group, given: Mapping[str, Any], places: Mapping[int, str]) ->
         frame = "the space frame" if given["frame"] == "space" else "the body frame"
         point = f"the body{where}" if where else f"point {given['on']}"
         return [f"Input {name}: a force on {point}, in {frame}."]
-    if group.turns_space and group.affine:
+    if group.turns_space and group.affine and not group.given:
         return [
             f"Input {name}: a moment about the body's origin (its first 3 components) and a force",
             "on it (the last 3), both in the body frame; power <moment, zeta> + <force, w>.",
         ]
-    if group.turns_space:
+    if group.turns_space and not group.given:
         return [f"Input {name}: a torque about the fixed point, in the body frame."]
-    pair = "(zeta, w)" if group.affine else "zeta"
+    pair = "(zeta, w)" if group.stated.free_translations else "zeta"
     return [f"Input {name}: a covector of the Lie algebra; its power is <{name}, {pair}>."]

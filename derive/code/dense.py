@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cache
 from itertools import product
 from typing import Any
@@ -154,8 +155,40 @@ def solve(g: Graph, f: Factors, right: Matrix, named: NodeNamer) -> Matrix:
     x: list[Node] = [g.num(0)] * n
     for i in reversed(range(n)):
         terms = [g.product((f.lower[k, i], x[k])) for k in range(i + 1, n)]
-        x[i] = named(f"x_{i + 1}", g.product((y[i], f.inverses[i])) - g.sum(terms))
+        apart = y[i] == right[i][0] and g.sum(terms).is_zero
+        over = _quotient(g, y[i], f, i) if apart else g.product((y[i], f.inverses[i]))
+        x[i] = named(f"x_{i + 1}", over - g.sum(terms))
     return tuple((v,) for v in x)
+
+
+def _quotient(g: Graph, x: Node, f: Factors, i: int) -> Node:
+    """x over a pivot, as weight over mass: what has the pivot as a factor just loses it."""
+    core = x.args[0] if x.op == "value" else x
+    terms = zip(core.data, core.args, strict=True) if core.op == "add" else [(Fraction(1), core)]
+    free: list[tuple[Fraction, Node]] = []
+    others: list[tuple[Fraction, Node]] = []
+    for c, term in terms:
+        left = _without(g, term, f.pivots[i])
+        (others if left is None else free).append((c, term if left is None else left))
+    if not free:
+        return g.product((x, f.inverses[i]))
+    return g.linear([*free, (Fraction(1), g.product((g.linear(others), f.inverses[i])))])
+
+
+def _without(g: Graph, x: Node, factor: Node) -> Node | None:
+    """x over one of its factors; ``None`` if it is none."""
+    if x == factor:
+        return g.num(1)
+    if x.op == "value":
+        return _without(g, x.args[0], factor)
+    parts = [_without(g, y, factor) for y in x.args] if x.op in ("add", "mul") else []
+    if x.op == "add" and all(y is not None for y in parts):
+        return g.linear((c, y) for c, y in zip(x.data, parts, strict=True) if y is not None)
+    if x.op == "mul":
+        for k, y in enumerate(parts):
+            if y is not None:
+                return g.product((*x.args[:k], y, *x.args[k + 1 :]))
+    return None
 
 
 def symmetric_inverse(g: Graph, m: Matrix, named: NodeNamer) -> tuple[Matrix, list[Node]]:
@@ -185,6 +218,11 @@ def diagonal(g: Graph, m: Matrix) -> Node:
 def is_constant(m: Matrix) -> bool:
     """Is it a matrix of numbers?"""
     return all(x.op == "num" for row in m for x in row)
+
+
+def is_diagonal(m: Matrix) -> bool:
+    """Is all beside the diagonal 0?"""
+    return all(x.is_zero for i, row in enumerate(m) for j, x in enumerate(row) if i != j)
 
 
 def sparse_trace(g: Graph, constants: list[Matrix], between: list[Matrix | None]) -> Node:

@@ -173,7 +173,7 @@ class Lowering(Inverting):
         return self._simple("add", terms, t)
 
     def _product(self, t: tuple[Any, ...]) -> Value:
-        if is_solve(t) and len(self._matrix(t[1][1])) > SMALL:
+        if is_solve(t) and (len(M := self._matrix(t[1][1])) > SMALL or dense.is_diagonal(M)):
             return self.solved(t[1][1], self._matrix(mul(*t[2:])))
         factors = [(x, self.tree(x)) for x in t[1:]]
         scalars = [v for _, v in factors if isinstance(v, Node)]

@@ -11,7 +11,7 @@ from ..reserved import WORDS
 GREEK = {
     "ζ": "zeta", "Ω": "omega", "φ": "phi", "λ": "lambda", "γ": "gravity", "ξ": "xi", "η": "eta",
     "μ": "moment", "α": "alpha", "τ": "tau", "β": "load", "σ": "tension", "χ": "reach",
-    "κ": "damping", "π": "pi",
+    "κ": "damping", "π": "pi", "ψ": "psi",
 }  # fmt: skip
 MARKS = {"\u0307": "_dot", "\u0303": "_tilde", "′": "_prime"}
 _LOCAL = "D axes dx frame i k n out p s t u x xp"

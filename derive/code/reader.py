@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree, subtrees
@@ -15,6 +16,8 @@ from .program import LoweringError
 from .state import State
 
 Value = Node | Matrix
+
+DROPPED = Equation(("mul", ("T", "ξ"), "C", "Z"), ("mul", ("T", "ξ"), "Z"))
 
 
 class Reader:
@@ -51,16 +54,23 @@ class Reader:
             self.state["u"] = self._given(name, d - n if moved else d)
             if moved:
                 self.state["f_u"] = self._given(name, n, d - n)
+        both = [self.state[name] for name in ("u", "f_u") if name in self.state]
+        self.covector: list[Node] = [x for value in both for (x,) in value]  # type: ignore[union-attr]
+        if self.group.given and self.covector:
+            self._restated()
+
+    def _restated(self) -> None:
+        """u and f_u of the basis of the record, from the inputs, which are in the stated one."""
+        columns = [self.group.stated.nearest(e) for e in self.group.basis]
+        rows = tuple((self.graph.linear(zip(c, self.covector, strict=True)),) for c in columns)
+        self.state["u"] = rows[:3]
+        if self.group.affine:
+            self.state["f_u"] = rows[3:]
 
     @property
     def in_space(self) -> bool:
         """Are ġ and its rate wanted, and does the record have the accelerations in space?"""
         return self.space.tangent and self.record.definition("α̇") is not None
-
-    @property
-    def covector(self) -> list[Node]:
-        """The components of the covector input."""
-        return [x for name in ("u", "f_u") for (x,) in self.state.get(name, ())]  # type: ignore[union-attr]
 
     def force(self, i: int) -> Matrix:
         """Force input i, counted from 1, as a column."""
@@ -100,7 +110,24 @@ class Reader:
                 self.memo[name] = self._defined(found, name_of(name))
             else:
                 self.memo[name] = self._entries(name)
+            if name == "C":
+                self.memo[name] = self._kept(self.memo[name])  # type: ignore[arg-type]
         return self.memo[name]
+
+    def _kept(self, C: Matrix) -> Matrix:
+        """C with 1 for what it is in the images of 𝔤, where the record has ξ̄CZ = ξ̄Z."""
+        if not any(e == DROPPED for step in self.record.steps for e in step.equations):
+            return C
+        images = tuple(column for e in self.group.basis for column in q.transposed(e))
+        rank, one = q.rank(images), q.identity(self.n)
+        inside = [q.rank((*images, e)) == rank for e in one]
+        return tuple(
+            tuple(
+                self.graph.num(one[i][j]) if inside[i] and inside[j] else x
+                for j, x in enumerate(row)
+            )
+            for i, row in enumerate(C)
+        )
 
     def _entries(self, name: str) -> Matrix:
         """A vector or matrix that the record defines entry by entry, for any indices."""

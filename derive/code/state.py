@@ -9,17 +9,18 @@ Z = g⁻¹ġ (and w), or the entries of ġ.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 from ..algebra import rational as q
 from ..algebra.groups import Group
+from ..algebra.invariance import skew
 from ..algebra.rational import Matrix
 from . import dense
 from .graph import Graph, Node
 from .naming import suffixed
 from .options import Options
 from .quaternion import halves, matrix_of, multiplied
+from .slots import Slot, fixed_entries, layout
 
 Seeds = dict[Node, Node]
 """A variation: leaf of the state → its derivative."""
@@ -28,57 +29,12 @@ Named = Callable[[str], Matrix]
 Component = Callable[[str, int], Node]
 
 
-@dataclass(frozen=True)
-class Slot:
-    """One number of the state: entry (row, column), from 0, of the matrix A or the vector T."""
-
-    name: str
-    letter: str
-    row: int
-    column: int = 0
-
-
-def layout(group: Group, columns: bool = False) -> list[Slot]:
-    """The slots of a group element kept as matrices; ``columns``: column by column."""
-    if not group.factors:
-        return _factor(group, "", 0, group.affine, columns)
-    several = len(group.factors) > 1
-    return [
-        slot
-        for k, (offset, factor) in enumerate(group.places, 1)
-        for slot in _factor(factor, str(k) if several else "", offset, False, columns)
-    ]
-
-
-def _factor(g: Group, mark: str, offset: int, apart: bool, columns: bool) -> list[Slot]:
-    """``apart``: the translation is a vector of its own, not a column of A."""
-    span = range(g.n)
-    pairs = [(j, i) if columns else (i, j) for i in span for j in span]
-    slots = [
-        Slot(suffixed(f"A{mark}", i + 1, j + 1), "A", offset + i, offset + j) for i, j in pairs
-    ]
-    if g.affine:
-        slots += [
-            Slot(suffixed(f"T{mark}", i + 1), "T", i)
-            if apart
-            else Slot(suffixed(f"T{mark}", i + 1), "A", offset + i, offset + g.n)
-            for i in span
-        ]
-    return slots
-
-
-def fixed_entries(group: Group) -> dict[tuple[int, int], int]:
-    """The entries of A that are no part of the state but 1: the corners of affine factors."""
-    return {
-        (offset + f.n, offset + f.n): 1 for offset, f in group.places if group.factors and f.affine
-    }
-
-
 class State:
     """``names`` in order; ``values``: A, T, ζ, w as nodes in the leaves of these names."""
 
     def __init__(self, graph: Graph, group: Group, options: Options):
-        self.graph, self.group, self.n = graph, group, group.n
+        self.graph, self.group, self.n = graph, group.stated, group.n
+        self.standard = group
         self.slots = layout(group, options.layout == "col")
         self.quaternion = options.attitude == "quaternion"
         self.tangent = options.velocity == "tangent"
@@ -167,12 +123,17 @@ class State:
     # -- the velocity ------------------------------------------------------------------------
 
     def _velocity(self) -> None:
-        d, n = self.group.dimension, self.n
+        n, turns = self.n, self._turns
         if not self.tangent:
-            turns = d - n if self.group.affine else d
-            self.values["ζ"] = tuple((self._leaf(suffixed("zeta", a)),) for a in self._span(turns))
+            zeta = [self._leaf(suffixed("zeta", a)) for a in self._span(self._stated_turns)]
+            moved = self._span(self.group.dimension - len(zeta))
+            self.coordinates = [*zeta, *(self._leaf(suffixed("w", i)) for i in moved)]
+            values = self.coordinates
+            if self.standard is not self.group:
+                values = self._by(self.standard, self.hat(values))
+            self.values["ζ"] = tuple((x,) for x in values[:turns])
             if self.group.affine:
-                self.values["w"] = tuple((self._leaf(suffixed("w", i)),) for i in self._span(n))
+                self.values["w"] = tuple((x,) for x in values[turns:])
             return
         placed = self._placed("_dot", self.slots)
         inverse = self.inverse
@@ -183,8 +144,51 @@ class State:
             self.values["w"] = self._named("w", w)
             rows = ((*row, x) for row, (x,) in zip(Z, w, strict=True))
             Z = (*rows, (self.graph.num(0),) * (n + 1))
-        coordinates = [(self.read(a, Z),) for a in range(d - n if self.group.affine else d)]
-        self.values["ζ"] = self._named("zeta", tuple(coordinates))
+        turning = tuple((x,) for x in self._by(self.standard, Z)[:turns])
+        self.values["ζ"] = self._named("zeta", turning)
+        found = [*self.values["ζ"], *self.values.get("w", ())]
+        self.coordinates = self._restated([x for (x,) in found])
+
+    def _back(self) -> Matrix:
+        """[[Ā, −ĀT], [0, 1]] in every block, where the linear parts of all factors are skew."""
+        A, num = self.values["A"], self.graph.num
+        corners = {i for i, _ in fixed_entries(self.group)}
+        span = range(self.n)
+        bar = tuple(
+            tuple(num(0) if i in corners or j in corners else A[j][i] for j in span) for i in span
+        )
+        moved = dense.times(self.graph, bar, A)
+        return tuple(
+            tuple(
+                num(int(i == j)) if i in corners else -moved[i][j] if j in corners else bar[i][j]
+                for j in span
+            )
+            for i in span
+        )
+
+    @property
+    def _turns(self) -> int:
+        """How many numbers ζ has."""
+        return self.group.dimension - (self.n if self.group.affine else 0)
+
+    @property
+    def _stated_turns(self) -> int:
+        """How many of the stated coordinates come before those of w; all, where these are mixed."""
+        return self._turns if self.group.free_translations else self.group.dimension
+
+    def read(self, a: int, z: Matrix, group: Group | None = None) -> Node:
+        """Coordinate a of a matrix of the Lie algebra in the stated basis, or that of a group."""
+        group = group or self.group
+        return self.graph.linear((c, z[i][j]) for c, i, j in group.reading(a))
+
+    def _by(self, group: Group, z: Matrix) -> list[Node]:
+        return [self.read(a, z, group) for a in range(group.dimension)]
+
+    def _restated(self, coordinates: list[Node]) -> list[Node]:
+        """ζ and w, in the stated basis."""
+        if self.standard is self.group:
+            return coordinates
+        return self._by(self.group, self._matrix(self.standard, coordinates))
 
     @staticmethod
     def _span(count: int) -> range:
@@ -194,10 +198,6 @@ class State:
         return tuple(
             (self.graph.value(x, suffixed(name, i), ""),) for i, (x,) in enumerate(column, 1)
         )
-
-    def read(self, a: int, z: Matrix) -> Node:
-        """Coordinate a of a matrix of the Lie algebra."""
-        return self.graph.linear((c, z[i][j]) for c, i, j in self.group.reading(a))
 
     @cached_property
     def inverse(self) -> Matrix:
@@ -212,6 +212,8 @@ class State:
         A, g = self.values["A"], self.graph
         if "orthogonal" in self.group.relations:
             return q.transposed(A)
+        if self.group.factors and all(skew(factor) for factor in self.group.factors):
+            return self._back()
         if self.n > 3:
             bar = q.transposed(A)
             gram, _ = dense.symmetric_inverse(
@@ -224,20 +226,13 @@ class State:
         scale = g.value(g.recip(dense.determinant(g, A)), "inv_det_A", "")
         return tuple(tuple(g.product((scale, x)) for x in row) for row in adjugate)
 
-    @property
-    def coordinates(self) -> list[Node]:
-        """ζ and w: the coordinates of Z in the basis of the group."""
-        names = ("ζ", "w") if self.group.affine else ("ζ",)
-        return [x for name in names for (x,) in self.values[name]]
-
     # -- rates and variations ----------------------------------------------------------------
 
     def velocity(self, component: Component) -> list[Node]:
-        """ζ̇, and ẇ where there is w."""
-        d, n = self.group.dimension, self.n
-        turns = d - n if self.group.affine else d
-        found = [component("ζ̇", a) for a in self._span(turns)]
-        return found + ([component("ẇ", i) for i in self._span(n)] if self.group.affine else [])
+        """ζ̇, and ẇ where there is w, in the stated basis."""
+        found = [component("ζ̇", a) for a in self._span(self._turns)]
+        found += [component("ẇ", i) for i in self._span(self.n)] if self.group.affine else []
+        return self._restated(found)
 
     def rates(self, name: Named, component: Component, *, in_space: bool = False) -> list[Node]:
         """The time derivative of each number, from the names and components of the record.
@@ -282,7 +277,10 @@ class State:
 
     def hat(self, coordinates: Sequence[Node]) -> Matrix:
         """Σ x_a E_a."""
-        basis, span = self.group.basis, range(self.group.size)
+        return self._matrix(self.group, coordinates)
+
+    def _matrix(self, group: Group, coordinates: Sequence[Node]) -> Matrix:
+        basis, span = group.basis, range(group.size)
         return tuple(
             tuple(
                 self.graph.linear(

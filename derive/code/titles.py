@@ -27,4 +27,4 @@ def _beginnings(space: State) -> dict[int, tuple[str, ...]]:
         return {len(slots) + i: ({"A": "α̇", "T": "τ̇"}[x],) for x, i in first.items()}
     found: dict[int, tuple[str, ...]] = {i: ({"A": "Ȧ", "T": "Ṫ"}[x],) for x, i in first.items()}
     found[before + len(slots)] = ("ζ̇", "Ż")
-    return found | ({len(space.names) - space.n: ("ẇ",)} if space.group.affine else {})
+    return found | ({len(space.names) - space.n: ("ẇ",)} if space.group.free_translations else {})

@@ -149,7 +149,9 @@ def type_of(argument: Tree) -> Type:
         return SCALAR
     last = argument[-1]
     if argument[0] == "call":
-        return VECTOR
+        return SCALAR if argument[1] == "ϖ" else VECTOR
+    if argument[0] in ("inner", "norm2"):
+        return SCALAR
     if isinstance(last, tuple):
         return SQUARE
     inside = type_of(last)

@@ -15,7 +15,8 @@ CONVENTIONS = (
     "T is the transpose, a bar in the paper; names are compared letter by letter, as written",
     "inner(a, b) and metric(M, a, b) are Tr a M b̄ for matrices and ā M b for vectors",
     "bracket(a, b) = ab − ba; hat(X) = j(X), j(X)Y = X ∧ Y; entries are counted from 1",
-    "dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] for commuting variations; ξ = g⁻¹δg, Z = g⁻¹ν",
+    "dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] for commuting variations; ξ = g⁻¹δg, Z = g⁻¹ν; where X is the "
+    "tangent of a lift, ν = ġ, δ varies it through lifts, and commutes with d/dt",
     "par(name) is a parameter; at(name, i) a member of a family, over which sum(i, x) runs",
     "an equation holds for every value of a free index and of the names in for_all, and there is a "
     "value of each name in exists, which has it from there on; ζ are the coordinates of Z in the "
@@ -120,7 +121,12 @@ VOCABULARY: dict[str, Name] = {
         letter(family("points", VECTOR)),
         Use(family("points", ("function", SCALAR, VECTOR)), "function"),
     ),
-    "v": name("velocities of the points in space", "v", letter(family("points", VECTOR))),
+    "v": name(
+        "velocities of the points in space",
+        "v",
+        defined(VECTOR),
+        letter(family("points", VECTOR)),
+    ),
     "F": name(
         "forces on the points; without index their resultant",
         "F",
@@ -168,7 +174,7 @@ VOCABULARY: dict[str, Name] = {
     "X": name(
         "a vector with δt = 1; the one of the kernel of dϖ gives the motion", "X", letter(VARIATION)
     ),
-    "g": name("element of the group", "g"),
+    "g": name("element of the group", "g", function(VECTOR, VECTOR)),
     "ν": name("velocity in the group", r"\nu"),
     "δg": name("variation of g", r"\delta g"),
     "A": name("linear part of g", "A", letter(SQUARE)),
@@ -228,6 +234,19 @@ VOCABULARY: dict[str, Name] = {
     "I_c": name("tensor of inertia about the centre of mass", "I_c", defined(SQUARE)),
     "J_c": name("matrix of moments about the centre of mass", "J_c", defined(SQUARE)),
     "r_c": name("centre of mass in the body, m⁻¹c", "r_c", defined(VECTOR)),
+    "c_c": name("first moment seen from the centres of mass", "c_c", defined(VECTOR)),
+    "S": name(
+        "centre of mass of each factor, in the column of its translations", "S", defined(SQUARE)
+    ),
+    "Z_c": name("Z(1 + S), the velocity seen from the centres of mass", "Z_c", defined(SQUARE)),
+    "ψ": name(
+        "coordinates of Ż(1 + S) in the basis of the Lie algebra", r"\psi", defined(COORDINATES)
+    ),
+    "z": name(
+        "coordinates of the velocity in the basis that the problem states",
+        "z",
+        letter(("vector", "dim")),
+    ),
     "w_c": name("velocity of the centre of mass in the body frame", "w_c", defined(VECTOR)),
     "R": name("centre of mass in space, T + m⁻¹Ac", "R", defined(VECTOR)),
     "Ṙ": name("velocity of the centre of mass, τ + m⁻¹αc", r"\dot R", defined(VECTOR)),
@@ -287,7 +306,18 @@ VOCABULARY: dict[str, Name] = {
         letter(VECTOR),
         letter(family("inputs", PLACE)),
     ),
-    "δ": name("first variation", r"\delta", function(VECTOR, VECTOR), function(ALGEBRA, ALGEBRA)),
+    "δ": name(
+        "first variation",
+        r"\delta",
+        function(VECTOR, VECTOR),
+        function(ALGEBRA, ALGEBRA),
+        function(SCALAR, SCALAR),
+    ),
+    "d/dt": name(
+        "derivative in time along a curve",
+        r"\frac{\mathrm{d}}{\mathrm{d}t}",
+        function(SCALAR, SCALAR),
+    ),
     "δ′": name(
         "another variation, which commutes with δ",
         r"\delta'",
@@ -330,6 +360,7 @@ DISPLACEMENTS: dict[str, Name] = ROTATIONS | {
 PRODUCTS: dict[str, Name] = {
     "A": VOCABULARY["A"]._replace(meaning="element of the group, a block for each of its factors"),
     "c": VOCABULARY["c"]._replace(meaning="first moment Σ m_i r_i, a block for each factor"),
+    "J_c": VOCABULARY["J_c"]._replace(meaning="matrix of moments about the centres of mass"),
 }
 """What names mean where the group is a product, whose affine factors act on (r, 1)."""
 

@@ -32,5 +32,5 @@ def compare_names(m: Module, claims: Claims) -> None:
     defaults = {x: value for x, value in given.items() if value is not None}
     if m.defaults is not None and {x: float(y) for x, y in m.defaults.items()} != defaults:
         raise DiffersError("the defaults of the parameters are not those of the record")
-    if m.basis is not None and m.basis != claims.group.basis:
+    if m.basis is not None and m.basis != claims.state.group.basis:
         raise DiffersError("the basis is not that of the record")

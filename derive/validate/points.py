@@ -7,7 +7,7 @@ names mean for the points of the body; π is the double next to it, as in the co
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -60,7 +60,7 @@ class Claims:
         (group,) = Tried(d.problem, 0).groups(self.scope)
         if chart.attitude == "quaternion":
             group = replace(group, sampler=squares(group))
-        self.group, self.state = group, State(group, chart)
+        self.group, self.state = group, State(group.stated, chart)
 
     @cached_property
     def driven(self) -> bool:
@@ -119,8 +119,13 @@ class Claims:
             if data["kind"] == "force":
                 found += next(pushes)[self.group.of_block(self._block(data["on"]))]
             else:
-                found += model.covector
+                found += self._stated(model.covector)
         return tuple(found)
+
+    def _stated(self, covector: Sequence[Any]) -> Numbers:
+        """The values of a covector on the basis that the problem states."""
+        pairs = [(self.group.nearest(e), covector) for e in self.group.stated.basis]
+        return tuple(sum(x * u for x, u in zip(*pair, strict=True)) for pair in pairs)
 
     # -- the record --------------------------------------------------------------------------
 

@@ -64,7 +64,7 @@ class State:
             place = [f"q_{i}" for i in range(4)] + place
         if self.chart.velocity == "tangent":
             return (*place, *(f"{name}_dot" for name in place))
-        moved = self.group.n if self.group.affine else 0
+        moved = self.group.n if self.group.free_translations else 0
         turns = [named("zeta", a) for a in range(self.group.dimension - moved)]
         return (*place, *turns, *(named("w", i) for i in range(moved)))
 
@@ -87,7 +87,7 @@ class State:
         if self.chart.attitude == "matrix":
             return self.values(moved, Z)
         p = quaternion(g)
-        rates = turned(p, self.group.nearest(eta)[:3])
+        rates = turned(p, axis(eta))
         varied = (x + EPSILON * y for x, y in zip(p, rates, strict=True))
         return (*varied, *self._read(moved), *self.group.nearest(Z))
 
@@ -125,7 +125,7 @@ class State:
         """Its derivative where ġ and Ż are these: g̈ = ġZ + gŻ, and q̇ = ½ q ζ."""
         place = self._read(g_dot)
         if self.chart.attitude == "quaternion":
-            place = (*turned(quaternion(g), self.group.nearest(Z)[:3]), *place)
+            place = (*turned(quaternion(g), axis(Z)), *place)
         if self.chart.velocity == "tangent":
             return (*place, *self._read(q.plus(q.times(g_dot, Z), q.times(g, Z_dot))))
         return (*place, *self.group.nearest(Z_dot))
@@ -148,6 +148,11 @@ def quaternion(g: Matrix) -> Numbers:
         raise ValueError("the quaternion of this rotation is not rational, or is a half turn")
     pairs = ((2, 1), (0, 2), (1, 0))
     return (scalar, *((g[i][j] - g[j][i]) / (4 * scalar) for i, j in pairs))
+
+
+def axis(x: Matrix) -> Numbers:
+    """ζ of a matrix with the linear part j(ζ)."""
+    return (x[2][1], x[0][2], x[1][0])
 
 
 def turned(p: Numbers, zeta: Numbers) -> Numbers:

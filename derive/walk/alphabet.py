@@ -82,7 +82,8 @@ class Alphabet:
         self.signed = signed
         self.t, self.dt, self.dpt = (Letter(x) for x in ("t", "δt", "δ′t"))
         self.m, self.c, self.J = Letter("m"), Letter("c", n), Letter("J", n, n, 1)
-        self.m_i, self.r_i = Letter("m_i"), Letter("r_i", n)
+        self.m_i, self.r_i, self.F_i = Letter("m_i"), Letter("r_i", n), Letter("F_i", n)
+        self.apart = Letter("r_i − r_j", n)
         self.U, self.dU_dt = Letter("Ũ"), Letter("∂ₜŨ")
         self.F_group, self.f = Letter("F̃", n, n), self._algebra("f", skew, traceless)
         self.N, self.F = Letter("N", n, n), Letter("F", n)

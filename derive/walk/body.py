@@ -11,12 +11,15 @@ from ..mechanics.solids import Solid
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, Sentence, listed, phrase, say
+from .alphabet import Alphabet
 from .chapter import Chapter
+from .continuum import continuum
 from .elements import column, embedded
+from .lagrangian import Lagrangian
 from .supposed import of_moments, told
 
 INTEGRANDS: dict[str, Tree] = {"m": 1, "c": "r", "J": ("mul", "r", ("T", "r"))}
-"""(36)–(39): the moments of a measure of mass."""
+"""(39): the moments of a measure of mass."""
 
 SOLIDS = {
     "ball": phrase("ball"),
@@ -40,8 +43,11 @@ SIZES = {
 """The kinds of solids and their sizes in words."""
 
 
-def body_step(problem: Problem, c: Chapter) -> tuple[Step, ...]:
-    """One step, and for solids the integrals that it evaluates; none for no body."""
+def body_step(problem: Problem, points: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Step, ...]:
+    """One step, and for solids the integrals that it evaluates; none for no body.
+
+    ``points``: what is said of the points of any body, with the alphabet ``a``.
+    """
     body = problem.body
     steps: list[Step] = []
     equations: list[Equation] = []
@@ -53,7 +59,7 @@ def body_step(problem: Problem, c: Chapter) -> tuple[Step, ...]:
         supposed = of_moments(problem.signed)
     elif isinstance(body, GivenBody):
         if body.solids:
-            steps.append(_integrals(body.solids, c))
+            steps += [continuum(points, a, c), _integrals(body.solids, c)]
         equations += _moments(body.mass, body.first, body.second)
         given = say("The moments of the body are given.")
         prose = say("The moments of the body.") if body.solids else given
@@ -72,7 +78,7 @@ def body_step(problem: Problem, c: Chapter) -> tuple[Step, ...]:
     if not equations:
         return ()
     draft = c.draft("body", "definition")
-    draft.read(*steps)
+    draft.read(*steps[-1:])
     return (*steps, draft.step(equations, prose, hypotheses=supposed))
 
 
@@ -140,9 +146,9 @@ def _integrals(solids: tuple[Solid, ...], c: Chapter) -> Step:
     return c.draft("integrals", "definition").step(
         (Equation(name, ("call", "∫", form)) for name, form in INTEGRANDS.items()),
         say(
-            "For a continuous body the sums over the points are integrals over its measure "
-            "of mass dm, density times volume; all else stays."
+            "The moments of a continuous body are integrals, and all else stays: its motions are "
+            "those of points with the same moments."
         )
         + say("Here: {solids}.", solids=listed("{first}; {second}", [*map(_described, solids)])),
-        (36, 37, 38, 39),
+        (39,),
     )

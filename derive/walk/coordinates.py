@@ -41,3 +41,29 @@ def _reading(group: Group, a: int) -> Tree:
         entry: Tree = ("entry", "Ż", i + 1, j + 1)
         terms.append(mul(int(x) if x.denominator == 1 else x, entry))
     return add(*terms)
+
+
+def stated_basis_step(group: Group | None, b: Alphabet, c: Chapter) -> tuple[Step, ...]:
+    """Z (and w) by coordinates in the basis that the problem states, where j has another."""
+    if group is None or not group.given:
+        return ()
+    span, size = range(group.n), group.dimension
+    own = group.stated.basis
+
+    def entry(i: int, j: int) -> Tree:
+        terms = ((own[a][i][j], ("entry", "z", a + 1)) for a in range(size) if own[a][i][j])
+        return add(*(mul(int(x) if x.denominator == 1 else x, z) for x, z in terms))
+
+    turned = ("matrix", *(("row", *(entry(i, j) for j in span)) for i in span))
+    equations: list[Equation] = [Equation("Z", turned)]
+    if b.affine:
+        equations.append(Equation("w", ("matrix", *(("row", entry(i, group.n)) for i in span))))
+    return (
+        c.draft("coordinates", "coordinates").step(
+            equations,
+            say(
+                "The problem states a basis of its own: the coordinates of the velocity in it are "
+                "z, and they are those of the emitted state; ζ is the angular velocity still."
+            ),
+        ),
+    )

@@ -20,19 +20,22 @@ from .exterior import Exterior, primed
 from .gather import at_constant_time, gathered, terms_with
 from .supposed import told
 from .trivialisation import rates, trivial_images
+from .variation import Principle
 
 
 @dataclass(frozen=True)
 class Ambient:
-    """``velocity``: δg(X), part by part; ``told``: the equations that say it."""
+    """``velocity``: δg(X), part by part; ``told``: the equations that say it; ``balance``: what
+    vanishes for every displacement δ′g tangent to the group."""
 
     velocity: Mapping[Letter, Expr]
     told: tuple[Equation, ...]
+    balance: Expr
     steps: tuple[Step, ...]
 
 
-def kernel(stage: Exterior, a: Alphabet, chapter: Chapter) -> Ambient:
-    """The kernel in the variables (t, g, ν): the motion in the ambient matrices."""
+def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Ambient:
+    """The kernel in the variables (t, g, ν): by the ``law`` it is the tangents of the motions."""
     notation = metrics() if a.affine else metrics("J")
     draft = chapter.draft("kernel", "kernel")
     unknown = tuple(x.name for p in a.parts for x in (p.d_position, p.d_velocity))
@@ -41,7 +44,7 @@ def kernel(stage: Exterior, a: Alphabet, chapter: Chapter) -> Ambient:
     c, steps = steps_of(
         [
             Contraction(
-                stage.form,
+                stage.form.of(law.across),
                 at_constant_time(stage.form, a.dt, a.dpt),
                 stage.images,
                 {p.d_position: along_motion(stage, p.d_position, a) for p in a.parts},
@@ -90,7 +93,7 @@ def kernel(stage: Exterior, a: Alphabet, chapter: Chapter) -> Ambient:
         )
         + told("line", a.signed),
     )
-    return Ambient(along, steps[-1].given, (*steps, last))
+    return Ambient(along, steps[-1].given, draft.said(virtual), (*steps, last))
 
 
 def along_motion(stage: Exterior, x: Letter, a: Alphabet) -> Expr:

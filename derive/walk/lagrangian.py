@@ -22,11 +22,12 @@ POINT: Tree = ("call", ("at", "r", "i"), "t")
 class Lagrangian:
     """``kinetic``: the summand ½ m_i ⟨v_i, v_i⟩ on words, with v_i given by ``velocity``.
 
-    ``variation``: δ of the place of a point.
+    ``position``: the place of a point in space, ``variation``: its δ.
     """
 
     kinetic: Expr
     v_i: Letter
+    position: Expr
     velocity: Expr
     variation: Expr
     steps: tuple[Step, ...]
@@ -70,9 +71,8 @@ def lagrangian(a: Alphabet, c: Chapter) -> Lagrangian:
             (9, 10, 14),
         ),
     )
-    return Lagrangian(
-        first.said(kinetic), v_i, varied.said(velocity), varied.said(variation), steps
-    )
+    velocity, variation = varied.said(velocity), varied.said(variation)
+    return Lagrangian(first.said(kinetic), v_i, position, velocity, variation, steps)
 
 
 def _moved(a: Alphabet) -> Prose:
@@ -103,6 +103,13 @@ def indexed_tree(e: Expr, v_i: Letter, a: Alphabet) -> Tree:
     """The tree of a summand, with m_i, r_i, v_i as members of indexed families."""
     letters = {a.m_i: "m", a.r_i: "r", v_i: "v"}
     return tree_of(e, metrics(display={x: ("at", name, "i") for x, name in letters.items()}))
+
+
+def moving_tree(stage: Lagrangian, a: Alphabet) -> Tree:
+    """The tree of that summand with the velocity of the motion."""
+    shown = indexed_tree(stage.velocity, stage.v_i, a)
+    display: dict[Letter, Tree] = {a.m_i: ("at", "m", "i"), stage.v_i: shown}
+    return tree_of(stage.kinetic, metrics(display=display))
 
 
 def kinetic_of_motion(stage: Lagrangian) -> Expr:

@@ -14,7 +14,7 @@ from ..record.vocabulary import OF, VOCABULARY
 
 FREE = ("letter", "value on X", "function")
 """Roles of what all begins with; of functions, those of these names alone."""
-OPERATORS = ("δ", "δ′", "∫")
+OPERATORS = ("δ", "δ′", "d/dt", "∫")
 
 
 def traced(steps: Iterable[Step]) -> tuple[Step, ...]:

@@ -6,13 +6,14 @@ With ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are  Σ_b M_ab �
 from __future__ import annotations
 
 from ..algebra.calculus import gradient, substitute, without
-from ..algebra.notation import Notation, tree_of
+from ..algebra.notation import Notation
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, inner, word
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
-from .chapter import Chapter
+from .centre import Seen
+from .chapter import Chapter, Draft
 from .inverse import inverse_letter
 from .supposed import told
 from .translation import Centred
@@ -28,16 +29,22 @@ def mass_steps(
     b: Alphabet,
     c: Chapter,
     centred: Centred | None = None,
+    *,
+    balanced: bool = True,
+    seen: Seen | None = None,
 ) -> tuple[Step, ...]:
     """M, β and the solved equations from  inertial = Tr ξ′ force‾  for every ξ′ in 𝔤.
 
-    ``place``: the step of the coordinates, Ż = Σ ζ̇_b E_b.
+    ``place``: the step of the coordinates, Ż = Σ ζ̇_b E_b.  ``balanced``: is there a B, the balance
+    as a matrix?  Not where C dropped out for what pairs with 𝔤 alone.  ``seen``: from the centres
+    of mass; the coordinates ψ are then those of Ż(1 + S).
     """
     weighing, solving = c.draft("mass", "coordinates"), c.draft("motion", "solution")
     E_a, E_b = _member("a", b), _member("b", b)
     display: dict[Letter, Tree] = {E_a: ("at", "E", "a"), E_b: ("at", "E", "b")}
     notation = Notation(display=display)
-    rate = (word(RATE) * word(E_b)).marked(place.label)
+    rate = word(RATE) * word(E_b)
+    rate = rate if seen else rate.marked(place.label)
     along = {b.Z.xi_prime: word(E_a), b.Z.acceleration: rate}
     mass = gradient(substitute(inertial, along), RATE)
     rest = force - gradient(without(inertial, b.Z.acceleration), b.Z.xi_prime)
@@ -45,32 +52,43 @@ def mass_steps(
     if centred:
         solving.read(*centred.steps)
     translation = (Equation("ẇ", centred.acceleration),) if centred else ()
-    load = inner(word(E_a), word(Letter("B", b.n, b.n)))
-    row: Tree = ("mul", ("entry", "M", "a", "b"), ("entry", "ζ̇", "b"))
+    balance = [Equation("B", weighing.tree(rest, lighter))] if balanced else []
+    load = inner(word(E_a), word(Letter("B", b.n, b.n)) if balanced else rest)
+    found = "ψ" if seen else "ζ̇"
+    row: Tree = ("mul", ("entry", "M", "a", "b"), ("entry", found, "b"))
     mass_step = weighing.step(
         (
             Equation(("entry", "M", "a", "b"), weighing.tree(mass, notation)),
-            Equation("B", weighing.tree(rest, lighter)),
-            Equation(("entry", "β", "a"), tree_of(load, notation)),
+            *balance,
+            Equation(("entry", "β", "a"), weighing.tree(load, notation)),
             Equation(("sum", "b", row), ("entry", "β", "a")),
         ),
         say(
-            "For ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are linear in the ζ̇_b: M "
+            "For ξ′ = E_a(𝟏 − S) and Ż = Σ ψ_b E_b(𝟏 − S) the equations of motion are linear in "
+            "the ψ_b: M is the mass matrix of these, β_a the load along E_a(𝟏 − S)."
+            if seen
+            else "For ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are linear in the ζ̇_b: M "
             "is the mass matrix of the basis, β_a the load along E_a."
         ),
     )
     solving.read(mass_step)
+    solved = Equation(found, ("mul", ("inv", "M"), "β"))
     motion = solving.step(
-        (*rates(solving, b), Equation("ζ̇", ("mul", ("inv", "M"), "β")), *_whole(b), *translation),
+        (*rates(solving, b), solved, *_whole(solving, b, seen), *translation),
         say("The equations of motion of this problem.") + told("mass matrix", b.signed),
     )
     return mass_step, motion
 
 
-def _whole(b: Alphabet) -> list[Equation]:
-    """Ż from its coordinates, where ẇ needs it."""
-    total: Tree = ("sum", "a", ("mul", ("entry", "ζ̇", "a"), ("at", "E", "a")))
-    return [Equation("Ż", total)] if b.affine else []
+def _whole(d: Draft, b: Alphabet, seen: Seen | None) -> list[Equation]:
+    """Ż from its coordinates, where ẇ or ζ̇ needs it."""
+    name = "ψ" if seen else "ζ̇"
+    total: Tree = ("sum", "a", ("mul", ("entry", name, "a"), ("at", "E", "a")))
+    if seen is None:
+        return [Equation("Ż", total)] if b.affine else []
+    rate = b.Z.acceleration
+    whole = word(rate) - word(rate) * seen.shift
+    return [Equation("Ż", d.tree(whole, Notation(display={rate: total})))]
 
 
 def _member(index: str, b: Alphabet) -> Letter:

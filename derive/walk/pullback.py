@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..algebra.notation import metrics
-from ..algebra.tree import Tree, neg
+from ..algebra.tree import Tree, add, neg
 from ..algebra.words import (
     Expr,
     Letter,
@@ -30,7 +30,7 @@ from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .lagrangian import Lagrangian, kinetic_of_motion
+from .lagrangian import Lagrangian, kinetic_of_motion, moving_tree
 from .supposed import kinetic_metric, of_masses, told
 
 Moments = Mapping[tuple[Letter, ...], Expr]
@@ -42,12 +42,13 @@ class Pullback:
     """``kinetic``: the quadratic part of L̃ on words, so that L̃ = kinetic − Ũ.
 
     ``work``: −dŨ(δg), by the force on the group, or by the moments of forces for an affine action;
-    ``pushed``: by these always.
+    ``pushed``: by these always.  ``moments``: of masses and of forces.
     """
 
     kinetic: Expr
     work: Expr
     pushed: Expr
+    moments: Moments
     steps: tuple[Step, ...]
 
 
@@ -99,21 +100,25 @@ def pullback(stage: Lagrangian, a: Alphabet, c: Chapter) -> Pullback:
     metric = kinetic_metric(kinetic, a)
     notations = (metrics(),) if a.affine else (metrics(), metrics("J"))
     step = draft.step(
-        [Equation("L̃", draft.tree(kinetic - word(a.U), n)) for n in notations],
+        [
+            Equation("Ũ", "U"),
+            Equation("L̃", add(("sum", "i", moving_tree(stage, a)), neg("Ũ"))),
+            *(Equation("L̃", draft.tree(kinetic - word(a.U), n)) for n in notations),
+        ],
         say(
-            "The Lagrangian is pulled back to the group: the velocities of the motion are put in "
-            "and the sum over the points is carried out."
+            "The Lagrangian is pulled back to the group by r̂ : (t, g, ν) ↦ (t, g(r), ν(r)): the "
+            "velocities of the motion are put in and the sum over the points is carried out."
         )
         + told("kinetic energy", a.signed),
         (11, 12, 13, 17) if a.affine else (11, 12, 13, 21, 22),
         hypotheses=(*of_masses(a), metric),
     )
-    pushed, force = _force(stage, a, c)
-    steps = (definitions, step, force)
+    pushed, pushes, force = _force(stage, a, c)
+    moments, steps = {**moments, **pushes}, (definitions, step, force)
     if a.affine:
-        return Pullback(draft.said(kinetic), pushed, pushed, steps)
+        return Pullback(draft.said(kinetic), pushed, pushed, moments, steps)
     work, gradient = _gradient(a, c, metric)
-    return Pullback(draft.said(kinetic), work, pushed, (*steps, gradient))
+    return Pullback(draft.said(kinetic), work, pushed, moments, (*steps, gradient))
 
 
 def _moments(a: Alphabet, c: Chapter) -> tuple[Moments, Step]:
@@ -137,12 +142,11 @@ def _moments(a: Alphabet, c: Chapter) -> tuple[Moments, Step]:
     return {key: draft.said(word(x)) for key, x in table.items()}, step
 
 
-def _force(stage: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Expr, Step]:
+def _force(stage: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Expr, Moments, Step]:
     """−dŨ by the forces on the points, F_i = −∂U/∂r_i: a sum like that of the moments."""
-    F_i = Letter("F_i", a.n)
-    table = {(F_i, a.r_i): word(a.N), (F_i,): word(a.F)}
+    table = {(a.F_i, a.r_i): word(a.N), (a.F_i,): word(a.F)}
     draft = c.draft("force", "pull-back")
-    work = sum_over(inner(word(F_i), stage.variation), {F_i, a.r_i}, table)
+    work = sum_over(inner(word(a.F_i), stage.variation), {a.F_i, a.r_i}, table)
     pair: Tree = ("mul", ("at", "F", "i"), ("T", ("at", "r", "i")))
     definitions = [Equation("N", ("sum", "i", pair))]
     if a.affine:
@@ -156,7 +160,7 @@ def _force(stage: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Expr, Step]:
         ),
         (2,),
     )
-    return draft.said(work), step
+    return draft.said(work), {key: draft.said(e) for key, e in table.items()}, step
 
 
 def _gradient(a: Alphabet, c: Chapter, metric: Hypothesis) -> tuple[Expr, Step]:

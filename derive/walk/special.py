@@ -14,6 +14,7 @@ from ..algebra.groups import Group
 from ..algebra.notation import Notation
 from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, inner, number, word
+from ..mechanics.invariance import Bodies
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
@@ -23,9 +24,12 @@ from .coadjoint import coadjoint_steps
 from .contraction import Contraction
 from .exterior import DOMEGA, Exterior, brackets_of
 from .gather import gathered, terms_with
+from .invariance import claims, told, without_gram
 from .isometry import bracketed, resting
-from .kernel import balanced
+from .kernel import Ambient, balanced
+from .lagrangian import Lagrangian
 from .momentum import Momenta, fibre
+from .orbit import Distances
 from .potential import Potentials, virtual_work
 from .restrict import restrict, restricted_prose
 from .trivialisation import frame_rule, gram, rates, varied_gram
@@ -35,15 +39,19 @@ from .trivialisation import frame_rule, gram, rates, varied_gram
 class General:
     """What is known of every group of one action: letters, trivialised forms, kernel.
 
-    ``momentum``: p̃(δg) in space; ``pushed``: −dŨ(δg) by the moments of forces.
+    ``points``: what is said of them, ``distances``: by C; ``momentum``: p̃(δg) in space;
+    ``pushed``: −dŨ(δg) by the moments of forces; ``ambient``: the kernel in space.
     """
 
     letters: Alphabet
+    points: Lagrangian
     momentum: Expr
     pushed: Expr
     cartan: Cartan
     exterior: Exterior
     momenta: Momenta
+    distances: Distances
+    ambient: Ambient
     steps: tuple[Step, ...]
 
 
@@ -52,6 +60,7 @@ class Special:
     """``inertial``: dϖ(X, δ′) without the work of the ``forces`` on ξ′ (and η′).
 
     ``gram``: ĀA, the letter C or 1.  ``last``: steps that belong at the end of the record.
+    ``bodies``: where C is not 1, and drops out of the metric.
     """
 
     letters: Alphabet
@@ -60,6 +69,7 @@ class Special:
     forces: dict[Letter, Expr]
     steps: tuple[Step, ...]
     last: tuple[Step, ...]
+    bodies: Bodies | None = None
 
     def pushed(self, moments: Expr, resultant: Expr) -> Special:
         """The same with further forces on ξ′ (and η′)."""
@@ -79,8 +89,10 @@ def letters_of(group: Group, *, signed: bool) -> Alphabet:
     return Alphabet(group.n, affine=group.affine, **known)
 
 
-def specialise(road: General, group: Group, v: Potentials, c: Chapter) -> Special:
-    """The forms, forces and energy of a problem."""
+def specialise(
+    road: General, group: Group, v: Potentials, c: Chapter, bodies: Bodies | None = None
+) -> Special:
+    """The forms, forces and energy of a problem; ``bodies``: whose metric is left-invariant."""
     b = letters_of(group, signed=road.letters.signed)
     plain = Alphabet(group.n, affine=group.affine, signed=b.signed)
     free, turned = b.freed(), "orthogonal" in group.relations
@@ -90,6 +102,9 @@ def specialise(road: General, group: Group, v: Potentials, c: Chapter) -> Specia
     def restricted(e: Expr, letters: Alphabet = plain) -> Expr:
         """An expression about any group on this one, where C may be 1."""
         found = letters.respell(e, whole)
+        if bodies:
+            shorter = without_gram(found, bodies, letters)
+            return shorter if shorter == found else shorter.of(b.unit.marked(c.label("relation")))
         return found.of(whole) if turned else found
 
     eta = word(b.w.xi_prime) if b.affine else None
@@ -120,7 +135,7 @@ def specialise(road: General, group: Group, v: Potentials, c: Chapter) -> Specia
     contraction, derivative = _exterior(domega, road, plain, varying, by_bracket)
     inertial, motion = _kernel(contraction, [*said.values()], plain, c)
     steps = (
-        *_relation(group, c),
+        *_relation(group, bodies, c),
         *v.steps,
         pushes,
         written,
@@ -128,7 +143,7 @@ def specialise(road: General, group: Group, v: Potentials, c: Chapter) -> Specia
         *(coadjoint_steps(road.momenta, b, whole, c) if turns_whole(group) else ()),
         motion,
     )
-    return Special(free, whole, free.respell(inertial), said, steps, (last,))
+    return Special(free, whole, free.respell(inertial), said, steps, (last,), bodies)
 
 
 def turns_whole(group: Group) -> bool:
@@ -137,20 +152,28 @@ def turns_whole(group: Group) -> bool:
     return "orthogonal" in group.relations and len(group.linear_basis) == n * (n - 1) // 2 > 0
 
 
-def _relation(group: Group, c: Chapter) -> tuple[Step, ...]:
+def _relation(group: Group, bodies: Bodies | None, c: Chapter) -> tuple[Step, ...]:
     """What the group keeps, read off the basis of its Lie algebra."""
+    known: tuple[tuple[Tree, Tree], ...] = ()
+    prose: Prose = ()
     if "orthogonal" in group.relations:
-        claims: tuple[tuple[Tree, Tree], ...] = (
+        known = (
             ("C", ("one",)),
             (("T", "Z"), ("mul", -1, "Z")),
             (("T", "ξ"), ("mul", -1, "ξ")),
         )
+        prose = _kept(group)
     elif "unimodular" in group.relations:
-        claims = ((("det", "A"), 1), (("tr", "Z"), 0), (("tr", "ξ"), 0))
-    else:
+        known = ((("det", "A"), 1), (("tr", "Z"), 0), (("tr", "ξ"), 0))
+        prose = _kept(group, stays=not bodies)
+    if bodies:
+        prose += told(bodies)
+    equations = (*(Equation(*x) for x in known), *(claims(bodies) if bodies else ()))
+    if not equations:
         return ()
-    equations = tuple(Equation(*claim) for claim in claims)
-    return (c.draft("relation", "relation").step(equations, _kept(group) + _smaller(group)),)
+    if known:
+        prose += _smaller(group)
+    return (c.draft("relation", "relation").step(equations, prose),)
 
 
 def _smaller(group: Group) -> Prose:
@@ -168,7 +191,8 @@ def _smaller(group: Group) -> Prose:
     )
 
 
-def _kept(group: Group) -> Prose:
+def _kept(group: Group, *, stays: bool = True) -> Prose:
+    """What the relations say; ``stays``: C does not drop out."""
     skew = "orthogonal" in group.relations
     if group.affine:
         if skew:
@@ -179,9 +203,13 @@ def _kept(group: Group) -> Prose:
         )
     if skew:
         return say("The matrices of the Lie algebra are skew, so ĀA = 𝟏 and C drops out.")
-    prose = say(
-        "The matrices of the Lie algebra have trace zero, so the volume is kept; C does not drop "
-        "out."
+    prose = (
+        say(
+            "The matrices of the Lie algebra have trace zero, so the volume is kept; C does not "
+            "drop out."
+        )
+        if stays
+        else say("The matrices of the Lie algebra have trace zero, so the volume is kept.")
     )
     if group.factors:
         return prose

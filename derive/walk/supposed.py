@@ -170,8 +170,12 @@ MATRICES = frozenset({"J", "J_c", "I", "I_c", "M"})
 def supposing(step: Step) -> Step:
     """The step with the hypotheses of all that its equations divide by, or invert."""
     trees = (t for e in step.equations for side in (e.lhs, e.rhs) for t in _inverted(side))
-    needed = (Hypothesis("invertible" if t in MATRICES else "nonzero", t) for t in trees)
+    needed = (Hypothesis("invertible" if _matrix(t) else "nonzero", t) for t in trees)
     return replace(step, hypotheses=tuple(dict.fromkeys((*step.hypotheses, *needed))))
+
+
+def _matrix(t: Tree) -> bool:
+    return _matrix(t[1]) if isinstance(t, tuple) and t[0] == "add" else t in MATRICES
 
 
 def supposing_all(steps: Iterable[Step]) -> tuple[Step, ...]:

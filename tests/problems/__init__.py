@@ -179,10 +179,16 @@ def with_forces(name):
 
 SPATIAL = ("SE(3)", "SO(3)", "SL(3)", "SAff(3)", "Sim(3)")
 PRODUCTS = ("SO(3) x SO(3)", "SE(3) x SO(3)")
+MORE = ("SE(3) x SE(3)", "SL(3) x SE(3)")  # one point more: a rod may not turn
 
 PROBLEMS = {name: of_group(name) for name in GROUPS}
 PROBLEMS |= {f"{name} forces": with_forces(name) for name in SPATIAL}
 PROBLEMS |= {name: f'name = "test"\ngroup = "{name}"\n{PRODUCT}' for name in PRODUCTS}
+THIRD = "[[point]]\nmass = 3.0\nat = [0, 0, -1]\nblock = 2\n[[potential]]"
+PROBLEMS |= {
+    name: f'name = "test"\ngroup = "{name}"\n{PRODUCT.replace("[[potential]]", THIRD, 1)}'
+    for name in MORE
+}
 PROBLEMS |= {"screw": 'name = "test"\n' + SCREW, "weighted": 'name = "test"\n' + WEIGHTED}
 
 # so(3) otherwise: some of it, in another order, and with the translations
@@ -206,11 +212,71 @@ def own_group(basis, action="linear"):
     return f'name = "test"\n{TURNING}{table}'
 
 
+# so(3) and se(3) in bases of which no member is j(e_i) up to a factor, or in which they are mixed
+SKEWED = "[[0, -2, 1], [2, 0, -3], [-1, 3, 0]], [[0, 0, 1], [0, 0, 0], [-1, 0, 0]], " + AXIS
+
+
+def displacement(turn, shift):
+    """j(turn) with a translation, as a matrix of se(3)."""
+    x, y, z = turn
+    rows = [[0, -z, y], [z, 0, -x], [-y, x, 0]]
+    return str([[*row, s] for row, s in zip(rows, shift, strict=True)] + [[0, 0, 0, 0]])
+
+
+SCREWS = [((3, 1, 2), (1, 2, 3)), ((1, 0, 0), (0, 0, 1)), ((0, 0, 1), (0, 0, 0))]
+TURNS = [(turn, (0, 0, 0)) for turn, _ in SCREWS]
+MIXED = ", ".join([displacement(*SCREWS[0]), TRANSLATIONS, *(displacement(*x) for x in SCREWS[1:])])
+APART = ", ".join([*(displacement(*x) for x in TURNS), TRANSLATIONS])
+
 PROBLEMS |= {
+    "so(3) skewed": own_group(SKEWED),
+    "se(3) mixed": own_group(MIXED, "affine"),
+    "se(3) apart": own_group(APART, "affine"),
     "an axis": own_group(AXIS),
     "so(3) otherwise": own_group(OTHERWISE),
     "a cylinder": own_group(CYLINDER, "affine"),
     "translations": own_group(TRANSLATIONS, "affine"),
+}
+
+# C is not 1, and drops out: of every body's metric where lengths of images are kept; of this one's
+SHEARS = "[[0, 0, 1], [0, 0, 0], [0, 0, 0]], [[0, 0, 0], [0, 0, 1], [0, 0, 0]]"
+JORDAN = "[[0, 1, 0], [0, 0, 1], [0, 0, 0]]"
+FLAT = """
+[parameters]
+a = 2.0
+b = 1.0
+[[point]]
+mass = "a"
+at = ["a", "b", 0]
+[[point]]
+mass = "a*(a + b)/b"
+at = ["b", "a", "b - a - (b^2 - a^2)/(a + b)"]
+[[potential]]
+kind = "gravity"
+g = [1, 2, -3]
+[[potential]]
+kind = "spring"
+between = [1, 2]
+stiffness = 3
+[[damping]]
+coefficient = 0.3
+[[input]]
+name = "F"
+kind = "force"
+on = 2
+frame = "body"
+"""
+
+
+def flat(body=FLAT):
+    """A body in the plane that one Jordan block keeps, unless the text is changed."""
+    return f'name = "test"\n{body}[group]\nname = "Jordan"\nbasis = [{JORDAN}]\n'
+
+
+PROBLEMS |= {
+    "shears": own_group(SHEARS),
+    "a flat body": flat(),
+    "a solid body": flat(FLAT.replace("(b^2 - a^2)", "b^2")),
 }
 
 # solids are no points: the oracle has them with the moments of their integrals, see below

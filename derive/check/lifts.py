@@ -1,0 +1,41 @@
+"""The principle on one jet of a curve: X is the tangent of a lift, δ varies it through lifts.
+
+The curve and those it is varied through are one two-parameter family in the group; d/dt is its
+second parameter.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.tree import Tree
+from .arithmetic import EvaluationError
+from .model import Model
+from .nilpotent import EPS, EPS_PRIME, Nilpotent, derivative_in, derivative_of, part
+
+ON_TANGENT: Tree = ("call", "ϖ", "X")
+ON_VARIATION: Tree = ("call", "ϖ", "δy")
+
+
+def action_varied(model: Model) -> Any:
+    """δ of L̃ dt, which is ϖ(X), by the Lagrangian alone: the velocity is that of each curve."""
+    if model.motion.xi != model.Z:
+        raise EvaluationError("ϖ(X) is varied where X is the tangent of a lift")
+    t, g, _ = model.family(model.first, model.motion)
+    passing, velocity = derivative_in(t, EPS_PRIME), derivative_of(g, EPS_PRIME)
+    t, g = _now(t), tuple(tuple(map(_now, row)) for row in g)
+    return part(model.lagrangian(t, g, q.scaled(1 / passing, velocity)) * passing, EPS)
+
+
+def form_rate(model: Model) -> Any:
+    """d/dt of ϖ(δy)."""
+    t, g, Z = model.family(model.first, model.motion)
+    nu = q.times(g, Z)
+    momentum = model.momentum(nu, derivative_of(g, EPS))
+    return part(momentum - model.energy(t, g, nu) * derivative_in(t, EPS), EPS_PRIME)
+
+
+def _now(x: Any) -> Nilpotent:
+    """At the instant itself: without d/dt."""
+    return Nilpotent({k: v for k, v in Nilpotent.of(x).parts.items() if not k & EPS_PRIME})

@@ -1,0 +1,54 @@
+"""The numbers of a state that are entries of the group element, and those that are none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra.groups import Group
+from .naming import suffixed
+
+
+@dataclass(frozen=True)
+class Slot:
+    """One number of the state: entry (row, column), from 0, of the matrix A or the vector T."""
+
+    name: str
+    letter: str
+    row: int
+    column: int = 0
+
+
+def layout(group: Group, columns: bool = False) -> list[Slot]:
+    """The slots of a group element kept as matrices; ``columns``: column by column."""
+    if not group.factors:
+        return _factor(group, "", 0, group.affine, columns)
+    several = len(group.factors) > 1
+    return [
+        slot
+        for k, (offset, factor) in enumerate(group.places, 1)
+        for slot in _factor(factor, str(k) if several else "", offset, False, columns)
+    ]
+
+
+def _factor(g: Group, mark: str, offset: int, apart: bool, columns: bool) -> list[Slot]:
+    """``apart``: the translation is a vector of its own, not a column of A."""
+    span = range(g.n)
+    pairs = [(j, i) if columns else (i, j) for i in span for j in span]
+    slots = [
+        Slot(suffixed(f"A{mark}", i + 1, j + 1), "A", offset + i, offset + j) for i, j in pairs
+    ]
+    if g.affine:
+        slots += [
+            Slot(suffixed(f"T{mark}", i + 1), "T", i)
+            if apart
+            else Slot(suffixed(f"T{mark}", i + 1), "A", offset + i, offset + g.n)
+            for i in span
+        ]
+    return slots
+
+
+def fixed_entries(group: Group) -> dict[tuple[int, int], int]:
+    """The entries of A that are no part of the state but 1: the corners of affine factors."""
+    return {
+        (offset + f.n, offset + f.n): 1 for offset, f in group.places if group.factors and f.affine
+    }

@@ -1,0 +1,76 @@
+"""What is particular in the products and brackets of a Lie algebra, read off its basis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import combinations
+from typing import Any
+
+from ..algebra import rational as q
+from ..algebra.groups import Group
+from ..algebra.rational import Matrix
+from ..algebra.tree import Tree, add, mul, neg
+from ..record.record import Equation, Step
+from ..record.sentence import Prose, say
+from .chapter import Chapter
+
+Row = tuple[Any, ...]
+BRACKET: Tree = ("bracket", "ξ′", "ξ")
+CARRIED: Tree = add(mul("ξ′", "η"), neg(mul("ξ", "η′")))
+
+
+def bracket_step(group: Group, c: Chapter) -> tuple[Step, ...]:
+    """Is the group commutative, nilpotent, its brackets central?  None for none of these."""
+    basis, equations = group.basis, list[Equation]()
+    prose: Prose = ()
+    if not any(map(_nonzero, group.linear_basis)):
+        return ()
+    if not any(_nonzero(q.bracket(*pair)) for pair in combinations(basis, 2)):
+        equations.append(Equation(BRACKET, 0))
+        if group.affine:
+            equations.append(Equation(CARRIED, 0))
+        prose += say(
+            "The group is commutative: the bracket vanishes, and with it the coadjoint term of the "
+            "momentum."
+        )
+    elif not group.affine and not any(
+        _nonzero(q.bracket(q.bracket(*pair), z)) for pair in combinations(basis, 2) for z in basis
+    ):
+        equations.append(Equation(("bracket", BRACKET, "Z"), 0))
+        prose += say(
+            "A bracket commutes with the whole Lie algebra: in the directions of brackets the "
+            "momentum has no coadjoint term."
+        )
+    if not group.affine and (k := vanishing_power(basis)):
+        equations.append(Equation(("pow", "Z", k), 0))
+        prose += say(
+            "The matrices of the Lie algebra are nilpotent: along its one-parameter groups the "
+            "points move by polynomials in the time."
+        )
+    return (c.draft("brackets", "relation").step(equations, prose),) if equations else ()
+
+
+def vanishing_power(basis: Sequence[Matrix]) -> int:
+    """k for which all products of k elements vanish, and no less will do; 0 for none."""
+    if any(q.trace(q.times(e, e)) != 0 for e in basis):
+        return 0
+    k, image = 0, list[Row](q.identity(len(basis[0])))
+    while image:
+        moved = (q.times(e, tuple((x,) for x in v)) for v in image for e in basis)
+        found = _independent(q.flatten(x) for x in moved)
+        if len(found) == len(image):
+            return 0
+        k, image = k + 1, found
+    return k
+
+
+def _independent(rows: Iterable[Row]) -> list[Row]:
+    found: list[Row] = []
+    for x in rows:
+        if q.rank((*found, x)) > len(found):
+            found.append(x)
+    return found
+
+
+def _nonzero(x: Matrix) -> bool:
+    return any(y != 0 for row in x for y in row)

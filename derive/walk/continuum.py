@@ -1,0 +1,54 @@
+"""A continuous body: L, ϖ and the group's action as integrals over it (36)–(38), and its moments.
+
+What was said of a point of mass m_i is said of one of mass dm: r, its place in the body, and v, its
+velocity in space, are functions on the body.
+"""
+
+from __future__ import annotations
+
+from ..algebra.calculus import derivation, substitute
+from ..algebra.notation import Notation
+from ..algebra.tree import Tree, add, coefficient, mul, neg
+from ..algebra.words import Expr, Letter, number, word
+from ..record.record import Equation, Step
+from ..record.sentence import say
+from .alphabet import Alphabet
+from .chapter import Chapter, Draft
+from .lagrangian import Lagrangian
+
+MOVED: Tree = ("call", "g", "r")
+
+
+def continuum(points: Lagrangian, a: Alphabet, c: Chapter) -> Step:
+    """g(r), v, L, ϖ and h̃ of a body with a measure of mass."""
+    draft = c.draft("continuum", "definition")
+    varied = Letter("δr", a.n)
+    display: dict[Letter, Tree] = {
+        a.r_i: "r",
+        points.v_i: "v",
+        varied: ("call", "δ", MOVED),
+    }
+    notation = Notation(display=display)
+    momentum = derivation(points.kinetic, {points.v_i: word(varied)}.get)
+    kinetic, paired = (_integral(draft, e, a, notation) for e in (points.kinetic, momentum))
+    return draft.step(
+        (
+            Equation(MOVED, draft.tree(points.position, notation)),
+            Equation("v", draft.tree(points.velocity, notation)),
+            Equation("L", add(kinetic, neg("U"))),
+            Equation(("call", "ϖ", "δy"), add(paired, neg(mul("h̃", "δt")))),
+            Equation("h̃", add(kinetic, "U")),
+        ),
+        say(
+            "A continuous body has a measure of mass dm, density times volume: its places r and "
+            "velocities v are functions on it, the group moves the body by g ∘ r, and the sums "
+            "over the points are integrals."
+        ),
+        (36, 37, 38),
+    )
+
+
+def _integral(d: Draft, e: Expr, a: Alphabet, notation: Notation) -> Tree:
+    """Σ m_i … as ∫ … dm."""
+    factor, inside = coefficient(d.tree(substitute(e, {a.m_i: number(1)}), notation))
+    return mul(factor, ("call", "∫", inside))

@@ -1,0 +1,77 @@
+"""The motions as a whole: a symplectic manifold (26); curves in the space of all matrices.
+
+dϖ vanishes on the tangent X of a motion, so of a variation it sees only what crosses the motions.
+"""
+
+from __future__ import annotations
+
+from ..algebra import forms
+from ..algebra.calculus import gradient, substitute, without
+from ..algebra.notation import PLAIN, Notation, metrics, tree_of
+from ..algebra.words import Expr, inner, word
+from ..record.record import Equation, Step
+from ..record.sentence import say
+from .alphabet import Alphabet
+from .cartan import Cartan
+from .chapter import Chapter
+from .exterior import DOMEGA, natural_variations, primed, primes
+from .gather import at_constant_time, gathered
+from .kernel import Ambient
+
+
+def motions(form: Cartan, law: Ambient, a: Alphabet, c: Chapter) -> Step:
+    """dϖ by what crosses the motions: there the forces do the work of the acceleration."""
+    draft = c.draft("motions", "kernel")
+    along = {p.dp_position: word(p.d_position) for p in a.parts}
+    work = substitute(law.balance, along) + form.work
+    derivative = forms.exterior(form.form, primes(a), *natural_variations(work, a))
+    images = {}
+    for p in a.parts:
+        images[p.d_position] = word(p.d_position) - word(p.velocity) * word(a.dt)
+        images[p.d_velocity] = word(p.d_velocity) - word(p.acceleration) * word(a.dt)
+    images |= {primes(a)[x]: primed(e, a) for x, e in images.items()}
+    core = at_constant_time(derivative, a.dt, a.dpt)
+    notation = metrics() if a.affine else metrics("J")
+    return draft.step(
+        (Equation(DOMEGA, gathered(draft, derivative, core, images, notation)),),
+        say(
+            "Of two variations dϖ sees what crosses the motions, and there it is ω: it is a form "
+            "on the manifold of the motions."
+        )
+        + say(
+            "Where every motion lasts for all times, each has one point at a given t, and this "
+            "manifold is the tangent bundle of the group with the symplectic form ω."
+        ),
+        (26,),
+    )
+
+
+def held(law: Ambient, gram: Expr, n: int, c: Chapter) -> Step:
+    """SO(n) in the space of all matrices: what the constraint adds is orthogonal to the group."""
+    draft, b = c.draft("geodesics", "relation"), Alphabet(n, affine=False, skew=True)
+    any_matrix, rate = b.freed().Z.xi_prime, b.A.acceleration
+    along = {b.A.dp_position: word(b.A.position) * word(any_matrix)}
+    added = gradient(substitute(b.respell(law.balance), along), any_matrix).of(gram)
+    core = {rate: word(rate) - word(b.F_group)}
+    left, right = (
+        gathered(draft, e, without(e, b.F_group), core, PLAIN) for e in (added, added.bar)
+    )
+    Z, tested, turned = word(b.Z.velocity), word(b.Z.xi_prime), word(b.Z.acceleration)
+    display = Notation(display={b.Z.acceleration: tree_of(Z * Z + turned)})
+    return draft.step(
+        (
+            Equation(left, right),
+            Equation(
+                tree_of(inner(tested, turned), display), tree_of(inner(tested, Z * Z + turned))
+            ),
+        ),
+        say(
+            "The point A moves in the space of all matrices, with the metric of J, pushed by F̃ and "
+            "held on the group by what is orthogonal to it, α̇ − F̃: without forces it draws a "
+            "geodesic of the metric."
+        )
+        + say(
+            "For J = 𝟏 the term in Z² does no work: without forces Z is then constant, and the "
+            "motions are the one-parameter groups, moved by an element of the group."
+        ),
+    )

@@ -1,0 +1,130 @@
+"""The body on an orbit of the group: what tells g_t (8), and what becomes of distances (1)(6).
+
+The points of the body are where they are by one element of the group.  Sums over them, at an
+instant, tell which; and the distance of two of them changes through C = ĀA alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ..algebra import forms
+from ..algebra.calculus import derivation, gradient, reduce, substitute, without
+from ..algebra.notation import Notation, metrics
+from ..algebra.tree import Tree, add, neg
+from ..algebra.words import Expr, Letter, inner, number, word
+from ..record.record import Equation, Step
+from ..record.sentence import Prose, say
+from .alphabet import Alphabet
+from .chapter import Chapter, Draft
+from .gather import terms_with
+from .lagrangian import POINT, Lagrangian
+from .pullback import Moments, sum_over
+from .trivialisation import frame_rule, gram
+
+R_I, R_J, M_I = (("at", x, i) for x, i in (("r", "i"), ("r", "j"), ("m", "i")))
+OTHER: Tree = ("call", R_J, "t")
+APART: Tree = add(POINT, neg(OTHER))
+VARIED: Tree = add(("call", "δ", POINT), neg(("call", "δ", OTHER)))
+
+
+def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Step:
+    """A, and for an affine action T, by sums over the points where they are."""
+    draft = c.draft("unique", "pull-back")
+    centre = Letter("m⁻¹c", a.n)
+    shown: Tree = ("mul", ("inv", "m"), "c")
+    arm = word(a.r_i)
+    seen: Tree = R_I
+    if a.affine:
+        arm, seen = arm - word(centre), add(R_I, neg(shown))
+    turned = _summed(points, arm, moments, a)
+    inertia = forms.strip_left(terms_with(turned, a.A.position), a.A.position)
+    # what is left of T, nothing as m m⁻¹c = c
+    rest = substitute(without(turned, a.A.position), {a.c: word(a.m) * word(centre)})
+    notation = Notation(display={centre: shown})
+    second: Tree = ("sum", "i", ("mul", M_I, POINT, ("T", seen)))
+    told = add(second, neg(draft.tree(rest, notation)))
+    named: list[Equation] = []
+    second_moment = draft.tree(inertia, notation)
+    if a.affine:
+        named, second_moment = [Equation("J_c", second_moment)], "J_c"
+    equations = [*named, Equation(("mul", told, ("inv", second_moment)), "A")]
+    if a.affine:
+        mass, first = moments[a.m_i,], ("sum", "i", ("mul", M_I, POINT))
+        others = _summed(points, number(1), moments, a) - mass * word(a.T.position)
+        left = add(first, neg(draft.tree(others)))
+        equations.append(Equation(("mul", ("inv", draft.tree(mass)), left), "T"))
+    return draft.step(equations, _told(a), (8,))
+
+
+def _summed(points: Lagrangian, arm: Expr, moments: Moments, a: Alphabet) -> Expr:
+    """Σ m_i r_i(t) x̄ for a vector x of each point, or Σ m_i r_i(t) for x = 1."""
+    tested = Letter("Y", a.n, arm.rows)
+    summand = inner(word(a.m_i) * points.position * arm.bar, word(tested))
+    return gradient(sum_over(summand, {a.m_i, a.r_i}, moments), tested)
+
+
+def _told(a: Alphabet) -> Prose:
+    if a.affine:
+        where = say(
+            "The places of the points tell g where they are not in one hyperplane: g_t is then the "
+            "only element that moves the body so, and is as smooth in t as they are."
+        )
+    else:
+        where = say(
+            "The places of the points tell g where they span the space: g_t is then the only "
+            "element that moves the body so, and is as smooth in t as they are."
+        )
+    return where + say(
+        "Elsewhere the path is told by its start, if no tangent vector but 0 leaves all the points "
+        "at rest."
+    )
+
+
+@dataclass(frozen=True)
+class Distances:
+    """‖r_i(t) − r_j(t)‖² and half its variation, by r_i − r_j."""
+
+    square: Expr
+    varied: Expr
+    step: Step
+
+
+def _equations(d: Draft, square: Expr, varied: Expr, a: Alphabet) -> tuple[Equation, ...]:
+    notation = metrics("C", display={a.apart: add(R_I, neg(R_J))})
+    return (
+        Equation(("norm2", APART), d.tree(square, notation)),
+        Equation(("inner", APART, VARIED), d.tree(varied, notation)),
+    )
+
+
+def distances(points: Lagrangian, a: Alphabet, c: Chapter) -> Distances:
+    """The square of a distance by C, and its variation."""
+    draft = c.draft("distances", "trivialisation")
+    other = Letter("r_j", a.n)
+    beside = substitute(points.position, {a.r_i: word(other)})
+    between = substitute(points.position, {a.r_i: word(other) + word(a.apart)}) - beside
+    square, rule = inner(between, between), frame_rule(a, gram(a))
+    turned = {a.A.position: word(a.A.position) * word(a.Z.xi)}
+    varied = reduce(derivation(square, turned.get), rule) * Fraction(1, 2)
+    square = reduce(square, rule)
+    step = draft.step(
+        _equations(draft, square, varied, a),
+        say("The distances of the points change through C alone, the Cauchy–Green matrix."),
+    )
+    return Distances(draft.said(square), draft.said(varied), step)
+
+
+def rigid(general: Distances, unit: Expr, a: Alphabet, c: Chapter) -> Step:
+    """C = 1: the distances are kept, and by their variations (6)."""
+    draft = c.draft("rigid", "relation")
+    square, varied = (a.respell(e, unit).of(unit) for e in (general.square, general.varied))
+    return draft.step(
+        _equations(draft, square, varied, a),
+        say(
+            "The body is rigid: C = 𝟏 says that the distances of its points are kept, so that it "
+            "moves on an orbit of the isometries."
+        ),
+        (1, 6),
+    )

@@ -1,0 +1,140 @@
+"""The principle: a lift is an extremal of the action (5), δt and δg being 0 at both ends, if and
+only if its tangent is in the kernel of dϖ.
+
+A curve t ↦ (t, g, ν) is a lift where ν = ġ.  With X its tangent, δ′ is the derivative d/dt along
+it, which commutes with δ:
+
+    δ[ϖ(X)] = dϖ(δy, X) + d/dt ϖ(δy).
+
+The left side is varied from L̃ alone, through lifts.  No regularity is used.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra import forms
+from ..algebra.calculus import derivation, substitute
+from ..algebra.notation import Notation, tree_of
+from ..algebra.tree import Tree, add
+from ..algebra.words import Expr, Letter, inner, number, word
+from ..record.record import Equation, Step
+from ..record.sentence import say
+from .alphabet import Alphabet
+from .cartan import Cartan
+from .chapter import Chapter
+from .exterior import natural_variations, primes
+from .lagrangian import POINT, Lagrangian
+from .pullback import Pullback, sum_over
+
+ON_TANGENT: Tree = ("call", "ϖ", "X")
+ACROSS: Tree = ("call", "dϖ", "δy", "X")
+RATE: Tree = ("call", "d/dt", ("call", "ϖ", "δy"))
+LATER = Letter("d/dt δt")
+
+
+@dataclass(frozen=True)
+class Principle:
+    """``across``: dϖ(δy, X) on lifts, which vanishes on extremals alone."""
+
+    across: Expr
+    steps: tuple[Step, Step]
+
+
+def principle(
+    points: Lagrangian, pulled: Pullback, form: Cartan, a: Alphabet, c: Chapter
+) -> Principle:
+    """The variation of the action by dϖ, and what dϖ is there: d’Alembert's principle."""
+    varying, working = c.draft("extremal", "variation"), c.draft("dalembert", "contraction")
+    lift = tuple(Equation(("call", p.d_position.name, "X"), p.velocity.name) for p in a.parts)
+    lagrangian = pulled.kinetic - word(a.U)
+    twins, tangent = primes(a), tangent_of_lift(a)
+    onto = {x: tangent[y] for x, y in twins.items() if y in tangent}
+    apart = substitute(form.form, onto) - lagrangian
+    delta, delta_prime = natural_variations(pulled.pushed, a)
+    exterior = substitute(forms.exterior(form.form, twins, delta, delta_prime), tangent)
+    varied, rate = _varied(lagrangian, pulled, a), _rate(form.form, pulled, a)
+    first = varying.step(
+        (
+            Equation(ON_TANGENT, add("L̃", varying.tree(apart))),
+            Equation(
+                ("call", "δ", ON_TANGENT), add(ACROSS, RATE, varying.tree(varied - exterior - rate))
+            ),
+        ),
+        say(
+            "The action of a curve in the group is the integral of L̃ in time along its lift, where "
+            "ν is the velocity; on the tangent X of a lift ϖ is L̃, so this is the integral of ϖ."
+        )
+        + say(
+            "The lift is varied through lifts, and δ commutes with d/dt: where δt and δg vanish at "
+            "both ends, the action changes by the integral of dϖ(δy, X)."
+        ),
+        (5, 11),
+        lift,
+    )
+    summand, shown = _work(points, a)
+    across = varying.said(varied) - rate
+    balance = sum_over(summand, {a.m_i, a.r_i, a.F_i}, pulled.moments)
+    second = working.step(
+        (
+            Equation(
+                ACROSS,
+                add(("mul", -1, ("sum", "i", shown)), working.tree(across + balance)),
+                tuple(p.acceleration.name for p in a.parts),
+            ),
+        ),
+        say(
+            "Here δν does not occur, and δt and δg are any: so a lift is an extremal of the action "
+            "if and only if its tangent is in the kernel of dϖ, whether or not L̃ is regular."
+        )
+        + say(
+            "On the points it is d’Alembert’s principle of virtual work: what the constraint adds "
+            "to the forces F_i in Newton’s equations does no work in any displacement that "
+            "respects it."
+        ),
+        (2, 5),
+        lift,
+    )
+    return Principle(working.said(across), (first, second))
+
+
+def tangent_of_lift(a: Alphabet) -> dict[Letter, Expr]:
+    """δ′ ↦ d/dt along a lift: δ′t = 1, δ′g = ν, δ′ν = ν̇."""
+    tangent = {a.dpt: number(1)}
+    for p in a.parts:
+        tangent |= {p.dp_position: word(p.velocity), p.dp_velocity: word(p.acceleration)}
+    return tangent
+
+
+def _varied(lagrangian: Expr, pulled: Pullback, a: Alphabet) -> Expr:
+    """δ(L̃ dt) / dt through lifts: ν = dg/dt, whose variation is d(δg)/dt − ν d(δt)/dt."""
+    later = word(LATER)
+    delta = {a.U: word(a.dU_dt) * word(a.dt) - pulled.pushed}
+    for p in a.parts:
+        delta[p.position] = word(p.d_position)
+        delta[p.velocity] = word(p.second) - word(p.velocity) * later
+    return derivation(lagrangian, delta.get) + lagrangian * later
+
+
+def _rate(form: Expr, pulled: Pullback, a: Alphabet) -> Expr:
+    """d/dt of ϖ(δy) along a lift."""
+    along = substitute(pulled.pushed, {p.d_position: word(p.velocity) for p in a.parts})
+    rate = {a.U: word(a.dU_dt) - along, a.dt: word(LATER)}
+    for p in a.parts:
+        rate |= {p.position: word(p.velocity), p.velocity: word(p.acceleration)}
+        rate[p.d_position] = word(p.second)
+    return derivation(form, rate.get)
+
+
+def _work(points: Lagrangian, a: Alphabet) -> tuple[Expr, Tree]:
+    """⟨m_i r̈_i − F_i, δr_i − v_i δt⟩ on words, with the acceleration at hand; and as written."""
+    acceleration = substitute(points.velocity, {p.velocity: word(p.acceleration) for p in a.parts})
+    varied = Letter("δr_i", a.n)
+    pushed = word(a.m_i) * acceleration - word(a.F_i)
+    moved = word(varied) - word(points.v_i) * word(a.dt)
+    members = {a.m_i: "m", a.r_i: "r", a.F_i: "F", points.v_i: "v"}
+    display: dict[Letter, Tree] = {x: ("at", name, "i") for x, name in members.items()}
+    notation = Notation(display=display | {varied: ("call", "δ", POINT)})
+    shown: Tree = ("inner", tree_of(pushed, notation), tree_of(moved, notation))
+    images = {varied: points.variation, points.v_i: points.velocity}
+    return inner(pushed, substitute(moved, images)), shown
