@@ -127,7 +127,7 @@ SIDES = [
     (("entry", "t", 1), 0, "entries of matrices and vectors"),
     (("at", "q", 1), 0, "no member"),
     (("at", "q", "i"), 0, "no members of"),
-    (("call", "g", "t"), 0, "no function"),
+    (("call", "q", "t"), 0, "no function"),
 ]
 
 
