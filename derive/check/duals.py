@@ -1,4 +1,4 @@
-"""What pairs with 𝔤, as sums over the points: Π and p_b, variations and rates, and Φ.
+"""What pairs with 𝔤, as sums over the points: Π and p_b, variations and rates, Φ; in space ℓ, p.
 
 ℓ_b is the skew part of Π, twice, or its axis for the rotations of space.
 """
@@ -65,3 +65,45 @@ def _carried(model: Model, g: Matrix, vectors: Sequence[Vector], arms: Sequence[
                 total[i][j] += v[i] * y
     back = q.transposed(tuple(row[:n] for row in g[:n]))
     return q.times(back, q.matrix(total))
+
+
+def space_values(model: Model, acceleration: Matrix) -> dict[str, Any]:
+    """ℓ = Σ m r ∧ v and p = Σ m v in space, as sums over the points; rates along the motion.
+
+    ℓ is a vector in R³ turned about, else the matrix Σ m (v r̄ − r v̄).
+    """
+    places, speeds = model.moved(model.g), model.moved(q.times(model.g, model.Z))
+    forces = model.moved(acceleration)
+    t, nu = model.t, q.times(model.g, model.Z)
+    e = nilpotent(EPS)
+    varied = model.energy(
+        t + e,
+        q.plus(model.g, q.scaled(e, nu)),
+        q.plus(nu, q.scaled(e, acceleration)),
+    )
+    return {
+        "ℓ": _turning(model, places, speeds),
+        "ℓ̇": _turning(model, places, forces),
+        "p": _resultant(model, speeds),
+        "ṗ": _resultant(model, forces),
+        "ḣ": part(varied, EPS),
+    }
+
+
+def _turning(model: Model, places: list[Vector], vectors: list[Vector]) -> Matrix:
+    """Σ m (v r̄ − r v̄), or in R³ turned about its axis Σ m r ∧ v."""
+    span = range(model.n)
+    pairs = list(zip(model.masses, places, vectors, strict=True))
+    whole = tuple(
+        tuple(
+            sum((m * (v[i] * r[j] - r[i] * v[j]) for m, r, v in pairs), Fraction(0)) for j in span
+        )
+        for i in span
+    )
+    return axial(whole) if model.group.turns_space else whole
+
+
+def _resultant(model: Model, vectors: list[Vector]) -> Matrix:
+    """Σ m v."""
+    pairs = list(zip(model.masses, vectors, strict=True))
+    return tuple((sum((m * v[i] for m, v in pairs), Fraction(0)),) for i in range(model.n))

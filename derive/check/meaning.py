@@ -12,9 +12,8 @@ from ..algebra import rational as q
 from ..algebra.rational import Matrix
 from ..algebra.tree import Tree
 from .arithmetic import EvaluationError, is_matrix, times
-from .body import Vector
 from .continuum import integral, moved, place_values
-from .duals import dual_values
+from .duals import dual_values, space_values
 from .evaluate import Environment, evaluate, point_index
 from .given import exerted_families, exerted_values
 from .heads import MOVED_PLACE, SHARED
@@ -145,48 +144,6 @@ def _energies(model: Model) -> Values:
     return {"L": value, "L̃": value, "U": potential, "Ũ": potential, "h̃": energy}
 
 
-def _momenta(model: Model, acceleration: Matrix) -> Values:
-    """ℓ = Σ m r ∧ v and p = Σ m v in space, as sums over the points; rates along the motion.
-
-    ℓ is a vector in R³ turned about, else the matrix Σ m (v r̄ − r v̄).
-    """
-    places, speeds = model.moved(model.g), model.moved(q.times(model.g, model.Z))
-    forces = model.moved(acceleration)
-    t, nu = model.t, q.times(model.g, model.Z)
-    e = nilpotent(EPS)
-    varied = model.energy(
-        t + e,
-        q.plus(model.g, q.scaled(e, nu)),
-        q.plus(nu, q.scaled(e, acceleration)),
-    )
-    return {
-        "ℓ": _turning(model, places, speeds),
-        "ℓ̇": _turning(model, places, forces),
-        "p": _resultant(model, speeds),
-        "ṗ": _resultant(model, forces),
-        "ḣ": part(varied, EPS),
-    }
-
-
-def _turning(model: Model, places: list[Vector], vectors: list[Vector]) -> Matrix:
-    """Σ m (v r̄ − r v̄), or in R³ turned about its axis Σ m r ∧ v."""
-    span = range(model.n)
-    pairs = list(zip(model.masses, places, vectors, strict=True))
-    whole = tuple(
-        tuple(
-            sum((m * (v[i] * r[j] - r[i] * v[j]) for m, r, v in pairs), Fraction(0)) for j in span
-        )
-        for i in span
-    )
-    return axial(whole) if model.group.turns_space else whole
-
-
-def _resultant(model: Model, vectors: list[Vector]) -> Matrix:
-    """Σ m v."""
-    pairs = list(zip(model.masses, vectors, strict=True))
-    return tuple((sum((m * v[i] for m, v in pairs), Fraction(0)),) for i in range(model.n))
-
-
 def _motion(model: Model) -> Values:
     """Rates along the motion, and what the equations are solved with."""
     Z, Z_dot = model.Z, model.acceleration
@@ -194,7 +151,7 @@ def _motion(model: Model) -> Values:
     values = _parts(model, "Ż", "ẇ", Z_dot)
     values |= _parts(model, "α̇", "τ̇", acceleration)
     values |= _parts(model, "Ȧ", "Ṫ", q.times(model.g, Z))
-    values |= _momenta(model, acceleration)
+    values |= space_values(model, acceleration)
     d = len(model.group.linear_basis)
     for name, element in (("ζ", Z), ("ζ̇", Z_dot)):
         values[name] = tuple((x,) for x in model.group.nearest(element)[:d])
@@ -295,8 +252,6 @@ def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
     back = q.minus(q.identity(model.s), q.scaled(nilpotent(mask), part(h, mask)))
     value = part(q.times(back, derivative_of(h, other)), mask)
     return (_linear if what in ("ξ", "ξ′") else _translation)(model, value)
-
-
 
 
 def _rotation_vector(model: Model, xi: Matrix) -> Matrix:
