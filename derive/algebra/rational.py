@@ -39,7 +39,7 @@ def dot(a: Iterable[Any], b: Iterable[Any]) -> Any:
     if kinds <= EXACT:
         (x, d), (y, e) = map(over_one, (a, b))  # type: ignore[misc]
         return Fraction(sum(map(mul, x, y)), d * e)
-    own = [k for k in kinds if hasattr(k, "dot")]
+    own: list[Any] = [k for k in kinds if hasattr(k, "dot")]
     if not own:
         return sum(map(mul, a, b), ZERO)
     return (own[0] if len(own) == 1 else next(k for k in own if hasattr(k, "parts"))).dot(a, b)
