@@ -18,10 +18,10 @@ test: $(STAMP)   ## lint, types and all tests
 	  { echo "make test: no C compiler on the path: install gcc or clang" >&2; exit 2; }
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/python -m pytest -n 2 --dist loadfile
+	$(BIN)/python -m pytest -n 2
 
 coverage: $(STAMP) ## the tests, and the lines and branches of derive/ that none runs; fails below 95 %
-	$(BIN)/python -m pytest -n 2 --dist loadfile --cov --cov-report= --cov-report=json
+	$(BIN)/python -m pytest -n 2 --cov --cov-report= --cov-report=json
 	$(BIN)/python -m tests.covered 95
 
 mutants: $(STAMP) ## an hour or more: every record, emitted program and rule of the engine made wrong

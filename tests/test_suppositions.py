@@ -84,7 +84,7 @@ def test_what_is_tried():
     given = {str(e.lhs) for step in steps for e in step.given}
     assert {"δt", "δ′t", "δ′A", "δ′T", "Ω′", "η′", "I"} < given
     quantified = {x for step in steps for e in step.equations for x in (*e.for_all, *e.exists)}
-    assert {"α̇", "τ̇", "Ż", "ẇ", "ζ̇", "λ"} < quantified
+    assert {"α̇", "τ̇", "Ż", "ẇ", "ζ̇", "θ"} < quantified
 
 
 def told(name, label, **changes):
@@ -165,8 +165,8 @@ def test_the_order_of_what_is_given_says_nothing(name):
 
 EXISTS = {
     "no multiplier": ("sl3.motion", 3, ("Ż",), "is no multiplier"),
-    "not there": ("sl3.motion", 0, ("λ",), "it says nothing of λ"),
-    "twice": ("sl3.multiplier", 0, ("λ", "λ"), "it says nothing of λ"),
+    "not there": ("sl3.motion", 0, ("θ",), "it says nothing of θ"),
+    "twice": ("sl3.multiplier", 0, ("θ", "θ"), "it says nothing of θ"),
 }
 
 
@@ -183,7 +183,7 @@ def test_what_is_not_found_is_not_said_to_exist(case):
 
 def test_principal_moments_are_no_multiplier():
     step = walked("so3")["so3.principal"]
-    changed = replace(step.equations[0], exists=("λ",))
+    changed = replace(step.equations[0], exists=("θ",))
     found = told("so3", "so3.principal", equations=(changed, *step.equations[1:]))
     assert "fixed by a hypothesis" in found.reason
 

@@ -12,7 +12,7 @@ from derive.check.checker import Checker
 from derive.check.heads import HEADS
 from derive.record.record import RecordError, from_json, to_data
 from derive.record.uses import way_of
-from derive.record.vocabulary import ROLES, VOCABULARY
+from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROLES, ROTATIONS, VOCABULARY
 from tests.walks import NAMES, OTHERS, SEED, SPECIAL, record, repeated
 
 EVERY = (*NAMES, *OTHERS)
@@ -165,7 +165,7 @@ def test_a_few_symbols():
         said = tuple(found[name].get(x) for x in ("type", "role", "defined"))
         assert said == (kind, role, key), name
     assert found["m"]["also"] == [{"type": ["family", "points", "scalar"], "role": "letter"}]
-    multiplier = next(s for s in data("sl3")["symbols"] if s["name"] == "λ")
+    multiplier = next(s for s in data("sl3")["symbols"] if s["name"] == "θ")
     assert (multiplier["type"], multiplier["role"]) == ("scalar", "unknown")
 
 
@@ -192,3 +192,19 @@ def test_another_dimension_is_refused(key, value):
     own = Checker(d.problem, SEED)
     assert "key 'n': SO(3) moves the points of a space of dimension 3" in own.symbols(d).reason
     assert not any(own.check(step).holds for step in d.steps)
+
+
+@pytest.mark.parametrize("own", [ROTATIONS, DISPLACEMENTS, PRODUCTS])
+def test_no_letter_has_two_meanings(own):
+    """A kind of group says more precisely what a name is; its role stays, and its LaTeX."""
+    for name, about in own.items():
+        general = VOCABULARY[name]
+        assert about.latex == general.latex, name
+        assert {use.role for use in about.uses} == {use.role for use in general.uses}, name
+
+
+def test_no_name_is_a_scalar_here_and_a_vector_there():
+    """But for what an index counts, m_i beside m, and for functions of several kinds of things."""
+    for name, about in VOCABULARY.items():
+        plain = {x.type for x in about.uses if x.type[0] not in ("family", "function")}
+        assert len(plain) <= 1, name

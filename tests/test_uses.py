@@ -70,7 +70,7 @@ NOMINAL = {
     ("elimination", "force"): "the same",
     ("mass", "force"): "the same",
     ("hat", "relation"): "only a skew matrix is a j(X)",
-    ("motion", "relation"): "⟨Λ, Ż⟩ = 0 is what λ is solved from",
+    ("motion", "relation"): "⟨Λ, Ż⟩ = 0 is what θ is solved from",
     ("coadjoint", "momenta"): "the momenta are told by their names",
     ("coadjoint", "relation"): "only the skew part of what pairs with ξ′ counts",
     ("motion", "mass"): "a linear system is solved by a name, M⁻¹",

@@ -106,7 +106,7 @@ def p2(x: Any, k: Any) -> Any:
 
 
 def p3(x: Any, k: Any) -> Any:
-    """Ż = λ C⁻¹J⁻¹ − Z² − KJ⁻¹ without trace; k = J⁻¹, KJ⁻¹ by rows, its trace."""
+    """Ż = θ C⁻¹J⁻¹ − Z² − KJ⁻¹ without trace; k = J⁻¹, KJ⁻¹ by rows, its trace."""
     A = nine(x, 0)
     Z = (three(x, 9), three(x, 12), (x[15], x[16], -(x[9] + x[13])))
     C = times(flip(A), A)

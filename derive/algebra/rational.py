@@ -6,13 +6,43 @@ pivots are the first nonzero entries, so the elimination is exact for exact entr
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from math import gcd, lcm
 from operator import mul
 from typing import Any
 
 Matrix = tuple[tuple[Any, ...], ...]
+EXACT = {int, Fraction}
 ZERO = Fraction(0)
+
+
+def over_one(x: Sequence[Any]) -> tuple[list[int], int] | None:
+    """Exact numbers over one denominator, which saves to reduce each; ``None`` for any others."""
+    if not {*map(type, x)} <= EXACT:
+        return None
+    pairs = [a.as_integer_ratio() for a in x]
+    over = lcm(*(d for _, d in pairs))
+    return [n if d == over else n * (over // d) for n, d in pairs], over
+
+
+def dot(a: Iterable[Any], b: Iterable[Any]) -> Any:
+    """Σ a_i b_i.
+
+    Numbers that have a way of their own to it, a static method ``dot``, are asked for it; where
+    there are two kinds of them, that whose ``parts`` are of the other.
+    """
+    a, b = [*a], [*b]
+    if len(a) != len(b):
+        raise ValueError(f"{len(a)} and {len(b)} numbers")
+    kinds = {*map(type, a), *map(type, b)}
+    if kinds <= EXACT:
+        (x, d), (y, e) = map(over_one, (a, b))  # type: ignore[misc]
+        return Fraction(sum(map(mul, x, y)), d * e)
+    own: list[Any] = [k for k in kinds if hasattr(k, "dot")]
+    if not own:
+        return sum(map(mul, a, b), ZERO)
+    return (own[0] if len(own) == 1 else next(k for k in own if hasattr(k, "parts"))).dot(a, b)
 
 
 def matrix(rows: Sequence[Sequence[Any]]) -> Matrix:
@@ -53,9 +83,12 @@ def transposed(a: Matrix) -> Matrix:
 def times(a: Matrix, b: Matrix) -> Matrix:
     """a b."""
     columns = transposed(b)
-    if any(len(row) != len(b) for row in a):
-        raise ValueError("matrices that have no product")
-    return tuple(tuple(sum(map(mul, row, col), ZERO) for col in columns) for row in a)
+    left = [x for row in a if (x := over_one(row))]
+    right = [x for col in columns if (x := over_one(col))]
+    exact = len(left) == len(a) and len(right) == len(columns)
+    if not exact or not {*map(len, a)} <= {len(b)}:
+        return tuple(tuple(dot(row, col) for col in columns) for row in a)
+    return tuple(tuple(Fraction(sum(map(mul, x, y)), d * e) for y, e in right) for x, d in left)
 
 
 def trace(a: Matrix) -> Any:
@@ -87,6 +120,9 @@ def combine(weights: Sequence[Any], basis: Sequence[Matrix]) -> Matrix:
 
 def echelon(a: Matrix) -> tuple[Matrix, tuple[int, ...]]:
     """Reduced row echelon form and its pivot columns."""
+    whole = [over_one(row) for row in a]
+    if whole and all(whole):
+        return _whole_echelon([x[0] for x in whole if x])
     rows = [list(row) for row in a]
     pivots: list[int] = []
     width = len(rows[0]) if rows else 0
@@ -106,6 +142,30 @@ def echelon(a: Matrix) -> tuple[Matrix, tuple[int, ...]]:
         if len(pivots) == len(rows):
             break
     return matrix(rows), tuple(pivots)
+
+
+def _whole_echelon(rows: list[list[int]]) -> tuple[Matrix, tuple[int, ...]]:
+    """The same of integers: no row is divided before the end, but by its common factor."""
+    pivots: list[int] = []
+    for col in range(len(rows[0])):
+        r = len(pivots)
+        pivot = next((i for i in range(r, len(rows)) if rows[i][col]), None)
+        if pivot is None:
+            continue
+        rows[r], rows[pivot] = rows[pivot], rows[r]
+        lead = rows[r][col]
+        for i, row in enumerate(rows):
+            if i != r and (k := row[col]):
+                reduced = [lead * x - k * y for x, y in zip(row, rows[r], strict=True)]
+                common = gcd(*reduced) or 1
+                rows[i] = [x // common for x in reduced]
+        pivots.append(col)
+        if len(pivots) == len(rows):
+            break
+    leads = [row[col] for row, col in zip(rows, pivots, strict=False)]
+    leads += [1] * (len(rows) - len(pivots))
+    reduced_rows = ([Fraction(x, k) for x in row] for row, k in zip(rows, leads, strict=True))
+    return matrix([*reduced_rows]), tuple(pivots)
 
 
 def solve(a: Matrix, b: Matrix) -> Matrix | None:

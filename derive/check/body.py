@@ -52,13 +52,14 @@ class Body(Draws):
 
     def moved(self, g: Matrix) -> list[Vector]:
         """g applied to the points (also a tangent matrix)."""
-        return [tuple(x[0] for x in q.times(g, self.homogeneous(r))[: self.n]) for r in self.points]
+        ends = q.transposed(tuple(q.flatten(self.homogeneous(r)) for r in self.points))
+        return [*q.transposed(q.times(g[: self.n], ends))]
 
     def pairing(self, a: Matrix, b: Matrix) -> Any:
         """Σ m_i ⟨a r_i, b r_i⟩ for tangent matrices at g."""
         return sum(
             (
-                m * sum((x * y for x, y in zip(u, v, strict=True)), Fraction(0))
+                m * q.dot(u, v)
                 for m, u, v in zip(self.masses, self.moved(a), self.moved(b), strict=True)
             ),
             Fraction(0),

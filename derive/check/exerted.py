@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.tree import Tree
 from ..record.record import RecordError, decode
@@ -193,7 +194,7 @@ class Exerted:
 
 
 def _dot(a: Vector, b: Vector) -> Any:
-    return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
+    return q.dot(a, b)
 
 
 def _square(a: Vector) -> Any:

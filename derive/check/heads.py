@@ -90,5 +90,5 @@ RATES = (("α̇", "τ̇"), ("Ż", "ẇ"), ("ζ̇", "ẇ"), ("ℓ̇_b", "ṗ_b"))
 QUANTIFIED = tuple({x: 0 for forms in (*FORMS, RATES) for form in forms for x in form})
 """Of which all values are tried: an equation may be said to hold for all of them."""
 
-SOLVED = ("λ",)
+SOLVED = ("θ",)
 """Of which a value is found: an equation may say that there is one."""

@@ -244,11 +244,10 @@ def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
         _, g, _ = model.family(model.first, model.second)
         return part(moved(model, g, evaluate("r", env)), mask)
     if isinstance(what, tuple):
-        _, g, _ = model.family(model.first, model.second)
         i = point_index(what[1][2], env)
-        return tuple((part(x, mask),) for x in model.moved(g)[i - 1])
+        return tuple((part(x, mask),) for x in model.varied_places[i - 1])
     other = EPS_PRIME if mask == EPS else EPS
-    h = model.displaced(model.first, model.second)
+    h = model.varied
     back = q.minus(q.identity(model.s), q.scaled(nilpotent(mask), part(h, mask)))
     value = part(q.times(back, derivative_of(h, other)), mask)
     return (_linear if what in ("ξ", "ξ′") else _translation)(model, value)

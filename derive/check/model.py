@@ -66,6 +66,7 @@ class Model(Body):
         self.driven, self.coasting, self.principal = driven, coasting, principal
         self.s = group.size
         self.supposed: dict[Any, str] = {}
+        self._families: dict[tuple[int, int], tuple[Any, tuple[Any, Matrix, Matrix]]] = {}
         self.embody(principal=principal)
         self.exerted = Exerted({} if opaque else problem, group, self.blocks, self.expressions)
         self.t = self.draw()
@@ -148,12 +149,28 @@ class Model(Body):
 
         The mixed part is arbitrary: dϖ does not depend on it, but δξ′ and δ′ξ do.
         """
+        key = id(a), id(b)
+        if key not in self._families:
+            self._families[key] = (a, b), self._family(a, b)
+        return self._families[key][1]
+
+    def _family(self, a: Direction, b: Direction) -> tuple[Any, Matrix, Matrix]:
         e, f = nilpotent(EPS), nilpotent(EPS_PRIME)
         t = self.t + e * a.time + f * b.time + e * f * self.mixed.time
         Z = self.Z
         for weight, x in ((e, a.velocity), (f, b.velocity), (e * f, self.mixed.velocity)):
             Z = q.plus(Z, q.scaled(weight, x))
         return t, q.times(self.g, self.displaced(a, b)), Z
+
+    @cached_property
+    def varied_places(self) -> list[Vector]:
+        """The points on the family of δ and δ′."""
+        return self.moved(self.family(self.first, self.second)[1])
+
+    @cached_property
+    def varied(self) -> Matrix:
+        """g₀⁻¹g on it."""
+        return self.displaced(self.first, self.second)
 
     def displaced(self, a: Direction, b: Direction) -> Matrix:
         """g₀⁻¹g on that family."""

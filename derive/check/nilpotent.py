@@ -5,10 +5,11 @@ A number is a map  subset of {ε, ε′, η} → fraction,  the subset as a bit 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
 from typing import Any
 
-from ..algebra.rational import Matrix
+from ..algebra.rational import Matrix, dot
 
 EPS, EPS_PRIME, ETA = 1, 2, 4
 
@@ -33,6 +34,21 @@ class Nilpotent:
     def part(self, mask: int) -> Fraction:
         """The coefficient of a product of nilpotents."""
         return self.parts.get(mask, Fraction(0))
+
+    @staticmethod
+    def dot(a: Iterable[Any], b: Iterable[Any]) -> Nilpotent:
+        """Σ a_i b_i, each of its parts at once."""
+        factors: dict[int, tuple[list[Any], list[Any]]] = {}
+        for x, y in zip(a, b, strict=True):
+            left = x.parts if isinstance(x, Nilpotent) else {0: x}
+            right = y.parts if isinstance(y, Nilpotent) else {0: y}
+            for m, u in left.items():
+                for k, v in right.items():
+                    if not m & k:
+                        us, vs = factors.setdefault(m | k, ([], []))
+                        us.append(u)
+                        vs.append(v)
+        return Nilpotent({mask: dot(us, vs) for mask, (us, vs) in factors.items()})
 
     def __add__(self, other: Any) -> Nilpotent:
         if not isinstance(other, Nilpotent):

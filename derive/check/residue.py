@@ -7,8 +7,10 @@ a claim, so that they add nothing to what it owes to the point.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
+from operator import mul
 from random import Random
 from typing import Any
 
@@ -45,6 +47,13 @@ def _inverse(n: int, p: int) -> int:
     return pow(n, -1, p)
 
 
+def _residue(x: Any, p: int) -> int:
+    if type(x) is Residue:
+        return x.n
+    a, b = x.as_integer_ratio()
+    return int(a) if b == 1 else _quotient(a, b, p)
+
+
 class Residue:
     """A rational number modulo p."""
 
@@ -62,6 +71,13 @@ class Residue:
             return None
         a, b = x.numerator, x.denominator
         return a if b == 1 else _quotient(a, b, self.p)
+
+    @staticmethod
+    def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
+        """Σ a_i b_i, reduced once."""
+        p = next(x.p for x in (*a, *b) if isinstance(x, Residue))
+        left, right = ([_residue(x, p) for x in y] for y in (a, b))
+        return Residue(sum(map(mul, left, right)), p)
 
     def __add__(self, other: Any) -> Any:
         y = other.n if isinstance(other, Residue) else self._other(other)

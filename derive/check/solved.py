@@ -117,7 +117,7 @@ def centred_values(model: Model) -> Values:
 
 
 def solved_values(model: Model) -> Values:
-    """Ż, M, β, B, λ and their kin."""
+    """Ż, M, β, B, θ and their kin."""
     group, Z, Z_dot = model.group, model.Z, model.acceleration
     s = Solved(model)
     values: Values = {"N_c": s.applied}
@@ -142,7 +142,7 @@ def solved_values(model: Model) -> Values:
         left = q.minus(s.inertia_of(q.plus(Z_dot, q.times(Z, Z))), s.applied)
         direction = group.normal_direction
         values["Λ"] = direction
-        values["λ"] = _paired(left, direction) / _paired(direction, direction)
+        values["θ"] = _paired(left, direction) / _paired(direction, direction)
     return values
 
 

@@ -26,8 +26,7 @@ from .introduced import Way, definitions, ways
 RATES = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "ṗ_b", "ℓ̇_b")
 """What has its value on X: rates along the motion."""
 
-MULTIPLIER = "λ"
-"""Where it is a number; else λ are the principal moments."""
+MULTIPLIER = "θ"
 
 INDEX = {x: x for x in COUNTED.values()} | {"forces along a distance": "distances", AXIS: "basis"}
 """How a record says what the index of a family counts."""
@@ -200,7 +199,7 @@ def _role(way: Way, type_: Type, key: str) -> str:
         return "value on X" if HEADS.get(name) == (MOTION,) else "function"
     if name in RATES:
         return "value on X"
-    if name == MULTIPLIER and type_ == "scalar":
+    if name == MULTIPLIER:
         return "unknown"
     return "definition" if key else "letter"
 

@@ -260,7 +260,7 @@ class Lowering(Inverting):
         return dense.dot(self.graph, left, right)
 
 
-SCALARS = {"m", "λ", "t", "h̃", "Ũ", "L̃"}
+SCALARS = {"m", "θ", "t", "h̃", "Ũ", "L̃"}
 SCALAR_OPERATORS = {"tr", "inner", "metric", "norm2", "det", "par", "entry", "fun"}
 
 

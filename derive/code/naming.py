@@ -9,7 +9,7 @@ from ..algebra.tree import Tree
 from ..reserved import WORDS
 
 GREEK = {
-    "ζ": "zeta", "Ω": "omega", "φ": "phi", "λ": "lambda", "γ": "gravity", "ξ": "xi", "η": "eta",
+    "ζ": "zeta", "Ω": "omega", "φ": "phi", "θ": "multiplier", "γ": "gravity", "ξ": "xi", "η": "eta",
     "μ": "moment", "α": "alpha", "τ": "tau", "β": "load", "σ": "tension", "χ": "reach",
     "κ": "damping", "π": "pi", "ψ": "psi",
 }  # fmt: skip

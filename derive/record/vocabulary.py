@@ -231,6 +231,7 @@ VOCABULARY: dict[str, Name] = {
     "ζ̇": name("dζ/dt along the motion", r"\dot\zeta", rate(COORDINATES)),
     "φ": name("f = j(φ)", r"\varphi", defined(VECTOR)),
     "I": name("tensor of inertia", "I", defined(SQUARE)),
+    "λ": name("principal moments of inertia, the eigenvalues of I", r"\lambda", letter(VECTOR)),
     "I_c": name("tensor of inertia about the centre of mass", "I_c", defined(SQUARE)),
     "J_c": name("matrix of moments about the centre of mass", "J_c", defined(SQUARE)),
     "r_c": name("centre of mass in the body, m⁻¹c", "r_c", defined(VECTOR)),
@@ -290,7 +291,7 @@ VOCABULARY: dict[str, Name] = {
         "moments of the forces about the centre of mass, in the body frame", "N_c", defined(SQUARE)
     ),
     "Λ": name("direction normal to the Lie algebra", r"\Lambda", letter(SQUARE)),
-    "λ": name("multiplier of the volume", r"\lambda", unknown(SCALAR)),
+    "θ": name("multiplier of the volume", r"\theta", unknown(SCALAR)),
     "K": name("stiffness matrix of the springs, Σ k_e s_e s̄_e", "K", defined(SQUARE)),
     "k": name("stiffness of a spring, k_e of spring e", "k", defined(family("springs", SCALAR))),
     "s": name(
@@ -335,7 +336,6 @@ VOCABULARY: dict[str, Name] = {
 ROTATIONS: dict[str, Name] = {
     "Z": name("A⁻¹α, skew: Z = j(ζ)", "Z", defined(ALGEBRA)),
     "ζ": name("angular velocity in the body", r"\zeta", defined(VECTOR)),
-    "λ": name("principal moments of inertia, the eigenvalues of I", r"\lambda", letter(VECTOR)),
     "u": name("input: a torque about the fixed point, in the body frame", "u", letter(VECTOR)),
     "ℓ": name("angular momentum in space", r"\ell", defined(VECTOR)),
     "ℓ̇": name("dℓ/dt along the motion", r"\dot\ell", rate(VECTOR)),

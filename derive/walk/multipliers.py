@@ -25,7 +25,7 @@ from .supposed import told
 from .translation import Centred
 from .trivialisation import gram, rates
 
-LAMBDA = Letter("λ")
+MULTIPLIER = Letter("θ")
 
 
 def multiplier_steps(
@@ -37,17 +37,17 @@ def multiplier_steps(
     c: Chapter,
     centred: Centred | None = None,
 ) -> tuple[Step, ...]:
-    """Ż and λ from  Tr ξ′ (residue − force)‾ = 0,  with J (or J_c) as ``metric``."""
+    """Ż and θ from  Tr ξ′ (residue − force)‾ = 0,  with J (or J_c) as ``metric``."""
     residue = gradient(inertial, b.Z.xi_prime)
     direction, letters, definition = _direction(group, b)
     rule = "multiplier" if direction else "kernel"
     balancing, solving = c.draft("multiplier", rule), c.draft("motion", "solution")
-    pressed = word(LAMBDA) * direction if direction else force * 0
+    pressed = word(MULTIPLIER) * direction if direction else force * 0
     lighter = Notation(display={inverse_letter(b.m): ("inv", "m")})
     balance = Equation(
         balancing.tree(residue),
         add(balancing.tree(force, lighter), balancing.tree(pressed)),
-        exists=(LAMBDA.name,) if direction else (),
+        exists=(MULTIPLIER.name,) if direction else (),
     )
     left, right = word(inverse_letter(b.C)), word(inverse_letter(metric))
     open_balance = balancing.said(force + pressed - residue)
@@ -65,7 +65,7 @@ def multiplier_steps(
             solving.tree(numerator, notation),
             solving.tree(denominator, notation),
         )
-        equations.append(Equation("λ", ratio))
+        equations.append(Equation("θ", ratio))
     if centred:
         solving.read(*centred.steps)
     translation = (Equation("ẇ", centred.acceleration),) if centred else ()
@@ -137,10 +137,10 @@ def _number(x: Fraction) -> Tree:
 
 
 def _multiplier(solved: Expr, direction: Expr) -> tuple[Expr, Expr]:
-    """λ = numerator / denominator from ⟨Λ, Ż⟩ = 0."""
+    """θ = numerator / denominator from ⟨Λ, Ż⟩ = 0."""
     total = inner(solved, direction)
-    denominator = substitute(terms_with(total, LAMBDA), {LAMBDA: number(1)})
-    return -without(total, LAMBDA), denominator
+    denominator = substitute(terms_with(total, MULTIPLIER), {MULTIPLIER: number(1)})
+    return -without(total, MULTIPLIER), denominator
 
 
 def _prose(direction: Expr | None, letters: list[Letter]) -> Prose:
@@ -152,7 +152,7 @@ def _prose(direction: Expr | None, letters: list[Letter]) -> Prose:
         )
     return say(
         "The difference of the two sides is orthogonal, for Tr ab̄, to every matrix of "
-        "trace zero: a multiple λ of 𝟏, the multiplier of the volume."
+        "trace zero: a multiple θ of 𝟏, the multiplier of the volume."
     )
 
 

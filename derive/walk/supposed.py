@@ -83,9 +83,9 @@ WORDS: dict[str, tuple[str, str]] = {
     ),
     "affine maps of a volume": (
         "The equations of motion of this problem: {metric} is invertible where the masses do not "
-        "lie in one hyperplane, and that Ż is in the Lie algebra gives λ.",
+        "lie in one hyperplane, and that Ż is in the Lie algebra gives θ.",
         "The equations of motion of this problem, wherever m is not 0, {metric} is invertible and "
-        "λ has a value: that Ż is in the Lie algebra gives it.",
+        "θ has a value: that Ż is in the Lie algebra gives it.",
     ),
     "affine maps": (
         "The equations of motion of this problem: {metric} is invertible where the masses do not "
@@ -94,8 +94,8 @@ WORDS: dict[str, tuple[str, str]] = {
     ),
     "maps of a volume": (
         "The equations of motion of this problem: {metric} is invertible where the masses span the "
-        "space, and that Ż is in the Lie algebra gives λ.",
-        "The equations of motion of this problem, wherever {metric} is invertible and λ has a "
+        "space, and that Ż is in the Lie algebra gives θ.",
+        "The equations of motion of this problem, wherever {metric} is invertible and θ has a "
         "value: that Ż is in the Lie algebra gives it.",
     ),
     "maps": (

@@ -84,7 +84,7 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
     const double J_33 = m1*z1*z1 + m2*z2*z2 + m3*z3*z3 + m4*z4*z4;
 
     /* sl3.motion.2: 47 mul, 18 add, 3 div
-     * λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
+     * θ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
     const double J_r_1 = 1.0/J_11;
     const double J_l_21 = J_12*J_r_1;
     const double J_l_31 = J_13*J_r_1;
@@ -161,7 +161,7 @@ int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
         + k24*s_5_3*s_5_3 + k34*s_6_3*s_6_3;
 
     /* sl3.motion.2: 9 mul, 5 add
-     * λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
+     * θ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
     const double inv_J_11_K_11 = inv_J_11*K_11;
     const double inv_J_12_K_12 = inv_J_12*K_12;
     const double inv_J_13_K_13 = inv_J_13*K_13;
@@ -266,7 +266,7 @@ void sl3_rhs(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT 
     const double zeta_7 = x[15];
     const double zeta_8 = x[16];
     /* sl3.motion.2: 5 mul, 4 add
-     * λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
+     * θ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
     const double zeta_2_zeta_4 = zeta_2*zeta_4;
     const double zeta_3_zeta_7 = zeta_3*zeta_7;
     const double zeta_6_zeta_8 = zeta_6*zeta_8;
@@ -309,7 +309,7 @@ void sl3_rhs(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT 
     const double inv_J_23 = k[11];
     const double tr_inv_J_K = k[18];
     /* sl3.motion.2: 19 mul, 19 add, 1 div
-     * λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
+     * θ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
     const double inv_C_11 = C_22*C_33 - C_23*C_23;
     const double inv_C_12 = C_13*C_23 - C_12*C_33;
     const double inv_C_13 = C_12*C_23 - C_13*C_22;
@@ -321,7 +321,7 @@ void sl3_rhs(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT 
     const double inv_J_23_inv_C_23 = inv_J_23*inv_C_23;
     const double inv_C_inv_J_11 = inv_J_11*inv_C_11 + inv_J_12_inv_C_12 + inv_J_13_inv_C_13;
     const double inv_C_inv_J_22 = inv_J_12_inv_C_12 + inv_J_22*inv_C_22 + inv_J_23_inv_C_23;
-    const double lambda_ = (tr_inv_J_K + Z_2_11 + Z_2_22 + (zeta_3_zeta_7 + zeta_6_zeta_8
+    const double multiplier = (tr_inv_J_K + Z_2_11 + Z_2_22 + (zeta_3_zeta_7 + zeta_6_zeta_8
         + Z_33*Z_33))/(inv_C_inv_J_11 + inv_C_inv_J_22
         + (inv_J_13_inv_C_13 + inv_J_23_inv_C_23
         + inv_J_33*inv_C_33));
@@ -333,34 +333,34 @@ void sl3_rhs(double t, const double *sl3_RESTRICT x, const double *sl3_RESTRICT 
     const double K_inv_J_31 = k[25];
     const double K_inv_J_32 = k[26];
     /* sl3.motion.3: 36 mul, 30 add
-     * Ż = λC⁻¹J⁻¹ − KJ⁻¹ − Z² */
+     * Ż = θC⁻¹J⁻¹ − KJ⁻¹ − Z² */
     const double Z_dot_12 = (inv_J_12*inv_C_11 + inv_J_22*inv_C_12
-        + inv_J_23*inv_C_13)*lambda_ - K_inv_J_12 - (zeta_3*zeta_8
-        + zeta_2*zeta_1_plus_zeta_5);
+        + inv_J_23*inv_C_13)*multiplier - K_inv_J_12
+        - (zeta_3*zeta_8 + zeta_2*zeta_1_plus_zeta_5);
     const double Z_dot_13 = (inv_J_13*inv_C_11 + inv_J_23*inv_C_12
-        + inv_J_33*inv_C_13)*lambda_ - K_inv_J_13 - (zeta_2*zeta_6
-        - zeta_3*zeta_5);
+        + inv_J_33*inv_C_13)*multiplier - K_inv_J_13
+        - (zeta_2*zeta_6 - zeta_3*zeta_5);
     const double Z_dot_21 = (inv_J_11*inv_C_12 + inv_J_12*inv_C_22
-        + inv_J_13*inv_C_23)*lambda_ - K_inv_J_21 - (zeta_6*zeta_7
-        + zeta_4*zeta_1_plus_zeta_5);
+        + inv_J_13*inv_C_23)*multiplier - K_inv_J_21
+        - (zeta_6*zeta_7 + zeta_4*zeta_1_plus_zeta_5);
     const double Z_dot_23 = (inv_J_13*inv_C_12 + inv_J_23*inv_C_22
-        + inv_J_33*inv_C_23)*lambda_ - K_inv_J_23 - (zeta_3*zeta_4
-        - zeta_1*zeta_6);
+        + inv_J_33*inv_C_23)*multiplier - K_inv_J_23
+        - (zeta_3*zeta_4 - zeta_1*zeta_6);
     const double Z_dot_31 = (inv_J_11*inv_C_13 + inv_J_12*inv_C_23
-        + inv_J_13*inv_C_33)*lambda_ - K_inv_J_31 - (zeta_4*zeta_8
-        - zeta_5*zeta_7);
+        + inv_J_13*inv_C_33)*multiplier - K_inv_J_31
+        - (zeta_4*zeta_8 - zeta_5*zeta_7);
     const double Z_dot_32 = (inv_J_12*inv_C_13 + inv_J_22*inv_C_23
-        + inv_J_23*inv_C_33)*lambda_ - K_inv_J_32 - (zeta_2*zeta_7
-        - zeta_1*zeta_8);
+        + inv_J_23*inv_C_33)*multiplier - K_inv_J_32
+        - (zeta_2*zeta_7 - zeta_1*zeta_8);
 
     const double K_inv_J_11 = k[19];
     const double K_inv_J_22 = k[23];
-    /* sl3.motion.3: Ż = λC⁻¹J⁻¹ − KJ⁻¹ − Z² */
-    dx[9] = inv_C_inv_J_11*lambda_ - Z_2_11 - K_inv_J_11;
+    /* sl3.motion.3: Ż = θC⁻¹J⁻¹ − KJ⁻¹ − Z² */
+    dx[9] = inv_C_inv_J_11*multiplier - Z_2_11 - K_inv_J_11;
     dx[10] = Z_dot_12;
     dx[11] = Z_dot_13;
     dx[12] = Z_dot_21;
-    dx[13] = inv_C_inv_J_22*lambda_ - Z_2_22 - K_inv_J_22;
+    dx[13] = inv_C_inv_J_22*multiplier - Z_2_22 - K_inv_J_22;
     dx[14] = Z_dot_23;
     dx[15] = Z_dot_31;
     dx[16] = Z_dot_32;
@@ -391,7 +391,7 @@ void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
         const double zeta_7 = x[15*n + s];
         const double zeta_8 = x[16*n + s];
         /* sl3.motion.2: 5 mul, 4 add
-         * λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
+         * θ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
         const double zeta_2_zeta_4 = zeta_2*zeta_4;
         const double zeta_3_zeta_7 = zeta_3*zeta_7;
         const double zeta_6_zeta_8 = zeta_6*zeta_8;
@@ -434,7 +434,7 @@ void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
         const double inv_J_23 = k[11];
         const double tr_inv_J_K = k[18];
         /* sl3.motion.2: 19 mul, 19 add, 1 div
-         * λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
+         * θ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹) */
         const double inv_C_11 = C_22*C_33 - C_23*C_23;
         const double inv_C_12 = C_13*C_23 - C_12*C_33;
         const double inv_C_13 = C_12*C_23 - C_13*C_22;
@@ -446,7 +446,7 @@ void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
         const double inv_J_23_inv_C_23 = inv_J_23*inv_C_23;
         const double inv_C_inv_J_11 = inv_J_11*inv_C_11 + inv_J_12_inv_C_12 + inv_J_13_inv_C_13;
         const double inv_C_inv_J_22 = inv_J_12_inv_C_12 + inv_J_22*inv_C_22 + inv_J_23_inv_C_23;
-        const double lambda_ = (tr_inv_J_K + Z_2_11 + Z_2_22 + (zeta_3_zeta_7 + zeta_6_zeta_8
+        const double multiplier = (tr_inv_J_K + Z_2_11 + Z_2_22 + (zeta_3_zeta_7 + zeta_6_zeta_8
             + Z_33*Z_33))/(inv_C_inv_J_11 + inv_C_inv_J_22
             + (inv_J_13_inv_C_13 + inv_J_23_inv_C_23
             + inv_J_33*inv_C_33));
@@ -458,34 +458,34 @@ void sl3_rhs_batch(size_t n, double t, const double *sl3_RESTRICT x,
         const double K_inv_J_31 = k[25];
         const double K_inv_J_32 = k[26];
         /* sl3.motion.3: 36 mul, 30 add
-         * Ż = λC⁻¹J⁻¹ − KJ⁻¹ − Z² */
+         * Ż = θC⁻¹J⁻¹ − KJ⁻¹ − Z² */
         const double Z_dot_12 = (inv_J_12*inv_C_11 + inv_J_22*inv_C_12
-            + inv_J_23*inv_C_13)*lambda_ - K_inv_J_12 - (zeta_3*zeta_8
-            + zeta_2*zeta_1_plus_zeta_5);
+            + inv_J_23*inv_C_13)*multiplier - K_inv_J_12
+            - (zeta_3*zeta_8 + zeta_2*zeta_1_plus_zeta_5);
         const double Z_dot_13 = (inv_J_13*inv_C_11 + inv_J_23*inv_C_12
-            + inv_J_33*inv_C_13)*lambda_ - K_inv_J_13 - (zeta_2*zeta_6
-            - zeta_3*zeta_5);
+            + inv_J_33*inv_C_13)*multiplier - K_inv_J_13
+            - (zeta_2*zeta_6 - zeta_3*zeta_5);
         const double Z_dot_21 = (inv_J_11*inv_C_12 + inv_J_12*inv_C_22
-            + inv_J_13*inv_C_23)*lambda_ - K_inv_J_21 - (zeta_6*zeta_7
-            + zeta_4*zeta_1_plus_zeta_5);
+            + inv_J_13*inv_C_23)*multiplier - K_inv_J_21
+            - (zeta_6*zeta_7 + zeta_4*zeta_1_plus_zeta_5);
         const double Z_dot_23 = (inv_J_13*inv_C_12 + inv_J_23*inv_C_22
-            + inv_J_33*inv_C_23)*lambda_ - K_inv_J_23 - (zeta_3*zeta_4
-            - zeta_1*zeta_6);
+            + inv_J_33*inv_C_23)*multiplier - K_inv_J_23
+            - (zeta_3*zeta_4 - zeta_1*zeta_6);
         const double Z_dot_31 = (inv_J_11*inv_C_13 + inv_J_12*inv_C_23
-            + inv_J_13*inv_C_33)*lambda_ - K_inv_J_31 - (zeta_4*zeta_8
-            - zeta_5*zeta_7);
+            + inv_J_13*inv_C_33)*multiplier - K_inv_J_31
+            - (zeta_4*zeta_8 - zeta_5*zeta_7);
         const double Z_dot_32 = (inv_J_12*inv_C_13 + inv_J_22*inv_C_23
-            + inv_J_23*inv_C_33)*lambda_ - K_inv_J_32 - (zeta_2*zeta_7
-            - zeta_1*zeta_8);
+            + inv_J_23*inv_C_33)*multiplier - K_inv_J_32
+            - (zeta_2*zeta_7 - zeta_1*zeta_8);
 
         const double K_inv_J_11 = k[19];
         const double K_inv_J_22 = k[23];
-        /* sl3.motion.3: Ż = λC⁻¹J⁻¹ − KJ⁻¹ − Z² */
-        dx[9*n + s] = inv_C_inv_J_11*lambda_ - Z_2_11 - K_inv_J_11;
+        /* sl3.motion.3: Ż = θC⁻¹J⁻¹ − KJ⁻¹ − Z² */
+        dx[9*n + s] = inv_C_inv_J_11*multiplier - Z_2_11 - K_inv_J_11;
         dx[10*n + s] = Z_dot_12;
         dx[11*n + s] = Z_dot_13;
         dx[12*n + s] = Z_dot_21;
-        dx[13*n + s] = inv_C_inv_J_22*lambda_ - Z_2_22 - K_inv_J_22;
+        dx[13*n + s] = inv_C_inv_J_22*multiplier - Z_2_22 - K_inv_J_22;
         dx[14*n + s] = Z_dot_23;
         dx[15*n + s] = Z_dot_31;
         dx[16*n + s] = Z_dot_32;

@@ -288,7 +288,7 @@ def _constants(xp, p):
     J_33 = m1*z1*z1 + m2*z2*z2 + m3*z3*z3 + m4*z4*z4
 
     # sl3.motion.2: 47 mul, 18 add, 3 div
-    # λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹)
+    # θ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹)
     J_r_1 = 1.0/J_11
     J_l_21 = J_12*J_r_1
     J_l_31 = J_13*J_r_1
@@ -377,7 +377,7 @@ def _constants(xp, p):
     )
 
     # sl3.motion.2: 9 mul, 5 add
-    # λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹)
+    # θ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹)
     inv_J_11_K_11 = inv_J_11*K_11
     inv_J_12_K_12 = inv_J_12*K_12
     inv_J_13_K_13 = inv_J_13*K_13
@@ -439,7 +439,7 @@ def _rhs(xp, t, x, k, u):
     Z_33 = -zeta_1_plus_zeta_5
 
     # sl3.motion.2: 5 mul, 4 add
-    # λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹)
+    # θ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹)
     zeta_2_zeta_4 = zeta_2*zeta_4
     zeta_3_zeta_7 = zeta_3*zeta_7
     zeta_6_zeta_8 = zeta_6*zeta_8
@@ -456,7 +456,7 @@ def _rhs(xp, t, x, k, u):
     C_33 = A_13*A_13 + A_23*A_23 + A_33*A_33
 
     # sl3.motion.2: 19 mul, 19 add, 1 div
-    # λ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹)
+    # θ = (Tr J⁻¹K + Tr Z²)/(Tr C⁻¹J⁻¹)
     inv_C_11 = C_22*C_33 - C_23*C_23
     inv_C_12 = C_13*C_23 - C_12*C_33
     inv_C_13 = C_12*C_23 - C_13*C_22
@@ -468,36 +468,36 @@ def _rhs(xp, t, x, k, u):
     inv_J_23_inv_C_23 = inv_J_23*inv_C_23
     inv_C_inv_J_11 = inv_J_11*inv_C_11 + inv_J_12_inv_C_12 + inv_J_13_inv_C_13
     inv_C_inv_J_22 = inv_J_12_inv_C_12 + inv_J_22*inv_C_22 + inv_J_23_inv_C_23
-    lambda_ = (
+    multiplier = (
         (tr_inv_J_K + Z_2_11 + Z_2_22 + (zeta_3_zeta_7 + zeta_6_zeta_8
         + Z_33*Z_33))/(inv_C_inv_J_11 + inv_C_inv_J_22 + (inv_J_13_inv_C_13
         + inv_J_23_inv_C_23 + inv_J_33*inv_C_33))
     )
 
     # sl3.motion.3: 36 mul, 30 add
-    # Ż = λC⁻¹J⁻¹ − KJ⁻¹ − Z²
+    # Ż = θC⁻¹J⁻¹ − KJ⁻¹ − Z²
     Z_dot_12 = (
-        (inv_J_12*inv_C_11 + inv_J_22*inv_C_12 + inv_J_23*inv_C_13)*lambda_ - K_inv_J_12
+        (inv_J_12*inv_C_11 + inv_J_22*inv_C_12 + inv_J_23*inv_C_13)*multiplier - K_inv_J_12
         - (zeta_3*zeta_8 + zeta_2*zeta_1_plus_zeta_5)
     )
     Z_dot_13 = (
-        (inv_J_13*inv_C_11 + inv_J_23*inv_C_12 + inv_J_33*inv_C_13)*lambda_ - K_inv_J_13
+        (inv_J_13*inv_C_11 + inv_J_23*inv_C_12 + inv_J_33*inv_C_13)*multiplier - K_inv_J_13
         - (zeta_2*zeta_6 - zeta_3*zeta_5)
     )
     Z_dot_21 = (
-        (inv_J_11*inv_C_12 + inv_J_12*inv_C_22 + inv_J_13*inv_C_23)*lambda_ - K_inv_J_21
+        (inv_J_11*inv_C_12 + inv_J_12*inv_C_22 + inv_J_13*inv_C_23)*multiplier - K_inv_J_21
         - (zeta_6*zeta_7 + zeta_4*zeta_1_plus_zeta_5)
     )
     Z_dot_23 = (
-        (inv_J_13*inv_C_12 + inv_J_23*inv_C_22 + inv_J_33*inv_C_23)*lambda_ - K_inv_J_23
+        (inv_J_13*inv_C_12 + inv_J_23*inv_C_22 + inv_J_33*inv_C_23)*multiplier - K_inv_J_23
         - (zeta_3*zeta_4 - zeta_1*zeta_6)
     )
     Z_dot_31 = (
-        (inv_J_11*inv_C_13 + inv_J_12*inv_C_23 + inv_J_13*inv_C_33)*lambda_ - K_inv_J_31
+        (inv_J_11*inv_C_13 + inv_J_12*inv_C_23 + inv_J_13*inv_C_33)*multiplier - K_inv_J_31
         - (zeta_4*zeta_8 - zeta_5*zeta_7)
     )
     Z_dot_32 = (
-        (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*lambda_ - K_inv_J_32
+        (inv_J_12*inv_C_13 + inv_J_22*inv_C_23 + inv_J_23*inv_C_33)*multiplier - K_inv_J_32
         - (zeta_2*zeta_7 - zeta_1*zeta_8)
     )
     return [
@@ -511,12 +511,12 @@ def _rhs(xp, t, x, k, u):
         A_31*zeta_1 + A_32*zeta_4 + A_33*zeta_7,
         A_31*zeta_2 + A_32*zeta_5 + A_33*zeta_8,
         A_31*zeta_3 + A_32*zeta_6 + A_33*Z_33,
-        # sl3.motion.3: Ż = λC⁻¹J⁻¹ − KJ⁻¹ − Z²
-        inv_C_inv_J_11*lambda_ - Z_2_11 - K_inv_J_11,
+        # sl3.motion.3: Ż = θC⁻¹J⁻¹ − KJ⁻¹ − Z²
+        inv_C_inv_J_11*multiplier - Z_2_11 - K_inv_J_11,
         Z_dot_12,
         Z_dot_13,
         Z_dot_21,
-        inv_C_inv_J_22*lambda_ - Z_2_22 - K_inv_J_22,
+        inv_C_inv_J_22*multiplier - Z_2_22 - K_inv_J_22,
         Z_dot_23,
         Z_dot_31,
         Z_dot_32,
