@@ -232,7 +232,7 @@ def road_of_space(
     kept = vector_momenta(vectors.momenta.values(), b)
     return (
         named[0],
-        isomorphism(named[0], c),
+        isomorphism(read, c),
         named[1],
         *vectors.steps,
         *steps,

@@ -17,6 +17,9 @@ Terms of a sum and the two sides of a product of vectors may change places.
 REWRITTEN = {"so4.exterior", "su2.exterior", "two_tops.exterior"}
 """Tr ξJZξ̄′ − Tr ξ′JZξ̄ is now the bracket, Tr [ξ′, ξ] JZ̄; everything else is as it was."""
 
+RENAMED = {"θ": "λ"}
+"""The multiplier had the letter of the principal moments."""
+
 LOST_C = {f"screw.{x}" for x in ("cartan", "exterior", "mass", "energy")}
 """Screws keep lengths: C is 1 between elements of the Lie algebra, and no longer written there."""
 
@@ -91,7 +94,7 @@ def digest(equation):
 def normal(t):
     """A tree with the terms of its sums and inner products in one order."""
     if not isinstance(t, tuple):
-        return str(t)
+        return RENAMED.get(t, str(t))
     head, *args = t[0], *map(normal, t[1:])
     if head == "metric":
         args[1:] = sorted(args[1:])

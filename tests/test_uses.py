@@ -151,7 +151,7 @@ def test_an_emptied_list_is_refused_by_the_command(name):
     assert {short(x) for x in passed} <= BY_ITSELF, passed
 
 
-BY_ITSELF = {"velocity", "force", "potential"}
+BY_ITSELF = {"velocity", "force", "potential", "rigid"}
 """Steps that have no name from others but those that all begins with."""
 
 

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from ..algebra.notation import tree_of
-from ..algebra.space import hat, normal_form
-from ..algebra.words import trace, word
+from ..algebra.space import normal_form
+from ..algebra.words import trace
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .chapter import Chapter
-from .hat import OMEGA, ZETA
+from .hat import OMEGA, ZETA, Reader
 
 
-def isomorphism(naming: Step, c: Chapter) -> Step:
-    """Tr j(x) j(y)‾ = 2⟨x, y⟩; ``naming``: the step that says what is read by vectors."""
+def isomorphism(read: Reader, c: Chapter) -> Step:
+    """Tr j(x) j(y)‾ = 2⟨x, y⟩."""
     draft = c.draft("isomorphism", "identification")
-    draft.read(naming)
-    product = word(hat(ZETA)) * word(hat(OMEGA)).bar
+    product = read.hatted(ZETA) * read.hatted(OMEGA).bar
     return draft.step(
         (Equation(tree_of(trace(product)), draft.tree(normal_form(trace(product)))),),
         say(

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from ..algebra import forms
 from ..algebra.calculus import gradient, substitute, without
-from ..algebra.notation import PLAIN, Notation, metrics, tree_of
+from ..algebra.notation import PLAIN, metrics, tree_of
 from ..algebra.words import Expr, inner, word
 from ..record.record import Equation, Step
 from ..record.sentence import say
@@ -56,14 +56,13 @@ def held(law: Ambient, gram: Expr, n: int, c: Chapter) -> Step:
     left, right = (
         gathered(draft, e, without(e, b.F_group), core, PLAIN) for e in (added, added.bar)
     )
-    Z, tested, turned = word(b.Z.velocity), word(b.Z.xi_prime), word(b.Z.acceleration)
-    display = Notation(display={b.Z.acceleration: tree_of(Z * Z + turned)})
+    Z, tested = word(b.Z.velocity), word(b.Z.xi_prime)
+    seen = inner(tested, word(b.A.position).bar * word(rate))
+    carried = inner(tested, Z * Z + word(b.Z.acceleration))
     return draft.step(
         (
             Equation(left, right),
-            Equation(
-                tree_of(inner(tested, turned), display), tree_of(inner(tested, Z * Z + turned))
-            ),
+            Equation(tree_of(seen), tree_of(carried)),
         ),
         say(
             "The point A moves in the space of all matrices, with the metric of J, pushed by F̃ and "
@@ -71,7 +70,8 @@ def held(law: Ambient, gram: Expr, n: int, c: Chapter) -> Step:
             "geodesic of the metric."
         )
         + say(
-            "For J = 𝟏 the term in Z² does no work: without forces Z is then constant, and the "
-            "motions are the one-parameter groups, moved by an element of the group."
+            "Of Āα̇ = Ż + Z² the term in Z² does no work: for J = 𝟏 and without forces Z is then "
+            "constant, and the motions are the one-parameter groups, moved by an element of the "
+            "group."
         ),
     )

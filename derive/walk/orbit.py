@@ -21,6 +21,7 @@ from .chapter import Chapter, Draft
 from .gather import terms_with
 from .lagrangian import POINT, Lagrangian
 from .pullback import Moments, sum_over
+from .supposed import told
 from .trivialisation import frame_rule, gram
 
 R_I, R_J, M_I = (("at", x, i) for x, i in (("r", "i"), ("r", "j"), ("m", "i")))
@@ -44,12 +45,12 @@ def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Ste
     rest = substitute(without(turned, a.A.position), {a.c: word(a.m) * word(centre)})
     notation = Notation(display={centre: shown})
     second: Tree = ("sum", "i", ("mul", M_I, POINT, ("T", seen)))
-    told = add(second, neg(draft.tree(rest, notation)))
+    turning = add(second, neg(draft.tree(rest, notation)))
     named: list[Equation] = []
     second_moment = draft.tree(inertia, notation)
     if a.affine:
         named, second_moment = [Equation("J_c", second_moment)], "J_c"
-    equations = [*named, Equation(("mul", told, ("inv", second_moment)), "A")]
+    equations = [*named, Equation(("mul", turning, ("inv", second_moment)), "A")]
     if a.affine:
         mass, first = moments[a.m_i,], ("sum", "i", ("mul", M_I, POINT))
         others = _summed(points, number(1), moments, a) - mass * word(a.T.position)
@@ -66,16 +67,7 @@ def _summed(points: Lagrangian, arm: Expr, moments: Moments, a: Alphabet) -> Exp
 
 
 def _told(a: Alphabet) -> Prose:
-    if a.affine:
-        where = say(
-            "The places of the points tell g where they are not in one hyperplane: g_t is then the "
-            "only element that moves the body so, and is as smooth in t as they are."
-        )
-    else:
-        where = say(
-            "The places of the points tell g where they span the space: g_t is then the only "
-            "element that moves the body so, and is as smooth in t as they are."
-        )
+    where = told("affine places" if a.affine else "places", a.signed)
     return where + say(
         "Elsewhere the path is told by its start, if no tangent vector but 0 leaves all the points "
         "at rest."

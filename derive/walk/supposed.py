@@ -103,6 +103,18 @@ WORDS: dict[str, tuple[str, str]] = {
         "space.",
         "The equations of motion of this problem, wherever {metric} is invertible.",
     ),
+    "places": (
+        "The places of the points tell g where they span the space: g_t is then the only element "
+        "that moves the body so, and is as smooth in t as they are.",
+        "The places of the points tell g wherever J is invertible: g_t is then the only element "
+        "that moves the body so, and is as smooth in t as they are.",
+    ),
+    "affine places": (
+        "The places of the points tell g where they are not in one hyperplane: g_t is then the "
+        "only element that moves the body so, and is as smooth in t as they are.",
+        "The places of the points tell g wherever m is not 0 and J_c is invertible: g_t is then "
+        "the only element that moves the body so, and is as smooth in t as they are.",
+    ),
     "mass matrix": (
         "M is invertible where no direction of the group leaves every mass in its place.",
         "They are solved for the ζ̇_b wherever M is invertible.",
