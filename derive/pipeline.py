@@ -1,27 +1,35 @@
 """The whole road on one screen: from a problem to its record.
 
-    stage       input                     output        module
-    ----------  ------------------------  ------------  -----------------------------
-    lagrangian  letters                   Lagrangian    walk.lagrangian
-    pull-back   Lagrangian                Pullback      walk.pullback
-    Cartan      Pullback                  Cartan        walk.cartan
-    exterior    Cartan                    Exterior      walk.exterior
-    principle   Pullback, Cartan          Principle     walk.variation
-    kernel      Exterior, Principle       Ambient       walk.kernel
-    trivial     Cartan, Ambient           steps         walk.cartan, exterior, kernel
-    momentum    Cartan                    Momenta       walk.momentum     ϖ, dϖ, kernel by P, F
-    restrict    Momenta, values of P, F   dϖ of a group walk.restrict
-    isometry    Cartan, Momenta           Isometry      walk.isometry     SO(3), SE(3)
-    hat         Isometry                  Reader        walk.hat          so(3) ≅ R³
-    vectors     Momenta, Isometry         VectorForm    walk.vector
-    elimination VectorForm                Eliminated    walk.elimination  SE(3)
-    special     General, Potentials       Special       walk.special      any other group
-    coadjoint   Momenta                   steps         walk.coadjoint    SO(n), SE(n)
-    translation Special                   Centred       walk.translation  H ⋉ Rⁿ
-    centre      Special                   Seen          walk.centre       products of H ⋉ Rⁿ, H skew
-    multipliers Special or Centred        steps         walk.multipliers  codimension 0, 1 in gl(n)
-    mass        any of the three          steps         walk.mass         the others, coordinates
-    motion      all of these              steps         walk.rotation     SO(3), SE(3)
+    stage       input                        output        module
+    ----------  ---------------------------  ------------  -------------------------------------
+    lagrangian  letters                      Lagrangian    walk.lagrangian     of one point
+    pull-back   Lagrangian                   Pullback      walk.pullback
+    Cartan      Pullback                     Cartan        walk.cartan         in space
+    exterior    Cartan                       Exterior      walk.exterior
+    principle   Lagrangian, Pullback, Cartan Principle     walk.variation
+    kernel      Exterior, Principle          Ambient       walk.kernel
+    trivial     the three before             the same      cartan, exterior, kernel, carried to 𝔤
+    momentum    Cartan, carried to 𝔤         MomentumForm  walk.momentum       ϖ, dϖ, kernel by P, F
+                                                           a Lagrangian on the group enters here
+    special     General, Potentials          Special       walk.special        a group: dϖ, kernel
+    translation Special                      Centred       walk.translation    H ⋉ Rⁿ
+    centre      Special                      Seen          walk.centre         products, H skew
+    multipliers Special or Centred           steps         walk.multipliers    codimension 0 or 1
+    mass        any of the three             steps         walk.mass           the others
+    isometry    Cartan, MomentumForm         Isometry      walk.isometry       SO(3), SE(3): dϖ
+    hat         Isometry                     hat.Reader    walk.hat            so(3) ≅ R³
+    vectors     MomentumForm, Isometry       VectorForm    walk.vector         ℓ_b, p_b; Kirchhoff
+    elimination VectorForm                   Eliminated    walk.elimination    SE(3)
+    motion      VectorForm or Eliminated     steps         walk.rotation       SO(3), SE(3)
+    conserved   momenta in space             steps         walk.conserved      Noether
+
+What a group's dϖ is, ``special`` and ``isometry`` have by walk.restrict: P = (Π, p_b), F = (Φ, F_b)
+take their values.  Beside the road stand the steps of the body, the potentials and the inputs
+(walk.body, potential, pushes, inputs), and those that tell of it: orbit, motions, brackets, axes,
+coadjoint (SO(n), SE(n)), coordinates, components, separation.
+
+The road goes on from the record, in ``derive.code``: reader → lower → assemble → factor → schedule
+→ program → apart → statements → the templates.
 
 Every stage returns its value together with the steps it took; the record is their sequence, with
 what each uses (walk.lineage) and supposes (walk.supposed).
@@ -62,7 +70,7 @@ from .walk.kernel import kernel, kernel_trivialised
 from .walk.lagrangian import lagrangian
 from .walk.lineage import traced
 from .walk.mass import mass_steps
-from .walk.momentum import Momenta, momentum_form
+from .walk.momentum import MomentumForm, momentum_form
 from .walk.motions import held, motions
 from .walk.multipliers import multiplier_steps
 from .walk.orbit import distances, rigid, unique
@@ -147,8 +155,18 @@ def road_of_any_group(a: Alphabet) -> General:
     steps = (*first, *second, *third)
     if a.affine:
         steps += (kinetic_separation(pulled.kinetic, a, c),)
-    forms = form.momentum, pulled.pushed, trivial, trivial_derivative, momenta
-    return General(a, L, *forms, lengths, ambient, steps)
+    return General(
+        letters=a,
+        points=L,
+        momentum=form.momentum,
+        pushed=pulled.pushed,
+        cartan=trivial,
+        exterior=trivial_derivative,
+        momenta=momenta,
+        distances=lengths,
+        ambient=ambient,
+        steps=steps,
+    )
 
 
 def road_of(problem: Problem, group: Group, road: General) -> Steps:
@@ -165,9 +183,9 @@ def road_of(problem: Problem, group: Group, road: General) -> Steps:
     v = potentials(problem, Alphabet(group.n, affine=group.affine), c)
     own = specialise(road, group, v, c, invariant(problem))
     last: Steps = potential_separation(problem, v, own.letters, c) if group.affine else ()
-    momenta = matrix_momenta(road.momentum, road.letters)
+    in_space = matrix_momenta(road.momentum, road.letters)
     steps, motion = road_of_matrices(problem, group, own, c)
-    kept = conserved_steps(problem, v, momenta, motion, own.letters, c, vectors=False)
+    kept = conserved_steps(problem, v, in_space, motion, own.letters, c, vectors=False)
     if "orthogonal" in group.relations:
         last = (rigid(road.distances, own.gram, own.letters, c), *last)
     if turns_whole(group) and not group.affine:
@@ -210,7 +228,7 @@ def road_of_matrices(
 
 
 def road_of_space(
-    problem: Problem, momenta: Momenta, stage: Isometry, body: Steps, c: Chapter
+    problem: Problem, momenta: MomentumForm, stage: Isometry, body: Steps, c: Chapter
 ) -> Steps:
     """SO(3) and SE(3) in vectors: Euler's equations and principal axes, or the translation
     eliminated; then the forces of the problem and what is given."""
@@ -229,7 +247,7 @@ def road_of_space(
         steps = (euler, principal_step(euler, c))
         motion = spherical_motion(vectors, forces, b, read, given, c)
     inertia = steps[0] if b.affine else named[1]
-    kept = vector_momenta(vectors.momenta.values(), b)
+    in_space = vector_momenta(vectors.momenta.values(), b)
     return (
         named[0],
         isomorphism(read, c),
@@ -242,7 +260,7 @@ def road_of_space(
         motion,
         *(tensor_steps(problem, body[-1], inertia, motion, c) if body else ()),
         energy_step(stage, v, read, c),
-        *conserved_steps(problem, v, kept, motion, b, c, vectors=True),
+        *conserved_steps(problem, v, in_space, motion, b, c, vectors=True),
         *stated_basis_step(problem.group, b, c),
     )
 

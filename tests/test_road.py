@@ -6,6 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from derive.algebra.words import word
+from derive.pipeline import general_road
+from derive.walk.alphabet import Alphabet
+from derive.walk.restrict import restrict
 from tests.walks import NAMES, OTHERS, record
 
 SHOWN = json.loads((Path(__file__).parent / "shown.json").read_text())
@@ -83,6 +87,15 @@ def test_no_equation_is_lost():
             now.setdefault(chapter, set()).update(digest(e) for e in step.equations)
     gone = {x for x, found in SHOWN.items() if not {*found} <= now[x.split(".")[0]]}
     assert gone == REWRITTEN | LOST_C
+
+
+def test_a_momentum_that_moves_with_the_group_is_not_restricted_in_silence():
+    """Its variation would be lost: a gyroscopic term N̄A, say."""
+    a = Alphabet("n", affine=False)
+    form = general_road(affine=False).momenta.form
+    values = {a.Pi.momentum: word(a.N).bar * word(a.A.position), a.Pi.push: word(a.N_body)}
+    with pytest.raises(ValueError, match="Π has [AN], whose variation is not known"):
+        restrict(form, values, a)
 
 
 def digest(equation):

@@ -1,1 +1,1 @@
-"""The steps of the paper, one file each."""
+"""The road and its steps, an idea a file; :mod:`derive.pipeline` has them in order."""

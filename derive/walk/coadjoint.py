@@ -1,10 +1,10 @@
-"""Where the linear parts of 𝔤 are all skew matrices: Euler–Manakov's and Kirchhoff's equations.
+"""Where the linear parts of 𝔤 are all skew matrices: Euler–Manakov's equations.
 
 On so(n) only the skew part of Π counts, the angular momentum in the body ℓ_b = Π − Π̄:
 
-    ℓ̇_b = [ℓ_b, Z] + w p̄_b − p_b w̄ + moments,      ṗ_b = −Z p_b + F_b,
+    ℓ̇_b = [ℓ_b, Z] + w p̄_b − p_b w̄ + moments,      ṗ_b = −Z p_b + F_b.
 
-and in R³  ℓ̇_b = ℓ_b ∧ ζ + p_b ∧ w + μ,  ṗ_b = p_b ∧ ζ + F_b.
+In R³ it is :mod:`derive.walk.vector` that makes the steps ``momenta`` and ``coadjoint``.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .momentum import Momenta
+from .momentum import MomentumForm
 
 
 def halved(values: Mapping[Letter, Expr], b: Alphabet) -> dict[Letter, Expr]:
@@ -29,7 +29,7 @@ def halved(values: Mapping[Letter, Expr], b: Alphabet) -> dict[Letter, Expr]:
     return {x: Fraction(1, 2) * word(y) for x, y in pairs} | {b.Pi.push: values[b.Pi.push]}
 
 
-def coadjoint_steps(stage: Momenta, b: Alphabet, gram: Expr, c: Chapter) -> tuple[Step, ...]:
+def coadjoint_steps(stage: MomentumForm, b: Alphabet, gram: Expr, c: Chapter) -> tuple[Step, ...]:
     """In matrices: Euler–Manakov."""
     telling, moving = c.draft("momenta", "relation"), c.draft("coadjoint", "kernel")
     own = {b.letters()[x.name]: b.respell(e, gram).of(gram) for x, e in stage.values.items()}

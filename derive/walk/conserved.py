@@ -31,7 +31,7 @@ AXIS = Letter("y", 3)
 
 
 @dataclass(frozen=True)
-class Momenta:
+class SpaceMomenta:
     """``turning``: ℓ, a skew matrix or a vector; ``shifting``: p."""
 
     turning: Expr
@@ -41,7 +41,7 @@ class Momenta:
 def conserved_steps(
     problem: Problem,
     v: Potentials,
-    momenta: Momenta,
+    momenta: SpaceMomenta,
     motion: Step,
     b: Alphabet,
     c: Chapter,
@@ -84,7 +84,7 @@ def conserved_steps(
     return (draft.step([*definitions, *kept], prose),)
 
 
-def matrix_momenta(momentum: Expr, a: Alphabet) -> Momenta:
+def matrix_momenta(momentum: Expr, a: Alphabet) -> SpaceMomenta:
     """p̃(YA, YT + b) for every Y: ℓ = G − Ḡ with G its gradient, and for every b."""
     Y, shift = Letter("Y", a.n, a.n), Letter("b", a.n)
     images = {a.A.d_position: word(Y) * word(a.A.position)}
@@ -92,10 +92,10 @@ def matrix_momenta(momentum: Expr, a: Alphabet) -> Momenta:
         images[a.T.d_position] = word(Y) * word(a.T.position) + word(shift)
     paired = substitute(momentum, images)
     whole = gradient(paired, Y)
-    return Momenta(whole - whole.bar, gradient(paired, shift) if a.affine else None)
+    return SpaceMomenta(whole - whole.bar, gradient(paired, shift) if a.affine else None)
 
 
-def vector_momenta(momenta: Iterable[Expr], b: Alphabet) -> Momenta:
+def vector_momenta(momenta: Iterable[Expr], b: Alphabet) -> SpaceMomenta:
     """The same in R³, from ⟨ℓ_b, Ω⟩ + ⟨p_b, η⟩ with Ω = Āy and η = Ā(y ∧ T + b)."""
     turned, *pushed = momenta
     g, shift = word(b.A.position), Letter("b", 3)
@@ -104,7 +104,7 @@ def vector_momenta(momenta: Iterable[Expr], b: Alphabet) -> Momenta:
         moved = word(hat(AXIS)) * word(b.T.position) + word(shift)
         paired = paired + inner(pushed[0], g.bar * moved)
     whole = gradient(reduce(paired, isolate(AXIS)), AXIS)
-    return Momenta(whole, gradient(paired, shift) if b.affine else None)
+    return SpaceMomenta(whole, gradient(paired, shift) if b.affine else None)
 
 
 def _autonomous(problem: Problem) -> bool:

@@ -1,4 +1,4 @@
-"""SO(n) and SE(n): where ĀA = 1 the metric is left-invariant, (28) and (29)."""
+"""SO(3) and SE(3): where ĀA = 1 the metric is left-invariant, (28) and (29)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .cartan import Cartan, form_equation
 from .chapter import Chapter, Draft
 from .exterior import DOMEGA, primed, primes, shown_brackets
 from .gather import gathered, solve_for
-from .momentum import Momenta, fibre, horizontal
+from .momentum import MomentumForm, fibre, horizontal
 from .restrict import restrict, restricted_prose
 
 
@@ -36,7 +36,7 @@ class Isometry:
     steps: tuple[Step, ...]
 
 
-def isometry(general: Cartan, momenta: Momenta, a: Alphabet, n: int, c: Chapter) -> Isometry:
+def isometry(general: Cartan, momenta: MomentumForm, a: Alphabet, n: int, c: Chapter) -> Isometry:
     """The forms of any group, with the values of their letters on isometries."""
     b = Alphabet(n, affine=a.affine, skew=True, signed=a.signed)
     relating, writing = c.draft("relation", "relation"), c.draft("cartan", "relation")

@@ -1,11 +1,15 @@
 """The momentum form: dϖ of any group in a momentum P of 𝔤*, and its kernel (Euler–Poincaré).
 
-With ℓ the Lagrangian in (t, g, Z), P = ∂ℓ/∂Z and F its derivative along the group,
+With L̃ the Lagrangian in (t, g, Z), P = ∂L̃/∂Z and F its derivative along the group,
 
-    ϖ  = ⟨P, ξ⟩ − h δt,      h = ⟨P, Z⟩ − ℓ,
+    ϖ  = ⟨P, ξ⟩ − h̃ δt,      h̃ = ⟨P, Z⟩ − L̃,
     dϖ = ⟨δP − F δt, ξ′ − Z δ′t⟩ − ⟨δ′P − F δ′t, ξ − Z δt⟩ + ⟨P, [ξ′, ξ]⟩,
 
-whatever ℓ is: the proof has the letters P, Z, F and the bracket alone.  Points are one source of ℓ.
+whatever L̃ is: the proof has the letters P, Z, F and the bracket alone.  They are Π and Φ; for an
+affine group P = (Π, p_b) and F = (Φ, F_b).  Points are one source of L̃ (``fibre``, from p̃ and h̃).
+That ξ(X) = Z on the kernel is for points the step ``second_order_trivialised``; for any other L̃ it
+asks for an invertible ∂²L̃/∂Z².  Makes the steps ``momenta``, ``cartan_momentum``,
+``exterior_momentum`` and ``coadjoint`` of the chapters ``linear`` and ``affine``.
 """
 
 from __future__ import annotations
@@ -29,7 +33,7 @@ from .trivialisation import frame_rule, gram, varied_gram
 
 
 @dataclass(frozen=True)
-class Momenta:
+class MomentumForm:
     """``values``: P and F on words, by their letters.  In these letters, whatever the Lagrangian:
     ``form``: dϖ(δ, δ′), and ``balance``: ⟨Ṗ − F, ξ′⟩ − ⟨P, [Z, ξ′]⟩.
     """
@@ -40,15 +44,15 @@ class Momenta:
     steps: tuple[Step, ...]
 
 
-def momentum_form(stage: Cartan, a: Alphabet, c: Chapter) -> Momenta:
+def momentum_form(stage: Cartan, a: Alphabet, c: Chapter) -> MomentumForm:
     """P and F of the points, then ϖ, dϖ and its kernel by them."""
     values, told = _values(stage, a, c)
     form, balance, steps = _forms(a, c)
-    return Momenta(values, form, balance, (told, *steps))
+    return MomentumForm(values, form, balance, (told, *steps))
 
 
 def _values(stage: Cartan, a: Alphabet, c: Chapter) -> tuple[dict[Letter, Expr], Step]:
-    """P = ∂ℓ/∂Z and F, the derivative of ℓ along gξ, with ℓ = ⟨P, Z⟩ − h."""
+    """P = ∂L̃/∂Z and F, the derivative of L̃ along gξ, with L̃ = ⟨P, Z⟩ − h̃."""
     draft = c.draft("momenta", "fibre derivative")
     moved = {a.C: varied_gram(a, a.Z.xi), a.U: -stage.work}
     values = fibre(stage.momentum, stage.energy, moved, a)
@@ -65,15 +69,15 @@ def _values(stage: Cartan, a: Alphabet, c: Chapter) -> tuple[dict[Letter, Expr],
 
 
 def fibre(
-    momentum: Expr, energy: Expr, moved: Mapping[Letter, Expr], a: Alphabet
+    momentum: Expr, energy: Expr, along_group: Mapping[Letter, Expr], a: Alphabet
 ) -> dict[Letter, Expr]:
-    """P = ∂ℓ/∂Z, and F, the derivative of ℓ = ⟨P, Z⟩ − h where ξ moves the group: each by a whole
-    matrix, of which the elements of 𝔤 determine a part.
+    """P, read off p̃(ξ) = ⟨P, ξ⟩, and F, the derivative of L̃ = p̃(Z) − h̃ where ξ moves the group.
 
-    ``moved``: what ξ (and η) make of the other letters.
+    Each by a whole matrix, of which the elements of 𝔤 determine a part.  ``along_group``: what ξ
+    (and η) make of the other letters.
     """
     along = substitute(momentum, {f.xi: word(f.velocity) for f in a.frames})
-    varied = reduce(derivation(along - energy, moved.get), frame_rule(a, gram(a)))
+    varied = reduce(derivation(along - energy, along_group.get), frame_rule(a, gram(a)))
     any_xi = {f.xi: Letter(f.xi.name, f.xi.rows, f.xi.cols) for f in a.frames}
     told = [substitute(e, {x: word(y) for x, y in any_xi.items()}) for e in (momentum, varied)]
     pairs = [*zip(a.duals, a.frames, strict=True)]

@@ -1,4 +1,4 @@
-"""The one way from any group to a problem's: the letters of 𝔤* take their values.
+"""From any group to a problem's: the letters of 𝔤* take their values.
 
 What the general road says in P, δP, Ṗ, F, Z, ξ and the bracket is not expanded there: the values of
 P and F on a group are put in here, with their variations.
@@ -23,8 +23,14 @@ def restrict(
 ) -> Expr:
     """An expression about any group, in the letters ``a``, with P and F by their ``values``.
 
-    ``brackets``: what those letters stand for, where they are to be opened.
+    ``brackets``: what those letters stand for, where they are to be opened.  ``ValueError`` for a P
+    with other letters than those of the velocity, the body and C: how they vary is not known here.
     """
+    known = {a.C, a.J, a.c, a.m, *(f.velocity for f in a.frames)}
+    for d in a.duals:
+        for x in values[d.momentum].letters():
+            if x not in known:
+                raise ValueError(f"{d.momentum.name} has {x.name}, whose variation is not known")
     grams = [{a.C: varied_gram(a, x)} for x in (a.Z.xi, a.Z.xi_prime, a.Z.velocity)]
     return substitute(a.respell(e), moved(values, a.duals, a.frames, grams) | dict(brackets or {}))
 
@@ -35,7 +41,7 @@ def moved(
     frames: Sequence[Frame],
     further: Iterable[Mapping[Letter, Expr]],
 ) -> dict[Letter, Expr]:
-    """P, δP, δ′P, Ṗ and F by their values in Z and w.
+    """P, δP, δ′P, Ṗ and F by their values in Z and w; letters that do not vary are constants.
 
     ``further``: what else varies, under δ, under δ′ and along the motion.
     """

@@ -28,7 +28,7 @@ from .invariance import claims, told, without_gram
 from .isometry import bracketed, resting
 from .kernel import Ambient, balanced
 from .lagrangian import Lagrangian
-from .momentum import Momenta, fibre
+from .momentum import MomentumForm, fibre
 from .orbit import Distances
 from .potential import Potentials, virtual_work
 from .restrict import restrict, restricted_prose
@@ -37,7 +37,7 @@ from .trivialisation import frame_rule, gram, rates, varied_gram
 
 @dataclass(frozen=True)
 class General:
-    """What is known of every group of one action: letters, trivialised forms, kernel.
+    """What is known of every group of one action: ``cartan`` and ``exterior`` are carried to 𝔤.
 
     ``points``: what is said of them, ``distances``: by C; ``momentum``: p̃(δg) in space;
     ``pushed``: −dŨ(δg) by the moments of forces; ``ambient``: the kernel in space.
@@ -49,7 +49,7 @@ class General:
     pushed: Expr
     cartan: Cartan
     exterior: Exterior
-    momenta: Momenta
+    momenta: MomentumForm
     distances: Distances
     ambient: Ambient
     steps: tuple[Step, ...]

@@ -2,7 +2,8 @@
 
     dϖ = ⟨δℓ_b − μ δt, Ω′ − ζ δ′t⟩ + ⟨δp_b − F_b δt, η′ − w δ′t⟩ + ⟨ℓ_b, Ω′ ∧ Ω⟩ + … ,
 
-the general form read by j; then with the values of ℓ_b and p_b, (31) and (34).
+the general form read by j, with Π = ½ j(ℓ_b); then with the values of ℓ_b and p_b, (31) and (34).
+Makes the steps ``momenta`` to ``kernel`` of SO(3) and SE(3), Kirchhoff's equations among them.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ from .hat import (
     isolate,
 )
 from .isometry import Isometry
-from .momentum import Momenta, horizontal
+from .momentum import MomentumForm, horizontal
 from .restrict import moved
 from .supposed import told
 from .wedge import vector_sum
@@ -70,7 +71,7 @@ def pairs_of(b: Alphabet) -> list[tuple[Dual, Frame]]:
     return [(SPINNING, TURNING), *([(b.p_b, b.w)] if b.affine else [])]
 
 
-def vector_form(general: Momenta, stage: Isometry, read: Reader, c: Chapter) -> VectorForm:
+def vector_form(general: MomentumForm, stage: Isometry, read: Reader, c: Chapter) -> VectorForm:
     """Write ϖ's derivative by vectors and read the kernel off it."""
     b, pairs = stage.letters, pairs_of(stage.letters)
     momenta = body_momenta(stage, read)
