@@ -9,10 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from fractions import Fraction
+from itertools import groupby
 
 from .words import (
     Expr,
     Factor,
+    Key,
     Letter,
     Traces,
     Word,
@@ -72,20 +74,25 @@ def substitute(e: Expr, images: Mapping[Letter, Expr]) -> Expr:
 
     def of(w: Word) -> Expr:
         result: Expr | None = None
-        for letter, bar in w:
-            image = images.get(letter)
-            piece = (
-                expr_of_word(((letter, False),), letter.rows, letter.cols)
-                if image is None
-                else image
-            )
-            piece = piece.bar if bar else piece
-            result = piece if result is None else result * piece
+        for moves, run in groupby(w, lambda factor: factor[0] in images):
+            factors = tuple(run)
+            if moves:
+                pieces = [images[x].bar if bar else images[x] for x, bar in factors]
+            else:
+                pieces = [expr_of_word(factors, row_dim(factors[0]), col_dim(factors[-1]))]
+            for piece in pieces:
+                result = piece if result is None else result * piece
         assert result is not None
         return result
 
+    def stays(key: Key) -> bool:
+        return not any(x in images for part in (*key[0], key[1]) for x, _ in part)
+
     total = e.like({})
     for (traces, w), c in e.terms.items():
+        if stays((traces, w)):
+            total = total + e.like({(traces, w): c})
+            continue
         product = number(c)
         for cycle in traces:
             product = product * trace(of(cycle))

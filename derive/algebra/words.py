@@ -18,6 +18,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 Dim = int | str
 """A dimension: a number, or the name of one (``"n"``)."""
@@ -79,6 +80,7 @@ def rotations(word: Word) -> Iterator[Word]:
         yield word[k:] + word[:k]
 
 
+@lru_cache(2**14)
 def canonical_trace(word: Word) -> tuple[int, Word]:
     """Sign and least representative of ``Tr word``; sign 0 when the trace vanishes."""
     if len(word) == 1 and (word[0][0].traceless or word[0][0].symmetry < 0):
@@ -120,14 +122,14 @@ def _collect(items: Iterable[tuple[Fraction, list[Word], Word]]) -> Terms:
         monomial: list[Word] = []
         for cycle in [part for w in traced for part in _cut_cycle(w)] + scalars:
             sign, canonical = canonical_trace(cycle)
-            coefficient *= sign
-            if not coefficient:
+            if sign < 0:
+                coefficient = -coefficient
+            elif not sign:
                 break
             monomial.append(canonical)
-        if not coefficient:
-            continue
-        key = (tuple(sorted(monomial, key=_order)), rest)
-        total[key] = total.get(key, Fraction(0)) + coefficient
+        else:
+            key = (tuple(sorted(monomial, key=_order)), rest)
+            total[key] = total[key] + coefficient if key in total else coefficient
     return {key: c for key, c in total.items() if c}
 
 
@@ -186,7 +188,7 @@ class Expr:
         self._same(other)
         total = dict(self.terms)
         for key, c in other.terms.items():
-            total[key] = total.get(key, Fraction(0)) + c
+            total[key] = total[key] + c if key in total else c
         lineage = _both(self.lineage, other.lineage)
         return Expr(self.rows, self.cols, {k: c for k, c in total.items() if c}, lineage)
 
