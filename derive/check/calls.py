@@ -48,7 +48,7 @@ def wrong_quantifier(equation: Equation, at: Assumed) -> str:
     ``at``: the hypotheses of the step, which may fix a variation.
     """
     used = {*_values_of(equation.lhs), *_values_of(equation.rhs)}
-    if wrong := _wrong_existence(equation, used, at):
+    if wrong := _wrong_existence(equation, used):
         return wrong
     first, second, rates = ({x for form in forms for x in form} for forms in (*FORMS, RATES))
     fixed = (second if at.still - {TIME} else set()) | (first if at.contracted else set())
@@ -69,14 +69,12 @@ def wrong_quantifier(equation: Equation, at: Assumed) -> str:
     return ""
 
 
-def _wrong_existence(equation: Equation, used: Set[str], at: Assumed) -> str:
+def _wrong_existence(equation: Equation, used: Set[str]) -> str:
     for name in equation.exists:
         if name not in SOLVED:
             return f"that there is some {_said(name)} is not found: it is no multiplier"
         if name not in used or equation.exists.count(name) > 1:
             return f"it says nothing of {name}, which is to exist"
-        if at.principal:
-            return f"{name} is fixed by a hypothesis of the step: it is not one that there is"
     return ""
 
 
