@@ -23,7 +23,7 @@ def test_a_derivation(tmp_path):
     d = derive.derive(pair(title="A pair"))
     assert str(d).startswith("A pair — SL(2)")
     assert "θ" in str(d["motion"])
-    assert "\\lambda" in d["pair.motion"]._repr_markdown_()
+    assert "\\theta" in d["pair.motion"]._repr_markdown_()
     assert "$$" in d._repr_markdown_()
     assert "\\begin{document}" in d.latex()
     assert all(v.holds for v in d.check())
