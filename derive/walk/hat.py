@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 from ..algebra.calculus import PairRule, gradient, reduce, substitute
 from ..algebra.space import double, fold_inertia, hat, normal_form
@@ -68,7 +70,8 @@ class Reader:
         """j(x)."""
         return word(hat(x)).marked(self.hat)
 
-    def brackets(self) -> dict[Letter, Expr]:
+    @cached_property
+    def brackets(self) -> Mapping[Letter, Expr]:
         """[ξ′, ξ] and ξ′η − ξη′, from the structure equation with ξ = j(Ω), ξ′ = j(Ω′)."""
         derived = brackets_of(self.letters).values()
         turning, *others = (normal_form(substitute(e, self._axes(e))) for e in derived)
@@ -86,7 +89,7 @@ class Reader:
 def identified(b: Alphabet, gram: Expr, chapter: Chapter) -> tuple[Reader, tuple[Step, Step]]:
     """so(3) read by vectors: j and the tensor of inertia; ``gram``: ĀA = 1."""
     read = Reader(b, chapter.label("hat"), chapter.label("inertia"))
-    cross = read.brackets()[BRACKET]
+    cross = read.brackets[BRACKET]
     return read, (_identification(b, gram, cross, chapter), _inertia(b, chapter))
 
 

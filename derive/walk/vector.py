@@ -168,16 +168,16 @@ def _velocity(pairs: Sequence[tuple[Dual, Frame]]) -> dict[Letter, Expr]:
 
 
 def _notation(read: Reader) -> Notation:
-    return metrics("I", display={x: tree_of(e) for x, e in read.brackets().items()})
+    return metrics("I", display={x: tree_of(e) for x, e in read.brackets.items()})
 
 
 def _brackets(pairs: Sequence[tuple[Dual, Frame]], read: Reader) -> dict[str, Any]:
     """How the brackets read, and what they are, once X has the velocity of the motion."""
-    velocity, brackets = _velocity(pairs), read.brackets()
-    turning = tree_of(substitute(brackets.pop(BRACKET), velocity))
-    opened = {x: substitute(e, velocity).marked() for x, e in brackets.items()}
+    velocity = _velocity(pairs)
+    opened = {x: substitute(e, velocity).marked() for x, e in read.brackets.items()}
+    turning = opened.pop(BRACKET)
     return {
-        "display": {BRACKET: turning},
+        "display": {BRACKET: tree_of(turning)},
         "opening": lambda e: reduce(substitute(e, opened), antisymmetry),
     }
 
@@ -200,7 +200,7 @@ def _coadjoint(
 ) -> tuple[dict[Letter, Expr], Step]:
     """ℓ̇_b and ṗ_b (Euler, Kirchhoff): the coefficients of Ω′ and η′."""
     draft = chapter.draft("coadjoint", "kernel")
-    bracket = substitute(read.brackets()[BRACKET], c.velocity).marked()
+    bracket = substitute(read.brackets[BRACKET], c.velocity).marked()
     opened = substitute(without(c.second_order, b.dpt), {BRACKET: bracket})
     opened = opened.marked(chapter.label("second_order"))
     balance = {
