@@ -22,10 +22,10 @@ test: $(STAMP)   ## lint, types and all tests
 
 coverage: $(STAMP) ## the tests, and the lines and branches of derive/ that none runs; fails below 95 %
 	$(BIN)/python -m pytest -n 2 --cov --cov-report= --cov-report=json
-	$(BIN)/python -m tests.covered 95
+	$(BIN)/python -m tests.support.covered 95
 
 mutants: $(STAMP) ## an hour or more: every record, emitted program and rule of the engine made wrong
-	$(BIN)/python -m tests.mutants
+	$(BIN)/python -m tests.support.mutants
 
 lint: $(STAMP)   ## ruff and mypy alone
 	$(BIN)/ruff check .
@@ -57,7 +57,7 @@ accuracy: $(STAMP) ## worst error of each output against 50 digits, over 100000 
 	$(BIN)/python -m benchmarks.accuracy
 
 fuzz: $(STAMP)   ## random problems and 100000 changed files of every kind: half an hour; faults go to fuzz-faults/
-	EXAMPLES=300 $(BIN)/python -m pytest tests/test_random_problems.py
+	EXAMPLES=300 $(BIN)/python -m pytest tests/walk/test_random_problems.py
 	$(BIN)/python -m tests.fuzz 100000
 
 clean:           ## remove the virtual environment and caches

@@ -98,7 +98,7 @@ function(_derive_python result program)
   list(APPEND candidates "${folder}/python3" "${folder}/python" "${folder}/python.exe"
     "${folder}/../python.exe")
   foreach(python IN LISTS candidates)
-    execute_process(COMMAND "${python}" -c "import derive.templating"
+    execute_process(COMMAND "${python}" -c "import derive.language.templating"
       RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
     if(status EQUAL 0)
       set(${result} "${python}" PARENT_SCOPE)

@@ -15,7 +15,7 @@ from typing import Any
 
 import derive
 from derive.code.languages import LANGUAGES
-from derive.templating import folder
+from derive.language.templating import folder
 
 
 def sources(problem: str) -> Iterator[Path]:

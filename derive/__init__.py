@@ -1,7 +1,7 @@
 """derive: equations of motion by the road  L → L̃ on a group → ϖ → dϖ → kernel.
 
 ``from derive import Problem, SO, Points, Gravity, derive`` and the other words of
-:mod:`derive.api`; they are imported when they are asked for.
+:mod:`derive.python.api`; they are imported when they are asked for.
 """
 
 from importlib import import_module
@@ -14,10 +14,10 @@ WORDS = (
     *("Moments", "Points", "Potential", "Problem", "SAff", "SE", "SL", "SO", "SU", "Sim", "Solid"),
     *("Sp", "Spring", "U", "UT"),
 )
-PLACES = dict.fromkeys(WORDS, "derive.api") | {
-    **dict.fromkeys(("Derived", "derive"), "derive.derived"),
-    **dict.fromkeys(("Compiled", "CompileError", "compile"), "derive.compiled"),
-    "ProblemError": "derive.mechanics.problem",
+PLACES = dict.fromkeys(WORDS, "derive.python.api") | {
+    **dict.fromkeys(("Derived", "derive"), "derive.python.derived"),
+    **dict.fromkeys(("Compiled", "CompileError", "compile"), "derive.python.compiled"),
+    "ProblemError": "derive.problem.problem",
 }
 """Where each name is to be had."""
 

@@ -14,7 +14,7 @@ INTERRUPTED = 130
 def main() -> int:
     """Run the command line; when it is interrupted, quietly exit 130, also in the imports."""
     if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
-        from .cli import main as run  # who started us has it ignored, or handles it
+        from .command.cli import main as run  # who started us has it ignored, or handles it
 
         return run()
     asked = []
@@ -32,7 +32,7 @@ def main() -> int:
     sys.unraisablehook = unraisable
     signal.signal(signal.SIGINT, heed)
     try:
-        from .cli import main as run
+        from .command.cli import main as run
 
         status = run()
     except BaseException:  # an import may make another error of the interruption

@@ -42,16 +42,15 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from .algebra.groups import Group
-from .mechanics.data import data
-from .mechanics.frame import principal
-from .mechanics.invariance import invariant
-from .mechanics.problem import ForceInput, Problem, ProblemError
+from .problem.data import data
+from .problem.left_invariant import invariant
+from .problem.principal import principal
+from .problem.problem import ForceInput, Problem, ProblemError
 from .record.record import Derivation, Step, Symbol, encode
 from .record.sentence import Prose, Sentence, listed, phrase, say
 from .record.uses import of_steps
 from .record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, Name
 from .walk.alphabet import Alphabet
-from .walk.axes import isomorphism
 from .walk.body import body_step
 from .walk.brackets import bracket_step
 from .walk.cartan import cartan, trivialise
@@ -66,6 +65,7 @@ from .walk.failure import naming_steps
 from .walk.hat import identified
 from .walk.inputs import given_matrices, given_vectors
 from .walk.isometry import Isometry, isometry
+from .walk.isomorphism import isomorphism
 from .walk.kernel import kernel, kernel_trivialised
 from .walk.lagrangian import lagrangian
 from .walk.lineage import traced
@@ -99,7 +99,7 @@ Steps = tuple[Step, ...]
 
 MULTIPLIERS = 1
 """Through the normal space of 𝔤 where it has so many dimensions: the counted operations of the
-emitted code are then fewer than through the mass matrix (tests/test_roads.py)."""
+emitted code are then fewer than through the mass matrix (tests/walk/test_roads.py)."""
 
 
 @naming_steps()

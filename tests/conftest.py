@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from tests.needs import left_out
+from tests.support.needs import left_out
 
 
 @pytest.hookimpl(wrapper=True, trylast=True)

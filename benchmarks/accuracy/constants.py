@@ -10,8 +10,8 @@ from collections.abc import Collection, Iterator
 import numpy as np
 
 from derive.code.naming import name_of, suffixed
-from derive.compiled import Compiled
 from derive.pipeline import program
+from derive.python.compiled import Compiled
 
 from .measure import Worst, errors, taken
 from .reference import Reference, Sample

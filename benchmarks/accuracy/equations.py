@@ -13,7 +13,7 @@ from typing import Any
 import mpmath
 
 from derive.algebra.groups import Group
-from derive.algebra.tree import Tree, subtrees
+from derive.language.tree import Tree, subtrees
 from derive.record.record import Derivation
 
 from . import terms as q

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 import derive
-from derive.compiled import Compiled
-from derive.derived import Derived
+from derive.python.compiled import Compiled
+from derive.python.derived import Derived
 
 from .reference import Carried, Reference, Sample, applied, columns
 from .terms import Array, Terms, magnitude

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from derive.algebra.groups import Group
-from derive.derived import Derived
-from derive.validate.state import Chart, State
+from derive.python.derived import Derived
+from derive.validate.chart import Chart, State
 
 from . import draws, terms
 from .equations import Equations

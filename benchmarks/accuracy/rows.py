@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from derive import derive
-from derive.validate.state import Chart
+from derive.validate.chart import Chart
 
 from .constants import of_constants
 from .measure import Numbers, Worst, by_c, by_python, compared, compiled, module

@@ -1,1 +1,1 @@
-"""Words, groups, forms, trees: the mathematics without mechanics."""
+"""Words, calculus and groups: the mathematics without mechanics."""

@@ -12,10 +12,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from . import rational as q
+from ..language import rational as q
+from ..language.rational import Matrix
 from . import samplers as draw
 from .groups import Group
-from .rational import Matrix
 from .samplers import Sampler, Source
 
 Basis = tuple[Matrix, ...]

@@ -14,8 +14,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, Literal
 
-from . import rational as q
-from .rational import Matrix
+from ..language import rational as q
+from ..language.rational import Matrix
 from .samplers import Sampler, Source
 
 Relation = Literal["orthogonal", "unimodular"]

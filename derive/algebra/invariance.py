@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from . import rational as q
+from ..language import rational as q
+from ..language.rational import Matrix
 from .groups import Group
-from .rational import Matrix
 
 
 def changes(g: Group) -> Iterator[Matrix]:

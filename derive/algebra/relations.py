@@ -18,9 +18,9 @@ from functools import cache
 from itertools import combinations_with_replacement
 from math import isqrt
 
-from . import rational as q
+from ..language import rational as q
+from ..language.rational import Matrix
 from .groups import Group
-from .rational import Matrix
 
 Vector = tuple[Fraction, ...]
 """The entries of a matrix row by row, and of a map r ↦ A r + T those of T after them."""

@@ -11,8 +11,8 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any, Protocol
 
-from . import rational as q
-from .rational import Matrix
+from ..language import rational as q
+from ..language.rational import Matrix
 
 
 class Source(Protocol):

@@ -5,8 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from ..algebra import rational as q
-from ..limits import DEGREE
+from ..language import rational as q
+from ..language.limits import DEGREE
 
 Value = Any
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..algebra.show import show
-from ..algebra.tree import Tree
+from ..language.show import show
+from ..language.tree import Tree
 from ..record.record import Equation, RecordError, Step
 from .heads import RATES
 

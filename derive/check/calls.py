@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Set
 from typing import Any
 
-from ..algebra.show import show
-from ..algebra.tree import Tree
+from ..language.show import show
+from ..language.tree import Tree
 from ..record.record import Equation
 from .assumed import TIME, Assumed
 from .heads import (

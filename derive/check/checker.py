@@ -17,8 +17,8 @@ from fractions import Fraction
 from typing import Any
 
 from ..algebra.groups import Group
-from ..algebra.show import show
-from ..algebra.tree import Tree
+from ..language.show import show
+from ..language.tree import Tree
 from ..record.record import Derivation, Equation, RecordError, Step, to_json
 from ..record.vocabulary import ANY_GROUP
 from . import calls, symbols

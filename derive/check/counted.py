@@ -13,7 +13,7 @@ from functools import lru_cache, reduce
 from itertools import count
 from typing import Any, NamedTuple
 
-from ..algebra.rational import Matrix, flatten
+from ..language.rational import Matrix, flatten
 
 MEMO = 2**16
 

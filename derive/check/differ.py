@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
-from ..algebra.rational import flatten
-from ..algebra.tree import Tree
+from ..language.rational import flatten
+from ..language.tree import Tree
 from ..record.record import Equation
 from .arithmetic import EvaluationError, is_matrix, shape, told
 from .counted import NONE, Degree, Grade, degrees, joint

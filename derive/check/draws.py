@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import Any
 
 from ..algebra.groups import Group
-from ..algebra.rational import Matrix
 from ..algebra.samplers import Source
+from ..language.rational import Matrix
 from .counted import Counted, Degrees, letter
 from .evaluate import Environment
 from .opaque import Opaque

@@ -9,11 +9,11 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from ..algebra import rational as q
-from ..algebra.rational import Matrix
-from .body import Vector
+from ..language import rational as q
+from ..language.rational import Matrix
 from .model import Model
 from .nilpotent import EPS, EPS_PRIME, nilpotent, part
+from .point_masses import Vector
 from .spatial import axial
 
 NAMES = (("Π", "δΠ", "δ′Π", "Π̇"), ("p_b", "δp_b", "δ′p_b", "ṗ_b"))

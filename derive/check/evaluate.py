@@ -11,8 +11,8 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from ..algebra import rational as q
-from ..algebra.tree import Tree
+from ..language import rational as q
+from ..language.tree import Tree
 from .arithmetic import (
     EvaluationError,
     Value,

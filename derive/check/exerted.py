@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ..algebra import rational as q
 from ..algebra.groups import Group
-from ..algebra.tree import Tree
+from ..language import rational as q
+from ..language.tree import Tree
 from ..record.record import RecordError, decode
 from .draws import Draws
 from .evaluate import Environment, evaluate

@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Any
 
 from ..algebra.families import group, on_homogeneous
-from ..algebra.given import group_of_basis
 from ..algebra.groups import Group
+from ..algebra.stated_basis import group_of_basis
 from ..record.record import RecordError
 from ..record.shape import IDENTIFIER
 from ..record.vocabulary import ANY_GROUP

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..algebra.tree import Tree
+from ..language.tree import Tree
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from ..algebra.tree import Tree, names
+from ..language.tree import Tree, names
 from ..record.record import Equation, Step
 
 _FIRST = """

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..algebra import rational as q
-from ..algebra.tree import Tree
+from ..language import rational as q
+from ..language.tree import Tree
 from .arithmetic import EvaluationError
 from .model import Model
 from .nilpotent import EPS, EPS_PRIME, Nilpotent, derivative_in, derivative_of, part

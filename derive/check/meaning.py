@@ -8,15 +8,15 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
-from ..algebra import rational as q
-from ..algebra.rational import Matrix
-from ..algebra.tree import Tree
+from ..language import rational as q
+from ..language.rational import Matrix
+from ..language.tree import Tree
+from .acting import exerted_families, exerted_values
 from .arithmetic import EvaluationError, is_matrix, times
-from .continuum import integral, moved, place_values
 from .duals import dual_values, space_values
 from .evaluate import Environment, evaluate, point_index
-from .given import exerted_families, exerted_values
 from .heads import MOVED_PLACE, SHARED
+from .integrals import integral, moved, place_values
 from .lifts import ON_TANGENT, action_varied, form_rate
 from .model import Direction, Model
 from .nilpotent import EPS, EPS_PRIME, derivative_of, nilpotent, part

@@ -13,14 +13,14 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from ..algebra import rational as q
 from ..algebra.groups import Group
-from ..algebra.rational import Matrix
 from ..algebra.samplers import Source
-from .body import Body, Vector
+from ..language import rational as q
+from ..language.rational import Matrix
 from .counted import indexed
 from .exerted import RATE, AnyPotential, Exerted, damping_members
 from .nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, derivative_in, derivative_of, nilpotent, part
+from .point_masses import Body, Vector
 from .points import listed_count
 
 

@@ -12,10 +12,10 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
-from ..algebra import rational as q
-from ..algebra.rational import Matrix
-from ..algebra.show import show
-from ..algebra.tree import Tree, names
+from ..language import rational as q
+from ..language.rational import Matrix
+from ..language.show import show
+from ..language.tree import Tree, names
 from ..record import masses
 from ..record.hypotheses import OF_MASSES, Hypothesis
 from ..record.record import Equation, RecordError, Step

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 from typing import Any
 
-from ..algebra.rational import Matrix, dot
+from ..language.rational import Matrix, dot
 
 EPS, EPS_PRIME, ETA = 1, 2, 4
 

@@ -15,12 +15,12 @@ from collections.abc import Callable, Iterator
 from functools import cache, partial
 from typing import Any
 
-from ..algebra import rational as q
 from ..algebra.families import LARGEST, group, turning_about_a_point
-from ..algebra.given import group_of_basis
 from ..algebra.groups import Group
-from ..algebra.show import show
-from ..algebra.tree import Tree
+from ..algebra.stated_basis import group_of_basis
+from ..language import rational as q
+from ..language.show import show
+from ..language.tree import Tree
 from ..record.record import RecordError
 from .counted import Grade
 

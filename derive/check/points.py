@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-from ..algebra import rational as q
-from ..algebra.rational import Matrix
+from ..language import rational as q
+from ..language.rational import Matrix
 from ..record.record import decode
 from .draws import Draws
 from .evaluate import evaluate

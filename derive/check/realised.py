@@ -11,9 +11,9 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
-from ..algebra import rational as q
-from ..algebra.rational import Matrix
-from ..algebra.tree import OPERATORS
+from ..language import rational as q
+from ..language.rational import Matrix
+from ..language.tree import OPERATORS
 from ..record.record import RecordError, decode
 from .draws import Draws
 from .evaluate import evaluate

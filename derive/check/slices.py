@@ -11,7 +11,7 @@ from itertools import permutations, product
 from math import lcm
 from typing import Any
 
-from ..algebra import rational as q
+from ..language import rational as q
 from .arithmetic import EvaluationError
 
 Sizes = Mapping[str, Any]

@@ -9,10 +9,10 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from ..algebra import rational as q
-from ..algebra.rational import Matrix
-from .body import Vector
+from ..language import rational as q
+from ..language.rational import Matrix
 from .model import Model
+from .point_masses import Vector
 
 Values = dict[str, Any]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from ..algebra import rational as q
-from ..algebra.rational import Matrix
+from ..language import rational as q
+from ..language.rational import Matrix
 from .model import Model
 
 Values = dict[str, Any]

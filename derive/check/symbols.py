@@ -11,10 +11,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from ..algebra import rational as q
 from ..algebra.groups import Group
-from ..algebra.show import show
-from ..algebra.tree import Tree
+from ..language import rational as q
+from ..language.show import show
+from ..language.tree import Tree
 from ..record.record import Derivation, Equation, Step, Symbol
 from ..record.vocabulary import ANY_GROUP, Type, Use
 from . import calls

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from ..algebra.tree import Tree
+from ..language.tree import Tree
 from ..record.record import Step
 from .introduced import FIRST
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from ..reserved import STANDARD_MACROS
+from ..language.reserved import STANDARD_MACROS
 from .languages import HASH, Language
 from .program import Assignment, Check, Expression, Framing, Function, Program, Section
 

@@ -6,20 +6,20 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from ..algebra.groups import Group
-from ..algebra.show import show
-from ..limits import SLOPES, SLOPES_BY_PARAMETERS
+from ..language.limits import SLOPES, SLOPES_BY_PARAMETERS
+from ..language.show import show
 from ..record.record import Derivation
-from .axes import inertia, turning
-from .carry import carrying
+from .change_of_frame import carrying
 from .conventions import conventions
 from .drift import TEXTS, drift
 from .factor import factored
-from .frame import Frame
 from .graph import Node
 from .linearise import by_leaves, by_state
 from .lower import Lowering
 from .naming import Names, suffixed
 from .options import Options
+from .principal_axes import inertia, turning
+from .principal_frame import Frame
 from .program import Framing, Function, LoweringError, Program
 from .schedule import Scheduler, frontier
 from .titles import titles

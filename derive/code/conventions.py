@@ -7,10 +7,10 @@ import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.relations import Relations, relations
-from ..algebra.show import show
+from ..language import rational as q
+from ..language.show import show
 from ..record.record import decode
 from .options import Options
 

@@ -9,7 +9,7 @@ from functools import cache
 from itertools import product
 from typing import Any
 
-from ..algebra.rational import Matrix
+from ..language.rational import Matrix
 from .graph import PARAMETER, Graph, Node
 
 Namer = Callable[[Matrix, int, int], Matrix]

@@ -14,10 +14,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from ..algebra import rational as q
 from ..algebra.groups import Group
-from ..algebra.rational import Matrix
 from ..algebra.relations import Relations, relations
+from ..language import rational as q
+from ..language.rational import Matrix
 from . import dense
 from .graph import Graph, Node
 from .linearise import Varied

@@ -10,8 +10,8 @@ from fractions import Fraction
 from typing import Any
 
 from .. import __version__
+from ..language.templating import environment
 from ..record.record import Derivation
-from ..templating import environment
 from .apart import apart, hollow, identifiers
 from .languages import LANGUAGES, Language
 from .naming import PREFIXES

@@ -14,7 +14,7 @@ from fractions import Fraction
 from math import gcd
 from typing import Any
 
-from ..limits import OPERANDS
+from ..language.limits import OPERANDS
 from .program import LoweringError
 
 PARAMETER, STATE = 0, 1

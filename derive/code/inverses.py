@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 
-from ..algebra import rational as q
 from ..algebra.groups import Group
-from ..algebra.rational import Matrix
-from ..algebra.tree import Tree
+from ..language import rational as q
+from ..language.rational import Matrix
+from ..language.tree import Tree
 from ..record.masses import ANY_SIGN
 from ..record.record import Derivation, decode
 from . import dense

@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
-from ..algebra import rational as q
 from ..algebra.groups import Group
-from ..algebra.rational import Matrix
-from ..algebra.tree import Tree, mul
-from ..algebra.values import hat, wedge
+from ..language import rational as q
+from ..language.rational import Matrix
+from ..language.tree import Tree, mul
+from ..language.values import hat, wedge
 from ..record.record import Derivation, step_of
 from . import dense
 from .graph import PARAMETER, Graph, Node

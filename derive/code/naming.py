@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 import unicodedata
 
-from ..algebra.tree import Tree
-from ..reserved import WORDS
+from ..language.reserved import WORDS
+from ..language.tree import Tree
 
 GREEK = {
     "ζ": "zeta", "Ω": "omega", "φ": "phi", "θ": "multiplier", "γ": "gravity", "ξ": "xi", "η": "eta",

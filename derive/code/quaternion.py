@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from ..algebra.rational import Matrix
+from ..language.rational import Matrix
 from .graph import Graph, Node
 
 Quaternion = tuple[Any, ...]

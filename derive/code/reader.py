@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..algebra import rational as q
 from ..algebra.groups import Group
-from ..algebra.rational import Matrix
-from ..algebra.tree import Tree, subtrees
+from ..language import rational as q
+from ..language.rational import Matrix
+from ..language.tree import Tree, subtrees
 from ..record.record import Derivation, Equation, Step
 from .graph import Graph, Node
 from .naming import name_of, suffixed

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ..algebra.tree import Tree
+from ..language.tree import Tree
 
 SLACK = {"double": Fraction(1, 10**37), "float": Fraction(1, 10**20)}
 """Added to the square of a distance that may be 0; its root has a third power that is not 0.

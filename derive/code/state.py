@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cached_property
 
-from ..algebra import rational as q
 from ..algebra.groups import Group
 from ..algebra.invariance import skew
-from ..algebra.rational import Matrix
+from ..language import rational as q
+from ..language.rational import Matrix
 from . import dense
 from .graph import Graph, Node
 from .naming import suffixed

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..algebra.show import show
+from ..language.show import show
 from .lower import Lowering
 from .state import State
 

@@ -16,15 +16,15 @@ from functools import lru_cache
 from random import Random
 from typing import Any
 
-from ..algebra import rational as q
 from ..algebra.families import group
-from ..algebra.show import show
-from ..algebra.tree import Tree, names, neg
 from ..check.differ import difference
 from ..check.evaluate import Environment, evaluate
 from ..check.meaning import environment
 from ..check.model import Model
 from ..check.tried import SIZE
+from ..language import rational as q
+from ..language.show import show
+from ..language.tree import Tree, names, neg
 from ..record.record import Derivation, Equation
 from .printed_solid import SOLID
 from .printed_top import TOP

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..algebra.tree import Tree, add, mul, neg
+from ..language.tree import Tree, add, mul, neg
 from ..record.record import Equation
 from .printing import DMOVED, M_I, MOVED, R_I, V_I, VARPI, Printed, bar, minus, tr
 

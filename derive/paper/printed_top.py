@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..algebra.tree import Tree, add, mul, neg
+from ..language.tree import Tree, add, mul, neg
 from ..record.record import Equation
 from .printing import DOMEGA, M_I, R_I, VARPI, Printed, bar, metric, minus, tr
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..algebra.tree import Tree, add, mul, neg
+from ..language.tree import Tree, add, mul, neg
 from ..record.record import Equation
 
 DOMEGA: Tree = ("call", "dϖ", "δy", "δ′y")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..algebra.tree import Tree
+from ..language.tree import Tree
 
 PROPERTIES: dict[str, str] = {
     "positive": "a number that is > 0",

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-from ..algebra import rational as q
-from ..algebra.values import approximate
+from ..language import rational as q
+from ..language.values import approximate
 from .record import RecordError, decode
 
 ANY_SIGN = "of any sign"

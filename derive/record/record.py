@@ -21,8 +21,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from ..algebra.tree import OPERATORS, Tree
-from ..limits import RECORD_BYTES, TREE
+from ..language.limits import RECORD_BYTES, TREE
+from ..language.tree import OPERATORS, Tree
 from . import sentence
 from .hypotheses import PROPERTIES, SPACES, Hypothesis
 from .rules import RULES

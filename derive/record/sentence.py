@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..limits import SENTENCE
+from ..language.limits import SENTENCE
 
 PLACE = re.compile(r"\{([a-z]+)\}")
 

@@ -11,10 +11,10 @@ import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ..algebra.differentiate import DERIVATIVES
-from ..algebra.tree import OPERATORS, Tree
-from ..limits import BASIS, TEXT
-from ..reserved import WORDS, taken
+from ..language.differentiate import DERIVATIVES
+from ..language.limits import BASIS, TEXT
+from ..language.reserved import WORDS, taken
+from ..language.tree import OPERATORS, Tree
 from .vocabulary import ACTIONS, CONVENTIONS
 
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")

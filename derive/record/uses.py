@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
-from ..algebra.tree import Tree
+from ..language.tree import Tree
 from .record import Equation, Step
 from .vocabulary import ALGEBRA, ANY_GROUP, SCALAR, SQUARE, VECTOR, VOCABULARY, Name, Type, Use
 

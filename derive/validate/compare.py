@@ -15,14 +15,14 @@ from random import Random
 from typing import Any
 
 from ..record.record import to_json
-from .drift import compare_drift
+from .exact_points import Claims, Point
 from .jacobians import Varied
 from .literals import Literals
 from .measured import Measured, Opaque
 from .module import Machine, Module
 from .names import DiffersError, compare_names
-from .points import Claims, Point
-from .straight import asked, straight, summands
+from .projection import compare_drift
+from .straight_line import asked, straight, summands
 from .terms import Array, CodeError, run
 
 SIZE = 2**128

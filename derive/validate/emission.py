@@ -9,13 +9,13 @@ from fractions import Fraction
 from itertools import zip_longest
 
 from ..record.record import Derivation
+from .chart import Chart
 from .compare import SIZE, Verdict, compare
+from .exact_points import Claims
 from .module import Module
 from .names import DiffersError
-from .points import Claims
 from .read_c import read_c
 from .read_python import read_python, unread
-from .state import Chart
 from .terms import CodeError
 
 UNREAD = "not validated: only C and Python are read back"

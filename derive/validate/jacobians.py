@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ..algebra import rational as q
-from ..algebra.rational import Matrix
 from ..check.nilpotent import EPS, part
+from ..language import rational as q
+from ..language.rational import Matrix
+from .chart import EPSILON, State
+from .exact_points import Point
 from .module import Machine
-from .points import Point
-from .state import EPSILON, State
 from .terms import Array
 
 ZERO = Fraction(0)

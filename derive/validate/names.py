@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from .exact_points import Claims
 from .module import Module
-from .points import Claims
 from .terms import CodeError
 
 

@@ -1,1 +1,1 @@
-"""Functions over a record: text, LaTeX, Markdown."""
+"""Documents made of a record: text, LaTeX, Markdown, a page; their words in two languages."""

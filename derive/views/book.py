@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from unicodedata import normalize
 
-from ..algebra.tree import names
+from ..language.tree import names
 from ..record.record import Derivation, Step, Symbol
 from ..record.sentence import english, say
 from ..record.vocabulary import ANY_GROUP, VOCABULARY

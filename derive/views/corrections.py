@@ -7,13 +7,13 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..algebra.tree import Tree
+from ..language.tree import Tree
 from ..paper.findings import OMISSION, SIGN, Finding
+from ..printing.letters import NAMES
+from ..printing.tex import latex_tree
 from .book import Part
 from .language import Language
-from .letters import NAMES
 from .paper import grouped
-from .tex import latex_tree
 
 FORMULA = re.compile("\ue000([^\ue001]*)\ue001")
 """A formula in LaTeX among the words of a sentence."""

@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import groupby
 
-from ..algebra.show import show
-from ..algebra.tree import Tree
+from ..language.show import show
+from ..language.tree import Tree
+from ..printing.measure import measure
+from ..printing.tex import latex_tree
+from ..printing.wrap import display_width
 from ..record.record import Equation
-from .measure import measure
-from .tex import latex_tree
-from .wrap import display_width
 
 TABLE, CELL, ROW = 4, 24, 72
 """More cells than this stand side by side; how wide one is at most, and a row, in letters."""

@@ -9,22 +9,25 @@ from functools import cached_property
 from html import escape
 from typing import Any
 
+from ..figure.figure import svg
+from ..figure.scene import scene
+from ..language.templating import environment
 from ..paper.findings import Finding
+from ..printing.escape import prose
+from ..printing.letters import names_of, parameter
+from ..printing.macros import spoken, standard
+from ..printing.mathml import mathml
+from ..printing.measure import measure
+from ..printing.notation import Notation
+from ..printing.tex import latex_tree, marked, pieces, plain
+from ..printing.wrap import Piece, groups
 from ..record.record import Derivation, Equation, Step
-from ..templating import environment
 from .book import MOTION, REGULAR, Part, book, parameters
 from .corrections import Told, corrections
 from .entries import entries
-from .escape import prose
-from .figure import svg
 from .language import ENGLISH, Language
 from .latex import anchor
 from .layout import ROOM, clause, quantifiers
-from .letters import names_of, parameter
-from .macros import spoken, standard
-from .mathml import mathml
-from .measure import measure
-from .notation import Notation
 from .outline import (
     FORMULAS_CONVENTIONS,
     PAPER,
@@ -38,9 +41,6 @@ from .outline import (
     subtitle,
     title,
 )
-from .scene import scene
-from .tex import latex_tree, marked, pieces, plain
-from .wrap import Piece, groups
 
 PHONE = 16.0
 """What is wider (in em) and cannot be broken may have to be moved on a phone."""

@@ -8,19 +8,21 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate, pairwise
 
+from ..figure.drawing import Scene
+from ..figure.figure import tikz
+from ..figure.scene import scene
+from ..language.templating import environment
 from ..paper.findings import Finding
+from ..printing.escape import between_dollars, prose, tex_text
+from ..printing.letters import names_of, parameter
+from ..printing.macros import definitions, styled
+from ..printing.notation import Notation
+from ..printing.tex import latex_tree
 from ..record.record import Derivation, Step
-from ..templating import environment
 from .book import MOTION, REGULAR, Part, book, parameters, steps
 from .corrections import Told, corrections
-from .drawing import Scene
-from .escape import between_dollars, prose, tex_text
-from .figure import tikz
 from .language import ENGLISH, Language
 from .layout import blocks
-from .letters import names_of, parameter
-from .macros import definitions, styled
-from .notation import Notation
 from .outline import (
     FORMULAS_CONVENTIONS,
     PAPER,
@@ -34,8 +36,6 @@ from .outline import (
     subtitle,
     title,
 )
-from .scene import scene
-from .tex import latex_tree
 
 __all__ = ["fragment", "latex", "latex_tree", "package"]
 

@@ -6,14 +6,14 @@ import re
 from collections.abc import Mapping, Sequence
 from itertools import groupby
 
+from ..printing.escape import math_text, tex_text
+from ..printing.measure import measure
+from ..printing.tex import guarded, latex_tree, marked, pieces, plain
+from ..printing.wrap import Line, fill
 from ..record.record import Equation
 from .entries import Entry, entries
-from .escape import math_text, tex_text
 from .language import ENGLISH, Language
-from .measure import measure
 from .outline import domain, quantified
-from .tex import guarded, latex_tree, marked, pieces, plain
-from .wrap import Line, fill
 
 ROOM = 38.0
 """Width of an equation in em, its number aside."""

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+from ..printing.escape import between_dollars, markdown_text, prose
+from ..printing.letters import names_of
+from ..printing.macros import standard
 from ..record.record import Derivation, Equation, Step, Symbol
-from .escape import between_dollars, markdown_text, prose
 from .language import ENGLISH, Language
 from .layout import blocks
-from .letters import names_of
-from .macros import standard
 from .outline import (
     FORMULAS_CONVENTIONS,
     PAPER,

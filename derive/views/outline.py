@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import groupby
 
-from ..algebra.show import show
+from ..language.show import show
 from ..record.record import Derivation, Equation, Step
 from ..record.vocabulary import AMENDED, ANY_GROUP
 from .entries import entries

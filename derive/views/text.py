@@ -8,13 +8,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import groupby
 
-from ..algebra.show import in_quotes, show, show_name
+from ..language.show import in_quotes, show, show_name
+from ..printing.escape import NO_BREAK
+from ..printing.wrap import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
 from ..record.record import Derivation, Equation, Step
 from .entries import TABLE, cell
-from .escape import NO_BREAK
 from .language import ENGLISH, Language
 from .outline import CONVENTIONS, PAPER, domain, notes, quantified, sections, subtitle, title
-from .wrap import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
 
 MARGIN, EQUATION, INSIDE = 2, 6, 4
 NAME = 8

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..algebra.show import in_quotes, show
-from ..algebra.tree import Tree
-from ..mechanics.problem import GivenBody, MomentBody, PointBody, Problem
-from ..mechanics.solids import Solid
+from ..language.show import in_quotes, show
+from ..language.tree import Tree
+from ..problem.problem import GivenBody, MomentBody, PointBody, Problem
+from ..problem.solids import Solid
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, Sentence, listed, phrase, say
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .continuum import continuum
-from .elements import column, embedded
 from .lagrangian import Lagrangian
+from .pointwise import column, embedded
 from .supposed import of_moments, told
 
 INTEGRANDS: dict[str, Tree] = {"m": 1, "c": "r", "J": ("mul", "r", ("T", "r"))}

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from itertools import combinations
 from typing import Any
 
-from ..algebra import rational as q
 from ..algebra.groups import Group
-from ..algebra.rational import Matrix
-from ..algebra.tree import Tree, add, mul, neg
+from ..language import rational as q
+from ..language.rational import Matrix
+from ..language.tree import Tree, add, mul, neg
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .chapter import Chapter

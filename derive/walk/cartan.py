@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..algebra.calculus import derivation, gradient, substitute
-from ..algebra.notation import Notation, metrics, tree_of
-from ..algebra.tree import add, neg
 from ..algebra.words import Expr, word
+from ..algebra.written import Notation, metrics, tree_of
+from ..language.tree import add, neg
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet

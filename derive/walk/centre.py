@@ -14,13 +14,13 @@ from dataclasses import dataclass
 
 from ..algebra.calculus import PairRule, gradient, reduce, substitute
 from ..algebra.groups import Group
-from ..algebra.tree import Tree, add, mul, neg
 from ..algebra.words import Expr, Factor, Letter, inner, one, word, zero
+from ..language.tree import Tree, add, mul, neg
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .elements import column
+from .pointwise import column
 
 
 @dataclass(frozen=True)

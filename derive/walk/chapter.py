@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from ..algebra.notation import PLAIN, Notation, tree_of
-from ..algebra.tree import Tree
 from ..algebra.words import Expr
+from ..algebra.written import PLAIN, Notation, tree_of
+from ..language.tree import Tree
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import Prose

@@ -13,9 +13,9 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from ..algebra.calculus import gradient, substitute
-from ..algebra.notation import tree_of
-from ..algebra.tree import Tree, add
 from ..algebra.words import Expr, Letter, word
+from ..algebra.written import tree_of
+from ..language.tree import Tree, add
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet

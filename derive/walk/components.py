@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ..algebra import rational as q
-from ..algebra.laurent import Laurent, OverlongError, gathered, polynomial, written
-from ..algebra.tree import Tree, add, mul, names, replaced
-from ..algebra.values import Value, value
-from ..mechanics.problem import GivenBody, MomentBody, PointBody, Problem
+from ..language import rational as q
+from ..language.laurent import Laurent, OverlongError, gathered, polynomial, written
+from ..language.tree import Tree, add, mul, names, replaced
+from ..language.values import Value, value
+from ..problem.problem import GivenBody, MomentBody, PointBody, Problem
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .chapter import Chapter

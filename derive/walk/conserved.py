@@ -10,14 +10,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ..algebra import rational as q
 from ..algebra.calculus import derivation, gradient, reduce, substitute, without
 from ..algebra.groups import Group
-from ..algebra.notation import tree_of
 from ..algebra.space import hat, normal_form
-from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, inner, word
-from ..mechanics.problem import Attraction, Expression, Problem, Spring
+from ..algebra.written import tree_of
+from ..language import rational as q
+from ..language.tree import Tree
+from ..problem.problem import Attraction, Expression, Problem, Spring
 from ..record.record import Equation, Step
 from ..record.sentence import listed, say
 from .alphabet import Alphabet

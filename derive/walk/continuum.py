@@ -7,9 +7,9 @@ velocity in space, are functions on the body.
 from __future__ import annotations
 
 from ..algebra.calculus import derivation, substitute
-from ..algebra.notation import Notation
-from ..algebra.tree import Tree, add, coefficient, mul, neg
 from ..algebra.words import Expr, Letter, number, word
+from ..algebra.written import Notation
+from ..language.tree import Tree, add, coefficient, mul, neg
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet

@@ -12,16 +12,16 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from ..algebra.calculus import substitute, without
-from ..algebra.notation import Notation
 from ..algebra.space import hat
-from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, number, word
+from ..algebra.written import Notation
+from ..language.tree import Tree
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import Sentence, phrase, say
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
-from .gather import gathered, terms_with
+from .factored import gathered, terms_with
 from .supposed import told, vertical_metric
 
 CONTRACTION: Tree = ("call", "dϖ", "X", "δ′y")

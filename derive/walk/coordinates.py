@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..algebra.groups import Group
-from ..algebra.tree import Tree, add, mul
+from ..language.tree import Tree, add, mul
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet

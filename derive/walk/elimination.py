@@ -11,10 +11,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, reduce, substitute, without
-from ..algebra.notation import Notation, tree_of
 from ..algebra.space import hat, normal_form
-from ..algebra.tree import Tree, add, mul
 from ..algebra.words import Expr, Letter, number, word
+from ..algebra.written import Notation, tree_of
+from ..language.tree import Tree, add, mul
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet

@@ -6,15 +6,15 @@ from dataclasses import dataclass
 
 from ..algebra import forms
 from ..algebra.calculus import Image, gradient, reduce, substitute, without
-from ..algebra.notation import Notation, metrics, tree_of
-from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, word
+from ..algebra.written import Notation, metrics, tree_of
+from ..language.tree import Tree
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
 from .cartan import Cartan
 from .chapter import Chapter
-from .gather import at_constant_time, gathered, solve_for, terms_with
+from .factored import at_constant_time, gathered, solve_for, terms_with
 from .trivialisation import frame_rule, gram, trivial_images, varied_gram
 
 DOMEGA: Tree = ("call", "dϖ", "δy", "δ′y")

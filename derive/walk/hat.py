@@ -8,8 +8,8 @@ from functools import cached_property
 
 from ..algebra.calculus import PairRule, gradient, reduce, substitute
 from ..algebra.space import double, fold_inertia, hat, normal_form
-from ..algebra.tree import Tree
 from ..algebra.words import Expr, Factor, Letter, inner, number, trace, word, zero
+from ..language.tree import Tree
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet, Dual, Frame

@@ -10,20 +10,20 @@ from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, reduce, substitute
 from ..algebra.groups import Group
-from ..algebra.notation import tree_of
 from ..algebra.space import fold_inertia, normal_form
-from ..algebra.tree import Tree, add, mul
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..mechanics.problem import ForceInput, Problem
+from ..algebra.written import tree_of
+from ..language.tree import Tree, add, mul
+from ..problem.problem import ForceInput, Problem
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, listed, phrase, say
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .contraction import AND
-from .elements import embedded
 from .hat import OMEGA_P, ZETA, Reader, inertia_of, isolate
+from .point_forces import applied
+from .pointwise import embedded
 from .pullback import sum_over
-from .pushes import applied
 from .trivialisation import frame_rule
 from .wedge import vector_sum
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ..algebra.calculus import PairRule
-from ..algebra.tree import Tree
 from ..algebra.words import Expr, Factor, Letter, Traces, Word, one
+from ..language.tree import Tree
 
 
 def inverse_letter(x: Letter) -> Letter:

@@ -6,16 +6,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, without
-from ..algebra.notation import Notation
-from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, word
+from ..algebra.written import Notation
+from ..language.tree import Tree
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
 from .cartan import Cartan, form_equation
 from .chapter import Chapter, Draft
 from .exterior import DOMEGA, primed, primes, shown_brackets
-from .gather import gathered, solve_for
+from .factored import gathered, solve_for
 from .momentum import MomentumForm, fibre, horizontal
 from .restrict import restrict, restricted_prose
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 from ..algebra.calculus import gradient, substitute, without
 from ..algebra.forms import strip_left
-from ..algebra.notation import Notation, metrics
-from ..algebra.tree import Tree, add
 from ..algebra.words import Expr, Letter, number, word
+from ..algebra.written import Notation, metrics
+from ..language.tree import Tree, add
 from ..record.record import Equation, Step
 from ..record.sentence import listed, phrase, say
 from .alphabet import Alphabet
@@ -17,7 +17,7 @@ from .cartan import Cartan
 from .chapter import Chapter, Draft
 from .contraction import AND, CONTRACTION, Contraction, rate, steps_of, velocities
 from .exterior import Exterior, primed
-from .gather import at_constant_time, gathered, terms_with
+from .factored import at_constant_time, gathered, terms_with
 from .supposed import told
 from .trivialisation import rates, trivial_images
 from .variation import Principle

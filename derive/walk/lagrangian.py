@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..algebra.calculus import derivation, substitute
-from ..algebra.notation import metrics, tree_of
-from ..algebra.tree import Tree, add, neg
 from ..algebra.words import Expr, Letter, inner, word
+from ..algebra.written import metrics, tree_of
+from ..language.tree import Tree, add, neg
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet

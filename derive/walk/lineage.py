@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cache
 
-from ..algebra.tree import Tree
+from ..language.tree import Tree
 from ..record.record import Step
 from ..record.uses import way_of
 from ..record.vocabulary import OF, VOCABULARY

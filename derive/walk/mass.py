@@ -6,9 +6,9 @@ With ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are  Σ_b M_ab �
 from __future__ import annotations
 
 from ..algebra.calculus import gradient, substitute, without
-from ..algebra.notation import Notation
-from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, inner, word
+from ..algebra.written import Notation
+from ..language.tree import Tree
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet

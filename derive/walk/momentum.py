@@ -19,16 +19,16 @@ from dataclasses import dataclass, replace
 
 from ..algebra import forms
 from ..algebra.calculus import Image, derivation, gradient, reduce, substitute
-from ..algebra.notation import Notation, tree_of
-from ..algebra.tree import Tree, add, neg
 from ..algebra.words import Expr, Letter, inner, number, word
+from ..algebra.written import Notation, tree_of
+from ..language.tree import Tree, add, neg
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet, Dual, Frame
 from .cartan import Cartan
 from .chapter import Chapter
 from .exterior import DOMEGA, brackets_of, primed, primes, shown_brackets
-from .gather import at_constant_time, gathered
+from .factored import at_constant_time, gathered
 from .trivialisation import frame_rule, gram, varied_gram
 
 

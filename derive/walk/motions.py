@@ -7,15 +7,15 @@ from __future__ import annotations
 
 from ..algebra import forms
 from ..algebra.calculus import gradient, substitute, without
-from ..algebra.notation import PLAIN, metrics, tree_of
 from ..algebra.words import Expr, inner, word
+from ..algebra.written import PLAIN, metrics, tree_of
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
 from .cartan import Cartan
 from .chapter import Chapter
 from .exterior import DOMEGA, natural_variations, primed, primes
-from .gather import at_constant_time, gathered
+from .factored import at_constant_time, gathered
 from .kernel import Ambient
 
 

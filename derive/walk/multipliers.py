@@ -9,17 +9,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
-from ..algebra import rational as q
 from ..algebra.calculus import gradient, reduce, substitute, without
 from ..algebra.groups import Group
-from ..algebra.notation import Notation
-from ..algebra.tree import Tree, add
 from ..algebra.words import Expr, Factor, Letter, inner, number, one, word
+from ..algebra.written import Notation
+from ..language import rational as q
+from ..language.tree import Tree, add
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .gather import terms_with
+from .factored import terms_with
 from .inverse import cancelling, inverse_letter
 from .supposed import told
 from .translation import Centred

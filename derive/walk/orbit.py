@@ -11,14 +11,14 @@ from fractions import Fraction
 
 from ..algebra import forms
 from ..algebra.calculus import derivation, gradient, reduce, substitute, without
-from ..algebra.notation import Notation, metrics
-from ..algebra.tree import Tree, add, neg
 from ..algebra.words import Expr, Letter, inner, number, word
+from ..algebra.written import Notation, metrics
+from ..language.tree import Tree, add, neg
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
-from .gather import terms_with
+from .factored import terms_with
 from .lagrangian import POINT, Lagrangian
 from .pullback import Moments, sum_over
 from .supposed import told

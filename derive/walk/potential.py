@@ -11,17 +11,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..algebra.calculus import derivation
-from ..algebra.tree import Tree, add, neg
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..mechanics.problem import PointBody, Problem, Spring
+from ..language.tree import Tree, add, neg
+from ..problem.problem import PointBody, Problem, Spring
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .elements import column, elements
 from .lagrangian import POINT
+from .point_forces import applied, pushes_step
+from .pointwise import column, elements
 from .pullback import sum_over
-from .pushes import applied, pushes_step
 
 U_Q = Letter("U_Q")
 

@@ -10,8 +10,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..algebra.notation import metrics
-from ..algebra.tree import Tree, add, neg
 from ..algebra.words import (
     Expr,
     Letter,
@@ -25,6 +23,8 @@ from ..algebra.words import (
     transpose_word,
     word,
 )
+from ..algebra.written import metrics
+from ..language.tree import Tree, add, neg
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import say

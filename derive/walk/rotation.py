@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from ..algebra.calculus import gradient, reduce, substitute
-from ..algebra.notation import metrics
 from ..algebra.space import hat, normal_form
-from ..algebra.tree import Tree, add, mul
 from ..algebra.words import Expr, Letter, word
+from ..algebra.written import metrics
+from ..language.tree import Tree, add, mul
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet

@@ -7,10 +7,10 @@ separates where the potential is one as well.
 from __future__ import annotations
 
 from ..algebra.calculus import substitute
-from ..algebra.notation import Notation
-from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, word
-from ..mechanics.problem import Problem, Spring
+from ..algebra.written import Notation
+from ..language.tree import Tree
+from ..problem.problem import Problem, Spring
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, listed, phrase, say
 from .alphabet import Alphabet

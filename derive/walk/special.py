@@ -11,20 +11,20 @@ from dataclasses import dataclass, replace
 
 from ..algebra.calculus import gradient, reduce, substitute, without
 from ..algebra.groups import Group
-from ..algebra.notation import Notation
-from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..mechanics.invariance import Bodies
+from ..algebra.written import Notation
+from ..language.tree import Tree
+from ..problem.left_invariant import Bodies
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .cartan import Cartan, form_equation
+from .cauchy_green import claims, told, without_gram
 from .chapter import Chapter, Draft
 from .coadjoint import coadjoint_steps
 from .contraction import Contraction
 from .exterior import DOMEGA, Exterior, brackets_of
-from .gather import gathered, terms_with
-from .invariance import claims, told, without_gram
+from .factored import gathered, terms_with
 from .isometry import bracketed, resting
 from .kernel import Ambient, balanced
 from .lagrangian import Lagrangian

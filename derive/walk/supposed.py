@@ -11,9 +11,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from ..algebra.calculus import derivation, substitute
-from ..algebra.notation import Notation, metrics, tree_of
-from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, word
+from ..algebra.written import Notation, metrics, tree_of
+from ..language.tree import Tree
 from ..record.hypotheses import Hypothesis
 from ..record.record import Step
 from ..record.sentence import Prose, Sentence, say

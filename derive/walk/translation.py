@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, reduce, substitute, without
-from ..algebra.notation import Notation
-from ..algebra.tree import Tree
 from ..algebra.words import Expr, Letter, inner, word
+from ..algebra.written import Notation
+from ..language.tree import Tree
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..algebra.calculus import PairRule, derivation, reduce, substitute
-from ..algebra.notation import tree_of
-from ..algebra.tree import Tree
 from ..algebra.words import Expr, Factor, Letter, word
+from ..algebra.written import tree_of
+from ..language.tree import Tree
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet

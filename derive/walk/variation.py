@@ -15,9 +15,9 @@ from dataclasses import dataclass
 
 from ..algebra import forms
 from ..algebra.calculus import derivation, substitute
-from ..algebra.notation import Notation, tree_of
-from ..algebra.tree import Tree, add
 from ..algebra.words import Expr, Letter, inner, number, word
+from ..algebra.written import Notation, tree_of
+from ..language.tree import Tree, add
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet

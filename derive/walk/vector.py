@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..algebra.calculus import gradient, reduce, substitute, without
-from ..algebra.notation import Notation, metrics, tree_of
 from ..algebra.space import antisymmetry, hat, normal_form
-from ..algebra.tree import Tree, add
 from ..algebra.words import Expr, Letter, word
+from ..algebra.written import Notation, metrics, tree_of
+from ..language.tree import Tree, add
 from ..record.record import Equation, Step
 from ..record.sentence import Sentence, listed, phrase, say
 from .alphabet import Alphabet, Dual, Frame
@@ -24,7 +24,7 @@ from .chapter import Chapter
 from .coadjoint import halved, momenta_told, motion_told
 from .contraction import AND, Contraction, rate, steps_of
 from .exterior import DOMEGA, primed
-from .gather import at_constant_time
+from .factored import at_constant_time
 from .hat import (
     BRACKET,
     D_SPIN,

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ..algebra.notation import PLAIN, Notation, tree_of
 from ..algebra.space import fold_double
-from ..algebra.tree import Tree, add
 from ..algebra.words import Expr
+from ..algebra.written import PLAIN, Notation, tree_of
+from ..language.tree import Tree, add
 
 
 def vector_sum(e: Expr, notation: Notation = PLAIN) -> Tree:

@@ -7,16 +7,16 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from derive.check.checker import Checker
-from derive.mechanics.problem import ProblemError
-from derive.mechanics.toml import load
 from derive.pipeline import walk
+from derive.problem.problem import ProblemError
+from derive.problem.toml import load
 from derive.record.record import RecordError, from_json, to_json
 from derive.record.vocabulary import ANY_GROUP
-from derive.rendering import render
+from derive.views.rendering import render
 from tests.fuzz.mutate import SOLID, binary_stl, mesh
 from tests.fuzz.outputs import wrong_with
 from tests.fuzz.watch import SECONDS, judged, run, uncaught, watched
-from tests.walks import SEED
+from tests.support.walks import SEED
 
 MESH = """
 name = "meshed"

@@ -7,9 +7,9 @@ from copy import deepcopy
 from functools import cache
 from random import Random
 
-from derive.algebra.differentiate import DERIVATIVES
-from derive.mechanics.toml import problem_of
+from derive.language.differentiate import DERIVATIVES
 from derive.pipeline import walk
+from derive.problem.toml import problem_of
 from derive.record.record import to_data
 from derive.record.vocabulary import ANY_GROUP
 from tests.fuzz.hostile import NUMBERS, STRINGS, VALUES

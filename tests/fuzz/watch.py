@@ -14,8 +14,8 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from derive.cli import main
-from derive.limits import MESSAGE
+from derive.command.cli import main
+from derive.language.limits import MESSAGE
 
 SECONDS, MEMORY = 2.0, 1 << 30
 HANG = 60

@@ -1,0 +1,108 @@
+"""A group that the user gives by a basis of its Lie algebra: checked before it is used."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Literal
+
+from ..language import rational as q
+from ..language.rational import Matrix
+from . import samplers as draw
+from .families import LARGEST, affine_basis, so_basis
+from .groups import Group
+from .samplers import Sampler
+
+
+def group_of_basis(
+    name: str, action: Literal["linear", "affine"], basis: Sequence[Matrix]
+) -> Group:
+    """The connected group with that Lie algebra; ``ValueError`` when it is none.
+
+    ``basis``: matrices over Q of one size n (linear), or n + 1 with last row zero (affine).
+    """
+    _shapes(action, basis)
+    _independent(basis)
+    n = len(basis[0]) - (action == "affine")
+    bare = Group(name, n, action, tuple(basis), draw.general_linear(n))
+    _closed(bare)
+    if n == 3 and bare.dimension == 3 + 3 * bare.affine and "orthogonal" in bare.relations:
+        return _turning(bare)
+    exact = nilpotent(bare.basis) and "orthogonal" not in bare.relations
+    sampler = draw.exponentials(bare.basis) if exact else enclosing(bare)
+    return Group(name, n, action, bare.basis, sampler, larger=not exact)
+
+
+def _turning(g: Group) -> Group:
+    """so(3), alone or with all translations, in the basis that j gives it."""
+    basis = affine_basis(so_basis(3), 3) if g.affine else so_basis(3)
+    given = () if g.basis == basis else g.basis
+    return Group(g.name, 3, g.action, basis, enclosing(g), larger=True, given=given)
+
+
+def nilpotent(basis: Sequence[Matrix]) -> bool:
+    """Do the products of n matrices of the basis, of size n, all vanish?"""
+    products = [*basis]
+    for _ in basis[0][1:]:
+        rows: tuple[tuple[Fraction, ...], ...] = ()
+        found: list[Matrix] = []
+        for x in (q.times(e, f) for e in products for f in basis):
+            if any(map(any, x)) and q.rank((*rows, q.flatten(x))) > len(rows):
+                rows, found = (*rows, q.flatten(x)), [*found, x]
+        products = found
+    return not products
+
+
+def enclosing(g: Group) -> Sampler:
+    """Elements of the largest named group with the same relations.
+
+    A point g₀ of it stands for the coset g₀G, which left translation makes a copy of G with the
+    same Lagrangian up to the potential: what holds on every such coset holds on G.
+    """
+    if "orthogonal" in g.relations and g.n > 1:
+        linear = draw.by_cayley(so_basis(g.n))
+    elif "unimodular" in g.relations:
+        linear = draw.special_linear(g.n)
+    else:
+        linear = draw.general_linear(g.n)
+    return draw.affine(linear, g.n) if g.affine else linear
+
+
+def _shapes(action: str, basis: Sequence[Matrix]) -> None:
+    if not basis or not basis[0]:
+        raise ValueError("the basis is empty; give at least one matrix")
+    size = len(basis[0])
+    for a, e in enumerate(basis, 1):
+        if len(e) != size or any(len(row) != size for row in e):
+            raise ValueError(f"element {a} of the basis is not a {size} × {size} matrix")
+        if action == "affine" and any(e[-1]):
+            raise ValueError(f"element {a} of the basis: the last row of an affine one must be 0")
+    n = size - (action == "affine")
+    if not 2 <= n <= LARGEST:
+        raise ValueError(f"the matrices move points of R^{n}; from R^2 to R^{LARGEST} are known")
+
+
+def _independent(basis: Sequence[Matrix]) -> None:
+    rows: list[tuple[Fraction, ...]] = []
+    for a, e in enumerate(basis, 1):
+        rows.append(q.flatten(e))
+        if q.rank(tuple(rows)) < a:
+            why = "depends on those before it" if any(rows[-1]) else "is zero"
+            raise ValueError(f"element {a} of the basis {why}; leave it out")
+
+
+def _closed(g: Group) -> None:
+    for a, x in enumerate(g.basis, 1):
+        for b, y in enumerate(g.basis[: a - 1], 1):
+            bracket = q.bracket(y, x)
+            if g.vee(bracket) is None:
+                outside = q.minus(bracket, g.hat(g.nearest(bracket)))
+                raise ValueError(
+                    f"not a Lie algebra: the bracket of elements {b} and {a} of the basis falls "
+                    f"outside it by {shown(outside)}; add that to the basis, or mend the two"
+                )
+
+
+def shown(m: Matrix) -> str:
+    """A matrix in one line."""
+    return "[" + ", ".join("[" + ", ".join(map(str, row)) + "]" for row in m) + "]"

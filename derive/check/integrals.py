@@ -1,0 +1,40 @@
+"""A continuous body at its points: integrals over it, and functions of a place in it."""
+
+from __future__ import annotations
+
+from collections import ChainMap
+from dataclasses import replace
+from functools import reduce
+from typing import Any
+
+from ..language import rational as q
+from ..language.rational import Matrix
+from ..language.tree import Tree
+from .arithmetic import EvaluationError, plus, times
+from .evaluate import Environment, evaluate
+from .model import Model
+
+
+def place_values(model: Model) -> dict[str, Any]:
+    """r, any place in the body, and v, the velocity that it has in space."""
+    r = tuple((model.draw(),) for _ in range(model.n))
+    return {"r": r, "v": moved(model, q.times(model.g, model.Z), r)}
+
+
+def moved(model: Model, g: Matrix, r: Matrix) -> Matrix:
+    """g(r), also of a tangent matrix."""
+    return q.times(g, model.homogeneous(tuple(x for (x,) in r)))[: model.n]
+
+
+def integral(model: Model, form: Tree, env: Environment) -> Any:
+    """∫ of a function of r over the body: a sum, for the moments are those of its points."""
+    if model.problem.get("body", {}).get("kind") != "given":
+        raise EvaluationError("integrals are over solids")
+    nu = q.times(model.g, model.Z)
+    terms = []
+    for m, at in zip(model.masses, model.points, strict=True):
+        r = tuple((x,) for x in at)
+        here = {"r": r, "v": moved(model, nu, r)}
+        there = replace(env, names=ChainMap(here, env.names))  # type: ignore[arg-type]
+        terms.append(times(m, evaluate(form, there)))
+    return reduce(plus, terms)

@@ -1,0 +1,73 @@
+"""The body of a model: point masses that a matrix moves, their moments and their metric."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from ..language import rational as q
+from ..language.rational import Matrix
+from .draws import Draws
+from .points import points_of, principal_points
+
+Vector = tuple[Any, ...]
+
+
+class Body(Draws):
+    """The points of a problem, or any where it leaves them open."""
+
+    masses: list[Any]
+    points: list[Vector]
+    blocks: list[int]
+
+    def embody(self, *, principal: bool) -> None:
+        """Draw the points; ``principal``: of which J is diagonal."""
+        self.masses, self.points, self.blocks = (
+            principal_points(self) if principal else points_of(self)
+        )
+        if self.problem.get("body", {}).get("kind") != "moments":
+            return
+        m, c, J = self.moments
+        self.parameters |= {"m": m} | {f"c_{i + 1}": c[i][0] for i in range(self.n)}
+        self.parameters |= {
+            f"J_{i + 1}{j + 1}": J[i][j] for i in range(self.n) for j in range(i, self.n)
+        }
+
+    @cached_property
+    def moments(self) -> tuple[Fraction, Matrix, Matrix]:
+        """m, c, J as sums over the points."""
+        total = sum(self.masses, Fraction(0))
+        span = range(self.n)
+        pairs = list(zip(self.masses, self.points, strict=True))
+        first = tuple((sum((m * r[i] for m, r in pairs), Fraction(0)),) for i in span)
+        second = tuple(
+            tuple(sum((m * r[i] * r[j] for m, r in pairs), Fraction(0)) for j in span) for i in span
+        )
+        return total, first, second
+
+    def homogeneous(self, r: Vector) -> Matrix:
+        """r, or (r, 1) for an affine action, as a column."""
+        return tuple((x,) for x in (*r, *((Fraction(1),) if self.group.affine else ())))
+
+    def moved(self, g: Matrix) -> list[Vector]:
+        """g applied to the points (also a tangent matrix)."""
+        ends = q.transposed(tuple(q.flatten(self.homogeneous(r)) for r in self.points))
+        return [*q.transposed(q.times(g[: self.n], ends))]
+
+    def pairing(self, a: Matrix, b: Matrix) -> Any:
+        """Σ m_i ⟨a r_i, b r_i⟩ for tangent matrices at g."""
+        return sum(
+            (
+                m * q.dot(u, v)
+                for m, u, v in zip(self.masses, self.moved(a), self.moved(b), strict=True)
+            ),
+            Fraction(0),
+        )
+
+    def gram(self, frames: list[Matrix]) -> Matrix:
+        """The metric on tangent matrices at g: their displacements are computed once."""
+        moved = [[x for v in self.moved(a) for x in v] for a in frames]
+        weights = [m for m in self.masses for _ in range(self.n)]
+        rows = [[m * x for m, x in zip(weights, u, strict=True)] for u in moved]
+        return q.times(q.matrix(rows), q.transposed(q.matrix(moved)))

@@ -1,0 +1,102 @@
+"""What carries a state and inputs into the principal frame and back: (S g h⁻¹, h Z h⁻¹)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from ..language import rational as q
+from ..language.rational import Matrix
+from . import dense
+from .graph import Node
+from .lower import Lowering
+from .principal_frame import Frame
+from .quaternion import conjugate, multiplied
+from .state import State
+
+
+def carrying(frame: Frame, framed: Lowering) -> dict[str, list[Node]]:
+    """The functions of the emitted code by name."""
+    there, x = _Map.of(frame), framed.space
+    back = there.inverse
+    found = {"into_frame": there.carried(x), "out_of_frame": back.carried(x)}
+    if framed.inputs:
+        found["inputs_into_frame"] = _inputs(frame, there, frame.scale)
+        found["inputs_out_of_frame"] = _inputs(frame, back, frame.unit)
+    return found
+
+
+@dataclass(frozen=True)
+class _Map:
+    """``S``, ``h`` and ``back`` = h⁻¹, of the size of the group's matrices; and as quaternions."""
+
+    S: Matrix
+    h: Matrix
+    back: Matrix
+    quaternions: tuple[Any, ...]
+
+    @staticmethod
+    def of(frame: Frame) -> _Map:
+        """r ↦ H(r − s)."""
+        num, span = frame.graph.num, range(frame.n)
+        S = frame.S or tuple(tuple(num(int(i == j)) for j in span) for i in span)
+        if not frame.affine:
+            return _Map(S, frame.H, frame.back, frame.quaternions)
+        shift = tuple((-x,) for (x,) in dense.times(frame.graph, frame.H, frame.s))
+        still = ((num(0),),) * frame.n
+        whole = [(S, still), (frame.H, shift), (frame.back, frame.s)]
+        S, h, back = (_bordered(m, column, (num(0), num(1))) for m, column in whole)
+        return _Map(S, h, back, frame.quaternions)
+
+    @property
+    def inverse(self) -> _Map:
+        """The way back; S is a rotation, and where G translates it fixes the origin."""
+        back = tuple(conjugate(a) for a in self.quaternions)
+        return _Map(q.transposed(self.S), self.back, self.h, back)
+
+    def carried(self, x: State) -> list[Node]:
+        """S g h⁻¹ and h Z h⁻¹ (or S ġ h⁻¹)."""
+        g = x.graph
+        element = dense.times(g, self.S, dense.times(g, x.element, self.back))
+        if x.tangent:
+            rate = dense.times(g, self.S, dense.times(g, x.rate, self.back))
+            return [*x.entries(element), *x.entries(rate)]
+        Z = dense.times(g, dense.times(g, self.h, x.hat(x.coordinates)), self.back)
+        velocity = [x.read(a, Z) for a in range(x.group.dimension)]
+        if not x.quaternion:
+            return [*x.entries(element), *velocity]
+        left, right = self.quaternions
+        turned = multiplied(multiplied(left, x.q), right)
+        return [*turned, *x.entries(element), *velocity]
+
+
+def _bordered(m: Matrix, column: Matrix, corner: tuple[Node, Node]) -> Matrix:
+    """[[m, column], [0, 1]]."""
+    rows = ((*row, x) for row, (x,) in zip(m, column, strict=True))
+    return (*rows, (*(corner[0],) * len(m), corner[1]))
+
+
+def _inputs(frame: Frame, there: _Map, scale: Node) -> list[Node]:
+    """H f in the body, S f in space, and covectors with ⟨u″, h ξ h⁻¹⟩ = ⟨u, ξ⟩; in units of μ."""
+    old, g, n = frame.old, frame.graph, frame.n
+    found: list[Node] = []
+    pushes = 0
+    for given in old.record.problem["inputs"]:
+        if given["kind"] == "covector":
+            found += _coadjoint(old.space, there, old.covector)
+            continue
+        pushes += 1
+        turn = there.h if given["frame"] == "body" else there.S
+        linear = tuple(row[:n] for row in turn[:n])
+        found += q.flatten(dense.times(g, linear, old.force(pushes)))
+    return [g.product((scale, x)) for x in found]
+
+
+def _coadjoint(x: State, there: _Map, u: list[Node]) -> list[Node]:
+    """u″_a = Σ u_b (h⁻¹ E_a h)^b."""
+    g = x.graph
+    found = []
+    for a in range(x.group.dimension):
+        moved = dense.times(g, dense.times(g, there.back, x.member(a)), there.h)
+        found.append(g.sum(g.product((y, x.read(b, moved))) for b, y in enumerate(u)))
+    return found

@@ -1,0 +1,259 @@
+"""The principal frame in numbers: H, s, S and the parameters in it, from those of the problem.
+
+All is straight-line code but the axes of a few small symmetric matrices, which the emitted code
+finds by Jacobi's rotations: those of J, of K, of gravity, and of what holds a quaternion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from ..language import rational as q
+from ..language.rational import Matrix
+from ..language.tree import Tree
+from ..record.record import decode
+from . import dense
+from .graph import Node
+from .lower import Lowering
+from .naming import suffixed
+from .quaternion import conjugate
+
+FRAME = "frame"
+"""The label of what comes from no equation of the record but from the choice of the frame."""
+
+SMALL = Fraction(1, 10**30)
+"""Added to the size of gravity, which may be 0."""
+
+SPREAD = (31, 27, 16, 11, 7, 5, 3, 2)
+"""No two directions across a rational γ are alike in this diagonal matrix, in hundredths."""
+
+
+@dataclass(frozen=True)
+class Axes:
+    """The eigenvalues of a symmetric matrix, smallest first; its axes, the rows of a rotation."""
+
+    matrix: Matrix
+    values: tuple[Node, ...]
+    rows: Matrix
+
+    @property
+    def leaves(self) -> list[Node]:
+        """Values, then rows, as the emitted code stores them."""
+        return [*self.values, *q.flatten(self.rows)]
+
+
+class Frame:
+    """``given``: what the new parameters stand for; ``old``: the problem as it is given, lowered in
+    the graph of the framed one.
+
+    ``axes``: in order, each needs those before it; ``numbers``: leaf → node in the parameters and
+    axes, for each new parameter of the framed problem and each entry of H, H⁻¹, s, S.  ``unit``,
+    ``scale``: the leaves of μ and 1/μ, else 1.
+    """
+
+    def __init__(self, given: Mapping[str, Any], old: Lowering, quaternion: bool):
+        self.given, self.old, self.graph = given, old, old.graph
+        old.label = FRAME
+        self.n, self.affine = old.group.n, old.group.affine
+        self.axes: list[Axes] = []
+        self.numbers: dict[Node, Node] = {}
+        self.unit = self.per_unit = self.scale = old.graph.num(1)
+        self._material()
+        self._space()
+        self._parameters()
+        self.quaternions = self._quaternions() if quaternion else ()
+
+    def nodes(self) -> list[Node]:
+        """All that is computed on the way."""
+        return [*self.numbers.values(), *(x for axes in self.axes for x in q.flatten(axes.matrix))]
+
+    # -- the frame ---------------------------------------------------------------------------
+
+    def _principal(self, m: Matrix, value: str, axis: str) -> Axes:
+        """The axes of a matrix, whose numbers the emitted code finds."""
+        leaf = self.graph.leaf
+        span = range(1, len(m) + 1)
+        values = tuple(leaf(suffixed(value, i), "frame") for i in span)
+        rows = tuple(tuple(leaf(suffixed(axis, i, j), "frame") for j in span) for i in span)
+        self.axes.append(Axes(m, values, rows))
+        return self.axes[-1]
+
+    def _kept(self, name: str, m: Matrix) -> Matrix:
+        """Numbers that ``constants`` keeps: leaves of the frame."""
+        column = len(m[0]) == 1
+        return tuple(
+            tuple(
+                self._number_of(suffixed(name, i) if column else suffixed(name, i, j), x)
+                for j, x in enumerate(row, 1)
+            )
+            for i, row in enumerate(m, 1)
+        )
+
+    def _number_of(self, name: str, x: Node, kind: str = "frame") -> Node:
+        """A leaf for a number that the frame computes."""
+        leaf = self.graph.leaf(name, kind)
+        self.numbers[leaf] = x
+        return leaf
+
+    def _material(self) -> None:
+        """H, H⁻¹ and s; the numbers that tell a singular body."""
+        g, n = self.graph, self.n
+        J = self._matrix("J")
+        self.s: Matrix = ()
+        if self.affine:
+            inverse = g.recip(self._number("m"))
+            c = self._matrix("c")
+            s = self._named("centre", tuple((g.product((x, inverse)),) for (x,) in c))
+            shift = dense.times(g, c, q.transposed(s))
+            J = q.minus(J, shift)
+            self.s, self._s = self._kept("centre", s), s
+        span = range(n)
+        J = tuple(tuple(J[min(i, j)][max(i, j)] for j in span) for i in span)
+        J = self._named("J_c" if self.affine else "J", J)
+        found = self._principal(J, "second", "axis")
+        scale = g.magnitude(dense.diagonal(g, J))
+        if self.given["kind"] == "root":
+            H, back = self._root(found)
+            least = found.values[0]
+            self.H, self.back = self._kept("frame", H), self._kept("frame_inverse", back)
+            self._H = self._named("frame", H)
+        else:
+            least = found.values[0] + found.values[1]
+            self._set(self.given["moments"], found.values)
+            self.H, self._H = self._kept("frame", found.rows), found.rows
+            self.back = q.transposed(self.H)
+        self.regular: list[tuple[Node, Node | None]] = []
+        if self.affine and self.given["per_unit"]:  # without mass, nothing below is a number
+            self.regular.append((self._number_of("mass", self._number("m")), None))
+        moments = self._number_of("least_moment", least), self._number_of("size_of_J", scale)
+        self.regular.append(moments)
+
+    def _root(self, J: Axes) -> tuple[Matrix, Matrix]:
+        """H with H J H̄ = μ1, and H⁻¹."""
+        g = self.graph
+        mu: Node = g.num(1)
+        if self.given["per_unit"]:
+            logarithm = g.sum(g.function("log", x) for x in J.values)
+            mu = g.function("exp", g.linear([(Fraction(1, self.n), logarithm)]))
+            mu = g.value(mu, "unit_of_mass", FRAME)
+            self.per_unit = g.value(g.recip(mu), "per_unit", FRAME)
+            self._set((self.given["per_unit"],), (self.per_unit,))
+            self.scale = self.graph.leaf(self.given["per_unit"], "parameter")
+            self.unit = self._number_of("unit_of_mass", mu)
+        roots = [
+            g.value(g.function("sqrt", g.product((mu, g.recip(x)))), suffixed("stretch", i), FRAME)
+            for i, x in enumerate(J.values, 1)
+        ]
+        H = tuple(
+            tuple(g.product((k, x)) for x in row) for k, row in zip(roots, J.rows, strict=True)
+        )
+        back = tuple(
+            tuple(g.product((x, g.recip(k))) for x, k in zip(row, roots, strict=True))
+            for row in q.transposed(J.rows)
+        )
+        if not self.given["stiffness"]:
+            return H, back
+        H, back = self._named("root", H), self._named("root_inverse", back)
+        K = dense.times(g, dense.times(g, H, self._matrix("K")), q.transposed(H))
+        along = self._principal(K, "spring", "turn")
+        stiffness = [g.product((self.per_unit, x)) for x in along.values]
+        self._set(self.given["stiffness"], stiffness)
+        return dense.times(g, along.rows, H), dense.times(g, back, q.transposed(along.rows))
+
+    def _space(self) -> None:
+        """S, which puts gravity along the last axis; empty where space stays."""
+        self.S: Matrix = ()
+        if self.given["turned"]:
+            g = self._matrix("γ")
+            found = self._principal(self._upright(g), "pull", "space")
+            self.S, self._S = self._kept("space", found.rows), found.rows
+            whole = dense.times(self.graph, (found.rows[-1],), g)
+            self._set((self.given["gravity"],), whole[0])
+
+    def _upright(self, gamma: Matrix) -> Matrix:
+        """A matrix whose last axis is γ, and whose others are definite as well: s²uū + QDQ with u
+        along γ, s² = ūu, Q = s²1 − uū."""
+        g, span = self.graph, range(self.n)
+        total = g.sum([*(g.magnitude(x) for (x,) in gamma), g.num(SMALL)])
+        scale = g.value(g.recip(total), "per_gravity", FRAME)
+        u = self._named("upright", tuple((g.product((scale, x)),) for (x,) in gamma))
+        square = g.value(dense.dot(g, u, u), "upright_2", FRAME)
+        both = dense.times(g, u, q.transposed(u))
+        Q = tuple(tuple((square if i == j else g.num(0)) - both[i][j] for j in span) for i in span)
+        Q = self._named("across", Q)
+        spread = tuple(
+            tuple(g.product((g.num(Fraction(SPREAD[i], 100)), x)) for x in Q[i]) for i in span
+        )
+        along = tuple(tuple(g.product((square, x)) for x in row) for row in both)
+        return q.plus(along, dense.times(g, Q, spread))
+
+    def _parameters(self) -> None:
+        """Places H(r − s), vectors of space S a, and Hc."""
+        g = self.graph
+        for names, at in self.given["places"]:
+            place = tuple((self._tree(x),) for x in at)
+            if self.s:
+                place = q.minus(place, self._s)
+            self._set(names, _entries(dense.times(g, self._H, place)))
+        for names, v in self.given["vectors"]:
+            turned = dense.times(g, self._S, tuple((self._tree(x),) for x in v))
+            self._set(names, _entries(turned))
+        if self.given["first"]:
+            first = dense.times(g, self._H, self._matrix("c"))
+            scaled = [g.product((self.per_unit, x)) for x in _entries(first)]
+            self._set(self.given["first"], scaled)
+
+    def _set(self, names: Sequence[str], values: Sequence[Node]) -> None:
+        """New parameters of the framed problem."""
+        for name, x in zip(names, values, strict=True):
+            self._number_of(name, x, "parameter")
+
+    def _quaternions(self) -> tuple[tuple[Node, ...], ...]:
+        """Those of S and of H̄: the axis of the largest eigenvalue of a matrix of R (Horn 1987)."""
+        found = []
+        for name, R in (("space", self.S and self._S), ("frame", self._H)):
+            if not R:
+                found.append((self.graph.num(1), *(self.graph.num(0),) * 3))
+                continue
+            axes = self._principal(_horn(R), f"{name}_trace", f"{name}_quaternion")
+            kept = self._kept(f"{name}_q", tuple((x,) for x in axes.rows[-1]))
+            found.append(tuple(x for (x,) in kept))
+        return found[0], conjugate(found[1])
+
+    # -- values of the given problem ---------------------------------------------------------
+
+    def _matrix(self, name: str) -> Matrix:
+        value = self.old.name(name)
+        assert not isinstance(value, Node)
+        return value
+
+    def _number(self, name: str) -> Node:
+        value = self.old.name(name)
+        assert isinstance(value, Node)
+        return value
+
+    def _tree(self, t: Tree) -> Node:
+        value = self.old.tree(decode(t, "frame"))
+        assert isinstance(value, Node)
+        return value
+
+    def _named(self, name: str, m: Matrix) -> Matrix:
+        return self.old.named(m, name)  # type: ignore[return-value]
+
+
+def _entries(column: Matrix) -> list[Node]:
+    return [x for (x,) in column]
+
+
+def _horn(R: Matrix) -> Matrix:
+    """4 × 4, of largest eigenvalue 3 at the quaternion of the rotation R, scalar first."""
+    (a, b, c), (d, e, f), (g, h, i) = R
+    return (
+        (a + e + i, h - f, c - g, d - b),
+        (h - f, a - e - i, b + d, c + g),
+        (c - g, b + d, e - a - i, f + h),
+        (d - b, c + g, f + h, i - a - e),
+    )

@@ -1,0 +1,136 @@
+"""The options of the command line; what they start is in :mod:`derive.command.cli`."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from .. import __version__
+from ..views.rendering import FORMATS
+from .guard import one_line
+
+ALLOWED = {"mass": "mass", "stiffness": "stiffness or damping"}
+"""What may be negative where a flag allows it."""
+
+
+def emission(emit: argparse.ArgumentParser) -> None:
+    """The choices about the emitted code."""
+    from ..code.languages import LANGUAGES
+    from ..code.options import CHOICES, JACOBIANS
+
+    lang = f"one of {', '.join(LANGUAGES)}; may be repeated; C and Python when left out"
+    emit.add_argument("--lang", action="append", choices=LANGUAGES, metavar="LANG", help=lang)
+    for name, (values, meaning) in CHOICES.items():
+        about = f"{meaning} (default: {values[0]})"
+        emit.add_argument(f"--{name}", choices=values, default=values[0], help=about)
+    about = "also the linearised equations, in the state, the inputs or the parameters; repeated"
+    emit.add_argument("--jacobian", action="append", choices=JACOBIANS, help=about)
+
+
+def positive(words: str) -> float:
+    """A number of seconds."""
+    if not 0 < (seconds := float(words)) < 1e9:
+        raise ValueError(words)
+    return seconds
+
+
+def natural(words: str) -> int:
+    """A number that is not negative."""
+    if (number := int(words)) < 0:
+        raise ValueError(words)
+    return number
+
+
+Command = Callable[[argparse.Namespace], int]
+
+
+class Parser(argparse.ArgumentParser):
+    """What a command does not know it says itself, with its own usage and the nearest option."""
+
+    def parse_known_args(  # type: ignore[override]
+        self, args: Sequence[str] | None = None, namespace: Any = None
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """The same; what is left over is an error."""
+        found, left = super().parse_known_args(args, namespace)
+        if left:
+            option = next((x for x in left if x.startswith("-")), "")
+            what = f"unknown option {option!r}" if option else f"unexpected {left[0]!r}"
+            near = difflib.get_close_matches(option.partition("=")[0], self._known(), 1)
+            self.error(one_line(what + (f"; did you mean {near[0]!r}?" if near else "")))
+        return found, left
+
+    def _known(self) -> list[str]:
+        return [x for action in self._actions for x in action.option_strings]
+
+
+def parser(commands: Mapping[str, Command], about: str | None) -> argparse.ArgumentParser:
+    """The options of every command, by the functions that run them, with their docstrings."""
+    from ..views.language import LANGUAGES
+
+    top = Parser(prog="derive", description=about)
+    top.add_argument("--version", action="version", version=f"derive {__version__}")
+    made_of = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    def command(name: str) -> argparse.ArgumentParser:
+        run = commands[name]
+        made = made_of.add_parser(name, help=run.__doc__, description=run.__doc__)
+        made.set_defaults(run=run)
+        stop = "stop after so many seconds of processor time"
+        made.add_argument("--seconds", type=positive, metavar="N", help=stop)
+        return made
+
+    command("list")
+    walk, made, emit, check = map(command, ("walk", "notes", "emit", "check"))
+    reading(walk, made)
+    emit.add_argument("problem", help="a ready-made name or a .toml file")
+    writing(emit)
+    emission(emit)
+    check.add_argument("problem", nargs="+", help="ready-made names, .toml files or .json records")
+    about = "the seed of a run that is to be repeated (default: a new one)"
+    check.add_argument("--seed", type=natural, metavar="N", help=about)
+    for one in (walk, emit, check):
+        for name, what in ALLOWED.items():
+            about = f"warn of a negative {what} instead of refusing it"
+            one.add_argument(f"--allow-negative-{name}", action="store_true", help=about)
+    paper = command("paper")
+    paper.add_argument("--format", choices=("text", "json"), default="text")
+    paper.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
+    paper.add_argument("--out", metavar="FILE")
+    build = command("build")
+    build.add_argument("--out", metavar="DIR", default="generated")
+    build.add_argument("--print", action="store_true", help="print the walks as well")
+    return top
+
+
+def reading(walk: argparse.ArgumentParser, notes: argparse.ArgumentParser) -> None:
+    """What walks and notes are asked for: problems, a form, a language, notations."""
+    from ..printing.notation import NOTATIONS
+    from ..views.language import LANGUAGES
+
+    walk.add_argument("problem", help="a ready-made name or a .toml file")
+    walk.add_argument("--format", choices=FORMATS, default="text")
+    walk.add_argument("--out", metavar="FILE")
+    notes.add_argument("problem", nargs="*", help="ready-made names or .toml files")
+    notes.add_argument("--out", metavar="FILE", required=True, help="FILE.tex, .pdf, .html or .sty")
+    for one in (walk, notes):
+        one.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
+        one.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
+        for option, name in (("--notation", "transpose"), ("--hat", "hat")):
+            values, meaning = NOTATIONS[name]
+            about = f"{meaning} (default: {values[0]})"
+            one.add_argument(option, choices=values, default=values[0], help=about)
+
+
+def writing(emit: argparse.ArgumentParser) -> None:
+    """Where code goes, and what is done in place of writing it."""
+    emit.add_argument("--out", metavar="DIR", help="default: the current directory")
+    emit.add_argument("--prefix", metavar="NAME", help="default: the problem's name")
+    current = "write nothing; exit 1 if a file on disk is not what would be written"
+    emit.add_argument("--check", action="store_true", help=current)
+    names = "print the names of the files, a line each, and write nothing (for builds)"
+    emit.add_argument("--names", action="store_true", help=names)
+    about = "read the C and Python back before they are written (with --check: those on disk), "
+    about += "hold them against the record"
+    emit.add_argument("--validate", action="store_true", help=f"{about}; exit 1 if they differ")

@@ -1,0 +1,314 @@
+"""The command line: ``derive list | walk | notes | emit | check | paper | build``."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import os
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+from importlib import resources
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..problem.problem import Problem, ProblemError
+from ..record.record import Derivation, RecordError
+from ..views.rendering import NOTES, RenderError, notes, pdf, render, unprinted
+from .encoding import as_in_a_file, said
+from .guard import StoppedError, one_line, within
+from .progress import counted
+
+if TYPE_CHECKING:
+    from ..check.checker import Verdict
+
+READY = resources.files("derive") / "problems"
+
+
+class UsageError(Exception):
+    """Bad input: one clear line, exit 2."""
+
+
+REFUSED = (UsageError, ProblemError, RecordError, RenderError)
+
+
+def ready_made() -> list[str]:
+    """The names of the ready-made problems."""
+    return sorted(f.name.removesuffix(".toml") for f in READY.iterdir() if f.name.endswith(".toml"))
+
+
+def load_problem(name: str, **allowed: bool) -> Problem:
+    """A ready-made problem by name, or a TOML file by path; ``allowed``: as ``load`` has it."""
+    from ..problem.toml import load
+
+    if name in ready_made():
+        return load(Path(str(READY / f"{name}.toml")))
+    path = Path(name)
+    if path.suffix == ".toml" or path.exists():
+        return load(path, **allowed)
+    near = difflib.get_close_matches(name.lower(), ready_made(), 1)
+    if path.with_name(f"{path.name}.toml").is_file():
+        near = [f"{name}.toml"]
+    hint = f"did you mean {near[0][:60]!r}? " if near else ""
+    raise UsageError(
+        f"unknown problem {name[:60]!r}; {hint}ready-made: {', '.join(ready_made())}; "
+        "or give a .toml file"
+    )
+
+
+def derive(name: str, **allowed: bool) -> tuple[Problem, Derivation]:
+    """A problem and its record; what may be doubted in it gets a warning."""
+    from ..pipeline import walk
+    from ..problem.doubts import doubts
+
+    problem = load_problem(name, **allowed)
+    for doubt in doubts(problem):
+        print(f"derive: warning: {one_line(name)}: {one_line(doubt)}", file=sys.stderr)
+    try:
+        return problem, walk(problem)
+    except ProblemError as error:
+        raise UsageError(f"{name}: {error}") from None
+
+
+def allowed(args: argparse.Namespace) -> dict[str, bool]:
+    """What may be negative, as the flags say."""
+    from .arguments import ALLOWED
+
+    return {f"negative_{x}": getattr(args, f"allow_negative_{x}") for x in ALLOWED}
+
+
+def save(text: str, out: str | None, form: str) -> None:
+    """A text of one of the formats to stdout, or whole to a file."""
+    from .writing import write
+
+    if out is None:
+        if form != "text":
+            as_in_a_file()
+        sys.stdout.write(text if text.endswith("\n") else text + "\n")
+    else:
+        path = Path(out)
+        write({path.name: text}, path.parent, links=True)
+
+
+def command_list(_: argparse.Namespace) -> int:
+    """Groups and ready-made problems."""
+    from .listing import listing
+
+    print(listing({name: load_problem(name) for name in ready_made()}))
+    return 0
+
+
+def command_walk(args: argparse.Namespace) -> int:
+    """Print the walk of a problem."""
+    record = derive(args.problem, **allowed(args))[1]
+    shown = render(record, args.format, args.lang, fragment=args.fragment, **notation(args))
+    if args.format == "latex":
+        warn_of_letters([record])
+    save(shown, args.out, args.format)
+    return 0
+
+
+def command_notes(args: argparse.Namespace) -> int:
+    """Lecture notes of problems: .tex, .pdf or .html; or .sty, the macros of their fragments."""
+    from .writing import write
+
+    out = Path(args.out)
+    if out.suffix not in NOTES:
+        raise UsageError(f"--out {args.out}: the name must end in {', '.join(NOTES)}")
+    names = dict.fromkeys(args.problem)
+    records = list(counted((derive(name)[1] for name in names), len(names), "walks"))
+    chosen = {"fragment": args.fragment, **notation(args)}
+    text = notes(records, out.suffix, args.lang, **chosen)
+    if out.suffix in (".tex", ".pdf"):
+        warn_of_letters(records)
+    if out.suffix != ".pdf":
+        paths = write({out.name: text}, out.parent, links=True)
+    else:
+        paths = write({out.with_suffix(".tex").name: text}, out.parent)
+        made = list(counted(map(pdf, [text]), 1, "LaTeX"))
+        paths += write({out.name: made[0]}, out.parent, links=True)
+    for path in paths:
+        print(path)
+    return 0
+
+
+def warn_of_letters(records: Sequence[Derivation]) -> None:
+    """Say which letters LaTeX will not have."""
+    if lost := unprinted(records):
+        shown = ", ".join(lost[:20])
+        print(f"derive: warning: LaTeX has no {one_line(shown)} here, and shows ?", file=sys.stderr)
+
+
+def notation(args: argparse.Namespace) -> dict[str, str]:
+    """How transposes and skew matrices are to be written."""
+    return {"transpose": args.notation, "hat": args.hat}
+
+
+def command_emit(args: argparse.Namespace) -> int:
+    """Write the numeric code of a problem."""
+    from ..code.emit import emit, included, planned
+    from ..code.options import CHOICES, Options
+    from ..pipeline import program
+    from .validation import validated
+    from .writing import stale, there, write
+
+    languages = tuple(dict.fromkeys(args.lang or ("c", "python")))
+    if args.names:
+        prefix = args.prefix  # with one, the problem need not be there
+        if prefix is None:
+            prefix = load_problem(args.problem, **allowed(args)).name
+        print(*planned(languages, prefix, args.form), sep="\n")
+        return 0
+    problem, record = derive(args.problem, **allowed(args))
+    chosen = {name: getattr(args, name) for name in CHOICES}
+    options = Options(**chosen, jacobian=tuple(dict.fromkeys(args.jacobian or ())))
+    compiled = program(problem, record, options)
+    prefix = problem.name if args.prefix is None else args.prefix
+    files, folder = emit(compiled, record, languages, prefix, options), Path(args.out or ".")
+    old = stale(files, folder, included(languages)) if args.check else {}
+    for path, how in old.items():
+        print(f"{path}: {how}")
+    if args.validate:
+        kept = {x: there(folder / x) for x in files} if args.check else files
+        if not validated(kept, files, record, compiled, prefix, options):
+            return 1  # and nothing is written
+    if args.check:
+        return 1 if old else 0
+    for path in write(files, folder):
+        print(path)
+    return 0
+
+
+def command_check(args: argparse.Namespace) -> int:
+    """Re-check every recorded step, independently of the code that derived it."""
+    from ..check.checker import fresh_seed
+    from ..check.checker import verdicts as check
+    from ..record.record import read
+
+    failed, seed = 0, fresh_seed() if args.seed is None else args.seed
+    for name in args.problem:
+        stored = name.endswith(".json")
+        record = read(Path(name)) if stored else derive(name, **allowed(args))[1]
+        verdicts = list(counted(check(record, seed), 1 + len(record.steps), name))
+        for v in verdicts:
+            said = _tried(v) if v.holds else one_line(v.reason)
+            print(f"{'holds' if v.holds else 'FAILS'}  {v.label}: {said}")
+        bad, steps = sum(not v.holds for v in verdicts), [v for v in verdicts if v.of == "equation"]
+        holding, bound = sum(v.holds for v in steps), max(v.bound for v in verdicts)
+        print(
+            f"{one_line(name)}: {holding} of {len(steps)} steps hold exactly"
+            + (", but the symbols are not as declared" if bad + holding > len(steps) else "")
+            + ("" if bad else f"; a false one passes with probability below {bound:.0e}")
+        )
+        failed += bad
+    print(f"seed {seed} (--seed repeats this run)")
+    return 1 if failed else 0
+
+
+def _tried(v: Verdict) -> str:
+    """On what a step was found to hold."""
+    count, groups = v.tried
+    return f"{count} {v.of}{'s' * (count != 1)} on {', '.join(groups)}"
+
+
+def command_paper(args: argparse.Namespace) -> int:
+    """The paper's numbered equations against the derivation."""
+    from ..paper import findings as paper
+    from ..views.language import language
+    from ..views.paper import as_json, as_text
+
+    records = [derive(name)[1] for name in paper.PROBLEMS]
+    findings = list(counted(paper.findings(records), len(paper.PAPER), "equations"))
+    shown = as_json(findings) if args.format == "json" else as_text(findings, language(args.lang))
+    save(shown, args.out, args.format)
+    return 0
+
+
+def command_build(args: argparse.Namespace) -> int:
+    """Make all of generated/ again."""
+    from ..code.emit import emit
+    from ..pipeline import program
+    from .writing import write
+
+    def made(name: str) -> tuple[str, dict[str, str]]:
+        problem, record = derive(name)
+        files = {f"walk.{end}": render(record, form) for form, end in FILES.items()}
+        return name, files | emit(program(problem, record), record, ("c", "python"), name)
+
+    for name, files in counted(map(made, BUILT), len(BUILT), "problems"):
+        for path in write(files, Path(args.out) / name):
+            print(path, file=sys.stderr)
+        if args.print:
+            print(files["walk.txt"])
+    return 0
+
+
+BUILT = ("so3", "se3", "sl3")
+FILES = {"text": "txt", "latex": "tex", "json": "json"}
+COMMANDS = {
+    "list": command_list,
+    "walk": command_walk,
+    "notes": command_notes,
+    "emit": command_emit,
+    "check": command_check,
+    "paper": command_paper,
+    "build": command_build,
+}
+
+
+def _silence() -> None:
+    """Drop what stdout still holds: the interpreter would write it in the end, and tell why not."""
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+ABOUT = """Equations of motion of bodies moved by Lie groups: derived step by step, checked,
+shown as text, LaTeX or a web page, and emitted as code."""
+
+
+def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:
+    """The exit code of what the arguments ask for."""
+    try:
+        args = options.parse_args(argv)
+    except SystemExit:
+        sys.stdout.flush()  # the help: main tells what cannot be written
+        raise
+    with within(getattr(args, "seconds", None)):
+        return int(args.run(args))
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command: 0, 1 when a check failed, 2 for bad input."""
+    from ..code.emit import EmitError
+    from ..code.program import LoweringError
+    from ..validate.terms import MissingParserError
+    from .arguments import parser
+    from .writing import WriteError
+
+    if sys.stdout is None:  # closed by who started us
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+    try:
+        with said():
+            status = run(parser(COMMANDS, ABOUT), argv)
+            sys.stdout.flush()
+        return status
+    except (*REFUSED, EmitError, LoweringError, MissingParserError, WriteError) as error:
+        print(f"derive: {one_line(error)}", file=sys.stderr)
+        return 2
+    except StoppedError as error:
+        print(f"derive: {one_line(error)}", file=sys.stderr)
+        return 2
+    except (MemoryError, RecursionError) as error:
+        what = "out of memory" if isinstance(error, MemoryError) else "nested too deeply"
+        print(f"derive: {what}: the input is too large for this machine", file=sys.stderr)
+        return 2
+    except BrokenPipeError:  # who reads has seen enough
+        _silence()
+        return 0
+    except OSError as error:
+        place = one_line(error.filename or "standard output")
+        print(f"derive: {place}: {error.strerror}", file=sys.stderr)
+        _silence()
+        return 2
+    except KeyboardInterrupt:
+        return 130

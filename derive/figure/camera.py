@@ -1,0 +1,97 @@
+"""From where a body is seen: a direction in which its points and axes lie well apart."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+from .drawing import Point, from_segment
+from .drawn_body import Vector, dot, plus, scaled
+
+Segment = tuple[Vector, Vector]
+UNITS: tuple[Vector, Vector, Vector] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+AZIMUTH, ELEVATION = 30, 21
+"""The direction to prefer, in degrees, from the axis that comes forward."""
+ENOUGH = 0.2
+"""Distances above this, in sizes of the body, are all as good."""
+MOST = 14
+
+
+@dataclass(frozen=True)
+class View:
+    """Right and up on the paper, and towards the reader; ``flat``: the plane as it is."""
+
+    right: Vector
+    up: Vector
+    towards: Vector
+    flat: bool = False
+
+    def __call__(self, p: Vector) -> Point:
+        """Where a point is on the paper."""
+        return dot(self.right, p), dot(self.up, p)
+
+
+FLAT = View(*UNITS, flat=True)
+
+
+def upright(gravity: Vector) -> tuple[Vector, Vector, Vector]:
+    """The axes that come forward, go right and go up: up is against gravity, or the third."""
+    k = max(range(3), key=lambda i: (abs(gravity[i]), i))
+    first, second = UNITS[(k + 1) % 3], UNITS[(k + 2) % 3]
+    if gravity[k] > 0:
+        return second, first, scaled(-1.0, UNITS[k])
+    return first, second, UNITS[k]
+
+
+def ranked(
+    bodies: Sequence[tuple[Sequence[Vector], Sequence[Segment]]],
+    size: float,
+    gravity: Vector,
+) -> list[View]:
+    """Views, the better the farther apart the nearest two marks, or a mark and a line, are."""
+    axes = upright(gravity)
+    few = [(_distinct(marks)[:MOST], lines[:MOST]) for marks, lines in bodies]
+
+    def worth(angles: tuple[int, int]) -> float:
+        view = _view(axes, *angles)
+        clear = min((_clearance(view, *body) for body in few), default=1.0) / size
+        azimuth, elevation = angles
+        habit = 0.001 * abs(azimuth - AZIMUTH) + 0.003 * abs(elevation - ELEVATION)
+        return min(clear, ENOUGH) - habit
+
+    every = [(a, e) for a in range(14, 77, 4) for e in range(12, 41, 4)]
+    return [_view(axes, *angles) for angles in sorted(every, key=worth, reverse=True)]
+
+
+def _view(axes: tuple[Vector, Vector, Vector], azimuth: float, elevation: float) -> View:
+    ahead, aside, above = axes
+    a, e = math.radians(azimuth), math.radians(elevation)
+    level = plus(scaled(math.cos(a), ahead), aside, math.sin(a))
+    right = plus(scaled(-math.sin(a), ahead), aside, math.cos(a))
+    up = plus(scaled(-math.sin(e), level), above, math.cos(e))
+    return View(right, up, plus(scaled(math.cos(e), level), above, math.sin(e)))
+
+
+def _distinct(marks: Sequence[Vector]) -> list[Vector]:
+    return list(dict.fromkeys(marks))
+
+
+def _clearance(view: View, marks: Sequence[Vector], lines: Sequence[Segment]) -> float:
+    return min(_distances(view, marks, lines), default=math.inf)
+
+
+def _distances(view: View, marks: Sequence[Vector], lines: Sequence[Segment]) -> Iterator[float]:
+    joined = {frozenset(line) for line in lines}
+    for a, b in combinations(marks, 2):
+        yield math.dist(view(a), view(b)) * (0.6 if frozenset((a, b)) in joined else 1.0)
+    for p in marks:
+        for a, b in lines:
+            if p not in (a, b) and not _between(p, a, b):
+                yield 2.2 * from_segment(view(p), view(a), view(b))
+
+
+def _between(p: Vector, a: Vector, b: Vector) -> bool:
+    """Is p on the line itself, in space?"""
+    return math.dist(a, p) + math.dist(p, b) < (1 + 1e-9) * math.dist(a, b)

@@ -1,0 +1,173 @@
+"""A mesh of triangles as curves to draw, and what it hides."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import Any, TypeVar
+
+import numpy as np
+
+from .drawn_body import Solid, Vector
+from .shapes import Curve
+
+FACES = 3000
+"""A mesh of more is drawn with fewer."""
+SHARP = 0.77
+"""Faces whose normals have a smaller cosine (40°) meet in an edge."""
+SHARP_WHEN_SIMPLIFIED = 0.4
+NEAR = 0.02
+"""As in shapes, but a polyhedron is only near the smooth surface it stands for."""
+OUTSIDE = 0.012
+SHORT = 0.12
+PAIRS = 400_000
+
+Edge = tuple[int, int]
+K = TypeVar("K", int, Edge)
+
+
+class Mesh:
+    """A mesh seen from the direction ``sight``, a vector as long as the figure is large."""
+
+    def __init__(self, solid: Solid, sight: Vector) -> None:
+        own = np.array(solid.sizes["vertices"], dtype=float)
+        points = own @ np.array(solid.rotation, dtype=float).T + np.array(solid.shift)
+        self.points, self.faces = _simplified(points, np.array(solid.sizes["faces"], dtype=int))
+        self.simplified = len(self.faces) < len(solid.sizes["faces"])
+        self.sharp = SHARP_WHEN_SIMPLIFIED if self.simplified else SHARP
+        self.sight = np.array(sight)
+        a, b, c = (self.points[k] for k in self.faces.T)
+        normals = np.cross(b - a, c - a)
+        self.normals = normals / (np.linalg.norm(normals, axis=1, keepdims=True) + 1e-300)
+        self.areas = np.linalg.norm(normals, axis=1)
+
+    def hides(self, points: Sequence[Vector]) -> list[bool]:
+        """Which points are behind it, or in it."""
+        p = np.array(points, dtype=float).reshape(-1, 3)
+        step = max(1, PAIRS // len(self.faces))
+        runs = [self._crossings(p[k : k + step], self.sight) for k in range(0, len(p), step)]
+        return [bool((s > NEAR).any()) for run in runs for s in run]
+
+    def reach(self, direction: Vector) -> float:
+        """How far it reaches from the origin along a direction, in lengths of it."""
+        return max(0.0, float(self._crossings(np.zeros((1, 3)), np.array(direction)).max()))
+
+    def corners(self) -> Iterator[Vector]:
+        """Its vertices."""
+        return ((float(x), float(y), float(z)) for x, y, z in self.points)
+
+    def _crossings(self, p: Any, v: Any) -> Any:
+        """s where p + s v is on a face, for every point and face; −1 where it is on none."""
+        a, b, c = (self.points[k] for k in self.faces.T)
+        x, y = b - a, c - a
+        h = np.cross(v, y)
+        size = np.einsum("fi,fi->f", x, h)
+        flat = np.abs(size) < 1e-12 * (self.areas * np.linalg.norm(v) + 1e-300)
+        inverse = np.where(flat, 0.0, 1 / np.where(flat, 1.0, size))
+        r = p[:, None, :] - a[None]
+        u = np.einsum("pfi,fi->pf", r, h) * inverse
+        q = np.cross(r, x[None])
+        w = (q @ v) * inverse
+        s = np.einsum("pfi,fi->pf", q, y) * inverse
+        inside = (u >= -1e-9) & (w >= -1e-9) & (u + w <= 1 + 1e-9) & ~flat
+        return np.where(inside, s, -1.0)
+
+    def curves(self) -> Iterator[Curve]:
+        """Sharp edges, and the contour of what is smooth; of the hidden ones only when few."""
+        lines = [*self._sharp(), *self._contour()]
+        few = sum(map(len, lines)) <= 120
+        for line in lines:
+            n = max(1, (48 if few else 96) // len(line))
+            parts = [a + (b - a) * k / n for a, b in pairwise(line) for k in range(n)]
+            run = tuple((float(x), float(y), float(z)) for x, y, z in [*parts, line[-1]])
+            if few or not all(self.hides(run[1:-1])):
+                yield Curve(run)
+
+    def _sharp(self) -> Iterator[list[Any]]:
+        sides: dict[Edge, list[int]] = defaultdict(list)
+        at: dict[int, list[int]] = defaultdict(list)
+        for f, (i, j, k) in enumerate(self.faces.tolist()):
+            for a, b in ((i, j), (j, k), (k, i)):
+                sides[min(a, b), max(a, b)].append(f)
+        for (a, b), faces in sorted(sides.items()):
+            n = [self.normals[f] for f in faces]
+            if len(n) != 2 and self.simplified:
+                continue
+            if len(n) != 2 or n[0] @ n[1] < self.sharp:
+                at[a].append(b)
+                at[b].append(a)
+        yield from self._long([self.points[k] for k in chain] for chain in _chains(at))
+
+    def _long(self, lines: Iterable[list[Any]]) -> Iterator[list[Any]]:
+        """Without the short pieces, which are flaws, in a mesh that was simplified."""
+        least = SHORT * float(np.linalg.norm(self.sight)) if self.simplified else 0.0
+        for line in lines:
+            if sum(float(np.linalg.norm(b - a)) for a, b in pairwise(line)) > least:
+                yield line
+
+    def _contour(self) -> Iterator[list[Any]]:
+        """Where the normal, mixed within each face from its corners, is across the line of sight.
+
+        A little outside, as the smooth surface is.
+        """
+        around: dict[int, list[int]] = defaultdict(list)
+        at: dict[Edge, list[Edge]] = defaultdict(list)
+        for f, face in enumerate(self.faces.tolist()):
+            for k in face:
+                around[k].append(f)
+        size = float(np.linalg.norm(self.sight))
+        places: dict[Edge, Any] = {}
+        for f, face in enumerate(self.faces.tolist()):
+            facing = [self._facing(f, around[k]) for k in face]
+            ends = []
+            for i, j in ((0, 1), (1, 2), (2, 0)):
+                x, y = facing[i], facing[j]
+                if (x > 0) != (y > 0):
+                    p, q = self.points[face[i]], self.points[face[j]]
+                    edge = min(face[i], face[j]), max(face[i], face[j])
+                    outside = OUTSIDE * size * self.normals[f]
+                    places.setdefault(edge, p + (q - p) * (x / (x - y)) + outside)
+                    ends.append(edge)
+            if len(ends) == 2:
+                at[ends[0]].append(ends[1])
+                at[ends[1]].append(ends[0])
+        yield from self._long([places[edge] for edge in chain] for chain in _chains(at))
+
+    def _facing(self, f: int, around: list[int]) -> float:
+        """How much a corner of a face looks at the reader: with the faces that go on smoothly."""
+        smooth = [g for g in around if self.normals[g] @ self.normals[f] >= self.sharp]
+        return float((self.normals[smooth] * self.areas[smooth, None]).sum(axis=0) @ self.sight)
+
+
+def _chains(at: Mapping[K, Sequence[K]]) -> Iterator[list[K]]:
+    """The lines that neighbours make, open ones first, each from one end to the other."""
+    left = {edge: list(others) for edge, others in at.items()}
+    for start in sorted(left, key=lambda edge: (len(at[edge]) != 1, edge)):
+        while left[start]:
+            chain = [start]
+            while left[chain[-1]]:
+                following = left[chain[-1]].pop()
+                left[following].remove(chain[-1])
+                chain.append(following)
+            yield chain
+
+
+def _simplified(points: Any, faces: Any) -> tuple[Any, Any]:
+    """The vertices in each cell of a grid as one, until there are few enough faces."""
+    low, span = points.min(axis=0), float(np.ptp(points, axis=0).max()) or 1.0
+    cells = 40
+    while len(faces) > FACES and cells > 4:
+        keys = np.minimum((points - low) / span * cells, cells - 1).astype(int)
+        _, place, count = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
+        place = place.reshape(-1)
+        mean = np.zeros((len(count), 3))
+        np.add.at(mean, place, points)
+        a, b, c = joined = place[faces].T
+        kept = joined.T[(a != b) & (b != c) & (c != a)]
+        _, first, count_of = np.unique(np.sort(kept), axis=0, return_index=True, return_counts=True)
+        kept = kept[np.sort(first[count_of == 1])]  # without folds, faces back to back
+        if len(kept) <= FACES or cells <= 6:
+            return mean / count[:, None], kept
+        cells = int(cells * 0.8)
+    return points, faces

@@ -1,0 +1,235 @@
+"""A figure of the body of a problem, from its record: points, solids, springs, forces.
+
+A schematic drawing in an upright parallel view; :mod:`figure` prints it as SVG or TikZ.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from ..record.record import Derivation
+from ..record.sentence import Prose, say
+from .camera import FLAT, View, ranked
+from .drawing import Box, Label, Point, Scene, arrow, from_segment
+from .drawn_body import ORIGIN, Numbers, Vector, parts, plus
+from .panels import Panel
+from .placing import Wish, placed
+from .sheet import Sheet, draw, shows_centre
+
+GRAVITY = "γ"
+WIDTH, MARGIN, GAP = 80.0, 1.5, 13.0
+ROOM = {1: (58.0, 50.0), 2: (46.0, 46.0)}
+SMALLER = (36.0, 40.0)
+"""Millimetres: of the figure, and of a panel where there are one, two or more."""
+ROW = 3
+FEW = 3
+"""Of so many springs at most each bears the name of its stiffness."""
+PENS = ("wash", "hidden", "thin", "dashed", "line", "solid")
+LOW = 0.25
+"""Gravity is drawn if more of it than this is on paper."""
+TRIED, CLEAR = 60, 3.0
+"""So many views are tried for a spring between panels that passes marks at this distance."""
+End = tuple[Panel, Vector]
+Spring = tuple[End, End, Any]
+
+
+def scene(d: Derivation) -> Scene | None:
+    """The figure; ``None`` for a text without a body."""
+    problem = d.problem
+    value = Numbers(problem)
+    panels = [Panel(part, problem, value) for part in parts(problem, value)]
+    if not panels:
+        return None
+    gravity = _gravity(problem, value)
+    springs = [p for p in problem["potentials"] if p["kind"] == "spring"]
+    joined, named = _joined(panels, springs), len(springs) <= FEW
+    _arranged(panels, gravity, joined)
+    sheet = Sheet()
+    for panel in panels:
+        draw(panel, sheet, named)
+    for (one, a), (other, b), stiffness in joined:
+        sheet.spring(one.to(a), other.to(b), stiffness, named)
+    _names(sheet, panels)
+    fall = panels[0].view(gravity)
+    falls = math.hypot(*fall) > LOW * math.hypot(*gravity)
+    if falls:
+        _falling(sheet, fall, math.hypot(*gravity))
+    caption = _caption(problem, value, panels, falls)
+    return _framed(sheet, str(problem.get("title") or d.name), caption)
+
+
+def _gravity(problem: Mapping[str, Any], value: Numbers) -> Vector:
+    """The sum of all that are given, its first three coordinates."""
+    total = ORIGIN
+    for p in problem["potentials"]:
+        if p["kind"] == "gravity":
+            total = plus(total, value.vector(p["g"]))
+    return total
+
+
+def _arranged(panels: Sequence[Panel], gravity: Vector, joined: Sequence[Spring]) -> None:
+    """One view for all panels, so that their axes agree, and springs between panels run free."""
+    space = [p for p in panels if p.part.size > 2]
+    size = min((p.size for p in space), default=1.0)
+    views = ranked([p.marks() for p in space], size, gravity) if space else [FLAT]
+
+    def take(view: View) -> float:
+        for panel in panels:
+            panel.look(view if panel in space else FLAT)
+        _arrange(panels)
+        return _room(panels, joined) if joined else CLEAR
+
+    rooms = []
+    for view in views[:TRIED]:
+        rooms.append(take(view))
+        if rooms[-1] >= CLEAR:
+            return
+    take(views[rooms.index(max(rooms))])
+
+
+def _room(panels: Sequence[Panel], joined: Sequence[Spring]) -> float:
+    """How near the springs between panels come to other marks, in millimetres."""
+    marks = [(panel, p) for panel in panels for p in panel.marks()[0]]
+    return min(
+        from_segment(panel.to(p), one.to(a), other.to(b))
+        for (one, a), (other, b), _ in joined
+        for panel, p in marks
+        if (panel, p) not in ((one, a), (other, b))
+    )
+
+
+def _arrange(panels: Sequence[Panel]) -> None:
+    """One scale for all panels; rows of them, each row level."""
+    width, height = ROOM.get(len(panels), SMALLER)
+    boxes = [_box(panel.extent()) for panel in panels]
+    scales = [
+        min(width / max(x1 - x0, 1e-12), height / max(y1 - y0, 1e-12)) for x0, y0, x1, y1 in boxes
+    ]
+    scale, top = min(scales), 0.0
+    for start in range(0, len(panels), ROW):
+        right, low = 0.0, 0.0
+        for panel, (x0, y0, x1, y1) in [*zip(panels, boxes, strict=True)][start : start + ROW]:
+            tall = (y1 - y0) * scale
+            panel.scale = scale
+            panel.offset = right - scale * x0, top - scale * (y0 + y1) / 2
+            right, low = right + scale * (x1 - x0) + GAP, max(low, tall)
+        top -= low + 2 * GAP
+
+
+def _box(points: Sequence[Point]) -> Box:
+    xs, ys = zip(*points, strict=True)
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def _joined(panels: Sequence[Panel], springs: Sequence[Mapping[str, Any]]) -> list[Spring]:
+    """The springs from one panel to another."""
+    home = {i: panel for panel in panels for i in panel.at}
+    pairs = [(p["between"], p["stiffness"]) for p in springs if "between" in p]
+    return [
+        ((home[i], home[i].at[i]), (home[j], home[j].at[j]), stiffness)
+        for (i, j), stiffness in pairs
+        if home[i] is not home[j]
+    ]
+
+
+def _names(sheet: Sheet, panels: Sequence[Panel]) -> None:
+    """The factors of a product, each below its panel."""
+    if len(panels) < 2:
+        return
+    for panel in panels:
+        x0, y0, x1, _ = _box([panel.to_paper(p) for p in panel.extent()])
+        below = (x0 + x1) / 2, y0 - 4.0
+        sheet.wishes.insert(0, Wish(Label(panel.part.name, name=True), below, 0.0, (0.0, -1.0)))
+
+
+def _falling(sheet: Sheet, fall: Point, strength: float) -> None:
+    """Gravity as an arrow at the right."""
+    points = [p for s in sheet.strokes for p in s.points]
+    _, y0, right, y1 = _box(points)
+    long = 12.0 / strength
+    dx, dy = long * fall[0], long * fall[1]
+    start = right + 9.0 + max(0.0, -dx), y0 + 0.72 * (y1 - y0) - dy / 2
+    end = start[0] + dx, start[1] + dy
+    sheet.strokes += arrow(start, end, "gravity")
+    middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+    sheet.wishes.append(Wish(Label(GRAVITY), middle, 0.9, (1.0, 0.0)))
+
+
+def _framed(sheet: Sheet, title: str, caption: Prose) -> Scene:
+    """Labels put in, all moved into the positive quadrant, at least as wide as a column."""
+    labels = placed(sheet.wishes, sheet.strokes, sheet.dots)
+    reach = [p for s in sheet.strokes for p in s.points]
+    reach += [(d.at[0] + s * d.radius, d.at[1] + s * d.radius) for d in sheet.dots for s in (1, -1)]
+    reach += [corner for x in labels for corner in (x.box[:2], x.box[2:])]
+    x0, y0, x1, y1 = _box(reach)
+    width = max(WIDTH, x1 - x0 + 2 * MARGIN)
+    dx, dy = (width - x0 - x1) / 2, MARGIN - y0
+
+    def moved(p: Point) -> Point:
+        return p[0] + dx, p[1] + dy
+
+    strokes = [replace(s, points=tuple(map(moved, s.points))) for s in sheet.strokes]
+    return Scene(
+        width,
+        y1 - y0 + 2 * MARGIN,
+        tuple(sorted(strokes, key=lambda s: PENS.index(s.pen))),
+        tuple(replace(d, at=moved(d.at)) for d in sheet.dots),
+        tuple(replace(x, at=moved(x.at)) for x in labels),
+        title,
+        caption,
+    )
+
+
+def _caption(
+    problem: Mapping[str, Any], value: Numbers, panels: Sequence[Panel], falls: bool
+) -> Prose:
+    """What the drawing does not say by itself."""
+    said: list[Prose] = [say("The body at the identity of the group, with the axes of its frame.")]
+    said += _about_the_body(panels)
+    potentials = problem["potentials"]
+    kinds = {p["kind"] for p in potentials}
+    if "spring" in kinds:
+        said.append(say("Zigzags are springs."))
+    if any(panel.anchors for panel in panels):
+        said.append(say("The hatched supports are fixed in space."))
+    if "attraction" in kinds:
+        said.append(say("Dashed lines lead to the centre of attraction."))
+    elsewhere = any(panel.centre_of(p)[1] for panel in panels for p in panel.attractions)
+    if elsewhere or any(panel.moved for panel in panels):
+        said.append(say("Distances to fixed places are not to scale."))
+    if "gravity" in kinds and not falls:
+        said.append(say("Gravity has no component in the drawing."))
+    if any(i["kind"] == "force" for i in problem["inputs"]):
+        said.append(say("The directions of the input forces are arbitrary."))
+    said += [
+        say("The input {name} is a covector and not drawn.", name=i["name"])
+        for i in problem["inputs"]
+        if i["kind"] == "covector"
+    ]
+    if "expression" in kinds:
+        said.append(say("The potential given as an expression is not drawn."))
+    if problem["damping"]:
+        said.append(say("Damping is not drawn."))
+    if value.invented:
+        said.append(say("Parameters without a default have sample values."))
+    return tuple(sentence for prose in said for sentence in prose)
+
+
+def _about_the_body(panels: Sequence[Panel]) -> Iterator[Prose]:
+    if len(panels) > 1:
+        yield say("Each factor of the group has a panel of its own.")
+    size = max(panel.part.size for panel in panels)
+    if size > 3:
+        yield say("Of the {n} coordinates the first three are drawn.", n=str(size))
+    if any(panel.part.moments for panel in panels):
+        yield say("As only its moments are given, its outline is free.")
+    masses = {m for panel in panels for m, _ in panel.part.points.values()}
+    if len(masses) > 1:
+        yield say("The larger a dot, the larger its mass.")
+    if any(panel.part.fixed for panel in panels):
+        yield say("The ring is the fixed origin.")
+    if any(shows_centre(panel) for panel in panels):
+        yield say("The centre of mass is r_c.")

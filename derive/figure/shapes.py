@@ -1,0 +1,208 @@
+"""Solids as curves to draw, and what they hide.
+
+A solid is the image p = A u + s of a reference shape, where walls q(u) ≤ 0 of degree two at most
+bound it; what lies behind it is found along the line of sight.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise, product
+
+from .drawn_body import Solid, Vector, cross, dot, image, plus, scaled
+
+Wall = Callable[[Vector], float]
+AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+NEAR = 2e-3
+"""Crossings nearer than this, in sizes of the figure, are those of the curve's own surface."""
+ROUND = 64
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve on a solid; ``edge``: a contour or an edge, else a line that shows its roundness.
+
+    ``always``: inside the solid, so never in sight.
+    """
+
+    points: tuple[Vector, ...]
+    edge: bool = True
+    always: bool = False
+
+
+BALL: tuple[Wall, ...] = (lambda u: dot(u, u) - 1,)
+CUBE: tuple[Wall, ...] = tuple(
+    lambda u, i=i, s=s: s * u[i] - 1  # type: ignore[misc]
+    for i in range(3)
+    for s in (1, -1)
+)
+CYLINDER: tuple[Wall, ...] = (lambda u: u[0] ** 2 + u[1] ** 2 - 1, *CUBE[4:])
+CONE: tuple[Wall, ...] = (
+    lambda u: u[0] ** 2 + u[1] ** 2 - (1 - u[2]) ** 2,
+    lambda u: u[2] - 1,
+    lambda u: -u[2],
+)
+SIMPLEX: tuple[Wall, ...] = (
+    lambda u: -u[0],
+    lambda u: -u[1],
+    lambda u: -u[2],
+    lambda u: sum(u) - 1,
+)
+WALLS = {
+    "ball": BALL, "ellipsoid": BALL, "hollow_ball": BALL, "box": CUBE, "cylinder": CYLINDER,
+    "cone": CONE, "tetrahedron": SIMPLEX,
+}  # fmt: skip
+
+
+class Shape:
+    """A solid that is no mesh, seen from the direction ``sight``, a vector as long as the figure is
+    large."""
+
+    def __init__(self, solid: Solid, sight: Vector) -> None:
+        self.kind, self.sizes, self.walls = solid.kind, solid.sizes, WALLS[solid.kind]
+        self.columns, self.shift = _map(solid)
+        self.sight = self.into(sight)
+
+    def out(self, u: Vector) -> Vector:
+        """A u + s."""
+        x, y, z = self.columns
+        return plus(plus(plus(self.shift, x, u[0]), y, u[1]), z, u[2])
+
+    def into(self, v: Vector) -> Vector:
+        """A⁻¹ v, by Cramer; 0 for a solid without volume, which hides nothing."""
+        x, y, z = self.columns
+        size = dot(x, cross(y, z))
+        if abs(size) < 1e-300:
+            return 0.0, 0.0, 0.0
+        return (
+            dot(v, cross(y, z)) / size,
+            dot(v, cross(z, x)) / size,
+            dot(v, cross(x, y)) / size,
+        )
+
+    def hides(self, points: Sequence[Vector]) -> list[bool]:
+        """Which points are behind it, or in it."""
+        return [self._behind(self.into(plus(p, self.shift, -1.0))) for p in points]
+
+    def reach(self, direction: Vector) -> float:
+        """How far it reaches from the origin along a direction, in lengths of it."""
+        u, w = self.into(scaled(-1.0, self.shift)), self.into(direction)
+        return max((b for _, b in self._chords(u, w, 0.0)), default=0.0)
+
+    def corners(self) -> Iterator[Vector]:
+        """Points that tell about how large it is."""
+        return (self.out(scaled(s, e)) for e in AXES for s in (1.0, -1.0))
+
+    def _behind(self, u: Vector) -> bool:
+        return any(b - a > NEAR for a, b in self._chords(u, self.sight, NEAR))
+
+    def _chords(self, u: Vector, w: Vector, start: float) -> Iterator[tuple[float, float]]:
+        """The stretches of u + s w, s > start, that are inside."""
+        if not any(w):
+            return
+        cuts = {start} | {s for q in self.walls for s in _roots(q, u, w) if s > start}
+        ordered = sorted(cuts)
+        for a, b in pairwise(ordered):
+            middle = plus(u, w, (a + b) / 2)
+            if all(q(middle) <= 0 for q in self.walls):
+                yield a, b
+
+    def curves(self) -> Iterator[Curve]:
+        """Contours, edges and rims, by the kind of solid."""
+        if self.kind in ("box", "tetrahedron"):
+            for a, b in _edges(self.kind):
+                yield self._curve(plus(scaled(1 - k / 48, a), b, k / 48) for k in range(49))
+        elif self.kind in ("cylinder", "cone"):
+            yield from self._turned()
+        else:
+            yield from self._balls()
+
+    def _curve(self, points: Iterator[Vector], edge: bool = True, always: bool = False) -> Curve:
+        return Curve(tuple(map(self.out, points)), edge, always)
+
+    def _balls(self) -> Iterator[Curve]:
+        """The contour, where the radius is normal to the line of sight, and the equator."""
+        w = self.sight
+        a = cross(w, (0.0, 0.0, 1.0) if abs(w[2]) < 0.9 * math.hypot(*w) else (1.0, 0.0, 0.0))
+        b = cross(w, a)
+        a, b = (scaled(1 / (math.hypot(*x) or 1.0), x) for x in (a, b))
+        contour = [plus(scaled(math.cos(t), a), b, math.sin(t)) for t in _circle()]
+        yield self._curve(iter(contour))
+        yield self._curve(((math.cos(t), math.sin(t), 0.0) for t in _circle()), edge=False)
+        if self.kind == "hollow_ball":
+            inner = min(self.sizes["inner"] / self.sizes["outer"], 1.0)
+            if inner > 0:
+                yield self._curve((scaled(inner, u) for u in contour), always=True)
+
+    def _turned(self) -> Iterator[Curve]:
+        """The rims, and the lines where the mantle turns out of sight."""
+        x, y, z = self.sight
+        cone = self.kind == "cone"
+        levels = (0.0,) if cone else (1.0, -1.0)
+        for level in levels:
+            yield self._curve((math.cos(t), math.sin(t), level) for t in _circle())
+        slope = -z / (math.hypot(x, y) or 1e-12) if cone else 0.0
+        if abs(slope) >= 1:  # seen from above or below, the mantle has no contour
+            return
+        for side in (1, -1):
+            t = math.atan2(y, x) + side * math.acos(slope)
+            foot = (math.cos(t), math.sin(t), 0.0 if cone else -1.0)
+            top = (0.0, 0.0, 1.0) if cone else (foot[0], foot[1], 1.0)
+            yield self._curve(plus(scaled(1 - k / 48, foot), top, k / 48) for k in range(49))
+
+
+def _map(solid: Solid) -> tuple[list[Vector], Vector]:
+    """The columns of A, and s."""
+    k, s = solid.kind, solid.sizes
+    R, shift = solid.rotation, solid.shift
+    if k == "tetrahedron":
+        first, *others = (plus(image(R, v), shift) for v in s["vertices"])
+        return [plus(v, first, -1.0) for v in others], first
+    if k == "box":
+        stretch = [x / 2 for x in s["sides"]]
+    elif k == "ellipsoid":
+        stretch = s["semi_axes"]
+    elif k in ("cylinder", "cone"):
+        stretch = [s["radius"], s["radius"], s["height"] / (2 if k == "cylinder" else 1)]
+    else:
+        stretch = [s["outer" if k == "hollow_ball" else "radius"]] * 3
+    return [
+        (stretch[i] * R[0][i], stretch[i] * R[1][i], stretch[i] * R[2][i]) for i in range(3)
+    ], shift
+
+
+def _edges(kind: str) -> Iterator[tuple[Vector, Vector]]:
+    """The edges of the reference shape: corners that differ in one way."""
+    if kind == "tetrahedron":
+        corners = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
+        yield from ((a, b) for i, a in enumerate(corners) for b in corners[:i])
+        return
+    for i, (x, y) in product(range(3), product((-1.0, 1.0), repeat=2)):
+        a, b = ([x, y], [x, y])
+        a.insert(i, -1.0)
+        b.insert(i, 1.0)
+        yield _triple(iter(a)), _triple(iter(b))
+
+
+def _triple(entries: Iterator[float]) -> Vector:
+    x, y, z = entries
+    return x, y, z
+
+
+def _circle() -> Iterator[float]:
+    return (2 * math.pi * k / ROUND for k in range(ROUND + 1))
+
+
+def _roots(q: Wall, u: Vector, w: Vector) -> Iterator[float]:
+    """Where the wall is met: q(u + s w) is a quadratic, known by three of its values."""
+    c, p, m = q(u), q(plus(u, w)), q(plus(u, w, -1.0))
+    a, b = (p + m) / 2 - c, (p - m) / 2
+    if abs(a) < 1e-12 * (abs(b) + abs(c) + 1e-300):
+        if b:
+            yield -c / b
+        return
+    square = b * b - 4 * a * c
+    if square >= 0:
+        yield from ((-b + s * math.sqrt(square)) / (2 * a) for s in (1, -1))

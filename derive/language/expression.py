@@ -1,0 +1,210 @@
+"""The small grammar of expressions in problem files: numbers, names, functions, + − * / ^ and ( ).
+
+Text is turned into a tree by this parser alone; it never reaches Python's or SymPy's.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from fractions import Fraction
+
+from .differentiate import DERIVATIVES
+from .divisors import has_zero_divisor
+from .limits import BITS, DEGREE, DEPTH, DIGITS, EXPONENT, EXPRESSION, MAGNITUDE, NESTING, SLOPE
+from .tree import Tree, add, mul, neg
+from .values import approximate
+from .weight import depth, weight
+
+SMALLEST, LARGEST = Fraction(1, MAGNITUDE), Fraction(MAGNITUDE)
+TOKEN = re.compile(
+    r"\s*(?:([0-9]+\.?[0-9]*(?:[eE][+-]?[0-9]{1,3})?|\.[0-9]+)|([A-Za-z][A-Za-z0-9_]*)|(.))", re.S
+)
+
+
+class ExpressionError(ValueError):
+    """What is wrong with the text, and where in it."""
+
+
+def parse(text: str) -> Tree:
+    """The tree of an expression; names become parameters."""
+    if len(text) > EXPRESSION:
+        raise ExpressionError(f"an expression of {len(text)} characters; at most {EXPRESSION}")
+    parser = _Parser(_tokens(text))
+    tree = parser.sum(0)
+    if parser.peek():
+        raise ExpressionError(
+            f"unexpected {parser.peek()[:20]!r}; a product needs a *, as 2*k, and units stand in "
+            "[parameters] alone"
+        )
+    _affordable(tree)
+    return tree
+
+
+def _affordable(tree: Tree) -> None:
+    """``ExpressionError`` for what would take long to derive, or be too deep for recursion."""
+    if depth(tree) > DEPTH:
+        raise ExpressionError(f"operations nested deeper than {DEPTH}; gather factors")
+    for q in numbers(tree):
+        _number(q)
+    if any(approximate(x, {}) is None for x in constants(tree)):
+        raise ExpressionError("a part without names has no finite value, as log(0) has none")
+    if has_zero_divisor(tree):
+        raise ExpressionError("division by zero, whatever the names in it; or a root or log of it")
+    found = weight(tree)
+    if found.degree > DEGREE:
+        raise ExpressionError(f"an expression of degree {found.degree}; at most {DEGREE}")
+    if found.slope > SLOPE:
+        raise ExpressionError(
+            f"derivatives of about {found.slope} terms; at most {SLOPE}: split it into sums"
+        )
+
+
+def names(tree: Tree) -> list[str]:
+    """The parameters that occur, in reading order."""
+    if isinstance(tree, tuple):
+        if tree[0] == "par":
+            return [tree[1]]
+        return [name for part in tree[1:] for name in names(part)]
+    return []
+
+
+def numbers(tree: Tree) -> Iterator[int | Fraction]:
+    """The numbers that occur, exponents apart."""
+    if isinstance(tree, (int, Fraction)):
+        yield tree
+    elif isinstance(tree, tuple):
+        for part in tree[1:2] if tree[0] == "pow" else tree[1:]:
+            yield from numbers(part)
+
+
+def constants(tree: Tree) -> Iterator[Tree]:
+    """The largest parts without a parameter, numbers apart."""
+    if isinstance(tree, tuple) and not names(tree):
+        yield tree
+    elif isinstance(tree, tuple) and tree[0] != "par":
+        for part in tree[1:]:
+            yield from constants(part)
+
+
+def _tokens(text: str) -> list[str]:
+    found = []
+    for match in TOKEN.finditer(text.rstrip()):
+        number, name, other = match.groups()
+        if other is not None and other not in "+-*/^()":
+            point = "; decimals have a point, as 0.5" if other == "," else ""
+            raise ExpressionError(f"character {other!r} is not part of an expression{point}")
+        found.append(number or name or other)
+    return found
+
+
+class _Parser:
+    """Recursive descent; the depth of nesting is bounded."""
+
+    def __init__(self, tokens: list[str]):
+        self.tokens = tokens
+        self.at = 0
+
+    def peek(self) -> str:
+        return self.tokens[self.at] if self.at < len(self.tokens) else ""
+
+    def take(self) -> str:
+        token = self.peek()
+        self.at += 1
+        return token
+
+    def sum(self, depth: int) -> Tree:
+        if depth > NESTING:
+            raise ExpressionError(f"parentheses nested deeper than {NESTING}")
+        terms = [self.product(depth)]
+        while self.peek() in ("+", "-") and self.peek():
+            sign = self.take()
+            term = self.product(depth)
+            terms.append(neg(term) if sign == "-" else term)
+        numbers = [t for t in terms if isinstance(t, (int, Fraction))]
+        return _number(sum(map(Fraction, numbers))) if len(numbers) == len(terms) else add(*terms)
+
+    def product(self, depth: int) -> Tree:
+        result = self.signed(depth)
+        while self.peek() in ("*", "/") and self.peek():
+            operator = self.take()
+            factor = self.signed(depth)
+            if operator == "*":
+                result = mul(result, factor)
+            elif factor == 0:
+                raise ExpressionError("division by zero")
+            else:
+                result = _quotient(result, factor)
+        return result
+
+    def signed(self, depth: int) -> Tree:
+        sign = 1
+        while self.peek() in ("+", "-") and self.peek():
+            sign *= -1 if self.take() == "-" else 1
+        power = self.power(depth)
+        return neg(power) if sign < 0 else power
+
+    def power(self, depth: int) -> Tree:
+        base = self.atom(depth)
+        if self.peek() != "^":
+            return base
+        self.take()
+        negative = self.peek() == "-" and bool(self.take())
+        exponent = self.take()
+        if self.peek() == "^":
+            raise ExpressionError("write parentheses in a power of a power")
+        if not re.fullmatch("[0-9]{1,9}", exponent) or int(exponent) > EXPONENT:
+            raise ExpressionError(f"an exponent must be an integer up to {EXPONENT}")
+        return _powered(base, -int(exponent) if negative else int(exponent))
+
+    def atom(self, depth: int) -> Tree:
+        token = self.take()
+        if token == "(":
+            inside = self.sum(depth + 1)
+            if self.take() != ")":
+                raise ExpressionError("a parenthesis is not closed")
+            return inside
+        if token[:1].isdigit() or token[:1] == ".":
+            if len(token) > DIGITS:
+                raise ExpressionError(f"a number of more than {DIGITS} characters")
+            return _number(Fraction(token))
+        if token[:1].isalpha():
+            return self.name(token, depth)
+        if token == "*":
+            raise ExpressionError("unexpected '*'; a power is written ^")
+        raise ExpressionError(f"unexpected {token!r}" if token else "unexpected end")
+
+    def name(self, token: str, depth: int) -> Tree:
+        """A function of a sum in parentheses, the constant pi, or a parameter."""
+        if self.peek() != "(":
+            return "π" if token == "pi" else ("par", token)
+        if token not in DERIVATIVES:
+            known = ", ".join(DERIVATIVES)
+            raise ExpressionError(f"unknown function {token[:20]!r}; known: {known}")
+        return ("fun", token, self.atom(depth + 1))
+
+
+def _number(value: Fraction | int) -> Tree:
+    """A number as a leaf; ``ExpressionError`` when a floating-point number cannot hold it."""
+    q = Fraction(value)
+    if q and not SMALLEST < abs(q) < LARGEST:
+        raise ExpressionError("a number outside 1e-300 … 1e300")
+    if max(q.numerator.bit_length(), q.denominator.bit_length()) > BITS:
+        raise ExpressionError("a fraction of too many digits; round its numbers")
+    return int(q) if q.denominator == 1 else q
+
+
+def _quotient(a: Tree, b: Tree) -> Tree:
+    if isinstance(b, (int, Fraction)):
+        return mul(Fraction(1) / b, a)
+    return ("div", a, b)
+
+
+def _powered(base: Tree, n: int) -> Tree:
+    if n == 0:
+        return 1
+    if isinstance(base, (int, Fraction)):
+        if base == 0 and n < 0:
+            raise ExpressionError("division by zero")
+        return _number(Fraction(base) ** n)
+    return base if n == 1 else ("pow", base, n)

@@ -1,0 +1,262 @@
+"""Is it a body that the group can move: every direction moves some mass, and no mass is negative?
+
+The metric of 𝔤 at g = 1 is ⟨Z, Z′⟩ = Tr Z M Z̄′, with M the moments of the body as the group's
+matrices see it.  Its kernel is found exactly, in fractions, at two choices of the parameters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from math import gcd, lcm
+from random import Random
+from typing import Any
+
+from ..algebra.groups import Group
+from ..language import rational as q
+from ..language.expression import names
+from ..language.rational import Matrix
+from ..language.tree import Tree
+from ..language.values import approximate, value
+from .problem import Body, GivenBody, MomentBody, Parameter, PointBody
+
+Vector = tuple[Any, ...]
+
+ROUNDED = 10**9
+"""Moments of solids are numbers to less than this part of them."""
+LARGEST_SHOWN = 3
+"""Rows of a matrix that is written out in a message."""
+
+
+def still_direction(group: Group, body: Body) -> str | None:
+    """What moves no mass, in words; ``None`` when every direction of the group moves some."""
+    if isinstance(body, MomentBody):
+        return None
+    if isinstance(body, PointBody) and (empty := _empty_block(group, body)):
+        return empty
+    used = dict.fromkeys(x for t in _trees(body) for x in names(t))
+    chosen = {name: Fraction(k) for k, name in enumerate(used, 2)}
+    found = _kernel(group, body, _Values(chosen))
+    if found is None:
+        return None
+    random = Random(1)
+    drawn = {name: Fraction(random.randint(1, 10**6), random.randint(1, 10**6)) for name in used}
+    again = _kernel(group, body, _Values(drawn))
+    if again is None:
+        return None  # singular at the first choice of the parameters, not at all of them
+    where = ", ".join(f"{name} = {x}" for name, x in chosen.items())
+    return _words(group, found) + (f" (at {where})" if found != again else "")
+
+
+def _empty_block(group: Group, body: PointBody) -> str | None:
+    """The first factor of a product that has no point at all."""
+    for block, (_, factor) in enumerate(group.places, 1):
+        if block not in (body.blocks or (1,)):
+            return f"block {block}, {factor.name}, which has no [[point]] with block = {block},"
+    return None
+
+
+def _kernel(group: Group, body: Body, values: _Values) -> Vector | None:
+    """Coordinates of the first direction that moves no mass."""
+    try:
+        m = _moments(group, body, values)
+    except ZeroDivisionError:
+        return None
+    if q.rank(m) == len(m) and not values.negative:
+        return None
+    images = [q.times(e, m) for e in group.basis]
+    metric = tuple(tuple(_inner(image, f) for f in group.basis) for image in images)
+    kernel = q.nullspace(metric)
+    return kernel[0] if kernel else None
+
+
+def _inner(a: Matrix, b: Matrix) -> Fraction:
+    pairs = zip(q.flatten(a), q.flatten(b), strict=True)
+    return sum((x * y for x, y in pairs if x and y), Fraction(0))
+
+
+def _moments(group: Group, body: Body, values: _Values) -> Matrix:
+    """Σ m r r̄ with r as the matrices of the group act on it, (r, 1) for an affine one."""
+    if isinstance(body, PointBody):
+        total = q.scaled(0, q.identity(group.size))
+        blocks = body.blocks or (1,) * len(body.masses)
+        for mass, at, block in zip(body.masses, body.positions, blocks, strict=True):
+            place = group.in_block(block, [values.of(x) for x in at], Fraction(1))
+            column = tuple((x,) for x in (*place, *(Fraction(1),) * group.affine))
+            weight = values.mass(mass)
+            total = q.plus(total, q.scaled(weight, q.times(column, q.transposed(column))))
+        return total
+    assert isinstance(body, GivenBody)
+    J = tuple(tuple(values.of(x) for x in row) for row in body.second)
+    if group.size == len(J) and not group.factors:
+        return J
+    c, m = tuple(values.of(x) for x in body.first), values.mass(body.mass)
+    return (*((*row, x) for row, x in zip(J, c, strict=True)), (*c, m))[: len(J) + 1]
+
+
+def _trees(body: Body) -> Iterator[Tree]:
+    if isinstance(body, PointBody):
+        yield from (*body.masses, *(x for r in body.positions for x in r))
+    elif isinstance(body, GivenBody):
+        yield from (body.mass, *body.first, *(x for row in body.second for x in row))
+
+
+class _Values:
+    """Fractions for trees; each function of each argument, and π, is a number of its own."""
+
+    def __init__(self, parameters: Mapping[str, Fraction]):
+        self.parameters = parameters
+        self.negative = False
+        self._own: dict[tuple[Fraction | str, ...], Fraction] = {}
+        self._random = Random(2)
+
+    def mass(self, t: Tree) -> Fraction:
+        """The value of a mass, remembering whether one is negative."""
+        mass = self.of(t)
+        self.negative |= mass < 0
+        return mass
+
+    def of(self, t: Tree) -> Fraction:
+        """The value of a tree."""
+        return Fraction(value(t, {"π": self._opaque("π")}, self.parameters, self._opaque))
+
+    def _opaque(self, *function: Fraction | str) -> Fraction:
+        return self._own.setdefault(function, Fraction(self._random.randint(1, 999), 1000))
+
+
+def _words(group: Group, coordinates: Vector) -> str:
+    """The direction: an axis for rotations of space, else the matrix Z."""
+    x = _whole(coordinates)
+    if len(group.factors) > 1:
+        start = 0
+        for block, factor in enumerate(group.factors, 1):
+            part, start = x[start : start + factor.dimension], start + factor.dimension
+            if sum(map(bool, part)) == sum(map(bool, x)):
+                return f"in block {block}, {_words(factor, part)}"
+    if group.turns_space:
+        turn, shift = x[:3], x[3:]
+        if not any(turn):
+            return f"the translation along {_listed(shift)}"
+        if any(shift):
+            return f"turning about {_axis(turn, shift)}"
+        return f"turning about the axis {_listed(turn)}"
+    Z = group.hat(x)
+    if len(Z) > LARGEST_SHOWN:
+        entries = ((y, i, j) for i, row in enumerate(Z, 1) for j, y in enumerate(row, 1) if y)
+        terms = (f"{'+-'[y < 0]} {abs(y) if abs(y) != 1 else ''}e_{i},{j}" for y, i, j in entries)
+        shown = " ".join(terms).removeprefix("+ ")
+        return f"the direction Z = {shown} of the Lie algebra (e_i,j: a 1 in row i, column j)"
+    rows = ", ".join("[" + ", ".join(str(y) for y in row) + "]" for row in Z)
+    return f"the direction Z = [{rows}] of the Lie algebra"
+
+
+def _axis(turn: Vector, shift: Vector) -> str:
+    """Where ζ ∧ r + w vanishes, or the screw when it nowhere does."""
+    foot = tuple(y / sum(x * x for x in turn) for y in _cross(turn, shift))
+    still = all(x + y == 0 for x, y in zip(_cross(turn, foot), shift, strict=True))
+    if still:
+        return f"the axis through {_listed(foot)} along {_listed(turn)}"
+    return f"the screw ζ = {_listed(turn)}, w = {_listed(shift)}"
+
+
+def _cross(a: Vector, b: Vector) -> Vector:
+    return tuple(a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1)))
+
+
+def _whole(x: Vector) -> Vector:
+    """The same direction in the smallest integers, the first that is not zero positive."""
+    up = [int(y * lcm(*(y.denominator for y in x))) for y in x]
+    sign = next(1 if y > 0 else -1 for y in up if y)
+    return tuple(Fraction(sign * y // gcd(*up)) for y in up)
+
+
+def _listed(x: Vector) -> str:
+    return "(" + ", ".join(map(str, x)) + ")"
+
+
+def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str | None:
+    """Where a mass is negative, for the defaults of the parameters; ``None`` when nowhere."""
+    points = body if isinstance(body, PointBody) else None
+    if isinstance(body, GivenBody):
+        points = body.points
+        if is_negative(body.mass, parameters):
+            return "body: the mass"
+    masses = points.masses if points else ()
+    where = (k for k, m in enumerate(masses, 1) if is_negative(m, parameters))
+    return next((f"point {k}: key 'mass'" for k in where), None)
+
+
+def is_negative(t: Tree, parameters: Mapping[str, Parameter]) -> bool:
+    """Is it negative for the defaults of the parameters?  No, where one has none."""
+    found = approximate(t, _defaults(parameters))
+    return found is not None and found < 0
+
+
+def _defaults(parameters: Mapping[str, Parameter]) -> dict[str, float]:
+    return {name: p.default for name, p in parameters.items() if p.default is not None}
+
+
+def massless(body: Body) -> bool:
+    """Is the mass the number 0?"""
+    masses = body.masses if isinstance(body, PointBody) else ()
+    masses = (body.mass,) if isinstance(body, GivenBody) else masses
+    numbers = [Fraction(x) for x in masses if isinstance(x, (int, Fraction))]
+    return bool(masses) and len(numbers) == len(masses) and sum(numbers) == 0
+
+
+def impossible(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
+    """Are the moments those of no masses?  J − m⁻¹cc̄ must not be negative.
+
+    Given ones are tried where all are numbers; those of solids by the defaults of the parameters.
+    """
+    if not isinstance(body, GivenBody):
+        return False
+    if body.solids:
+        found = [approximate(t, _defaults(parameters)) for t in _trees(body)]
+        if any(x is None for x in found):
+            return False
+        m, *rest = (Fraction(x) for x in found if x is not None)
+        J = [rest[3 * k : 3 * k + 3] for k in (1, 2, 3)]
+        allowance = sum((abs(J[k][k]) for k in range(3)), Fraction(0)) / ROUNDED
+        J = [[x + allowance * (i == j) for j, x in enumerate(row)] for i, row in enumerate(J)]
+        return _unlike_masses(m, rest[:3], J)
+    if not all(isinstance(x, (int, Fraction)) for x in _trees(body)):
+        return False
+    values = _Values({})
+    m, c = values.of(body.mass), [values.of(x) for x in body.first]
+    return _unlike_masses(m, c, [[values.of(x) for x in row] for row in body.second])
+
+
+CAD = (
+    "with c as the centre of mass and the moments about it, as CAD programs give them, they would "
+    "be: then write centre and I_centre"
+)
+
+
+def of_cad(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
+    """Are given moments, for the defaults, those of masses about the centre c alone?
+
+    The first moment is m · centre, and J is about the origin; a program for drawing gives the
+    centre itself, and the tensor of inertia about it.
+    """
+    if not isinstance(body, GivenBody) or body.solids or len(body.first) != 3:
+        return False
+    found = [approximate(t, _defaults(parameters)) for t in _trees(body)]
+    if any(x is None for x in found):
+        return False
+    numbers = [Fraction(x) for x in found if x is not None]
+    n = len(body.first)
+    m, c, J = numbers[0], numbers[1 : n + 1], numbers[n + 1 :]
+    rows = [J[n * i : n * i + n] for i in range(n)]
+    moved = [[x + m * c[i] * c[j] for j, x in enumerate(row)] for i, row in enumerate(rows)]
+    return m > 0 and _unlike_masses(m, c, rows) and not _unlike_masses(m, [m * x for x in c], moved)
+
+
+def _unlike_masses(m: Fraction, c: list[Fraction], J: list[list[Fraction]]) -> bool:
+    """Is J − m⁻¹cc̄ negative in some direction?"""
+    if m == 0:
+        return any(c) or any(map(any, J))
+    central = [
+        [x - a * b / m for x, b in zip(row, c, strict=True)] for row, a in zip(J, c, strict=True)
+    ]
+    return not q.semidefinite(central)

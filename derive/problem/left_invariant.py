@@ -1,0 +1,68 @@
+"""Is the metric of a body left-invariant on its group, where C = ĀA is not 1?
+
+Decided exactly, in polynomials of the parameters.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Literal
+
+from ..algebra.invariance import for_every_body, pairings, skew
+from ..language.divisors import PRIMES, residue
+from ..language.laurent import OverlongError, vanishes
+from ..language.rational import Matrix
+from ..language.tree import Tree, add, mul
+from .problem import Body, GivenBody, PointBody, Problem
+
+Bodies = Literal["every body", "this body"]
+EVERY: Bodies = "every body"
+THIS: Bodies = "this body"
+
+
+def invariant(problem: Problem) -> Bodies | None:
+    """For which bodies Tr Y J Ȳ′ C = Tr Y J Ȳ′ for all Y, Y′ of 𝔤, this one among them.
+
+    ``None`` too where to tell would take polynomials that are too long.
+    """
+    group, body = problem.group, problem.body
+    if group is None or body is None or group.affine or skew(group):
+        return None
+    if for_every_body(group):
+        return EVERY
+    if group.larger:
+        return None
+    J = _moments(problem, body)
+    try:
+        return THIS if all(_vanishes(_paired(k, J)) for k in pairings(group)) else None
+    except (OverlongError, ZeroDivisionError):
+        return None
+
+
+def _paired(k: Matrix, J: tuple[tuple[Tree, ...], ...]) -> Tree:
+    """Σ k_ij J_ij."""
+    pairs = zip(k, J, strict=True)
+    return add(*(mul(_number(x), t) for a, b in pairs for x, t in zip(a, b, strict=True) if x))
+
+
+def _number(x: Fraction) -> Tree:
+    return int(x) if x.denominator == 1 else x
+
+
+def _vanishes(t: Tree) -> bool:
+    """A residue that is not 0 settles it without multiplying out."""
+    return residue(t, PRIMES[0]) == 0 and vanishes(t)
+
+
+def _moments(problem: Problem, body: Body) -> tuple[tuple[Tree, ...], ...]:
+    """Σ m r r̄ with r as the matrices of the group act on it."""
+    group = problem.group
+    assert group is not None
+    if isinstance(body, PointBody):
+        places = [group.in_block(problem.block(i), r, 1) for i, r in enumerate(body.positions, 1)]
+        masses = [*zip(body.masses, places, strict=True)]
+        span = range(group.n)
+        return tuple(
+            tuple(add(*(mul(m, r[i], r[j]) for m, r in masses)) for j in span) for i in span
+        )
+    return body.second if isinstance(body, GivenBody) else body.second()

@@ -1,0 +1,246 @@
+"""A problem in the principal frame of its body: the same mechanics, with fewer numbers.
+
+Relabelling the points, r′ = H(r − s) with the map in the normaliser of G, and turning space,
+S, takes (g, Z, J) to (S g h⁻¹, h Z h⁻¹, h J h̄) and leaves the form of the equations alone.  Where G
+translates, s is the centre of mass, so c = 0.  For SO(n), SE(n) H turns the body onto its principal
+axes, so J is diagonal; for SL(n), GL(n) and their affine kin H is a root of J, so J = μ1, turned so
+that the matrix K of the springs inside the body is diagonal; with μ the unit of mass, J = 1.
+S puts gravity along the last axis.
+
+What the new parameters stand for is plain data, ``Problem.frame``: ``kind``, H is a rotation or a
+root of J; ``turned``, is S not 1; ``moments``, the diagonal of J; ``stiffness``, that of K;
+``first``, c; ``gravity``, |g|; ``per_unit``, 1/μ where J = μ1, for then masses, stiffnesses and
+forces are in units of μ, and so is the energy; ``places``, new names of a place in the body with
+its old coordinates; ``vectors``, the same of a vector of space.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+from ..algebra.groups import Group
+from ..language.tree import Tree, add, mul
+from .problem import (
+    Attraction,
+    Body,
+    Damping,
+    Expression,
+    ForceInput,
+    GivenBody,
+    Gravity,
+    Input,
+    MomentBody,
+    Parameter,
+    Place,
+    PointBody,
+    Potential,
+    Problem,
+    ProblemError,
+    Spring,
+)
+
+Vector = tuple[Tree, ...]
+ROTATION, ROOT = "rotation", "root"
+MANY = 100
+"""Of more points only those are kept on which something acts, and numbered anew."""
+
+
+def principal(problem: Problem) -> Problem:
+    """The problem in its principal frame; ``ProblemError`` says why it has none."""
+    group = problem.group
+    kind = frame_of(group) if group else ""
+    if group is None or not kind:
+        what = group.name if group else "any group"
+        raise ProblemError(
+            f"{problem.name}: no principal frame is known for {what}; it is for "
+            "SO(n), SE(n), SL(n), SAff(n), GL(n) and Aff(n)"
+        )
+    if problem.body is None:
+        raise ProblemError(f"{problem.name}: no body, so no principal frame")
+    if any(isinstance(p, Expression) for p in problem.potentials):
+        raise ProblemError(
+            f"{problem.name}: a potential given as an expression of the places cannot be turned "
+            "into the principal frame; leave out --frame"
+        )
+    return _Framing(problem, group, kind).framed()
+
+
+def frame_of(group: Group) -> str:
+    """``rotation`` for SO(n) and SE(n), ``root`` for SL(n), GL(n), SAff(n), Aff(n), else empty."""
+    if group.factors or (group.affine and not group.free_translations):
+        return ""
+    n, d = group.n, len(group.linear_basis)
+    if "orthogonal" in group.relations:
+        return ROTATION if 2 * d == n * (n - 1) and n > 1 else ""
+    return ROOT if d == n * n - ("unimodular" in group.relations) else ""
+
+
+class _Framing:
+    def __init__(self, problem: Problem, group: Group, kind: str):
+        self.problem, self.group, self.kind, self.n = problem, group, kind, group.n
+        self.new: dict[str, Parameter] = {}
+        self.places: dict[tuple[str, ...], Vector] = {}
+        self.vectors: dict[tuple[str, ...], Vector] = {}
+
+    def framed(self) -> Problem:
+        """The new problem and its parameters."""
+        unimodular = "unimodular" in self.group.relations
+        root = self.kind == ROOT
+        moments = () if root else self._names("moment", "second moment along axis {}")
+        self.per_unit = (
+            self._name("per_unit", "one over the unit of mass") if root and unimodular else ""
+        )
+        affine, gravity = self.group.affine, self._gravity()
+        first = () if affine else self._names("first", "first moment, component {}")
+        springs = root and bool(self.problem.springs)
+        stiffness = self._names("stiffness", "springs along axis {}") if springs else ()
+        places, numbers = self._points()
+        inside = self.problem.springs if root else ()
+        potentials = [
+            self._potential(p, numbers)
+            for p in self.problem.potentials
+            if not isinstance(p, Gravity) and p not in inside
+        ]
+        ends, along = self._along(len(places) + 1, stiffness)
+        mass = self._scaled(_mass(self.problem.body))
+        frame = {
+            "kind": self.kind,
+            "turned": bool(gravity),
+            "moments": list(moments),
+            "stiffness": list(stiffness),
+            "first": list(first),
+            "gravity": gravity,
+            "per_unit": self.per_unit,
+            "places": [[list(names), list(at)] for names, at in self.places.items()],
+            "vectors": [[list(names), list(v)] for names, v in self.vectors.items()],
+        }
+        return replace(
+            self.problem,
+            frame=frame,
+            parameters={**self.problem.parameters, **self.new},
+            body=GivenBody(mass, _pars(first) or (0,) * self.n, self._second(moments)),
+            potentials=(*potentials, *self._pull(gravity), *along),
+            inputs=tuple(_pushed(x, numbers) for x in self.problem.inputs),
+            places=(*places, *ends),
+            damping=tuple(
+                Damping(self._scaled(x.coefficient), tuple(numbers[i] for i in x.on))
+                for x in self.problem.damping
+            ),
+        )
+
+    # -- new parameters ----------------------------------------------------------------------
+
+    def _name(self, wanted: str, meaning: str) -> str:
+        """A new parameter, whose name is not taken."""
+        name = wanted
+        while name in self.problem.parameters or name in self.new:
+            name += "_"
+        self.new[name] = Parameter(meaning=meaning)
+        return name
+
+    def _names(self, wanted: str, meaning: str) -> tuple[str, ...]:
+        span = range(1, self.n + 1)
+        return tuple(self._name(f"{wanted}_{i}", meaning.format(i)) for i in span)
+
+    def _place(self, at: Vector, k: int) -> Vector:
+        """A place of the body in the new frame."""
+        names = self._names(f"place_{k}", f"point {k} in the frame, component {{}}")
+        self.places[names] = at
+        return _pars(names)
+
+    def _vector(self, v: Vector, what: str) -> Vector:
+        """A vector of space, turned; itself where space stays."""
+        if not self._turns or not any(x != 0 for x in v):
+            return v
+        names = self._names(what, f"{what.replace('_', ' ')} in the frame, component {{}}")
+        self.vectors[names] = v
+        return _pars(names)
+
+    # -- body and forces ---------------------------------------------------------------------
+
+    @property
+    def _turns(self) -> bool:
+        g = self.problem.gravity
+        return g is not None and sum(x != 0 for x in g) > 1
+
+    def _gravity(self) -> str:
+        """The name of |g| where space is turned to have gravity along its last axis."""
+        return self._name("gravity", "gravity along the last axis") if self._turns else ""
+
+    def _pull(self, gravity: str) -> tuple[Potential, ...]:
+        g = self.problem.gravity
+        if g is None:
+            return ()
+        return (Gravity((*(0,) * (self.n - 1), ("par", gravity)) if gravity else g),)
+
+    def _scaled(self, t: Tree) -> Tree:
+        """A mass, stiffness or damping in the unit of mass."""
+        return mul(t, ("par", self.per_unit)) if self.per_unit else t
+
+    def _second(self, moments: tuple[str, ...]) -> tuple[Vector, ...]:
+        span = range(self.n)
+        diagonal = _pars(moments) or (1,) * self.n
+        return tuple(tuple(diagonal[i] if i == j else 0 for j in span) for i in span)
+
+    def _points(self) -> tuple[tuple[Place, ...], dict[int, int]]:
+        """The points as places, under their old numbers if few are left out, and the numbers."""
+        points = self.problem.points
+        old = (*(points.positions if points else ()), *(p.at for p in self.problem.places))
+        needed = {*_needed(self.problem, root=self.kind == ROOT)}
+        if needed and len(old) <= MANY:
+            needed = {*range(1, len(old) + 1)}
+        places = tuple(Place(self._place(old[i - 1], i)) for i in sorted(needed))
+        return places, {i: k for k, i in enumerate(sorted(needed), 1)}
+
+    def _potential(self, p: Potential, numbers: Mapping[int, int]) -> Potential:
+        """A spring or an attraction in the frame."""
+        if isinstance(p, Attraction):
+            points = self.problem.points
+            masses = points.masses if points else ()
+            on = tuple((numbers[i], self._scaled(m)) for i, m in enumerate(masses, 1) if m != 0)
+            return replace(p, centre=self._vector(p.centre, "centre"), on=on)
+        assert isinstance(p, Spring)
+        i, j = p.between
+        anchor = self._vector(p.anchor, f"anchor_{i}") if p.anchor else ()
+        between = (numbers[i], numbers[j] if j else None)
+        return replace(p, between=between, stiffness=self._scaled(p.stiffness), anchor=anchor)
+
+    def _along(
+        self, origin: int, stiffness: tuple[str, ...]
+    ) -> tuple[tuple[Place, ...], tuple[Spring, ...]]:
+        """Springs along the axes, whose matrix is diagonal: from the origin to e_1, e_2, …"""
+        if not stiffness:
+            return (), ()
+        span = range(self.n)
+        axes = (Place(tuple(int(i == j) for j in span)) for i in span)
+        springs = (Spring((origin + i, origin), ("par", k)) for i, k in enumerate(stiffness, 1))
+        return (Place((0,) * self.n), *axes), tuple(springs)
+
+
+def _needed(problem: Problem, *, root: bool) -> Iterable[int]:
+    """The points on which something acts; springs inside a body with a root go into K."""
+    for p in problem.potentials:
+        if isinstance(p, Attraction):
+            yield from range(1, problem.masses + 1)
+        if isinstance(p, Spring) and not (root and p in problem.springs):
+            yield from (i for i in p.between if i)
+    yield from (x.on for x in problem.pushes)
+    yield from (i for x in problem.damping for i in x.on)
+
+
+def _pars(names: Iterable[str]) -> Vector:
+    return tuple(("par", x) for x in names)
+
+
+def _mass(body: Body | None) -> Tree:
+    if isinstance(body, PointBody):
+        return add(*body.masses)
+    if isinstance(body, MomentBody):
+        return body.mass()
+    assert body is not None
+    return body.mass
+
+
+def _pushed(x: Input, numbers: Mapping[int, int]) -> Input:
+    return replace(x, on=numbers[x.on]) if isinstance(x, ForceInput) else x

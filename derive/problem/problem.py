@@ -1,0 +1,239 @@
+"""A problem: group, body, potentials, inputs, parameters.  Data only; ``toml.py`` reads files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..algebra.groups import Group
+from ..language.tree import Tree, add
+from .solids import Solid
+
+
+class ProblemError(ValueError):
+    """Bad input: the message names the key and the remedy."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A free name, with what a reader of the emitted code wants to know."""
+
+    default: float | None = None
+    unit: str = ""
+    meaning: str = ""
+
+
+@dataclass(frozen=True)
+class PointBody:
+    """Point masses: ``masses[i]`` and ``positions[i]`` (n coordinates), trees in the parameters.
+
+    ``blocks[i]``: the factor of a product that moves it, counted from 1.
+    """
+
+    masses: tuple[Tree, ...]
+    positions: tuple[tuple[Tree, ...], ...]
+    blocks: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class MomentBody:
+    """A body known by its moments, which are parameters m, c_1 …, J_11, J_12, …"""
+
+    n: int
+
+    def mass(self) -> Tree:
+        """m."""
+        return ("par", "m")
+
+    def first(self) -> tuple[Tree, ...]:
+        """c, n entries."""
+        return tuple(("par", f"c_{i}") for i in range(1, self.n + 1))
+
+    def second(self) -> tuple[tuple[Tree, ...], ...]:
+        """J, n × n, the upper triangle named row by row."""
+        span = range(1, self.n + 1)
+        return tuple(tuple(("par", f"J_{min(i, j)}{max(i, j)}") for j in span) for i in span)
+
+    def parameters(self) -> dict[str, Parameter]:
+        """All the moments, in the order of the emitted parameters."""
+        span = range(1, self.n + 1)
+        meanings = {"m": "total mass"}
+        meanings |= {f"c_{i}": "first moment, the sum of m r" for i in span}
+        meanings |= {
+            f"J_{i}{j}": "entry of the matrix of moments J (not of the tensor of inertia)"
+            for i in span
+            for j in span[i - 1 :]
+        }
+        return {name: Parameter(meaning=meaning) for name, meaning in meanings.items()}
+
+
+@dataclass(frozen=True)
+class GivenBody:
+    """A body whose moments are given, or are those of solids and points together."""
+
+    mass: Tree
+    first: tuple[Tree, ...]
+    second: tuple[tuple[Tree, ...], ...]
+    points: PointBody | None = None
+    solids: tuple[Solid, ...] = ()
+
+
+@dataclass(frozen=True)
+class Gravity:
+    """U = −Σ m_i ⟨γ, r_i⟩."""
+
+    acceleration: tuple[Tree, ...]
+
+
+@dataclass(frozen=True)
+class Spring:
+    """U = ½ k (‖s‖ − ℓ)² between two points (counted from 1), or from one to an anchor in space."""
+
+    between: tuple[int, int | None]
+    stiffness: Tree
+    length: Tree = 0
+    anchor: tuple[Tree, ...] = ()
+
+
+@dataclass(frozen=True)
+class Attraction:
+    """U = −Σ m_i μ / ‖r_i − centre‖, over the points that have a mass.
+
+    ``on``: or over these points (counted from 1) and masses, whatever they weigh in the body.
+    """
+
+    strength: Tree
+    centre: tuple[Tree, ...]
+    on: tuple[tuple[int, Tree], ...] = ()
+
+
+@dataclass(frozen=True)
+class Expression:
+    """Any U of the time and of the places of the points in space, entries of r_i(t)."""
+
+    energy: Tree
+
+
+@dataclass(frozen=True)
+class CovectorInput:
+    """A covector of the Lie algebra given at every call: power ⟨u, ζ⟩."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class ForceInput:
+    """A force on a point, given at every call; ``frame``: its components are in space or body."""
+
+    name: str
+    on: int
+    frame: str = "space"
+
+
+@dataclass(frozen=True)
+class Damping:
+    """−κ v on points: a Rayleigh function ½ κ |v|², no potential."""
+
+    coefficient: Tree
+    on: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place in the body without mass, where a spring or a force is attached."""
+
+    at: tuple[Tree, ...]
+    block: int = 1
+
+
+Body = PointBody | MomentBody | GivenBody
+Potential = Gravity | Spring | Attraction | Expression
+Input = CovectorInput | ForceInput
+
+
+@dataclass(frozen=True)
+class Problem:
+    """``group`` is ``None`` for the general text: any group with the given ``action``.
+
+    ``frame``: what its parameters stand for, if it is in a principal frame (``frame.py``).
+    ``signed``: masses may be negative, so that nothing is said of the sign of the metric.
+    """
+
+    name: str
+    group: Group | None
+    action: str = "linear"
+    title: str = ""
+    parameters: Mapping[str, Parameter] = field(default_factory=dict)
+    body: Body | None = None
+    potentials: tuple[Potential, ...] = ()
+    inputs: tuple[Input, ...] = ()
+    places: tuple[Place, ...] = ()
+    damping: tuple[Damping, ...] = ()
+    frame: Mapping[str, Any] | None = None
+    signed: bool = False
+
+    @property
+    def affine(self) -> bool:
+        """Does the group translate?"""
+        return self.action == "affine"
+
+    @property
+    def masses(self) -> int:
+        """How many points have a mass of their own."""
+        return len(self.points.masses) if self.points else 0
+
+    @property
+    def points(self) -> PointBody | None:
+        """The point masses, alone or among solids."""
+        return self.body.points if isinstance(self.body, GivenBody) else _as_points(self.body)
+
+    @property
+    def homogeneous(self) -> bool:
+        """Is it an affine group that is kept as a linear one on (r, 1)?"""
+        return bool(self.group and len(self.group.factors) == 1)
+
+    def block(self, i: int) -> int:
+        """The factor of a product that moves point i, counted from 1."""
+        if i > self.masses:
+            return self.places[i - self.masses - 1].block
+        assert self.points is not None
+        return self.points.blocks[i - 1] if self.points.blocks else 1
+
+    @property
+    def springs(self) -> tuple[Spring, ...]:
+        """Springs of natural length 0 inside one block: their energy is quadratic in A alone."""
+        return tuple(p for p in self.potentials if isinstance(p, Spring) and self._inside(p))
+
+    @property
+    def elements(self) -> tuple[Spring | Attraction | Expression, ...]:
+        """The potentials that are given point by point, in the order of the file."""
+        return tuple(
+            p
+            for p in self.potentials
+            if not isinstance(p, Gravity) and not (isinstance(p, Spring) and self._inside(p))
+        )
+
+    def _inside(self, p: Spring) -> bool:
+        i, j = p.between
+        return j is not None and p.length == 0 and self.block(i) == self.block(j)
+
+    @property
+    def gravity(self) -> tuple[Tree, ...] | None:
+        """The acceleration of gravity, the sum of all that are given."""
+        given = [p.acceleration for p in self.potentials if isinstance(p, Gravity)]
+        return tuple(add(*entries) for entries in zip(*given, strict=True)) if given else None
+
+    @property
+    def covector(self) -> CovectorInput | None:
+        """The covector input, if there is one."""
+        return next((i for i in self.inputs if isinstance(i, CovectorInput)), None)
+
+    @property
+    def pushes(self) -> tuple[ForceInput, ...]:
+        """The force inputs."""
+        return tuple(i for i in self.inputs if isinstance(i, ForceInput))
+
+
+def _as_points(body: Body | None) -> PointBody | None:
+    return body if isinstance(body, PointBody) else None

@@ -1,0 +1,294 @@
+"""Solids of uniform density: m = ∫ρ dV, c = ∫ρ r dV, J = ∫ρ r r̄ dV, as (36)–(39) of the note.
+
+The integrals are of monomials over a reference shape, exact; the sizes enter by stretching it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+from math import factorial, gcd, isqrt, lcm, prod
+from pathlib import Path
+from typing import Any
+
+from ..language.expression import LARGEST, SMALLEST
+from ..language.limits import EXPONENT
+from ..language.tree import Tree, add, coefficient, mul
+from .moments import Moments, Row, SolidError
+
+Monomial = tuple[tuple[Any, int], ...]  # factors, each a tree that is no product, and powers
+
+KINDS: dict[str, dict[str, tuple[int, ...] | None]] = {
+    "ball": {"radius": ()},
+    "box": {"sides": (3,)},  # full lengths; centred
+    "ellipsoid": {"semi_axes": (3,)},
+    "cylinder": {"radius": (), "height": ()},  # about z; centred
+    "cone": {"radius": (), "height": ()},  # about z; base in the plane z = 0, apex at z = height
+    "hollow_ball": {"outer": (), "inner": ()},
+    "tetrahedron": {"vertices": (4, 3)},
+    "mesh": {"file": None},
+}
+"""``()`` is one tree, ``(3,)`` a tuple of three, ``(4, 3)`` four of three, ``None`` a file name."""
+
+SPAN, UNIT, TERMS = range(3), ((1, 0, 0), (0, 1, 0), (0, 0, 1)), 3
+
+
+@dataclass(frozen=True)
+class Solid:
+    """The points R r + s of a kind of solid: ``rotation`` R, 3 × 3, and ``shift`` s, 3 entries.
+
+    ``mesh``: vertices and faces where the file of a mesh was read before.
+    """
+
+    kind: str
+    density: Tree
+    sizes: Mapping[str, Any]
+    rotation: tuple[Row, ...] | None = None
+    shift: Row | None = None
+    mesh: Any = None
+
+
+def together(a: Moments, b: Moments) -> Moments:
+    """The moments of a mixture of two bodies."""
+
+    def total(x: Tree, y: Tree) -> Tree:
+        return _flat(_terms(x) + _terms(y))
+
+    parts = (((x.mass,), x.first, *x.second) for x in (a, b))
+    mass, first, *second = (tuple(map(total, *rows)) for rows in zip(*parts, strict=True))
+    return Moments(mass[0], first, tuple(second))
+
+
+def unit_moments(solid: Solid) -> Moments:
+    """The moments of density 1 in the solid's own frame; :class:`SolidError`, ``MeshError``."""
+    kind, sizes = solid.kind, solid.sizes
+    if kind not in KINDS or set(sizes) != set(KINDS[kind]):
+        known = "; ".join(f"{k}: {', '.join(v)}" for k, v in KINDS.items())
+        raise SolidError(f"no solid {kind[:40]!r} with such sizes; there are {known}")
+    if kind == "mesh":
+        from .mesh import mesh_moments, read
+
+        return mesh_moments(*(solid.mesh or read(Path(sizes["file"]))))
+    integral = _corners(sizes["vertices"]) if kind == "tetrahedron" else _centred(kind, sizes)
+    mass, first = _tree(integral()), tuple(_tree(integral(i)) for i in SPAN)
+    if coefficient(mass)[0] <= 0:
+        raise SolidError(f"the volume of this {kind} is not positive; look at its sizes")
+    return Moments(mass, first, tuple(tuple(_tree(integral(i, j)) for j in SPAN) for i in SPAN))
+
+
+def moments(solid: Solid, relations: bool = True) -> Moments:
+    """c = ρ(R f + V s), J = ρ(R S R̄ + R f s̄ + s f̄ R̄ + V s s̄) with V, f, S of density 1.
+
+    With ``relations``, cos² + sin² = 1 and (√q)² = q shorten J; without, it makes no use of them.
+    """
+    own, density = unit_moments(solid), _one(solid.density)
+    R = [[_terms(x, TERMS) for x in row] for row in solid.rotation or UNIT]
+    s = [_one(x) for x in solid.shift or (0, 0, 0)]
+    V, f = _one(own.mass), [_one(x) for x in own.first]
+    S = [[_one(x) for x in row] for row in own.second]
+    Rf = [sum((R[i][k] * f[k] for k in SPAN), _Sum()) for i in SPAN]
+
+    def second(i: int, j: int) -> Tree:
+        turned = sum((R[i][k] * S[k][h] * R[j][h] for k in SPAN for h in SPAN), _Sum())
+        J = density * (turned + Rf[i] * s[j] + s[i] * Rf[j] + V * s[i] * s[j])
+        return _tree(_related(J) if relations else J)
+
+    return Moments(
+        _tree(density * V),
+        tuple(_tree(density * (Rf[i] + V * s[i])) for i in SPAN),
+        tuple(tuple(second(min(i, j), max(i, j)) for j in SPAN) for i in SPAN),
+    )
+
+
+def rotation_about(axis: Row, angle: Tree) -> tuple[Row, ...]:
+    """Rodrigues: 1 cos φ + (1 − cos φ) n n̄ + j(n) sin φ, 3 × 3; n is the axis over its length.
+
+    ``SolidError`` unless the axis is three numbers, not all zero; any length will do.
+    """
+    numbers = [Fraction(x) for x in axis if isinstance(x, (int, Fraction))]
+    if len(axis) != 3 or len(numbers) != 3 or not any(numbers):
+        raise SolidError("the axis of a rotation must be three numbers, not all zero")
+    square = sum((x * x for x in numbers), Fraction(0))
+    root = Fraction(isqrt(square.numerator), isqrt(square.denominator))
+    length = _one(root if root**2 == square else ("fun", "sqrt", mul(square)))
+    n = [length * (x / square) for x in numbers]
+    q, rest = coefficient(angle)  # the cosine and sine of k π/2 are numbers
+    if q == 0 or (rest == "π" and (2 * q).denominator == 1):
+        cos, sin = (_one((1, 0, -1, 0)[(int(2 * q) + k) % 4]) for k in (0, 3))
+    else:
+        cos, sin = _one(("fun", "cos", angle)), _one(("fun", "sin", angle))
+
+    def entry(i: int, j: int) -> Tree:
+        side = _Sum() if i == j else n[3 - i - j] * (1 if (i - j) % 3 == 1 else -1)
+        nn = _related(n[i] * n[j])
+        return _flat(cos * UNIT[i][j] + nn + nn * cos * -1 + side * sin)
+
+    return tuple(tuple(entry(i, j) for j in SPAN) for i in SPAN)
+
+
+# ∫ xᵃ yᵇ zᶜ dV over a reference shape
+
+Integrals = Callable[..., "_Sum"]
+
+
+def _gamma(n: int) -> tuple[Fraction, int]:
+    """Γ(n/2) = q √π^k, as (q, k)."""
+    if n <= 2:
+        return Fraction(1), n % 2
+    q, k = _gamma(n - 2)
+    return q * Fraction(n - 2, 2), k
+
+
+def _ball(*exponents: int) -> _Sum:
+    """Π Γ((aᵢ + 1)/2) / Γ(1 + Σ (aᵢ + 1)/2) over the unit ball of any dimension (Dirichlet)."""
+    if any(a % 2 for a in exponents):
+        return _Sum()
+    tops = [_gamma(a + 1) for a in exponents]
+    q, k = _gamma(2 + sum(exponents) + len(exponents))
+    power = (sum(x for _, x in tops) - k) // 2
+    return _monomial([("π", power)], prod((x for x, _ in tops), start=Fraction(1)) / q)
+
+
+def _simplex(*a: int) -> Fraction:
+    """∫ λ₀ᵃ λ₁ᵇ … = a! b! … / (a + b + … + d)! over the simplex with corners 0, e₁, …, e_d."""
+    return Fraction(prod(map(factorial, a)), factorial(sum(a) + len(a) - 1))
+
+
+ROUND = ("radius", "radius", "height")
+SHAPES: dict[str, tuple[Integrals, tuple[str, ...]]] = {
+    "ball": (_ball, ("radius",) * 3),
+    "ellipsoid": (_ball, ("semi_axes",)),
+    "box": (lambda *e: prod(map(_ball, e), start=_one(Fraction(1, 2 ** (sum(e) + 3)))), ("sides",)),
+    "cylinder": (lambda a, b, c: _ball(a, b) * _ball(c) * Fraction(1, 2 ** (c + 1)), ROUND),
+    "cone": (lambda a, b, c: _ball(a, b) * _simplex(a + b + 2, c), ROUND),  # at z the disc 1 − z
+}
+"""∫ xᵃ yᵇ zᶜ dV over the reference shape, and the sizes that stretch it along x, y and z."""
+
+
+def _centred(kind: str, sizes: Mapping[str, Any]) -> Integrals:
+    """``integral()``, ``(i)``, ``(i, j)``: of 1, r_i, r_i r_j over the stretched shape."""
+    if kind == "hollow_ball":
+        outer, inner = (_centred("ball", {"radius": sizes[k]}) for k in ("outer", "inner"))
+        return lambda *axes: outer(*axes) + inner(*axes) * -1
+    reference, names = SHAPES[kind]
+    scales = [sizes[name] for name in names] if len(names) == 3 else sizes[names[0]]
+
+    def integral(*axes: int) -> _Sum:
+        powers = [axes.count(i) for i in SPAN]
+        stretch = (("pow", s, a + 1) for s, a in zip(scales, powers, strict=True))
+        return reference(*powers) * _one(("mul", *stretch))
+
+    return integral
+
+
+def _corners(vertices: Sequence[Row]) -> Integrals:
+    """A tetrahedron, the simplex mapped by λ ↦ Σ λ_k v_k, of determinant D.
+
+    D is taken positive where numbers tell its sign, or where every parameter being positive does;
+    elsewhere the vertices must be given in an order that makes it positive.
+    """
+    p = [[_one(x) for x in vertex] for vertex in vertices]
+    x, y, z = ([v[i] + p[0][i] * -1 for i in SPAN] for v in p[1:])
+    D = sum((x[i] * y[(i + s) % 3] * z[(i - s) % 3] * s for i in SPAN for s in (1, -1)), _Sum())
+    D = D * -1 if all(q < 0 for q in D.values()) else D
+    volume = _one(_tree(D))
+
+    def integral(*axes: int) -> _Sum:
+        corners = product(range(4), repeat=len(axes))
+        weights = ((c, _one(_simplex(*map(c.count, range(4))))) for c in corners)
+        terms = (prod((p[k][i] for k, i in zip(c, axes, strict=True)), start=w) for c, w in weights)
+        return volume * _one(_tree(sum(terms, _Sum())))
+
+    return integral
+
+
+class _Sum(dict[Monomial, Fraction]):
+    """monomial → coefficient; a monomial is the powers of its factors, in a fixed order."""
+
+    def __add__(self, other: _Sum) -> _Sum:
+        both = ((m, self.get(m, Fraction(0)) + other.get(m, Fraction(0))) for m in self | other)
+        return _Sum({m: q for m, q in both if q})
+
+    def __mul__(self, other: _Sum | Fraction | int) -> _Sum:
+        right = other if isinstance(other, _Sum) else _one(other)
+        terms = product(self.items(), right.items())
+        return sum((_monomial((*m, *n), x * y) for (m, x), (n, y) in terms), _Sum())
+
+
+def _monomial(factors: Iterable[tuple[Any, int]], q: Fraction) -> _Sum:
+    powers: dict[Any, int] = {}
+    for atom, k in factors:
+        powers[atom] = powers.get(atom, 0) + k
+    return _Sum({tuple(sorted(((a, k) for a, k in powers.items() if k), key=repr)): q} if q else {})
+
+
+def _one(tree: Tree) -> _Sum:
+    """Products, quotients and powers taken apart; a sum within them remains one factor."""
+    factors: list[tuple[Any, int]] = []
+    q, stack = Fraction(1), [(tree, 1)]
+    while stack:
+        t, k = stack.pop()
+        if abs(k) > EXPONENT:
+            raise SolidError(f"the moments need a power above {EXPONENT}")
+        match t:
+            case int() | Fraction():
+                q *= Fraction(t) ** k
+            case ("mul", *parts):
+                stack += [(x, k) for x in parts]
+            case ("div", a, b):
+                stack += [(a, k), (b, -k)]
+            case ("pow", a, int(n)):
+                stack.append((a, k * n))
+            case _:
+                factors.append((t, k))
+    return _monomial(factors, q)
+
+
+def _terms(tree: Tree, most: int | None = None) -> _Sum:
+    """A sum term by term, if there are not more of them than ``most``."""
+    if isinstance(tree, tuple) and tree[0] == "add" and len(tree) - 1 <= (most or len(tree)):
+        return sum(map(_one, tree[1:]), _Sum())
+    return _one(tree)
+
+
+def _related(p: _Sum) -> _Sum:
+    """By (√q)² = q, and cos² + sin² = 1 wherever a term with cos² has its partner."""
+    for m, q in p.items():
+        for atom, _ in (f for f in m if f[1] >= 2 and f[0][0] == "fun"):
+            rest = _monomial((*m, (atom, -2)), q)
+            if atom[1] == "sqrt" and not isinstance(atom[2], (str, tuple)):
+                return _related(p + _Sum({m: -q}) + rest * atom[2])
+            partner = rest * _one(("pow", ("fun", "sin", atom[2]), 2))
+            if atom[1] == "cos" and partner.keys() <= p.keys():
+                return _related(p + _Sum({m: -q}) + rest + partner * -1)
+    return p
+
+
+def _flat(p: _Sum) -> Tree:
+    return add(*(_term(m, q) for m, q in p.items()))
+
+
+def _tree(p: _Sum) -> Tree:
+    """The sum as a tree, what its terms have in common in front."""
+    if len(p) < 2:
+        return _flat(p)
+    over, under = ([getattr(q, x) for q in p.values()] for x in ("numerator", "denominator"))
+    content = Fraction(gcd(*over) if over[0] > 0 else -gcd(*over), lcm(*under))
+    columns = {a: [dict(m).get(a, 0) for m in p] for a, _ in next(iter(p))}
+    common = {a: min(k) if min(k) > 0 else min(max(k), 0) for a, k in columns.items()}
+    inside = p * _monomial(((a, -k) for a, k in common.items()), 1 / content)
+    return _term((*((a, k) for a, k in common.items() if k), (_flat(inside), 1)), content)
+
+
+def _term(m: Monomial, q: Fraction) -> Tree:
+    """Numbers first, then π, low powers, high powers, sums; all over the negative powers."""
+    if not SMALLEST < abs(q) < LARGEST or any(abs(k) > EXPONENT for _, k in m):
+        raise SolidError(f"the moments need a power above {EXPONENT} or a number beyond 1e±300")
+    ordered = sorted(m, key=lambda f: (f[0] != "π", f[0][0] == "add", f[1], repr(f[0])))
+    top, bottom = (
+        mul(x, *(a if k == s else ("pow", a, s * k) for a, k in ordered if s * k > 0))
+        for s, x in ((1, q), (-1, 1))
+    )
+    return top if bottom == 1 else ("div", top, bottom)

@@ -1,0 +1,282 @@
+"""Problem files: TOML read into :class:`Problem`, every key checked, errors in one line."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ..algebra.groups import Group
+from ..language.expression import names, numbers
+from ..language.limits import (
+    BITS,
+    COMMON_BITS,
+    KEY_PARTS,
+    LEAVES,
+    MAGNITUDE,
+    PARAMETERS,
+    PROBLEM_BYTES,
+    PULLS,
+)
+from ..language.reserved import taken
+from ..language.tree import Tree
+from ..language.weight import weight
+from . import inertia
+from .bodies import body
+from .fields import LIKE_A_PLACE, identifier, known, tables, text, unread, used_at
+from .forces import Points, damping, given_input, negative_stiffness_of, potential, trees
+from .group import group_of
+from .problem import (
+    Attraction,
+    CovectorInput,
+    GivenBody,
+    MomentBody,
+    Parameter,
+    PointBody,
+    Problem,
+    ProblemError,
+)
+
+TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
+TOP |= {"damping", "solid"}
+DOTTED = re.compile(
+    rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
+)
+"""Tried at dots alone, and possessive: no text makes it slow."""
+
+
+def load(path: Path, **allowed: bool) -> Problem:
+    """Read a problem file; :class:`ProblemError` names file, key and remedy.
+
+    ``allowed``: what may be negative, as :func:`problem_of` has it.
+    """
+    try:
+        with path.open("rb") as file:
+            raw = file.read(PROBLEM_BYTES + 1)
+    except OSError as error:
+        raise ProblemError(f"{path}: {error.strerror}") from None
+    if len(raw) > PROBLEM_BYTES:
+        raise ProblemError(f"{path}: larger than {PROBLEM_BYTES} bytes")
+    if DOTTED.search(raw):
+        raise ProblemError(f"{path}: a key of more than {KEY_PARTS} parts; no key has so many")
+    try:
+        data = tomllib.loads(raw.decode("utf-8-sig"))
+    except RecursionError:
+        raise ProblemError(f"{path}: tables or lists nested deeper than can be read") from None
+    except (tomllib.TOMLDecodeError, UnicodeError) as error:
+        kind = (
+            ""
+            if path.suffix == ".toml"
+            else "; a problem is a .toml file, and records (.json) are for check"
+        )
+        raise ProblemError(f"{path}: not TOML: {unread(raw, error)}{kind}") from None
+    except ValueError:  # Python reads no integer of thousands of digits
+        raise ProblemError(f"{path}: {HUGE}") from None
+    if _huge(data):
+        raise ProblemError(f"{path}: {HUGE}")
+    try:
+        return problem_of(data, path.parent, **allowed)
+    except ProblemError as error:
+        raise ProblemError(f"{path}: {error}") from None
+
+
+"""What names mean in every expression."""
+
+HUGE = "an integer of hundreds of digits; numbers go up to 1e300"
+
+
+def _huge(data: Any) -> bool:
+    """Is there an integer that no message could show?"""
+    left = [data]
+    while left:
+        x = left.pop()
+        if isinstance(x, int) and x.bit_length() > BITS:
+            return True
+        left += x.values() if isinstance(x, dict) else x if isinstance(x, list) else ()
+    return False
+
+
+def problem_of(
+    data: Mapping[str, Any],
+    folder: Path = Path(),
+    negative_mass: bool = False,
+    negative_stiffness: bool = False,
+) -> Problem:
+    """A problem from the plain data of a file in a folder, where its meshes are.
+
+    ``negative_mass``, ``negative_stiffness`` (damping included): may they be negative numbers?
+    """
+    known(data, TOP, "file")
+    moved, action = group_of(data)
+    name = _name(data, moved)
+    parameters = _parameters(data.get("parameters", {}))
+    own = body(data, moved, folder)
+    if moved and own is None:
+        raise ProblemError("no body: give [[point]] or [[solid]] tables, or a table [body]")
+    if isinstance(own, MomentBody):
+        named = {x: parameters.get(x, p) for x, p in own.parameters().items()}
+        parameters = {**named, **{k: p for k, p in parameters.items() if k not in named}}
+    if not negative_mass:
+        _positive(inertia.negative_mass(own, parameters), "mass")
+    listed = own.points if isinstance(own, GivenBody) else own
+    masses = len(listed.masses) if isinstance(listed, PointBody) else 0
+    blocks = listed.blocks if isinstance(listed, PointBody) else ()
+    points = Points(moved, masses, blocks, parameters, heavy=not isinstance(own, PointBody))
+    potentials = tuple(
+        potential(p, f"potential {k}", points) for k, p in enumerate(tables(data, "potential"), 1)
+    )
+    inputs = tuple(
+        given_input(i, f"input {k}", points) for k, i in enumerate(tables(data, "input"), 1)
+    )
+    drags = tuple(
+        damping(d, f"damping {k}", points) for k, d in enumerate(tables(data, "damping"), 1)
+    )
+    if sum(isinstance(i, CovectorInput) for i in inputs) > 1:
+        raise ProblemError("key 'input': one covector holds every component; give one such table")
+    if not negative_stiffness:
+        _positive(negative_stiffness_of(potentials, drags, parameters), "stiffness")
+    _distinct([i.name for i in inputs], parameters)
+    title = text(data, "title", "file") if "title" in data else name
+    problem = Problem(
+        name,
+        moved,
+        action,
+        title,
+        parameters,
+        own,
+        potentials,
+        inputs,
+        tuple(points.places),
+        drags,
+        signed=negative_mass,
+    )
+    _affordable(problem)
+    _declared(problem, data)
+    _massive(problem, negative_mass)
+    return problem
+
+
+def _name(data: Mapping[str, Any], moved: Group | None) -> str:
+    """The name of the problem: a prefix of labels that nothing else has."""
+    name = identifier(text(data, "name", "file"), "key 'name'")
+    if moved and name in ("linear", "affine"):
+        raise ProblemError(f"key 'name': {name!r} names what is said of any group; choose another")
+    return name
+
+
+def _positive(where: str | None, what: str) -> None:
+    """``ProblemError`` where something is negative that no flag allows to be."""
+    if where:
+        raise ProblemError(
+            f"{where} is negative; correct it, or allow it with --allow-negative-{what} "
+            f"(in Python: negative_{what}=True)"
+        )
+
+
+def _massive(problem: Problem, negative_mass: bool) -> None:
+    """The body has inertia in every direction, and masses that can be."""
+    moved, own = problem.group, problem.body
+    if moved and own and (still := inertia.still_direction(moved, own)):
+        raise ProblemError(
+            f"{still} has no kinetic energy together with any motion: the metric of these masses, "
+            "some of them negative, is degenerate at g = 1; change them"
+            if negative_mass
+            else f"{still} moves no mass of this body: its motion is open; add masses"
+        )
+    if moved and own and moved.free_translations and inertia.massless(own):
+        raise ProblemError("body: its mass is 0, and it has no centre of mass; change the masses")
+    if negative_mass or not inertia.impossible(own, problem.parameters):
+        return
+    if isinstance(own, GivenBody) and own.solids:
+        raise ProblemError(
+            "body: no masses have the moments of these solids: what has a negative density must be "
+            "a hole inside of others; or allow it with --allow-negative-mass"
+        )
+    else:
+        raise ProblemError(
+            "body, given: no masses have these moments: J − c c̄/m must be positive "
+            "(about the centre no moment of inertia exceeds the sum of the two others)"
+            + (f"; {inertia.CAD}" if inertia.of_cad(own, problem.parameters) else "")
+        )
+
+
+def _parameters(data: Any) -> dict[str, Parameter]:
+    if not isinstance(data, dict):
+        raise ProblemError("key 'parameters' must be a table")
+    if len(data) > PARAMETERS:
+        raise ProblemError(f"key 'parameters': more than {PARAMETERS}")
+    found = {}
+    for name, value in data.items():
+        where = f"parameter {name[:40]!r}"
+        identifier(name, where)
+        if what := taken(name):
+            raise ProblemError(f"{where}: this is {what} in an expression; choose another name")
+        if isinstance(value, (int, float)) and not isinstance(value, bool):
+            value = {"default": value}
+        if not isinstance(value, dict):
+            raise ProblemError(f"{where}: expected a number or a table")
+        known(value, {"default", "unit", "meaning"}, where)
+        default = value.get("default")
+        if default is not None and (
+            isinstance(default, bool) or not isinstance(default, (int, float))
+        ):
+            raise ProblemError(f"{where}: key 'default' must be a number")
+        texts = {k: text(value, k, where) for k in ("unit", "meaning") if k in value}
+        if default is not None and not abs(default) <= MAGNITUDE:
+            raise ProblemError(f"{where}: key 'default' must be a finite number, at most 1e300")
+        found[name] = Parameter(None if default is None else float(default), **texts)
+    return found
+
+
+def _distinct(inputs: list[str], parameters: Mapping[str, Parameter]) -> None:
+    """No two inputs of one name, and none with the name of a parameter."""
+    for k, name in enumerate(inputs, 1):
+        if name in inputs[: k - 1]:
+            raise ProblemError(f"input {k}: a second input {name!r}; give each its own name")
+        if name in parameters:
+            raise ProblemError(f"input {k}: {name!r} is a parameter as well; choose another name")
+
+
+def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
+    """Every name that is used is a parameter, and every parameter is used."""
+    found = [*trees(problem.points), *trees(problem.body), *_forces(problem)]
+    used = dict.fromkeys(x for t in found for x in names(t))
+    for name in used:
+        if name not in problem.parameters:
+            if name == "t" or LIKE_A_PLACE.fullmatch(name):
+                where = used_at(data, name, "U")
+                raise ProblemError(f"{where}: {name!r} is known in the 'U' of an expression alone")
+            where, shown = used_at(data, name), name[:40]
+            near = difflib.get_close_matches(shown, problem.parameters, 1)
+            hint = f"did you mean {near[0]!r}? Else " if near else ""
+            raise ProblemError(f"{where}: {shown!r} is not declared; {hint}add it to [parameters]")
+    own = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}
+    for name in data.get("parameters", {}):
+        if name not in used and name not in own:
+            raise ProblemError(f"parameter {name!r} is declared but not used; leave it out")
+
+
+def _forces(problem: Problem) -> list[Tree]:
+    parts = (*problem.potentials, *problem.damping, *problem.places)
+    return [t for p in parts for t in trees(p)]
+
+
+def _affordable(problem: Problem) -> None:
+    """The expressions together are not too many, their numbers not too unlike one another."""
+    solids = isinstance(problem.body, GivenBody) and problem.body.solids
+    found = [*_forces(problem), *trees(problem.points if solids else problem.body)]
+    leaves = sum(weight(t).leaves for t in found)
+    if leaves > LEAVES:
+        raise ProblemError(f"{leaves} names and numbers in expressions; at most {LEAVES}")
+    pulls = sum(problem.masses for p in problem.potentials if isinstance(p, Attraction))
+    if pulls > PULLS:
+        raise ProblemError(f"{pulls} attractions of points; at most {PULLS}")
+    common = 1
+    for q in (x for t in found for x in numbers(t)):
+        common = math.lcm(common, q.denominator)
+        if common.bit_length() > COMMON_BITS:
+            raise ProblemError("the fractions have no small common denominator; round them")

@@ -1,0 +1,317 @@
+"""The emitted C of a problem, compiled and loaded: a right-hand side for ``solve_ivp``.
+
+>>> import derive, numpy
+>>> f = derive.compile("so3")
+>>> f(0.0, numpy.concatenate([numpy.eye(3).ravel(), [0.1, 0, 9]])).shape
+(12,)
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from threading import Lock
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..code.emit import emit
+from ..code.options import CHOICES, Options
+from ..code.program import Program
+from ..pipeline import program
+from ..problem.problem import Problem, ProblemError
+from .derived import Derived, derive
+from .library import FLAGS, CompileError, Source, loaded
+
+__all__ = ["CompileError", "Compiled", "compile"]
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+BINDING = """\
+#include "{name}.h"
+void derive_rhs(double *b);
+void derive_rhs(double *b)
+{{
+    double *x = b + 1, *u = x + {name}_N_STATE, *k = u + {name}_N_INPUTS;
+    {name}_rhs(b[0], x, k, u, k + {name}_N_CONSTANTS);
+}}
+"""
+"""Compiled beside the emitted C: rhs on one array of t, x, u, k and dx, as to convert five
+arguments takes ctypes longer than rhs takes."""
+
+
+class Names(NamedTuple):
+    """The names of the numbers, and how many there are of those that have none here."""
+
+    state: tuple[str, ...]
+    inputs: tuple[str, ...]
+    defaults: dict[str, float | None]
+    constants: int
+    algebra: int
+
+    @classmethod
+    def of(cls, program: Program) -> Names:
+        """Those of a program."""
+        defaults = {x[0]: x[1] for x in program.parameters}
+        sizes = len(program.constants), program.dimension
+        return cls(program.state, program.inputs, defaults, *sizes)
+
+
+class Values(NamedTuple):
+    """What stays from call to call, replaced as a whole: a call under way keeps those it has."""
+
+    p: Array
+    k: Array
+    u: Array
+    ready: bool
+
+
+class Buffers:
+    """Where one call of rhs at a time has its numbers."""
+
+    __slots__ = ("copy", "k", "now", "run", "u", "values", "x")
+
+    def __init__(self, names: Names, run: Callable[[Any], None]):
+        ends = np.cumsum([1, len(names.state), len(names.inputs), names.constants])
+        whole = np.zeros(int(ends[-1]) + len(names.state))
+        self.now, self.x, self.u, self.k, dx = np.split(whole, ends)
+        self.copy = dx.copy
+        self.values: Values | None = None  # those that u and k hold
+        in_c = (ctypes.c_double * len(whole)).from_buffer(whole)  # type: ignore[arg-type]
+        self.run = partial(run, ctypes.byref(in_c))
+
+
+class Compiled:
+    """The functions of one problem in compiled C, for one body; itself dx/dt = f(t, x, u).
+
+    ``STATE``, ``PARAMETERS``, ``INPUTS``: names; ``p`` and ``k``: parameters and constants in use;
+    ``u``: the inputs of calls that are given none, zero at first.  These three are not to be
+    written into: :meth:`use` and ``f.u = …`` replace them.  Threads may share it, each call has
+    buffers of its own; pickled, it takes its C along, which is compiled where it is loaded.
+    """
+
+    def __init__(self, names: Names, source: Source, values: Values | None = None):
+        self.STATE, self.INPUTS, self.PARAMETERS = names.state, names.inputs, tuple(names.defaults)
+        self._names, self._source, self._library = names, source, loaded(source)
+        p, k, u = map(np.zeros, (len(self.PARAMETERS), names.constants, len(self.INPUTS)))
+        self._values = values or Values(p, k, u, ready=False)
+        self._replacing = Lock()
+        # rhs takes less time than to let go of the interpreter's lock and to take it again
+        self._run = ctypes.PyDLL(None, handle=self._library._handle).derive_rhs
+        self._run.restype = None
+        self._idle: list[Buffers] = []  # its pop and append are atomic
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Compiled, (self._names, self._source, self._values)
+
+    def __call__(self, t: float, x: Any, u: Any = None) -> Array:
+        """dx/dt, with the inputs u or else those of this object."""
+        try:
+            mine = self._idle.pop()
+        except IndexError:
+            mine = Buffers(self._names, self._run)
+        if u is not None or mine.values is not self._values:
+            self._fill(mine, u)
+        mine.x[...] = x
+        mine.now[0] = t
+        mine.run()
+        dx = mine.copy()
+        self._idle.append(mine)
+        return dx
+
+    rhs = __call__
+
+    def _fill(self, mine: Buffers, u: Any) -> None:
+        """The constants and the inputs of the next call."""
+        values = self._in_use()
+        mine.k[:] = values.k
+        mine.u[:] = values.u if u is None else u
+        mine.values = values if u is None else None
+
+    def _in_use(self) -> Values:
+        values = self._values
+        if not values.ready:
+            missing = [name for name, value in self._names.defaults.items() if value is None]
+            which = ", ".join(missing)
+            raise ValueError(f"no value for the parameters {which}: call use() first")
+        return values
+
+    @property
+    def p(self) -> Array:
+        """The parameters in use, read only."""
+        return _fixed(self._values.p)
+
+    @property
+    def k(self) -> Array:
+        """The constants in use, read only."""
+        return _fixed(self._values.k)
+
+    @property
+    def u(self) -> Array:
+        """The inputs of a call that is given none, read only; assign others."""
+        return _fixed(self._values.u)
+
+    @u.setter
+    def u(self, values: Any) -> None:
+        u = _array(values, len(self.INPUTS))
+        with self._replacing:
+            self._values = self._values._replace(u=u)
+
+    def use(self, parameters: Mapping[str, float] | Sequence[float] = ()) -> Compiled:
+        """Take these parameters, the defaults for the others; ``ValueError`` says what is wrong."""
+        defaults = self._names.defaults
+        if isinstance(parameters, Mapping):
+            named = dict(parameters)
+        else:
+            if len(parameters) not in (0, len(self.PARAMETERS)):
+                raise ValueError(f"expected {len(self.PARAMETERS)} parameters in order, or names")
+            named = dict(zip(self.PARAMETERS, parameters, strict=False))
+        unknown = [x for x in named if x not in defaults]
+        values = {**defaults, **named}
+        missing = [x for x, value in values.items() if value is None]
+        if unknown or missing:
+            what = "unknown" if unknown else "no value for the"
+            raise ValueError(f"{what} parameters {', '.join(unknown or missing)}")
+        p = np.array([values[x] for x in self.PARAMETERS], dtype=float)
+        k = np.zeros(self._names.constants)
+        if self._function("constants", ctypes.c_int)(*map(_pointer, (p, k))):
+            raise ValueError(
+                "no body has these parameters: its mass matrix is not positive, or a number is "
+                "not finite"
+            )
+        with self._replacing:
+            self._values = self._values._replace(p=p, k=k, ready=True)
+        return self
+
+    def energy(self, t: float, x: Any) -> float:
+        """Kinetic plus potential energy."""
+        return float(self._called("energy", ctypes.c_double, t, x, self._in_use().k))
+
+    def jacobian(self, t: float, x: Any, u: Any = None) -> tuple[Array, Array]:
+        """dx/dt and D (2N, 2N); see the emitted header."""
+        k, dx, D = self._in_use().k, np.zeros(len(self.STATE)), self._zeros()
+        self._called("jacobian", None, t, x, k, self._inputs(u), dx, D)
+        return dx, D
+
+    def jacobian_inputs(self, t: float, x: Any, u: Any = None) -> Array:
+        """D (2N, inputs)."""
+        k, D = self._in_use().k, self._zeros(len(self.INPUTS))
+        self._called("jacobian_inputs", None, t, x, k, self._inputs(u), D)
+        return D
+
+    def jacobian_parameters(self, t: float, x: Any, u: Any = None) -> Array:
+        """D (2N, parameters)."""
+        p, D = self._in_use().p, self._zeros(len(self.PARAMETERS))
+        self._called("jacobian_parameters", None, t, x, p, self._inputs(u), D)
+        return D
+
+    def _inputs(self, u: Any) -> Array:
+        return self._values.u if u is None else _array(u, len(self.INPUTS))
+
+    def _zeros(self, columns: int | None = None) -> Array:
+        rows = 2 * self._names.algebra
+        return np.zeros((rows, rows if columns is None else columns))
+
+    def project(self, x: Any) -> Array:
+        """The state x taken back to the group by one Newton step; see the emitted header."""
+        given, out = _array(x, len(self.STATE)), np.zeros(len(self.STATE))
+        self._function("project", None)(*map(_pointer, (given, out)))
+        return out
+
+    def defect(self, x: Any) -> float:
+        """How far the state x is off the group: 0 on it."""
+        function = self._function("defect", ctypes.c_double)
+        return float(function(_pointer(_array(x, len(self.STATE)))))
+
+    def into_frame(self, x: Any) -> Array:
+        """The state x taken to the principal frame; needs ``frame="principal"``."""
+        return self._carried("into_frame", x, len(self.STATE))
+
+    def out_of_frame(self, x: Any) -> Array:
+        """The state x taken back from the principal frame."""
+        return self._carried("out_of_frame", x, len(self.STATE))
+
+    def inputs_into_frame(self, u: Any) -> Array:
+        """The inputs u taken to the principal frame."""
+        return self._carried("inputs_into_frame", u, len(self.INPUTS))
+
+    def inputs_out_of_frame(self, u: Any) -> Array:
+        """The inputs u taken back from the principal frame."""
+        return self._carried("inputs_out_of_frame", u, len(self.INPUTS))
+
+    def _carried(self, what: str, x: Any, size: int) -> Array:
+        k, given, out = self._in_use().k, _array(x, size), np.zeros(size)
+        self._function(what, None)(*map(_pointer, (given, k, out)))
+        return out
+
+    def _called(self, what: str, result: Any, t: float, x: Any, *arrays: Array) -> Any:
+        """A function of the time, the state and more arrays."""
+        state, function = _array(x, len(self.STATE)), self._function(what, result)
+        return function(ctypes.c_double(t), *map(_pointer, (state, *arrays)))
+
+    def _function(self, what: str, result: Any) -> Any:
+        function = getattr(self._library, f"{self._source.name}_{what}", None)
+        if function is None and what.endswith("_frame"):
+            raise ValueError("not compiled: ask for it by compile(..., frame='principal')")
+        if function is None and what in ("project", "defect"):
+            raise ValueError(f"nothing keeps the states of {self._source.name}: there is no {what}")
+        if function is None:
+            kind = what.removeprefix("jacobian").removeprefix("_") or "state"
+            raise ValueError(f"not compiled: ask for it by compile(..., jacobian=[{kind!r}])")
+        function.restype = result
+        return function
+
+
+def _fixed(a: Array) -> Array:
+    """A view that cannot be written into."""
+    view = a.view()
+    view.flags.writeable = False
+    return view
+
+
+def _array(values: Any, size: int) -> Array:
+    """An array of its own."""
+    made = np.zeros(size)
+    made[:] = values
+    return made
+
+
+def _pointer(a: Array) -> ctypes.c_void_p:
+    return ctypes.c_void_p(a.ctypes.data)
+
+
+def compile(
+    problem: Problem | Derived | str | Path,
+    parameters: Mapping[str, float] | Sequence[float] | None = None,
+    *,
+    compiler: str | None = None,
+    flags: Sequence[str] = FLAGS,
+    **choices: Any,
+) -> Compiled:
+    """Emit, compile and load the C of a problem.
+
+    ``parameters``: by name or in order; the defaults of the problem where none are given, and
+    without a default :meth:`Compiled.use` must be called first.  ``compiler``: else the environment
+    variable CC, else cc, gcc or clang.  ``choices``: as ``attitude="quaternion"``, see
+    :class:`derive.code.options.Options`.  :class:`CompileError`, ``ProblemError``.
+    """
+    derived = problem if isinstance(problem, Derived) else derive(problem)
+    try:
+        options = Options(**choices)
+    except TypeError:
+        known = (*CHOICES, "jacobian")
+        wrong = ", ".join(x for x in choices if x not in known)
+        raise ProblemError(f"compile: no choice {wrong}; there are {', '.join(known)}") from None
+    except ValueError as error:
+        raise ProblemError(f"compile: {error}") from None
+    if options.real != "double" or options.form != "source":
+        raise ProblemError("compile: the library is of double from sources; leave out real, form")
+    made_of = program(derived.problem, derived.record, options)
+    name = derived.problem.name
+    files = emit(made_of, derived.record, ("c",), name, options)
+    files["binding.c"] = BINDING.format(name=name)
+    made = Compiled(Names.of(made_of), Source(name, tuple(files.items()), compiler, tuple(flags)))
+    ready = all(x[1] is not None for x in made_of.parameters)
+    return made.use(parameters or ()) if parameters is not None or ready else made

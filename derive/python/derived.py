@@ -1,0 +1,201 @@
+"""What Python holds after a walk: the derivation, its steps and equations, in a notebook too."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..check.checker import Verdict
+from ..problem.problem import Problem
+from ..record.record import Derivation, Equation, Step, Symbol
+
+if TYPE_CHECKING:
+    from ..figure.drawing import Scene
+    from .expressions import Expressions
+
+
+@dataclass(frozen=True)
+class ShownEquation:
+    """An equation of a step: a pair of operator trees, shown as a formula in a notebook."""
+
+    equation: Equation
+    symbols: tuple[Symbol, ...]
+
+    def __repr__(self) -> str:
+        return f"<equation {self}>"
+
+    @property
+    def lhs(self) -> Any:
+        """The left side, an operator tree."""
+        return self.equation.lhs
+
+    @property
+    def rhs(self) -> Any:
+        """The right side, an operator tree."""
+        return self.equation.rhs
+
+    def __str__(self) -> str:
+        from ..views.text import equation_text
+
+        return equation_text(self.equation)
+
+    def latex(self, lang: str = "en") -> str:
+        """The formula in standard commands of LaTeX and amsmath, in lines that fit a page."""
+        from ..views.language import language
+        from ..views.markdown import formula
+
+        return formula([self.equation], self.symbols, language=language(lang))
+
+    def _repr_latex_(self) -> str:
+        return f"$${self.latex()}$$"
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A step of a derivation, which prints itself and shows its formulas in a notebook."""
+
+    step: Step
+    symbols: tuple[Symbol, ...]
+
+    def __repr__(self) -> str:
+        return f"<step {self.step.label}: {len(self.step.equations)} equations>"
+
+    @property
+    def equations(self) -> tuple[ShownEquation, ...]:
+        """Its equations, in order."""
+        return tuple(ShownEquation(e, self.symbols) for e in self.step.equations)
+
+    def __str__(self) -> str:
+        from ..views.text import step_text
+
+        return step_text(self.step)
+
+    def markdown(self, lang: str = "en") -> str:
+        """The step in Markdown, its formulas between dollars."""
+        from ..views.language import language
+        from ..views.markdown import step_markdown
+
+        return step_markdown(self.step, self.symbols, language=language(lang))
+
+    def _repr_markdown_(self) -> str:
+        return self.markdown()
+
+
+@dataclass(frozen=True)
+class Figure:
+    """The drawing of a body, shown in a notebook."""
+
+    scene: Scene
+
+    def __repr__(self) -> str:
+        return f"<figure {self.scene.width:.0f} mm by {self.scene.height:.0f} mm>"
+
+    def svg(self) -> str:
+        """The drawing as SVG, a file of its own or an element of a page."""
+        from ..figure.figure import svg
+
+        return svg(self.scene)
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A derivation: the record of a problem and what one does with it."""
+
+    problem: Problem
+    record: Derivation
+
+    def __getitem__(self, label: str) -> Shown:
+        """A step by its label, with or without the problem's name: ``d["motion"]``."""
+        try:
+            return Shown(self.record[label], self.record.symbols)
+        except KeyError:
+            known = ", ".join(self.labels)
+            raise KeyError(f"no step {label!r:.60}; the steps are {known}") from None
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The labels of the steps, in order."""
+        return tuple(step.label for step in self.record.steps)
+
+    def __repr__(self) -> str:
+        group = self.problem.group.name if self.problem.group else "any group"
+        return f"<derivation {self.problem.name}: {len(self.labels)} steps, {group}>"
+
+    def __str__(self) -> str:
+        from ..views.rendering import render
+
+        return render(self.record, "text")
+
+    def markdown(self, lang: str = "en") -> str:
+        """The walk in Markdown, its formulas between dollars."""
+        from ..views.rendering import render
+
+        return render(self.record, "markdown", lang)
+
+    def _repr_markdown_(self) -> str:
+        return self.markdown()
+
+    def figure(self) -> Figure | None:
+        """The drawing of the body, if there is one."""
+        from ..figure.scene import scene
+
+        drawn = scene(self.record)
+        return Figure(drawn) if drawn else None
+
+    def latex(self, lang: str = "en", transpose: str = "bar", hat: str = "j") -> str:
+        """A document for pdflatex, with transposes as "bar" or "top" and hats as "j" or "wedge"."""
+        from ..views.rendering import render
+
+        return render(self.record, "latex", lang, transpose=transpose, hat=hat)
+
+    def check(self, seed: int | None = None) -> list[Verdict]:
+        """A verdict for every step, by exact arithmetic and another road, at points that are new
+        each time; the same ``seed`` gives the same points."""
+        from ..check.checker import check
+
+        return check(self.record, seed)
+
+    def expressions(self) -> Expressions:
+        """The equations of motion in coordinates, as SymPy expressions."""
+        from ..pipeline import program
+        from .expressions import expressions
+
+        return expressions(program(self.problem, self.record))
+
+    def emit(
+        self,
+        out: str | Path | None = None,
+        languages: Sequence[str] = ("c", "python"),
+        prefix: str | None = None,
+        **choices: Any,
+    ) -> dict[str, str]:
+        """The emitted files by name, written to the folder ``out`` if there is one.
+
+        ``choices``: those of :class:`derive.code.options.Options`, as ``real="float"``.
+        """
+        from ..code.emit import emit
+        from ..code.options import Options
+        from ..command.writing import write
+        from ..pipeline import program
+
+        options = Options(**choices)
+        made = program(self.problem, self.record, options)
+        files = emit(made, self.record, tuple(languages), prefix or self.problem.name, options)
+        if out is not None:
+            write(files, Path(out))
+        return files
+
+
+def derive(problem: Problem | str | Path) -> Derived:
+    """Walk the road of a problem, of a problem file, or of a ready-made problem."""
+    from ..command.cli import load_problem
+    from ..pipeline import walk
+
+    if not isinstance(problem, Problem):
+        problem = load_problem(str(problem))
+    return Derived(problem, walk(problem))

@@ -1,0 +1,96 @@
+"""A program as SymPy expressions, for whoever goes on with the equations by hand."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import sympy
+
+from ..code.program import Expression, Function, Program
+
+LARGEST = 10**6
+"""A denominator beyond it is that of a number such as √2, which programs have to 53 bits."""
+PI = Fraction(math.pi)
+
+
+@dataclass(frozen=True)
+class Expressions:
+    """dx/dt and the energy in t, the state x, the parameters p, the constants k and the inputs u.
+
+    ``x``, ``p``, ``u`` are tuples of real symbols with the names of the emitted code; ``k`` maps
+    the symbols of its constants to what they are in the parameters; ``rhs`` is a column of length
+    len(x).  Nothing is simplified; ``rhs.subs(k)`` has the parameters alone.
+
+    >>> from derive import derive
+    >>> e = derive("so3").expressions()
+    >>> e.rhs.shape, e.rhs.jacobian(e.x).shape, e.x[-3:]
+    ((12, 1), (12, 12), (zeta_1, zeta_2, zeta_3))
+    >>> e.k[next(x for x in e.k if x.name == "I_11")]
+    J_22 + J_33
+    """
+
+    t: sympy.Symbol
+    x: tuple[sympy.Symbol, ...]
+    p: tuple[sympy.Symbol, ...]
+    k: Mapping[sympy.Symbol, sympy.Expr]
+    u: tuple[sympy.Symbol, ...]
+    rhs: sympy.Matrix
+    energy: sympy.Expr
+
+
+def expressions(program: Program) -> Expressions:
+    """A program in the given frame as expressions."""
+    names = {
+        "t": ["t"],
+        "x": program.state,
+        "p": [x[0] for x in program.parameters],
+        "k": program.constants,
+        "u": program.inputs,
+    }
+    t, x, p, k, u = given = [tuple(sympy.Symbol(y, real=True) for y in v) for v in names.values()]
+    arrays = dict(zip(names, given, strict=True))
+    constants = _values(program.functions["constants"], arrays)
+    rates = _values(program.functions["rhs"], arrays)
+    (energy,) = _values(program.functions["energy"], arrays)
+    # a parameter that is kept as it is has one name
+    kept = {a: b for a, b in zip(k, constants, strict=True) if a != b}
+    return Expressions(t[0], x, p, kept, u, sympy.Matrix(rates), energy)
+
+
+def _values(f: Function, arrays: Mapping[str, Sequence[Any]]) -> list[Any]:
+    """The outputs of a function, given the arrays that it loads from."""
+    found = {x.name: arrays[x.array][x.index] for x in f.loads}
+    for section in f.sections:
+        for value in section.values:
+            found[value.name] = _expression(value.expression, found)
+    return [_expression(e, found) for e in f.outputs]
+
+
+def _expression(e: Expression, found: Mapping[str, Any]) -> Any:
+    op = e[0]
+    if op == "num":
+        return _number(e[1])
+    if op == "none":  # of a spring: what it is added to is exact without it
+        return sympy.Integer(0)
+    if op == "var":
+        return found[e[1]]
+    if op == "add":
+        return sympy.Add(*(sign * _expression(x, found) for sign, x in e[1]))
+    if op == "mul":
+        return sympy.Mul(*(_expression(x, found) for x in e[1]))
+    if op == "div":
+        return _expression(e[1], found) / _expression(e[2], found)
+    return getattr(sympy, "Abs" if op == "abs" else e[1])(_expression(e[-1], found))
+
+
+def _number(q: Fraction) -> Any:
+    """A fraction, a fraction of π, or a decimal number."""
+    for unit, name in ((Fraction(1), sympy.Integer(1)), (PI, sympy.pi)):
+        part = q / unit
+        if part.denominator < LARGEST:
+            return sympy.Rational(part.numerator, part.denominator) * name
+    return sympy.Float(q.numerator / q.denominator)

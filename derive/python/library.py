@@ -1,0 +1,58 @@
+"""Emitted C as a shared library of this process: compiled by the compiler at hand, loaded once."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import shutil
+import subprocess
+import tempfile
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from ..command.writing import write
+
+FLAGS = ("-std=c99", "-O3", "-march=native", "-fPIC", "-shared")
+
+
+class CompileError(RuntimeError):
+    """No compiler, or one that refused: the message says which and why."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """What is compiled: files by name, the compiler (``None``: the one at hand), its flags."""
+
+    name: str
+    files: tuple[tuple[str, str], ...]
+    compiler: str | None
+    flags: tuple[str, ...]
+
+
+def loaded(source: Source) -> ctypes.CDLL:
+    """The library of a source; a process compiles it once with the same compiler."""
+    return _built(source, _compiler(source.compiler))
+
+
+@cache
+def _built(source: Source, compiler: str) -> ctypes.CDLL:
+    with tempfile.TemporaryDirectory(prefix="derive-") as folder:
+        write(dict(source.files), Path(folder))
+        target = Path(folder) / f"{source.name}.so"
+        sources = map(str, sorted(Path(folder).glob("*.c")))
+        command = [compiler, *source.flags, *sources, "-o", str(target), "-lm"]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode:
+            raise CompileError(f"{compiler} refused the emitted C: {done.stderr.strip()[:500]}")
+        return ctypes.CDLL(str(target))  # once it is loaded, its file may go
+
+
+def _compiler(asked: str | None) -> str:
+    chosen = asked or os.environ.get("CC", "")
+    wanted = [chosen] if chosen else ["cc", "gcc", "clang"]
+    found = next((path for path in map(shutil.which, wanted) if path), None)
+    if found is None:
+        what = f"{chosen!r} is not on the path" if chosen else "no C compiler"
+        raise CompileError(f"{what}: install gcc or clang, or name one in CC")
+    return found

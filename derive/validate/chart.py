@@ -1,0 +1,168 @@
+"""The numbers of a state in the order of the contract, from a group element and its velocity.
+
+Computed here from the matrices alone: A row by row or column by column, then T, factor after
+factor; or a unit quaternion for A; then the coordinates of Z = g⁻¹ġ, or the entries of ġ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import isqrt
+from typing import Any
+
+from ..algebra.groups import Group
+from ..check.nilpotent import EPS, nilpotent
+from ..language import rational as q
+from ..language.rational import Matrix
+
+Numbers = tuple[Any, ...]
+EPSILON = nilpotent(EPS)
+Entry = tuple[str, int, int]
+"""A name, and where its number is in a matrix of the group."""
+
+
+@dataclass(frozen=True)
+class Chart:
+    """What an emission chose about the state, in the words of its options."""
+
+    layout: str = "row"
+    attitude: str = "matrix"
+    velocity: str = "body"
+
+
+@dataclass(frozen=True)
+class State:
+    """The state of a group in a chart."""
+
+    group: Group
+    chart: Chart
+
+    @cached_property
+    def entries(self) -> list[Entry]:
+        """The entries of g that the state holds, in order."""
+        found: list[Entry] = []
+        for k, (offset, factor) in enumerate(self.group.places, 1):
+            mark, span = str(k) if len(self.group.places) > 1 else "", range(factor.n)
+            pairs = [(i, j) for i in span for j in span]
+            if self.chart.layout == "col":
+                pairs = [(j, i) for i, j in pairs]
+            if self.chart.attitude == "matrix":
+                found += [(named(f"A{mark}", i, j), offset + i, offset + j) for i, j in pairs]
+            if factor.affine:
+                last = offset + factor.n
+                found += [(named(f"T{mark}", i), offset + i, last) for i in span]
+        return found
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the numbers."""
+        place = [name for name, _, _ in self.entries]
+        if self.chart.attitude == "quaternion":
+            place = [f"q_{i}" for i in range(4)] + place
+        if self.chart.velocity == "tangent":
+            return (*place, *(f"{name}_dot" for name in place))
+        moved = self.group.n if self.group.free_translations else 0
+        turns = [named("zeta", a) for a in range(self.group.dimension - moved)]
+        return (*place, *turns, *(named("w", i) for i in range(moved)))
+
+    def _read(self, x: Matrix) -> Numbers:
+        return tuple(x[i][j] for _, i, j in self.entries)
+
+    def values(self, g: Matrix, Z: Matrix) -> Numbers:
+        """The state at g with velocity g Z."""
+        place = self._read(g)
+        if self.chart.attitude == "quaternion":
+            place = (*quaternion(g), *place)
+        if self.chart.velocity == "tangent":
+            return (*place, *self._read(q.times(g, Z)))
+        return (*place, *self.group.nearest(Z))
+
+    def varied(self, g: Matrix, Z: Matrix, eta: Matrix, change: Matrix) -> Numbers:
+        """The state at g(1 + εη) with Z + ε δZ, in nilpotent numbers."""
+        moved = q.times(g, q.plus(q.identity(len(eta)), q.scaled(EPSILON, eta)))
+        Z = q.plus(Z, q.scaled(EPSILON, change))
+        if self.chart.attitude == "matrix":
+            return self.values(moved, Z)
+        p = quaternion(g)
+        rates = turned(p, axis(eta))
+        varied = (x + EPSILON * y for x, y in zip(p, rates, strict=True))
+        return (*varied, *self._read(moved), *self.group.nearest(Z))
+
+    def tangent(self, g: Matrix, Z: Matrix, change: Sequence[Any]) -> bool:
+        """Is a change of the numbers of the state (g, Z) one that stays in the group?"""
+        back = q.inverse(g)
+        assert back is not None
+        if self.chart.attitude == "quaternion":
+            p = quaternion(g)
+            return bool(sum(x * y for x, y in zip(p, change, strict=False)) == 0)
+        count = len(self.entries)
+        eta = q.times(back, self._matrix(change[:count], len(g)))
+        if self.group.vee(eta) is None:
+            return False
+        if self.chart.velocity == "body":
+            return True
+        rate = q.times(back, self._matrix(change[count:], len(g)))
+        return self.group.vee(q.minus(rate, q.times(eta, Z))) is not None
+
+    def _matrix(self, values: Sequence[Any], size: int) -> Matrix:
+        """The matrix with these entries of the state, and 0 elsewhere."""
+        found = [[Fraction(0)] * size for _ in range(size)]
+        for (_, i, j), x in zip(self.entries, values, strict=True):
+            found[i][j] = x
+        return q.matrix(found)
+
+    def acceleration(self, Z: Matrix, back: Matrix, rates: Numbers) -> Numbers:
+        """The coordinates of Ż = g⁻¹g̈ − Z² from the rates of the state; ``back``: g⁻¹."""
+        if self.chart.velocity == "body":
+            return rates[-self.group.dimension :]
+        second = self._matrix(rates[len(self.entries) :], len(Z))
+        return self.group.nearest(q.minus(q.times(back, second), q.times(Z, Z)))
+
+    def rates(self, g: Matrix, Z: Matrix, g_dot: Matrix, Z_dot: Matrix) -> Numbers:
+        """Its derivative where ġ and Ż are these: g̈ = ġZ + gŻ, and q̇ = ½ q ζ."""
+        place = self._read(g_dot)
+        if self.chart.attitude == "quaternion":
+            place = (*turned(quaternion(g), axis(Z)), *place)
+        if self.chart.velocity == "tangent":
+            return (*place, *self._read(q.plus(q.times(g_dot, Z), q.times(g, Z_dot))))
+        return (*place, *self.group.nearest(Z_dot))
+
+
+def named(name: str, *index: int) -> str:
+    """The name of an entry whose indices are counted from 0: A_12."""
+    apart = "_" if max(index) > 8 else ""
+    return f"{name}_{apart.join(str(i + 1) for i in index)}"
+
+
+def quaternion(g: Matrix) -> Numbers:
+    """The unit quaternion of a rotation that has one in rational numbers, its scalar positive.
+
+    4 s² = 1 + Tr A and 4 s v = the axial vector of A − Ā.
+    """
+    square = (1 + g[0][0] + g[1][1] + g[2][2]) / 4
+    scalar = Fraction(isqrt(square.numerator), isqrt(square.denominator))
+    if scalar == 0 or scalar * scalar != square:
+        raise ValueError("the quaternion of this rotation is not rational, or is a half turn")
+    pairs = ((2, 1), (0, 2), (1, 0))
+    return (scalar, *((g[i][j] - g[j][i]) / (4 * scalar) for i, j in pairs))
+
+
+def axis(x: Matrix) -> Numbers:
+    """ζ of a matrix with the linear part j(ζ)."""
+    return (x[2][1], x[0][2], x[1][0])
+
+
+def turned(p: Numbers, zeta: Numbers) -> Numbers:
+    """½ p ζ, Hamilton's product with a quaternion without scalar."""
+    s, x, y, z = p
+    a, b, c = zeta
+    rates = (
+        -x * a - y * b - z * c,
+        s * a + y * c - z * b,
+        s * b + z * a - x * c,
+        s * c + x * b - y * a,
+    )
+    return tuple(r / 2 for r in rates)

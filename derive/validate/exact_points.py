@@ -1,0 +1,203 @@
+"""Exact points of a problem: the state and all else that a call is given, and what the record says.
+
+The record's equations of motion and its energy are evaluated as the checker does it, by what their
+names mean for the points of the body; π is the double next to it, as in the code.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from random import Random
+from typing import Any
+
+from ..algebra.groups import Group
+from ..algebra.samplers import Sampler, Source, affine, by_cayley
+from ..check.arithmetic import EvaluationError
+from ..check.counted import Degree, Degrees, degrees
+from ..check.differ import size_of
+from ..check.evaluate import Environment, evaluate
+from ..check.meaning import environment
+from ..check.model import Model
+from ..check.tried import Tried
+from ..language import rational as q
+from ..language.rational import Matrix
+from ..record.record import Derivation, Equation, RecordError
+from .chart import Chart, Numbers, State
+from .terms import CodeError
+
+PI = Fraction(math.pi)
+
+
+@dataclass(frozen=True)
+class Point:
+    """``given``: t, x and u of a call; g and Z = g⁻¹ġ behind them; and what the record says: the
+    rates of x, the energy and, for a body turned in space, the tensor of inertia by its upper rows.
+
+    ``elementary`` gives the values of elementary functions at this point.
+    """
+
+    parameters: Mapping[str, Fraction]
+    given: Mapping[str, Any]
+    g: Matrix
+    Z: Matrix
+    rates: Numbers
+    energy: Fraction
+    inertia: Numbers
+    elementary: Any
+
+
+class Claims:
+    """What a record says of the numbers of a chart; ``size``: random integers are within ±size."""
+
+    def __init__(self, d: Derivation, chart: Chart, size: int):
+        self.record, self.size = d, size
+        self._points: dict[tuple[str, tuple[str, ...]], Point] = {}
+        self.scope = str(d.problem.get("group"))
+        (group,) = Tried(d.problem, 0).groups(self.scope)
+        if chart.attitude == "quaternion":
+            group = replace(group, sampler=squares(group))
+        self.group, self.state = group, State(group.stated, chart)
+
+    @cached_property
+    def driven(self) -> bool:
+        """Is there anything given from outside?"""
+        return any(s.driven for s in self.record.steps if s.label.endswith(".motion"))
+
+    @cached_property
+    def inputs(self) -> tuple[str, ...]:
+        """The names of the numbers of u."""
+        found: list[str] = []
+        for data in self.record.problem.get("inputs", []):
+            size = self.group.dimension
+            if data["kind"] == "force":
+                size = self._factor(data["on"]).n
+            found += [f"{data['name']}_{i + 1}" for i in range(size)]
+        return tuple(found)
+
+    def _block(self, i: int) -> int:
+        body = self.record.problem.get("body", {}).get("points", [])
+        return int([*body, *self.record.problem.get("places", [])][i - 1].get("block", 1))
+
+    def _factor(self, i: int) -> Group:
+        return self.group.places[self._block(i) - 1][1]
+
+    def point(self, seed: str, zero: tuple[str, ...] = ()) -> Point:
+        """The point of a seed, some parameters 0; ``CodeError`` where the record has no value."""
+        if (seed, zero) not in self._points:
+            try:
+                self._points[seed, zero] = self._point(seed, zero)
+            except (EvaluationError, RecordError, ZeroDivisionError) as error:
+                raise CodeError(f"the record has no value: {error}") from None
+        return self._points[seed, zero]
+
+    def _point(self, seed: str, zero: tuple[str, ...]) -> Point:
+        random, problem = Random(seed), self.record.problem
+        model = Model(problem, self.group, random, self.size, driven=self.driven, pi=PI, zero=zero)
+        env = environment(model)
+        g_dot = self._whole(self._value("Ȧ", env), self._value("Ṫ", env))
+        rates = self.state.rates(model.g, model.Z, g_dot, self._acceleration(env))
+        tensor = self._value("I", env)
+        return Point(
+            model.parameters,
+            {"t": model.t, "x": self.state.values(model.g, model.Z), "u": self._given(model)},
+            model.g,
+            model.Z,
+            rates,
+            self._value("h̃", env),
+            tuple(tensor[i][j] for i in range(3) for j in range(i, 3)) if tensor else (),
+            model.elementary,
+        )
+
+    def _given(self, model: Model) -> Numbers:
+        found: list[Any] = []
+        pushes = iter(model.pushes)
+        for data in self.record.problem.get("inputs", []):
+            if data["kind"] == "force":
+                found += next(pushes)[self.group.of_block(self._block(data["on"]))]
+            else:
+                found += self._stated(model.covector)
+        return tuple(found)
+
+    def _stated(self, covector: Sequence[Any]) -> Numbers:
+        """The values of a covector on the basis that the problem states."""
+        pairs = [(self.group.nearest(e), covector) for e in self.group.stated.basis]
+        return tuple(sum(x * u for x, u in zip(*pair, strict=True)) for pair in pairs)
+
+    # -- the record --------------------------------------------------------------------------
+
+    @cached_property
+    def equations(self) -> dict[str, Equation]:
+        """The recorded equations that the code is to compute, by their left sides."""
+        names = ("Ȧ", "Ṫ", "ζ̇", "Ż", "ẇ", "h̃", "I")
+        found = {name: self.record.definition(name) for name in names}
+        return {name: x[1] for name, x in found.items() if x is not None}
+
+    @property
+    def degree(self) -> int:
+        """A bound on the degree of what is computed from the record, as a function of the draws."""
+        env = environment(self._counted)
+        return (self.group.size + 1) * sum(size_of(e.rhs, env) for e in self.equations.values())
+
+    @cached_property
+    def _counted(self) -> Model:
+        """A point of which the degrees alone are known."""
+        return Model(self.record.problem, self.group, Degrees(), self.size, driven=self.driven)
+
+    @property
+    def entry_degree(self) -> tuple[int, int]:
+        """The degrees of numerator and denominator of a number of the state, products with one that
+        is drawn among them."""
+        num, den = _largest(degrees(q.flatten(self._counted.g)))
+        return num + 1, den
+
+    @property
+    def moment_degree(self) -> tuple[int, int]:
+        """The same of a parameter: sums of m, m r and m r r̄, where these are the parameters."""
+        return _largest(degrees(self._counted.parameters.values()))
+
+    def _value(self, name: str, env: Environment) -> Any:
+        e = self.equations.get(name)
+        return None if e is None else evaluate(e.rhs, env)
+
+    def _acceleration(self, env: Environment) -> Matrix:
+        """Ż as a matrix of the group's size, from what the record solves for."""
+        w = self._value("ẇ", env)
+        if "ζ̇" not in self.equations:
+            return self._whole(self._value("Ż", env), w)
+        rate = self._value("ζ̇", env)
+        coordinates = [x for (x,) in rate] if isinstance(rate, tuple) else [rate]
+        shift = [x for (x,) in w] if w is not None else []
+        return self.group.hat([*coordinates, *shift])
+
+    def _whole(self, linear: Any, shift: Any) -> Matrix:
+        """[[linear, shift], [0, 0]], or the linear part alone; 0 stands for any zero."""
+        n = self.group.n
+        zero = q.scaled(Fraction(0), q.identity(n))
+        linear = linear if isinstance(linear, tuple) else zero
+        if not self.group.affine:
+            return tuple(linear)
+        column = shift if isinstance(shift, tuple) else ((Fraction(0),),) * n
+        rows = tuple((*row, x) for row, (x,) in zip(linear, column, strict=True))
+        return (*rows, (Fraction(0),) * (n + 1))
+
+
+def _largest(found: Iterable[Degree]) -> tuple[int, int]:
+    """Of numerators and of denominators."""
+    pairs = [(x.numerator.degree, x.denominator.degree) for x in found]
+    return max((x for x, _ in pairs), default=1), max((x for _, x in pairs), default=0)
+
+
+def squares(group: Group) -> Sampler:
+    """Rotations whose quaternion is rational: squares of Cayley transforms; and any translation."""
+    basis = tuple(group.linear_part(e) for e in group.linear_basis)
+    root = by_cayley(basis)
+
+    def turns(random: Source, size: int) -> Matrix:
+        a = root(random, size)
+        return q.times(a, a)
+
+    return affine(turns, group.n) if group.affine else turns

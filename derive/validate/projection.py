@@ -1,0 +1,77 @@
+"""What ``project`` and ``defect`` must be: nothing on the group, and a Newton step beside it.
+
+If ``project`` keeps every state of the group, and its derivative there takes any change of a state
+to one that is tangent to the group, then of an error ε it leaves O(ε²).  ``defect`` is a sum of
+sizes: each vanishes on the group, and together they see every change that is not tangent to it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import Any
+
+from ..algebra.families import group
+from ..algebra.groups import Group
+from ..check.nilpotent import EPS, part
+from ..language import rational as q
+from .chart import EPSILON, State
+from .exact_points import Point
+from .names import DiffersError
+
+PRIME = 2**61 - 1
+"""Ranks are counted modulo it: they are no larger than the true ones."""
+
+Run = Callable[[str, Sequence[Any]], Sequence[Any]]
+"""The numbers of ``project``, or the summands of ``defect``, at a state."""
+
+
+def compare_drift(run: Run, draw: Callable[[], Fraction], state: State, point: Point) -> str:
+    """What is seen of them at a point, in words; ``DiffersError`` where it is not so.
+
+    Of a group that is given by its basis neither random elements nor all relations are known: there
+    both are tried at its unit, and no more is asked than that they leave it alone.
+    """
+    named = _named(state.group)
+    g = point.g if named else q.identity(state.group.size)
+    x = list(state.values(g, point.Z))
+    if list(run("project", x)) != x:
+        raise DiffersError("project: a state of the group is changed")
+    if any(run("defect", x)):
+        raise DiffersError("defect: it does not vanish on the group")
+    if not named:
+        return "project, defect (at the unit of the group)"
+    moved = run("project", [a + EPSILON * draw() for a in x])
+    if not state.tangent(g, point.Z, [part(y, EPS) for y in moved]):
+        raise DiffersError("project: a change that leaves the group is not taken back")
+    slopes = []
+    for i in range(len(x)):
+        beside = [a + EPSILON * Fraction(i == j) for j, a in enumerate(x)]
+        slopes.append([part(y, EPS) for y in run("defect", beside)])
+    if rank(slopes) != len(x) - 2 * state.group.dimension:
+        raise DiffersError("defect: it does not see all that leaves the group")
+    return "project, defect"
+
+
+def _named(g: Group) -> bool:
+    """Is the group a known one, whose relations are all known?"""
+    try:
+        return group(g.name).basis == g.basis
+    except ValueError:
+        return False
+
+
+def rank(rows: Sequence[Sequence[Fraction]]) -> int:
+    """The rank of a matrix modulo the prime."""
+    left = [[x.numerator * pow(x.denominator, -1, PRIME) % PRIME for x in row] for row in rows]
+    found = 0
+    while left := [row for row in left if any(row)]:
+        pivot = left.pop()
+        i = next(i for i, x in enumerate(pivot) if x)
+        unit = pow(pivot[i], -1, PRIME)
+        left = [
+            [(x - row[i] * unit * y) % PRIME for x, y in zip(row, pivot, strict=True)]
+            for row in left
+        ]
+        found += 1
+    return found

@@ -1,0 +1,138 @@
+"""Records in the formats of the command line: one walk, or notes of several."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..paper.findings import Finding
+from ..record.record import Derivation
+
+FORMATS = ("text", "latex", "markdown", "html", "json")
+NOTES = (".tex", ".pdf", ".html", ".sty")
+
+
+class RenderError(ValueError):
+    """A choice that has no sense, or TeX that is not there: the message says what to do."""
+
+
+def render(
+    d: Derivation, form: str, lang: str = "en", *, fragment: bool = False, **notation: str
+) -> str:
+    """A record in one of the formats, in one of the languages."""
+    from ..printing.notation import Notation
+    from .language import language
+
+    if fragment and form != "latex":
+        raise RenderError("--fragment is for --format latex")
+    if form not in ("latex", "html") and Notation(**notation) != Notation():
+        raise RenderError("--notation and --hat are for --format latex and html")
+    if form == "json":
+        from ..record.record import to_json
+
+        if lang != "en":
+            raise RenderError("--lang: the JSON is in English, its messages and places are for any")
+        return to_json(d)
+    if form == "latex":
+        from . import latex
+
+        if fragment:
+            return latex.fragment(d, language=language(lang))
+        return latex.latex(d, Notation(**notation), language=language(lang))
+    if form == "markdown":
+        from .markdown import markdown
+
+        return markdown(d, language=language(lang))
+    if form == "html":
+        return notes([d], ".html", lang, fragment=False, **notation)
+    from .text import text
+
+    return text(d, language=language(lang))
+
+
+def notes(
+    records: Sequence[Derivation],
+    ending: str,
+    lang: str = "en",
+    *,
+    fragment: bool = False,
+    **notation: str,
+) -> str:
+    """Lecture notes of several records as a web page or as LaTeX, with the paper's corrections.
+
+    ``fragment``: LaTeX without a preamble, for a document that uses the package ``.sty``.
+    """
+    from ..printing.notation import Notation
+    from . import latex
+    from .html import html
+    from .language import language
+
+    chosen, words = Notation(**notation), language(lang)
+    if fragment and ending != ".tex":
+        raise RenderError("--fragment is LaTeX: give --out FILE.tex")
+    if ending == ".sty":
+        return latex.package(chosen, language=words)
+    if not records:
+        raise RenderError("which problems? give names or files, as in: derive notes so3 se3")
+    for name in (names := [d.name for d in records]):
+        if names.count(name) > 1:
+            raise RenderError(
+                f"{names.count(name)} problems have the name {name!r}, and their equations the "
+                "same labels; give each its own (key 'name' of its file)"
+            )
+    found = corrections(records)
+    if fragment:
+        return latex.fragment(records, language=words, findings=found)
+    view = html if ending == ".html" else latex.latex
+    return view(records, chosen, language=words, findings=found)
+
+
+def unprinted(records: Sequence[Derivation]) -> str:
+    """The characters of titles, units and meanings that LaTeX shows as question marks."""
+    from ..printing.escape import unknown_to_tex
+
+    words = [str(d.problem["title"]) for d in records]
+    for d in records:
+        for about in d.problem["parameters"].values():
+            words += (str(about[key]) for key in ("unit", "meaning") if about.get(key))
+    return unknown_to_tex("".join(words))
+
+
+def corrections(records: Sequence[Derivation]) -> list[Finding]:
+    """The findings about the numbers that these records have and the paper prints otherwise."""
+    from ..paper.findings import amendments
+    from ..record.vocabulary import AMENDED
+
+    numbers = {n for d in records for step in d.steps for n in step.paper} & AMENDED
+    return amendments(numbers) if numbers else []
+
+
+def pdf(tex: str) -> bytes:
+    """The LaTeX compiled; ``RenderError`` names what is missing or the first error."""
+    latexmk, pdflatex = shutil.which("latexmk"), shutil.which("pdflatex")
+    if pdflatex is None:
+        raise RenderError(
+            "no pdflatex: install TeX (Debian: texlive-latex-extra texlive-pictures lmodern); "
+            "the .tex is written"
+        )
+    # the same text is the same PDF on any day: TeX has the time from here, if it asks for one
+    timeless = {"SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"} | os.environ
+    quiet = ["-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape"]
+    runs = (
+        [[latexmk, "-pdf", *quiet, "notes.tex"]]
+        if latexmk
+        else [[pdflatex, *quiet, "notes.tex"]] * 3
+    )
+    with tempfile.TemporaryDirectory(prefix="derive-") as folder:
+        (Path(folder) / "notes.tex").write_text(tex, encoding="utf-8")
+        for command in runs:
+            done = subprocess.run(command, cwd=folder, env=timeless, capture_output=True)
+        if done.returncode:
+            log = done.stdout.decode(errors="replace").splitlines()
+            wrong = next((line for line in log if line.startswith("!")), "! no PDF was made")
+            raise RenderError(f"pdflatex: {wrong[2:]}; the .tex is written")
+        return (Path(folder) / "notes.pdf").read_bytes()

@@ -1,0 +1,59 @@
+"""Where C is not 𝟏, and drops out of the metric nevertheless: Tr ξJZ̄C = Tr ξJZ̄ on 𝔤.
+
+For every body, where ξ̄CZ = ξ̄Z on 𝔤: products of groups with skew linear parts, on (r, 1).  Or for
+some: the points of a flat body under a shear.  The forces of a potential keep their C.
+"""
+
+from __future__ import annotations
+
+from ..algebra.words import Expr, Word, expr_of_word, row_dim, trace
+from ..language.tree import Tree
+from ..problem.left_invariant import EVERY, Bodies
+from ..record.record import Equation
+from ..record.sentence import Prose, say
+from .alphabet import Alphabet
+
+
+def without_gram(e: Expr, bodies: Bodies, a: Alphabet) -> Expr:
+    """A scalar without the C that drops out: between a bar of 𝔤 and an element of 𝔤."""
+    algebra = {x.name for f in a.frames for x in (f.velocity, f.xi, f.xi_prime)}
+    algebra |= {x.name for f in a.frames for x in (f.d_velocity, f.dp_velocity, f.acceleration)}
+
+    def drops(cycle: Word, k: int) -> bool:
+        before, after = cycle[k - 1], cycle[(k + 1) % len(cycle)]
+        between = before[0].name in algebra and before[1]
+        between = between and after[0].name in algebra and not after[1]
+        return between and (bodies == EVERY or {x.name for x, _ in cycle} - algebra == {"C", "J"})
+
+    def left(cycle: Word) -> Word:
+        return tuple(x for k, x in enumerate(cycle) if x[0] != a.C or not drops(cycle, k))
+
+    total = e.like({})
+    for (traces, w), c in e.terms.items():
+        term = Expr(1, 1, {((), w): c}, e.lineage)
+        for cycle in map(left, traces):
+            term = term * trace(expr_of_word(cycle, row_dim(cycle[0]), row_dim(cycle[0])))
+        total = total + term
+    return total
+
+
+def claims(bodies: Bodies) -> tuple[Equation, ...]:
+    """What is so on the group."""
+    if bodies == EVERY:
+        turned: Tree = ("T", "ξ")
+        return (Equation(("mul", turned, "C", "Z"), ("mul", turned, "Z")),)
+    metric: tuple[Tree, ...] = ("ξ", "J", ("T", "Z"))
+    return (Equation(("tr", ("mul", *metric, "C")), ("tr", ("mul", *metric))),)
+
+
+def told(bodies: Bodies) -> Prose:
+    """The same in words."""
+    if bodies == EVERY:
+        return say(
+            "Between two elements of the Lie algebra C drops out: A keeps the lengths of all that "
+            "is in their images."
+        )
+    return say(
+        "The metric is left-invariant for this body, although C is not 𝟏: C drops out of it, and "
+        "stays in the forces of the potential."
+    )

@@ -1,0 +1,148 @@
+"""The forces of the potentials that are given point by point, and their sums over the points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..algebra.calculus import gradient, reduce, substitute, without
+from ..algebra.space import hat
+from ..algebra.words import Expr, Letter, inner, word, zero
+from ..algebra.written import Notation, metrics, tree_of
+from ..language.tree import Tree, add, mul, replaced
+from ..problem.problem import Problem
+from ..record.record import Equation, Step
+from ..record.sentence import Prose, say
+from .alphabet import Alphabet
+from .chapter import Chapter, Draft
+from .hat import OMEGA_P, isolate
+from .pointwise import Elements, Radial, column, embedded
+from .trivialisation import frame_rule
+
+
+@dataclass(frozen=True)
+class Applied:
+    """The letters of the forces given point by point, and how they are summed."""
+
+    moments: Letter
+    resultant: Letter
+
+    def work(self, xi: Expr, eta: Expr | None) -> Expr:
+        """Their virtual work."""
+        pairing = inner(word(self.moments), xi)
+        return pairing if eta is None else pairing + inner(word(self.resultant), eta)
+
+
+def applied(a: Alphabet, mark: str, *, vectors: bool) -> Applied:
+    """N and F, or μ and F in vectors, with a mark: N_Q, μ_Q, F_Q."""
+    moments = Letter(f"μ_{mark}", 3) if vectors else Letter(f"N_{mark}", a.n, a.n)
+    return Applied(moments, Letter(f"F_{mark}", a.n))
+
+
+def pushes_step(
+    found: Elements, forces: Applied, a: Alphabet, c: Chapter, gram: Expr | None
+) -> Step:
+    """The tensions, the forces and their sums: in the body frame where ĀA = 1 is at hand."""
+    draft = c.draft("pushes", "variation")
+    equations = _in_space(found) if gram is None else _in_body(draft, found, a, gram)
+    prose = _prose(vectors=gram is not None, radials=bool(found.radials))
+    sums = _sums_over_points(draft, a, forces, gram)
+    return draft.step((*equations, *sums), prose)
+
+
+def _prose(*, vectors: bool, radials: bool) -> Prose:
+    if vectors:
+        prose = say(
+            "The part U_Q of the potential is given point by point: P_i is its force on "
+            "point i in the body frame, Ā on minus the derivative of U_Q with respect to "
+            "r_i(t)."
+        )
+    else:
+        prose = say(
+            "The part U_Q of the potential is given point by point: Q_i is its force on point i, "
+            "minus the derivative of U_Q by r_i(t)."
+        )
+    if radials and vectors:
+        prose += say("Element e, a function of ‖d_e‖, pushes along d_e, and ‖d_e‖ = ‖Ād_e‖.")
+    elif radials:
+        prose += say("Element e, a function of ‖d_e‖, pushes along d_e.")
+    return prose
+
+
+def _in_space(found: Elements) -> list[Equation]:
+    """σ_e and Q_i = Σ ± σ_e d_e − ∂U/∂r_i(t)."""
+    equations = [Equation(x.sigma, x.tension) for x in found.radials]
+    terms: dict[int, list[Tree]] = {}
+    for x in found.radials:
+        for i, sign in x.signs.items():
+            terms.setdefault(i, []).append(_placed(found.problem, i, x.sigma, x.d, sign))
+    for i, pushes in found.pushes.items():
+        terms.setdefault(i, []).extend(pushes)
+    return equations + [Equation(("at", "Q", i), add(*x)) for i, x in sorted(terms.items())]
+
+
+def _placed(problem: Problem, i: int, sigma: Tree, d: Tree, sign: int) -> Tree:
+    """± σ d on point i, in its block of a product."""
+    group = problem.group
+    assert group is not None
+    if not group.factors:
+        return mul(sign, sigma, d)
+    _, factor = group.places[problem.block(i) - 1]
+    entries = tuple(mul(sign, sigma, ("entry", d, k)) for k in range(1, factor.n + 1))
+    return embedded(problem, i, entries, 0)
+
+
+def _in_body(d: Draft, found: Elements, a: Alphabet, gram: Expr) -> list[Equation]:
+    """χ_e = Ād_e, σ_e and P_i = Σ ± σ_e χ_e − Ā ∂U/∂r_i(t)."""
+    equations = []
+    terms: dict[int, list[Tree]] = {}
+    for x in found.radials:
+        chi: Tree = ("at", "χ", x.d[2])  # type: ignore[index]
+        equations.append(Equation(chi, _carried(d, x, a, gram)))
+        equations.append(Equation(x.sigma, replaced(x.tension, x.d, chi)))
+        for i, sign in x.signs.items():
+            terms.setdefault(i, []).append(mul(sign, x.sigma, chi))
+    for i, pushes in found.pushes.items():
+        terms.setdefault(i, []).extend(mul(("T", "A"), push) for push in pushes)
+    return equations + [Equation(("at", "P", i), add(*x)) for i, x in sorted(terms.items())]
+
+
+def _carried(d: Draft, x: Radial, a: Alphabet, gram: Expr) -> Tree:
+    """Ād_e: the places in the body, by ĀA = 1, and Ā on what is in space."""
+    g, total = word(a.A.position), zero(a.n, 1)
+    display: dict[Letter, Tree] = {}
+    for i, sign in x.signs.items():
+        r = Letter(f"r_{i}", a.n)
+        display[r] = ("at", "r", i)
+        place = substitute(a.moved(g, word(a.T.position)), {a.r_i: word(r)})
+        total = total + sign * place
+    inside = without(total, a.T.position)
+    outside = total - inside
+    if x.anchor:
+        anchor = Letter("a", a.n)
+        display[anchor] = column(x.anchor)
+        outside = outside - word(anchor)
+    notation = Notation(display=display)
+    body = d.tree(reduce(g.bar * inside, frame_rule(a, gram)), notation)
+    return add(body, mul(("T", "A"), tree_of(outside, notation)) if outside else 0)
+
+
+def _sums_over_points(d: Draft, a: Alphabet, forces: Applied, gram: Expr | None) -> list[Equation]:
+    """N_Q = Σ ĀQ_i r̄_i and F_Q = Σ ĀQ_i, or μ_Q = Σ r_i ∧ P_i and F_Q = Σ P_i with AP_i = Q_i."""
+    vectors = gram is not None
+    push, xi = Letter("P_i" if vectors else "Q_i", a.n), Letter("ξ′", a.n, a.n)
+    eta = Letter("η′", a.n)
+    g = word(a.A.position)
+    force = g.bar * word(push)
+    if gram is not None:
+        force = reduce(g.bar * g * word(push), frame_rule(a, gram))
+    turned = word(hat(OMEGA_P)) if vectors else word(xi)
+    work = inner(force, turned * word(a.r_i))
+    if vectors:
+        work = reduce(work, isolate(OMEGA_P))
+    moment = gradient(work, OMEGA_P if vectors else xi)
+    display = metrics(display={push: ("at", push.name[0], "i"), a.r_i: ("at", "r", "i")})
+    equations = [Equation(forces.moments.name, ("sum", "i", d.tree(moment, display)))]
+    if a.affine:
+        pull = gradient(inner(force, word(eta)), eta)
+        equations.append(Equation(forces.resultant.name, ("sum", "i", d.tree(pull, display))))
+    return equations

@@ -1,0 +1,133 @@
+"""The emitted C in a program that integrates it by CVODE of SUNDIALS."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from derive import derive
+from tests.support.needs import CC, needs
+
+MAIN = """\
+#include <cvode/cvode.h>
+#include <math.h>
+#include <nvector/nvector_serial.h>
+#include <stdio.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include "top_cvode.h"
+
+int main(void)
+{
+    const double p[] = {800, 0.03, 0.05, 9.81};
+    double k[top_SIZE_K], t = 0;
+    top_data data = {k, NULL};
+    SUNContext context;
+    if (top_constants(p, k) || SUNContext_Create(NULL, &context)) return 2;
+    N_Vector x = N_VNew_Serial(top_N_STATE, context);
+    double *at = N_VGetArrayPointer(x);
+    for (int i = 0; i < top_N_STATE; ++i) at[i] = i < 9 && i % 4 == 0;
+    at[top_N_STATE - 3] = 3;
+    at[top_N_STATE - 1] = 100;
+    const double before = top_energy(0, at, k);
+    void *memory = CVodeCreate(CV_ADAMS, context);
+    if (CVodeInit(memory, top_field, 0, x) || CVodeSStolerances(memory, 1e-11, 1e-12)) return 3;
+    SUNNonlinearSolver solver = SUNNonlinSol_FixedPoint(x, 0, context);
+    if (CVodeSetUserData(memory, &data) || CVodeSetNonlinearSolver(memory, solver)) return 4;
+    if (CVodeSetMaxNumSteps(memory, 100000) || CVode(memory, 1, x, &t, CV_NORMAL) < 0) return 5;
+    const double drift = fabs(top_energy(t, at, k) / before - 1);
+    printf("%.3e\\n", drift);
+    return drift > 1e-7;
+}
+"""
+
+KEPT = """\
+#include <cvode/cvode.h>
+#include <cvode/cvode_proj.h>
+#include <nvector/nvector_serial.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include "top_cvode.h"
+
+int main(int argc, char **argv)
+{
+    const double p[] = {800, 0.03, 0.05, 9.81};
+    double k[top_N_CONSTANTS], t = 0;
+    top_data data = {k, NULL};
+    SUNContext context;
+    if (top_constants(p, k) || SUNContext_Create(NULL, &context)) return 2;
+    N_Vector x = N_VNew_Serial(top_N_STATE, context);
+    double *at = N_VGetArrayPointer(x);
+    for (int i = 0; i < top_N_STATE; ++i) at[i] = i < 9 && i % 4 == 0;
+    at[top_N_STATE - 3] = 3;
+    at[top_N_STATE - 1] = 100;
+    void *memory = CVodeCreate(CV_BDF, context);
+    if (CVodeInit(memory, top_field, 0, x) || CVodeSStolerances(memory, 1e-7, 1e-8)) return 3;
+    SUNMatrix A = SUNDenseMatrix(top_N_STATE, top_N_STATE, context);
+    SUNLinearSolver solver = SUNLinSol_Dense(x, A, context);
+    if (CVodeSetUserData(memory, &data) || CVodeSetLinearSolver(memory, solver, A)) return 4;
+    if (argc > 1 && atoi(argv[1])) {
+        if (CVodeSetProjFn(memory, top_projection)) return 5;
+        if (CVodeSetProjErrEst(memory, SUNFALSE)) return 6;
+    }
+    if (CVodeSetMaxNumSteps(memory, 100000) || CVodeSetStopTime(memory, 1)) return 7;
+    if (CVode(memory, 1, x, &t, CV_NORMAL) < 0) return 8; /* at the end of a step */
+    printf("%.3e\\n", top_defect(at));
+    return 0;
+}
+"""
+
+
+@needs("cc", "SUNDIALS")
+def test_cvode_projects_each_step(tmp_path):
+    derive("top").emit(tmp_path, ["cvode"])
+    (tmp_path / "main.c").write_text(KEPT)
+    strict = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-O2"]
+    kinds = ("cvode", "nvecserial", "sunlinsoldense", "sunmatrixdense")
+    libraries = [f"-lsundials_{x}" for x in kinds]
+    command = [CC, *strict, "main.c", "top.c", "-o", "main", *libraries, "-lm"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    alone, kept = (
+        float(subprocess.run(["./main", how], cwd=tmp_path, capture_output=True, check=True).stdout)
+        for how in ("0", "1")
+    )
+    assert kept < 1e-12 < 1e-6 < alone
+
+
+@needs("cc", "SUNDIALS")
+def test_cvode(tmp_path):
+    derive("top").emit(tmp_path, ["cvode"])
+    (tmp_path / "main.c").write_text(MAIN)
+    strict = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-O2"]
+    libraries = ["-lsundials_cvode", "-lsundials_nvecserial", "-lm"]
+    command = [CC, *strict, "main.c", "top.c", "-o", "main", *libraries]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    done = subprocess.run(["./main"], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@needs("cc", "SUNDIALS")
+@pytest.mark.parametrize(("real", "precision"), [("double", "DOUBLE"), ("float", "SINGLE")])
+def test_sundials_of_another_precision_is_refused(real, precision, tmp_path):
+    """Its headers say what they were built with; the numbers would be read as the other kind."""
+    config = Path("/usr/include/sundials/sundials_config.h")
+    built = re.search(r"(?m)^#define SUNDIALS_(\w+)_PRECISION 1", config.read_text())[1]
+    derive("top").emit(tmp_path, ["cvode"], real=real)
+    (tmp_path / "user.c").write_text('#include "top_cvode.h"\nint user(void) { return 0; }\n')
+    strict = [CC, "-std=c99", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "user.c"]
+    for here in ("DOUBLE", "SINGLE"):
+        # as if SUNDIALS had been built so
+        as_built = f"#undef SUNDIALS_{built}_PRECISION\n#define SUNDIALS_{here}_PRECISION 1\n"
+        (tmp_path / "as.h").write_text(f"#include <sundials/sundials_config.h>\n{as_built}")
+        done = subprocess.run(
+            [*strict, "-include", "as.h"], cwd=tmp_path, capture_output=True, text=True
+        )
+        assert (done.returncode == 0) == (here == precision), done.stderr
+        if here != precision:
+            other = {"double": "float", "float": "double"}[real]
+            told = f"use SUNDIALS of {precision.lower()} precision, or derive emit --real {other}"
+            assert told in done.stderr

@@ -1,0 +1,358 @@
+"""project and defect: back to the group by one Newton step, in every form and language."""
+
+import subprocess
+from functools import cache
+
+import numpy as np
+import pytest
+
+import derive
+from derive import derive as walked
+from derive.algebra.families import FAMILIES, group, on_homogeneous, turning_about_a_point
+from derive.algebra.relations import relations
+from derive.problem.toml import problem_of
+from tests.problems import GROUPS, PROBLEMS
+from tests.support.emitted import compile_c, import_python, vector
+from tests.support.needs import CC, needs, present
+
+KEPT = [x for x in (*GROUPS, "SO(3)", "SE(3)", "SU(3)") if not x.startswith(("GL", "Aff"))]
+FORMS = {
+    "plain": {},
+    "columns": {"layout": "col"},
+    "tangent": {"velocity": "tangent"},
+    "tangent columns": {"velocity": "tangent", "layout": "col"},
+}
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_the_relations_of_a_family_single_it_out(name):
+    """Their tangent space has the dimension of the group."""
+    family = FAMILIES[name]
+    for n in range(family.least, family.most + 1, family.step):
+        g = group(f"{name}({n})")
+        assert relations(g).left == g.dimension
+        assert relations(g).none == (name in ("GL", "Aff"))
+
+
+def test_groups_of_a_basis_are_kept_as_far_as_is_known():
+    about = on_homogeneous(turning_about_a_point()).factors[0]
+    assert relations(about).left == about.dimension == 3  # T = (1 - A) p is in the hull
+    screw = walked("screw").problem.group.factors[0]
+    assert (screw.dimension, relations(screw).left) == (1, 2)  # no polynomial ties T_3 to the angle
+
+
+# -- the emitted functions ----------------------------------------------------------------------
+
+
+@cache
+def text(name):
+    """A problem on a named group."""
+    if name in PROBLEMS:
+        return PROBLEMS[name]
+    n = int(name[-2]) * (2 if "U" in name else 1)
+    rows = [[float(i == j) + 0.1 * (i + j) for j in range(n)] for i in range(n)]
+    points = "".join(f"[[point]]\nmass = 1.0\nat = {row}\n" for row in rows)
+    return f'name = "test"\ngroup = "{name}"\n{points}'
+
+
+@pytest.fixture(scope="module")
+def module(tmp_path_factory):
+    """A function (name, form) → the emitted Python, made once; with the C beside it."""
+    import tomllib
+
+    made, problems = {}, {}
+
+    def get(name, **options):
+        key = (name, *sorted(options.items()))
+        if key not in made:
+            if name not in problems:
+                problems[name] = walked(problem_of(tomllib.loads(text(name))))
+            folder = tmp_path_factory.mktemp("drift")
+            problems[name].emit(folder, ("c", "python"), **options)
+            made[key] = import_python("test", folder), folder
+        return made[key]
+
+    return get
+
+
+def element(name, seed=3):
+    """The group, and the product of exponentials of its basis, not far from 1."""
+    g, rng = group(name), np.random.default_rng(seed)
+    found = np.eye(g.size)
+    for e in g.basis:
+        z = rng.uniform(-0.5, 0.5) * np.array(e, float)
+        term = np.eye(g.size)
+        for k in range(25):
+            term = np.eye(g.size) + z @ term / (25 - k)
+        found = found @ term
+    return g, found
+
+
+def places(g, m):
+    """Where the numbers of the group element are in its matrix, by their names."""
+    found = {}
+    for x in m.STATE:
+        letter, _, index = x.partition("_")
+        if letter[0] in "AT" and not x.endswith("_dot"):
+            block = int(letter[1:] or 1) - 1
+            offset, factor = g.places[block]
+            i, j = (
+                (int(index[0]), int(index[1])) if letter[0] == "A" else (int(index), factor.n + 1)
+            )
+            found[x] = (offset + i - 1, offset + j - 1)
+    return found
+
+
+def state_of(m, g, A, seed=4):
+    """The numbers of a state at A with a random velocity in the group, and Z."""
+    rng = np.random.default_rng(seed)
+    zeta = rng.normal(size=len(m.BASIS))
+    Z = np.einsum("a,aij->ij", zeta, m.BASIS)
+    at = places(g, m)
+    element = [A[at[x]] for x in at]
+    rate = [(A @ Z)[at[x]] for x in at]
+    tangent = any(x.endswith("_dot") for x in m.STATE)
+    return np.array([*element, *(rate if tangent else zeta)])
+
+
+def matrices(m, g, x):
+    """A, as a matrix of the group's size, and its rate where the state has it."""
+    at = places(g, m)
+    A, V = np.zeros((g.size, g.size)), np.zeros((g.size, g.size))
+    A[-1, -1] = g.affine or A[-1, -1]
+    for offset, factor in g.places:
+        if g.factors and factor.affine:
+            A[offset + factor.n, offset + factor.n] = 1
+    for k, place in enumerate(at.values()):
+        A[place] = x[k]
+        V[place] = x[len(at) + k] if len(x) == 2 * len(at) else 0
+    return A, V
+
+
+def off(g, A):
+    """How far a matrix is off a named group, from what the group is by definition."""
+    total = 0.0
+    for offset, f in g.places:
+        B, n = A[offset : offset + f.n, offset : offset + f.n], f.n
+        family, gram = f.name.partition("(")[0], B.T @ B
+        if family in ("SO", "SE", "U", "SU"):
+            total += abs(gram - np.eye(n)).max()
+        if family in ("U", "SU"):
+            K = np.kron([[0, -1], [1, 0]], np.eye(n // 2))
+            total += abs(B @ K - K @ B).max()
+        if family == "SU":
+            total += abs(np.linalg.det(B[: n // 2, : n // 2] + 1j * B[n // 2 :, : n // 2]) - 1)
+        if family in ("SL", "SAff"):
+            total += abs(np.linalg.det(B) - 1)
+        if family == "Sp":
+            W = np.kron([[0, 1], [-1, 0]], np.eye(n // 2))
+            total += abs(B.T @ W @ B - W).max()
+        if family == "Sim":
+            total += abs(gram / abs(np.linalg.det(B)) ** (2 / n) - np.eye(n)).max()
+        if family == "UT":
+            total += abs(np.tril(B) - np.eye(n)).max()
+    return total
+
+
+def leaves(m, A, V):
+    """How far a velocity is off the tangent space at A: what of A⁻¹V is not in the algebra."""
+    Z = np.linalg.solve(A, V).ravel()
+    E = m.BASIS.reshape(len(m.BASIS), -1).T
+    return np.abs(E @ np.linalg.lstsq(E, Z, rcond=None)[0] - Z).max()
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("name", [*KEPT, "SO(3) x SO(3)", "SE(3) x SO(3)"])
+def test_one_step_squares_the_error(name, form, module):
+    """By oracles that know each group by its definition, not by the emitted relations."""
+    m, _ = module(name, **FORMS[form])
+    g, A = element(name)
+    x = state_of(m, g, A)
+    assert m.defect(x) <= 1e-13
+    assert np.abs(m.project(x) - x).max() <= 1e-14
+    rng = np.random.default_rng(6)
+    way, worst = rng.normal(size=len(x)), []
+    for size in (1e-3, 1e-4, 1e-5):
+        beside = x + size * way
+        there = m.project(beside)
+        (A0, _), (A1, V1) = matrices(m, g, beside), matrices(m, g, there)
+        assert off(g, A0) > size / 100
+        assert m.defect(beside) > size / 100
+        total = off(g, A1) + (leaves(m, A1, V1) if "tangent" in form else 0)
+        worst.append(total + m.defect(there))
+    for size, total in zip((1e-3, 1e-4, 1e-5), worst, strict=True):
+        assert total <= 500 * size**2 + 1e-13
+
+
+@pytest.mark.parametrize("name", [x for x in KEPT if not x.startswith("UT")])
+def test_a_velocity_that_leaves_the_group_is_made_tangent(name, module):
+    """On the group itself the tangent part of a velocity stays and no other."""
+    m, _ = module(name, velocity="tangent")
+    g, A = element(name)
+    x = state_of(m, g, A)
+    half = len(x) // 2
+    wild = x + np.concatenate([np.zeros(half), np.random.default_rng(8).normal(size=half)])
+    there = m.project(wild)
+    B, V = matrices(m, g, there)
+    assert np.allclose(there[:half], x[:half], rtol=0, atol=1e-14)
+    assert leaves(m, B, V) <= 1e-13
+    assert np.allclose(m.project(there), there, rtol=0, atol=1e-13)
+    assert m.defect(wild) > 1e-2
+
+
+@pytest.mark.parametrize("name", ["so3", "se3"])
+def test_a_quaternion_is_made_unit(name, tmp_path):
+    walked(name).emit(tmp_path, ("python",), attitude="quaternion")
+    m = import_python(name, tmp_path)
+    rng = np.random.default_rng(1)
+    x = rng.normal(size=len(m.STATE))
+    x[:4] /= np.linalg.norm(x[:4])
+    assert np.allclose(m.project(x), x, rtol=1e-15, atol=1e-15)
+    for size in (1e-2, 1e-4):
+        y = x.copy()
+        y[:4] *= 1 + size
+        assert np.isclose(m.defect(y), 2 * size, rtol=size)
+        there = m.project(y)
+        assert np.array_equal(there[4:], x[4:])
+        assert abs(np.linalg.norm(there[:4]) - 1) < 2 * size**2
+        assert np.allclose(there[:4] / np.linalg.norm(there[:4]), x[:4], atol=1e-15)
+
+
+@pytest.mark.parametrize(("name", "law"), [("so3", "SO"), ("se3", "SE"), ("sl3", "SL")])
+@pytest.mark.parametrize("velocity", ["body", "tangent"])
+def test_in_the_principal_frame_the_group_is_the_same(name, law, velocity, tmp_path):
+    """A state of the group taken there has no defect, and one beside it is taken back."""
+    walked(name).emit(tmp_path, ("python",), frame="principal", velocity=velocity)
+    m = import_python(name, tmp_path)
+    k = m.constants({x: m.DEFAULTS.get(x, 1.3) for x in m.PARAMETERS})
+    g, A = element(f"{law}(3)")
+    x = state_of(m, g, A)
+    moved = m.into_frame(x, k)
+    assert max(m.defect(x), m.defect(moved)) <= 1e-12
+    beside = moved + 1e-4 * np.random.default_rng(2).normal(size=len(x))
+    there = m.project(beside)
+    assert off(g, matrices(m, g, there)[0]) + m.defect(there) < 1e-5 < 0.1 * m.defect(beside)
+
+
+def test_where_nothing_keeps_the_group_there_is_nothing_to_project(tmp_path):
+    files = walked("gl3").emit(tmp_path, ("c", "python", "rust", "julia", "javascript", "cpp"))
+    for path, what in files.items():
+        assert "project(" not in what, path
+        assert "defect(" not in what, path
+    assert "there is nothing to project a state to" in files["gl3.h"]
+    if present("cc"):
+        f = derive.compile("gl3")
+        with pytest.raises(
+            ValueError, match="nothing keeps the states of gl3: there is no project"
+        ):
+            f.project(np.zeros(18))
+
+
+def test_the_header_says_when_they_are_needed(tmp_path):
+    made = walked("sl3").emit(tmp_path, ("c",), velocity="tangent")["sl3.h"]
+    told = " ".join(made.replace(" * ", " ").split())
+    assert "one Newton step for det A = 1" in told
+    assert "Errors in dA/dt grow, on SL(n) exponentially" in told
+    assert "project once a step" in told
+    partly = walked("screw").emit(tmp_path, ("c",))["screw.h"]
+    assert "group of dimension 2" in " ".join(partly.replace(" * ", " ").split())
+
+
+def test_batches_keep_their_shape(module):
+    m, _ = module("SL(4)", velocity="tangent")
+    g, A = element("SL(4)")
+    x = state_of(m, g, A) * 1.01
+    many = np.tile(x, (5, 4, 1))
+    assert np.allclose(m.project(many), m.project(x), rtol=1e-14)
+    assert m.defect(many).shape == (5, 4)
+    assert np.allclose(m.defect(many), m.defect(x), rtol=1e-13)
+    with pytest.raises(ValueError, match="x has 3 numbers, not 32"):
+        m.project(np.zeros(3))
+
+
+@needs("cc")
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("name", ["SU(3)", "Sim(3)", "Sp(4)", "SAff(2)", "SE(3) x SO(3)", "U(2)"])
+def test_c_does_as_python_and_in_place(name, form, module, tmp_path):
+    m, folder = module(name, **FORMS[form])
+    c = compile_c(CC, "test", tmp_path, folder)
+    x = np.random.default_rng(3).normal(size=len(m.STATE))
+    out = c.project(x)
+    assert np.allclose(out, m.project(x), rtol=1e-14, atol=1e-14 * np.abs(out).max())
+    assert np.isclose(c.defect(x), m.defect(x), rtol=1e-14)
+    own = vector(x).copy()
+    c.library.test_project(own, own)
+    assert np.array_equal(own, out)
+
+
+@needs("cc")
+def test_a_compiled_object_has_them(tmp_path):
+    f = derive.compile("sl3", velocity="tangent")
+    walked("sl3").emit(tmp_path, ("python",), velocity="tangent")
+    m = import_python("sl3", tmp_path)
+    x = np.random.default_rng(5).normal(size=18)
+    assert np.allclose(f.project(x), m.project(x), rtol=1e-13, atol=1e-13)
+    assert np.isclose(f.defect(x), m.defect(x), rtol=1e-13)
+
+
+# -- a long run -----------------------------------------------------------------------------------
+
+LONG = """\
+#include "sl3.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+enum { N = sl3_N_STATE };
+static double det(const double *a)
+{
+    return a[0]*(a[4]*a[8] - a[5]*a[7]) - a[1]*(a[3]*a[8] - a[5]*a[6])
+        + a[2]*(a[3]*a[7] - a[4]*a[6]);
+}
+int main(int argc, char **argv)
+{
+    const int projected = argc > 1 && atoi(argv[1]), steps = 1000000;
+    const double p[sl3_N_PARAMETERS] = {PARAMETERS}, h = 0.01;
+    double k[sl3_N_CONSTANTS], x[N] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0.3, 0.1, 0, -0.2, -0.1, 0.2,
+        0.1, 0, -0.2}, worst = 0, off = 0;
+    if (sl3_constants(p, k)) return 2;
+    const double before = sl3_energy(0, x, k);
+    for (int step = 0; step < steps && isfinite(x[0]); ++step) {
+        double d[4][N], y[N];
+        sl3_rhs(0, x, k, NULL, d[0]);
+        for (int s = 1; s < 4; ++s) {
+            for (int i = 0; i < N; ++i) y[i] = x[i] + (s < 3 ? h / 2 : h) * d[s - 1][i];
+            sl3_rhs(0, y, k, NULL, d[s]);
+        }
+        for (int i = 0; i < N; ++i)
+            x[i] += h / 6 * (d[0][i] + 2 * d[1][i] + 2 * d[2][i] + d[3][i]);
+        if (projected) sl3_project(x, x);
+        worst = fmax(worst, fabs(det(x) - 1));
+        off = fmax(off, fabs(sl3_energy(0, x, k) / before - 1));
+    }
+    printf("%.17g %.17g %.17g %.17g\\n", worst, sl3_defect(x), off, x[0]);
+    return 0;
+}
+"""
+
+
+@needs("cc")
+def test_a_million_steps_on_sl3_by_tangent_velocities(tmp_path):
+    """Left alone, det A = 1 is lost, in NaN in the end; taken back once a step, it stays."""
+    d = walked("sl3")
+    d.emit(tmp_path, ("c", "python"), velocity="tangent")
+    m = import_python("sl3", tmp_path)
+    values = ", ".join(repr(float(m.DEFAULTS[x])) for x in m.PARAMETERS)
+    (tmp_path / "main.c").write_text(LONG.replace("PARAMETERS}", values + "}"))
+    command = [CC, "-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "main.c", "sl3.c"]
+    subprocess.run([*command, "-o", "main", "-lm"], cwd=tmp_path, check=True)
+
+    def run(projected):
+        done = subprocess.run(["./main", projected], cwd=tmp_path, capture_output=True, check=True)
+        return [float(x) for x in done.stdout.split()]
+
+    alone, kept = run("0"), run("1")
+    print(alone, kept)
+    assert not np.isfinite(alone[3]) or alone[0] > 1
+    assert kept[0] < 1e-13
+    assert kept[1] < 1e-12
+    assert kept[2] < 1e-3

@@ -1,0 +1,164 @@
+"""Every language says the same as the emitted C: compiled or read back, run and compared."""
+
+import shutil
+
+import numpy as np
+import pytest
+
+from derive import SE, Points, Potential, Problem, derive
+from tests.support.calls import T
+from tests.support.languages import BUILDS, RUSTC, Emitted, agree, command, known
+from tests.support.needs import CC, need
+from tests.support.read_julia import Module, Numbers
+
+ALL = ("state", "inputs", "parameters")
+RUST_LIBRARY = ("--crate-type=lib", "--emit=metadata", "-Dwarnings")
+OTHERS = ("cpp", "rust", "julia", "javascript")
+BARE = Problem(  # nothing but numbers: no parameter, no constant, no input
+    "bare",
+    SE(2),
+    Points((2, [1, 0]), (1, [0, 1])),
+    Potential(
+        "sin(t)*exp(r1_x) + sqrt(1 + r1_x^2) + r2_y/3 + 1e-7*r2_x + log(2 + cos(r1_y))"
+        " + atan(r2_x) + tanh(r1_x)*sinh(r1_y) + cosh(r2_y) + tan(r1_y/9)"
+    ),
+)
+PROBLEMS = {
+    "so3": ALL,
+    "se3": ALL,
+    "two_tops": (ALL[0], ALL[2]),
+    "sl3": ALL[:1],
+    "saff3": ALL[:1],
+    "bare": ALL[:1],
+}
+"""Which are linearised in what; three in the state alone, for the sake of time."""
+
+
+@pytest.fixture(scope="module")
+def emitted(tmp_path_factory):
+    """All problems in all languages, and one in its principal frame; all in one folder."""
+    need("cc")
+    folder = tmp_path_factory.mktemp("languages")
+    plain = [
+        Emitted(name, BARE if name == "bare" else name, folder, ("c", "python", *OTHERS), chosen)
+        for name, chosen in ((name, {"jacobian": x}) for name, x in PROBLEMS.items())
+    ]
+    framed = {"frame": "principal", "jacobian": ALL[:2]}
+    turned = Emitted("turned", "se3", folder, ("c", "python", "cpp"), framed, tolerance=1e-12)
+    reasons = {status for x in plain for status in x.reference["status"]}
+    assert reasons == {0, 1, 2}
+    assert {1, 2} <= {*plain[0].reference["status"]}
+    return folder, plain, turned
+
+
+@pytest.mark.parametrize("build", BUILDS)
+def test_every_language_says_the_same(build, emitted):
+    folder, plain, turned = emitted
+    has_frames = build not in ("julia", "javascript", "rust2021", "rust2024")
+    agree(build, folder, [*plain, turned] if has_frames else plain)
+
+
+@pytest.mark.parametrize("build", ["rust2021", "javascript", "julia", "g++17"])
+def test_floats_agree_to_their_accuracy(build, tmp_path):
+    need("cc")
+    problems = {"se3": ("se3", ALL), "bare": (BARE, ALL[:1])}
+    chosen = [
+        Emitted(name, problem, tmp_path, ("c", "python", *OTHERS), {"jacobian": x}, "float")
+        for name, (problem, x) in problems.items()
+    ]
+    agree(build, tmp_path, chosen, "float", 2e-6)
+
+
+def test_cpp_on_one_header_of_c(emitted, tmp_path):
+    _, plain, _ = emitted
+    chosen = [x for x in plain if x.name in ("so3", "bare")]
+    for x in chosen:
+        x.derived.emit(tmp_path, ("cpp",), form="header", **x.options)
+        assert not (tmp_path / f"{x.name}.c").exists()
+    agree("g++20", tmp_path, chosen)
+
+
+WORDS = (
+    "become box crate dyn fn gen impl let loop macro match mod move mut priv pub ref self Self "
+    "super trait type unsafe use where Some Ok Err begin end function module local quote isa "
+    "elseif nothing undef eltype Vector Float64 arguments debugger eval extends instanceof null "
+    "package var Math Float64Array Number RangeError char8_t N_STATE N_CONSTANTS ZERO_INPUTS "
+    "Singular DEFAULTS D STATE rhs energy constants jacobian project defect out"
+)
+COMPILED = {
+    "cc": (CC, "-std=c99", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", "words.c"),
+    "g++": ("g++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", "words.hpp"),
+    "rust2021": (RUSTC, "--edition=2021", *RUST_LIBRARY, "words.rs"),
+    "rust2024": (RUSTC, "--edition=2024", *RUST_LIBRARY, "words.rs"),
+    "node": ("node", "--check", "words.mjs"),
+}
+
+
+@pytest.fixture(scope="module")
+def worded(tmp_path_factory):
+    """A problem whose parameters are called as keywords are, and as what the templates need."""
+    words = WORDS.split()
+    U = " + ".join(f"{w}^2*r{i % 2 + 1}_x^{i % 3 + 1}" for i, w in enumerate(words))
+    points = Points((words[0], [1, 0]), (1, [0, "fn"]))
+    problem = Problem("words", SE(2), points, Potential(U), dict.fromkeys(words, 1.5))
+    folder = tmp_path_factory.mktemp("words")
+    files = derive(problem).emit(folder, ("c", *OTHERS), jacobian=(ALL[0], ALL[2]))
+    assert all(f'"{w}"' in files[f"words.{x}"] for w in words for x in ("rs", "jl", "mjs", "hpp"))
+    return folder
+
+
+@pytest.mark.parametrize("compiler", COMPILED)
+def test_words_of_a_language_are_names_in_another(compiler, worded):
+    known(compiler, COMPILED[compiler])
+    command(*COMPILED[compiler], cwd=worded)
+
+
+def test_words_of_a_language_are_names_in_julia(worded):
+    module = Module((worded / "words.jl").read_text(encoding="utf-8"))
+    p = Numbers(len(WORDS.split()), values=np.full(len(WORDS.split()), 1.5))
+    x, D = Numbers(9, values=np.ones(9)), Numbers(6, 6)
+    module.call("jacobian!", Numbers(9), D, x, module.call("constants", p), np.float64(T))
+    assert all(map(np.isfinite, D.whole()))
+
+
+# -- Rust without std ---------------------------------------------------------------------------
+
+ELSEWHERE = """\
+#![no_std]
+#![forbid(unsafe_code)]
+#![deny(warnings)]
+pub trait Elementary: Sized {{
+{methods}
+}}
+impl Elementary for f64 {{}}
+pub mod bare {{
+    {brought}
+    include!("bare.rs");
+}}
+"""
+METHODS = "atan cos cosh exp ln sin sinh sqrt tan tanh"
+
+
+@pytest.mark.parametrize("year", [2021, 2024])
+def test_rust_without_std_takes_its_functions_from_a_trait(year, emitted, tmp_path):
+    need("Rust 2024" if year == 2024 else "rustc")
+    folder, _, _ = emitted
+    shutil.copy(folder / "bare.rs", tmp_path)
+    methods = "\n".join(f"    fn {m}(self) -> Self {{ self }}" for m in METHODS.split())
+    library = tmp_path / "lib.rs"
+    words = (RUSTC, f"--edition={year}", *RUST_LIBRARY, "lib.rs")
+    library.write_text(ELSEWHERE.format(methods=methods, brought="use super::Elementary as _;"))
+    command(*words, cwd=tmp_path)
+    library.write_text(ELSEWHERE.format(methods=methods, brought=""))
+    with pytest.raises(AssertionError, match="no method named `sqrt` found for type `f64`"):
+        command(*words, cwd=tmp_path)
+
+
+@pytest.mark.parametrize("year", [2021, 2024])
+def test_rust_without_functions_needs_core_alone(year, emitted, tmp_path):
+    need("Rust 2024" if year == 2024 else "rustc")
+    folder, plain, _ = emitted
+    rational = [x.name for x in plain if x.name not in ("bare", "two_tops")]
+    modules = "".join(f'#[path = "{folder}/{name}.rs"]\npub mod {name};\n' for name in rational)
+    (tmp_path / "lib.rs").write_text(f"#![no_std]\n#![forbid(unsafe_code)]\n{modules}")
+    command(RUSTC, f"--edition={year}", *RUST_LIBRARY, "lib.rs", cwd=tmp_path)

@@ -1,0 +1,215 @@
+"""The command line: exit codes, one clear line for bad input, nothing half-written."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from derive.command.cli import main, ready_made
+from derive.record.record import to_data, to_json
+from tests.support.needs import CC, needs
+from tests.support.walks import record
+
+
+def run(*arguments, **options):
+    return subprocess.run(
+        [sys.executable, "-m", "derive", *arguments], capture_output=True, text=True, **options
+    )
+
+
+def refused(capsys, *arguments):
+    """Exit 2, nothing on stdout, one line on stderr."""
+    assert main(list(arguments)) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("derive: ")
+    assert err.count("\n") == 1
+    return err
+
+
+def test_list(capsys):
+    assert main(["list"]) == 0
+    out = capsys.readouterr().out
+    assert all(name in out for name in (*ready_made(), "SO(n)", "SE(n)", "SL(n)"))
+
+
+@pytest.mark.parametrize("form", ["text", "latex", "markdown", "json"])
+def test_walk_formats(form, capsys, tmp_path):
+    assert main(["walk", "so3", "--format", form]) == 0
+    out = capsys.readouterr().out
+    assert "so3.kernel" in out
+    target = tmp_path / "walk"
+    assert main(["walk", "so3", "--format", form, "--out", str(target)]) == 0
+    assert target.read_text(encoding="utf-8") == out
+    assert os.listdir(tmp_path) == ["walk"]
+
+
+def test_check_a_problem_and_a_file(capsys, tmp_path):
+    path = tmp_path / "so3.json"
+    path.write_text(to_json(record("so3")), encoding="utf-8")
+    assert main(["check", "linear", str(path)]) == 0
+    assert "steps hold exactly" in capsys.readouterr().out
+
+
+def test_check_fails_with_1(capsys, tmp_path):
+    import json
+
+    data = json.loads(json.dumps(to_data(record("so3"))))
+    data["steps"][-1]["equations"][0]["rhs"] = ["mul", 2, data["steps"][-1]["equations"][0]["rhs"]]
+    path = tmp_path / "wrong.json"
+    path.write_text(json.dumps(data), encoding="utf-8")
+    assert main(["check", str(path)]) == 1
+    assert "FAILS" in capsys.readouterr().out
+
+
+def test_unknown_problem(capsys):
+    assert "so3" in refused(capsys, "walk", "nonsense")
+
+
+def test_missing_and_broken_files(capsys, tmp_path):
+    assert "No such file" in refused(capsys, "walk", str(tmp_path / "none.toml"))
+    broken = tmp_path / "broken.toml"
+    broken.write_text("name = [", encoding="utf-8")
+    assert "not TOML" in refused(capsys, "walk", str(broken))
+    broken.write_bytes('name = "x"\ntitle = "é"'.encode("latin-1"))
+    assert "line 2 has a byte that is not UTF-8; save" in refused(capsys, "walk", str(broken))
+    assert "No such file" in refused(capsys, "check", str(tmp_path / "none.json"))
+    for text in ("{", "[]", '{"problem": {"name": "x"}}', "\x00"):
+        record_file = tmp_path / "broken.json"
+        record_file.write_text(text, encoding="utf-8")
+        assert str(record_file) in refused(capsys, "check", str(record_file))
+
+
+def test_unwritable_output(capsys, tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("", encoding="utf-8")
+    assert str(blocked) in refused(capsys, "emit", "so3", "--out", str(blocked / "deep"))
+    refused(capsys, "walk", "so3", "--out", str(blocked / "walk.txt"))
+    assert os.listdir(tmp_path) == ["file"]
+
+
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="there is no /proc")
+def test_a_folder_nobody_may_write_to(capsys):
+    assert "/proc" in refused(capsys, "emit", "so3", "--out", "/proc/self/derive")
+
+
+@pytest.mark.parametrize("prefix", ["int", "class", "1x", "a b", "x;y", "", "é", "a" * 99])
+def test_bad_prefixes(prefix, capsys, tmp_path):
+    if prefix:
+        assert "--prefix" in refused(
+            capsys, "emit", "so3", "--prefix", prefix, "--out", str(tmp_path)
+        )
+    assert os.listdir(tmp_path) == []
+
+
+def test_nothing_to_emit(capsys):
+    assert "nothing to emit" in refused(capsys, "emit", "linear")
+
+
+@needs("cc")
+def test_prefix_and_float(tmp_path):
+    out = run(
+        "emit", "so3", "--lang", "c", "--prefix", "top", "--real", "float", "--out", str(tmp_path)
+    )
+    assert out.returncode == 0
+    assert sorted(os.listdir(tmp_path)) == ["top.c", "top.h"]
+    text = (tmp_path / "top.c").read_text(encoding="utf-8")
+    assert "so3_" not in text
+    assert "double" not in text
+    flags = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-Wdouble-promotion"]
+    compiled = subprocess.run(
+        [CC, *flags, "-c", "top.c"], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert compiled.returncode == 0, compiled.stderr
+
+
+def test_a_closed_pipe_is_quiet():
+    shell = f"{sys.executable} -m derive walk se3 | head -1"
+    out = subprocess.run(["sh", "-c", shell], capture_output=True, text=True)
+    assert out.stderr == ""
+
+
+def test_version():
+    assert run("--version").stdout.startswith("derive ")
+
+
+PROBLEM = """
+name = "four"
+group = "SL(2)"
+[parameters]
+k = {}
+a = 1.5
+[[point]]
+mass = "2"
+at = ["1", "a"]
+[[point]]
+mass = 1
+at = ["0", "a^2"]
+[[potential]]
+kind = "spring"
+between = [1, 2]
+stiffness = "k"
+[[potential]]
+kind = "gravity"
+g = [0, "-9.81"]
+"""
+BAD = {
+    "unknown key": ('name = "four"', 'name = "four"\nnme = 1', "nme"),
+    "name": ('name = "four"', 'name = "4"', "name"),
+    "keyword": ('name = "four"', 'name = "class"', "name"),
+    "group": ('"SL(2)"', '"Spin(3)"', "group"),
+    "group number": ('"SL(2)"', '"SL(1)"', "group"),
+    "undeclared": ("a = 1.5", "", "'a'"),
+    "vector length": ('["1", "a"]', '["1"]', "point 1"),
+    "character": ('"a^2"', '"a?"', "point 2"),
+    "exponent": ('"a^2"', '"a^9^9"', "point 2"),
+    "code": ('"a^2"', "\"__import__('os')\"", "point 2"),
+    "nested": ('"a^2"', '"' + "(" * 10_000 + '"', "point 2"),
+    "long": ('"a^2"', '"' + "1+" * 100_000 + '1"', "point 2"),
+    "spring ends": ("between = [1, 2]", "between = [1, 3]", "between"),
+    "same ends": ("between = [1, 2]", "between = [1, 1]", "between"),
+    "kind": ('kind = "spring"', 'kind = "magnet"', "kind"),
+    "mass": ('mass = "2"', "", "mass"),
+    "bool": ("mass = 1", "mass = true", "point 2"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_problem_files(case, capsys, tmp_path):
+    old, new, named = BAD[case]
+    path = tmp_path / "problem.toml"
+    assert old in PROBLEM
+    path.write_text(PROBLEM.replace(old, new), encoding="utf-8")
+    message = refused(capsys, "walk", str(path))
+    assert str(path) in message
+    assert named in message
+    assert len(message) < 400
+
+
+def test_a_good_problem_file(capsys, tmp_path):
+    path = tmp_path / "problem.toml"
+    path.write_text(PROBLEM, encoding="utf-8")
+    assert main(["check", str(path)]) == 0
+    assert main(["emit", str(path), "--out", str(tmp_path)]) == 0
+    assert (tmp_path / "four.py").exists()
+
+
+def test_a_failing_step_says_what_and_where(capsys, tmp_path):
+    """The equation, the entry, and small numbers on both sides; of the others, on which groups."""
+    data = to_data(record("so3"))
+    step = next(s for s in data["steps"] if s["label"] == "so3.kernel")
+    step["equations"][0]["rhs"][1] = ["mul", -1, step["equations"][0]["rhs"][1]]
+    path = tmp_path / "wrong.json"
+    path.write_text(json.dumps(data), encoding="utf-8")
+    assert main(["check", str(path)]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    (failed,) = (line for line in lines if line.startswith("FAILS"))
+    assert failed.startswith(
+        "FAILS  so3.kernel: so3.kernel.1 on SO(3), Iζ̇ = −Iφ + Iζ ∧ ζ: the sides"
+    )
+    assert re.search(r"differ in entry \(\d, 1\): -?[\d/]{1,9} and -?[\d/]{1,9}$", failed)
+    assert "holds  linear.energy: 2 equations on B(2), SO(3), SL(3), GL(6)" in lines

@@ -1,0 +1,248 @@
+"""Places that cannot be written to, and prefixes that are names elsewhere: one line, exit 2."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from derive.command.cli import main
+from tests.support.emitted import import_python
+from tests.support.needs import CC, needs
+from tests.support.unmeasured import environment
+
+
+@pytest.fixture
+def refused(capsys):
+    """The only line of stderr, the exit code 2 and nothing on stdout."""
+
+    def run(*arguments):
+        assert main([str(x) for x in ("emit", *arguments)]) == 2
+        out, err = capsys.readouterr()
+        assert out == ""
+        assert err.startswith("derive: ")
+        assert err.count("\n") == 1
+        return err
+
+    return run
+
+
+@pytest.mark.parametrize("prefix", ["while", "lambda", "virtual", "sqrt", "NAN", "-x", "_x", "x.y"])
+def test_prefixes_that_are_words(prefix, refused, tmp_path):
+    assert f"the prefix {prefix!r} cannot be used" in refused(
+        "so3", f"--prefix={prefix}", "--out", tmp_path / "new"
+    )
+    assert not list(tmp_path.iterdir())
+
+
+USE = """\
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include "{0}.h"
+int main(void)
+{{
+    double x[{0}_N_STATE] = {{1}}, k[{0}_N_CONSTANTS] = {{0}};
+    errno = 0;
+    printf("%g", {0}_energy(0, x, k));
+    return errno;
+}}
+"""
+
+
+@needs("cc")
+@pytest.mark.parametrize("prefix", ["printf", "main", "free", "size_t"])
+def test_prefixes_of_libc_are_harmless(prefix, tmp_path):
+    """Every name gets an ending, so these collide with nothing but a file of the same name."""
+    assert main(["emit", "so3", "--lang", "c", "--prefix", prefix, "--out", str(tmp_path)]) == 0
+    (tmp_path / "user.c").write_text(USE.format(prefix))
+    options = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-I.", "-lm"]
+    command = [CC, *options[:-1], "user.c", f"{prefix}.c", options[-1], "-o", "user"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert subprocess.run([tmp_path / "user"], capture_output=True, text=True).stdout == "0"
+
+
+def test_out_is_a_file(refused, tmp_path):
+    file = tmp_path / "file"
+    file.write_text("mine")
+    for out in (file, file / "deeper"):
+        assert str(out) in refused("so3", "--out", out)
+    assert file.read_text() == "mine"
+    assert os.listdir(tmp_path) == ["file"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+def test_out_is_a_device(refused):
+    assert "/dev/full" in refused("so3", "--out", "/dev/full")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+def test_a_link_to_a_full_device(capsys, tmp_path):
+    (tmp_path / "walk.txt").symlink_to("/dev/full")
+    assert main(["walk", "so3", "--out", str(tmp_path / "walk.txt")]) == 2
+    assert "No space left" in capsys.readouterr().err
+    assert os.listdir(tmp_path) == ["walk.txt"]
+
+
+@pytest.mark.parametrize("target", ["../mine", "/dev/null", "missing/../../mine", "so3.h"])
+def test_a_link_out_of_the_folder(target, refused, tmp_path):
+    """The problem gives the names in the folder; whoever packed both could aim at any file."""
+    mine, out = tmp_path / "mine", tmp_path / "out"
+    mine.write_text("mine")
+    out.mkdir()
+    (out / "so3.h").symlink_to(target)
+    assert "so3.h: a link that leads out of the folder" in refused("so3", "--out", out)
+    assert mine.read_text() == "mine"
+    assert os.listdir(out) == ["so3.h"]
+
+
+def test_a_link_within_the_folder(tmp_path):
+    (tmp_path / "so3.h").symlink_to("real.h")
+    assert main(["emit", "so3", "--lang", "c", "--out", str(tmp_path)]) == 0
+    assert (tmp_path / "so3.h").is_symlink()
+    assert "so3_rhs" in (tmp_path / "real.h").read_text()
+
+
+@pytest.mark.skipif(not Path("/proc/sys").is_dir(), reason="there is no /proc")
+def test_a_folder_that_root_may_not_write_to(refused):
+    for out in ("/proc", "/proc/new", "/proc/sys/kernel"):
+        assert out in refused("so3", "--out", out)
+
+
+@pytest.mark.skipif(getattr(os, "geteuid", int)() == 0, reason="root may write anywhere")
+def test_a_folder_without_permission(refused, tmp_path):
+    tmp_path.chmod(0o500)
+    assert "Permission denied" in refused("so3", "--out", tmp_path)
+    tmp_path.chmod(0o700)
+    assert not list(tmp_path.iterdir())
+
+
+LIMITED = """\
+import resource, signal, sys
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+from derive.command.cli import main
+from derive.pipeline import walk
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]),) * 2)
+sys.exit(main(sys.argv[2:]))
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="files have no limit on their size")
+@pytest.mark.parametrize("size", [0, 1000])
+def test_a_write_that_stops_half_way(size, tmp_path):
+    """As on a full disk; what was there stays, and nothing is left over."""
+    old = {name: f"old {name}" for name in ("so3.h", "so3.c", "so3.py")}
+    for name, text in old.items():
+        (tmp_path / name).write_text(text)
+    command = [sys.executable, "-B", "-c", LIMITED, str(size), "emit", "so3", "--out", tmp_path]
+    done = subprocess.run(command, capture_output=True, text=True, env=environment())
+    assert done.returncode == 2
+    assert done.stderr.startswith(f"derive: {tmp_path / 'so3.h'}: File too large")
+    assert done.stderr.count("\n") == 1
+    assert {p.name: p.read_text() for p in tmp_path.iterdir()} == old
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """16 KiB, where this may be mounted."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    command = ["mount", "-t", "tmpfs", "-o", "size=16k", "derive-test", str(disk)]
+    if shutil.which("mount") is None or subprocess.run(command, capture_output=True).returncode:
+        pytest.skip("no tmpfs may be mounted here")
+    yield disk
+    subprocess.run(["umount", str(disk)], check=True)
+
+
+def test_a_full_disk(small_disk, refused):
+    (small_disk / "ballast").write_bytes(b"x" * 4 * 4096)
+    assert f"{small_disk / 'so3.h'}: No space left" in refused("so3", "--out", small_disk)
+    assert os.listdir(small_disk) == ["ballast"]
+
+
+def test_a_disk_that_fills_up_between_files(small_disk, refused):
+    """No file is there, and no temporary one is left."""
+    assert "No space left" in refused("so3", "--out", small_disk)
+    assert not list(small_disk.iterdir())
+
+
+def test_an_output_that_is_a_folder(refused, tmp_path):
+    (tmp_path / "so3.h").mkdir()
+    assert "so3.h: Is a directory" in refused("so3", "--out", tmp_path)
+    assert os.listdir(tmp_path) == ["so3.h"]
+
+
+def test_check_writes_nothing(tmp_path, capsys):
+    new = tmp_path / "new"
+    assert main(["emit", "so3", "--out", str(new), "--check"]) == 1
+    assert capsys.readouterr().out.count("missing; run the same") == 3
+    assert not new.exists()
+
+
+NUMBERS = """\
+name = "top"
+group = "SO(3)"
+body = { given = { m = 1, c = [0, 0, 1], J = [[2, 0, 0], [0, 3, 0], [0, 0, 4]] } }
+"""
+
+
+@pytest.mark.parametrize(
+    ("problem", "options", "words"),
+    [
+        ("sl3", ["--attitude", "quaternion"], "a quaternion needs SO(3) or SE(3)"),
+        ("so3", ["--attitude", "quaternion", "--velocity", "tangent"], "not tangent"),
+        ("sl3", ["--jacobian", "inputs"], "no inputs to linearise in"),
+        ("numbers.toml", ["--jacobian", "parameters"], "no parameters to linearise in"),
+        ("so3", ["--frame", "principal", "--lang", "julia"], "not in julia"),
+    ],
+)
+def test_choices_that_exclude_each_other(problem, options, words, refused, tmp_path):
+    (tmp_path / "numbers.toml").write_text(NUMBERS)
+    path = tmp_path / problem if problem.endswith(".toml") else problem
+    assert words in refused(path, *options, "--out", tmp_path / "new")
+    assert not (tmp_path / "new").exists()
+
+
+def test_choices_that_say_nothing(refused, tmp_path):
+    """An option that could have no effect is refused, not dropped."""
+    choices = ("--attitude", "quaternion", "--layout", "col", "--out", tmp_path)
+    assert "no matrix to lay out" in refused("so3", *choices)
+    header = ("--form", "header", "--lang", "python", "--out", tmp_path)
+    assert "--lang c" in refused("so3", *header)
+    assert not list(tmp_path.iterdir())
+
+
+def test_why_constants_are_refused(tmp_path):
+    """A rod, a number that is none, and one that is too large are told apart."""
+    assert main(["emit", "so3", "--lang", "python", "--out", str(tmp_path)]) == 0
+    so3 = import_python("so3", tmp_path)
+    given = dict.fromkeys(so3.PARAMETERS, 0.0)
+    with pytest.raises(ValueError, match="the mass matrix is singular"):
+        so3.constants(given | {"J_33": 1.0})
+    with pytest.raises(ValueError, match="a parameter is not finite"):
+        so3.constants(given | {"J_33": float("nan")})
+    with pytest.raises(ValueError, match="too large"):
+        so3.constants({"J_11": 1e308, "J_22": 1.1e308, "J_33": 1e308, "c_3": 1e308})
+
+
+def test_a_build_on_a_disk_that_fills_up(tmp_path):
+    """What is written is whole, the rest is not there, and one line says why."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=256k", "derive-test", str(disk)]
+    if shutil.which("mount") is None or subprocess.run(mount, capture_output=True).returncode:
+        pytest.skip("no tmpfs may be mounted here")
+    try:
+        command = [sys.executable, "-B", "-m", "derive", "build", "--out", disk]
+        done = subprocess.run(command, capture_output=True, text=True)
+        lines = done.stderr.splitlines()
+        assert done.returncode == 2
+        assert "No space left" in lines[-1]
+        assert [x.startswith("derive: ") for x in lines] == [False] * 6 + [True]
+        written = [x for x in disk.rglob("*") if x.is_file()]
+        assert sorted(map(str, written)) == sorted(lines[:-1])
+    finally:
+        subprocess.run(["umount", str(disk)], check=True)

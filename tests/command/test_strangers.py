@@ -1,0 +1,192 @@
+"""Files of strangers: no traceback, no harm, within 2 s and 1 GB; see SECURITY.md, tests/fuzz."""
+
+import itertools
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from derive.code.statements import comment
+from derive.command.cli import main
+from derive.command.guard import StoppedError, one_line, within
+from derive.language import limits
+from tests.fuzz.corpus import CORPUS, TOP, TURNED, bombs
+from tests.fuzz.hostile import STRINGS
+from tests.fuzz.mutate import case, quoted
+from tests.support.needs import CC, needs
+
+ROOT = Path(__file__).parents[2]
+LIMITED = """
+import resource, sys
+resource.setrlimit(resource.RLIMIT_DATA, (1 << 30, 1 << 30))
+resource.setrlimit(resource.RLIMIT_CPU, (30, 30))
+from derive.command.cli import main
+from derive.code.statements import comment
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+def python(*arguments, **options):
+    """Another process of Python in the checkout."""
+    environment = os.environ | {"OPENBLAS_NUM_THREADS": "1"}
+    command = [sys.executable, *map(str, arguments)]
+    options |= {"capture_output": True, "text": True, "timeout": 800}
+    return subprocess.run(command, env=environment, **options)
+
+
+def test_the_corpus():
+    """Every file of tests/corpus and the large ones, watched, in a process of 1 GB."""
+    done = python("-m", "tests.fuzz.corpus", cwd=ROOT)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    assert len([*CORPUS.iterdir()]) >= 300
+    assert sum(path.stat().st_size for path in CORPUS.iterdir()) < 1_000_000
+
+
+@pytest.mark.no_cover
+def test_some_cases_of_the_fuzzer():
+    """The first of those that `make fuzz` runs; the corpus has their coverage."""
+    done = python("-m", "tests.fuzz", 150, 1, cwd=ROOT)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    assert case(3, 14)[:2] == case(3, 14)[:2]
+
+
+@pytest.mark.parametrize("name", ["keys.toml", "closed.toml", "dots.toml", "closed.json"])
+def test_in_a_process_of_its_own(name, tmp_path):
+    """Under limits of the system, and without anything imported before."""
+    (tmp_path / name).write_text(bombs()[name], encoding="utf-8")
+    done = python("-c", LIMITED, "check", name, cwd=tmp_path)
+    assert done.returncode == 2, done.stderr[-300:]
+    assert done.stderr.startswith(f"derive: {name}: ")
+    assert done.stderr.count("\n") == 1
+    assert os.listdir(tmp_path) == [name]
+
+
+@needs("cc")
+def test_comments_of_strangers_compile(tmp_path):
+    """A title, a unit and a meaning that close comments, strings, lines."""
+    for k, words in enumerate(STRINGS):
+        path = tmp_path / "top.toml"
+        path.write_text(TURNED.format(quoted(words)), encoding="utf-8")
+        choices = ["--lang", "c", "--lang", "python", "--prefix", f"top{k}", "--out", str(tmp_path)]
+        assert main(["emit", str(path), *choices]) == 0
+        compile((tmp_path / f"top{k}.py").read_text(encoding="utf-8"), "top.py", "exec")
+    flags = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-trigraphs", "-fsyntax-only"]
+    sources = sorted(map(str, tmp_path.glob("*.c")))
+    done = subprocess.run([CC, *flags, *sources], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[:2000]
+
+
+@needs("pdflatex")
+def test_notes_of_strangers_are_set(tmp_path, monkeypatch, capsys):
+    """TeX gets through all of it, and opens and starts nothing."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(CORPUS / "meaning.toml", tmp_path)
+    assert main(["notes", "meaning.toml", "--out", "notes.pdf"]) == 0, capsys.readouterr().err
+    assert sorted(os.listdir()) == ["meaning.toml", "notes.pdf", "notes.tex"]
+
+
+@pytest.mark.no_cover
+def test_time_is_over(tmp_path, capsys):
+    """One line, exit 2, nothing written.
+
+    Untraced: what stops the command may come where coverage holds its own lock, which stays held.
+    """
+    out = tmp_path / "out"
+    assert main(["emit", "so3", "--seconds", "0.01", "--out", str(out)]) == 2
+    assert "stopped after 0.01 s of processor time (--seconds)" in capsys.readouterr().err
+    assert not out.exists()
+    assert signal.getitimer(signal.ITIMER_PROF) == (0, 0)
+    assert main(["walk", "linear", "--seconds", "60"]) == 0
+
+
+def test_time_is_over_within():
+    """What takes no lock is stopped under coverage too, more than once."""
+    for _ in range(2):
+        with pytest.raises(StoppedError, match=r"after 0\.01 s"), within(0.01):
+            all(True for _ in iter(int, 1))
+
+
+@pytest.mark.parametrize("words", ["0", "-1", "nan", "inf", "x"])
+def test_seconds_are_a_positive_number(words, capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["walk", "so3", "--seconds", words])
+    assert end.value.code == 2
+    assert "--seconds" in capsys.readouterr().err
+
+
+def test_one_line():
+    assert one_line("a\nb\x1b[2J\u202e\ud800c") == r"a\nb\x1b[2J\u202e\ud800c"
+    assert len(one_line("x" * 10**6)) == limits.MESSAGE
+
+
+def test_a_name_of_a_file_that_moves_the_cursor(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    name = "a\nderive: all is well\x1b[2J.toml"
+    Path(name).write_text(TOP + "x = 1\n")
+    assert main(["walk", name]) == 2
+    err = capsys.readouterr().err
+    assert err.count("\n") == 1
+    assert err[:-1].isprintable()
+
+
+def test_a_mesh_behind_a_link(tmp_path, capsys):
+    """A link that leads out of the folder, or nowhere, is no mesh of the folder."""
+    home = tmp_path / "home"
+    home.mkdir()
+    shutil.copy(CORPUS / "mesh-good.off", tmp_path / "mesh.off")
+    (home / "out.off").symlink_to("../mesh.off")
+    (home / "loop.off").symlink_to("loop.off")
+    (home / "null.off").symlink_to("/dev/zero")
+    for name, says in {"out": "outside", "loop": "leads nowhere", "null": "outside"}.items():
+        head = 'name = "a"\ngroup = "SO(3)"\n[body]\nsolid = "mesh"\ndensity = 1\n'
+        (home / "a.toml").write_text(f'{head}file = "{name}.off"\n')
+        assert main(["walk", str(home / "a.toml")]) == 2
+        assert says in capsys.readouterr().err
+
+
+def test_limits_are_told(tmp_path, capsys):
+    """SECURITY.md has the numbers that the program has."""
+    text = (ROOT / "SECURITY.md").read_text(encoding="utf-8").replace("\u00a0", "")
+    numbers = {int(x) for x in re.findall(r"[0-9]+", text)}
+    told = (limits.PROBLEM_BYTES, limits.TRIANGLES, limits.RECORD_BYTES, limits.EXPRESSION)
+    told += (*limits.TABLES.values(), limits.PARAMETERS, limits.PULLS, limits.LEAVES, limits.DEPTH)
+    assert {*told} <= numbers
+
+
+def test_no_text_ends_a_comment_or_a_docstring():
+    for length in range(8):
+        for letters in itertools.product('*/\\"', repeat=length):
+            shown = comment("".join(letters))
+            assert not any(x in shown for x in ("*/", "/*", '"""', "\\"))
+
+
+@pytest.mark.parametrize("number", ["0x" + "f" * 4000, "0b" + "1" * 20000, "9" * 5000])
+def test_integers_that_no_message_could_show(number, tmp_path, capsys):
+    path = tmp_path / "a.toml"
+    path.write_text(TOP + f"[[point]]\nmass = {number}\nat = [1, 0, 0]\n")
+    assert main(["walk", str(path)]) == 2
+    assert capsys.readouterr().err == (
+        f"derive: {path}: an integer of hundreds of digits; numbers go up to 1e300\n"
+    )
+
+
+def test_a_pipe_where_a_file_should_be(tmp_path, capsys):
+    os.mkfifo(tmp_path / "so3.c")
+    assert main(["emit", "so3", "--out", str(tmp_path)]) == 2
+    assert "a pipe or a device; remove it" in capsys.readouterr().err
+    assert os.listdir(tmp_path) == ["so3.c"]
+
+
+@pytest.mark.parametrize("form", ["html", "json", "text", "latex", "markdown"])
+def test_no_control_characters(form, tmp_path, capsys):
+    path = tmp_path / "a.toml"
+    words = r"a\u001b[31m\u202e\u0000\u009b31m\u0007 b"
+    path.write_text(TURNED.format(f'"{words}"'), encoding="utf-8")
+    assert main(["walk", str(path), "--format", form]) == 0
+    out = capsys.readouterr().out
+    assert not {*"\x1b\x00\x07\x9b\u202e"} & {*out}

@@ -1,0 +1,95 @@
+"""The grammar of expressions in problem files, against Python's own arithmetic on fractions."""
+
+from fractions import Fraction
+from random import Random
+
+import pytest
+
+from derive.check.evaluate import Environment, evaluate
+from derive.language.expression import ExpressionError, names, parse
+from derive.language.tree import mul
+
+VALUES = {"a": Fraction(3, 7), "b1": Fraction(-5), "c_x": Fraction(11, 2)}
+ENV = Environment(3, {}, parameters=VALUES)
+
+
+def random_text(random, depth):
+    """An expression as our text and as Python's."""
+    kind = random.randrange(6) if depth else 5
+    if kind < 4:
+        left, right = (random_text(random, depth - 1) for _ in range(2))
+        operator = "+-*/"[kind]
+        return tuple(f"({x}){operator}({y})" for x, y in zip(left, right, strict=True))
+    if kind == 4:
+        ours, python = random_text(random, depth - 1)
+        n = random.randint(0, 3)
+        return f"({ours})^{n}", f"({python})**{n}"
+    name = random.choice([*VALUES, "2", "0.25", "3"])
+    return name, name if name in VALUES else f"Fraction('{name}')"
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_values(seed):
+    ours, python = random_text(Random(seed), 4)
+    try:
+        expected = eval(python, {"Fraction": Fraction}, dict(VALUES))
+    except ZeroDivisionError:
+        return
+    assert evaluate(parse(ours), ENV) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("2 - 3 - 4", -5),
+        ("2/3/4", Fraction(1, 6)),
+        ("-2^2", -4),
+        ("2^-2", Fraction(1, 4)),
+        ("--3", 3),
+        ("1e3 + .5", Fraction(2001, 2)),
+        ("-a", Fraction(-3, 7)),
+        (" ( 1 ) ", 1),
+        ("2*-3", -6),
+    ],
+)
+def test_precedence(text, value):
+    assert evaluate(parse(text), ENV) == value
+
+
+def test_names():
+    assert names(parse("a*(b1 + a)^2")) == ["a", "b1", "a"]
+    assert parse("k") == ("par", "k")
+    assert parse("2*3") == mul(2, 3) == 6
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "1 +", "(1", "1)", "a b", "2a", "1/0", "0^-1", "2^a", "2^65", "2^3^4", "a.b", "f(x)",
+     "__import__", "'x'", "a;b", "é", "1" * 41, "(" * 200, "1" + "+1" * 6000, "\x00", "{{ a }}"],
+)  # fmt: skip
+def test_refused(text):
+    with pytest.raises(ExpressionError) as caught:
+        parse(text)
+    assert 0 < len(str(caught.value)) < 120
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_zero_divisors_are_those_of_fractions(seed):
+    """An expression is refused where Python divides by zero whatever the names are."""
+    ours, python = random_text(Random(f"zero {seed}"), 3)
+    ours, python = (
+        f"1/({ours} - ({ours}) + {seed % 2})",
+        f"1/(({python}) - ({python}) + {seed % 2})",
+    )
+    zero = []
+    for shift in (0, 1):
+        try:
+            values = {name: x + shift for name, x in VALUES.items()}
+            eval(python, {"Fraction": Fraction}, values)
+        except ZeroDivisionError:
+            zero.append(shift)
+    if zero == [0, 1]:
+        with pytest.raises(ExpressionError, match="division by zero"):
+            parse(ours)
+    elif not zero:
+        parse(ours)

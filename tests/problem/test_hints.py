@@ -1,0 +1,227 @@
+"""What a file or a command that is almost right means is said; of the doubtful it is warned."""
+
+import re
+from time import process_time
+
+import numpy as np
+import pytest
+
+from derive import SE, Damping, Gravity, Moments, Points, Problem, Spring
+from derive.command.cli import COMMANDS, main
+from derive.language.values import approximate
+from derive.problem.problem import ProblemError
+from derive.problem.toml import load
+
+HEAD = 'name = "good"\ngroup = "SO(3)"\n'
+POINTS = "".join(f"[[point]]\nmass = 1\nat = {[int(i == j) for j in range(3)]}\n" for i in range(3))
+PLACES = [(1, [1, 0, 0]), (1, [0, 1, 0]), (1, [0, 0, 1])]
+
+
+def refused(group, body=PLACES, **more):
+    """The message that a problem is refused with."""
+    with pytest.raises(ProblemError) as caught:
+        Problem("b", group, Points(*body), **more)
+    return str(caught.value)
+
+
+def test_pi_is_a_number():
+    assert "'pi': this is the number π" in refused("SO(3)", parameters={"pi": 3})
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("SO3", "SO(3)"), ("se(3)", "SE(3)"), ("SO 3", "SO(3)"), ("sl_2", "SL(2)"),
+        ("saff(3)", "SAff(3)"), ("SOO(3)", "SO(3)"), ("SO3 x SE3", "SO(3) x SE(3)"),
+    ],
+)  # fmt: skip
+def test_a_group_in_other_letters(written, meant):
+    assert f"did you mean {meant!r}?" in refused(written)
+
+
+@pytest.mark.parametrize("written", ["Spin(3)", "SO", "3", "", "x", "SO(3) x"])
+def test_no_group_is_made_up(written):
+    assert "did you mean" not in refused(written)
+
+
+def test_a_block_without_points_is_called_by_its_number():
+    points = [(1, [1, 0, 0], 1), (1, [0, 1, 0], 1), *((m, at, 3) for m, at in PLACES)]
+    told = refused("SO(3) x SE(3) x SO(3)", points)
+    assert told.startswith("block 2, SE(3), which has no [[point]] with block = 2, moves no mass")
+
+
+def test_a_direction_of_one_block_is_that_of_its_group():
+    points = [*((m, at, 1) for m, at in PLACES), (1, [1, 0, 0], 2)]
+    assert refused("SO(3) x SO(3)", points).startswith(
+        "in block 2, turning about the axis (1, 0, 0)"
+    )
+
+
+def test_a_large_direction_is_told_by_its_entries():
+    told = refused("SL(5)", [(1, [1, 0, 0, 0, 0])])
+    assert "the direction Z = e_1,2 of the Lie algebra" in told
+    assert len(told) < 200
+
+
+def test_a_file_beside(tmp_path, monkeypatch, capsys):
+    (tmp_path / "good.toml").write_text(HEAD + POINTS)
+    monkeypatch.chdir(tmp_path)
+    assert main(["emit", "good"]) == 2
+    assert "unknown problem 'good'; did you mean 'good.toml'?" in capsys.readouterr().err
+    assert main(["emit", "good.toml", "--lang", "c"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "named", "meant"),
+    [
+        (["walk", "so3", "--formt", "text"], "unknown option '--formt'", "'--format'"),
+        (["emit", "so3", "--jacobain=state"], "unknown option '--jacobain=state'", "'--jacobian'"),
+        (["check", "so3", "--second", "3", "--notaton"], "unknown option '--notaton'", ""),
+        (["paper", "so3"], "unexpected 'so3'", ""),
+    ],
+)
+def test_an_unknown_option(words, named, meant, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(words)
+    assert ended.value.code == 2
+    err = capsys.readouterr().err
+    assert err.startswith(f"usage: derive {words[0]} ")
+    assert named in err
+    assert (f"did you mean {meant}?" in err) == bool(meant)
+
+
+@pytest.mark.no_cover  # what is stopped under a tracer may bring the interpreter down
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_may_be_stopped(command, tmp_path, capsys, monkeypatch):
+    def unhurried(problems):  # a list may be done before the clock of the machine ticks
+        while process_time() < until:
+            pass
+        return ""
+
+    until = process_time() + 0.1
+    monkeypatch.setattr("derive.command.listing.listing", unhurried)
+    needed = {
+        "notes": ["so3", "--out", str(tmp_path / "n.html")],
+        "build": ["--out", str(tmp_path)],
+    }
+    words = needed.get(command, ["so3"] if command in ("walk", "emit", "check") else [])
+    assert main([command, *words, "--seconds", "0.0001"]) == 2
+    assert "stopped after 0.0001 s of processor time" in capsys.readouterr().err
+
+
+K = "[parameters]\nk = -2\n"
+SPRING = '[[potential]]\nkind = "spring"\nstiffness = {}\nbetween = [1, 2]\n'
+NEGATIVE = {
+    "potential 1: key 'stiffness'": SPRING.format(-1),
+    "potential 2: key 'stiffness'": SPRING.format(1)
+    + SPRING.format('"k"')
+    + "[parameters]\nk = -2\n",
+    "damping 1: key 'coefficient'": "[[damping]]\ncoefficient = -0.5\n",
+}
+
+
+@pytest.mark.parametrize("where", NEGATIVE)
+@pytest.mark.parametrize("command", ["walk", "emit", "check"])
+def test_a_negative_stiffness(where, command, tmp_path, capsys):
+    path = tmp_path / "good.toml"
+    path.write_text(HEAD + POINTS + NEGATIVE[where])
+    words = [command, str(path), *(["--out", str(tmp_path)] if command == "emit" else [])]
+    assert main(words) == 2
+    told = capsys.readouterr().err
+    assert f"{where} is negative; correct it, or allow it with --allow-negative-stiffness" in told
+    assert main([*words, "--allow-negative-stiffness"]) == 0
+    assert f"derive: warning: {path}: {where} is negative\n" in capsys.readouterr().err
+
+
+def test_a_negative_stiffness_from_python():
+    for force in (Spring(1, 2, -1), Damping("-1/2")):
+        assert "negative_stiffness=True" in refused("SO(3)", forces=[force])
+        Problem("b", "SO(3)", Points(*PLACES), [force], negative_stiffness=True)
+    Problem("b", "SO(3)", Points(*PLACES), [Spring(1, 2, 0), Gravity(0, 0, -1)])
+
+
+MASS = 2.5
+S = np.array([0.3, -0.2, 0.7])
+I_C = np.array([[1.1, 0.1, -0.2], [0.1, 1.3, 0.05], [-0.2, 0.05, 1.7]])
+VALUES = {"m": MASS} | {f"s{i}": x for i, x in enumerate(S)}
+VALUES |= {f"i{i}{j}": I_C[i, j] for i in range(3) for j in range(i, 3)}
+ROWS = [[f"i{min(i, j)}{max(i, j)}" for j in range(3)] for i in range(3)]
+
+
+@pytest.mark.parametrize("symbolic", [False, True])
+@pytest.mark.parametrize("first", ["c", "centre"])
+@pytest.mark.parametrize("second", ["I_centre", "I", "J"])
+def test_moments_as_they_are_given(symbolic, first, second):
+    """J about the origin, by Steiner's theorem in floating-point numbers."""
+    J = np.trace(I_C) / 2 * np.eye(3) - I_C + MASS * np.outer(S, S)
+    about = {"I": np.trace(J) * np.eye(3) - J, "J": J, "I_centre": I_C}[second]
+    values = VALUES | {name: about[int(name[1]), int(name[2])] for name in VALUES if name[0] == "i"}
+
+    def written(name):
+        return name if symbolic else repr(float(values[name]))
+
+    tensor = [[written(x) for x in row] for row in ROWS]
+    place = [f"s{i}" if first == "centre" else f"m*s{i}" for i in range(3)]
+    if not symbolic:
+        place = [repr(float(x)) for x in (S if first == "centre" else MASS * S)]
+    given = {"m": written("m"), first: place, second: tensor}
+    problem = Problem("b", SE(3), Moments(**given), parameters=values if symbolic else {})
+    body = problem.body
+    found = np.array([[approximate(x, values) for x in row] for row in body.second])
+    assert np.allclose(found, J, rtol=1e-14, atol=1e-15)
+    assert np.allclose([approximate(x, values) for x in body.first], MASS * S, rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("given", "reason"),
+    [
+        ({"m": 1, "c": [0, 0, 0], "centre": [0, 0, 0], "J": np.eye(3)}, "one of c, the first"),
+        ({"m": 1, "J": np.eye(3)}, "one of c, the first moment, .* or centre, the centre of mass"),
+        ({"m": 1, "c": [0, 0, 0], "I": np.eye(3), "I_centre": np.eye(3)}, "one of J, .* I_centre,"),
+        ({"m": 0, "c": [0, 0, 0], "I_centre": np.eye(3)}, "without mass has no centre"),
+    ],
+)
+def test_moments_given_twice_or_not(given, reason):
+    with pytest.raises(ProblemError, match=reason):
+        Problem("b", SE(3), Moments(**given))
+
+
+FAR = [10.0, 0.0, 0.0]
+"""A centre of mass far outside the radius of gyration, as a part has in its assembly."""
+
+
+def test_numbers_of_a_drawing_program(tmp_path, capsys):
+    """Given as c and I they are of no masses: refused in numbers, warned of as defaults."""
+    with pytest.raises(ProblemError, match="then write centre and I_centre"):
+        Problem("b", SE(3), Moments(m=2, c=FAR, I=I_C))
+    assert Problem("b", SE(3), Moments(m=2, centre=FAR, I_centre=I_C)).body.first[0] == 20
+    path = tmp_path / "part.toml"
+    rows = I_C.tolist()
+    for key, tensor, warned in (("c", "I", True), ("centre", "I_centre", False)):
+        path.write_text(
+            f'name = "part"\ngroup = "SE(3)"\n[parameters]\nm = 2\nfar = {FAR[0]}\n[body]\n'
+            f'given = {{ m = "m", {key} = ["far", 0, 0], {tensor} = {rows} }}\n'
+        )
+        assert main(["walk", str(path)]) == 0
+        told = capsys.readouterr().err
+        assert bool(re.search("warning: .*part.toml: body, given: no masses", told)) == warned
+        assert ("then write centre and I_centre" in told) == warned
+
+
+def test_no_word_on_moments_that_are_impossible_in_both_ways():
+    with pytest.raises(ProblemError) as caught:
+        Problem("b", SE(3), Moments(m=2, c=FAR, I=np.diag([1, 1, 5])))
+    assert "no masses have these moments" in str(caught.value)
+    assert "I_centre" not in str(caught.value)
+
+
+def test_a_centre_that_is_too_long(tmp_path):
+    """Named by its key: to carry it to the origin would multiply all its terms."""
+    names = [f"{x}{i}" for x in "ab" for i in range(9)]
+    text = f"name = 'far'\ngroup = 'SE(3)'\n[body]\ngiven = {{ m = '{'+'.join(names[:9])}', "
+    text += f"centre = ['{'+'.join(names[9:])}', 0, 0], I_centre = [[2,0,0],[0,2.5,0],[0,0,3]] }}\n"
+    text += "[parameters]\n" + "".join(f"{x} = 1.0\n" for x in names)
+    path = tmp_path / "long.toml"
+    path.write_text(text)
+    with pytest.raises(ProblemError, match="body, given: centre or I_centre is too long"):
+        load(path)

@@ -1,0 +1,110 @@
+"""The words of derive.python.api build what a file says, and a derivation does what it promises."""
+
+import doctest
+
+import pytest
+
+import derive
+from derive.problem.problem import ProblemError
+from derive.python import api
+
+
+def pair(**more):
+    body = derive.Points((1, [1, 0]), (2, [0, "a"]))
+    forces = [derive.Spring(1, 2, "k"), derive.Gravity(0, -9.81)]
+    return derive.Problem("pair", derive.SL(2), body, forces, {"a": 1.5, "k": 2.0}, **more)
+
+
+def test_docstring():
+    assert doctest.testmod(api).failed == 0
+
+
+def test_a_derivation(tmp_path):
+    d = derive.derive(pair(title="A pair"))
+    assert str(d).startswith("A pair — SL(2)")
+    assert "θ" in str(d["motion"])
+    assert "\\theta" in d["pair.motion"]._repr_markdown_()
+    assert "$$" in d._repr_markdown_()
+    assert "\\begin{document}" in d.latex()
+    assert all(v.holds for v in d.check())
+    files = d.emit(tmp_path, languages=["python"])
+    assert list(files) == ["pair.py"]
+    assert (tmp_path / "pair.py").read_text(encoding="utf-8") == files["pair.py"]
+
+
+def test_the_same_as_a_file(tmp_path):
+    path = tmp_path / "pair.toml"
+    path.write_text(
+        """name = "pair"
+group = "SL(2)"
+parameters = { a = 1.5, k = 2.0 }
+point = [{ mass = 1, at = [1, 0] }, { mass = 2, at = [0, "a"] }]
+[[potential]]
+kind = "spring"
+between = [1, 2]
+stiffness = "k"
+[[potential]]
+kind = "gravity"
+g = [0, -9.81]
+""",
+        encoding="utf-8",
+    )
+    assert derive.derive(path).record == derive.derive(pair()).record
+
+
+def test_every_word():
+    group = derive.SO(3) * derive.SE(3)
+    body = derive.Points((1, (1, 0, 0)), (1, (0, 1, 0)), (1, (0, 0, 1), 2), (2, (1, 1, 0), 2))
+    body += derive.Points((1, (0, 2, 0), 2))
+    forces = [
+        derive.Spring(1, 3, 2, length=1),
+        derive.Spring(4, [0, 0, 1], 3),
+        derive.Potential("r1_x*r3_y*sin(t)"),
+        derive.Attraction(2),
+        derive.Force("F", on=1),
+        derive.Force("G", on=[1, 2, 3], frame="body"),
+        derive.Covector("u"),
+        derive.Damping(0.1, on=[1, 2]),
+    ]
+    d = derive.derive(derive.Problem("all", group, body, forces))
+    assert len(d["input"].equations) >= 3
+    solid = derive.Solid("ball", "rho", radius=1) + derive.Points((1, [0, 0, 2]))
+    for body in (solid, derive.Moments(), derive.Moments(m=1, c=[0, 0, 0], J=EYE)):
+        used = {"rho": 2} if body is solid else {}
+        problem = derive.Problem("top", derive.SO(3), body, [derive.Gravity(0, 0, -1)], used)
+        assert str(derive.derive(problem)["motion"]).startswith("top.motion")
+    turn = derive.Group("Turn", [[[0, -1], [1, 0]]])
+    assert derive.derive(derive.Problem("t", turn, derive.Points((1, [1, 0]))))["mass"].equations
+    for make in (derive.SAff, derive.GL, derive.Aff, derive.SE):
+        assert make(3).name.endswith("(3)")
+
+
+EYE = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+
+
+def test_errors_are_those_of_files():
+    with pytest.raises(ProblemError, match="between"):
+        derive.Problem("p", derive.SL(2), derive.Points((1, [1, 0])), [derive.Spring(1, 9, 1)])
+    with pytest.raises(AttributeError):
+        derive.nothing  # noqa: B018
+    assert derive.ProblemError is ProblemError
+
+
+def test_a_tensor_of_inertia_in_place_of_the_moments():
+    """I = (Tr J)1 − J about the origin: the same record either way."""
+    J = [[2, 1, 0], [1, 3, 0], [0, 0, 4]]
+    tensor = [[7, -1, 0], [-1, 6, 0], [0, 0, 5]]
+    one, other = (
+        derive.derive(derive.Problem("solid", "SO(3)", derive.Moments(m=1, c=[0, 0, 0], **given)))
+        for given in ({"J": J}, {"I": tensor})
+    )
+    assert one.record.problem["body"] == other.record.problem["body"]
+
+
+def test_damping_at_a_place_of_a_solid():
+    """The drag −κv at r has the moment r ∧ Ā(−κv), as one that is given point by point."""
+    body = derive.Points((2, [1, 0, 0]), (1, [0, 2, 0]), (3, [0, 0, 1]), (0, [1, 1, 1]))
+    on = derive.derive(derive.Problem("a", "SE(3)", body, derive.Damping(2, on=[4])))
+    at = derive.derive(derive.Problem("a", "SE(3)", body[:3], derive.Damping(2, at=[1, 1, 1])))
+    assert all(v.holds for v in at.check())
+    assert on["motion"].equations == at["motion"].equations

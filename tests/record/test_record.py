@@ -1,0 +1,231 @@
+"""The record: JSON in and out, the checker's verdicts, and what it refuses to read."""
+
+import json
+import re
+import tomllib
+from dataclasses import replace
+
+import pytest
+
+from derive.check.checker import SIZE, check
+from derive.language.show import show
+from derive.pipeline import walk
+from derive.problem.toml import problem_of
+from derive.record.record import RecordError, from_json, to_data, to_json
+from derive.record.rules import RULES
+from tests.support import steps
+from tests.support.engine_mutations.jobs import BOTH, MIXED
+from tests.support.walks import NAMES, own_verdicts, record
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_json_round_trip(name):
+    d = record(name)
+    text = to_json(d)
+    assert from_json(text) == d
+    assert to_json(from_json(text)) == text
+    data = json.loads(text)
+    assert set(data) == {"commentary", "problem", "symbols", "steps"}
+    for step in data["steps"]:
+        assert {"label", "rule", "uses", "paper", "prose", "equations"} <= set(step)
+        assert step["rule"] in RULES
+        assert step["equations"]
+        assert step["prose"].endswith(".")
+    assert not re.search(r"Symbol|Rational|Matrix\(|lambda |import|__", text)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_steps_rest_on_earlier_ones(name):
+    seen = set()
+    for step in record(name).steps:
+        assert set(step.uses) <= seen
+        assert step.label not in seen
+        seen.add(step.label)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_step_holds(name):
+    verdicts = check(from_json(to_json(record(name))))
+    assert [v.reason for v in verdicts if not v.holds] == []
+    assert [v.label for v in verdicts] == [
+        f"{name}.symbols",
+        *(s.label for s in record(name).steps),
+    ]
+    assert max(v.bound for v in verdicts) < 1e-30
+    assert min(v.bound for v in verdicts[1:]) > 1 / SIZE
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_another_seed_holds_too(name):
+    d = record(name)
+    assert all(v.holds for v in (own_verdicts(d, seed=7) or check(d, seed=7)))
+
+
+def damaged(change):
+    data = to_data(record("so3"))
+    data = json.loads(json.dumps(data))
+    change(data)
+    return json.dumps(data)
+
+
+def delete(key):
+    def change(data):
+        del data[key]
+
+    return change
+
+
+def set_step(key, value):
+    def change(data):
+        data["steps"][3][key] = value
+
+    return change
+
+
+BROKEN = {
+    "not JSON": "{",
+    "a list": "[]",
+    "key twice": to_json(record("sl3")).replace('"steps":', '"steps": [], "steps":', 1),
+    "deep": "[" * 100_000,
+    "no problem": damaged(delete("problem")),
+    "no steps": damaged(delete("steps")),
+    "empty steps": damaged(lambda d: d.update(steps=[])),
+    "unknown rule": damaged(set_step("rule", "magic")),
+    "later use": damaged(set_step("uses", ["so3.motion"])),
+    "label twice": damaged(set_step("label", "linear.action")),
+    "no equation": damaged(set_step("equations", [])),
+    "unknown operator": damaged(set_step("equations", [{"lhs": ["eval", "x"], "rhs": 1}])),
+    "wrong arity": damaged(set_step("equations", [{"lhs": ["inv", "x", "y"], "rhs": 1}])),
+    "a ragged matrix": damaged(
+        set_step("equations", [{"lhs": "x", "rhs": ["matrix", ["row", 1, 2], ["row", 3]]}])
+    ),
+    "a line in a name": damaged(set_step("equations", [{"lhs": "x\nholds", "rhs": 1}])),
+    "not a tree": damaged(set_step("equations", [{"lhs": {"a": 1}, "rhs": 1}])),
+    "a number with a point": damaged(set_step("equations", [{"lhs": "L", "rhs": 1.5}])),
+}
+
+
+def test_nothing_is_left_out():
+    """What a rule leaves out makes nothing false: `tests.support.steps` has what there is."""
+    assert steps.table() == json.loads(steps.TABLE.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("case", BROKEN)
+def test_broken_records_are_refused(case):
+    with pytest.raises(RecordError) as caught:
+        from_json(BROKEN[case])
+    assert "\n" not in str(caught.value)
+
+
+def problem_with(**changes):
+    """A record that was not read, so that no one looked at the shape of its problem."""
+    return replace(record("sl3"), problem={**record("sl3").problem, **changes})
+
+
+def claim(lhs, rhs):
+    data = json.loads(json.dumps(to_data(record("sl3"))))
+    data["steps"] = data["steps"][:1]
+    data["steps"][0]["equations"] = [{"lhs": lhs, "rhs": rhs}]
+    return from_json(json.dumps(data))
+
+
+def nested(operator, depth):
+    tree = "t"
+    for _ in range(depth):
+        tree = (
+            ["pow", tree, 64]
+            if operator == "pow"
+            else ["sum", "i", ["mul", ["at", "m", "i"], tree]]
+        )
+    return tree
+
+
+HOSTILE = {
+    "action": problem_with(action=[]),
+    "parameters": problem_with(parameters=5),
+    "body": problem_with(body="x"),
+    "no points": problem_with(body={"kind": "points"}),
+    "no place": problem_with(body={"kind": "points", "points": [{"mass": 1, "at": 5}]}),
+    "potentials": problem_with(potentials=[{}]),
+    "spring": problem_with(potentials=[{"kind": "spring", "between": [1, 9], "stiffness": 1}]),
+    "mass": problem_with(
+        body={"kind": "points", "points": [{"mass": ["pow", 2, 10**8], "at": [1, 2, 3]}] * 4}
+    ),
+    "group": problem_with(group=5),
+    "powers": claim(nested("pow", 4), 0),
+    "sums": claim(nested("sum", 31), 0),
+    "a long product": claim(["mul", *["Z"] * 5000], 0),
+    "a row": claim(["row", 1, 2], 0),
+    "a call": claim(["call", ["mul", "r", "q"], "t"], 0),
+}
+
+
+@pytest.mark.parametrize("case", HOSTILE)
+def test_hostile_records_fail_in_one_line(case):
+    verdicts = own_verdicts(HOSTILE[case])
+    if all(v.holds for v in verdicts):
+        verdicts = check(HOSTILE[case])
+    assert not all(v.holds for v in verdicts)
+    assert all("\n" not in v.reason for v in verdicts)
+
+
+NO_SHAPE = (
+    "action",
+    "parameters",
+    "body",
+    "no points",
+    "no place",
+    "potentials",
+    "spring",
+    "group",
+)
+
+
+@pytest.mark.parametrize("case", NO_SHAPE)
+def test_a_problem_of_another_shape_is_not_read(case):
+    with pytest.raises(RecordError, match="record, problem: ") as caught:
+        from_json(to_json(HOSTILE[case]))
+    assert "\n" not in str(caught.value)
+
+
+MOMENTS = {
+    "m": lambda given: given.update(m=["par", "l"]),
+    "c": lambda given: given.update(c=[0, 0, 1]),
+    "J": lambda given: given["J"][0].__setitem__(0, ["par", "l"]),
+}
+
+
+@pytest.mark.parametrize("moment", MOMENTS)
+def test_moments_that_are_not_those_of_the_solids_are_found(moment):
+    data = json.loads(json.dumps(to_data(record("hammer"))))
+    MOMENTS[moment](data["problem"]["body"]["given"])
+    wrong = [v for v in check(from_json(json.dumps(data))) if not v.holds]
+    assert "hammer.motion" in {v.label for v in wrong}
+    assert all("not those of its solids" in v.reason for v in wrong)
+
+
+def test_solids_and_points_together():
+    """The given moments are those of both."""
+    d = walk(problem_of(tomllib.loads(MIXED)))
+    assert all(v.holds for v in check(d))
+    data = json.loads(json.dumps(to_data(d)))
+    data["problem"]["body"]["points"][0]["mass"] = 3
+    assert any("not those of its solids" in v.reason for v in check(from_json(json.dumps(data))))
+
+
+@pytest.mark.parametrize("name", ["SO(3)", "SE(3)"])
+def test_the_tensor_of_solids_and_points_together(name):
+    """A ball of density ½ and radius b, and a mass b at ⅛ e₃, each counted once."""
+    d = walk(problem_of(tomllib.loads(BOTH.replace("SE(3)", name))))
+    assert all(v.holds for v in check(d))
+    entries = {show(e.lhs): show(e.rhs) for e in d["test.tensor"].equations}
+    centred = "I_c" if name == "SE(3)" else "I"
+    assert entries[f"{centred}₃₃"] == "4/15 π b⁵"
+    assert entries[f"{centred}₁₁"].startswith("4/15 π b⁵ + 1/64 b")
+
+
+def test_a_label_cannot_forge_a_line():
+    data = json.loads(json.dumps(to_data(record("so3"))))
+    data["steps"][0]["label"] = "a\nholds  b"
+    with pytest.raises(RecordError, match="label"):
+        from_json(json.dumps(data))

@@ -1,0 +1,123 @@
+"""Sentences as data: written beside their English, and what is refused on reading."""
+
+import json
+import tomllib
+
+import pytest
+
+from derive.command.cli import ready_made
+from derive.language.limits import SENTENCE
+from derive.pipeline import walk
+from derive.problem.toml import problem_of
+from derive.record.record import RecordError, from_json, to_data, to_json
+from derive.record.sentence import english, listed, phrase, say
+from derive.views.language import language
+from derive.views.text import text
+from tests.support import walks
+from tests.support.engine_mutations.jobs import GIVEN
+
+
+def test_many_as_one():
+    many = listed("{first}, {second}", [phrase(str(k)) for k in range(1000)])
+    assert str(many) == ", ".join(map(str, range(1000)))
+    assert str(listed("{first}, {second}", [])) == ""
+
+
+@pytest.mark.parametrize("name", ready_made())
+def test_json_round_trip(name):
+    d = walks.record(name)
+    assert from_json(to_json(d)) == d
+
+
+def data():
+    return json.loads(to_json(walks.record("so3")))
+
+
+def test_old_records_are_one_sentence_a_step():
+    old = data()
+    for item in (*old["steps"], *old["symbols"]):
+        item.pop("sentences", None)
+    read = from_json(json.dumps(old))
+    assert all(step.prose == say(english(step.prose)) for step in read.steps)
+    assert text(read) == text(walks.record("so3"))
+
+
+def test_meanings_with_places_are_written():
+    symbols = {s["name"]: s for s in to_data(walks.record("ellipsoid"))["symbols"]}
+    assert symbols["f_u"]["meaning"].startswith("input: thrust, a force on point 2")
+    assert symbols["f_u"]["sentences"][0]["message"] == "input: {forces}"
+    assert "sentences" not in symbols["m"]
+
+
+def test_a_wrench_beside_forces():
+    """Both are called f_u: the one of the wrench has no index."""
+    forces = '[[input]]\nname = "F"\nkind = "force"\nat = [1, 0, 0]\nframe = "body"\n'
+    d = walk(problem_of(tomllib.loads(GIVEN + forces)))
+    (meaning,) = (s.meaning for s in d.symbols if s.name == "f_u")
+    assert english(meaning) == (
+        "input: u, a force on the body's origin, in the body frame; "
+        "F, a force on point 1, in the body frame"
+    )
+
+
+def nested(depth):
+    sentence = {"message": "x", "places": {}}
+    for _ in range(depth):
+        sentence = {"message": "{a}", "places": {"a": sentence}}
+    return sentence
+
+
+X = {"message": "x", "places": {}}
+HOSTILE = {
+    "another English": [{"message": "y", "places": {}}],
+    "two for one": [X, X],
+    "none": [],
+    "no list": {"message": "x", "places": {}},
+    "a string": ["x"],
+    "no message": [{"places": {}}],
+    "no places": [{"message": "x"}],
+    "a key more": [X | {"z": 1}],
+    "a number for a message": [{"message": 1, "places": {}}],
+    "places that are a list": [{"message": "x", "places": ["a"]}],
+    "a place that is not there": [{"message": "x", "places": {"a": "x"}}],
+    "a place not filled": [{"message": "{a}{b}", "places": {"a": "x"}}],
+    "a place twice": [{"message": "{a}{a}", "places": {"a": ""}}],
+    "a number in a place": [{"message": "{a}", "places": {"a": 1}}],
+    "an attribute": [{"message": "{a.__class__}", "places": {"a": "x"}}],
+    "a width": [{"message": "{a:>9999999999}", "places": {"a": "x"}}],
+    "too deep": [nested(SENTENCE + 1)],
+    "far too deep": [nested(400)],
+}
+
+
+@pytest.mark.parametrize("case", HOSTILE)
+@pytest.mark.parametrize(("kind", "words"), [("steps", "prose"), ("symbols", "meaning")])
+def test_hostile_sentences_are_refused(case, kind, words):
+    record = data()
+    record[kind][0] |= {words: "x", "sentences": HOSTILE[case]}
+    with pytest.raises(RecordError, match=rf"^{kind[:-1]} 1") as caught:
+        from_json(json.dumps(record))
+    assert "\n" not in str(caught.value)
+
+
+def test_sentences_as_deep_as_they_may_be():
+    record = data()
+    record["steps"][0] |= {"prose": "x", "sentences": [nested(SENTENCE)]}
+    read = from_json(json.dumps(record))
+    assert language("fr").of(read.steps[0].prose) == "x"
+
+
+def test_braces_without_places_are_letters():
+    record = data()
+    del record["steps"][0]["sentences"]
+    record["steps"][0] |= {"prose": "{a.b} {c!r:>99}"}
+    read = from_json(json.dumps(record))
+    assert english(read.steps[0].prose) == "{a.b} {c!r:>99}"
+    assert from_json(to_json(read)) == read
+
+
+@pytest.mark.parametrize("name", ["so3", "se3", "sl3"])
+def test_noether_is_said_of_symmetries_of_the_lagrangian(name):
+    """A boost of a free point, δr = tb, keeps dϖ and not L̃: ϖ on it is t⟨p, b⟩."""
+    told = next(s for s in walks.record(name).steps if s.label.endswith(".conserved"))
+    assert "on an infinitesimal symmetry of L̃, is constant" in english(told.prose)

@@ -1,0 +1,145 @@
+"""The functions of an emitted C header as data, and their calls in every language.
+
+A call shows all numbers that a function gives: those of the arrays that C writes, one after the
+other, or what it returns.  It is made with the inputs u, and without them.
+"""
+
+import ctypes
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from tests.support.read_julia import Numbers
+
+T = 0.3
+DECLARED = r"^(void|{real}) {prefix}_(\w+)\(([^;]*)\);"
+ARGUMENT = re.compile(
+    r"(?P<kept>const )?(?:double|float) (?P<array>\*(?:\w*_RESTRICT )?)?(?P<name>\w+)"
+)
+SIZES = {"x": "STATE", "k": "CONSTANTS", "p": "PARAMETERS", "u": "INPUTS", "dx": "STATE"}
+COLUMNS = {"jacobian_inputs": "INPUTS", "jacobian_parameters": "PARAMETERS"}
+
+
+@dataclass(frozen=True)
+class Call:
+    """``takes``: t, x, k, p, u in order; ``writes``: the arrays and how many numbers each has."""
+
+    name: str
+    takes: tuple[str, ...]
+    writes: dict[str, int]
+    real: str
+
+    def kinds(self):
+        """The name of what is shown → the inputs u that it has."""
+        more = {f"{self.name}_unforced": ""} if {"u", "x"} <= {*self.takes} else {}
+        return {self.name: "u"} | more
+
+    def given(self, words, u):
+        """The arguments in words of a language, by their letters; ``u``: empty for none."""
+        inputs = {"u": words["none"]} if "u" in self.takes and not u else {}
+        return [x for x in ((words | inputs)[a] for a in self.takes) if x]
+
+
+def calls(header, prefix, sizes):
+    """The calls of a header, but for ``constants``, and for ``rhs_batch`` of many states."""
+    real = "float" if re.search(r"\bfloat \*", header) else "double"
+    for kind, name, listed in re.findall(
+        DECLARED.format(real=real, prefix=prefix), header, re.MULTILINE
+    ):
+        if name != "rhs_batch":
+            found = [ARGUMENT.fullmatch(x.strip()) for x in re.split(r",\s*", listed)]
+            outs = [m["name"] for m in found if m["array"] and not m["kept"]]
+            assert bool(outs) == (kind == "void"), name
+            takes = tuple(m["name"] for m in found if m["name"] not in outs)
+            yield Call(name, takes, {a: size(a, name, sizes) for a in outs}, real)
+
+
+def size(array, function, sizes):
+    """How many numbers an array has that a function writes."""
+    if array == "D":
+        rows = 2 * sizes["ALGEBRA"]
+        return rows * (sizes[COLUMNS[function]] if function in COLUMNS else rows)
+    if array == "out":
+        return sizes["INPUTS" if function.startswith("inputs_") else "STATE"]
+    return sizes[SIZES[array]]
+
+
+def in_c(call, library, prefix, values):
+    """What the compiled C gives; ``values``: the arrays x, k, p, u."""
+    array = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
+    function = getattr(library, f"{prefix}_{call.name}")
+    function.restype = None if call.writes else ctypes.c_double
+    function.argtypes = [ctypes.c_double if a == "t" else array for a in call.takes]
+    function.argtypes += [array for _ in call.writes]
+    outs = [np.full(n, np.nan) for n in call.writes.values()]
+    value = function(*(T if a == "t" else values[a] for a in call.takes), *outs)
+    return np.concatenate(outs) if outs else np.array([value])
+
+
+def in_rust(call, name, u):
+    words = {"t": "T", "x": "x", "k": "&k", "p": "p", "u": "u", "none": "&[0.0; m::N_INPUTS]"}
+    arguments = call.given(words, u)
+    if not call.writes:
+        return f'show("{name}", &[m::{call.name}({", ".join(arguments)})]);'
+    if [*call.writes] == ["out"]:
+        return f'show("{name}", &m::{call.name}({", ".join(arguments)}));'
+    made = "".join(f"let mut {a} = [0.0; {n}]; " for a, n in call.writes.items())
+    arguments += [f"&mut {a}" for a in call.writes]
+    shown = f"&[{', '.join(f'&{a}[..]' for a in call.writes)}].concat()"
+    return f'{{ {made}m::{call.name}({", ".join(arguments)}); show("{name}", {shown}); }}'
+
+
+def in_javascript(call, name, u):
+    words = {"t": str(T), "x": "x", "k": "k", "p": "p", "u": "u", "none": ""}
+    return f'show("{name}", flat(m.{call.name}({", ".join(call.given(words, u))})));'
+
+
+def in_cpp(call, name, u):
+    words = {"t": "T", "x": "x", "k": "k", "p": "p", "u": "u", "none": ""}
+    line = f'show("{name}", m::{call.name}({", ".join(call.given(words, u))}));'
+    return "\n".join([line, *in_spans(call, name)]) if u else line
+
+
+def in_spans(call, name):
+    """The same call on spans, from C++20 on."""
+    words = {"t": "T", "x": "std::span(x)", "k": "std::span(k)", "p": "std::span(p)", "none": ""}
+    arguments = [*call.given(words | {"u": "std::span(u)"}, "u"), *call.writes]
+    made = "".join(f"std::array<m::Real, {n}> {a}; " for a, n in call.writes.items())
+    called = f"m::{call.name}({', '.join(arguments)})"
+    shown = "".join(f"more({a}); " for a in call.writes) or f"more({called}); "
+    done = f"{called}; " if call.writes else ""
+    yield "#if __cplusplus >= 202002L"
+    yield f'{{ {made}{done}start("{name}"); {shown}std::puts(""); }}'
+    yield "#endif"
+
+
+def in_python(call, module, values, u):
+    """What a function of a module gives, for one state and as the second of a batch."""
+    takes = [a for a in call.takes if a != "u" or u]
+    function, given = getattr(module, call.name), [values[a] for a in takes]
+    yield flat(function(*given))
+    if "x" in takes:
+        batch = [np.stack([v + 1, v]) if a == "x" else v for a, v in zip(takes, given, strict=True)]
+        yield flat(function(*batch), 1)
+
+
+def flat(found, *index):
+    """The numbers of an array, or of several, one after the other; of one of a batch."""
+    arrays = found if isinstance(found, tuple) else (found,)
+    return np.concatenate([np.ravel(np.asarray(a)[index]) for a in arrays])
+
+
+def in_julia(call, module, values, u):
+    """What a function of a module that is read back gives: first what it writes, then x and k or
+    p, then t."""
+    given = [values[a] for a in call.takes if a not in "tu"]
+    time = [values["t"]] if "t" in call.takes else []
+    if not call.writes:
+        return [module.call(call.name, *time, *given)]
+    rows = 2 * module.names["N_ALGEBRA"]
+    shapes = ((rows, n // rows) if a == "D" else (n,) for a, n in call.writes.items())
+    outs = [Numbers(*shape) for shape in shapes]
+    inputs = {"u": values["u"]} if u and "u" in call.takes else {}
+    module.call(f"{call.name}!", *outs, *given, *time, **inputs)
+    return [x for out in outs for x in out.whole()]

@@ -1,0 +1,261 @@
+"""What a changed engine is tried on: problems and choices that reach all of its mathematics."""
+
+import tomllib
+from typing import Any, NamedTuple
+
+from tests.code.test_frame import FREE, pushed_data
+from tests.oracles import solids
+from tests.problem.test_bad_problems import FILES, SINGULAR
+from tests.problems import PROBLEMS, READY
+
+SOLIDS = """
+name = "test"
+group = "SE(3)"
+[parameters]
+a = 1.1
+b = 0.7
+rho = 2.0
+[[solid]]
+kind = "ellipsoid"
+density = "rho"
+semi_axes = ["a", "b", 0.5]
+rotation = { axis = [1, 2, 2], angle = "pi/3" }
+shift = [0.1, 0, "b"]
+[[solid]]
+kind = "cone"
+density = 3
+radius = 0.4
+height = "a"
+shift = [0.5, 0, 0]
+[[solid]]
+kind = "box"
+density = 2
+sides = ["a", 0.3, "b"]
+[[solid]]
+kind = "cylinder"
+density = "rho"
+radius = "b"
+height = 0.7
+rotation = { axis = [1, 0, 0], angle = "pi/4" }
+[[solid]]
+kind = "hollow_ball"
+density = 1.5
+outer = 2
+inner = "a"
+[[solid]]
+kind = "ball"
+density = 1.5
+radius = "b"
+shift = [0, 2, 0]
+[[solid]]
+kind = "tetrahedron"
+density = 4
+vertices = [[0, 0, 0], [1, 0, 0.5], [0, 1, 0], [0.2, 0.1, 1]]
+[[potential]]
+kind = "gravity"
+g = [1, 2, "-9.81"]
+[[potential]]
+kind = "spring"
+at = ["a", 0, 0]
+anchor = [3, 0, 1]
+stiffness = 5
+length = "b"
+"""
+MIXED = """
+name = "test"
+group = "Sim(3)"
+[parameters]
+b = 0.7
+[[point]]
+mass = "b"
+at = [1, "b", 2]
+[[point]]
+mass = 0.5
+at = ["b", -1, 0.5]
+[[solid]]
+kind = "box"
+density = 2
+sides = [1, 0.3, "b"]
+rotation = [[0.6, -0.8, 0], [0, 0, -1], [0.8, 0.6, 0]]
+[[solid]]
+kind = "ball"
+density = "b"
+radius = 0.5
+shift = [0, 0.5, "b"]
+[[solid]]
+kind = "cylinder"
+density = 1
+radius = 0.3
+height = "b"
+rotation = { axis = [1, 1, 0], angle = "b" }
+[[solid]]
+kind = "cone"
+density = 1
+radius = 0.3
+height = 1
+rotation = { axis = [0, 3, 4], angle = "pi/2" }
+[[potential]]
+kind = "gravity"
+g = [1, 2, "-9.81"]
+"""
+
+BOTH = """
+name = "test"
+group = "SE(3)"
+[parameters]
+b = 0.7
+[[point]]
+mass = "b"
+at = [0, 0, 0.125]
+[[solid]]
+kind = "ball"
+density = 0.5
+radius = "b"
+"""
+"""A solid and a point in principal axes."""
+
+GIVEN = """
+name = "test"
+group = "SE(3)"
+[parameters]
+a = 1.1
+M = 2.0
+[body]
+given = { m = "M", c = [0.1, "a/4", -0.2], I = [["a", 0.1, 0], [0.1, 2, "a/9"], [0, "a/9", 2.2]] }
+[[potential]]
+kind = "gravity"
+g = [0, 0, "-9.81"]
+[[input]]
+name = "u"
+kind = "covector"
+"""
+
+NUMBERS = """
+name = "test"
+group = "Aff(3)"
+[parameters]
+b = 0.7
+[body]
+given = { m = 2, c = [0.1, 0.2, -0.2], J = [[1, 0.1, 0], [0.1, 2, 0.2], [0, 0.2, 2.2]] }
+[[potential]]
+kind = "gravity"
+g = [1, 2, "-b"]
+"""
+
+FUNCTIONS = """
+name = "test"
+group = "GL(2)"
+[[point]]
+mass = 1
+at = [1, 0]
+[[point]]
+mass = 2
+at = [0, 1]
+[[potential]]
+kind = "expression"
+U = "log(3 + r1_x^2) + tan(r1_y) + tanh(r2_x) + cos(r2_y)*sin(r1_x) + sinh(r1_y)/cosh(r2_x)"
+[[potential]]
+kind = "expression"
+U = "r2_x*atan(r2_y) + exp(r1_x*r2_y) + sqrt(5 + r1_y^2) + r1_x*log(4 + r1_y^2)"
+"""
+"""Every elementary function."""
+
+
+class Job(NamedTuple):
+    """A problem as the plain data of its file, and the options of its emission."""
+
+    name: str
+    data: dict[str, Any]
+    options: dict[str, Any]
+    refused: str = ""
+    """What must be said of it, where it is none that can be derived."""
+
+    @property
+    def framed(self) -> bool:
+        """Is its code in the principal frame?"""
+        return self.options.get("frame") == "principal"
+
+    @property
+    def any_group(self) -> bool:
+        """Is it a text about any group, from which no code is made?"""
+        return self.data["group"] == "any"
+
+    @property
+    def plain(self) -> bool:
+        """Is the state of its code that of the oracle?"""
+        return not {"attitude", "velocity", "layout"} & {*self.options}
+
+    def seen_by_the_oracle(self) -> dict[str, Any]:
+        """The oracle knows points and moments: of other bodies it has the moments."""
+        known = "solid" not in self.data and "given" not in self.data.get("body", {})
+        return self.data if known else solids.by_moments(self.data)
+
+
+def ready(name: str) -> str:
+    """The text of a ready-made problem."""
+    return (READY / f"{name}.toml").read_text(encoding="utf-8")
+
+
+TEXTS = PROBLEMS | {name: ready(name) for name in ("linear", "affine", "so3", "se3", "sl3", "top")}
+TEXTS |= {"solids": SOLIDS, "mixed": MIXED, "both": BOTH, "given": GIVEN, "numbers": NUMBERS}
+TEXTS["functions"] = FUNCTIONS
+WHOLE = ("state", "inputs", "parameters")
+CHOSEN = [
+    ("linear", {}),
+    ("affine", {}),
+    ("SL(3) forces", {}),
+    ("SO(3) forces", {}),
+    ("SE(3) forces", {}),
+    ("so3", {"attitude": "quaternion", "jacobian": WHOLE}),
+    ("Sim(3) forces", {}),
+    ("sl3", {"velocity": "tangent", "jacobian": ("state",)}),
+    ("se3", {}),
+    ("se3", {"frame": "principal"}),
+    ("SE(3) x SO(3)", {}),
+    ("solids", {}),
+    ("sl3", {"frame": "principal"}),
+    ("screw", {"velocity": "tangent", "layout": "col", "jacobian": ("state",)}),
+    ("functions", {"jacobian": ("state",)}),
+    ("Sp(2)", {}),
+    ("SE(2)", {}),
+    ("SAff(3) forces", {"layout": "col"}),
+    ("SAff(2)", {"velocity": "tangent", "jacobian": ("state",)}),
+    ("SL(4)", {"velocity": "tangent"}),
+    ("so3", {"frame": "principal"}),
+    ("pushed SE(3)", {"frame": "principal", "attitude": "quaternion"}),
+    ("pushed SAff(3)", {"frame": "principal", "velocity": "tangent"}),
+    ("SU(2)", {}),
+    ("UT(3)", {}),
+    ("mixed", {}),
+    ("both", {}),
+    ("given", {}),
+    ("numbers", {}),
+    ("GL(2)", {}),
+    ("comet", {"frame": "principal"}),
+    ("SO(4)", {}),
+    ("U(1)", {}),
+    ("weighted", {}),
+    ("a cylinder", {}),
+    ("translations", {}),
+    ("jelly", {}),
+    ("top", {"frame": "principal", "attitude": "quaternion"}),
+    ("GL(2)", {"frame": "principal"}),
+    ("Aff(2)", {"frame": "principal"}),
+    ("SO(2)", {"frame": "principal"}),
+]
+"""From the telling to the special: a change is tried on the first that reach it."""
+
+REFUSED = (
+    "negative mass", "negative by pi", "negative by default", "moments of no masses",
+    "skew moments", "no rotation", "reflection", "hole outside", "negative sides", "not closed",
+    "dependent", "zero in a basis", "zero below", "root of nothing", "two inputs of one name",
+    "damping", "point that is not there", "coordinate that is not there", "unknown function",
+    "half an expression", "odd", "product too large", "not declared", "unused parameter",
+)  # fmt: skip
+"""Mistakes in files, from those that are tested."""
+
+DATA = {name: tomllib.loads(text) for name, text in TEXTS.items()}
+DATA |= {f"pushed {group}": pushed_data(group, FREE) for group in ("SE(3)", "SAff(3)")}
+JOBS = [Job(name, DATA[name], options) for name, options in CHOSEN]
+MISTAKES = SINGULAR | {name: FILES[name] for name in REFUSED}
+JOBS += [Job(name, tomllib.loads(text), {}, says) for name, (text, says) in MISTAKES.items()]

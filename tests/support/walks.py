@@ -1,0 +1,39 @@
+"""The records of the ready-made problems, derived once for each test process."""
+
+from functools import cache
+
+import pytest
+
+from derive.check.checker import Checker
+from derive.command.cli import derive, ready_made
+from derive.record.vocabulary import ANY_GROUP
+
+NAMES = ("linear", "affine", "so3", "se3", "sl3")
+OTHERS = tuple(sorted({*ready_made()} - {*NAMES}))
+SPECIAL = ("so3", "se3", "sl3")
+
+SEED = 20
+"""Of a check that is to be the same at every run of the tests."""
+
+
+def repeated(cases, first=1):
+    """Cases of a long test: all are run, and the coverage of the first alone is measured, for the
+    others take the same lines."""
+    cases = [*cases]
+    return cases[:first] + [pytest.param(x, marks=pytest.mark.no_cover) for x in cases[first:]]
+
+
+@cache
+def record(name):
+    return derive(name)[1]
+
+
+@cache
+def problem(name):
+    return derive(name)[0]
+
+
+def own_verdicts(found, seed=SEED):
+    """Of the steps about the problem's group; those about any group are the same in all records."""
+    checker = Checker(found.problem, seed)
+    return [checker.check(step) for step in found.steps if step.scope != ANY_GROUP]

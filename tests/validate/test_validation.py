@@ -1,0 +1,498 @@
+"""Emitted files read back: they equal the record exactly, and no single change of one passes."""
+
+import ast
+import os
+import re
+import sys
+import tomllib
+from fractions import Fraction
+from functools import cache
+from random import Random
+
+import pytest
+
+from derive.code import emit as emission
+from derive.code.emit import emit
+from derive.code.options import Options
+from derive.command.cli import main
+from derive.pipeline import program, walk
+from derive.problem.toml import problem_of
+from derive.validate.chart import Chart
+from derive.validate.compare import Comparison
+from derive.validate.emission import Emission
+from derive.validate.exact_points import Claims
+from derive.validate.literals import Literals
+from derive.validate.module import Machine
+from derive.validate.names import DiffersError
+from derive.validate.read_c import read_c
+from derive.validate.read_python import read_python
+from derive.validate.terms import Array, CodeError
+from tests.project.test_layers import ROOT, imported
+from tests.support.code_mutations import mutants
+from tests.support.engine_mutations.jobs import FUNCTIONS
+from tests.support.walks import NAMES, OTHERS, problem, record
+
+PROBLEMS = sorted({*NAMES, *OTHERS} - {"linear", "affine"})
+MUTATED = ("so3", "se3", "sl3", "comet", "jelly")
+ALL = "DERIVE_ALL_MUTATIONS" in os.environ
+SAMPLE = {"c": 20, "python": 60}
+"""Changes of each file, spread over all of it; `make mutants` tries every one."""
+SMALL = 2**40
+
+
+@cache
+def emitted(name, **chosen):
+    options = Options(**chosen)
+    compiled = program(problem(name), record(name), options)
+    files = emit(compiled, record(name), ("c", "python"), name, options)
+    return files, compiled.numbers(), Chart(options.layout, options.attitude, options.velocity)
+
+
+def reports(name, changed=None, **chosen):
+    files, numbers, chart = emitted(name, **chosen)
+    given = chosen.get("frame", "given") == "given"
+    return Emission(files | (changed or {}), name, chart, numbers, given).reports(record(name))
+
+
+@cache
+def claims(name):
+    return Claims(record(name), Chart(), SMALL)
+
+
+@cache
+def point(name):
+    return claims(name).point("one point for all changes")
+
+
+def read(name, language, text, **chosen):
+    files, _, _ = emitted(name, **chosen)
+    if language == "python":
+        return read_python(f"{name}.py", text)
+    return read_c(f"{name}.c", files | {f"{name}.c": text}, name)
+
+
+def compared(name, language, text, **chosen):
+    """Holds one text of a file against the record at one exact point."""
+    literals = Literals(emitted(name)[1])
+    module = read(name, language, text, **chosen)
+    return Comparison(module, claims(name), literals, point(name)).all()
+
+
+def meaning(name, language, text):
+    """All that the functions give at numbers drawn without regard to the group."""
+    module, random = read(name, language, text), Random("any numbers")
+    machine = Machine(module, point(name).elementary, Literals(emitted(name)[1]))
+    sizes = {"p": "PARAMETERS", "x": "STATE", "u": "INPUTS", "k": "CONSTANTS"}
+    given = {
+        a: Array([Fraction(random.randint(1, SMALL)) for _ in range(module.sizes[size])], a)
+        for a, size in sizes.items()
+    } | {"t": Fraction(random.randint(1, SMALL))}
+    k = machine.call("constants", given, k=module.sizes["CONSTANTS"])
+    dx = machine.call("rhs", given, dx=module.sizes["STATE"])
+    energy = machine.call("energy", given, value=1)
+    if "project" not in module.functions:
+        return k, dx, energy
+    moved = machine.call("project", given, out=module.sizes["STATE"])
+    return k, dx, energy, moved, machine.call("defect", given, value=1)
+
+
+def text_of(name, language):
+    return emitted(name)[0][f"{name}.{'c' if language == 'c' else 'py'}"]
+
+
+# -- what is emitted equals the record ----------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_every_ready_made_problem_equals_its_record(name):
+    c, python = reports(name)
+    assert c.files == (f"{name}.h", f"{name}.c")
+    assert c.holds, c.text
+    assert python.holds, python.text
+    drift = {"gl3": "", "jelly": "", "screw": ", project, defect (at the unit of the group)"}
+    seen = f"constants, rhs, energy, rhs_batch{drift.get(name, ', project, defect')}"
+    assert c.text.startswith(f"{seen} equal the record at 2 exact points")
+    assert float(c.text.partition("below ")[2].partition(";")[0]) < 1e-40
+    assert "no function reads" not in c.text + python.text
+
+
+CHOICES = [
+    ("so3", {"attitude": "quaternion", "jacobian": ("state", "inputs", "parameters")}),
+    ("se3", {"attitude": "quaternion", "form": "header", "real": "float"}),
+    ("se3", {"velocity": "tangent", "layout": "col", "jacobian": ("state", "inputs")}),
+    ("sl3", {"velocity": "tangent", "jacobian": ("state",)}),
+    ("top", {"layout": "col", "jacobian": ("parameters",)}),
+    ("ellipsoid", {"attitude": "quaternion", "jacobian": ("state", "inputs")}),
+    ("saff3", {"velocity": "tangent"}),
+    ("two_tops", {"layout": "col", "jacobian": ("state",)}),
+]
+
+
+@pytest.mark.parametrize(("name", "chosen"), CHOICES, ids=str)
+def test_every_form_of_the_state_and_the_jacobians_equal_the_record(name, chosen):
+    for report in reports(name, **chosen):
+        assert report.holds, report.text
+        assert report.text.count("jacobian") == len(chosen.get("jacobian", ()))
+
+
+def test_the_principal_frame_is_said_not_to_be_validated():
+    assert all("not validated" in r.text and r.holds for r in reports("so3", frame="principal"))
+
+
+def test_a_rounded_decimal_is_read_as_what_it_rounds_and_no_other_is():
+    text = text_of("ellipsoid", "c")
+    assert "0.8377580409572781*" in text  # 4π/15
+    assert "; 2 decimals are read as the numbers that they round" in reports("ellipsoid")[0].text
+    (c, _) = reports(
+        "ellipsoid", {"ellipsoid.c": text.replace("0.837758040957278", "0.8377580409572780")}
+    )
+    assert not c.holds
+    assert c.text.startswith("DIFFERS: rhs: the rate of zeta_2 differs from the record's: ")
+
+
+# -- no change passes ---------------------------------------------------------------------------
+
+
+@pytest.mark.no_cover
+@pytest.mark.parametrize("language", ["c", "python"])
+@pytest.mark.parametrize("name", MUTATED)
+def test_every_change_of_the_code_is_refused(name, language):
+    """What is spelt otherwise and is the same function of all numbers is no change of it."""
+    kinds, total, same, passed = tried(name, language, 0 if ALL else SAMPLE[language])
+    told = f"{name}, {language}: {total - len(passed)} of {total} caught, {same} change nothing"
+    print(told)
+    assert not passed, f"{told}; not {passed}"
+    assert kinds >= {"sign", "term", "product", "name"}
+
+
+def tried(name, language, some=0):
+    """The kinds of changes, how many of all or some change something, how many do not; those that
+    pass, of the former."""
+    text = text_of(name, language)
+    compared(name, language, text)
+    found = list(mutants(text, language, read(name, language, text)))
+    taken = found[:: max(1, len(found) // some) if some else 1]
+    passed, same = [], 0
+    for function, kind, place, changed in taken:
+        try:
+            compared(name, language, changed)
+        except CodeError:
+            continue
+        if meaning(name, language, changed) == meaning(name, language, text):
+            same += 1
+        else:
+            passed.append((function, kind, text.count("\n", 0, place) + 1))
+    return {kind for _, kind, _, _ in found}, len(taken) - same, same, passed
+
+
+def test_every_elementary_function_has_its_slope():
+    options, derived = Options(jacobian=("state",)), problem_of(tomllib.loads(FUNCTIONS))
+    d = walk(derived)
+    compiled = program(derived, d, options)
+    files = emit(compiled, d, ("c", "python"), "test", options)
+    for report in Emission(files, "test", Chart(), compiled.numbers()).reports(d):
+        assert report.holds, report.text
+        assert "jacobian" in report.text
+
+
+@pytest.mark.no_cover
+@pytest.mark.parametrize("chosen", [("state",), ("inputs",), ("parameters",)], ids=str)
+def test_a_change_of_a_jacobian_is_refused(chosen):
+    text = emitted("so3", jacobian=chosen)[0]["so3.c"]
+    start = text.index("void so3_jacobian")
+    outputs = re.findall(r"^    D\[\d+\] = ([^;]*);", text[start:], re.MULTILINE)
+    for old in {x for x in outputs if x != "0.0"}:
+        wrong = text[:start] + text[start:].replace(f"] = {old};", f"] = 2.0*({old});", 1)
+        with pytest.raises(DiffersError, match="jacobian"):
+            compared("so3", "c", wrong, jacobian=chosen)
+
+
+DRIFT = {
+    "a sign": ("-0.5*left_11", "0.5*left_11", "not taken back"),
+    "half a step": ("-0.5*left_11", "-0.25*left_11", "not taken back"),
+    "another state": ("out[9] = zeta_1", "out[9] = zeta_2", "a state of the group is changed"),
+    "in place": ("out[9] = zeta_1", "out[9] = x[9]", "cannot work in place"),
+    "left out": (" + fabs(left_22)", "", "does not see all"),
+    "hidden": (" + fabs(left_22)", " - fabs(left_22)", "no sum of sizes"),
+    "no size": ("fabs(left_22)", "left_22*left_22", "no sum of sizes"),
+    "elsewhere": ("fabs(left_22)", "fabs(left_22 - 1.0)", "does not vanish"),
+}
+
+
+@pytest.mark.parametrize("case", DRIFT)
+def test_a_change_of_project_or_defect_is_refused(case):
+    old, new, reason = DRIFT[case]
+    text = text_of("so3", "c")
+    start = text.index("void so3_project")
+    assert old in text[start:]
+    with pytest.raises(CodeError, match=reason):
+        compared("so3", "c", text[:start] + text[start:].replace(old, new, 1))
+
+
+LISTS = [
+    ("so3.py", '    "A_12",\n    "A_13",', '    "A_13",\n    "A_12",', "names of state"),
+    ("so3.c", '    "A_12",\n    "A_13",', '    "A_13",\n    "A_12",', "names of state"),
+    ("so3.c", '    "c_1",\n    "c_2",', '    "c_2",\n    "c_1",', "parameters"),
+    ("so3.py", '    "u_1",\n', "", "names of inputs"),
+    ("so3.py", '"c_3": 0.2', '"c_3": 0.3', "defaults"),
+    ("so3.py", "[[0, 0, 0], [0, 0, -1]", "[[0, 0, 0], [0, 0, 1]", "basis"),
+    ("so3.h", "so3_N_INPUTS = 3", "so3_N_INPUTS = 4", "so3_SIZE_U is 3, not 4"),
+    ("so3.h", "so3_N_CONSTANTS = 20", "so3_N_CONSTANTS = 21", "so3_SIZE_K is 20, not 21"),
+    ("so3.h", "so3_SIZE_U = 3", "so3_SIZE_U = 2", "so3_SIZE_U is 2, not 3"),
+    ("so3.h", "so3_SIZE_K = 20", "so3_SIZE_K = 19", "so3_SIZE_K is 19, not 20"),
+]
+
+
+@pytest.mark.parametrize(("file", "old", "new", "reason"), LISTS, ids=str)
+def test_a_wrong_list_or_size_is_refused(file, old, new, reason):
+    text = emitted("so3")[0][file]
+    assert old in text
+    found = [r for r in reports("so3", {file: text.replace(old, new)}) if not r.holds]
+    assert len(found) == 1
+    assert reason in found[0].text
+
+
+SIZES = [
+    ("N_INPUTS|SIZE_U", 3, 4, "size INPUTS"),
+    ("N_CONSTANTS|SIZE_K", 20, 21, "k[20] is"),
+    ("N_CONSTANTS|SIZE_K", 20, 19, "k[19] is outside"),
+]
+
+
+@pytest.mark.parametrize(("sizes", "right", "wrong", "reason"), SIZES)
+def test_a_count_wrong_with_its_size_is_refused(sizes, right, wrong, reason):
+    text = emitted("so3")[0]["so3.h"]
+    text, count = re.subn(rf"({sizes}) = {right}\b", rf"\1 = {wrong}", text)
+    assert count == 2
+    found = [r for r in reports("so3", {"so3.h": text}) if not r.holds]
+    assert len(found) == 1
+    assert reason in found[0].text
+
+
+# -- files that cannot be read ------------------------------------------------------------------
+
+UNREAD = {
+    "c": [
+        ("so3_rhs(double t", "so3_rhs(double k", "is not known"),
+        ("const double *so3_RESTRICT u", "double *so3_RESTRICT u", "is not known"),
+        ("I_22 - I_11*I_l_21*I_l_21", "pow(I_22, 2)", "FuncCall"),
+        ("I_22 - I_11*I_l_21*I_l_21", "cbrt(I_22)", "cbrt"),
+        ("I_22 - I_11*I_l_21*I_l_21", "I_22 ? I_33 : J_23", "TernaryOp"),
+        ("I_22 - I_11*I_l_21*I_l_21", "(int)I_22", "Cast"),
+        ("I_22 - I_11*I_l_21*I_l_21", "fabs(I_22)", "depends on a size"),
+        ("I_22 - I_11*I_l_21*I_l_21", "size_I_1", "has no value"),
+        (
+            "    (void)t;\n",
+            "    if (t > 1e40) {\n        return 1;\n    }\n",
+            "condition",
+        ),
+        ("    k[0] = J_12;\n", "    if (p[0] > 0) { k[0] = J_12; }\n", "condition"),
+        ("I_22 - I_11*I_l_21*I_l_21", "(k[0] = 1.0)", "Assignment"),
+        ("1.0/I_d_3", "1/2/I_d_3", "quotient of integers"),
+        ("1.0/I_d_3", "1.0f/I_d_3", "1.0f"),
+        ("1.0/I_d_3", "0x1p0/I_d_3", "0x1p0"),
+        ("const double I_11 =", "double I_11 =", "Decl"),
+        ("const double I_11 =", "const float I_11 =", "TypeDecl"),
+        ("const double I_22 =", "const double I_11 =", "set twice"),
+        ("    k[0] = J_12;\n", "", "k[0] is read before it is written"),
+        ("    k[0] = J_12;\n", "    while (1) k[0] = J_12;\n", "While"),
+        ("    k[0] = J_12;\n", "    k[0] += J_12;\n", "Assignment"),
+        ("    k[0] = J_12;\n", "    k[20] = J_12;\n", "outside"),
+        ("    k[0] = J_12;\n", "    p[0] = J_12;\n", "input"),
+        ("    k[0] = J_12;\n", "#ifdef __GNUC__\n    k[0] = J_12;\n#endif\n", "under a condition"),
+        ("    k[0] = J_12;\n", "#define J_12 J_13\n    k[0] = J_12;\n", "macro"),
+        ("    k[0] = J_12;\n", "    k[0] = J_1\\\n2;\n", "backslash"),
+        ("#include <math.h>", "#include <complex.h>", "complex.h"),
+        ("#include <math.h>", "double fabs(double x) { return x; }", "fabs"),
+        ("#include <math.h>", "static double c_1 = 1.0;", "Decl"),
+        ("#include <math.h>", "enum { I_22 = 3 };", "Enumerator"),
+        ("#include <math.h>", "enum { so3_N_STATE = 12 };", "Enumerator"),
+        ("#include <math.h>", "extern const double so3_k[4];", "Decl"),
+        ("I_22 = ", "so3_N_STATE = ", "Decl"),
+    ],
+    "python": [
+        ("def _rhs(xp, t, x, k, u)", "def _rhs(xp, t, x, u, k)", "other arguments"),
+        ("def _rhs(", "@cache\ndef _rhs(", "FunctionDef"),
+        ("\n\ndef _inertia(", "\n\n_rhs = None\n\ndef _inertia(", ""),
+        (
+            "\n\ndef _inertia(",
+            "\n\ndef _rhs(xp, t, x, k, u):\n    return x\n\ndef _inertia(",
+            "twice",
+        ),
+        ("I_22 - I_11*I_l_21*I_l_21", "I_22**2", "BinOp"),
+        ("I_22 - I_11*I_l_21*I_l_21", "I_22 if I_33 else 0.0", "IfExp"),
+        ("I_22 - I_11*I_l_21*I_l_21", "print(I_22)", "print"),
+        ("    return [\n        J_12", "    return [\n        abs(J_12)", "depends on a size"),
+        ("    return [\n        J_12", "    return [\n        size_I_1", "depends on a size"),
+        ("I_22 - I_11*I_l_21*I_l_21", "xp.cbrt(I_22)", "xp.cbrt"),
+        ("I_22 - I_11*I_l_21*I_l_21", "(lambda: I_22)()", ""),
+        ("1.0/I_d_3", "1e9999/I_d_3", "1e9999"),
+        ("1.0/I_d_3", "1.0/(I_d_3 - I_d_3)", "division by zero"),
+        ("    I_d_2 = ", "    import os\n    I_d_2 = ", "Import"),
+        ("    I_d_2 = ", "    abs = ", "Assign"),
+        ("    I_22 = ", "    I_11 = ", "set twice"),
+    ],
+}
+BROKEN = [(language, *case) for language, cases in UNREAD.items() for case in cases]
+
+
+@pytest.mark.parametrize(("language", "old", "new", "reason"), BROKEN, ids=str)
+def test_what_is_not_known_is_an_error(language, old, new, reason):
+    text = text_of("so3", language)
+    assert old in text
+    with pytest.raises(CodeError) as caught:
+        compared("so3", language, text.replace(old, new, 1))
+    assert reason in str(caught.value)
+
+
+@pytest.mark.parametrize("language", ["c", "python"])
+def test_a_truncated_file_is_an_error(language):
+    text = text_of("so3", language)
+    for place in range(0, text.rindex("h_tilde"), len(text) // 40):
+        with pytest.raises(CodeError) as caught:
+            compared("so3", language, text[:place])
+        assert str(caught.value)
+
+
+# -- the command --------------------------------------------------------------------------------
+
+
+def test_the_readme_shows_what_is_said():
+    text = (ROOT.parent / "README.md").read_text(encoding="utf-8")
+    shown = re.search(r"<!-- output: derive emit hammer --validate -->\n```\n(.*?)\n```", text)[1]
+    said = f"{', '.join(reports('hammer')[0].files)}: {reports('hammer')[0].text}"
+    assert re.sub(r"1e-\d+", "", shown) == re.sub(r"1e-\d+", "", said)
+
+
+def test_the_command_says_what_was_validated_and_writes(tmp_path, capsys):
+    command = ["emit", "so3", "--lang", "c", "--lang", "python", "--lang", "rust", "--validate"]
+    assert main([*command, "--out", str(tmp_path)]) == 0
+    lines = capsys.readouterr().err.splitlines()
+    assert [x.partition(": ")[0] for x in lines] == ["so3.h, so3.c", "so3.py", "so3.rs"]
+    assert "a false pass has probability below 1e-6" in lines[0]
+    assert lines[2].endswith("not validated: only C and Python are read back")
+    assert len(os.listdir(tmp_path)) == 4
+
+
+def test_nothing_that_differs_is_written(tmp_path, capsys, monkeypatch):
+    def wrong(*given):
+        files = emit(*given)
+        return files | {"so3.c": files["so3.c"].replace("J_13*zeta_1 + J_23", "J_13*zeta_1 - J_23")}
+
+    monkeypatch.setattr(emission, "emit", wrong)
+    assert main(["emit", "so3", "--validate", "--out", str(tmp_path)]) == 1
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "so3.h, so3.c: DIFFERS: rhs: the rate of zeta_1 differs from the record's" in err
+    assert os.listdir(tmp_path) == []
+
+
+def test_without_the_parser_of_c_one_line_says_what_to_install(tmp_path, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pycparser", None)
+    assert main(["emit", "so3", "--validate", "--out", str(tmp_path)]) == 2
+    assert "pip install 'derive-mechanics[validate]'" in capsys.readouterr().err
+    assert main(["emit", "so3", "--lang", "python", "--validate", "--out", str(tmp_path)]) == 0
+
+
+def test_the_validator_shares_nothing_with_what_makes_the_files():
+    """Neither directly nor through what it imports; and it runs none of their text."""
+    names = {str(p.relative_to(ROOT)) for p in imported(ROOT / "validate" / "emission.py")}
+    assert "check/model.py" in names
+    assert not any(n.startswith(("walk/", "code/", "views/", "problem/")) for n in names)
+    for path in (ROOT / "validate").iterdir():
+        if path.suffix == ".py":
+            calls = [x for x in ast.walk(ast.parse(path.read_text())) if isinstance(x, ast.Call)]
+            assert not {ast.unparse(x.func) for x in calls} & {
+                "exec",
+                "eval",
+                "compile",
+                "__import__",
+            }
+
+
+HIDDEN = {
+    "public function": ("return _evaluated(_rhs, ", "return -_evaluated(_rhs, "),
+    "default": ("def rhs(t, x, k, u=None)", "def rhs(t, x, k, u=print())"),
+    "data": ("ZEROS = (0.0,)", "ZEROS = (1.0,)"),
+    "annotation": ("def _energy(xp, t, x, k, u):", "def _energy(xp, t, x, k, u: print()):"),
+    "encoding": ('"""', '# coding: unicode_escape\n"""'),
+    "carriage return": ("import math\n", "import math  #\rk = 1\n"),
+}
+
+
+@pytest.mark.parametrize("case", HIDDEN)
+def test_python_that_is_run_and_not_read_must_be_what_is_emitted(case):
+    files, numbers, chart = emitted("so3")
+    old, new = HIDDEN[case]
+    assert old in files["so3.py"]
+    changed = {"so3.py": files["so3.py"].replace(old, new, 1)}
+    (found,) = Emission(changed, "so3", chart, numbers, True, files).reports(record("so3"))
+    assert not found.holds
+    assert Emission(files, "so3", chart, numbers, True, files).reports(record("so3"))[1].holds
+
+
+@pytest.mark.parametrize("old", ["*n + s] =", "s < n"])
+def test_batches_are_tried_with_several_sizes(old):
+    text = text_of("so3", "c")
+    changed = {"so3.c": text.replace(old, old.replace("n", "3"))}
+    assert changed["so3.c"] != text
+    (c, _) = reports("so3", changed)
+    assert not c.holds
+
+
+LATER = {
+    "the velocity of the first": ("= x[9*n + s];", "= x[9*n];"),
+    "an input of the first": ("= u[2*n + s];", "= u[2*n];"),
+    "more than its own": ("= x[9*n + s];", "= x[9*n + s] + (u[1*n + s] - u[1*n]);"),
+    "right in the first two": ("= x[4*n + s];", "= x[4*n + s*s];"),
+    "another constant": ("= k[12];", "= k[12 + s];"),
+    "what another state has": ("zeta_2*I_0_zeta_3", "x[10*n]*I_0_zeta_3"),
+}
+"""Changes of ``rhs_batch`` that leave the first of its states right."""
+
+
+@pytest.mark.parametrize("case", LATER)
+def test_every_state_of_a_batch_is_compared(case):
+    """And each with its own state and inputs, one by one."""
+    old, new = LATER[case]
+    before, mark, batch = text_of("so3", "c").partition("so3_rhs_batch(")
+    assert old in batch
+    (c, _) = reports("so3", {"so3.c": before + mark + batch.replace(old, new, 1)})
+    assert c.text.startswith("DIFFERS: rhs_batch: the rate of ")
+
+
+def test_nothing_validated_is_no_success(tmp_path, capsys):
+    command = ["emit", "so3", "--lang", "rust", "--validate", "--out", str(tmp_path / "new")]
+    assert main(command) == 1
+    assert "nothing of this can be validated" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_header_in_the_place_of_the_library_is_told(tmp_path, capsys):
+    command = ["emit", "so3", "--out", str(tmp_path)]
+    assert main(command) == 0
+    (tmp_path / "math.h").write_text("#define sqrt cbrt\n", encoding="utf-8")
+    assert main([*command, "--check"]) == 1
+    assert "math.h: would be read in place of" in capsys.readouterr().out
+
+
+def test_files_on_disk_are_read_back_too(tmp_path, capsys):
+    """`emit --check --validate` judges what someone has changed since."""
+    command = ["emit", "so3", "--out", str(tmp_path), "--check", "--validate"]
+    assert main(command[:4]) == 0
+    assert main(command) == 0
+    path = tmp_path / "so3.c"
+    text = path.read_text(encoding="utf-8")
+    path.write_text(f"/* mine */\n{text}", encoding="utf-8")
+    assert main(command) == 1
+    told = capsys.readouterr()
+    assert "so3.c: not current from line 1 on" in told.out
+    assert "so3.c: constants, rhs, energy, rhs_batch, project, defect equal the record" in told.err
+    changed = text.replace("I_0_11*zeta_1 - J_12", "I_0_11*zeta_1 + J_12", 1)
+    assert changed != text
+    path.write_text(changed, encoding="utf-8")
+    assert main(command) == 1
+    assert "so3.h, so3.c: DIFFERS: rhs: the rate of zeta_1" in capsys.readouterr().err
+    (tmp_path / "so3.h").unlink()
+    assert main(command) == 1
+    assert "so3.h, so3.c: cannot be read back: so3.h is empty or missing" in capsys.readouterr().err

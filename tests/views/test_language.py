@@ -1,0 +1,291 @@
+"""The views in French: every message is in the catalogue, every entry is used, formulas stay."""
+
+import ast
+import re
+import tomllib
+from collections import Counter
+from functools import cache
+from importlib import resources
+from pathlib import Path
+
+import pytest
+
+from derive.command.cli import main, ready_made
+from derive.paper.findings import PAPER
+from derive.pipeline import walk
+from derive.printing.escape import markdown_text, prose, tex_text
+from derive.problem.problem import MomentBody
+from derive.problem.solids import KINDS
+from derive.problem.toml import load, problem_of
+from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
+from derive.record.record import from_json, to_json
+from derive.record.rules import RULES
+from derive.record.sentence import PLACE, english, phrase, say
+from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
+from derive.views import outline
+from derive.views.language import ENGLISH, LANGUAGES, THIN, WIDE, Language, entries, language
+from derive.views.latex import latex
+from derive.views.markdown import markdown, step_markdown
+from derive.views.text import step_text, text
+from derive.walk.supposed import WORDS
+from tests.problems import PROBLEMS
+from tests.support import walks
+from tests.views.test_views import compiled
+
+ROOT = Path(__file__).parents[2] / "derive"
+ENTRIES = entries()
+FRENCH = language("fr")
+THREE = Points((1, [1, 0]), (2, [0, 1]), (3, [0, 0]))
+UPPER = Group("Upper", [[[1, 0], [0, 0]], [[0, 1], [0, 0]], [[0, 0], [0, 1]]])
+TURN = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+CORNERS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+ON_TURNED = (
+    Solid("tetrahedron", 2, vertices=CORNERS, rotation=TURN),
+    Solid("hollow_ball", 1, outer=2, inner=1),
+    Solid("ball", 3, radius=1),
+)
+GIVEN = Moments(m=2, c=[0, 0, 0], J=[[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+CORNER = "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
+MESH = """
+name = "corner"
+group = "SO(3)"
+[[solid]]
+kind = "mesh"
+density = 1
+file = "corner.off"
+"""
+CHOSEN = (
+    *("SL(3) forces", "SE(3) forces", "Sim(3) forces", "SO(3) x SO(3)", "SO(3) forces"),
+    *("a cylinder", "SL(4)", "Aff(2)", "SAff(2)", "weighted", "screw"),
+    *("SE(3) x SE(3)", "a flat body", "so(3) skewed"),
+)
+
+
+def own_problems(folder):
+    """Problems that reach what no other does."""
+    (folder / "corner.off").write_text(CORNER, encoding="utf-8")
+    (folder / "corner.toml").write_text(MESH, encoding="utf-8")
+    pushed = [Damping(1), Force("f", on=1)]
+    return [
+        Problem("upper", UPPER, THREE, [Spring(1, 2, 1)]),
+        Problem("given", "SO(3)", GIVEN),
+        Problem("solids", "SE(3)", [*ON_TURNED]),
+        load(folder / "corner.toml"),
+        Problem("tied", Aff(2), THREE, [Spring(1, 2, 1, length=1)]),
+        Problem("anchored", Aff(2), THREE, [Spring(1, [0, 1], 1)]),
+        Problem("pushed", Aff(2), THREE, [Spring(1, 2, 1), *pushed]),
+        Problem("moments", "SE(3)", Moments(), parameters={}),
+    ]
+
+
+@pytest.fixture(scope="module")
+def records(tmp_path_factory):
+    """The ready-made problems, some with all kinds of forces, and the own ones."""
+    found = [walks.record(name) for name in ready_made()]
+    found += [walk(problem_of(tomllib.loads(PROBLEMS[name]))) for name in CHOSEN]
+    return found + [walk(p) for p in own_problems(tmp_path_factory.mktemp("mesh"))]
+
+
+def messages(sentence):
+    """The message of a sentence and of those in its places."""
+    yield sentence.message
+    for _, x in sentence.places:
+        if not isinstance(x, str):
+            yield from messages(x)
+
+
+def said(record):
+    """The messages of all steps and symbols."""
+    words = [step.prose for step in record.steps] + [s.meaning for s in record.symbols]
+    return {m for prose in words for sentence in prose for m in messages(sentence)}
+
+
+@cache
+def strings(*folders):
+    """Every string that stands in the sources."""
+    paths = [p for folder in folders for p in sorted(ROOT.glob(folder))]
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in paths]
+    constants = (x for tree in trees for x in ast.walk(tree) if isinstance(x, ast.Constant))
+    return {x.value for x in constants if isinstance(x.value, str)}
+
+
+def titles_and_meanings():
+    """The words of the ready-made problems, and of moments that are parameters."""
+    problems = [walks.problem(name) for name in ready_made()]
+    given = [*(p for x in problems for p in x.parameters.values())]
+    given += MomentBody(3).parameters().values()
+    return {x.title for x in problems} | {p.meaning for p in given if p.meaning}
+
+
+def test_the_english_of_an_entry_stands_once():
+    assert len({x["en"] for x in ENTRIES}) == len(ENTRIES)
+    assert all(set(x) == set(LANGUAGES) and all(x.values()) for x in ENTRIES)
+
+
+@pytest.mark.parametrize("entry", ENTRIES, ids=lambda x: x["en"][:40])
+def test_both_sides_have_the_same_places(entry):
+    if "\\" in entry["en"]:
+        return  # formulas with braces of their own
+    here, there = (Counter(PLACE.findall(entry[name])) for name in LANGUAGES)
+    assert here == there
+    assert set(here.values()) <= {1}
+
+
+def test_every_sentence_is_in_the_catalogue(records):
+    used = set().union(*map(said, records))
+    assert used <= set(FRENCH.messages)
+
+
+def test_every_message_of_the_walk_is_reached(records):
+    """The problems above go through every branch that says something, but for what is said of
+    masses of any sign (tests/walk/test_signed_masses.py)."""
+    written = strings("walk/*.py") & set(FRENCH.messages) - set(RULES)
+    written -= {signed for _, signed in WORDS.values()}
+    meanings = titles_and_meanings()
+    assert written - meanings <= set().union(*map(said, records))
+
+
+def test_every_word_of_the_tables_is_in_the_catalogue():
+    tables = (VOCABULARY, ROTATIONS, PRODUCTS, DISPLACEMENTS)
+    words = {x.meaning for table in tables for x in table.values()}
+    words |= {*RULES, *(words for _, words in outline.GIVEN)}
+    words |= {p.remark for p in PAPER if p.remark}
+    words |= {outline.CONVENTIONS, outline.FORMULAS_CONVENTIONS, outline.PAPER}
+    assert words | titles_and_meanings() <= set(FRENCH.messages)
+    assert set(KINDS) <= strings("walk/body.py")
+
+
+SPEAKING = sorted(p for room in ("views", "figure", "walk") for p in ROOT.glob(f"{room}/*.py"))
+
+
+@pytest.mark.parametrize("path", SPEAKING, ids=lambda p: str(p.relative_to(ROOT)))
+def test_every_word_said_is_in_the_catalogue(path):
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        called = getattr(node, "func", None)
+        name = getattr(called, "attr", getattr(called, "id", ""))
+        if name in ("say", "phrase", "word") and node.args:
+            message = node.args[0]
+            assert not isinstance(message, ast.JoinedStr)
+            if isinstance(message, ast.Constant):
+                assert message.value in FRENCH.messages
+
+
+def test_every_entry_is_used():
+    sources = strings(
+        "walk/*.py", "record/vocabulary.py", "record/rules.py", "views/*.py", "figure/*.py"
+    )
+    sources |= strings("paper/findings.py")
+    sources |= {p.remark for p in PAPER if p.remark}
+    used = sources | strings("pipeline.py") | titles_and_meanings()
+    assert [x["en"] for x in ENTRIES if x["en"] not in used] == []
+
+
+TYPOGRAPHY = {
+    "no straight quote": r"['\"`“”]",
+    "no ordinary space before": rf"[^{THIN}][;!?]|[^{WIDE}]:| »|« ",
+    "quotation marks have their space": rf"«[^{WIDE}]|[^{WIDE}]»",
+    "no space twice": rf"[\s{THIN}{WIDE}]{{2}}",
+    "no space before": r"\s[,.)]|\( ",
+    "accents on capitals": r"\b(?:A (?!r_i)|E[tc]at|Equa|Elem|Eqa|Energ|Ecri|Elle-meme)",
+    "ligatures": r"\b[Oo]eu|[cn]oeu",
+}
+
+
+def in_words(french):
+    """Without formulas between dollars and without places."""
+    return PLACE.sub("…", re.sub(r"\$[^$]*\$", "…", french))
+
+
+@pytest.mark.parametrize("rule", TYPOGRAPHY)
+def test_french_typography(rule):
+    wrong = [x for x in FRENCH.messages.values() if re.search(TYPOGRAPHY[rule], in_words(x))]
+    assert wrong == []
+
+
+def test_the_two_sides_begin_and_end_alike():
+    for english_text, french in FRENCH.messages.items():
+        ends = [x[-1] if x[-1] in ".:;?!" else "" for x in (english_text, french)]
+        assert ends[0] == ends[1], french
+        if ends[0] == ".":
+            first = [x[0] for x in (english_text, french)]
+            assert first[0].isupper() == first[1].isupper(), french
+
+
+def formulas(words, escape):
+    """The formulas that a view finds, piece by piece."""
+    found = re.findall(r"\$([^$]*)\$", prose(words, escape))
+    return Counter(x for formula in found for x in formula.split())
+
+
+@pytest.mark.parametrize("escape", [tex_text, markdown_text])
+def test_french_has_the_formulas_of_the_english(records, escape):
+    told = {s for d in records for step in d.steps for s in step.prose}
+    told |= {s for d in records for symbol in d.symbols for s in symbol.meaning}
+    for sentence in sorted(told, key=str):
+        found = formulas(FRENCH.sentence(sentence), escape)
+        assert found == formulas(str(sentence), escape), sentence
+
+
+def test_french_words_are_no_formulas():
+    assert prose("À l’indice e, même où l’on a tout, d’ĀA à lui, côté : δt\u202f;") == (
+        r"\`{A} l'indice $e$, m\^{e}me o\`{u} l'on a tout, d'$\bar{A}A$ \`{a} lui, "
+        r"c\^{o}t\'{e} : $\delta t$\,;"
+    )
+    assert tex_text(f"ici{WIDE}: «{WIDE}là{WIDE}»{THIN}!") == r"ici~: \opened{}~l\`{a}~\closed{}\,!"
+    assert markdown_text(f"ici{WIDE}:  là") == f"ici{WIDE}: là"
+
+
+def test_sentences_in_a_language():
+    small = Language("fr", {"{a} and {b}": "{b} et {a}", "x": "y"})
+    told = say("{a} and {b}", a=phrase("x"), b="x") + say("no such {place}")
+    assert small.of(told) == "x et y no such {place}"
+    assert ENGLISH.of(told) == english(told) == "x and x no such {place}"
+
+
+def test_what_the_user_said_stays():
+    d = walk(Problem("kernel", "SO(3)", GIVEN, title="{x} Ma toupie"))
+    assert text(d, language=FRENCH).startswith("{x} Ma toupie — SO(3)\n")
+    d = walk(Problem("kernel", "SO(3)", GIVEN))
+    assert text(d, language=FRENCH).startswith("kernel — SO(3)\n")
+
+
+def test_a_step_alone_in_french():
+    d = walks.record("so3")
+    assert "D’après so3.momenta, so3.coadjoint." in step_text(d["kernel"], language=FRENCH)
+    assert "(d’après `so3.momenta`, `so3.coadjoint`)" in step_markdown(
+        d["kernel"], d.symbols, language=FRENCH
+    )
+
+
+@pytest.mark.parametrize("name", ["so3", "se3", "sl3"])
+def test_french_latex_compiles_within_its_margins(name, tmp_path):
+    source = latex(walks.record(name), language=FRENCH)
+    assert source.isascii()
+    log = compiled(source, tmp_path, runs=2)
+    assert "Overfull \\hbox" not in log
+    assert "undefined" not in log
+
+
+@pytest.mark.parametrize("name", ready_made())
+def test_no_english_is_left(name):
+    """Nor in Markdown: the little words of English are nowhere."""
+    for view in (text, markdown):
+        shown = view(walks.record(name), language=FRENCH)
+        found = re.findall(r"\b(?:the|of|with|is|are|for|from|and)\b", shown)
+        assert found == [], view
+
+
+def test_the_command_line_speaks_french(capsys):
+    assert main(["walk", "so3", "--lang", "fr"]) == 0
+    assert "équations d’Euler" in capsys.readouterr().out
+    assert main(["walk", "so3", "--lang", "fr", "--format", "json"]) == 2
+    assert "--lang" in capsys.readouterr().err
+
+
+def test_the_catalogue_is_in_the_package():
+    assert (resources.files("derive.views") / "catalogue.toml").is_file()
+
+
+def test_records_read_back_say_the_same(records):
+    for d in records:
+        assert text(from_json(to_json(d)), language=FRENCH) == text(d, language=FRENCH)

@@ -1,0 +1,171 @@
+"""What is wrong in the text of one language is noticed: the comparison sees every part of it."""
+
+import copy
+import re
+import shutil
+
+import numpy as np
+import pytest
+
+from tests.support.calls import T
+from tests.support.emitted import compile_c
+from tests.support.languages import Emitted, agree, cvode
+from tests.support.needs import CC, need
+
+SIZE = 6
+"""Rows and columns of the jacobian of so3."""
+
+
+@pytest.fixture(scope="module")
+def so3(tmp_path_factory):
+    """The solid about a point in all languages, with all that it can be linearised in."""
+    need("cc")
+    languages = ("c", "python", "cpp", "rust", "julia", "javascript", "cvode")
+    chosen = {"jacobian": ("state", "inputs", "parameters")}
+    return Emitted("so3", "so3", tmp_path_factory.mktemp("right"), languages, chosen)
+
+
+def put(old, new):
+    """A change: the first of one text in the place of another."""
+    return lambda text: text.replace(old, new, 1)
+
+
+def after(mark, change):
+    """A change of what comes after a mark."""
+    return lambda text: "".join([*(parts := text.partition(mark))[:2], change(parts[2])])
+
+
+def swapped(a, b):
+    """A change: one text for another everywhere, and that for this."""
+    return lambda text: text.replace(a, "\0").replace(b, a).replace("\0", b)
+
+
+def turned(text):
+    """The entries of the first D, numbered from 0 by rows, at the places of the transpose."""
+    found = iter(range(SIZE * SIZE))
+
+    def place(m):
+        k = next(found, None)
+        return m[0] if k is None else f"D[{k % SIZE * SIZE + k // SIZE}] ="
+
+    return re.sub(r"\bD\[\d+\] =", place, text)
+
+
+def turned_from_1(text):
+    """The same of entries D[i, j]."""
+    return re.sub(r"D\[(\d), (\d)\] =", r"D[\2, \1] =", text, count=SIZE * SIZE)
+
+
+LOOP = """    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const Real kept = out.D[6 * i + j];
+            out.D[6 * i + j] = out.D[6 * j + i];
+            out.D[6 * j + i] = kept;
+        }
+    return out;"""
+MESSAGES = swapped("the mass matrix is singular", "a parameter is not finite")
+FAULTS = {
+    "rust2021": {
+        "jacobian": ("rs", after("pub fn jacobian(", turned)),
+        "jacobian_inputs": ("rs", after("pub fn jacobian_inputs(", put("inv_I_12;", "inv_I_13;"))),
+        "energy": ("rs", put("\n    h_tilde\n", "\n    -h_tilde\n")),
+        "status": ("rs", swapped("Err(Refused::Singular)", "Err(Refused::NotFinite)")),
+        "status, of a rod": ("rs", put("*margin <= 0.0", "*margin <= -1e300")),
+        "constants": ("rs", put("\n        J_12,\n", "\n        -J_12,\n")),
+        "rhs": ("rs", after("pub fn rhs(", put("= x[1]", "= x[2]"))),
+    },
+    "javascript": {
+        "jacobian": ("mjs", after("function jacobian(", turned)),
+        "energy": ("mjs", put("return h_tilde;", "return -h_tilde;")),
+        "status": ("mjs", MESSAGES),
+        "status, of a rod": ("mjs", put("margin <= 0", "margin <= -1e300")),
+        "rhs_unforced": ("mjs", put("fill(0)", "fill(1)")),
+    },
+    "julia": {
+        "jacobian": ("jl", after("function jacobian!(", turned_from_1)),
+        "jacobian_parameters": ("jl", put("D[4, 9] =", "D[4, 9] = -1.0 -")),
+        "energy": ("jl", put("return h_tilde", "return -h_tilde")),
+        "status": ("jl", MESSAGES),
+        "status, of a rod": ("jl", put("margin <= 0", "margin <= -1e300")),
+        "rhs": ("jl", put("u = control(x, t)", "u = nothing")),
+        "rhs_unforced": ("jl", put("_ -> zero(Float64)", "_ -> 1.0")),
+    },
+    "python": {
+        "jacobian": ("py", put(":12], D", ":12], xp.matrix_transpose(D)")),
+        "energy": ("py", put("return _evaluated(_energy", "return -_evaluated(_energy")),
+        "status": ("py", MESSAGES),
+        "status, of a rod": ("py", put("(x <= 0)", "(x <= -1e300)")),
+        "jacobian_inputs": ("py", put("arrays(xp.zeros(batch), ", "arrays(xp.zeros(()), ")),
+        "rhs_unforced": ("py", put("ZEROS = (0.0,)", "ZEROS = (1.0,)")),
+    },
+    "g++20": {
+        "jacobian": ("hpp", after("Linearised jac", put("    return out;", LOOP))),
+        "energy": ("hpp", put("return so3_energy", "return -so3_energy")),
+        "energy, of spans": ("hpp", after("using Out", put("so3_energy", "-so3_energy"))),
+        "status": ("hpp", put("k->data()) != 0", "k->data()) == 2")),
+        "status, of spans": ("hpp", put("k.data()) == 0;", "k.data()) != 1;")),
+    },
+}  # fmt: skip
+CASES = [(build, what) for build, faults in FAULTS.items() for what in faults]
+
+
+def wrong(case, tmp_path, name, change):
+    """A folder of the same files, one of them changed."""
+    shutil.copytree(case.folder, tmp_path, dirs_exist_ok=True)
+    text = change(case.files[name])
+    assert text != case.files[name]
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    return tmp_path
+
+
+@pytest.mark.parametrize("build", FAULTS)
+def test_without_a_fault_they_agree(build, so3):
+    agree(build, so3.folder, [so3])
+
+
+@pytest.mark.parametrize(("build", "what"), CASES)
+def test_a_fault_in_one_language_is_seen(build, what, so3, tmp_path):
+    suffix, change = FAULTS[build][what]
+    folder = wrong(so3, tmp_path, f"so3.{suffix}", change)
+    with pytest.raises(AssertionError, match=rf"\('so3', '{what.partition(',')[0]}'"):
+        agree(build, folder, [so3])
+
+
+IN_C = {
+    "jacobian": after("void so3_jacobian(", turned),
+    "energy": put("return h_tilde;", "return -h_tilde;"),
+    "status": swapped("return so3_SINGULAR;", "return so3_NOT_FINITE;"),
+}
+
+
+@pytest.mark.parametrize("what", IN_C)
+def test_a_fault_in_the_c_is_seen(what, so3, tmp_path):
+    """The others are the same as what it should be."""
+    folder = wrong(so3, tmp_path, "so3.c", IN_C[what])
+    case = copy.copy(so3)
+    case.reference = so3.said_by(compile_c(CC, "so3", folder, folder))
+    with pytest.raises(AssertionError, match=rf"\('so3', '{what}'"):
+        agree("python", so3.folder, [case])
+
+
+STRIDES = {"": None, "inputs": ("u[2*n + s]", "u[2*n]"), "state": ("x[9*n + s]", "x[9*n + 0]")}
+
+
+@pytest.mark.parametrize("fault", STRIDES)
+def test_batches_of_c_are_their_states(fault, so3, tmp_path):
+    folder = so3.folder
+    if fault:
+        folder = wrong(so3, tmp_path, "so3.c", put(*STRIDES[fault]))
+    library, rng = compile_c(CC, "so3", tmp_path, folder), np.random.default_rng(8)
+    x, u, (_, k) = rng.normal(size=(12, 5)), rng.normal(size=(3, 5)), library.constants(so3.p)
+    single = [library.rhs(T, *row, k, v) for *row, v in zip(x.T, u.T, strict=True)]
+    assert np.allclose(library.rhs_batch(T, x, k, u).T, single, rtol=1e-14) == (not fault)
+
+
+@pytest.mark.parametrize("fault", ["", "with->k, with->u"])
+def test_the_field_of_cvode_is_that_of_c(fault, so3, tmp_path):
+    folder = so3.folder
+    if fault:
+        folder = wrong(so3, tmp_path, "so3_cvode.h", put(fault, "with->k, with->k"))
+    shown = cvode(folder, so3)
+    assert np.allclose(shown, so3.reference["rhs"], rtol=1e-14) == (not fault)

@@ -1,0 +1,143 @@
+"""Lecture notes: LaTeX, PDF, fragments, corrections of the print."""
+
+import re
+import subprocess
+
+import pytest
+
+from derive.command.cli import main
+from derive.printing.macros import DEFINED
+from tests.problems import READY
+from tests.support.needs import need, needs
+
+GROUPS = ("so3", "se3", "sl3")
+
+
+@pytest.fixture
+def said(capsys):
+    def run(*arguments, code=0):
+        assert main(list(map(str, arguments))) == code
+        return capsys.readouterr()
+
+    return run
+
+
+def compiled(file):
+    """The log of pdflatex, thrice."""
+    need("pdflatex")
+    for _ in range(3):
+        done = subprocess.run(
+            ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", file.name],
+            cwd=file.parent,
+            capture_output=True,
+        )
+        assert done.returncode == 0, done.stdout.decode(errors="replace")[-1500:]
+    return file.with_suffix(".log").read_text(errors="replace").replace("\n", " ")
+
+
+@pytest.mark.parametrize(
+    "options", [[], ["--lang", "fr"], ["--notation", "top", "--hat", "wedge"]], ids=str
+)
+def test_notes_of_three_groups(options, said, tmp_path):
+    said("notes", *GROUPS, "--out", tmp_path / "notes.tex", *options)
+    log = compiled(tmp_path / "notes.tex")
+    assert "Overfull" not in log
+    assert "undefined" not in log
+    assert "multiply defined" not in log
+
+
+@needs("pdflatex", "pdftoppm")
+def test_the_pdf_is_not_blank(said, tmp_path):
+    said("notes", "so3", "--out", tmp_path / "notes.pdf")
+    assert (tmp_path / "notes.tex").exists()
+    subprocess.run(["pdftoppm", "-r", "40", "-gray", "notes.pdf", "page"], cwd=tmp_path, check=True)
+    pages = sorted(tmp_path.glob("page*.pgm"))
+    assert len(pages) > 5
+    for page in pages:
+        pixels = page.read_bytes()[20:]
+        assert sum(x < 200 for x in pixels) > 20
+
+
+def test_without_tex_the_source_is_written(said, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", "")
+    err = said("notes", "so3", "--out", tmp_path / "notes.pdf", code=2).err
+    assert "no pdflatex" in err
+    assert err.count("\n") == 1
+    assert [x.name for x in tmp_path.iterdir()] == ["notes.tex"]
+
+
+def test_other_endings_are_refused(said, tmp_path):
+    assert ".tex, .pdf, .html" in said("notes", "so3", "--out", tmp_path / "x.doc", code=2).err
+
+
+def test_two_problems_of_one_name(said, tmp_path):
+    """Their equations would have the same labels."""
+    source = (READY / "top.toml").read_text(encoding="utf-8")
+    (tmp_path / "mine.toml").write_text(source.replace("800.0", "900.0"), encoding="utf-8")
+    for ending in (".tex", ".html"):
+        out = tmp_path / f"notes{ending}"
+        err = said("notes", "top", tmp_path / "mine.toml", "--out", out, code=2).err
+        assert "2 problems have the name 'top'" in err
+        assert not out.exists()
+    said("notes", "screw", "screw", "--out", tmp_path / "notes.tex")
+
+
+def test_letters_of_titles_and_units(said, tmp_path):
+    """What LaTeX has is printed, also where the PDF has its title; the rest is told."""
+    source = (READY / "screw.toml").read_text(encoding="utf-8")
+    for k, more in enumerate(["½⅓¼⅔¾µ∞√±≈⋅∑∫∆ħ⊥⋉↦⊗€†‰", "力 x"]):
+        text = re.sub('(?m)^title *= *"', f"\\g<0>{more} ", source)
+        assert text != source
+        (tmp_path / "screw.toml").write_text(text, encoding="utf-8")
+        err = said("notes", tmp_path / "screw.toml", "--out", tmp_path / "notes.tex").err
+        assert ("LaTeX has no 力 here" in err) == bool(k)
+        assert bool(err) == bool(k)
+        compiled(tmp_path / "notes.tex")
+
+
+def test_corrections_are_told(said, tmp_path):
+    said("notes", "so3", "--out", tmp_path / "notes.tex")
+    source = (tmp_path / "notes.tex").read_text()
+    for number in (25, 26, 29, 32, 35):
+        assert f"The paper prints in ({number})" in source
+    assert source.count("the printed right side") == source.count(r"\footnote{")
+
+
+def test_the_page_tells_them_as_well(said, tmp_path):
+    said("notes", *GROUPS, "--out", tmp_path / "notes.html")
+    page = (tmp_path / "notes.html").read_text(encoding="utf-8")
+    for number in (20, 25, 26, 29, 31, 32, 35):
+        assert f"The paper prints in ({number})" in page
+
+
+def test_a_fragment_stands_in_a_lecturers_text(said, tmp_path):
+    """Under the macros of a preamble of their own, with references to its labels."""
+    fragment = said("walk", "so3", "--format", "latex", "--fragment").out
+    assert "documentclass" not in fragment
+    (tmp_path / "so3.tex").write_text(fragment)
+    own = {"transpose": r"{#1#2}^{t}", "Tr": r"\mathrm{trace}"}
+    takes = {name: f"[{count}]" if count else "" for name, (count, _, _) in DEFINED.items()}
+    bodies = {name: own.get(name, "#1" if x else "x") for name, x in takes.items()}
+    lines = [rf"\newcommand{{\{name}}}{x}{{{bodies[name]}}}" for name, x in takes.items()]
+    (tmp_path / "lecture.tex").write_text(
+        "\\documentclass{article}\n\\usepackage{amsmath,amssymb}\n"
+        + "\n".join(lines)
+        + "\n\\newcommand{\\walkstep}[4]{\\subsection*{#2}}\n\\newcommand{\\walkfrom}[1]{}\n"
+        + "\\newcommand{\\walkheading}[1]{\\section{#1}}\n"
+        + "\\begin{document}\nBy \\eqref{so3.kernel}:\n\\input{so3}\n\\end{document}\n"
+    )
+    log = compiled(tmp_path / "lecture.tex")
+    assert "undefined" not in log
+
+
+def test_every_symbol_goes_through_a_macro(said):
+    fragment = said("walk", "se3", "--format", "latex", "--fragment").out
+    raw = r"\\(?:bar|overline|tilde|dot|delta|varpi|mathsf|mathfrak)(?![A-Za-z])"
+    assert not re.findall(raw, fragment)
+    used = set(re.findall(r"\\([A-Za-z]+)", fragment))
+    assert set(DEFINED) - {"Liealgebra"} <= used
+
+
+def test_choices_that_have_no_sense(said):
+    assert "--format latex" in said("walk", "so3", "--fragment", code=2).err
+    assert "latex and html" in said("walk", "so3", "--notation", "top", code=2).err

@@ -1,0 +1,303 @@
+"""The views: width, labels, LaTeX that compiles, escaping, and a few formulas letter by letter."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from derive.language.show import show
+from derive.pipeline import walk
+from derive.printing.escape import markdown_text, prose, tex_text
+from derive.printing.letters import bar, names_of, parameter
+from derive.printing.tex import latex_tree
+from derive.printing.wrap import Piece, display_width, fill
+from derive.problem.toml import load
+from derive.record.record import Derivation, Equation, Step, Symbol
+from derive.record.sentence import say
+from derive.views.latex import anchor, labels, latex, spelt
+from derive.views.markdown import markdown
+from derive.views.outline import printed
+from derive.views.text import text
+from tests.support.needs import need
+
+PROBLEMS = Path(__file__).parents[2] / "derive" / "problems"
+NAMES = ("so3", "se3", "sl3", "linear", "affine")
+HOSTILE = (
+    r"\input{/etc/passwd}",
+    "$%&_#{}~^",
+    "{{ x }} << x >> <% x %> <# x #>",
+    "a\n\n\\end{document}\x1b[31m",
+    "<script>alert(1)</script> `x` **y** [z](w)",
+    "D’où “élève” œuvre ï – 中 ζ̇₁⁻¹ ?` !` -- ''",
+)
+
+
+@cache
+def record(name: str) -> Derivation:
+    return walk(load(PROBLEMS / f"{name}.toml"))
+
+
+def titled(title: str) -> Derivation:
+    d = record("linear")
+    return replace(d, problem={**d.problem, "title": title})
+
+
+def compiled(source: str, folder: Path, runs: int = 1) -> str:
+    """The log of pdflatex, after as many runs as references need."""
+    need("pdflatex")
+    (folder / "walk.tex").write_text(source, encoding="utf-8")
+    command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "walk.tex"]
+    for _ in range(runs):
+        done = subprocess.run(command, cwd=folder, capture_output=True, timeout=120, check=False)
+        assert done.returncode == 0, done.stdout.decode(errors="replace")[-2000:]
+    return (folder / "walk.log").read_text(errors="replace").replace("\n", " ")
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("width", [100, 72])
+def test_text_keeps_to_its_width(name: str, width: int) -> None:
+    lines = text(record(name), width).split("\n")
+    assert max(map(display_width, lines)) <= width
+    assert all(line == line.rstrip() for line in lines)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_step_is_in_every_view(name: str) -> None:
+    d = record(name)
+    plain, marked, source = text(d), markdown(d), latex(d)
+    for step in d.steps:
+        assert f"\n{step.label}  ·  {step.rule}" in plain
+        assert f"— `{step.label}`\n" in marked
+        assert f"{{{spelt(step.label)}}}" in source
+        heading = re.search(rf"^{re.escape(step.label)}  ·.*", plain, re.M)
+        assert heading
+        assert numbers(heading[0]) == set(step.paper)
+        assert rf"\walkstep{{{tex_text(printed(step))}}}" in source
+
+
+def numbers(heading: str) -> set[int]:
+    """The numbers of the paper in it, where (1)–(3) is three of them."""
+    runs = re.findall(r"\((\d+)\)\*?(?:–\((\d+)\))?", heading)
+    return {n for a, b in runs for n in range(int(a), int(b or a) + 1)}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_equation_has_its_key_in_latex_and_the_first_its_step_as_well(name: str) -> None:
+    d = record(name)
+    source = latex(d)
+    found = re.findall(r"\\label\{(.*?)\}", source)
+    assert found == [anchor(label) for step in d.steps for label in labels(step)]
+    assert len(set(found)) == len(found)
+    also = re.findall(r"\\label\{(.*?)\}\\walkalso\{(.*?)\}\{(.*?)\}", source)
+    assert also == [(s.label, f"{s.label}.1", s.label) for s in d.steps]
+
+
+@pytest.mark.parametrize("packages", ["", r"\usepackage{cleveref}"])
+def test_an_equation_is_found_by_its_key_and_the_first_by_its_step(
+    packages: str, tmp_path: Path
+) -> None:
+    names = ("so3.hat", "so3.hat.1", "so3.hat.2", "so3.kernel", "so3.kernel.1")
+    said = "".join(rf"\typeout{{<{x}: \getrefnumber{{{x}}}>}}\eqref{{{x}}}" for x in names)
+    if packages:
+        said += r"\cref{so3.hat}, \cref{so3.hat.1}"
+    source = latex(record("so3")).replace(
+        r"\begin{document}", rf"{packages}\usepackage{{refcount}}\begin{{document}}{said}"
+    )
+    log = compiled(source, tmp_path, runs=3)
+    numbers = dict(re.findall(r"<(so3[a-z0-9.]*): ([0-9.]+)>", log))
+    assert numbers["so3.hat"] == numbers["so3.hat.1"] != numbers["so3.hat.2"]
+    assert numbers["so3.kernel"] == numbers["so3.kernel.1"]
+    assert set(numbers) == set(names)
+    assert not re.search(r"undefined|multiply defined|may have changed", log)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_steps_of_any_group_stand_before_those_of_the_group(name: str) -> None:
+    headings = re.findall(r"^For (.*)\n-+$", text(record(name)), re.M)
+    special = [] if name in ("linear", "affine") else [str(record(name).problem["group"])]
+    assert headings == ["any group of matrices", *special]
+
+
+@pytest.mark.parametrize("name", [*NAMES, "saff3", "two_tops", "ellipsoid", "jelly"])
+def test_latex_compiles_within_its_margins(name: str, tmp_path: Path) -> None:
+    log = compiled(latex(record(name)), tmp_path, runs=2)
+    assert "Overfull \\hbox" not in log
+    assert "undefined" not in log
+    assert "multiply defined" not in log
+
+
+@pytest.mark.parametrize("view", [text, latex, markdown])
+def test_views_are_functions_of_the_record(view) -> None:  # type: ignore[no-untyped-def]
+    assert view(record("se3")) == view(walk(load(PROBLEMS / "se3.toml")))
+
+
+@pytest.mark.parametrize("title", HOSTILE)
+def test_hostile_titles_are_printed_not_obeyed(title: str, tmp_path: Path) -> None:
+    d = titled(title)
+    source = latex(d)
+    assert source.isascii()
+    assert r"\input" not in source
+    assert source.count(r"\end{document}") == 1
+    log = compiled(source, tmp_path)
+    assert "passwd" not in log
+    shown = text(d)
+    assert max(map(display_width, shown.split("\n"))) <= 100
+    assert all(c == "\n" or c.isprintable() for c in shown)
+    first = markdown(d).split("\n", 1)[0]
+    assert first.startswith("# ")
+    assert "<" not in first
+    assert not re.search(r"(?<!\\)[$`*]", first)
+
+
+def test_hostile_names_and_labels_compile(tmp_path: Path) -> None:
+    tree = ("add", ("par", r"\input{x}"), ("mul", "a_b_c", "{$"), ("inv", ("par", "a_b")))
+    equation = Equation(tree, ("pow", ("at", "ξ′", 1), 2), ("ξ′", "#^_"))
+    hard = say("a_b_c $ δ′y = \\x (^")
+    step = Step("a}b\\_$.x", "definition", (), (equation, equation), hard, (1,))
+    symbols = (Symbol("ξ′", say("x_ {$"), r"\input{/etc/passwd}"),)
+    d = Derivation({"name": "n", "title": "", "parameters": {"x_$": 3}}, symbols, (step,))
+    source = latex(d)
+    assert r"\input" not in source
+    compiled(source, tmp_path)
+    assert max(map(display_width, text(d).split("\n"))) <= 100
+    assert r"\input" not in markdown(d)
+
+
+def test_a_record_may_not_bring_its_own_commands() -> None:
+    own = {"A": r"\input{x}", "B": r"\tilde B_0", "C": "x^y^z"}
+    names = names_of(Symbol(name, say(""), latex) for name, latex in own.items())
+    assert names["A"] == "A"
+    assert names["B"] == r"\tilde B_0"
+    assert names["C"] == "C"
+
+
+def test_escaping() -> None:
+    assert tex_text("50% of $x_1$") == r"50\% of \$x\_1\$"
+    assert tex_text(r"\{~^}") == r"\textbackslash{}\{\textasciitilde{}\textasciicircum{}\}"
+    assert tex_text("élève") == r"\'{e}l\`{e}ve"
+    assert markdown_text("a_b <x> $y$ `z`") == r"a\_b &lt;x&gt; \$y\$ \`z\`"
+
+
+def test_prose_has_its_formulas_between_dollars() -> None:
+    assert prose("For isometries ĀA = 1, so C drops out.") == (
+        r"For isometries $\bar{A}A = 1$, so $C$ drops out."
+    )
+    assert prose("The forces F_i = −∂U/∂r_i act.") == (
+        r"The forces $F_{i} = -\partial U/\partial r_{i}$ act."
+    )
+    assert prose("dϖ(X, δ′y) vanishes") == r"$\mathrm{d}\varpi(X, \delta' y)$ vanishes"
+    assert prose("A sentence, a vector on R³.") == r"A sentence, a vector on $\mathbf{R}^{3}$."
+
+
+def test_parameters_keep_their_own_names() -> None:
+    assert parameter("J_11") == r"\mathsf{J}_{\mathsf{11}}"
+    assert parameter("k12") == r"\mathsf{k}_{\mathsf{12}}"
+    assert parameter("mass_of_rod") == r"\mathsf{mass\_of\_rod}"
+
+
+def test_bars_stand_over_the_letter() -> None:
+    assert bar(r"\xi'") == r"\bar{\xi}'"
+    assert bar(r"\delta' A") == r"\delta' \bar{A}"
+    assert bar("N_b") == r"\bar{N}_b"
+    assert bar(r"\dot\alpha") == r"\overline{\dot\alpha}"
+
+
+@pytest.mark.parametrize(
+    ("tree", "expected"),
+    [
+        (("metric", "J", "α", "δA"), r"\langle \alpha, \delta A\rangle_{J}"),
+        (("norm2", "I", "ζ"), r"\lVert \zeta\rVert_{I}^{2}"),
+        (("mul", Fraction(1, 2), ("tr", ("mul", "α", "J", ("T", "α")))),
+         r"\tfrac12 \operatorname{Tr} \alpha J \bar{\alpha}"),
+        (("mul", ("tr", ("mul", "N", ("T", "δA"))), "δ′t"),
+         r"(\operatorname{Tr} N\,\delta \bar{A})\,\delta' t"),
+        (("tr", ("add", "J", ("mul", -1, "C"))), r"\operatorname{Tr}(J - C)"),
+        (("mul", "A", "δZ"), r"A\,\delta Z"),
+        (("T", ("at", "r", "i")), r"\bar{r}_{i}"),
+        (("call", "δ", ("call", ("at", "r", "i"), "t")), r"\delta r_{i}(t)"),
+        (("mul", ("inv", "I_c"), ("wedge", "c", "w")), r"I_c^{-1}\,(c \wedge w)"),
+        (("wedge", "c", ("wedge", "Ω′", "Ω")), r"c \wedge (\Omega' \wedge \Omega)"),
+        (("entry", "Ż", 1, 2), r"\dot Z_{12}"),
+        (("pow", ("inv", "A"), 2), r"(A^{-1})^{2}"),
+        (("pow", ("div", "m", 2), 2), r"(\frac{m}{2})^{2}"),
+        (("sum", "e", ("mul", ("at", "k", "e"), "s")), r"\sum_{e} k_{e} s"),
+        (("matrix", ("row", ("par", "c_1"), 0), ("row", -1, 2)),
+         r"\begin{pmatrix} \mathsf{c}_{\mathsf{1}} & 0 \\ {}-1 & 2 \end{pmatrix}"),
+    ],
+)  # fmt: skip
+def test_trees_in_latex(tree: tuple[object, ...], expected: str) -> None:
+    assert latex_tree(tree) == expected
+
+
+def test_products_in_text() -> None:
+    assert show(("T", ("at", "r", "i"))) == "r̄ᵢ"
+    assert show(("mul", ("wedge", "c", "w"), "δt")) == "(c ∧ w) δt"
+
+
+def test_trivialised_exterior_derivative_of_so3() -> None:
+    equation = record("so3")["exterior"].equations[0]
+    assert latex_tree(equation.lhs) == r"\mathrm{d}\varpi(\delta y, \delta' y)"
+    assert latex_tree(equation.rhs) == (
+        r"\operatorname{Tr}\,(\xi' - Z\,\delta' t)\,J\,\overline{\delta Z - f\,\delta t}"
+        r" + \operatorname{Tr}\,[\xi', \xi]\,J \bar{Z}"
+        r" - \operatorname{Tr}\,(\xi - Z\,\delta t)\,J\,\overline{\delta' Z - f\,\delta' t}"
+    )
+    assert (
+        "dϖ(δy, δ′y) = Tr (ξ′ − Z δ′t) J(δZ − f δt)‾ + Tr [ξ′, ξ] JZ̄"
+        " − Tr (ξ − Z δt) J(δ′Z − f δ′t)‾\n"
+    ) in text(record("so3"))
+
+
+def test_euler_in_every_view() -> None:
+    d = record("so3")
+    assert "ζ̇ = φ + I⁻¹(Iζ ∧ ζ)\n" in text(d)
+    formula = r"\dot\zeta &= \varphi + I^{-1}\,(I \zeta \wedge \zeta)"
+    assert formula.replace(r"\dot", r"\rate") in latex(d)
+    assert formula in markdown(d)
+
+
+def test_clauses_name_their_variables() -> None:
+    d = record("linear")
+    assert "Tr ξ′J(Z² + Ż)‾ C = −dŨ(Aξ′)  for every ξ′ ∈ 𝔤\n" in text(d)
+    assert r"\quad \text{for every } \xi'" in latex(d)
+
+
+def test_long_formulas_break_at_shallow_operators_first() -> None:
+    pieces = [Piece("aaaa", 0), Piece(" + ⟨bb,", 0.25), Piece(" cccc⟩", 1.0), Piece(" + dd", 0.25)]
+    assert [x.text for x in fill(pieces, 17, display_width)] == ["aaaa + ⟨bb, cccc⟩", "+ dd"]
+    deep = fill(pieces, 10, display_width, 2)
+    assert [(x.text, x.inside) for x in deep] == [
+        ("aaaa", 0), ("+ ⟨bb,", 0), ("cccc⟩", 1), ("+ dd", 0),
+    ]  # fmt: skip
+
+
+def test_a_term_longer_than_a_line_is_broken_inside() -> None:
+    sides = [("add", *[f"{letter}_{k}" for k in range(40)]) for letter in "xy"]
+    long = ("inner", *sides)
+    step = Step("n.long", "definition", (), (Equation("U", long),), say("Long."))
+    d = Derivation({"name": "n"}, (), (step,))
+    lines = text(d).split("\n")
+    assert max(map(display_width, lines)) <= 100
+    assert "".join(show(long).split()) in "".join("".join(lines).split())
+
+
+def test_long_formulas_keep_inside_the_margins(tmp_path: Path) -> None:
+    terms = [("inner", ("add", f"x_{k}", "A"), ("mul", "Z", "c")) for k in range(30)]
+    long = ("mul", "m", ("add", *terms))
+    entries = ("matrix", ("row", ("add", *[("par", f"x_{k}") for k in range(60)])))
+    equations = (Equation(("add", *terms), long, ("ξ′",)), Equation("r", entries))
+    d = Derivation({"name": "n"}, (), (Step("n.long", "definition", (), equations, say("Long.")),))
+    assert "Overfull \\hbox" not in compiled(latex(d), tmp_path)
+
+
+def test_what_is_raised_or_divides_is_in_brackets():
+    assert show(("pow", Fraction(3, 2), 2)) == "(3/2)²"
+    assert show(("div", "m", Fraction(3, 2))) == "m/(3/2)"
+    assert show(("norm2", ("add", "m", "J"), "ζ")) == "‖ζ‖²_(m + J)"
+    assert show(("metric", ("add", "m", "J"), "ζ", "ζ")) == "⟨ζ, ζ⟩_(m + J)"

@@ -1,0 +1,191 @@
+"""Every group × potential × input: the record holds, and C = Python = Gauss's principle."""
+
+import re
+import tomllib
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from derive.check.checker import Checker
+from derive.code.assemble import assemble
+from derive.code.emit import emit
+from derive.language.tree import mul, neg
+from derive.pipeline import walk
+from derive.problem.toml import problem_of
+from derive.record.record import from_json, to_json
+from derive.record.sentence import english
+from derive.record.vocabulary import ANY_GROUP
+from tests.oracles import general, relative_error
+from tests.problems import PROBLEMS
+from tests.support import walks
+from tests.support.emitted import compile_c
+from tests.support.needs import present
+from tests.support.walks import SEED
+
+STATES = 12
+HALF = Fraction(1, 2)
+
+
+@pytest.fixture(scope="module", params=PROBLEMS)
+def case(request):
+    data = tomllib.loads(PROBLEMS[request.param])
+    problem = problem_of(data)
+    return data, problem, walk(problem)
+
+
+def test_the_record_holds(case):
+    """The steps about any group are those of the ready-made texts, which are checked elsewhere."""
+    _, _, record = case
+    again = from_json(to_json(record))
+    assert again == record
+    checker = Checker(again.problem, SEED)
+    verdicts = [checker.check(step) for step in again.steps if step.scope != ANY_GROUP]
+    assert [f"{v.label}: {v.reason}" for v in verdicts if not v.holds] == []
+    assert max(v.bound for v in verdicts) < 1e-30
+
+
+def emitted(problem, record):
+    """The emitted files by name, and what the Python module defines."""
+    files = emit(assemble(record, problem.group), record, ("c", "python"), "test")
+    space = {}
+    exec(compile(files["test.py"], "test.py", "exec"), space)
+    return files, space
+
+
+def test_code_agrees_with_the_oracle(case, tmp_path):
+    data, problem, record = case
+    files, space = emitted(problem, record)
+    for name, text in files.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    library = compile_c("cc", "test", tmp_path, tmp_path) if present("cc") else None
+    rng = np.random.default_rng(5)
+    p = general.parameters(data)
+    basis = space["BASIS"]
+    values = [p[name] for name in space["PARAMETERS"]]
+    k = space["constants"](values)
+    for _ in range(STATES):
+        x = general.random_state(data, basis, rng)
+        t, u = rng.normal(), rng.normal(size=len(space["INPUTS"]))
+        expected = general.rhs(data, basis, p, t, x, u)
+        found = space["rhs"](t, x, k, u)
+        assert relative_error(found, expected) < 1e-11
+        energy = general.energy(data, basis, p, t, x)
+        assert abs(space["energy"](t, x, k) - energy) < 1e-11 * max(1, abs(energy))
+        if library is not None:
+            assert relative_error(library.rhs(t, x, library.constants(values)[1], u), found) < 1e-12
+
+
+SOLIDS = """
+[[solid]]
+kind = "ellipsoid"
+density = "rho"
+semi_axes = ["a", "b", 0.5]
+rotation = { axis = [1, 2, 2], angle = "pi/3" }
+shift = [0.1, 0, "b"]
+[[solid]]
+kind = "cone"
+density = 3
+radius = 0.4
+height = "a"
+"""
+
+
+@pytest.mark.parametrize("group", ["SE(3)", "SO(3)", "SL(3)", "SAff(3)", "Sim(3)"])
+def test_solids_are_their_moments(group):
+    """The body of solids moves like one whose moments are the integrals over a fine grid."""
+    head = f'name = "test"\ngroup = "{group}"\n'
+    gravity = '[[potential]]\nkind = "gravity"\ng = [1, 0, "-9.81"]\n'
+    own = "[parameters]\na = 1.1\nb = 0.7\nrho = 2.0\n"
+    problem = problem_of(tomllib.loads(head + own + SOLIDS + gravity))
+    record = walk(problem)
+    checker = Checker(record.problem, SEED)
+    verdicts = [checker.check(step) for step in record.steps if step.scope != ANY_GROUP]
+    assert [f"{v.label}: {v.reason}" for v in verdicts if not v.holds] == []
+    files, space = emitted(problem, record)
+    assert re.sub(r"/\*.*?\*/", "", files["test.c"], flags=re.DOTALL).isascii()  # cos(π/3) too
+    moments = gridded()
+    listed = "".join(f"{k} = {v!r}\n" for k, v in moments.items())
+    text = head + "[parameters]\n" + listed + '[body]\nmoments = "symbolic"\n' + gravity
+    data = tomllib.loads(text)
+    p, basis, rng = general.parameters(data), space["BASIS"], np.random.default_rng(3)
+    defaults = {"a": 1.1, "b": 0.7, "rho": 2.0}
+    k = space["constants"]([defaults[x] for x in space["PARAMETERS"]])
+    for _ in range(5):
+        x = general.random_state(data, basis, rng)
+        assert relative_error(space["rhs"](0.0, x, k), general.rhs(data, basis, p, 0.0, x)) < 1e-9
+
+
+def gridded():
+    """m, c_1 …, J_11 … of SOLIDS by Gauss–Legendre quadrature in polar coordinates."""
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    r, wr = (nodes + 1) / 2, weights / 2
+    angle = np.arange(24) * np.pi / 12
+    R, C, A = np.meshgrid(r, nodes, angle, indexing="ij")
+    side = np.sqrt(1 - C**2)
+    ball = np.stack([R * side * np.cos(A), R * side * np.sin(A), R * C]).reshape(3, -1)
+    w = (wr[:, None, None] * weights[:, None] * R**2 * np.pi / 12).ravel()
+    axes = np.array([1.1, 0.7, 0.5])
+    n = np.array([1, 2, 2]) / 3
+    hat = np.array([[0, -n[2], n[1]], [n[2], 0, -n[0]], [-n[1], n[0], 0]])
+    turn = np.eye(3) + np.sin(np.pi / 3) * hat + (1 - np.cos(np.pi / 3)) * hat @ hat
+    parts = [(turn @ (axes[:, None] * ball) + [[0.1], [0], [0.7]], 2.0 * axes.prod() * w)]
+    Z, S = np.meshgrid(r, r, indexing="ij")
+    z, s = np.repeat(Z.ravel() * 1.1, 24), np.repeat((0.4 * S * (1 - Z)).ravel(), 24)
+    a = np.tile(angle, 144)
+    area = (0.16 * S * (1 - Z) ** 2 * wr[:, None] * wr * 1.1 * np.pi / 12).ravel()
+    parts.append((np.stack([s * np.cos(a), s * np.sin(a), z]), 3 * np.repeat(area, 24)))
+    m = sum(w.sum() for _, w in parts)
+    c = sum(q @ w for q, w in parts)
+    J = sum((q * w) @ q.T for q, w in parts)
+    found = {"m": float(m)} | {f"c_{i + 1}": float(c[i]) for i in range(3)}
+    return found | {f"J_{i + 1}{j + 1}": float(J[i, j]) for i in range(3) for j in range(i, 3)}
+
+
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [
+        ("saff3", "the motion separates"),
+        ("jelly", "The motion separates if U_Q"),
+        ("sim3", "the motion separates"),
+    ],
+)
+def test_separation_of_the_centre_of_mass(name, says):
+    """Exercise 2 in space: the kinetic energy is a sum; the potential decides."""
+    record = walks.record(name)
+    kinetic = record["affine.separation"].equations[-1]
+    inertia = ("tr", ("mul", "α", "J_c", ("T", "α")))
+    assert kinetic.rhs[1:3] == (mul(HALF, inertia), mul(HALF, "m", ("norm2", "Ṙ")))
+    assert kinetic.rhs[3:] == (neg("Ũ"),)
+    assert says in english(record[f"{name}.separation"].prose)
+    assert Checker(record.problem, SEED).check(record[f"{name}.separation"]).holds
+
+
+def test_a_potential_that_ties_the_centre_of_mass():
+    text = PROBLEMS["SAff(2)"].replace("between = [1, 2]", "on = 1\nanchor = [0, 0]\nlength = 1")
+    record = walk(problem_of(tomllib.loads(text)))
+    assert "if U_Q" in english(record["test.separation"].prose)
+
+
+TETRAHEDRON = """OFF
+4 4 6
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+3 0 2 1
+3 0 1 3
+3 0 3 2
+3 1 2 3
+"""
+
+
+def test_a_mesh_is_the_solid_it_bounds(tmp_path):
+    (tmp_path / "body.off").write_text(TETRAHEDRON, encoding="utf-8")
+    head = 'name = "test"\ngroup = "SE(3)"\n[body]\ndensity = 2\n'
+    mesh = problem_of(tomllib.loads(head + 'solid = "mesh"\nfile = "body.off"'), tmp_path)
+    corners = "[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]"
+    whole = problem_of(tomllib.loads(f'{head}solid = "tetrahedron"\nvertices = {corners}'))
+    found, expected = walk(mesh), walk(whole)
+    assert found["body"].equations == expected["body"].equations
+    assert [v.label for v in walks.own_verdicts(found) if not v.holds] == []

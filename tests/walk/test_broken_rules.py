@@ -1,0 +1,86 @@
+"""A rule of the engine that is wrong in form is an error that names the step."""
+
+import sys
+
+import pytest
+
+from derive import pipeline
+from derive.algebra import calculus
+from derive.command.cli import load_problem
+from derive.pipeline import walk
+from derive.problem.problem import ProblemError
+from derive.walk import trivialisation
+from derive.walk.failure import WalkError, naming_steps
+
+
+@pytest.fixture(autouse=True)
+def afresh():
+    """The road of any group is kept: neither a right one for these tests, nor a wrong one after."""
+    pipeline.general_road.cache_clear()
+    yield
+    pipeline.general_road.cache_clear()
+
+
+def forgetful(w, k, image):
+    """The product rule, that forgets what stands after the letter."""
+    return right_product(w[: k + 1], k, image)
+
+
+right_product = calculus._apply_at
+right_frame = trivialisation.frame_rule
+
+
+def unbarred(a, gram):
+    """The rule of the frame, a bar forgotten."""
+    right = right_frame(a, gram)
+
+    def rule(left, other):
+        image = right(left, other)
+        return image.bar if image is not None and left[0] in (a.N, a.F) else image
+
+    return rule
+
+
+@pytest.mark.parametrize("name", ["linear", "affine", "so3", "sl3"])
+def test_a_product_rule_that_forgets_a_factor(name, monkeypatch):
+    monkeypatch.setattr(calculus, "_apply_at", forgetful)
+    action = "affine" if name == "affine" else "linear"
+    told(name, rf"step .*{action}\.velocity \(variation\), in lagrangian\.lagrangian: ValueError")
+
+
+@pytest.mark.parametrize("name", ["affine", "se3"])
+def test_a_frame_rule_that_is_not_barred(name, monkeypatch):
+    for module in sys.modules.values():
+        if getattr(module, "frame_rule", None) is right_frame:
+            monkeypatch.setattr(module, "frame_rule", unbarred)
+    told(
+        name, r"after the step affine\.trivialisation \(triv.*\), in cartan\.trivialise, .*carry: V"
+    )
+
+
+def test_a_letter_without_an_image(monkeypatch):
+    """A bare KeyError on the road of one group, in words."""
+
+    def absent(*given):
+        return {}["w"]
+
+    monkeypatch.setattr(pipeline, "energy_step", absent)
+    told("so3", r"after the step so3\.tensor \(coordinates\), in the pipeline: KeyError: 'w'")
+
+
+def test_what_is_wrong_with_a_problem_is_no_error_of_the_engine():
+    problem = load_problem("so3")
+    with pytest.raises(ProblemError):
+        failing(problem)
+
+
+@naming_steps()
+def failing(problem):
+    raise ProblemError(problem.name)
+
+
+def told(name, where):
+    """The message of a walk that breaks, and what broke it."""
+    with pytest.raises(WalkError, match=where) as caught:
+        walk(load_problem(name))
+    assert isinstance(caught.value.__cause__, (ValueError, KeyError))

@@ -1,0 +1,381 @@
+"""Masses that may be negative: what a walk says then, and which bodies ``constants`` takes."""
+
+import json
+import re
+import subprocess
+from contextlib import suppress
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import derive
+from derive.check.checker import check
+from derive.pipeline import general_road, walk
+from derive.problem.problem import ProblemError
+from derive.problem.toml import problem_of
+from derive.record.hypotheses import OF_MASSES
+from derive.record.masses import SUPPOSED
+from derive.record.record import from_json, to_json
+from derive.record.sentence import Sentence
+from derive.record.vocabulary import ANY_GROUP
+from derive.views.language import language
+from derive.views.text import text
+from derive.walk.supposed import WORDS
+from tests.support.emitted import BUILDS, import_python
+from tests.support.needs import need
+from tests.support.walks import repeated
+
+BOOST = {"name": "Boost", "action": "linear", "basis": [[[0, 1], [1, 0]]]}
+FLAT = {  # SL(2) beside an axis that stays
+    "name": "Flat",
+    "action": "linear",
+    "basis": [
+        [[1, 0, 0], [0, -1, 0], [0, 0, 0]],
+        [[0, 1, 0], [0, 0, 0], [0, 0, 0]],
+        [[0, 0, 0], [1, 0, 0], [0, 0, 0]],
+    ],
+}
+ROD = {  # stretches and shears of a line, which is all that a rod has
+    "name": "Shears",
+    "action": "linear",
+    "basis": [[[1, 0], [0, 0]], [[0, 0], [1, 0]]],
+}
+
+
+def points(*masses_and_places):
+    return {"point": [{"mass": m, "at": [*r]} for m, r in masses_and_places]}
+
+
+def simplex(n, mass="q"):
+    """Two points along every axis, one mass a parameter: by default the body is regular."""
+    axes = np.eye(n, dtype=int).tolist()
+    others = [(2 + k, e) for k, e in enumerate(axes)]
+    return points((mass, [1] * n), *others, *((1, [-2 * x for x in e]) for e in axes))
+
+
+def problem(group, body, default=0.01, **signed):
+    given = {} if "body" in body else {"parameters": {"q": default}}
+    return problem_of({"name": "hole", "group": group, **given, **body}, **signed)
+
+
+SYMBOLIC = {"body": {"moments": "symbolic"}}
+WALKS = {
+    **{name: (name, simplex(2)) for name in ("SL(2)", "GL(2)", "SAff(2)", "Aff(2)", "SE(2)")},
+    **{name: (name, simplex(3)) for name in ("SO(3)", "SE(3)", "UT(3)", "Sim(3)")},
+    "Sp(4)": ("Sp(4)", simplex(4)),
+    "SO(4)": ("SO(4)", simplex(4)),
+    "moments": ("SO(3)", SYMBOLIC),
+    "moments of SE(3)": ("SE(3)", SYMBOLIC),
+}
+CLAIMS = re.compile(
+    r"masses are positive|positive masses|square of a norm|not all on|span the space|"
+    r"in one hyperplane|leaves every mass|: the tensor|As the (metric|tensor)|: the kernel|"
+    r"As m > 0|η′ gives ẇ;"
+)
+"""What is said of positive masses alone."""
+POSITIVE, SIGNED = (frozenset(words) for words in zip(*WORDS.values(), strict=True))
+
+
+@cache
+def walked(name, *, signed):
+    return walk(problem(*WALKS[name], negative_mass=signed))
+
+
+def messages(x):
+    yield x.message
+    for _, y in x.places:
+        if isinstance(y, Sentence):
+            yield from messages(y)
+
+
+def said(d):
+    return {m for step in d.steps for x in step.prose for m in messages(x)}
+
+
+@pytest.mark.parametrize("name", repeated(WALKS, 2))
+def test_no_hypothesis_that_does_not_hold(name):
+    d = walked(name, signed=True)
+    words = " ".join(text(d).split())
+    assert not CLAIMS.search(words)
+    assert "wherever" in words.lower()
+    assert not said(d) & POSITIVE
+    assert said(d) & SIGNED <= set(language("fr").messages)
+    assert not of_masses(d)
+    assert all(verdict.holds for verdict in check(d))
+
+
+@pytest.mark.parametrize("name", WALKS)
+def test_the_equations_and_all_other_words_are_the_same(name):
+    plain, signed = (walked(name, signed=x) for x in (False, True))
+    assert CLAIMS.search(" ".join(text(plain).split()))
+    assert [s.equations for s in plain.steps] == [s.equations for s in signed.steps]
+    assert said(plain) - POSITIVE - SIGNED == said(signed) - POSITIVE - SIGNED
+    assert of_masses(plain)
+    others = [[x for x in s.hypotheses if x.property not in OF_MASSES] for s in plain.steps]
+    assert others == [[*s.hypotheses] for s in signed.steps]
+
+
+def test_every_message_is_said_somewhere():
+    plain = set().union(*(said(walked(name, signed=False)) for name in WALKS))
+    signed = set().union(*(said(walked(name, signed=True)) for name in WALKS))
+    assert plain >= POSITIVE
+    assert signed >= SIGNED
+
+
+def test_the_checker_refuses_a_claim_of_positive_masses():
+    """The ordinary hypotheses under the problem of any masses."""
+    plain, signed = (walked("SAff(2)", signed=x) for x in (False, True))
+    forged = from_json(to_json(replace(plain, problem=signed.problem)))
+    found = {v.label: v for v in check(forged)}
+    assert {x for x, v in found.items() if not v.holds} == {"affine.pullback"} == of_masses(plain)
+    assert found["affine.pullback"].reason == SUPPOSED
+
+
+def of_masses(d):
+    """The steps that suppose positive masses."""
+    return {s.label for s in d.steps if any(x.property in OF_MASSES for x in s.hypotheses)}
+
+
+@pytest.mark.parametrize("name", ["moments", "moments of SE(3)"])
+def test_moments_of_positive_masses_are_none_of_any_masses(name):
+    plain, signed = (walked(name, signed=x) for x in (False, True))
+    assert "hole.body" in of_masses(plain)
+    found = {v.label: v for v in check(replace(plain, problem=signed.problem))}
+    assert {x for x, v in found.items() if not v.holds} == of_masses(plain)
+
+
+def negative(body):
+    """A record of negative masses that does not say so."""
+    d = walk(problem_of({"name": "hole", "group": "SL(2)", **body}, negative_mass=True))
+    kept = {k: v for k, v in d.problem.items() if k != "masses"}
+    steps = (s for s in d.steps if s.scope != ANY_GROUP)
+    return replace(d, problem=kept, steps=(*general_road(affine=False).steps, *steps))
+
+
+GIVEN = {"given": {"m": 1, "c": [0, 0], "J": [[1, 0], [0, -2]]}}
+
+
+@pytest.mark.parametrize("body", [points((1, [1, 0]), (-2, [0, 1])), {"body": GIVEN}])
+def test_numbers_tell_it_where_the_record_does_not(body):
+    assert any(v.reason == SUPPOSED for v in check(negative(body)))
+
+
+def test_the_key_has_one_value():
+    d = walked("SL(2)", signed=True)
+    forged = replace(d, problem=d.problem | {"masses": "positive"})
+    assert all(v.holds for v in check(d))
+    plain = replace(walked("SL(2)", signed=False), problem=forged.problem)
+    assert any("key 'masses'" in v.reason for v in check(plain))
+
+
+# -- constants ----------------------------------------------------------------------------------
+
+
+def module(tmp_path, p, **choices):
+    name = p.name
+    derive.derive(p).emit(tmp_path, ["python"], **choices)
+    return import_python(name, tmp_path)
+
+
+def taken(m, p):
+    with suppress(ValueError):
+        return bool(m.constants(p) is not None)
+    return False
+
+
+HOLE = points((1, [1, 0]), (-2, [0, 1]))
+"""At A = diag(2^¼, 2^−¼) the metric of SL(2) is degenerate along diag(1, −1)."""
+
+
+def test_the_metric_of_the_counterexample_is_degenerate():
+    s = 2**0.25
+    g, J, Z = np.diag([s, 1 / s]), np.diag([1.0, -2.0]), np.diag([1.0, -1.0])
+    for E in (Z, [[0, 1], [0, 0]], [[0, 0], [1, 0]]):
+        assert abs(np.trace(Z @ J @ np.transpose(E) @ g.T @ g)) < 1e-15
+
+
+MAINS = {
+    "c": """
+#include "{name}.h"
+int main(void) {{ double p[1] = {{ -2 }}, k[{name}_N_CONSTANTS + 1] = {{ 0 }};
+    return {name}_constants(p, k) == {name}_SINGULAR ? 0 : 1; }}
+""",
+    "javascript": """
+import * as m from "./{name}.mjs";
+let said = "";
+try {{ m.constants([-2].slice(0, m.PARAMETERS.length)); }} catch (e) {{ said = String(e); }}
+process.exit(/singular|positive/.test(said) ? 0 : 1);
+""",
+    "rust": """
+#[allow(dead_code)]
+mod {name};
+fn main() {{
+    let p = [-2.0; {name}::N_PARAMETERS];
+    let refused = matches!({name}::constants(&p), Err({name}::Refused::Singular));
+    std::process::exit(if refused {{ 0 }} else {{ 1 }});
+}}
+""",
+}
+
+
+def refused_by(kind, folder, name):
+    """The exit status of a program that is content with a refusal."""
+    run = [str(folder / "main")]
+    if kind in BUILDS:
+        suffix = "cpp" if kind == "g++" else "c"
+        (folder / f"main.{suffix}").write_text(MAINS["c"].format(name=name))
+        words = [x for x in BUILDS[kind] if x not in ("-shared", "-fPIC")]
+        build = [*words, f"main.{suffix}", f"{name}.c", "-o", "main", "-lm"]
+    elif kind == "javascript":
+        (folder / "main.mjs").write_text(MAINS[kind].format(name=name))
+        build, run = None, ["node", str(folder / "main.mjs")]
+    else:
+        (folder / "main.rs").write_text(MAINS[kind].format(name=name))
+        build = ["rustc", "--edition", "2021", "main.rs"]
+    if build:
+        done = subprocess.run(build, cwd=folder, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+    return subprocess.run(run).returncode
+
+
+@pytest.mark.parametrize("mass", ["number", "parameter"])
+@pytest.mark.parametrize("kind", [*BUILDS, "javascript", "rust"])
+def test_the_counterexample_is_refused(kind, mass, tmp_path):
+    program = {"javascript": "node", "rust": "rustc"}.get(kind)
+    need(program or kind)
+    body = HOLE if mass == "number" else points((1, [1, 0]), ("q", [0, 1]))
+    data = {"name": "hole", "group": "SL(2)", **body}
+    data |= {"parameters": {"q": -2}} if mass == "parameter" else {}
+    lang = kind if program else "c"
+    derive.derive(problem_of(data, negative_mass=True)).emit(tmp_path, [lang])
+    assert refused_by(kind, tmp_path, "hole") == 0
+
+
+def test_the_counterexample_is_refused_in_python(tmp_path):
+    data = {"name": "hole", "group": "SL(2)", **HOLE}
+    assert not taken(module(tmp_path, problem_of(data, negative_mass=True)), [])
+
+
+def test_julia_has_the_same_check(tmp_path):
+    data = {"name": "hole", "group": "SL(2)", **HOLE}
+    derive.derive(problem_of(data, negative_mass=True)).emit(tmp_path, ["julia"])
+    assert "-2.0 - 1.0e-13*2.0" in (tmp_path / "hole.jl").read_text().replace("1e-13", "1.0e-13")
+
+
+PLANE = points(("q", [1, 0, 0]), (1, [0, 1, 0]), (2, [1, 1, 0]), (1, [-1, 2, 0]))
+BODIES = {
+    # the q that make a good body, and those that make none
+    "disc": ("SO(3)", PLANE, [1, 1e-3], [-9]),
+    "hole in a body that turns": ("SO(3)", simplex(3), [1, 0, -0.5], [-30]),
+    "J indefinite, I positive": (
+        "SO(3)",
+        points((5, [1, 0, 0]), (4, [0, 1, 0]), ("q", [0, 0, 1])),
+        [1, 0, -1, -3.9],
+        [-4.1],
+    ),
+    "free, J_c indefinite": ("SE(3)", simplex(3), [1, -0.5], [-30]),
+    "free, without mass": ("SE(2)", points(("q", [0, 0]), (1, [1, 0]), (1, [-1, 0])), [1], [-3]),
+    "GL(2)": ("GL(2)", simplex(2), [1, 0, -0.5], [-30]),
+    "SAff(2)": ("SAff(2)", simplex(2), [1, 0, -0.5], [-30]),
+    "SO(4)": ("SO(4)", simplex(4), [1, 0, -0.5], [-30]),
+    "Sp(4)": ("Sp(4)", simplex(4), [1, 0, -0.5], [-30]),
+    "UT(3)": ("UT(3)", simplex(3), [1, 0, -0.5], [-30]),
+    "Sim(3)": ("Sim(3)", simplex(3), [1, 0, -0.5], [-30]),
+    "boost": (BOOST, points((1.5, [1, 1]), ("q", [1, -1])), [1, 1e-6, 0], [-0.1, -0.5]),
+    "flat": (FLAT, PLANE, [1, 1e-3, 0], [-9]),
+    "rod": (ROD, points((1, [1, 0]), ("q", [2, 0])), [1, 0], [-1]),
+    "product": (
+        "SL(2) x SO(2)",
+        {
+            "point": [
+                {"mass": "q", "at": [1, 0], "block": 1},
+                {"mass": 2, "at": [0, 1], "block": 1},
+                {"mass": 1, "at": [0, 1], "block": 2},
+            ]
+        },
+        [1, 1e-3],
+        [-1],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_constants_tell_good_bodies(name, tmp_path):
+    """By value: the problem has a positive parameter, and takes any number for it."""
+    group, body, good, bad = BODIES[name]
+    m = module(tmp_path, problem(group, body, default=1))
+    assert [taken(m, [q]) for q in good] == [True] * len(good)
+    assert [taken(m, [q]) for q in bad] == [False] * len(bad)
+
+
+@pytest.mark.parametrize(
+    "name", ["free, J_c indefinite", "SAff(2)", "GL(2)", "J indefinite, I positive"]
+)
+def test_in_the_principal_frame_too(name, tmp_path):
+    group, body, good, bad = BODIES[name]
+    m = module(tmp_path, problem(group, body, default=1), frame="principal")
+    assert [taken(m, [q]) for q in good] == [True] * len(good)
+    assert [taken(m, [q]) for q in bad] == [False] * len(bad)
+
+
+def test_the_metric_at_1_where_masses_may_be_negative(tmp_path):
+    """The boost of an indefinite J: good at 1, not everywhere, and the header says so."""
+    body = BODIES["boost"][1]
+    for default, signed in ((0.5, False), (-0.5, True)):
+        p = problem(BOOST, body, default=default, negative_mass=signed)
+        folder = tmp_path / str(signed)
+        assert taken(module(folder, p), [-0.5]) == signed
+        assert taken(module(folder, p), [-1.5]) is False
+        assert ("tests the metric at g = 1" in (folder / "hole.py").read_text()) == signed
+
+
+def test_moments_of_numbers_need_no_check_at_run_time(tmp_path):
+    """A small hole in a body of numbers leaves J positive, which suffices everywhere."""
+    data = {"name": "hole", "group": BOOST, **points((2, [1, 0]), (2, [0, 1]), (-1, [1, 0]))}
+    assert taken(module(tmp_path, problem_of(data, negative_mass=True)), [])
+    assert "g = 1" not in Path(tmp_path / "hole.py").read_text()
+
+
+SPHERE = {"kind": "ball", "density": 1, "radius": 1}
+
+
+def solids(shift):
+    hollow = {"kind": "ball", "density": -1, "radius": "1/2", "shift": shift}
+    return {"name": "hole", "group": "SE(3)", "solid": [SPHERE, hollow]}
+
+
+def test_a_hole_is_inside_of_a_solid():
+    assert problem_of(solids([0, 0, 0.5]))
+    with pytest.raises(ProblemError, match="a hole inside of others"):
+        problem_of(solids([9, 0, 0]))
+    assert problem_of(solids([9, 0, 0]), negative_mass=True).signed
+
+
+@pytest.mark.parametrize("group", ["SE(3)", "Aff(3)"])
+def test_no_mass_has_no_centre(group):
+    axes = [([1, 0, 0], 2), ([0, 1, 0], -2), ([0, 0, 1], 1), ([1, 1, 0], -2), ([0, 1, 1], 1)]
+    body = points(*((m, r) for r, m in axes))
+    with pytest.raises(ProblemError, match=r"mass is 0|is degenerate"):
+        problem_of({"name": "none", "group": group, **body}, negative_mass=True)
+
+
+def test_a_degenerate_metric_is_not_said_to_move_nothing():
+    pair = points((1, [1, 0, 0]), (-1, [0, 1, 0]))
+    with pytest.raises(ProblemError, match=r"\(0, 0, 1\) has no kinetic energy .* degenerate"):
+        problem_of({"name": "pair", "group": "SO(3)", **pair}, negative_mass=True)
+
+
+@pytest.mark.parametrize("mass", [["mul", -1, 2], ["div", -4, 2], ["mul", -1, ["par", "a"]]])
+def test_masses_that_are_expressions_are_seen_to_be_negative(mass):
+    record = walked("SL(2)", signed=True)
+    data = json.loads(to_json(record))
+    del data["problem"]["masses"]
+    data["problem"]["parameters"]["a"] = {"default": 2, "unit": "", "meaning": ""}
+    data["problem"]["body"]["points"][0]["mass"] = mass
+    step = next(x for x in data["steps"] if x["label"] == "linear.pullback")
+    step["hypotheses"].append({"is": "positive", "of": ["at", "m", "i"]})
+    found = {v.label: v for v in check(from_json(json.dumps(data)), 1)}
+    assert SUPPOSED in found["linear.pullback"].reason

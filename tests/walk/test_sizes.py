@@ -1,0 +1,117 @@
+"""Other sizes and bodies: the emitted Python at exact points, against d'Alembert on the points."""
+
+from random import Random
+
+import numpy as np
+import pytest
+
+from derive import Gravity, Group, Moments, Problem, derive, pipeline
+from derive.check.model import Model
+from derive.code.assemble import assemble
+from derive.code.emit import emit
+from derive.language import rational as q
+from derive.pipeline import walk
+from derive.problem.toml import problem_of
+from tests.support.walks import own_verdicts
+
+
+def points(n, count):
+    """Point tables with a parameter in every mass and some coordinates."""
+    names = {f"m{i}": {} for i in range(count)} | {f"x{i}": {} for i in range(count)}
+    tables = [
+        {"mass": f"m{i}^2" if i else "m0", "at": [f"x{i}", *((i - 1) ** j for j in range(1, n))]}
+        for i in range(count)
+    ]
+    return names, tables
+
+
+def problem(group, n, count, wrench=False):
+    parameters, tables = points(n, count)
+    parameters |= {"k": {}, "g": {}}
+    data = {
+        "name": "test",
+        "group": group,
+        "parameters": parameters,
+        "point": tables,
+        "potential": [{"kind": "gravity", "g": [0] * (n - 1) + ["-g"]}],
+    }
+    data["potential"].append({"kind": "spring", "between": [1, 2], "stiffness": "k/2"})
+    if wrench:
+        data["input"] = [{"name": "push", "kind": "covector"}]
+    return problem_of(data)
+
+
+def module(d, p):
+    source = emit(assemble(d, p.group), d, ("python",), "test")["test.py"]
+    space = {}
+    exec(compile(source, "test.py", "exec"), space)
+    return space
+
+
+CASES = {
+    "SL(2)": problem("SL(2)", 2, 4),
+    "SL(3)": problem("SL(3)", 3, 5),
+    "SL(4)": problem("SL(4)", 4, 6),
+    "SO(3)": problem("SO(3)", 3, 4, wrench=True),
+    "SE(3)": problem("SE(3)", 3, 4, wrench=True),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_record_holds(name):
+    assert [v.reason for v in own_verdicts(walk(CASES[name])) if not v.holds] == []
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("name", CASES)
+def test_code_against_points(name, seed):
+    p = CASES[name]
+    d, g = walk(p), p.group
+    code = module(d, p)
+    model = Model(d.problem, g, Random(seed), 2, driven=bool(p.inputs))
+    n = g.n
+    A = [float(x) for row in model.g[:n] for x in row[:n]]
+    zeta = [float(x) for x in g.vee(model.Z)]
+    T = [float(row[n]) for row in model.g[:n]] if g.affine else []
+    x = np.array([*A, *T, *zeta])
+    k = code["constants"]([float(model.parameters[name]) for name in code["PARAMETERS"]])
+    u = [float(x) for x in model.input] if p.inputs else None
+    dx = code["rhs"](0.0, x, k, u)
+    rate = [float(x) for x in g.vee(model.acceleration)]
+    scale = max(map(abs, rate))
+    # a random element of SL(4) may be far from a rotation: C = ĀA is inverted with its condition
+    condition = np.linalg.cond(np.reshape(A, (n, n))) ** 2
+    assert np.abs(dx[-g.dimension :] - rate).max() <= max(1e-12, 1e-14 * condition) * scale
+    motion = q.times(model.g, model.Z)
+    assert np.allclose(dx[: n * n], [float(x) for row in motion[:n] for x in row[:n]])
+    nu = q.times(model.g, model.Z)
+    energy = float(model.energy(model.t, model.g, nu))
+    assert code["energy"](0.0, x, k) == pytest.approx(energy, rel=1e-9)
+
+
+@pytest.mark.parametrize("group", ["SAff(2)", "SAff(3)", "Aff(2)", "Aff(3)"])
+def test_a_multiplier_costs_less_than_the_mass_matrix(group, monkeypatch):
+    """Why the normal space of 𝔤 is used where it has at most one dimension."""
+    n = int(group[-2])
+    problem = Problem("p", Group(group), Moments(), [Gravity(*[0] * (n - 1), -1)])
+
+    def multiplications():
+        d = derive(problem)
+        return assemble(d.record, d.problem.group).functions["rhs"].operations()["mul"]
+
+    ours = multiplications()
+
+    monkeypatch.setattr(pipeline, "MULTIPLIERS", -1)
+    assert 3 * ours < 2 * multiplications()
+
+
+def test_a_problem_in_numbers_has_no_parameters():
+    """What is 0, 1 or alike for this body is folded: J diagonal, gravity along an axis."""
+    J = [[1, 0, 0], [0, 2, 0], [0, 0, 3]]
+    body = Moments(m=1, c=[0, 0, 0.2], J=J)
+    d = derive(Problem("heavy", Group("SO(3)"), body, [Gravity(0, 0, -9.81)]))
+    program = assemble(d.record, d.problem.group)
+    assert program.parameters == program.constants == ()
+    operations = program.functions["rhs"].operations()
+    assert operations["mul"] <= 27
+    assert operations["add"] <= 11
