@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ..algebra.calculus import substitute
+from ..algebra.groups import Group
 from ..algebra.words import Dim, Expr, Letter, one, word
 
 
@@ -173,3 +174,8 @@ class Alphabet:
 def vars_of(value: Part | Frame | Dual) -> list[object]:
     """The fields of a part or a frame."""
     return [getattr(value, name) for name in value.__dataclass_fields__]
+
+
+def of_matrices(group: Group) -> Alphabet:
+    """The letters of any matrices of the size of a group's."""
+    return Alphabet(group.n, affine=group.affine)

@@ -58,12 +58,14 @@ def _is_rate(symbol: Tree) -> bool:
 
 
 def tensor_steps(
-    problem: Problem, body: Step, inertia: Step, motion: Step, c: Chapter
+    problem: Problem, body: tuple[Step, ...], inertia: Step, motion: Step, c: Chapter
 ) -> tuple[Step, ...]:
     """The entries of I, or I_c, from the numbers of the body; the motion where it is diagonal.
 
     ``inertia``: the step that says I, or I_c.
     """
+    if not body:
+        return ()
     name = "I_c" if problem.affine else "I"
     try:
         found = _tensor(problem, inertia)
@@ -77,10 +79,12 @@ def tensor_steps(
         order.sort(key=lambda x: x[0] != x[1])
     entries = [Equation(("entry", name, i, j), written(found[i - 1][j - 1])) for i, j in order]
     draft = c.draft("tensor", "coordinates")
-    draft.read(body, inertia)
+    draft.read(body[-1], inertia)
     told = say("The tensor of inertia of this body, entry by entry.")
     step = draft.step(entries, told)
-    return (step, *_motion(problem, name, found, (body, step, motion), c)) if straight else (step,)
+    return (
+        (step, *_motion(problem, name, found, (body[-1], step, motion), c)) if straight else (step,)
+    )
 
 
 def _motion(

@@ -7,7 +7,7 @@ keep the kinetic energy whatever the group, where they belong to it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..algebra.calculus import derivation, gradient, reduce, substitute, without
@@ -32,10 +32,11 @@ AXIS = Letter("y", 3)
 
 @dataclass(frozen=True)
 class SpaceMomenta:
-    """``turning``: ℓ, a skew matrix or a vector; ``shifting``: p."""
+    """``turning``: ℓ, a skew matrix or, of ``vectors``, a vector; ``shifting``: p."""
 
     turning: Expr
     shifting: Expr | None
+    vectors: bool
 
 
 def conserved_steps(
@@ -45,13 +46,12 @@ def conserved_steps(
     motion: Step,
     b: Alphabet,
     c: Chapter,
-    *,
-    vectors: bool,
 ) -> tuple[Step, ...]:
     """The energy, ℓ and p, as far as this problem keeps them."""
     group = problem.group
     assert group is not None
     draft = c.draft("conserved", "conservation")
+    vectors = momenta.vectors
     write = vector_sum if vectors else tree_of
     kept = [Equation("ḣ", 0)] if _autonomous(problem) else []
     told = say("the energy") if kept else ()
@@ -92,19 +92,20 @@ def matrix_momenta(momentum: Expr, a: Alphabet) -> SpaceMomenta:
         images[a.T.d_position] = word(Y) * word(a.T.position) + word(shift)
     paired = substitute(momentum, images)
     whole = gradient(paired, Y)
-    return SpaceMomenta(whole - whole.bar, gradient(paired, shift) if a.affine else None)
+    moved = gradient(paired, shift) if a.affine else None
+    return SpaceMomenta(whole - whole.bar, moved, vectors=False)
 
 
-def vector_momenta(momenta: Iterable[Expr], b: Alphabet) -> SpaceMomenta:
+def vector_momenta(momenta: Mapping[Letter, Expr], b: Alphabet) -> SpaceMomenta:
     """The same in R³, from ⟨ℓ_b, Ω⟩ + ⟨p_b, η⟩ with Ω = Āy and η = Ā(y ∧ T + b)."""
-    turned, *pushed = momenta
+    turned, *pushed = momenta.values()
     g, shift = word(b.A.position), Letter("b", 3)
     paired = inner(turned, g.bar * word(AXIS))
     if b.affine:
         moved = word(hat(AXIS)) * word(b.T.position) + word(shift)
         paired = paired + inner(pushed[0], g.bar * moved)
     whole = gradient(reduce(paired, isolate(AXIS)), AXIS)
-    return SpaceMomenta(whole, gradient(paired, shift) if b.affine else None)
+    return SpaceMomenta(whole, gradient(paired, shift) if b.affine else None, vectors=True)
 
 
 def _autonomous(problem: Problem) -> bool:

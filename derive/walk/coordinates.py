@@ -43,9 +43,9 @@ def _reading(group: Group, a: int) -> Tree:
     return add(*terms)
 
 
-def stated_basis_step(group: Group | None, b: Alphabet, c: Chapter) -> tuple[Step, ...]:
+def stated_basis_step(group: Group, b: Alphabet, c: Chapter) -> tuple[Step, ...]:
     """Z (and w) by coordinates in the basis that the problem states, where j has another."""
-    if group is None or not group.given:
+    if not group.given:
         return ()
     span, size = range(group.n), group.dimension
     own = group.stated.basis

@@ -38,6 +38,11 @@ class Eliminated:
     acceleration: Expr
     steps: tuple[Step, ...]
 
+    @property
+    def inertia(self) -> Step:
+        """The step that says I_c."""
+        return self.steps[0]
+
 
 def notation(a: Alphabet) -> Notation:
     """m⁻¹ as an inverse."""

@@ -38,9 +38,9 @@ class Way:
 
 def _functions(error: Exception) -> str:
     """Those of the walk in which it came about, the last one innermost."""
-    room = Path(__file__).parent
+    room, runners = Path(__file__).parent, ("failure", "stages")
     frames = [(Path(x.filename), x.name) for x in traceback.extract_tb(error.__traceback__)]
-    inside = [f"{p.stem}.{x}" for p, x in frames if p.parent == room and p != Path(__file__)]
+    inside = [f"{p.stem}.{x}" for p, x in frames if p.parent == room and p.stem not in runners]
     return ", ".join(inside) or "the pipeline"
 
 

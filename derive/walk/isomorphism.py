@@ -1,14 +1,32 @@
-"""j is an isomorphism of R³ onto so(3), as the footnote says."""
+"""so(3) ≅ R³: the operator j, an isomorphism as the footnote says, and the tensor of inertia."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from ..algebra.space import normal_form
-from ..algebra.words import trace
+from ..algebra.words import Expr, trace
 from ..algebra.written import tree_of
 from ..record.record import Equation, Step
 from ..record.sentence import say
+from .alphabet import Alphabet
 from .chapter import Chapter
-from .hat import OMEGA, ZETA, Reader
+from .hat import OMEGA, ZETA, Reader, identified
+
+
+@dataclass(frozen=True)
+class Axial:
+    """What reads skew letters as vectors; ``inertia``: the step that says I."""
+
+    read: Reader
+    inertia: Step
+    steps: tuple[Step, ...]
+
+
+def axial(b: Alphabet, gram: Expr, c: Chapter) -> Axial:
+    """j, that it is an isomorphism, and the metric of J as that of I."""
+    read, (identification, inertia) = identified(b, gram, c)
+    return Axial(read, inertia, (identification, isomorphism(read, c), inertia))
 
 
 def isomorphism(read: Reader, c: Chapter) -> Step:

@@ -80,7 +80,7 @@ class Distances:
 
     square: Expr
     varied: Expr
-    step: Step
+    steps: tuple[Step, ...]
 
 
 def _equations(d: Draft, square: Expr, varied: Expr, a: Alphabet) -> tuple[Equation, ...]:
@@ -105,7 +105,7 @@ def distances(points: Lagrangian, a: Alphabet, c: Chapter) -> Distances:
         _equations(draft, square, varied, a),
         say("The distances of the points change through C alone, the Cauchy–Green matrix."),
     )
-    return Distances(draft.said(square), draft.said(varied), step)
+    return Distances(draft.said(square), draft.said(varied), (step,))
 
 
 def rigid(general: Distances, unit: Expr, a: Alphabet, c: Chapter) -> Step:

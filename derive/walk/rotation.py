@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from ..algebra.calculus import gradient, reduce, substitute
 from ..algebra.space import hat, normal_form
 from ..algebra.words import Expr, Letter, word
@@ -23,7 +25,15 @@ from .vector import VectorForm, pairing
 from .wedge import vector_sum
 
 
-def torque(v: Potentials, b: Alphabet) -> dict[Letter, Expr]:
+@dataclass(frozen=True)
+class Torque:
+    """The ``forces`` of a problem in the body: μ, and F_b where the group translates."""
+
+    forces: dict[Letter, Expr]
+    steps: tuple[Step, ...]
+
+
+def _forces(v: Potentials, b: Alphabet) -> dict[Letter, Expr]:
     """The moment μ of the forces in the body, and their resultant F_b, of the given potentials."""
     eta = word(b.w.xi_prime) if b.affine else None
     work = normal_form(virtual_work(v, b, word(hat(OMEGA_P)), eta, word(OMEGA_P)))
@@ -34,24 +44,22 @@ def torque(v: Potentials, b: Alphabet) -> dict[Letter, Expr]:
     return forces
 
 
-def torque_step(
-    v: Potentials, stage: Isometry, read: Reader, c: Chapter
-) -> tuple[dict[Letter, Expr], Step]:
+def torque(v: Potentials, stage: Isometry, read: Reader, c: Chapter) -> Torque:
     """The forces of this problem, from Ũ by varying A by A j(Ω′) (and T by A η′)."""
     draft = c.draft("torque", "variation")
-    forces = torque(v, stage.letters)
+    forces = _forces(v, stage.letters)
     left = pairing(stage, read).values()
     pairs = zip(left, forces.values(), strict=True)
     step = draft.step(
         (Equation(draft.tree(x), draft.tree(e)) for x, e in pairs),
         say("The forces of this problem: the potential is varied along the group."),
     )
-    return {x: draft.said(e) for x, e in forces.items()}, step
+    return Torque({x: draft.said(e) for x, e in forces.items()}, (step,))
 
 
 def spherical_motion(
     kernel: VectorForm,
-    forces: dict[Letter, Expr],
+    torque: Torque,
     b: Alphabet,
     read: Reader,
     given: Given | None,
@@ -60,10 +68,10 @@ def spherical_motion(
     """ζ̇ = I⁻¹(Iζ ∧ ζ + torque + u)."""
     inertial = word(INERTIA) * word(ZETA_DOT)
     # Iφ is the torque, and what is given adds to it
-    balance = kernel.balance[OMEGA_P] + word(INERTIA) * word(PHI) - forces[MU]
+    balance = kernel.balance[OMEGA_P] + word(INERTIA) * word(PHI) - torque.forces[MU]
     if given is not None:
         balance = balance - given.moments
-    draft = (c.with_input() if given else c).draft("motion", "solution")
+    draft = c.draft("motion", "solution")
     draft.read(balance)
     right = vector_sum(inertial - balance)
     turned = {b.Z.velocity: read.hatted(ZETA)}
@@ -75,20 +83,20 @@ def spherical_motion(
 
 def displacement_motion(
     stage: Eliminated,
-    forces: dict[Letter, Expr],
+    torque: Torque,
     b: Alphabet,
     read: Reader,
     given: Given | None,
     c: Chapter,
 ) -> Step:
     """ζ̇ and ẇ, with the forces of this problem and what is given put in."""
-    forces = dict(forces)
+    forces = dict(torque.forces)
     if given is not None:
         forces[MU] = forces[MU] + given.moments
         forces[b.F_body] = forces[b.F_body] + given.resultant
     rotation = from_centre(substitute(reduce(stage.torque, isolate(b.F_body)), forces), b)
     translation = from_centre(substitute(stage.acceleration, forces), b)
-    draft = (c.with_input() if given else c).draft("motion", "solution")
+    draft = c.draft("motion", "solution")
     draft.read(rotation, translation)
     return draft.step(
         (

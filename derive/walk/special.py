@@ -25,11 +25,10 @@ from .coadjoint import coadjoint_steps
 from .contraction import Contraction
 from .exterior import DOMEGA, Exterior, brackets_of
 from .factored import gathered, terms_with
+from .inputs import Given
 from .isometry import bracketed, resting
-from .kernel import Ambient, balanced
-from .lagrangian import Lagrangian
+from .kernel import balanced
 from .momentum import MomentumForm, fibre
-from .orbit import Distances
 from .potential import Potentials, virtual_work
 from .restrict import restrict, restricted_prose
 from .trivialisation import frame_rule, gram, rates, varied_gram
@@ -39,20 +38,14 @@ from .trivialisation import frame_rule, gram, rates, varied_gram
 class General:
     """What is known of every group of one action: ``cartan`` and ``exterior`` are carried to 𝔤.
 
-    ``points``: what is said of them, ``distances``: by C; ``momentum``: p̃(δg) in space;
-    ``pushed``: −dŨ(δg) by the moments of forces; ``ambient``: the kernel in space.
+    ``pushed``: −dŨ(δg) by the moments of forces.
     """
 
     letters: Alphabet
-    points: Lagrangian
-    momentum: Expr
     pushed: Expr
     cartan: Cartan
     exterior: Exterior
     momenta: MomentumForm
-    distances: Distances
-    ambient: Ambient
-    steps: tuple[Step, ...]
 
 
 @dataclass(frozen=True)
@@ -71,12 +64,6 @@ class Special:
     last: tuple[Step, ...]
     bodies: Bodies | None = None
 
-    def pushed(self, moments: Expr, resultant: Expr) -> Special:
-        """The same with further forces on ξ′ (and η′)."""
-        b = self.letters
-        more = {b.Z.xi_prime: moments, b.w.xi_prime: resultant}
-        return replace(self, forces={x: e + more[x] for x, e in self.forces.items()})
-
 
 def letters_of(group: Group, *, signed: bool) -> Alphabet:
     """The alphabet of a group: skew or traceless letters where its relations say so.
@@ -89,8 +76,18 @@ def letters_of(group: Group, *, signed: bool) -> Alphabet:
     return Alphabet(group.n, affine=group.affine, **known)
 
 
+def pushed(stage: Special, given: Given | None) -> Special:
+    """The same with what is given from outside on ξ′ (and η′)."""
+    b, forces = stage.letters, dict(stage.forces)
+    if given:
+        forces[b.Z.xi_prime] += given.moments
+    if given and b.affine:
+        forces[b.w.xi_prime] += given.resultant
+    return replace(stage, forces=forces, steps=(), last=())
+
+
 def specialise(
-    road: General, group: Group, v: Potentials, c: Chapter, bodies: Bodies | None = None
+    road: General, group: Group, v: Potentials, c: Chapter, bodies: Bodies | None
 ) -> Special:
     """The forms, forces and energy of a problem; ``bodies``: whose metric is left-invariant."""
     b = letters_of(group, signed=road.letters.signed)
@@ -135,8 +132,6 @@ def specialise(
     contraction, derivative = _exterior(domega, road, plain, varying, by_bracket)
     inertial, motion = _kernel(contraction, [*said.values()], plain, c)
     steps = (
-        *_relation(group, bodies, c),
-        *v.steps,
         pushes,
         written,
         derivative,
@@ -152,7 +147,7 @@ def turns_whole(group: Group) -> bool:
     return "orthogonal" in group.relations and len(group.linear_basis) == n * (n - 1) // 2 > 0
 
 
-def _relation(group: Group, bodies: Bodies | None, c: Chapter) -> tuple[Step, ...]:
+def relation(group: Group, bodies: Bodies | None, c: Chapter) -> tuple[Step, ...]:
     """What the group keeps, read off the basis of its Lie algebra."""
     known: tuple[tuple[Tree, Tree], ...] = ()
     prose: Prose = ()

@@ -9,7 +9,7 @@ from derive.algebra import calculus
 from derive.command.cli import load_problem
 from derive.pipeline import walk
 from derive.problem.problem import ProblemError
-from derive.walk import trivialisation
+from derive.walk import rotation, trivialisation
 from derive.walk.failure import WalkError, naming_steps
 
 
@@ -64,8 +64,8 @@ def test_a_letter_without_an_image(monkeypatch):
     def absent(*given):
         return {}["w"]
 
-    monkeypatch.setattr(pipeline, "energy_step", absent)
-    told("so3", r"after the step so3\.tensor \(coordinates\), in the pipeline: KeyError: 'w'")
+    monkeypatch.setattr(rotation, "metrics", absent)
+    told("so3", r"step so3\.energy \(identification\), in rotation\.energy_step: KeyError: 'w'")
 
 
 def test_what_is_wrong_with_a_problem_is_no_error_of_the_engine():

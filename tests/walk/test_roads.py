@@ -6,12 +6,13 @@ import pytest
 
 from derive import pipeline
 from derive.problem.toml import problem_of
+from derive.walk import solution
 
 BODY = '[body]\nmoments = "symbolic"\n'
 
 
 def operations(group, monkeypatch, multipliers):
-    monkeypatch.setattr(pipeline, "MULTIPLIERS", multipliers)
+    monkeypatch.setattr(solution, "MULTIPLIERS", multipliers)
     problem = problem_of(tomllib.loads(f'name = "test"\ngroup = "{group}"\n{BODY}'))
     program = pipeline.program(problem, pipeline.walk(problem))
     return sum(program.functions["rhs"].operations().values())
@@ -22,6 +23,6 @@ def operations(group, monkeypatch, multipliers):
 )
 def test_the_cheaper_road_is_taken(group, monkeypatch):
     """By multipliers where 𝔤 has at most one condition in gl(n), never by the mass matrix."""
-    taken = operations(group, monkeypatch, pipeline.MULTIPLIERS)
+    taken = operations(group, monkeypatch, solution.MULTIPLIERS)
     other = operations(group, monkeypatch, -1)
     assert taken < other

@@ -152,7 +152,7 @@ def negative(body):
     d = walk(problem_of({"name": "hole", "group": "SL(2)", **body}, negative_mass=True))
     kept = {k: v for k, v in d.problem.items() if k != "masses"}
     steps = (s for s in d.steps if s.scope != ANY_GROUP)
-    return replace(d, problem=kept, steps=(*general_road(affine=False).steps, *steps))
+    return replace(d, problem=kept, steps=(*general_road(affine=False)["steps"], *steps))
 
 
 GIVEN = {"given": {"m": 1, "c": [0, 0], "J": [[1, 0], [0, -2]]}}

@@ -1,0 +1,75 @@
+"""The head of a record: its problem as plain data, and the names that its steps use."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from ..algebra.groups import Group
+from ..problem.data import data
+from ..problem.problem import ForceInput, Problem
+from ..record.record import Step, Symbol, encode
+from ..record.sentence import Prose, Sentence, listed, phrase, say
+from ..record.uses import of_steps
+from ..record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, Name
+
+
+def problem_data(problem: Problem) -> dict[str, object]:
+    """The problem as JSON data: trees encoded."""
+
+    def plain(x: object) -> object:
+        if isinstance(x, dict):
+            return {k: plain(v) for k, v in x.items()}
+        if isinstance(x, list):
+            return [plain(v) for v in x]
+        return encode(x) if isinstance(x, (tuple, Fraction)) else x
+
+    basis = problem.group.stated.basis if problem.group else ()
+    rows = [[[str(x) for x in row] for row in e] for e in basis]
+    n = problem.group.n if problem.group else "any"
+    found = data(problem) | {"n": n, "basis": rows, "conventions": list(CONVENTIONS)}
+    return {k: plain(v) for k, v in found.items()}
+
+
+def symbols(steps: tuple[Step, ...], problem: Problem) -> tuple[Symbol, ...]:
+    """The names that the steps use, in the order in which they appear."""
+    meant, group = _meant(problem), problem.group
+    sizes = _sizes(group) if group else {}
+    said = {x: say(about.meaning) for x, about in meant.items()}
+    if problem.pushes:
+        said["f_u"] = _inputs(problem)
+    used = of_steps(steps, meant, sizes)
+    return tuple(Symbol(x, said[x], meant[x].latex, uses) for x, uses in used.items())
+
+
+def _sizes(group: Group) -> dict[str, int]:
+    """What the letters of sizes stand for; a block is of none where the factors are of several."""
+    sizes = {"n": group.n, "d": len(group.linear_basis), "dim": group.dimension}
+    blocks = {factor.n for _, factor in group.places}
+    return sizes | ({"block": blocks.pop()} if len(blocks) == 1 else {})
+
+
+def _meant(problem: Problem) -> dict[str, Name]:
+    """What the names mean in a problem."""
+    group = problem.group
+    blocks = PRODUCTS if group and group.factors and not group.affine else {}
+    turning = group is not None and group.turns_space
+    own = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
+    return VOCABULARY | own | blocks
+
+
+def _inputs(problem: Problem) -> Prose:
+    """What f_u means where forces are given."""
+    forces, group = [_force(x) for x in problem.pushes], problem.group
+    if problem.covector and group and group.turns_space and group.affine:
+        at_origin = "{name}, a force on the body's origin, in the body frame"
+        forces.insert(0, phrase(at_origin, name=problem.covector.name))
+    return say("input: {forces}", forces=listed("{first}; {second}", forces))
+
+
+def _force(given: ForceInput) -> Sentence:
+    """A force that is given at every call, in words."""
+    if given.frame == "body":
+        in_frame = "{name}, a force on point {point}, in the body frame"
+    else:
+        in_frame = "{name}, a force on point {point}, in the space frame"
+    return phrase(in_frame, name=given.name, point=str(given.on))
