@@ -10,6 +10,7 @@ from fractions import Fraction
 from typing import Any
 
 from .. import __version__
+from ..language.refused import Refused
 from ..language.templating import environment
 from ..record.record import Derivation
 from .apart import apart, hollow, identifiers
@@ -20,7 +21,7 @@ from .program import TOLERANCE, Program
 from .statements import Statements, comment
 
 
-class EmitError(ValueError):
+class EmitError(Refused, ValueError):
     """A prefix or an option that cannot be emitted: the message says what to do."""
 
 

@@ -17,8 +17,10 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
+from ..language.refused import Refused
 
-class LoweringError(ValueError):
+
+class LoweringError(Refused, ValueError):
     """The record does not say how to compute something: the message names it."""
 
 

@@ -8,13 +8,13 @@ import os
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
-from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..language.refused import Refused
 from ..problem.problem import Problem, ProblemError
-from ..record.record import Derivation, RecordError
-from ..views.rendering import NOTES, RenderError, notes, pdf, render, unprinted
+from ..record.record import Derivation
+from ..views.rendering import NOTES, notes, pdf, render, unprinted
 from .encoding import as_in_a_file, said
 from .guard import StoppedError, one_line, within
 from .progress import counted
@@ -22,14 +22,11 @@ from .progress import counted
 if TYPE_CHECKING:
     from ..check.checker import Verdict
 
-READY = resources.files("derive") / "problems"
+READY = Path(__file__).resolve().parents[1] / "problems"
 
 
-class UsageError(Exception):
+class UsageError(Refused):
     """Bad input: one clear line, exit 2."""
-
-
-REFUSED = (UsageError, ProblemError, RecordError, RenderError)
 
 
 def ready_made() -> list[str]:
@@ -42,7 +39,7 @@ def load_problem(name: str, **allowed: bool) -> Problem:
     from ..problem.toml import load
 
     if name in ready_made():
-        return load(Path(str(READY / f"{name}.toml")))
+        return load(READY / f"{name}.toml")
     path = Path(name)
     if path.suffix == ".toml" or path.exists():
         return load(path, **allowed)
@@ -149,7 +146,6 @@ def command_emit(args: argparse.Namespace) -> int:
     from ..code.emit import emit, included, planned
     from ..code.options import CHOICES, Options
     from ..pipeline import program
-    from .validation import validated
     from .writing import stale, there, write
 
     languages = tuple(dict.fromkeys(args.lang or ("c", "python")))
@@ -169,6 +165,8 @@ def command_emit(args: argparse.Namespace) -> int:
     for path, how in old.items():
         print(f"{path}: {how}")
     if args.validate:
+        from .validation import validated
+
         kept = {x: there(folder / x) for x in files} if args.check else files
         if not validated(kept, files, record, compiled, prefix, options):
             return 1  # and nothing is written
@@ -279,11 +277,7 @@ def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command: 0, 1 when a check failed, 2 for bad input."""
-    from ..code.emit import EmitError
-    from ..code.program import LoweringError
-    from ..validate.terms import MissingParserError
     from .arguments import parser
-    from .writing import WriteError
 
     if sys.stdout is None:  # closed by who started us
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
@@ -292,7 +286,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             status = run(parser(COMMANDS, ABOUT), argv)
             sys.stdout.flush()
         return status
-    except (*REFUSED, EmitError, LoweringError, MissingParserError, WriteError) as error:
+    except Refused as error:
         print(f"derive: {one_line(error)}", file=sys.stderr)
         return 2
     except StoppedError as error:

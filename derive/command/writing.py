@@ -15,6 +15,8 @@ from contextlib import ExitStack, contextmanager, suppress
 from itertools import zip_longest
 from pathlib import Path
 
+from ..language.refused import Refused
+
 try:
     import fcntl
 except ImportError:  # Windows: no lock
@@ -27,7 +29,7 @@ PATIENCE = 60.0
 """Seconds to wait for a folder; others hold it for as long as it takes to write a few files."""
 
 
-class WriteError(OSError):
+class WriteError(Refused, OSError):
     """Output that cannot be written: the message says where and why."""
 
 

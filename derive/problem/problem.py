@@ -7,11 +7,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..algebra.groups import Group
+from ..language.refused import Refused
 from ..language.tree import Tree, add
 from .solids import Solid
 
 
-class ProblemError(ValueError):
+class ProblemError(Refused, ValueError):
     """Bad input: the message names the key and the remedy."""
 
 

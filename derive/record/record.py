@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from ..language.limits import RECORD_BYTES, TREE
+from ..language.refused import Refused
 from ..language.tree import OPERATORS, Tree
 from . import sentence
 from .hypotheses import PROPERTIES, SPACES, Hypothesis
@@ -35,7 +36,7 @@ TYPE = 4
 """Lists in one another in the type of a symbol."""
 
 
-class RecordError(ValueError):
+class RecordError(Refused, ValueError):
     """A record that is not well formed: the message says where."""
 
 

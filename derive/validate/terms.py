@@ -18,6 +18,7 @@ from fractions import Fraction
 from typing import Any
 
 from ..check.nilpotent import part
+from ..language.refused import Refused
 
 Expression = tuple[Any, ...]
 Statement = tuple[Any, ...]
@@ -42,7 +43,7 @@ def plain_text(text: str) -> None:
         raise CodeError(f"the character {control!r} is not read")
 
 
-class MissingParserError(Exception):
+class MissingParserError(Refused):
     """The parser of a language is not installed: the message says how to get it."""
 
 

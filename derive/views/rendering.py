@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import os
-import shutil
-import subprocess
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ..paper.findings import Finding
+from ..language.refused import Refused
 from ..record.record import Derivation
+
+if TYPE_CHECKING:
+    from ..paper.findings import Finding
 
 FORMATS = ("text", "latex", "markdown", "html", "json")
 NOTES = (".tex", ".pdf", ".html", ".sty")
 
 
-class RenderError(ValueError):
+class RenderError(Refused, ValueError):
     """A choice that has no sense, or TeX that is not there: the message says what to do."""
 
 
@@ -113,6 +113,11 @@ def corrections(records: Sequence[Derivation]) -> list[Finding]:
 
 def pdf(tex: str) -> bytes:
     """The LaTeX compiled; ``RenderError`` names what is missing or the first error."""
+    import os
+    import shutil
+    import subprocess
+    import tempfile
+
     latexmk, pdflatex = shutil.which("latexmk"), shutil.which("pdflatex")
     if pdflatex is None:
         raise RenderError(
