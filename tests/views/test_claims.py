@@ -1,0 +1,116 @@
+"""What a sentence claims it claims in both languages: the negations of an entry, and its terms."""
+
+import re
+from itertools import chain
+
+import pytest
+
+from derive.views.language import entries
+
+ENTRIES = [(x["en"], x["fr"]) for x in entries()]
+DENIED = re.compile(r"\b(?:not|no|none|never|nothing|neither|nor|without|cannot)\b", re.I)
+NE = r"\b(?:ne |n[’'])"
+ONLY = re.compile(
+    NE + r"(?:(?!\b(?:pas|aucune?|ni)\b|\bne |\bn[’']|[.;:]).)*?\bqu(?:e |[’'])", re.I
+)
+NE_PAS = re.compile(NE + r"(?:(?!\bne |\bn[’']|[.;:]).)*?\bpas\b", re.I)
+OTHERS = re.compile(r"\b(?:non|absence|sans(?!\\)|(?<!trace )(?<!vide )nulle)\b", re.I)
+
+# each English term with its French, both as patterns of words
+TERMS = {
+    r"(?<!non-)invertible": r"inversible",
+    r"skew": r"antisymétriques?",
+    r"diagonal(?:ise)?s?": r"diagona\w*",
+    r"orthogonal": r"orthogona\w+",
+    r"constant": r"constante?s?",
+    r"positive": r"positi(?:f|ve)s?",
+    r"negative": r"négati(?:f|ve)s?",
+    r"kernel": r"noyau",
+    r"tensor": r"tenseur",
+    r"inertia": r"inertie",
+    r"first moment": r"premier moment",
+    r"kinetic": r"(?<!moment )cinétiques?",
+    r"angular momentum": r"moment cinétique",
+    r"potentials?": r"potentiels?",
+    r"energy": r"énergie",
+    r"brackets?": r"crochets?",
+    r"volumes?": r"volume|volumes",
+    r"rotations?": r"rotations?",
+    r"matri(?:x|ces)": r"matrices?",
+    r"Lie algebra": r"algèbre de Lie",
+    r"spans?": r"engendrent|engendre",
+    r"springs?": r"ressorts?",
+    r"damp(?:ing|ed)": r"amorti(?:ssement|s)?",
+    r"manifold": r"variété",
+    r"symplectic": r"symplectiques?",
+    r"extremals?": r"extrémales?",
+    r"commut(?:e|es|ative)": r"commut(?:ent|e|atif)",
+    r"nilpotent": r"nilpotentes?",
+    r"hyperplane": r"hyperplan",
+    r"geodesics?": r"géodésiques?",
+    r"multiplier": r"multiplicateur",
+    r"Cartan": r"Cartan",
+    r"Noether": r"Noether",
+    r"left-invariant": r"invariante? à gauche",
+    r"eliminated": r"éliminée?",
+    r"if and only if": r"si et seulement si",
+    r"at least": r"au moins",
+    r"at most": r"au plus",
+    r"dimension": r"dimension",
+    r"drops? out": r"disparaît|disparaisse",
+}
+
+
+def negations(french):
+    """How often a French sentence says no; *ne … que* says *only*."""
+    alone = len(re.findall(r"\bpas\b", french, re.I)) - len(NE_PAS.findall(french))
+    denied = len(re.findall(NE, french, re.I)) - len(ONLY.findall(french))
+    return denied + alone + len(OTHERS.findall(french))
+
+
+def has(term, text):
+    return re.search(rf"(?<!\w)(?:{term})(?!\w)", text, re.I) is not None
+
+
+def wrong(english, french):
+    """What one language claims and the other does not."""
+    found = [] if len(DENIED.findall(english)) == negations(french) else ["a negation"]
+    return found + [e for e, f in TERMS.items() if has(e, english) != has(f, french)]
+
+
+@pytest.mark.parametrize(("english", "french"), ENTRIES, ids=lambda x: x[:40])
+def test_both_languages_claim_the_same(english, french):
+    assert wrong(english, french) == []
+
+
+VERBS = {"est": "n’est pas", "sont": "ne sont pas", "s’annule": "ne s’annule pas"}
+VERBS |= {"s’annulent": "ne s’annulent pas", "disparaît": "ne disparaît pas"}
+
+
+def denied(french):
+    """Each verb of a few, negated, and each negation taken away."""
+    for verb, no in VERBS.items():
+        for m in re.finditer(rf"(?<![\w’'])(?<!ne ){verb}(?!\w| pas)", french):
+            yield french[: m.start()] + no + french[m.end() :]
+    for m in re.finditer(r"\bn(?:e |[’'])(\w+) pas\b", french):
+        yield french[: m.start()] + m[1] + french[m.end() :]
+
+
+def test_a_sentence_that_says_the_contrary_in_one_language_is_noticed():
+    """« est inversible » as « n’est pas inversible », every verb of every entry."""
+    changed = [(e, x) for e, french in ENTRIES for x in denied(french)]
+    assert len(changed) > 200
+    assert [x for e, x in changed if not wrong(e, x)] == []
+
+
+def test_a_term_for_another_is_noticed():
+    words = [("inversible", "orthogonale"), ("noyau", "crochet"), ("ressorts", "points")]
+    words += [("antisymétriques", "symétriques"), ("constant", "nul"), ("positives", "négatives")]
+    words += [("si et seulement si", "si"), ("énergie", "inertie"), ("potentiel", "multiplicateur")]
+    swapped = chain.from_iterable(
+        ((e, re.sub(rf"\b{a}\b", b, f)) for e, f in ENTRIES if re.search(rf"\b{a}\b", f))
+        for a, b in words
+    )
+    found = [*swapped]
+    assert len(found) > 80
+    assert [x for x in found if not wrong(*x)] == []
