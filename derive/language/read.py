@@ -1,0 +1,250 @@
+"""A printed formula as a tree: the inverse of :mod:`show`.
+
+    sum      =  [−] term { (+ | −) term }
+    term     =  product [ ∧ product ]
+    product  =  factor { factor | / factor }
+    factor   =  Tr product  |  Σᵢ term  |  atom { ‾ | power | index | (arguments) }
+
+``show(read(s)) == s``, and ``read(show(t)) == t`` but where trees print alike; then it is the first
+of these: the number 1 and not the unit matrix, where it is no factor; a letter of the walk and not
+a parameter, unless the reader is told its name or it stands in ‘quotes’; a member F₁ of a family,
+not an entry of the resultant, and d₁₁ the first entry of d₁; an inverse, not the power −1; ‖a‖²,
+not a square of ‖a‖; (−a)/b, not −(a/b); [a, b] = ab − ba; after Σ or ∧ all of the next product.
+Spaces between factors may be left out, ``αδt``, and an index may stand after _, ``r_i``.
+"""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from functools import lru_cache
+from unicodedata import normalize
+
+from .differentiate import DERIVATIVES
+from .show import FRACTIONS, show_name
+from .tree import Tree, neg
+
+FAMILIES = frozenset({*"rmvFQdPχσκEks", "f_u"})
+"""Letters whose members an index counts; with one, others have entries."""
+IN_THE_BASIS = frozenset({"E", "M", "β", "ζ", "ζ̇", "ψ"})
+"""What the indices a and b count; after another letter they belong to its name, as in ℓ_b."""
+FUNCTIONS = frozenset({"dŨ", "p̃", "ϖ", "dϖ", "ω", "g", "δ", "δ′", "d/dt"})
+"""What is applied to the brackets after it; other names are so to t and X alone."""
+
+_LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉½⅓¼⅔ᵢⱼₑₜ]"
+_VARIED = r"(?:δ′?|∂ₜ|d(?=ϖ|U\u0303))?"
+_CALLED = "|".join(("det", "j", *DERIVATIVES))
+TOKEN = (
+    r"(?P<quoted>‘[^’]*’)|(?P<opening>(?<= )‖)"
+    rf"|(?P<word>Tr(?=[ (\[])|Σ(?:[ᵢⱼₑ]|_[a-z])|∫|√|(?:{_CALLED})(?=\())"
+    rf"|(?P<name>d/dt|(?!dm(?![A-Za-z])){_VARIED}{_LETTER}[\u0300-\u036f]*′?(?:_(?:[abij][abij]|[A-Za-z]))?)"
+    r"|(?P<index>[₀-₉ᵢⱼₑ]+)"
+    r"|(?P<power>⁻?[⁰¹²³⁴-⁹]+)"
+    r"|(?P<number>\d+(?:/[1-9]\d*)?|[½⅓¼⅔])"
+    r"|(?P<mark>dm(?![A-Za-z])|\S)"
+)
+BEGIN = frozenset({"quoted", "word", "name", "number", "parameter", "opening", *"(⟨‖[/"})
+MACRON = "\u0304"
+DIGITS = str.maketrans("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑ⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789ije0123456789-")
+SMALL = {text: q for q, text in FRACTIONS.items()}
+
+
+class FormulaError(ValueError):
+    """A text that is no formula: the message says which, and where."""
+
+
+@lru_cache(2**10)
+def read(text: str, *parameters: str) -> Tree:
+    """The tree of a formula; ``parameters``: the names that stand for those of the problem."""
+    reader = _Reader(normalize("NFD", text), {show_name(x): x for x in parameters})
+    found = reader.sum()
+    reader.take("")
+    return found
+
+
+def _tokens(text: str, parameters: dict[str, str]) -> list[tuple[str, str]]:
+    """Kinds and texts; a parameter of several letters is a word of its own."""
+    long = "|".join(sorted((re.escape(x) for x in parameters if len(x) > 1), key=len, reverse=True))
+    own = rf"(?P<parameter>(?<!\w)(?:{long})(?![A-Za-z0-9_₀-₉′]))|" if long else ""
+    found = ((str(m.lastgroup), m[0]) for m in re.finditer(own + TOKEN, text))
+    return [(x if kind == "mark" else kind, x) for kind, x in found] + [("end", "")] * 3
+
+
+class _Reader:
+    """Tokens, and how far they are read."""
+
+    def __init__(self, text: str, parameters: dict[str, str]) -> None:
+        self.text, self.tokens, self.k = text, _tokens(text, parameters), 0
+        self.parameters, self.inside_norm = parameters, False
+
+    def next(self) -> str:
+        """Go past a token."""
+        self.k += 1
+        return self.tokens[self.k - 1][1]
+
+    def met(self, wanted: str) -> bool:
+        """Go past a token, if it stands here."""
+        here = self.tokens[self.k][1] == wanted
+        self.k += here
+        return here
+
+    def take(self, wanted: str) -> None:
+        """Go past a token that must stand here."""
+        if not self.met(wanted):
+            raise self.error(wanted or "the end")
+
+    def error(self, wanted: str) -> FormulaError:
+        """Of what should stand here and does not."""
+        rest = "".join(text for _, text in self.tokens[self.k :]) or "the end"
+        return FormulaError(f"{self.text!r}: {wanted} is expected at {rest}")
+
+    def sum(self, norm: bool = False) -> Tree:
+        """Terms and their signs."""
+        outer, self.inside_norm = self.inside_norm, norm
+        terms = [_minus(self.term()) if self.met("−") else self.term()]
+        while self.tokens[self.k][0] in ("+", "−"):
+            terms.append(_minus(self.term()) if self.next() == "−" else self.term())
+        self.inside_norm = outer
+        return terms[0] if len(terms) == 1 else ("add", *terms)
+
+    def term(self) -> Tree:
+        """A product, or two with ∧ between them."""
+        left = self.product()
+        return ("wedge", left, self.product()) if self.met("∧") else left
+
+    def product(self) -> Tree:
+        """Factors; what stands before / is divided by the factor after it."""
+        factors = [self.factor()]
+        while (kind := self.tokens[self.k][0]) in BEGIN and not (kind == "‖" and self.inside_norm):
+            if self.met("/"):
+                factors = [("div", _of_factors(factors), self.factor())]
+            else:
+                factors.append(self.factor())
+        return _of_factors(factors)
+
+    def factor(self) -> Tree:
+        """Tr and Σ of what follows, or an atom with what stands behind it."""
+        if self.met("Tr"):
+            return ("tr", self.product())
+        if self.tokens[self.k][1].startswith("Σ"):
+            return ("sum", self.next()[-1].translate(DIGITS), self.term())
+        found = self.atom()
+        while True:
+            kind, _ = self.tokens[self.k]
+            if kind == "(" and self._applied(found):
+                found = ("call", found, *self.listed("(", ")"))
+            elif kind in ("‾", "index", "power"):
+                found = _behind(found, kind, self.next())
+            else:
+                return found
+
+    def _applied(self, t: Tree) -> bool:
+        inside = "".join(text for _, text in self.tokens[self.k : self.k + 3])
+        name = isinstance(t, str) or (isinstance(t, tuple) and t[0] == "at")
+        return t in FUNCTIONS or (name and inside in ("(t)", "(X)"))
+
+    def listed(self, opening: str, closing: str, count: int = 0) -> list[Tree]:
+        """What stands between brackets, and commas: so many, if it is said."""
+        self.take(opening)
+        found = [self.sum()]
+        while len(found) != count and self.met(","):
+            found.append(self.sum())
+        self.take(closing if len(found) >= count else ",")
+        return found
+
+    def atom(self) -> Tree:
+        """A name, a number, or something in brackets of any kind."""
+        kind, text = self.tokens[self.k]
+        if kind == "name":
+            return self.named(self.next())
+        if kind == "number":
+            q = SMALL.get(self.next()) or Fraction(text)
+            return int(q) if q.denominator == 1 else q
+        if kind in ("parameter", "quoted"):
+            return ("par", self.parameters.get(self.next(), text))
+        if kind == "word":
+            return self.worded(self.next())
+        if kind == "(":
+            return self.listed("(", ")", 1)[0]
+        if kind == "⟨":
+            return self.measured("metric", "inner", *self.listed("⟨", "⟩", 2))
+        if kind == "[":
+            return self.rows()
+        if not self.met("‖"):
+            raise self.error("a factor")
+        inside = self.sum(norm=True)
+        self.take("‖")
+        squared = self.measured("norm2", "norm2", inside) if self.met("²") else None
+        return squared or ("fun", "sqrt", ("norm2", inside))
+
+    def measured(self, with_metric: str, without: str, *found: Tree) -> Tree:
+        """With the metric that stands behind _, if one does."""
+        return (with_metric, self.atom(), *found) if self.met("_") else (without, *found)
+
+    def worded(self, text: str) -> Tree:
+        """∫ … dm, and functions with a name of their own."""
+        if text == "∫":
+            found = 1 if self.tokens[self.k][0] == "dm" else self.sum()
+            self.take("dm")
+            return ("call", "∫", found)
+        own = {"det": ("det",), "j": ("hat",), "√": ("fun", "sqrt")}.get(text, ("fun", text))
+        return (*own, *self.listed("(", ")", 1))
+
+    def rows(self) -> Tree:
+        """[a, b], or the rows of a matrix."""
+        self.take("[")
+        rows: list[list[Tree]] = [[self.sum()]]
+        while (mark := self.next()) in (";", ","):
+            if mark == ";":
+                rows.append([])
+            rows[-1].append(self.sum())
+        self.k -= 1
+        self.take("]")
+        if len(rows) == 1 and len(rows[0]) == 2:
+            return ("bracket", *rows[0])
+        return ("matrix", *(("row", *row) for row in rows))
+
+    def named(self, text: str) -> Tree:
+        """A letter with its marks, and the index behind it: parameters have none."""
+        name, index = normalize("NFC", text.replace(MACRON, "")), ""
+        base, _, behind = name.partition("_")
+        if behind and {*behind} <= ({*"abije"} if base in IN_THE_BASIS else {*"ijke"}):
+            name, index = base, behind
+        if self.tokens[self.k][0] == "index":
+            index += self.next()
+        if name + index in self.parameters:
+            return ("par", self.parameters[name + index])
+        cut = 0 if name not in FAMILIES else 1 if name in "dχ" else len(index)
+        found: Tree = ("at", name, *_numbers(index[:cut])) if index[:cut] else name
+        if MACRON in text:
+            found = ("T", found)
+        entry = _numbers(index[cut:], pair=name.lstrip("δ′")[:1].isupper())
+        return ("entry", found, *entry) if entry else found
+
+
+def _numbers(text: str, pair: bool = False) -> list[Tree]:
+    """What an index says: letters, and a number; two digits of a matrix are two numbers."""
+    each = r"\d|[a-z]" if pair and len(text) == 2 else r"\d+|[a-z]"
+    return [int(x) if x.isdigit() else x for x in re.findall(each, text.translate(DIGITS))]
+
+
+def _behind(t: Tree, kind: str, text: str) -> Tree:
+    """With what stands behind an atom."""
+    if kind == "index":
+        return ("entry", t, *_numbers(text))
+    if kind == "power" and text != "⁻¹":
+        return ("pow", t, int(text.translate(DIGITS)))
+    return ("inv" if kind == "power" else "T", t)
+
+
+def _of_factors(factors: list[Tree]) -> Tree:
+    """The product; beside others, 1 is the unit matrix."""
+    beside = (("one",) if f == 1 else f for f in factors)
+    return ("mul", *beside) if len(factors) > 1 else factors[0]
+
+
+def _minus(t: Tree) -> Tree:
+    """The opposite, with the sign above a fraction's line."""
+    if isinstance(t, tuple) and t[0] == "div":
+        return ("div", neg(t[1]), t[2])
+    return neg(t)
