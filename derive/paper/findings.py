@@ -26,12 +26,7 @@ from ..language import rational as q
 from ..language.show import show
 from ..language.tree import Tree, names, neg
 from ..record.record import Derivation, Equation
-from .printed_solid import SOLID
-from .printed_top import TOP
-from .printing import Printed
-
-PAPER = tuple(sorted(SOLID + TOP, key=lambda p: p.number))
-"""All that is numbered in the paper."""
+from .printed import PAPER, Printed
 
 CONFIRMED, DEFINITION = "confirmed", "definition"
 SIGN, OMISSION, MISPRINT = "sign convention", "omission", "misprint"

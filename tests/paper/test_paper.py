@@ -9,8 +9,9 @@ import pytest
 import sympy
 
 from derive.command.cli import main
+from derive.language.show import show
 from derive.paper import findings as paper
-from derive.paper.findings import PAPER
+from derive.paper.printed import PAPER
 from derive.record.vocabulary import AMENDED
 from derive.views.text import text
 from tests.support.walks import record
@@ -50,7 +51,7 @@ def test_misprints_have_a_correction_and_a_counterexample(number):
 def with_equations(number, change):
     """A print with other right sides, and what becomes of it."""
     p = PAPER[number - 1]
-    p = replace(p, equations=tuple(replace(e, rhs=change(e.rhs)) for e in p.equations))
+    p = replace(p, means=",  ".join(f"{show(e.lhs)} = {show(change(e.rhs))}" for e in p.equations))
     return "confirmed" if all(paper.holds(p, e) for e in p.equations) else paper._cause(p)
 
 

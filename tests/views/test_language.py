@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from derive.command.cli import main, ready_made
-from derive.paper.findings import PAPER
+from derive.paper.printed import PAPER
 from derive.pipeline import walk
 from derive.printing.escape import markdown_text, prose, tex_text
 from derive.problem.problem import MomentBody
