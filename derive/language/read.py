@@ -6,8 +6,8 @@
     factor   =  Tr product  |  Σᵢ term  |  atom { ‾ | power | index | (arguments) }
 
 ``show(read(s)) == s``, and ``read(show(t)) == t`` but where trees print alike; then it is the first
-of these: the number 1 and not the unit matrix, where it is no factor; a letter of the walk and not
-a parameter, unless the reader is told its name or it stands in ‘quotes’; a member F₁ of a family,
+of these: the number 1, not the unit matrix 𝟏, where it is no factor; a letter of the walk, not a
+parameter, unless the reader is told its name or it stands in ‘quotes’; a member F₁ of a family,
 not an entry of the resultant, and d₁₁ the first entry of d₁; an inverse, not the power −1; ‖a‖²,
 not a square of ‖a‖; (−a)/b, not −(a/b); [a, b] = ab − ba; after Σ or ∧ all of the next product.
 Spaces between factors may be left out, ``αδt``, and an index may stand after _, ``r_i``.
@@ -159,7 +159,7 @@ class _Reader:
             return self.named(self.next())
         if kind == "number":
             q = SMALL.get(self.next()) or Fraction(text)
-            return int(q) if q.denominator == 1 else q
+            return ("one",) if text == "𝟏" else int(q) if q.denominator == 1 else q
         if kind in ("parameter", "quoted"):
             return ("par", self.parameters.get(self.next(), text))
         if kind == "word":

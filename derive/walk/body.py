@@ -8,6 +8,7 @@ from ..language.show import in_quotes, show
 from ..language.tree import Tree
 from ..problem.problem import GivenBody, MomentBody, PointBody, Problem
 from ..problem.solids import Solid
+from ..record.formulas import stated
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, Sentence, listed, phrase, say
@@ -17,9 +18,6 @@ from .continuum import continuum
 from .lagrangian import Lagrangian
 from .pointwise import column, embedded
 from .supposed import of_moments, told
-
-INTEGRANDS: dict[str, Tree] = {"m": 1, "c": "r", "J": ("mul", "r", ("T", "r"))}
-"""(39): the moments of a measure of mass."""
 
 SOLIDS = {
     "ball": phrase("ball"),
@@ -139,12 +137,12 @@ def _described(s: Solid) -> Sentence:
 def _size(x: Any) -> str:
     if isinstance(x, tuple) and x and not isinstance(x[0], str):
         return "(" + ", ".join(map(_size, x)) + ")"
-    return show(in_quotes(x, {*INTEGRANDS, "r"}))  # the letters of the step itself
+    return show(in_quotes(x, {*"mcJr"}))  # the letters of the step itself
 
 
 def _integrals(solids: tuple[Solid, ...], c: Chapter) -> Step:
     return c.draft("integrals", "definition").step(
-        (Equation(name, ("call", "∫", form)) for name, form in INTEGRANDS.items()),
+        stated("m = ∫ dm,  c = ∫ r dm,  J = ∫ rr̄ dm"),
         say(
             "The moments of a continuous body are integrals, and all else stays: its motions are "
             "those of points with the same moments."

@@ -9,14 +9,12 @@ from typing import Any
 from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.tree import Tree, add, mul, neg
+from ..record.formulas import stated
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .chapter import Chapter
 
 Row = tuple[Any, ...]
-BRACKET: Tree = ("bracket", "ξ′", "ξ")
-CARRIED: Tree = add(mul("ξ′", "η"), neg(mul("ξ", "η′")))
 
 
 def bracket_step(group: Group, c: Chapter) -> tuple[Step, ...]:
@@ -26,9 +24,9 @@ def bracket_step(group: Group, c: Chapter) -> tuple[Step, ...]:
     if not any(map(_nonzero, group.linear_basis)):
         return ()
     if not any(_nonzero(q.bracket(*pair)) for pair in combinations(basis, 2)):
-        equations.append(Equation(BRACKET, 0))
+        equations += stated("[ξ′, ξ] = 0")
         if group.affine:
-            equations.append(Equation(CARRIED, 0))
+            equations += stated("ξ′η − ξη′ = 0")
         prose += say(
             "The group is commutative: the bracket vanishes, and with it the coadjoint term of the "
             "momentum."
@@ -36,7 +34,7 @@ def bracket_step(group: Group, c: Chapter) -> tuple[Step, ...]:
     elif not group.affine and not any(
         _nonzero(q.bracket(q.bracket(*pair), z)) for pair in combinations(basis, 2) for z in basis
     ):
-        equations.append(Equation(("bracket", BRACKET, "Z"), 0))
+        equations += stated("[[ξ′, ξ], Z] = 0")
         prose += say(
             "A bracket commutes with the whole Lie algebra: in the directions of brackets the "
             "momentum has no coadjoint term."

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from ..algebra.calculus import derivation, gradient, substitute
 from ..algebra.words import Expr, word
 from ..algebra.written import Notation, metrics, tree_of
-from ..language.tree import add, neg
+from ..language.read import read
+from ..language.tree import add
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
@@ -41,12 +42,11 @@ def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
     momentum = derivation(stage.kinetic, {p.velocity: word(p.d_position) for p in a.parts}.get)
     along = substitute(moving.said(momentum), {p.d_position: word(p.velocity) for p in a.parts})
     energy = along - (stage.kinetic - potential)
-    variations = tuple(p.d_position.name for p in a.parts)
-    velocities = tuple(p.velocity.name for p in a.parts)
+    velocities = ", ".join(p.velocity.name for p in a.parts)
     notation = metrics() if a.affine else metrics("J")
     steps = (
         moving.step(
-            _momentum_equations(moving, momentum, a, variations, notation),
+            _momentum_equations(moving, momentum, a, notation),
             say(
                 "The momentum is the derivative of the Lagrangian with respect to the velocity, "
                 "for every (δA, δT), in particular for those tangent to the group."
@@ -59,7 +59,7 @@ def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
         ),
         resting.step(
             (
-                Equation("h̃", ("add", ("call", "p̃", *velocities), neg("L̃"))),
+                Equation("h̃", read(f"p̃({velocities}) − L̃")),
                 Equation("h̃", resting.tree(energy, notation)),
             ),
             say("The energy is the momentum paired with the velocity, less the Lagrangian."),
@@ -68,8 +68,8 @@ def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
         whole.step(
             (
                 Equation(
-                    ("call", "ϖ", "δy"),
-                    add(whole.tree(moving.said(momentum), notation), neg(("mul", "h̃", "δt"))),
+                    read("ϖ(δy)"),
+                    add(whole.tree(moving.said(momentum), notation), read("−h̃ δt")),
                 ),
             ),
             say("The Cartan form: momentum on the displacement, less energy on the time."),
@@ -82,8 +82,9 @@ def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
 
 
 def _momentum_equations(
-    d: Draft, momentum: Expr, a: Alphabet, variations: tuple[str, ...], notation: Notation
+    d: Draft, momentum: Expr, a: Alphabet, notation: Notation
 ) -> list[Equation]:
+    variations = tuple(p.d_position.name for p in a.parts)
     equations = [Equation(("call", "p̃", *variations), d.tree(momentum, notation))]
     if a.affine:
         # part by part, with the coefficient of each displacement gathered: the form of (20)
@@ -118,6 +119,6 @@ def trivialise(stage: Cartan, a: Alphabet, c: Chapter) -> Cartan:
 def form_equation(d: Draft, momentum: Expr, energy: Expr, notation: Notation) -> Equation:
     """ϖ(δy) = p̃ − (h̃) δt with the energy written out."""
     return Equation(
-        ("call", "ϖ", "δy"),
+        read("ϖ(δy)"),
         add(d.tree(momentum, notation), ("mul", -1, d.tree(energy, notation), "δt")),
     )

@@ -7,8 +7,8 @@ some: the points of a flat body under a shear.  The forces of a potential keep t
 from __future__ import annotations
 
 from ..algebra.words import Expr, Word, expr_of_word, row_dim, trace
-from ..language.tree import Tree
 from ..problem.left_invariant import EVERY, Bodies
+from ..record.formulas import stated
 from ..record.record import Equation
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
@@ -37,13 +37,9 @@ def without_gram(e: Expr, bodies: Bodies, a: Alphabet) -> Expr:
     return total
 
 
-def claims(bodies: Bodies) -> tuple[Equation, ...]:
+def claims(bodies: Bodies) -> list[Equation]:
     """What is so on the group."""
-    if bodies == EVERY:
-        turned: Tree = ("T", "ξ")
-        return (Equation(("mul", turned, "C", "Z"), ("mul", turned, "Z")),)
-    metric: tuple[Tree, ...] = ("ξ", "J", ("T", "Z"))
-    return (Equation(("tr", ("mul", *metric, "C")), ("tr", ("mul", *metric))),)
+    return stated("ξ̄CZ = ξ̄Z" if bodies == EVERY else "Tr ξJZ̄C = Tr ξJZ̄")
 
 
 def told(bodies: Bodies) -> Prose:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from ..algebra.calculus import derivation, substitute
 from ..algebra.words import Expr, Letter, number, word
 from ..algebra.written import Notation
+from ..language.read import read
 from ..language.tree import Tree, add, coefficient, mul, neg
 from ..record.record import Equation, Step
 from ..record.sentence import say
@@ -16,27 +17,20 @@ from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .lagrangian import Lagrangian
 
-MOVED: Tree = ("call", "g", "r")
-
 
 def continuum(points: Lagrangian, a: Alphabet, c: Chapter) -> Step:
     """g(r), v, L, ϖ and h̃ of a body with a measure of mass."""
     draft = c.draft("continuum", "definition")
     varied = Letter("δr", a.n)
-    display: dict[Letter, Tree] = {
-        a.r_i: "r",
-        points.v_i: "v",
-        varied: ("call", "δ", MOVED),
-    }
-    notation = Notation(display=display)
+    notation = Notation(display={a.r_i: "r", points.v_i: "v", varied: read("δ(g(r))")})
     momentum = derivation(points.kinetic, {points.v_i: word(varied)}.get)
     kinetic, paired = (_integral(draft, e, a, notation) for e in (points.kinetic, momentum))
     return draft.step(
         (
-            Equation(MOVED, draft.tree(points.position, notation)),
+            Equation(read("g(r)"), draft.tree(points.position, notation)),
             Equation("v", draft.tree(points.velocity, notation)),
             Equation("L", add(kinetic, neg("U"))),
-            Equation(("call", "ϖ", "δy"), add(paired, neg(mul("h̃", "δt")))),
+            Equation(read("ϖ(δy)"), add(paired, read("−h̃ δt"))),
             Equation("h̃", add(kinetic, "U")),
         ),
         say(

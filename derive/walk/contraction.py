@@ -15,6 +15,7 @@ from ..algebra.calculus import substitute, without
 from ..algebra.space import hat
 from ..algebra.words import Expr, Letter, number, word
 from ..algebra.written import Notation
+from ..language.read import read
 from ..language.tree import Tree
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
@@ -24,7 +25,7 @@ from .chapter import Chapter, Draft
 from .factored import gathered, terms_with
 from .supposed import told, vertical_metric
 
-CONTRACTION: Tree = ("call", "dϖ", "X", "δ′y")
+CONTRACTION = read("dϖ(X, δ′y)")
 REGULAR = phrase("the metric is not degenerate")
 CONTRACTED = Equation("δt", 1)
 """The components of X are those of δ."""
@@ -140,7 +141,7 @@ class Contraction:
 
 def velocities(d: Draft, along: Mapping[Letter, Expr], letters: Iterable[Letter]) -> list[Equation]:
     """δx(X) = ẋ."""
-    return [Equation(("call", x.name, "X"), d.tree(along[x])) for x in letters]
+    return [Equation(read(f"{x.name}(X)"), d.tree(along[x])) for x in letters]
 
 
 def rate(dotted: str, varied: str) -> Sentence:

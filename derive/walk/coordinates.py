@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ..algebra.groups import Group
 from ..language.tree import Tree, add, mul
+from ..record.formulas import stated
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
@@ -12,12 +13,11 @@ from .chapter import Chapter
 
 def coordinates_step(group: Group, b: Alphabet, c: Chapter, *, reading: bool) -> Step:
     """Z = Σ ζ_a E_a, also entry by entry, and with ``reading`` how ζ̇ is read off Ż."""
-    whole: Tree = ("sum", "a", ("mul", ("entry", "ζ", "a"), ("at", "E", "a")))
     span = range(len(group.linear_basis))
     rows = tuple(
         ("row", *(add(*_terms(group, i, j)) for j in range(group.n))) for i in range(group.n)
     )
-    equations = [Equation("Z", whole), Equation("Z", ("matrix", *rows))]
+    equations = [*stated("Z = Σ_a ζ_a E_a"), Equation("Z", ("matrix", *rows))]
     if reading:
         equations += [Equation(("entry", "ζ̇", a + 1), _reading(group, a)) for a in span]
     prose = say("Coordinates of the Lie algebra in the basis of the group.")

@@ -8,6 +8,7 @@ from ..algebra import forms
 from ..algebra.calculus import Image, gradient, reduce, substitute, without
 from ..algebra.words import Expr, Letter, word
 from ..algebra.written import Notation, metrics, tree_of
+from ..language.read import read
 from ..language.tree import Tree
 from ..record.record import Equation, Step
 from ..record.sentence import say
@@ -17,7 +18,7 @@ from .chapter import Chapter
 from .factored import at_constant_time, gathered, solve_for, terms_with
 from .trivialisation import frame_rule, gram, trivial_images, varied_gram
 
-DOMEGA: Tree = ("call", "dϖ", "δy", "δ′y")
+DOMEGA = read("dϖ(δy, δ′y)")
 
 
 @dataclass(frozen=True)
@@ -75,7 +76,7 @@ def exterior(stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
             (25,),
         ),
         resting.step(
-            (Equation(("call", "ω", "δx", "δ′x"), resting.tree(whole.said(static), notation)),),
+            (Equation(read("ω(δx, δ′x)"), resting.tree(whole.said(static), notation)),),
             say(
                 "At constant time it is dp ∧ dq, which the metric carries from the cotangent "
                 "bundle of the group to its tangent bundle: a symplectic form."
@@ -118,7 +119,7 @@ def shown_brackets(a: Alphabet) -> list[Tree]:
     """How they are written."""
     first, *others = brackets_of(a).values()
     return [
-        ("bracket", "ξ′", "ξ") if first == _bracket(a) else tree_of(first),
+        read("[ξ′, ξ]") if first == _bracket(a) else tree_of(first),
         *map(tree_of, others),
     ]
 
@@ -126,7 +127,7 @@ def shown_brackets(a: Alphabet) -> list[Tree]:
 def structure(a: Alphabet, c: Chapter) -> Step:
     """The structure equation."""
     equations = (
-        Equation(("add", ("call", "δ", f.xi_prime.name), ("mul", -1, ("call", "δ′", f.xi.name))), t)
+        Equation(read(f"δ({f.xi_prime.name}) − δ′({f.xi.name})"), t)
         for f, t in zip(a.frames, shown_brackets(a), strict=True)
     )
     return c.draft("structure", "structure equation").step(

@@ -9,7 +9,8 @@ from functools import cached_property
 from ..algebra.calculus import PairRule, gradient, reduce, substitute
 from ..algebra.space import double, fold_inertia, hat, normal_form
 from ..algebra.words import Expr, Factor, Letter, inner, number, trace, word, zero
-from ..language.tree import Tree
+from ..language.read import read
+from ..record.formulas import stated
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet, Dual, Frame
@@ -88,9 +89,9 @@ class Reader:
 
 def identified(b: Alphabet, gram: Expr, chapter: Chapter) -> tuple[Reader, tuple[Step, Step]]:
     """so(3) read by vectors: j and the tensor of inertia; ``gram``: ĀA = 1."""
-    read = Reader(b, chapter.label("hat"), chapter.label("inertia"))
-    cross = read.brackets[BRACKET]
-    return read, (_identification(b, gram, cross, chapter), _inertia(b, chapter))
+    reader = Reader(b, chapter.label("hat"), chapter.label("inertia"))
+    cross = reader.brackets[BRACKET]
+    return reader, (_identification(b, gram, cross, chapter), _inertia(b, chapter))
 
 
 def axis(x: Letter) -> Letter:
@@ -137,13 +138,13 @@ def axial(e: Expr) -> Expr:
 def _identification(b: Alphabet, gram: Expr, cross: Expr, c: Chapter) -> Step:
     affine = b.affine
     draft = c.draft("hat", "identification")
-    pairs = [("Z", "ζ"), ("ξ", "Ω"), ("ξ′", "Ω′")] + ([] if affine else [("f", "φ")])
-    equations = [Equation(x, ("hat", y)) for x, y in pairs]
+    equations = stated("Z = j(ζ),  ξ = j(Ω),  ξ′ = j(Ω′)")
+    if not affine:
+        equations += stated("f = j(φ)")
     draft.read(gram)  # only a skew matrix is a j(X)
-    equations.append(Equation(("bracket", "ξ′", "ξ"), ("hat", draft.tree(cross))))
+    equations.append(Equation(read("[ξ′, ξ]"), ("hat", draft.tree(cross))))
     if affine:
-        pairing: Tree = ("tr", ("mul", "N_b", ("T", ("hat", "Ω′"))))
-        equations.append(Equation(pairing, ("inner", "μ", "Ω′"), ("Ω′",)))
+        equations += stated("Tr N_b j(Ω′)‾ = ⟨μ, Ω′⟩", for_all=("Ω′",))
     return draft.step(
         equations,
         say(
@@ -162,9 +163,8 @@ def _identification(b: Alphabet, gram: Expr, cross: Expr, c: Chapter) -> Step:
 def _inertia(b: Alphabet, c: Chapter) -> Step:
     draft = c.draft("inertia", "identification")
     tensor = inertia_of(b.J)
-    traced: Tree = ("tr", ("mul", ("hat", "ζ"), "J", ("T", ("hat", "Ω"))))
     return draft.step(
-        (Equation(traced, ("metric", "I", "ζ", "Ω")), Equation("I", draft.tree(tensor))),
+        (*stated("Tr j(ζ) J j(Ω)‾ = ⟨ζ, Ω⟩_I"), Equation("I", draft.tree(tensor))),
         say("The metric of J on 𝔰𝔬(3) is that of the tensor of inertia on R³."),
         () if b.affine else (32,),
     )

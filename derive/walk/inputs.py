@@ -15,6 +15,7 @@ from ..algebra.words import Expr, Letter, inner, number, word
 from ..algebra.written import tree_of
 from ..language.tree import Tree, add, mul
 from ..problem.problem import ForceInput, Problem
+from ..record.formulas import stated
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, listed, phrase, say
 from .alphabet import Alphabet
@@ -132,11 +133,9 @@ def _damping(problem: Problem, b: Alphabet) -> tuple[list[Equation], Expr]:
         for i in d.on:
             terms.setdefault(i, []).append(d.coefficient)
     equations = [Equation(("at", "κ", i), add(*x)) for i, x in sorted(terms.items())]
-    k, r = ("at", "κ", "i"), ("at", "r", "i")
-    equations.append(Equation("D", ("sum", "i", ("mul", k, r, ("T", r)))))
+    equations += stated("D = Σᵢ κᵢ rᵢ r̄ᵢ")
     if b.affine:
-        equations.append(Equation("D_c", ("sum", "i", ("mul", k, r))))
-        equations.append(Equation("D_m", ("sum", "i", k)))
+        equations += stated("D_c = Σᵢ κᵢ rᵢ,  D_m = Σᵢ κᵢ")
     return equations, work
 
 

@@ -9,6 +9,7 @@ from ..algebra.calculus import gradient, without
 from ..algebra.words import Expr, Letter, word
 from ..algebra.written import Notation
 from ..language.tree import Tree
+from ..record.formulas import stated
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
@@ -51,11 +52,7 @@ def isometry(general: Cartan, momenta: MomentumForm, a: Alphabet, n: int, c: Cha
         (),
     )
     relation = relating.step(
-        (
-            Equation("C", ("one",)),
-            Equation(("T", "Z"), ("mul", -1, "Z")),
-            Equation(("T", "ξ"), ("mul", -1, "ξ")),
-        ),
+        stated("C = 𝟏,  Z̄ = −Z,  ξ̄ = −ξ"),
         say(
             "For isometries ĀA = 𝟏, so that C drops out, and Z and ξ are skew; w and η are "
             "any vectors."

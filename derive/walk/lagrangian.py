@@ -8,13 +8,14 @@ from fractions import Fraction
 from ..algebra.calculus import derivation, substitute
 from ..algebra.words import Expr, Letter, inner, word
 from ..algebra.written import metrics, tree_of
+from ..language.read import read
 from ..language.tree import Tree, add, neg
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .chapter import Chapter
 
-POINT: Tree = ("call", ("at", "r", "i"), "t")
+POINT = read("rᵢ(t)")
 """r_i(t), the point in space; r_i alone is the point in the body."""
 
 
@@ -60,8 +61,8 @@ def lagrangian(a: Alphabet, c: Chapter) -> Lagrangian:
         ),
         varied.step(
             (
-                Equation(("at", "v", "i"), indexed_tree(velocity, v_i, a)),
-                Equation(("call", "δ", POINT), indexed_tree(variation, v_i, a)),
+                Equation(read("vᵢ"), indexed_tree(velocity, v_i, a)),
+                Equation(read("δ(rᵢ(t))"), indexed_tree(variation, v_i, a)),
             ),
             _velocities(a)
             + say(

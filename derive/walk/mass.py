@@ -8,7 +8,8 @@ from __future__ import annotations
 from ..algebra.calculus import gradient, substitute, without
 from ..algebra.words import Expr, Letter, inner, word
 from ..algebra.written import Notation
-from ..language.tree import Tree
+from ..language.read import read
+from ..record.formulas import stated
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
@@ -41,27 +42,25 @@ def mass_steps(
     """
     weighing, solving = c.draft("mass", "coordinates"), c.draft("motion", "solution")
     E_a, E_b = _member("a", b), _member("b", b)
-    display: dict[Letter, Tree] = {E_a: ("at", "E", "a"), E_b: ("at", "E", "b")}
-    notation = Notation(display=display)
+    notation = Notation(display={E_a: read("E_a"), E_b: read("E_b")})
     rate = word(RATE) * word(E_b)
     rate = rate if seen else rate.marked(place.label)
     along = {b.Z.xi_prime: word(E_a), b.Z.acceleration: rate}
     mass = gradient(substitute(inertial, along), RATE)
     rest = force - gradient(without(inertial, b.Z.acceleration), b.Z.xi_prime)
-    lighter = Notation(display={inverse_letter(b.m): ("inv", "m")})
+    lighter = Notation(display={inverse_letter(b.m): read("m⁻¹")})
     if centred:
         solving.read(*centred.steps)
     translation = (Equation("ẇ", centred.acceleration),) if centred else ()
     balance = [Equation("B", weighing.tree(rest, lighter))] if balanced else []
     load = inner(word(E_a), word(Letter("B", b.n, b.n)) if balanced else rest)
     found = "ψ" if seen else "ζ̇"
-    row: Tree = ("mul", ("entry", "M", "a", "b"), ("entry", found, "b"))
     mass_step = weighing.step(
         (
-            Equation(("entry", "M", "a", "b"), weighing.tree(mass, notation)),
+            Equation(read("M_ab"), weighing.tree(mass, notation)),
             *balance,
-            Equation(("entry", "β", "a"), weighing.tree(load, notation)),
-            Equation(("sum", "b", row), ("entry", "β", "a")),
+            Equation(read("β_a"), weighing.tree(load, notation)),
+            *stated(f"Σ_b M_ab {found}_b = β_a"),
         ),
         say(
             "For ξ′ = E_a(𝟏 − S) and Ż = Σ ψ_b E_b(𝟏 − S) the equations of motion are linear in "
@@ -72,9 +71,9 @@ def mass_steps(
         ),
     )
     solving.read(mass_step)
-    solved = Equation(found, ("mul", ("inv", "M"), "β"))
+    solved = stated(f"{found} = M⁻¹β")
     motion = solving.step(
-        (*rates(solving, b), solved, *_whole(solving, b, seen), *translation),
+        (*rates(solving, b), *solved, *_whole(solving, b, seen), *translation),
         say("The equations of motion of this problem.") + told("mass matrix", b.signed),
     )
     return mass_step, motion
@@ -82,13 +81,11 @@ def mass_steps(
 
 def _whole(d: Draft, b: Alphabet, seen: Seen | None) -> list[Equation]:
     """Ż from its coordinates, where ẇ or ζ̇ needs it."""
-    name = "ψ" if seen else "ζ̇"
-    total: Tree = ("sum", "a", ("mul", ("entry", name, "a"), ("at", "E", "a")))
     if seen is None:
-        return [Equation("Ż", total)] if b.affine else []
+        return stated("Ż = Σ_a ζ̇_a E_a") if b.affine else []
     rate = b.Z.acceleration
     whole = word(rate) - word(rate) * seen.shift
-    return [Equation("Ż", d.tree(whole, Notation(display={rate: total})))]
+    return [Equation("Ż", d.tree(whole, Notation(display={rate: read("Σ_a ψ_a E_a")})))]
 
 
 def _member(index: str, b: Alphabet) -> Letter:

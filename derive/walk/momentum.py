@@ -21,7 +21,8 @@ from ..algebra import forms
 from ..algebra.calculus import Image, derivation, gradient, reduce, substitute
 from ..algebra.words import Expr, Letter, inner, number, word
 from ..algebra.written import Notation, tree_of
-from ..language.tree import Tree, add, neg
+from ..language.read import read
+from ..language.tree import Tree, add
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet, Dual, Frame
@@ -95,8 +96,8 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
     told = writing.step(
         (
             Equation(
-                ("call", "ϖ", "δy"),
-                add(writing.tree(momentum, notation), neg(("mul", "h̃", "δt"))),
+                read("ϖ(δy)"),
+                add(writing.tree(momentum, notation), read("−h̃ δt")),
             ),
         ),
         say("The Cartan form by the momentum."),
@@ -181,7 +182,7 @@ def _kernel(form: Expr, notation: Notation, a: Alphabet, c: Chapter) -> tuple[Ex
     commutator = word(a.Z.velocity) * word(a.Z.xi_prime) - word(a.Z.xi_prime) * word(a.Z.velocity)
     display: dict[Letter, Tree] = {x: tree_of(turned[x]) for x in others}
     if turned[first] == commutator:
-        display[first] = ("bracket", "Z", "ξ′")
+        display[first] = read("[Z, ξ′]")
     shown = replace(notation, display=display)
     pairs = zip(a.duals, a.frames, strict=True)
     moving = sum((inner(word(d.rate), word(f.xi_prime)) for d, f in pairs), number(0))

@@ -14,6 +14,7 @@ from ..algebra.groups import Group
 from ..algebra.words import Expr, Factor, Letter, inner, number, one, word
 from ..algebra.written import Notation
 from ..language import rational as q
+from ..language.read import read
 from ..language.tree import Tree, add
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
@@ -43,7 +44,7 @@ def multiplier_steps(
     rule = "multiplier" if direction else "kernel"
     balancing, solving = c.draft("multiplier", rule), c.draft("motion", "solution")
     pressed = word(MULTIPLIER) * direction if direction else force * 0
-    lighter = Notation(display={inverse_letter(b.m): ("inv", "m")})
+    lighter = Notation(display={inverse_letter(b.m): read("m⁻¹")})
     balance = Equation(
         balancing.tree(residue),
         add(balancing.tree(force, lighter), balancing.tree(pressed)),
@@ -100,7 +101,7 @@ def _in_space(
         inside = substitute(e, {inverse_letter(b.C): (word(left) * word(right)).of(twice)})
         return reduce(word(g) * inside, cancelling(g), rule)
 
-    shown = {**display, left: ("inv", "A"), right: ("inv", ("T", "A"))}
+    shown = {**display, left: read("A⁻¹"), right: read("Ā⁻¹")}
     notation = Notation(display=shown)
     total = carried(solved + Z * Z)
     equations = [Equation(b.A.acceleration.name, draft.tree(total, notation))]

@@ -13,38 +13,30 @@ from ..algebra import forms
 from ..algebra.calculus import derivation, gradient, reduce, substitute, without
 from ..algebra.words import Expr, Letter, inner, number, word
 from ..algebra.written import Notation, metrics
-from ..language.tree import Tree, add, neg
+from ..language.read import read
+from ..language.tree import add, neg
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .factored import terms_with
-from .lagrangian import POINT, Lagrangian
+from .lagrangian import Lagrangian
 from .pullback import Moments, sum_over
 from .supposed import told
 from .trivialisation import frame_rule, gram
-
-R_I, R_J, M_I = (("at", x, i) for x, i in (("r", "i"), ("r", "j"), ("m", "i")))
-OTHER: Tree = ("call", R_J, "t")
-APART: Tree = add(POINT, neg(OTHER))
-VARIED: Tree = add(("call", "δ", POINT), neg(("call", "δ", OTHER)))
 
 
 def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Step:
     """A, and for an affine action T, by sums over the points where they are."""
     draft = c.draft("unique", "pull-back")
     centre = Letter("m⁻¹c", a.n)
-    shown: Tree = ("mul", ("inv", "m"), "c")
-    arm = word(a.r_i)
-    seen: Tree = R_I
-    if a.affine:
-        arm, seen = arm - word(centre), add(R_I, neg(shown))
+    arm = word(a.r_i) - word(centre) if a.affine else word(a.r_i)
     turned = _summed(points, arm, moments, a)
     inertia = forms.strip_left(terms_with(turned, a.A.position), a.A.position)
     # what is left of T, nothing as m m⁻¹c = c
     rest = substitute(without(turned, a.A.position), {a.c: word(a.m) * word(centre)})
-    notation = Notation(display={centre: shown})
-    second: Tree = ("sum", "i", ("mul", M_I, POINT, ("T", seen)))
+    notation = Notation(display={centre: read("m⁻¹c")})
+    second = read("Σᵢ mᵢ rᵢ(t)(rᵢ − m⁻¹c)‾" if a.affine else "Σᵢ mᵢ rᵢ(t) r̄ᵢ")
     turning = add(second, neg(draft.tree(rest, notation)))
     named: list[Equation] = []
     second_moment = draft.tree(inertia, notation)
@@ -52,9 +44,9 @@ def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Ste
         named, second_moment = [Equation("J_c", second_moment)], "J_c"
     equations = [*named, Equation(("mul", turning, ("inv", second_moment)), "A")]
     if a.affine:
-        mass, first = moments[a.m_i,], ("sum", "i", ("mul", M_I, POINT))
+        mass = moments[a.m_i,]
         others = _summed(points, number(1), moments, a) - mass * word(a.T.position)
-        left = add(first, neg(draft.tree(others)))
+        left = add(read("Σᵢ mᵢ rᵢ(t)"), neg(draft.tree(others)))
         equations.append(Equation(("mul", ("inv", draft.tree(mass)), left), "T"))
     return draft.step(equations, _told(a), (8,))
 
@@ -84,10 +76,13 @@ class Distances:
 
 
 def _equations(d: Draft, square: Expr, varied: Expr, a: Alphabet) -> tuple[Equation, ...]:
-    notation = metrics("C", display={a.apart: add(R_I, neg(R_J))})
+    notation = metrics("C", display={a.apart: read("rᵢ − rⱼ")})
     return (
-        Equation(("norm2", APART), d.tree(square, notation)),
-        Equation(("inner", APART, VARIED), d.tree(varied, notation)),
+        Equation(read("‖rᵢ(t) − rⱼ(t)‖²"), d.tree(square, notation)),
+        Equation(
+            read("⟨rᵢ(t) − rⱼ(t), δ(rᵢ(t)) − δ(rⱼ(t))⟩"),
+            d.tree(varied, notation),
+        ),
     )
 
 

@@ -24,7 +24,9 @@ from ..algebra.words import (
     word,
 )
 from ..algebra.written import metrics
-from ..language.tree import Tree, add, neg
+from ..language.read import read
+from ..language.tree import add, neg
+from ..record.formulas import stated
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import say
@@ -123,15 +125,9 @@ def pullback(stage: Lagrangian, a: Alphabet, c: Chapter) -> Pullback:
 
 def _moments(a: Alphabet, c: Chapter) -> tuple[Moments, Step]:
     """m, c and J: the letters that the sums over the points become, and their definitions."""
-    r_i: Tree = ("at", "r", "i")
-    m_i: Tree = ("at", "m", "i")
     draft = c.draft("moments", "definition")
     step = draft.step(
-        (
-            Equation("m", ("sum", "i", m_i)),
-            Equation("c", ("sum", "i", ("mul", m_i, r_i))),
-            Equation("J", ("sum", "i", ("mul", m_i, r_i, ("T", r_i)))),
-        ),
+        stated("m = Σᵢ mᵢ,  c = Σᵢ mᵢ rᵢ,  J = Σᵢ mᵢ rᵢ r̄ᵢ"),
         say(
             "The body enters the kinetic energy through its moments only: mass, first moment, "
             "matrix of moments."
@@ -147,13 +143,10 @@ def _force(stage: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Expr, Moments, S
     table = {(a.F_i, a.r_i): word(a.N), (a.F_i,): word(a.F)}
     draft = c.draft("force", "pull-back")
     work = sum_over(inner(word(a.F_i), stage.variation), {a.F_i, a.r_i}, table)
-    pair: Tree = ("mul", ("at", "F", "i"), ("T", ("at", "r", "i")))
-    definitions = [Equation("N", ("sum", "i", pair))]
-    if a.affine:
-        definitions.append(Equation("F", ("sum", "i", ("at", "F", "i"))))
-    variations = tuple(p.d_position.name for p in a.parts)
+    definitions = stated("N = Σᵢ Fᵢ r̄ᵢ,  F = Σᵢ Fᵢ" if a.affine else "N = Σᵢ Fᵢ r̄ᵢ")
+    varied = read("dŨ(δA, δT)" if a.affine else "dŨ(δA)")
     step = draft.step(
-        (*definitions, Equation(("call", "dŨ", *variations), draft.tree(-work))),
+        (*definitions, Equation(varied, draft.tree(-work))),
         say(
             "The forces F_i, opposite to the derivatives of U with respect to the places "
             "r_i(t) in space, act on the group through their moments."
@@ -168,7 +161,7 @@ def _gradient(a: Alphabet, c: Chapter, metric: Hypothesis) -> tuple[Expr, Step]:
     draft = c.draft("gradient", "definition")
     pairing = inner(word(a.F_group), word(a.A.d_position), word(a.J))
     step = draft.step(
-        (Equation(draft.tree(pairing, metrics("J")), neg(("call", "dŨ", "δA")), ("δA",)),),
+        (Equation(draft.tree(pairing, metrics("J")), read("−dŨ(δA)"), ("δA",)),),
         say(
             "The force F̃, tangent to the group, is the opposite of the gradient of Ũ in the metric."
         ),

@@ -9,8 +9,9 @@ from __future__ import annotations
 from ..algebra.calculus import substitute
 from ..algebra.words import Expr, Letter, word
 from ..algebra.written import Notation
-from ..language.tree import Tree
+from ..language.read import read
 from ..problem.problem import Problem, Spring
+from ..record.formulas import stated
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, listed, phrase, say
 from .alphabet import Alphabet
@@ -22,7 +23,7 @@ from .translation import central_moments
 
 
 def _notation(a: Alphabet) -> Notation:
-    return Notation(display={inverse_letter(a.m): ("inv", "m")})
+    return Notation(display={inverse_letter(a.m): read("m⁻¹")})
 
 
 def _centred(e: Expr, a: Alphabet, mark: str = "") -> Expr:
@@ -43,10 +44,8 @@ def _centred(e: Expr, a: Alphabet, mark: str = "") -> Expr:
 def kinetic_separation(kinetic: Expr, a: Alphabet, c: Chapter) -> Step:
     """L̃ by the centre of mass: no term has both α and Ṙ."""
     draft = c.draft("separation", "identification")
-    lighter: Tree = ("inv", "m")
     equations = (
-        Equation("R", ("add", "T", ("mul", lighter, "A", "c"))),
-        Equation("Ṙ", ("add", "τ", ("mul", lighter, "α", "c"))),
+        *stated("R = T + m⁻¹Ac,  Ṙ = τ + m⁻¹αc"),
         Equation("J_c", draft.tree(central_moments(a)[1], _notation(a))),
         Equation("L̃", draft.tree(_centred(kinetic, a) - word(a.U), _notation(a))),
     )

@@ -13,8 +13,10 @@ from ..algebra.calculus import gradient, reduce, substitute, without
 from ..algebra.groups import Group
 from ..algebra.words import Expr, Letter, inner, number, word
 from ..algebra.written import Notation
+from ..language.read import read
 from ..language.tree import Tree
 from ..problem.left_invariant import Bodies
+from ..record.formulas import stated
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
@@ -149,21 +151,17 @@ def turns_whole(group: Group) -> bool:
 
 def relation(group: Group, bodies: Bodies | None, c: Chapter) -> tuple[Step, ...]:
     """What the group keeps, read off the basis of its Lie algebra."""
-    known: tuple[tuple[Tree, Tree], ...] = ()
+    known: list[Equation] = []
     prose: Prose = ()
     if "orthogonal" in group.relations:
-        known = (
-            ("C", ("one",)),
-            (("T", "Z"), ("mul", -1, "Z")),
-            (("T", "ξ"), ("mul", -1, "ξ")),
-        )
+        known = stated("C = 𝟏,  Z̄ = −Z,  ξ̄ = −ξ")
         prose = _kept(group)
     elif "unimodular" in group.relations:
-        known = ((("det", "A"), 1), (("tr", "Z"), 0), (("tr", "ξ"), 0))
+        known = stated("det(A) = 1,  Tr Z = 0,  Tr ξ = 0")
         prose = _kept(group, stays=not bodies)
     if bodies:
         prose += told(bodies)
-    equations = (*(Equation(*x) for x in known), *(claims(bodies) if bodies else ()))
+    equations = [*known, *(claims(bodies) if bodies else ())]
     if not equations:
         return ()
     if known:
@@ -279,7 +277,7 @@ def _kernel(
 
 
 def _forces(forces: dict[Letter, Expr], d: Draft) -> Step:
-    sides: list[Tree] = [("mul", ("T", "A"), "N"), ("mul", ("T", "A"), "F")]
+    sides = (read("ĀN"), read("ĀF"))
     return d.step(
         (Equation(x, d.tree(e)) for x, e in zip(sides, forces.values(), strict=False)),
         say(

@@ -13,6 +13,7 @@ from dataclasses import replace
 from ..algebra.calculus import derivation, substitute
 from ..algebra.words import Expr, Letter, word
 from ..algebra.written import Notation, metrics, tree_of
+from ..language.read import read
 from ..language.tree import Tree
 from ..record.hypotheses import Hypothesis
 from ..record.record import Step
@@ -126,7 +127,7 @@ WORDS: dict[str, tuple[str, str]] = {
 }
 """What is said where the masses are positive, and where they may be of any sign."""
 
-ALWAYS = ("A", "C", ("T", "A"))
+ALWAYS = ("A", "C", read("Ā"))
 """The element of the group and C = ĀA have inverses."""
 
 
@@ -164,15 +165,14 @@ def vertical_metric(
 
 def of_masses(a: Alphabet) -> tuple[Hypothesis, ...]:
     """The masses are positive, unless they may have any sign."""
-    return () if a.signed else (Hypothesis("positive", ("at", "m", "i")),)
+    return () if a.signed else (Hypothesis("positive", read("mᵢ")),)
 
 
 def of_moments(signed: bool) -> tuple[Hypothesis, ...]:
     """m, c, J are those of some positive masses: m > 0, and J − m⁻¹cc̄ has no negative square."""
     if signed:
         return ()
-    central: Tree = ("add", "J", ("mul", -1, ("inv", "m"), "c", ("T", "c")))
-    return Hypothesis("positive", "m"), Hypothesis("semidefinite", central)
+    return Hypothesis("positive", "m"), Hypothesis("semidefinite", read("J − m⁻¹cc̄"))
 
 
 MATRICES = frozenset({"J", "J_c", "I", "I_c", "M"})

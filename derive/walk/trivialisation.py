@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from ..algebra.calculus import PairRule, derivation, reduce, substitute
 from ..algebra.words import Expr, Factor, Letter, word
 from ..algebra.written import tree_of
-from ..language.tree import Tree
+from ..record.formulas import stated
 from ..record.record import Equation, Step
 from ..record.sentence import say
 from .alphabet import Alphabet
@@ -76,25 +76,16 @@ def _told(e: Expr, a: Alphabet) -> Expr:
 
 def trivialisation(a: Alphabet, c: Chapter) -> Step:
     """The definitions of Z, ξ, ξ′, C and what they make of variations."""
-    inverse: Tree = ("inv", "A")
-    definitions = [
-        Equation(frame_letter.name, ("mul", inverse, part_letter.name))
-        for part, frame in zip(a.parts, a.frames, strict=True)
-        for frame_letter, part_letter in (
-            (frame.velocity, part.velocity),
-            (frame.xi, part.d_position),
-            (frame.xi_prime, part.dp_position),
-        )
-    ]
+    definitions = stated("Z = A⁻¹α,  ξ = A⁻¹δA,  ξ′ = A⁻¹δ′A")
     if a.affine:
-        definitions += [Equation(f"{x}_b", ("mul", ("T", "A"), x)) for x in ("N", "F")]
+        definitions += stated("w = A⁻¹τ,  η = A⁻¹δT,  η′ = A⁻¹δ′T,  N_b = ĀN,  F_b = ĀF")
     else:
-        definitions.append(Equation("f", ("mul", inverse, "F̃")))
+        definitions += stated("f = A⁻¹F̃")
     images = trivial_images(a)
     return c.draft("trivialisation", "trivialisation").step(
         (
             *definitions,
-            Equation("C", ("mul", ("T", "A"), "A")),
+            *stated("C = ĀA"),
             *(Equation(p.d_velocity.name, tree_of(images[p.d_velocity])) for p in a.parts),
             Equation("δC", tree_of(varied_gram(a, a.Z.xi))),
         ),

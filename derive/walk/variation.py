@@ -17,6 +17,7 @@ from ..algebra import forms
 from ..algebra.calculus import derivation, substitute
 from ..algebra.words import Expr, Letter, inner, number, word
 from ..algebra.written import Notation, tree_of
+from ..language.read import read
 from ..language.tree import Tree, add
 from ..record.record import Equation, Step
 from ..record.sentence import say
@@ -24,12 +25,10 @@ from .alphabet import Alphabet
 from .cartan import Cartan
 from .chapter import Chapter
 from .exterior import natural_variations, primes
-from .lagrangian import POINT, Lagrangian
+from .lagrangian import Lagrangian
 from .pullback import Pullback, sum_over
 
-ON_TANGENT: Tree = ("call", "ϖ", "X")
-ACROSS: Tree = ("call", "dϖ", "δy", "X")
-RATE: Tree = ("call", "d/dt", ("call", "ϖ", "δy"))
+ACROSS = read("dϖ(δy, X)")
 LATER = Letter("d/dt δt")
 
 
@@ -56,9 +55,10 @@ def principle(
     varied, rate = _varied(lagrangian, pulled, a), _rate(form.form, pulled, a)
     first = varying.step(
         (
-            Equation(ON_TANGENT, add("L̃", varying.tree(apart))),
+            Equation(read("ϖ(X)"), add("L̃", varying.tree(apart))),
             Equation(
-                ("call", "δ", ON_TANGENT), add(ACROSS, RATE, varying.tree(varied - exterior - rate))
+                read("δ(ϖ(X))"),
+                add(ACROSS, read("d/dt(ϖ(δy))"), varying.tree(varied - exterior - rate)),
             ),
         ),
         say(
@@ -134,7 +134,7 @@ def _work(points: Lagrangian, a: Alphabet) -> tuple[Expr, Tree]:
     moved = word(varied) - word(points.v_i) * word(a.dt)
     members = {a.m_i: "m", a.r_i: "r", a.F_i: "F", points.v_i: "v"}
     display: dict[Letter, Tree] = {x: ("at", name, "i") for x, name in members.items()}
-    notation = Notation(display=display | {varied: ("call", "δ", POINT)})
+    notation = Notation(display=display | {varied: read("δ(rᵢ(t))")})
     shown: Tree = ("inner", tree_of(pushed, notation), tree_of(moved, notation))
     images = {varied: points.variation, points.v_i: points.velocity}
     return inner(pushed, substitute(moved, images)), shown
