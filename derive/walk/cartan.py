@@ -1,4 +1,7 @@
-"""Step 3.  Momentum, energy and the Cartan form ϖ (15)–(23), and its trivialised form (27)–(28)."""
+"""Step 3.  Momentum p̃ = ∂L̃/∂ν, energy, and the Cartan form ϖ (15)–(23), trivialised in (27)–(28).
+
+h̃ = p̃(α) − L̃,  ϖ(δy) = ⟨α, δA⟩_J − h̃ δt
+"""
 
 from __future__ import annotations
 
@@ -31,17 +34,31 @@ class Cartan:
     steps: tuple[Step, ...]
 
 
+def fibre_derivative(lagrangian: Expr, a: Alphabet) -> Expr:
+    """p̃ = ∂L̃/∂ν, on the displacement δg."""
+    return derivation(lagrangian, {p.velocity: word(p.d_position) for p in a.parts}.get)
+
+
+def legendre(momentum: Expr, lagrangian: Expr, a: Alphabet) -> Expr:
+    """h̃ = p̃(ν) − L̃."""
+    return substitute(momentum, {p.d_position: word(p.velocity) for p in a.parts}) - lagrangian
+
+
+def cartan_form(momentum: Expr, energy: Expr, a: Alphabet) -> Expr:
+    """ϖ(δy) = p̃(δg) − h̃ δt."""
+    return momentum - energy * word(a.dt)
+
+
 def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
-    """p̃ = ∂L̃/∂ν,  h̃ = p̃(ν) − L̃,  ϖ(δ) = p̃(δg) − h̃ δt."""
-    potential = word(a.U)
+    """The Cartan form in the variables (t, g, ν)."""
     moving, resting, whole = (
         c.draft("momentum", "fibre derivative"),
         c.draft("energy", "Legendre transform"),
         c.draft("cartan", "Cartan form"),
     )
-    momentum = derivation(stage.kinetic, {p.velocity: word(p.d_position) for p in a.parts}.get)
-    along = substitute(moving.said(momentum), {p.d_position: word(p.velocity) for p in a.parts})
-    energy = along - (stage.kinetic - potential)
+    lagrangian = stage.kinetic - word(a.U)
+    momentum = fibre_derivative(lagrangian, a)
+    energy = legendre(moving.said(momentum), lagrangian, a)
     velocities = ", ".join(p.velocity.name for p in a.parts)
     notation = metrics() if a.affine else metrics("J")
     steps = (
@@ -77,7 +94,7 @@ def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
         ),
     )
     rest = resting.said(energy)
-    form = whole.said(momentum) - rest * word(a.dt)
+    form = cartan_form(whole.said(momentum), rest, a)
     return Cartan(moving.said(momentum), rest, form, stage.work, steps)
 
 
@@ -110,7 +127,7 @@ def trivialise(stage: Cartan, a: Alphabet, c: Chapter) -> Cartan:
         (form_equation(draft, momentum, energy, metrics()),),
         say("The Cartan form in this trivialisation."),
     )
-    form = draft.said(momentum - energy * word(a.dt))
+    form = draft.said(cartan_form(momentum, energy, a))
     steps = (trivialisation(a, c), step)
     work = carry(stage.work, a)
     return Cartan(draft.said(momentum), draft.said(energy), form, work, steps)

@@ -1,4 +1,7 @@
-"""Step 4.  The exterior derivative dϖ: (25), (26), and in the trivialisation, the general (29)."""
+"""Step 4.  The exterior derivative dϖ: (25), (26), and in the trivialisation, the general (29).
+
+dϖ(δy, δ′y) = ⟨δ′A − α δ′t, δα − F̃ δt⟩_J − ⟨δA − α δt, δ′α − F̃ δ′t⟩_J
+"""
 
 from __future__ import annotations
 
@@ -30,6 +33,11 @@ class Exterior:
     steps: tuple[Step, ...]
 
 
+def derivative(form: Expr, work: Expr, a: Alphabet) -> Expr:
+    """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)], where δ and δ′ commute.  ``work``: −dŨ(δg)."""
+    return forms.exterior(form, primes(a), *natural_variations(work, a))
+
+
 def primes(a: Alphabet) -> dict[Letter, Letter]:
     """Each variation letter and its primed twin."""
     table = {a.dt: a.dpt}
@@ -59,32 +67,6 @@ def natural_variations(work: Expr, a: Alphabet) -> tuple[Image, Image]:
         delta_prime |= {p.position: word(p.dp_position), p.velocity: word(p.dp_velocity)}
         delta_prime |= {p.d_position: word(p.second), p.d_velocity: word(p.second_velocity)}
     return delta.get, delta_prime.get
-
-
-def exterior(stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
-    """dϖ in the variables (t, g, ν)."""
-    form = forms.exterior(stage.form, primes(a), *natural_variations(stage.work, a))
-    images = horizontal_images(form, a)
-    static = at_constant_time(form, a.dt, a.dpt)
-    notation = metrics() if a.affine else metrics("J")
-    whole = c.draft("exterior", "exterior derivative")
-    resting = c.draft("symplectic", "restriction")
-    steps = (
-        whole.step(
-            (Equation(DOMEGA, gathered(whole, form, static, images, notation)),),
-            say("The exterior derivative of the Cartan form.") + say("The terms in ∂Ũ/∂t cancel."),
-            (25,),
-        ),
-        resting.step(
-            (Equation(read("ω(δx, δ′x)"), resting.tree(whole.said(static), notation)),),
-            say(
-                "At constant time it is dp ∧ dq, which the metric carries from the cotangent "
-                "bundle of the group to its tangent bundle: a symplectic form."
-            ),
-            (26,),
-        ),
-    )
-    return Exterior(whole.said(form), {x: whole.said(y) for x, y in images.items()}, steps)
 
 
 def horizontal_images(form: Expr, a: Alphabet) -> dict[Letter, Expr]:
@@ -124,33 +106,16 @@ def shown_brackets(a: Alphabet) -> list[Tree]:
     ]
 
 
-def structure(a: Alphabet, c: Chapter) -> Step:
-    """The structure equation."""
-    equations = (
-        Equation(read(f"δ({f.xi_prime.name}) − δ′({f.xi.name})"), t)
-        for f, t in zip(a.frames, shown_brackets(a), strict=True)
-    )
-    return c.draft("structure", "structure equation").step(
-        equations,
-        say(
-            "The variations commute on the group; carried to the Lie algebra, the crossed "
-            "variations δξ′ and δ′ξ differ by a bracket."
-        ),
-    )
-
-
 def _bracket(a: Alphabet) -> Expr:
     return word(a.Z.xi_prime) * word(a.Z.xi) - word(a.Z.xi) * word(a.Z.xi_prime)
 
 
-def trivial_variations(
-    a: Alphabet, brackets: dict[Letter, Expr], work: Expr
-) -> tuple[Image, Image]:
+def trivial_variations(a: Alphabet, work: Expr) -> tuple[Image, Image]:
     """δ and δ′ on Z, ξ, C, Ũ, with the structure equation for the second variations.
 
     ``work``: −dŨ(gξ).
     """
-    images = trivial_images(a)
+    images, brackets = trivial_images(a), brackets_of(a)
     potential = word(a.dU_dt) * word(a.dt) - work
     delta: dict[Letter, Expr] = {a.U: potential, a.C: varied_gram(a, a.Z.xi)}
     delta_prime: dict[Letter, Expr] = {
@@ -184,12 +149,52 @@ def trivialised_images(stage: Exterior, a: Alphabet) -> dict[Letter, Expr]:
     return images
 
 
+def exterior(stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
+    """dϖ in the variables (t, g, ν)."""
+    form = derivative(stage.form, stage.work, a)
+    images = horizontal_images(form, a)
+    static = at_constant_time(form, a.dt, a.dpt)
+    notation = metrics() if a.affine else metrics("J")
+    whole = c.draft("exterior", "exterior derivative")
+    resting = c.draft("symplectic", "restriction")
+    steps = (
+        whole.step(
+            (Equation(DOMEGA, gathered(whole, form, static, images, notation)),),
+            say("The exterior derivative of the Cartan form.") + say("The terms in ∂Ũ/∂t cancel."),
+            (25,),
+        ),
+        resting.step(
+            (Equation(read("ω(δx, δ′x)"), resting.tree(whole.said(static), notation)),),
+            say(
+                "At constant time it is dp ∧ dq, which the metric carries from the cotangent "
+                "bundle of the group to its tangent bundle: a symplectic form."
+            ),
+            (26,),
+        ),
+    )
+    return Exterior(whole.said(form), {x: whole.said(y) for x, y in images.items()}, steps)
+
+
+def structure(a: Alphabet, c: Chapter) -> Step:
+    """The structure equation."""
+    equations = (
+        Equation(read(f"δ({f.xi_prime.name}) − δ′({f.xi.name})"), t)
+        for f, t in zip(a.frames, shown_brackets(a), strict=True)
+    )
+    return c.draft("structure", "structure equation").step(
+        equations,
+        say(
+            "The variations commute on the group; carried to the Lie algebra, the crossed "
+            "variations δξ′ and δ′ξ differ by a bracket."
+        ),
+    )
+
+
 def exterior_trivialised(natural: Exterior, stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
     """dϖ in the variables (t, g, Z), for any group, with C = ĀA."""
     draft = c.draft("exterior_trivialised", "exterior derivative")
-    delta, delta_prime = trivial_variations(a, brackets_of(a), stage.work)
-    derivative = forms.exterior(stage.form, primes(a), delta, delta_prime)
-    form = reduce(derivative, frame_rule(a, gram(a)))
+    varied = forms.exterior(stage.form, primes(a), *trivial_variations(a, stage.work))
+    form = reduce(varied, frame_rule(a, gram(a)))
     images = trivialised_images(natural, a)
     variations = [x for f in a.frames for x in (f.d_velocity, f.dp_velocity)]
     core = terms_with(without(form, a.dt, a.dpt), *variations)

@@ -1,4 +1,9 @@
-"""Step 5.  The kernel of dϖ: the equations of motion (34), for any group (Exercise 1)."""
+"""Step 5.  The kernel of dϖ: the equations of motion (34), for any group (Exercise 1).
+
+Ȧ = α,  ⟨δ′A, α̇ − F̃⟩_J = 0
+
+For every δ′A tangent to the group: so dϖ(X, ·) vanishes, where δt(X) = 1.
+"""
 
 from __future__ import annotations
 
@@ -34,20 +39,29 @@ class Ambient:
     steps: tuple[Step, ...]
 
 
+def on_kernel(stage: Exterior, a: Alphabet) -> tuple[dict[Letter, Expr], Expr]:
+    """X with δt(X) = 1 and dϖ(X, ·) = 0: δg(X), where every horizontal δg − ν δt vanishes; and
+    dϖ(X, δ′y) for δ′t = 0 and δν(X) = ν̇, which does so for every δ′g."""
+    now = {a.dt: number(1)}
+    moving = {x: word(x) - stage.images.get(x, word(x)) for x in (p.d_position for p in a.parts)}
+    velocity = {x: substitute(e, now) for x, e in moving.items()}
+    rates = {p.d_velocity: word(p.acceleration) for p in a.parts}
+    return velocity, without(substitute(stage.form, now | velocity | rates), a.dpt)
+
+
 def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Ambient:
     """The kernel in the variables (t, g, ν): by the ``law`` it is the tangents of the motions."""
     notation = metrics() if a.affine else metrics("J")
     draft = chapter.draft("kernel", "kernel")
-    unknown = tuple(x.name for p in a.parts for x in (p.d_position, p.d_velocity))
-    *others, last_one = unknown
-    dots = [rate(p.acceleration.name, p.d_velocity.name) for p in a.parts]
+    *others, last_one = (x.name for p in a.parts for x in (p.d_position, p.d_velocity))
+    velocity, virtual = on_kernel(stage, a)
     c, steps = steps_of(
         [
             Contraction(
                 stage.form.of(law.across),
                 at_constant_time(stage.form, a.dt, a.dpt),
                 stage.images,
-                {p.d_position: along_motion(stage, p.d_position, a) for p in a.parts},
+                velocity,
                 {p.d_velocity: p.acceleration for p in a.parts},
                 tuple(p.dp_velocity for p in a.parts),
                 (a.dt, a.dpt),
@@ -58,12 +72,12 @@ def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Am
         ],
         [p.d_position for p in a.parts],
         phrase(AND, first=", ".join(others), second=last_one),
-        listed(AND, dots),
+        listed(AND, [rate(p.acceleration.name, p.d_velocity.name) for p in a.parts]),
         a,
         chapter,
     )
     mark = chapter.label("second_order")
-    virtual = without(c.second_order.marked(mark), a.dpt)
+    virtual = virtual.marked(mark)
     if a.affine:
         pairs = [
             ("inner", draft.tree(gradient(virtual, p.dp_position)), p.dp_position.name)
@@ -73,10 +87,9 @@ def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Am
     else:
         kept = {a.A.acceleration: c.shifts[a.A.acceleration].marked(mark)}
         balance = gathered(draft, virtual, c.remaining_core, kept, notation)
-    along = {x: e.marked(mark) for x, e in c.velocity.items()}
+    along = {x: e.marked(mark) for x, e in velocity.items()}
     first_order = tuple(Equation(p.rate, draft.tree(along[p.d_position])) for p in a.parts)
     variations = tuple(p.dp_position.name for p in a.parts)
-    velocity = ", ".join(f"{p.dp_position.name} = {p.velocity.name}" for p in a.parts)
     last = draft.step(
         (*first_order, Equation(balance, 0, variations)),
         say(
@@ -89,16 +102,11 @@ def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Am
         )
         + say(
             "The coefficient of δ′t then vanishes as well, for {velocity} is such a displacement.",
-            velocity=velocity,
+            velocity=", ".join(f"{p.dp_position.name} = {p.velocity.name}" for p in a.parts),
         )
         + told("line", a.signed),
     )
     return Ambient(along, steps[-1].given, draft.said(virtual), (*steps, last))
-
-
-def along_motion(stage: Exterior, x: Letter, a: Alphabet) -> Expr:
-    """δx(X) for δt = 1: what makes the horizontal variation δx − X δt vanish."""
-    return substitute(word(x) - stage.images.get(x, word(x)), {a.dt: number(1)})
 
 
 def kernel_trivialised(

@@ -1,4 +1,7 @@
-"""Step 1.  The Lagrangian of the points (3) and the motion that the group gives them (7)–(14)."""
+"""Step 1.  The Lagrangian of the points (3) and the motion that the group gives them (7)–(14).
+
+L = Σᵢ ½ mᵢ ‖vᵢ‖² − U,  rᵢ(t) = A rᵢ + T,  vᵢ = α rᵢ + τ
+"""
 
 from __future__ import annotations
 
@@ -34,16 +37,26 @@ class Lagrangian:
     steps: tuple[Step, ...]
 
 
+def kinetic_energy(v_i: Letter, a: Alphabet) -> Expr:
+    """½ m_i ⟨v_i, v_i⟩, of which L = Σ_i ½ m_i ⟨v_i, v_i⟩ − U."""
+    return Fraction(1, 2) * word(a.m_i) * inner(word(v_i), word(v_i))
+
+
+def velocities(position: Expr, a: Alphabet) -> tuple[Expr, Expr]:
+    """v_i = α r_i + τ  and  δr_i(t) = δA r_i + δT,  from  r_i(t) = A r_i + T."""
+    velocity = derivation(position, {p.position: word(p.velocity) for p in a.parts}.get)
+    variation = derivation(position, {p.position: word(p.d_position) for p in a.parts}.get)
+    return velocity, variation
+
+
 def lagrangian(a: Alphabet, c: Chapter) -> Lagrangian:
     """L, and the points and velocities that an element of the group and a tangent vector give."""
-    v_i = Letter("v_i", a.n)
     first = c.draft("lagrangian", "definition")
-    kinetic = Fraction(1, 2) * word(a.m_i) * inner(word(v_i), word(v_i))
+    kinetic = kinetic_energy(v_i := Letter("v_i", a.n), a)
     acting = c.draft("action", "definition")
     position = acting.said(a.moved(word(a.A.position), word(a.T.position)))
     varied = c.draft("velocity", "variation")
-    velocity = derivation(position, {p.position: word(p.velocity) for p in a.parts}.get)
-    variation = derivation(position, {p.position: word(p.d_position) for p in a.parts}.get)
+    velocity, variation = velocities(position, a)
     varied.read(velocity, variation)
     steps = (
         first.step(
@@ -100,17 +113,15 @@ def _velocities(a: Alphabet) -> Prose:
     )
 
 
-def indexed_tree(e: Expr, v_i: Letter, a: Alphabet) -> Tree:
+def indexed_tree(e: Expr, v_i: Letter, a: Alphabet, v: Tree = "") -> Tree:
     """The tree of a summand, with m_i, r_i, v_i as members of indexed families."""
-    letters = {a.m_i: "m", a.r_i: "r", v_i: "v"}
-    return tree_of(e, metrics(display={x: ("at", name, "i") for x, name in letters.items()}))
+    display = {a.m_i: read("mᵢ"), a.r_i: read("rᵢ"), v_i: v or read("vᵢ")}
+    return tree_of(e, metrics(display=display))
 
 
 def moving_tree(stage: Lagrangian, a: Alphabet) -> Tree:
     """The tree of that summand with the velocity of the motion."""
-    shown = indexed_tree(stage.velocity, stage.v_i, a)
-    display: dict[Letter, Tree] = {a.m_i: ("at", "m", "i"), stage.v_i: shown}
-    return tree_of(stage.kinetic, metrics(display=display))
+    return indexed_tree(stage.kinetic, stage.v_i, a, indexed_tree(stage.velocity, stage.v_i, a))
 
 
 def kinetic_of_motion(stage: Lagrangian) -> Expr:

@@ -1,5 +1,7 @@
 """Step 2.  L̃, the Lagrangian pulled back to the group (11)–(22), and the force on the group (24).
 
+L̃ = Σᵢ ½ mᵢ ‖α rᵢ + τ‖² − Ũ,  L̃ = ½ Tr αJᾱ + ⟨αc, τ⟩ + ½m ‖τ‖² − Ũ
+
 The sum over the points is carried out on words: what stands between the members of an indexed
 family is common to all of them, so  m_i r_i r̄_i → J,  m_i r_i → c,  m_i → m  (18)(19), and
 F_i r̄_i → N,  F_i → F  for the forces.
@@ -54,6 +56,11 @@ class Pullback:
     steps: tuple[Step, ...]
 
 
+def pulled_back(stage: Lagrangian, moments: Moments, a: Alphabet) -> Expr:
+    """L̃ + Ũ = Σ_i ½ m_i ‖α r_i + τ‖²: the velocities put in, and the sum carried out."""
+    return sum_over(kinetic_of_motion(stage), {a.m_i, a.r_i}, moments)
+
+
 def sum_over(e: Expr, members: set[Letter], moments: Moments) -> Expr:
     """Σ_i of a scalar summand in which the members of indexed families are the given letters.
 
@@ -98,7 +105,7 @@ def pullback(stage: Lagrangian, a: Alphabet, c: Chapter) -> Pullback:
     """Put the motion into L and sum over the points; then the force on the group."""
     moments, definitions = _moments(a, c)
     draft = c.draft("pullback", "pull-back")
-    kinetic = sum_over(kinetic_of_motion(stage), {a.m_i, a.r_i}, moments)
+    kinetic = pulled_back(stage, moments, a)
     metric = kinetic_metric(kinetic, a)
     notations = (metrics(),) if a.affine else (metrics(), metrics("J"))
     step = draft.step(
