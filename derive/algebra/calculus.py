@@ -7,14 +7,13 @@ adjacent letters (:func:`reduce`).  :func:`gradient` reads off the coefficient o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Container, Mapping
 from fractions import Fraction
 from itertools import groupby
 
 from .words import (
     Expr,
     Factor,
-    Key,
     Letter,
     Traces,
     Word,
@@ -24,11 +23,34 @@ from .words import (
     one,
     rotations,
     row_dim,
+    scalar_of,
     trace,
     transpose_word,
 )
 
 Image = Callable[[Letter], Expr | None]
+
+
+def map_terms(
+    e: Expr, image: Callable[[Traces, Word, Fraction], Expr], shape: Expr | None = None
+) -> Expr:
+    """Σ image(traces, word, coefficient) over the terms; ``shape``: a zero as the images are."""
+    total = (e if shape is None else shape.of(e)).like({})
+    for (traces, w), c in e.terms.items():
+        total = total + image(traces, w, c)
+    return total
+
+
+def map_traces(e: Expr, image: Callable[[Word], Expr]) -> Expr:
+    """Every trace replaced by a scalar."""
+
+    def mapped(traces: Traces, w: Word, c: Fraction) -> Expr:
+        term = Expr(e.rows, e.cols, {((), w): c})
+        for cycle in traces:
+            term = image(cycle) * term
+        return term
+
+    return map_terms(e, mapped)
 
 
 def _apply_at(w: Word, k: int, image: Expr) -> Expr:
@@ -65,7 +87,7 @@ def derivation(e: Expr, delta: Image) -> Expr:
         if w:
             varied = leibniz(w, delta)
             if varied is not None:
-                total = total + Expr(1, 1, {(traces, ()): c}) * varied
+                total = total + scalar_of(traces, c) * varied
     return total
 
 
@@ -85,19 +107,15 @@ def substitute(e: Expr, images: Mapping[Letter, Expr]) -> Expr:
         assert result is not None
         return result
 
-    def stays(key: Key) -> bool:
-        return not any(x in images for part in (*key[0], key[1]) for x, _ in part)
-
-    total = e.like({})
-    for (traces, w), c in e.terms.items():
-        if stays((traces, w)):
-            total = total + e.like({(traces, w): c})
-            continue
+    def image(traces: Traces, w: Word, c: Fraction) -> Expr:
+        if not _occurs(images, traces, w):
+            return e.like({(traces, w): c})
         product = number(c)
         for cycle in traces:
             product = product * trace(of(cycle))
-        total = total + (product * of(w) if w else product * _unit(e))
-    return total
+        return product * of(w) if w else product * _unit(e)
+
+    return map_terms(e, image)
 
 
 def _unit(e: Expr) -> Expr:
@@ -132,7 +150,7 @@ def _rewrite_term(
         if closed is not None:
             return closed * Expr(shape.rows, shape.cols, {(traces[:k] + traces[k + 1 :], w): c})
     opened = _rewrite_word(w, rules)
-    return None if opened is None else Expr(1, 1, {(traces, ()): c}) * opened
+    return None if opened is None else scalar_of(traces, c) * opened
 
 
 def _rewrite_word(w: Word, rules: tuple[PairRule, ...]) -> Expr | None:
@@ -176,7 +194,7 @@ def gradient(e: Expr, letter: Letter) -> Expr:
             sign = 1
             if not cycle[places[0]][1]:
                 sign, rest = transpose_word(rest)
-            others = Expr(1, 1, {(traces[:k] + traces[k + 1 :], ()): c * sign})
+            others = scalar_of(traces[:k] + traces[k + 1 :], c * sign)
             shape = expr_of_word(rest, letter.rows, letter.cols) if rest else _unit_like(letter)
             total = total + others * shape
     if letter.symmetry and total.rows == total.cols:
@@ -188,11 +206,33 @@ def _unit_like(letter: Letter) -> Expr:
     return number(1) if letter.rows == 1 == letter.cols else one(letter.rows)
 
 
+def coefficient_of(e: Expr, x: Letter) -> Expr:
+    """``M`` with ``e = M x + (terms without x)``, for a vector ``e`` linear in the vector x, or any
+    ``e`` linear in the scalar x."""
+    scalar, ending = x.rows == 1 == x.cols, (x, False)
+
+    def coefficient(traces: Traces, w: Word, c: Fraction) -> Expr:
+        if w[-1:] == (ending,):
+            return nothing.like({(traces, w[:-1]): c})
+        for k, cycle in enumerate(traces):
+            if any(y == x for y, _ in cycle):
+                others = e.like({(traces[:k] + traces[k + 1 :], w): c})
+                return others if scalar else others * gradient(scalar_of((cycle,)), x).bar
+        return nothing
+
+    nothing = Expr(e.rows, e.cols if scalar else x.rows, {})
+    return map_terms(e, coefficient, nothing)
+
+
 def without(e: Expr, *letters: Letter) -> Expr:
     """The terms in which none of the letters occurs."""
-    gone = set(letters)
+    return e.like({key: c for key, c in e.terms.items() if not _occurs(letters, *key)})
 
-    def kept(traces: Traces, w: Word) -> bool:
-        return not any(x in gone for part in (*traces, w) for x, _ in part)
 
-    return e.like({(t, w): c for (t, w), c in e.terms.items() if kept(t, w)})
+def terms_with(e: Expr, *letters: Letter) -> Expr:
+    """The terms in which one of the letters occurs."""
+    return e.like({key: c for key, c in e.terms.items() if _occurs(letters, *key)})
+
+
+def _occurs(letters: Container[Letter], traces: Traces, w: Word) -> bool:
+    return any(x in letters for part in (*traces, w) for x, _ in part)

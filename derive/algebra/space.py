@@ -6,8 +6,8 @@ two neighbouring j's, so that identities of the vector product are decided by co
 
 from __future__ import annotations
 
-from .calculus import PairRule, reduce
-from .words import Expr, Factor, Key, Letter, Traces, inner, number, one, word, zero
+from .calculus import PairRule, map_traces, reduce
+from .words import Expr, Factor, Key, Letter, Word, inner, one, scalar_of, word, zero
 
 
 def hat(vector: Letter) -> Letter:
@@ -56,20 +56,14 @@ def normal_form(e: Expr) -> Expr:
 
 def fold_inertia(e: Expr, moments: Letter, inertia: Expr) -> Expr:
     """``Tr j(x) J j(y)‾ = ⟨x, y⟩_I`` wherever the left side stands as a trace."""
-    total = e.like({})
-    for (traces, w), c in e.terms.items():
-        term = Expr(e.rows, e.cols, {((), w): c}) if w or e.is_scalar else one(e.rows) * c
-        for cycle in traces:
-            term = _metric_of(cycle, moments, inertia) * term
-        total = total + term
-    return total
 
+    def metric(cycle: Word) -> Expr:
+        axes = [x.axis for x, _ in cycle if x.axis is not None]
+        if len(cycle) == 3 and len(axes) == 2 and any(x == moments for x, _ in cycle):
+            return -inner(word(axes[0]), word(axes[1]), inertia)
+        return scalar_of((cycle,))
 
-def _metric_of(cycle: tuple[Factor, ...], moments: Letter, inertia: Expr) -> Expr:
-    axes = [x.axis for x, _ in cycle if x.axis is not None]
-    if len(cycle) == 3 and len(axes) == 2 and any(x == moments for x, _ in cycle):
-        return -inner(word(axes[0]), word(axes[1]), inertia)
-    return Expr(1, 1, {((cycle,), ()): number(1).terms[(), ()]})
+    return map_traces(e, metric)
 
 
 def fold_double(e: Expr) -> Expr:
@@ -96,7 +90,6 @@ def _inner_factors(key: Key) -> list[tuple[Letter, Letter, Expr]]:
     for k, cycle in enumerate(traces):
         letters = [letter for letter, _ in cycle]
         if len(cycle) == 2 and all(map(_is_vector, letters)):
-            rest: Traces = traces[:k] + traces[k + 1 :]
-            others = Expr(1, 1, {(rest, ()): number(1).terms[(), ()]})
+            others = scalar_of(traces[:k] + traces[k + 1 :])
             found += [(x, y, others) for x, y in (letters, letters[::-1])]
     return found

@@ -45,6 +45,7 @@ Word = tuple[Factor, ...]
 Traces = tuple[Word, ...]
 Key = tuple[Traces, Word]
 Terms = dict[Key, Fraction]
+UNITY = Fraction(1)
 
 
 def _order(word: Word) -> tuple[int, tuple[tuple[str, bool], ...]]:
@@ -263,6 +264,11 @@ def zero(rows: Dim = 1, cols: Dim = 1) -> Expr:
 def number(value: int | Fraction) -> Expr:
     """A rational scalar."""
     return Expr(1, 1, {((), ()): Fraction(value)} if value else {})
+
+
+def scalar_of(traces: Traces, times: Fraction = UNITY) -> Expr:
+    """The product of traces of words, in their canonical form and order, times a number."""
+    return Expr(1, 1, {(traces, ()): times})
 
 
 def one(n: Dim) -> Expr:

@@ -6,6 +6,7 @@ some: the points of a flat body under a shear.  The forces of a potential keep t
 
 from __future__ import annotations
 
+from ..algebra.calculus import map_traces
 from ..algebra.words import Expr, Word, expr_of_word, row_dim, trace
 from ..problem.left_invariant import EVERY, Bodies
 from ..record.formulas import stated
@@ -25,16 +26,11 @@ def without_gram(e: Expr, bodies: Bodies, a: Alphabet) -> Expr:
         between = between and after[0].name in algebra and not after[1]
         return between and (bodies == EVERY or {x.name for x, _ in cycle} - algebra == {"C", "J"})
 
-    def left(cycle: Word) -> Word:
-        return tuple(x for k, x in enumerate(cycle) if x[0] != a.C or not drops(cycle, k))
+    def left(cycle: Word) -> Expr:
+        kept = tuple(x for k, x in enumerate(cycle) if x[0] != a.C or not drops(cycle, k))
+        return trace(expr_of_word(kept, row_dim(kept[0]), row_dim(kept[0])))
 
-    total = e.like({})
-    for (traces, w), c in e.terms.items():
-        term = Expr(1, 1, {((), w): c}, e.lineage)
-        for cycle in map(left, traces):
-            term = term * trace(expr_of_word(cycle, row_dim(cycle[0]), row_dim(cycle[0])))
-        total = total + term
-    return total
+    return map_traces(e, left)
 
 
 def claims(bodies: Bodies) -> list[Equation]:

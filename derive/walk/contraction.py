@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from ..algebra.calculus import substitute, without
+from ..algebra.calculus import substitute, terms_with, without
 from ..algebra.space import hat
 from ..algebra.words import Expr, Letter, number, word
 from ..algebra.written import Notation
@@ -22,7 +22,7 @@ from ..record.record import Equation, Step
 from ..record.sentence import Sentence, phrase, say
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
-from .factored import gathered, terms_with
+from .factored import gathered
 from .supposed import told, vertical_metric
 
 CONTRACTION = read("dϖ(X, δ′y)")

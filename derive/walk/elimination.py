@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..algebra.calculus import gradient, reduce, substitute, without
+from ..algebra.calculus import coefficient_of, reduce, substitute, without
 from ..algebra.space import hat, normal_form
-from ..algebra.words import Expr, Letter, number, word
+from ..algebra.words import Expr, Letter, word
 from ..algebra.written import Notation, tree_of
 from ..language.tree import Tree, add, mul
 from ..record.record import Equation, Step
@@ -55,7 +55,7 @@ def eliminate(stage: VectorForm, a: Alphabet, c: Chapter) -> Eliminated:
     forces, moments = stage.balance[a.w.xi_prime], stage.balance[OMEGA_P]
     acceleration = -simplified(word(inverse_letter(a.m)) * without(forces, w_dot), a)
     reduced = simplified(substitute(moments, {w_dot: acceleration}), a)
-    tensor = coefficient_matrix(reduce(reduced, isolate(ZETA_DOT)), ZETA_DOT)
+    tensor = coefficient_of(reduce(reduced, isolate(ZETA_DOT)), ZETA_DOT)
     J_c, moments_c = central_moments(a)
     by_moments = substitute(tensor, {INERTIA: stage.inertia})
     central = substitute(by_moments, {a.J: word(J_c) + word(a.J) - moments_c})
@@ -95,32 +95,10 @@ def from_centre(e: Expr, a: Alphabet) -> Expr:
     return simplified(substitute(e, images), a)
 
 
-def coefficient_matrix(e: Expr, v: Letter) -> Expr:
-    """M with e = M v + (terms without v), for a vector expression linear in v."""
-    total = Expr(v.rows, v.rows, {}, e.lineage)
-    for (traces, w), c in e.terms.items():
-        if w and w[-1] == (v, False):
-            body = Expr(v.rows, v.rows, {(traces, w[:-1]): c})
-            total = total + body
-            continue
-        for k, cycle in enumerate(traces):
-            if any(x == v for x, _ in cycle):
-                covector = gradient(Expr(1, 1, {((cycle,), ()): number(1).terms[(), ()]}), v).bar
-                others = Expr(v.rows, 1, {(traces[:k] + traces[k + 1 :], w): c})
-                total = total + others * covector
-    return total
-
-
 def vector_tree(e: Expr, a: Alphabet) -> Tree:
     """A sum of vectors, the terms with m⁻¹ gathered behind it."""
-    inverse = ((inverse_letter(a.m), False),)
-    light = {k: c for k, c in e.terms.items() if inverse not in k[0]}
-    heavy = {
-        (tuple(t for t in k[0] if t != inverse), k[1]): c
-        for k, c in e.terms.items()
-        if inverse in k[0]
-    }
-    parts = [vector_sum(e.like(light), notation(a))] if light else []
+    light, heavy = without(e, inverse_letter(a.m)), coefficient_of(e, inverse_letter(a.m))
+    parts = [vector_sum(light, notation(a))] if light else []
     if heavy:
-        parts.append(mul(inverse_tree(a.m), vector_sum(e.like(heavy), notation(a))))
+        parts.append(mul(inverse_tree(a.m), vector_sum(heavy, notation(a))))
     return add(*parts)

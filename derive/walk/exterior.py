@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..algebra import forms
-from ..algebra.calculus import Image, gradient, reduce, substitute, without
+from ..algebra.calculus import Image, gradient, reduce, substitute, terms_with, without
 from ..algebra.words import Expr, Letter, word
 from ..algebra.written import Notation, metrics, tree_of
 from ..language.read import read
@@ -18,7 +18,7 @@ from ..record.sentence import say
 from .alphabet import Alphabet
 from .cartan import Cartan
 from .chapter import Chapter
-from .factored import at_constant_time, gathered, solve_for, terms_with
+from .factored import at_constant_time, gathered, solve_for
 from .trivialisation import frame_rule, gram, trivial_images, varied_gram
 
 DOMEGA = read("dϖ(δy, δ′y)")

@@ -45,16 +45,6 @@ def _shape(w: Word) -> tuple[object, object]:
     return (first.cols if first_bar else first.rows, last.rows if last_bar else last.cols)
 
 
-def terms_with(e: Expr, *letters: Letter) -> Expr:
-    """The terms in which one of the letters occurs."""
-    wanted = set(letters)
-
-    def has(traces: Traces, w: Word) -> bool:
-        return any(x in wanted for part in (*traces, w) for x, _ in part)
-
-    return e.like({key: c for key, c in e.terms.items() if has(*key)})
-
-
 def gathered(
     d: Draft, e: Expr, core: Expr, images: Mapping[Letter, Expr], notation: Notation
 ) -> Tree:

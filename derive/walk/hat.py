@@ -4,11 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 
-from ..algebra.calculus import PairRule, gradient, reduce, substitute
+from ..algebra.calculus import (
+    PairRule,
+    coefficient_of,
+    gradient,
+    map_terms,
+    map_traces,
+    reduce,
+    substitute,
+)
 from ..algebra.space import double, fold_inertia, hat, normal_form
-from ..algebra.words import Expr, Factor, Letter, inner, number, trace, word, zero
+from ..algebra.words import (
+    Expr,
+    Factor,
+    Letter,
+    Traces,
+    Word,
+    inner,
+    scalar_of,
+    trace,
+    word,
+    zero,
+)
 from ..language.read import read
 from ..record.formulas import stated
 from ..record.record import Equation, Step
@@ -110,29 +130,25 @@ def _flat(e: Expr) -> Expr:
 
 def _fold_moment(e: Expr, moment: Letter) -> Expr:
     """``Tr N_b j(x)‾ = ⟨μ, x⟩``: what defines the moment of the forces."""
-    total = e.like({})
-    for (traces, _), c in e.terms.items():
-        term = number(c)
-        for cycle in traces:
-            axes = [x.axis for x, _ in cycle if x.axis is not None]
-            if len(cycle) == 2 and axes and any(x == moment for x, _ in cycle):
-                barred = any(bar for x, bar in cycle if x == moment)
-                folded = inner(word(MU), word(axes[0])) * (1 if barred else -1)
-            else:
-                folded = Expr(1, 1, {((cycle,), ()): number(1).terms[(), ()]})
-            term = term * folded
-        total = total + term
-    return total
+
+    def folded(cycle: Word) -> Expr:
+        axes = [x.axis for x, _ in cycle if x.axis is not None]
+        if len(cycle) == 2 and axes and any(x == moment for x, _ in cycle):
+            barred = any(bar for x, bar in cycle if x == moment)
+            return inner(word(MU), word(axes[0])) * (1 if barred else -1)
+        return scalar_of((cycle,))
+
+    return map_traces(e, folded)
 
 
 def axial(e: Expr) -> Expr:
     """X with j(X) the given skew sum of words y x̄: from  j(x ∧ y) = y x̄ − x ȳ."""
-    total = zero(3, 1).of(e)
-    for (traces, w), c in e.terms.items():
+
+    def turned(traces: Traces, w: Word, c: Fraction) -> Expr:
         (y, _), (x, _) = w
-        term = Expr(1, 1, {(traces, ()): c / 2})
-        total = total + term * (word(hat(x)) * word(y))
-    return normal_form(total)
+        return scalar_of(traces, c / 2) * (word(hat(x)) * word(y))
+
+    return normal_form(map_terms(e, turned, zero(3, 1)))
 
 
 def _identification(b: Alphabet, gram: Expr, cross: Expr, c: Chapter) -> Step:
@@ -173,14 +189,4 @@ def _inertia(b: Alphabet, c: Chapter) -> Step:
 def inertia_of(J: Letter) -> Expr:
     """I with  Tr j(ζ) J j(Ω)‾ = ⟨ζ, IΩ⟩,  by the double vector product under the trace."""
     pairing = reduce(trace(word(hat(ZETA)) * word(J) * word(hat(OMEGA)).bar), double)
-    return strip_right(gradient(pairing, ZETA), OMEGA)
-
-
-def strip_right(e: Expr, vector: Letter) -> Expr:
-    """The matrix M with e = M x, for a last letter x common to every term."""
-    terms = {}
-    for (traces, w), c in e.terms.items():
-        if not w or w[-1] != (vector, False):
-            raise ValueError(f"{vector.name} is not a common right factor")
-        terms[traces, w[:-1]] = c
-    return Expr(e.rows, vector.rows, terms, e.lineage)
+    return coefficient_of(gradient(pairing, ZETA), OMEGA)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ..algebra.calculus import PairRule
+from ..algebra.calculus import PairRule, map_terms
 from ..algebra.words import Expr, Factor, Letter, Traces, Word, one
 from ..language.tree import Tree
 
@@ -34,12 +34,12 @@ def cancelling(*letters: Letter) -> PairRule:
 def cancel_scalar(e: Expr, x: Letter) -> Expr:
     """m m⁻¹ = 1 for a scalar letter."""
     up, down = ((x, False),), ((inverse_letter(x), False),)
-    total: dict[tuple[Traces, Word], Fraction] = {}
-    for (traces, w), c in e.terms.items():
+
+    def cancelled(traces: Traces, w: Word, c: Fraction) -> Expr:
         kept = list(traces)
         while up in kept and down in kept:
             kept.remove(up)
             kept.remove(down)
-        key = (tuple(kept), w)
-        total[key] = total.get(key, Fraction(0)) + c
-    return e.like({key: c for key, c in total.items() if c})
+        return e.like({(tuple(kept), w): c})
+
+    return map_terms(e, cancelled)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from ..algebra.calculus import gradient, substitute, without
+from ..algebra.calculus import gradient, substitute, terms_with, without
 from ..algebra.forms import strip_left
 from ..algebra.words import Expr, Letter, number, word
 from ..algebra.written import Notation, metrics
@@ -22,7 +22,7 @@ from .cartan import Cartan
 from .chapter import Chapter, Draft
 from .contraction import AND, CONTRACTION, Contraction, rate, steps_of, velocities
 from .exterior import Exterior, primed
-from .factored import at_constant_time, gathered, terms_with
+from .factored import at_constant_time, gathered
 from .supposed import told
 from .trivialisation import rates, trivial_images
 from .variation import Principle

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
-from ..algebra.calculus import gradient, reduce, substitute, without
+from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.groups import Group
 from ..algebra.words import Expr, Factor, Letter, inner, number, one, word
 from ..algebra.written import Notation
@@ -20,7 +20,6 @@ from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .factored import terms_with
 from .inverse import cancelling, inverse_letter
 from .supposed import told
 from .translation import Centred

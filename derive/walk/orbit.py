@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..algebra import forms
-from ..algebra.calculus import derivation, gradient, reduce, substitute, without
+from ..algebra.calculus import derivation, gradient, reduce, substitute, terms_with, without
 from ..algebra.words import Expr, Letter, inner, number, word
 from ..algebra.written import Notation, metrics
 from ..language.read import read
@@ -19,7 +19,6 @@ from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
-from .factored import terms_with
 from .lagrangian import Lagrangian
 from .pullback import Moments, sum_over
 from .supposed import told

@@ -11,16 +11,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 
+from ..algebra.calculus import map_terms
 from ..algebra.words import (
     Expr,
     Letter,
+    Traces,
     Word,
     expr_of_word,
     inner,
-    number,
     rotations,
     row_dim,
+    scalar_of,
     trace,
     transpose_word,
     word,
@@ -66,23 +69,18 @@ def sum_over(e: Expr, members: set[Letter], moments: Moments) -> Expr:
 
     ``ValueError`` for a product of two moments; ``KeyError`` for a moment that is not in the table.
     """
-    total = e.like({})
-    for (traces, _), c in e.terms.items():
-        term = number(c)
-        weights: list[Letter] = []
-        holders: list[Word] = []
-        for w in traces:
-            if len(w) == 1 and w[0][0] in members:
-                weights.append(w[0][0])
-            elif any(x in members for x, _ in w):
-                holders.append(w)
-            else:
-                term = term * Expr(1, 1, {((w,), ()): number(1).terms[(), ()]})
+
+    def summed(traces: Traces, _: Word, c: Fraction) -> Expr:
+        among = [w for w in traces if any(x in members for x, _ in w)]
+        weights = tuple(w[0][0] for w in among if len(w) == 1)
+        holders = [w for w in among if len(w) > 1]
         if len(holders) > 1:
             raise ValueError("a product of two moments is not a moment")
-        inside = _moment(tuple(weights), holders[0], members, moments) if holders else None
-        total = total + term * (moments[tuple(weights)] if inside is None else inside)
-    return total
+        common = scalar_of(tuple(w for w in traces if w not in among), c)
+        moment = _moment(weights, holders[0], members, moments) if holders else moments[weights]
+        return common * moment
+
+    return map_terms(e, summed)
 
 
 def _moment(weights: tuple[Letter, ...], w: Word, members: set[Letter], moments: Moments) -> Expr:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from ..algebra.calculus import gradient, reduce, substitute, without
+from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.groups import Group
 from ..algebra.words import Expr, Letter, inner, number, word
 from ..algebra.written import Notation
@@ -26,7 +26,7 @@ from .chapter import Chapter, Draft
 from .coadjoint import coadjoint_steps
 from .contraction import Contraction
 from .exterior import DOMEGA, Exterior, brackets_of
-from .factored import gathered, terms_with
+from .factored import gathered
 from .inputs import Given
 from .isometry import bracketed, resting
 from .kernel import balanced

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..algebra.calculus import gradient, reduce, substitute, without
+from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.words import Expr, Letter, inner, word
 from ..algebra.written import Notation
 from ..language.tree import Tree
@@ -66,7 +66,7 @@ def eliminate_translation(stage: Special, c: Chapter) -> Centred:
     remaining = substitute(without(stage.inertial, eta), {w_dot: -free})
     remaining = remaining - inner(stage.forces[xi], word(xi))
     remaining = tidy(substitute(remaining, {b.J: word(metric) + word(b.J) - value}))
-    inertial = remaining.like({k: x for k, x in remaining.terms.items() if _has(k, metric)})
+    inertial = terms_with(remaining, metric)
     force = gradient(inertial - remaining, xi)
     force = tidy(substitute(force, {b.c: word(b.m) * word(centre)}))
     solved = draft.tree(tidy(substitute(-free, from_centre)), notation)
@@ -85,7 +85,3 @@ def eliminate_translation(stage: Special, c: Chapter) -> Centred:
     rate = tidy(substitute(-free, {b.c: from_centre[b.c]}))
     left_over, pushed = draft.said(inertial), draft.said(force)
     return Centred(left_over, pushed, metric, solved, draft.said(rate), (step,))
-
-
-def _has(key: tuple[tuple[tuple[tuple[Letter, bool], ...], ...], object], x: Letter) -> bool:
-    return any(letter == x for cycle in key[0] for letter, _ in cycle)

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..algebra.calculus import gradient, reduce, substitute, without
+from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.space import antisymmetry, hat, normal_form
 from ..algebra.words import Expr, Letter, word
 from ..algebra.written import Notation, metrics, tree_of
@@ -241,7 +241,8 @@ def _kernel(balance: dict[Letter, Expr], b: Alphabet, c: Chapter) -> Step:
     inertial = {OMEGA_P: word(INERTIA) * word(ZETA_DOT)}
     equations = []
     for v, e in balance.items():
-        left = inertial[v] if not b.affine else _accelerations(e, b.w.acceleration)
+        moving = terms_with(e, ZETA_DOT, hat(ZETA_DOT), b.w.acceleration)
+        left = moving if b.affine else inertial[v]
         draft.read(e)
         equations.append(Equation(tree_of(left), vector_sum(left - e)))
     return draft.step(
@@ -251,12 +252,3 @@ def _kernel(balance: dict[Letter, Expr], b: Alphabet, c: Chapter) -> Step:
         else say("The same with the value of the momentum."),
         () if b.affine else (34,),
     )
-
-
-def _accelerations(e: Expr, w_dot: Letter) -> Expr:
-    terms = {
-        key: c
-        for key, c in e.terms.items()
-        if any(x in (ZETA_DOT, hat(ZETA_DOT), w_dot) for part in (*key[0], key[1]) for x, _ in part)
-    }
-    return e.like(terms)
