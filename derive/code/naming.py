@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sys
 import unicodedata
+from collections.abc import Sequence
+from fractions import Fraction
 
 from ..language.reserved import WORDS
 from ..language.tree import Tree
@@ -89,6 +91,23 @@ def suffixed(name: str, *index: int) -> str:
     """An entry: ``I_12``; indices above 9 are kept apart."""
     digits = "".join(map(str, index)) if max(index) < 10 else "_".join(map(str, index))
     return f"{name}_{digits}"
+
+
+def sum_name(coefficients: Sequence[Fraction], names: Sequence[str]) -> str:
+    """``a_plus_b``, ``a_minus_b``, ``a_minus_2_b``; empty where no such name would be true."""
+    terms = sorted(zip(coefficients, names, strict=True), key=lambda term: term[0] != 1)
+    if len(terms) != 2:
+        return ""
+    (first, a), (second, b) = terms
+    if first != 1 or second.denominator != 1 or (second != 1 and is_sum(b)):
+        return ""
+    times = "" if abs(second) == 1 else f"{abs(second)}_"
+    return f"{a}_{'plus' if second > 0 else 'minus'}_{times}{b}"
+
+
+def is_sum(name: str) -> bool:
+    """Would what stands before or behind a name be read as if it went with one term alone?"""
+    return "_plus_" in name or "_minus_" in name
 
 
 class Names:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from .graph import PARAMETER, Node
-from .naming import Names, suffixed
+from .naming import Names, is_sum, suffixed, sum_name
 from .program import Assignment, Check, Expression, Function, Load, Section
 
 Source = tuple[str, int]
@@ -129,14 +129,15 @@ class _Builder:
         if x.op == "value":
             return x.graph.titles[x][0]
         parts = [self._short(a) for a in x.args]
-        if x.op == "abs" and parts[0]:
-            return f"size_{parts[0]}"
-        if x.op in ("mul", "recip") and all(parts) and len(parts) <= 3:
-            return ("inv_" if x.op == "recip" else "") + "_".join(parts)
-        if x.op == "add" and all(parts) and len(parts) == 2:
-            signs = ["minus" if c < 0 else "plus" for c in x.data]
-            return f"{parts[0]}_{signs[1]}_{parts[1]}"
-        return suffixed("part", len(self.statements) + 1)
+        if not all(parts) or (x.op != "add" and any(map(is_sum, parts))):
+            found = ""
+        elif x.op == "abs":
+            found = f"size_{parts[0]}"
+        elif x.op in ("mul", "recip") and len(parts) <= 3:
+            found = ("inv_" if x.op == "recip" else "") + "_".join(parts)
+        else:
+            found = sum_name(x.data, parts) if x.op == "add" else ""
+        return found or suffixed("part", len(self.statements) + 1)
 
     def _short(self, x: Node) -> str:
         if x in self.inputs:
