@@ -14,10 +14,12 @@ from ..language.refused import Refused
 from ..language.templating import environment
 from ..record.record import Derivation
 from .apart import apart, hollow, identifiers
+from .heading import heading
 from .languages import LANGUAGES, Language
 from .naming import PREFIXES
 from .options import Options
 from .program import TOLERANCE, Program
+from .signatures import functions
 from .statements import Statements, comment
 
 
@@ -107,7 +109,9 @@ def _fields(
         sizes["axes"] = sum(n + n * n for n, _ in p.framing.matrices)
         sizes["frame"] = len(p.framing.numbers.outputs)
     written = Statements(language, real, sizes)
-    functions = {name: written.function(f) for name, f in p.functions.items()}
+    parameters = [_parameter(x) for x in p.parameters]
+    known = functions(p, written)
+    cost = {name: f["operations"] for name, f in known.items()}
     return {
         "prefix": prefix,
         "guard": prefix.upper() + "_H",
@@ -123,17 +127,15 @@ def _fields(
         "inputs": p.inputs,
         "constants": p.constants,
         "dimension": p.dimension,
-        "parameters": [_parameter(x) for x in p.parameters],
+        "parameters": parameters,
         "parameter_names": [x[0] for x in p.parameters],
         "defaults": [(x[0], repr(x[1])) for x in p.parameters if x[1] is not None],
         "turning": p.turning,
         "affine": p.translates,
         "basis": _basis(p),
-        "basis_lines": _basis_lines(p),
-        "functions": functions,
-        "jacobians": {x: f for x, f in functions.items() if x.startswith("jacobian")},
+        "heading": heading(p, language, parameters, cost),
+        "functions": known,
         "framing": _framing(p, written, sizes),
-        "carrying": [x for x in functions if x.endswith("_frame")],
         "asks_for_zero": p.asks_for_zero,
         "calls": sorted({x for f in p.all_functions() for x in f.calls()}),
         "tolerance": printer.number(Fraction(TOLERANCE[real])),
@@ -170,17 +172,3 @@ def _basis(p: Program) -> list[list[list[str]]]:
         return str(int(x)) if x.denominator == 1 else f"{x.numerator}/{x.denominator}"
 
     return [[[text(x) for x in row] for row in e] for e in p.basis]
-
-
-def _basis_lines(p: Program) -> list[str]:
-    """E_1, E_2, … in one line each: the entries that are not zero, counted from 1."""
-    lines = []
-    for a, e in enumerate(p.basis, 1):
-        entries = [
-            f"{'+' if x > 0 else '-'}{'' if abs(x) == 1 else str(abs(x)) + ' '}e_{i}{j}"
-            for i, row in enumerate(e, 1)
-            for j, x in enumerate(row, 1)
-            if x
-        ]
-        lines.append(f"E_{a} = {' '.join(entries)}")
-    return lines

@@ -18,6 +18,7 @@ class Language:
     ``declare``: a constant, of ``{real}``, ``{name}`` and ``{text}``; ``load`` reads entry
     ``{index}`` (counted from ``first``) of an array; ``batch`` the same of state s of n.
     ``parenthesised``: a statement of several lines needs parentheses.
+    ``mutates``: how the name of a function ends that writes what it is given.
     ``needs``: a language whose files these ones include.  ``framed``: are there templates of
     what finds a principal frame?
     """
@@ -32,6 +33,7 @@ class Language:
     batch: str = ""
     first: int = 0
     parenthesised: bool = False
+    mutates: str = ""
     needs: str = ""
     framed: bool = False
 
@@ -122,6 +124,7 @@ LANGUAGES: dict[str, Language] = {
         {"double": "Float64", "float": "Float32"},
         first=1,
         parenthesised=True,
+        mutates="!",
     ),
     "javascript": Language(
         "javascript",

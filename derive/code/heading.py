@@ -1,0 +1,58 @@
+"""What the comment at the head of a file says of its program, line by line."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping, Sequence
+
+from .languages import Language
+from .program import Program
+
+BASIS = "State x and the basis E_a of the Lie algebra (e_ij: a single 1 in row i, column j):"
+
+
+def heading(
+    p: Program, language: Language, parameters: Sequence[Mapping[str, str]], cost: Mapping[str, str]
+) -> list[str]:
+    """Conventions, state, basis, parameters, inputs and cost; empty lines between them.
+
+    ``cost``: function → its operations.
+    """
+    none = "" if p.parameters else " none, every number is in the code."
+    return [
+        *p.conventions,
+        "",
+        BASIS,
+        *listed("  x = (", p.state, ")", 88),
+        *(f"  {line}" for line in basis_lines(p)),
+        "",
+        f"Parameters p:{none}",
+        *(
+            f"  p[{i}] {x['name']}" + (f": {x['text']}" if x["text"] else "")
+            for i, x in enumerate(parameters, language.first)
+        ),
+        *(["", *listed("Input u = (", p.inputs, ").", 84)] if p.inputs else ()),
+        "",
+        f"Operations: constants {cost['constants']}{', besides the frame' if p.framing else ''};",
+        f"            rhs{language.mutates} {cost['rhs']}; energy {cost['energy']}.",
+    ]
+
+
+def listed(before: str, names: Sequence[str], after: str, width: int) -> list[str]:
+    """Names with commas, in lines below each other."""
+    lines = textwrap.wrap(", ".join(names), width, break_long_words=False)
+    return (before + f"\n{' ' * len(before)}".join(lines) + after).split("\n")
+
+
+def basis_lines(p: Program) -> list[str]:
+    """E_1, E_2, … in one line each: the entries that are not zero, counted from 1."""
+    lines = []
+    for a, e in enumerate(p.basis, 1):
+        entries = [
+            f"{'+' if x > 0 else '-'}{'' if abs(x) == 1 else str(abs(x)) + ' '}e_{i}{j}"
+            for i, row in enumerate(e, 1)
+            for j, x in enumerate(row, 1)
+            if x
+        ]
+        lines.append(f"E_{a} = {' '.join(entries)}")
+    return lines

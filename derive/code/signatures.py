@@ -1,0 +1,125 @@
+"""The functions of an emitted program as data: what each takes and writes, and what it gives.
+
+Every language loops over them.  Arrays are x, the state; k, the constants; p, the parameters; u,
+the inputs; dx, the rates; D, a matrix by rows: 2N × 2N, or with a column for each input or
+parameter, N the dimension of the group; out, of the size of what is taken.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import prod
+from typing import Any
+
+from .program import Program
+from .statements import Statements
+
+
+@dataclass(frozen=True)
+class Argument:
+    """An array of as many numbers as its sizes multiply to, or without any a number: ``t``, the
+    time, or ``n``, a count."""
+
+    name: str
+    sizes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Signature:
+    """A function that writes arrays, or returns a number where it writes none.
+
+    ``doc``: what it gives, as a part of a sentence.  ``in_place``: may what is written be what is
+    read?  ``of``: the function of the program, where that has another name;
+    ``only``: the language that has it, empty for all.
+    """
+
+    name: str
+    takes: tuple[Argument, ...]
+    writes: tuple[Argument, ...] = ()
+    doc: str = ""
+    in_place: bool = False
+    of: str = ""
+    only: str = ""
+
+
+T, COUNT, DX = Argument("t"), Argument("n"), Argument("dx", ("STATE",))
+X, K, P, U = (
+    Argument(name, (size,))
+    for name, size in zip("xkpu", ("STATE", "CONSTANTS", "PARAMETERS", "INPUTS"), strict=True)
+)
+OUT, INPUTS_OUT = Argument("out", ("STATE",)), Argument("out", ("INPUTS",))
+
+
+def _matrix(*columns: str) -> Argument:
+    return Argument("D", ("2", "ALGEBRA", *columns))
+
+
+GIVEN, PRINCIPAL = "the frame of the parameters", "the principal frame that k holds"
+THERE, BACK = f"taken from {GIVEN} to {PRINCIPAL}", f"taken from {PRINCIPAL} to {GIVEN}"
+SIGNATURES = (
+    Signature("constants", (P,), (K,), "all that depends on the parameters alone"),
+    Signature("rhs", (T, X, K, U), (DX,), "dx/dt at time t"),
+    Signature(
+        "rhs_batch", (COUNT, T, X, K, U), (DX,), "the same for n states at once", False, "rhs", "c"
+    ),
+    Signature("energy", (T, X, K), doc="kinetic plus potential energy"),
+    Signature(
+        "project", (X,), (OUT,), "the state x taken back to the group by one Newton step", True
+    ),
+    Signature(
+        "defect",
+        (X,),
+        doc="how far x is off the group: the sum of the sizes of what its relations leave, "
+        "0 on the group",
+    ),
+    Signature("into_frame", (X, K), (OUT,), f"the state x {THERE}"),
+    Signature("out_of_frame", (X, K), (OUT,), f"the state x {BACK}"),
+    Signature("inputs_into_frame", (U, K), (INPUTS_OUT,), f"the inputs u {THERE}"),
+    Signature("inputs_out_of_frame", (U, K), (INPUTS_OUT,), f"the inputs u {BACK}"),
+    Signature("jacobian", (T, X, K, U), (DX, _matrix("2", "ALGEBRA")), "dx/dt, and D"),
+    Signature("jacobian_inputs", (T, X, K, U), (_matrix("INPUTS"),), "its derivative by u"),
+    Signature("jacobian_parameters", (T, X, P, U), (_matrix("PARAMETERS"),), "that by p"),
+    Signature(
+        "inertia",
+        (P,),
+        (Argument("I", ("6",)),),
+        "the tensor of inertia about the body's origin",
+        only="python",
+    ),
+)
+"""In the order of the files; a program has some of them: derivatives and frames are asked for."""
+
+
+def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
+    """Name → signature and statements, of the functions that a program has in a language.
+
+    ``counts``: how many numbers each array that is written has; ``stores``: the array, the index
+    (from 0), the text and the title of each number.
+    """
+    sizes = {
+        "STATE": len(p.state),
+        "CONSTANTS": len(p.constants),
+        "PARAMETERS": len(p.parameters),
+        "INPUTS": len(p.inputs),
+        "ALGEBRA": p.dimension,
+        "2": 2,
+        "6": 6,
+    }
+    bodies = {name: written.function(f) for name, f in p.functions.items()}
+    found = {s: bodies.get(s.of or s.name) for s in SIGNATURES}
+    own = ("", written.language.name)
+    return {s.name: _function(s, f, sizes) for s, f in found.items() if f and s.only in own}
+
+
+def _function(s: Signature, body: Mapping[str, Any], sizes: Mapping[str, int]) -> dict[str, Any]:
+    counts = {a.name: prod(sizes[x] for x in a.sizes) for a in s.writes}
+    places = [(a, i) for a, count in counts.items() for i in range(count)]
+    texts = zip(places, body["outputs"], body["titles"], strict=True) if places else ()
+    return {
+        **vars(s),
+        **body,
+        "given": "".join(a.name for a in s.takes),
+        "counts": counts,
+        "stores": [{"array": a, "index": i, "text": x, "title": t} for (a, i), x, t in texts],
+    }
