@@ -24,7 +24,7 @@ def emission(emit: argparse.ArgumentParser) -> None:
     emit.add_argument("--lang", action="append", choices=LANGUAGES, metavar="LANG", help=lang)
     for name, (values, meaning) in CHOICES.items():
         about = f"{meaning} (default: {values[0]})"
-        emit.add_argument(f"--{name}", choices=values, default=values[0], help=about)
+        emit.add_argument(f"--{name}", choices=values, help=about)
     about = "also the linearised equations, in the state, the inputs or the parameters; repeated"
     emit.add_argument("--jacobian", action="append", choices=JACOBIANS, help=about)
 
@@ -127,7 +127,8 @@ def writing(emit: argparse.ArgumentParser) -> None:
     """Where code goes, and what is done in place of writing it."""
     emit.add_argument("--out", metavar="DIR", help="default: the current directory")
     emit.add_argument("--prefix", metavar="NAME", help="default: the problem's name")
-    current = "write nothing; exit 1 if a file on disk is not what would be written"
+    current = "write nothing; exit 1 if a file on disk is not what would be written, "
+    current += "with the options that it states where none are given"
     emit.add_argument("--check", action="store_true", help=current)
     names = "print the names of the files, a line each, and write nothing (for builds)"
     emit.add_argument("--names", action="store_true", help=names)

@@ -143,36 +143,24 @@ def notation(args: argparse.Namespace) -> dict[str, str]:
 
 def command_emit(args: argparse.Namespace) -> int:
     """Write the numeric code of a problem."""
-    from ..code.emit import emit, included, planned
-    from ..code.options import CHOICES, Options
-    from ..pipeline import program
-    from .writing import stale, there, write
+    from ..code.emit import planned
+    from .emitting import checked, languages, made, options, validated, wanted
+    from .writing import write
 
-    languages = tuple(dict.fromkeys(args.lang or ("c", "python")))
     if args.names:
         prefix = args.prefix  # with one, the problem need not be there
         if prefix is None:
             prefix = load_problem(args.problem, **allowed(args)).name
-        print(*planned(languages, prefix, args.form), sep="\n")
+        print(*planned(languages(args), prefix, options(args).form), sep="\n")
         return 0
-    problem, record = derive(args.problem, **allowed(args))
-    chosen = {name: getattr(args, name) for name in CHOICES}
-    options = Options(**chosen, jacobian=tuple(dict.fromkeys(args.jacobian or ())))
-    compiled = program(problem, record, options)
-    prefix = problem.name if args.prefix is None else args.prefix
-    files, folder = emit(compiled, record, languages, prefix, options), Path(args.out or ".")
-    old = stale(files, folder, included(languages)) if args.check else {}
-    for path, how in old.items():
-        print(f"{path}: {how}")
-    if args.validate:
-        from .validation import validated
-
-        kept = {x: there(folder / x) for x in files} if args.check else files
-        if not validated(kept, files, record, compiled, prefix, options):
-            return 1  # and nothing is written
     if args.check:
-        return 1 if old else 0
-    for path in write(files, folder):
+        return checked(args, lambda **more: derive(args.problem, **allowed(args) | more))
+    problem, record = derive(args.problem, **allowed(args))
+    asked = wanted(args, problem)
+    compiled, files = made(problem, record, asked)
+    if args.validate and not validated(files, files, record, compiled, asked):
+        return 1  # and nothing is written
+    for path in write(files, Path(args.out or ".")):
         print(path)
     return 0
 
@@ -212,12 +200,11 @@ def _tried(v: Verdict) -> str:
 def command_paper(args: argparse.Namespace) -> int:
     """The paper's numbered equations against the derivation."""
     from ..paper import findings as paper
-    from ..paper.printed import PAPER
     from ..views.language import language
     from ..views.paper import as_json, as_text
 
     records = [derive(name)[1] for name in paper.PROBLEMS]
-    findings = list(counted(paper.findings(records), len(PAPER), "equations"))
+    findings = list(counted(paper.findings(records), len(paper.PAPER), "equations"))
     shown = as_json(findings) if args.format == "json" else as_text(findings, language(args.lang))
     save(shown, args.out, args.format)
     return 0

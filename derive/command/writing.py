@@ -86,20 +86,22 @@ def inside(path: Path, folder: Path) -> bool:
 REMEDY = "run the same command without --check"
 
 
-def stale(files: Mapping[str, str], out: Path, foreign: Iterable[str] = ()) -> dict[Path, str]:
+def stale(
+    files: Mapping[str, str], out: Path, foreign: Iterable[str] = (), remedy: str = REMEDY
+) -> dict[Path, str]:
     """The files of a folder that are not these, and how; ``OSError`` for unreadable ones.
 
-    ``foreign``: names of files that must not be beside them.
+    ``foreign``: names of files that must not be beside them; ``remedy``: what makes them.
     """
     found = {}
     for name, text in files.items():
         path, wanted = out / name, text.encode("utf-8")
         if not path.is_file():
-            found[path] = f"missing; {REMEDY}"
+            found[path] = f"missing; {remedy}"
         elif (old := path.read_bytes()) != wanted:
             lines = zip_longest(old.split(b"\n"), wanted.split(b"\n"))
             first = next(k for k, (a, b) in enumerate(lines, 1) if a != b)
-            found[path] = f"not current from line {first} on; {REMEDY}"
+            found[path] = f"not current from line {first} on; {remedy}"
     for path in (out / x for x in foreign):
         if path.exists():
             found[path] = "would be read in place of the compiler's own; remove it"

@@ -178,14 +178,15 @@ class Derived:
 
         ``choices``: those of :class:`derive.code.options.Options`, as ``real="float"``.
         """
-        from ..code.emit import emit
         from ..code.options import Options
+        from ..code.recorded import Emission
+        from ..command.emission import allowances, made
         from ..command.writing import write
-        from ..pipeline import program
 
-        options = Options(**choices)
-        made = program(self.problem, self.record, options)
-        files = emit(made, self.record, tuple(languages), prefix or self.problem.name, options)
+        own = self.problem
+        allowed, options = allowances(own), Options(**choices)
+        asked = Emission(own.name, prefix or own.name, tuple(languages), options, allowed)
+        files = made(own, self.record, asked)[1]
         if out is not None:
             write(files, Path(out))
         return files

@@ -1,0 +1,148 @@
+"""``derive emit``: what is asked for, and the files of an emission read back.
+
+``--check`` compares the files of a folder with what they say that they were made by; ``--validate``
+holds what can be read back against the record.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shlex
+import sys
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from ..code.emit import emit, included, planned
+from ..code.languages import LANGUAGES
+from ..code.options import CHOICES, Options
+from ..code.program import Program
+from ..code.recorded import Emission, emission_of
+from ..pipeline import program
+from ..problem.forces import negative_stiffness_of
+from ..problem.problem import Problem
+from ..record.record import Derivation
+from .writing import REMEDY, stale, there
+
+HEAD = 10_000
+"""In so many characters a file says what it was made by."""
+
+
+def languages(args: argparse.Namespace) -> tuple[str, ...]:
+    """Those that are asked for."""
+    return tuple(dict.fromkeys(args.lang or ("c", "python")))
+
+
+def options(args: argparse.Namespace, others: Options | None = None) -> Options:
+    """Those that are given; the rest as in others, or by default."""
+    given = {name: getattr(args, name) for name in CHOICES if getattr(args, name) is not None}
+    if args.jacobian:
+        given["jacobian"] = tuple(dict.fromkeys(args.jacobian))
+    return replace(others or Options(), **given)
+
+
+def allowances(p: Problem) -> tuple[str, ...]:
+    """What may be negative in a problem, as the flags of the command line call it."""
+    stiffness = negative_stiffness_of(p.potentials, p.damping, p.parameters)
+    return ("mass",) * p.signed + ("stiffness",) * bool(stiffness)
+
+
+def wanted(args: argparse.Namespace, p: Problem) -> Emission:
+    """The emission that a command asks for."""
+    prefix = p.name if args.prefix is None else args.prefix
+    return Emission(p.name, prefix, languages(args), options(args), allowances(p))
+
+
+def made(p: Problem, record: Derivation, e: Emission) -> tuple[Program, dict[str, str]]:
+    """The program of an emission, and its files by name."""
+    compiled = program(p, record, e.options)
+    return compiled, emit(compiled, record, e.languages, e.prefix, e.options, e.allowed)
+
+
+def checked(args: argparse.Namespace, derive: Callable[..., tuple[Problem, Derivation]]) -> int:
+    """0 where the files of a folder are what is emitted now, 1 where they are not, and how.
+
+    What a file states holds but for what the command says.  ``derive``: the problem, with what may
+    be negative in it.
+    """
+    folder = Path(args.out or ".")
+    stated = statements(folder)
+    p, record = derive(**{f"negative_{x}": True for e in stated.values() for x in e.allowed})
+    own = {
+        file: e
+        for file, e in stated.items()
+        if e.problem == p.name and args.prefix in (None, e.prefix)
+    }
+    right = True
+    for e, now in emissions(args, p, own.values()):
+        compiled, files = made(p, record, now)
+        chosen = planned(args.lang or now.languages, now.prefix, now.options.form)
+        files = {x: text for x, text in files.items() if x in chosen and own.get(x, e) == e}
+        command = ["derive", "emit", args.problem, "--out", str(folder)]
+        full = f"run: {shlex.join(command)} {' '.join(now.words)}"
+        remedy = REMEDY if now == wanted(args, p) else full
+        old = stale(files, folder, included(now.languages), remedy)
+        for path, how in old.items():
+            print(f"{path}: {how}")
+        right = right and not old
+        if args.validate:
+            kept = {x: there(folder / x) for x in files}
+            right = validated(kept, files, record, compiled, now) and right
+    return 0 if right else 1
+
+
+def statements(folder: Path) -> dict[str, Emission]:
+    """What the emitted files of a folder say that they were made by."""
+    ends = {
+        x.rpartition(":")[2] for y in LANGUAGES.values() for form in y.files.values() for x in form
+    }
+    found = {}
+    for path in sorted(folder.iterdir() if folder.is_dir() else ()):
+        if path.is_file() and path.name.endswith(tuple(ends)):
+            with path.open(encoding="utf-8", errors="replace") as file:
+                e = emission_of(file.read(HEAD))
+            if e is not None:
+                found[path.name] = e
+    return found
+
+
+def emissions(
+    args: argparse.Namespace, p: Problem, stated: Collection[Emission]
+) -> Iterator[tuple[Emission, Emission]]:
+    """Each emission that files state, and what it is now; then what no file states."""
+    known = [*dict.fromkeys(stated)]
+    for e in known:
+        if not args.lang or {*args.lang} & {*e.languages}:
+            yield e, replace(e, options=options(args, e.options), allowed=allowances(p))
+    left = [x for x in languages(args) if not any(x in e.languages for e in known)]
+    if left and (args.lang or not known):
+        base = known[0].options if known else None
+        prefix = args.prefix or (known[0].prefix if known else p.name)
+        new = Emission(p.name, prefix, tuple(left), options(args, base), allowances(p))
+        yield new, new
+
+
+def validated(
+    files: Mapping[str, str],
+    fresh: Mapping[str, str],
+    d: Derivation,
+    program: Program,
+    e: Emission,
+) -> bool:
+    """Do the files that can be read back equal the record?  A line on stderr for each of them.
+
+    ``fresh``: what is emitted now.  False as well where none of the files can be read back.
+    ``MissingParserError`` when there is C among them and no parser of it.
+    """
+    from ..validate import emission
+    from ..validate.chart import Chart
+
+    chart = Chart(e.options.layout, e.options.attitude, e.options.velocity)
+    given = e.options.frame == "given"
+    reports = emission.Emission(files, e.prefix, chart, program.numbers(), given, fresh).reports(d)
+    for report in reports:
+        print(f"{', '.join(report.files)}: {report.text}", file=sys.stderr)
+    if not any(report.read for report in reports):
+        print("derive: nothing of this can be validated", file=sys.stderr)
+        return False
+    return all(report.holds for report in reports)

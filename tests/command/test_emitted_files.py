@@ -1,0 +1,167 @@
+"""Emitted files say what they were made by, and --check asks for nothing more."""
+
+import itertools
+import re
+
+import pytest
+
+from derive import SE, Gravity, Points, Problem, derive
+from derive.code.options import CHOICES, JACOBIANS, Options
+from derive.code.recorded import Emission, emission_of
+from derive.command.cli import main
+
+LANGUAGES = ("c", "cpp", "cvode", "python", "rust", "julia", "javascript")
+NEGATIVE = """
+name = "bubble"
+group = "SE(3)"
+[[point]]
+mass = 3
+at = [1, 0, 0]
+[[point]]
+mass = 2
+at = [0, 1, 1]
+[[point]]
+mass = 2
+at = [0, 0, -1]
+[[point]]
+mass = "-1/2"
+at = [0, 0, 1]
+[[potential]]
+kind = "spring"
+at = [1, 0, 0]
+anchor = [0, 0, 0]
+stiffness = -2
+length = 0
+"""
+ASKED = (
+    [],
+    ["--lang", "c"],
+    ["--lang", "rust", "--real", "float"],
+    ["--lang", "c", "--form", "header", "--lang", "cpp", "--prefix", "boat"],
+    ["--lang", "julia", "--attitude", "quaternion", "--jacobian", "state"],
+    ["--velocity", "tangent", "--layout", "col", "--jacobian", "state", "--jacobian", "parameters"],
+    ["--lang", "cvode", "--frame", "principal", "--lang", "python", "--jacobian", "inputs"],
+)
+
+
+def emitted(folder, *words):
+    assert main(["emit", "so3", "--out", str(folder), *words]) == 0
+
+
+def check(folder, *words, problem="so3"):
+    return main(["emit", problem, "--check", "--out", str(folder), *words])
+
+
+@pytest.mark.parametrize("asked", ASKED, ids=" ".join)
+def test_a_check_needs_no_options(asked, tmp_path):
+    emitted(tmp_path, *asked)
+    assert check(tmp_path) == check(tmp_path, *asked) == 0
+
+
+@pytest.mark.parametrize("asked", ASKED[1:], ids=" ".join)
+def test_an_option_that_is_given_is_compared(asked, tmp_path, capsys):
+    emitted(tmp_path, *asked)
+    other = ["--real", "double" if "float" in asked else "float"]
+    assert check(tmp_path, *other) == 1
+    said = capsys.readouterr().out
+    assert "not current" in said
+    assert " ".join(other) in said
+
+
+def test_the_remedy_that_is_said_helps(tmp_path, capsys):
+    emitted(tmp_path, *ASKED[5])
+    header = tmp_path / "so3.h"
+    header.write_text(header.read_text().replace("enum {", "enum  {"))
+    capsys.readouterr()
+    assert check(tmp_path) == 1
+    command = re.search(r"run: derive (.*)", capsys.readouterr().out)[1]
+    assert main(command.split()) == check(tmp_path) == 0
+
+
+def test_files_of_several_emissions_are_each_held_to_their_own(tmp_path, capsys):
+    emitted(tmp_path, "--lang", "c", "--jacobian", "state")
+    emitted(tmp_path, "--lang", "rust", "--real", "float")
+    emitted(tmp_path, "--lang", "python", "--prefix", "other", "--velocity", "tangent")
+    assert check(tmp_path) == 0
+    for name in ("so3.c", "so3.rs", "other.py"):
+        path, text = tmp_path / name, (tmp_path / name).read_text()
+        path.write_text(text + " ")
+        capsys.readouterr()
+        assert check(tmp_path) == 1
+        assert capsys.readouterr().out.count("\n") == 1
+        path.write_text(text)
+
+
+@pytest.mark.parametrize("name", ["so3.h", "so3.c", "so3.py"])
+def test_what_is_missing_is_missed(name, tmp_path, capsys):
+    emitted(tmp_path, "--jacobian", "state")
+    (tmp_path / name).unlink()
+    assert check(tmp_path) == 1
+    assert f"{name}: missing" in capsys.readouterr().out
+
+
+def test_a_language_that_is_asked_for_is_missed(tmp_path, capsys):
+    emitted(tmp_path, "--jacobian", "state")
+    assert check(tmp_path, "--lang", "c") == 0
+    assert check(tmp_path, "--lang", "rust") == 1
+    assert "so3.rs: missing" in capsys.readouterr().out
+    assert check(tmp_path, "--prefix", "boat") == 1
+
+
+def test_a_check_of_an_empty_folder(tmp_path, capsys):
+    assert check(tmp_path / "none") == 1
+    assert capsys.readouterr().out.count("missing") == 3
+
+
+def test_other_problems_of_a_folder_are_left_alone(tmp_path):
+    emitted(tmp_path, "--jacobian", "state")
+    assert main(["emit", "screw", "--out", str(tmp_path), "--real", "float"]) == 0
+    (tmp_path / "screw.c").write_text("")
+    assert check(tmp_path) == 0
+    assert check(tmp_path, problem="screw") == 1
+
+
+def test_what_may_be_negative_is_stated(tmp_path):
+    file = tmp_path / "bubble.toml"
+    file.write_text(NEGATIVE)
+    allowed = ["--allow-negative-mass", "--allow-negative-stiffness"]
+    assert main(["emit", str(file), "--out", str(tmp_path), *allowed]) == 0
+    assert emission_of((tmp_path / "bubble.h").read_text()).allowed == ("mass", "stiffness")
+    assert check(tmp_path, problem=str(file)) == 0
+
+
+def test_python_states_the_same(tmp_path):
+    emitted(tmp_path, "--real", "float", "--jacobian", "state")
+    made = derive("so3").emit(None, real="float", jacobian="state")
+    assert made == {x: (tmp_path / x).read_text() for x in made}
+
+
+@pytest.mark.parametrize("values", [*itertools.product(*(x[0] for x in CHOICES.values()))])
+def test_what_is_stated_is_read_back(values):
+    for jacobian in ((), JACOBIANS):
+        for allowed in ((), ("mass",), ("mass", "stiffness")):
+            options = Options(**dict(zip(CHOICES, values, strict=True)), jacobian=jacobian)
+            e = Emission("boat", "a_long_prefix", LANGUAGES, options, allowed)
+            lines = ["Generated by derive 1 from problem 2; do not edit.", *e.stated, "", "A is 3"]
+            assert max(map(len, lines)) < 96
+            for mark in ("", " * ", "// ", "# "):
+                text = "\n".join(mark + x for x in ["/* Options: so3 --lang c", *lines])
+                assert emission_of(text) == e
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("--real double", "--real half"), ("--lang c", "--lang d"), ("--form", "--x")]
+)
+def test_what_is_no_statement_is_none(old, new):
+    e = Emission("boat", "boat", ("c",))
+    text = "\n".join(["Generated; do not edit.", *e.stated])
+    assert emission_of(text) == e
+    assert emission_of(text.replace(old, new)) is None
+
+
+def test_a_title_states_nothing(tmp_path):
+    """It stands before the statement, in a line of its own."""
+    title = "; do not edit. Options: so3 --lang c --prefix x --real float"
+    points = Points(*[(1, x) for x in ([1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1])])
+    files = derive(Problem("boat", SE(3), points, [Gravity(0, 0, -1)], title=title)).emit()
+    assert {emission_of(x).prefix for x in files.values()} == {"boat"}
