@@ -21,6 +21,7 @@ from .options import Options
 from .principal_axes import inertia, turning
 from .principal_frame import Frame
 from .program import Framing, Function, LoweringError, Program
+from .reader import Reader
 from .schedule import Scheduler, frontier
 from .titles import titles
 
@@ -49,17 +50,17 @@ def assemble(
     chosen = options or Options()
     _refused(d, group, chosen)
     lowering = Lowering(framed or d, group, chosen)
-    if "inputs" in chosen.jacobian and not lowering.inputs:
+    if "inputs" in chosen.jacobian and not lowering.reader.inputs:
         raise LoweringError(f"{d.name}: there are no inputs to linearise in")
     frame = None
     if framed:
-        old = Lowering(d, group, chosen, lowering.graph)
+        old = Lowering(d, group, chosen, lowering.graph).reader
         frame = Frame(framed.problem["frame"], old, chosen.attitude == "quaternion")
     wanted = _outputs(lowering, chosen)
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
-        wanted |= _inertia(frame.old) | carrying(frame, lowering)
-    checks = [(x, size) for x, size in lowering.checks if x.op != "num" or x.data <= 0]
+        wanted |= _inertia(frame.old) | carrying(frame, lowering.reader)
+    checks = [(x, size) for x, size in lowering.inverses.checks if x.op != "num" or x.data <= 0]
     checks += frame.regular if frame else []
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
     parameters = _used_parameters(d, found)
@@ -73,11 +74,11 @@ def assemble(
         group.dimension,
         (
             *conventions(group, d.problem, chosen, framed.problem["frame"] if framed else None),
-            *(LOCAL if lowering.local else ()),
+            *(LOCAL if lowering.inverses.local else ()),
         ),
-        tuple(lowering.space.names),
+        tuple(lowering.reader.space.names),
         tuple(_parameter(d, name) for name in parameters),
-        tuple(lowering.inputs),
+        tuple(lowering.reader.inputs),
         tuple(constants),
         group.stated.basis,
         functions,
@@ -97,29 +98,32 @@ def _functions(
 ) -> tuple[dict[str, Function], list[str], Framing | None]:
     """The functions, the names of the constants, and how the frame is found."""
     names = Names()
-    state, inputs = lowering.space.names, lowering.inputs
+    space, inputs = lowering.reader.space, lowering.reader.inputs
+    state = space.names
     for kind, members in (("state", state), ("input", inputs)):
         for name in members:
             names.claim(name, f"{kind} {name}")
     scheduler = Scheduler(names, _equations(lowering.record) | TEXTS)
     fixed = frontier(x for name in wanted if name != "inertia" for x in wanted[name])
-    leaves = [lowering.leaf(x, "parameter") for x in parameters]
+    leaves = [lowering.reader.leaf(x, "parameter") for x in parameters]
     given = _leaf_places(names, leaves, "p")
     numbers = _frame_places(frame, names, [*fixed, *_several(checks)]) if frame else {}
     functions = {"constants": scheduler.function(fixed, given | numbers, checks)}
     constants = [_constant_name(names, x, i) for i, x in enumerate(fixed)]
-    moving = _places(lowering, names, state, inputs)
+    moving = _places(lowering.reader, names, state, inputs)
     kept = {x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))}
     for name, nodes in wanted.items():
         places = given if name == "inertia" else moving | kept
         functions[name] = scheduler.function(nodes, places)
-    functions["rhs"] = replace(functions["rhs"], titles=titles(lowering))
+    functions["rhs"] = replace(functions["rhs"], titles=titles(lowering.reader))
     if "parameters" in options.jacobian:
-        slopes = by_leaves(lowering.space, lowering.space.velocity(lowering.component), leaves)
+        slopes = by_leaves(
+            lowering.reader.space, lowering.reader.space.velocity(lowering.reader.component), leaves
+        )
         slopes = factored(lowering.graph, slopes)
         functions["jacobian_parameters"] = scheduler.function(slopes, moving | given)
     framing = _framing(frame, scheduler, given, numbers) if frame else None
-    for name, nodes in drift(lowering.space).items():
+    for name, nodes in drift(space).items():
         functions[name] = scheduler.function(nodes, moving)
     return functions, constants, framing
 
@@ -152,8 +156,8 @@ def _refused(d: Derivation, group: Group, chosen: Options) -> None:
         )
 
 
-def _inertia(lowering: Lowering) -> dict[str, list[Node]]:
-    tensor = inertia(lowering)
+def _inertia(reader: Reader) -> dict[str, list[Node]]:
+    tensor = inertia(reader)
     return {"inertia": tensor} if tensor else {}
 
 
@@ -191,22 +195,20 @@ def _several(groups: Iterable[Iterable[Node | None]]) -> list[Node]:
 
 def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
     """What each function of the state, or of the parameters, computes, by its name."""
-    space, graph = lowering.space, lowering.graph
+    reader, graph = lowering.reader, lowering.graph
+    space = reader.space
     try:
-        rates = space.rates(lowering.name, lowering.component, in_space=lowering.in_space)  # type: ignore[arg-type]
-        lowering.require_regular()
-        energy = lowering.name("h̃")
-        tensor = _inertia(lowering)
-        if not isinstance(energy, Node):
-            raise LoweringError("the energy is not a number")
+        rates = space.rates(reader.vector, reader.component, in_space=reader.in_space)
+        lowering.inverses.require_regular()
+        energy, tensor = reader.number("h̃"), _inertia(reader)
         *rates, energy = factored(graph, [*rates, energy])
         found = {"rhs": rates, "energy": [energy]}
-        second = space.velocity(lowering.component) if options.jacobian else []
+        second = space.velocity(reader.component) if options.jacobian else []
         if "state" in options.jacobian:
             # after the rates, with which it shares much
             found["jacobian"] = factored(graph, [*rates, *by_state(space, second)])
         if "inputs" in options.jacobian:
-            leaves = [lowering.leaf(x, "input") for x in lowering.inputs]
+            leaves = [reader.leaf(x, "input") for x in reader.inputs]
             found["jacobian_inputs"] = factored(graph, by_leaves(space, second, leaves))
     except ZeroDivisionError:
         raise LoweringError(
@@ -216,14 +218,12 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
     return found | tensor
 
 
-def _places(
-    lowering: Lowering, names: Names, state: list[str], inputs: list[str]
-) -> dict[Node, Place]:
+def _places(reader: Reader, names: Names, state: list[str], inputs: list[str]) -> dict[Node, Place]:
     """Where what changes is read from."""
     found: dict[Node, Place] = {}
     for array, kind, members in (("x", "state", state), ("u", "input", inputs)):
-        found |= _leaf_places(names, [lowering.leaf(x, kind) for x in members], array)
-    return found | {lowering.leaf("t", "time"): ("t", ("t", 0))}
+        found |= _leaf_places(names, [reader.leaf(x, kind) for x in members], array)
+    return found | {reader.leaf("t", "time"): ("t", ("t", 0))}
 
 
 def _used_parameters(d: Derivation, nodes: list[Node]) -> list[str]:

@@ -9,13 +9,13 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from . import dense
 from .graph import Node
-from .lower import Lowering
 from .principal_frame import Frame
 from .quaternion import conjugate, multiplied
+from .reader import Reader
 from .state import State
 
 
-def carrying(frame: Frame, framed: Lowering) -> dict[str, list[Node]]:
+def carrying(frame: Frame, framed: Reader) -> dict[str, list[Node]]:
     """The functions of the emitted code by name."""
     there, x = _Map.of(frame), framed.space
     back = there.inverse

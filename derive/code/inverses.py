@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 
-from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.tree import Tree
 from ..record.masses import ANY_SIGN
-from ..record.record import Derivation, decode
+from ..record.record import decode
 from . import dense
-from .graph import PARAMETER, Graph, Node
+from .graph import PARAMETER, Node
 from .naming import name_of, suffixed
-from .options import Options
-from .reader import Reader, Value
+from .reader import Reader, Value, matrix
 
 SMALL = 3
 """Up to this size a matrix is inverted by its adjugate."""
@@ -25,63 +23,64 @@ SLACK = {"double": Fraction(1, 10**7), "float": Fraction(1, 10**3)}
 as elimination divides by it."""
 
 
-class Inverting(Reader):
-    """``checks``: what must be positive in constants, and the scale of its rounding error.
+class Inverses:
+    """Of the matrices of one record, as a reader of it has them.
 
+    ``checks``: what must be positive in constants, and the scale of its rounding error;
     ``local``: do they hold the metric at g = 1 alone?
     """
 
-    def __init__(self, d: Derivation, group: Group, options: Options, graph: Graph | None = None):
-        super().__init__(d, group, options, graph)
+    def __init__(self, reader: Reader):
+        self.reader, self.graph, self.group = reader, reader.graph, reader.group
         self.checks: list[tuple[Node, Node | None]] = []
         self.local = False
 
-    def _inverse(self, t: Tree) -> Value:
+    def of(self, t: Tree) -> Value:
+        """The inverse of the value of a tree."""
+        g, space = self.graph, self.reader.space
         if t == ("T", "A"):
-            return q.transposed(self.space.inverse)
-        if t == "C" and self.space.tangent:
-            inverse = self.space.inverse  # at hand, for Z = A⁻¹Ȧ
-            square = dense.times(self.graph, inverse, q.transposed(inverse))
-            return self.named(square, "inv_C")
-        value, name = self.tree(t), name_of(("inv", t))
-        g = self.graph
+            return q.transposed(space.inverse)
+        if t == "C" and space.tangent:  # the inverse of A is at hand, for Z = A⁻¹Ȧ
+            square = dense.times(g, space.inverse, q.transposed(space.inverse))
+            return self.reader.entries(square, "inv_C")
+        value, name = self.reader.tree(t), name_of(("inv", t))
         if isinstance(value, Node):
             if value.stage == PARAMETER:
                 self.checks.append((value, None))
-            return g.value(g.recip(value), name, self.label)
+            return g.value(g.recip(value), name, self.reader.label)
         if self._unit_determinant(t):
             if len(value) <= SMALL:
-                return self.named(dense.adjugate(g, value), name)
+                return self.reader.entries(dense.adjugate(g, value), name)
         elif len(value) <= SMALL and dense.stage_of(value) != PARAMETER:
             return self._by_adjugate(t, value, name)
         inverse, pivots = dense.symmetric_inverse(g, value, self._namer(name_of(t)))
         if len(value) <= SMALL and _alike(value):
-            inverse = self._by_adjugate(t, value, name)  # type: ignore[assignment]
-        found = self.named(inverse, name, given=True)
+            inverse = self._by_adjugate(t, value, name)
+        found = self.reader.entries(inverse, name, given=True)
         self._check_pivots(t, value, pivots)
         if dense.stage_of(value) == PARAMETER:
-            self._check_diagonal(t, value, found)  # type: ignore[arg-type]
+            self._check_diagonal(t, value, found)
         return found
 
     def require_regular(self) -> None:
         """J and m must be positive even if no force asks for their inverses, where a multiplier
         solves the kernel and where the group has all translations."""
-        if any(step.label.endswith(".multiplier") for step in self.record.steps):
-            central = self.record.definition("N_c") is not None
-            self.tree(("inv", "J_c" if central else "J"))
+        record = self.reader.record
+        if any(step.label.endswith(".multiplier") for step in record.steps):
+            central = record.definition("N_c") is not None
+            self.reader.tree(("inv", "J_c" if central else "J"))
         if self.group.free_translations:
-            self._check([(self._number("m"), None)])
+            self._check([(self.reader.number("m"), None)])
 
     def solved(self, t: Tree, right: Matrix) -> Matrix:
         """The column x with t x = right, for a positive definite t."""
-        value = self.tree(t)
-        assert not isinstance(value, Node)
+        value = matrix(self.reader.tree(t))
         factors = dense.factorised(self.graph, value, self._namer(name_of(t)))
         self._check_pivots(t, value, factors.pivots)
         return dense.solve(self.graph, factors, right, self._namer(f"{name_of(t)}_solve"))
 
     def _namer(self, name: str) -> dense.NodeNamer:
-        return lambda part, x: self.graph.value(x, f"{name}_{part}", self.label)
+        return lambda part, x: self.graph.value(x, f"{name}_{part}", self.reader.label)
 
     def _check_pivots(self, t: Tree, value: Matrix, pivots: list[Node]) -> None:
         if dense.stage_of(value) == PARAMETER:
@@ -97,23 +96,25 @@ class Inverting(Reader):
         """M at g is Tr Z μ Z̄ C: where no moment is negative it is singular at all g or at none, as
         it is where C is a multiple of 1.  Elsewhere, where masses may be negative, who knows?
         """
-        body = self.record.problem["body"]
+        body = self.reader.record.problem["body"]
         masses = [decode(p["mass"], "mass") for p in body.get("points", [])]
         if self.group.conformal or (body["kind"] == "points" and all(map(_positive, masses))):
             return
-        g, J, tests = self.graph, self._matrix("J"), []
+        g, J, tests = self.graph, self.reader.vector("J"), []
         if self.group.affine:
-            m, c = self._number("m"), self._matrix("c")
+            m, c = self.reader.number("m"), self.reader.vector("c")
             square = dense.times(g, c, q.transposed(c))
             tests.append(m)
             J = q.minus(J, tuple(tuple(g.product((g.recip(m), x)) for x in row) for row in square))
         J = self._seen(J)
-        slack = g.product((g.num(SLACK[self.options.real]), g.magnitude(dense.diagonal(g, J))))
-        slack = g.value(slack, "slack", self.label)
+        slack = g.product(
+            (g.num(SLACK[self.reader.options.real]), g.magnitude(dense.diagonal(g, J)))
+        )
+        slack = g.value(slack, "slack", self.reader.label)
         span = range(len(J))
         least = tuple(tuple(J[i][j] + slack if i == j else J[i][j] for j in span) for i in span)
         tests += dense.factorised(g, least, self._namer("moments")).pivots
-        if self.record.problem.get("masses") == ANY_SIGN:
+        if self.reader.record.problem.get("masses") == ANY_SIGN:
             self.local = not all(x.op == "num" and x.data > 0 for x in tests)
         if not self.local:
             self._check((x, None) for x in tests)
@@ -126,49 +127,39 @@ class Inverting(Reader):
         R = tuple(tuple(g.num(x) for x in row) for row in reduced[: len(pivots)])
         return dense.times(g, dense.times(g, R, J), q.transposed(R))
 
-    def _matrix(self, t: Tree) -> Matrix:
-        value = self.tree(t)
-        assert not isinstance(value, Node)
-        return value
-
-    def _number(self, name: str) -> Node:
-        value = self.tree(name)
-        assert isinstance(value, Node)
-        return value
-
     def _at_identity(self, m: Matrix) -> Matrix:
         """A matrix that depends on the group element alone, at g = 1."""
         images = {
             x: self.graph.num(int(name == "A" and i == j))
             for name in ("A", "T")
-            for i, row in enumerate(self.space.values.get(name, ()))
+            for i, row in enumerate(self.reader.space.values.get(name, ()))
             for j, x in enumerate(row)
             if x.op in ("leaf", "value")
         }
         return tuple(tuple(self.graph.replaced(x, images) for x in row) for row in m)
 
-    def _by_adjugate(self, t: Tree, value: Matrix, name: str) -> Value:
+    def _by_adjugate(self, t: Tree, value: Matrix, name: str) -> Matrix:
         """For a matrix of the state: the fewest operations, though det may lose κ² (Higham 14.6).
 
         One of the parameters is factorised instead, which is done once and loses κ alone; but where
         all axes are alike, so are the entries of the adjugate, which rhs needs only once.
         """
         g, base = self.graph, name_of(t)
-        adjugate = self.named(dense.adjugate(g, value), f"adj_{base}")
-        assert not isinstance(adjugate, Node)
+        adjugate = self.reader.entries(dense.adjugate(g, value), f"adj_{base}")
         row = [(x, adjugate[j][0]) for j, x in enumerate(value[0])]
-        det = g.value(g.sum(g.product(pair) for pair in row), f"det_{base}", self.label)
+        det = g.value(g.sum(g.product(pair) for pair in row), f"det_{base}", self.reader.label)
         if dense.stage_of(value) != PARAMETER:
             self._check_pivots(t, value, [])
-        scale = g.value(g.recip(det), f"inv_det_{base}", self.label)
-        return self.named(tuple(tuple(g.product((scale, x)) for x in r) for r in adjugate), name)
+        scale = g.value(g.recip(det), f"inv_det_{base}", self.reader.label)
+        inverse = tuple(tuple(g.product((scale, x)) for x in row) for row in adjugate)
+        return self.reader.entries(inverse, name)
 
     def _sizes(self, t: Tree, m: Matrix) -> list[Node]:
         """The sizes of the terms of the diagonal: in units where it is 1 they are the rounding of a
         positive M, however slender the body."""
         g, base = self.graph, name_of(t)
         pairs = [(suffixed(f"size_{base}", i), row[i - 1]) for i, row in enumerate(m, 1)]
-        return [g.value(g.magnitude(x), name, self.label) for name, x in pairs]
+        return [g.value(g.magnitude(x), name, self.reader.label) for name, x in pairs]
 
     def _check_diagonal(self, t: Tree, m: Matrix, inverse: Matrix) -> None:
         """1/(M⁻¹)_ii too: after a small pivot, rounding could make a larger one of none."""
@@ -183,7 +174,9 @@ class Inverting(Reader):
     def _unit_determinant(self, t: Tree) -> bool:
         """A and C = ĀA where the record says det A = 1."""
         unimodular = any(
-            e.lhs == ("det", "A") and e.rhs == 1 for s in self.record.steps for e in s.equations
+            e.lhs == ("det", "A") and e.rhs == 1
+            for s in self.reader.record.steps
+            for e in s.equations
         )
         return unimodular and t in ("A", "C")
 

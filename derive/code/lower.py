@@ -20,62 +20,64 @@ from ..language.values import hat, wedge
 from ..record.record import Derivation, step_of
 from . import dense
 from .graph import PARAMETER, Graph, Node
-from .inverses import SMALL, Inverting
+from .inverses import SMALL, Inverses
 from .naming import name_of
 from .options import Options
 from .program import LoweringError
-from .reader import Value, bound
+from .reader import Reader, Value, bound, matrix, scalar
 from .springs import SLACK, tension
 
 
-class Lowering(Inverting):
-    """The graph of one record."""
+class Lowering:
+    """The values of the trees of one record, in a graph.
+
+    ``reader``: what the names in them stand for; ``inverses``: those of matrices.
+    """
 
     def __init__(self, d: Derivation, group: Group, options: Options, graph: Graph | None = None):
-        super().__init__(d, group, options, graph)
-        self._products: set[Tree] = set()
-        self._scan()
-
-    def _scan(self) -> None:
-        """The matrix products that stand alone in the record's motion: their traces come free."""
-        for step in self.record.steps:
-            if step.rule == "solution":
-                for equation in step.equations:
-                    self._products |= set(standalone(equation.rhs))
+        self.graph, self.record = graph or Graph(), d
+        self.reader = Reader(d, group, options, self.graph, self.tree)
+        self.inverses = Inverses(self.reader)
+        self._products = {  # that stand alone in the record's motion: their traces come free
+            product
+            for step in d.steps
+            if step.rule == "solution"
+            for equation in step.equations
+            for product in standalone(equation.rhs)
+        }
 
     @property
     def solving(self) -> bool:
         """Is it an equation of the solved motion that is read?"""
-        return step_of(self.label).endswith(".motion")
+        return step_of(self.reader.label).endswith(".motion")
 
     def tree(self, t: Tree) -> Value:
         """The value of a tree."""
         if t == "π":
             return self.graph.num(Fraction(math.pi))
         if isinstance(t, str):
-            return self.name(t)
+            return self.reader.name(t)
         if isinstance(t, (int, Fraction)):
             return self.graph.num(t)
-        if t in self.memo:
-            return self.memo[t]
+        if t in self.reader.memo:
+            return self.reader.memo[t]
         value = self._node(t)
         if isinstance(value, Node) and t[0] in ("inner", "norm2", "metric"):
-            value = self.graph.value(value, name_of(t), self.label)
-        self.memo[t] = value
+            value = self.graph.value(value, name_of(t), self.reader.label)
+        self.reader.memo[t] = value
         return value
 
     def _node(self, t: tuple[Any, ...]) -> Value:
         op = t[0]
         if op == "fun":
-            argument = self.tree(t[2])
-            assert isinstance(argument, Node)
-            return self.graph.value(self.graph.function(t[1], argument), name_of(t), self.label)
+            found = self.graph.function(t[1], self._number(t[2]))
+            return self.graph.value(found, name_of(t), self.reader.label)
         if op == "par":
             return self.graph.leaf(t[1], "parameter")
         if op == "call":
-            return self.applied(t)
+            return self.reader.applied(t)
         if op == "at":
-            return self.member(t)
+            return self.reader.member(t)
         if op == "sum":
             return self._sum(t)
         if op == "mul":
@@ -83,29 +85,29 @@ class Lowering(Inverting):
         if op == "tr":
             return self._trace(t[1])
         if op == "inv":
-            return self._inverse(t[1])
+            return self.inverses.of(t[1])
         if op in ("metric", "norm2"):
             return self._metric(t)
         if op == "wedge" and isinstance(t[1], tuple) and t[1][0] == "mul" and t[1][2:] == (t[2],):
-            return wedge(self._gyroscopic(t[1][1], t[2]), self.tree(t[2]))  # type: ignore[no-any-return]
+            turned: Matrix = wedge(self._gyroscopic(t[1][1], t[2]), self._matrix(t[2]))
+            return turned
         if op == "div" and (spring := tension(t)):
             return self._tension(*spring)
         if op == "entry":
-            value = self.tree(t[1])
-            assert not isinstance(value, Node)
-            return value[t[2] - 1][t[3] - 1 if len(t) == 4 else 0]  # type: ignore[no-any-return]
+            entry: Node = self._matrix(t[1])[t[2] - 1][t[3] - 1 if len(t) == 4 else 0]
+            return entry
         return self._simple(op, [self.tree(x) for x in t[1:] if op != "pow" or x != t[2]], t)
 
-    def _tension(self, factors: tuple[Tree, ...], distance: Tree, length: Tree) -> Node:
+    def _tension(
+        self, factors: tuple[Tree, ...], distance: Tree, square: Tree, length: Tree
+    ) -> Node:
         """c(s − l)/s as c − cl/s, with s not 0 where l is: there cl/s is 0 even at distance 0."""
         g = self.graph
-        c = g.product(self.tree(x) for x in factors)  # type: ignore[misc]
-        square, at_rest = self.tree(distance[2]), self.tree(length)  # type: ignore[index]
-        assert isinstance(square, Node)
-        assert isinstance(at_rest, Node)
-        slack = g.linear([(SLACK[self.options.real], g.none(at_rest))])
-        slack = g.value(slack, f"slack_{name_of(length)}", self.label)
-        s = g.value(g.function("sqrt", g.sum((square, slack))), name_of(distance), self.label)
+        c, q = g.product([self._number(x) for x in factors]), self._number(square)
+        at_rest = self._number(length)
+        slack = g.linear([(SLACK[self.reader.options.real], g.none(at_rest))])
+        slack = g.value(slack, f"slack_{name_of(length)}", self.reader.label)
+        s = g.value(g.function("sqrt", g.sum((q, slack))), name_of(distance), self.reader.label)
         return c - g.product((c, at_rest, g.recip(s)))
 
     def _simple(self, op: str, a: list[Any], t: tuple[Any, ...]) -> Value:
@@ -124,13 +126,15 @@ class Lowering(Inverting):
         if op == "div":
             return g.product((a[0], g.recip(a[1])))
         if op == "one":
-            return tuple(tuple(g.num(int(i == j)) for j in range(self.n)) for i in range(self.n))
+            return tuple(
+                tuple(g.num(int(i == j)) for j in range(self.reader.n))
+                for i in range(self.reader.n)
+            )
         if op == "inner":
             return g.product(a) if isinstance(a[0], Node) else dense.dot(g, a[0], a[1])
-        if op == "wedge":
-            return wedge(a[0], a[1])  # type: ignore[no-any-return]
-        if op == "hat":
-            return hat(a[0])  # type: ignore[no-any-return]
+        if op in ("wedge", "hat"):
+            found: Matrix = wedge(*a) if op == "wedge" else hat(*a)
+            return found
         if op == "tr":
             return dense.diagonal(g, a[0])
         if op == "matrix":
@@ -144,7 +148,7 @@ class Lowering(Inverting):
             factor = base if t[2] > 0 else self.graph.recip(base)
             return self.graph.product([factor] * abs(t[2]))
         value = dense.chain(self.graph, [base] * t[2], lambda m, i, j: m)
-        return self.named(value, name_of(t))
+        return self.reader.entries(value, name_of(t))
 
     def _gyroscopic(self, metric: Tree, vector: Tree) -> Matrix:
         """M x for M x ∧ x: a multiple of 1 taken from M changes nothing, and leaves M_33 = 0.
@@ -163,18 +167,18 @@ class Lowering(Inverting):
             for i, row in enumerate(light)
         )
         name = name_of(metric)
-        lighter = self.named(rows, f"{name}_0") if dense.stage_of(m) == PARAMETER else m
-        product = dense.times(g, lighter, self._matrix(vector))  # type: ignore[arg-type]
-        return self.named(product, f"{name}_0_{name_of(vector)}")  # type: ignore[return-value]
+        lighter = self.reader.entries(rows, f"{name}_0") if dense.stage_of(m) == PARAMETER else m
+        product = dense.times(g, lighter, self._matrix(vector))
+        return self.reader.entries(product, f"{name}_0_{name_of(vector)}")
 
     def _sum(self, t: tuple[Any, ...]) -> Value:
         _, index, body = t
-        terms = [self.tree(bound(body, {index: i})) for i in self.members(body, index)]
+        terms = [self.tree(bound(body, {index: i})) for i in self.reader.members(body, index)]
         return self._simple("add", terms, t)
 
     def _product(self, t: tuple[Any, ...]) -> Value:
         if is_solve(t) and (len(M := self._matrix(t[1][1])) > SMALL or dense.is_diagonal(M)):
-            return self.solved(t[1][1], self._matrix(mul(*t[2:])))
+            return self.inverses.solved(t[1][1], self._matrix(mul(*t[2:])))
         factors = [(x, self.tree(x)) for x in t[1:]]
         scalars = [v for _, v in factors if isinstance(v, Node)]
         matrices = [(x, v) for x, v in factors if not isinstance(v, Node)]
@@ -193,22 +197,22 @@ class Lowering(Inverting):
         factors = [(x, self._operand(x, v)) for x, v in factors]
         trees = [x for x, _ in factors]
         key: Tree = ("mul", *trees)
-        if key in self.memo:
-            return self.memo[key]  # type: ignore[return-value]
+        if key in self.reader.memo:
+            return matrix(self.reader.memo[key])
 
         def named(m: Matrix, i: int, j: int) -> Matrix:
-            return self.named(m, name_of(mul(*trees[i : j + 1])))  # type: ignore[return-value]
+            return self.reader.entries(m, name_of(mul(*trees[i : j + 1])))
 
         value = dense.chain(self.graph, [v for _, v in factors], named)
-        value = self.named(value, name_of(key))  # type: ignore[assignment]
-        self.memo[key] = value
+        value = self.reader.entries(value, name_of(key))
+        self.reader.memo[key] = value
         return value
 
     def _operand(self, t: Tree, value: Matrix) -> Matrix:
         """A sum that is multiplied is computed once, under a name."""
         if isinstance(t, tuple) and t[0] == "add":
             name = "balance" if self.solving else name_of(t)
-            return self.named(value, name)  # type: ignore[return-value]
+            return self.reader.entries(value, name)
         return value
 
     def _trace(self, t: Tree) -> Node:
@@ -217,20 +221,20 @@ class Lowering(Inverting):
         factors = [x for x in t[1:] if not is_scalar(x)] if isinstance(t, tuple) else []
         if isinstance(t, tuple) and t[0] == "mul" and len(factors) > 1:
             matrices = [(x, self._matrix(x)) for x in factors]
-            scalars = [self.tree(x) for x in t[1:] if is_scalar(x)]
+            scalars = [self._number(x) for x in t[1:] if is_scalar(x)]
             if any(dense.is_constant(v) for _, v in matrices):
-                return g.product([*scalars, self._sparse_trace(matrices)])  # type: ignore[list-item]
+                return g.product([*scalars, self._sparse_trace(matrices)])
             if ("mul", *factors) in self._products:
                 traced = dense.diagonal(g, self._chain(matrices))
             else:
                 half = len(matrices) // 2
                 left, right = self._chain(matrices[:half]), self._chain(matrices[half:])
                 traced = dense.dot(g, left, q.transposed(right))
-            whole = g.product([*scalars, traced])  # type: ignore[list-item]
-            return g.value(whole, name, self.label)
+            whole = g.product([*scalars, traced])
+            return g.value(whole, name, self.reader.label)
         if isinstance(t, tuple) and t[0] == "pow" and t not in self._products and t[2] == 2:
             base = self._matrix(t[1])
-            return g.value(dense.dot(g, base, q.transposed(base)), name, self.label)
+            return g.value(dense.dot(g, base, q.transposed(base)), name, self.reader.label)
         # a bare trace has no name: in (Tr J)1 − J its terms must cancel before they are rounded
         return dense.diagonal(g, self._matrix(t))
 
@@ -248,6 +252,12 @@ class Lowering(Inverting):
                 runs[-1].append((x, v))
         between = [self._chain(run) if run else None for run in runs]
         return dense.sparse_trace(self.graph, constants, between)
+
+    def _matrix(self, t: Tree) -> Matrix:
+        return matrix(self.tree(t))
+
+    def _number(self, t: Tree) -> Node:
+        return scalar(self.tree(t))
 
     def _metric(self, t: tuple[Any, ...]) -> Value:
         if t[0] == "norm2":
@@ -268,7 +278,8 @@ def untraced(t: Tree) -> Tree | None:
     """J of (Tr J) 1 − J; ``None`` for any other tree."""
     match t:
         case ("add", ("mul", ("tr", inside), ("one",)), ("mul", -1, other)) if inside == other:
-            return inside  # type: ignore[no-any-return]
+            found: Tree = inside
+            return found
     return None
 
 

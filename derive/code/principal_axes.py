@@ -7,18 +7,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from .graph import Node
-from .lower import Lowering
 from .program import Turning
+from .reader import Reader
 
 MOMENTS = tuple(f"J_{i}{j}" for i in (1, 2, 3) for j in range(i, 4))
 
 
-def inertia(lowering: Lowering) -> list[Node]:
+def inertia(reader: Reader) -> list[Node]:
     """I_11, I_12, I_13, I_22, I_23, I_33 about the body's origin; none where space is not R³."""
-    if not lowering.group.turns_space:
+    if not reader.group.turns_space:
         return []
-    tensor = lowering.name("I")
-    assert not isinstance(tensor, Node)
+    tensor = reader.vector("I")
     return [tensor[i][j] for i in range(3) for j in range(i, 3)]
 
 

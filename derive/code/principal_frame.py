@@ -13,13 +13,12 @@ from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.tree import Tree
 from ..record.record import decode
 from . import dense
 from .graph import Node
-from .lower import Lowering
 from .naming import suffixed
 from .quaternion import conjugate
+from .reader import Reader, scalar
 
 FRAME = "frame"
 """The label of what comes from no equation of the record but from the choice of the frame."""
@@ -46,7 +45,7 @@ class Axes:
 
 
 class Frame:
-    """``given``: what the new parameters stand for; ``old``: the problem as it is given, lowered in
+    """``given``: what the new parameters stand for; ``old``: the problem as it is given, read in
     the graph of the framed one.
 
     ``axes``: in order, each needs those before it; ``numbers``: leaf → node in the parameters and
@@ -54,7 +53,7 @@ class Frame:
     ``scale``: the leaves of μ and 1/μ, else 1.
     """
 
-    def __init__(self, given: Mapping[str, Any], old: Lowering, quaternion: bool):
+    def __init__(self, given: Mapping[str, Any], old: Reader, quaternion: bool):
         self.given, self.old, self.graph = given, old, old.graph
         old.label = FRAME
         self.n, self.affine = old.group.n, old.group.affine
@@ -101,11 +100,11 @@ class Frame:
     def _material(self) -> None:
         """H, H⁻¹ and s; the numbers that tell a singular body."""
         g, n = self.graph, self.n
-        J = self._matrix("J")
+        J = self.old.vector("J")
         self.s: Matrix = ()
         if self.affine:
-            inverse = g.recip(self._number("m"))
-            c = self._matrix("c")
+            inverse = g.recip(self.old.number("m"))
+            c = self.old.vector("c")
             s = self._named("centre", tuple((g.product((x, inverse)),) for (x,) in c))
             shift = dense.times(g, c, q.transposed(s))
             J = q.minus(J, shift)
@@ -127,7 +126,7 @@ class Frame:
             self.back = q.transposed(self.H)
         self.regular: list[tuple[Node, Node | None]] = []
         if self.affine and self.given["per_unit"]:  # without mass, nothing below is a number
-            self.regular.append((self._number_of("mass", self._number("m")), None))
+            self.regular.append((self._number_of("mass", self.old.number("m")), None))
         moments = self._number_of("least_moment", least), self._number_of("size_of_J", scale)
         self.regular.append(moments)
 
@@ -157,7 +156,7 @@ class Frame:
         if not self.given["stiffness"]:
             return H, back
         H, back = self._named("root", H), self._named("root_inverse", back)
-        K = dense.times(g, dense.times(g, H, self._matrix("K")), q.transposed(H))
+        K = dense.times(g, dense.times(g, H, self.old.vector("K")), q.transposed(H))
         along = self._principal(K, "spring", "turn")
         stiffness = [g.product((self.per_unit, x)) for x in along.values]
         self._set(self.given["stiffness"], stiffness)
@@ -167,7 +166,7 @@ class Frame:
         """S, which puts gravity along the last axis; empty where space stays."""
         self.S: Matrix = ()
         if self.given["turned"]:
-            g = self._matrix("γ")
+            g = self.old.vector("γ")
             found = self._principal(self._upright(g), "pull", "space")
             self.S, self._S = self._kept("space", found.rows), found.rows
             whole = dense.times(self.graph, (found.rows[-1],), g)
@@ -194,15 +193,17 @@ class Frame:
         """Places H(r − s), vectors of space S a, and Hc."""
         g = self.graph
         for names, at in self.given["places"]:
-            place = tuple((self._tree(x),) for x in at)
+            place = self._column(at)
             if self.s:
                 place = q.minus(place, self._s)
             self._set(names, _entries(dense.times(g, self._H, place)))
         for names, v in self.given["vectors"]:
-            turned = dense.times(g, self._S, tuple((self._tree(x),) for x in v))
+            turned = dense.times(
+                g, self._S, tuple((scalar(self.old.tree(decode(x, "frame"))),) for x in v)
+            )
             self._set(names, _entries(turned))
         if self.given["first"]:
-            first = dense.times(g, self._H, self._matrix("c"))
+            first = dense.times(g, self._H, self.old.vector("c"))
             scaled = [g.product((self.per_unit, x)) for x in _entries(first)]
             self._set(self.given["first"], scaled)
 
@@ -225,23 +226,11 @@ class Frame:
 
     # -- values of the given problem ---------------------------------------------------------
 
-    def _matrix(self, name: str) -> Matrix:
-        value = self.old.name(name)
-        assert not isinstance(value, Node)
-        return value
-
-    def _number(self, name: str) -> Node:
-        value = self.old.name(name)
-        assert isinstance(value, Node)
-        return value
-
-    def _tree(self, t: Tree) -> Node:
-        value = self.old.tree(decode(t, "frame"))
-        assert isinstance(value, Node)
-        return value
+    def _column(self, trees: Sequence[Any]) -> Matrix:
+        return tuple((scalar(self.old.tree(decode(t, "frame"))),) for t in trees)
 
     def _named(self, name: str, m: Matrix) -> Matrix:
-        return self.old.named(m, name)  # type: ignore[return-value]
+        return self.old.entries(m, name)
 
 
 def _entries(column: Matrix) -> list[Node]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from ..algebra.groups import Group
 from ..language import rational as q
@@ -17,23 +17,41 @@ from .state import State
 
 Value = Node | Matrix
 
+
+def scalar(value: Value) -> Node:
+    """A value that is a number."""
+    if not isinstance(value, Node):
+        raise LoweringError("a matrix stands where a number is wanted")
+    return value
+
+
+def matrix(value: Value) -> Matrix:
+    """A value that is a matrix."""
+    if isinstance(value, Node):
+        raise LoweringError("a number stands where a matrix is wanted")
+    return value
+
+
 DROPPED = Equation(("mul", ("T", "ξ"), "C", "Z"), ("mul", ("T", "ξ"), "Z"))
 
 
 class Reader:
-    """The values of the names of one record; how a tree is computed is left to ``tree``."""
+    """The values of the names of one record; ``tree``: how that of a tree is computed."""
 
-    def __init__(self, d: Derivation, group: Group, options: Options, graph: Graph | None = None):
+    def __init__(
+        self,
+        d: Derivation,
+        group: Group,
+        options: Options,
+        graph: Graph,
+        tree: Callable[[Tree], Value],
+    ):
         self.record, self.group, self.n = d, group, group.n
-        self.graph, self.options = graph or Graph(), options
+        self.graph, self.options, self.tree = graph, options, tree
         self.space = State(self.graph, group, options)
         self.label = ""
         self.memo: dict[Tree, Value] = {}
         self._inputs()
-
-    def tree(self, t: Tree) -> Value:
-        """The value of a tree."""
-        raise NotImplementedError
 
     # -- inputs ------------------------------------------------------------------------------
 
@@ -54,8 +72,8 @@ class Reader:
             self.state["u"] = self._given(name, d - n if moved else d)
             if moved:
                 self.state["f_u"] = self._given(name, n, d - n)
-        both = [self.state[name] for name in ("u", "f_u") if name in self.state]
-        self.covector: list[Node] = [x for value in both for (x,) in value]  # type: ignore[union-attr]
+        both = [matrix(self.state[name]) for name in ("u", "f_u") if name in self.state]
+        self.covector: list[Node] = [x for column in both for (x,) in column]
         if self.group.given and self.covector:
             self._restated()
 
@@ -74,7 +92,7 @@ class Reader:
 
     def force(self, i: int) -> Matrix:
         """Force input i, counted from 1, as a column."""
-        return self.memo["at", "f_u", i]  # type: ignore[return-value]
+        return matrix(self.memo["at", "f_u", i])
 
     def _given(self, name: str, size: int, after: int = 0) -> Matrix:
         """A column of inputs."""
@@ -111,7 +129,7 @@ class Reader:
             else:
                 self.memo[name] = self._entries(name)
             if name == "C":
-                self.memo[name] = self._kept(self.memo[name])  # type: ignore[arg-type]
+                self.memo[name] = self._kept(matrix(self.memo[name]))
         return self.memo[name]
 
     def _kept(self, C: Matrix) -> Matrix:
@@ -136,17 +154,15 @@ class Reader:
                 if isinstance(e.lhs, tuple) and e.lhs[:2] == ("entry", name):
                     indices = [i for i in e.lhs[2:] if isinstance(i, str)]
                     if len(indices) == len(e.lhs) - 2:
-                        return self._table(step, e, indices)
+                        return self._table(name_of(name), step, e, indices)
         raise LoweringError(f"the record does not define {name!r}")
 
-    def _table(self, step: Step, e: Equation, indices: list[str]) -> Matrix:
+    def _table(self, name: str, step: Step, e: Equation, indices: list[str]) -> Matrix:
         span = range(1, len(self.group.linear_basis) + 1)
-        name = name_of(e.lhs[1])  # type: ignore[index]
         outer, self.label = self.label, step.key(e)
 
         def entry(*values: int) -> Node:
-            value = self.tree(bound(e.rhs, dict(zip(indices, values, strict=True))))
-            assert isinstance(value, Node)
+            value = scalar(self.tree(bound(e.rhs, dict(zip(indices, values, strict=True)))))
             return self.graph.value(value, suffixed(name, *values), self.label, given=True)
 
         columns = span if len(indices) == 2 else (None,)
@@ -165,21 +181,21 @@ class Reader:
         return value
 
     def named(self, value: Value, name: str, *, given: bool = False) -> Value:
-        """Give names to the entries of a value."""
+        """A value with a name, or its entries with names."""
         if isinstance(value, Node):
             return self.graph.value(value, name, self.label, given=given)
-        column = len(value[0]) == 1
+        return self.entries(value, name, given=given)
+
+    def entries(self, m: Matrix, name: str, *, given: bool = False) -> Matrix:
+        """A matrix whose entries have names; a column has one index."""
+        column = len(m[0]) == 1
+
+        def entry(x: Node, i: int, j: int) -> Node:
+            own = suffixed(name, i) if column else suffixed(name, i, j)
+            return self.graph.value(x, own, self.label, given=given)
+
         return tuple(
-            tuple(
-                self.graph.value(
-                    x,
-                    suffixed(name, i) if column else suffixed(name, i, j),
-                    self.label,
-                    given=given,
-                )
-                for j, x in enumerate(row, 1)
-            )
-            for i, row in enumerate(value, 1)
+            tuple(entry(x, i, j) for j, x in enumerate(row, 1)) for i, row in enumerate(m, 1)
         )
 
     def member(self, t: Tree) -> Value:
@@ -198,12 +214,17 @@ class Reader:
         """An output: an entry of a vector, or where the record has no vector an entry by itself."""
         found = self.record.definition(("entry", name, index))
         if found is not None and self.record.definition(name) is None:
-            value = self._defined(found, suffixed(name_of(name), index))
-            assert isinstance(value, Node)
-            return value
-        vector = self.name(name)
-        assert not isinstance(vector, Node)
-        return vector[index - 1][0]  # type: ignore[no-any-return]
+            return scalar(self._defined(found, suffixed(name_of(name), index)))
+        entry: Node = self.vector(name)[index - 1][0]
+        return entry
+
+    def vector(self, name: str) -> Matrix:
+        """The value of a name that is a vector or a matrix."""
+        return matrix(self.name(name))
+
+    def number(self, name: str) -> Node:
+        """The value of a name that is a number."""
+        return scalar(self.name(name))
 
     def members(self, body: Tree, index: str) -> list[int]:
         """The values that an index takes: the members that the record defines."""

@@ -16,13 +16,13 @@ SLACK = {"double": Fraction(1, 10**37), "float": Fraction(1, 10**20)}
 That of doubles is a number of 32 bits as well, for arrays of these."""
 
 
-def tension(t: Tree) -> tuple[tuple[Tree, ...], Tree, Tree] | None:
-    """The factors of c, s = √q and l of c(s − l)/s, for l a parameter: a spring, which may have
+def tension(t: Tree) -> tuple[tuple[Tree, ...], Tree, Tree, Tree] | None:
+    """The factors of c, s = √q, q and l of c(s − l)/s, for l a parameter: a spring, which may have
     no natural length; ``None`` for any other tree."""
     match t:
-        case ("div", ("mul", *factors), ("fun", "sqrt", _) as s):
+        case ("div", ("mul", *factors), ("fun", "sqrt", q) as s):
             for k, x in enumerate(factors):
                 match x:
                     case ("add", a, ("mul", -1, ("par", _) as length)) if a == s:
-                        return (*factors[:k], *factors[k + 1 :]), s, length
+                        return (*factors[:k], *factors[k + 1 :]), s, q, length
     return None

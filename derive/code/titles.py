@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from ..language.show import show
-from .lower import Lowering
+from .reader import Reader
 from .state import State
 
 
-def titles(lowering: Lowering) -> dict[int, str]:
+def titles(reader: Reader) -> dict[int, str]:
     """Where the numbers of an equation's left side begin in dx/dt, and the equation."""
     found = {}
-    for start, names in _beginnings(lowering.space).items():
-        known = (lowering.record.definition(name) for name in names)
+    for start, names in _beginnings(reader.space).items():
+        known = (reader.record.definition(name) for name in names)
         if at := next(filter(None, known), None):
             step, equation = at
             found[start] = f"{step.key(equation)}: {show(equation.lhs)} = {show(equation.rhs)}"
