@@ -22,6 +22,7 @@ from .principal_axes import inertia, turning
 from .principal_frame import Frame
 from .program import Framing, Function, LoweringError, Program
 from .reader import Reader
+from .rewrite import reachable
 from .schedule import Scheduler, frontier
 from .titles import titles
 
@@ -234,14 +235,7 @@ def _used_parameters(d: Derivation, nodes: list[Node]) -> list[str]:
 
 def _leaves(nodes: Iterable[Node]) -> set[Node]:
     """All inputs of some nodes."""
-    seen: set[Node] = set()
-    stack = list(nodes)
-    while stack:
-        x = stack.pop()
-        if x not in seen:
-            seen.add(x)
-            stack.extend(x.args)
-    return {x for x in seen if x.op == "leaf"}
+    return {x for x in reachable(nodes) if x.op == "leaf"}
 
 
 def _constant_name(names: Names, x: Node, i: int) -> str:

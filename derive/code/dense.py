@@ -75,7 +75,8 @@ def dot(g: Graph, a: Matrix, b: Matrix) -> Node:
 def determinant(g: Graph, m: Matrix) -> Node:
     """By expansion along the first row."""
     if len(m) == 1:
-        return m[0][0]  # type: ignore[no-any-return]
+        only: Node = m[0][0]
+        return only
     return g.sum(
         g.linear([((-1) ** j, g.product((m[0][j], determinant(g, minor(m, 0, j)))))])
         for j in range(len(m))

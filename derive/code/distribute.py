@@ -7,11 +7,12 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
 from .graph import PARAMETER, Graph, Node
+from .rewrite import Image
 
 Term = tuple[Fraction, Node]
 
 
-def distributed(graph: Graph, s: Node, uses: Mapping[Node, int], images: dict[Node, Node]) -> Node:
+def distributed(graph: Graph, s: Node, uses: Mapping[Node, int], image: Image) -> Node:
     """The sum s of the images of its terms, with common factors in front.
 
     ``uses``: how often each old node stands; only products that stand here alone are taken apart.
@@ -20,7 +21,7 @@ def distributed(graph: Graph, s: Node, uses: Mapping[Node, int], images: dict[No
     kept: list[Term] = []
     for c, x in zip(s.data, s.args, strict=True):
         alone = x.op == "mul" and uses[x] == 1 and x.stage != PARAMETER
-        (free if alone else kept).append((c, images.get(x, x)))
+        (free if alone else kept).append((c, image(x)))
     while (found := _common(free)) is not None:
         factor, chosen = found
         rest = [(c, _without(graph, x, factor)) for c, x in chosen]

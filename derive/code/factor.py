@@ -9,15 +9,14 @@ what has a name gets it wherever it stands, and common factors go in front of su
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Mapping, Sequence
-from types import MappingProxyType
+from collections.abc import Iterable, Sequence
 
 from .distribute import distributed, spread_over
 from .graph import PARAMETER, Graph, Node
+from .rewrite import Image, Rule, reachable, remade, rewritten
 from .schedule import frontier
 
 PASSES = 4
-NOTHING: Mapping[Node, Node] = MappingProxyType({})
 
 
 def factored(graph: Graph, roots: Sequence[Node]) -> list[Node]:
@@ -33,7 +32,7 @@ def factored(graph: Graph, roots: Sequence[Node]) -> list[Node]:
 def cost(roots: Sequence[Node]) -> int:
     """Multiplications in what moves, each value computed once, and constants to be loaded."""
     total = len(frontier(roots))
-    for x in _reachable(roots):
+    for x in _moving_in(roots):
         if x.op == "mul":
             total += len(x.args) - 1
         elif x.op == "add":
@@ -47,42 +46,62 @@ def _factored(graph: Graph, roots: Sequence[Node], numbers: bool) -> list[Node]:
         lost = _lost(found, numbers)
         if not lost:
             break
-        images = _rebuilt(graph, found, lost)
-        found = [images[x] for x in found]
-    images = _rebuilt(graph, found, set(), {x.args[0]: x for x in _values(found)})
-    found = [images[x] for x in found]
-    images = _rebuilt(graph, found, set(), sums=True)
-    return [images[x] for x in found]
+        found = rewritten(found, _moving_in(found), _looking_through(lost))
+    found = rewritten(found, order := _moving_in(found), _naming(order))
+    return rewritten(found, order := _moving_in(found), _distributing(graph, found, order))
 
 
 def spread(graph: Graph, roots: Sequence[Node]) -> list[Node]:
     """The same with p (q x + r y) as (pq) x + (pr) y, where p, q, r depend on parameters alone."""
-    order = _reachable(roots)
-    uses = Counter(roots) + Counter(y for x in order for y in x.args)
+    order = _moving_in(roots)
+    uses = _uses(roots, order)
     opened = {x: other for x in order if (other := spread_over(graph, x, uses)) is not None}
-    images = _rebuilt(graph, roots, set(), opened=opened) if opened else {}
-    return [images.get(x, x) for x in roots]
+    return rewritten(roots, order, remade, opened) if opened else list(roots)
 
 
-def _values(roots: Sequence[Node]) -> list[Node]:
-    return [x for x in _reachable(roots) if x.op == "value"]
+def _looking_through(lost: set[Node]) -> Rule:
+    """Some names are left behind."""
+    return lambda x, image: image(x.args[0]) if x in lost else remade(x, image)
 
 
-def _reachable(roots: Iterable[Node]) -> list[Node]:
-    """The moving nodes, operands first."""
-    seen: set[Node] = set()
-    stack = [x for x in roots if x.stage != PARAMETER]
-    while stack:
-        x = stack.pop()
-        if x not in seen:
-            seen.add(x)
-            stack.extend(y for y in x.args if y.stage != PARAMETER)
-    return sorted(seen, key=lambda x: x.id)
+def _naming(order: Sequence[Node]) -> Rule:
+    """Sums and products that have a name get it where they stand without it."""
+    named = {x.args[0]: x for x in order if x.op == "value"}
+
+    def rule(x: Node, image: Image) -> Node:
+        return remade(x, image if x.op == "value" else lambda y: image(named.get(y, y)))
+
+    return rule
+
+
+def _distributing(graph: Graph, roots: Sequence[Node], order: Sequence[Node]) -> Rule:
+    """Common factors of the terms of sums are taken in front of them."""
+    uses = _uses(roots, order)
+
+    def rule(x: Node, image: Image) -> Node:
+        several = x.op == "add" and len(x.args) > 1
+        return distributed(graph, x, uses, image) if several else remade(x, image)
+
+    return rule
+
+
+def _uses(roots: Sequence[Node], order: Sequence[Node]) -> Counter[Node]:
+    """How often each node stands."""
+    return Counter(roots) + Counter(y for x in order for y in x.args)
+
+
+def _moving_in(roots: Iterable[Node]) -> list[Node]:
+    """The nodes that do not depend on parameters alone, operands first."""
+
+    def moving(nodes: Iterable[Node]) -> list[Node]:
+        return [x for x in nodes if x.stage != PARAMETER]
+
+    return reachable(moving(roots), lambda x: moving(x.args))
 
 
 def _lost(roots: Sequence[Node], merging: bool) -> set[Node]:
     """The value nodes to look through."""
-    order = _reachable(roots)
+    order = _moving_in(roots)
     parents: dict[Node, list[Node]] = defaultdict(list)
     for x in order:
         for y in x.args:
@@ -120,50 +139,3 @@ def _sharing(s: Node, single: set[Node]) -> list[Node]:
     own = {x: [_moving(y) for y in (x.args[0].args if x in single else (x,))] for x in s.args}
     count = Counter(m for moving in own.values() for m in set(moving))
     return [x for x in s.args if x in single and any(count[m] > 1 for m in own[x])]
-
-
-def _rebuilt(
-    graph: Graph,
-    roots: Sequence[Node],
-    lost: set[Node],
-    named: Mapping[Node, Node] = NOTHING,
-    *,
-    sums: bool = False,
-    opened: Mapping[Node, Node] = NOTHING,
-) -> dict[Node, Node]:
-    """Old node → new node; what depends on parameters alone stays as it is.
-
-    ``named``: sums and products that have a name; where they stand without it, they get it.
-    ``sums``: common factors of the terms of sums are taken in front of them.  ``opened``: nodes
-    that stand otherwise.
-    """
-    order = _reachable(roots)
-    uses = Counter(roots) + Counter(y for x in order for y in x.args) if sums else Counter()
-    images: dict[Node, Node] = {x: x for x in roots if x.stage == PARAMETER}
-    for x in order:
-        other = {} if x.op == "value" else named
-        args = [images.get(other.get(y, y), other.get(y, y)) for y in x.args]
-        if x in opened:
-            images[x] = opened[x]
-        elif x in lost:
-            images[x] = args[0]
-        elif sums and x.op == "add" and len(x.args) > 1:
-            images[x] = distributed(graph, x, uses, images)
-        elif all(a is b for a, b in zip(args, x.args, strict=True)):
-            images[x] = x
-        elif x.op == "value":
-            name, label, given = graph.titles[x]
-            images[x] = graph.value(args[0], name, label, given=given)
-        elif x.op == "add":
-            images[x] = graph.linear(zip(x.data, args, strict=True))
-        elif x.op == "mul":
-            images[x] = graph.product(args)
-        elif x.op == "recip":
-            images[x] = graph.recip(args[0])
-        elif x.op == "fun":
-            images[x] = graph.function(x.data, args[0])
-        elif x.op == "none":
-            images[x] = graph.none(args[0])
-        else:
-            images[x] = graph.magnitude(args[0])
-    return images

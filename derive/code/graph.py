@@ -8,7 +8,7 @@ rest.  A ``value`` node is a node that has a name; nothing is flattened through 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd
@@ -142,31 +142,6 @@ class Graph:
         if x.op == "value" and x.args[0].op in ("add", "mul"):
             return self.magnitude(x.args[0])
         return self.absolute(x)
-
-    def replaced(self, x: Node, images: Mapping[Node, Node]) -> Node:
-        """The value of a node when some leaves are others; names are left behind."""
-        done: dict[Node, Node] = dict(images)
-
-        def of(y: Node) -> Node:
-            if y not in done:
-                args = [of(z) for z in y.args]
-                if y.op == "add":
-                    done[y] = self.linear(zip(y.data, args, strict=True))
-                elif y.op == "mul":
-                    done[y] = self.product(args)
-                elif y.op == "fun":
-                    done[y] = self.function(y.data, args[0])
-                elif y.op == "recip":
-                    done[y] = self.recip(args[0])
-                elif y.op == "abs":
-                    done[y] = self.magnitude(args[0])
-                elif y.op == "none":
-                    done[y] = self.none(args[0])
-                else:
-                    done[y] = args[0] if y.op == "value" else y
-            return done[y]
-
-        return of(x)
 
     def sum(self, nodes: Iterable[Node]) -> Node:
         """Their sum."""

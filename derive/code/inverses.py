@@ -14,6 +14,7 @@ from . import dense
 from .graph import PARAMETER, Node
 from .naming import name_of, suffixed
 from .reader import Reader, Value, matrix
+from .rewrite import replaced
 
 SMALL = 3
 """Up to this size a matrix is inverted by its adjugate."""
@@ -136,7 +137,7 @@ class Inverses:
             for j, x in enumerate(row)
             if x.op in ("leaf", "value")
         }
-        return tuple(tuple(self.graph.replaced(x, images) for x in row) for row in m)
+        return tuple(tuple(replaced(x, images) for x in row) for row in m)
 
     def _by_adjugate(self, t: Tree, value: Matrix, name: str) -> Matrix:
         """For a matrix of the state: the fewest operations, though det may lose κ² (Higham 14.6).

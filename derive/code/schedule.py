@@ -15,6 +15,7 @@ from fractions import Fraction
 from .graph import PARAMETER, Node
 from .naming import Names, is_sum, suffixed, sum_name
 from .program import Assignment, Check, Expression, Function, Load, Section
+from .rewrite import reachable
 
 Source = tuple[str, int]
 """Array and index of an input."""
@@ -36,7 +37,7 @@ class Scheduler:
         """The function that computes ``outputs`` from ``inputs`` (node → name and place)."""
         tests = list(checks)
         roots = outputs + [x for test in tests for x in test if x is not None]
-        order = _reachable(roots, inputs)
+        order = reachable(roots, lambda x: () if x in inputs else x.args)
         uses = Counter(a for x in order if x not in inputs for a in x.args)
         uses.update(roots)
         builder = _Builder(self, inputs, uses, outputs)
@@ -57,32 +58,8 @@ class Scheduler:
 
 def frontier(outputs: Iterable[Node]) -> list[Node]:
     """What depends on parameters alone and is used by something that does not, or is an output."""
-    found: set[Node] = set()
-    seen: set[Node] = set()
-    stack = list(outputs)
-    while stack:
-        x = stack.pop()
-        if x in seen:
-            continue
-        seen.add(x)
-        if x.stage == PARAMETER:
-            if x.op != "num":
-                found.add(x)
-        else:
-            stack.extend(x.args)
-    return sorted(found, key=lambda x: x.id)
-
-
-def _reachable(roots: Iterable[Node], inputs: Mapping[Node, object]) -> list[Node]:
-    seen: set[Node] = set()
-    stack = list(roots)
-    while stack:
-        x = stack.pop()
-        if x not in seen:
-            seen.add(x)
-            if x not in inputs:
-                stack.extend(x.args)
-    return sorted(seen, key=lambda x: x.id)
+    found = reachable(outputs, lambda x: () if x.stage == PARAMETER else x.args)
+    return [x for x in found if x.stage == PARAMETER and x.op != "num"]
 
 
 class _Builder:
