@@ -180,7 +180,7 @@ class Derived:
         """
         from ..code.options import Options
         from ..code.recorded import Emission
-        from ..command.emission import allowances, made
+        from ..command.emitting import allowances, made
         from ..command.writing import write
 
         own = self.problem
