@@ -56,9 +56,18 @@ def in_quotes(t: Tree, names: Container[str]) -> Tree:
 
 
 def _indices(indices: tuple[object, ...]) -> str:
-    """r_i, M_ab: subscripts where there are such letters."""
-    shown = "".join(str(i) for i in indices).translate(SUBSCRIPTS)
-    return shown if not re.search(r"[A-Za-z]", shown) else "_" + "".join(map(str, indices))
+    """r_i, M_ab, M_1,11: subscripts where there are such letters."""
+    apart = "," if len(indices) > 1 and any(len(str(i)) > 1 for i in indices) else ""
+    plain = apart.join(map(str, indices))
+    shown = plain.translate(SUBSCRIPTS)
+    return shown if not re.search(r"[A-Za-z]", shown) else f"_{plain}"
+
+
+def _indexed(t: Tree, indices: tuple[object, ...]) -> str:
+    """A member of a family, (d₁)₂ of a member."""
+    inner = t[1] if isinstance(t, tuple) and t[0] == "T" else t
+    scripted = isinstance(inner, tuple) and inner[0] in ("at", "entry", "inv", "pow")
+    return (f"({show(t)})" if scripted else _atom(t)) + _indices(indices)
 
 
 def _index(i: object) -> str:
@@ -73,8 +82,24 @@ def _atom(t: Tree) -> str:
 
 def _base(t: Tree) -> str:
     """What is raised to a power or divides: what has a number above it is in brackets, too."""
-    raised = isinstance(t, tuple) and t[0] in ("pow", "inv", "norm2")
+    raised = isinstance(t, tuple) and t[0] in ("pow", "inv", "norm2", "metric")
     return f"({_show(t)[0]})" if raised or isinstance(t, Fraction) else _atom(t)
+
+
+def _below(t: Tree) -> str:
+    """The metric of a product, of which an index or an exponent would be that of the product."""
+    inner = t[1] if isinstance(t, tuple) and t[0] in ("T", "inv") else t
+    return _atom(t) if isinstance(inner, str) else f"({show(t)})"
+
+
+def _norm(t: Tree) -> str:
+    """‖a‖; what has such strokes in itself is in brackets between them."""
+    return f"‖({show(t)})‖" if has_norm(t) else f"‖{show(t)}‖"
+
+
+def has_norm(t: Tree) -> bool:
+    """Is there a norm in it?"""
+    return isinstance(t, tuple) and (t[0] == "norm2" or any(map(has_norm, t[1:])))
 
 
 def _letter(text: str) -> bool:
@@ -143,7 +168,7 @@ def _node(t: tuple[object, ...]) -> tuple[str, int]:
     if op == "div":
         c, rest = coefficient(arguments[0])
         above, level = _show(mul(abs(c), rest))
-        above = f"({above})" if level == SUM else above
+        above = f"({above})" if level == SUM or swallows(rest) else above
         text = f"{above}/{_base(arguments[1])}"
         return (text, PRODUCT) if c >= 0 else (f"−{text}", SUM)
     if op == "wedge":
@@ -167,8 +192,16 @@ def _negative(t: Tree) -> str:
 def _operand(t: Tree) -> str:
     """An operand of ∧: products stay bare, sums and other wedges get parentheses."""
     text, level = _show(t)
-    wedge = isinstance(t, tuple) and t[0] == "wedge"
-    return f"({text})" if level == SUM or wedge else text
+    return f"({text})" if level == SUM or swallows(t) else text
+
+
+def swallows(t: Tree) -> bool:
+    """Would it take in what follows, or only its last factor be taken: Tr a, Σ a, a ∧ b?"""
+    if not isinstance(t, tuple):
+        return False
+    if t[0] == "mul":  # in which a ∧ b has brackets
+        return swallows(t[-1]) and t[-1][0] != "wedge"
+    return t[0] in ("wedge", "sum", "tr")
 
 
 def _barred(t: Tree) -> str:
@@ -191,27 +224,26 @@ def _atomic(op: object, a: tuple[Tree, ...]) -> str:
     if op == "inner":
         return f"⟨{show(a[0])}, {show(a[1])}⟩"
     if op == "metric":
-        return f"⟨{show(a[1])}, {show(a[2])}⟩_{_atom(a[0])}"
+        return f"⟨{show(a[1])}, {show(a[2])}⟩_{_below(a[0])}"
     if op == "norm2":
-        return f"‖{show(a[-1])}‖²" + (f"_{_atom(a[0])}" if len(a) == 2 else "")
+        return f"{_norm(a[-1])}²" + (f"_{_below(a[0])}" if len(a) == 2 else "")
     if op == "fun":
         name, inside = a
         norm = name == "sqrt" and isinstance(inside, tuple) and inside[0] == "norm2"
         if norm and len(inside) == 2:  # type: ignore[arg-type]
-            return f"‖{show(inside[1])}‖"  # type: ignore[index]
+            return _norm(inside[1])  # type: ignore[index]
         return f"√({show(inside)})" if name == "sqrt" else f"{name}({show(inside)})"
     if op == "bracket":
         return f"[{show(a[0])}, {show(a[1])}]"
     if op == "hat":
         return f"j({show(a[0])})"
-    if op == "entry":
-        return _atom(a[0]) + _indices(a[1:])
-    if op == "at":
-        return show(a[0]) + _indices(a[1:])
+    if op in ("at", "entry"):
+        return _indexed(a[0], a[1:])
     if op == "par":
         return show(a[0])
     if op == "matrix":
-        return "[" + "; ".join(show(row) for row in a) + "]"
+        bracket = len(a) == 1 and isinstance(a[0], tuple) and a[0][0] == "row" and len(a[0]) == 3
+        return "[" + "; ".join(show(row) for row in a) + (";]" if bracket else "]")
     if op == "row":
         return ", ".join(show(x) for x in a)
     if op == "call" and a[0] == "∫":

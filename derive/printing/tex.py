@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping
 from fractions import Fraction
 
-from ..language.show import ATOM, PRODUCT, SUM, signed
+from ..language.show import ATOM, PRODUCT, SUM, has_norm, signed, swallows
 from ..language.tree import Tree
 from .escape import formula_ok, math_text, tex_text
 from .juxtaposition import glue, number, outside
@@ -186,12 +186,16 @@ class Printer:
     def op_norm2(self, *a: Tree) -> str:
         """Square of a norm."""
         metric = f"_{{{plain(self.bare(a[0]))}}}" if len(a) == 2 else ""
-        return rf"\lVert {self.bare(a[-1])}\rVert{metric}^{{2}}"
+        return rf"{self.norm(a[-1])}{metric}^{{2}}"
+
+    def norm(self, a: Tree) -> str:
+        """What has such strokes in itself is in brackets between them."""
+        return rf"\lVert {paren(self.bare(a)) if has_norm(a) else self.bare(a)}\rVert"
 
     def op_fun(self, name: str, a: Tree) -> Shown | str:
         """An elementary function; the root of ‖a‖² is ‖a‖."""
         if name == "sqrt" and isinstance(a, tuple) and a[0] == "norm2" and len(a) == 2:
-            return rf"\lVert {self.bare(a[1])}\rVert"
+            return self.norm(a[1])
         if name == "sqrt":
             return rf"\sqrt{{{plain(self.bare(a))}}}"
         shown = {"atan": "arctan"}.get(name, name)
@@ -206,8 +210,7 @@ class Printer:
         sides = []
         for x in (a, b):
             tex, level = self.show(x)
-            nested = isinstance(x, tuple) and x[0] == "wedge"
-            sides.append(paren(tex) if level == SUM or nested else tex)
+            sides.append(paren(tex) if level == SUM or swallows(x) else tex)
         return rf"{sides[0]}{BEFORE_WEDGE} \wedge {sides[1]}", PRODUCT
 
     def op_hat(self, a: Tree) -> str:
@@ -227,8 +230,10 @@ class Printer:
 
     def op_at(self, a: Tree, *indices: Tree) -> str:
         """A member of a family."""
-        tex = self.atom(a)
-        return (f"({tex})" if "_" in tex else tex) + self.indices(indices)
+        tex, level = self.show(a)
+        return (paren(tex) if level != ATOM or re.search("[_^]", tex) else tex) + self.indices(
+            indices
+        )
 
     op_entry = op_at
 

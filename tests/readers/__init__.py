@@ -1,0 +1,1 @@
+"""What is printed, read back: a small reader of each format, none of which knows the printers."""

@@ -1,0 +1,70 @@
+"""Does a page say the equations of its record?"""
+
+import random
+
+from derive.printing.notation import Notation
+from derive.views import html
+from derive.views import latex as latex_view
+from derive.views import markdown as markdown_view
+from derive.views import text as text_view
+from tests.readers import latex, markdown, mathml, text
+from tests.readers.formula import UnreadableError, canonical, letters_of, value
+
+PAGES = {
+    "text": lambda d: text_view.text(d),
+    "narrow text": lambda d: text_view.text(d, 60),
+    "latex": lambda d: latex_view.latex(d),
+    "markdown": lambda d: markdown_view.markdown(d),
+    "html": lambda d: html.html([d]),
+    "html, top": lambda d: html.html([d], Notation(transpose="top")),
+}
+READERS = {"text": text, "latex": latex, "markdown": markdown, "html": mathml}
+
+
+def faults(d, kind):
+    """What of a record its page does not say, or says otherwise: a line for each step."""
+    reader = READERS[kind.removeprefix("narrow ").partition(",")[0]]
+    known = letters_of(d)
+    plain = reader is text
+    try:
+        said = reader.page(PAGES[kind](d), known, {s.label for s in d.steps})
+    except (UnreadableError, ValueError) as error:
+        return [f"{d.name}, {kind}: {error}"]
+    return [
+        f"{d.name}, {kind}, {step.label}: {wrong}"
+        for step in d.steps
+        if (wrong := missing(step.equations, said.get(step.label, []), known, plain))
+    ]
+
+
+def missing(equations, said, known, plain):
+    """The first equation that is not there in its place; empty where all are.
+
+    That a parameter is itself may be left out, and entries of a matrix may be letters that the
+    next equations explain.
+    """
+    left = [tuple(canonical(x, known, plain) for x in e) for e in said]
+    for e in equations:
+        want = tuple(canonical(x, known, plain) for x in (e.lhs, e.rhs))
+        have = left.pop(0) if left and left[0][0] == want[0] else None
+        if have is None and want[0] == want[1]:
+            continue
+        while have and have != want and left and letter_of(left[0][0], want[0]):
+            letter, meaning = left.pop(0)
+            have = (have[0], _put(have[1], letter, meaning))
+        if have != want:
+            return f"{want} is {have}"
+        seed = random.random()
+        assert [value(x, seed) for x in have] == [value(x, seed) for x in want]
+    return f"too much: {left}" if left else ""
+
+
+def letter_of(x, matrix):
+    """Is it an entry of the matrix?"""
+    return isinstance(x, tuple) and x[0] == "sub" and x[1] == matrix
+
+
+def _put(t, old, new):
+    if t == old:
+        return new
+    return (t[0], *(_put(x, old, new) for x in t[1:])) if isinstance(t, tuple) else t
