@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Container
+from collections.abc import Collection, Container
 from fractions import Fraction
 
+from .differentiate import DERIVATIVES
 from .tree import Tree, coefficient, mul, neg
 
 SUBSCRIPTS = str.maketrans("0123456789ije", "₀₁₂₃₄₅₆₇₈₉ᵢⱼₑ")
 FRACTIONS = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(1, 4): "¼", Fraction(2, 3): "⅔"}
+TAKEN = ("Tr", "det", "dm", "dt", "j")
+"""What is a word of the notation, and no name of C."""
+WORD = re.compile(rf"(?:{'|'.join((*DERIVATIVES, 'Tr', 'det', 'dm', 'dŨ'))})$")
 SUM, PRODUCT, ATOM = 1, 2, 3
 
 
@@ -44,6 +48,31 @@ def show_name(name: str) -> str:
     """``J_11`` as ``J₁₁``, ``I_c`` as it is."""
     base, _, index = name.partition("_")
     return base + index.translate(SUBSCRIPTS) if re.fullmatch(r"[0-9]+", index) else name
+
+
+MOMENT = re.compile(r"m|c_[0-9]|J_[0-9]{2}")
+"""The entries of the letters of symbolic moments, parameters of the same name."""
+INDEX = re.compile(r"_?[0-9]+$|_[abeijn]{1,2}$")
+
+
+def unclear(letters: Container[str], parameters: Collection[str], symbolic: bool) -> frozenset[str]:
+    """The parameters that would be read as letters of the walk, a product, or a word.
+
+    ``symbolic``: the moments of the body are parameters, m and c₁ in both meanings the same.
+    """
+
+    def single(c: str) -> bool:
+        return c in letters or c in parameters
+
+    return frozenset(
+        p
+        for p in parameters
+        if (
+            not (symbolic and MOMENT.fullmatch(p))
+            and (INDEX.sub("", p) in letters or p in letters or p in TAKEN)
+        )
+        or (len(p) > 1 and all(map(single, p)))
+    )
 
 
 def in_quotes(t: Tree, names: Container[str]) -> Tree:
@@ -121,7 +150,7 @@ def _product(factors: tuple[Tree, ...]) -> str:
         shown, level = _show(f)
         inside = k < len(factors) - 1 and level == PRODUCT and (text or _spreads(f))
         piece = f"({shown})" if level == SUM or inside or (text and _spread(f)) else shown
-        text += _glue(last, piece) + piece
+        text += _glue(text, last, piece) + piece
         last = piece
     return text
 
@@ -134,9 +163,11 @@ def _spread(f: Tree) -> bool:
     return isinstance(f, tuple) and f[0] in ("wedge", "div")
 
 
-def _glue(last: str, piece: str) -> str:
-    if not last or piece.startswith("(") or (_letter(last) and _letter(piece)):
+def _glue(text: str, last: str, piece: str) -> str:
+    if not last or piece.startswith("("):
         return ""
+    if _letter(last) and _letter(piece):
+        return " " if WORD.search(text + piece) else ""
     if last in FRACTIONS.values() and _letter(piece):
         return ""
     if last.isdigit() and piece[0].isdigit():

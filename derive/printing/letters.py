@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
 
 from ..record.record import Symbol
 from ..record.vocabulary import VOCABULARY
@@ -18,14 +18,21 @@ HARMLESS = re.compile(
 )
 
 
-def names_of(symbols: Iterable[Symbol]) -> dict[str, str]:
-    """How the names of a record are written: its own LaTeX where that is one harmless letter."""
+def names_of(symbols: Iterable[Symbol], parameters: Collection[str] = ()) -> dict[str, str]:
+    """How the names of a record are written: its own LaTeX where that is one harmless letter.
+
+    Beside a parameter x_1 there may be x1, which then has no index: its key is ``par x1``.
+    """
     own = {s.name: s.latex for s in symbols if HARMLESS.fullmatch(s.latex)}
-    return NAMES | own
+    ends = {p: re.fullmatch(r"([A-Za-z]+)([0-9]{1,3})", p) for p in parameters}
+    alike = [p for p, end in ends.items() if end and f"{end[1]}_{end[2]}" in parameters]
+    return NAMES | own | {f"par {p}": rf"\mathsf{{{p}}}" for p in alike}
 
 
-def parameter(name: str) -> str:
+def parameter(name: str, names: Mapping[str, str] = NAMES) -> str:
     """A name that the user gave, sans serif; a short end after _, or digits, is an index."""
+    if f"par {name}" in names:
+        return names[f"par {name}"]
     match = re.fullmatch(r"([A-Za-z][A-Za-z0-9]*)_([A-Za-z0-9]{1,3})", name) or re.fullmatch(
         r"([A-Za-z]+)([0-9]{1,3})", name
     )

@@ -251,7 +251,7 @@ class Printer:
 
     def op_par(self, name: Tree) -> str:
         """A parameter, by its own name."""
-        return parameter(name) if isinstance(name, str) else self.bare(name)
+        return parameter(name, self.names) if isinstance(name, str) else self.bare(name)
 
     def op_matrix(self, *rows: Tree) -> str:
         """A matrix."""

@@ -14,7 +14,7 @@ from ..figure.scene import scene
 from ..language.templating import environment
 from ..paper.findings import Finding
 from ..printing.escape import prose
-from ..printing.letters import names_of, parameter
+from ..printing.letters import parameter
 from ..printing.macros import spoken, standard
 from ..printing.mathml import mathml
 from ..printing.measure import measure
@@ -38,6 +38,7 @@ from .outline import (
     capitalised,
     keys,
     printed,
+    spelling,
     subtitle,
     title,
 )
@@ -138,7 +139,7 @@ class _Part:
     @cached_property
     def names(self) -> Mapping[str, str]:
         """How its names are written."""
-        return names_of(self.part.source.symbols)
+        return spelling(self.part.source)
 
     def fields(self, shown: Mapping[str, list[Fields]]) -> Fields:
         """What the template shows; ``shown``: the equations of every step, by its label."""
@@ -258,6 +259,6 @@ class _Part:
         for run, meaning, unit in parameters(self.part.record, self.language):
             told = f"{meaning} [{unit}]" if unit else meaning
             yield {
-                "name": ", ".join(mathml(parameter(x), self.notation) for x in run),
+                "name": ", ".join(mathml(parameter(x, self.names), self.notation) for x in run),
                 "meaning": escaped(told),
             }

@@ -14,7 +14,7 @@ from ..figure.scene import scene
 from ..language.templating import environment
 from ..paper.findings import Finding
 from ..printing.escape import between_dollars, prose, tex_text
-from ..printing.letters import names_of, parameter
+from ..printing.letters import parameter
 from ..printing.macros import definitions, styled
 from ..printing.notation import Notation
 from ..printing.tex import latex_tree
@@ -33,6 +33,7 @@ from .outline import (
     capitalised,
     keys,
     printed,
+    spelling,
     subtitle,
     title,
 )
@@ -148,7 +149,7 @@ class _Writer:
                 yield rf"\walkfigure{{{tikz(drawn)}}}{{{caption}}}"
             for step in part.steps:
                 yield from ("", *self.step(part, step))
-            if names := [*_names(part, names_of(part.source.symbols), self.language)]:
+            if names := [*_names(part, spelling(part.source), self.language)]:
                 heading = tex_text(self.language.word("Names"))
                 yield rf"\begin{{walknames}}{{{heading}}}"
                 yield from (*names, r"\end{walknames}", "")
@@ -191,7 +192,7 @@ class _Writer:
 
     def step(self, part: Part, step: Step) -> Iterator[str]:
         """Heading, sentences, equations."""
-        names, language = names_of(part.source.symbols), self.language
+        names, language = spelling(part.source), self.language
         beside = "".join(f", {prose(x)}" for x in assumed(step, language)) + self.footnotes(step)
         rule = tex_text(capitalised(language.word(step.rule)))
         paper = tex_text(printed(step))
@@ -260,7 +261,7 @@ def _names(part: Part, names: Mapping[str, str], language: Language) -> Iterator
         meaning = prose(language.of(symbol.meaning))
         yield rf"\walkname{{{latex_tree(symbol.name, names)}}}{{{meaning}}}"
     for run, meaning, unit in parameters(part.record, language):
-        shown = ", ".join(map(parameter, run))
+        shown = ", ".join(parameter(x, names) for x in run)
         yield rf"\walkname{{{shown}}}{{{tex_text(meaning)}{f' [{_unit(unit)}]' if unit else ''}}}"
 
 

@@ -17,6 +17,7 @@ from .outline import (
     capitalised,
     notes,
     sections,
+    spelling,
     subtitle,
     title,
 )
@@ -24,7 +25,7 @@ from .outline import (
 
 def markdown(d: Derivation, *, language: Language = ENGLISH) -> str:
     """Headings, prose and display formulas; no raw HTML."""
-    names = names_of(d.symbols)
+    names = spelling(d)
     heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
     conventions = " ".join(
         between_dollars(language.word(x), markdown_text)

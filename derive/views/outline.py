@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from itertools import groupby
 
 from ..language.show import show
+from ..printing.letters import names_of
 from ..record.record import Derivation, Equation, Step
 from ..record.vocabulary import AMENDED, ANY_GROUP
 from .entries import entries
@@ -75,6 +76,11 @@ GIVEN: tuple[tuple[frozenset[Equation], str], ...] = (
 )
 """What is given, and how that is said."""
 ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇_b", "ṗ_b")
+
+
+def spelling(d: Derivation) -> dict[str, str]:
+    """How its names are written in LaTeX."""
+    return names_of(d.symbols, [*map(str, d.problem.get("parameters") or ())])
 
 
 def title(d: Derivation, language: Language = ENGLISH) -> str:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import re
 import textwrap
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import groupby
 
-from ..language.show import in_quotes, show, show_name
+from ..language.show import in_quotes, show, show_name, unclear
 from ..printing.escape import NO_BREAK
 from ..printing.wrap import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
 from ..record.record import Derivation, Equation, Step
@@ -78,15 +77,10 @@ def _parameters(
 
 def clashing(d: Derivation) -> frozenset[str]:
     """The parameters that would read like a name of the walk; text sets them in quotes."""
-    own = {"g", *(s.name for s in d.symbols)}
-    body = d.problem.get("body")
+    body, given = d.problem.get("body"), d.problem.get("parameters")
     symbolic = isinstance(body, Mapping) and body.get("kind") == "moments"
-    found = set()
-    for name in map(str, d.problem.get("parameters") or ()):
-        base = re.sub(r"_?[0-9]+$", "", name)
-        if base in own and not (symbolic and base in ("m", "c", "J")):
-            found.add(name)
-    return frozenset(found)
+    own = {"g", *(s.name for s in d.symbols)}
+    return unclear(own, [*map(str, given or ())], symbolic)
 
 
 def _step(step: Step, width: int, quoted: frozenset[str], language: Language) -> Iterator[str]:

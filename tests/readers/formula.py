@@ -79,6 +79,17 @@ class Letters:
                     return ("par", name)
         return ("sub", base, index)
 
+    def bare(self, name):
+        """May text have this parameter without quotes?  Else it reads as something else."""
+        if name in self.moments:
+            return True
+        known = self.letters | self.parameters
+        product = len(name) > 1 and known.issuperset(name)
+        base, stroke, index = name.partition("_")
+        base = name if stroke and not index else base
+        indexed = index.isdigit() or (len(index) < 3 and set("abeijn").issuperset(index))
+        return not product and name != "j" and not (base in self.letters and indexed)
+
     def alone(self, letter):
         """A letter by itself, of the walk or of the user."""
         if letter in self.moments:

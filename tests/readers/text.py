@@ -54,7 +54,7 @@ def _names(known):
         lead, letter, rest = re.fullmatch(r"((?:δ′?)?)(.[\u0300-\u036f]*|)(.*)", name).groups()
         if letter and "_" not in rest:
             spelt[f"{lead}{letter}{BAR}{rest}"] = ("barred", ("T", spelt[name][1]))
-    for name in known.parameters:
+    for name in filter(known.bare, known.parameters):
         base, _, index = name.partition("_")
         shown = (
             base + "".join({v: k for k, v in SUBSCRIPTS.items()}[c] for c in index)
@@ -125,6 +125,8 @@ def _lowered(text, at, names, known, found):
         found.append(("sub", inside))
         return at
     run = re.compile(r"[A-Za-z0-9,]*[A-Za-z0-9]").match(text, at)
+    if not run:
+        raise UnreadableError(f"no index in {text[at - 9 : at + 9]!r}")
     found.append(("sub", [("name", run[0])]))
     return run.end()
 

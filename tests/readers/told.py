@@ -47,7 +47,7 @@ def missing(equations, said, known, plain):
     for e in equations:
         want = tuple(canonical(x, known, plain) for x in (e.lhs, e.rhs))
         have = left.pop(0) if left and left[0][0] == want[0] else None
-        if have is None and want[0] == want[1]:
+        if have is None and want[1] in (want[0], ("par", "_".join(want[0][1:]))):
             continue
         while have and have != want and left and letter_of(left[0][0], want[0]):
             letter, meaning = left.pop(0)
