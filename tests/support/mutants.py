@@ -1,4 +1,4 @@
-"""Everything made wrong, once at a time: records, emitted programs, rules of the engine.
+"""Everything made wrong, once at a time: records, emitted programs, printers, rules of the engine.
 
 Of records the equations, and the heads, arguments, indices, quantifiers and headers.
 
@@ -11,7 +11,7 @@ from collections import Counter
 
 from derive.check.checker import Checker
 from derive.record.vocabulary import ANY_GROUP
-from tests.support import record_forgeries, record_mutations
+from tests.support import printing_mutations, record_forgeries, record_mutations
 from tests.support.walks import NAMES, OTHERS, SEED, record
 from tests.validate.test_validation import MUTATED, tried
 
@@ -85,4 +85,4 @@ def rules():
 
 
 if __name__ == "__main__":
-    sys.exit(not all([records(), forgeries(), programs(), rules()]))
+    sys.exit(not all([records(), forgeries(), programs(), printing_mutations.main(), rules()]))

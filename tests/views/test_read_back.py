@@ -4,25 +4,13 @@ import random
 
 import pytest
 
-from derive.language.show import show, unclear
+from derive.language.show import unclear
 from derive.printing.letters import names_of, parameter
-from derive.printing.macros import styled
-from derive.printing.mathml import mathml as printed_mathml
-from derive.printing.tex import latex_tree
-from tests.readers import latex, mathml, text
-from tests.readers.formula import Letters, UnreadableError, canonical
-from tests.readers.told import PAGES, faults
-from tests.support import random_trees
+from tests.readers.read import PAGES, faults, misread
+from tests.support import printing_mutations, random_trees
 from tests.support.renamed import renamed
 from tests.support.walks import NAMES, OTHERS, record, repeated
 
-FORMULAS = {
-    "text": lambda t, known: text.formula(show(t), known),
-    "latex": lambda t, known: latex.formula(latex_tree(t), known),
-    "macros": lambda t, known: latex.formula(styled(latex_tree(t)), known),
-    "mathml": lambda t, known: mathml.formula(printed_mathml(latex_tree(t)), known),
-}
-KNOWN = Letters(random_trees.OWN | {"δ"}, {*random_trees.PARAMETERS})
 SEEDS = 4
 TREES = 500
 
@@ -30,18 +18,6 @@ TREES = 500
 @pytest.mark.parametrize("name", repeated(dict.fromkeys((*NAMES, *OTHERS))))
 def test_every_page_says_what_its_record_says(name):
     assert [x for kind in PAGES for x in faults(record(name), kind)] == []
-
-
-def misread(t, known=KNOWN):
-    """The formats whose reader does not find the tree again."""
-    for kind, read in FORMULAS.items():
-        plain = kind == "text"
-        try:
-            found = canonical(read(t, known), known, plain)
-        except (UnreadableError, ValueError) as error:
-            found = error
-        if found != canonical(t, known, plain):
-            yield kind, t, found
 
 
 @pytest.mark.parametrize("seed", repeated(range(SEEDS)))
@@ -72,3 +48,16 @@ def test_a_name_is_marked_only_where_it_would_be_read_as_another():
     assert parameter("x1", names) == r"\mathsf{x1}"
     assert parameter("x_1", names) == parameter("x1") == r"\mathsf{x}_{\mathsf{1}}"
     assert parameter("y2", names) == r"\mathsf{y}_{\mathsf{2}}"
+
+
+@pytest.fixture(scope="module")
+def material():
+    """Trees and records that are read back as they are."""
+    trees, records = printing_mutations.material()
+    assert [*printing_mutations.seen(trees, records)] == []
+    return trees, records
+
+
+@pytest.mark.parametrize("name", repeated(printing_mutations.MUTATIONS))
+def test_a_printer_that_is_wrong_is_seen(name, material):
+    assert printing_mutations.caught(name, *material)

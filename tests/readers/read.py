@@ -1,14 +1,19 @@
-"""Does a page say the equations of its record?"""
+"""Does a page say the equations of its record, and a formula its tree?"""
 
 import random
 
+from derive.language.show import show
+from derive.printing.macros import styled
+from derive.printing.mathml import mathml as printed_mathml
 from derive.printing.notation import Notation
+from derive.printing.tex import latex_tree
 from derive.views import html
 from derive.views import latex as latex_view
 from derive.views import markdown as markdown_view
 from derive.views import text as text_view
 from tests.readers import latex, markdown, mathml, text
-from tests.readers.formula import UnreadableError, canonical, letters_of, value
+from tests.readers.formula import Letters, UnreadableError, canonical, letters_of, value
+from tests.support import random_trees
 
 PAGES = {
     "text": lambda d: text_view.text(d),
@@ -68,3 +73,26 @@ def _put(t, old, new):
     if t == old:
         return new
     return (t[0], *(_put(x, old, new) for x in t[1:])) if isinstance(t, tuple) else t
+
+
+# -- formulas ------------------------------------------------------------------------------------
+
+FORMULAS = {
+    "text": lambda t, known: text.formula(show(t), known),
+    "latex": lambda t, known: latex.formula(latex_tree(t), known),
+    "macros": lambda t, known: latex.formula(styled(latex_tree(t)), known),
+    "mathml": lambda t, known: mathml.formula(printed_mathml(latex_tree(t)), known),
+}
+KNOWN = Letters(random_trees.OWN | {"δ"}, {*random_trees.PARAMETERS})
+
+
+def misread(t, known=KNOWN):
+    """The formats whose reader does not find the tree again."""
+    for kind, read in FORMULAS.items():
+        plain = kind == "text"
+        try:
+            found = canonical(read(t, known), known, plain)
+        except (UnreadableError, ValueError) as error:
+            found = error
+        if found != canonical(t, known, plain):
+            yield kind, t, found

@@ -1,0 +1,239 @@
+"""The printers made wrong, one change of their source at a time: which do the readers not see?
+
+python -m tests.support.printing_mutations
+"""
+
+import importlib
+import inspect
+import random
+import sys
+import types
+from contextlib import contextmanager
+from dataclasses import replace
+from fractions import Fraction
+
+from derive.record.record import Equation, Step, Symbol
+from derive.record.sentence import say
+from tests.readers.read import PAGES, faults, misread
+from tests.support import random_trees
+from tests.support.walks import record
+
+SHOW, TEX, MATHML = "language.show", "printing.tex", "printing.mathml"
+LETTERS, TEXT, LAYOUT, HTML = "printing.letters", "views.text", "views.layout", "views.html"
+GLUE, MACROS, ENTRIES = "printing.juxtaposition", "printing.macros", "views.entries"
+
+MUTATIONS = {
+    "text: Σ of a sum without brackets": (
+        SHOW, 'return f"Σ{_index(arguments[0])} " + (f"({text})" if level == SUM else text)',
+        'return f"Σ{_index(arguments[0])} " + text'),
+    "LaTeX: Σ of a sum without brackets": (
+        TEX, "return lead + (paren(tex) if level == SUM else tex), PRODUCT",
+        "return lead + tex, PRODUCT"),
+    "LaTeX: a wide fraction upside down": (
+        TEX, 'f"{self.atom(a)}{BEFORE_FACTOR} / {self.atom(b)}"',
+        'f"{self.atom(b)}{BEFORE_FACTOR} / {self.atom(a)}"'),
+    "MathML: index and exponent exchanged": (
+        MATHML, "{_one(below)}{_one(above)}</msubsup>", "{_one(above)}{_one(below)}</msubsup>"),
+    "MathML: an infix minus printed as plus": (
+        MATHML, "{SIGNS.get(token, escape(token))}",
+        "{'+' if self.infix and token == '-' else SIGNS.get(token, escape(token))}"),
+    "text: a long left side loses its first lines": (TEXT, "        yield from before\n", ""),
+    "LaTeX: a long left side loses its continuation": (
+        LAYOUT, '"&" + guarded(first.text), *("&" + indented(x, 1) for x in others)]',
+        '"&" + guarded(first.text)]'),
+    "text: x_123 shown as x_12": (
+        SHOW, "return base + index.translate(SUBSCRIPTS)",
+        "return base + index[:2].translate(SUBSCRIPTS)"),
+    "LaTeX: x_123 shown as x_12": (
+        LETTERS, r'{_base(match[1])}_{{\mathsf{{{match[2]}}}}}',
+        r'{_base(match[1])}_{{\mathsf{{{match[2][:2]}}}}}'),
+    "text: a sum as a factor without brackets": (
+        SHOW, "if level == SUM or inside or (text and _spread(f)) else shown",
+        "if inside or (text and _spread(f)) else shown"),
+    "text: the terms of a sum all with +": (SHOW, 'f" {sign} {term}"', 'f" + {term}"'),
+    "text: the sign of the first term lost": (
+        SHOW, 'text = ("−" if first[0] == "−" else "") + first[1]', "text = first[1]"),
+    "text: no bar": (SHOW, r'{match[2]}\u0304{match[3]}', "{match[2]}{match[3]}"),
+    "text: the bar over the wrong letter": (
+        SHOW, r'f"{match[1]}{match[2]}\u0304{match[3]}" if match',
+        r'f"{match[1]}\u0304{match[2]}{match[3]}" if match'),
+    "text: what is divided by in no brackets": (
+        SHOW, "raised or isinstance(t, Fraction) else _atom(t)", "raised else show(t)"),
+    "text: a quotient upside down": (
+        SHOW, 'text = f"{above}/{_base(arguments[1])}"',
+        'text = f"{_base(arguments[1])}/{above}"'),
+    "text: Tr of a sum without brackets": (
+        SHOW, 'f"Tr {text}" if level >= PRODUCT else f"Tr({text})"', 'f"Tr {text}"'),
+    "text: a ∧ (b ∧ c) without brackets": (
+        SHOW, 'return f"({text})" if level == SUM or swallows(t) else text',
+        'return f"({text})" if level == SUM else text'),
+    "text: an exponent dropped": (
+        SHOW, "return _base(a[0]) + str(a[1])", "return _base(a[0]) + str(2)"),
+    "text: letters of a product run together with names": (
+        SHOW, 'return " " if WORD.search(text + piece) else ""', 'return ""'),
+    "text: the metric of a norm left out": (
+        SHOW, '(f"_{_below(a[0])}" if len(a) == 2 else "")', '""'),
+    "text: rows and entries with one mark": (SHOW, '"; ".join(show(row)', '", ".join(show(row)'),
+    "text: no quotes": (TEXT, "return unclear(own, [*map(str, given or ())], symbolic)",
+                        "return frozenset()"),
+    "text: continued lines lost": (
+        TEXT, 'lines = [f"{lead} = {first[indent:]}", *others]',
+        'lines = [f"{lead} = {first[indent:]}"]'),
+    "LaTeX: a minus lost": (TEX, 'lead = "-" if sign == "−" else ""', 'lead = ""'),
+    "LaTeX: a sum as a factor without brackets": (
+        TEX, "if level == SUM or inside or wedge:", "if inside or wedge:"),
+    "LaTeX: a trace that takes in the next factor": (
+        TEX, 'reaches = isinstance(f, tuple) and f[0] in ("tr", "sum", "wedge")',
+        "reaches = False"),
+    "LaTeX: a fraction upside down": (
+        TEX, r"\frac{{{plain(above)}}}{{{plain(below)}}}",
+        r"\frac{{{plain(below)}}}{{{plain(above)}}}"),
+    "LaTeX: the bar not over the whole": (
+        TEX, r'return rf"\overline{{{plain(self.bare(a))}}}"', "return plain(self.bare(a))"),
+    "LaTeX: two indices as one": (
+        TEX, "',' if any(len(i) > 1 for i in shown) else ''", "''"),
+    "LaTeX: powers without brackets": (
+        TEX, 'return paren(tex) if SCRIPTED.search(outside(tex)) or (fraction and '
+        'tex[0] != "(") else tex', "return tex"),
+    "LaTeX: ∧ turned round": (
+        TEX, r'rf"{sides[0]}{BEFORE_WEDGE} \wedge {sides[1]}"',
+        r'rf"{sides[1]}{BEFORE_WEDGE} \wedge {sides[0]}"'),
+    "LaTeX: the wrong power of a function": (TEX, r'{head}^{{{n}}}(', r'{head}^{{2}}('),
+    "LaTeX: an entry of a matrix lost": (
+        TEX, "return [_stacked(self.bare(x)) for x in row[1:]]",
+        "return [_stacked(self.bare(x)) for x in row[1:3]]"),
+    "LaTeX: the last line of a long entry lost": (
+        TEX, 'body = r" \\\\ ".join(lines)', 'body = r" \\\\ ".join(lines[:-1] or lines)'),
+    "LaTeX: numbers side by side": (
+        GLUE, r'return rf"{BEFORE_FACTOR} \cdot "', 'return " "'),
+    "LaTeX: x1 and x_1 alike": (
+        LETTERS, 'if f"par {name}" in names:', "if False:"),
+    "LaTeX: continued lines lost": (
+        LAYOUT, '*("&" + indented(x, 1) for x in lines[1:])]', "]"),
+    "macros: the index of a barred letter lost": (
+        MACROS, r'"\\transpose{\1\2}{\3}"'.replace('"', 'r"', 1), 'r"\\\\transpose{\\1\\2}{}"'),
+    "MathML: a fraction upside down": (
+        MATHML, "<mfrac>{_one(above)}{_one(below)}</mfrac>",
+        "<mfrac>{_one(below)}{_one(above)}</mfrac>"),
+    "MathML: no bar": (MATHML, """f'<mrow class="overline">{inside}</mrow>'""", "inside"),
+    "MathML: primes lost": (MATHML, """{"′" * len(token)}""", '{""}'),
+    "MathML: a digit of an exponent lost": (
+        MATHML, 'return f"<mn>{token}</mn>"', 'return f"<mn>{token[:1]}</mn>"'),
+    "MathML: accents exchanged": (
+        MATHML, 'ACCENTS = {"dot": "˙", "tilde": "~"', 'ACCENTS = {"dot": "~", "tilde": "˙"'),
+    "MathML: a parameter like a letter": (
+        MATHML, '<mi mathvariant="normal" class="parameter">{escape(shown)}</mi>',
+        "<mi>{escape(shown)}</mi>"),
+    "MathML: rows run together": (
+        MATHML, """rows.append(f"<mtr>{''.join(cells)}</mtr>")""",
+        """rows.append("".join(cells))"""),
+    "HTML: terms lost": (
+        HTML, "inside = (self.nested(x, follows or k > 0) for k, x in enumerate(groups(parts)))",
+        "inside = (self.nested(x, follows or k > 0) for k, x in enumerate(groups(parts)[:1]))"),
+}  # fmt: skip
+"""What is changed → the module, its source, and what stands there instead."""
+
+
+def hard():
+    """A record of what is rare: long sides, wide fractions, long names, powers of members."""
+    terms = (("mul", ("par", f"x_{k}"), ("entry", "ζ", k % 3 + 1)) for k in range(101, 131))
+    long = ("add", *terms)
+    left = ("inner", ("add", *(("mul", ("at", "m", k), "α", "c") for k in range(1, 30))), "w")
+    wide = ("div", long, ("add", ("par", "x_101"), ("par", "x_99")))
+    power = ("mul", ("pow", ("at", "m", "i"), 3), ("pow", ("fun", "cos", ("par", "x_1")), 3))
+    total = ("sum", "i", ("add", ("at", "m", "i"), ("mul", -1, ("par", "x_1"))))
+    word = ("mul", ("par", "s"), ("par", "i"), ("par", "n"), ("add", ("par", "s"), -2))
+    two = ("add", ("mul", ("par", "x1"), 3, 5), ("mul", Fraction(-2, 3), ("par", "x_1")))
+    barred = ("mul", ("T", "p_b"), ("T", "ℓ̇_b"), ("T", ("at", "E", "a")))
+    equations = [
+        *(Equation("h̃", t) for t in (long, wide, power, total, word, two, barred)),
+        Equation(left, ("mul", 2, left)),
+        Equation("t", ("tr", ("add", ("T", "J"), ("mul", -1, "J")))),
+        Equation("c", ("mul", ("par", "w"), "w")),
+        Equation(("at", "E", 1), ("matrix", ("row", long), ("row", ("par", "sn")))),
+        Equation("J", ("matrix", ("row", wide, long, "t"), ("row", 1, 2, 3))),
+    ]
+    names = ("ζ", "m", "α", "c", "w", "h̃", "J", "p_b", "ℓ̇_b", "E", "t")
+    named = ("x1", *"sinw", "sn", *(f"x_{k}" for k in (1, 99, *range(101, 131))))
+    given = {x: {"default": None, "unit": "", "meaning": ""} for x in named}
+    d = record("two_tops")
+    scope = d.steps[-1].scope
+    step = Step("hard.step", "definition", (), tuple(equations), say("Hard."), (), scope=scope)
+    problem = {**d.problem, "parameters": {**d.problem["parameters"], **given}}
+    symbols = tuple(Symbol(x, say("a letter"), "") for x in names)
+    return replace(d, problem=problem, symbols=symbols, steps=(step,))
+
+
+@contextmanager
+def changed(module, old, new):
+    """With one change of the source of a module, in all who hold its functions."""
+    module = importlib.import_module(f"derive.{module}")
+    source = inspect.getsource(module)
+    assert source.count(old) == 1, f"{module.__name__} has {source.count(old)} of {old}"
+    fresh = types.ModuleType(module.__name__)
+    fresh.__dict__.update(__package__=module.__package__, __file__=module.__file__)
+    sys.modules[module.__name__] = fresh  # where dataclasses look
+    exec(compile(source.replace(old, new), module.__file__, "exec"), fresh.__dict__)
+    sys.modules[module.__name__] = module
+    undo = [*_transplanted(vars(module), vars(fresh))]
+    try:
+        yield
+    finally:
+        for restore in undo:
+            restore()
+
+
+def _transplanted(old, new):
+    """The code of the new functions and methods put into the old; how to undo each."""
+    for name, x in [*old.items()]:
+        y = new.get(name)
+        if isinstance(x, types.FunctionType) and isinstance(y, types.FunctionType):
+            if x.__code__ != y.__code__:
+                code, x.__code__ = x.__code__, y.__code__
+                yield lambda x=x, code=code: setattr(x, "__code__", code)
+        elif isinstance(x, type) and x.__module__ == old["__name__"]:
+            yield from _transplanted({**vars(x), "__name__": ""}, vars(y))
+        elif isinstance(x, dict) and x != y and not name.startswith("__") and type(y) is dict:
+            kept = dict(x)
+            x.update(y)
+            yield lambda x=x, kept=kept: x.update(kept)
+
+
+def seen(trees, records):
+    """What the readers see of a change that is made."""
+    for t in trees:
+        yield from misread(t)
+    for d in records:
+        for kind in PAGES:
+            yield from faults(d, kind)
+
+
+def material():
+    """Trees and records that between them have all that is printed."""
+    draw = random.Random(7)
+    trees = [random_trees.tree(draw, k % 4) for k in range(250)]
+    return trees, [hard(), record("two_tops"), record("sl3")]
+
+
+def caught(name, trees, records):
+    """Is this change seen?"""
+    with changed(*MUTATIONS[name]):
+        try:
+            return next(iter(seen(trees, records)), None) is not None
+        except (AssertionError, KeyError, TypeError, ValueError, IndexError):
+            return True
+
+
+def main():
+    """A line for each; whether all are seen."""
+    trees, records = material()
+    assert not [*seen(trees, records)]
+    held = {name: caught(name, trees, records) for name in MUTATIONS}
+    for name, found in held.items():
+        print(f"{'seen' if found else 'NOT SEEN':10}{name}")
+    print(f"printers: {sum(held.values())} of {len(held)} changes are seen\n")
+    return all(held.values())
+
+
+if __name__ == "__main__":
+    sys.exit(not main())
