@@ -200,11 +200,12 @@ def _tried(v: Verdict) -> str:
 def command_paper(args: argparse.Namespace) -> int:
     """The paper's numbered equations against the derivation."""
     from ..paper import findings as paper
+    from ..paper.printed import PAPER
     from ..views.language import language
     from ..views.paper import as_json, as_text
 
     records = [derive(name)[1] for name in paper.PROBLEMS]
-    findings = list(counted(paper.findings(records), len(paper.PAPER), "equations"))
+    findings = list(counted(paper.findings(records), len(PAPER), "equations"))
     shown = as_json(findings) if args.format == "json" else as_text(findings, language(args.lang))
     save(shown, args.out, args.format)
     return 0
