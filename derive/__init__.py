@@ -10,10 +10,11 @@ from typing import Any
 __version__ = "0.1.0"
 
 WORDS = (
-    *("Aff", "Attraction", "Covector", "Damping", "Force", "GL", "Gravity", "Group"),
+    *("Aff", "Covector", "Damping", "Force", "GL", "Gravity", "Group"),
     *("Moments", "Points", "Potential", "Problem", "SAff", "SE", "SL", "SO", "SU", "Sim", "Solid"),
     *("Sp", "Spring", "U", "UT"),
 )
+"""And a word for each other kind of potential: ``Attraction`` and so on."""
 PLACES = dict.fromkeys(WORDS, "derive.python.api") | {
     **dict.fromkeys(("Derived", "derive"), "derive.python.derived"),
     **dict.fromkeys(("Compiled", "CompileError", "compile"), "derive.python.compiled"),
@@ -27,4 +28,6 @@ __all__ = [*PLACES]
 def __getattr__(name: str) -> Any:
     if name in PLACES:
         return getattr(import_module(PLACES[name]), name)
+    if name[:1].isupper() and name in import_module("derive.schema.kinds").words():
+        return getattr(import_module("derive.python.api"), name)
     raise AttributeError(f"module 'derive' has no attribute {name!r}")

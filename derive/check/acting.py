@@ -8,33 +8,21 @@ from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from .exerted import SINGLE, Vector, damping_members
+from .exerted import Vector, column, damping_members
 from .model import Model
 from .solved import Solved
 
 Values = dict[str, Any]
 
 
-def column(r: Any) -> Matrix:
-    """A vector as a matrix of one column."""
-    return tuple((x,) for x in r)
-
-
 def exerted_values(model: Model) -> Values:
     """γ, K, U_Q, N_Q, F_Q, N_u, F_u, D and their kin."""
     ex, places = model.exerted, model.moved(model.g)
     values: Values = {}
-    for p in model.problem.get("potentials", []):
-        if p["kind"] == "gravity":
-            whole = model.group.in_every_block(ex.vector(p["g"]))
-            earlier = values.get("γ", column((Fraction(0),) * len(whole)))
-            values["γ"] = q.plus(earlier, column(whole))
-    if spring_members(model):
-        values["K"] = q.scaled(Fraction(0), q.identity(model.n))
-        for k, s in spring_members(model):
-            values["K"] = q.plus(values["K"], q.scaled(k, q.times(s, q.transposed(s))))
-    values["U_Q"] = ex.potential(model.t, places, model.masses, SINGLE)
-    pushes = ex.forces(model.t, places, model.masses, SINGLE)
+    for account, members in ex.members():
+        values |= account.values(model, members)
+    values["U_Q"] = ex.single_potential(model.t, places, model.masses)
+    pushes = ex.single_forces(model.t, places, model.masses)
     values |= _summed(model, pushes, "Q")
     if model.driven:
         values |= _summed(model, model.given_forces, "u")
@@ -82,19 +70,6 @@ def _damping(model: Model) -> Values:
     return values
 
 
-def spring_members(model: Model) -> list[tuple[Fraction, Matrix]]:
-    """k_e and s_e of the quadratic springs."""
-    members = []
-    for x in model.exerted.terms:
-        if x.kind != SINGLE and x.data["kind"] == "spring":
-            i, j = x.data["between"]
-            ends = zip(model.points[i - 1], model.points[j - 1], strict=True)
-            members.append(
-                (model.exerted.number(x.data["stiffness"]), column(a - b for a, b in ends))
-            )
-    return members
-
-
 def _in_body(model: Model, vector: Sequence[Any]) -> Matrix:
     """Ā on a vector of space; empty in a product, whose blocks have spaces of their own."""
     if model.group.factors:
@@ -105,16 +80,16 @@ def _in_body(model: Model, vector: Sequence[Any]) -> Matrix:
 def exerted_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     """k, s, d, σ, Q, κ and f_u by their indices."""
     families: dict[str, dict[tuple[int, ...], Any]] = {}
-    for e, (k, s) in enumerate(spring_members(model), 1):
-        families.setdefault("k", {})[e,] = k
-        families.setdefault("s", {})[e,] = s
+    for account, members in model.exerted.members():
+        if hasattr(account, "families"):
+            families |= account.families(model, members)
     places = model.moved(model.g)
     for e, (d, sigma) in enumerate(model.exerted.radial(places, model.masses), 1):
         families.setdefault("d", {})[e,] = column(d)
         families.setdefault("χ", {})[e,] = _in_body(model, d)
         families.setdefault("σ", {})[e,] = sigma
-    if any(x.kind == SINGLE for x in model.exerted.terms):
-        pushes = model.exerted.forces(model.t, places, model.masses, SINGLE)
+    if model.exerted.single:
+        pushes = model.exerted.single_forces(model.t, places, model.masses)
         families["Q"] = {(i,): column(f) for i, f in enumerate(pushes, 1)}
         families["P"] = {(i,): _in_body(model, f) for i, f in enumerate(pushes, 1)}
     if damped := damping_members(model):

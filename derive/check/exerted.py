@@ -5,29 +5,23 @@ U is computed from the problem's own data, term by term; its forces come from ni
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
 from ..algebra.groups import Group
 from ..language import rational as q
+from ..language.rational import Matrix
 from ..language.tree import Tree
 from ..record.record import RecordError, decode
 from .draws import Draws
 from .evaluate import Environment, evaluate
+from .kinds import accounts
 from .nilpotent import ETA, Nilpotent, nilpotent, part
 
 Vector = tuple[Any, ...]
-QUADRATIC, SINGLE = "quadratic", "single"
-
-
-@dataclass(frozen=True)
-class Term:
-    """One potential: what it is, and whether the walk sums it up or keeps it point by point."""
-
-    data: Mapping[str, Any]
-    kind: str
+Distance = tuple[Vector, Callable[[Any], Any]]
+"""d, and a potential as a function of ‖d‖²."""
 
 
 RATE = 2
@@ -77,15 +71,20 @@ class Exerted:
         self, problem: Mapping[str, Any], group: Group, blocks: Sequence[int], env: Environment
     ):
         self.problem, self.group, self.blocks, self.env = problem, group, blocks, env
-        self.terms = [Term(p, self._kind(p)) for p in problem.get("potentials", [])]
+        self.potentials = [*problem.get("potentials", [])]
+        self.single = [p for p in self.potentials if not self._summed(p)]
 
-    def _kind(self, p: Mapping[str, Any]) -> str:
-        if p["kind"] == "gravity":
-            return QUADRATIC
-        if p["kind"] == "spring" and "between" in p and p["length"] == 0:
-            i, j = p["between"]
-            return QUADRATIC if self.blocks[i - 1] == self.blocks[j - 1] else SINGLE
-        return SINGLE
+    def _summed(self, p: Mapping[str, Any]) -> bool:
+        """Does the walk sum it up in words?"""
+        account = _account(p)
+        return hasattr(account, "summed") and bool(account.summed(self, p))
+
+    def members(self) -> Iterator[tuple[Any, list[Mapping[str, Any]]]]:
+        """The accounts of kinds of which some are summed up, with these."""
+        for account in accounts().values():
+            found = [p for p in self.potentials if _account(p) is account and self._summed(p)]
+            if found:
+                yield account, found
 
     def number(self, tree: Any) -> Any:
         """The value of an expression of the problem."""
@@ -101,79 +100,52 @@ class Exerted:
             return r[i - 1]
         return r[i - 1][self.group.of_block(self.blocks[i - 1])]
 
-    def potential(self, t: Any, r: Sequence[Vector], masses: Sequence[Any], kind: str = "") -> Any:
-        """U(t, r), or the part of one kind."""
-        chosen = (x.data for x in self.terms if kind in ("", x.kind))
-        return sum((self._energy(p, t, r, masses) for p in chosen), Fraction(0))
+    def potential(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+        """U(t, r)."""
+        return self._energy(self.potentials, t, r, masses)
+
+    def single_potential(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+        """The part of U that is given point by point."""
+        return self._energy(self.single, t, r, masses)
 
     def _energy(
-        self, p: Mapping[str, Any], t: Any, r: Sequence[Vector], masses: Sequence[Any]
+        self,
+        chosen: Sequence[Mapping[str, Any]],
+        t: Any,
+        r: Sequence[Vector],
+        masses: Sequence[Any],
     ) -> Any:
-        kind = p["kind"]
-        heavy = [i for i, m in enumerate(masses, 1) if m]
-        if kind == "gravity":
-            g = self.group.in_every_block(self.vector(p["g"]))
-            return -sum((masses[i - 1] * _dot(g, r[i - 1]) for i in heavy), Fraction(0))
-        if kind == "spring":
-            return self.stretch(p, _square(self.difference(p, r)))
-        if kind == "attraction":
-            pulls = (-pull / self._root(_square(d)) for d, pull in self.attracted(p, r, masses))
-            return sum(pulls, Fraction(0))
-        if kind != "expression":
-            raise RecordError(f"unknown potential {str(kind)[:20]!r}")
-        return evaluate(decode(p["U"], "U"), self._at(t, r))
+        terms = (_account(p).energy(self, p, t, r, masses) for p in chosen)
+        return sum(terms, Fraction(0))
 
-    def difference(self, p: Mapping[str, Any], r: Sequence[Vector]) -> Vector:
-        """From the second end of a spring to the first."""
-        if "between" in p:
-            a, b = (self.place(r, i) for i in p["between"])
-        else:
-            a, b = self.place(r, p["on"]), self.vector(p["anchor"])
-        return tuple(x - y for x, y in zip(a, b, strict=True))
-
-    def attracted(
-        self, p: Mapping[str, Any], r: Sequence[Vector], masses: Sequence[Any]
-    ) -> Iterator[tuple[Vector, Any]]:
-        """For each mass its place seen from the centre, and m · strength."""
-        strength, centre = self.number(p["strength"]), self.vector(p["centre"])
-        given = [(i, self.number(m)) for i, m in p.get("on", ())]
-        for i, m in given or enumerate(masses, 1):
-            if m:
-                d = self.place(r, i)
-                origin = centre or (Fraction(0),) * len(d)
-                yield tuple(x - y for x, y in zip(d, origin, strict=True)), m * strength
-
-    def stretch(self, p: Mapping[str, Any], square: Any) -> Any:
-        """½ k (‖d‖ − ℓ)² as a function of ‖d‖²."""
-        k, length = self.number(p["stiffness"]), self.number(p["length"])
-        if p["length"] == 0:
-            return k * square * Fraction(1, 2)
-        stretched = self._root(square) - length
-        return k * (stretched * stretched) * Fraction(1, 2)
-
-    def _root(self, x: Any) -> Any:
+    def root(self, x: Any) -> Any:
+        """√x."""
         assert self.env.elementary is not None
         return self.env.elementary("sqrt", x)
 
-    def _at(self, t: Any, r: Sequence[Vector]) -> Environment:
+    def value(self, tree: Any, t: Any, r: Sequence[Vector]) -> Any:
+        """The value of an expression of the time and the places."""
+
         def point(head: Any, arguments: tuple[Tree, ...], env: Environment) -> Any:
             del arguments, env
             return tuple((x,) for x in r[head[2] - 1])
 
-        names = {**self.env.names, "t": t}
-        return Environment(
+        env = Environment(
             self.env.size,
-            names,
+            {**self.env.names, "t": t},
             functions={"r": point},
             parameters=self.env.parameters,
             elementary=self.env.elementary,
         )
+        return evaluate(decode(tree, "U"), env)
 
-    def forces(
-        self, t: Any, r: Sequence[Vector], masses: Sequence[Any], kind: str = ""
-    ) -> list[Vector]:
+    def forces(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> list[Vector]:
         """−∂U/∂r_i for every point."""
-        return pushed(lambda places: self.potential(t, places, masses, kind), r)
+        return pushed(lambda places: self.potential(t, places, masses), r)
+
+    def single_forces(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> list[Vector]:
+        """Of what is given point by point."""
+        return pushed(lambda places: self.single_potential(t, places, masses), r)
 
     def tension(self, energy: Any) -> Any:
         """−2 dU/dq, from U at q + η."""
@@ -181,16 +153,25 @@ class Exerted:
 
     def radial(self, r: Sequence[Vector], masses: Sequence[Any]) -> list[tuple[Vector, Fraction]]:
         """d_e and σ_e of the elements that are functions of a distance, in order."""
-        found = []
         eta = nilpotent(ETA)
-        for p in (x.data for x in self.terms if x.kind == SINGLE):
-            if p["kind"] == "spring":
-                d = self.difference(p, r)
-                found.append((d, self.tension(self.stretch(p, _square(d) + eta))))
-            elif p["kind"] == "attraction":
-                for d, pull in self.attracted(p, r, masses):
-                    found.append((d, self.tension(-pull / self._root(_square(d) + eta))))
-        return found
+        return [
+            (d, self.tension(energy(_square(d) + eta)))
+            for p in self.single
+            if hasattr(_account(p), "radial")
+            for d, energy in _account(p).radial(self, p, r, masses)
+        ]
+
+
+def _account(p: Mapping[str, Any]) -> Any:
+    """The checker's account of a potential."""
+    if p["kind"] not in accounts():
+        raise RecordError(f"unknown potential {str(p['kind'])[:20]!r}")
+    return accounts()[p["kind"]]
+
+
+def column(r: Iterable[Any]) -> Matrix:
+    """A vector as a matrix of one column."""
+    return tuple((x,) for x in r)
 
 
 def _dot(a: Vector, b: Vector) -> Any:

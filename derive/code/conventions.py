@@ -50,8 +50,7 @@ def conventions(
 
 def _lengths(problem: Mapping[str, Any]) -> list[str]:
     """Where a spring has no direction."""
-    springs = [p for p in problem.get("potentials", []) if p["kind"] == "spring"]
-    if not any(p.get("length", 0) != 0 for p in springs):
+    if not any(p.get("length", 0) != 0 for p in problem.get("potentials", [])):
         return []
     text = (
         "Where the ends of a spring meet, its natural length must be 0: else its force has no "

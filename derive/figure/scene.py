@@ -12,6 +12,7 @@ from typing import Any
 
 from ..record.record import Derivation
 from ..record.sentence import Prose, say
+from ..schema.kinds import kinds
 from .camera import FLAT, View, ranked
 from .drawing import Box, Label, Point, Scene, arrow, from_segment
 from .drawn_body import ORIGIN, Numbers, Vector, parts, plus
@@ -190,17 +191,16 @@ def _caption(
     said: list[Prose] = [say("The body at the identity of the group, with the axes of its frame.")]
     said += _about_the_body(panels)
     potentials = problem["potentials"]
-    kinds = {p["kind"] for p in potentials}
-    if "spring" in kinds:
-        said.append(say("Zigzags are springs."))
+    there = {p["kind"] for p in potentials}
+    legends = [x for kind, x in kinds().items() if kind in there and x.legend]
+    told = {x.kind: say(x.legend) for x in legends if x.drawn}
     if any(panel.anchors for panel in panels):
-        said.append(say("The hatched supports are fixed in space."))
-    if "attraction" in kinds:
-        said.append(say("Dashed lines lead to the centre of attraction."))
+        told["spring"] += say("The hatched supports are fixed in space.")
+    said += told.values()
     elsewhere = any(panel.centre_of(p)[1] for panel in panels for p in panel.attractions)
     if elsewhere or any(panel.moved for panel in panels):
         said.append(say("Distances to fixed places are not to scale."))
-    if "gravity" in kinds and not falls:
+    if "gravity" in there and not falls:
         said.append(say("Gravity has no component in the drawing."))
     if any(i["kind"] == "force" for i in problem["inputs"]):
         said.append(say("The directions of the input forces are arbitrary."))
@@ -209,8 +209,7 @@ def _caption(
         for i in problem["inputs"]
         if i["kind"] == "covector"
     ]
-    if "expression" in kinds:
-        said.append(say("The potential given as an expression is not drawn."))
+    said += [say(x.legend) for x in legends if not x.drawn]
     if problem["damping"]:
         said.append(say("Damping is not drawn."))
     if value.invented:

@@ -4,18 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .problem import (
-    Attraction,
-    Body,
-    CovectorInput,
-    Expression,
-    GivenBody,
-    Gravity,
-    Input,
-    PointBody,
-    Potential,
-    Problem,
-)
+from .problem import Body, CovectorInput, GivenBody, Input, PointBody, Problem
 from .solids import Solid
 
 
@@ -32,7 +21,7 @@ def data(problem: Problem) -> dict[str, Any]:
             for k, p in problem.parameters.items()
         },
         "body": _body_data(problem.body),
-        "potentials": [_potential_data(p) for p in problem.potentials],
+        "potentials": [p.plain() for p in problem.potentials],
         "inputs": [_input_data(i) for i in problem.inputs],
         "places": [{"at": list(p.at), "block": p.block} for p in problem.places],
         "damping": [{"coefficient": d.coefficient, "on": list(d.on)} for d in problem.damping],
@@ -77,19 +66,6 @@ def _listed(x: Any) -> Any:
     if isinstance(x, tuple) and x and not isinstance(x[0], str):
         return [_listed(y) for y in x]
     return x
-
-
-def _potential_data(p: Potential) -> dict[str, Any]:
-    if isinstance(p, Gravity):
-        return {"kind": "gravity", "g": list(p.acceleration)}
-    if isinstance(p, Attraction):
-        on = {"on": [list(pair) for pair in p.on]} if p.on else {}
-        return {"kind": "attraction", "strength": p.strength, "centre": list(p.centre), **on}
-    if isinstance(p, Expression):
-        return {"kind": "expression", "U": p.energy}
-    i, j = p.between
-    ends = {"between": [i, j]} if j is not None else {"on": i, "anchor": list(p.anchor)}
-    return {"kind": "spring", **ends, "stiffness": p.stiffness, "length": p.length}
 
 
 def _input_data(i: Input) -> dict[str, Any]:

@@ -9,6 +9,8 @@ from typing import Any
 from ..algebra.groups import Group
 from ..language.reserved import PLACE
 from ..language.tree import Tree, subtrees
+from ..schema.kind import Potential
+from ..schema.kinds import kinds
 from .fields import (
     LIKE_A_PLACE,
     choice,
@@ -22,24 +24,22 @@ from .fields import (
 )
 from .inertia import is_negative
 from .problem import (
-    Attraction,
     Body,
     CovectorInput,
     Damping,
-    Expression,
     ForceInput,
     GivenBody,
-    Gravity,
     Input,
     Parameter,
     Place,
     PointBody,
-    Potential,
     ProblemError,
-    Spring,
 )
 
 AXES = "xyz"
+Vector = tuple[Tree, ...]
+Found = Mapping[str, Any]
+"""What has been read of a table."""
 
 
 @dataclass
@@ -91,56 +91,79 @@ class Points:
 
 def potential(data: Mapping[str, Any], where: str, points: Points) -> Potential:
     """One table [[potential]]."""
-    kinds = ("gravity", "spring", "attraction", "expression")
-    kind = choice(data, "kind", kinds, where)
+    kind = choice(data, "kind", tuple(kinds()), where)
     if points.group is None:
         raise ProblemError(f"{where}: a text about any group has no potential of its own")
-    if kind == "gravity":
-        known(data, {"kind", "g"}, where)
-        sizes = {g.n for _, g in points.group.places}
-        if len(sizes) > 1:
-            raise ProblemError(f"{where}: gravity needs blocks of one dimension; use 'expression'")
-        return Gravity(vector(missing(data, "g", where), sizes.pop(), f"{where}, g"))
-    if kind == "attraction":
-        known(data, {"kind", "strength", "centre"}, where)
-        if not points.masses or points.heavy:
-            raise ProblemError(f"{where}: attraction needs a body of [[point]] tables alone")
-        n = points.size(1)
-        if any(points.size(i) != n for i in range(1, points.masses + 1)):
-            raise ProblemError(f"{where}: attraction needs blocks of one dimension")
-        centre = vector(data["centre"], n, f"{where}, centre") if "centre" in data else ()
-        strength = expression(missing(data, "strength", where), f"{where}, strength")
-        return Attraction(strength, centre)
-    if kind == "spring":
-        return _spring(data, where, points)
-    known(data, {"kind", "U"}, where)
-    U = _placed(expression(missing(data, "U", where), f"{where}, U"), where, points)
-    if not any(x[0] == "at" for _, x in subtrees(U) if isinstance(x, tuple)):
-        raise ProblemError(f"{where}, U: no place of a point, as r1_x, so no force; leave it out")
-    return Expression(U)
+    own = kinds()[kind]
+    known(data, {"kind", *own.names()}, where)
+    return own.read(data, where, FileReader(points))
 
 
-def _spring(data: Mapping[str, Any], where: str, points: Points) -> Spring:
-    known(data, {"kind", "between", "on", "at", "block", "anchor", "stiffness", "length"}, where)
-    stiffness = expression(missing(data, "stiffness", where), f"{where}, stiffness")
-    length = expression(data.get("length", 0), f"{where}, length")
-    if "between" in data:
-        ends = data["between"]
-        if any(key in data for key in ("at", "on", "anchor")):
-            raise ProblemError(f"{where}: give either 'between' or an end with an 'anchor'")
+@dataclass
+class FileReader:
+    """Reads the table of a potential (:class:`Reader`): a method for each type of a key."""
+
+    points: Points
+
+    def fail(self, message: str) -> ProblemError:
+        """The error of a file."""
+        return ProblemError(message)
+
+    def has(self, table: Mapping[str, Any], key: str) -> bool:
+        """Does the table say it?"""
+        return key in table
+
+    def meets(self, need: str, kind: str, where: str) -> None:
+        """``points alone``: nothing else has mass; ``one space``: all blocks are of one dimension,
+        or the points where there are some."""
+        at = self.points
+        if need == "points alone" and (not at.masses or at.heavy):
+            raise ProblemError(f"{where}: {kind} needs a body of [[point]] tables alone")
+        if need == "one space" and len(self._sizes()) > 1:
+            more = "; use 'expression'" if kind == "gravity" else ""
+            raise ProblemError(f"{where}: {kind} needs blocks of one dimension{more}")
+
+    def _sizes(self) -> set[int]:
+        assert self.points.group is not None
+        return {g.n for _, g in self.points.group.places}
+
+    def scalar(self, table: Mapping[str, Any], key: str, where: str, _: Found) -> Tree:
+        """An expression of the parameters."""
+        return expression(missing(table, key, where), f"{where}, {key}")
+
+    def vector(self, table: Mapping[str, Any], key: str, where: str, found: Found) -> Vector:
+        """Of the space of the end that is given, or of all points."""
+        n = self.points.size(found["on"]) if found.get("on") else max(self._sizes())
+        return vector(missing(table, key, where), n, f"{where}, {key}")
+
+    def energy(self, table: Mapping[str, Any], key: str, where: str, found: Found) -> Tree:
+        """An expression of places in space, with one at least."""
+        U = _placed(self.scalar(table, key, where, found), where, self.points)
+        if not any(x[0] == "at" for _, x in subtrees(U) if isinstance(x, tuple)):
+            raise ProblemError(
+                f"{where}, {key}: no place of a point, as r1_x, so no force; leave it out"
+            )
+        return U
+
+    def pair(self, table: Mapping[str, Any], key: str, where: str, _: Found) -> tuple[int, int]:
+        """Two points, in spaces of one dimension."""
+        ends, at = table[key], self.points
         if not isinstance(ends, list) or len(ends) != 2:
-            raise ProblemError(f"{where}: key 'between' must be two points")
-        i, j = (points.point(x, f"{where}, between") for x in ends)
+            raise ProblemError(f"{where}: key {key!r} must be two points")
+        i, j = (at.point(x, f"{where}, {key}") for x in ends)
         if i == j:
-            raise ProblemError(f"{where}: key 'between' names one point twice")
-        if points.size(i) != points.size(j):
+            raise ProblemError(f"{where}: key {key!r} names one point twice")
+        if at.size(i) != at.size(j):
             raise ProblemError(f"{where}: the points {i} and {j} are in spaces of two dimensions")
-        return Spring((i, j), stiffness, length)
-    if "anchor" not in data:
-        raise ProblemError(f"{where}: give 'between', or 'on' or 'at' with an 'anchor'")
-    i = points.attached(data, where)
-    anchor = vector(data["anchor"], points.size(i), f"{where}, anchor")
-    return Spring((i, None), stiffness, length, anchor)
+        return i, j
+
+    def end(self, table: Mapping[str, Any], _: str, where: str, __: Found) -> int:
+        """A point, or a new place."""
+        return self.points.attached(table, where)
+
+    def masses(self, *_: Any) -> tuple[()]:
+        """Those of the points."""
+        return ()
 
 
 def _placed(t: Tree, where: str, points: Points) -> Tree:
@@ -211,28 +234,18 @@ def negative_stiffness_of(
 ) -> str | None:
     """Where a stiffness or a damping is negative, for the defaults of the parameters."""
     listed = [
-        (f"{kind} {k}: key {key!r}", getattr(p, key))
-        for kind, parts, of, key in (
-            ("potential", potentials, Spring, "stiffness"),
-            ("damping", damping, Damping, "coefficient"),
-        )
-        for k, p in enumerate(parts, 1)
-        if isinstance(p, of)
+        (f"potential {k}: key {key!r}", value)
+        for k, p in enumerate(potentials, 1)
+        for key, about, value in p.values()
+        if about.positive
     ]
+    listed += [(f"damping {k}: key 'coefficient'", d.coefficient) for k, d in enumerate(damping, 1)]
     return next((where for where, t in listed if is_negative(t, parameters)), None)
 
 
-def trees(p: Potential | Damping | Place | Body | None) -> list[Tree]:
+def trees(p: Damping | Place | Body | None) -> list[Tree]:
     """The expressions of a part of a problem."""
     match p:
-        case Gravity():
-            return [*p.acceleration]
-        case Spring():
-            return [p.stiffness, p.length, *p.anchor]
-        case Attraction():
-            return [p.strength, *p.centre]
-        case Expression():
-            return [p.energy]
         case Damping():
             return [p.coefficient]
         case Place():

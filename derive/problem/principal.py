@@ -18,26 +18,25 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from typing import Any
 
 from ..algebra.groups import Group
 from ..language.tree import Tree, add, mul
+from ..schema.kind import Key, Potential
+from ..schema.kinds.gravity import Gravity, gravity
+from ..schema.kinds.spring import Spring, quadratic
 from .problem import (
-    Attraction,
     Body,
     Damping,
-    Expression,
     ForceInput,
     GivenBody,
-    Gravity,
     Input,
     MomentBody,
     Parameter,
     Place,
     PointBody,
-    Potential,
     Problem,
     ProblemError,
-    Spring,
 )
 
 Vector = tuple[Tree, ...]
@@ -58,11 +57,12 @@ def principal(problem: Problem) -> Problem:
         )
     if problem.body is None:
         raise ProblemError(f"{problem.name}: no body, so no principal frame")
-    if any(isinstance(p, Expression) for p in problem.potentials):
-        raise ProblemError(
-            f"{problem.name}: a potential given as an expression of the places cannot be turned "
-            "into the principal frame; leave out --frame"
-        )
+    for p in problem.potentials:
+        if p.unturned:
+            raise ProblemError(
+                f"{problem.name}: {p.unturned} cannot be turned into the principal frame; leave "
+                "out --frame"
+            )
     return _Framing(problem, group, kind).framed()
 
 
@@ -91,12 +91,11 @@ class _Framing:
         self.per_unit = (
             self._name("per_unit", "one over the unit of mass") if root and unimodular else ""
         )
-        affine, gravity = self.group.affine, self._gravity()
+        affine, falling = self.group.affine, self._gravity()
         first = () if affine else self._names("first", "first moment, component {}")
-        springs = root and bool(self.problem.springs)
-        stiffness = self._names("stiffness", "springs along axis {}") if springs else ()
+        inside = _inside(self.problem) if root else ()
+        stiffness = self._names("stiffness", "springs along axis {}") if inside else ()
         places, numbers = self._points()
-        inside = self.problem.springs if root else ()
         potentials = [
             self._potential(p, numbers)
             for p in self.problem.potentials
@@ -106,11 +105,11 @@ class _Framing:
         mass = self._scaled(_mass(self.problem.body))
         frame = {
             "kind": self.kind,
-            "turned": bool(gravity),
+            "turned": bool(falling),
             "moments": list(moments),
             "stiffness": list(stiffness),
             "first": list(first),
-            "gravity": gravity,
+            "gravity": falling,
             "per_unit": self.per_unit,
             "places": [[list(names), list(at)] for names, at in self.places.items()],
             "vectors": [[list(names), list(v)] for names, v in self.vectors.items()],
@@ -120,7 +119,7 @@ class _Framing:
             frame=frame,
             parameters={**self.problem.parameters, **self.new},
             body=GivenBody(mass, _pars(first) or (0,) * self.n, self._second(moments)),
-            potentials=(*potentials, *self._pull(gravity), *along),
+            potentials=(*potentials, *self._pull(falling), *along),
             inputs=tuple(_pushed(x, numbers) for x in self.problem.inputs),
             places=(*places, *ends),
             damping=tuple(
@@ -161,18 +160,18 @@ class _Framing:
 
     @property
     def _turns(self) -> bool:
-        g = self.problem.gravity
+        g = gravity(self.problem.potentials)
         return g is not None and sum(x != 0 for x in g) > 1
 
     def _gravity(self) -> str:
         """The name of |g| where space is turned to have gravity along its last axis."""
         return self._name("gravity", "gravity along the last axis") if self._turns else ""
 
-    def _pull(self, gravity: str) -> tuple[Potential, ...]:
-        g = self.problem.gravity
+    def _pull(self, name: str) -> tuple[Potential, ...]:
+        g = gravity(self.problem.potentials)
         if g is None:
             return ()
-        return (Gravity((*(0,) * (self.n - 1), ("par", gravity)) if gravity else g),)
+        return (Gravity(g=(*(0,) * (self.n - 1), ("par", name)) if name else g),)
 
     def _scaled(self, t: Tree) -> Tree:
         """A mass, stiffness or damping in the unit of mass."""
@@ -194,17 +193,26 @@ class _Framing:
         return places, {i: k for k, i in enumerate(sorted(needed), 1)}
 
     def _potential(self, p: Potential, numbers: Mapping[int, int]) -> Potential:
-        """A spring or an attraction in the frame."""
-        if isinstance(p, Attraction):
+        """The potential in the frame, key by key."""
+        on = getattr(p, "on", None)
+        mark = f"_{on}" if isinstance(on, int) else ""
+        keys = p.keys().items()
+        values = {x: self._value(getattr(p, x), about, x + mark, numbers) for x, about in keys}
+        return replace(p, **values)
+
+    def _value(self, value: Any, about: Key, name: str, numbers: Mapping[int, int]) -> Any:
+        """Points by their new numbers, vectors of space turned, masses in their unit."""
+        if about.type == "masses":
             points = self.problem.points
             masses = points.masses if points else ()
-            on = tuple((numbers[i], self._scaled(m)) for i, m in enumerate(masses, 1) if m != 0)
-            return replace(p, centre=self._vector(p.centre, "centre"), on=on)
-        assert isinstance(p, Spring)
-        i, j = p.between
-        anchor = self._vector(p.anchor, f"anchor_{i}") if p.anchor else ()
-        between = (numbers[i], numbers[j] if j else None)
-        return replace(p, between=between, stiffness=self._scaled(p.stiffness), anchor=anchor)
+            return tuple((numbers[i], self._scaled(m)) for i, m in enumerate(masses, 1) if m != 0)
+        if value is None:
+            return None
+        if about.type == "vector":
+            return self._vector(value, name)
+        if about.type in ("pair", "end"):
+            return tuple(numbers[i] for i in value) if about.type == "pair" else numbers[value]
+        return self._scaled(value) if about.mass else value
 
     def _along(
         self, origin: int, stiffness: tuple[str, ...]
@@ -214,17 +222,25 @@ class _Framing:
             return (), ()
         span = range(self.n)
         axes = (Place(tuple(int(i == j) for j in span)) for i in span)
-        springs = (Spring((origin + i, origin), ("par", k)) for i, k in enumerate(stiffness, 1))
+        springs = (
+            Spring(between=(origin + i, origin), stiffness=("par", k))
+            for i, k in enumerate(stiffness, 1)
+        )
         return (Place((0,) * self.n), *axes), tuple(springs)
+
+
+def _inside(problem: Problem) -> tuple[Spring, ...]:
+    return quadratic(problem.potentials, problem.block)
 
 
 def _needed(problem: Problem, *, root: bool) -> Iterable[int]:
     """The points on which something acts; springs inside a body with a root go into K."""
+    inside = _inside(problem) if root else ()
     for p in problem.potentials:
-        if isinstance(p, Attraction):
+        if p.summed:
             yield from range(1, problem.masses + 1)
-        if isinstance(p, Spring) and not (root and p in problem.springs):
-            yield from (i for i in p.between if i)
+        if p not in inside:
+            yield from p.points()
     yield from (x.on for x in problem.pushes)
     yield from (i for x in problem.damping for i in x.on)
 

@@ -8,7 +8,8 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..language.refused import Refused
-from ..language.tree import Tree, add
+from ..language.tree import Tree
+from ..schema.kind import Potential
 from .solids import Solid
 
 
@@ -81,42 +82,6 @@ class GivenBody:
 
 
 @dataclass(frozen=True)
-class Gravity:
-    """U = −Σ m_i ⟨γ, r_i⟩."""
-
-    acceleration: tuple[Tree, ...]
-
-
-@dataclass(frozen=True)
-class Spring:
-    """U = ½ k (‖s‖ − ℓ)² between two points (counted from 1), or from one to an anchor in space."""
-
-    between: tuple[int, int | None]
-    stiffness: Tree
-    length: Tree = 0
-    anchor: tuple[Tree, ...] = ()
-
-
-@dataclass(frozen=True)
-class Attraction:
-    """U = −Σ m_i μ / ‖r_i − centre‖, over the points that have a mass.
-
-    ``on``: or over these points (counted from 1) and masses, whatever they weigh in the body.
-    """
-
-    strength: Tree
-    centre: tuple[Tree, ...]
-    on: tuple[tuple[int, Tree], ...] = ()
-
-
-@dataclass(frozen=True)
-class Expression:
-    """Any U of the time and of the places of the points in space, entries of r_i(t)."""
-
-    energy: Tree
-
-
-@dataclass(frozen=True)
 class CovectorInput:
     """A covector of the Lie algebra given at every call: power ⟨u, ζ⟩."""
 
@@ -149,7 +114,6 @@ class Place:
 
 
 Body = PointBody | MomentBody | GivenBody
-Potential = Gravity | Spring | Attraction | Expression
 Input = CovectorInput | ForceInput
 
 
@@ -200,30 +164,6 @@ class Problem:
             return self.places[i - self.masses - 1].block
         assert self.points is not None
         return self.points.blocks[i - 1] if self.points.blocks else 1
-
-    @property
-    def springs(self) -> tuple[Spring, ...]:
-        """Springs of natural length 0 inside one block: their energy is quadratic in A alone."""
-        return tuple(p for p in self.potentials if isinstance(p, Spring) and self._inside(p))
-
-    @property
-    def elements(self) -> tuple[Spring | Attraction | Expression, ...]:
-        """The potentials that are given point by point, in the order of the file."""
-        return tuple(
-            p
-            for p in self.potentials
-            if not isinstance(p, Gravity) and not (isinstance(p, Spring) and self._inside(p))
-        )
-
-    def _inside(self, p: Spring) -> bool:
-        i, j = p.between
-        return j is not None and p.length == 0 and self.block(i) == self.block(j)
-
-    @property
-    def gravity(self) -> tuple[Tree, ...] | None:
-        """The acceleration of gravity, the sum of all that are given."""
-        given = [p.acceleration for p in self.potentials if isinstance(p, Gravity)]
-        return tuple(add(*entries) for entries in zip(*given, strict=True)) if given else None
 
     @property
     def covector(self) -> CovectorInput | None:

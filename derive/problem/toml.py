@@ -31,11 +31,12 @@ from .fields import LIKE_A_PLACE, identifier, known, tables, text, unread, used_
 from .forces import Points, damping, given_input, negative_stiffness_of, potential, trees
 from .group import group_of
 from .problem import (
-    Attraction,
     CovectorInput,
+    Damping,
     GivenBody,
     MomentBody,
     Parameter,
+    Place,
     PointBody,
     Problem,
     ProblemError,
@@ -261,8 +262,9 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
 
 
 def _forces(problem: Problem) -> list[Tree]:
-    parts = (*problem.potentials, *problem.damping, *problem.places)
-    return [t for p in parts for t in trees(p)]
+    potentials = [t for p in problem.potentials for t in p.trees()]
+    parts: tuple[Damping | Place, ...] = (*problem.damping, *problem.places)
+    return potentials + [t for p in parts for t in trees(p)]
 
 
 def _affordable(problem: Problem) -> None:
@@ -272,7 +274,7 @@ def _affordable(problem: Problem) -> None:
     leaves = sum(weight(t).leaves for t in found)
     if leaves > LEAVES:
         raise ProblemError(f"{leaves} names and numbers in expressions; at most {LEAVES}")
-    pulls = sum(problem.masses for p in problem.potentials if isinstance(p, Attraction))
+    pulls = sum(problem.masses for p in problem.potentials if p.summed)
     if pulls > PULLS:
         raise ProblemError(f"{pulls} attractions of points; at most {PULLS}")
     common = 1

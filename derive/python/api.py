@@ -14,10 +14,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from inspect import getmodule
 from typing import Any
 
 from ..problem import problem as mechanics
 from ..problem.toml import problem_of
+from ..schema.kinds import words
 
 Number = int | float | str | Fraction
 """A number, or an expression in quotes."""
@@ -140,14 +142,26 @@ def Spring(
     return Table("potential", kind="spring", stiffness=stiffness, length=length, **ends)
 
 
-def Attraction(strength: Number, centre: Sequence[Number] | None = None) -> Table:
-    """−Σ m_i strength / ‖r_i − centre‖."""
-    return Table("potential", kind="attraction", strength=strength, centre=centre)
-
-
 def Potential(U: str) -> Table:
     """Any U of r1_x, r2_y, …, t and the parameters."""
     return Table("potential", kind="expression", U=U)
+
+
+def __getattr__(name: str) -> Any:
+    """The word of any other kind of potential: its keys are the arguments, in their order."""
+    if name not in words():
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    kind = words()[name]
+
+    def potential(*given: Any, **named: Any) -> Table:
+        keys = kind.names()
+        if len(given) > len(keys):
+            raise mechanics.ProblemError(f"{name} takes {', '.join(keys)}, and no more")
+        return Table("potential", kind=kind.kind, **dict(zip(keys, given, strict=False)), **named)
+
+    potential.__name__ = potential.__qualname__ = name
+    potential.__doc__ = (getmodule(kind) or kind).__doc__
+    return potential
 
 
 def Covector(name: str) -> Table:

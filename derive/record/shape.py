@@ -15,6 +15,8 @@ from ..language.differentiate import DERIVATIVES
 from ..language.limits import BASIS, TEXT
 from ..language.reserved import WORDS, taken
 from ..language.tree import OPERATORS, Tree
+from ..schema.kind import nearest
+from ..schema.kinds import kinds
 from .vocabulary import ACTIONS, CONVENTIONS
 
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
@@ -190,29 +192,16 @@ class _Shape:
             raise ShapeError(f"{where}: key 'block' must be one of the factors of the group")
 
     def potential(self, data: Any, where: str) -> None:
-        """By its kind."""
+        """By its kind; the types of its keys are the methods of :class:`_Keys`."""
         kind = self.at(data, "kind", str, where)
-        self.one_of(kind, ("gravity", "spring", "attraction", "expression"), f"{where}, kind")
-        trees = {"spring": ("stiffness", "length"), "attraction": ("strength",)}
-        for key in trees.get(kind, ("U",) if kind == "expression" else ()):
-            self.scalar(self.at(data, key, object, where), f"{where}, {key}", placed=key == "U")
-        if kind == "gravity":
-            self.vector(self.at(data, "g", list, where), f"{where}, g")
-        if kind == "attraction":
-            self.vector(self.at(data, "centre", list, where), f"{where}, centre", least=0)
-            if "on" in data:
-                raise ShapeError(f"{where}: key 'on' is for a problem in its principal frame")
-            if self.data["body"]["kind"] != "points":
-                raise ShapeError(f"{where}: attraction is of a body of points alone")
-        if kind == "spring" and "between" in data:
-            ends = self.at(data, "between", list, where)
-            if len(ends) != 2:
-                raise ShapeError(f"{where}: key 'between' must be two points")
-            for i in ends:
-                self.point(i, where)
-        elif kind == "spring":
-            self.point(self.at(data, "on", int, where), where)
-            self.vector(self.at(data, "anchor", list, where), f"{where}, anchor")
+        self.one_of(kind, tuple(kinds()), f"{where}, kind")
+        own = kinds()[kind]
+        known = {"kind", *own.keys()}
+        for name in data:
+            if name not in known:
+                told = f"{ascii(name)[:60]}{nearest(name, known)}"
+                raise ShapeError(f"{where}: unknown key {told}")
+        own.read(data, where, _Keys(self))
 
     def input(self, data: Any, where: str) -> None:
         """A covector or a force."""
@@ -307,7 +296,64 @@ class _Shape:
         for row in data:
             self.vector(row, where, size)
 
-    def point(self, i: Any, where: str) -> None:
+    def point(self, i: Any, where: str) -> Any:
         """The number of a point or a place."""
         if type(i) is not int or not 1 <= i <= self.points:
             raise ShapeError(f"{where}: expected a point from 1 to {self.points}")
+        return i
+
+
+class _Keys:
+    """Reads a potential of a record, as :class:`Reader` has it: what is right comes back."""
+
+    def __init__(self, shape: _Shape):
+        self.shape = shape
+
+    def fail(self, message: str) -> ShapeError:
+        """The error of a record."""
+        return ShapeError(message)
+
+    def has(self, table: Mapping[str, Any], key: str) -> bool:
+        """All must be there; of what is not, the reading says so."""
+        del table, key
+        return True
+
+    def meets(self, need: str, kind: str, where: str) -> None:
+        """The body alone is looked at; of the group the rest is known to the checker."""
+        if need == "points alone" and self.shape.data["body"]["kind"] != "points":
+            raise ShapeError(f"{where}: {kind} is of a body of points alone")
+
+    def scalar(self, table: Any, key: str, where: str, _: Any) -> Any:
+        """A tree of parameters."""
+        value = self.shape.at(table, key, object, where)
+        self.shape.scalar(value, f"{where}, {key}")
+        return value
+
+    def energy(self, table: Any, key: str, where: str, _: Any) -> Any:
+        """A tree of places in space and the time as well."""
+        value = self.shape.at(table, key, object, where)
+        self.shape.scalar(value, f"{where}, {key}", placed=True)
+        return value
+
+    def vector(self, table: Any, key: str, where: str, _: Any) -> Any:
+        """A list of trees; empty for the origin, where a file may leave it out."""
+        least = 0 if kinds()[table["kind"]].optional(key) else 1
+        value = self.shape.at(table, key, list, where)
+        return self.shape.vector(value, f"{where}, {key}", least=least)
+
+    def pair(self, table: Any, key: str, where: str, _: Any) -> Any:
+        """Two points."""
+        ends = self.shape.at(table, key, list, where)
+        if len(ends) != 2:
+            raise ShapeError(f"{where}: key {key!r} must be two points")
+        return tuple(self.shape.point(i, where) for i in ends)
+
+    def end(self, table: Any, key: str, where: str, _: Any) -> Any:
+        """A point or a place."""
+        return self.shape.point(self.shape.at(table, key, int, where), where)
+
+    def masses(self, table: Any, key: str, where: str, _: Any) -> Any:
+        """Of a problem in its principal frame, which is not read."""
+        if key in table:
+            raise ShapeError(f"{where}: key {key!r} is for a problem in its principal frame")
+        return ()

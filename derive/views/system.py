@@ -7,6 +7,7 @@ from typing import Any
 
 from ..record.record import Derivation
 from ..record.sentence import Sentence, listed, phrase
+from ..schema.kinds import kinds
 from .language import Language
 from .outline import group
 
@@ -42,16 +43,13 @@ def _body(body: Mapping[str, Any]) -> Sentence:
 
 def _acting(problem: Mapping[str, Any]) -> Iterator[Sentence]:
     potentials, inputs = problem.get("potentials"), problem.get("inputs")
-    kinds = [p.get("kind") for p in potentials] if isinstance(potentials, list) else []
-    springs = kinds.count("spring")
-    if "gravity" in kinds:
-        yield phrase("its weight")
-    if springs:
-        yield phrase("{n} springs", n=str(springs)) if springs > 1 else phrase("a spring")
-    if "attraction" in kinds:
-        yield phrase("the attraction of a centre")
-    if "expression" in kinds:
-        yield phrase("a potential given as an expression")
+    told = [p.get("kind") for p in potentials] if isinstance(potentials, list) else []
+    for kind, about in kinds().items():
+        count = told.count(kind)
+        if count > 1 and about.several:
+            yield phrase(about.several, n=str(count))
+        elif count:
+            yield phrase(about.phrase)
     if _many(problem.get("damping")):
         yield phrase("viscous damping")
     for x in inputs if isinstance(inputs, list) else []:

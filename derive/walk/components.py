@@ -11,6 +11,7 @@ from ..language.values import Value, value
 from ..problem.problem import GivenBody, MomentBody, PointBody, Problem
 from ..record.record import Equation, Step
 from ..record.sentence import say
+from ..schema.kinds.gravity import gravity
 from .chapter import Chapter
 
 AXES = (1, 2, 3)
@@ -128,8 +129,8 @@ def _motion(
 def _numbers(problem: Problem) -> dict[str, Value]:
     """c, r_c and γ, where they are numbers of the problem."""
     found: dict[str, Value] = {}
-    if problem.gravity is not None:
-        found["γ"] = _column(problem.gravity)
+    if (g := gravity(problem.potentials)) is not None:
+        found["γ"] = _column(g)
     _, first, _ = moments_of(problem)
     found["c"] = _column(first)
     centred = all(not x for (x,) in found["c"])

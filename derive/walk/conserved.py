@@ -17,7 +17,7 @@ from ..algebra.words import Expr, Letter, inner, word
 from ..algebra.written import tree_of
 from ..language import rational as q
 from ..language.tree import Tree
-from ..problem.problem import Attraction, Expression, Problem, Spring
+from ..problem.problem import Problem
 from ..record.record import Equation, Step
 from ..record.sentence import listed, say
 from .alphabet import Alphabet
@@ -53,10 +53,10 @@ def conserved_steps(
     draft = c.draft("conserved", "conservation")
     vectors = momenta.vectors
     write = vector_sum if vectors else tree_of
-    kept = [Equation("ḣ", 0)] if _autonomous(problem) else []
+    kept = [Equation("ḣ", 0)] if not v.timed else []
     told = say("the energy") if kept else ()
     definitions = []
-    if _turned(group) and (rate := _turning(problem, v, b, vectors=vectors)) is not None:
+    if _turned(group) and (rate := _turning(v, b, vectors=vectors)) is not None:
         draft.read(momenta.turning, v.energy)
         definitions.append(Equation("ℓ", write(momenta.turning)))
         kept.append(Equation(rate, 0))
@@ -108,19 +108,6 @@ def vector_momenta(momenta: Mapping[Letter, Expr], b: Alphabet) -> SpaceMomenta:
     return SpaceMomenta(whole, gradient(paired, shift) if b.affine else None, vectors=True)
 
 
-def _autonomous(problem: Problem) -> bool:
-    """Does no potential depend on the time by itself?"""
-    energies = [p.energy for p in problem.potentials if isinstance(p, Expression)]
-    return not any(_timed(t) for t in energies)
-
-
-def _timed(t: Tree) -> bool:
-    """Does t stand outside the places r_i(t)?"""
-    if not isinstance(t, tuple):
-        return t == "t"
-    return t[0] != "call" and any(map(_timed, t[1:]))
-
-
 def _turned(group: Group) -> bool:
     """Are the rotations of space in the group, from the left?"""
     n, size = group.n, group.size
@@ -130,10 +117,10 @@ def _turned(group: Group) -> bool:
     return n > 1 and all(group.vee(e) is not None for e in turns)
 
 
-def _turning(problem: Problem, v: Potentials, b: Alphabet, *, vectors: bool) -> Tree | None:
+def _turning(v: Potentials, b: Alphabet, *, vectors: bool) -> Tree | None:
     """ℓ̇, or its component along gravity, if the potential leaves it alone."""
     Y = Letter("Y", b.n, b.n, -1)
-    if not all(_keeps(p, turning=True) for p in problem.potentials):
+    if not v.elements.keeps(turning=True):
         return None
     rate = _varied(v.energy, word(Y), None, b)
     if not rate:
@@ -147,7 +134,7 @@ def _shifting(problem: Problem, v: Potentials, b: Alphabet) -> Tree | None:
     """ṗ, or its part across gravity, if the potential leaves it alone."""
     group = problem.group
     assert group is not None
-    if not group.free_translations or not all(_keeps(p, turning=False) for p in problem.potentials):
+    if not group.free_translations or not v.elements.keeps(turning=False):
         return None
     if not _varied(v.energy, None, word(Letter("b", b.n)), b):
         return "ṗ"
@@ -166,12 +153,3 @@ def _varied(energy: Expr, turn: Expr | None, shift: Expr | None, b: Alphabet) ->
     if shift is not None:
         images[b.T.position] = shift
     return derivation(without(energy, U_Q), images.get)
-
-
-def _keeps(p: object, *, turning: bool) -> bool:
-    """Is a potential given point by point a function of distances that the displacement keeps?"""
-    if isinstance(p, Expression):
-        return False
-    if isinstance(p, Attraction):
-        return turning and not any(x != 0 for x in p.centre)
-    return not isinstance(p, Spring) or p.between[1] is not None

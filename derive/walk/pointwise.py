@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from fractions import Fraction
 
 from ..language.differentiate import derivative, product
-from ..language.tree import Tree, add, mul, neg, subtrees
-from ..problem.problem import Attraction, Expression, Problem, Spring
+from ..language.tree import Tree, subtrees
+from ..problem.problem import Problem
 from ..record.record import Equation
 
 
@@ -41,6 +40,12 @@ class Radial:
     anchor: tuple[Tree, ...]
     tension: Tree
 
+    def keeps(self, *, turning: bool) -> bool:
+        """Does ‖d‖ stay when space is turned about its origin, or shifted?"""
+        if turning:
+            return not any(x != 0 for x in self.anchor)
+        return not sum(self.signs.values())
+
     @property
     def sigma(self) -> Tree:
         """σ_e."""
@@ -57,9 +62,22 @@ class Elements:
     radials: list[Radial] = field(default_factory=list)
     pushes: dict[int, list[Tree]] = field(default_factory=dict)
 
+    def keeps(self, *, turning: bool) -> bool:
+        """Is U_Q a function of distances that stay when space is turned, or shifted?"""
+        return not self.pushes and all(x.keeps(turning=turning) for x in self.radials)
+
     def push(self, i: int, force: Tree) -> None:
         """A term of the force on point i."""
         self.pushes.setdefault(i, []).append(force)
+
+    def energy(self, U: Tree) -> None:
+        """Any U of entries of the places, with its forces."""
+        self.energies.append(U)
+        assert self.problem.group is not None
+        span = range(1, self.problem.group.n + 1)
+        for i in sorted({*_points(U)}):
+            slopes = (derivative(U, ("entry", in_space(i), k)) for k in span)
+            self.push(i, column(tuple(product(-1, x) for x in slopes)))
 
     def difference(self, ends: Tree) -> Tree:
         """A new d_e."""
@@ -84,50 +102,6 @@ def place(problem: Problem, i: int) -> Tree:
         return in_space(i)
     rows = range(1, group.n + 1)[group.of_block(problem.block(i))]
     return column(tuple(("entry", in_space(i), k) for k in rows))
-
-
-def elements(problem: Problem) -> Elements:
-    """The definitions of all that the problem gives point by point."""
-    found = Elements(problem)
-    for p in problem.elements:
-        if isinstance(p, Spring):
-            _spring(found, p, problem)
-        elif isinstance(p, Attraction):
-            _attraction(found, p, problem)
-        else:
-            _expression(found, p, problem)
-    return found
-
-
-def _spring(found: Elements, p: Spring, problem: Problem) -> None:
-    i, j = p.between
-    other = column(p.anchor) if j is None else place(problem, j)
-    d = found.difference(add(place(problem, i), neg(other)))
-    square: Tree = ("norm2", d)
-    stretched = square
-    if p.length != 0:
-        stretched = ("pow", add(("fun", "sqrt", square), neg(p.length)), 2)
-    energy = mul(Fraction(1, 2), p.stiffness, stretched)
-    found.radial(energy, d, {i: 1} if j is None else {i: 1, j: -1}, p.anchor)
-
-
-def _attraction(found: Elements, p: Attraction, problem: Problem) -> None:
-    body = problem.points
-    for i, m in p.on or enumerate(body.masses if body else (), 1):
-        centre = neg(column(p.centre)) if p.centre else 0
-        d = found.difference(add(place(problem, i), centre))
-        distance: Tree = ("fun", "sqrt", ("norm2", d))
-        energy = product(-1, m, p.strength, ("div", 1, distance))
-        found.radial(energy, d, {i: 1}, p.centre)
-
-
-def _expression(found: Elements, p: Expression, problem: Problem) -> None:
-    found.energies.append(p.energy)
-    group = problem.group
-    assert group is not None
-    for i in sorted({*_points(p.energy)}):
-        slopes = [derivative(p.energy, ("entry", in_space(i), k)) for k in range(1, group.n + 1)]
-        found.push(i, column(tuple(product(-1, x) for x in slopes)))
 
 
 def _points(t: Tree) -> Iterator[int]:

@@ -8,31 +8,35 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from fractions import Fraction
 
 from ..algebra.calculus import derivation
-from ..algebra.words import Expr, Letter, inner, number, word
-from ..language.tree import Tree, add, neg
-from ..problem.problem import PointBody, Problem, Spring
+from ..algebra.words import Expr, Letter, number, word
+from ..language.tree import Tree, add
+from ..problem.problem import Problem
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, say
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .lagrangian import POINT
+from .kinds import walked
 from .point_forces import applied, pushes_step
-from .pointwise import column, elements
-from .pullback import sum_over
+from .pointwise import Elements
+from .summed import Words
 
 U_Q = Letter("U_Q")
 
 
 @dataclass(frozen=True)
 class Potentials:
-    """``energy`` = Ũ on words in A, T, c, m, γ, K, U_Q; ``work(ξ, η)`` of what U_Q exerts."""
+    """``energy`` = Ũ on words in A, T, c, m, γ, K, U_Q; ``work(ξ, η)`` of what U_Q exerts.
+
+    ``elements``: what is in U_Q; ``timed``: does U depend on the time by itself?
+    """
 
     energy: Expr
     steps: tuple[Step, ...]
     work: Callable[[Expr, Expr | None], Expr]
+    elements: Elements
+    timed: bool
 
     def moved(
         self, a: Alphabet, xi: Expr, eta: Expr | None = None, axis: Expr | None = None
@@ -49,86 +53,43 @@ def potentials(problem: Problem, a: Alphabet, c: Chapter, gram: Expr | None = No
     ``gram``: ĀA = 1, where the forces are to be said in vectors.
     """
     draft = c.draft("potential", "pull-back")
-    energy, definitions, over_points = _summed(problem, a)
-    found, forces = elements(problem), applied(a, "Q", vectors=gram is not None)
-    spread = problem.gravity is not None and not isinstance(problem.body, PointBody)
-    spread = spread and problem.body is not None
+    vectors = gram is not None
+    modules = walked()
+    having = [m for m in modules.values() if hasattr(m, "words")]
+    parts: list[Words] = [w for m in having if (w := m.words(problem, a, vectors=vectors))]
+    found, forces = Elements(problem), applied(a, "Q", vectors=vectors)
+    for p in problem.potentials:
+        if hasattr(modules[p.kind], "pointwise"):
+            modules[p.kind].pointwise(found, p, problem)
+    energy = sum((w.energy for w in parts), number(0))
+    definitions = [x for w in parts for x in w.definitions]
+    over_points = [x for w in parts for x in w.over_points] + found.energies
     if found.energies:
         energy = energy + word(U_Q)
-        over_points += found.energies
-        definitions += found.differences
-        definitions.append(Equation("U_Q", add(*found.energies)))
-    steps = [
-        draft.step(
-            (
-                *definitions,
-                Equation("U", add(*over_points)),
-                Equation("Ũ", draft.tree(energy)),
-            ),
-            _prose(over_points, spread=spread, springs=bool(problem.springs)),
-        )
+        definitions += [*found.differences, Equation("U_Q", add(*found.energies))]
+    told = [
+        Equation("U", add(*over_points)),
+        Equation("Ũ", draft.tree(energy)),
     ]
+    prose = sum((w.prose for w in parts), _opening(over_points))
+    steps = [draft.step((*definitions, *told), prose)]
     if found.energies:
         steps.append(pushes_step(found, forces, a, c, gram))
-    return Potentials(draft.said(energy), tuple(steps), forces.work)
+    timed = any(map(_timed, over_points))
+    return Potentials(draft.said(energy), tuple(steps), forces.work, found, timed)
 
 
-def _prose(over_points: list[Tree], *, spread: bool, springs: bool) -> Prose:
+def _opening(over_points: list[Tree]) -> Prose:
     if not over_points:
         return say("No potential: the motion is free.")
-    prose = say("The potential of the problem, on the points and pulled back to the group.")
-    if spread:
-        prose += say("Here Σ m_i stands for the sum over the whole body.")
-    if springs:
-        prose += say(
-            "K is the sum over the springs of natural length 0; s_e joins the ends of one "
-            "of them in the body."
-        )
-    return prose
+    return say("The potential of the problem, on the points and pulled back to the group.")
 
 
-def _summed(problem: Problem, a: Alphabet) -> tuple[Expr, list[Equation], list[Tree]]:
-    """Gravity and quadratic springs: their energy on words, definitions, and sums over points."""
-    energy, definitions, over_points = number(0), [], []
-    gamma, K = Letter("γ", a.n), Letter("K", a.n, a.n, 1)
-    if problem.gravity is not None:
-        general = Chapter(a.chapter)
-        position = a.moved(word(a.A.position), word(a.T.position)).marked(general.label("action"))
-        summand = -word(a.m_i) * inner(word(gamma), position)
-        table = {
-            (a.m_i,): word(a.m).marked(general.label("moments")),
-            (a.m_i, a.r_i): word(a.c).marked(general.label("moments")),
-        }
-        energy = energy + sum_over(summand, {a.m_i, a.r_i}, table)
-        assert problem.group is not None
-        definitions.append(Equation("γ", column(problem.group.in_every_block(problem.gravity))))
-        over_points.append(neg(("sum", "i", ("mul", ("at", "m", "i"), ("inner", "γ", POINT)))))
-    if problem.springs:
-        k_e, s_e = Letter("k_e"), Letter("s_e", a.n)
-        turned = word(a.A.position).marked(Chapter(a.chapter).label("action"))
-        stretched = turned * word(s_e)
-        summand = Fraction(1, 2) * word(k_e) * inner(stretched, stretched)
-        energy = energy + sum_over(summand, {k_e, s_e}, {(k_e, s_e, s_e): word(K)})
-        definitions += _springs(problem)
-        over_points += [_on_points(e, spring) for e, spring in enumerate(problem.springs, 1)]
-    return energy, definitions, over_points
-
-
-def _on_points(e: int, spring: Spring) -> Tree:
-    """½ k_e ‖r_i(t) − r_j(t)‖²."""
-    i, j = (("call", ("at", "r", x), "t") for x in spring.between)
-    return ("mul", Fraction(1, 2), ("at", "k", e), ("norm2", ("add", i, neg(j))))
-
-
-def _springs(problem: Problem) -> list[Equation]:
-    equations = []
-    for e, spring in enumerate(problem.springs, 1):
-        i, j = spring.between
-        ends = ("add", ("at", "r", i), neg(("at", "r", j)))
-        equations += [Equation(("at", "s", e), ends), Equation(("at", "k", e), spring.stiffness)]
-    s: Tree = ("at", "s", "e")
-    equations.append(Equation("K", ("sum", "e", ("mul", ("at", "k", "e"), s, ("T", s)))))
-    return equations
+def _timed(t: Tree) -> bool:
+    """Does t stand outside the places r_i(t)?"""
+    if not isinstance(t, tuple):
+        return t == "t"
+    return t[0] != "call" and any(map(_timed, t[1:]))
 
 
 def virtual_work(

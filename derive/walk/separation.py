@@ -10,7 +10,7 @@ from ..algebra.calculus import substitute
 from ..algebra.words import Expr, Letter, word
 from ..algebra.written import Notation
 from ..language.read import read
-from ..problem.problem import Problem, Spring
+from ..problem.problem import Problem
 from ..record.formulas import stated
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, listed, phrase, say
@@ -70,14 +70,14 @@ def potential_separation(
     energy = _centred(v.energy, b, Chapter(b.chapter).label("separation"))
     place = Letter("R", b.n)
     terms = [{x for cycle in (*traces, w) for x, _ in cycle} for traces, w in energy.terms]
-    inside = all(isinstance(p, Spring) and p.between[1] is not None for p in problem.elements)
+    inside = v.elements.keeps(turning=False)
     both = any({place, b.A.position} <= letters for letters in terms)
     rest = any(U_Q not in letters for letters in terms) and not both
-    prose = _prose(problem, decided=inside and not both, rest=rest)
+    prose = _prose(problem, decided=inside and not both, rest=rest, given=bool(v.elements.energies))
     return (draft.step((Equation("Ũ", draft.tree(energy, _notation(b))),), prose),)
 
 
-def _prose(problem: Problem, *, decided: bool, rest: bool) -> Prose:
+def _prose(problem: Problem, *, decided: bool, rest: bool, given: bool) -> Prose:
     damping = [phrase("damping")] if problem.damping else []
     outside = damping + ([phrase("inputs")] if problem.inputs else [])
     if not decided:
@@ -104,6 +104,6 @@ def _prose(problem: Problem, *, decided: bool, rest: bool) -> Prose:
             "No term of the potential has both the linear part and the centre of mass: the motion "
             "separates into theirs."
         )
-    if problem.elements:
+    if given:
         prose += say("U_Q is made of differences of places, in which R cancels.")
     return prose

@@ -22,6 +22,7 @@ from derive.record.record import from_json, to_json
 from derive.record.rules import RULES
 from derive.record.sentence import PLACE, english, phrase, say
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
+from derive.schema.kinds import kinds
 from derive.views import outline
 from derive.views.language import ENGLISH, LANGUAGES, THIN, WIDE, Language, entries, language
 from derive.views.latex import latex
@@ -139,7 +140,7 @@ def test_every_sentence_is_in_the_catalogue(records):
 def test_every_message_of_the_walk_is_reached(records):
     """The problems above go through every branch that says something, but for what is said of
     masses of any sign (tests/walk/test_signed_masses.py)."""
-    written = strings("walk/*.py") & set(FRENCH.messages) - set(RULES)
+    written = strings("walk/*.py", "walk/kinds/*.py") & set(FRENCH.messages) - set(RULES)
     written -= {signed for _, signed in WORDS.values()}
     meanings = titles_and_meanings()
     assert written - meanings <= set().union(*map(said, records))
@@ -148,6 +149,7 @@ def test_every_message_of_the_walk_is_reached(records):
 def test_every_word_of_the_tables_is_in_the_catalogue():
     tables = (VOCABULARY, ROTATIONS, PRODUCTS, DISPLACEMENTS)
     words = {x.meaning for table in tables for x in table.values()}
+    words |= {x for k in kinds().values() for x in (k.phrase, k.several, k.legend) if x}
     words |= {*RULES, *(words for _, words in outline.GIVEN)}
     words |= {p.remark for p in PAPER if p.remark}
     words |= {outline.CONVENTIONS, outline.FORMULAS_CONVENTIONS, outline.PAPER}
@@ -155,7 +157,8 @@ def test_every_word_of_the_tables_is_in_the_catalogue():
     assert set(KINDS) <= strings("walk/body.py")
 
 
-SPEAKING = sorted(p for room in ("views", "figure", "walk") for p in ROOT.glob(f"{room}/*.py"))
+ROOMS = ("views", "figure", "walk", "walk/kinds")
+SPEAKING = sorted([*(p for x in ROOMS for p in ROOT.glob(f"{x}/*.py"))])
 
 
 @pytest.mark.parametrize("path", SPEAKING, ids=lambda p: str(p.relative_to(ROOT)))
@@ -171,10 +174,8 @@ def test_every_word_said_is_in_the_catalogue(path):
 
 
 def test_every_entry_is_used():
-    sources = strings(
-        "walk/*.py", "record/vocabulary.py", "record/rules.py", "views/*.py", "figure/*.py"
-    )
-    sources |= strings("paper/findings.py")
+    sources = strings("walk/*.py", "walk/kinds/*.py", "record/vocabulary.py", "record/rules.py")
+    sources |= strings("paper/findings.py", "views/*.py", "figure/*.py", "schema/kinds/*.py")
     sources |= {p.remark for p in PAPER if p.remark}
     used = sources | strings("pipeline.py") | titles_and_meanings()
     assert [x["en"] for x in ENTRIES if x["en"] not in used] == []

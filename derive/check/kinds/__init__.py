@@ -1,0 +1,21 @@
+"""The checker's own account of each kind of potential: a file for each, found by lying here.
+
+Each has ``KIND``, its name, and ``energy(at, p, t, r, masses)``, U from the places of the points.
+Where the walk sums some of a kind up in words, ``summed(at, p)`` says which, and
+``values(model, members)`` what the letters of these are; where it has distances,
+``radial(at, p, r, masses)`` gives each of them with U as a function of its square.
+"""
+
+from __future__ import annotations
+
+import pkgutil
+from functools import cache
+from importlib import import_module
+from typing import Any
+
+
+@cache
+def accounts() -> dict[str, Any]:
+    """The module of each kind."""
+    modules = [import_module(f"{__name__}.{x.name}") for x in pkgutil.iter_modules(__path__)]
+    return {m.KIND: m for m in modules}

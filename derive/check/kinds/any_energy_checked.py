@@ -1,0 +1,18 @@
+"""Any U of the time and the places."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ..exerted import Exerted, Vector
+
+KIND = "expression"
+
+
+def energy(
+    at: Exerted, p: Mapping[str, Any], t: Any, r: Sequence[Vector], masses: Sequence[Any]
+) -> Any:
+    """Its value."""
+    del masses
+    return at.value(p["U"], t, r)

@@ -1,0 +1,74 @@
+"""U = ½ k (‖d‖ − ℓ)², d from one end to the other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from ...language import rational as q
+from ...language.rational import Matrix
+from ..exerted import Distance, Exerted, Vector, column
+from ..model import Model
+
+KIND = "spring"
+Data = Mapping[str, Any]
+
+
+def summed(at: Exerted, p: Data) -> bool:
+    """Those of length 0 inside one block."""
+    if "between" not in p or p["length"] != 0:
+        return False
+    i, j = p["between"]
+    return bool(at.blocks[i - 1] == at.blocks[j - 1])
+
+
+def energy(at: Exerted, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+    """By the square of the distance."""
+    del t, masses
+    d = _difference(at, p, r)
+    return _stretch(at, p, q.dot(d, d))
+
+
+def radial(at: Exerted, p: Data, r: Sequence[Vector], masses: Sequence[Any]) -> Iterator[Distance]:
+    """Its one distance."""
+    del masses
+    yield _difference(at, p, r), lambda square: _stretch(at, p, square)
+
+
+def _difference(at: Exerted, p: Data, r: Sequence[Vector]) -> Vector:
+    """From the second end to the first."""
+    if "between" in p:
+        a, b = (at.place(r, i) for i in p["between"])
+    else:
+        a, b = at.place(r, p["on"]), at.vector(p["anchor"])
+    return tuple(x - y for x, y in zip(a, b, strict=True))
+
+
+def _stretch(at: Exerted, p: Data, square: Any) -> Any:
+    k, length = at.number(p["stiffness"]), at.number(p["length"])
+    if p["length"] == 0:
+        return k * square * Fraction(1, 2)
+    stretched = at.root(square) - length
+    return k * (stretched * stretched) * Fraction(1, 2)
+
+
+def values(model: Model, members: Sequence[Data]) -> dict[str, Any]:
+    """K = Σ k_e s_e s̄_e."""
+    K = q.scaled(Fraction(0), q.identity(model.n))
+    for k, s in _ends(model, members):
+        K = q.plus(K, q.scaled(k, q.times(s, q.transposed(s))))
+    return {"K": K}
+
+
+def families(model: Model, members: Sequence[Data]) -> dict[str, dict[tuple[int, ...], Any]]:
+    """k_e and s_e."""
+    pairs = [*enumerate(_ends(model, members), 1)]
+    return {"k": {(e,): k for e, (k, _) in pairs}, "s": {(e,): s for e, (_, s) in pairs}}
+
+
+def _ends(model: Model, members: Sequence[Data]) -> Iterator[tuple[Fraction, Matrix]]:
+    for p in members:
+        i, j = p["between"]
+        ends = zip(model.points[i - 1], model.points[j - 1], strict=True)
+        yield model.exerted.number(p["stiffness"]), column(a - b for a, b in ends)

@@ -1,0 +1,24 @@
+"""U = −Σ m_i ⟨g, r_i⟩."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ...language.tree import Tree, add
+from ..kind import Potential, Vector
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gravity(Potential):
+    """A uniform acceleration g of all masses; several add up."""
+
+    kind, rank, phrase, drawn = "gravity", 0, "its weight", True
+    needs = ("one space",)
+    g: Vector
+
+
+def gravity(potentials: Iterable[Potential]) -> tuple[Tree, ...] | None:
+    """The acceleration of gravity, the sum of all that are given."""
+    given = [p.g for p in potentials if isinstance(p, Gravity)]
+    return tuple(add(*entries) for entries in zip(*given, strict=True)) if given else None

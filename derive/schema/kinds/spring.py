@@ -1,0 +1,47 @@
+"""U = ½ k (‖s‖ − ℓ)² between two points, or from one to an anchor in space."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..kind import End, Pair, Potential, Scalar, Stiffness, Vector
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spring(Potential):
+    """``between`` two points, counted from 1; or ``on`` one and from it to an ``anchor``."""
+
+    kind, rank, phrase, drawn = "spring", 1, "a spring", True
+    several, legend = "{n} springs", "Zigzags are springs."
+    between: Pair | None = None
+    on: End | None = None
+    anchor: Vector | None = None
+    stiffness: Stiffness
+    length: Scalar = 0
+
+    @classmethod
+    def given(cls, table: Mapping[str, Any]) -> tuple[str, ...] | str:
+        """Either ``between``, or an end with an ``anchor``."""
+        if "between" in table:
+            if any(x in table for x in ("at", "on", "anchor")):
+                return "give either 'between' or an end with an 'anchor'"
+            return "between", "stiffness", "length"
+        if "anchor" not in table:
+            return "give 'between', or 'on' or 'at' with an 'anchor'"
+        return "on", "anchor", "stiffness", "length"
+
+    @property
+    def ends(self) -> tuple[int, int | None]:
+        """The two points, or the one."""
+        if self.between:
+            return self.between
+        assert self.on
+        return self.on, None
+
+
+def quadratic(potentials: Iterable[Potential], block: Callable[[int], int]) -> tuple[Spring, ...]:
+    """Springs of natural length 0 inside one block: their energy is quadratic in A alone."""
+    springs = (p for p in potentials if isinstance(p, Spring) and p.between and p.length == 0)
+    return tuple(p for p in springs if p.between and len({*map(block, p.between)}) == 1)

@@ -1,0 +1,15 @@
+"""Any U of the places: its forces are its derivatives by their entries."""
+
+from __future__ import annotations
+
+from ...problem.problem import Problem
+from ...schema.kinds.any_energy import Expression
+from ..pointwise import Elements
+
+KIND = Expression
+
+
+def pointwise(found: Elements, p: Expression, problem: Problem) -> None:
+    """U and −∂U/∂r_i(t)."""
+    del problem
+    found.energy(p.U)

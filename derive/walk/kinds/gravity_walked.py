@@ -1,0 +1,42 @@
+"""Gravity: −Σ m_i ⟨γ, r_i⟩, a sum over the points like L itself."""
+
+from __future__ import annotations
+
+from ...algebra.words import Letter, inner, word
+from ...language.tree import neg
+from ...problem.problem import PointBody, Problem
+from ...record.record import Equation
+from ...record.sentence import say
+from ...schema.kinds.gravity import Gravity, gravity
+from ..alphabet import Alphabet
+from ..chapter import Chapter
+from ..lagrangian import POINT
+from ..pointwise import column
+from ..pullback import sum_over
+from ..summed import Words
+
+KIND = Gravity
+
+
+def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
+    """−⟨γ, Ac⟩ − m⟨γ, T⟩."""
+    del vectors
+    g = gravity(problem.potentials)
+    if g is None:
+        return None
+    gamma, general = Letter("γ", a.n), Chapter(a.chapter)
+    position = a.moved(word(a.A.position), word(a.T.position)).marked(general.label("action"))
+    summand = -word(a.m_i) * inner(word(gamma), position)
+    table = {
+        (a.m_i,): word(a.m).marked(general.label("moments")),
+        (a.m_i, a.r_i): word(a.c).marked(general.label("moments")),
+    }
+    assert problem.group is not None
+    spread = problem.body is not None and not isinstance(problem.body, PointBody)
+    told = say("Here Σ m_i stands for the sum over the whole body.") if spread else ()
+    return Words(
+        sum_over(summand, {a.m_i, a.r_i}, table),
+        [Equation("γ", column(problem.group.in_every_block(g)))],
+        [neg(("sum", "i", ("mul", ("at", "m", "i"), ("inner", "γ", POINT))))],
+        told,
+    )
