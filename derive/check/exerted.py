@@ -100,6 +100,11 @@ class Exerted:
             return r[i - 1]
         return r[i - 1][self.group.of_block(self.blocks[i - 1])]
 
+    def frame(self, r: Sequence[Vector]) -> tuple[Vector, list[Vector]]:
+        """Where the origin of the body is, and its axes from there, as columns of A."""
+        origin, *ends = r[-self.env.size - 1 :]
+        return origin, [tuple(x - y for x, y in zip(e, origin, strict=True)) for e in ends]
+
     def potential(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
         """U(t, r)."""
         return self._energy(self.potentials, t, r, masses)

@@ -9,6 +9,7 @@ from typing import Any
 from ..language import rational as q
 from ..language.rational import Matrix
 from .draws import Draws
+from .kinds import framed
 from .points import points_of, principal_points
 
 Vector = tuple[Any, ...]
@@ -26,6 +27,8 @@ class Body(Draws):
         self.masses, self.points, self.blocks = (
             principal_points(self) if principal else points_of(self)
         )
+        if not self.opaque and framed(self.problem):
+            self._axes()
         if self.problem.get("body", {}).get("kind") != "moments":
             return
         m, c, J = self.moments
@@ -33,6 +36,12 @@ class Body(Draws):
         self.parameters |= {
             f"J_{i + 1}{j + 1}": J[i][j] for i in range(self.n) for j in range(i, self.n)
         }
+
+    def _axes(self) -> None:
+        """Last of all the origin of the body and the ends of its axes, without mass."""
+        rows = (q.scaled(Fraction(0), q.identity(self.n))[0], *q.identity(self.n))
+        self.masses = [*self.masses, *(Fraction(0) for _ in rows)]
+        self.points, self.blocks = [*self.points, *rows], [*self.blocks, *(1 for _ in rows)]
 
     @cached_property
     def moments(self) -> tuple[Fraction, Matrix, Matrix]:

@@ -189,6 +189,22 @@ def inverse(a: Matrix) -> Matrix | None:
     return solve(a, identity(len(a)))
 
 
+def determinant(a: Matrix) -> Any:
+    """Of a square matrix, by elimination."""
+    rows, value = [list(row) for row in a], Fraction(1)
+    for k in range(len(rows)):
+        pivot = next((i for i in range(k, len(rows)) if rows[i][k]), None)
+        if pivot is None:
+            return ZERO
+        if pivot != k:
+            rows[k], rows[pivot], value = rows[pivot], rows[k], -value
+        value *= rows[k][k]
+        for row in rows[k + 1 :]:
+            ratio = row[k] / rows[k][k]
+            row[k:] = [x - ratio * y for x, y in zip(row[k:], rows[k][k:], strict=True)]
+    return value
+
+
 def rank(a: Matrix) -> int:
     """The rank."""
     return len(echelon(a)[1])

@@ -178,13 +178,13 @@ def _solid(data: Mapping[str, Any], where: str, folder: Path) -> Solid:
                 raise ProblemError(f"{place}: expected a list of {shape[0]} points")
             sizes[key] = tuple(vector(x, shape[1], place) for x in value)
     density = expression(missing(data, "density", where), f"{where}, density")
-    rotation = _rotation(data["rotation"], where) if "rotation" in data else None
+    turned = rotation(data["rotation"], 3, f"{where}, rotation") if "rotation" in data else None
     shift = vector(data["shift"], 3, f"{where}, shift") if "shift" in data else None
     try:
         mesh = _mesh(Path(sizes["file"])) if kind == "mesh" else None
     except SolidError as error:
         raise ProblemError(f"{where}: {error}") from None
-    return Solid(kind, density, sizes, rotation, shift, mesh)
+    return Solid(kind, density, sizes, turned, shift, mesh)
 
 
 def _mesh(path: Path) -> Any:
@@ -215,10 +215,9 @@ def _file(value: Any, where: str, folder: Path) -> str:
     return str(path)
 
 
-def _rotation(value: Any, where: str) -> tuple[tuple[Tree, ...], ...]:
-    """{ axis, angle }, or a matrix of numbers that is a rotation."""
-    place = f"{where}, rotation"
-    if isinstance(value, dict):
+def rotation(value: Any, n: int, place: str) -> tuple[tuple[Tree, ...], ...]:
+    """{ axis, angle } in R³, or a matrix of numbers that is a rotation of Rⁿ."""
+    if isinstance(value, dict) and n == 3:
         known(value, {"axis", "angle"}, place)
         axis = vector(missing(value, "axis", place), 3, f"{place}, axis")
         angle = expression(missing(value, "angle", place), f"{place}, angle")
@@ -226,21 +225,22 @@ def _rotation(value: Any, where: str) -> tuple[tuple[Tree, ...], ...]:
             return rotation_about(axis, angle)
         except SolidError as error:
             raise ProblemError(f"{place}: {error}") from None
-    if not isinstance(value, list) or len(value) != 3:
-        raise ProblemError(f"{place}: expected {{ axis, angle }} or a list of 3 rows")
+    turning = "{ axis, angle } or " if n == 3 else ""
+    if not isinstance(value, list) or len(value) != n:
+        raise ProblemError(f"{place}: expected {turning}a list of {n} rows")
     if not all(isinstance(row, list) for row in value):
-        raise ProblemError(f"{place}: expected 3 rows of 3 numbers, or {{ axis, angle }}")
-    rows = tuple(vector(row, 3, place) for row in value)
+        other = ", or { axis, angle }" if n == 3 else ""
+        raise ProblemError(f"{place}: expected {n} rows of {n} numbers{other}")
+    rows = tuple(vector(row, n, place) for row in value)
     if not all(isinstance(x, (int, Fraction)) for row in rows for x in row):
-        raise ProblemError(f"{place}: the entries must be numbers; else give {{ axis, angle }}")
+        other = "; else give { axis, angle }" if n == 3 else ""
+        raise ProblemError(f"{place}: the entries must be numbers{other}")
     R = tuple(tuple(Fraction(str(x)) for x in row) for row in rows)
-    off = q.minus(q.times(R, q.transposed(R)), q.identity(3))
+    off = q.minus(q.times(R, q.transposed(R)), q.identity(n))
     if max(abs(x) for x in q.flatten(off)) > Fraction(1, 10**6):
-        raise ProblemError(
-            f"{place}: the rows are not orthogonal unit vectors; {{ axis, angle }} is exact"
-        )
-    (a, b, c), (d, e, f), (g, h, i) = R
-    if a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0:
+        exact = "; { axis, angle } is exact" if n == 3 else ""
+        raise ProblemError(f"{place}: the rows are not orthogonal unit vectors{exact}")
+    if q.determinant(R) < 0:
         raise ProblemError(f"{place}: a reflection; change the sign of one row")
     return rows
 

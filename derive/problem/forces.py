@@ -8,9 +8,10 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..language.reserved import PLACE
-from ..language.tree import Tree, subtrees
+from ..language.tree import Tree, replaced, subtrees
 from ..schema.kind import Potential
 from ..schema.kinds import kinds
+from .bodies import rotation
 from .fields import (
     LIKE_A_PLACE,
     choice,
@@ -38,6 +39,7 @@ from .problem import (
 
 AXES = "xyz"
 Vector = tuple[Tree, ...]
+Rows = tuple[Vector, ...]
 Found = Mapping[str, Any]
 """What has been read of a table."""
 
@@ -122,6 +124,17 @@ class FileReader:
         if need == "one space" and len(self._sizes()) > 1:
             more = "; use 'expression'" if kind == "gravity" else ""
             raise ProblemError(f"{where}: {kind} needs blocks of one dimension{more}")
+        g = at.group
+        assert g is not None
+        if need == "rotations" and ("orthogonal" not in g.relations or g.factors):
+            raise ProblemError(
+                f"{where}: {kind} needs one group whose linear parts are rotations, as SO(3) or "
+                f"SE(3); those of {g.name} are others"
+            )
+        if need == "affine of R^3" and (g.n != 3 or not g.free_translations or g.factors):
+            raise ProblemError(
+                f"{where}: {kind} needs a group with all translations of R^3, as SE(3) or Aff(3)"
+            )
 
     def _sizes(self) -> set[int]:
         assert self.points.group is not None
@@ -161,6 +174,22 @@ class FileReader:
         """A point, or a new place."""
         return self.points.attached(table, where)
 
+    def rotation(self, table: Mapping[str, Any], key: str, where: str, _: Found) -> Rows:
+        """{ axis, angle } in R³, or rows of numbers."""
+        assert self.points.group is not None
+        return rotation(table[key], self.points.group.n, f"{where}, {key}")
+
+    def timed(self, table: Mapping[str, Any], key: str, where: str, found: Found) -> Vector:
+        """A vector of the space of all points, of the time as well."""
+        return tuple(in_time(x) for x in self.vector(table, key, where, found))
+
+    def charges(self, table: Mapping[str, Any], key: str, where: str, _: Found) -> Vector:
+        """A number for each point."""
+        count = self.points.masses
+        if not count:
+            raise ProblemError(f"{where}: key {key!r} is for [[point]] tables, and there are none")
+        return vector(missing(table, key, where), count, f"{where}, {key}")
+
     def masses(self, *_: Any) -> tuple[()]:
         """Those of the points."""
         return ()
@@ -192,6 +221,11 @@ def _placed(t: Tree, where: str, points: Points) -> Tree:
         raise ProblemError(f"{where}: {name!r}: point {i} has {points.size(i)} coordinates")
     offset = points.factor(points.block(i))[0]
     return ("entry", ("call", ("at", "r", i), "t"), offset + k)
+
+
+def in_time(t: Tree) -> Tree:
+    """The time, where an expression says t."""
+    return replaced(t, ("par", "t"), "t")
 
 
 def given_input(data: Mapping[str, Any], where: str, points: Points) -> Input:

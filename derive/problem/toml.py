@@ -6,7 +6,7 @@ import difflib
 import math
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,7 @@ from ..language.limits import (
 from ..language.reserved import taken
 from ..language.tree import Tree
 from ..language.weight import weight
+from ..schema.kind import Potential
 from . import inertia
 from .bodies import body
 from .fields import LIKE_A_PLACE, identifier, known, tables, text, unread, used_at
@@ -34,6 +35,7 @@ from .problem import (
     CovectorInput,
     Damping,
     GivenBody,
+    Input,
     MomentBody,
     Parameter,
     Place,
@@ -136,8 +138,7 @@ def problem_of(
     drags = tuple(
         damping(d, f"damping {k}", points) for k, d in enumerate(tables(data, "damping"), 1)
     )
-    if sum(isinstance(i, CovectorInput) for i in inputs) > 1:
-        raise ProblemError("key 'input': one covector holds every component; give one such table")
+    _alone(potentials, inputs)
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, drags, parameters), "stiffness")
     _distinct([i.name for i in inputs], parameters)
@@ -159,6 +160,15 @@ def problem_of(
     _declared(problem, data)
     _massive(problem, negative_mass)
     return problem
+
+
+def _alone(potentials: Sequence[Potential], inputs: Sequence[Input]) -> None:
+    """There is one of what may be there once."""
+    for k, p in enumerate(potentials, 1):
+        if p.alone and any(x.kind == p.kind for x in potentials[: k - 1]):
+            raise ProblemError(f"potential {k}: a second {p.kind}; there may be one")
+    if sum(isinstance(i, CovectorInput) for i in inputs) > 1:
+        raise ProblemError("key 'input': one covector holds every component; give one such table")
 
 
 def _name(data: Mapping[str, Any], moved: Group | None) -> str:

@@ -225,21 +225,21 @@ class _Shape:
 
     # -- of what everything is made --------------------------------------------------------------
 
-    def scalar(self, data: Any, where: str, *, placed: bool = False) -> None:
-        """A tree of a number; ``placed``: of t and coordinates of the points in space as well."""
-        if not self.is_scalar(self.read(data, where), placed):
+    def scalar(self, data: Any, where: str, *, placed: bool = False, timed: bool = False) -> None:
+        """A tree of a number; ``timed``: of t as well, ``placed``: and of coordinates of points."""
+        if not self.is_scalar(self.read(data, where), placed, timed or placed):
             raise ShapeError(f"{where}: expected the expression of a number")
 
-    def is_scalar(self, t: Tree, placed: bool) -> bool:
+    def is_scalar(self, t: Tree, placed: bool, timed: bool) -> bool:
         """Is it made of what is known, by what keeps to numbers?"""
         if not isinstance(t, tuple):
-            return not isinstance(t, str) or t == "π" or (placed and t == "t")
+            return not isinstance(t, str) or t == "π" or (timed and t == "t")
         if t[0] == "par":
             return t[1] in self.data["parameters"]
         if t[0] == "entry":
             return placed and len(t) == 3 and self.is_place(t[1])
         kept = {"add": t[1:], "mul": t[1:], "div": t[1:], "pow": t[1:2], "fun": t[2:]}
-        return t[0] in kept and all(self.is_scalar(x, placed) for x in kept[t[0]])
+        return t[0] in kept and all(self.is_scalar(x, placed, timed) for x in kept[t[0]])
 
     def is_place(self, t: Tree) -> bool:
         """Is it r_i(t) of a point or a place?"""
@@ -278,7 +278,15 @@ class _Shape:
         if value not in allowed:
             raise ShapeError(f"{where}: key must be one of {', '.join(allowed)}")
 
-    def vector(self, data: Any, where: str, size: int | None = None, least: int = 1) -> Any:
+    def vector(
+        self,
+        data: Any,
+        where: str,
+        size: int | None = None,
+        least: int = 1,
+        *,
+        timed: bool = False,
+    ) -> Any:
         """A list of trees, which is not a tree itself."""
         most = LONGEST if size is None else size
         if not isinstance(data, list) or not (size or least) <= len(data) <= most:
@@ -286,7 +294,7 @@ class _Shape:
         if data and isinstance(data[0], str) and data[0] in OPERATORS:
             raise ShapeError(f"{where}: expected a list of expressions")
         for x in data:
-            self.scalar(x, where)
+            self.scalar(x, where, timed=timed)
         return data
 
     def square(self, data: Any, size: int, where: str) -> None:
@@ -319,9 +327,14 @@ class _Keys:
         return True
 
     def meets(self, need: str, kind: str, where: str) -> None:
-        """The body alone is looked at; of the group the rest is known to the checker."""
-        if need == "points alone" and self.shape.data["body"]["kind"] != "points":
+        """What the header says of the body and the group."""
+        data = self.shape.data
+        if need == "points alone" and data["body"]["kind"] != "points":
             raise ShapeError(f"{where}: {kind} is of a body of points alone")
+        if need in ("rotations", "affine of R^3") and self.shape.blocks > 1:
+            raise ShapeError(f"{where}: {kind} is in no product")
+        if need == "affine of R^3" and (data["action"], data["n"]) != ("affine", 3):
+            raise ShapeError(f"{where}: {kind} is of affine maps of R^3")
 
     def scalar(self, table: Any, key: str, where: str, _: Any) -> Any:
         """A tree of parameters."""
@@ -351,6 +364,27 @@ class _Keys:
     def end(self, table: Any, key: str, where: str, _: Any) -> Any:
         """A point or a place."""
         return self.shape.point(self.shape.at(table, key, int, where), where)
+
+    def rotation(self, table: Any, key: str, where: str, _: Any) -> Any:
+        """Rows of trees, as many as the space has dimensions."""
+        n, rows = self.shape.data["n"], self.shape.at(table, key, list, where)
+        self.shape.square(rows, n if isinstance(n, int) else 0, f"{where}, {key}")
+        return rows
+
+    def timed(self, table: Any, key: str, where: str, _: Any) -> Any:
+        """A list of trees with the time, but no places."""
+        value = self.shape.at(table, key, list, where)
+        return self.shape.vector(value, f"{where}, {key}", timed=True)
+
+    def charges(self, table: Any, key: str, where: str, _: Any) -> Any:
+        """A tree for each point that has a mass."""
+        count = len(self.shape.data["body"].get("points", []))
+        value = self.shape.at(table, key, list, where)
+        if not count or len(value) != count:
+            raise ShapeError(f"{where}: key {key!r} must have a number for each point")
+        for x in value:
+            self.shape.scalar(x, f"{where}, {key}")
+        return value
 
     def masses(self, table: Any, key: str, where: str, _: Any) -> Any:
         """Of a problem in its principal frame, which is not read."""

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from ..schema.kinds import kinds
+
 ANY_GROUP = "any group"
 ACTIONS = ("linear", "affine")
 """How a group moves points; so is the text called that is about any of them."""
@@ -332,6 +334,14 @@ VOCABULARY: dict[str, Name] = {
     "ḣ": name("dh̃/dt along the motion", r"\dot{\tilde h}", rate(SCALAR)),
     "∂ₜŨ": name("partial derivative of Ũ in time", r"\partial_t\tilde U", letter(SCALAR)),
 }
+
+OWN_TYPES: dict[str, Type] = {"scalar": SCALAR, "vector": VECTOR, "matrix": SQUARE}
+VOCABULARY |= {
+    x.name: name(x.meaning, x.latex, defined(OWN_TYPES[x.type]))
+    for kind in kinds().values()
+    for x in kind.letters
+}
+"""And the letters that a kind of potential has for its own."""
 
 ROTATIONS: dict[str, Name] = {
     "Z": name("A⁻¹α, skew: Z = j(ζ)", "Z", defined(ALGEBRA)),

@@ -10,7 +10,7 @@ import difflib
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields
 from functools import cache
-from typing import Annotated, Any, ClassVar, Protocol, Self, get_args, get_type_hints
+from typing import Annotated, Any, ClassVar, NamedTuple, Protocol, Self, get_args, get_type_hints
 
 from ..language.tree import Tree
 
@@ -55,10 +55,14 @@ TYPES = {
     "pair": Type(list, lambda _: []),
     "end": Type(lambda x: x, lambda _: [], ("on", "at", "block")),
     "masses": Type(_rows, lambda _: []),
+    "rotation": Type(_rows, lambda rows: [x for row in rows for x in row]),
+    "timed": Type(list, list),
+    "charges": Type(list, list),
 }
 """``scalar``: an expression of the parameters; ``energy``: of places and the time as well;
 ``vector``: of the space of the points; ``pair``: two points; ``end``: a point or a place of the
-body; ``masses``: points with their masses, of which the principal frame makes a list."""
+body; ``masses``: points with their masses, of which the principal frame makes a list; ``rotation``:
+rows of a matrix; ``timed``: a vector, of the time as well; ``charges``: a number for each point."""
 
 
 @dataclass(frozen=True)
@@ -82,6 +86,9 @@ Energy = Annotated[Tree, Key("energy")]
 Vector = Annotated[tuple[Tree, ...], Key("vector")]
 Pair = Annotated[tuple[int, int], Key("pair")]
 End = Annotated[int, Key("end")]
+Rotation = Annotated[tuple[tuple[Tree, ...], ...], Key("rotation")]
+Timed = Annotated[tuple[Tree, ...], Key("timed")]
+Charges = Annotated[tuple[Tree, ...], Key("charges")]
 Masses = Annotated[tuple[tuple[int, Tree], ...], Key("masses")]
 """The types of the keys of a kind.  A key without a default must be there; one that is ``None`` if
 its kind chooses it (:meth:`Potential.given`)."""
@@ -108,6 +115,15 @@ def nearest(word: str, known: Collection[str]) -> str:
     return f"; did you mean {near[0]!r}?" if near else ""
 
 
+class Own(NamedTuple):
+    """A letter that the words of a kind have for their own: a scalar, a vector or a matrix."""
+
+    name: str
+    type: str
+    meaning: str
+    latex: str
+
+
 @dataclass(frozen=True, kw_only=True)
 class Potential:
     """One potential of a problem.
@@ -115,7 +131,8 @@ class Potential:
     ``kind``: its name in files.  ``rank``: in which order kinds are told.  ``phrase``, ``several``:
     what acts, in words.  ``drawn``: is it in the figure?  ``legend``: what the figure says of it.
     ``turns``: can it be said in the principal frame; else ``unturned`` says what cannot.
-    ``needs``: what the problem must be.
+    ``needs``: what the problem must be.  ``alone``: there is one of the kind.  ``letters``: those
+    that its words have for their own.
     """
 
     kind: ClassVar[str]
@@ -126,6 +143,8 @@ class Potential:
     drawn: ClassVar[bool] = False
     unturned: ClassVar[str] = ""
     needs: ClassVar[tuple[str, ...]] = ()
+    alone: ClassVar[bool] = False
+    letters: ClassVar[tuple[Own, ...]] = ()
 
     @classmethod
     def keys(cls) -> dict[str, Key]:

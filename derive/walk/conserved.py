@@ -24,6 +24,7 @@ from .alphabet import Alphabet
 from .chapter import Chapter
 from .hat import isolate
 from .potential import U_Q, Potentials
+from .summed import moved
 from .wedge import vector_sum
 
 GAMMA = Letter("γ", 3)
@@ -122,10 +123,10 @@ def _turning(v: Potentials, b: Alphabet, *, vectors: bool) -> Tree | None:
     Y = Letter("Y", b.n, b.n, -1)
     if not v.elements.keeps(turning=True):
         return None
-    rate = _varied(v.energy, word(Y), None, b)
+    rate = _varied(v, word(Y), None, b)
     if not rate:
         return "ℓ̇"
-    if b.n != 3 or normal_form(_varied(v.energy, word(hat(GAMMA)), None, b)):
+    if b.n != 3 or normal_form(_varied(v, word(hat(GAMMA)), None, b)):
         return None
     return ("inner", "γ", "ℓ̇") if vectors else ("inner", ("hat", "γ"), "ℓ̇")
 
@@ -136,15 +137,15 @@ def _shifting(problem: Problem, v: Potentials, b: Alphabet) -> Tree | None:
     assert group is not None
     if not group.free_translations or not v.elements.keeps(turning=False):
         return None
-    if not _varied(v.energy, None, word(Letter("b", b.n)), b):
+    if not _varied(v, None, word(Letter("b", b.n)), b):
         return "ṗ"
     across = word(hat(GAMMA)) * word(AXIS)
-    if b.n != 3 or normal_form(_varied(v.energy, None, across, b)):
+    if b.n != 3 or normal_form(_varied(v, None, across, b)):
         return None
     return ("wedge", "γ", "ṗ")
 
 
-def _varied(energy: Expr, turn: Expr | None, shift: Expr | None, b: Alphabet) -> Expr:
+def _varied(v: Potentials, turn: Expr | None, shift: Expr | None, b: Alphabet) -> Expr:
     """The derivative of Ũ along δA = YA, δT = YT + b; U_Q is judged by its terms."""
     images = {}
     if turn is not None:
@@ -152,4 +153,4 @@ def _varied(energy: Expr, turn: Expr | None, shift: Expr | None, b: Alphabet) ->
         images[b.T.position] = turn * word(b.T.position)
     if shift is not None:
         images[b.T.position] = shift
-    return derivation(without(energy, U_Q), images.get)
+    return derivation(without(v.energy, U_Q), moved(v.own, images).get)

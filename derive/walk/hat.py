@@ -80,7 +80,7 @@ class Reader:
         b = self.letters
         images = self._hats(e) | {b.bracket: self.hatted(BRACKET)}
         work = fold_inertia(substitute(e, images), b.J, word(INERTIA).marked(self.inertia))
-        return normal_form(_fold_moment(work, b.N_body))
+        return normal_form(fold_moment(work, b.N_body, MU))
 
     def vector(self, e: Expr) -> Expr:
         """A sum of skew letters as the sum of their axes (sums of vectors stay)."""
@@ -128,14 +128,14 @@ def _flat(e: Expr) -> Expr:
     return Expr(e.rows, 1, terms, e.lineage)
 
 
-def _fold_moment(e: Expr, moment: Letter) -> Expr:
-    """``Tr N_b j(x)‾ = ⟨μ, x⟩``: what defines the moment of the forces."""
+def fold_moment(e: Expr, moment: Letter, vector: Letter) -> Expr:
+    """``Tr N j(x)‾ = ⟨μ, x⟩``: what defines the vector of a moment, as N_b and μ."""
 
     def folded(cycle: Word) -> Expr:
         axes = [x.axis for x, _ in cycle if x.axis is not None]
         if len(cycle) == 2 and axes and any(x == moment for x, _ in cycle):
             barred = any(bar for x, bar in cycle if x == moment)
-            return inner(word(MU), word(axes[0])) * (1 if barred else -1)
+            return inner(word(vector), word(axes[0])) * (1 if barred else -1)
         return scalar_of((cycle,))
 
     return map_traces(e, folded)

@@ -20,7 +20,7 @@ from .chapter import Chapter
 from .kinds import walked
 from .point_forces import applied, pushes_step
 from .pointwise import Elements
-from .summed import Words
+from .summed import Own, Words, moved
 
 U_Q = Letter("U_Q")
 
@@ -29,7 +29,8 @@ U_Q = Letter("U_Q")
 class Potentials:
     """``energy`` = Ũ on words in A, T, c, m, γ, K, U_Q; ``work(ξ, η)`` of what U_Q exerts.
 
-    ``elements``: what is in U_Q; ``timed``: does U depend on the time by itself?
+    ``elements``: what is in U_Q; ``timed``: does U depend on the time by itself?  ``own``: letters
+    of the potentials beside these.
     """
 
     energy: Expr
@@ -37,6 +38,7 @@ class Potentials:
     work: Callable[[Expr, Expr | None], Expr]
     elements: Elements
     timed: bool
+    own: tuple[Own, ...] = ()
 
     def moved(
         self, a: Alphabet, xi: Expr, eta: Expr | None = None, axis: Expr | None = None
@@ -44,7 +46,7 @@ class Potentials:
         """What δA = Aξ, δT = Aη make of the letters of Ũ; ``axis``: x for ξ = j(x)."""
         g = word(a.A.position)
         images = {a.A.position: g * xi, U_Q: -self.work(xi if axis is None else axis, eta)}
-        return images if eta is None else images | {a.T.position: g * eta}
+        return moved(self.own, images if eta is None else images | {a.T.position: g * eta})
 
 
 def potentials(problem: Problem, a: Alphabet, c: Chapter, gram: Expr | None = None) -> Potentials:
@@ -76,7 +78,8 @@ def potentials(problem: Problem, a: Alphabet, c: Chapter, gram: Expr | None = No
     if found.energies:
         steps.append(pushes_step(found, forces, a, c, gram))
     timed = any(map(_timed, over_points))
-    return Potentials(draft.said(energy), tuple(steps), forces.work, found, timed)
+    own = tuple(x for w in parts for x in w.own)
+    return Potentials(draft.said(energy), tuple(steps), forces.work, found, timed, own)
 
 
 def _opening(over_points: list[Tree]) -> Prose:

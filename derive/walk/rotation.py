@@ -15,12 +15,12 @@ from .alphabet import Alphabet
 from .chapter import Chapter
 from .components import components, diagonal
 from .elimination import CENTRAL, Eliminated, from_centre, vector_tree
-from .hat import INERTIA, MU, OMEGA_P, PHI, ZETA, ZETA_DOT, Reader, isolate
+from .hat import INERTIA, MU, OMEGA_P, PHI, ZETA, ZETA_DOT, Reader, fold_moment, isolate
 from .inputs import Given
 from .isometry import Isometry
 from .potential import Potentials, virtual_work
 from .supposed import told
-from .trivialisation import rates
+from .trivialisation import frame_rule, rates
 from .vector import VectorForm, pairing
 from .wedge import vector_sum
 
@@ -33,11 +33,16 @@ class Torque:
     steps: tuple[Step, ...]
 
 
-def _forces(v: Potentials, b: Alphabet) -> dict[Letter, Expr]:
+def _forces(v: Potentials, b: Alphabet, gram: Expr) -> dict[Letter, Expr]:
     """The moment μ of the forces in the body, and their resultant F_b, of the given potentials."""
     eta = word(b.w.xi_prime) if b.affine else None
-    work = normal_form(virtual_work(v, b, word(hat(OMEGA_P)), eta, word(OMEGA_P)))
+    work = virtual_work(v, b, word(hat(OMEGA_P)), eta, word(OMEGA_P))
+    for x in v.own:
+        work = work if x.axial is None else fold_moment(work, x.letter, x.axial)
+    work = normal_form(reduce(work, frame_rule(b, gram)))
     isolated = reduce(work, isolate(OMEGA_P))
+    if hat(OMEGA_P) in isolated.letters():
+        raise ValueError("a moment that is no vector")
     forces = {MU: normal_form(gradient(isolated, OMEGA_P))}
     if b.affine:
         forces[b.F_body] = gradient(work, b.w.xi_prime)
@@ -47,7 +52,7 @@ def _forces(v: Potentials, b: Alphabet) -> dict[Letter, Expr]:
 def torque(v: Potentials, stage: Isometry, read: Reader, c: Chapter) -> Torque:
     """The forces of this problem, from Ũ by varying A by A j(Ω′) (and T by A η′)."""
     draft = c.draft("torque", "variation")
-    forces = _forces(v, stage.letters)
+    forces = _forces(v, stage.letters, stage.gram)
     left = pairing(stage, read).values()
     pairs = zip(left, forces.values(), strict=True)
     step = draft.step(

@@ -66,6 +66,8 @@ def potential_separation(
     problem: Problem, v: Potentials, b: Alphabet, c: Chapter
 ) -> tuple[Step, ...]:
     """Ũ by the centre of mass, and whether the motion of this problem separates."""
+    if any(b.T.position in x.value.letters() for x in v.own):
+        return ()  # a function of T that is no sum
     draft = c.draft("separation", "identification")
     energy = _centred(v.energy, b, Chapter(b.chapter).label("separation"))
     place = Letter("R", b.n)

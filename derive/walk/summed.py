@@ -1,28 +1,86 @@
 """Potentials as words in A, T, m, c, J and letters of their own.
 
-A letter of its own stands for a word that g moves: what a displacement makes of it is derived from
-that word, in which the letter is put back.
+A letter of its own stands for a word that g moves, or for a power of one: what a displacement makes
+of it is derived from that word, and products in it are written by the letters again.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
-from ..algebra.words import Expr
+from ..algebra.calculus import PairRule, derivation, reduce
+from ..algebra.words import Expr, Factor, Letter, word
 from ..language.tree import Tree
 from ..record.record import Equation
 from ..record.sentence import Prose
 
 
 @dataclass(frozen=True)
+class Own:
+    """A letter that stands for ``value``; for a product āb, if that is one: ``factors`` (a, b) and
+    the ``share`` of the letter that āb is.
+
+    ``axial``: in R³, the vector of the letter N, ⟨axial, x⟩ = Tr N j(x)‾.
+    """
+
+    letter: Letter
+    value: Expr
+    factors: tuple[Letter, Letter] | None = None
+    share: Fraction = Fraction(1)
+    axial: Letter | None = None
+
+    def varied(self, delta: Callable[[Letter], Expr | None]) -> Expr:
+        """What a displacement makes of it."""
+        return derivation(self.value, delta)
+
+    def written(self, left: Factor, right: Factor) -> Expr | None:
+        """āb, or b̄a, by the letter."""
+        if self.factors:
+            a, b = self.factors
+            if (left, right) == ((a, True), (b, False)):
+                return self.share * word(self.letter)
+            if (left, right) == ((b, True), (a, False)):
+                return self.share * word(self.letter).bar
+        return None
+
+
+@dataclass(frozen=True)
+class Power(Own):
+    """A letter x for a power of a scalar q, its ``value``: δx = exponent · x q⁻¹ δq.
+
+    ``over``: q⁻¹, if that is not x itself.
+    """
+
+    exponent: Fraction = Fraction(-1)
+    over: Letter | None = None
+
+    def varied(self, delta: Callable[[Letter], Expr | None]) -> Expr:
+        """By the chain rule."""
+        rate = self.exponent * word(self.letter) * word(self.over or self.letter)
+        return rate * derivation(self.value, delta)
+
+
+def moved(own: Iterable[Own], images: Mapping[Letter, Expr]) -> dict[Letter, Expr]:
+    """The images of A, T and so on under a displacement, and with them those of own letters."""
+    found, listed = dict(images), [*own]
+    rules: list[PairRule] = [x.written for x in listed]
+    for x in listed:
+        found[x.letter] = reduce(x.varied(found.get), *rules)
+    return found
+
+
+@dataclass(frozen=True)
 class Words:
     """``energy``: what the potentials of a kind add to Ũ; the same ``over_points``, as trees.
 
-    ``definitions``: of the letters that are its own; ``prose``: what is said of them.
+    ``definitions``: of the letters that are its own; ``prose``: what is said of them; ``own``: how
+    those move, each after those that it stands for.
     """
 
     energy: Expr
     definitions: Sequence[Equation]
     over_points: Sequence[Tree]
     prose: Prose = ()
+    own: Sequence[Own] = ()

@@ -31,6 +31,7 @@ from derive.views.text import step_text, text
 from derive.walk.supposed import WORDS
 from tests.problems import PROBLEMS
 from tests.support import walks
+from tests.support.kinds import examples
 from tests.views.test_views import compiled
 
 ROOT = Path(__file__).parents[2] / "derive"
@@ -84,6 +85,7 @@ def records(tmp_path_factory):
     """The ready-made problems, some with all kinds of forces, and the own ones."""
     found = [walks.record(name) for name in ready_made()]
     found += [walk(problem_of(tomllib.loads(PROBLEMS[name]))) for name in CHOSEN]
+    found += [walk(p) for p in examples().values()]
     return found + [walk(p) for p in own_problems(tmp_path_factory.mktemp("mesh"))]
 
 

@@ -4,14 +4,22 @@ Each has ``KIND``, its name, and ``energy(at, p, t, r, masses)``, U from the pla
 Where the walk sums some of a kind up in words, ``summed(at, p)`` says which, and
 ``values(model, members)`` what the letters of these are; where it has distances,
 ``radial(at, p, r, masses)`` gives each of them with U as a function of its square.
+``FRAMED``: it is of the axes of the body, whose ends are then points (``Exerted.frame``).
 """
 
 from __future__ import annotations
 
 import pkgutil
+from collections.abc import Mapping
 from functools import cache
 from importlib import import_module
 from typing import Any
+
+
+def framed(problem: Mapping[str, Any]) -> bool:
+    """Is there a potential of the axes of the body, whose ends are points to it?"""
+    given = (accounts().get(p["kind"]) for p in problem.get("potentials", []))
+    return any(getattr(account, "FRAMED", False) for account in given)
 
 
 @cache

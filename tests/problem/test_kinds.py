@@ -1,0 +1,65 @@
+"""Each kind of potential, by the problems of its page in docs/potentials: walked, checked, read."""
+
+import json
+
+import pytest
+
+from derive import derive
+from derive.pipeline import walk
+from derive.problem.problem import ProblemError
+from derive.python.api import SE, Moments, Problem, Table
+from derive.record.record import RecordError, from_json, to_data
+from derive.schema.kinds import kinds
+from derive.views.language import language
+from derive.views.system import system
+from tests.support.kinds import PAGES, examples
+from tests.support.walks import own_verdicts
+
+
+def test_each_kind_has_a_page_and_an_example():
+    pages = {p.stem for p in PAGES.glob("*.md")}
+    assert pages == {*kinds()}
+    used = {(name.split()[0], p.kind) for name, x in examples().items() for p in x.potentials}
+    assert {(kind, kind) for kind in kinds()} <= used
+
+
+@pytest.mark.parametrize("kind", kinds())
+def test_the_page_names_every_key(kind):
+    text = (PAGES / f"{kind}.md").read_text(encoding="utf-8")
+    assert all(f"`{key}`" in text for key in kinds()[kind].names())
+
+
+@pytest.mark.parametrize("name", examples())
+def test_an_example_holds(name):
+    d = derive(examples()[name])
+    assert [v.label for v in own_verdicts(d.record) if not v.holds] == []
+    assert from_json(json.dumps(to_data(d.record))) == d.record
+    files = d.emit()
+    assert len(files) == 3
+    for tongue in ("en", "fr"):
+        assert "{" not in system(d.record, language(tongue))
+
+
+@pytest.mark.parametrize("name", examples())
+def test_a_record_of_another_form_is_refused(name):
+    """Each key of each potential left out, of another type, or another name."""
+    data = to_data(walk(examples()[name]))
+    refused = 0
+    for k, p in enumerate(data["problem"]["potentials"]):
+        for key in p:
+            rest = {x: y for x, y in p.items() if x != key}
+            for other in (rest, rest | {key: {"no": 1}}, rest | {key + "_": p[key]}):
+                changed = json.loads(json.dumps(data))
+                changed["problem"]["potentials"][k] = other
+                with pytest.raises(RecordError, match=rf"potential {k + 1}"):
+                    from_json(json.dumps(changed))
+                refused += 1
+    assert refused
+
+
+@pytest.mark.parametrize("kind", kinds())
+def test_a_key_that_is_almost_right_is_named(kind):
+    key = kinds()[kind].names()[0]
+    wrong = Table("potential", kind=kind, **{key + "s": 1})
+    with pytest.raises(ProblemError, match=rf"potential 1: unknown key '{key}s'; did you mean"):
+        Problem("b", SE(3), Moments(), [wrong])
