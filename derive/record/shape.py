@@ -366,9 +366,10 @@ class _Keys:
         return self.shape.point(self.shape.at(table, key, int, where), where)
 
     def rotation(self, table: Any, key: str, where: str, _: Any) -> Any:
-        """Rows of trees, as many as the space has dimensions."""
+        """Rows of trees, as many as the space has dimensions; none for 1."""
         n, rows = self.shape.data["n"], self.shape.at(table, key, list, where)
-        self.shape.square(rows, n if isinstance(n, int) else 0, f"{where}, {key}")
+        if rows or not kinds()[table["kind"]].optional(key):
+            self.shape.square(rows, n if isinstance(n, int) else 0, f"{where}, {key}")
         return rows
 
     def timed(self, table: Any, key: str, where: str, _: Any) -> Any:
