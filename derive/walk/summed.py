@@ -7,7 +7,7 @@ of it is derived from that word, and products in it are written by the letters a
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from ..algebra.calculus import PairRule, derivation, reduce
@@ -50,16 +50,15 @@ class Own:
 class Power(Own):
     """A letter x for a power of a scalar q, its ``value``: δx = exponent · x q⁻¹ δq.
 
-    ``over``: q⁻¹, if that is not x itself.
+    ``over``: q⁻¹ by letters.
     """
 
-    exponent: Fraction = Fraction(-1)
-    over: Letter | None = None
+    exponent: Fraction = field(kw_only=True)
+    over: Expr = field(kw_only=True)
 
     def varied(self, delta: Callable[[Letter], Expr | None]) -> Expr:
         """By the chain rule."""
-        rate = self.exponent * word(self.letter) * word(self.over or self.letter)
-        return rate * derivation(self.value, delta)
+        return self.exponent * word(self.letter) * self.over * derivation(self.value, delta)
 
 
 def moved(own: Iterable[Own], images: Mapping[Letter, Expr]) -> dict[Letter, Expr]:

@@ -63,9 +63,9 @@ def eliminate_translation(stage: Special, c: Chapter) -> Centred:
     balance = gradient(stage.inertial, eta) - stage.forces[eta]
     free = tidy(word(inverse_letter(b.m)) * (left * without(balance, w_dot)))
     metric, value = central_moments(b)
-    remaining = substitute(without(stage.inertial, eta), {w_dot: -free})
-    remaining = remaining - inner(stage.forces[xi], word(xi))
-    remaining = tidy(substitute(remaining, {b.J: word(metric) + word(b.J) - value}))
+    by_centre = {b.J: word(metric) + word(b.J) - value}  # not in the forces, which may have a J
+    remaining = substitute(substitute(without(stage.inertial, eta), by_centre), {w_dot: -free})
+    remaining = tidy(remaining - inner(stage.forces[xi], word(xi)))
     inertial = terms_with(remaining, metric)
     force = gradient(inertial - remaining, xi)
     force = tidy(substitute(force, {b.c: word(b.m) * word(centre)}))
