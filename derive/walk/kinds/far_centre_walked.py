@@ -1,0 +1,88 @@
+"""The gravity of a far centre, with T_b = ĀT, W = 1/‖T‖, V = GM/‖T‖, T seen from the centre:
+
+    Ũ = −V(m − W²⟨T_b, c⟩ + ½ W²(3W²⟨T_b, J T_b⟩ − Tr AJĀ)),
+
+the sum over the points of −V m_i (1 + s)^(−½), s = W²(2⟨T, x⟩ + ‖x‖²), x = A r_i, to the second
+order in x.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from ...algebra.calculus import reduce, substitute
+from ...algebra.words import Expr, Letter, inner, number, word
+from ...algebra.written import Notation, tree_of
+from ...language.tree import Tree, add, mul, neg
+from ...problem.problem import Problem
+from ...record.record import Equation
+from ...record.sentence import say
+from ...schema.kinds.far_centre import FarCentre
+from ..alphabet import Alphabet
+from ..chapter import Chapter
+from ..lagrangian import POINT
+from ..pointwise import column
+from ..pullback import sum_over
+from ..summed import Own, Power, Words
+
+KIND = FarCentre
+HALF = Fraction(1, 2)
+V, W = Letter("V"), Letter("W")
+
+
+def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
+    """The expansion, summed over the points."""
+    del vectors
+    p = next((p for p in problem.potentials if isinstance(p, FarCentre)), None)
+    if p is None:
+        return None
+    x, T_b = Letter("x", a.n), Letter("T_b", a.n)
+    T = Letter("T − a", a.n) if p.centre else a.T.position
+    seen: Tree = add("T", neg(column(p.centre))) if p.centre else "T"
+    apart: Tree = add(POINT, neg("T"))
+    distance: Tree = ("fun", "sqrt", ("norm2", seen))
+    shown = Notation(display={a.m_i: ("at", "m", "i"), T: seen, x: apart})
+    square, over = inner(word(T), word(T)), word(W) * word(W)
+    near = inner(word(T), word(x))
+    body = Own(T_b, word(a.A.position).bar * word(T), (a.A.position, T))
+    own = (
+        *((Own(T, word(a.T.position)),) if p.centre else ()),
+        body,
+        Power(W, square, exponent=-HALF, over=over),
+        Power(V, square, exponent=-HALF, over=over),
+    )
+    return Words(
+        _summed(a, x, T, body),
+        [
+            Equation("T_b", mul(("T", "A"), seen)),
+            Equation("W", ("div", 1, distance)),
+            Equation("V", ("div", p.strength, distance)),
+        ],
+        [("sum", "i", tree_of(_summand(a, x, near, near * near), shown))],
+        say(
+            "Of the gravity of the far centre, the terms of the fourth and higher orders in one "
+            "over the distance are dropped."
+        ),
+        own,
+    )
+
+
+def _summand(a: Alphabet, x: Letter, near: Expr, squared: Expr) -> Expr:
+    """−V m_i (1 + s)^(−½) by the binomial series, with ``near`` = ⟨T, x⟩ and its square."""
+    first, second = -HALF, -HALF * (-HALF - 1) / 2
+    over = word(W) * word(W)
+    linear = over * (2 * near + inner(word(x), word(x)))
+    quadratic = 4 * over * over * squared
+    return -word(a.m_i) * word(V) * (number(1) + first * linear + second * quadratic)
+
+
+def _summed(a: Alphabet, x: Letter, T: Letter, body: Own) -> Expr:
+    """The sum over the points, where ⟨T, x⟩² is ⟨x, T T̄ x⟩, with T_b."""
+    general, TT = Chapter(a.chapter), Letter("T T̄", a.n, a.n, 1)
+    squared = inner(word(x), word(TT) * word(x))
+    summand = _summand(a, x, inner(word(T), word(x)), squared)
+    turned = (word(a.A.position) * word(a.r_i)).marked(general.label("action"))
+    moments = {(a.m_i,): a.m, (a.m_i, a.r_i): a.c, (a.m_i, a.r_i, a.r_i): a.J}
+    table = {k: word(x).marked(general.label("moments")) for k, x in moments.items()}
+    total = sum_over(substitute(summand, {x: turned}), {a.m_i, a.r_i}, table)
+    return reduce(substitute(total, {TT: word(T) * word(T).bar}), body.written)
