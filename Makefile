@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed$(if $(LOCKED),-locked)
 INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: help derive test coverage mutants dist notes bench accuracy fuzz lint lock clean
+.PHONY: help derive test coverage mutants dist docs notes bench accuracy fuzz lint lock clean
 
 help:            ## this list
 	@sed -n 's/^\([a-z]*\):.*## /  make \1  \t/p' Makefile
@@ -37,6 +37,10 @@ notes: $(STAMP)  ## lecture notes of SO(3), SE(3), SL(3): notes.pdf and notes.ht
 
 dist: $(STAMP)   ## minutes more of tests: wheels, old and new versions, every build of the C
 	$(BIN)/python -m pytest -m dist -n 2 --dist loadfile -rP
+
+docs: $(STAMP)   ## the site of docs/ and of the docstrings, in build/docs; a dead link is an error
+	$(INSTALL) --editable ".[docs]"
+	$(BIN)/sphinx-build -q -E -W --keep-going -c docs . build/docs
 
 lock:            ## the versions that are newest now, and the hashes of their files, into requirements-dev.lock
 	rm -rf build/lock

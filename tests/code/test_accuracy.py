@@ -1,6 +1,6 @@
 """The rounding of the emitted code against 50 digits, as ``make accuracy`` prints it, on a sample.
 
-A bound is a few times the worst that was found over the states that the README counts.
+A bound is a few times the worst that was found over the states that docs/performance.md counts.
 """
 
 from types import ModuleType

@@ -1,4 +1,4 @@
-"""PAPER.md, line by line: its labels are steps, and every numbered line of the note has its row."""
+"""The note, line by line: its labels are steps, and every numbered line of it has its row."""
 
 import re
 from pathlib import Path
@@ -8,7 +8,7 @@ import pytest
 from derive.command.cli import ready_made
 from tests.support.walks import record
 
-TEXT = (Path(__file__).parents[2] / "PAPER.md").read_text(encoding="utf-8")
+TEXT = (Path(__file__).parents[2] / "docs" / "paper.md").read_text(encoding="utf-8")
 ROWS = [
     [cell.strip() for cell in line.strip("|").split("|")]
     for line in TEXT.splitlines()

@@ -14,8 +14,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.project.test_readme import README, blocks
 from tests.support.needs import need, needs
+from tests.support.pages import PAGES, Reader, blocks
 
 pytestmark = pytest.mark.dist
 ROOT = Path(__file__).parents[2]
@@ -23,6 +23,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 BOUNDS = dict(x.split(">=") for x in PROJECT["dependencies"])
 OLDEST = [f"{name}=={version}" for name, version in BOUNDS.items()]
 NEWEST_PYTHON = 20
+BESIDE = ("python-flint", "scipy", "pycparser")
 QUIET = ("-m", "pip", "--quiet", "--disable-pip-version-check")
 
 
@@ -145,7 +146,7 @@ def test_french_and_years_later(base, tmp_path):
 
 
 def test_from_a_wheel_with_flint(base, installed, tmp_path):
-    python = installed(sys.executable, "python-flint", "scipy")
+    python = installed(sys.executable, *BESIDE)
     where, found = everything(python, tmp_path, tmp_path, PYTHONHASHSEED=3)
     assert str(ROOT) not in where
     assert found == base
@@ -164,33 +165,20 @@ def test_on_the_oldest_libraries(base, installed, tmp_path):
         assert re.search(rf"^{name}=={re.escape(oldest)}(\.0)*$", frozen, flags=re.M)
     assert everything(python, tmp_path, tmp_path, PYTHONHASHSEED=5)[1] == base
     tests = ("emitted", "expressions", "arrays", "compiled", "api", "principal_axes")
-    files = [f"tests/test_{x}.py" for x in tests]
+    files = [next(ROOT.glob(f"tests/*/test_{x}.py")) for x in tests]
     run(python, "-m", "pytest", "-p", "no:cacheprovider", *files, cwd=ROOT)
 
 
-# ---------------------------------------------------------------- as the README says
+# ---------------------------------------------------------------- as the pages say
 
 
-def test_the_readme_where_only_the_wheel_is(installed, tmp_path):
-    """Its commands, its programs and its CMake lines, in an empty folder."""
-    python = installed(sys.executable, "python-flint", "scipy")
-    path = f"{python.parent}{os.pathsep}{os.environ['PATH']}"
-    (tmp_path / "swing.toml").write_text(blocks("toml")[0], encoding="utf-8")
-    for line in blocks("sh")[0].splitlines():
-        run("bash", "-c", line, cwd=tmp_path, PATH=path)
-    for command in re.findall(r"`(derive \w+ swing\.toml)`", README):
-        run("bash", "-c", command, cwd=tmp_path, PATH=path)
-    (tmp_path / "main.c").write_text(blocks("c")[0], encoding="utf-8")
-    compiled = re.search(r"`(cc -std=c99 .*?)`", README)[1]
-    assert "energy drift" in run("bash", "-c", f"{compiled} && ./a.out", cwd=tmp_path)
-    first, second, third = blocks("python")[:3]
-    for program in (f"{first}\n{second}", third):
-        run(python, "-c", program, cwd=tmp_path, PATH=path)
-    need("cmake")
-    lines = ["cmake_minimum_required(VERSION 3.20)", "project(app C)", "add_executable(app main.c)"]
-    lines.append(blocks("cmake")[0])
-    (tmp_path / "CMakeLists.txt").write_text("\n".join(lines), encoding="utf-8")
-    (tmp_path / "main.c").write_text('#include "swing.h"\nint main(void) { return 0; }\n')
-    log = run("cmake", "-S", ".", "-B", "b", cwd=tmp_path, PATH=path)
-    assert f"Found derive: {python.parent}" in log
-    run("cmake", "--build", "b", cwd=tmp_path, PATH=path)
+@pytest.mark.parametrize("page", [x for x in PAGES if blocks(x)])
+def test_a_page_where_only_the_wheel_is(page, installed, tmp_path):
+    """Its commands and programs, in an empty folder."""
+    python = installed(sys.executable, *BESIDE)
+    reader = Reader(tmp_path, str(python))
+    reader.read(page)
+    if page == "docs/build.md" and "cmake" not in reader.absent:
+        cache = (tmp_path / "cmake-build" / "CMakeCache.txt").read_text(encoding="utf-8")
+        assert f"derive_DIR:PATH={python.parents[1]}" in cache
+    need(*sorted(reader.absent))

@@ -28,16 +28,16 @@ def run(path, *tests):
 @needs("cc")
 def test_what_is_left_out_is_said_in_one_line(tmp_path):
     """With nothing on the PATH: by a mark, in a fixture and by a call."""
-    some = "pdf or c_program or exist or three or browser"
-    files = [
-        f"tests/{x}.py" for x in ("project/test_readme", "views/test_notes", "views/test_html")
-    ]
+    some = "(pdf and not sentence) or (runs and build) or are_found or three or browser"
+    files = [f"tests/{x}.py" for x in ("project/test_docs", "views/test_notes", "views/test_html")]
     *_, said, closing = run(tmp_path, *files, "-k", some)
     number = re.fullmatch(r"1 passed, (\d+) skipped, \d+ deselected in .*", closing)[1]
     assert said.startswith(f"left out: {number} tests, which need cc (Debian: gcc")
     assert "pdflatex (Debian: texlive-" in said
     assert said.endswith("chromium (Debian: chromium)")
-    *_, closing = run(os.environ["PATH"], "tests/project/test_readme.py::test_the_c_program")
+    *_, closing = run(
+        os.environ["PATH"], "tests/project/test_docs.py::test_a_page_runs[docs/options.md]"
+    )
     assert re.fullmatch(r"1 passed in .*", closing)
 
 

@@ -16,7 +16,7 @@ PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = PYPROJECT["project"]
 LOCK = (ROOT / "requirements-dev.lock").read_text(encoding="utf-8")
 TEXTS = [ROOT / x for x in ("README.md", "SECURITY.md", "CHANGELOG.md", "pyproject.toml")]
-TEXTS += [x for x in ROOT.glob("examples/*") if x.is_file()]
+TEXTS += [*ROOT.glob("docs/**/*.md"), *(x for x in ROOT.glob("examples/*") if x.is_file())]
 TEXTS += [x for room in ("derive", "cmake", "templates") for x in ROOT.glob(f"{room}/**/*.*")]
 
 
@@ -62,7 +62,7 @@ def test_what_one_is_told_to_install_is_this():
             assert name in (".", PROJECT["name"]), place
             assert extra in PROJECT["optional-dependencies"], place
     named = {(place, extra) for place, name, extra in told if name == PROJECT["name"]}
-    assert {("README.md", "validate"), ("README.md", "mesh"), ("mesh.py", "mesh")} < named
+    assert {("options.md", "validate"), ("problem-file.md", "mesh"), ("mesh.py", "mesh")} < named
 
 
 # ---------------------------------------------------------------- requirements-dev.lock

@@ -1,0 +1,58 @@
+"""The site of these pages and of the docstrings: ``make docs``, by Sphinx, into build/docs.
+
+The pages of the site lie as the files of the repository lie, README and its like at the root: a
+link is one link here and there.  Nothing is fetched, neither to build the site nor to read it.
+"""
+
+import shutil
+from pathlib import Path
+
+import derive
+
+project, author = "derive", "the authors of derive"
+release = derive.__version__
+extensions = ["myst_parser", "sphinx.ext.autodoc"]
+root_doc = "README"
+include_patterns = ["*.md", "docs/*.md", "docs/*/*.md"]
+
+ROOT = Path(__file__).parents[1]
+CONTENTS = {
+    "Use": "tutorial commands problem-file potentials/* notes code options build python record",
+    "Trust": "trust performance strangers ../SECURITY paper",
+    "Inside": "architecture extending reference ../CONTRIBUTING ../CHANGELOG",
+}
+
+html_theme = "furo"
+html_title = "derive"
+html_copy_source = False
+html_theme_options = {"footer_icons": []}
+myst_heading_anchors = 3
+autodoc_member_order = "bysource"
+autodoc_class_signature = "separated"
+autodoc_default_options = {"members": True, "exclude-members": "__init__"}
+add_module_names = False
+autodoc_typehints_format = "short"
+python_use_unqualified_type_names = True
+pygments_style = "default"
+
+
+def contents(app, docname, source):
+    """The table of contents, which README does not show, at its end."""
+    if docname == root_doc:
+        for caption, patterns in CONTENTS.items():
+            files = [x for p in patterns.split() for x in sorted((ROOT / "docs").glob(f"{p}.md"))]
+            pages = [f"/{x.resolve().relative_to(ROOT).with_suffix('')}" for x in files]
+            fence = ["```{toctree}", ":hidden:", f":caption: {caption}", "", *pages, "```"]
+            source[0] += "\n\n" + "\n".join(fence) + "\n"
+
+
+def index(app, exception):
+    """README by the name that browsers look for."""
+    if exception is None:
+        shutil.copy(Path(app.outdir) / f"{root_doc}.html", Path(app.outdir) / "index.html")
+
+
+def setup(app):
+    """Where Sphinx calls these."""
+    app.connect("source-read", contents)
+    app.connect("build-finished", index)

@@ -1,0 +1,177 @@
+"""README and docs/ are true: commands run, programs compile, what is shown is printed or there."""
+
+import ast
+import re
+import subprocess
+
+import pytest
+
+import derive
+from derive.command.arguments import parser
+from derive.command.cli import COMMANDS, main
+from derive.problem.problem import ProblemError
+from derive.problem.solids import KINDS
+from derive.problem.toml import problem_of
+from tests.project.test_layers import ALLOWED
+from tests.support.needs import need, needs
+from tests.support.pages import FENCE, PAGES, ROOT, TARGETS, Reader, blocks, shown
+
+
+@pytest.mark.no_cover
+@pytest.mark.parametrize("page", [x for x in PAGES if blocks(x)])
+def test_a_page_runs(page, tmp_path, monkeypatch, capsys):
+    def typed(words):
+        with monkeypatch.context() as m:
+            m.chdir(tmp_path)
+            assert main(words) == 0, words
+        return capsys.readouterr()
+
+    reader = Reader(tmp_path, derive=typed, environment={"derive_DIR": str(ROOT / "cmake")})
+    reader.read(page)
+    need(*sorted(reader.absent))
+
+
+# -- what is said between the blocks ------------------------------------------------------------
+
+PROSE = {page: FENCE.sub("", text) for page, text in PAGES.items()}
+SPANS = [(page, x) for page, text in PROSE.items() for x in re.findall(r"`([^`\n]+)`", text)]
+PATH = re.compile(r"((?:derive|templates|cmake|generated|tests|benchmarks|examples|docs)/[\w./-]*)")
+OPTIONS = {x for _, span in SPANS for x in re.findall(r"(?<![\w-])--[a-z][a-z-]+", span)}
+OF_OTHERS = {"--upgrade"}
+
+
+def test_the_pages_are_found():
+    assert {"README.md", "CONTRIBUTING.md", "docs/tutorial.md", "docs/problem-file.md"} <= {*PAGES}
+    assert len(PAGES["README.md"].splitlines()) <= 120
+    kinds = {x.kind for page in PAGES for x in blocks(page)}
+    assert {"sh", "toml", "python", "c", "cpp", "rust", "javascript", "cmake", "latex"} <= kinds
+
+
+def test_output_is_compared():
+    assert shown("a\nb…1e-67\n", "x\na\nb\nc 1e-70\n")
+    assert not shown("a\nb\n", "a\nc\n")
+    assert not shown("1.5\n", "125\n")
+
+
+def test_a_command_that_fails_fails(tmp_path, monkeypatch):
+    monkeypatch.setitem(PAGES, "wrong", "```sh\npython -c 1/0\n```\n")
+    with pytest.raises(AssertionError):
+        Reader(tmp_path).read("wrong")
+    monkeypatch.setitem(PAGES, "wrong", "```python\nprint(1)\n```\n<!-- output -->\n```\n2\n```\n")
+    with pytest.raises(AssertionError):
+        Reader(tmp_path).read("wrong")
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_what_a_page_names_is_there(page):
+    """Files by their paths, labels of links too, and the targets of make."""
+    text = PAGES[page]
+    for path in PATH.findall(" ".join(x for where, x in SPANS if where == page)):
+        assert (ROOT / path).exists() or "LANGUAGE" in path or "KIND" in path, path
+    for target, anchor in re.findall(r"\]\(([\w./-]+?\.(?:md|png))?(#[\w-]+)?\)", text):
+        file = (ROOT / page).parent / target if target else ROOT / page
+        assert file.is_file(), target
+        if anchor:
+            heads = re.findall(r"^#+ (.*)$", file.read_text(encoding="utf-8"), flags=re.M)
+            slugs = {re.sub(r"[^\w -]", "", h).strip().lower().replace(" ", "-") for h in heads}
+            assert anchor[1:] in slugs, (target, anchor)
+    for target in re.findall(r"`make ([a-z]+)", text):
+        assert target in TARGETS, target
+
+
+def test_every_option_that_is_named_is_one():
+    known = set()
+    for command in COMMANDS:
+        sub = parser(COMMANDS, None)._subparsers._group_actions[0].choices[command]
+        known |= {*sub._option_string_actions}
+    named = OPTIONS - {x for x in OPTIONS if x in OF_OTHERS}
+    assert named <= known, named - known
+    emit = PAGES["docs/options.md"]
+    sub = parser(COMMANDS, None)._subparsers._group_actions[0].choices["emit"]
+    missing = [x for x in sub._option_string_actions if x.startswith("--") and f"`{x}" not in emit]
+    assert missing == ["--help"]
+
+
+def typed(span):
+    """The words of a command in a sentence, where nothing of it is left open."""
+    words = span.replace("PROBLEM", "so3").replace("NAME", "x").replace(" N", " 1").split()
+    return [] if "…" in span or "COMMAND" in span else words[1:]
+
+
+@pytest.mark.parametrize("span", sorted({x for _, x in SPANS if x.startswith("derive ")}))
+def test_a_command_in_a_sentence_is_one(span):
+    words = typed(span)
+    if len(words) == 1 and words[0] in COMMANDS:
+        return  # it is named, not typed
+    if words:
+        assert parser(COMMANDS, None).parse_args(words).command in COMMANDS
+
+
+def test_every_command_is_described():
+    for command in COMMANDS:
+        assert f"derive {command}" in PAGES["docs/commands.md"]
+
+
+def keys(table, **file):
+    """The keys that a table may have, from the line that refuses another."""
+    body = {"point": [{"mass": 1, "at": [1, 0, 0]}]}
+    with pytest.raises(ProblemError) as refused:
+        problem_of({"name": "x", "group": "SL(3)", **body, **table, **file})
+    found = re.search(r"unknown key 'zz'.*\(known: (.*)\)", str(refused.value))
+    assert found, refused.value
+    return found[1].split(", ")
+
+
+TABLES = [
+    {"zz": 1},
+    {"group": {"zz": 1}},
+    {"parameters": {"k": {"zz": 1}}},
+    {"point": [{"zz": 1}]},
+    {"body": {"zz": 1}, "point": []},
+    {"body": {"given": {"zz": 1}}, "point": []},
+    {"damping": [{"zz": 1}]},
+    *({"input": [{"name": "u", "kind": x, "zz": 1}]} for x in ("covector", "force")),
+    *(
+        {"potential": [{"kind": x, "zz": 1}]}
+        for x in ("gravity", "spring", "attraction", "expression")
+    ),
+    *({"solid": [{"kind": x, "zz": 1}], "point": []} for x in KINDS),
+]
+
+
+@pytest.mark.parametrize("table", TABLES, ids=str)
+def test_every_key_of_a_problem_file_is_described(table):
+    spans = " ".join(x for page, x in SPANS if page == "docs/problem-file.md")
+    for key in keys(table):
+        assert re.search(rf"(?<!\w){key}(?!\w)", spans), key
+
+
+def test_the_table_of_rooms_is_that_of_the_imports():
+    rows = re.findall(r"^\| `(\w+)` \| .* \| (.*?) ?\|$", PAGES["docs/architecture.md"], flags=re.M)
+    found = {room: {*re.findall(r"\w+", imports)} for room, imports in rows}
+    assert found == {x: y - {x, "__init__"} for x, y in ALLOWED.items()}
+
+
+def test_the_reference_has_every_public_name():
+    named = re.findall(r":: derive\.(\w+)$", PAGES["docs/reference.md"], flags=re.M)
+    assert sorted(named) == sorted(derive.__all__)
+
+
+def test_sympy_is_where_it_is_said_to_be():
+    importing = [
+        str(path.relative_to(ROOT))
+        for path in ROOT.glob("derive/**/*.py")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if "sympy" in (getattr(node, "module", "") or "")
+        or any(a.name.split(".")[0] == "sympy" for a in getattr(node, "names", ()))
+    ]
+    assert importing == ["derive/python/expressions.py"]
+    assert f"`{importing[0]}`" in PAGES["docs/architecture.md"]
+
+
+@needs("make")
+def test_every_make_target_is_described():
+    command = ["make", "help"]
+    told = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    assert all(f"make {t}" in told for t in TARGETS)
+    assert {"derive", "test", "bench", "docs", "help"} <= {*TARGETS}
