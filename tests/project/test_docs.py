@@ -3,6 +3,7 @@
 import ast
 import re
 import subprocess
+import tomllib
 
 import pytest
 
@@ -45,6 +46,13 @@ def test_the_pages_are_found():
     assert len(PAGES["README.md"].splitlines()) <= 120
     kinds = {x.kind for page in PAGES for x in blocks(page)}
     assert {"sh", "toml", "python", "c", "cpp", "rust", "javascript", "cmake", "latex"} <= kinds
+
+
+@pytest.mark.parametrize("page", [x for x in PAGES if any(y.kind == "toml" for y in blocks(x))])
+def test_every_problem_is_one(page):
+    for kind, text in blocks(page):
+        if kind == "toml":
+            assert problem_of(tomllib.loads(text)).group
 
 
 def test_output_is_compared():
