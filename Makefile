@@ -40,6 +40,7 @@ dist: $(STAMP)   ## minutes more of tests: wheels, old and new versions, every b
 
 docs: $(STAMP)   ## the site of docs/ and of the docstrings, in build/docs; a dead link is an error
 	$(INSTALL) --editable ".[docs]"
+	rm -rf build/docs
 	$(BIN)/sphinx-build -q -E -W --keep-going -c docs . build/docs
 
 lock:            ## the versions that are newest now, and the hashes of their files, into requirements-dev.lock
