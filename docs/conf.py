@@ -9,7 +9,7 @@ from pathlib import Path
 
 import derive
 
-project, author = "derive", "the authors of derive"
+project = "derive"
 release = derive.__version__
 extensions = ["myst_parser", "sphinx.ext.autodoc"]
 root_doc = "README"
@@ -24,16 +24,14 @@ CONTENTS = {
 
 html_theme = "furo"
 html_title = "derive"
-html_copy_source = False
-html_theme_options = {"footer_icons": []}
+html_copy_source = html_show_copyright = False
 myst_heading_anchors = 3
 autodoc_member_order = "bysource"
 autodoc_class_signature = "separated"
 autodoc_default_options = {"members": True, "exclude-members": "__init__"}
 add_module_names = False
 autodoc_typehints_format = "short"
-python_use_unqualified_type_names = True
-pygments_style = "default"
+highlight_language = "text"  # what has no language is what was printed
 
 
 def contents(app, docname, source):
