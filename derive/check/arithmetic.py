@@ -11,7 +11,8 @@ from ..language.limits import DEGREE
 Value = Any
 
 LARGEST_POWER, LARGEST_MATRIX = DEGREE + 1, 8
-"""The derivative of 1/xⁿ has xⁿ⁺¹, and n is the degree of an expression; rows of a determinant."""
+"""The largest exponent: the derivative of 1/xⁿ has xⁿ⁺¹, and n is at most the degree of an
+expression; and the most rows of a matrix that has a determinant."""
 
 
 class EvaluationError(ValueError):
@@ -27,17 +28,17 @@ Shape = tuple[int, ...]
 
 
 def shape(x: Value) -> Shape:
-    """Rows and columns; nothing of a number."""
+    """(rows, columns) of a matrix; () of a number."""
     return (len(x), len(x[0]) if x else 0) if is_matrix(x) else ()
 
 
 def told(*shapes: Shape) -> str:
-    """Shapes in words."""
+    """Shapes as words of a message: "a 3×1 matrix and a number"."""
     return " and ".join(f"a {s[0]}×{s[1]} matrix" if s else "a number" for s in shapes)
 
 
 def number(x: Value) -> Value:
-    """What must be one."""
+    """The value itself where it is a scalar; ``EvaluationError`` for a matrix."""
     if is_matrix(x):
         raise EvaluationError(f"{told(shape(x))} in the place of a number")
     return x
@@ -72,7 +73,7 @@ def times(a: Value, b: Value) -> Value:
 
 
 def scalar(x: Value) -> Value:
-    """A 1 × 1 matrix as its entry."""
+    """The entry of a 1 × 1 matrix; any other value as it is."""
     return x[0][0] if shape(x) == (1, 1) else x
 
 
@@ -109,25 +110,25 @@ def _entries(a: Value) -> Any:
 
 
 def wedge(a: Value, b: Value) -> Value:
-    """The vector product in R³."""
+    """The vector product a ∧ b of two vectors of R³ (3 × 1 matrices)."""
     (x, y, z), (u, v, w) = _entries(a), _entries(b)
     return ((y * w - z * v,), (z * u - x * w,), (x * v - y * u,))
 
 
 def hat(a: Value) -> Value:
-    """j(a)."""
+    """The skew matrix j(a) of a vector of R³, j(a)b = a ∧ b."""
     x, y, z = _entries(a)
     zero = x * 0
     return ((zero, -z, y), (z, zero, -x), (-y, x, zero))
 
 
 def reciprocal(x: Value) -> Value:
-    """1/x of a number."""
+    """1/x of a scalar; ``EvaluationError`` for a matrix."""
     return 1 / number(x)
 
 
 def inverse(x: Value) -> Value:
-    """x⁻¹."""
+    """x⁻¹ of a scalar or a square matrix; ``EvaluationError`` where the matrix is singular."""
     if not is_matrix(x):
         return 1 / x
     result = q.inverse(_square(x, "inverse"))
@@ -154,7 +155,7 @@ def _expanded(x: Value) -> Value:
 
 
 def power(x: Value, n: Value) -> Value:
-    """x to a small integer power that is not zero."""
+    """xⁿ, for an integer n ≠ 0 of at most ±LARGEST_POWER; ``EvaluationError`` for other n."""
     if not isinstance(n, Fraction) or n.denominator != 1 or not 0 < abs(n) <= LARGEST_POWER:
         raise EvaluationError(f"the exponent must be an integer up to ±{LARGEST_POWER}, not 0")
     base = inverse(x) if n < 0 else x

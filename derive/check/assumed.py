@@ -1,4 +1,5 @@
-"""What is given in a step, read equation by equation: at which points it is to be tried."""
+"""The hypotheses under which the equations of a step hold, read off the step: they say at which
+points of the evolution space an equation is to be tried."""
 
 from __future__ import annotations
 
@@ -22,22 +23,24 @@ STILL: dict[str, str] = {
     **dict.fromkeys(("δ′A", "ξ′", "Ω′"), LINEAR),
     **dict.fromkeys(("δ′T", "η′"), TRANSLATION),
 }
-"""The parts of δ′ that may be said to vanish."""
+"""The parts of δ′ that a hypothesis such as δ′t = 0 or ξ′ = 0 may make vanish, by its left side."""
 
 ALONG: dict[tuple[str, str], str] = {
     **dict.fromkeys((("δA", "α"), ("ξ", "Z"), ("Ω", "ζ")), LINEAR),
     **dict.fromkeys((("δT", "τ"), ("η", "w")), TRANSLATION),
 }
-"""The parts of the velocity of X, with what they are along the motion."""
+"""The parts of the velocity of X that a hypothesis such as ξ(X) = Z may fix, by its two sides:
+those in which X has the velocity of the motion."""
 
 
 @dataclass(frozen=True)
 class Assumed:
-    """Where an equation is to hold.
+    """The points at which an equation is to hold.
 
-    ``principal``: I = diag(λ₁, λ₂, λ₃).  ``contracted``: δt = 1, and X is the vector of δ.
-    ``still``: the parts of δ′ that vanish; ``along``: those of the velocity of X that are of the
-    motion.  ``coasting``: the acceleration is any, that of X.  ``driven``: inputs and damping act.
+    ``principal``: those with I = diag(λ₁, λ₂, λ₃). ``contracted``: δt = 1, and X is the vector of
+    δ. ``still``: the parts of δ′ that vanish; ``along``: the parts of the velocity of X that are
+    those of the motion. ``coasting``: the acceleration is any, and that of X. ``driven``: inputs
+    and damping act.
     """
 
     principal: bool = False
@@ -49,13 +52,14 @@ class Assumed:
 
     @property
     def said(self) -> str:
-        """The same in words that do not depend on the order of sets."""
+        """The hypotheses as a text that does not depend on the order of sets: a part of the seed of
+        a point."""
         sets = sorted(self.still), sorted(self.along)
         return f"{self.principal} {self.contracted} {sets} {self.coasting} {self.driven}"
 
 
 def assumed(step: Step, equation: Equation | None = None) -> Assumed:
-    """What is given in a step, and for which accelerations one of its equations is to hold.
+    """The hypotheses of a step; with ``equation``, also whether that holds for all accelerations.
 
     ``RecordError`` for a hypothesis that is none of these.
     """
@@ -80,7 +84,8 @@ def assumed(step: Step, equation: Equation | None = None) -> Assumed:
 
 
 def _of_velocity(lhs: Tree, rhs: Tree) -> str:
-    """The part of δA(X) = α and its like; empty for any other equation."""
+    """The part of the velocity of X that lhs = rhs fixes, as δA(X) = α the linear one; "" for any
+    other equation."""
     if isinstance(lhs, tuple) and lhs[0] == "call" and lhs[2:] == ("X",):
         return ALONG.get((lhs[1], rhs), "") if isinstance(rhs, str) else ""
     return ""

@@ -1,6 +1,7 @@
-"""Is every head of a tree one of the vocabulary, with arguments of its kinds, every index a letter?
+"""The well-formedness of equations: every head is one of the vocabulary, its arguments are of the
+kinds that it takes, every index is a letter of indices.
 
-What stands about a head, or beside the arguments, has no value of its own: it is judged here, by
+What stands around a head, or beside its arguments, has no value of its own: it is judged here, by
 the tables of :mod:`derive.check.heads`, before anything is evaluated.
 """
 
@@ -27,13 +28,14 @@ from .heads import (
 )
 
 SHOWN = 40
-"""Letters of what is wrong, in the message."""
+"""The most letters of a faulty subtree that a message shows."""
 
 
 def wrong(t: Tree, *, affine: bool, inside: str = "") -> str:
-    """What is wrong with the first head, argument or index that is no such thing; else empty.
+    """What is wrong with the first ill-formed head, argument or index of a tree, in words; "" if
+    none.
 
-    ``affine``: does the group translate?  ``inside``: the operator of which the tree is a part.
+    ``affine``: does the group translate? ``inside``: the operator of which the tree is an operand.
     """
     if not isinstance(t, tuple):
         return ""
@@ -42,10 +44,11 @@ def wrong(t: Tree, *, affine: bool, inside: str = "") -> str:
 
 
 def wrong_quantifier(equation: Equation, at: Assumed) -> str:
-    """What an equation cannot hold for all values of: it is drawn freely, and stands in it; or
-    what it cannot say to exist.
+    """What is wrong with the first quantified name of an equation, in words; "" if none.
 
-    ``at``: the hypotheses of the step, which may fix a variation.
+    A name of ``for_all`` must be a variation or an acceleration that is drawn freely and stands in
+    the equation, one of ``exists`` a multiplier that stands in it. ``at``: the hypotheses of the
+    step, which may fix a variation.
     """
     used = {*_values_of(equation.lhs), *_values_of(equation.rhs)}
     if wrong := _wrong_existence(equation, used):
@@ -70,6 +73,7 @@ def wrong_quantifier(equation: Equation, at: Assumed) -> str:
 
 
 def _wrong_existence(equation: Equation, used: Set[str]) -> str:
+    """What is wrong with a name of ``exists``, in words; "" if nothing is."""
     for name in equation.exists:
         if name not in SOLVED:
             return f"that there is some {_said(name)} is not found: it is no multiplier"
@@ -88,6 +92,7 @@ def _values_of(t: Tree) -> Iterator[str]:
 
 
 def _wrong(t: tuple[Any, ...], inside: str, affine: bool) -> str:
+    """What is wrong with the outermost operator of a tree, in words; "" if nothing is."""
     if t[0] == "call":
         return _wrong_call(t[1], t[2:], affine)
     if t[0] == "row" and inside != "matrix":
@@ -101,11 +106,14 @@ def _wrong(t: tuple[Any, ...], inside: str, affine: bool) -> str:
 
 
 def _indices(t: tuple[Any, ...]) -> Iterator[str]:
+    """The letters that stand in a tree's outermost operator in the place of an index."""
     places = {"sum": t[1:2], "at": t[2:], "entry": t[2:]}.get(t[0], ())
     return (x for x in places if isinstance(x, str))
 
 
 def _wrong_call(head: Tree, arguments: tuple[Tree, ...], affine: bool) -> str:
+    """What is wrong with a call: an unknown head, too many or few arguments, or one of another
+    kind."""
     kinds = _kinds(head)
     if kinds is None:
         return f"no function is called {_said(head)}"
@@ -120,7 +128,7 @@ def _wrong_call(head: Tree, arguments: tuple[Tree, ...], affine: bool) -> str:
 
 
 def _kinds(head: Tree) -> tuple[Kind, ...] | None:
-    """Of the arguments of a head; ``None`` for what is none."""
+    """The kinds of the arguments that a head takes; ``None`` for what is no head."""
     if isinstance(head, str):
         return HEADS.get(head)
     member = isinstance(head, tuple) and head[0] == "at" and len(head) == 3
@@ -135,5 +143,6 @@ def _is_of(kind: Kind, x: Tree) -> bool:
 
 
 def _said(t: Tree) -> str:
+    """A tree as text, cut to a length that fits a message."""
     said = show(t)
     return said if len(said) <= SHOWN else f"{said[:SHOWN]} …"

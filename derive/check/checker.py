@@ -32,17 +32,19 @@ from .tried import SIZE, Tried, action_of
 from .used import unused
 
 LARGEST_DEGREE = 2**24
-"""Of a claim that is tried: its numbers have 128 times as many bits.  As a part of the size it is
-less than 1e-30, the largest probability of a false pass that is allowed."""
+"""The largest Schwartz–Zippel degree of a claim that is tried: its numbers have 128 times as many
+bits. Over the size 2¹²⁸ it is less than 1e-30, the largest probability of a false pass that is
+allowed."""
 
 SMALL = 3
-"""The largest random parameters of the example for a claim that fails."""
+"""The largest random integer at the point that serves as a counterexample in a message."""
 
 ORDERED = range(2**16, 2**16 + 6)
-"""Those of points where one number is larger than another, as no residue is."""
+"""The sizes of the points in rational numbers at which inequalities are tried: residues have no
+order."""
 
 SHOWN = 120
-"""Letters of an equation that fails, in the message."""
+"""The most letters of a failing equation that a message shows."""
 
 UNEXPLAINED = "{} is used, and neither this step nor one before it says what it is"
 
@@ -52,17 +54,19 @@ IMPOSSIBLE = (
     *(ArithmeticError, AssertionError, LookupError, TypeError, ValueError),
     *(AttributeError, RecursionError),
 )
-"""What comes of a record that no walk writes."""
+"""The exceptions that evaluating a record raises only if no walk has written it."""
 
 DIGITS = 10**6
-"""Bits of the numbers that a step has, its powers multiplied out."""
+"""The most bits of all numbers written in a claim together, its powers multiplied out."""
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """``holds``, with ``reason`` when it does not; ``bound`` on the probability of a false pass.
+    """The result of checking one step, or the symbols: ``holds``, else ``reason`` says why not.
 
-    ``tried``: how many equations, on which groups; ``of``: or what else it is about.
+    ``bound``: on the probability that a false claim passes. ``tried``: how many claims, and the
+    names of the groups on which they were tried; ``of``: what these claims are, "equation" or
+    "symbol".
     """
 
     label: str
@@ -74,7 +78,7 @@ class Verdict:
 
 
 class RefusedError(Exception):
-    """The verdict on a step that does not hold."""
+    """Ends the check of a step that does not hold; carries its :class:`Verdict`."""
 
     def __init__(self, verdict: Verdict):
         super().__init__(verdict.reason)
@@ -82,13 +86,15 @@ class RefusedError(Exception):
 
 
 class Checker(Tried):
-    """Exact models for the scopes of one record, made once and shared by its steps."""
+    """The checker of one record: exact models of its scopes, made once and shared by its steps."""
 
     def __init__(self, problem: Mapping[str, Any], seed: int | str | None = None):
         super().__init__(problem, fresh_seed() if seed is None else seed)
 
     def groups_for(self, step: Step, equation: Equation) -> tuple[Group, ...]:
-        """Those on which an equation is tried: about any group, of as many n as it needs."""
+        """The groups on which an equation is tried; a claim about any group also on as many GL(n)
+        or Aff(n) as prove it for all n. ``RecordError`` if it is not of words, or needs too large
+        an n."""
         found = self.groups(step.scope, driven=step.driven)
         if step.scope != ANY_GROUP:
             return found
@@ -100,7 +106,8 @@ class Checker(Tried):
         return (*found, *(free(action, n) for n in sizes(grade)))
 
     def bound(self, step: Step) -> int:
-        """The degree of its claims; ``RecordError`` for one that is too large."""
+        """The Schwartz–Zippel degree of the claims of a step; ``RecordError`` for one that is too
+        large."""
         degrees = [0, *(self.degree(step, e) for e in step.equations)]
         for g in self.groups(step.scope, driven=step.driven):
             env = self.counted(g, step)[1]
@@ -108,13 +115,15 @@ class Checker(Tried):
         return self.bounded(max(degrees))
 
     def bounded(self, degree: int) -> int:
-        """A degree that is not too large; one more for two residues that are equal by chance."""
+        """One more than the degree, for residues modulo the random prime that are equal by chance;
+        ``RecordError`` for a degree above LARGEST_DEGREE."""
         if degree > LARGEST_DEGREE:
             raise RecordError(f"a claim of degree {degree}, more than {LARGEST_DEGREE}")
         return degree + 1
 
     def degree(self, step: Step, equation: Equation) -> int:
-        """The largest of an equation, on all groups; ``RefusedError`` where it has none."""
+        """The largest degree of an equation on its groups; ``RefusedError`` where it has no
+        value."""
         try:
             groups = self.groups_for(step, equation)
             return max(self.graded(g, step, equation)[0] for g in groups)
@@ -122,7 +131,7 @@ class Checker(Tried):
             raise RefusedError(refused(step, equation, str(error))) from error
 
     def check(self, step: Step) -> Verdict:
-        """One step."""
+        """The verdict on one step; whatever is wrong with the step is in it, nothing is raised."""
         try:
             bound = self.held(step)
         except RefusedError as error:
@@ -138,7 +147,8 @@ class Checker(Tried):
         return Verdict(step.label, True, "", bound / SIZE, (len(step.equations), (*groups,)))
 
     def held(self, step: Step) -> int:
-        """The degree of a step that holds; an error for one that does not."""
+        """The Schwartz–Zippel degree of a step whose claims all hold; ``RefusedError`` or another
+        error where one does not."""
         at, affine = assumed(step), action_of(self.problem) == "affine"
         groups = self.groups(step.scope, driven=step.driven)
         for e in step.equations:
@@ -163,18 +173,20 @@ class Checker(Tried):
     def suppose(
         self, step: Step, groups: Iterable[Group], wrong: Callable[[Group, Step], str]
     ) -> None:
-        """Refuse what is wrong about the hypotheses of a step on one of these groups."""
+        """Raise ``RefusedError`` for the first fault that ``wrong`` finds in the hypotheses of a
+        step on these groups."""
         for reason in (wrong(g, step) for g in groups):
             if reason:
                 raise RefusedError(Verdict(step.label, False, reason, 1.0))
 
     def unsaid(self, g: Group, step: Step) -> str:
-        """What is not supposed and must be."""
+        """A hypothesis that the equations of a step need and it does not make, in words; "" if
+        none."""
         model, env = self.point(g, step)
         return unsaid(step, self.problem, env, model)
 
     def false(self, g: Group, step: Step) -> str:
-        """A hypothesis that is not so."""
+        """A hypothesis of a step that does not hold on a group, in words; "" if none."""
         model, env = self.point(g, step)
         for e in step.given:
             if reason := difference(e, env):
@@ -187,7 +199,8 @@ class Checker(Tried):
         return untrue(step, self.problem, env, model, ordered)
 
     def symbols(self, d: Derivation) -> Verdict:
-        """The names of a record: types, roles, the equations that define them, and no others."""
+        """The verdict on the symbols of a record: types, roles, defining equations, and no
+        others."""
         label = f"{d.name}.symbols"
         try:
             groups = {g.name: g for s in d.steps for g in self.groups(s.scope, driven=s.driven)}
@@ -201,14 +214,15 @@ class Checker(Tried):
         return Verdict(label, True, "", 0.0, (len(d.symbols), tuple(groups)), "symbol")
 
     def example(self, g: Group, step: Step, equation: Equation) -> str:
-        """What differs at a point of small numbers; empty if nothing does there."""
+        """How an equation fails at a point of small integers, as a readable counterexample; "" if
+        it does not fail there."""
         with suppress(ArithmeticError, AssertionError, LookupError, TypeError, ValueError):
             return difference(equation, self.environment(g, step, SMALL, equation))
         return ""
 
 
 def refused(step: Step, equation: Equation, reason: str, where: str = "") -> Verdict:
-    """A verdict that names the equation."""
+    """The verdict on a step that fails by one of its equations, which its reason quotes."""
     said = f"{show(equation.lhs)} = {show(equation.rhs)}"
     said = said if len(said) <= SHOWN else f"{said[:SHOWN]} …"
     place = f"{step.key(equation)}{where}, {said}"
@@ -216,7 +230,8 @@ def refused(step: Step, equation: Equation, reason: str, where: str = "") -> Ver
 
 
 def digits(t: Tree) -> int:
-    """About how many bits the numbers written in a tree have together once it is evaluated."""
+    """About how many bits the numbers written in a tree have together, its powers multiplied
+    out."""
     if isinstance(t, (int, Fraction)):
         return abs(t.numerator).bit_length() + t.denominator.bit_length()
     if not isinstance(t, tuple):
@@ -227,13 +242,14 @@ def digits(t: Tree) -> int:
 
 
 def ill_formed(equation: Equation, at: Assumed, *, affine: bool) -> str:
-    """What is no head, argument, index or quantifier in an equation; empty where all are."""
+    """What is wrong with a head, argument, index or quantifier of an equation, in words; "" if
+    nothing is."""
     both = (calls.wrong(x, affine=affine) for x in (equation.lhs, equation.rhs))
     return next(filter(None, both), "") or calls.wrong_quantifier(equation, at)
 
 
 def fresh_seed() -> int:
-    """A seed that no one can know before: 128 bits, of the granularity of the bound."""
+    """A random seed of 128 bits: no one can know it before, and it is as fine as the bound."""
     return secrets.randbits(128)
 
 

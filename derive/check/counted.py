@@ -1,8 +1,9 @@
-"""Numbers of which only the degree is known: a model drawn in them tells how large a claim is.
+"""Numbers of which only the degree is known: a model drawn in them gives the Schwartz–Zippel degree
+of a claim.
 
-Such a number stands for a rational function of all that is drawn: a numerator, and powers of a few
-named polynomials.  Dividing by a number names it; sums go over the least common denominator.  What
-is zero by its form alone stays a plain 0; every other number counts as one that is not.
+Such a number stands for a rational function of all that is drawn: a numerator, over powers of a few
+named polynomials. Dividing by a number names it; sums go over the least common denominator. What is
+zero by its form alone stays a plain 0; every other number counts as one that is not.
 """
 
 from __future__ import annotations
@@ -19,10 +20,10 @@ MEMO = 2**16
 
 
 class Grade(NamedTuple):
-    """Of a polynomial.
+    """What is known of a polynomial in all that is drawn.
 
-    ``degree``: in all that is drawn.  ``slots``: indices of the tensors that it contracts, two for
-    each matrix, one for each vector.  ``loops``: traces of 1, powers of n at most.
+    ``degree``: its total degree. ``slots``: the number of indices of the tensors that it contracts,
+    two for each matrix, one for each vector. ``loops``: the number of traces of 1, each a factor n.
     """
 
     degree: int
@@ -36,7 +37,8 @@ Powers = tuple[tuple[Factor, int], ...]
 
 
 class Degree:
-    """``num`` over powers of named polynomials, negative ones of those in the numerator."""
+    """What is known of a rational function: the grade ``num`` of a polynomial, over the powers
+    ``den`` of named polynomials, with negative exponents for those in the numerator."""
 
     __slots__ = ("den", "num")
 
@@ -45,21 +47,23 @@ class Degree:
 
     @property
     def numerator(self) -> Grade:
-        """All of it, written out."""
+        """The grade of the numerator multiplied out, named factors included."""
         return _raised(self.num, ((f, -k) for f, k in self.den if k < 0))
 
     @property
     def denominator(self) -> Grade:
-        """All of it, written out."""
+        """The grade of the denominator multiplied out."""
         return _raised(NONE, ((f, k) for f, k in self.den if k > 0))
 
     @property
     def whole(self) -> int:
-        """Of numerator and denominator together: neither vanishes but with this over the size."""
+        """The degree of numerator and denominator together: the probability that one of them
+        vanishes at a random point is at most this over the size."""
         return self.numerator.degree + self.denominator.degree
 
 
 def _raised(g: Grade, powers: Iterable[tuple[Factor, int]]) -> Grade:
+    """The grade of a polynomial times powers of named ones."""
     for (_, own), k in powers:
         g = Grade(g[0] + k * own[0], g[1] + k * own[1], g[2] + k * own[2])
     return g
@@ -67,10 +71,13 @@ def _raised(g: Grade, powers: Iterable[tuple[Factor, int]]) -> Grade:
 
 @lru_cache(MEMO)
 def _degree(num: Grade, den: Powers) -> Degree:
+    """The one Degree object of this value: equal degrees are identical, so that they are cheap to
+    compare."""
     return Degree(num, den)
 
 
 def _made(num: Grade, powers: dict[Factor, int]) -> Degree:
+    """A Degree from its powers in any order, exponents 0 left out."""
     return _degree(num, tuple(sorted((f, k) for f, k in powers.items() if k)))
 
 
@@ -105,7 +112,7 @@ def _named(g: Grade) -> Factor:
 
 
 class Counted:
-    """A number of this kind, equal to itself alone."""
+    """A number of which the degree alone is known; equal to itself alone."""
 
     __slots__ = ("_inverse", "degree")
 
@@ -151,7 +158,7 @@ class Counted:
 
     @property
     def inverse(self) -> Counted:
-        """1 over it, the same each time."""
+        """1 over this number, the same object each time."""
         if self._inverse is None:
             powers = {f: -k for f, k in self.degree.den}
             powers[_named(self.degree.num)] = 1
@@ -160,7 +167,8 @@ class Counted:
 
     @staticmethod
     def solved(a: Matrix, b: Matrix) -> Matrix:
-        """x with a x = b, by Cramer's rule; slots: as if a⁻¹ were a letter like a."""
+        """The n × m matrix x with a x = b, for a of size n, by Cramer's rule; as to indices, a⁻¹
+        counts as a letter like a."""
         left, right, size = joint(flatten(a)), joint(flatten(b)), len(a)
         top, other = left.numerator, right.num
         powers = dict(right.den)
@@ -174,22 +182,24 @@ class Counted:
 
 
 def joint(entries: Iterable[Any]) -> Degree:
-    """Of numbers over one denominator."""
+    """The degree of several numbers brought to one common denominator."""
     return reduce(_plus, degrees(entries), CONSTANT)
 
 
 def degrees(entries: Iterable[Any]) -> Iterator[Degree]:
-    """Of numbers; a plain one is constant."""
+    """The degree of each number; a plain one is constant."""
     return (x.degree if isinstance(x, Counted) else CONSTANT for x in entries)
 
 
 def letter(slots: int = 2, loops: int = 0) -> Counted:
-    """A number that is drawn, an entry of a tensor with so many indices; or a 1 of so many."""
+    """An indeterminate: an entry of a drawn tensor with ``slots`` indices; with ``loops``, a 1 that
+    stands for so many traces of 1."""
     return Counted(_degree(Grade(int(not loops), slots, loops), ()))
 
 
 def indexed(x: Any, slots: int) -> Any:
-    """A number as an entry of a tensor with so many indices, where it is counted."""
+    """The number x as an entry of a tensor with ``slots`` indices, where it is a counted one; else
+    as it is."""
     if not isinstance(x, Counted):
         return x
     top = x.degree.num
@@ -197,9 +207,9 @@ def indexed(x: Any, slots: int) -> Any:
 
 
 class Degrees:
-    """A source of them in the place of a random one."""
+    """A source of indeterminates in the place of a random one: a model drawn from it is counted."""
 
     def randint(self, low: int, high: int) -> Counted:
-        """An entry of a matrix, whatever the range."""
+        """A new entry of a matrix, whatever the range."""
         del low, high
         return letter()

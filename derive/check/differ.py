@@ -18,7 +18,7 @@ MOST_INDICES = 2
 
 
 def everywhere(t: Tree, env: Environment) -> Iterator[Environment]:
-    """For every value of the free indices of a tree."""
+    """The environment with the free indices of a tree bound, once for each of their values."""
     free = sorted(free_indices(t))
     if len(free) > MOST_INDICES:
         raise EvaluationError("more than two free indices")
@@ -30,7 +30,8 @@ def everywhere(t: Tree, env: Environment) -> Iterator[Environment]:
 
 
 def difference(equation: Equation, env: Environment) -> str:
-    """Empty when both sides agree, for every value of a free index; else what differs."""
+    """How the two sides of an equation differ, for some value of a free index, in words; "" if they
+    agree."""
     if equation.lhs == equation.rhs:
         return "both sides are the same tree: it claims nothing"
     try:
@@ -41,7 +42,8 @@ def difference(equation: Equation, env: Environment) -> str:
 
 
 def _sides(equation: Equation, env: Environment) -> Iterator[tuple[Any, Any]]:
-    """The values, of one shape; 0 alone on a side is of any."""
+    """The values of both sides for each value of the free indices, of one shape, or one side the
+    number 0; ``EvaluationError`` for other shapes."""
     trees = (equation.lhs, equation.rhs)
     for there in everywhere(("add", *trees), env):
         left, right = values = [evaluate(x, there) for x in trees]
@@ -55,6 +57,7 @@ def _entries(x: Any) -> tuple[Any, ...]:
 
 
 def _difference(a: Any, b: Any) -> str:
+    """The first entry in which two values differ, in words; "" if they are equal."""
     whole = a if is_matrix(a) else b
     pairs = [*itertools.product(_entries(a), _entries(b))]
     if shape(a) == shape(b):
@@ -69,15 +72,15 @@ def _difference(a: Any, b: Any) -> str:
 
 
 def brief(x: Any) -> str:
-    """A number in a message."""
+    """A rational number as short text for a message: exact if that is short, else to six digits."""
     if Fraction(x).denominator < 10**6 and abs(x) < 10**9:
         return str(x)
     return f"{float(x):.6g}" if abs(x) < Fraction(10) ** 300 else "a large number"
 
 
 def graded(equation: Equation, env: Environment) -> tuple[int, Grade]:
-    """At a point of numbers that are counted: the degree of a claim, of numerators and denominators
-    together, and the grade of its numerators, open indices closed."""
+    """At a point in counted numbers: the degree of an equation, of numerators and denominators
+    together, and the grade of its numerators, open indices closed in pairs."""
     whole, top = 0, NONE
     for a, b in _sides(equation, env):
         pairs = zip(_entries(a), _entries(b), strict=True)
@@ -93,7 +96,7 @@ def graded(equation: Equation, env: Environment) -> tuple[int, Grade]:
 
 
 def size_of(t: Tree, env: Environment) -> int:
-    """The degree of a tree at such a point."""
+    """The largest degree of a value of a tree at a point in counted numbers."""
     values = (evaluate(t, there) for there in everywhere(t, env))
     found: Iterator[Degree] = (d for x in values for d in degrees(_entries(x)))
     return max((d.whole for d in found), default=0)

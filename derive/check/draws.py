@@ -15,15 +15,17 @@ from .evaluate import Environment
 from .opaque import Opaque
 
 SPARE = 2
-"""So many points more than are needed, where the problem leaves them open: no equation may rest on
-a symmetry of theirs."""
+"""So many points more than are needed, where the problem leaves them open: no equation may hold by
+a symmetry of few points."""
 
 
 class Draws:
-    """The problem, its group, and the numbers that its own expressions need.
+    """The random numbers of a model before it has points, and the values of the problem's own
+    expressions in them.
 
-    ``opaque``: the potential is left open, and with it inputs and places.  ``pi``: its value, else
-    any; ``few``: no spare points; ``zero``: parameters that vanish.
+    ``size``: integers are drawn within ±size. ``opaque``: the potential is left open, and with it
+    inputs and places. ``pi``: the value of π, else any number; ``few``: no spare points; ``zero``:
+    the names of parameters that vanish.
     """
 
     def __init__(
@@ -48,28 +50,29 @@ class Draws:
         self.pi = self.draw(positive=True) if pi is None else pi
 
     def draw(self, *, positive: bool = False, slots: int = 0) -> Any:
-        """A random integer, as a fraction or of the ring that is drawn from; ``slots``: it is an
+        """A random integer of the ring drawn from, ``positive`` from 1 on; ``slots``: counted as an
         entry of a tensor of so many indices."""
         x = Fraction(1) * self.random.randint(1 if positive else -self.size, self.size)
         return letter(slots) if isinstance(x, Counted) else x
 
     def place(self) -> tuple[Any, ...]:
-        """A random one of the space."""
+        """A random point of space, n numbers."""
         return tuple(self.draw(slots=1) for _ in range(self.n))
 
     def algebra(self) -> Matrix:
-        """A random element of the Lie algebra."""
+        """A random element of 𝔤, as a matrix of the group's size."""
         return self.group.hat([self.draw(slots=2) for _ in self.group.basis])
 
     @cached_property
     def expressions(self) -> Environment:
-        """Where the expressions of the problem are evaluated."""
+        """The environment in which the expressions of the problem, in its parameters and π, have
+        values."""
         return Environment(
             self.n, {"π": self.pi}, parameters=self.parameters, elementary=self.elementary
         )
 
     def given(self, kind: str) -> list[Mapping[str, Any]]:
-        """The inputs of a kind."""
+        """The inputs of a kind, "force" or "covector"; none where the potential is left open."""
         if self.opaque:
             return []
         return [i for i in self.problem.get("inputs", []) if i["kind"] == kind]

@@ -1,4 +1,5 @@
-"""What pairs with 𝔤, as sums over the points: Π and p_b, variations and rates, Φ; in space ℓ, p.
+"""The momenta Π and p_b in 𝔤*, their variations and rates, and the force Φ, as sums over the
+points; in space ℓ and p.
 
 ℓ_b is the skew part of Π, twice, or its axis for the rotations of space.
 """
@@ -17,7 +18,8 @@ from .point_masses import Vector
 from .spatial import axial
 
 NAMES = (("Π", "δΠ", "δ′Π", "Π̇"), ("p_b", "δp_b", "δ′p_b", "ṗ_b"))
-"""Of the linear part and of the translation: the value, its two variations, its rate."""
+"""The names of the linear part of the momentum and of its translation part: the value, its two
+variations, its rate."""
 SPINS = ("ℓ_b", "δℓ_b", "δ′ℓ_b", "ℓ̇_b")
 
 
@@ -40,7 +42,8 @@ def dual_values(model: Model) -> dict[str, Any]:
 
 
 def _push(model: Model) -> Matrix:
-    """Σ Ā(m v)(g⁻¹v)‾, the variation of the metric, and the forces: CfJ, or Σ ĀF r̄."""
+    """Φ = Σ Ā(m v)(g⁻¹v)‾, from the variation of the metric, and the potential's forces: CfJ, or Σ
+    ĀF r̄."""
     own = _carried(model, model.g, _momenta(model, model.g, model.Z), model.moved(model.Z))
     if model.group.affine:
         return q.plus(own, _carried(model, model.g, model.forces, model.points))
@@ -50,13 +53,14 @@ def _push(model: Model) -> Matrix:
 
 
 def _momenta(model: Model, g: Matrix, Z: Matrix) -> list[Vector]:
-    """m v."""
+    """The momenta m_i v_i of the points in space, v = g Z r."""
     moved = model.moved(q.times(g, Z))
     return [tuple(m * x for x in v) for m, v in zip(model.masses, moved, strict=True)]
 
 
 def _carried(model: Model, g: Matrix, vectors: Sequence[Vector], arms: Sequence[Vector]) -> Matrix:
-    """Σ Āv x̄ for a vector v in space and one x in the body of each point."""
+    """Σ Āv x̄ over the points, n × k, for a vector v in space and an arm x of k numbers in the
+    body."""
     n = model.n
     total = [[Fraction(0)] * len(arms[0]) for _ in range(n)]
     for v, x in zip(vectors, arms, strict=True):
@@ -104,6 +108,6 @@ def _turning(model: Model, places: list[Vector], vectors: list[Vector]) -> Matri
 
 
 def _resultant(model: Model, vectors: list[Vector]) -> Matrix:
-    """Σ m v."""
+    """Σ m v, as a column."""
     pairs = list(zip(model.masses, vectors, strict=True))
     return tuple((sum((m * v[i] for m, v in pairs), Fraction(0)),) for i in range(model.n))

@@ -56,7 +56,7 @@ class Environment:
     unit: Any = Fraction(1)
 
     def with_index(self, name: str, value: int) -> Environment:
-        """The same with an index bound."""
+        """A copy of the environment with one index bound to a number."""
         return replace(self, indices={**self.indices, name: value})
 
 
@@ -126,6 +126,7 @@ def _matrix(rows: tuple[Any, ...]) -> Value:
 
 
 def _sum(t: tuple[Any, ...], env: Environment) -> Value:
+    """The value of Σ_index body over the members of the families that the index counts."""
     _, index, body = t
     if index in env.indices or len(env.indices) >= LARGEST_NESTING:
         raise EvaluationError(f"sums nested deeper than {LARGEST_NESTING}, or an index bound twice")
@@ -142,9 +143,10 @@ def _sum(t: tuple[Any, ...], env: Environment) -> Value:
 
 
 def _range(body: Tree, index: str, env: Environment) -> tuple[str, list[int]]:
-    """What the index counts, and its values: the same for all the families in which it stands.
+    """What an index of a tree counts, "" for nothing, and its values in order.
 
-    ``EvaluationError`` else: a sum, or an equation, would be held for a few members only.
+    ``EvaluationError`` where it does not count the same members in all families in which it stands:
+    the sum, or the equation, would then be about a few members only.
     """
     spans = [*_spans(body, index, env)]
     if any(x != spans[0] for x in spans):
@@ -153,6 +155,8 @@ def _range(body: Tree, index: str, env: Environment) -> tuple[str, list[int]]:
 
 
 def _spans(t: Tree, index: str, env: Environment) -> Iterator[tuple[str, set[int]]]:
+    """What an index counts, and its values, for each family or entry of a tree in which it
+    stands."""
     if not isinstance(t, tuple):
         return
     if t[0] == "entry" and index in t[2:]:
@@ -171,7 +175,8 @@ def _spans(t: Tree, index: str, env: Environment) -> Iterator[tuple[str, set[int
 
 
 def free_indices(t: Tree) -> set[str]:
-    """The indices of families that no sum binds: the equation holds for each of their values."""
+    """The indices of families and entries in a tree that no sum binds: an equation holds for each
+    of their values."""
     if not isinstance(t, tuple):
         return set()
     if t[0] in ("at", "entry"):
@@ -181,7 +186,7 @@ def free_indices(t: Tree) -> set[str]:
 
 
 def index_values(t: Tree, index: str, env: Environment) -> list[int]:
-    """The values of a free index; ``EvaluationError`` where there is none."""
+    """The values of a free index of a tree; ``EvaluationError`` where it has none."""
     _, found = _range(t, index, env)
     if not found:
         raise EvaluationError(f"the index {index!r} has no values")
@@ -189,7 +194,8 @@ def index_values(t: Tree, index: str, env: Environment) -> list[int]:
 
 
 def point_index(i: Any, env: Environment) -> int:
-    """The number of a point: by an index, or named where the problem lists it."""
+    """The number of a point, from 1: the value of a bound index, or a number by which the problem
+    lists it; ``EvaluationError`` for any other."""
     if isinstance(i, int) and not 1 <= i <= env.listed:
         raise EvaluationError(f"the problem lists no point {i}")
     return _index(i, env)

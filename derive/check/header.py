@@ -1,4 +1,5 @@
-"""The group of a record's problem, recomputed: what its header claims of it must be so."""
+"""The group of a record's problem, rebuilt from its name or basis, and compared with what the
+record says of it."""
 
 from __future__ import annotations
 
@@ -15,9 +16,10 @@ from ..record.vocabulary import ANY_GROUP
 
 
 def group_of(problem: Mapping[str, Any]) -> Group | None:
-    """A named group, or that of the basis in the record; ``None`` for the text on any group.
+    """The group of a record's problem, by its name or its basis; ``None`` for the text on any
+    group.
 
-    ``RecordError`` where the name, the action, the basis, 'n' or 'homogeneous' say otherwise.
+    ``RecordError`` where the name, the action, the basis, 'n' or 'homogeneous' do not agree.
     """
     name, rows = str(problem.get("group")), problem.get("basis", [])
     basis = tuple(tuple(tuple(Fraction(x) for x in row) for row in e) for e in rows)
@@ -40,6 +42,8 @@ def group_of(problem: Mapping[str, Any]) -> Group | None:
 
 
 def _named(name: str, basis: tuple[Any, ...]) -> Group:
+    """The group of a known name; ``RecordError`` where it is spelt otherwise or the basis is
+    another one."""
     try:
         named = group(name)
     except ValueError as error:
@@ -52,6 +56,8 @@ def _named(name: str, basis: tuple[Any, ...]) -> Group:
 
 
 def _given(problem: Mapping[str, Any], name: str, basis: tuple[Any, ...]) -> Group:
+    """The group with the basis that the problem states; ``RecordError`` where that is no basis of a
+    Lie algebra."""
     affine = bool(problem.get("homogeneous")) or problem.get("action") == "affine"
     try:
         found = group_of_basis(name, "affine" if affine else "linear", basis)

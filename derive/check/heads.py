@@ -1,4 +1,5 @@
-"""What may be called, and with what; what an index may stand under: the heads as data.
+"""The heads of calls as data: which functions there are, which arguments each takes, what each
+index counts.
 
 A head is a name of these tables and nothing else: no product, power, bar or sign of one.
 """
@@ -12,7 +13,8 @@ from ..language.tree import Tree
 
 @dataclass(frozen=True)
 class Kind:
-    """What an argument may be, letter by letter; ``family``: or a member of it at a time."""
+    """What an argument of a function may be: one of the trees ``letters``; ``family``: or a member
+    of that family at a time, as r_i(t). ``said``: the same in words, for messages."""
 
     said: str
     letters: tuple[Tree, ...]
@@ -57,10 +59,11 @@ HEADS: dict[str, tuple[Kind, ...]] = {
     "∫": (INTEGRAND,),
     "g": (PLACE,),
 }
-"""The kinds of the arguments of each function; a translation is one of affine groups alone."""
+"""The kinds of the arguments of each function; TRANSLATION is left out for a group that does not
+translate."""
 
 MOVED: dict[str, tuple[Kind, ...]] = {"r": (TIME,)}
-"""The same for the members of families that move: r_i(t)."""
+"""The kinds of the arguments of members of families that move, as r_i(t)."""
 
 POINT, AXIS = "points", "axes or elements of a basis"
 COUNTED: dict[str, str] = {
@@ -73,10 +76,12 @@ COUNTED: dict[str, str] = {
 """What the index of each family counts; that of an entry counts axes, or elements of a basis."""
 
 SHARED = ("m", "F", "Q", "P")
-"""Families of what each copy of a point has a part of; all have one place and one velocity."""
+"""The families in which each copy of a point has a share; all copies have one place and one
+velocity."""
 
 MATRIX = "M"
-"""A matrix of two indices also where it has one row: the others are then vectors of one entry."""
+"""The name of a matrix whose entries have two indices also where it has one row; other matrices of
+one column have entries of one index."""
 
 INDICES = ("a", "b", "e", "i", "j")
 """The letters of indices."""
@@ -85,10 +90,10 @@ FORMS = ((("δA", "δT"), ("ξ", "η"), ("Ω", "η")), (("δ′A", "δ′T"), ("
 """The two variations of g, each in three forms, which are tied to one another."""
 
 RATES = (("α̇", "τ̇"), ("Ż", "ẇ"), ("ζ̇", "ẇ"), ("ℓ̇_b", "ṗ_b"))
-"""The acceleration in the same forms."""
+"""The acceleration of the motion, in the same forms."""
 
 QUANTIFIED = tuple({x: 0 for forms in (*FORMS, RATES) for form in forms for x in form})
-"""Of which all values are tried: an equation may be said to hold for all of them."""
+"""The names of which all values are tried: an equation may be said to hold for all of them."""
 
 SOLVED = ("θ",)
-"""Of which a value is found: an equation may say that there is one."""
+"""The names of which a value is found, by solving: an equation may say that there is one."""

@@ -1,4 +1,5 @@
-"""A continuous body at its points: integrals over it, and functions of a place in it."""
+"""A continuous body represented by its point masses: integrals over it, and functions of a place in
+it."""
 
 from __future__ import annotations
 
@@ -16,18 +17,19 @@ from .model import Model
 
 
 def place_values(model: Model) -> dict[str, Any]:
-    """r, any place in the body, and v, the velocity that it has in space."""
+    """The values of r, a random place in the body, and of v, its velocity in space (columns)."""
     r = tuple((model.draw(),) for _ in range(model.n))
     return {"r": r, "v": moved(model, q.times(model.g, model.Z), r)}
 
 
 def moved(model: Model, g: Matrix, r: Matrix) -> Matrix:
-    """g(r), also of a tangent matrix."""
+    """g(r) as a column, for a group element or a tangent matrix g and a column r."""
     return q.times(g, model.homogeneous(tuple(x for (x,) in r)))[: model.n]
 
 
 def integral(model: Model, form: Tree, env: Environment) -> Any:
-    """∫ of a function of r over the body: a sum, for the moments are those of its points."""
+    """∫ of a function of r over the body: a sum over point masses with the same moments, which is
+    exact for forms of degree two; ``EvaluationError`` where the body is none of solids."""
     if model.problem.get("body", {}).get("kind") != "given":
         raise EvaluationError("integrals are over solids")
     nu = q.times(model.g, model.Z)

@@ -1,4 +1,4 @@
-"""Is every name of a record said what it is, before it is used?
+"""Every name of a record is introduced, said what it is, before or where it is used.
 
 A name is introduced where it stands alone on one side of an equation, as in Z = j(ζ), or is the one
 unknown of a pairing or a sum: Z = Σ ζ_a E_a, Tr N j(Ω′)‾ = ⟨μ, Ω′⟩, Tr j(ζ) J j(Ω)‾ = ⟨ζ, Ω⟩_I;
@@ -19,12 +19,13 @@ _FIRST = """
     sqrt sin cos tan exp log sinh cosh tanh atan
     """
 FIRST = frozenset(_FIRST.split())
-"""What the walk starts from: the element and its parts, variations, rates of known names, indices,
-functions, what the problem gives."""
+"""The names that the walk starts from: the element and its parts, variations, rates of known names,
+indices, functions, what the problem gives."""
 
 
 def alone(t: Tree) -> set[str]:
-    """The name that stands alone on a side, also as j(ζ), an entry or a function."""
+    """The name that is all of one side of an equation, also as j(ζ), a transpose, an inverse, an
+    entry or a call; the empty set if there is none."""
     if isinstance(t, str):
         return {t}
     if isinstance(t, tuple) and t[0] in ("hat", "at", "call", "T", "inv", "entry"):
@@ -33,7 +34,7 @@ def alone(t: Tree) -> set[str]:
 
 
 def introduced(equation: Equation, known: set[str]) -> set[str]:
-    """The names that an equation says what they are, when others are known."""
+    """The names that an equation introduces when the names ``known`` are."""
     found, both = {*equation.exists}, (equation.lhs, equation.rhs)
     for side in both:
         found |= alone(side)
@@ -43,7 +44,8 @@ def introduced(equation: Equation, known: set[str]) -> set[str]:
 
 
 def unexplained(steps: Iterable[Step]) -> Iterator[str]:
-    """For each step a name that it uses and nothing introduces; empty when there is none."""
+    """For each step the first name that it uses and neither it nor an earlier one introduces; "" if
+    there is none."""
     known = set(FIRST)
     for step in steps:
         here = {"λ"} if any("λ" in names(e.rhs) for e in step.given) else set()
@@ -56,18 +58,21 @@ def unexplained(steps: Iterable[Step]) -> Iterator[str]:
 
 
 def _supposed(step: Step) -> Iterator[Tree]:
-    """What is given, and what there are hypotheses about."""
+    """The trees of a step's hypotheses: both sides of what is given, and what properties are
+    supposed of."""
     for e in step.given:
         yield from (e.lhs, e.rhs)
     yield from (x.of for x in step.hypotheses)
 
 
 Way = tuple[str, str]
-"""A name, and how it stands there: value, member, function, or moved for r_i(t)."""
+"""A name and the position in which it stands: "value", "member" of a family, "function", or "moved"
+for r_i(t)."""
 
 
 def ways(t: Tree) -> Iterator[tuple[Way, tuple[Tree, ...]]]:
-    """Every name that a tree uses and how, with the arguments of a function; no index is one."""
+    """The uses of names in a tree, each with the arguments where it is a function's; indices and
+    parameters are none."""
     if isinstance(t, str):
         yield (t, "value"), ()
     if not isinstance(t, tuple) or t[0] == "par":
@@ -86,9 +91,10 @@ def ways(t: Tree) -> Iterator[tuple[Way, tuple[Tree, ...]]]:
 
 
 def definitions(steps: Iterable[Step]) -> dict[Way, tuple[str, tuple[Tree, ...]]]:
-    """The key of the equation that first says what a name in some way is, and of which arguments.
+    """Use of a name → the key of the equation that defines it, the first that says what it is, and
+    the arguments there.
 
-    Of what the walk starts from that can only be the left side, alone.
+    What the walk starts from is defined only where it is the left side, alone.
     """
     said: dict[Way, tuple[str, tuple[Tree, ...]]] = {}
     known = {(name, way) for name in FIRST for way in ("value", "member", "function", "moved")}
@@ -113,16 +119,17 @@ def definitions(steps: Iterable[Step]) -> dict[Way, tuple[str, tuple[Tree, ...]]
 
 
 SUMS = ("m", "F")
-"""Of the names above, those that stand for the members of a family, and are defined as its sum."""
+"""Names of FIRST that stand for the members of a family; the plain name is defined as their sum."""
 
 
 def _stands(t: Tree) -> list[tuple[Way, tuple[Tree, ...]]]:
-    """What :func:`alone` finds, and how it stands there."""
+    """The use of the name that :func:`alone` finds on a side, in a list; empty if there is none."""
     while isinstance(t, tuple) and t[0] in ("hat", "T", "inv", "entry"):
         t = t[1]
     return [*ways(t)][:1] if alone(t) else []
 
 
 def _pairing(equation: Equation) -> bool:
+    """Is a side of the equation an inner product or a sum?"""
     both = (equation.lhs, equation.rhs)
     return any(isinstance(x, tuple) and x[0] in ("inner", "metric", "sum") for x in both)

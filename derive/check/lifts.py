@@ -19,7 +19,8 @@ ON_VARIATION: Tree = ("call", "ϖ", "δy")
 
 
 def action_varied(model: Model) -> Any:
-    """δ of L̃ dt, which is ϖ(X), by the Lagrangian alone: the velocity is that of each curve."""
+    """δ[L̃ dt(X)] = δ[ϖ(X)], by the Lagrangian alone: on each curve of the family the velocity is
+    its own. ``EvaluationError`` where X is not the tangent of a lift."""
     if model.motion.xi != model.Z:
         raise EvaluationError("ϖ(X) is varied where X is the tangent of a lift")
     t, g, _ = model.family(model.first, model.motion)
@@ -29,7 +30,7 @@ def action_varied(model: Model) -> Any:
 
 
 def form_rate(model: Model) -> Any:
-    """d/dt of ϖ(δy)."""
+    """d/dt [ϖ(δy)] along the motion."""
     t, g, Z = model.family(model.first, model.motion)
     nu = q.times(g, Z)
     momentum = model.momentum(nu, derivative_of(g, EPS))
@@ -37,5 +38,5 @@ def form_rate(model: Model) -> Any:
 
 
 def _now(x: Any) -> Nilpotent:
-    """At the instant itself: without d/dt."""
+    """A number at the instant itself: without its part in the parameter of d/dt."""
     return Nilpotent({k: v for k, v in Nilpotent.of(x).parts.items() if not k & EPS_PRIME})

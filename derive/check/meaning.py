@@ -1,4 +1,5 @@
-"""From a model to an environment: every name of the vocabulary gets the value that it means."""
+"""The meanings of the names: from a model, one random exact point, to the environment in which
+every name of the vocabulary has the value that it means there."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ Values = dict[str, Any]
 
 
 class Names(Mapping[str, Any]):
-    """The values of all names, some of them at a time, when the first of these is asked for."""
+    """The mapping from names to values at a model; groups of them are computed when a name is first
+    asked for that no earlier group has."""
 
     def __init__(self, model: Model):
         self.model = model
@@ -70,14 +72,18 @@ def environment(model: Model) -> Environment:
 
 
 def _linear(model: Model, x: Matrix) -> Matrix:
+    """The n × n block of a matrix of the group's size."""
     return tuple(row[: model.n] for row in x[: model.n])
 
 
 def _translation(model: Model, x: Matrix) -> Matrix:
+    """The translation part of a matrix of an affine group, a column of n."""
     return tuple((row[model.n],) for row in x[: model.n])
 
 
 def _parts(model: Model, linear: str, vector: str, x: Matrix) -> Values:
+    """A matrix of the group's size under two names: its linear part and, for an affine group, its
+    translation."""
     values: Values = {linear: _linear(model, x)}
     if model.group.affine:
         values[vector] = _translation(model, x)
@@ -89,6 +95,7 @@ def _times(model: Model) -> Values:
 
 
 def _bodies(model: Model) -> Values:
+    """The moments m, c, J of the points, and J_c about the centre of mass."""
     m, c, J = model.moments
     values: Values = {"m": m, "c": c, "J": J}
     if model.group.centred and not model.opaque:
@@ -97,7 +104,8 @@ def _bodies(model: Model) -> Values:
 
 
 def _group(model: Model) -> Values:
-    """g, ν, their variations in space and carried to the identity."""
+    """The values of g and ν, of their variations δ and δ′ in space, and of those carried to the
+    identity by g⁻¹."""
     _, g, Z = model.family(model.first, model.second)
     nu = q.times(g, Z)
     values = _parts(model, "A", "T", model.g) | _parts(model, "α", "τ", part(nu, 0))
@@ -120,6 +128,8 @@ def _group(model: Model) -> Values:
 
 
 def _forces(model: Model) -> Values:
+    """The forces of the potential and their moments: F, N = Σ F r̄ in space, and F_b, N_b in the
+    body."""
     pairs = list(zip(model.forces, model.points, strict=True))
     span = range(model.n)
     N = tuple(tuple(sum((f[i] * r[j] for f, r in pairs), Fraction(0)) for j in span) for i in span)
@@ -130,13 +140,15 @@ def _forces(model: Model) -> Values:
 
 
 def _gradients(model: Model) -> Values:
-    """What is solved for: f and the force on the group."""
+    """f and F̃ = A f, the forces on the group, found by solving with the metric; only for linear
+    actions."""
     if model.group.affine:
         return {}
     return {"f": model.gradient, "F̃": q.times(model.g, model.gradient)}
 
 
 def _energies(model: Model) -> Values:
+    """The values of L, U and h̃ at the point."""
     nu = q.times(model.g, model.Z)
     value = part(model.lagrangian(model.t, model.g, nu), 0)
     potential = part(model.potential(model.t, model.moved(model.g)), 0)
@@ -145,7 +157,8 @@ def _energies(model: Model) -> Values:
 
 
 def _motion(model: Model) -> Values:
-    """Rates along the motion, and what the equations are solved with."""
+    """The rates along the motion, coordinates and inputs, and the letters of the solved
+    equations."""
     Z, Z_dot = model.Z, model.acceleration
     acceleration = q.times(model.g, q.plus(Z_dot, q.times(Z, Z)))
     values = _parts(model, "Ż", "ẇ", Z_dot)
@@ -163,6 +176,8 @@ def _motion(model: Model) -> Values:
 
 
 def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
+    """The members of indexed families by their indices, m and forces divided among the copies of a
+    point."""
     nu = q.times(model.g, model.Z)
 
     def column(r: Any) -> Matrix:
@@ -185,7 +200,8 @@ def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
 
 
 def _functions(model: Model) -> dict[str, Callable[..., Any]]:
-    """By the heads of :mod:`derive.check.heads`, of arguments that are of their kinds."""
+    """The functions of the record by the heads of :mod:`derive.check.heads`; they are called with
+    arguments of the kinds stated there."""
     first, second = model.first, model.second
 
     @cache
@@ -236,8 +252,12 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
 
 
 def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
-    """δ or δ′ of a moved point, or of the fields ξ, ξ′, η, η′ on the two-parameter family, which
-    are those of h = g₀⁻¹g; h⁻¹ is 1 − (h − 1) to first order in one parameter; of L̃."""
+    """δ (``mask`` EPS) or δ′ (EPS_PRIME) of what a call varies.
+
+    That is L̃ dt on X, a moved point, or one of the fields ξ, ξ′, η, η′ on the two-parameter
+    family: there these are the derivatives of h = g₀⁻¹g carried back by h⁻¹ = 1 − (h − 1), exact to
+    first order in one parameter.
+    """
     if what == ON_TANGENT:
         return action_varied(model)
     if what == MOVED_PLACE:
@@ -254,7 +274,8 @@ def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
 
 
 def _rotation_vector(model: Model, xi: Matrix) -> Matrix:
-    """Ω with ξ = j(Ω)."""
+    """Ω with ξ = j(Ω), a vector of R³; ``EvaluationError`` for other groups than rotations of
+    space."""
     if not model.group.turns_space:
         raise EvaluationError("Ω is of the rotations of space alone")
     return axial(xi)

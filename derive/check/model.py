@@ -26,7 +26,8 @@ from .points import listed_count
 
 @dataclass(frozen=True)
 class Direction:
-    """A tangent vector of the evolution space: δt, ξ̂ = g⁻¹δg and δẐ in 𝔤 (matrices)."""
+    """A tangent vector of the evolution space: the number δt, and ξ̂ = g⁻¹δg and δẐ in 𝔤
+    (matrices)."""
 
     time: Any
     xi: Matrix
@@ -37,10 +38,10 @@ class Model(Body):
     """One random point of the evolution space of a problem, with two variations and the motion.
 
     ``principal``: the body has a diagonal J; ``driven``: the input does not vanish; ``opaque``: the
-    potential is any polynomial; ``pi``: its value, else any.  ``few``: no more points than are
-    needed, and each of them once.  ``zero``: parameters that vanish.  X is the motion; or, where
-    ``along`` is there, any vector with δt = 1 that has these parts of its velocity from the motion,
-    δ itself where this is ``contracted``.  ``coasting``: the acceleration is that of X.
+    potential is any polynomial; ``pi``: its value, else any. ``few``: no more points than are
+    needed, and each of them once. ``zero``: the names of parameters that vanish. X is the motion;
+    or, where ``along`` is given, a random vector with δt = 1 whose velocity has these parts from
+    the motion, and is δ itself where ``contracted``. ``coasting``: the acceleration is that of X.
     ``still``: the parts of δ′ that vanish.
     """
 
@@ -94,7 +95,8 @@ class Model(Body):
         ]
 
     def _still(self, parts: Collection[str], xi: Matrix) -> Matrix:
-        """An element of 𝔤 of which these parts vanish; where it is free of them, the given one."""
+        """A random element of 𝔤 of which these parts vanish; ``xi`` itself where the group has no
+        such part."""
         basis = self.group.basis
         rows = []
         for e in basis:
@@ -110,7 +112,8 @@ class Model(Body):
         return total
 
     def _vector(self, along: Collection[str], *, contracted: bool) -> Direction:
-        """X, with δt = 1: the velocity is that of the motion but for parts that are free."""
+        """X, with δt = 1: its velocity is that of the motion in the parts ``along``, and any in the
+        others."""
         free = self._still(along, self.first.xi if contracted else self.algebra())
         xi = q.plus(self.Z, free) if along else free
         return Direction(Fraction(1), xi, self.algebra())
@@ -118,7 +121,8 @@ class Model(Body):
     # -- potential ----------------------------------------------------------------------------
 
     def potential(self, t: Any, r: list[Vector]) -> Any:
-        """U(t, r): that of the problem, or any polynomial where the walk leaves it open."""
+        """U(t, r): the problem's, or a random polynomial where the walk leaves the potential
+        open."""
         if self.any_potential:
             return self.any_potential.energy(t, r)
         return self.exerted.potential(t, r, self.masses)
@@ -164,16 +168,16 @@ class Model(Body):
 
     @cached_property
     def varied_places(self) -> list[Vector]:
-        """The points on the family of δ and δ′."""
+        """The moved points on the two-parameter family of δ and δ′, in nilpotent numbers."""
         return self.moved(self.family(self.first, self.second)[1])
 
     @cached_property
     def varied(self) -> Matrix:
-        """g₀⁻¹g on it."""
+        """g₀⁻¹g on the two-parameter family of δ and δ′, a matrix of nilpotent numbers."""
         return self.displaced(self.first, self.second)
 
     def displaced(self, a: Direction, b: Direction) -> Matrix:
-        """g₀⁻¹g on that family."""
+        """g₀⁻¹g = (1 + εξ_a)(1 + ε′ξ_b)(1 + εε′ξ_mixed) on the family of the directions a and b."""
         e, f = nilpotent(EPS), nilpotent(EPS_PRIME)
         g = one = q.identity(self.s)
         for weight, xi in ((e, a.xi), (f, b.xi), (e * f, self.mixed.xi)):
@@ -202,21 +206,21 @@ class Model(Body):
     # -- forces and the motion -------------------------------------------------------------------
 
     def work(self, w: Matrix) -> Fraction:
-        """dŨ(w) for a tangent matrix w."""
+        """dŨ(w), for a tangent matrix w at g."""
         shifted = q.plus(self.g, q.scaled(nilpotent(ETA), w))
         value = self.potential(self.t, self.moved(shifted))
         return Nilpotent.of(value).part(ETA)
 
     @cached_property
     def forces(self) -> list[Vector]:
-        """F_i = −∂U/∂r_i."""
+        """F_i = −∂U/∂r_i for each point, in space."""
         if self.any_potential:
             return self.any_potential.pushes
         return self.exerted.forces(self.t, self.moved(self.g), self.masses)
 
     @cached_property
     def given_forces(self) -> list[Vector]:
-        """Force inputs and damping on every point, in space."""
+        """The force on each point, in space, by force inputs and damping together."""
         total = [[Fraction(0)] * self.n for _ in self.points]
         linear = self.group.linear_part(self.g)
         for push, data in zip(self.pushes, self.given("force"), strict=True):
@@ -235,7 +239,8 @@ class Model(Body):
 
     @cached_property
     def input(self) -> list[Fraction]:
-        """The covector of all that is given from outside, on the basis."""
+        """The coordinates on the basis, the values u(E_a), of the covector of all inputs and
+        damping."""
         found = []
         for u, e in zip(self.covector, self.group.basis, strict=True):
             moved = self.moved(q.times(self.g, e))
@@ -252,19 +257,20 @@ class Model(Body):
 
     @cached_property
     def metric(self) -> Matrix:
-        """That of the kinetic energy at g, on the basis."""
+        """The d × d matrix of the kinetic energy's metric at g on the basis."""
         return self.gram([q.times(self.g, e) for e in self.group.basis])
 
     def solve_metric(self, covector: list[Fraction]) -> Matrix:
-        """The element of 𝔤 that the kinetic metric at g sends to a covector."""
+        """The element of 𝔤, as a matrix, that the kinetic metric at g sends to a covector, given by
+        its values on the basis; ``ZeroDivisionError`` where the metric is singular."""
         solution = q.solve(self.metric, tuple((x,) for x in covector))
         if solution is None:
             raise ZeroDivisionError("the kinetic metric is singular at this point")
         return self.group.hat([row[0] for row in solution])
 
     def letters(self, x: Matrix, slots: int) -> Matrix:
-        """A matrix that is solved for, where any forces act: they are counted as what it needs, the
-        matrix as a letter of so many indices."""
+        """A matrix that was found by solving, as one of new indeterminates of ``slots`` indices
+        where any forces act: what they are is then as free as it is."""
         if not self.opaque:
             return x
         return tuple(tuple(indexed(y, slots) for y in row) for row in x)
@@ -283,11 +289,11 @@ class Model(Body):
 
     @cached_property
     def gradient(self) -> Matrix:
-        """f in 𝔤: the metric sends A f to −dŨ."""
+        """f in 𝔤, with ⟨A f, A ξ⟩ = −dŨ(A ξ) for every ξ: the metric sends A f to −dŨ."""
         covector = [-self.work(q.times(self.g, e)) for e in self.group.basis]
         return self.letters(self.solve_metric(covector), 2 * RATE)
 
     @property
     def motion(self) -> Direction:
-        """X, with δt = 1: the direction of the motion, unless it is to be any."""
+        """X, with δt = 1: the direction of the motion, or the random vector that stands for it."""
         return self.vector or Direction(Fraction(1), self.Z, self.acceleration)

@@ -1,7 +1,8 @@
-"""The hypotheses of a step: those that its equations need, and whether each is so at a point.
+"""The hypotheses of a step: those that its equations need, and whether each holds at a point.
 
-An inverse needs its matrix or number to have one, a velocity or a force that the kinetic energy
-tells its metric not to be degenerate, the Lagrangian on the group the masses that the problem has.
+An inverse needs its matrix or number to be invertible; a velocity or a force that the kinetic
+energy determines needs its metric not to be degenerate; the Lagrangian on the group needs the
+masses that the problem has.
 """
 
 from __future__ import annotations
@@ -30,19 +31,20 @@ from .panel import inverted
 from .spatial import axial
 
 SHOWN = 80
-"""Letters of a hypothesis, in the message."""
+"""The most letters of a hypothesis that a message shows."""
 INVERSE = ("invertible", "nonzero", "positive")
-"""What lets one divide."""
+"""The properties that let one divide."""
 REGULAR = "the metric of the kinetic energy is not degenerate"
 MASSES = Hypothesis("positive", ("at", "m", "i"))
 CENTRAL: Tree = ("add", "J", ("mul", -1, ("inv", "m"), "c", ("T", "c")))
 MOMENTS = (Hypothesis("positive", "m"), Hypothesis("semidefinite", CENTRAL))
 INVERTIBLE = ("A", "C", ("T", "A"))
-"""The element of the group and what is made of it have inverses."""
+"""The element of the group and what is made of it: they need no hypothesis to have inverses."""
 
 
 def denominators(t: Tree) -> Iterator[Tree]:
-    """What a tree divides by, or inverts: not numbers, nor the element of the group."""
+    """The subtrees by which a tree divides, or that it inverts, but for numbers and the element of
+    the group."""
     if not isinstance(t, tuple):
         return
     yield from (x for x in inverted(t) if x not in INVERTIBLE and not _number(x))
@@ -51,6 +53,7 @@ def denominators(t: Tree) -> Iterator[Tree]:
 
 
 def _number(t: Tree) -> bool:
+    """Is the tree an expression in numbers and π alone?"""
     if isinstance(t, tuple):
         known = t[0] in ("add", "mul", "div", "pow", "fun")
         return known and all(map(_number, t[2:] if t[0] == "fun" else t[1:]))
@@ -58,28 +61,30 @@ def _number(t: Tree) -> bool:
 
 
 def tells_velocity(equation: Equation) -> bool:
-    """Is it δA(X) = α, or its like?"""
+    """Does the equation say what part of the velocity of X is, as δA(X) = α?"""
     lhs, rhs = equation.lhs, equation.rhs
     about = isinstance(lhs, tuple) and lhs[0] == "call" and lhs[2:] == ("X",)
     return about and isinstance(lhs, tuple) and (lhs[1], rhs) in ALONG
 
 
 def needs_metric(step: Step) -> bool:
-    """Does it conclude what the velocity of X is, or introduce F̃ by its pairing with all δA?"""
+    """Does a step conclude what the velocity of X is, or introduce F̃ by its pairing with all
+    δA?"""
     if any(tells_velocity(e) and e in step.given for e in step.equations):
         return True
     return any("δA" in e.for_all and "F̃" in {*names(e.lhs)} for e in step.equations)
 
 
 def needs_moments(step: Step, problem: Mapping[str, Any]) -> bool:
-    """Are m, c, J introduced as parameters, which are those of some positive masses?"""
+    """Does a step introduce m, c, J as parameters, the moments of some positive masses?"""
     free = problem.get("body", {}).get("kind") == "moments" and step.scope != ANY_GROUP
     introduced = free and any(e.lhs == "J" for e in step.equations)
     return introduced and not masses.any_sign(problem)
 
 
 def unfounded(steps: Iterable[Step], problem: Mapping[str, Any]) -> Iterator[str]:
-    """For each step what it does not suppose of the masses where it introduces L̃; else empty."""
+    """For each step the hypothesis on the masses that it lacks where the record first introduces
+    L̃, in words; "" if none."""
     known = False
     for step in steps:
         here = not known and any(e.lhs == "L̃" for e in step.equations)
@@ -88,6 +93,7 @@ def unfounded(steps: Iterable[Step], problem: Mapping[str, Any]) -> Iterator[str
 
 
 def _unfounded(step: Step, problem: Mapping[str, Any]) -> str:
+    """The hypothesis on the masses that a step introducing L̃ lacks, in words; "" if none."""
     with suppress(RecordError):  # its own verdict says so
         if MASSES not in step.hypotheses and not masses.any_sign(problem):
             return "it introduces L̃, and does not suppose that the masses are positive"
@@ -103,9 +109,10 @@ def untrue(
     model: Model,
     ordered: Iterable[Environment],
 ) -> str:
-    """The hypothesis of a step that is not so, at a point or of the problem; empty for none.
+    """The first hypothesis of a step that does not hold, at a point or of the problem, in words; ""
+    if none.
 
-    ``ordered``: points whose numbers are greater or smaller than others.
+    ``ordered``: points in rational numbers, at which inequalities are tried.
     """
     if any(x.property in OF_MASSES for x in step.hypotheses) and masses.any_sign(problem):
         return masses.SUPPOSED
@@ -117,7 +124,7 @@ def untrue(
 
 
 def unsaid(step: Step, problem: Mapping[str, Any], env: Environment, model: Model) -> str:
-    """What the equations of a step need, and it does not suppose; empty for nothing."""
+    """A hypothesis that the equations of a step need and it does not make, in words; "" if none."""
     inverted = {x.of for x in step.hypotheses if x.property in INVERSE}
     for e in step.equations:
         for t in (*denominators(e.lhs), *denominators(e.rhs)):
@@ -132,6 +139,7 @@ def unsaid(step: Step, problem: Mapping[str, Any], env: Environment, model: Mode
 
 
 def _said(t: Tree) -> str:
+    """A tree as text, cut to a length that fits a message."""
     return show(t)[:SHOWN]
 
 
@@ -139,13 +147,15 @@ def _said(t: Tree) -> str:
 
 
 def _false(x: Hypothesis, env: Environment, model: Model) -> str:
-    """Why a hypothesis is not so; empty where it is.  It is tried once: many steps suppose it."""
+    """Why a hypothesis does not hold at a point, in words; "" where it does. Tried once for a
+    model: many steps make the same."""
     if x not in model.supposed:
         model.supposed[x] = _tried(x, env, model)
     return model.supposed[x]
 
 
 def _tried(x: Hypothesis, env: Environment, model: Model) -> str:
+    """Why a hypothesis does not hold at a point, in words; "" where it does."""
     if x.property == "nondegenerate":
         if not all({*letters} & {*names(x.of)} for letters in _letters(x.space)):
             return f"of no form in two variations on {x.space}"
@@ -169,7 +179,7 @@ HOLDS: dict[str, Callable[[Matrix], bool]] = {
     "invertible": lambda x: len(x) == len(x[0]) and q.inverse(x) is not None,
     "semidefinite": lambda x: x == q.transposed(x) and q.semidefinite(x),
 }
-"""Is a property that of a matrix, or of a number as a matrix of one entry?"""
+"""Property → whether a matrix has it, or a number as a 1 × 1 matrix."""
 
 
 def values(t: Tree, env: Environment) -> Iterator[Any]:
@@ -178,13 +188,14 @@ def values(t: Tree, env: Environment) -> Iterator[Any]:
 
 
 def _letters(space: str) -> tuple[tuple[str, ...], ...]:
-    """The letters of the first variation on a space, and of the second."""
+    """The names of the first variation on a space, "T_g G" or "𝔤", and those of the second."""
     chosen = slice(0, 1) if space == "T_g G" else slice(1, None)
     return tuple(tuple(x for form in forms[chosen] for x in form) for forms in FORMS)
 
 
 def gram(form: Tree, env: Environment, model: Model) -> Matrix:
-    """The values of a form in two variations on all pairs of elements of the basis."""
+    """The d × d matrix of a bilinear form in two variations on the basis, ``form``(E_a, E_b);
+    ``EvaluationError`` where its values are no numbers."""
     first, second = ([_varied(e, model, k) for e in model.group.basis] for k in (0, 1))
 
     def value(a: Mapping[str, Any], b: Mapping[str, Any]) -> Any:
@@ -198,7 +209,7 @@ def gram(form: Tree, env: Environment, model: Model) -> Matrix:
 
 
 def _varied(e: Matrix, model: Model, which: int) -> dict[str, Matrix]:
-    """The names of the first or the second variation along an element of 𝔤."""
+    """The values of the names of the first (``which`` 0) or the second variation along e in 𝔤."""
     space, *algebra = FORMS[which]
     found: dict[str, Matrix] = {}
     for x, letters in ((q.times(model.g, e), [space]), (e, algebra)):
@@ -213,7 +224,8 @@ def _varied(e: Matrix, model: Model, which: int) -> dict[str, Matrix]:
 
 
 def _is_metric(x: Hypothesis, env: Environment, model: Model) -> bool:
-    """Does it say of the metric of the kinetic energy, or of its matrix, that it has no kernel?"""
+    """Does the hypothesis say of the metric of the kinetic energy, or of its matrix, that it is not
+    degenerate?"""
     if x.property == "invertible":
         return all(value == model.metric for value in values(x.of, env))
     return x.property == "nondegenerate"

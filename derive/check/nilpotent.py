@@ -24,7 +24,7 @@ class Nilpotent:
 
     @staticmethod
     def of(x: Any) -> Nilpotent:
-        """A plain number as a nilpotent one."""
+        """The number x as a nilpotent one without nilpotent parts."""
         return (
             x
             if isinstance(x, Nilpotent)
@@ -32,12 +32,12 @@ class Nilpotent:
         )
 
     def part(self, mask: int) -> Fraction:
-        """The coefficient of a product of nilpotents."""
+        """The coefficient of the product of nilpotents that a mask stands for."""
         return self.parts.get(mask, Fraction(0))
 
     @staticmethod
     def dot(a: Iterable[Any], b: Iterable[Any]) -> Nilpotent:
-        """Σ a_i b_i, each of its parts at once."""
+        """Σ a_i b_i, each part of it summed at once."""
         factors: dict[int, tuple[list[Any], list[Any]]] = {}
         for x, y in zip(a, b, strict=True):
             left = x.parts if isinstance(x, Nilpotent) else {0: x}
@@ -115,10 +115,10 @@ def nilpotent(mask: int) -> Nilpotent:
 
 
 def derivative_in(x: Any, mask: int) -> Any:
-    """The derivative in one parameter, at zero, as a function of the others."""
+    """∂x/∂ε for ε the parameter of ``mask``, at ε = 0, as a function of the other parameters."""
     return Nilpotent({k ^ mask: v for k, v in Nilpotent.of(x).parts.items() if k & mask})
 
 
 def derivative_of(x: Matrix, mask: int) -> Matrix:
-    """The same of a matrix."""
+    """The same derivative of a matrix, entry by entry."""
     return tuple(tuple(derivative_in(y, mask) for y in row) for row in x)

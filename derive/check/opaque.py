@@ -1,8 +1,9 @@
-"""Elementary functions in exact arithmetic: an unknown value at each argument, and its derivatives.
+"""Elementary functions in exact arithmetic: a random value at each argument, and derivatives by the
+rules of calculus.
 
-√x, sin x and the rest are no rational numbers.  A claim in which they occur is put to the test with
-an independent random value y for each function at each argument, and derivatives by the rules of
-calculus, (√x)′ = 1/(2y): what holds for every y holds for the true one.
+√x, sin x and the rest are no rational numbers. A claim in which they occur is put to the test with
+an independent random value y for each function at each argument, and derivatives such as (√x)′ =
+1/(2y): what holds for every y holds for the true one.
 """
 
 from __future__ import annotations
@@ -29,11 +30,12 @@ ALGEBRAIC: dict[str, Callable[[Any, Any], Derivatives]] = {
         (6 * x**2 - 2) / (1 + x**2) ** 3,
     ),
 }
-"""First three derivatives at x, where the function is y."""
+"""Function → its first three derivatives at x, in x and in y, the value of the function there."""
 
 
 class Opaque:
-    """The values of the functions at one point of a model."""
+    """The elementary functions at one model, ``f(name, x)``: y is drawn once for each function and
+    argument."""
 
     def __init__(self, draw: Callable[[], Any]):
         self.draw = draw
@@ -41,7 +43,8 @@ class Opaque:
         self.counted: list[Counted] = []
 
     def value(self, name: str, x: Any) -> Any:
-        """y at x, always the same; of a number that is only counted no other is known to be it."""
+        """The value y of a function at x, the same each time; two counted numbers are different
+        arguments unless they are one object."""
         key = (name, id(x) if isinstance(x, Counted) else x)
         if key not in self.values:
             self.values[key] = self.draw()
@@ -51,11 +54,12 @@ class Opaque:
 
     @property
     def largest(self) -> int:
-        """The largest degree of an argument."""
+        """The largest degree of an argument in counted numbers."""
         return max((x.degree.whole for x in self.counted), default=0)
 
     def derivatives(self, name: str, x: Any) -> Derivatives:
-        """The first three."""
+        """The first three derivatives of a function at x; ``EvaluationError`` for an unknown
+        one."""
         y = self.value(name, x)
         if name in PARTNERS:
             z = self.value(PARTNERS[name], x)

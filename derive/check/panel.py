@@ -1,12 +1,13 @@
-"""What is said of any group: the groups on which it is tried, and how many n are enough.
+"""The groups on which a claim about any group is tried, and for how many n it must hold to hold for
+all.
 
-Both sides of such a claim are sums of contractions: traces of words, pairings.  On GL(n), where the
-letters are free, those with 2m indices are perfect matchings of these, which are independent for
-n ≥ m (second fundamental theorem of the invariants of O(n)): a relation that holds for one such n
-has no coefficient that is not 0, so that it holds for each.  Traces of 1 make the coefficients
-polynomials in n of degree e at most: 0 if they vanish for e + 1 of these n.  The inverse of a
-letter is a letter: the words are reduced.  Some small groups in which letters are tied to one
-another come first.
+Both sides of such a claim are sums of contractions: traces of words, pairings. On GL(n), where the
+letters are free, those with 2m indices are perfect matchings of these, which are independent for n
+≥ m (second fundamental theorem of the invariants of O(n)): a relation that holds for one such n has
+no coefficient that is not 0, so that it holds for each. Traces of 1 make the coefficients
+polynomials in n of degree e at most: 0 if they vanish for e + 1 of these n. The inverse of a letter
+is a letter: the words are reduced. Some small groups in which letters are tied to one another come
+first.
 """
 
 from __future__ import annotations
@@ -26,12 +27,13 @@ from .counted import Grade
 
 
 def triangular() -> Group:
-    """The upper triangular maps of the plane."""
+    """B(2), the upper triangular maps of the plane."""
     return group_of_basis("B(2)", "linear", [q.unit(2, *at) for at in ((0, 0), (0, 1), (1, 1))])
 
 
 def triangular_affine() -> Group:
-    """The same with the translations along the first axis."""
+    """B(2) ⋉ R: upper triangular maps of the plane, with translations along its first axis
+    alone."""
     basis = [q.unit(3, *at) for at in ((0, 0), (0, 1), (1, 1), (0, 2))]
     return group_of_basis("B(2) ⋉ R", "affine", basis)
 
@@ -40,28 +42,31 @@ PANELS: dict[str, tuple[Callable[[], Group], ...]] = {
     "linear": (triangular, *(partial(group, x) for x in ("SO(3)", "SL(3)"))),
     "affine": (triangular_affine, partial(group, "SE(2)"), turning_about_a_point),
 }
-"""By the action: some with relations, one whose translations are not free, one whose Lie algebra
-has neither transposes nor odd powers.  The one without relations has as large an n as is needed."""
+"""By the action, small groups with relations: also one whose translations are not free, and one
+whose Lie algebra has neither transposes nor odd powers. GL(n) or Aff(n), without relations, is
+tried besides for as large an n as is needed."""
 
 FREE = {"linear": "GL", "affine": "Aff"}
 LEAST = 6
-"""As large as the words of the walk need: one point serves them all."""
+"""The least n of a free group that is tried, as large as the words of the walk need: one point
+serves them all."""
 
 
 @cache
 def panel(action: str) -> tuple[Group, ...]:
-    """Those with relations."""
+    """The groups with relations on which a claim for an action, "linear" or "affine", is tried."""
     return tuple(make() for make in PANELS[action])
 
 
 @cache
 def free(action: str, n: int) -> Group:
-    """That without relations, for one n."""
+    """The group without relations of an action, GL(n) or Aff(n)."""
     return group(f"{FREE[action]}({n})")
 
 
 def sizes(grade: Grade) -> range:
-    """As many n as a claim needs, each large enough; ``RecordError`` where there are too few."""
+    """As many n as prove a claim of this grade for all n, each large enough; ``RecordError`` where
+    the largest would be too large."""
     if not grade.degree:
         raise RecordError("it says nothing of any group, but of n alone")
     first = max(LEAST, -(-grade.slots // 2))
@@ -74,16 +79,18 @@ def sizes(grade: Grade) -> range:
 
 
 LETTERS = ("A", "C", "J", "J_c", "m", "t", "δt", "δ′t", ("at", "m", "i"))
-"""Of which an inverse is a letter, or a number; of J and J_c, of which one is free, the one."""
+"""The names whose inverse is a letter again, or a number; of J and J_c one is free, and only
+one."""
 OF_ONE_SPACE = ("det", "hat", "wedge", "matrix", "row", "par", "fun")
 
 
 def unsayable(t: Tree) -> str:
-    """What of a tree is no word in the letters of any group, for any n; empty where all are."""
+    """Why a tree is no word in the letters of any group, for any n, in words; "" if it is one."""
     return next((f"{show(x)[:80]} is of no group but a given one" for x in _foreign(t)), "")
 
 
 def _foreign(t: Tree) -> Iterator[Tree]:
+    """The subtrees of a tree that are no words in the letters of any group."""
     if not isinstance(t, tuple):
         return
     numbered = t[0] == "entry" and any(isinstance(i, int) for i in t[2:])
@@ -94,14 +101,14 @@ def _foreign(t: Tree) -> Iterator[Tree]:
 
 
 def inverted(t: tuple[Any, ...]) -> tuple[Tree, ...]:
-    """What an operator inverts."""
+    """The operands that an operator inverts or divides by."""
     if t[0] == "div":
         return t[2:]
     return t[1:2] if t[0] == "inv" or (t[0] == "pow" and int(t[2]) < 0) else ()
 
 
 def _word(t: Tree) -> bool:
-    """A product of letters that have inverses, and numbers."""
+    """Is the tree a product of letters that have inverses, and of numbers?"""
     if isinstance(t, tuple) and t[0] in ("mul", "T", "pow", "inv"):
         return all(map(_word, t[1:]))
     return t in LETTERS or not isinstance(t, (str, tuple))

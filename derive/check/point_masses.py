@@ -16,14 +16,15 @@ Vector = tuple[Any, ...]
 
 
 class Body(Draws):
-    """The points of a problem, or any where it leaves them open."""
+    """The draws of a model with its body: masses, places and blocks of its points."""
 
     masses: list[Any]
     points: list[Vector]
     blocks: list[int]
 
     def embody(self, *, principal: bool) -> None:
-        """Draw the points; ``principal``: of which J is diagonal."""
+        """Draw the points, with a diagonal J if ``principal``; symbolic moments m, c, J get the
+        values that these points have."""
         self.masses, self.points, self.blocks = (
             principal_points(self) if principal else points_of(self)
         )
@@ -56,16 +57,16 @@ class Body(Draws):
         return total, first, second
 
     def homogeneous(self, r: Vector) -> Matrix:
-        """r, or (r, 1) for an affine action, as a column."""
+        """A place as a column: r, or (r, 1) for an affine action."""
         return tuple((x,) for x in (*r, *((Fraction(1),) if self.group.affine else ())))
 
     def moved(self, g: Matrix) -> list[Vector]:
-        """g applied to the points (also a tangent matrix)."""
+        """The places in space of the points moved by g; for a tangent matrix their velocities."""
         ends = q.transposed(tuple(q.flatten(self.homogeneous(r)) for r in self.points))
         return [*q.transposed(q.times(g[: self.n], ends))]
 
     def pairing(self, a: Matrix, b: Matrix) -> Any:
-        """Σ m_i ⟨a r_i, b r_i⟩ for tangent matrices at g."""
+        """Σ m_i ⟨a r_i, b r_i⟩, the kinetic metric of two tangent matrices at g."""
         return sum(
             (
                 m * q.dot(u, v)
@@ -75,7 +76,7 @@ class Body(Draws):
         )
 
     def gram(self, frames: list[Matrix]) -> Matrix:
-        """The metric on tangent matrices at g: their displacements are computed once."""
+        """The matrix of the kinetic metric on tangent matrices at g."""
         moved = [[x for v in self.moved(a) for x in v] for a in frames]
         weights = [m for m in self.masses for _ in range(self.n)]
         rows = [[m * x for m, x in zip(weights, u, strict=True)] for u in moved]

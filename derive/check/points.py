@@ -1,4 +1,4 @@
-"""The points of a model: those of the problem, or any where it leaves them open."""
+"""The points of a model: those of the problem, or random ones where it leaves them open."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ from .realised import moments_of, points_with, without
 
 Vector = tuple[Any, ...]
 Points = tuple[list[Fraction], list[Vector], list[int]]
-"""Masses, places in the body, blocks; the places without a mass are among them."""
+"""Masses, places in the body and blocks of the points; places without a mass are among them."""
 
 
 def points_of(model: Draws) -> Points:
-    """Masses and points of the problem, then its other places, then what is not listed."""
+    """The points of a model: those that the problem lists, its other places without mass, and then
+    points for what it does not list."""
     body = model.problem.get("body", {})
     listed = [] if model.opaque else model.problem.get("places", [])
     places, blocks = _placed(model, listed)
@@ -36,7 +37,8 @@ def points_of(model: Draws) -> Points:
 
 
 def listed_count(model: Draws) -> int:
-    """How many points the problem lists: they come first, and an equation may name them."""
+    """How many points the problem lists: they come first, and an equation may name them by
+    number."""
     if model.opaque:
         return 0
     body = model.problem.get("body", {})
@@ -44,7 +46,8 @@ def listed_count(model: Draws) -> int:
 
 
 def principal_points(model: Draws) -> Points:
-    """As many points anywhere and what makes J diagonal, and m and c any."""
+    """The points of a model with random m, c and diagonal J: as many random points as the problem
+    lists, and those that complete the moments."""
     n, count = model.n, len(model.problem.get("body", {}).get("points", []))
     masses, points = _anywhere(model, count)
     places, blocks = _placed(model, model.problem.get("places", []))
@@ -58,19 +61,22 @@ def principal_points(model: Draws) -> Points:
 
 
 def _cloud(model: Draws, m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list[Vector]]:
-    """Points of these moments, some of them anywhere: nothing but m, c and J is known of them."""
+    """Points with the moments m, c, J, some of them random: no equation may rest on more than these
+    moments."""
     masses, points = _anywhere(model, model.spare)
     more, rest = points_with(*without(masses, points, m, c, J))
     return masses + more, points + rest
 
 
 def _anywhere(model: Draws, count: int) -> tuple[list[Fraction], list[Vector]]:
+    """So many random points: their masses, and their places."""
     masses = [model.draw(positive=True) for _ in range(count)]
     return masses, [model.place() for _ in range(count)]
 
 
 def _placed(model: Draws, listed: list[Mapping[str, Any]]) -> tuple[list[Vector], list[int]]:
-    """Places of the problem, each in its block of a product."""
+    """The places that the problem lists, each in the coordinates of its block of a product, and the
+    blocks."""
     places, blocks = [], []
     for data in listed:
         at = tuple(evaluate(decode(x, "at"), model.expressions) for x in data["at"])

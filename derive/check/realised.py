@@ -1,8 +1,8 @@
 """A body of given moments as exact point masses, so that it can be moved like any other.
 
-Moments m, c, J are those of the points s ± l_k with the masses d_k / 2 and of s with what is left
-of m, where s = c / m and J − m s s̄ = Σ d_k l_k l̄_k (Gauss's elimination).  The moments of solids
-are computed by slices, not by the integrals of the derivation.
+Moments m, c, J are those of the points s ± l_k with the masses d_k / 2 and of s with the rest of m,
+where s = c / m and J − m s s̄ = Σ d_k l_k l̄_k (Gauss's elimination). The moments of solids are
+computed by slices, not by the integrals of the derivation.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ Vector = tuple[Any, ...]
 
 
 def points_with(m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list[Vector]]:
-    """Masses, some of them negative it may be, and places that have these moments."""
+    """Masses and places of points with the moments m, c, J; a mass may be negative.
+    ``ZeroDivisionError`` for m = 0 or a missing pivot."""
     if m == 0:
         raise ZeroDivisionError("a body without mass")
     s = tuple(x / m for x in c)
@@ -40,7 +41,7 @@ def points_with(m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list
 def without(
     masses: Iterable[Fraction], points: Iterable[Vector], m: Fraction, c: Vector, J: Matrix
 ) -> tuple[Fraction, Vector, Matrix]:
-    """What some point masses leave of m, c, J."""
+    """The moments m, c, J less those of some point masses."""
     for mass, r in zip(masses, points, strict=True):
         m, c = m - mass, tuple(x - mass * y for x, y in zip(c, r, strict=True))
         column = tuple((x,) for x in r)
@@ -49,7 +50,8 @@ def without(
 
 
 def squares(a: Matrix) -> list[tuple[Any, Vector]]:
-    """A symmetric matrix as Σ d l l̄; ``ZeroDivisionError`` where a pivot is missing."""
+    """A symmetric matrix as Σ d_k l_k l̄_k, in pairs (d_k, l_k); ``ZeroDivisionError`` where a
+    pivot is missing."""
     found = []
     n = len(a)
     for k in range(n):
@@ -65,9 +67,10 @@ def squares(a: Matrix) -> list[tuple[Any, Vector]]:
 
 
 def moments_of(model: Draws) -> tuple[Fraction, Vector, Matrix]:
-    """m, c, J of the body without its listed points: by slices where it is of solids.
+    """m, c, J of the body without its listed points: those of its solids, by slices, or the given
+    ones.
 
-    ``RecordError`` where these and the points do not have the given ones.
+    ``RecordError`` where solids and listed points together do not have the given moments.
     """
     body = model.problem["body"]
     m, c, J = (_value(model, body["given"][key]) for key in ("m", "c", "J"))
@@ -83,7 +86,7 @@ def moments_of(model: Draws) -> tuple[Fraction, Vector, Matrix]:
 
 
 def sliced(model: Draws, solids: Iterable[Mapping[str, Any]]) -> tuple[Fraction, Vector, Matrix]:
-    """m, c, J of solids, summed over their slices."""
+    """The moments m, c, J of solids in the body's frame, each by slices."""
     m, c = Fraction(0), tuple([Fraction(0)] * 3)
     J = q.scaled(Fraction(0), q.identity(3))
     for solid in solids:
@@ -101,6 +104,9 @@ def _value(model: Draws, x: Any) -> Any:
 
 
 def _solid(model: Draws, data: Mapping[str, Any]) -> tuple[Fraction, Vector, Matrix]:
+    """The moments m, c, J of one solid in the body's frame: those of its own frame, turned by R and
+    shifted by s."""
+
     def value(x: Any) -> Any:
         return _value(model, x)
 

@@ -1,8 +1,8 @@
 """Rational numbers by their residues modulo a large random prime.
 
-Two that differ have one residue for the primes alone that divide the difference.  Of the more than
-2²⁴⁷ primes of 256 bits these are one for every 255 bits of its numerator: fewer than the degree of
-a claim, so that they add nothing to what it owes to the point.
+Two different numbers have the same residue only for primes that divide their difference. Of the
+more than 2²⁴⁷ primes of 256 bits these are one for every 255 bits of its numerator: fewer than the
+degree of a claim, so that they add nothing to its bound.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ SMALL = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37)
 
 
 def prime(random: Random) -> int:
-    """Of :data:`BITS` bits."""
+    """A random prime of :data:`BITS` bits."""
     while True:
         n = random.getrandbits(BITS) | 1 | 1 << (BITS - 1)
         if all(n % p for p in SMALL) and all(_passes(n, random) for _ in range(ROUNDS)):
@@ -28,7 +28,7 @@ def prime(random: Random) -> int:
 
 
 def _passes(n: int, random: Random) -> bool:
-    """Miller and Rabin's test, which a composite passes once in four."""
+    """Does n pass Miller and Rabin's test for one random base? A composite does once in four."""
     odd, twos = n - 1, 0
     while not odd & 1:
         odd, twos = odd >> 1, twos + 1
@@ -38,6 +38,7 @@ def _passes(n: int, random: Random) -> bool:
 
 @lru_cache(2**12)
 def _quotient(a: int, b: int, p: int) -> int:
+    """a/b modulo p; ``ZeroDivisionError`` where p divides b."""
     return a * _inverse(b, p) % p
 
 
@@ -48,6 +49,7 @@ def _inverse(n: int, p: int) -> int:
 
 
 def _residue(x: Any, p: int) -> int:
+    """The residue of an integer, a fraction or a residue, as an integer."""
     if type(x) is Residue:
         return x.n
     a, b = x.as_integer_ratio()
@@ -55,7 +57,7 @@ def _residue(x: Any, p: int) -> int:
 
 
 class Residue:
-    """A rational number modulo p."""
+    """The residue n of a rational number modulo a prime p: an element of the field F_p."""
 
     __slots__ = ("n", "p")
 
@@ -74,7 +76,7 @@ class Residue:
 
     @staticmethod
     def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
-        """Σ a_i b_i, reduced once."""
+        """Σ a_i b_i, reduced modulo p once."""
         p = next(x.p for x in (*a, *b) if isinstance(x, Residue))
         left, right = ([_residue(x, p) for x in y] for y in (a, b))
         return Residue(sum(map(mul, left, right)), p)
@@ -122,11 +124,12 @@ class Residue:
 
 
 class Residues:
-    """A source of them in the place of a random one."""
+    """A source of residues in the place of a random one: a model drawn from it is computed modulo
+    p."""
 
     def __init__(self, random: Random, p: int):
         self.random, self.p = random, p
 
     def randint(self, low: int, high: int) -> Residue:
-        """Of a random integer."""
+        """The residue of a random integer from low to high."""
         return Residue(self.random.randint(low, high), self.p)

@@ -1,6 +1,7 @@
 """The moments of solids by slices, shells, exact quadratures and the divergence theorem.
 
-These roads check the integrals of the derivation.  Everything is a fraction; π has a given value.
+These are other ways than the integrals of the derivation, which they check. Everything is a
+fraction; π has a given value.
 """
 
 from __future__ import annotations
@@ -25,7 +26,8 @@ NODES = tuple(
     for base, weight in (((6, 0, 0), 3), ((3, 3, 0), 8), ((2, 2, 2), 27))
     for corner in sorted(set(permutations(base)))
 )
-"""On a triangle: coordinates in sixths of the corners, weights in sixtieths; exact for cubics."""
+"""A quadrature on a triangle, exact for cubics: coordinates of the nodes in sixths of the corners,
+weights in sixtieths."""
 
 
 def slice_moments(kind: str, sizes: Sizes, pi: Fraction) -> Found:
@@ -48,15 +50,17 @@ def _fractions(x: Any) -> Any:
 
 
 def _integral(p: Row, ends: Row) -> Fraction:
-    """Of a polynomial, its coefficients from the constant one on."""
+    """∫ p dz between two ends, of a polynomial given by its coefficients from the constant one
+    on."""
     low, high = ends
     return sum((x * (high**k - low**k) / k for k, x in enumerate(p, 1)), ZERO)
 
 
 def _stack(a: Fraction, b: Fraction, square: Row, ends: Row, pi: Fraction) -> Found:
-    """Ellipses at z of semi-axes a s and b s, s² a polynomial in z.
+    """The moments of a solid whose slice at z is an ellipse of semi-axes a s and b s; ``square``:
+    s² as a polynomial in z.
 
-    Their areas are π a b s², their ∫ x² dA are π a³ b s⁴/4.
+    The areas of the slices are π a b s², their ∫ x² dA are π a³ b s⁴/4.
     """
     area = tuple(pi * a * b * x for x in square)
     along = [_integral((ZERO,) * k + area, ends) for k in SPAN]
@@ -82,13 +86,14 @@ def _cone(radius: Fraction, height: Fraction, pi: Fraction) -> Found:
 
 
 def _hollow_ball(ends: Row, pi: Fraction) -> Found:
-    """Spheres of area 4π r², on which the mean of x² is r²/3."""
+    """The moments of a ball with a hole, by shells of area 4π r², on which the mean of x² is
+    r²/3."""
     volume, square = (_integral((ZERO,) * k + (4 * pi,), ends) for k in (2, 4))
     return volume, (ZERO,) * 3, q.scaled(square / 3, q.identity(3))
 
 
 def _box(sides: Row) -> Found:
-    """Simpson's rule in each direction."""
+    """The moments of a box, by Simpson's rule in each direction."""
     a, b, c = sides
     cube = product(SIMPSON, repeat=3)
     nodes = (((i * a, j * b, k * c), u * v * w) for (i, u), (j, v), (k, w) in cube)
@@ -96,7 +101,8 @@ def _box(sides: Row) -> Found:
 
 
 def _tetrahedron(corners: Sequence[Row]) -> Found:
-    """Weights V/20 at the vertices and 16 V/20 at their mean, exact for quadratics."""
+    """The moments of a tetrahedron, by weights V/20 at the vertices and 16 V/20 at their mean,
+    exact for quadratics."""
     a, b, c = ([v[i] - corners[0][i] for i in SPAN] for v in corners[1:])
     volume = abs(sum(x * y for x, y in zip(a, _cross(b, c), strict=True))) / 6
     mean = tuple(sum(x, ZERO) / 4 for x in zip(*corners, strict=True))
@@ -104,6 +110,7 @@ def _tetrahedron(corners: Sequence[Row]) -> Found:
 
 
 def _weighted(points: Sequence[tuple[Fraction, Row]]) -> Found:
+    """The moments Σ w, Σ w r, Σ w r r̄ of weighted nodes."""
     first = (sum((w * r[i] for w, r in points), ZERO) for i in SPAN)
     second = ((sum((w * r[i] * r[j] for w, r in points), ZERO) for j in SPAN) for i in SPAN)
     return sum((w for w, _ in points), ZERO), tuple(first), tuple(map(tuple, second))
@@ -114,9 +121,10 @@ def _cross(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
 
 
 def _mesh(points: Sequence[Row], faces: Sequence[Sequence[int]]) -> Found:
-    """The flux of fields of divergence 1, r_i and r_i r_j, in whole numbers.
+    """The moments of a closed mesh, as the flux through its faces of fields of divergence 1, r_i
+    and r_i r_j, in whole numbers.
 
-    They are x along the first axis, and r_i²/2 and r_i² r_j/2 along axis i, r_i³/3 for i = j.
+    The fields are x along the first axis, and r_i²/2 and r_i² r_j/2 along axis i, r_i³/3 for i = j.
     """
     numbers = [x for v in points for x in v if isinstance(x, Fraction)]
     unit = lcm(*(x.denominator for x in numbers))

@@ -1,4 +1,5 @@
-"""Names of the solved equations: rates along the motion, multiplier, mass matrix and loads.
+"""The names of the solved equations: rates along the motion, the multiplier, the mass matrix and
+the loads.
 
 All are sums over the points at the exact position of the model, by d'Alembert's principle.
 """
@@ -29,14 +30,15 @@ class Solved:
 
     @cached_property
     def arms(self) -> list[Vector]:
-        """The points seen from the centre."""
+        """The places of the points relative to the centre, in the body."""
         return [
             tuple(x - s for x, s in zip(r, self.centre, strict=True)) for r in self.model.points
         ]
 
     @cached_property
     def elements(self) -> list[Matrix]:
-        """The basis of the linear parts, each with the translation that keeps the centre."""
+        """A basis of the linear parts of 𝔤, each element with the translation that keeps the centre
+        in place (matrices of the group's size)."""
         count = len(self.group.linear_basis)
         if self.group.centred:
             back = q.minus(q.identity(self.model.n), centres(self.model))
@@ -53,7 +55,8 @@ class Solved:
         return found
 
     def gathered(self, vectors: list[Vector]) -> Matrix:
-        """Ā Σ v_i ρ̄_i for vectors in space at the points."""
+        """Ā Σ v_i ρ̄_i, the moment in the body of vectors v_i in space at the points, ρ_i the
+        arms."""
         span = range(self.model.n)
         pairs = list(zip(vectors, self.arms, strict=True))
         total = tuple(
@@ -62,14 +65,16 @@ class Solved:
         return q.times(q.transposed(self.group.linear_part(self.model.g)), total)
 
     def inertia_of(self, rate: Matrix) -> Matrix:
-        """The same for the masses times their accelerations when g⁻¹g̈ is the given matrix."""
+        """The moment Ā Σ m_i a_i ρ̄_i of the masses times their accelerations, for g⁻¹g̈ =
+        ``rate``."""
         moved = self.model.moved(q.times(self.model.g, rate))
         weighted = [tuple(m * x for x in v) for m, v in zip(self.model.masses, moved, strict=True)]
         return self.gathered(weighted)
 
     @cached_property
     def applied(self) -> Matrix:
-        """Moments of the potential's forces and of all that is given, in the body."""
+        """The moment in the body, about the centre, of the potential's forces and of all inputs and
+        damping."""
         forces = zip(self.model.forces, self.model.given_forces, strict=True)
         total = [tuple(x + y for x, y in zip(f, g, strict=True)) for f, g in forces]
         read = self.covector_matrix
@@ -81,7 +86,8 @@ class Solved:
 
     @cached_property
     def covector_matrix(self) -> Matrix:
-        """A matrix N with Tr N ξ̄′ = u(ξ′), by the rows that read coordinates."""
+        """A matrix N of the group's size with Tr N ξ̄′ = u(ξ′) for the covector input u, by the
+        rows that read coordinates."""
         s = self.group.size
         total = q.scaled(Fraction(0), q.identity(s))
         for a, u in enumerate(self.model.covector):
@@ -91,7 +97,8 @@ class Solved:
 
 
 def centres(model: Model) -> Matrix:
-    """The centre of mass of each factor H ⋉ Rⁿ of a product, in its last column."""
+    """The matrix S of a product of groups H ⋉ Rⁿ: the centre of mass of each factor in the last
+    column of its block."""
     total = q.scaled(Fraction(0), q.identity(model.n))
     for offset, factor in model.group.centred:
         corner = offset + factor.n
@@ -104,7 +111,8 @@ def centres(model: Model) -> Matrix:
 
 
 def centred_values(model: Model) -> Values:
-    """What is seen from the centres of mass of the factors of a product."""
+    """The values of S and of c_c, J_c, Z_c, moments and velocity about the centres of mass of the
+    factors of a product."""
     S = centres(model)
     back = q.minus(q.identity(model.n), S)
     columns = [q.times(back, tuple((x,) for x in r)) for r in model.points]
@@ -117,7 +125,7 @@ def centred_values(model: Model) -> Values:
 
 
 def solved_values(model: Model) -> Values:
-    """Ż, M, β, B, θ and their kin."""
+    """The values of N_c, r_c, w_c, B, M, β, ψ, Λ and θ, as far as the group has them."""
     group, Z, Z_dot = model.group, model.Z, model.acceleration
     s = Solved(model)
     values: Values = {"N_c": s.applied}
@@ -153,4 +161,5 @@ def load(model: Model, e: Matrix) -> Fraction:
 
 
 def _paired(a: Matrix, b: Matrix) -> Any:
+    """Tr a b̄."""
     return q.trace(q.times(a, q.transposed(b)))

@@ -1,4 +1,5 @@
-"""Names of R³ for rotations: Ω, ζ, φ, μ and the classical tensors of inertia, from the points."""
+"""The names of R³ for rotations: Ω, ζ, φ, μ and the classical tensors of inertia, from the
+points."""
 
 from __future__ import annotations
 
@@ -13,7 +14,8 @@ Values = dict[str, Any]
 
 
 def spatial_values(model: Model) -> Values:
-    """Vectors of R³ for rotations: Ω, ζ, φ, μ and the classical tensors of inertia."""
+    """The values of Ω, ζ, φ, μ, their variations and rates, and of I, I_c, λ for the rotations and
+    displacements of space; none for other groups."""
     if not model.group.turns_space:
         return {}
     basis = model.group.basis
@@ -44,7 +46,7 @@ def spatial_values(model: Model) -> Values:
 
 
 def axial(x: Matrix) -> Matrix:
-    """The vector X of a skew matrix j(X)."""
+    """The vector X (3 × 1) of a skew matrix j(X), or of the rotation part of a larger one."""
     return ((x[2][1],), (x[0][2],), (x[1][0],))
 
 
@@ -62,7 +64,7 @@ def _tensor(model: Model, origin: tuple[Fraction, ...]) -> Matrix:
 
 
 def moments_about(model: Model, origin: tuple[Fraction, ...]) -> Matrix:
-    """Σ m_i r r̄ about an origin."""
+    """Σ m_i (r_i − o)(r_i − o)‾ about an origin o."""
     total = q.scaled(Fraction(0), q.identity(model.n))
     for m, point in zip(model.masses, model.points, strict=True):
         r = tuple((x - o,) for x, o in zip(point, origin, strict=True))

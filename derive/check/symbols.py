@@ -1,7 +1,7 @@
-"""Are the symbols of a record what it says they are?
+"""The declared symbols of a record against its steps.
 
-Each has the type of the values that its name has in the exact models of the steps that use it, and
-the role and the defining equation that the steps give it; and the steps use no others.
+Each must have the type of the values that its name has in the exact models of the steps that use
+it, and the role and the defining equation that the steps give it; and the steps use no others.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from .heads import AT_ONE_TIME, AXIS, COUNTED, HEADS, MOTION, VARIATION
 from .introduced import Way, definitions, ways
 
 RATES = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "ṗ_b", "ℓ̇_b")
-"""What has its value on X: rates along the motion."""
+"""The names whose value is one on X: rates along the motion."""
 
 MULTIPLIER = "θ"
 
@@ -33,7 +33,7 @@ INDEX = {x: x for x in COUNTED.values()} | {"forces along a distance": "distance
 
 VARIATIONS = dict.fromkeys(VARIATION.letters, "variation")
 VARIATIONS |= dict.fromkeys(AT_ONE_TIME.letters, "variation at one time")
-"""The type of what has no value in a model but directions."""
+"""The types of names that stand for directions, and have no value in a model."""
 
 CONSTANTS = ("π",)
 """Names that need no symbol."""
@@ -46,15 +46,16 @@ Arguments = tuple[Tree, ...]
 
 @dataclass
 class Seen:
-    """How steps use a name in one way: of which arguments, in which scopes, with what given in one
-    of the steps; in the text about any group?"""
+    """The uses of a name in one position: for each tuple of arguments, in each scope, the
+    hypotheses of one such step. ``general``: is it used in the text about any group?"""
 
     where: dict[Arguments, dict[str, Given]] = field(default_factory=dict)
     general: bool = False
 
 
 def wrong(d: Derivation, points: Points) -> str:
-    """What is not so, in words; empty where all is.  ``points``: where the checker tries a step."""
+    """What is wrong with the symbols of a record, in words; "" if nothing is. ``points``: the
+    groups and exact points where the checker tries a step."""
     listed, names = [s.name for s in d.symbols], dict.fromkeys(name for name, _ in used(d.steps))
     for told, names_so in (
         ("is declared twice", (x for k, x in enumerate(listed) if x in listed[:k])),
@@ -71,19 +72,20 @@ def wrong(d: Derivation, points: Points) -> str:
 
 
 def judge(steps: Sequence[Step], points: Points) -> Judge:
-    """For the symbols of some steps."""
+    """The :class:`Judge` of the symbols of some steps; ``points``: where the checker tries a
+    step."""
     kinds = {(s.scope, _given(s)): s for s in steps}
     places = {kind: [*points(step)] for kind, step in kinds.items()}
     return Judge(used(steps), definitions(steps), places)
 
 
 def _given(step: Step) -> Given:
-    """What is given in a step, inputs among it."""
+    """The hypotheses under which a step holds: what is given, and whether inputs act."""
     return step.given, step.driven
 
 
 def used(steps: Iterable[Step]) -> dict[Way, Seen]:
-    """All ways in which steps use names."""
+    """All uses of names in some steps, with the arguments, scopes and hypotheses of each."""
     found: dict[Way, Seen] = {}
     for step in steps:
         for side in (x for e in step.equations for x in (e.lhs, e.rhs)):
@@ -97,7 +99,8 @@ def used(steps: Iterable[Step]) -> dict[Way, Seen]:
 
 @dataclass(frozen=True)
 class Judge:
-    """What the steps do with names, what they say of them, and the points where they are tried."""
+    """What the steps do with names: where they use them (``seen``), which equation defines them
+    (``said``), at which points they are tried (``places``)."""
 
     seen: Mapping[Way, Seen]
     said: Mapping[Way, tuple[str, Arguments]]
@@ -105,7 +108,7 @@ class Judge:
     memo: dict[tuple[int, Tree], list[Any]] = field(default_factory=dict)
 
     def wrong(self, symbol: Symbol) -> str:
-        """What of a symbol is not so."""
+        """What is wrong with a declared symbol, in words; "" if nothing is."""
         name, uses = symbol.name, symbol.uses
         here = {way for x, way in self.seen if x == name}
         declared = {way_of(use.type) for use in uses}
@@ -119,7 +122,8 @@ class Judge:
         return next(filter(None, (self.left(name, way, uses) for way in sorted(here))), "")
 
     def use(self, name: str, use: Use) -> str:
-        """What of one use is not so: type, key, role."""
+        """What is wrong with one declared use of a name: its type, its defining equation or its
+        role; "" if nothing is."""
         way = (name, way_of(use.type))
         if not [*self.taken(way, use.type)]:
             return f"type {said(use.type)} is not that of its values"
@@ -132,17 +136,19 @@ class Judge:
         return "" if use.role == role else f"its role is {role!r}, not {use.role!r}"
 
     def left(self, name: str, way: str, uses: Iterable[Use]) -> str:
-        """Arguments, or values, that none of the declared types is of."""
+        """The first use of a name that none of its declared types covers, in words; "" if there is
+        none."""
         kept = {x for use in uses for x in self.taken((name, way), use.type)}
         over = [x for x in self.seen[name, way].where if x not in kept]
         return f"{show(_call((name, way), over[0]))} has none of its types" if over else ""
 
     def taken(self, way: Way, type_: Type) -> Iterator[Arguments]:
-        """The arguments of which a type is right; () for what is no function."""
+        """The tuples of arguments at which a type is that of a name in some position; () for what
+        is no function."""
         return (x for x in self.seen[way].where if self.fits(way, type_, x))
 
     def fits(self, way: Way, type_: Type, arguments: Arguments) -> bool:
-        """Is a type that of a name in some way, at these arguments where it is a function?"""
+        """Is a type that of a name in some position, at these arguments where it is a function?"""
         name, how = way
         if how != way_of(type_) or arguments not in self.seen[way].where:
             return False
@@ -159,7 +165,8 @@ class Judge:
         )
 
     def right(self, type_: Type, t: Tree, where: Mapping[str, Given], general: bool) -> bool:
-        """Is it the narrowest type of what a tree is?  Its shape is that of any hypotheses."""
+        """Is it the narrowest type of a tree's values at all points where it occurs? Its shape is
+        the same under any hypotheses."""
         if isinstance(t, str) and t in VARIATIONS:
             return type_ == VARIATIONS[t]
         places = [at for kind in where.items() for at in self.places[kind]]
@@ -174,7 +181,7 @@ class Judge:
         return type_[0] != "matrix" or not narrower
 
     def values(self, t: Tree, env: Environment) -> list[Any]:
-        """Those of :func:`values`, found once."""
+        """The values of a tree at a point, by :func:`values`, found once."""
         key = (id(env), t)
         if key not in self.memo:
             self.memo[key] = values(t, env)
@@ -182,7 +189,8 @@ class Judge:
 
 
 def way_of(type_: Type) -> str:
-    """How a name of a type stands in equations."""
+    """The position in which a name of a type stands in equations: value, member, function or
+    moved."""
     match type_:
         case ("family", _, ("function", *_)):
             return "moved"
@@ -194,6 +202,8 @@ def way_of(type_: Type) -> str:
 
 
 def _role(way: Way, type_: Type, key: str) -> str:
+    """The role that the steps give a name in some position; ``key``: of the equation that defines
+    it, or ""."""
     name, how = way
     if how in ("function", "moved"):
         return "value on X" if HEADS.get(name) == (MOTION,) else "function"
@@ -205,16 +215,16 @@ def _role(way: Way, type_: Type, key: str) -> str:
 
 
 def _call(way: Way, arguments: Arguments) -> Tree:
-    """What stands in equations, for any index."""
+    """The tree in which a use stands in equations, with i for an index."""
     name, how = way
     head: Tree = ("at", name, "i") if how in ("member", "moved") else name
     return ("call", head, *arguments) if how in ("function", "moved") else head
 
 
 def values(t: Tree, env: Environment) -> list[Any]:
-    """Of a tree, for the first value of its indices; all members of a family.
+    """The values of a tree for the first value of its indices; all members of a family.
 
-    What an integral is taken of is a function of the place r.
+    What an integral is taken of is a function of the place r, here that of the first point.
     """
     if isinstance(t, tuple) and t[0] == "at":
         return [*env.families[t[1]].values()]
@@ -225,9 +235,11 @@ def values(t: Tree, env: Environment) -> list[Any]:
 
 
 def _is(type_: Type, x: Any, g: Group, general: bool) -> bool:
-    """Is a value of a type, whose sizes are n where it is of any group, and numbers elsewhere?
+    """Is a value of a type? The sizes of the type are n where it is of any group, and numbers
+    elsewhere.
 
-    Of a product with factors in spaces of several dimensions a vector may be one of any of them.
+    In a product with factors in spaces of several dimensions, "block" is the dimension of any of
+    them.
     """
     rows, columns = (len(x), len(x[0])) if is_matrix(x) else (0, 0)
 
@@ -252,7 +264,7 @@ def _is(type_: Type, x: Any, g: Group, general: bool) -> bool:
 
 
 def _in_algebra(x: Any, g: Group) -> bool:
-    """Is a matrix one of the linear parts of 𝔤?"""
+    """Is a value an n × n matrix among the linear parts of 𝔤?"""
     if not is_matrix(x) or not len(x) == len(x[0]) == g.n:
         return False
     rows = tuple(q.flatten(e) for e in g.linear_basis)
@@ -260,7 +272,7 @@ def _in_algebra(x: Any, g: Group) -> bool:
 
 
 def said(type_: Type) -> str:
-    """A type in a message."""
+    """A type as text for a message, cut to a length."""
     words = type_ if isinstance(type_, str) else f"[{', '.join(map(str, type_))}]"
     return f"{words:.60}"
 

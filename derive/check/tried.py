@@ -1,4 +1,4 @@
-"""The points at which the steps of a record are tried: made once, and shared by its steps."""
+"""The exact points at which the steps of a record are tried: made once, and shared by its steps."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ from .panel import PANELS, panel
 from .residue import Residues, prime
 
 SIZE = 2**128
-"""Random parameters are integers of at most this absolute value."""
+"""The random integers of a point are of at most this absolute value."""
 
 Place = tuple[Model, Environment]
 
 
 def action_of(problem: Mapping[str, Any]) -> str:
-    """Linear or affine."""
+    """The action of a record's problem, "linear" or "affine"; ``RecordError`` for anything else."""
     action = problem.get("action")
     if action not in PANELS:
         raise RecordError("record, problem: key 'action' must be linear or affine")
@@ -38,7 +38,7 @@ def action_of(problem: Mapping[str, Any]) -> str:
 def modelled(
     problem: Mapping[str, Any], g: Group, source: Source, at: Assumed, size: int, *, opaque: bool
 ) -> Model:
-    """A point where what a step assumes is so."""
+    """A random model at which the hypotheses of a step hold."""
     return Model(
         {} if opaque else problem,
         g,
@@ -55,7 +55,7 @@ def modelled(
 
 
 class Tried:
-    """Those of one record: exact ones, and one in degrees alone for each."""
+    """The points of one record: exact ones, and beside each one in degrees alone."""
 
     def __init__(self, problem: Mapping[str, Any], seed: int | str):
         self.problem, self.seed = problem, seed
@@ -63,7 +63,8 @@ class Tried:
         self._counted: dict[tuple[str, Assumed], Place] = {}
 
     def groups(self, scope: str, *, driven: bool = False) -> tuple[Group, ...]:
-        """The groups on which a step of this scope, with inputs or without, is tried."""
+        """The groups on which a step of this scope, with inputs (``driven``) or without, is tried;
+        ``RecordError`` for a scope that is neither any group nor the problem's."""
         own = self._own
         if scope == ANY_GROUP:
             if driven:
@@ -84,20 +85,22 @@ class Tried:
     def environment(
         self, g: Group, step: Step, size: int = SIZE, equation: Equation | None = None
     ) -> Environment:
-        """A random exact point, the same for all equations of a kind."""
+        """The names at the point of :meth:`point`."""
         return self.point(g, step, size, equation)[1]
 
     def environments(self, step: Step) -> Iterator[tuple[Group, Environment]]:
-        """The exact points at which a step is tried."""
+        """Each group of a step, with the names at the point where the step is tried on it."""
         for g in self.groups(step.scope, driven=step.driven):
             yield g, self.environment(g, step)
 
     def point(
         self, g: Group, step: Step, size: int = SIZE, equation: Equation | None = None
     ) -> Place:
-        """The same with the model; an equation may hold for all accelerations.
+        """A random exact point, its model and its names, the same for all steps with the same
+        hypotheses.
 
-        About any group a number is its residue, unless it is small.
+        ``equation``: one that may hold for all accelerations. About any group the numbers are
+        residues, unless they are small.
         """
         at, opaque = assumed(step, equation), step.scope == ANY_GROUP
         key = g.name + step.scope, at, size
@@ -109,7 +112,7 @@ class Tried:
         return self._places[key]
 
     def counted(self, g: Group, step: Step, equation: Equation | None = None) -> Place:
-        """A point of which the degrees alone are known."""
+        """A point like :meth:`point` of which the degrees alone are known."""
         at = assumed(step, equation)
         opaque = step.scope == ANY_GROUP
         known, key = _COUNTED if opaque else self._counted, (g.name, at)
@@ -119,7 +122,7 @@ class Tried:
         return known[key]
 
     def graded(self, g: Group, step: Step, equation: Equation) -> tuple[int, Grade]:
-        """The degree of a claim, and the grade of its numerators."""
+        """The degree of an equation on a group, and the grade of its numerators."""
         key = g.name, assumed(step, equation), equation
         known = _GRADED if step.scope == ANY_GROUP else {}
         if key not in known:
@@ -130,7 +133,8 @@ class Tried:
 
     @property
     def coincidence(self) -> int:
-        """The degree of what makes arguments of functions equal that are not, by chance."""
+        """The degree of the event that two different arguments of elementary functions are equal by
+        chance."""
         largest = max((m.elementary.largest for m, _ in self._counted.values()), default=0)
         distinct = max((len(m.elementary.values) for m, _ in self._places.values()), default=0)
         return distinct**2 * largest
@@ -139,4 +143,4 @@ class Tried:
 MOST = 10_000
 _COUNTED: dict[tuple[str, Assumed], Place] = {}
 _GRADED: dict[tuple[str, Assumed, Equation], tuple[int, Grade]] = {}
-"""About any group they are the same for all records."""
+"""Points and degrees for any group, the same for all records."""

@@ -1,7 +1,7 @@
-"""Does a step use the steps from which it has its names?
+"""Every step uses the steps from which it has its names.
 
 Of every name but those that all begins with, the first step that has it must say what it is
-(:mod:`derive.check.introduced`); a later one must use a step that speaks of it.
+(:mod:`derive.check.introduced`); a later one must use a step in which it stands.
 """
 
 from __future__ import annotations
@@ -13,11 +13,12 @@ from ..record.record import Step
 from .introduced import FIRST
 
 MEMBERS = frozenset(f"{x}_" for x in ("m", "r", "v", "F", "E", "f_u"))
-"""Families that all begins with: a member m_i is not the sum m."""
+"""The families that the walk starts from: a member m_i is another name than the sum m."""
 
 
 def unused(steps: Iterable[Step]) -> Iterator[str]:
-    """For each step a name that it has from none of the steps it uses; empty when there is none."""
+    """For each step a name that an earlier step has, but none of the steps that it uses; "" if
+    there is none."""
     spoken: dict[str, set[str]] = {}
     known: set[str] = set()
     for step in steps:
@@ -29,7 +30,8 @@ def unused(steps: Iterable[Step]) -> Iterator[str]:
 
 
 def spoken_of(t: Tree) -> Iterator[str]:
-    """The names in a tree; dϖ speaks of ϖ, and a member m_i is ``m_``."""
+    """The names in a tree but for those that the walk starts from; dϖ counts as ϖ, and a member m_i
+    as ``m_``."""
     if isinstance(t, str):
         if t not in FIRST:
             yield t.removeprefix("d") if t == "dϖ" else t
