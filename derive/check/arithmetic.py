@@ -32,7 +32,7 @@ def shape(x: Value) -> Shape:
     return (len(x), len(x[0]) if x else 0) if is_matrix(x) else ()
 
 
-def told(*shapes: Shape) -> str:
+def describe_shapes(*shapes: Shape) -> str:
     """Shapes as words of a message: "a 3×1 matrix and a number"."""
     return " and ".join(f"a {s[0]}×{s[1]} matrix" if s else "a number" for s in shapes)
 
@@ -40,11 +40,11 @@ def told(*shapes: Shape) -> str:
 def number(x: Value) -> Value:
     """The value itself where it is a scalar; ``EvaluationError`` for a matrix."""
     if is_matrix(x):
-        raise EvaluationError(f"{told(shape(x))} in the place of a number")
+        raise EvaluationError(f"{describe_shapes(shape(x))} in the place of a number")
     return x
 
 
-def _square(x: Value, of: str) -> Value:
+def _require_square(x: Value, of: str) -> Value:
     if not is_matrix(x):
         raise EvaluationError(f"{of} of a number")
     if len({*shape(x)}) != 1:
@@ -55,7 +55,7 @@ def _square(x: Value, of: str) -> Value:
 def plus(a: Value, b: Value) -> Value:
     """a + b, of one shape."""
     if shape(a) != shape(b):
-        raise EvaluationError(f"{told(shape(a), shape(b))} do not add")
+        raise EvaluationError(f"{describe_shapes(shape(a), shape(b))} do not add")
     return q.plus(a, b) if is_matrix(a) else a + b
 
 
@@ -64,7 +64,7 @@ def times(a: Value, b: Value) -> Value:
     if is_matrix(a) and is_matrix(b):
         (rows, inside), (lines, columns) = shape(a), shape(b)
         if inside != lines:
-            raise EvaluationError(f"{told(shape(a), shape(b))} have no product")
+            raise EvaluationError(f"{describe_shapes(shape(a), shape(b))} have no product")
         product = q.times(a, b)
         return product[0][0] if rows == columns == 1 < inside else product
     if is_matrix(a):
@@ -86,7 +86,7 @@ def transpose(x: Value) -> Value:
 
 def trace(x: Value) -> Value:
     """Tr x."""
-    return q.trace(_square(x, "trace"))
+    return q.trace(_require_square(x, "trace"))
 
 
 def inner(a: Value, b: Value, metric: Value | None = None) -> Value:
@@ -97,27 +97,27 @@ def inner(a: Value, b: Value, metric: Value | None = None) -> Value:
     if not (is_matrix(a) and is_matrix(b)):
         raise EvaluationError("inner product of a scalar and a matrix")
     if shape(a) != shape(b):
-        raise EvaluationError(f"{told(shape(a), shape(b))} have no inner product")
+        raise EvaluationError(f"{describe_shapes(shape(a), shape(b))} have no inner product")
     if len(a[0]) == 1:
         return scalar(times(transpose(a), b if metric is None else times(metric, b)))
     return trace(times(a if metric is None else times(a, metric), transpose(b)))
 
 
-def _entries(a: Value) -> Any:
+def _coordinates(a: Value) -> Any:
     if shape(a) != (3, 1):
-        raise EvaluationError(f"{told(shape(a))} in the place of a vector of space")
+        raise EvaluationError(f"{describe_shapes(shape(a))} in the place of a vector of space")
     return (x for (x,) in a)
 
 
 def wedge(a: Value, b: Value) -> Value:
     """The vector product a ∧ b of two vectors of R³ (3 × 1 matrices)."""
-    (x, y, z), (u, v, w) = _entries(a), _entries(b)
+    (x, y, z), (u, v, w) = _coordinates(a), _coordinates(b)
     return ((y * w - z * v,), (z * u - x * w,), (x * v - y * u,))
 
 
 def hat(a: Value) -> Value:
     """The skew matrix j(a) of a vector of R³, j(a)b = a ∧ b."""
-    x, y, z = _entries(a)
+    x, y, z = _coordinates(a)
     zero = x * 0
     return ((zero, -z, y), (z, zero, -x), (-y, x, zero))
 
@@ -131,7 +131,7 @@ def inverse(x: Value) -> Value:
     """x⁻¹ of a scalar or a square matrix; ``EvaluationError`` where the matrix is singular."""
     if not is_matrix(x):
         return 1 / x
-    result = q.inverse(_square(x, "inverse"))
+    result = q.inverse(_require_square(x, "inverse"))
     if result is None:
         raise EvaluationError("inverse of a singular matrix")
     return result
@@ -141,14 +141,14 @@ def determinant(x: Value) -> Value:
     """det x, by expansion along the first row."""
     if not is_matrix(x) or any(len(row) != len(x) for row in x) or len(x) > LARGEST_MATRIX:
         raise EvaluationError(f"determinant of a square matrix of size up to {LARGEST_MATRIX} only")
-    return _expanded(x)
+    return _cofactor_expansion(x)
 
 
-def _expanded(x: Value) -> Value:
+def _cofactor_expansion(x: Value) -> Value:
     if len(x) == 1:
         return x[0][0]
     minors = (
-        (-1) ** j * x[0][j] * _expanded(tuple(row[:j] + row[j + 1 :] for row in x[1:]))
+        (-1) ** j * x[0][j] * _cofactor_expansion(tuple(row[:j] + row[j + 1 :] for row in x[1:]))
         for j in range(len(x))
     )
     return sum(minors, Fraction(0))

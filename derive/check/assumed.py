@@ -51,7 +51,7 @@ class Assumed:
     driven: bool = False
 
     @property
-    def said(self) -> str:
+    def as_text(self) -> str:
         """The hypotheses as a text that does not depend on the order of sets: a part of the seed of
         a point."""
         sets = sorted(self.still), sorted(self.along)
@@ -74,7 +74,7 @@ def assumed(step: Step, equation: Equation | None = None) -> Assumed:
             contracted = True
         elif isinstance(lhs, str) and lhs in STILL and rhs == 0:
             still.add(STILL[lhs])
-        elif part := _of_velocity(lhs, rhs):
+        elif part := _part_of_velocity(lhs, rhs):
             along.add(part)
         else:
             said = f"{show(lhs)} = {show(rhs)}"
@@ -83,7 +83,7 @@ def assumed(step: Step, equation: Equation | None = None) -> Assumed:
     return Assumed(principal, contracted, frozenset(still), frozenset(along), coasting, step.driven)
 
 
-def _of_velocity(lhs: Tree, rhs: Tree) -> str:
+def _part_of_velocity(lhs: Tree, rhs: Tree) -> str:
     """The part of the velocity of X that lhs = rhs fixes, as δA(X) = α the linear one; "" for any
     other equation."""
     if isinstance(lhs, tuple) and lhs[0] == "call" and lhs[2:] == ("X",):

@@ -31,7 +31,7 @@ SHOWN = 40
 """The most letters of a faulty subtree that a message shows."""
 
 
-def wrong(t: Tree, *, affine: bool, inside: str = "") -> str:
+def first_fault(t: Tree, *, affine: bool, inside: str = "") -> str:
     """What is wrong with the first ill-formed head, argument or index of a tree, in words; "" if
     none.
 
@@ -39,11 +39,11 @@ def wrong(t: Tree, *, affine: bool, inside: str = "") -> str:
     """
     if not isinstance(t, tuple):
         return ""
-    parts = (wrong(x, affine=affine, inside=t[0]) for x in t[1:])
-    return _wrong(t, inside, affine) or next(filter(None, parts), "")
+    parts = (first_fault(x, affine=affine, inside=t[0]) for x in t[1:])
+    return _operator_fault(t, inside, affine) or next(filter(None, parts), "")
 
 
-def wrong_quantifier(equation: Equation, at: Assumed) -> str:
+def quantifier_fault(equation: Equation, at: Assumed) -> str:
     """What is wrong with the first quantified name of an equation, in words; "" if none.
 
     A name of ``for_all`` must be a variation or an acceleration that is drawn freely and stands in
@@ -51,13 +51,13 @@ def wrong_quantifier(equation: Equation, at: Assumed) -> str:
     step, which may fix a variation.
     """
     used = {*_values_of(equation.lhs), *_values_of(equation.rhs)}
-    if wrong := _wrong_existence(equation, used):
-        return wrong
+    if fault := _existence_fault(equation, used):
+        return fault
     first, second, rates = ({x for form in forms for x in form} for forms in (*FORMS, RATES))
     fixed = (second if at.still - {TIME} else set()) | (first if at.contracted else set())
     for name in equation.for_all:
         if name not in QUANTIFIED:
-            return f"nothing holds for all {_said(name)}: it is no variation"
+            return f"nothing holds for all {_shortened(name)}: it is no variation"
         if name not in used or equation.for_all.count(name) > 1:
             return f"it says nothing of {name}, for all values of which it is to hold"
         if name in fixed:
@@ -72,11 +72,11 @@ def wrong_quantifier(equation: Equation, at: Assumed) -> str:
     return ""
 
 
-def _wrong_existence(equation: Equation, used: Set[str]) -> str:
+def _existence_fault(equation: Equation, used: Set[str]) -> str:
     """What is wrong with a name of ``exists``, in words; "" if nothing is."""
     for name in equation.exists:
         if name not in SOLVED:
-            return f"that there is some {_said(name)} is not found: it is no multiplier"
+            return f"that there is some {_shortened(name)} is not found: it is no multiplier"
         if name not in used or equation.exists.count(name) > 1:
             return f"it says nothing of {name}, which is to exist"
     return ""
@@ -91,18 +91,18 @@ def _values_of(t: Tree) -> Iterator[str]:
             yield from _values_of(x)
 
 
-def _wrong(t: tuple[Any, ...], inside: str, affine: bool) -> str:
+def _operator_fault(t: tuple[Any, ...], inside: str, affine: bool) -> str:
     """What is wrong with the outermost operator of a tree, in words; "" if nothing is."""
     if t[0] == "call":
-        return _wrong_call(t[1], t[2:], affine)
+        return _call_fault(t[1], t[2:], affine)
     if t[0] == "row" and inside != "matrix":
         return "a row is part of a matrix"
     if t[0] == "at" and len(t) != 3:
-        return f"a member of {_said(t[1])} has one index"
+        return f"a member of {_shortened(t[1])} has one index"
     if t[0] == "at" and t[1] not in COUNTED:
-        return f"no members of {_said(t[1])}, which is no family"
+        return f"no members of {_shortened(t[1])}, which is no family"
     index = next((x for x in _indices(t) if x not in INDICES), None)
-    return "" if index is None else f"{_said(index)} is no index: {', '.join(INDICES)} are"
+    return "" if index is None else f"{_shortened(index)} is no index: {', '.join(INDICES)} are"
 
 
 def _indices(t: tuple[Any, ...]) -> Iterator[str]:
@@ -111,23 +111,23 @@ def _indices(t: tuple[Any, ...]) -> Iterator[str]:
     return (x for x in places if isinstance(x, str))
 
 
-def _wrong_call(head: Tree, arguments: tuple[Tree, ...], affine: bool) -> str:
+def _call_fault(head: Tree, arguments: tuple[Tree, ...], affine: bool) -> str:
     """What is wrong with a call: an unknown head, too many or few arguments, or one of another
     kind."""
-    kinds = _kinds(head)
+    kinds = _kinds_of(head)
     if kinds is None:
-        return f"no function is called {_said(head)}"
+        return f"no function is called {_shortened(head)}"
     kinds = tuple(x for x in kinds if affine or x is not TRANSLATION)
     if len(arguments) != len(kinds):
         expected = f"{len(kinds)} argument{'s' * (len(kinds) != 1)}"
-        return f"{_said(head)} has {expected}, not {len(arguments)}"
+        return f"{_shortened(head)} has {expected}, not {len(arguments)}"
     for kind, x in zip(kinds, arguments, strict=True):
         if not _is_of(kind, x):
-            return f"{_said(head)} is of {kind.said}, not of {_said(x)}"
+            return f"{_shortened(head)} is of {kind.description}, not of {_shortened(x)}"
     return ""
 
 
-def _kinds(head: Tree) -> tuple[Kind, ...] | None:
+def _kinds_of(head: Tree) -> tuple[Kind, ...] | None:
     """The kinds of the arguments that a head takes; ``None`` for what is no head."""
     if isinstance(head, str):
         return HEADS.get(head)
@@ -142,7 +142,7 @@ def _is_of(kind: Kind, x: Tree) -> bool:
     return bool(kind.family and called and x[1][:2] == ("at", kind.family))  # type: ignore[index]
 
 
-def _said(t: Tree) -> str:
+def _shortened(t: Tree) -> str:
     """A tree as text, cut to a length that fits a message."""
     said = show(t)
     return said if len(said) <= SHOWN else f"{said[:SHOWN]} …"

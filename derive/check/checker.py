@@ -24,11 +24,11 @@ from ..record.vocabulary import ANY_GROUP
 from . import calls, symbols
 from .arithmetic import EvaluationError
 from .assumed import Assumed, assumed
-from .differ import difference, size_of
+from .differ import difference, largest_degree
 from .introduced import unexplained
-from .needed import ORDER, unfounded, unsaid, untrue
-from .panel import LEAST, free, sizes, unsayable
-from .tried import SIZE, Tried, action_of
+from .needed import ORDER, false_hypothesis, missing_hypothesis, missing_mass_hypotheses
+from .panel import LEAST, fault_for_any_group, free, sizes
+from .tried import SIZE, TrialPoints, action_of
 from .used import unused
 
 LARGEST_DEGREE = 2**24
@@ -56,7 +56,7 @@ IMPOSSIBLE = (
 )
 """The exceptions that evaluating a record raises only if no walk has written it."""
 
-DIGITS = 10**6
+MOST_BITS = 10**6
 """The most bits of all numbers written in a claim together, its powers multiplied out."""
 
 
@@ -85,7 +85,7 @@ class RefusedError(Exception):
         self.verdict = verdict
 
 
-class Checker(Tried):
+class Checker(TrialPoints):
     """The checker of one record: exact models of its scopes, made once and shared by its steps."""
 
     def __init__(self, problem: Mapping[str, Any], seed: int | str | None = None):
@@ -99,7 +99,7 @@ class Checker(Tried):
         if step.scope != ANY_GROUP:
             return found
         for side in (equation.lhs, equation.rhs):
-            if reason := unsayable(side):
+            if reason := fault_for_any_group(side):
                 raise RecordError(reason)
         action = action_of(self.problem)
         _, grade = self.graded(free(action, LEAST), step, equation)
@@ -111,10 +111,10 @@ class Checker(Tried):
         degrees = [0, *(self.degree(step, e) for e in step.equations)]
         for g in self.groups(step.scope, driven=step.driven):
             env = self.counted(g, step)[1]
-            degrees += (size_of(x.of, env) for x in step.hypotheses)
-        return self.bounded(max(degrees))
+            degrees += (largest_degree(x.of, env) for x in step.hypotheses)
+        return self.checked_degree(max(degrees))
 
-    def bounded(self, degree: int) -> int:
+    def checked_degree(self, degree: int) -> int:
         """One more than the degree, for residues modulo the random prime that are equal by chance;
         ``RecordError`` for a degree above LARGEST_DEGREE."""
         if degree > LARGEST_DEGREE:
@@ -128,12 +128,12 @@ class Checker(Tried):
             groups = self.groups_for(step, equation)
             return max(self.graded(g, step, equation)[0] for g in groups)
         except (EvaluationError, RecordError) as error:
-            raise RefusedError(refused(step, equation, str(error))) from error
+            raise RefusedError(refusal(step, equation, str(error))) from error
 
     def check(self, step: Step) -> Verdict:
         """The verdict on one step; whatever is wrong with the step is in it, nothing is raised."""
         try:
-            bound = self.held(step)
+            bound = self.degree_if_true(step)
         except RefusedError as error:
             return error.verdict
         except (EvaluationError, RecordError, ZeroDivisionError) as error:
@@ -146,46 +146,46 @@ class Checker(Tried):
         groups = {g.name: 0 for e in step.equations for g in self.groups_for(step, e)}
         return Verdict(step.label, True, "", bound / SIZE, (len(step.equations), (*groups,)))
 
-    def held(self, step: Step) -> int:
+    def degree_if_true(self, step: Step) -> int:
         """The Schwartz–Zippel degree of a step whose claims all hold; ``RefusedError`` or another
         error where one does not."""
         at, affine = assumed(step), action_of(self.problem) == "affine"
         groups = self.groups(step.scope, driven=step.driven)
         for e in step.equations:
             if reason := ill_formed(e, at, affine=affine):
-                raise RefusedError(refused(step, e, reason))
+                raise RefusedError(refusal(step, e, reason))
         for x in (*(x.of for x in step.hypotheses), *(e.lhs for e in step.given)):
-            if reason := calls.wrong(x, affine=affine):
+            if reason := calls.first_fault(x, affine=affine):
                 raise RefusedError(Verdict(step.label, False, reason, 1.0))
         sides = (x for e in (*step.equations, *step.given) for x in (e.lhs, e.rhs))
-        if any(digits(x) > DIGITS for x in (*sides, *(x.of for x in step.hypotheses))):
+        if any(bit_count(x) > MOST_BITS for x in (*sides, *(x.of for x in step.hypotheses))):
             raise RecordError("a claim of powers of numbers that are too large")
         bound = self.bound(step)
-        self.suppose(step, groups, self.false)
+        self.refuse_hypotheses(step, groups, self.false_hypothesis_on)
         for e in step.equations:
             for g in self.groups_for(step, e):
                 if reason := difference(e, self.environment(g, step, SIZE, e)):
                     reason = self.example(g, step, e) or reason
-                    raise RefusedError(refused(step, e, reason, f" on {g.name}"))
-        self.suppose(step, groups, self.unsaid)
-        return self.bounded(bound + self.coincidence)
+                    raise RefusedError(refusal(step, e, reason, f" on {g.name}"))
+        self.refuse_hypotheses(step, groups, self.missing_hypothesis)
+        return self.checked_degree(bound + self.coincidence)
 
-    def suppose(
-        self, step: Step, groups: Iterable[Group], wrong: Callable[[Group, Step], str]
+    def refuse_hypotheses(
+        self, step: Step, groups: Iterable[Group], find_fault: Callable[[Group, Step], str]
     ) -> None:
-        """Raise ``RefusedError`` for the first fault that ``wrong`` finds in the hypotheses of a
-        step on these groups."""
-        for reason in (wrong(g, step) for g in groups):
+        """Raise ``RefusedError`` for the first fault that ``find_fault`` finds in the hypotheses of
+        a step on these groups."""
+        for reason in (find_fault(g, step) for g in groups):
             if reason:
                 raise RefusedError(Verdict(step.label, False, reason, 1.0))
 
-    def unsaid(self, g: Group, step: Step) -> str:
+    def missing_hypothesis(self, g: Group, step: Step) -> str:
         """A hypothesis that the equations of a step need and it does not make, in words; "" if
         none."""
         model, env = self.point(g, step)
-        return unsaid(step, self.problem, env, model)
+        return missing_hypothesis(step, self.problem, env, model)
 
-    def false(self, g: Group, step: Step) -> str:
+    def false_hypothesis_on(self, g: Group, step: Step) -> str:
         """A hypothesis of a step that does not hold on a group, in words; "" if none."""
         model, env = self.point(g, step)
         for e in step.given:
@@ -196,7 +196,7 @@ class Checker(Tried):
             ordered = [self.environment(g, step, size) for size in ORDERED]
         else:
             ordered = []
-        return untrue(step, self.problem, env, model, ordered)
+        return false_hypothesis(step, self.problem, env, model, ordered)
 
     def symbols(self, d: Derivation) -> Verdict:
         """The verdict on the symbols of a record: types, roles, defining equations, and no
@@ -204,7 +204,7 @@ class Checker(Tried):
         label = f"{d.name}.symbols"
         try:
             groups = {g.name: g for s in d.steps for g in self.groups(s.scope, driven=s.driven)}
-            reason = symbols.wrong(d, self.environments)
+            reason = symbols.first_fault(d, self.environments)
         except (EvaluationError, RecordError) as error:
             reason = str(error)
         except IMPOSSIBLE as error:
@@ -221,7 +221,7 @@ class Checker(Tried):
         return ""
 
 
-def refused(step: Step, equation: Equation, reason: str, where: str = "") -> Verdict:
+def refusal(step: Step, equation: Equation, reason: str, where: str = "") -> Verdict:
     """The verdict on a step that fails by one of its equations, which its reason quotes."""
     said = f"{show(equation.lhs)} = {show(equation.rhs)}"
     said = said if len(said) <= SHOWN else f"{said[:SHOWN]} …"
@@ -229,7 +229,7 @@ def refused(step: Step, equation: Equation, reason: str, where: str = "") -> Ver
     return Verdict(step.label, False, f"{place}: {reason}", 1.0)
 
 
-def digits(t: Tree) -> int:
+def bit_count(t: Tree) -> int:
     """About how many bits the numbers written in a tree have together, its powers multiplied
     out."""
     if isinstance(t, (int, Fraction)):
@@ -237,15 +237,15 @@ def digits(t: Tree) -> int:
     if not isinstance(t, tuple):
         return 0
     if t[0] == "pow":
-        return digits(t[1]) * abs(int(t[2]))
-    return sum(digits(x) for x in t[1:])
+        return bit_count(t[1]) * abs(int(t[2]))
+    return sum(bit_count(x) for x in t[1:])
 
 
 def ill_formed(equation: Equation, at: Assumed, *, affine: bool) -> str:
     """What is wrong with a head, argument, index or quantifier of an equation, in words; "" if
     nothing is."""
-    both = (calls.wrong(x, affine=affine) for x in (equation.lhs, equation.rhs))
-    return next(filter(None, both), "") or calls.wrong_quantifier(equation, at)
+    both = (calls.first_fault(x, affine=affine) for x in (equation.lhs, equation.rhs))
+    return next(filter(None, both), "") or calls.quantifier_fault(equation, at)
 
 
 def fresh_seed() -> int:
@@ -270,8 +270,13 @@ def verdicts(d: Derivation, seed: int | None = None) -> Iterator[Verdict]:
     digest = hashlib.sha256(to_json(d).encode("utf-8", "surrogatepass")).hexdigest()
     checker = Checker(d.problem, f"{fresh_seed() if seed is None else seed} {digest}")
     yield checker.symbols(d)
-    wanting = zip(unexplained(d.steps), unused(d.steps), unfounded(d.steps, d.problem), strict=True)
-    for verdict, (new, old, other) in zip(map(checker.check, d.steps), wanting, strict=True):
+    faults = zip(
+        unexplained(d.steps),
+        unused(d.steps),
+        missing_mass_hypotheses(d.steps, d.problem),
+        strict=True,
+    )
+    for verdict, (new, old, other) in zip(map(checker.check, d.steps), faults, strict=True):
         reason = UNEXPLAINED.format(new) if new else UNUSED.format(old) if old else other
         said = not reason or not verdict.holds
         yield verdict if said else Verdict(verdict.label, False, reason, 1.0)

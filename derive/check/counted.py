@@ -31,7 +31,7 @@ class Grade(NamedTuple):
     loops: int
 
 
-NONE = Grade(0, 0, 0)
+ZERO_GRADE = Grade(0, 0, 0)
 Factor = tuple[int, Grade]
 Powers = tuple[tuple[Factor, int], ...]
 
@@ -48,21 +48,21 @@ class Degree:
     @property
     def numerator(self) -> Grade:
         """The grade of the numerator multiplied out, named factors included."""
-        return _raised(self.num, ((f, -k) for f, k in self.den if k < 0))
+        return _times_powers(self.num, ((f, -k) for f, k in self.den if k < 0))
 
     @property
     def denominator(self) -> Grade:
         """The grade of the denominator multiplied out."""
-        return _raised(NONE, ((f, k) for f, k in self.den if k > 0))
+        return _times_powers(ZERO_GRADE, ((f, k) for f, k in self.den if k > 0))
 
     @property
-    def whole(self) -> int:
+    def total_degree(self) -> int:
         """The degree of numerator and denominator together: the probability that one of them
         vanishes at a random point is at most this over the size."""
         return self.numerator.degree + self.denominator.degree
 
 
-def _raised(g: Grade, powers: Iterable[tuple[Factor, int]]) -> Grade:
+def _times_powers(g: Grade, powers: Iterable[tuple[Factor, int]]) -> Grade:
     """The grade of a polynomial times powers of named ones."""
     for (_, own), k in powers:
         g = Grade(g[0] + k * own[0], g[1] + k * own[1], g[2] + k * own[2])
@@ -76,37 +76,37 @@ def _degree(num: Grade, den: Powers) -> Degree:
     return Degree(num, den)
 
 
-def _made(num: Grade, powers: dict[Factor, int]) -> Degree:
+def _degree_of(num: Grade, powers: dict[Factor, int]) -> Degree:
     """A Degree from its powers in any order, exponents 0 left out."""
     return _degree(num, tuple(sorted((f, k) for f, k in powers.items() if k)))
 
 
 @lru_cache(MEMO)
-def _times(a: Degree, b: Degree) -> Degree:
+def _degree_of_product(a: Degree, b: Degree) -> Degree:
     powers = dict(a.den)
     for f, k in b.den:
         powers[f] = powers.get(f, 0) + k
-    return _made(_raised(a.num, [((0, b.num), 1)]), powers)
+    return _degree_of(_times_powers(a.num, [((0, b.num), 1)]), powers)
 
 
 @lru_cache(MEMO)
-def _plus(a: Degree, b: Degree) -> Degree:
+def _degree_of_sum(a: Degree, b: Degree) -> Degree:
     if a is b:
         return a
     first, second = dict(a.den), dict(b.den)
     powers = {f: max(first.get(f, 0), second.get(f, 0)) for f in first | second}
     lifted = (
-        _raised(x.num, ((f, k - own.get(f, 0)) for f, k in powers.items()))
+        _times_powers(x.num, ((f, k - own.get(f, 0)) for f, k in powers.items()))
         for x, own in ((a, first), (b, second))
     )
-    return _made(Grade(*map(max, *lifted)), powers)
+    return _degree_of(Grade(*map(max, *lifted)), powers)
 
 
-CONSTANT = _degree(NONE, ())
+CONSTANT = _degree(ZERO_GRADE, ())
 _number = count(1)
 
 
-def _named(g: Grade) -> Factor:
+def _factor(g: Grade) -> Factor:
     """Another polynomial of this grade."""
     return next(_number), g
 
@@ -122,16 +122,16 @@ class Counted:
 
     def __add__(self, other: Any) -> Any:
         if isinstance(other, Counted):
-            return Counted(_plus(self.degree, other.degree))
+            return Counted(_degree_of_sum(self.degree, other.degree))
         if not isinstance(other, (int, Fraction)):
             return NotImplemented
-        return Counted(_plus(self.degree, CONSTANT)) if other else self
+        return Counted(_degree_of_sum(self.degree, CONSTANT)) if other else self
 
     __radd__ = __sub__ = __rsub__ = __add__
 
     def __mul__(self, other: Any) -> Any:
         if isinstance(other, Counted):
-            return Counted(_times(self.degree, other.degree))
+            return Counted(_degree_of_product(self.degree, other.degree))
         if not isinstance(other, (int, Fraction)):
             return NotImplemented
         return self if other else Fraction(0)
@@ -161,29 +161,29 @@ class Counted:
         """1 over this number, the same object each time."""
         if self._inverse is None:
             powers = {f: -k for f, k in self.degree.den}
-            powers[_named(self.degree.num)] = 1
-            self._inverse = Counted(_made(NONE, powers))
+            powers[_factor(self.degree.num)] = 1
+            self._inverse = Counted(_degree_of(ZERO_GRADE, powers))
         return self._inverse
 
     @staticmethod
     def solved(a: Matrix, b: Matrix) -> Matrix:
         """The n × m matrix x with a x = b, for a of size n, by Cramer's rule; as to indices, a⁻¹
         counts as a letter like a."""
-        left, right, size = joint(flatten(a)), joint(flatten(b)), len(a)
+        left, right, size = common_degree(flatten(a)), common_degree(flatten(b)), len(a)
         top, other = left.numerator, right.num
         powers = dict(right.den)
         for f, k in left.den:
             if k > 0:
                 powers[f] = powers.get(f, 0) - k
-        powers[_named(Grade(size * top.degree, 0, 0))] = 1
+        powers[_factor(Grade(size * top.degree, 0, 0))] = 1
         slots, loops = top.slots + other.slots, top.loops + other.loops
-        found = _made(Grade((size - 1) * top.degree + other.degree, slots, loops), powers)
+        found = _degree_of(Grade((size - 1) * top.degree + other.degree, slots, loops), powers)
         return tuple(tuple(Counted(found) for _ in b[0]) for _ in a)
 
 
-def joint(entries: Iterable[Any]) -> Degree:
+def common_degree(entries: Iterable[Any]) -> Degree:
     """The degree of several numbers brought to one common denominator."""
-    return reduce(_plus, degrees(entries), CONSTANT)
+    return reduce(_degree_of_sum, degrees(entries), CONSTANT)
 
 
 def degrees(entries: Iterable[Any]) -> Iterator[Degree]:
@@ -191,13 +191,13 @@ def degrees(entries: Iterable[Any]) -> Iterator[Degree]:
     return (x.degree if isinstance(x, Counted) else CONSTANT for x in entries)
 
 
-def letter(slots: int = 2, loops: int = 0) -> Counted:
+def indeterminate(slots: int = 2, loops: int = 0) -> Counted:
     """An indeterminate: an entry of a drawn tensor with ``slots`` indices; with ``loops``, a 1 that
     stands for so many traces of 1."""
     return Counted(_degree(Grade(int(not loops), slots, loops), ()))
 
 
-def indexed(x: Any, slots: int) -> Any:
+def with_slots(x: Any, slots: int) -> Any:
     """The number x as an entry of a tensor with ``slots`` indices, where it is a counted one; else
     as it is."""
     if not isinstance(x, Counted):
@@ -206,10 +206,10 @@ def indexed(x: Any, slots: int) -> Any:
     return Counted(_degree(Grade(top.degree, slots, top.loops), x.degree.den))
 
 
-class Degrees:
+class DegreeSource:
     """A source of indeterminates in the place of a random one: a model drawn from it is counted."""
 
     def randint(self, low: int, high: int) -> Counted:
         """A new entry of a matrix, whatever the range."""
         del low, high
-        return letter()
+        return indeterminate()

@@ -10,14 +10,14 @@ from typing import Any
 from ..language.rational import flatten
 from ..language.tree import Tree
 from ..record.record import Equation
-from .arithmetic import EvaluationError, is_matrix, shape, told
-from .counted import NONE, Degree, Grade, degrees, joint
+from .arithmetic import EvaluationError, describe_shapes, is_matrix, shape
+from .counted import ZERO_GRADE, Degree, Grade, common_degree, degrees
 from .evaluate import Environment, evaluate, free_indices, index_values
 
 MOST_INDICES = 2
 
 
-def everywhere(t: Tree, env: Environment) -> Iterator[Environment]:
+def index_bindings(t: Tree, env: Environment) -> Iterator[Environment]:
     """The environment with the free indices of a tree bound, once for each of their values."""
     free = sorted(free_indices(t))
     if len(free) > MOST_INDICES:
@@ -45,10 +45,10 @@ def _sides(equation: Equation, env: Environment) -> Iterator[tuple[Any, Any]]:
     """The values of both sides for each value of the free indices, of one shape, or one side the
     number 0; ``EvaluationError`` for other shapes."""
     trees = (equation.lhs, equation.rhs)
-    for there in everywhere(("add", *trees), env):
+    for there in index_bindings(("add", *trees), env):
         left, right = values = [evaluate(x, there) for x in trees]
         if shape(left) != shape(right) and 0 not in trees:
-            raise EvaluationError(f"the sides differ: {told(*map(shape, values))}")
+            raise EvaluationError(f"the sides differ: {describe_shapes(*map(shape, values))}")
         yield left, right
 
 
@@ -67,36 +67,38 @@ def _difference(a: Any, b: Any) -> str:
             row, column = divmod(k, len(whole[0])) if is_matrix(whole) else (0, 0)
             where = f" in entry ({row + 1}, {column + 1})" if is_matrix(whole) else ""
             numbers = isinstance(x, (int, Fraction)) and isinstance(y, (int, Fraction))
-            return f"the sides differ{where}" + (f": {brief(x)} and {brief(y)}" if numbers else "")
+            return f"the sides differ{where}" + (
+                f": {as_text(x)} and {as_text(y)}" if numbers else ""
+            )
     return ""
 
 
-def brief(x: Any) -> str:
+def as_text(x: Any) -> str:
     """A rational number as short text for a message: exact if that is short, else to six digits."""
     if Fraction(x).denominator < 10**6 and abs(x) < 10**9:
         return str(x)
     return f"{float(x):.6g}" if abs(x) < Fraction(10) ** 300 else "a large number"
 
 
-def graded(equation: Equation, env: Environment) -> tuple[int, Grade]:
+def claim_grade(equation: Equation, env: Environment) -> tuple[int, Grade]:
     """At a point in counted numbers: the degree of an equation, of numerators and denominators
     together, and the grade of its numerators, open indices closed in pairs."""
-    whole, top = 0, NONE
+    whole, top = 0, ZERO_GRADE
     for a, b in _sides(equation, env):
         pairs = zip(_entries(a), _entries(b), strict=True)
         if shape(a) != shape(b):
             pairs = itertools.product(_entries(a), _entries(b))  # type: ignore[assignment]
         open_ = sum(k > 1 for k in max(shape(a), shape(b)))
         open_ += len(free_indices(("add", equation.lhs, equation.rhs)))
-        for x in map(joint, pairs):
+        for x in map(common_degree, pairs):
             g = x.numerator
-            whole = max(whole, x.whole)
+            whole = max(whole, x.total_degree)
             top = Grade(*map(max, top, (g.degree, g.slots + open_, g.loops)))
     return whole, top
 
 
-def size_of(t: Tree, env: Environment) -> int:
+def largest_degree(t: Tree, env: Environment) -> int:
     """The largest degree of a value of a tree at a point in counted numbers."""
-    values = (evaluate(t, there) for there in everywhere(t, env))
+    values = (evaluate(t, there) for there in index_bindings(t, env))
     found: Iterator[Degree] = (d for x in values for d in degrees(_entries(x)))
-    return max((d.whole for d in found), default=0)
+    return max((d.total_degree for d in found), default=0)

@@ -10,9 +10,9 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.samplers import Source
 from ..language.rational import Matrix
-from .counted import Counted, Degrees, letter
+from .counted import Counted, DegreeSource, indeterminate
 from .evaluate import Environment
-from .opaque import Opaque
+from .opaque import ElementaryValues
 
 SPARE = 2
 """So many points more than are needed, where the problem leaves them open: no equation may hold by
@@ -44,16 +44,16 @@ class Draws:
         self.opaque, self.spare, self.n = opaque, 0 if few else SPARE, group.n
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
         self.parameters |= dict.fromkeys(zero, Fraction(0))
-        self.elementary = Opaque(lambda: self.draw(positive=True))
-        self.counted = isinstance(random, Degrees)
-        self.unit = letter(0, 1) if self.counted else Fraction(1)
+        self.elementary = ElementaryValues(lambda: self.draw(positive=True))
+        self.counted = isinstance(random, DegreeSource)
+        self.unit = indeterminate(0, 1) if self.counted else Fraction(1)
         self.pi = self.draw(positive=True) if pi is None else pi
 
     def draw(self, *, positive: bool = False, slots: int = 0) -> Any:
         """A random integer of the ring drawn from, ``positive`` from 1 on; ``slots``: counted as an
         entry of a tensor of so many indices."""
         x = Fraction(1) * self.random.randint(1 if positive else -self.size, self.size)
-        return letter(slots) if isinstance(x, Counted) else x
+        return indeterminate(slots) if isinstance(x, Counted) else x
 
     def place(self) -> tuple[Any, ...]:
         """A random point of space, n numbers."""

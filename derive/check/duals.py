@@ -34,19 +34,21 @@ def dual_values(model: Model) -> dict[str, Any]:
     values = {}
     for names, arms in zip(NAMES, (model.points, units), strict=True):
         for name, (at, velocity, mask) in zip(names, places, strict=True):
-            values[name] = part(_carried(model, at, _momenta(model, at, velocity), arms), mask)
+            values[name] = part(
+                _moment_in_body(model, at, _momenta(model, at, velocity), arms), mask
+            )
     for name, Pi in zip(SPINS, NAMES[0], strict=True):
         skew = q.minus(values[Pi], q.transposed(values[Pi]))
         values[name] = axial(skew) if model.group.turns_space else skew
-    return values | {"Φ": _push(model)}
+    return values | {"Φ": _force_on_algebra(model)}
 
 
-def _push(model: Model) -> Matrix:
+def _force_on_algebra(model: Model) -> Matrix:
     """Φ = Σ Ā(m v)(g⁻¹v)‾, from the variation of the metric, and the potential's forces: CfJ, or Σ
     ĀF r̄."""
-    own = _carried(model, model.g, _momenta(model, model.g, model.Z), model.moved(model.Z))
+    own = _moment_in_body(model, model.g, _momenta(model, model.g, model.Z), model.moved(model.Z))
     if model.group.affine:
-        return q.plus(own, _carried(model, model.g, model.forces, model.points))
+        return q.plus(own, _moment_in_body(model, model.g, model.forces, model.points))
     A = model.group.linear_part(model.g)
     C = q.times(q.transposed(A), A)
     return q.plus(own, q.times(q.times(C, model.gradient), model.moments[2]))
@@ -58,7 +60,9 @@ def _momenta(model: Model, g: Matrix, Z: Matrix) -> list[Vector]:
     return [tuple(m * x for x in v) for m, v in zip(model.masses, moved, strict=True)]
 
 
-def _carried(model: Model, g: Matrix, vectors: Sequence[Vector], arms: Sequence[Vector]) -> Matrix:
+def _moment_in_body(
+    model: Model, g: Matrix, vectors: Sequence[Vector], arms: Sequence[Vector]
+) -> Matrix:
     """Σ Āv x̄ over the points, n × k, for a vector v in space and an arm x of k numbers in the
     body."""
     n = model.n
@@ -86,15 +90,15 @@ def space_values(model: Model, acceleration: Matrix) -> dict[str, Any]:
         q.plus(nu, q.scaled(e, acceleration)),
     )
     return {
-        "ℓ": _turning(model, places, speeds),
-        "ℓ̇": _turning(model, places, forces),
+        "ℓ": _angular_momentum(model, places, speeds),
+        "ℓ̇": _angular_momentum(model, places, forces),
         "p": _resultant(model, speeds),
         "ṗ": _resultant(model, forces),
         "ḣ": part(varied, EPS),
     }
 
 
-def _turning(model: Model, places: list[Vector], vectors: list[Vector]) -> Matrix:
+def _angular_momentum(model: Model, places: list[Vector], vectors: list[Vector]) -> Matrix:
     """Σ m (v r̄ − r v̄), or in R³ turned about its axis Σ m r ∧ v."""
     span = range(model.n)
     pairs = list(zip(model.masses, places, vectors, strict=True))

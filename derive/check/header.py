@@ -29,7 +29,7 @@ def group_of(problem: Mapping[str, Any]) -> Group | None:
         if problem.get("n") != "any":
             raise RecordError(f"key 'n': {ANY_GROUP} moves the points of a space of any dimension")
         return None
-    found = _given(problem, name, basis) if IDENTIFIER.fullmatch(name) else _named(name, basis)
+    found = _stated(problem, name, basis) if IDENTIFIER.fullmatch(name) else _named(name, basis)
     homogeneous = len(found.factors) == 1
     if homogeneous != problem.get("homogeneous"):
         said = "an affine group kept as a linear one on (r, 1)"
@@ -55,7 +55,7 @@ def _named(name: str, basis: tuple[Any, ...]) -> Group:
     return named
 
 
-def _given(problem: Mapping[str, Any], name: str, basis: tuple[Any, ...]) -> Group:
+def _stated(problem: Mapping[str, Any], name: str, basis: tuple[Any, ...]) -> Group:
     """The group with the basis that the problem states; ``RecordError`` where that is no basis of a
     Lie algebra."""
     affine = bool(problem.get("homogeneous")) or problem.get("action") == "affine"

@@ -14,9 +14,9 @@ from ..language.tree import Tree
 @dataclass(frozen=True)
 class Kind:
     """What an argument of a function may be: one of the trees ``letters``; ``family``: or a member
-    of that family at a time, as r_i(t). ``said``: the same in words, for messages."""
+    of that family at a time, as r_i(t). ``description``: the same in words, for messages."""
 
-    said: str
+    description: str
     letters: tuple[Tree, ...]
     family: str = ""
 

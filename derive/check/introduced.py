@@ -23,13 +23,13 @@ FIRST = frozenset(_FIRST.split())
 indices, functions, what the problem gives."""
 
 
-def alone(t: Tree) -> set[str]:
+def lone_name(t: Tree) -> set[str]:
     """The name that is all of one side of an equation, also as j(ζ), a transpose, an inverse, an
     entry or a call; the empty set if there is none."""
     if isinstance(t, str):
         return {t}
     if isinstance(t, tuple) and t[0] in ("hat", "at", "call", "T", "inv", "entry"):
-        return alone(t[1])
+        return lone_name(t[1])
     return set()
 
 
@@ -37,7 +37,7 @@ def introduced(equation: Equation, known: set[str]) -> set[str]:
     """The names that an equation introduces when the names ``known`` are."""
     found, both = {*equation.exists}, (equation.lhs, equation.rhs)
     for side in both:
-        found |= alone(side)
+        found |= lone_name(side)
     unknown = {x for side in both for x in names(side)} - known - found
     pairing = any(isinstance(x, tuple) and x[0] in ("inner", "metric", "sum") for x in both)
     return found | unknown if pairing and len(unknown) == 1 else found
@@ -49,7 +49,7 @@ def unexplained(steps: Iterable[Step]) -> Iterator[str]:
     known = set(FIRST)
     for step in steps:
         here = {"λ"} if any("λ" in names(e.rhs) for e in step.given) else set()
-        used = dict.fromkeys(x for t in _supposed(step) for x in names(t))
+        used = dict.fromkeys(x for t in _hypothesis_trees(step) for x in names(t))
         for equation in step.equations:
             known |= introduced(equation, known)
             for side in (equation.lhs, equation.rhs):
@@ -57,7 +57,7 @@ def unexplained(steps: Iterable[Step]) -> Iterator[str]:
         yield next((x for x in used if x not in known | here), "")
 
 
-def _supposed(step: Step) -> Iterator[Tree]:
+def _hypothesis_trees(step: Step) -> Iterator[Tree]:
     """The trees of a step's hypotheses: both sides of what is given, and what properties are
     supposed of."""
     for e in step.given:
@@ -65,12 +65,12 @@ def _supposed(step: Step) -> Iterator[Tree]:
     yield from (x.of for x in step.hypotheses)
 
 
-Way = tuple[str, str]
+Usage = tuple[str, str]
 """A name and the position in which it stands: "value", "member" of a family, "function", or "moved"
 for r_i(t)."""
 
 
-def ways(t: Tree) -> Iterator[tuple[Way, tuple[Tree, ...]]]:
+def occurrences(t: Tree) -> Iterator[tuple[Usage, tuple[Tree, ...]]]:
     """The uses of names in a tree, each with the arguments where it is a function's; indices and
     parameters are none."""
     if isinstance(t, str):
@@ -87,46 +87,46 @@ def ways(t: Tree) -> Iterator[tuple[Way, tuple[Tree, ...]]]:
         yield (parts[0], "member"), ()
         parts = []
     for part in parts[:1] if op == "entry" else parts[op in ("sum", "fun") :]:
-        yield from ways(part)
+        yield from occurrences(part)
 
 
-def definitions(steps: Iterable[Step]) -> dict[Way, tuple[str, tuple[Tree, ...]]]:
+def definitions(steps: Iterable[Step]) -> dict[Usage, tuple[str, tuple[Tree, ...]]]:
     """Use of a name → the key of the equation that defines it, the first that says what it is, and
     the arguments there.
 
     What the walk starts from is defined only where it is the left side, alone.
     """
-    said: dict[Way, tuple[str, tuple[Tree, ...]]] = {}
-    known = {(name, way) for name in FIRST for way in ("value", "member", "function", "moved")}
+    defined: dict[Usage, tuple[str, tuple[Tree, ...]]] = {}
+    known = {(name, usage) for name in FIRST for usage in ("value", "member", "function", "moved")}
     known -= {(name, "value") for name in SUMS}
     for step in steps:
         for key, equation in zip(step.keys, step.equations, strict=True):
-            left, right = _stands(equation.lhs), _stands(equation.rhs)
-            there = {way for way, _ in ways(equation.rhs)}
-            for way, arguments in left:
-                if way not in there:
-                    said.setdefault(way, (key, arguments))
-            for way, arguments in right:
-                if way not in known and way[1] in ("value", "member"):
-                    said.setdefault(way, (key, arguments))
-            known |= {way for way, _ in (*left, *right)}
-            there |= {way for way, _ in ways(equation.lhs)}
+            left, right = _lone_usage(equation.lhs), _lone_usage(equation.rhs)
+            there = {usage for usage, _ in occurrences(equation.rhs)}
+            for usage, arguments in left:
+                if usage not in there:
+                    defined.setdefault(usage, (key, arguments))
+            for usage, arguments in right:
+                if usage not in known and usage[1] in ("value", "member"):
+                    defined.setdefault(usage, (key, arguments))
+            known |= {usage for usage, _ in (*left, *right)}
+            there |= {usage for usage, _ in occurrences(equation.lhs)}
             unknown = {x for x in there - known if x[1] in ("value", "member") and x[0] != "π"}
             if len(unknown) == 1 and _pairing(equation):
-                said |= dict.fromkeys(unknown, (key, ()))
+                defined |= dict.fromkeys(unknown, (key, ()))
                 known |= unknown
-    return said
+    return defined
 
 
 SUMS = ("m", "F")
 """Names of FIRST that stand for the members of a family; the plain name is defined as their sum."""
 
 
-def _stands(t: Tree) -> list[tuple[Way, tuple[Tree, ...]]]:
-    """The use of the name that :func:`alone` finds on a side, in a list; empty if there is none."""
+def _lone_usage(t: Tree) -> list[tuple[Usage, tuple[Tree, ...]]]:
+    """The use of the name that :func:`lone_name` finds on a side, in a list; empty if none."""
     while isinstance(t, tuple) and t[0] in ("hat", "T", "inv", "entry"):
         t = t[1]
-    return [*ways(t)][:1] if alone(t) else []
+    return [*occurrences(t)][:1] if lone_name(t) else []
 
 
 def _pairing(equation: Equation) -> bool:

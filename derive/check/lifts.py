@@ -25,7 +25,7 @@ def action_varied(model: Model) -> Any:
         raise EvaluationError("ϖ(X) is varied where X is the tangent of a lift")
     t, g, _ = model.family(model.first, model.motion)
     passing, velocity = derivative_in(t, EPS_PRIME), derivative_of(g, EPS_PRIME)
-    t, g = _now(t), tuple(tuple(map(_now, row)) for row in g)
+    t, g = _at_the_instant(t), tuple(tuple(map(_at_the_instant, row)) for row in g)
     return part(model.lagrangian(t, g, q.scaled(1 / passing, velocity)) * passing, EPS)
 
 
@@ -37,6 +37,6 @@ def form_rate(model: Model) -> Any:
     return part(momentum - model.energy(t, g, nu) * derivative_in(t, EPS), EPS_PRIME)
 
 
-def _now(x: Any) -> Nilpotent:
+def _at_the_instant(x: Any) -> Nilpotent:
     """A number at the instant itself: without its part in the parameter of d/dt."""
     return Nilpotent({k: v for k, v in Nilpotent.of(x).parts.items() if not k & EPS_PRIME})

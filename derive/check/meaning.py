@@ -35,21 +35,21 @@ class Names(Mapping[str, Any]):
     def __init__(self, model: Model):
         self.model = model
         self.known: Values = {}
-        self.left = [_times, _bodies, _group, _forces, _energies, spatial_values]
-        self.left += [_gradients, _motion, dual_values, place_values]
+        self.pending = [_times, _bodies, _group, _forces, _energies, spatial_values]
+        self.pending += [_gradients, _motion, dual_values, place_values]
 
     def __getitem__(self, name: str) -> Any:
-        while name not in self.known and self.left:
-            self._more()
+        while name not in self.known and self.pending:
+            self._compute_next()
         return self.known[name]
 
-    def _more(self) -> None:
-        self.known = self.left[0](self.model) | self.known
-        del self.left[0]
+    def _compute_next(self) -> None:
+        self.known = self.pending[0](self.model) | self.known
+        del self.pending[0]
 
     def __iter__(self) -> Iterator[str]:
-        while self.left:
-            self._more()
+        while self.pending:
+            self._compute_next()
         return iter(self.known)
 
     def __len__(self) -> int:

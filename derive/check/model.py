@@ -17,7 +17,7 @@ from ..algebra.groups import Group
 from ..algebra.samplers import Source
 from ..language import rational as q
 from ..language.rational import Matrix
-from .counted import indexed
+from .counted import with_slots
 from .exerted import RATE, AnyPotential, Exerted, damping_members
 from .nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, derivative_in, derivative_of, nilpotent, part
 from .point_masses import Body, Vector
@@ -66,7 +66,7 @@ class Model(Body):
         super().__init__(problem, group, random, size, opaque=opaque, pi=pi, few=few, zero=zero)
         self.driven, self.coasting, self.principal = driven, coasting, principal
         self.s = group.size
-        self.supposed: dict[Any, str] = {}
+        self.hypothesis_failures: dict[Any, str] = {}
         self._families: dict[tuple[int, int], tuple[Any, tuple[Any, Matrix, Matrix]]] = {}
         self.embody(principal=principal)
         self.exerted = Exerted({} if opaque else problem, group, self.blocks, self.expressions)
@@ -79,8 +79,10 @@ class Model(Body):
         )
         if still:
             time = Fraction(0) if "time" in still else self.second.time
-            self.second = replace(self.second, time=time, xi=self._still(still, self.second.xi))
-        self.vector = None if along is None else self._vector(along, contracted=contracted)
+            self.second = replace(
+                self.second, time=time, xi=self._without_parts(still, self.second.xi)
+            )
+        self.vector = None if along is None else self._motion_like(along, contracted=contracted)
         if contracted and self.vector is not None:
             self.first = self.vector
         pulled = driven and bool(self.given("covector"))
@@ -94,7 +96,7 @@ class Model(Body):
             Fraction(1) if i < once else self.draw(positive=True) for i in range(len(self.points))
         ]
 
-    def _still(self, parts: Collection[str], xi: Matrix) -> Matrix:
+    def _without_parts(self, parts: Collection[str], xi: Matrix) -> Matrix:
         """A random element of 𝔤 of which these parts vanish; ``xi`` itself where the group has no
         such part."""
         basis = self.group.basis
@@ -111,10 +113,10 @@ class Model(Body):
             total = q.plus(total, q.scaled(self.draw(), self.group.hat(weights)))
         return total
 
-    def _vector(self, along: Collection[str], *, contracted: bool) -> Direction:
+    def _motion_like(self, along: Collection[str], *, contracted: bool) -> Direction:
         """X, with δt = 1: its velocity is that of the motion in the parts ``along``, and any in the
         others."""
-        free = self._still(along, self.first.xi if contracted else self.algebra())
+        free = self._without_parts(along, self.first.xi if contracted else self.algebra())
         xi = q.plus(self.Z, free) if along else free
         return Direction(Fraction(1), xi, self.algebra())
 
@@ -258,7 +260,7 @@ class Model(Body):
     @cached_property
     def metric(self) -> Matrix:
         """The d × d matrix of the kinetic energy's metric at g on the basis."""
-        return self.gram([q.times(self.g, e) for e in self.group.basis])
+        return self.metric_matrix([q.times(self.g, e) for e in self.group.basis])
 
     def solve_metric(self, covector: list[Fraction]) -> Matrix:
         """The element of 𝔤, as a matrix, that the kinetic metric at g sends to a covector, given by
@@ -268,12 +270,12 @@ class Model(Body):
             raise ZeroDivisionError("the kinetic metric is singular at this point")
         return self.group.hat([row[0] for row in solution])
 
-    def letters(self, x: Matrix, slots: int) -> Matrix:
+    def as_indeterminates(self, x: Matrix, slots: int) -> Matrix:
         """A matrix that was found by solving, as one of new indeterminates of ``slots`` indices
         where any forces act: what they are is then as free as it is."""
         if not self.opaque:
             return x
-        return tuple(tuple(indexed(y, slots) for y in row) for row in x)
+        return tuple(tuple(with_slots(y, slots) for y in row) for row in x)
 
     @cached_property
     def acceleration(self) -> Matrix:
@@ -283,15 +285,15 @@ class Model(Body):
         centripetal = q.times(self.g, q.times(self.Z, self.Z))
         covector = []
         for u, e in zip(self.input, self.group.basis, strict=True):
-            frame = q.times(self.g, e)
-            covector.append(u - self.work(frame) - self.pairing(centripetal, frame))
-        return self.letters(self.solve_metric(covector), RATE)
+            displacement = q.times(self.g, e)
+            covector.append(u - self.work(displacement) - self.pairing(centripetal, displacement))
+        return self.as_indeterminates(self.solve_metric(covector), RATE)
 
     @cached_property
     def gradient(self) -> Matrix:
         """f in 𝔤, with ⟨A f, A ξ⟩ = −dŨ(A ξ) for every ξ: the metric sends A f to −dŨ."""
         covector = [-self.work(q.times(self.g, e)) for e in self.group.basis]
-        return self.letters(self.solve_metric(covector), 2 * RATE)
+        return self.as_indeterminates(self.solve_metric(covector), 2 * RATE)
 
     @property
     def motion(self) -> Direction:

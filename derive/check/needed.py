@@ -23,7 +23,7 @@ from ..record.record import Equation, RecordError, Step
 from ..record.vocabulary import ANY_GROUP
 from .arithmetic import EvaluationError, is_matrix, scalar
 from .assumed import ALONG
-from .differ import everywhere
+from .differ import index_bindings
 from .evaluate import Environment, evaluate
 from .heads import FORMS
 from .model import Model
@@ -60,7 +60,7 @@ def _number(t: Tree) -> bool:
     return not isinstance(t, str) or t == "π"
 
 
-def tells_velocity(equation: Equation) -> bool:
+def states_velocity(equation: Equation) -> bool:
     """Does the equation say what part of the velocity of X is, as δA(X) = α?"""
     lhs, rhs = equation.lhs, equation.rhs
     about = isinstance(lhs, tuple) and lhs[0] == "call" and lhs[2:] == ("X",)
@@ -70,7 +70,7 @@ def tells_velocity(equation: Equation) -> bool:
 def needs_metric(step: Step) -> bool:
     """Does a step conclude what the velocity of X is, or introduce F̃ by its pairing with all
     δA?"""
-    if any(tells_velocity(e) and e in step.given for e in step.equations):
+    if any(states_velocity(e) and e in step.given for e in step.equations):
         return True
     return any("δA" in e.for_all and "F̃" in {*names(e.lhs)} for e in step.equations)
 
@@ -82,17 +82,17 @@ def needs_moments(step: Step, problem: Mapping[str, Any]) -> bool:
     return introduced and not masses.any_sign(problem)
 
 
-def unfounded(steps: Iterable[Step], problem: Mapping[str, Any]) -> Iterator[str]:
+def missing_mass_hypotheses(steps: Iterable[Step], problem: Mapping[str, Any]) -> Iterator[str]:
     """For each step the hypothesis on the masses that it lacks where the record first introduces
     L̃, in words; "" if none."""
     known = False
     for step in steps:
         here = not known and any(e.lhs == "L̃" for e in step.equations)
         known = known or here
-        yield _unfounded(step, problem) if here else ""
+        yield _missing_mass_hypothesis(step, problem) if here else ""
 
 
-def _unfounded(step: Step, problem: Mapping[str, Any]) -> str:
+def _missing_mass_hypothesis(step: Step, problem: Mapping[str, Any]) -> str:
     """The hypothesis on the masses that a step introducing L̃ lacks, in words; "" if none."""
     with suppress(RecordError):  # its own verdict says so
         if MASSES not in step.hypotheses and not masses.any_sign(problem):
@@ -102,7 +102,7 @@ def _unfounded(step: Step, problem: Mapping[str, Any]) -> str:
     return ""
 
 
-def untrue(
+def false_hypothesis(
     step: Step,
     problem: Mapping[str, Any],
     env: Environment,
@@ -118,27 +118,31 @@ def untrue(
         return masses.SUPPOSED
     for x in step.hypotheses:
         places = ordered if x.property in ORDER else [env]
-        if why := next(filter(None, (_false(x, at, model) for at in places)), ""):
-            return f"the hypothesis that {_said(x.of)} is {x.property} is {why}"
+        if why := next(filter(None, (_failure(x, at, model) for at in places)), ""):
+            return f"the hypothesis that {_shortened(x.of)} is {x.property} is {why}"
     return ""
 
 
-def unsaid(step: Step, problem: Mapping[str, Any], env: Environment, model: Model) -> str:
+def missing_hypothesis(
+    step: Step, problem: Mapping[str, Any], env: Environment, model: Model
+) -> str:
     """A hypothesis that the equations of a step need and it does not make, in words; "" if none."""
     inverted = {x.of for x in step.hypotheses if x.property in INVERSE}
     for e in step.equations:
         for t in (*denominators(e.lhs), *denominators(e.rhs)):
             if t not in inverted:
-                return f"it divides by {_said(t)}, and does not suppose that this has an inverse"
+                return (
+                    f"it divides by {_shortened(t)}, and does not suppose that this has an inverse"
+                )
     for x in MOMENTS if needs_moments(step, problem) else ():
         if x not in step.hypotheses:
-            return f"it does not suppose that {_said(x.of)} is {x.property}"
+            return f"it does not suppose that {_shortened(x.of)} is {x.property}"
     if needs_metric(step) and not any(_is_metric(x, env, model) for x in step.hypotheses):
         return f"it does not suppose that {REGULAR}"
     return ""
 
 
-def _said(t: Tree) -> str:
+def _shortened(t: Tree) -> str:
     """A tree as text, cut to a length that fits a message."""
     return show(t)[:SHOWN]
 
@@ -146,20 +150,20 @@ def _said(t: Tree) -> str:
 # -- at a point ----------------------------------------------------------------------------------
 
 
-def _false(x: Hypothesis, env: Environment, model: Model) -> str:
+def _failure(x: Hypothesis, env: Environment, model: Model) -> str:
     """Why a hypothesis does not hold at a point, in words; "" where it does. Tried once for a
     model: many steps make the same."""
-    if x not in model.supposed:
-        model.supposed[x] = _tried(x, env, model)
-    return model.supposed[x]
+    if x not in model.hypothesis_failures:
+        model.hypothesis_failures[x] = _find_failure(x, env, model)
+    return model.hypothesis_failures[x]
 
 
-def _tried(x: Hypothesis, env: Environment, model: Model) -> str:
+def _find_failure(x: Hypothesis, env: Environment, model: Model) -> str:
     """Why a hypothesis does not hold at a point, in words; "" where it does."""
     if x.property == "nondegenerate":
-        if not all({*letters} & {*names(x.of)} for letters in _letters(x.space)):
+        if not all({*letters} & {*names(x.of)} for letters in _variation_names(x.space)):
             return f"of no form in two variations on {x.space}"
-        if gram(x.of, env, model) != model.metric:
+        if form_matrix(x.of, env, model) != model.metric:
             return "of another form than the metric of the kinetic energy"
         return "" if q.rank(model.metric) == model.group.dimension else "false"
     for value in values(x.of, env):
@@ -184,19 +188,19 @@ HOLDS: dict[str, Callable[[Matrix], bool]] = {
 
 def values(t: Tree, env: Environment) -> Iterator[Any]:
     """The value of a tree for each value of its free indices."""
-    return (evaluate(t, there) for there in everywhere(t, env))
+    return (evaluate(t, there) for there in index_bindings(t, env))
 
 
-def _letters(space: str) -> tuple[tuple[str, ...], ...]:
+def _variation_names(space: str) -> tuple[tuple[str, ...], ...]:
     """The names of the first variation on a space, "T_g G" or "𝔤", and those of the second."""
     chosen = slice(0, 1) if space == "T_g G" else slice(1, None)
     return tuple(tuple(x for form in forms[chosen] for x in form) for forms in FORMS)
 
 
-def gram(form: Tree, env: Environment, model: Model) -> Matrix:
+def form_matrix(form: Tree, env: Environment, model: Model) -> Matrix:
     """The d × d matrix of a bilinear form in two variations on the basis, ``form``(E_a, E_b);
     ``EvaluationError`` where its values are no numbers."""
-    first, second = ([_varied(e, model, k) for e in model.group.basis] for k in (0, 1))
+    first, second = ([_variation_values(e, model, k) for e in model.group.basis] for k in (0, 1))
 
     def value(a: Mapping[str, Any], b: Mapping[str, Any]) -> Any:
         there = replace(env, names=ChainMap({**a, **b}, env.names))  # type: ignore[arg-type]
@@ -208,7 +212,7 @@ def gram(form: Tree, env: Environment, model: Model) -> Matrix:
     return rows
 
 
-def _varied(e: Matrix, model: Model, which: int) -> dict[str, Matrix]:
+def _variation_values(e: Matrix, model: Model, which: int) -> dict[str, Matrix]:
     """The values of the names of the first (``which`` 0) or the second variation along e in 𝔤."""
     space, *algebra = FORMS[which]
     found: dict[str, Matrix] = {}

@@ -33,7 +33,7 @@ ALGEBRAIC: dict[str, Callable[[Any, Any], Derivatives]] = {
 """Function → its first three derivatives at x, in x and in y, the value of the function there."""
 
 
-class Opaque:
+class ElementaryValues:
     """The elementary functions at one model, ``f(name, x)``: y is drawn once for each function and
     argument."""
 
@@ -55,7 +55,7 @@ class Opaque:
     @property
     def largest(self) -> int:
         """The largest degree of an argument in counted numbers."""
-        return max((x.degree.whole for x in self.counted), default=0)
+        return max((x.degree.total_degree for x in self.counted), default=0)
 
     def derivatives(self, name: str, x: Any) -> Derivatives:
         """The first three derivatives of a function at x; ``EvaluationError`` for an unknown

@@ -53,7 +53,7 @@ serves them all."""
 
 
 @cache
-def panel(action: str) -> tuple[Group, ...]:
+def groups_with_relations(action: str) -> tuple[Group, ...]:
     """The groups with relations on which a claim for an action, "linear" or "affine", is tried."""
     return tuple(make() for make in PANELS[action])
 
@@ -84,12 +84,12 @@ one."""
 OF_ONE_SPACE = ("det", "hat", "wedge", "matrix", "row", "par", "fun")
 
 
-def unsayable(t: Tree) -> str:
+def fault_for_any_group(t: Tree) -> str:
     """Why a tree is no word in the letters of any group, for any n, in words; "" if it is one."""
-    return next((f"{show(x)[:80]} is of no group but a given one" for x in _foreign(t)), "")
+    return next((f"{show(x)[:80]} is of no group but a given one" for x in _non_words(t)), "")
 
 
-def _foreign(t: Tree) -> Iterator[Tree]:
+def _non_words(t: Tree) -> Iterator[Tree]:
     """The subtrees of a tree that are no words in the letters of any group."""
     if not isinstance(t, tuple):
         return
@@ -97,7 +97,7 @@ def _foreign(t: Tree) -> Iterator[Tree]:
     if t[0] in OF_ONE_SPACE or numbered or not all(map(_word, inverted(t))):
         yield t
     for x in t[1:]:
-        yield from _foreign(x)
+        yield from _non_words(x)
 
 
 def inverted(t: tuple[Any, ...]) -> tuple[Tree, ...]:

@@ -75,9 +75,9 @@ class Body(Draws):
             Fraction(0),
         )
 
-    def gram(self, frames: list[Matrix]) -> Matrix:
+    def metric_matrix(self, tangents: list[Matrix]) -> Matrix:
         """The matrix of the kinetic metric on tangent matrices at g."""
-        moved = [[x for v in self.moved(a) for x in v] for a in frames]
+        moved = [[x for v in self.moved(a) for x in v] for a in tangents]
         weights = [m for m in self.masses for _ in range(self.n)]
         rows = [[m * x for m, x in zip(weights, u, strict=True)] for u in moved]
         return q.times(q.matrix(rows), q.transposed(q.matrix(moved)))

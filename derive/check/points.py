@@ -11,7 +11,7 @@ from ..language.rational import Matrix
 from ..record.record import decode
 from .draws import Draws
 from .evaluate import evaluate
-from .realised import moments_of, points_with, without
+from .realised import moments_of, realising_points, remaining_moments
 
 Vector = tuple[Any, ...]
 Points = tuple[list[Fraction], list[Vector], list[int]]
@@ -23,16 +23,18 @@ def points_of(model: Draws) -> Points:
     points for what it does not list."""
     body = model.problem.get("body", {})
     listed = [] if model.opaque else model.problem.get("places", [])
-    places, blocks = _placed(model, listed)
+    places, blocks = _listed_places(model, listed)
     empty = [Fraction(0)] * len(places)
     if body.get("kind") in ("points", "given") and not model.opaque:
         listed = body.get("points", [])
         own = [evaluate(decode(p["mass"], "mass"), model.expressions) for p in listed]
-        points, first = _placed(model, listed)
-        masses, rest = _cloud(model, *moments_of(model)) if body["kind"] == "given" else ([], [])
+        points, first = _listed_places(model, listed)
+        masses, rest = (
+            _points_with_moments(model, *moments_of(model)) if body["kind"] == "given" else ([], [])
+        )
         blocks = first + blocks + [1] * len(rest)
         return own + empty + masses, points + places + rest, blocks
-    masses, points = _anywhere(model, model.n + 1 + model.spare)
+    masses, points = _random_points(model, model.n + 1 + model.spare)
     return empty + masses, places + points, blocks + [1] * len(points)
 
 
@@ -49,32 +51,34 @@ def principal_points(model: Draws) -> Points:
     """The points of a model with random m, c and diagonal J: as many random points as the problem
     lists, and those that complete the moments."""
     n, count = model.n, len(model.problem.get("body", {}).get("points", []))
-    masses, points = _anywhere(model, count)
-    places, blocks = _placed(model, model.problem.get("places", []))
+    masses, points = _random_points(model, count)
+    places, blocks = _listed_places(model, model.problem.get("places", []))
     m, c = model.draw(positive=True), model.place()
     J = q.matrix(
         [[model.draw(slots=2) if i == j else Fraction(0) for j in range(n)] for i in range(n)]
     )
-    more, rest = _cloud(model, *without(masses, points, m, c, J))
+    more, rest = _points_with_moments(model, *remaining_moments(masses, points, m, c, J))
     empty = [Fraction(0)] * len(places)
     return masses + empty + more, points + places + rest, [1] * count + blocks + [1] * len(rest)
 
 
-def _cloud(model: Draws, m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list[Vector]]:
+def _points_with_moments(
+    model: Draws, m: Fraction, c: Vector, J: Matrix
+) -> tuple[list[Fraction], list[Vector]]:
     """Points with the moments m, c, J, some of them random: no equation may rest on more than these
     moments."""
-    masses, points = _anywhere(model, model.spare)
-    more, rest = points_with(*without(masses, points, m, c, J))
+    masses, points = _random_points(model, model.spare)
+    more, rest = realising_points(*remaining_moments(masses, points, m, c, J))
     return masses + more, points + rest
 
 
-def _anywhere(model: Draws, count: int) -> tuple[list[Fraction], list[Vector]]:
+def _random_points(model: Draws, count: int) -> tuple[list[Fraction], list[Vector]]:
     """So many random points: their masses, and their places."""
     masses = [model.draw(positive=True) for _ in range(count)]
     return masses, [model.place() for _ in range(count)]
 
 
-def _placed(model: Draws, listed: list[Mapping[str, Any]]) -> tuple[list[Vector], list[int]]:
+def _listed_places(model: Draws, listed: list[Mapping[str, Any]]) -> tuple[list[Vector], list[int]]:
     """The places that the problem lists, each in the coordinates of its block of a product, and the
     blocks."""
     places, blocks = [], []

@@ -22,7 +22,7 @@ from .slices import slice_moments
 Vector = tuple[Any, ...]
 
 
-def points_with(m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list[Vector]]:
+def realising_points(m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list[Vector]]:
     """Masses and places of points with the moments m, c, J; a mass may be negative.
     ``ZeroDivisionError`` for m = 0 or a missing pivot."""
     if m == 0:
@@ -31,14 +31,14 @@ def points_with(m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list
     column = tuple((x,) for x in c)
     central = q.minus(J, q.scaled(1 / m, q.times(column, q.transposed(column))))
     masses, points = [], []
-    for weight, direction in squares(central):
+    for weight, direction in ldl_terms(central):
         for sign in (1, -1):
             masses.append(weight / 2)
             points.append(tuple(x + sign * y for x, y in zip(s, direction, strict=True)))
     return [*masses, m - sum(masses, Fraction(0))], [*points, s]
 
 
-def without(
+def remaining_moments(
     masses: Iterable[Fraction], points: Iterable[Vector], m: Fraction, c: Vector, J: Matrix
 ) -> tuple[Fraction, Vector, Matrix]:
     """The moments m, c, J less those of some point masses."""
@@ -49,7 +49,7 @@ def without(
     return m, c, J
 
 
-def squares(a: Matrix) -> list[tuple[Any, Vector]]:
+def ldl_terms(a: Matrix) -> list[tuple[Any, Vector]]:
     """A symmetric matrix as Σ d_k l_k l̄_k, in pairs (d_k, l_k); ``ZeroDivisionError`` where a
     pivot is missing."""
     found = []
@@ -76,21 +76,23 @@ def moments_of(model: Draws) -> tuple[Fraction, Vector, Matrix]:
     m, c, J = (_value(model, body["given"][key]) for key in ("m", "c", "J"))
     if not body["solids"]:
         return m, c, J
-    solids = sliced(model, body["solids"])
+    solids = solid_moments(model, body["solids"])
     listed = body.get("points", [])
     own = [_value(model, p["mass"]) for p in listed]
-    left = without(own, [_value(model, p["at"]) for p in listed], m, c, J)
+    left = remaining_moments(own, [_value(model, p["at"]) for p in listed], m, c, J)
     if left != solids and not model.counted:
         raise RecordError("body: the given moments are not those of its solids")
     return solids
 
 
-def sliced(model: Draws, solids: Iterable[Mapping[str, Any]]) -> tuple[Fraction, Vector, Matrix]:
+def solid_moments(
+    model: Draws, solids: Iterable[Mapping[str, Any]]
+) -> tuple[Fraction, Vector, Matrix]:
     """The moments m, c, J of solids in the body's frame, each by slices."""
     m, c = Fraction(0), tuple([Fraction(0)] * 3)
     J = q.scaled(Fraction(0), q.identity(3))
     for solid in solids:
-        mass, first, second = _solid(model, solid)
+        mass, first, second = _moments_of_solid(model, solid)
         m, J = m + mass, q.plus(J, second)
         c = tuple(x + y for x, y in zip(c, first, strict=True))
     return m, c, J
@@ -103,7 +105,7 @@ def _value(model: Draws, x: Any) -> Any:
     return evaluate(decode(x, "body"), model.expressions)
 
 
-def _solid(model: Draws, data: Mapping[str, Any]) -> tuple[Fraction, Vector, Matrix]:
+def _moments_of_solid(model: Draws, data: Mapping[str, Any]) -> tuple[Fraction, Vector, Matrix]:
     """The moments m, c, J of one solid in the body's frame: those of its own frame, turned by R and
     shifted by s."""
 

@@ -19,15 +19,17 @@ ROUNDS = 40
 SMALL = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37)
 
 
-def prime(random: Random) -> int:
+def random_prime(random: Random) -> int:
     """A random prime of :data:`BITS` bits."""
     while True:
         n = random.getrandbits(BITS) | 1 | 1 << (BITS - 1)
-        if all(n % p for p in SMALL) and all(_passes(n, random) for _ in range(ROUNDS)):
+        if all(n % p for p in SMALL) and all(
+            _passes_miller_rabin(n, random) for _ in range(ROUNDS)
+        ):
             return n
 
 
-def _passes(n: int, random: Random) -> bool:
+def _passes_miller_rabin(n: int, random: Random) -> bool:
     """Does n pass Miller and Rabin's test for one random base? A composite does once in four."""
     odd, twos = n - 1, 0
     while not odd & 1:
@@ -123,7 +125,7 @@ class Residue:
         return hash(self.n)
 
 
-class Residues:
+class ResidueSource:
     """A source of residues in the place of a random one: a model drawn from it is computed modulo
     p."""
 

@@ -17,7 +17,7 @@ from .arithmetic import EvaluationError
 
 Sizes = Mapping[str, Any]
 Row = Sequence[Fraction]
-Found = tuple[Fraction, tuple[Fraction, ...], q.Matrix]
+SolidMoments = tuple[Fraction, tuple[Fraction, ...], q.Matrix]
 
 ZERO, ONE, SPAN = Fraction(0), Fraction(1), range(3)
 SIMPSON = ((-ONE / 2, ONE / 6), (ZERO, ONE * 4 / 6), (ONE / 2, ONE / 6))
@@ -30,7 +30,7 @@ NODES = tuple(
 weights in sixtieths."""
 
 
-def slice_moments(kind: str, sizes: Sizes, pi: Fraction) -> Found:
+def slice_moments(kind: str, sizes: Sizes, pi: Fraction) -> SolidMoments:
     """V, ∫ r dV (3 entries) and ∫ r r̄ dV (3 × 3) of a solid in its own frame.
 
     The sizes are fractions, in tuples as the kind has them; a mesh has ``vertices``, and ``faces``
@@ -38,7 +38,7 @@ def slice_moments(kind: str, sizes: Sizes, pi: Fraction) -> Found:
     """
     try:
         exact = {k: x if k == "faces" else _fractions(x) for k, x in sizes.items()}
-        return ROADS[kind](exact, _fractions(pi))
+        return MOMENTS[kind](exact, _fractions(pi))
     except (LookupError, TypeError, ValueError, ArithmeticError) as error:
         raise EvaluationError(f"no moments of {kind[:40]!r} of such sizes: {error}") from error
 
@@ -56,7 +56,7 @@ def _integral(p: Row, ends: Row) -> Fraction:
     return sum((x * (high**k - low**k) / k for k, x in enumerate(p, 1)), ZERO)
 
 
-def _stack(a: Fraction, b: Fraction, square: Row, ends: Row, pi: Fraction) -> Found:
+def _ellipses(a: Fraction, b: Fraction, square: Row, ends: Row, pi: Fraction) -> SolidMoments:
     """The moments of a solid whose slice at z is an ellipse of semi-axes a s and b s; ``square``:
     s² as a polynomial in z.
 
@@ -72,44 +72,44 @@ def _stack(a: Fraction, b: Fraction, square: Row, ends: Row, pi: Fraction) -> Fo
     return along[0], (ZERO, ZERO, along[1]), second
 
 
-def _ellipsoid(axes: Row, pi: Fraction) -> Found:
+def _ellipsoid(axes: Row, pi: Fraction) -> SolidMoments:
     a, b, c = axes
-    return _stack(a, b, (ONE, ZERO, -1 / c**2), (-c, c), pi)
+    return _ellipses(a, b, (ONE, ZERO, -1 / c**2), (-c, c), pi)
 
 
-def _cylinder(radius: Fraction, height: Fraction, pi: Fraction) -> Found:
-    return _stack(radius, radius, (ONE,), (-height / 2, height / 2), pi)
+def _cylinder(radius: Fraction, height: Fraction, pi: Fraction) -> SolidMoments:
+    return _ellipses(radius, radius, (ONE,), (-height / 2, height / 2), pi)
 
 
-def _cone(radius: Fraction, height: Fraction, pi: Fraction) -> Found:
-    return _stack(radius, radius, (ONE, -2 / height, 1 / height**2), (ZERO, height), pi)
+def _cone(radius: Fraction, height: Fraction, pi: Fraction) -> SolidMoments:
+    return _ellipses(radius, radius, (ONE, -2 / height, 1 / height**2), (ZERO, height), pi)
 
 
-def _hollow_ball(ends: Row, pi: Fraction) -> Found:
+def _hollow_ball(ends: Row, pi: Fraction) -> SolidMoments:
     """The moments of a ball with a hole, by shells of area 4π r², on which the mean of x² is
     r²/3."""
     volume, square = (_integral((ZERO,) * k + (4 * pi,), ends) for k in (2, 4))
     return volume, (ZERO,) * 3, q.scaled(square / 3, q.identity(3))
 
 
-def _box(sides: Row) -> Found:
+def _box(sides: Row) -> SolidMoments:
     """The moments of a box, by Simpson's rule in each direction."""
     a, b, c = sides
     cube = product(SIMPSON, repeat=3)
     nodes = (((i * a, j * b, k * c), u * v * w) for (i, u), (j, v), (k, w) in cube)
-    return _weighted([(a * b * c * weight, r) for r, weight in nodes])
+    return _quadrature([(a * b * c * weight, r) for r, weight in nodes])
 
 
-def _tetrahedron(corners: Sequence[Row]) -> Found:
+def _tetrahedron(corners: Sequence[Row]) -> SolidMoments:
     """The moments of a tetrahedron, by weights V/20 at the vertices and 16 V/20 at their mean,
     exact for quadratics."""
     a, b, c = ([v[i] - corners[0][i] for i in SPAN] for v in corners[1:])
     volume = abs(sum(x * y for x, y in zip(a, _cross(b, c), strict=True))) / 6
     mean = tuple(sum(x, ZERO) / 4 for x in zip(*corners, strict=True))
-    return _weighted([*((volume / 20, v) for v in corners), (volume * 16 / 20, mean)])
+    return _quadrature([*((volume / 20, v) for v in corners), (volume * 16 / 20, mean)])
 
 
-def _weighted(points: Sequence[tuple[Fraction, Row]]) -> Found:
+def _quadrature(points: Sequence[tuple[Fraction, Row]]) -> SolidMoments:
     """The moments Σ w, Σ w r, Σ w r r̄ of weighted nodes."""
     first = (sum((w * r[i] for w, r in points), ZERO) for i in SPAN)
     second = ((sum((w * r[i] * r[j] for w, r in points), ZERO) for j in SPAN) for i in SPAN)
@@ -120,7 +120,7 @@ def _cross(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
     return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in SPAN]
 
 
-def _mesh(points: Sequence[Row], faces: Sequence[Sequence[int]]) -> Found:
+def _mesh(points: Sequence[Row], faces: Sequence[Sequence[int]]) -> SolidMoments:
     """The moments of a closed mesh, as the flux through its faces of fields of divergence 1, r_i
     and r_i r_j, in whole numbers.
 
@@ -148,7 +148,7 @@ def _mesh(points: Sequence[Row], faces: Sequence[Sequence[int]]) -> Found:
     return Fraction(1, scale[1]) * volume, center, square
 
 
-ROADS: dict[str, Callable[[Sizes, Fraction], Found]] = {
+MOMENTS: dict[str, Callable[[Sizes, Fraction], SolidMoments]] = {
     "ball": lambda s, pi: _ellipsoid((s["radius"],) * 3, pi),
     "ellipsoid": lambda s, pi: _ellipsoid(s["semi_axes"], pi),
     "box": lambda s, _: _box(s["sides"]),

@@ -36,12 +36,12 @@ class Solved:
         ]
 
     @cached_property
-    def elements(self) -> list[Matrix]:
+    def centred_basis(self) -> list[Matrix]:
         """A basis of the linear parts of 𝔤, each element with the translation that keeps the centre
         in place (matrices of the group's size)."""
         count = len(self.group.linear_basis)
         if self.group.centred:
-            back = q.minus(q.identity(self.model.n), centres(self.model))
+            back = q.minus(q.identity(self.model.n), centre_matrix(self.model))
             return [q.times(e, back) for e in self.group.basis]
         if not self.group.free_translations:
             return list(self.group.basis)
@@ -54,7 +54,7 @@ class Solved:
             found.append((*rows, (Fraction(0),) * (n + 1)))
         return found
 
-    def gathered(self, vectors: list[Vector]) -> Matrix:
+    def moment_in_body(self, vectors: list[Vector]) -> Matrix:
         """Ā Σ v_i ρ̄_i, the moment in the body of vectors v_i in space at the points, ρ_i the
         arms."""
         span = range(self.model.n)
@@ -64,21 +64,21 @@ class Solved:
         )
         return q.times(q.transposed(self.group.linear_part(self.model.g)), total)
 
-    def inertia_of(self, rate: Matrix) -> Matrix:
+    def moment_of_inertia_forces(self, rate: Matrix) -> Matrix:
         """The moment Ā Σ m_i a_i ρ̄_i of the masses times their accelerations, for g⁻¹g̈ =
         ``rate``."""
         moved = self.model.moved(q.times(self.model.g, rate))
         weighted = [tuple(m * x for x in v) for m, v in zip(self.model.masses, moved, strict=True)]
-        return self.gathered(weighted)
+        return self.moment_in_body(weighted)
 
     @cached_property
-    def applied(self) -> Matrix:
+    def applied_moment(self) -> Matrix:
         """The moment in the body, about the centre, of the potential's forces and of all inputs and
         damping."""
         forces = zip(self.model.forces, self.model.given_forces, strict=True)
         total = [tuple(x + y for x, y in zip(f, g, strict=True)) for f, g in forces]
         read = self.covector_matrix
-        linear = q.plus(self.gathered(total), self.group.linear_part(read))
+        linear = q.plus(self.moment_in_body(total), self.group.linear_part(read))
         if not self.group.affine:
             return linear
         arm = tuple((read[i][-1],) for i in range(self.model.n))
@@ -96,7 +96,7 @@ class Solved:
         return total
 
 
-def centres(model: Model) -> Matrix:
+def centre_matrix(model: Model) -> Matrix:
     """The matrix S of a product of groups H ⋉ Rⁿ: the centre of mass of each factor in the last
     column of its block."""
     total = q.scaled(Fraction(0), q.identity(model.n))
@@ -113,12 +113,12 @@ def centres(model: Model) -> Matrix:
 def centred_values(model: Model) -> Values:
     """The values of S and of c_c, J_c, Z_c, moments and velocity about the centres of mass of the
     factors of a product."""
-    S = centres(model)
+    S = centre_matrix(model)
     back = q.minus(q.identity(model.n), S)
     columns = [q.times(back, tuple((x,) for x in r)) for r in model.points]
-    seen = [*zip(model.masses, columns, strict=True)]
+    weighted_places = [*zip(model.masses, columns, strict=True)]
     first, second = q.scaled(Fraction(0), columns[0]), q.scaled(Fraction(0), S)
-    for m, r in seen:
+    for m, r in weighted_places:
         first = q.plus(first, q.scaled(m, r))
         second = q.plus(second, q.scaled(m, q.times(r, q.transposed(r))))
     return {"S": S, "c_c": first, "J_c": second, "Z_c": q.plus(model.Z, q.times(model.Z, S))}
@@ -128,29 +128,29 @@ def solved_values(model: Model) -> Values:
     """The values of N_c, r_c, w_c, B, M, β, ψ, Λ and θ, as far as the group has them."""
     group, Z, Z_dot = model.group, model.Z, model.acceleration
     s = Solved(model)
-    values: Values = {"N_c": s.applied}
+    values: Values = {"N_c": s.applied_moment}
     if group.affine:
         m, c, _ = model.moments
         centre = tuple(x / m for (x,) in c)
         values["r_c"] = tuple((x,) for x in centre)
         values["w_c"] = q.times(Z, model.homogeneous(centre))[: model.n]
-    values["B"] = q.minus(s.applied, s.inertia_of(q.times(Z, Z)))
-    frames = [q.times(model.g, e) for e in s.elements]
-    values["M"] = model.gram(frames)
+    values["B"] = q.minus(s.applied_moment, s.moment_of_inertia_forces(q.times(Z, Z)))
+    tangents = [q.times(model.g, e) for e in s.centred_basis]
+    values["M"] = model.metric_matrix(tangents)
     convective = q.times(model.g, q.times(Z, Z))
     values["β"] = tuple(
         (load(model, e) - model.pairing(convective, x),)
-        for e, x in zip(s.elements, frames, strict=True)
+        for e, x in zip(s.centred_basis, tangents, strict=True)
     )
     if group.centred:
-        rate = q.plus(Z_dot, q.times(Z_dot, centres(model)))
+        rate = q.plus(Z_dot, q.times(Z_dot, centre_matrix(model)))
         values["ψ"] = tuple((x,) for x in group.nearest(rate))
     normal = group.normal_space_of_linear_parts
     if len(normal) == 1:
-        left = q.minus(s.inertia_of(q.plus(Z_dot, q.times(Z, Z))), s.applied)
+        left = q.minus(s.moment_of_inertia_forces(q.plus(Z_dot, q.times(Z, Z))), s.applied_moment)
         direction = group.normal_direction
         values["Λ"] = direction
-        values["θ"] = _paired(left, direction) / _paired(direction, direction)
+        values["θ"] = _trace_product(left, direction) / _trace_product(direction, direction)
     return values
 
 
@@ -160,6 +160,6 @@ def load(model: Model, e: Matrix) -> Fraction:
     return sum((u * x for u, x in pushed), Fraction(0)) - model.work(q.times(model.g, e))
 
 
-def _paired(a: Matrix, b: Matrix) -> Any:
+def _trace_product(a: Matrix, b: Matrix) -> Any:
     """Tr a b̄."""
     return q.trace(q.times(a, q.transposed(b)))

@@ -38,8 +38,8 @@ def spatial_values(model: Model) -> Values:
         values["f_u"] = tuple((x,) for x in model.covector[3:])
     m, c, _ = model.moments
     centre = tuple(x[0] / m for x in c)
-    values["I"] = _tensor(model, (Fraction(0),) * 3)
-    values["I_c"] = _tensor(model, centre)
+    values["I"] = _inertia_tensor(model, (Fraction(0),) * 3)
+    values["I_c"] = _inertia_tensor(model, centre)
     if model.principal:  # else the diagonal of I is not its eigenvalues
         values["λ"] = tuple((values["I"][i][i],) for i in range(3))
     return values
@@ -50,7 +50,7 @@ def axial(x: Matrix) -> Matrix:
     return ((x[2][1],), (x[0][2],), (x[1][0],))
 
 
-def _tensor(model: Model, origin: tuple[Fraction, ...]) -> Matrix:
+def _inertia_tensor(model: Model, origin: tuple[Fraction, ...]) -> Matrix:
     """Σ m_i (|r|² 1 − r r̄) about an origin: the classical tensor of inertia."""
     span = range(3)
     total = [[Fraction(0)] * 3 for _ in span]

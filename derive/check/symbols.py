@@ -21,7 +21,7 @@ from . import calls
 from .arithmetic import is_matrix
 from .evaluate import Environment, evaluate, free_indices
 from .heads import AT_ONE_TIME, AXIS, COUNTED, HEADS, MOTION, VARIATION
-from .introduced import Way, definitions, ways
+from .introduced import Usage, definitions, occurrences
 
 RATES = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "ṗ_b", "ℓ̇_b")
 """The names whose value is one on X: rates along the motion."""
@@ -38,8 +38,8 @@ VARIATIONS |= dict.fromkeys(AT_ONE_TIME.letters, "variation at one time")
 CONSTANTS = ("π",)
 """Names that need no symbol."""
 
-Given = tuple[tuple[Equation, ...], bool]
-Places = Mapping[tuple[str, Given], list[tuple[Group, Environment]]]
+Hypotheses = tuple[tuple[Equation, ...], bool]
+Places = Mapping[tuple[str, Hypotheses], list[tuple[Group, Environment]]]
 Points = Callable[[Step], Iterable[tuple[Group, Environment]]]
 Arguments = tuple[Tree, ...]
 
@@ -49,50 +49,50 @@ class Seen:
     """The uses of a name in one position: for each tuple of arguments, in each scope, the
     hypotheses of one such step. ``general``: is it used in the text about any group?"""
 
-    where: dict[Arguments, dict[str, Given]] = field(default_factory=dict)
+    where: dict[Arguments, dict[str, Hypotheses]] = field(default_factory=dict)
     general: bool = False
 
 
-def wrong(d: Derivation, points: Points) -> str:
+def first_fault(d: Derivation, points: Points) -> str:
     """What is wrong with the symbols of a record, in words; "" if nothing is. ``points``: the
     groups and exact points where the checker tries a step."""
     listed, names = [s.name for s in d.symbols], dict.fromkeys(name for name, _ in used(d.steps))
-    for told, names_so in (
+    for fault, faulty in (
         ("is declared twice", (x for k, x in enumerate(listed) if x in listed[:k])),
         ("is used, and not declared", (x for x in names if x not in listed)),
         ("is declared, and no step uses it", (x for x in listed if x not in names)),
     ):
-        if name := next(names_so, ""):
-            return f"{name} {told}"
+        if name := next(faulty, ""):
+            return f"{name} {fault}"
     affine = d.problem.get("action") == "affine"
-    heads = (_call(way, x) for way, seen in used(d.steps).items() for x in seen.where)
-    if reason := next(filter(None, (calls.wrong(t, affine=affine) for t in heads)), ""):
+    heads = (_call(usage, x) for usage, seen in used(d.steps).items() for x in seen.where)
+    if reason := next(filter(None, (calls.first_fault(t, affine=affine) for t in heads)), ""):
         return reason  # nothing else is evaluated
-    return next(filter(None, map(judge(d.steps, points).wrong, d.symbols)), "")
+    return next(filter(None, map(judge(d.steps, points).fault_of, d.symbols)), "")
 
 
 def judge(steps: Sequence[Step], points: Points) -> Judge:
     """The :class:`Judge` of the symbols of some steps; ``points``: where the checker tries a
     step."""
-    kinds = {(s.scope, _given(s)): s for s in steps}
+    kinds = {(s.scope, _hypotheses(s)): s for s in steps}
     places = {kind: [*points(step)] for kind, step in kinds.items()}
     return Judge(used(steps), definitions(steps), places)
 
 
-def _given(step: Step) -> Given:
+def _hypotheses(step: Step) -> Hypotheses:
     """The hypotheses under which a step holds: what is given, and whether inputs act."""
     return step.given, step.driven
 
 
-def used(steps: Iterable[Step]) -> dict[Way, Seen]:
+def used(steps: Iterable[Step]) -> dict[Usage, Seen]:
     """All uses of names in some steps, with the arguments, scopes and hypotheses of each."""
-    found: dict[Way, Seen] = {}
+    found: dict[Usage, Seen] = {}
     for step in steps:
         for side in (x for e in step.equations for x in (e.lhs, e.rhs)):
-            for way, arguments in ways(side):
-                if way[0] not in CONSTANTS:
-                    here = found.setdefault(way, Seen())
-                    here.where.setdefault(arguments, {})[step.scope] = _given(step)
+            for usage, arguments in occurrences(side):
+                if usage[0] not in CONSTANTS:
+                    here = found.setdefault(usage, Seen())
+                    here.where.setdefault(arguments, {})[step.scope] = _hypotheses(step)
                     here.general |= step.scope == ANY_GROUP
     return found
 
@@ -100,71 +100,73 @@ def used(steps: Iterable[Step]) -> dict[Way, Seen]:
 @dataclass(frozen=True)
 class Judge:
     """What the steps do with names: where they use them (``seen``), which equation defines them
-    (``said``), at which points they are tried (``places``)."""
+    (``defined``), at which points they are tried (``places``)."""
 
-    seen: Mapping[Way, Seen]
-    said: Mapping[Way, tuple[str, Arguments]]
+    seen: Mapping[Usage, Seen]
+    defined: Mapping[Usage, tuple[str, Arguments]]
     places: Places
     memo: dict[tuple[int, Tree], list[Any]] = field(default_factory=dict)
 
-    def wrong(self, symbol: Symbol) -> str:
+    def fault_of(self, symbol: Symbol) -> str:
         """What is wrong with a declared symbol, in words; "" if nothing is."""
         name, uses = symbol.name, symbol.uses
-        here = {way for x, way in self.seen if x == name}
-        declared = {way_of(use.type) for use in uses}
+        here = {position for x, position in self.seen if x == name}
+        declared = {position_of(use.type) for use in uses}
         if here != declared:
             return f"{name} is used as a {_list(here)}, and declared as a {_list(declared)}"
         for k, use in enumerate(uses):
             if any(x.type == use.type for x in uses[:k]):
                 return f"{name} is declared twice as the same"
-            if reason := self.use(name, use):
+            if reason := self.fault_of_use(name, use):
                 return f"{name}: {reason}"
-        return next(filter(None, (self.left(name, way, uses) for way in sorted(here))), "")
+        return next(filter(None, (self.uncovered(name, x, uses) for x in sorted(here))), "")
 
-    def use(self, name: str, use: Use) -> str:
+    def fault_of_use(self, name: str, use: Use) -> str:
         """What is wrong with one declared use of a name: its type, its defining equation or its
         role; "" if nothing is."""
-        way = (name, way_of(use.type))
-        if not [*self.taken(way, use.type)]:
-            return f"type {said(use.type)} is not that of its values"
-        key, arguments = self.said.get(way, ("", ()))
-        key = key if self.fits(way, use.type, arguments) else ""
+        usage = (name, position_of(use.type))
+        if not [*self.arguments_of_type(usage, use.type)]:
+            return f"type {type_text(use.type)} is not that of its values"
+        key, arguments = self.defined.get(usage, ("", ()))
+        key = key if self.fits(usage, use.type, arguments) else ""
         if use.defined != key:
             wanted, found = (x or "no equation" for x in (key, use.defined))
             return f"{wanted} says first what it is, not {found:.60}"
-        role = _role(way, use.type, key)
+        role = _role(usage, use.type, key)
         return "" if use.role == role else f"its role is {role!r}, not {use.role!r}"
 
-    def left(self, name: str, way: str, uses: Iterable[Use]) -> str:
+    def uncovered(self, name: str, position: str, uses: Iterable[Use]) -> str:
         """The first use of a name that none of its declared types covers, in words; "" if there is
         none."""
-        kept = {x for use in uses for x in self.taken((name, way), use.type)}
-        over = [x for x in self.seen[name, way].where if x not in kept]
-        return f"{show(_call((name, way), over[0]))} has none of its types" if over else ""
+        kept = {x for use in uses for x in self.arguments_of_type((name, position), use.type)}
+        over = [x for x in self.seen[name, position].where if x not in kept]
+        return f"{show(_call((name, position), over[0]))} has none of its types" if over else ""
 
-    def taken(self, way: Way, type_: Type) -> Iterator[Arguments]:
+    def arguments_of_type(self, usage: Usage, type_: Type) -> Iterator[Arguments]:
         """The tuples of arguments at which a type is that of a name in some position; () for what
         is no function."""
-        return (x for x in self.seen[way].where if self.fits(way, type_, x))
+        return (x for x in self.seen[usage].where if self.fits(usage, type_, x))
 
-    def fits(self, way: Way, type_: Type, arguments: Arguments) -> bool:
+    def fits(self, usage: Usage, type_: Type, arguments: Arguments) -> bool:
         """Is a type that of a name in some position, at these arguments where it is a function?"""
-        name, how = way
-        if how != way_of(type_) or arguments not in self.seen[way].where:
+        name, position = usage
+        if position != position_of(type_) or arguments not in self.seen[usage].where:
             return False
-        if how in ("member", "moved"):
+        if position in ("member", "moved"):
             if type_[1] != INDEX.get(COUNTED.get(name, "")):
                 return False
             type_ = type_[2]
-        kinds = type_[1:] if how in ("function", "moved") else (type_,)
-        trees = (*arguments, _call(way, arguments))
-        where, general = self.seen[way].where[arguments], self.seen[way].general
+        kinds = type_[1:] if position in ("function", "moved") else (type_,)
+        trees = (*arguments, _call(usage, arguments))
+        where, general = self.seen[usage].where[arguments], self.seen[usage].general
         return len(kinds) == len(trees) and all(
-            x == 0 or self.right(kind, x, where, general)
+            x == 0 or self.is_narrowest(kind, x, where, general)
             for kind, x in zip(kinds, trees, strict=True)
         )
 
-    def right(self, type_: Type, t: Tree, where: Mapping[str, Given], general: bool) -> bool:
+    def is_narrowest(
+        self, type_: Type, t: Tree, where: Mapping[str, Hypotheses], general: bool
+    ) -> bool:
         """Is it the narrowest type of a tree's values at all points where it occurs? Its shape is
         the same under any hypotheses."""
         if isinstance(t, str) and t in VARIATIONS:
@@ -188,7 +190,7 @@ class Judge:
         return self.memo[key]
 
 
-def way_of(type_: Type) -> str:
+def position_of(type_: Type) -> str:
     """The position in which a name of a type stands in equations: value, member, function or
     moved."""
     match type_:
@@ -201,11 +203,11 @@ def way_of(type_: Type) -> str:
     return "value"
 
 
-def _role(way: Way, type_: Type, key: str) -> str:
+def _role(usage: Usage, type_: Type, key: str) -> str:
     """The role that the steps give a name in some position; ``key``: of the equation that defines
     it, or ""."""
-    name, how = way
-    if how in ("function", "moved"):
+    name, position = usage
+    if position in ("function", "moved"):
         return "value on X" if HEADS.get(name) == (MOTION,) else "function"
     if name in RATES:
         return "value on X"
@@ -214,11 +216,11 @@ def _role(way: Way, type_: Type, key: str) -> str:
     return "definition" if key else "letter"
 
 
-def _call(way: Way, arguments: Arguments) -> Tree:
+def _call(usage: Usage, arguments: Arguments) -> Tree:
     """The tree in which a use stands in equations, with i for an index."""
-    name, how = way
-    head: Tree = ("at", name, "i") if how in ("member", "moved") else name
-    return ("call", head, *arguments) if how in ("function", "moved") else head
+    name, position = usage
+    head: Tree = ("at", name, "i") if position in ("member", "moved") else name
+    return ("call", head, *arguments) if position in ("function", "moved") else head
 
 
 def values(t: Tree, env: Environment) -> list[Any]:
@@ -271,7 +273,7 @@ def _in_algebra(x: Any, g: Group) -> bool:
     return q.rank((*rows, q.flatten(x))) == len(rows)
 
 
-def said(type_: Type) -> str:
+def type_text(type_: Type) -> str:
     """A type as text for a message, cut to a length."""
     words = type_ if isinstance(type_, str) else f"[{', '.join(map(str, type_))}]"
     return f"{words:.60}"

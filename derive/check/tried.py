@@ -12,14 +12,14 @@ from ..algebra.samplers import Source
 from ..record.record import Equation, RecordError, Step
 from ..record.vocabulary import ANY_GROUP
 from .assumed import Assumed, assumed
-from .counted import Degrees, Grade
-from .differ import graded
+from .counted import DegreeSource, Grade
+from .differ import claim_grade
 from .evaluate import Environment
 from .header import group_of
 from .meaning import environment
 from .model import Model
-from .panel import PANELS, panel
-from .residue import Residues, prime
+from .panel import PANELS, groups_with_relations
+from .residue import ResidueSource, random_prime
 
 SIZE = 2**128
 """The random integers of a point are of at most this absolute value."""
@@ -35,7 +35,7 @@ def action_of(problem: Mapping[str, Any]) -> str:
     return str(action)
 
 
-def modelled(
+def model_where(
     problem: Mapping[str, Any], g: Group, source: Source, at: Assumed, size: int, *, opaque: bool
 ) -> Model:
     """A random model at which the hypotheses of a step hold."""
@@ -54,7 +54,7 @@ def modelled(
     )
 
 
-class Tried:
+class TrialPoints:
     """The points of one record: exact ones, and beside each one in degrees alone."""
 
     def __init__(self, problem: Mapping[str, Any], seed: int | str):
@@ -65,22 +65,22 @@ class Tried:
     def groups(self, scope: str, *, driven: bool = False) -> tuple[Group, ...]:
         """The groups on which a step of this scope, with inputs (``driven``) or without, is tried;
         ``RecordError`` for a scope that is neither any group nor the problem's."""
-        own = self._own
+        own = self._problem_group
         if scope == ANY_GROUP:
             if driven:
                 raise RecordError("an input is of a problem, not of any group")
-            return panel(action_of(self.problem))
+            return groups_with_relations(action_of(self.problem))
         if own is None or scope != own.name:
             raise RecordError(f"scope {scope!r} is neither {ANY_GROUP!r} nor the problem's group")
         return (own,)
 
     @cached_property
-    def _own(self) -> Group | None:
+    def _problem_group(self) -> Group | None:
         return group_of(self.problem)
 
     @cached_property
     def _prime(self) -> int:
-        return prime(Random(f"{self.seed} prime"))
+        return random_prime(Random(f"{self.seed} prime"))
 
     def environment(
         self, g: Group, step: Step, size: int = SIZE, equation: Equation | None = None
@@ -105,9 +105,9 @@ class Tried:
         at, opaque = assumed(step, equation), step.scope == ANY_GROUP
         key = g.name + step.scope, at, size
         if key not in self._places:
-            random = Random(f"{self.seed} {g.name} {step.scope} {at.said} {size}")
-            source = Residues(random, self._prime) if opaque and size == SIZE else random
-            model = modelled(self.problem, g, source, at, size, opaque=opaque)
+            random = Random(f"{self.seed} {g.name} {step.scope} {at.as_text} {size}")
+            source = ResidueSource(random, self._prime) if opaque and size == SIZE else random
+            model = model_where(self.problem, g, source, at, size, opaque=opaque)
             self._places[key] = model, environment(model)
         return self._places[key]
 
@@ -117,7 +117,7 @@ class Tried:
         opaque = step.scope == ANY_GROUP
         known, key = _COUNTED if opaque else self._counted, (g.name, at)
         if key not in known:
-            model = modelled(self.problem, g, Degrees(), at, SIZE, opaque=opaque)
+            model = model_where(self.problem, g, DegreeSource(), at, SIZE, opaque=opaque)
             known[key] = model, environment(model)
         return known[key]
 
@@ -126,9 +126,9 @@ class Tried:
         key = g.name, assumed(step, equation), equation
         known = _GRADED if step.scope == ANY_GROUP else {}
         if key not in known:
-            if len(known) > MOST:
+            if len(known) > MOST_GRADES:
                 known.clear()
-            known[key] = graded(equation, self.counted(g, step, equation)[1])
+            known[key] = claim_grade(equation, self.counted(g, step, equation)[1])
         return known[key]
 
     @property
@@ -140,7 +140,7 @@ class Tried:
         return distinct**2 * largest
 
 
-MOST = 10_000
+MOST_GRADES = 10_000
 _COUNTED: dict[tuple[str, Assumed], Place] = {}
 _GRADED: dict[tuple[str, Assumed, Equation], tuple[int, Grade]] = {}
 """Points and degrees for any group, the same for all records."""

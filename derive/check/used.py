@@ -19,17 +19,17 @@ MEMBERS = frozenset(f"{x}_" for x in ("m", "r", "v", "F", "E", "f_u"))
 def unused(steps: Iterable[Step]) -> Iterator[str]:
     """For each step a name that an earlier step has, but none of the steps that it uses; "" if
     there is none."""
-    spoken: dict[str, set[str]] = {}
+    mentions: dict[str, set[str]] = {}
     known: set[str] = set()
     for step in steps:
-        here = {x for e in step.equations for side in (e.lhs, e.rhs) for x in spoken_of(side)}
-        told = set().union(*(spoken.get(x, ()) for x in step.uses))
-        yield next(iter(sorted((here & known) - told)), "")
-        spoken[step.label] = here
+        here = {x for e in step.equations for side in (e.lhs, e.rhs) for x in mentioned(side)}
+        mentioned_before = set().union(*(mentions.get(x, ()) for x in step.uses))
+        yield next(iter(sorted((here & known) - mentioned_before)), "")
+        mentions[step.label] = here
         known |= here
 
 
-def spoken_of(t: Tree) -> Iterator[str]:
+def mentioned(t: Tree) -> Iterator[str]:
     """The names in a tree but for those that the walk starts from; dϖ counts as ϖ, and a member m_i
     as ``m_``."""
     if isinstance(t, str):
@@ -40,4 +40,4 @@ def spoken_of(t: Tree) -> Iterator[str]:
             yield f"{t[1]}_"
     elif isinstance(t, tuple) and t[0] != "par":
         for part in t[1:]:
-            yield from spoken_of(part)
+            yield from mentioned(part)

@@ -17,12 +17,12 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.samplers import Sampler, Source, affine, by_cayley
 from ..check.arithmetic import EvaluationError
-from ..check.counted import Degree, Degrees, degrees
-from ..check.differ import size_of
+from ..check.counted import Degree, DegreeSource, degrees
+from ..check.differ import largest_degree
 from ..check.evaluate import Environment, evaluate
 from ..check.meaning import environment
 from ..check.model import Model
-from ..check.tried import Tried
+from ..check.tried import TrialPoints
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..record.record import Derivation, Equation, RecordError
@@ -57,7 +57,7 @@ class Claims:
         self.record, self.size = d, size
         self._points: dict[tuple[str, tuple[str, ...]], Point] = {}
         self.scope = str(d.problem.get("group"))
-        (group,) = Tried(d.problem, 0).groups(self.scope)
+        (group,) = TrialPoints(d.problem, 0).groups(self.scope)
         if chart.attitude == "quaternion":
             group = replace(group, sampler=squares(group))
         self.group, self.state = group, State(group.stated, chart)
@@ -140,12 +140,14 @@ class Claims:
     def degree(self) -> int:
         """A bound on the degree of what is computed from the record, as a function of the draws."""
         env = environment(self._counted)
-        return (self.group.size + 1) * sum(size_of(e.rhs, env) for e in self.equations.values())
+        return (self.group.size + 1) * sum(
+            largest_degree(e.rhs, env) for e in self.equations.values()
+        )
 
     @cached_property
     def _counted(self) -> Model:
         """A point of which the degrees alone are known."""
-        return Model(self.record.problem, self.group, Degrees(), self.size, driven=self.driven)
+        return Model(self.record.problem, self.group, DegreeSource(), self.size, driven=self.driven)
 
     @property
     def entry_degree(self) -> tuple[int, int]:

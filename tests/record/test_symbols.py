@@ -66,7 +66,7 @@ def read(data):
 def refused(name, changed):
     """Is one symbol of a record not read, or what it says not held?"""
     d = read({**data(name), "symbols": [changed], "steps": data(name)["steps"][:1]})
-    reason = judge(name).wrong(d.symbols[0]) if d else "not read"
+    reason = judge(name).fault_of(d.symbols[0]) if d else "not read"
     assert "\n" not in reason
     return bool(reason)
 

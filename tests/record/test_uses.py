@@ -7,7 +7,7 @@ import pytest
 from derive import pipeline
 from derive.algebra.words import Expr
 from derive.check.checker import UNUSED, check
-from derive.check.used import spoken_of, unused
+from derive.check.used import mentioned, unused
 from derive.record.record import Equation
 from derive.walk.chapter import Draft
 from derive.walk.failure import WalkError
@@ -127,7 +127,7 @@ def test_names_come_from_what_is_used(name):
 
 
 def _names(step):
-    return (x for e in step.equations for side in (e.lhs, e.rhs) for x in spoken_of(side))
+    return (x for e in step.equations for side in (e.lhs, e.rhs) for x in mentioned(side))
 
 
 def _verdict(d, k, uses):

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from derive.check.introduced import unexplained
-from derive.check.needed import unfounded
+from derive.check.needed import missing_mass_hypotheses
 
 
 def without_a_hypothesis(step):
@@ -34,5 +34,5 @@ def without_a_quantifier(step):
 def held(d, step, checker):
     """Does the record hold with this step in the place of the one of its label?"""
     steps = [step if s.label == step.label else s for s in d.steps]
-    known = not any(unexplained(steps)) and not any(unfounded(steps, d.problem))
+    known = not any(unexplained(steps)) and not any(missing_mass_hypotheses(steps, d.problem))
     return known and checker.check(step).holds
