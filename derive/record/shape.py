@@ -1,4 +1,5 @@
-"""Is the problem of a record what the checker and the views expect?  Types and references alone.
+"""The form of a record's problem, as the checker and the views need it: types of values and
+references alone.
 
 A record is read from strangers; what passes here has a value or is refused by name in the checker,
 and can be drawn.
@@ -33,15 +34,16 @@ SIZES = {
     "mesh": ("vertices", "faces"),
 }
 LONGEST = 16
-"""Entries of a vector, rows of a matrix."""
+"""The most entries of a vector, and the most rows of a matrix."""
 
 
 class ShapeError(ValueError):
-    """What is wrong, and under which key."""
+    """A problem of another form: the message says under which key, and what is wrong."""
 
 
 def problem_shape(data: Mapping[str, Any], tree: Callable[[Any, str], Tree]) -> None:
-    """``ShapeError`` for a problem of another form; ``tree`` reads an operator tree."""
+    """``ShapeError`` where the problem of a record has not the form that is expected; ``tree``
+    reads an operator tree."""
     _Shape(data, tree).problem()
 
 
@@ -63,7 +65,7 @@ def tree_shape(t: tuple[Any, ...]) -> str:
 
 
 def deepest(data: Any) -> int:
-    """How deep lists and objects are in one another; without recursion."""
+    """How many lists and objects lie in one another at most; found without recursion."""
     level, inside = 0, [data]
     while inside := [
         x
@@ -81,7 +83,7 @@ class _Shape:
         self.points = 0
 
     def problem(self) -> None:
-        """Key by key."""
+        """Check the whole problem, key by key."""
         data = self.data
         for key in ("title", "group"):
             self.text(self.at(data, key, str, key), key)
@@ -119,7 +121,7 @@ class _Shape:
     # -- the parts ---------------------------------------------------------------------------
 
     def parameter(self, about: Any, where: str) -> None:
-        """{ default, unit, meaning }."""
+        """Check a parameter, an object with default, unit and meaning."""
         default = self.at(about, "default", object, where)
         number = isinstance(default, (int, float)) and not isinstance(default, bool)
         if default is not None and not (number and abs(default) < math.inf):
@@ -128,7 +130,7 @@ class _Shape:
             self.text(self.at(about, key, str, where), where)
 
     def body(self, body: Any) -> None:
-        """Points, moments, solids."""
+        """Check the body: its kind, and its points, moments or solids."""
         kind = self.at(body, "kind", str, "body")
         self.one_of(kind, KINDS, "body, kind")
         listed = self.at(body, "points", list, "body") if "points" in body else []
@@ -152,7 +154,7 @@ class _Shape:
             self.solid(x, f"solid {k}")
 
     def solid(self, data: Any, where: str) -> None:
-        """Its sizes, by its kind; where it is."""
+        """Check a solid: the sizes of its kind, its density, rotation and shift."""
         self.one_of(self.at(data, "kind", str, where), tuple(SIZES), f"{where}, kind")
         self.scalar(self.at(data, "density", object, where), f"{where}, density")
         if (rotation := self.at(data, "rotation", object, where)) is not None:
@@ -171,7 +173,8 @@ class _Shape:
             self.vertices(sizes, f"{where}, vertices")
 
     def vertices(self, sizes: Mapping[str, Any], where: str) -> None:
-        """Of a tetrahedron, four; of a mesh, those of its faces."""
+        """Check vertices: four of a tetrahedron; of a mesh any, with faces of three of their
+        numbers."""
         listed = self.at(sizes, "vertices", list, where)
         if "faces" not in sizes and len(listed) != 4:
             raise ShapeError(f"{where}: expected four points")
@@ -185,7 +188,7 @@ class _Shape:
             raise ShapeError(f"{where}: no faces")
 
     def placed(self, data: Any, where: str) -> None:
-        """A place and its block."""
+        """Check the place of a point, and the block of a product in which it lies."""
         self.vector(self.at(data, "at", list, where), f"{where}, at")
         block = self.at(data, "block", int, where)
         if isinstance(block, bool) or not 1 <= block <= max(self.blocks, 1):
@@ -204,7 +207,7 @@ class _Shape:
         own.read(data, where, _Keys(self))
 
     def input(self, data: Any, where: str) -> None:
-        """A covector or a force."""
+        """Check an input, a covector or a force on a point."""
         self.identifier(self.at(data, "name", str, where), where)
         kind = self.at(data, "kind", str, where)
         self.one_of(kind, ("covector", "force"), f"{where}, kind")
@@ -213,7 +216,7 @@ class _Shape:
             self.one_of(self.at(data, "frame", str, where), ("space", "body"), f"{where}, frame")
 
     def basis(self, basis: list[Any]) -> None:
-        """Matrices of fractions in quotes."""
+        """Check a basis: square matrices of fractions as strings."""
         for e in basis:
             rows = e if isinstance(e, list) and len(e) <= LONGEST else []
             if not rows or not all(isinstance(row, list) and len(row) == len(e) for row in rows):
@@ -242,20 +245,20 @@ class _Shape:
         return t[0] in kept and all(self.is_scalar(x, placed, timed) for x in kept[t[0]])
 
     def is_place(self, t: Tree) -> bool:
-        """Is it r_i(t) of a point or a place?"""
+        """Is a tree r_i(t), for a point or a place of the problem?"""
         i = t[1][2] if isinstance(t, tuple) and t[:1] == ("call",) and len(t[1]) == 3 else 0
         known = isinstance(i, int) and 1 <= i <= self.points
         return known and t == ("call", ("at", "r", i), "t")
 
     def identifier(self, name: str, where: str) -> None:
-        """A name as the files of problems have them."""
+        """Check a name: letters, digits and _, and no word that expressions reserve."""
         if not IDENTIFIER.fullmatch(name):
             raise ShapeError(f"{where}: {ascii(name)[:60]} is no name of letters, digits and _")
         if name in WORDS:
             raise ShapeError(f"{where}: {name!r} is {WORDS[name]}")
 
     def at(self, data: Any, key: str, kind: type, where: str) -> Any:
-        """A value of a type that must be there."""
+        """The value of a key that must be there and of a type; ``ShapeError`` else."""
         if not isinstance(data, dict):
             raise ShapeError(f"{where}: expected an object")
         if key not in data:
@@ -265,16 +268,16 @@ class _Shape:
         return data[key]
 
     def each(self, key: str) -> list[tuple[int, Any]]:
-        """The members of a list."""
+        """The members of the list under a key of the problem, numbered from 1."""
         return [*enumerate(self.at(self.data, key, list, key), 1)]
 
     def text(self, words: str, where: str) -> None:
-        """Not too long."""
+        """Check that a text is not longer than TEXT letters."""
         if len(words) > TEXT:
             raise ShapeError(f"{where}: a text longer than {TEXT} letters")
 
     def one_of(self, value: str, allowed: tuple[str, ...], where: str) -> None:
-        """A word of a few."""
+        """Check that a word is one of those allowed."""
         if value not in allowed:
             raise ShapeError(f"{where}: key must be one of {', '.join(allowed)}")
 
@@ -298,7 +301,7 @@ class _Shape:
         return data
 
     def square(self, data: Any, size: int, where: str) -> None:
-        """Rows of trees."""
+        """Check a square matrix: ``size`` rows of as many trees."""
         if not isinstance(data, list) or len(data) != size:
             raise ShapeError(f"{where}: expected {size} rows")
         for row in data:
