@@ -1,4 +1,5 @@
-"""What a step needs to be so of a number, a matrix or a form: its hypotheses as data."""
+"""Hypotheses of steps as data: which number, matrix or form must have which property for a step's
+equations to hold."""
 
 from __future__ import annotations
 
@@ -13,21 +14,22 @@ PROPERTIES: dict[str, str] = {
     "invertible": "a matrix with an inverse",
     "nondegenerate": "a form in two variations, such that 0 alone is orthogonal to all of a space",
 }
-"""What a tree may be said to be; with a free index, each of its members."""
+"""Property → what it says of a tree; of a tree with a free index it says that of each member."""
 
 OF_MASSES = ("positive", "semidefinite")
-"""What is so where the masses are positive."""
+"""The properties that follow from positive masses."""
 
 SPACES: dict[str, str] = {
     "T_g G": "the tangent vectors of the group at g: δA and δ′A, or (δA, δT) and (δ′A, δ′T)",
     "𝔤": "the Lie algebra: ξ and ξ′, or (ξ, η) and (ξ′, η′), where Ω is for ξ = j(Ω)",
 }
-"""Where the two variations of a form run."""
+"""Name of a space → the two variations of a form that run in it."""
 
 
 @dataclass(frozen=True)
 class Hypothesis:
-    """``of`` has a ``property``; ``space``: of a form, where its variations run."""
+    """The tree ``of`` has the property ``property``, a key of PROPERTIES; ``space``: of a form, a
+    key of SPACES, where its two variations run."""
 
     property: str
     of: Tree

@@ -1,4 +1,5 @@
-"""May the masses of a record's problem be negative: does it say so, or its numbers?"""
+"""Whether masses of a record's problem may be negative: by its key ``masses``, or by its
+numbers."""
 
 from __future__ import annotations
 
@@ -11,13 +12,14 @@ from ..language.values import approximate
 from .record import RecordError, decode
 
 ANY_SIGN = "of any sign"
-"""The key ``masses`` of such a problem in its record."""
+"""The value of the key ``masses`` of a problem that says its masses may be negative."""
 
 SUPPOSED = "it supposes positive masses, and some of this problem may be negative"
 
 
 def any_sign(problem: Mapping[str, Any]) -> bool:
-    """May masses be negative in a record's problem: does it say so, or its numbers?"""
+    """Does the problem say that masses may be negative, or has it a negative one? ``RecordError``
+    for another value of the key ``masses``."""
     if problem.get("masses") not in (None, ANY_SIGN):
         raise RecordError(f"record, problem: key 'masses' can only be {ANY_SIGN!r}")
     body = problem.get("body", {})
@@ -33,7 +35,8 @@ def any_sign(problem: Mapping[str, Any]) -> bool:
 
 
 def _impossible(body: Mapping[str, Any]) -> bool:
-    """Are given moments, all numbers, those of no positive masses?"""
+    """Are the given moments m, c, J numbers that no positive masses have: is [[J, c], [c̄, m]] not
+    semidefinite?"""
     given = body.get("given", {})
     if not given or body.get("solids"):
         return False
@@ -44,12 +47,14 @@ def _impossible(body: Mapping[str, Any]) -> bool:
 
 
 def _number(x: Any) -> Fraction | None:
+    """The number that an expression of the record is; ``None`` where it has parameters."""
     t = decode(x, "problem")
     return Fraction(t) if isinstance(t, (int, Fraction)) else None
 
 
 def _value(x: Any, defaults: Mapping[str, float]) -> float | None:
-    """The value of an expression for the defaults of its parameters, if there is one."""
+    """The value of an expression at the defaults of its parameters; ``None`` where one has no
+    default."""
     try:
         return approximate(decode(x, "problem"), defaults, float)
     except ValueError:

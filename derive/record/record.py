@@ -33,20 +33,21 @@ from .strict import loads
 from .vocabulary import ACTIONS, ANY_GROUP, COMMENTARY, ROLES, VOCABULARY, Type, Use
 
 TYPE = 4
-"""Lists in one another in the type of a symbol."""
+"""How deep lists may lie in one another in the type of a symbol."""
 
 
 class RecordError(Refused, ValueError):
-    """A record that is not well formed: the message says where."""
+    """A record that is not well formed: the message says where, and what is wrong."""
 
 
 def equation_key(label: str, place: int) -> str:
-    """The name of an equation everywhere: its step and its place there, ``so3.kernel.2``."""
+    """The key of an equation in all outputs: the label of its step and its place there,
+    ``so3.kernel.2``."""
     return f"{label}.{place}"
 
 
 def step_of(key: str) -> str:
-    """The label of the step of an equation."""
+    """The label of the step that an equation's key belongs to."""
     return key.rpartition(".")[0]
 
 
@@ -82,16 +83,16 @@ class Step:
 
     @property
     def kind(self) -> str:
-        """What its equations are: a definition, an identity, … by its rule."""
+        """What the step's equations are, by its rule: a definition, an identity, …"""
         return RULES[self.rule].kind
 
     @cached_property
     def keys(self) -> tuple[str, ...]:
-        """The keys of the equations, in order."""
+        """The keys of the step's equations, in order."""
         return tuple(equation_key(self.label, k) for k, _ in enumerate(self.equations, 1))
 
     def key(self, equation: Equation) -> str:
-        """The key of an equation of the step; of two that are the same, that of the first."""
+        """The key of an equation of the step; of two equal equations, that of the first."""
         return self._keys[equation]
 
     @cached_property
@@ -111,7 +112,7 @@ class Symbol:
 
 @dataclass(frozen=True)
 class Derivation:
-    """The whole record of one problem."""
+    """The record of one problem: the problem as data, the declared symbols, the steps in order."""
 
     problem: Mapping[str, Any]
     symbols: tuple[Symbol, ...]
@@ -132,7 +133,8 @@ class Derivation:
 
     @cached_property
     def remarks(self) -> frozenset[str]:
-        """The labels of the steps on which the motion does not rest; none where there is none."""
+        """The labels of the steps that the step ``motion`` does not rest on; none where there is no
+        such step."""
         uses = {s.label: s.uses for s in self.steps}
         left = [f"{self.name}.motion"]
         if left[0] not in uses:
@@ -145,7 +147,8 @@ class Derivation:
         return frozenset({*uses} - found)
 
     def definition(self, lhs: Tree) -> tuple[Step, Equation] | None:
-        """The last equation with that left side, of a step to which nothing is given; the step."""
+        """The last equation with that left side, with its step, among steps without hypotheses in
+        ``given``; ``None`` if there is none."""
         return self._definitions.get(lhs)
 
     @cached_property
@@ -155,7 +158,8 @@ class Derivation:
 
 
 def encode(t: Tree) -> Any:
-    """A tree for JSON: names, integers, fractions as strings, lists."""
+    """A tree as plain data for JSON: names, integers, fractions as strings "p/q", operators as
+    lists."""
     if isinstance(t, Fraction):
         return f"{t.numerator}/{t.denominator}"
     return [t[0], *(encode(x) for x in t[1:])] if isinstance(t, tuple) else t
@@ -188,7 +192,7 @@ def decode(data: Any, where: str, depth: int = 0) -> Tree:
 
 
 def to_data(d: Derivation) -> dict[str, Any]:
-    """The record as plain data."""
+    """The record as plain data, in the layout of its JSON."""
     return {
         "commentary": list(COMMENTARY),
         "problem": dict(d.problem),
@@ -250,6 +254,7 @@ def to_json(d: Derivation) -> str:
 
 
 def _laid_out(data: Any, indent: str) -> str:
+    """JSON text: objects over several lines, trees in one line."""
     inner = indent + " "
     if isinstance(data, dict) and data:
         items = (f"{inner}{_laid_out(k, inner)}: {_laid_out(v, inner)}" for k, v in data.items())
@@ -264,6 +269,7 @@ def _laid_out(data: Any, indent: str) -> str:
 
 
 def _field(data: Any, key: str, kind: type, where: str) -> Any:
+    """The value of a key of an object; ``RecordError`` where it is missing or of another kind."""
     if not isinstance(data, dict):
         raise RecordError(f"{where}: expected an object")
     if key not in data:
@@ -274,6 +280,7 @@ def _field(data: Any, key: str, kind: type, where: str) -> Any:
 
 
 def _strings(data: Any, key: str, where: str) -> tuple[str, ...]:
+    """The list of strings under a key of an object; ``RecordError`` for anything else."""
     items = _field(data, key, list, where)
     if not all(isinstance(x, str) for x in items):
         raise RecordError(f"{where}: key {key!r} must list strings")
@@ -281,7 +288,8 @@ def _strings(data: Any, key: str, where: str) -> tuple[str, ...]:
 
 
 def _prose(data: Any, key: str, where: str) -> Prose:
-    """The sentences of an object, whose English stands beside them; or that English as one."""
+    """The sentences of an object, which must say the same in English as the text under ``key``; or
+    that text as one sentence, where there is no key 'sentences'."""
     words = str(_field(data, key, str, where))
     if "sentences" not in data:
         return sentence.say(words)
@@ -295,7 +303,8 @@ def _prose(data: Any, key: str, where: str) -> Prose:
 
 
 def _derived(data: dict[str, Any], key: str, right: Any, where: str) -> None:
-    """What the rest of a record says already: if it stands there, as it must be."""
+    """``RecordError`` where a key that follows from the rest of the record has another value than
+    ``right``; it may be absent."""
     if key in data and data[key] != right:
         said = right if isinstance(right, str) else json.dumps(right)
         raise RecordError(f"{where}: key {key!r} must be {said}")
@@ -320,7 +329,8 @@ def _use(data: Any, where: str) -> Use:
 
 
 def _type(data: Any, where: str, depth: int = 0) -> Type:
-    """Names and sizes in lists; what they mean is the checker's to judge."""
+    """The type of a symbol, names and sizes in nested lists; only its form is read here, the
+    checker judges what it means."""
     if isinstance(data, str) or type(data) is int:
         return data  # type: ignore[return-value]
     if not isinstance(data, list) or not data or depth > TYPE:
@@ -329,7 +339,8 @@ def _type(data: Any, where: str, depth: int = 0) -> Type:
 
 
 def _step(data: Any, where: str, earlier: Set[str], group: str) -> Step:
-    """A step; its scope is that of its chapter."""
+    """A step from its data; ``earlier``: the labels of the steps before it. Its scope follows from
+    its label: ``group``, or any group."""
     label = _field(data, "label", str, where)
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_.]{0,99}", label):
         raise RecordError(f"{where}: key 'label' must be letters, digits, _ and dots")
@@ -360,7 +371,8 @@ def _step(data: Any, where: str, earlier: Set[str], group: str) -> Step:
 
 
 def _equations(data: Any, key: str, where: str, *, quantified: bool = True) -> tuple[Equation, ...]:
-    """Those under a key; of what is given, without quantifiers."""
+    """The equations under a key; ``quantified``: may they have quantifiers, as those of what is
+    given may not?"""
     found = []
     for k, item in enumerate(_field(data, key, list, where), 1):
         place = f"{where}, {'equation' if quantified else key} {k}"
@@ -387,7 +399,7 @@ def _hypotheses(data: Any, where: str) -> tuple[Hypothesis, ...]:
 
 
 def from_json(text: str) -> Derivation:
-    """Read a record; :class:`RecordError` says what is wrong and where."""
+    """A record from JSON text; :class:`RecordError` says what is wrong and where."""
     try:
         data = loads(text)
     except ValueError as error:
@@ -421,7 +433,7 @@ def from_json(text: str) -> Derivation:
 
 
 def read(path: Path) -> Derivation:
-    """A record from a file; :class:`RecordError` names it."""
+    """The record in a JSON file; :class:`RecordError` names the file and what is wrong."""
     try:
         with path.open("rb") as file:
             raw = file.read(RECORD_BYTES + 1)

@@ -1,4 +1,4 @@
-"""The vocabulary of rules: what a step may say it did, a sentence each, and of what kind it is."""
+"""The rules by which steps are derived: a sentence for each, and of what kind its equations are."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class Rule(NamedTuple):
-    """What is done, and the kind of the equations that come of it.
+    """What a step with this rule does, in a sentence, and the kind of its equations.
 
     A *definition* says what names are; an *identity* holds at every point of the evolution space, a
     *restriction* for some arguments alone; a *kernel* step is what the variations test, those of

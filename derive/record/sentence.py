@@ -1,4 +1,4 @@
-"""Words of the walk as data: messages, and what stands in their places.
+"""The prose of the walk as data: messages with places, and what stands in the places.
 
 A message is an English sentence, or a part of one, with places ``{name}``; the catalogue has it in
 other languages under that very text.
@@ -18,7 +18,7 @@ PLACE = re.compile(r"\{([a-z]+)\}")
 
 @dataclass(frozen=True)
 class Sentence:
-    """A message and what fills its places: other sentences, or text that no language changes.
+    """A message and what fills its places: sentences, or text that is the same in every language.
 
     Without places the message is taken to the letter, braces and all.
     """
@@ -35,22 +35,24 @@ Prose = tuple[Sentence, ...]
 
 
 def filled(message: str, places: Mapping[str, str]) -> str:
-    """A message with its places filled."""
+    """The text of a message with each place ``{name}`` replaced by its value."""
     return PLACE.sub(lambda found: places[found[1]], message) if places else message
 
 
 def phrase(message: str, **places: Sentence | str) -> Sentence:
-    """One sentence, or a part of one that stands in a place."""
+    """A sentence from its message and the values of its places; also a part of one that stands in
+    another's place."""
     return Sentence(message, tuple(places.items()))
 
 
 def say(message: str, **places: Sentence | str) -> Prose:
-    """One sentence as prose."""
+    """Prose of a single sentence, from its message and the values of its places."""
     return (phrase(message, **places),)
 
 
 def listed(message: str, items: Sequence[Sentence]) -> Sentence:
-    """Many sentences as one, two by two, by a message with the places ``first`` and ``second``."""
+    """Many sentences joined to one, in a balanced tree of a message with the places ``first`` and
+    ``second``."""
     if len(items) < 2:
         return items[0] if items else phrase("")
     half = len(items) // 2
@@ -59,17 +61,18 @@ def listed(message: str, items: Sequence[Sentence]) -> Sentence:
 
 
 def english(prose: Prose) -> str:
-    """The sentences as they are written in the walk."""
+    """The prose as English text, its sentences separated by spaces."""
     return " ".join(map(str, prose))
 
 
 def plain(prose: Prose) -> bool:
-    """Does the English alone say which sentence this is?"""
+    """Is the prose one sentence without places, so that its English text alone tells which it
+    is?"""
     return len(prose) == 1 and not prose[0].places
 
 
 def to_data(prose: Prose) -> list[dict[str, Any]]:
-    """The sentences as plain data."""
+    """The prose as plain data: for each sentence its message and the values of its places."""
     return [_data(sentence) for sentence in prose]
 
 
@@ -79,13 +82,14 @@ def _data(x: Sentence) -> dict[str, Any]:
 
 
 def of_data(data: Any, where: str) -> Prose:
-    """The inverse of :func:`to_data`; ``ValueError`` says what is wrong."""
+    """The inverse of :func:`to_data`; ``ValueError`` says what is wrong, and ``where``."""
     if not isinstance(data, list):
         raise ValueError(f"{where}: key 'sentences' must be a list")
     return tuple(_sentence(x, f"{where}, sentence {k}", 0) for k, x in enumerate(data, 1))
 
 
 def _sentence(data: Any, where: str, depth: int) -> Sentence:
+    """One sentence from its data, at some depth of sentences in places of others."""
     if depth > SENTENCE:
         raise ValueError(f"{where}: sentences nested deeper than {SENTENCE}")
     if not isinstance(data, dict) or set(data) != {"message", "places"}:

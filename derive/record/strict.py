@@ -1,4 +1,5 @@
-"""JSON as RFC 8259 has it, and no more: without NaN, and every key of an object once."""
+"""A reader of strict JSON, as RFC 8259 has it: without NaN and infinities, and with every key of an
+object once."""
 
 from __future__ import annotations
 
@@ -19,11 +20,12 @@ def loads(text: str) -> Any:
 
 
 def _no_constant(name: str) -> Any:
+    """``ValueError`` for NaN and the infinities, which are no JSON."""
     raise ValueError(f"{name} is no number of JSON")
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """An object; a key that stands twice would say two things."""
+    """An object from its keys and values; ``ValueError`` for a key that occurs twice."""
     found = dict(pairs)
     if len(found) < len(pairs):
         twice = next(key for k, (key, _) in enumerate(pairs) if key in dict(pairs[:k]))

@@ -1,7 +1,7 @@
-"""In which ways the steps of a record use a name, and which equation says first what it is.
+"""The uses of names in the steps of a record, and the equation that defines each.
 
-A use is a name and how it stands there: as a value, as the members of a family (m_i), as a function
-(ϖ(δy)) or as a family of functions (r_i(t)).
+A use is a name and the position in which it stands: as a value, as the members of a family (m_i),
+as a function (ϖ(δy)) or as a family of functions (r_i(t)).
 """
 
 from __future__ import annotations
@@ -14,31 +14,32 @@ from .record import Equation, Step
 from .vocabulary import ALGEBRA, ANY_GROUP, SCALAR, SQUARE, VECTOR, VOCABULARY, Name, Type, Use
 
 Way = tuple[str, str]
-"""A name, and one of value, member, function, moved."""
+"""A name and the position in which it stands: "value", "member", "function" or "moved"."""
 
 
 INSIDE: dict[str, Any] = {
     "entry": lambda t: t[1:2],
     **dict.fromkeys(("sum", "fun", "call"), lambda t: t[2:]),
 }
-"""The operands that are trees, where not all are."""
+"""Operator → its operands that are trees, for operators where not all are."""
 
 
 class Occurrence(NamedTuple):
-    """A use in an equation; of a function, its arguments."""
+    """A use of a name in an equation, with the arguments where it is that of a function."""
 
     way: Way
     arguments: tuple[Tree, ...] = ()
 
 
 def occurrences(t: Tree) -> list[Occurrence]:
-    """All uses in a tree, from left to right; neither parameters nor indices are any."""
+    """The uses of names in a tree, from left to right; parameters and indices are none."""
     found: list[Occurrence] = []
     _gather(t, found)
     return found
 
 
 def _gather(t: Tree, found: list[Occurrence]) -> None:
+    """Append the uses in a tree to ``found``."""
     if isinstance(t, str):
         found.append(Occurrence((t, "value")))
     elif isinstance(t, tuple) and t[0] == "at":
@@ -52,18 +53,19 @@ def _gather(t: Tree, found: list[Occurrence]) -> None:
 
 
 def _called(head: Any) -> Way:
+    """The use that the head of a call is: a function, or a member of a family of functions."""
     return (head, "function") if isinstance(head, str) else (head[1], "moved")
 
 
 def way_of(type_: Type) -> str:
-    """How a name of this type stands in equations."""
+    """The position in which a name of this type stands in equations."""
     if type_[0] == "family":
         return "moved" if type_[2][0] == "function" else "member"
     return "function" if type_[0] == "function" else "value"
 
 
 class Read(NamedTuple):
-    """An equation of a step, and the uses on its two sides."""
+    """An equation of a step with its key, its scope, and the uses on its two sides in order."""
 
     scope: str
     key: str
@@ -73,7 +75,7 @@ class Read(NamedTuple):
 
 
 def read(steps: Iterable[Step]) -> list[Read]:
-    """The equations of some steps."""
+    """The equations of some steps, with their uses."""
 
     def side(t: Tree) -> dict[Occurrence, None]:
         return dict.fromkeys(occurrences(t))
@@ -88,9 +90,10 @@ def read(steps: Iterable[Step]) -> list[Read]:
 def of_steps(
     steps: Iterable[Step], meant: Mapping[str, Name], sizes: Mapping[str, int]
 ) -> dict[str, tuple[Use, ...]]:
-    """Name → its uses in some steps, in the order of the names; ``meant``: all that it may be.
+    """Name → its declared uses in some steps, in the order in which the names occur.
 
-    ``sizes``: of n and d, for what only the text about the problem's group has.
+    ``meant``: all uses that each name may have. ``sizes``: the values of n and d, for what only the
+    text about the problem's group has.
     """
     equations = read(steps)
     listed = [(e.scope, x) for e in equations for x in (*e.left, *e.right)]
@@ -116,11 +119,11 @@ def of_steps(
 
 
 FIRST = ("letter", "definition")
-"""The roles that the steps decide between: is there an equation that defines it?"""
+"""The two roles between which the steps decide, by whether an equation defines the name."""
 
 
 def filled(type_: Type, sizes: Mapping[str, int]) -> Type:
-    """A type with the sizes in the place of their letters."""
+    """A type with the letters of its sizes replaced by numbers, as far as ``sizes`` has them."""
     if isinstance(type_, str):
         return type_
     inside = (sizes.get(x, x) if isinstance(x, str) else filled(x, sizes) for x in type_[1:])
@@ -128,7 +131,8 @@ def filled(type_: Type, sizes: Mapping[str, int]) -> Type:
 
 
 def _fits(name: str, use: Use, there: Iterable[Occurrence]) -> bool:
-    """Does a name occur in this way; is a function one of such arguments?"""
+    """Does a name occur in the position of a declared use, and if it is a function, with arguments
+    of its types?"""
     way = (name, way_of(use.type))
     if way[1] != "function":
         return any(x.way == way for x in there)
@@ -142,7 +146,8 @@ def _fits(name: str, use: Use, there: Iterable[Occurrence]) -> bool:
 
 
 def type_of(argument: Tree) -> Type:
-    """The type of what a function is taken of: a name, a product with A, r r̄, r_i(t), a number."""
+    """The type of an argument of a function: a name, a product with A, r r̄, r_i(t), or a
+    number."""
     if isinstance(argument, str):
         return next(x.type for x in VOCABULARY[argument].uses if way_of(x.type) == "value")
     if not isinstance(argument, tuple):
@@ -161,11 +166,11 @@ def type_of(argument: Tree) -> Type:
 def definitions(
     equations: Iterable[Read], meant: Mapping[str, Name]
 ) -> dict[Way, tuple[str, Occurrence]]:
-    """Way → the key of the equation that defines it (of a family that is listed, of its first
-    member), and how it stands there.
+    """Use → the key of the equation that defines it, and how it occurs there; of a family that is
+    listed, of its first member.
 
-    It stands alone on the left; or it is new and alone on the right, as in Z = j(ζ), or the one new
-    name of a pairing or a sum: Z = Σ ζ_a E_a.
+    A use is defined where it stands alone on the left; or is new and alone on the right, as in Z =
+    j(ζ), or the one new name of a pairing or a sum: Z = Σ ζ_a E_a.
     """
     listed = [(x, way_of(y.type), y.role) for x, about in meant.items() for y in about.uses]
     known = {(x, way) for x, way, role in listed if role != "definition"}
@@ -188,7 +193,8 @@ def definitions(
 
 
 def head(t: Tree) -> Occurrence | None:
-    """The use that stands alone, also under j, a bar, an inverse or as an entry."""
+    """The use that is all of a tree, also under j, a transpose, an inverse or as an entry; ``None``
+    if there is none."""
     while isinstance(t, tuple) and t[0] in ("hat", "T", "inv", "entry"):
         t = t[1]
     alone = isinstance(t, str) or (isinstance(t, tuple) and t[0] in ("at", "call"))
@@ -196,4 +202,5 @@ def head(t: Tree) -> Occurrence | None:
 
 
 def _pairs(t: Tree) -> bool:
+    """Is the tree an inner product or a sum?"""
     return isinstance(t, tuple) and t[0] in ("inner", "metric", "sum")

@@ -12,7 +12,7 @@ from ..schema.kinds import kinds
 
 ANY_GROUP = "any group"
 ACTIONS = ("linear", "affine")
-"""How a group moves points; so is the text called that is about any of them."""
+"""How a group moves points; the text about any group of an action is called by the same word."""
 CONVENTIONS = (
     "T is the transpose, a bar in the paper; names are compared letter by letter, as written",
     "inner(a, b) and metric(M, a, b) are Tr a M b̄ for matrices and ā M b for vectors",
@@ -32,7 +32,7 @@ CONVENTIONS = (
     "positive; of the velocity of X, what is given and is an equation as well, is what they tell "
     "where dϖ(X, δ′y) vanishes for every δ′y with δ′t = 0 and δ′g = 0",
 )
-"""What another reader of the JSON must know."""
+"""The conventions of a record that another reader of its JSON must know, listed in every record."""
 
 Type = str | tuple[Any, ...]
 """``scalar``, ``(matrix, rows, columns)``, ``(vector, n)``; ``(algebra,)``, a matrix among the
@@ -42,12 +42,12 @@ index counts, type of a member)``; a variation of the point y, with the time or 
 SCALAR, VARIATION, AT_ONE_TIME = "scalar", "variation", "variation at one time"
 SQUARE, VECTOR, COORDINATES = ("matrix", "n", "n"), ("vector", "n"), ("vector", "d")
 ALGEBRA, PLACE = ("algebra",), ("vector", "block")
-"""n is the dimension of the space, d that of the linear parts of 𝔤, dim that of 𝔤, block that of
-the space of a factor: of any of them, where a product has several."""
+"""Sizes in types: n is the dimension of the space, d that of the linear parts of 𝔤, dim that of 𝔤,
+block that of the space of a factor, where a product has several of any of them."""
 
 ROLES = ("letter", "definition", "value on X", "unknown", "function")
-"""What is chosen freely; what an equation defines; a rate along the motion, or the value of a
-variation on X; what there is by a theorem; a function."""
+"""What a name is: chosen freely; defined by an equation; a rate along the motion, or the value of a
+variation on X; what exists by a theorem; a function."""
 
 
 class Use(NamedTuple):
@@ -365,14 +365,14 @@ DISPLACEMENTS: dict[str, Name] = ROTATIONS | {
         meaning="input: a force on the body's origin, in the body frame"
     ),
 }
-"""What names mean, and are, more precisely for rotations and displacements of R³."""
+"""Meanings and types of names that are more precise for rotations and displacements of R³."""
 
 PRODUCTS: dict[str, Name] = {
     "A": VOCABULARY["A"]._replace(meaning="element of the group, a block for each of its factors"),
     "c": VOCABULARY["c"]._replace(meaning="first moment Σ m_i r_i, a block for each factor"),
     "J_c": VOCABULARY["J_c"]._replace(meaning="matrix of moments about the centres of mass"),
 }
-"""What names mean where the group is a product, whose affine factors act on (r, 1)."""
+"""Meanings of names where the group is a product, whose affine factors act on (r, 1)."""
 
 AMENDED = frozenset({20, 25, 26, 29, 31, 32, 35})
 """The numbered equations whose print the derivation corrects; ``derive paper`` finds them."""
@@ -380,7 +380,7 @@ AMENDED = frozenset({20, 25, 26, 29, 31, 32, 35})
 OF = {"dϖ": "ϖ", "ḣ": "h̃", "ℓ̇": "ℓ", "ṗ": "p"}
 OF |= {"δΠ": "Π", "δ′Π": "Π", "Π̇": "Π", "δp_b": "p_b", "δ′p_b": "p_b", "ṗ_b": "p_b"}
 OF |= dict.fromkeys(("δℓ_b", "δ′ℓ_b", "ℓ̇_b"), "ℓ_b")
-"""Names that say something of another."""
+"""Name → the name of which it is a derivative or a variation."""
 
 COMMENTARY = ("meaning", "latex", "prose", "sentences", "paper", "title", "unit")
 """The fields of a record that no reader need understand, wherever they stand: words for people."""
