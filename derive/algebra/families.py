@@ -25,7 +25,8 @@ LARGEST_PRODUCT = 12
 
 
 def so_basis(n: int) -> Basis:
-    """Skew matrices, ordered and signed so that for n = 3 they are j(e₁), j(e₂), j(e₃)."""
+    """The basis of so(n): skew matrices, ordered and signed so that for n = 3 they are j(e₁),
+    j(e₂), j(e₃)."""
     pairs = [(i, j) for i in range(n) for j in range(i + 1, n)][::-1]
     return tuple(
         q.scaled((-1) ** (i + j), q.minus(q.unit(n, i, j), q.unit(n, j, i))) for i, j in pairs
@@ -33,7 +34,8 @@ def so_basis(n: int) -> Basis:
 
 
 def sl_basis(n: int) -> Basis:
-    """E_ij off the diagonal and E_ii − E_nn on it: ζ is Z row by row, less its last entry."""
+    """The basis of sl(n): E_ij off the diagonal and E_ii − E_nn on it; ζ is Z row by row, less its
+    last entry."""
     return tuple(
         q.unit(n, i, j) if i != j else q.minus(q.unit(n, i, i), q.unit(n, n - 1, n - 1))
         for i in range(n)
@@ -43,26 +45,27 @@ def sl_basis(n: int) -> Basis:
 
 
 def gl_basis(n: int) -> Basis:
-    """All E_ij, row by row."""
+    """The basis of gl(n): all E_ij, row by row."""
     return tuple(q.unit(n, i, j) for i in range(n) for j in range(n))
 
 
 def ut_basis(n: int) -> Basis:
-    """E_ij above the diagonal, row by row."""
+    """The basis of ut(n): E_ij above the diagonal, row by row."""
     return tuple(q.unit(n, i, j) for i in range(n) for j in range(i + 1, n))
 
 
 def sim_basis(n: int) -> Basis:
-    """Rotations, then the dilation."""
+    """The basis of the linear parts of sim(n): that of so(n), then the dilation 1."""
     return (*so_basis(n), q.identity(n))
 
 
 def symmetric_pairs(n: int) -> list[tuple[int, int]]:
-    """i ≤ j, row by row."""
+    """The pairs (i, j) with i ≤ j < n, row by row."""
     return [(i, j) for i in range(n) for j in range(i, n)]
 
 
 def _symmetric(n: int, i: int, j: int) -> Matrix:
+    """The symmetric matrix E_ij + E_ji, or E_ii."""
     unit = q.unit(n, i, j)
     return unit if i == j else q.plus(unit, q.unit(n, j, i))
 
@@ -70,7 +73,7 @@ def _symmetric(n: int, i: int, j: int) -> Matrix:
 def in_blocks(
     n: int, a: Matrix | None, b: Matrix | None, c: Matrix | None, d: Matrix | None
 ) -> Matrix:
-    """[[a, b], [c, d]] with n × n blocks, ``None`` for zero."""
+    """The matrix [[a, b], [c, d]] with n × n blocks, ``None`` for zero."""
     zero = q.scaled(0, q.identity(n))
     top, bottom = (a or zero, b or zero), (c or zero, d or zero)
     return tuple(
@@ -79,7 +82,8 @@ def in_blocks(
 
 
 def sp_basis(size: int) -> Basis:
-    """[[a, b], [c, −ā]] with b and c symmetric: X̄Ω + ΩX = 0 for Ω = [[0, 1], [−1, 0]]."""
+    """The basis of sp of matrices of an even size: [[a, b], [c, −ā]] with b and c symmetric, so
+    that X̄Ω + ΩX = 0 for Ω = [[0, 1], [−1, 0]]."""
     n = size // 2
     linear = [
         in_blocks(n, q.unit(n, i, j), None, None, q.scaled(-1, q.unit(n, j, i)))
@@ -93,19 +97,19 @@ def sp_basis(size: int) -> Basis:
 
 
 def _complex(n: int, x: Matrix | None, y: Matrix | None) -> Matrix:
-    """X + iY as a real matrix."""
+    """The complex matrix X + iY as the real one [[X, −Y], [Y, X]]."""
     return in_blocks(n, x, q.scaled(-1, y) if y else None, y, x)
 
 
 def u_basis(n: int) -> Basis:
-    """Skew X, then symmetric Y off and on the diagonal."""
+    """The basis of u(n), X + iY: skew X, then symmetric Y off and on the diagonal."""
     skew = [_complex(n, e, None) for e in so_basis(n)]
     off = [_complex(n, None, _symmetric(n, i, j)) for i, j in symmetric_pairs(n) if i != j]
     return (*skew, *off, *(_complex(n, None, q.unit(n, i, i)) for i in range(n)))
 
 
 def su_basis(n: int) -> Basis:
-    """The same with Tr Y = 0."""
+    """The basis of su(n): that of u(n) with Tr Y = 0."""
     skew_and_off = u_basis(n)[:-n]
     last = q.unit(n, n - 1, n - 1)
     diagonal = (q.minus(q.unit(n, i, i), last) for i in range(n - 1))
@@ -113,7 +117,7 @@ def su_basis(n: int) -> Basis:
 
 
 def sp_sampler(size: int) -> Sampler:
-    """Symplectic shears, lower · upper · lower."""
+    """A sampler of Sp: products lower · upper · lower · upper of symplectic shears."""
     n = size // 2
     basis = sp_basis(size)
     count = len(symmetric_pairs(n))
@@ -122,7 +126,8 @@ def sp_sampler(size: int) -> Sampler:
 
 
 def su_sampler(n: int) -> Sampler:
-    """Products of the SU(2) of each pair of axes, where Cayley's transform keeps det = 1."""
+    """A sampler of SU(n): products of the SU(2) of each pair of axes, where Cayley's transform
+    keeps det = 1."""
     factors = []
     for i in range(n):
         for j in range(i + 1, n):
@@ -134,7 +139,7 @@ def su_sampler(n: int) -> Sampler:
 
 
 def affine_basis(linear: Sequence[Matrix], n: int) -> Basis:
-    """The linear basis bordered by zeros, then the translations."""
+    """The basis of 𝔥 ⋉ Rⁿ: that of 𝔥 bordered by zeros, then the n translations."""
     last = (Fraction(0),) * (n + 1)
     bordered = [(*((*row, Fraction(0)) for row in e), last) for e in linear]
     return (*bordered, *(q.unit(n + 1, i, n) for i in range(n)))
@@ -142,7 +147,12 @@ def affine_basis(linear: Sequence[Matrix], n: int) -> Basis:
 
 @dataclass(frozen=True)
 class Family:
-    """A linear family, or the affine one with the same linear parts."""
+    """A family of groups with a parameter n: linear ones, or the affine ones with the same linear
+    parts.
+
+    ``least``: the smallest n; ``step``: of n from one group to the next; ``doubled``: are the
+    matrices of size 2n?
+    """
 
     basis: Callable[[int], Basis]
     sampler: Callable[[int], Sampler]
@@ -154,11 +164,11 @@ class Family:
 
     @property
     def most(self) -> int:
-        """The largest n."""
+        """The largest n of the family."""
         return LARGEST // 2 if self.doubled else LARGEST
 
     def make(self, name: str, n: int) -> Group:
-        """The group of this family with the parameter n."""
+        """The group of this family with the parameter n, called ``name``."""
         size = 2 * n if self.doubled else n
         if self.affine:
             sampler = draw.affine(self.sampler(n), n)
@@ -195,11 +205,12 @@ FAMILIES: dict[str, Family] = {
     ),
     "SU": Family(su_basis, su_sampler, 2, "unitary maps of Cⁿ = R²ⁿ, det = 1", doubled=True),
 }
-"""Name → family."""
+"""Name of a family → the family."""
 
 
 def group(name: str) -> Group:
-    """The group called ``"SO(3)"``, ``"SL(4)"``, ``"SO(3) x SE(3)"``; ``ValueError`` if none."""
+    """The group called ``"SO(3)"``, ``"SL(4)"`` or ``"SO(3) x SE(3)"``; ``ValueError`` for any
+    other name, with the nearest."""
     parts = re.split(r"(?<=\))\s*[x×]\s*(?=\S)", name.strip()) if len(name) < 200 else [name]
     if len(parts) > 1:
         return product(tuple(group(x) for x in parts))
@@ -220,7 +231,8 @@ def group(name: str) -> Group:
 
 
 def _nearest(name: str) -> str:
-    """The group that is meant by a name in other letters or without parentheses; "" if none."""
+    """The name of the group that is meant by one with other letters or without parentheses; "" if
+    none."""
     families, parts = {x.casefold(): x for x in FAMILIES}, []
     for part in re.split(r"\s*[x×*]\s*", name.strip()):
         match = re.fullmatch(r"([A-Za-z]+)[\s_(\[]*([0-9]{1,3})[\s)\]]*", part)
@@ -232,7 +244,8 @@ def _nearest(name: str) -> str:
 
 
 def product(factors: tuple[Group, ...]) -> Group:
-    """The product, on blocks of points."""
+    """The product of groups, with block diagonal matrices; ``ValueError`` where they are too
+    large."""
     size = sum(g.size for g in factors)
     name = " x ".join(g.name for g in factors)
     if size > LARGEST_PRODUCT:
@@ -248,12 +261,13 @@ def product(factors: tuple[Group, ...]) -> Group:
 
 
 def on_homogeneous(g: Group) -> Group:
-    """An affine group as the linear one of its matrices on (r, 1): a product of one factor."""
+    """An affine group as the linear group of its matrices on (r, 1): a product of one factor."""
     return Group(g.name, g.n + 1, "linear", g.basis, g.sampler, (g,), g.larger)
 
 
 def turning_about_a_point() -> Group:
-    """The rotations of R³ about (1, 2, 3): affine maps whose translations are not free."""
+    """The rotations of R³ about (1, 2, 3): a group of affine maps whose translations are not
+    free."""
     place: Matrix = ((Fraction(1),), (Fraction(2),), (Fraction(3),))
     shift: Matrix = (*((*row, x) for row, (x,) in zip(q.identity(3), place, strict=True)), _LAST)
     back: Matrix = (

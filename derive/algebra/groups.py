@@ -26,9 +26,10 @@ class Group:
     """A matrix group moving points of Rⁿ.
 
     ``basis``: d matrices of size n (linear) or n + 1 with last row zero (affine), over Q.
-    ``sampler``: exact elements; or, of a ``larger`` group that has the same relations.
-    ``factors``: of a product, in order; its n is the size of its block diagonal matrices.
-    ``given``: a basis of one's own, where ``basis`` is another one of the same 𝔤.
+    ``sampler``: random exact elements; ``larger``: are they those of a larger group that has the
+    same relations? ``factors``: of a product, in order; its n is the size of its block diagonal
+    matrices. ``given``: the basis that the user states, where ``basis`` is another one of the same
+    𝔤.
     """
 
     name: str
@@ -42,7 +43,8 @@ class Group:
 
     @cached_property
     def stated(self) -> Group:
-        """The same group in the basis that was given: its coordinates are those of the state."""
+        """The same group in the basis that the user states: its coordinates are those of the
+        state."""
         return replace(self, basis=self.given, given=()) if self.given else self
 
     @property
@@ -52,20 +54,20 @@ class Group:
 
     @property
     def affine(self) -> bool:
-        """Does the group also translate?"""
+        """Does the group also translate points?"""
         return self.action == "affine"
 
     @property
     def size(self) -> int:
-        """The size of its matrices: n, or n + 1 for an affine action."""
+        """The size s of the group's matrices: n, or n + 1 for an affine action."""
         return self.n + self.affine
 
     @cached_property
     def relations(self) -> frozenset[Relation]:
-        """What the connected group keeps of its linear part, read off the basis.
+        """The relations that the linear parts of the connected group satisfy, read off the basis.
 
-        ``orthogonal``: d(ĀA) = Ā(Z + Z̄)A vanishes, so ĀA = 1; ``unimodular``: d(det A) = det A Tr Z
-        vanishes, so det A = 1.
+        ``orthogonal``: d(ĀA) = Ā(Z + Z̄)A vanishes, so ĀA = 1; ``unimodular``: d(det A) = det A Tr
+        Z vanishes, so det A = 1.
         """
         linear = [self.linear_part(e) for e in self.basis]
         zero = q.scaled(0, q.identity(self.n))
@@ -88,7 +90,8 @@ class Group:
 
     @cached_property
     def linear_basis(self) -> tuple[Matrix, ...]:
-        """A basis of the linear parts of 𝔤, the first independent ones."""
+        """A basis of the linear parts of 𝔤: the linear parts of the basis, without those that
+        depend on earlier ones."""
         found: list[Matrix] = []
         rows: list[tuple[Any, ...]] = []
         for e in map(self.linear_part, self.basis):
@@ -99,7 +102,8 @@ class Group:
 
     @cached_property
     def free_translations(self) -> bool:
-        """Is it H ⋉ Rⁿ, H not trivial, with the basis of 𝔥 first and then e_1, …, e_n of Rⁿ?"""
+        """Is the group H ⋉ Rⁿ, H not trivial, with the basis of 𝔥 first and then e_1, …, e_n of
+        Rⁿ?"""
         n = self.n
         if not self.affine or self.dimension <= n:
             return False
@@ -109,7 +113,8 @@ class Group:
 
     @cached_property
     def turns_space(self) -> bool:
-        """Is it so(3) in the basis j(e₁), j(e₂), j(e₃), alone or with all translations of R³?"""
+        """Is the Lie algebra so(3) in the basis j(e₁), j(e₂), j(e₃), alone or with all translations
+        of R³?"""
         if self.n != 3 or self.factors:
             return False
         turns = ((2, 1), (0, 2), (1, 0))
@@ -128,12 +133,14 @@ class Group:
 
     @property
     def centred(self) -> tuple[tuple[int, Group], ...]:
-        """The blocks H ⋉ Rⁿ of a product of groups with skew linear parts."""
+        """The blocks H ⋉ Rⁿ, as (first row, factor), of a product of groups with skew linear parts;
+        none for other groups."""
         skew = all("orthogonal" in factor.relations for factor in self.factors)
         return tuple(x for x in self.places if skew and self.factors and x[1].free_translations)
 
     def in_block(self, block: int, entries: Sequence[Any], corner: Any = 0) -> tuple[Any, ...]:
-        """A vector of the space of a block (from 1) among all: ``corner`` for an affine factor."""
+        """A vector of the space of a block (from 1) as one of the product, 0 in other blocks;
+        ``corner``: the last entry in the block of an affine factor."""
         if not self.factors:
             return tuple(entries)
         offset, factor = self.places[block - 1]
@@ -141,24 +148,24 @@ class Group:
         return (*(0,) * offset, *inside, *(0,) * (self.n - offset - len(inside)))
 
     def of_block(self, block: int) -> slice:
-        """Where the coordinates of a block (from 1) are in a vector."""
+        """The slice of a product's vector in which the coordinates of a block (from 1) are."""
         offset, factor = self.places[block - 1]
         return slice(offset, offset + factor.n)
 
     def in_every_block(self, entries: Sequence[Any]) -> tuple[Any, ...]:
-        """The same vector of space in every block: each point sees its own."""
+        """A vector of space repeated in every block of a product: each point sees its own copy."""
         if not self.factors:
             return tuple(entries)
         corners = ((0,) if factor.affine else () for factor in self.factors)
         return tuple(x for corner in corners for x in (*entries, *corner))
 
     def hat(self, coordinates: Sequence[Any]) -> Matrix:
-        """Z = Σ ζᵃ E_a."""
+        """Z = Σ ζᵃ E_a, the element of 𝔤 with these d coordinates."""
         return q.combine(coordinates, self.basis)
 
     @cached_property
     def _readers(self) -> Matrix:
-        """The rows that read ζ off the entries of Z: a left inverse of the basis."""
+        """The d × s² rows that read ζ off the entries of Z: a left inverse of the basis."""
         columns = q.transposed(tuple(q.flatten(e) for e in self.basis))
         _, pivots = q.echelon(q.transposed(columns))
         square = q.inverse(tuple(columns[p] for p in pivots))
@@ -183,13 +190,13 @@ class Group:
         )
 
     def vee(self, z: Matrix) -> tuple[Any, ...] | None:
-        """The coordinates of Z, or ``None`` when Z is not in 𝔤."""
+        """The coordinates ζ of Z, or ``None`` when Z is not in 𝔤."""
         coordinates = self.nearest(z)
         return coordinates if self.hat(coordinates) == q.matrix(z) else None
 
     @cached_property
     def structure_constants(self) -> tuple[Matrix, ...]:
-        """``c[a][b]`` are the coordinates of [E_a, E_b]; ``ValueError`` if 𝔤 is not closed."""
+        """The coordinates ``c[a][b]`` of [E_a, E_b]; ``ValueError`` if 𝔤 is not closed."""
         table = []
         for a in self.basis:
             row = []
@@ -203,24 +210,26 @@ class Group:
 
     @cached_property
     def normal_space(self) -> tuple[Matrix, ...]:
-        """A basis of {Λ : Tr Λ̄ξ = 0 for every ξ in 𝔤}: the multipliers of the constraint."""
+        """A basis of {Λ : Tr Λ̄ξ = 0 for every ξ in 𝔤}, s × s matrices: the multipliers of the
+        constraint."""
         s = self.size
         vectors = q.nullspace(tuple(q.flatten(e) for e in self.basis))
         return tuple(tuple(v[i * s : (i + 1) * s] for i in range(s)) for v in vectors)
 
     @cached_property
     def normal_space_of_linear_parts(self) -> tuple[Matrix, ...]:
-        """The same for the linear parts of 𝔤 in gl(n)."""
+        """A basis of {Λ in gl(n) : Tr Λ̄ξ = 0 for every linear part ξ of 𝔤}."""
         linear = replace(self, action="linear", basis=self.linear_basis, factors=())
         return linear.normal_space
 
     @property
     def normal_direction(self) -> Matrix:
-        """What spans a normal space of dimension 1: the identity where it is a multiple of it."""
+        """The matrix that spans the normal space of the linear parts, which must have dimension 1;
+        the identity where it is a multiple of that."""
         (normal,) = self.normal_space_of_linear_parts
         one = q.identity(self.n)
         return one if normal == q.scaled(normal[0][0], one) else normal
 
     def sample(self, random: Source, size: int = 9) -> Matrix:
-        """An exact rational element of the group."""
+        """A random exact rational element of the group, from integers within ±size."""
         return self.sampler(random, size)

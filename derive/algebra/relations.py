@@ -31,12 +31,13 @@ Linear = Callable[[Matrix], Sequence[Fraction]]
 
 @dataclass(frozen=True)
 class Relations:
-    """What the elements A, or (A, T), of a group satisfy that is no product.
+    """The polynomial relations of the elements A, or (A, T), of a group that is no product.
 
-    ``hull``: H with v = H v for the entries v of A − 1, then of T; empty where they are free.
-    ``form``: S, or empty; ``conformal``: up to a factor μ.  ``determinant``: is it 1?
-    ``frame``: P where it is complex, with P⁻¹AP = [[X, −Y], [Y, X]] for the complex X + iY.
-    ``left``: the dimension of what they leave, at least that of the group.
+    ``hull``: the matrix H of the projection with v = H v for the entries v of A − 1, then of T;
+    empty where they are free. ``form``: S with ĀSA = S, or empty; ``conformal``: ĀSA = μS for some
+    factor μ. ``determinant``: is it 1? ``frame``: where that determinant is complex, P with P⁻¹AP =
+    [[X, −Y], [Y, X]] for the complex matrix X + iY. ``left``: the dimension of what they leave, at
+    least that of the group.
     """
 
     hull: Matrix
@@ -48,13 +49,14 @@ class Relations:
 
     @property
     def none(self) -> bool:
-        """Is the group open among all maps, so that nothing keeps it?"""
+        """Is the group open among all maps, so that it has no relations?"""
         return not (self.hull or self.form or self.determinant)
 
 
 @cache
 def relations(g: Group) -> Relations:
-    """Those of one group; of a product, those of its factors are wanted."""
+    """The relations of one group, which is no product; those of a product are the relations of its
+    factors."""
     n, linear = g.n, [e for e in map(g.linear_part, g.basis) if any(map(any, e))]
     conformal = any(q.trace(e) for e in linear)
     hull = left = _generated(g)
@@ -83,13 +85,15 @@ def relations(g: Group) -> Relations:
 
 
 class _Span:
-    """A space that grows; ``rows``: sparse, by the place of their first entry, which is 1."""
+    """A linear space of vectors that grows; ``rows``: a basis in echelon form, sparse, by the place
+    of the first entry, which is 1."""
 
     def __init__(self) -> None:
         self.rows: dict[int, dict[int, Fraction]] = {}
 
     def rest(self, v: Iterable[Fraction]) -> dict[int, Fraction]:
-        """What is left of a vector when its first entries are eliminated."""
+        """The rest of a vector after elimination by the rows, sparse; empty where the vector is in
+        the space."""
         rest = {i: x for i, x in enumerate(v) if x}
         while rest and (first := min(rest)) in self.rows:
             lead = rest[first]
@@ -100,7 +104,7 @@ class _Span:
         return rest
 
     def add(self, v: Iterable[Fraction]) -> bool:
-        """Is a vector new?  Then it is taken in."""
+        """Add a vector to the space; was it not in it?"""
         rest = self.rest(v)
         if rest:
             first = min(rest)
@@ -122,6 +126,7 @@ def _kernel(space: Sequence[Vector], value: Callable[[Vector], Sequence[Fraction
 
 
 def _square(v: Vector, n: int) -> Matrix:
+    """The n × n matrix of a vector's first n² entries."""
     return tuple(v[n * i : n * i + n] for i in range(n))
 
 
@@ -148,7 +153,7 @@ def _generated(g: Group) -> list[Vector]:
 
 
 def _product(a: Matrix, b: Matrix) -> Matrix:
-    """a b, for matrices with few entries."""
+    """The matrix product a b, fast for matrices with few entries."""
     rows = []
     for row in a:
         total = [Fraction(0)] * len(b)
@@ -160,7 +165,7 @@ def _product(a: Matrix, b: Matrix) -> Matrix:
 
 
 def _projector(hull: Sequence[Vector], n: int) -> Matrix:
-    """Onto the hull: orthogonally in A, then in T among what A leaves to it."""
+    """The projection onto the hull: orthogonal in A, then in T among what A leaves to it."""
     size, width = n * n, len(hull[0]) - n * n
     turning = [v for v in hull if any(v[:size])]
     a, t = (tuple(v[part] for v in turning) for part in (slice(size), slice(size, None)))
@@ -178,7 +183,8 @@ def _projector(hull: Sequence[Vector], n: int) -> Matrix:
 
 
 def _onto(rows: Matrix, dual: Matrix, height: int, width: int) -> Matrix:
-    """The map of vectors with the coefficients ``dual`` gives to combinations of the rows."""
+    """The matrix that takes a vector to the combination of the rows with the coefficients that
+    ``dual`` gives it."""
     if rows:
         return q.times(q.transposed(rows), dual)
     return ((Fraction(0),) * width,) * height
@@ -197,17 +203,20 @@ def _dual(rows: Matrix) -> Matrix:
 
 
 def _traceless(e: Matrix) -> Matrix:
+    """The matrix less its trace times 1/n."""
     return q.minus(e, q.scaled(q.trace(e) / len(e), q.identity(len(e))))
 
 
 def _variation(S: Matrix, e: Matrix, conformal: bool) -> Vector:
-    """ēS + Se; ``conformal``: for the traceless part of e."""
+    """The change ēS + Se of the form S along e, row by row; ``conformal``: along the traceless part
+    of e."""
     e = _traceless(e) if conformal else e
     return q.flatten(q.plus(_product(q.transposed(e), S), _product(S, e)))
 
 
 def _form(linear: Sequence[Matrix], n: int) -> Matrix:
-    """S that all traceless parts keep, not degenerate: 1, else symmetric, else skew; or none.
+    """A non-degenerate form S that the traceless parts of all matrices keep: 1, else a symmetric
+    one, else a skew one; () if none.
 
     In the plane a skew form is the determinant.
     """
@@ -223,12 +232,14 @@ def _form(linear: Sequence[Matrix], n: int) -> Matrix:
 
 
 def _unit(n: int, i: int, j: int, sign: int) -> Vector:
+    """E_ij + sign E_ji, or E_ii, as a vector."""
     unit = q.unit(n, i, j)
     return q.flatten(unit if i == j else q.plus(unit, q.scaled(sign, q.unit(n, j, i))))
 
 
 def _candidates(space: Sequence[Vector], n: int) -> Iterable[Matrix]:
-    """Members of a space, simple ones first."""
+    """Matrices in a linear space of forms, simple ones first: 1 where it is one, the basis, some
+    combinations."""
     if not space:
         return
     one = q.identity(n)
@@ -244,7 +255,7 @@ def _candidates(space: Sequence[Vector], n: int) -> Iterable[Matrix]:
 
 
 def _complex_structure(linear: Sequence[Matrix], hull: Sequence[Vector], n: int) -> Matrix:
-    """K with K² = −1 where the centre of the hull is that of the multiples of 1 and K; or none."""
+    """K with K² = −1, where the centre of the hull is spanned by 1 and K; () if there is none."""
     centre = [v[: n * n] for v in hull if any(v[: n * n])]
     for e in linear:
         centre = _kernel(
@@ -266,7 +277,7 @@ def _complex_structure(linear: Sequence[Matrix], hull: Sequence[Vector], n: int)
 
 
 def _complex_frame(K: Matrix) -> Matrix:
-    """P, whose columns are v₁ … v_m, Kv₁ … Kv_m."""
+    """The matrix P with the columns v₁ … v_m, Kv₁ … Kv_m, a complex basis and its images."""
     n, chosen = len(K), _Span()
     first: list[Vector] = []
     for v in q.identity(n):
@@ -277,4 +288,5 @@ def _complex_frame(K: Matrix) -> Matrix:
 
 
 def _image(K: Matrix, v: Vector) -> Vector:
+    """K v."""
     return tuple(sum((x * y for x, y in zip(row, v, strict=True)), Fraction(0)) for row in K)

@@ -1,4 +1,5 @@
-"""Exact rational elements of groups, for checking: their entries are polynomials or quotients.
+"""Samplers of groups: exact rational elements for checking, polynomials or quotients of what is
+drawn.
 
 A sampler takes what draws integers, and their range: a :class:`random.Random`, or anything else
 with its ``randint``, whose numbers need be no integers but of some ring over Q.
@@ -16,23 +17,23 @@ from ..language.rational import Matrix
 
 
 class Source(Protocol):
-    """What draws numbers."""
+    """A source of random numbers, as :class:`random.Random` is one."""
 
     def randint(self, a: int, b: int, /) -> Any:
-        """One from a to b."""
+        """A number from a to b."""
 
 
 Sampler = Callable[[Source, int], Matrix]
-"""(source, size): an element, from integers within ±size."""
+"""(source, size) → a random element of a group, from integers within ±size."""
 
 
 def integer(random: Source, size: int) -> Any:
-    """A random integer, as a fraction."""
+    """A random integer within ±size, as a fraction or a number of the source's ring."""
     return Fraction(1) * random.randint(-size, size)
 
 
 def combination(random: Source, size: int, basis: Sequence[Matrix]) -> Matrix:
-    """A random element of a linear space of matrices."""
+    """A random element of a linear space of matrices, with integer coordinates on its basis."""
     return q.combine([integer(random, size) for _ in basis], basis)
 
 
@@ -45,17 +46,18 @@ def cayley(skew: Matrix) -> Matrix:
 
 
 def by_cayley(basis: Sequence[Matrix]) -> Sampler:
-    """The group of a Lie algebra of skew matrices that its Cayley transforms stay in."""
+    """A sampler of the group of a Lie algebra of skew matrices, by the Cayley transform; the group
+    must contain its values."""
     return lambda random, size: cayley(combination(random, size, basis))
 
 
 def product(samplers: Sequence[Sampler]) -> Sampler:
-    """Products of one element of each."""
+    """A sampler of products, with one factor by each of the samplers."""
     return lambda random, size: reduce(q.times, [draw(random, size) for draw in samplers])
 
 
 def triangular(random: Source, n: int, size: int, *, lower: bool) -> Matrix:
-    """A unitriangular matrix."""
+    """A random unitriangular n × n matrix, upper or ``lower``."""
     return tuple(
         tuple(
             Fraction(1) if i == j else integer(random, size) if (i > j) == lower else Fraction(0)
@@ -66,17 +68,18 @@ def triangular(random: Source, n: int, size: int, *, lower: bool) -> Matrix:
 
 
 def unitriangular(n: int, *, lower: bool = False) -> Sampler:
-    """UT(n), or its transposes."""
+    """A sampler of UT(n), upper unitriangular matrices, or ``lower`` ones."""
     return lambda random, size: triangular(random, n, size, lower=lower)
 
 
 def special_linear(n: int) -> Sampler:
-    """SL(n): lower · upper · lower unitriangular, elementary factors gathered."""
+    """A sampler of SL(n), by products lower · upper · lower of unitriangular matrices."""
     return product([unitriangular(n, lower=x) for x in (True, False, True)])
 
 
 def general_linear(n: int) -> Sampler:
-    """GL(n): any matrix; singular with probability ≤ n / size, then drawn again."""
+    """A sampler of GL(n): any n × n matrix; singular with probability ≤ n / size, then drawn
+    again."""
 
     def draw(random: Source, size: int) -> Matrix:
         while True:
@@ -88,13 +91,14 @@ def general_linear(n: int) -> Sampler:
 
 
 def shears(basis: Sequence[Matrix]) -> Sampler:
-    """1 + N for N in a space of matrices whose products vanish."""
+    """A sampler of 1 + N, for N in a linear space of matrices all of whose products vanish."""
     one = q.identity(len(basis[0]))
     return lambda random, size: q.plus(one, combination(random, size, basis))
 
 
 def exponentials(basis: Sequence[Matrix]) -> Sampler:
-    """1 + N + ½N² + … for N in an algebra of matrices of size n whose products of n vanish."""
+    """A sampler of exp N = 1 + N + ½N² + …, for N in a nilpotent algebra of n × n matrices,
+    products of n of which vanish."""
     n = len(basis[0])
 
     def draw(random: Source, size: int) -> Matrix:
@@ -108,12 +112,12 @@ def exponentials(basis: Sequence[Matrix]) -> Sampler:
 
 
 def dilations(n: int) -> Sampler:
-    """Positive multiples of 1."""
+    """A sampler of the positive integer multiples of the n × n identity."""
     return lambda random, size: q.scaled(random.randint(1, size), q.identity(n))
 
 
 def affine(linear: Sampler, n: int) -> Sampler:
-    """A linear element and any translation."""
+    """A sampler of [[A, T], [0, 1]] with A by a sampler of n × n matrices and any T."""
 
     def draw(random: Source, size: int) -> Matrix:
         a = linear(random, size)
@@ -124,7 +128,7 @@ def affine(linear: Sampler, n: int) -> Sampler:
 
 
 def block_diagonal(blocks: Sequence[Matrix]) -> Matrix:
-    """Square blocks along the diagonal."""
+    """The matrix with square blocks along the diagonal, and 0 elsewhere."""
     size = sum(map(len, blocks))
     rows, offset = [], 0
     for block in blocks:
@@ -135,5 +139,5 @@ def block_diagonal(blocks: Sequence[Matrix]) -> Matrix:
 
 
 def blocks(samplers: Sequence[Sampler]) -> Sampler:
-    """Independent elements along the diagonal."""
+    """A sampler of block diagonal matrices, with independent blocks by each of the samplers."""
     return lambda random, size: block_diagonal([draw(random, size) for draw in samplers])
