@@ -275,14 +275,14 @@ def turning_about_a_point() -> Group:
         _LAST,
     )
 
-    def carried(e: Matrix) -> Matrix:
+    def conjugated(e: Matrix) -> Matrix:
         return q.times(q.times(shift, e), back)
 
     turn = _so(3)
-    basis = tuple(carried(draw.block_diagonal((e, ((Fraction(0),),)))) for e in so_basis(3))
+    basis = tuple(conjugated(draw.block_diagonal((e, ((Fraction(0),),)))) for e in so_basis(3))
 
     def sampler(random: Source, size: int) -> Matrix:
-        return carried(draw.block_diagonal((turn(random, size), ((Fraction(1),),))))
+        return conjugated(draw.block_diagonal((turn(random, size), ((Fraction(1),),))))
 
     return Group("SO(3) about a point", 3, "affine", basis, sampler)
 

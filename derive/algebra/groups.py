@@ -164,7 +164,7 @@ class Group:
         return q.combine(coordinates, self.basis)
 
     @cached_property
-    def _readers(self) -> Matrix:
+    def _coordinate_rows(self) -> Matrix:
         """The d × s² rows that read ζ off the entries of Z: a left inverse of the basis."""
         columns = q.transposed(tuple(q.flatten(e) for e in self.basis))
         _, pivots = q.echelon(q.transposed(columns))
@@ -179,14 +179,14 @@ class Group:
     def reading(self, a: int) -> list[tuple[Fraction, int, int]]:
         """ζᵃ as Σ coefficient · Z_ij: the terms (coefficient, i, j), counted from 0."""
         s = self.size
-        return [(c, k // s, k % s) for k, c in enumerate(self._readers[a]) if c]
+        return [(c, k // s, k % s) for k, c in enumerate(self._coordinate_rows[a]) if c]
 
     def nearest(self, z: Matrix) -> tuple[Any, ...]:
         """The coordinates that the readers find in any matrix: those of Z when Z is in 𝔤."""
         flat = q.flatten(z)
         return tuple(
             sum((c * x for c, x in zip(row, flat, strict=True) if c), Fraction(0))
-            for row in self._readers
+            for row in self._coordinate_rows
         )
 
     def vee(self, z: Matrix) -> tuple[Any, ...] | None:

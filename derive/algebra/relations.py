@@ -59,13 +59,13 @@ def relations(g: Group) -> Relations:
     factors."""
     n, linear = g.n, [e for e in map(g.linear_part, g.basis) if any(map(any, e))]
     conformal = any(q.trace(e) for e in linear)
-    hull = left = _generated(g)
+    hull = left = _associative_hull(g)
     form: Matrix = ()
     frame: Matrix = ()
     determinant = False
 
     def kept(value: Linear) -> list[Vector]:
-        return _kernel(left, lambda v: value(_square(v, n)))
+        return _kernel(left, lambda v: value(_matrix_of(v, n)))
 
     S = _form(linear, n)
     if S and len(fewer := kept(lambda e: _variation(S, e, conformal))) < len(left):
@@ -125,7 +125,7 @@ def _kernel(space: Sequence[Vector], value: Callable[[Vector], Sequence[Fraction
     return found
 
 
-def _square(v: Vector, n: int) -> Matrix:
+def _matrix_of(v: Vector, n: int) -> Matrix:
     """The n × n matrix of a vector's first n² entries."""
     return tuple(v[n * i : n * i + n] for i in range(n))
 
@@ -133,7 +133,7 @@ def _square(v: Vector, n: int) -> Matrix:
 # -- the hull ------------------------------------------------------------------------------------
 
 
-def _generated(g: Group) -> list[Vector]:
+def _associative_hull(g: Group) -> list[Vector]:
     """A basis of E₀: products of matrices of 𝔤, until nothing is added or all is there."""
     n, most, span = g.n, g.n * (g.n + g.affine), _Span()
     found: list[Matrix] = []
@@ -167,22 +167,22 @@ def _product(a: Matrix, b: Matrix) -> Matrix:
 def _projector(hull: Sequence[Vector], n: int) -> Matrix:
     """The projection onto the hull: orthogonal in A, then in T among what A leaves to it."""
     size, width = n * n, len(hull[0]) - n * n
-    turning = [v for v in hull if any(v[:size])]
-    a, t = (tuple(v[part] for v in turning) for part in (slice(size), slice(size, None)))
+    moving = [v for v in hull if any(v[:size])]
+    a, t = (tuple(v[part] for v in moving) for part in (slice(size), slice(size, None)))
     shifts = tuple(v[size:] for v in hull if not any(v[:size]))
-    across = _onto(shifts, _dual(shifts), width, width)
+    onto_translations = _combination(shifts, _dual(shifts), width, width)
     dual = _dual(a)
-    carried = _onto(t, dual, width, size)
+    shift_of_linear = _combination(t, dual, width, size)
     if width:
-        carried = q.times(q.minus(q.identity(width), across), carried)
-    upper = _onto(a, dual, size, size)
+        shift_of_linear = q.times(q.minus(q.identity(width), onto_translations), shift_of_linear)
+    upper = _combination(a, dual, size, size)
     return (
         *((*row, *(Fraction(0),) * width) for row in upper),
-        *((*x, *y) for x, y in zip(carried, across, strict=True)),
+        *((*x, *y) for x, y in zip(shift_of_linear, onto_translations, strict=True)),
     )
 
 
-def _onto(rows: Matrix, dual: Matrix, height: int, width: int) -> Matrix:
+def _combination(rows: Matrix, dual: Matrix, height: int, width: int) -> Matrix:
     """The matrix that takes a vector to the combination of the rows with the coefficients that
     ``dual`` gives it."""
     if rows:
@@ -194,9 +194,9 @@ def _dual(rows: Matrix) -> Matrix:
     """(bb̄)⁻¹b: the coefficients of the orthogonal projection onto independent rows b."""
     if not rows:
         return ()
-    gram = q.inverse(q.times(rows, q.transposed(rows)))
-    assert gram is not None
-    return q.times(gram, rows)
+    inverse = q.inverse(q.times(rows, q.transposed(rows)))
+    assert inverse is not None
+    return q.times(inverse, rows)
 
 
 # -- the form ------------------------------------------------------------------------------------
@@ -224,7 +224,7 @@ def _form(linear: Sequence[Matrix], n: int) -> Matrix:
         pairs = combinations_with_replacement(range(n), 2)
         space = [_unit(n, i, j, sign) for i, j in pairs if sign == 1 or i != j]
         for e in linear:
-            space = _kernel(space, lambda S, e=e: _variation(_square(S, n), e, True))  # type: ignore[misc]
+            space = _kernel(space, lambda S, e=e: _variation(_matrix_of(S, n), e, True))  # type: ignore[misc]
         for S in _candidates(space, n):
             if linear and q.inverse(S) is not None:
                 return S
@@ -245,7 +245,7 @@ def _candidates(space: Sequence[Vector], n: int) -> Iterable[Matrix]:
     one = q.identity(n)
     if q.rank((*space, q.flatten(one))) == len(space):
         yield one
-    matrices = [_square(S, n) for S in space]
+    matrices = [_matrix_of(S, n) for S in space]
     yield from matrices
     for k in range(1, n + 2):
         yield q.combine([Fraction(k) ** i for i in range(len(space))], matrices)
@@ -261,19 +261,19 @@ def _complex_structure(linear: Sequence[Matrix], hull: Sequence[Vector], n: int)
         centre = _kernel(
             centre,
             lambda S, e=e: q.flatten(
-                q.minus(_product(_square(S, n), e), _product(e, _square(S, n)))
+                q.minus(_product(_matrix_of(S, n), e), _product(e, _matrix_of(S, n)))
             ),  # type: ignore[misc]
         )
     span = _Span()
-    turning = [K for K in (_traceless(_square(v, n)) for v in centre) if span.add(q.flatten(K))]
-    if len(turning) != 1:
+    moving = [K for K in (_traceless(_matrix_of(v, n)) for v in centre) if span.add(q.flatten(K))]
+    if len(moving) != 1:
         return ()
-    square = _product(turning[0], turning[0])
+    square = _product(moving[0], moving[0])
     size = -square[0][0]
     if size <= 0 or square != q.scaled(-size, q.identity(n)):
         return ()
     root = Fraction(isqrt(size.numerator), isqrt(size.denominator))
-    return q.scaled(1 / root, turning[0]) if root * root == size else ()
+    return q.scaled(1 / root, moving[0]) if root * root == size else ()
 
 
 def _complex_frame(K: Matrix) -> Matrix:

@@ -30,29 +30,29 @@ def any_sign(problem: Mapping[str, Any]) -> bool:
     }
     masses = [p["mass"] for p in body.get("points", [])]
     masses += [x["density"] for x in body.get("solids", [])] + [body.get("given", {}).get("m", 1)]
-    negative = any((_value(x, defaults) or 0) < 0 for x in masses)
-    return "masses" in problem or negative or _impossible(body)
+    negative = any((_default_value(x, defaults) or 0) < 0 for x in masses)
+    return "masses" in problem or negative or _of_no_positive_masses(body)
 
 
-def _impossible(body: Mapping[str, Any]) -> bool:
+def _of_no_positive_masses(body: Mapping[str, Any]) -> bool:
     """Are the given moments m, c, J numbers that no positive masses have: is [[J, c], [c̄, m]] not
     semidefinite?"""
     given = body.get("given", {})
     if not given or body.get("solids"):
         return False
-    m, *c = (_number(x) for x in (given["m"], *given["c"]))
-    J = [[_number(x) for x in row] for row in given["J"]]
+    m, *c = (_plain_number(x) for x in (given["m"], *given["c"]))
+    J = [[_plain_number(x) for x in row] for row in given["J"]]
     whole = [[*row, x] for row, x in zip(J, c, strict=True)] + [[*c, m]]
     return all(x is not None for row in whole for x in row) and not q.semidefinite(whole)
 
 
-def _number(x: Any) -> Fraction | None:
+def _plain_number(x: Any) -> Fraction | None:
     """The number that an expression of the record is; ``None`` where it has parameters."""
     t = decode(x, "problem")
     return Fraction(t) if isinstance(t, (int, Fraction)) else None
 
 
-def _value(x: Any, defaults: Mapping[str, float]) -> float | None:
+def _default_value(x: Any, defaults: Mapping[str, float]) -> float | None:
     """The value of an expression at the defaults of its parameters; ``None`` where one has no
     default."""
     try:

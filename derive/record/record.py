@@ -32,7 +32,7 @@ from .shape import ShapeError, deepest, problem_shape, tree_shape
 from .strict import loads
 from .vocabulary import ACTIONS, ANY_GROUP, COMMENTARY, ROLES, VOCABULARY, Type, Use
 
-TYPE = 4
+DEEPEST_TYPE = 4
 """How deep lists may lie in one another in the type of a symbol."""
 
 
@@ -302,7 +302,7 @@ def _prose(data: Any, key: str, where: str) -> Prose:
     return prose
 
 
-def _derived(data: dict[str, Any], key: str, right: Any, where: str) -> None:
+def _require_implied(data: dict[str, Any], key: str, right: Any, where: str) -> None:
     """``RecordError`` where a key that follows from the rest of the record has another value than
     ``right``; it may be absent."""
     if key in data and data[key] != right:
@@ -333,7 +333,7 @@ def _type(data: Any, where: str, depth: int = 0) -> Type:
     checker judges what it means."""
     if isinstance(data, str) or type(data) is int:
         return data  # type: ignore[return-value]
-    if not isinstance(data, list) or not data or depth > TYPE:
+    if not isinstance(data, list) or not data or depth > DEEPEST_TYPE:
         raise RecordError(f"{where}: key 'type' must be a name, or lists of names and sizes")
     return tuple(_type(x, where, depth + 1) for x in data)
 
@@ -350,7 +350,7 @@ def _step(data: Any, where: str, earlier: Set[str], group: str) -> Step:
     rule = _field(data, "rule", str, where)
     if rule not in RULES:
         raise RecordError(f"{where}: unknown rule {rule[:40]!r}")
-    _derived(data, "kind", RULES[rule].kind, where)
+    _require_implied(data, "kind", RULES[rule].kind, where)
     uses = _strings(data, "uses", where)
     missing = [u for u in uses if u not in earlier]
     if missing:
@@ -359,10 +359,10 @@ def _step(data: Any, where: str, earlier: Set[str], group: str) -> Step:
     if not equations:
         raise RecordError(f"{where}: no equation")
     for k, item in enumerate(data["equations"], 1):
-        _derived(item, "key", equation_key(label, k), f"{where}, equation {k}")
+        _require_implied(item, "key", equation_key(label, k), f"{where}, equation {k}")
     paper = tuple(x for x in _field(data, "paper", list, where) if isinstance(x, int))
     scope = ANY_GROUP if label.partition(".")[0] in ACTIONS else group
-    _derived(data, "scope", scope, where)
+    _require_implied(data, "scope", scope, where)
     prose = _prose(data, "prose", where)
     given = _equations(data, "given", where, quantified=False) if "given" in data else ()
     driven = bool(_field(data, "driven", bool, where)) if "driven" in data else False
@@ -405,7 +405,7 @@ def from_json(text: str) -> Derivation:
     except ValueError as error:
         raise RecordError(f"not JSON that can be read: {error}") from None
     problem = _field(data, "problem", dict, "record")
-    _derived(data, "commentary", [*COMMENTARY], "record")
+    _require_implied(data, "commentary", [*COMMENTARY], "record")
     if deepest(problem) > TREE:
         raise RecordError(f"record, problem: nested deeper than {TREE}")
     try:
@@ -428,7 +428,7 @@ def from_json(text: str) -> Derivation:
         raise RecordError("record: no step")
     found = Derivation(problem, tuple(symbols), tuple(steps.values()))
     for k, (item, label) in enumerate(zip(data["steps"], steps, strict=True), 1):
-        _derived(item, "remark", label in found.remarks, f"step {k} ({label})")
+        _require_implied(item, "remark", label in found.remarks, f"step {k} ({label})")
     return found
 
 

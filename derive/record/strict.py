@@ -10,7 +10,7 @@ from typing import Any
 def loads(text: str) -> Any:
     """The data of a text; ``ValueError`` says in one line what cannot be read."""
     try:
-        return json.loads(text, parse_constant=_no_constant, object_pairs_hook=_once)
+        return json.loads(text, parse_constant=_no_constant, object_pairs_hook=_object)
     except RecursionError:
         raise ValueError("nested deeper than can be read") from None
     except ValueError as error:  # Python reads no integer of thousands of digits
@@ -24,7 +24,7 @@ def _no_constant(name: str) -> Any:
     raise ValueError(f"{name} is no number of JSON")
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """An object from its keys and values; ``ValueError`` for a key that occurs twice."""
     found = dict(pairs)
     if len(found) < len(pairs):

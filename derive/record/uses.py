@@ -13,11 +13,11 @@ from ..language.tree import Tree
 from .record import Equation, Step
 from .vocabulary import ALGEBRA, ANY_GROUP, SCALAR, SQUARE, VECTOR, VOCABULARY, Name, Type, Use
 
-Way = tuple[str, str]
+Usage = tuple[str, str]
 """A name and the position in which it stands: "value", "member", "function" or "moved"."""
 
 
-INSIDE: dict[str, Any] = {
+TREE_OPERANDS: dict[str, Any] = {
     "entry": lambda t: t[1:2],
     **dict.fromkeys(("sum", "fun", "call"), lambda t: t[2:]),
 }
@@ -27,18 +27,18 @@ INSIDE: dict[str, Any] = {
 class Occurrence(NamedTuple):
     """A use of a name in an equation, with the arguments where it is that of a function."""
 
-    way: Way
+    usage: Usage
     arguments: tuple[Tree, ...] = ()
 
 
 def occurrences(t: Tree) -> list[Occurrence]:
     """The uses of names in a tree, from left to right; parameters and indices are none."""
     found: list[Occurrence] = []
-    _gather(t, found)
+    _collect(t, found)
     return found
 
 
-def _gather(t: Tree, found: list[Occurrence]) -> None:
+def _collect(t: Tree, found: list[Occurrence]) -> None:
     """Append the uses in a tree to ``found``."""
     if isinstance(t, str):
         found.append(Occurrence((t, "value")))
@@ -46,25 +46,25 @@ def _gather(t: Tree, found: list[Occurrence]) -> None:
         found.append(Occurrence((t[1], "member")))
     elif isinstance(t, tuple) and t[0] != "par":
         if t[0] == "call":
-            found.append(Occurrence(_called(t[1]), t[2:]))
-        for part in INSIDE.get(t[0], lambda x: x[1:])(t):
+            found.append(Occurrence(_usage_of_head(t[1]), t[2:]))
+        for part in TREE_OPERANDS.get(t[0], lambda x: x[1:])(t):
             if isinstance(part, (str, tuple)):
-                _gather(part, found)
+                _collect(part, found)
 
 
-def _called(head: Any) -> Way:
+def _usage_of_head(head: Any) -> Usage:
     """The use that the head of a call is: a function, or a member of a family of functions."""
     return (head, "function") if isinstance(head, str) else (head[1], "moved")
 
 
-def way_of(type_: Type) -> str:
+def position_of(type_: Type) -> str:
     """The position in which a name of this type stands in equations."""
     if type_[0] == "family":
         return "moved" if type_[2][0] == "function" else "member"
     return "function" if type_[0] == "function" else "value"
 
 
-class Read(NamedTuple):
+class ReadEquation(NamedTuple):
     """An equation of a step with its key, its scope, and the uses on its two sides in order."""
 
     scope: str
@@ -74,14 +74,14 @@ class Read(NamedTuple):
     right: dict[Occurrence, None]
 
 
-def read(steps: Iterable[Step]) -> list[Read]:
+def read_equations(steps: Iterable[Step]) -> list[ReadEquation]:
     """The equations of some steps, with their uses."""
 
     def side(t: Tree) -> dict[Occurrence, None]:
         return dict.fromkeys(occurrences(t))
 
     return [
-        Read(step.scope, key, e, side(e.lhs), side(e.rhs))
+        ReadEquation(step.scope, key, e, side(e.lhs), side(e.rhs))
         for step in steps
         for key, e in zip(step.keys, step.equations, strict=True)
     ]
@@ -95,49 +95,49 @@ def of_steps(
     ``meant``: all uses that each name may have. ``sizes``: the values of n and d, for what only the
     text about the problem's group has.
     """
-    equations = read(steps)
+    equations = read_equations(steps)
     listed = [(e.scope, x) for e in equations for x in (*e.left, *e.right)]
-    general = {x.way for scope, x in listed if scope == ANY_GROUP}
+    general = {x.usage for scope, x in listed if scope == ANY_GROUP}
     found = definitions(equations, meant)
     seen: dict[str, dict[Occurrence, None]] = {}
     for _, x in listed:
-        if x.way[0] in meant:
-            seen.setdefault(x.way[0], {})[x] = None
+        if x.usage[0] in meant:
+            seen.setdefault(x.usage[0], {})[x] = None
 
     def use(name: str, kept: Use) -> Use:
-        way = (name, way_of(kept.type))
-        sized = {k: x for k, x in sizes.items() if k != "n" or way not in general}
-        key, there = found.get(way, ("", Occurrence(way)))
-        key = key if _fits(name, kept, [there]) else ""
-        role = ("definition" if key else "letter") if kept.role in FIRST else kept.role
-        return Use(filled(kept.type, sized), role, key)
+        usage = (name, position_of(kept.type))
+        sized = {k: x for k, x in sizes.items() if k != "n" or usage not in general}
+        key, occurring = found.get(usage, ("", Occurrence(usage)))
+        key = key if _fits(name, kept, [occurring]) else ""
+        role = ("definition" if key else "letter") if kept.role in DECIDED_ROLES else kept.role
+        return Use(with_sizes(kept.type, sized), role, key)
 
     return {
-        name: tuple(use(name, x) for x in meant[name].uses if _fits(name, x, there))
-        for name, there in seen.items()
+        name: tuple(use(name, x) for x in meant[name].uses if _fits(name, x, occurring))
+        for name, occurring in seen.items()
     }
 
 
-FIRST = ("letter", "definition")
+DECIDED_ROLES = ("letter", "definition")
 """The two roles between which the steps decide, by whether an equation defines the name."""
 
 
-def filled(type_: Type, sizes: Mapping[str, int]) -> Type:
+def with_sizes(type_: Type, sizes: Mapping[str, int]) -> Type:
     """A type with the letters of its sizes replaced by numbers, as far as ``sizes`` has them."""
     if isinstance(type_, str):
         return type_
-    inside = (sizes.get(x, x) if isinstance(x, str) else filled(x, sizes) for x in type_[1:])
+    inside = (sizes.get(x, x) if isinstance(x, str) else with_sizes(x, sizes) for x in type_[1:])
     return (type_[0], *inside)
 
 
-def _fits(name: str, use: Use, there: Iterable[Occurrence]) -> bool:
+def _fits(name: str, use: Use, occurring: Iterable[Occurrence]) -> bool:
     """Does a name occur in the position of a declared use, and if it is a function, with arguments
     of its types?"""
-    way = (name, way_of(use.type))
-    if way[1] != "function":
-        return any(x.way == way for x in there)
+    usage = (name, position_of(use.type))
+    if usage[1] != "function":
+        return any(x.usage == usage for x in occurring)
     kinds = tuple(use.type[1:-1])
-    taken = (x.arguments for x in there if x.way == way)
+    taken = (x.arguments for x in occurring if x.usage == usage)
     return any(
         len(xs) == len(kinds)
         and all(x == 0 or type_of(x) == k for x, k in zip(xs, kinds, strict=True))
@@ -149,7 +149,7 @@ def type_of(argument: Tree) -> Type:
     """The type of an argument of a function: a name, a product with A, r r̄, r_i(t), or a
     number."""
     if isinstance(argument, str):
-        return next(x.type for x in VOCABULARY[argument].uses if way_of(x.type) == "value")
+        return next(x.type for x in VOCABULARY[argument].uses if position_of(x.type) == "value")
     if not isinstance(argument, tuple):
         return SCALAR
     last = argument[-1]
@@ -164,35 +164,35 @@ def type_of(argument: Tree) -> Type:
 
 
 def definitions(
-    equations: Iterable[Read], meant: Mapping[str, Name]
-) -> dict[Way, tuple[str, Occurrence]]:
+    equations: Iterable[ReadEquation], meant: Mapping[str, Name]
+) -> dict[Usage, tuple[str, Occurrence]]:
     """Use → the key of the equation that defines it, and how it occurs there; of a family that is
     listed, of its first member.
 
     A use is defined where it stands alone on the left; or is new and alone on the right, as in Z =
     j(ζ), or the one new name of a pairing or a sum: Z = Σ ζ_a E_a.
     """
-    listed = [(x, way_of(y.type), y.role) for x, about in meant.items() for y in about.uses]
-    known = {(x, way) for x, way, role in listed if role != "definition"}
-    mine = {(x, way) for x, way, _ in listed}
-    found: dict[Way, tuple[str, Occurrence]] = {}
+    listed = [(x, position_of(y.type), y.role) for x, about in meant.items() for y in about.uses]
+    known = {(x, position) for x, position, role in listed if role != "definition"}
+    allowed = {(x, position) for x, position, _ in listed}
+    found: dict[Usage, tuple[str, Occurrence]] = {}
     for e in equations:
-        left, right = head(e.equation.lhs), head(e.equation.rhs)
-        if left and left.way not in {x.way for x in e.right}:
-            found.setdefault(left.way, (e.key, left))
-        if right and right.way not in known:
-            found.setdefault(right.way, (e.key, right))
-        known |= {x.way for x in (left, right) if x}
-        if _pairs(e.equation.lhs) or _pairs(e.equation.rhs):
-            new = {x.way for x in (*e.left, *e.right)} & mine - known
+        left, right = lone_occurrence(e.equation.lhs), lone_occurrence(e.equation.rhs)
+        if left and left.usage not in {x.usage for x in e.right}:
+            found.setdefault(left.usage, (e.key, left))
+        if right and right.usage not in known:
+            found.setdefault(right.usage, (e.key, right))
+        known |= {x.usage for x in (left, right) if x}
+        if _is_pairing(e.equation.lhs) or _is_pairing(e.equation.rhs):
+            new = {x.usage for x in (*e.left, *e.right)} & allowed - known
             if len(new) == 1:
-                (way,) = new
-                found.setdefault(way, (e.key, Occurrence(way)))
-                known.add(way)
+                (usage,) = new
+                found.setdefault(usage, (e.key, Occurrence(usage)))
+                known.add(usage)
     return found
 
 
-def head(t: Tree) -> Occurrence | None:
+def lone_occurrence(t: Tree) -> Occurrence | None:
     """The use that is all of a tree, also under j, a transpose, an inverse or as an entry; ``None``
     if there is none."""
     while isinstance(t, tuple) and t[0] in ("hat", "T", "inv", "entry"):
@@ -201,6 +201,6 @@ def head(t: Tree) -> Occurrence | None:
     return occurrences(t)[0] if alone else None
 
 
-def _pairs(t: Tree) -> bool:
+def _is_pairing(t: Tree) -> bool:
     """Is the tree an inner product or a sum?"""
     return isinstance(t, tuple) and t[0] in ("inner", "metric", "sum")

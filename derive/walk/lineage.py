@@ -9,8 +9,8 @@ from functools import cache
 
 from ..language.tree import Tree
 from ..record.record import Step
-from ..record.uses import way_of
-from ..record.vocabulary import OF, VOCABULARY
+from ..record.uses import position_of
+from ..record.vocabulary import DERIVATIVE_OF, VOCABULARY
 
 FREE = ("letter", "value on X", "function")
 """Roles of what all begins with; of functions, those of these names alone."""
@@ -40,7 +40,7 @@ def traced(steps: Iterable[Step]) -> tuple[Step, ...]:
 def subjects(t: Tree) -> Iterator[str]:
     """The names that a tree speaks of, but those that all begins with; ``m_`` of a member m_i."""
     if isinstance(t, str):
-        x = OF.get(t, t)
+        x = DERIVATIVE_OF.get(t, t)
         if _is_defined(x, "value") or _is_defined(x, "function"):
             yield x
     elif isinstance(t, tuple) and t[0] == "at":
@@ -55,6 +55,6 @@ def subjects(t: Tree) -> Iterator[str]:
 def _is_defined(name: str, way: str) -> bool:
     """Is it something else than what all begins with?"""
     uses = VOCABULARY[name].uses if name in VOCABULARY else ()
-    roles = [use.role for use in uses if way_of(use.type) == way]
+    roles = [use.role for use in uses if position_of(use.type) == way]
     free = FREE if name in OPERATORS or way != "function" else FREE[:2]
     return not {*roles} <= {*free}

@@ -11,7 +11,7 @@ from derive.check import symbols
 from derive.check.checker import Checker
 from derive.check.heads import HEADS
 from derive.record.record import RecordError, from_json, to_data
-from derive.record.uses import way_of
+from derive.record.uses import position_of
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROLES, ROTATIONS, VOCABULARY
 from tests.support.walks import NAMES, OTHERS, SEED, SPECIAL, record, repeated
 
@@ -175,7 +175,7 @@ def test_functions_have_the_arguments_of_their_heads(name):
     affine = record(name).problem["action"] == "affine"
     for symbol in record(name).symbols:
         for use in symbol.uses:
-            if way_of(use.type) == "function":
+            if position_of(use.type) == "function":
                 count = len(HEADS[symbol.name]) - (symbol.name in ("p̃", "dŨ") and not affine)
                 assert len(use.type) - 2 == count
 
