@@ -21,12 +21,14 @@ from ..language.rational import Matrix
 Numbers = tuple[Any, ...]
 EPSILON = nilpotent(EPS)
 Entry = tuple[str, int, int]
-"""A name, and where its number is in a matrix of the group."""
+"""The name of a number of the state, and the row and column where it is in a matrix of the
+group."""
 
 
 @dataclass(frozen=True)
 class Chart:
-    """What an emission chose about the state, in the words of its options."""
+    """What an emission chose about the state, in the words of its options: order of entries, matrix
+    or quaternion, ζ or ġ."""
 
     layout: str = "row"
     attitude: str = "matrix"
@@ -35,14 +37,14 @@ class Chart:
 
 @dataclass(frozen=True)
 class State:
-    """The state of a group in a chart."""
+    """The coordinates of the states (g, ġ) of a group in a chart."""
 
     group: Group
     chart: Chart
 
     @cached_property
     def entries(self) -> list[Entry]:
-        """The entries of g that the state holds, in order."""
+        """The entries of g that the state holds, in order; with a quaternion those of T alone."""
         found: list[Entry] = []
         for k, (offset, factor) in enumerate(self.group.places, 1):
             mark, span = str(k) if len(self.group.places) > 1 else "", range(factor.n)
@@ -58,7 +60,7 @@ class State:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of the numbers."""
+        """The names of the numbers of the state, in order."""
         place = [name for name, _, _ in self.entries]
         if self.chart.attitude == "quaternion":
             place = [f"q_{i}" for i in range(4)] + place
@@ -69,10 +71,11 @@ class State:
         return (*place, *turns, *(named("w", i) for i in range(moved)))
 
     def _read(self, x: Matrix) -> Numbers:
+        """The entries that the state holds, read off a matrix of the group's size."""
         return tuple(x[i][j] for _, i, j in self.entries)
 
     def values(self, g: Matrix, Z: Matrix) -> Numbers:
-        """The state at g with velocity g Z."""
+        """The numbers of the state at g with velocity g Z."""
         place = self._read(g)
         if self.chart.attitude == "quaternion":
             place = (*quaternion(g), *place)
@@ -81,7 +84,7 @@ class State:
         return (*place, *self.group.nearest(Z))
 
     def varied(self, g: Matrix, Z: Matrix, eta: Matrix, change: Matrix) -> Numbers:
-        """The state at g(1 + εη) with Z + ε δZ, in nilpotent numbers."""
+        """The numbers of the state at g(1 + εη) with Z + ε δZ, in nilpotent numbers."""
         moved = q.times(g, q.plus(q.identity(len(eta)), q.scaled(EPSILON, eta)))
         Z = q.plus(Z, q.scaled(EPSILON, change))
         if self.chart.attitude == "matrix":
@@ -92,7 +95,7 @@ class State:
         return (*varied, *self._read(moved), *self.group.nearest(Z))
 
     def tangent(self, g: Matrix, Z: Matrix, change: Sequence[Any]) -> bool:
-        """Is a change of the numbers of the state (g, Z) one that stays in the group?"""
+        """Is a change of the numbers of the state (g, Z) tangent to the group's states?"""
         back = q.inverse(g)
         assert back is not None
         if self.chart.attitude == "quaternion":
@@ -115,14 +118,15 @@ class State:
         return q.matrix(found)
 
     def acceleration(self, Z: Matrix, back: Matrix, rates: Numbers) -> Numbers:
-        """The coordinates of Ż = g⁻¹g̈ − Z² from the rates of the state; ``back``: g⁻¹."""
+        """The d coordinates of Ż = g⁻¹g̈ − Z² from the rates of the state; ``back``: g⁻¹."""
         if self.chart.velocity == "body":
             return rates[-self.group.dimension :]
         second = self._matrix(rates[len(self.entries) :], len(Z))
         return self.group.nearest(q.minus(q.times(back, second), q.times(Z, Z)))
 
     def rates(self, g: Matrix, Z: Matrix, g_dot: Matrix, Z_dot: Matrix) -> Numbers:
-        """Its derivative where ġ and Ż are these: g̈ = ġZ + gŻ, and q̇ = ½ q ζ."""
+        """The derivative of the numbers of the state for these ġ and Ż: g̈ = ġZ + gŻ, and q̇ = ½ q
+        ζ."""
         place = self._read(g_dot)
         if self.chart.attitude == "quaternion":
             place = (*turned(quaternion(g), axis(Z)), *place)
@@ -151,12 +155,12 @@ def quaternion(g: Matrix) -> Numbers:
 
 
 def axis(x: Matrix) -> Numbers:
-    """ζ of a matrix with the linear part j(ζ)."""
+    """The three entries of ζ, for a matrix with the linear part j(ζ)."""
     return (x[2][1], x[0][2], x[1][0])
 
 
 def turned(p: Numbers, zeta: Numbers) -> Numbers:
-    """½ p ζ, Hamilton's product with a quaternion without scalar."""
+    """The quaternion ½ p ζ, Hamilton's product with ζ as a quaternion without scalar."""
     s, x, y, z = p
     a, b, c = zeta
     rates = (

@@ -26,21 +26,24 @@ from .straight_line import asked, straight, summands
 from .terms import Array, CodeError, run
 
 SIZE = 2**128
-"""Random integers are of at most this absolute value."""
+"""The random integers of a point are of at most this absolute value."""
 
 BOUND, FEWEST, MOST = 1e-40, 2, 20
-"""Points are added until a false pass is less probable than this."""
+"""Points are added until a false pass is less probable than BOUND: at least FEWEST, at most
+MOST."""
 
 
 SLOPE = 16
-"""Times the size of the group: a derivative and its way to coordinates add less to a degree."""
+"""Times the size of the group, this bounds what a derivative and its way to coordinates add to a
+degree, as a factor."""
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """``functions`` that equal the record at so many ``points``; ``bound`` on a false pass.
+    """The names of the ``functions`` that equal the record at so many ``points``; ``bound`` on the
+    probability of a false pass.
 
-    ``rounded``: the decimals that stand for the number that they are nearest to.  ``unread``: the
+    ``rounded``: the decimals that stand for the number that they are nearest to. ``unread``: the
     constants that none of the functions reads, so that nothing is known of them.
     """
 
@@ -58,10 +61,12 @@ def compare(
     text: str = "",
     bound: float = BOUND,
 ) -> Verdict:
-    """The verdict on a module; ``CodeError`` where it cannot be read, or differs.
+    """The verdict on a module whose functions equal the record; ``CodeError`` where it cannot be
+    read, or differs.
 
-    The points are drawn from a hash of the record and of ``text``, that of the files: they are the
-    same at every run, and whoever writes a file cannot aim it at them.
+    ``exact``: the numbers that decimals may stand for. The points are drawn from a hash of the
+    record and of ``text``, that of the files: they are the same at every run, and whoever writes a
+    file cannot aim it at them.
     """
     compare_names(module, claims)
     literal = Literals(exact)
@@ -83,7 +88,8 @@ def compare(
 
 
 def _zeros(module: Module) -> list[tuple[str, ...]]:
-    """The parameters that the code asks whether they are 0: each alone, and all at once."""
+    """The sets of parameters to be tried as 0, where the code branches on that: each that it tests
+    alone, and all at once."""
     found = sorted({i for f in module.functions.values() for i in asked(f)})
     names = tuple((module.parameters or ())[i] for i in found)
     return list(dict.fromkeys([*((x,) for x in names), names])) if names else []
@@ -92,7 +98,7 @@ def _zeros(module: Module) -> list[tuple[str, ...]]:
 def _at_zero(
     module: Module, claims: Claims, literal: Literals, seed: str, zero: tuple[str, ...]
 ) -> None:
-    """The same where some parameters are 0, if the record has values there."""
+    """Compare at a point where these parameters are 0, if the record has values there."""
     try:
         point = claims.point(f"{seed} zero", zero)
     except CodeError:
@@ -101,7 +107,8 @@ def _at_zero(
 
 
 class Comparison:
-    """One module at one exact point; ``measured``: its degrees are found as well."""
+    """The comparison of one module with the record at one exact point; ``measured``: its degrees
+    are found as well."""
 
     def __init__(
         self,
@@ -123,14 +130,16 @@ class Comparison:
 
     @property
     def degree(self) -> int:
-        """Of a difference, with what makes two arguments of elementary functions equal."""
+        """A bound on the degree of a difference, and of what makes two arguments of elementary
+        functions equal by chance."""
         record = self.claims.degree
         pairs = self.opaque.calls * len(self.point.elementary.values)
         own = SLOPE * self.claims.group.size * self.largest
         return own + record + pairs * (self.opaque.largest + record)
 
     def all(self) -> tuple[str, ...]:
-        """The names of the functions, each seen to equal the record's."""
+        """The names of the module's functions, once each has been found equal to the record's;
+        ``CodeError`` else."""
         for f in self.module.functions.values():
             straight(f)
         given, point, found = self._given(), self.point, ["constants", "rhs", "energy"]
@@ -157,7 +166,8 @@ class Comparison:
         return tuple(f"the rate of {x}" for x in self.claims.state.names)
 
     def _given(self) -> dict[str, Any]:
-        """All that the functions take at the point."""
+        """The arguments that the functions may take at the point: t, x, u, p and the constants k
+        that the module computes."""
         given, listed = self.point.given, self.module.parameters or ()
         p = self._array([self.point.parameters[x] for x in listed], "p", self.claims.moment_degree)
         k = self._call("constants", {"p": p}, k=self.module.sizes.get("CONSTANTS", 0))["k"]
@@ -176,6 +186,7 @@ class Comparison:
         return Array(self._lifted(values, degrees), name)
 
     def _call(self, name: str, given: Mapping[str, Any], **sizes: int) -> dict[str, list[Any]]:
+        """The arrays that a function writes, or returns, as lists by name."""
         try:
             found = self.machine.call(name, given, **sizes)
         except CodeError as error:
@@ -186,11 +197,13 @@ class Comparison:
         return found
 
     def _measure(self, values: Iterable[Any]) -> None:
+        """Take the degrees of these values into account."""
         degrees = (x.degree for x in values if isinstance(x, Measured))
         self.largest = max([self.largest, *degrees])
 
     def _batch(self, given: Mapping[str, Any], count: int) -> None:
-        """So many states at once: that of the point, and any others, for which ``rhs`` answers.
+        """Compare ``rhs_batch`` with ``rhs`` on ``count`` states: that of the point, and random
+        ones.
 
         An index is made of n and s by sums and products alone, so three counts tell two apart.
         """
@@ -211,7 +224,8 @@ class Comparison:
             self._same("rhs_batch", self._rates, found[s :: len(states)], rates)
 
     def _alone(self, given: Mapping[str, Any], name: str, x: Sequence[Any]) -> Sequence[Any]:
-        """The numbers of ``project``, or what ``defect`` is the sum of the sizes of."""
+        """The numbers that ``project`` returns at the state x, or the summands of which ``defect``
+        adds the sizes."""
         exact = all(isinstance(y, Fraction) for y in x)
         state = self._array(x, "x", self.claims.entry_degree) if exact else Array(x, "x")
         given, function = {**given, "x": state}, self.module.functions.get("defect")
@@ -229,6 +243,7 @@ class Comparison:
         return Fraction(self.random.randint(1, self.claims.size))
 
     def _jacobians(self, given: Mapping[str, Any]) -> list[str]:
+        """The names of the module's Jacobians, each found equal to exact derivatives of ``rhs``."""
         plain = Machine(self.module, self.point.elementary, self.literal)
         p, k = ([getattr(x, "value", x) for x in given[a].values] for a in ("p", "k"))
         wanted = Varied(plain, self.claims.state, self.point, p, k).wanted
@@ -245,6 +260,8 @@ class Comparison:
     def _same(
         self, function: str, names: Sequence[str], found: Sequence[Any], wanted: Sequence[Any]
     ) -> None:
+        """``DiffersError`` where numbers of a function are not those of the record; ``names``: what
+        each is."""
         if len(found) != len(wanted):
             raise DiffersError(f"{function}: {len(found)} numbers, the record has {len(wanted)}")
         for name, x, y in zip(names, found, wanted, strict=True):
@@ -257,6 +274,7 @@ class Comparison:
 
 
 def brief(x: Any) -> str:
-    """A number in short, by its first digits: it may differ from another in the last alone."""
+    """A number as short text by its first six digits; another with the same text may differ from it
+    in later ones."""
     value = Fraction(getattr(x, "value", x))
     return f"{float(value):.6g} …" if abs(value) < Fraction(10) ** 300 else "a large number"

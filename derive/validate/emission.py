@@ -1,4 +1,5 @@
-"""All files of one emission: which of them are read back, and what is said of each."""
+"""The validation of all files of one emission: which of them are read back, and the result for
+each."""
 
 from __future__ import annotations
 
@@ -20,13 +21,14 @@ from .terms import CodeError
 
 UNREAD = "not validated: only C and Python are read back"
 SHOWN = 3
-"""How many decimals are listed."""
+"""The most decimals that a report lists."""
 FRAMED = "not validated: the principal frame has eigenvectors, which are not rational"
 
 
 @dataclass(frozen=True)
 class Report:
-    """What is said of some files; ``holds`` unless they differ from the record, or do not read.
+    """The result for some files in words; ``holds`` unless they differ from the record, or cannot
+    be read.
 
     ``read``: are they in a language that is read back?
     """
@@ -39,10 +41,11 @@ class Report:
 
 @dataclass(frozen=True)
 class Emission:
-    """``files``: name → text; ``numbers``: what their decimals may be roundings of.
+    """The files of one emission, ``files``: name → text; ``numbers``: what their decimals may be
+    roundings of.
 
-    ``given``: is the body as it is given, not in its principal frame?  ``fresh``: what is emitted
-    now, if the files are others; Python that is not read must be that.
+    ``given``: is the body in the frame in which it is given, not in its principal frame? ``fresh``:
+    what is emitted now, if the files are others; the Python that is not read must equal it.
     """
 
     files: Mapping[str, str]
@@ -53,12 +56,14 @@ class Emission:
     fresh: Mapping[str, str] | None = None
 
     def reports(self, d: Derivation) -> list[Report]:
-        """One for each file, or for a header with its source; ``MissingParserError`` for C."""
+        """The results, one for each file, or for a header with its source; ``MissingParserError``
+        where C cannot be parsed."""
         claims = Claims(d, self.chart, SIZE)
         return [self._report(names, claims) for names in self._groups()]
 
     def _groups(self) -> Iterator[tuple[str, ...]]:
-        """The header goes with its source."""
+        """The names of the files that are read together: a header with its source, any other by
+        itself."""
         header, source = f"{self.prefix}.h", f"{self.prefix}.c"
         for name in self.files:
             if name == header and source in self.files:
@@ -91,6 +96,8 @@ class Emission:
         return read_c(names[-1], self.files, self.prefix)
 
     def _same_unread(self, name: str) -> None:
+        """``DiffersError`` where statements of Python that are run but not read are not those now
+        emitted."""
         if self.fresh is None:
             return
         pairs = zip_longest(unread(name, self.files[name]), unread(name, self.fresh[name]))
@@ -101,7 +108,7 @@ class Emission:
 
 
 def said(v: Verdict) -> str:
-    """A verdict in words."""
+    """The verdict as text of a report."""
     text = (
         f"{', '.join(v.functions)} equal the record at {v.points} exact points; "
         f"a false pass has probability below 1e{math.ceil(math.log10(v.bound))}"

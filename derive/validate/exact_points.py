@@ -1,4 +1,5 @@
-"""Exact points of a problem: the state and all else that a call is given, and what the record says.
+"""Exact points of a problem: the state and the other arguments of a call, and what the record says
+of them.
 
 The record's equations of motion and its energy are evaluated as the checker does it, by what their
 names mean for the points of the body; π is the double next to it, as in the code.
@@ -51,7 +52,8 @@ class Point:
 
 
 class Claims:
-    """What a record says of the numbers of a chart; ``size``: random integers are within ±size."""
+    """What a record says of the numbers of a chart: names, sizes, and values at exact points;
+    ``size``: random integers are within ±size."""
 
     def __init__(self, d: Derivation, chart: Chart, size: int):
         self.record, self.size = d, size
@@ -64,12 +66,12 @@ class Claims:
 
     @cached_property
     def driven(self) -> bool:
-        """Is there anything given from outside?"""
+        """Do the equations of motion have inputs or damping?"""
         return any(s.driven for s in self.record.steps if s.label.endswith(".motion"))
 
     @cached_property
     def inputs(self) -> tuple[str, ...]:
-        """The names of the numbers of u."""
+        """The names of the numbers of u, in order."""
         found: list[str] = []
         for data in self.record.problem.get("inputs", []):
             size = self.group.dimension
@@ -86,7 +88,8 @@ class Claims:
         return self.group.places[self._block(i) - 1][1]
 
     def point(self, seed: str, zero: tuple[str, ...] = ()) -> Point:
-        """The point of a seed, some parameters 0; ``CodeError`` where the record has no value."""
+        """The point of a seed, the parameters ``zero`` being 0; ``CodeError`` where the record has
+        no value there."""
         if (seed, zero) not in self._points:
             try:
                 self._points[seed, zero] = self._point(seed, zero)
@@ -113,6 +116,8 @@ class Claims:
         )
 
     def _given(self, model: Model) -> Numbers:
+        """The numbers of u: forces in space and covectors on the stated basis, in the order of the
+        inputs."""
         found: list[Any] = []
         pushes = iter(model.pushes)
         for data in self.record.problem.get("inputs", []):
@@ -138,7 +143,8 @@ class Claims:
 
     @property
     def degree(self) -> int:
-        """A bound on the degree of what is computed from the record, as a function of the draws."""
+        """A bound on the degree of what is computed from the record, as a function of what is
+        drawn."""
         env = environment(self._counted)
         return (self.group.size + 1) * sum(
             largest_degree(e.rhs, env) for e in self.equations.values()
@@ -146,19 +152,20 @@ class Claims:
 
     @cached_property
     def _counted(self) -> Model:
-        """A point of which the degrees alone are known."""
+        """A model of which the degrees alone are known."""
         return Model(self.record.problem, self.group, DegreeSource(), self.size, driven=self.driven)
 
     @property
     def entry_degree(self) -> tuple[int, int]:
-        """The degrees of numerator and denominator of a number of the state, products with one that
-        is drawn among them."""
+        """The degrees of numerator and denominator of a number of the state, also of its product
+        with one that is drawn."""
         num, den = _largest(degrees(q.flatten(self._counted.g)))
         return num + 1, den
 
     @property
     def moment_degree(self) -> tuple[int, int]:
-        """The same of a parameter: sums of m, m r and m r r̄, where these are the parameters."""
+        """The degrees of numerator and denominator of a parameter: of sums of m, m r and m r r̄,
+        where these are the parameters."""
         return _largest(degrees(self._counted.parameters.values()))
 
     def _value(self, name: str, env: Environment) -> Any:
@@ -188,13 +195,14 @@ class Claims:
 
 
 def _largest(found: Iterable[Degree]) -> tuple[int, int]:
-    """Of numerators and of denominators."""
+    """The largest degree of the numerators, and of the denominators."""
     pairs = [(x.numerator.degree, x.denominator.degree) for x in found]
     return max((x for x, _ in pairs), default=1), max((x for _, x in pairs), default=0)
 
 
 def squares(group: Group) -> Sampler:
-    """Rotations whose quaternion is rational: squares of Cayley transforms; and any translation."""
+    """A sampler of rotations whose quaternion is rational, squares of Cayley transforms; with any
+    translation where there are some."""
     basis = tuple(group.linear_part(e) for e in group.linear_basis)
     root = by_cayley(basis)
 

@@ -1,4 +1,4 @@
-"""What the Jacobians must be: exact derivatives of what ``rhs`` computes, by nilpotent numbers.
+"""The exact Jacobians, derivatives of what ``rhs`` computes, by nilpotent numbers.
 
 A variation is δg = g η and δζ; η̇ = δζ − [Z, η], and δζ̇ is the derivative of the rates.
 """
@@ -23,7 +23,8 @@ ZERO = Fraction(0)
 
 @dataclass(frozen=True)
 class Varied:
-    """The rates of one point as a function of what varies; ``k``: its constants."""
+    """The rates of one point as a function of what varies; ``p``, ``k``: its parameters and
+    constants."""
 
     machine: Machine
     state: State
@@ -33,7 +34,7 @@ class Varied:
 
     @property
     def wanted(self) -> Mapping[str, Callable[[], list[Fraction]]]:
-        """Name of a function → the numbers of its D, row by row."""
+        """Name of a Jacobian → a function that computes its matrix D, row by row."""
         return {
             "jacobian": lambda: by_rows(self._state()),
             "jacobian_inputs": lambda: by_rows(self._inputs()),
@@ -41,6 +42,7 @@ class Varied:
         }
 
     def _state(self) -> Iterator[list[Fraction]]:
+        """The columns of the Jacobian in the state: (η̇, δζ̇) for η = E_a, then for δζ = E_a."""
         group, Z = self.state.group, self.point.Z
         none = q.scaled(ZERO, Z)
         for e in group.basis:
@@ -50,7 +52,7 @@ class Varied:
             yield [*(Fraction(a == b) for b in range(group.dimension)), *self._slopes(none, e)]
 
     def _slopes(self, eta: Matrix, change: Matrix) -> list[Fraction]:
-        """δζ̇ for δg = g η and δZ."""
+        """δζ̇ for δg = g η and δZ = ``change``."""
         x = self.state.varied(self.point.g, self.point.Z, eta, change)
         rates = self._rates({"x": x})
         Z = q.plus(self.point.Z, q.scaled(EPSILON, change))
@@ -58,17 +60,20 @@ class Varied:
         return [part(y, EPS) for y in self.state.acceleration(Z, back, rates)]
 
     def _inputs(self) -> Iterator[list[Fraction]]:
+        """The columns of the Jacobian in the inputs u."""
         u = self.point.given["u"]
         for j in range(len(u)):
             yield self._slopes_at({"u": [y + EPSILON if i == j else y for i, y in enumerate(u)]})
 
     def _parameters(self) -> Iterator[list[Fraction]]:
+        """The columns of the Jacobian in the parameters p."""
         for j in range(len(self.p)):
             p = [y + EPSILON if i == j else y for i, y in enumerate(self.p)]
             k = self.machine.call("constants", {"p": Array(p, "p")}, k=len(self.k))["k"]
             yield self._slopes_at({"k": k})
 
     def _slopes_at(self, changed: Mapping[str, Sequence[Any]]) -> list[Fraction]:
+        """The column (0, δζ̇) where arguments of ``rhs`` have the changed values."""
         rates = self._rates(changed)
         found = self.state.acceleration(self.point.Z, self._inverse(), rates)
         return [ZERO] * len(found) + [part(y, EPS) for y in found]

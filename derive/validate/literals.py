@@ -1,4 +1,5 @@
-"""The decimals of the code, and the numbers that they stand for."""
+"""The values of the decimals in emitted code: as they stand, or the exact number of which one is
+the nearest double."""
 
 from __future__ import annotations
 
@@ -7,7 +8,7 @@ from fractions import Fraction
 
 
 class Literals:
-    """The values of decimals.
+    """The values of decimals, as a function of their text.
 
     A decimal is read as it stands, unless it is the double next to one of the numbers ``exact``,
     which has no shorter decimal, as 0.8377580409572781 to 4π/15: then it stands for that number,
@@ -21,7 +22,7 @@ class Literals:
         self.rounded: set[str] = set()
 
     def __call__(self, text: str) -> Fraction:
-        """The value of a decimal without sign."""
+        """The value of a decimal without sign, as a fraction."""
         value = Fraction(text)
         try:
             found = self.nearest.get(float(value), set())

@@ -1,7 +1,7 @@
-"""Numbers that know the degree of the rational function that they are the value of.
+"""Numbers that carry a bound on the degree of the rational function whose value they are.
 
-What a Schwartz–Zippel bound asks for.  Denominators are multiplied, never brought to a common one:
-the degrees are too large, which is safe.
+This is what a Schwartz–Zippel bound asks for. Denominators are multiplied, never brought to a
+common one: the degrees are too large, which is safe.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ class Measured:
 
     @staticmethod
     def of(x: Any) -> Measured:
-        """A plain number as a constant function."""
+        """The number x as a constant function, unless it is measured already."""
         return x if isinstance(x, Measured) else Measured(x)
 
     @property
     def degree(self) -> int:
-        """Of numerator and denominator together."""
+        """The bound on the degree of numerator and denominator together."""
         return self.num + self.den
 
     def __add__(self, other: Any) -> Measured:
@@ -64,9 +64,9 @@ class Measured:
 
 
 class Opaque:
-    """Elementary functions of measured numbers: at each argument a number drawn for itself.
+    """The elementary functions of measured numbers: at each argument a number drawn for itself.
 
-    ``calls``: how often; ``largest``: the largest degree of an argument.
+    ``calls``: how often they were called; ``largest``: the largest degree of an argument.
     """
 
     def __init__(self, values: Any):

@@ -1,4 +1,5 @@
-"""An emitted file as data, whatever its language."""
+"""An emitted file as data, its functions and lists, whatever its language; and a machine that runs
+the functions."""
 
 from __future__ import annotations
 
@@ -13,9 +14,10 @@ Names = tuple[str, ...] | None
 
 @dataclass(frozen=True)
 class Module:
-    """Names of state, parameters and inputs, ``None`` where the file has no such list; functions.
+    """An emitted file: the names of state, parameters and inputs, ``None`` where it has no such
+    list, and its functions.
 
-    ``sizes``: STATE, ALGEBRA, PARAMETERS, CONSTANTS, INPUTS.  ``defaults`` and ``basis`` where the
+    ``sizes``: STATE, ALGEBRA, PARAMETERS, CONSTANTS, INPUTS. ``defaults`` and ``basis`` where the
     file has them.
     """
 
@@ -30,16 +32,18 @@ class Module:
 
 @dataclass(frozen=True)
 class Machine:
-    """Runs the functions of a module with given values of elementary functions and decimals."""
+    """An interpreter of the functions of a module; ``elementary`` and ``literal`` give the values
+    of elementary functions and decimals."""
 
     module: Module
     elementary: Elementary
     literal: Literal
 
     def call(self, name: str, given: Mapping[str, Any], **sizes: int) -> dict[str, list[Any]]:
-        """What a function gives, by the names of the arrays that C writes; ``sizes``: of these.
+        """The arrays that a function computes, by their names in C; ``sizes``: how long each is.
 
-        Python returns them in a list instead.  ``CodeError`` where one is not complete.
+        C writes into the arrays, Python returns all numbers in one list. ``CodeError`` where one is
+        missing.
         """
         f = self.module.functions.get(name)
         if f is None:
@@ -52,7 +56,7 @@ class Machine:
 
 
 def _returned(value: Any, sizes: Mapping[str, int]) -> dict[str, list[Any]]:
-    """What was returned, cut into the arrays of these sizes."""
+    """The returned numbers, cut into arrays of these sizes."""
     if not isinstance(value, list):
         value = [value]
     if len(value) != sum(sizes.values()) or any(x is None or isinstance(x, list) for x in value):

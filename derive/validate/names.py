@@ -1,4 +1,4 @@
-"""The lists of an emitted file: names, sizes, defaults and the basis."""
+"""The lists of an emitted file, names, sizes, defaults and the basis, against the record."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from .terms import CodeError
 
 
 class DiffersError(CodeError):
-    """The code says something else than the record: the message says where."""
+    """The code is readable and says something else than the record: the message says where."""
 
 
 def compare_names(m: Module, claims: Claims) -> None:

@@ -19,7 +19,7 @@ SPELLINGS = {
     "RESTRICT": ("", "restrict", "__restrict"),
     "FUNCTION": ("static inline", "static __host__ __device__ inline"),
 }
-"""What the macros of the files may stand for: none of it changes what is computed."""
+"""The definitions that the macros of the files may have: none of them changes what is computed."""
 SKIPPED = ('extern "C" {', "}")
 LIBRARY = ("<math.h>", "<stddef.h>")
 PRAGMAS = (
@@ -27,13 +27,14 @@ PRAGMAS = (
     "clang loop vectorize(assume_safety)",
     *(f"omp parallel for{simd} if (parallel : n > 4096)" for simd in ("", " simd")),
 )
-"""All that the files have; others may change what is computed."""
+"""All pragmas that emitted files have; others may change what is computed."""
 VERSION = "__STDC_VERSION__ >= 199901L"
 
 
 @dataclass(frozen=True)
 class Branch:
-    """Of an #if: is it taken, was one before; is it the guard of a header, or for C++ alone?"""
+    """One branch of an #if: is it ``taken``, was one ``before`` it; is the #if the ``guard`` of a
+    header, or for C++ alone?"""
 
     taken: bool
     before: bool
@@ -42,7 +43,7 @@ class Branch:
 
 
 def _left(comment: re.Match[str]) -> str:
-    """What is left of a comment: a space, and its line ends; strings stay."""
+    """What a comment leaves in the text: a space, and its line ends; a string stays as it is."""
     return comment[0] if comment[0][0] == '"' else " " + "\n" * comment[0].count("\n")
 
 
@@ -55,7 +56,8 @@ def preprocessed(name: str, files: Mapping[str, str], prefix: str) -> str:
 
 
 class Preprocessor:
-    """``files``: name → text; ``prefix``: of the names of macros."""
+    """A preprocessor of the emitted C; ``files``: name → text; ``prefix``: of the names of
+    macros."""
 
     def __init__(self, files: Mapping[str, str], prefix: str):
         self.files, self.prefix = files, prefix
@@ -64,7 +66,8 @@ class Preprocessor:
         self.guards: set[str] = set()
 
     def text(self, name: str) -> str:
-        """One file, its macros put in."""
+        """The text of one file, with includes and macros replaced; ``CodeError`` for what is not
+        known."""
         if name not in self.files or name in self.seen:
             raise CodeError(f"the file {name!r} is missing, or included twice")
         self.seen.append(name)
@@ -89,6 +92,7 @@ class Preprocessor:
         return "\n".join(lines)
 
     def _line(self, line: str, branches: list[Branch]) -> str:
+        """The text that replaces one line; directives change the open ``branches``."""
         taken = all(b.taken for b in branches)
         plain = all(b.guard for b in branches)
         if not line.startswith("#"):
@@ -113,6 +117,7 @@ class Preprocessor:
         return ""
 
     def _branch(self, word: str, rest: str, branches: list[Branch]) -> None:
+        """Follow an #elif, #else or #endif."""
         last = branches.pop()
         if word == "endif":
             return
@@ -122,11 +127,13 @@ class Preprocessor:
         branches.append(Branch(value, last.before or value))
 
     def _condition(self, word: str, text: str) -> bool:
+        """Does the condition of an #if, #ifdef, #ifndef or #elif hold?"""
         if word != "if":
             return (text in self.macros) == (word == "ifdef")
         return any(all(map(self._test, part.split("&&"))) for part in text.split("||"))
 
     def _test(self, text: str) -> bool:
+        """Is a macro defined, or not defined, as one term of a condition asks?"""
         text = text.strip()
         if text == VERSION:
             return True
@@ -136,6 +143,7 @@ class Preprocessor:
         return (found[2] in self.macros or found[2] == "__STDC_VERSION__") == (not found[1])
 
     def _define(self, text: str, taken: bool) -> None:
+        """Define a macro, which must have one of its known spellings."""
         name, _, value = text.partition(" ")
         value = value.strip()
         spellings = {f"{self.prefix}_{x}": y for x, y in SPELLINGS.items()}

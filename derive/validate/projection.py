@@ -1,7 +1,8 @@
-"""What ``project`` and ``defect`` must be: nothing on the group, and a Newton step beside it.
+"""The tests of ``project`` and ``defect``: they do nothing on the group, and beside it ``project``
+is a Newton step.
 
 If ``project`` keeps every state of the group, and its derivative there takes any change of a state
-to one that is tangent to the group, then of an error ε it leaves O(ε²).  ``defect`` is a sum of
+to one that is tangent to the group, then of an error ε it leaves O(ε²). ``defect`` is a sum of
 sizes: each vanishes on the group, and together they see every change that is not tangent to it.
 """
 
@@ -20,14 +21,15 @@ from .exact_points import Point
 from .names import DiffersError
 
 PRIME = 2**61 - 1
-"""Ranks are counted modulo it: they are no larger than the true ones."""
+"""The prime modulo which ranks are counted: they are no larger than the true ones."""
 
 Run = Callable[[str, Sequence[Any]], Sequence[Any]]
-"""The numbers of ``project``, or the summands of ``defect``, at a state."""
+"""(name, state) → the numbers of ``project``, or the summands of ``defect``, at a state."""
 
 
 def compare_drift(run: Run, draw: Callable[[], Fraction], state: State, point: Point) -> str:
-    """What is seen of them at a point, in words; ``DiffersError`` where it is not so.
+    """The functions that were found right at a point, as text for a report; ``DiffersError`` where
+    one is wrong.
 
     Of a group that is given by its basis neither random elements nor all relations are known: there
     both are tried at its unit, and no more is asked than that they leave it alone.
@@ -54,7 +56,7 @@ def compare_drift(run: Run, draw: Callable[[], Fraction], state: State, point: P
 
 
 def _named(g: Group) -> bool:
-    """Is the group a known one, whose relations are all known?"""
+    """Is the group one of the named ones, all of whose relations are known?"""
     try:
         return group(g.name).basis == g.basis
     except ValueError:

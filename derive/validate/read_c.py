@@ -1,4 +1,4 @@
-"""Emitted C as terms, by a parser of C; a construct that is not known here is an error."""
+"""Emitted C read into terms, by a parser of C; a construct that is not known here is an error."""
 
 from __future__ import annotations
 
@@ -31,14 +31,15 @@ SIGNATURES = {
     "jacobian_inputs": ("void", "t", "const* x", "const* k", "const* u", "* D"),
     "jacobian_parameters": ("void", "t", "const* x", "const* p", "const* u", "* D"),
 }
-"""What each function returns and takes, in order: the contract with its callers."""
+"""Function → what it returns, and what it takes in order: the contract with its callers."""
 
 SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS")
 DECLARED = {"P": "PARAMETERS", "K": "CONSTANTS", "U": "INPUTS"}
-"""Arrays that may be empty, which C does not declare: their SIZE is 1 then."""
+"""Macro → the size that it declares: arrays that may be empty, which C does not have: SIZE is 1
+then."""
 LISTS = ("state", "parameter", "input")
 REFUSALS = ("SINGULAR", "NOT_FINITE")
-"""What ``constants`` returns of a body that has no rates; these and SIZES are all the enums."""
+"""What ``constants`` returns of a body that has no rates; with SIZES these are all enumerators."""
 SIGNS = {"+": "add", "-": "sub", "*": "mul", "/": "div"} | {
     ">": "gt",
     "<": "lt",
@@ -48,7 +49,8 @@ SIGNS = {"+": "add", "-": "sub", "*": "mul", "/": "div"} | {
 
 
 def read_c(name: str, files: Mapping[str, str], prefix: str) -> Module:
-    """The functions of a C file; ``CodeError`` says what cannot be read, and in which line."""
+    """The module in a C file and the header it includes; ``CodeError`` says what cannot be read,
+    and in which line."""
     try:
         from pycparser import c_ast, c_parser
     except ImportError:
@@ -70,7 +72,7 @@ def read_c(name: str, files: Mapping[str, str], prefix: str) -> Module:
 
 
 class Reader:
-    """One translation unit; ``c``: the classes of the parser's nodes."""
+    """The reader of one translation unit; ``c``: the classes of the parser's nodes."""
 
     def __init__(self, c: Any, prefix: str):
         self.c, self.prefix = c, prefix
@@ -82,7 +84,8 @@ class Reader:
         self.declared: set[str] = set()
 
     def module(self, tree: Any) -> Module:
-        """All functions and names; ``CodeError`` for any other definition."""
+        """All functions and lists of the file as a module; ``CodeError`` for any other
+        definition."""
         for node in tree.ext[1:]:
             if isinstance(node, self.c.FuncDef):
                 self._function(node)
@@ -106,7 +109,8 @@ class Reader:
 
     @property
     def _enumerators(self) -> dict[str, int]:
-        """Name → value, or 0 for those that are compared with the record."""
+        """The enumerators of the file → their value, or 0 for those that are compared with the
+        record."""
         sizes = dict.fromkeys((f"{self.prefix}_N_{x}" for x in SIZES), 0)
         counts = {x: self.sizes.get(f"{self.prefix}_N_{n}", 0) for x, n in DECLARED.items()}
         sizes |= {f"{self.prefix}_SIZE_{x}": max(1, n) for x, n in counts.items()}
@@ -117,6 +121,7 @@ class Reader:
         return {f"{self.prefix}_{x}_names" for x in LISTS}
 
     def _declaration(self, node: Any) -> None:
+        """Read an enumeration, the prototype of a function, or a list of names."""
         c, kind = self.c, node.type
         if isinstance(kind, c.Enum) and kind.values:
             for x in kind.values.enumerators:
@@ -141,7 +146,8 @@ class Reader:
             raise self._unknown(node)
 
     def _arguments(self, node: Any) -> tuple[str, ...]:
-        """The names of the arguments of a declared function, after a look at its signature."""
+        """The names of the arguments of a declared function, whose signature must be that of the
+        contract."""
         name = node.name.removeprefix(f"{self.prefix}_")
         if node.type.args is None:
             raise self._unknown(node)
@@ -151,6 +157,7 @@ class Reader:
         return tuple(x.split()[-1] for x in found[1:])
 
     def _argument(self, node: Any) -> str:
+        """An argument as SIGNATURES writes it, as ``const* x``."""
         if isinstance(node.type, self.c.PtrDecl):
             if self._type(node.type.type) != "real":
                 raise self._unknown(node)
@@ -160,7 +167,8 @@ class Reader:
         return str(node.name) if kind == "real" else f"{kind} {node.name}"
 
     def _type(self, node: Any) -> str:
-        """``real`` for double or float, one of them in a file; int, size_t, void."""
+        """The type at a node: "real" for double or float, one of them in a file; "int", "size_t" or
+        "void"."""
         if not isinstance(node, self.c.TypeDecl) or len(getattr(node.type, "names", ())) != 1:
             raise self._unknown(node)
         (name,) = node.type.names
@@ -208,14 +216,14 @@ class Reader:
         raise self._unknown(node)
 
     def _unused(self, node: Any) -> bool:
-        """``(void)t;``: an argument that is not used."""
+        """Is a statement ``(void)t;``, which marks an argument as unused?"""
         c = self.c
         if not isinstance(node, c.Cast) or not isinstance(node.expr, c.ID):
             return False
         return self._type(node.to_type.type) == "void"
 
     def _loop(self, node: Any) -> Statement:
-        """``for (int i = 0; i < bound; ++i)``, also with size_t."""
+        """The statement of ``for (int i = 0; i < bound; ++i)``, also with size_t."""
         c, first = self.c, node.init
         if not isinstance(first, c.DeclList) or len(first.decls) != 1:
             raise self._unknown(node)
@@ -276,7 +284,7 @@ class Reader:
         return ("fun", name, self._expression(argument))
 
     def _place(self, node: Any) -> Expression:
-        """An index or the bound of one: sums and multiples of the integers, without overflow."""
+        """An index, or its bound: sums and multiples of the integers, without overflow."""
         c = self.c
         if isinstance(node, c.ID) and node.name in self.integers:
             return ("var", node.name)
@@ -291,7 +299,7 @@ class Reader:
         raise self._unknown(node)
 
     def _whole(self, node: Any) -> bool:
-        """Is it an integer for C?"""
+        """Is an expression of an integer type in C?"""
         c = self.c
         if isinstance(node, c.ID):
             return node.name in self.integers or node.name in self.sizes

@@ -1,7 +1,7 @@
-"""Emitted Python as terms, by its syntax tree; nothing of the text is ever run.
+"""Emitted Python read into terms, by its syntax tree; nothing of the text is ever run.
 
 Read are the functions in plain numbers: ``_constants``, ``_rhs``, ``_energy``, ``_inertia``,
-``_project``, ``_defect`` and the Jacobians, with the names, the defaults and the basis.  The public
+``_project``, ``_defect`` and the Jacobians, with the names, the defaults and the basis. The public
 functions, which hand arrays to these, are not: :func:`unread` gives their text, to be compared with
 what is emitted.
 """
@@ -43,12 +43,13 @@ DATA = (*LISTS, "BASIS", "DEFAULTS")
 
 
 def read_python(name: str, text: str) -> Module:
-    """The functions of a module in Python; ``CodeError`` says what cannot be read, and where."""
+    """The module in a Python file; ``CodeError`` says what cannot be read, and where."""
     return Reader(text).module(parsed(name, text))
 
 
 def parsed(name: str, text: str) -> ast.Module:
-    """Its syntax; ``CodeError`` where Python would read other letters than are here."""
+    """The syntax tree of a Python text; ``CodeError`` where it is none, or Python would read other
+    letters than are here."""
     plain_text(text)
     if any(COOKIE.match(line) for line in text.split("\n")[:2]):
         raise CodeError("a line that names an encoding is not read")
@@ -59,7 +60,8 @@ def parsed(name: str, text: str) -> ast.Module:
 
 
 def unread(name: str, text: str) -> list[str]:
-    """The statements of a module that are run and not read, as they stand."""
+    """The statements of a module that Python runs and :func:`read_python` does not read, as
+    text."""
     tree, found = parsed(name, text), []
     for node in tree.body:
         read = isinstance(node, ast.FunctionDef) and node.name in SIGNATURES
@@ -70,7 +72,7 @@ def unread(name: str, text: str) -> list[str]:
 
 
 class Reader:
-    """One module."""
+    """The reader of one module in Python."""
 
     def __init__(self, text: str):
         self.lines = [line.encode() for line in text.split("\n")]
@@ -78,7 +80,8 @@ class Reader:
         self.functions: dict[str, Function] = {}
 
     def module(self, tree: ast.Module) -> Module:
-        """Its functions and names; a name has one meaning in a file."""
+        """The functions and lists of the file as a module; ``CodeError`` for a name that is defined
+        twice."""
         seen: set[str] = set()
         for node in tree.body:
             for name in self._names(node):
@@ -98,7 +101,7 @@ class Reader:
     # -- the module --------------------------------------------------------------------------
 
     def _names(self, node: ast.stmt) -> list[str]:
-        """What a statement of the module defines."""
+        """The names that a statement of the module defines; its functions and values are read."""
         if isinstance(node, ast.Import):
             return [alias.asname or alias.name for alias in node.names]
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
@@ -124,7 +127,8 @@ class Reader:
         return found
 
     def _data(self, node: ast.expr) -> Any:
-        """Names and numbers in tuples, lists, dictionaries; what numpy.array would be given."""
+        """The value of a literal: names and numbers in tuples, lists, dictionaries; what
+        numpy.array would be given."""
         if isinstance(node, (ast.Tuple, ast.List)):
             return tuple(self._data(x) for x in node.elts)
         if isinstance(node, ast.Dict):

@@ -1,7 +1,9 @@
-"""What a proof at random points needs: one rational function everywhere.
+"""The requirement that emitted functions are straight-line programs: one rational function
+everywhere.
 
-A size |x| or a comparison may serve the checks of ``constants``, and ``defect`` is a sum of sizes;
-else it could be one thing at the points that are tried and another elsewhere.
+A proof at random points needs that; a branch could be one thing at the points that are tried and
+another elsewhere. A size |x| or a comparison may serve the checks of ``constants``, and ``defect``
+is a sum of sizes.
 """
 
 from __future__ import annotations
@@ -12,12 +14,14 @@ from typing import Any
 from .terms import Body, CodeError, Function
 
 REFUSED = (1, 2)
-"""What ``constants`` returns of a body that is singular, or not finite."""
+"""What ``constants`` returns of a body with a singular mass matrix, or with numbers that are not
+finite."""
 UNSMOOTH = ("abs", "gt", "lt", "le", "eq", "not")
 
 
 def straight(f: Function) -> None:
-    """``CodeError`` unless what is written and returned depends on no size and no condition."""
+    """``CodeError`` unless what a function writes and returns depends on no size and no
+    condition."""
     tainted: set[str] = set()
     body = f.body
     if f.name == "defect":
@@ -35,9 +39,10 @@ def _read(e: Any) -> bool:
 
 
 def asked(f: Function) -> set[int]:
-    """The numbers of the parameters p that a function asks whether they are 0, which is tried.
+    """The places in p of the parameters that a function tests for being 0, a branch that is tried
+    separately.
 
-    ``CodeError`` where it asks that of anything else.
+    ``CodeError`` where it tests anything else.
     """
     places: dict[str, int] = {}
     found: set[int] = set()
@@ -61,8 +66,8 @@ def asked(f: Function) -> set[int]:
 
 
 def summands(f: Function) -> Function:
-    """The function that returns a, b, … in the place of |a| + |b| + …, of which none can hide
-    another; ``CodeError`` where it is no such sum."""
+    """The function that returns a, b, … in the place of |a| + |b| + …, so that none can hide
+    another; ``CodeError`` where it returns no such sum."""
     body, last = f.body[:-1], f.body[-1:]
     if not last or last[0][0] != "return":
         raise CodeError(f"{f.name}: it does not end with a sum of sizes")
@@ -70,6 +75,7 @@ def summands(f: Function) -> Function:
 
 
 def _sizes(f: Function, e: Any) -> list[Any]:
+    """The operands a, b, … of a sum |a| + |b| + …."""
     if e[0] == "list" and len(e) == 2:
         return _sizes(f, e[1])
     if e[0] == "add":
@@ -80,6 +86,8 @@ def _sizes(f: Function, e: Any) -> list[Any]:
 
 
 def _body(f: Function, body: Body, tainted: set[str], checks: list[str]) -> None:
+    """Check statements; ``tainted``: the names that depend on a size or a condition, ``checks``:
+    the conditions met so far."""
     for s in body:
         if s[0] == "if":
             refused = [(("return", ("int", code)),) for code in REFUSED]
@@ -97,6 +105,7 @@ def _body(f: Function, body: Body, tainted: set[str], checks: list[str]) -> None
 
 
 def _unsmooth(e: Any, tainted: set[str]) -> bool:
+    """Does an expression depend on a size or on a condition?"""
     if not isinstance(e, tuple) or not e:
         return False
     if e[0] in UNSMOOTH or (e[0] == "var" and e[1] in tainted):

@@ -1,9 +1,9 @@
-"""What the readers make of emitted code, and its value over any ring.
+"""Emitted code as terms, and the value of terms over any ring.
 
-An expression is a tuple: ``("lit", text)`` a decimal, ``("int", n)``, ``("var", name)``,
-``("at", array, index)``, ``("neg", a)``, ``("add" | "sub" | "mul" | "div", a, b)``, ``("abs", a)``,
-``("fun", name, a)``, ``("gt" | "lt" | "le" | "eq", a, b)``, ``("not", a)``,
-``("none", a)`` 1 where a is 0, else 0, ``("list", a, …)``.
+An expression is a tuple: ``("lit", text)`` a decimal, ``("int", n)``, ``("var", name)``, ``("at",
+array, index)``, ``("neg", a)``, ``("add" | "sub" | "mul" | "div", a, b)``, ``("abs", a)``,
+``("fun", name, a)``, ``("gt" | "lt" | "le" | "eq", a, b)``, ``("not", a)``, ``("none", a)`` 1 where
+a is 0, else 0, ``("list", a, …)``.
 
 A statement is a tuple: ``("set", name, a)``, ``("unpack", names, array)``, ``("store", array,
 index, a)``, ``("if", condition, body)``, ``("for", name, bound, body)`` from 0, ``("return", a)``.
@@ -27,10 +27,10 @@ Elementary = Callable[[str, Any], Any]
 Literal = Callable[[str], Fraction]
 
 FUNCTIONS = frozenset(("sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", "atan"))
-"""The elementary functions that a record has."""
+"""The elementary functions that a record may have."""
 
 DECIMAL = re.compile(r"[0-9]{1,40}(\.[0-9]{0,40}(e[+-]?[0-9]{1,3})?|e[+-]?[0-9]{1,3})")
-"""A decimal number without sign or suffix."""
+"""The form of a decimal number without sign or suffix."""
 
 
 class CodeError(ValueError):
@@ -38,7 +38,8 @@ class CodeError(ValueError):
 
 
 def plain_text(text: str) -> None:
-    """``CodeError`` for characters that end a line, or hide it, for some readers alone."""
+    """``CodeError`` for control characters, which some readers alone take for the end of a line or
+    do not show."""
     if control := next((c for c in text if ord(c) < 32 and c not in "\n\t"), ""):
         raise CodeError(f"the character {control!r} is not read")
 
@@ -49,7 +50,8 @@ class MissingParserError(Refused):
 
 @dataclass(frozen=True)
 class Function:
-    """A function: the names of its arguments in order, and what it does."""
+    """A function of emitted code: its name, the names of its arguments in order, and its
+    statements."""
 
     name: str
     arguments: tuple[str, ...]
@@ -57,7 +59,11 @@ class Function:
 
 
 class Array:
-    """Numbers that a function is given, or writes where they are ``None``."""
+    """The array of numbers that a function reads; or that it writes, where they are ``None``
+    before.
+
+    ``CodeError`` for an index outside, a number read before it is written, or written twice.
+    """
 
     def __init__(self, values: Sequence[Any], name: str, *, written: bool = False):
         self.values, self.name, self.written = list(values), name, written
@@ -87,7 +93,7 @@ class Array:
         self.values[i] = value
 
     def whole(self) -> list[Any]:
-        """All its numbers; ``CodeError`` where one was not written."""
+        """All numbers of a written array; ``CodeError`` where one is missing."""
         for i, x in enumerate(self.values):
             if x is None:
                 raise CodeError(f"{self.name}[{i}] is not written")
@@ -95,7 +101,7 @@ class Array:
 
 
 def run(f: Function, given: Mapping[str, Any], elementary: Elementary, literal: Literal) -> Any:
-    """What a function returns; arrays among ``given`` are written.
+    """What a function returns for the arguments ``given``, whose arrays it may write.
 
     ``elementary(name, x)`` is the value of a function, ``literal(text)`` that of a decimal.
     ``CodeError`` for what has no value, a division by zero among it.
@@ -105,13 +111,13 @@ def run(f: Function, given: Mapping[str, Any], elementary: Elementary, literal: 
 
 
 class Run:
-    """The interpreter: a name is set once, where it is seen."""
+    """An interpreter of statements; a name is set once, in the body where it is seen."""
 
     def __init__(self, elementary: Elementary, literal: Literal):
         self.elementary, self.literal = elementary, literal
 
     def body(self, body: Body, names: dict[str, Any]) -> tuple[bool, Any]:
-        """Whether a statement returned, and what."""
+        """Run statements: (did one return, what it returned)."""
         for statement in body:
             done, value = self._statement(statement, names)
             if done:
@@ -119,6 +125,7 @@ class Run:
         return False, None
 
     def _statement(self, s: Statement, names: dict[str, Any]) -> tuple[bool, Any]:
+        """Run one statement: (did it return, what it returned)."""
         if s[0] == "set":
             self._set(names, s[1], self.value(s[2], names))
         elif s[0] == "unpack":
@@ -160,7 +167,7 @@ class Run:
         return found
 
     def value(self, e: Expression, names: dict[str, Any]) -> Any:
-        """The value of an expression."""
+        """The value of an expression, with these values of names."""
         op = e[0]
         if op == "var":
             return self._name(e[1], names)
@@ -182,7 +189,7 @@ class Run:
 
 
 def plain(x: Any) -> Any:
-    """The number that a measured or a nilpotent one is near."""
+    """The number without its degree and its nilpotent parts."""
     return part(getattr(x, "value", x), 0)
 
 
