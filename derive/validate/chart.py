@@ -90,7 +90,7 @@ class State:
         if self.chart.attitude == "matrix":
             return self.values(moved, Z)
         p = quaternion(g)
-        rates = turned(p, axis(eta))
+        rates = half_product(p, axis(eta))
         varied = (x + EPSILON * y for x, y in zip(p, rates, strict=True))
         return (*varied, *self._read(moved), *self.group.nearest(Z))
 
@@ -129,7 +129,7 @@ class State:
         ζ."""
         place = self._read(g_dot)
         if self.chart.attitude == "quaternion":
-            place = (*turned(quaternion(g), axis(Z)), *place)
+            place = (*half_product(quaternion(g), axis(Z)), *place)
         if self.chart.velocity == "tangent":
             return (*place, *self._read(q.plus(q.times(g_dot, Z), q.times(g, Z_dot))))
         return (*place, *self.group.nearest(Z_dot))
@@ -159,7 +159,7 @@ def axis(x: Matrix) -> Numbers:
     return (x[2][1], x[0][2], x[1][0])
 
 
-def turned(p: Numbers, zeta: Numbers) -> Numbers:
+def half_product(p: Numbers, zeta: Numbers) -> Numbers:
     """The quaternion ½ p ζ, Hamilton's product with ζ as a quaternion without scalar."""
     s, x, y, z = p
     a, b, c = zeta

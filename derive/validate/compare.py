@@ -16,13 +16,13 @@ from typing import Any
 
 from ..record.record import to_json
 from .exact_points import Claims, Point
-from .jacobians import Varied
+from .jacobians import ExactJacobians
 from .literals import Literals
-from .measured import Measured, Opaque
+from .measured import Measured, MeasuredElementary
 from .module import Machine, Module
 from .names import DiffersError, compare_names
 from .projection import compare_drift
-from .straight_line import asked, straight, summands
+from .straight_line import require_straight_line, summands, tested_parameters
 from .terms import Array, CodeError, run
 
 SIZE = 2**128
@@ -33,7 +33,7 @@ BOUND, FEWEST, MOST = 1e-40, 2, 20
 MOST."""
 
 
-SLOPE = 16
+DERIVATIVE_DEGREE = 16
 """Times the size of the group, this bounds what a derivative and its way to coordinates add to a
 degree, as a factor."""
 
@@ -70,32 +70,32 @@ def compare(
     """
     compare_names(module, claims)
     literal = Literals(exact)
-    told = to_json(claims.record) + text
-    digest = hashlib.sha256(told.encode("utf-8", "surrogatepass")).hexdigest()
+    drawn_from = to_json(claims.record) + text
+    digest = hashlib.sha256(drawn_from.encode("utf-8", "surrogatepass")).hexdigest()
     first = Comparison(module, claims, literal, claims.point(f"{digest} 0"), measured=True)
-    functions = first.all()
+    functions = first.compare_all()
     one, points = min(1.0, first.degree / claims.size), 1
     while points < FEWEST or one**points >= bound:
         if points == MOST:
             raise CodeError("its degree is too large for a proof")
-        Comparison(module, claims, literal, claims.point(f"{digest} {points}")).all()
+        Comparison(module, claims, literal, claims.point(f"{digest} {points}")).compare_all()
         points += 1
-    for zero in _zeros(module):
-        _at_zero(module, claims, literal, digest, zero)
+    for zero in _tested_sets(module):
+        _compare_at_zero(module, claims, literal, digest, zero)
     size = module.sizes.get("CONSTANTS", 0)
     unread = tuple(f"k[{i}]" for i in range(size) if i not in first.read)
     return Verdict(functions, points, one**points, tuple(sorted(literal.rounded)), unread)
 
 
-def _zeros(module: Module) -> list[tuple[str, ...]]:
+def _tested_sets(module: Module) -> list[tuple[str, ...]]:
     """The sets of parameters to be tried as 0, where the code branches on that: each that it tests
     alone, and all at once."""
-    found = sorted({i for f in module.functions.values() for i in asked(f)})
+    found = sorted({i for f in module.functions.values() for i in tested_parameters(f)})
     names = tuple((module.parameters or ())[i] for i in found)
     return list(dict.fromkeys([*((x,) for x in names), names])) if names else []
 
 
-def _at_zero(
+def _compare_at_zero(
     module: Module, claims: Claims, literal: Literals, seed: str, zero: tuple[str, ...]
 ) -> None:
     """Compare at a point where these parameters are 0, if the record has values there."""
@@ -103,7 +103,7 @@ def _at_zero(
         point = claims.point(f"{seed} zero", zero)
     except CodeError:
         return
-    Comparison(module, claims, literal, point).all()
+    Comparison(module, claims, literal, point).compare_all()
 
 
 class Comparison:
@@ -122,8 +122,8 @@ class Comparison:
         self.module, self.claims, self.literal = module, claims, literal
         self.measured, self.point = measured, point
         self.random = Random(str(point.energy))
-        self.opaque = Opaque(self.point.elementary)
-        values = self.opaque if measured else self.point.elementary
+        self.elementary = MeasuredElementary(self.point.elementary)
+        values = self.elementary if measured else self.point.elementary
         self.machine = Machine(module, values, literal)
         self.read: set[int] = set()
         self.largest = 0
@@ -133,66 +133,66 @@ class Comparison:
         """A bound on the degree of a difference, and of what makes two arguments of elementary
         functions equal by chance."""
         record = self.claims.degree
-        pairs = self.opaque.calls * len(self.point.elementary.values)
-        own = SLOPE * self.claims.group.size * self.largest
-        return own + record + pairs * (self.opaque.largest + record)
+        pairs = self.elementary.calls * len(self.point.elementary.values)
+        own = DERIVATIVE_DEGREE * self.claims.group.size * self.largest
+        return own + record + pairs * (self.elementary.largest + record)
 
-    def all(self) -> tuple[str, ...]:
+    def compare_all(self) -> tuple[str, ...]:
         """The names of the module's functions, once each has been found equal to the record's;
         ``CodeError`` else."""
         for f in self.module.functions.values():
-            straight(f)
-        given, point, found = self._given(), self.point, ["constants", "rhs", "energy"]
-        rates = self._call("rhs", given, dx=len(point.rates))["dx"]
-        self._same("rhs", self._rates, rates, point.rates)
-        energy = self._call("energy", given, value=1)["value"]
-        self._same("energy", ("the energy",), energy, (point.energy,))
+            require_straight_line(f)
+        arguments, point, found = self._arguments(), self.point, ["constants", "rhs", "energy"]
+        rates = self._call("rhs", arguments, dx=len(point.rates))["dx"]
+        self._require_equal("rhs", self._rates, rates, point.rates)
+        energy = self._call("energy", arguments, value=1)["value"]
+        self._require_equal("energy", ("the energy",), energy, (point.energy,))
         if "rhs_batch" in self.module.functions:
             for count in (1, self.random.randint(2, 3), self.random.randint(4, 9)):
-                self._batch(given, count)
+                self._batch(arguments, count)
             found.append("rhs_batch")
         if "inertia" in self.module.functions:
             names = tuple(f"I_{i}{j}" for i in range(1, 4) for j in range(i, 4))
-            tensor = self._call("inertia", given, value=6)["value"]
-            self._same("inertia", names, tensor, point.inertia)
+            tensor = self._call("inertia", arguments, value=6)["value"]
+            self._require_equal("inertia", names, tensor, point.inertia)
             found.append("inertia")
         if "project" in self.module.functions:
-            alone = partial(self._alone, given)
-            found.append(compare_drift(alone, self._draw, self.claims.state, point))
-        return (*found, *self._jacobians(given))
+            drift = partial(self._drift_numbers, arguments)
+            found.append(compare_drift(drift, self._draw, self.claims.state, point))
+        return (*found, *self._jacobians(arguments))
 
     @property
     def _rates(self) -> tuple[str, ...]:
         return tuple(f"the rate of {x}" for x in self.claims.state.names)
 
-    def _given(self) -> dict[str, Any]:
+    def _arguments(self) -> dict[str, Any]:
         """The arguments that the functions may take at the point: t, x, u, p and the constants k
         that the module computes."""
-        given, listed = self.point.given, self.module.parameters or ()
+        arguments, listed = self.point.arguments, self.module.parameters or ()
         p = self._array([self.point.parameters[x] for x in listed], "p", self.claims.moment_degree)
         k = self._call("constants", {"p": p}, k=self.module.sizes.get("CONSTANTS", 0))["k"]
         return {
-            "t": self._lifted([given["t"]], (1, 0))[0],
-            "x": self._array(given["x"], "x", self.claims.entry_degree),
-            "u": self._array(given["u"], "u", (1, 0)),
+            "t": self._measured([arguments["t"]], (1, 0))[0],
+            "x": self._array(arguments["x"], "x", self.claims.entry_degree),
+            "u": self._array(arguments["u"], "u", (1, 0)),
             "p": p,
             "k": Array(k, "k"),
         }
 
-    def _lifted(self, values: Iterable[Any], degrees: tuple[int, int]) -> list[Any]:
+    def _measured(self, values: Iterable[Any], degrees: tuple[int, int]) -> list[Any]:
         return [Measured(x, *degrees) if self.measured else x for x in values]
 
     def _array(self, values: Iterable[Any], name: str, degrees: tuple[int, int]) -> Array:
-        return Array(self._lifted(values, degrees), name)
+        return Array(self._measured(values, degrees), name)
 
-    def _call(self, name: str, given: Mapping[str, Any], **sizes: int) -> dict[str, list[Any]]:
+    def _call(self, name: str, arguments: Mapping[str, Any], **sizes: int) -> dict[str, list[Any]]:
         """The arrays that a function writes, or returns, as lists by name."""
         try:
-            found = self.machine.call(name, given, **sizes)
+            found = self.machine.call(name, arguments, **sizes)
         except CodeError as error:
             raise CodeError(f"{name}: {error}") from None
-        if "k" in given:
-            self.read |= given["k"].read
+        if "k" in arguments:
+            self.read |= arguments["k"].read
         self._measure([x for values in found.values() for x in values])
         return found
 
@@ -201,63 +201,65 @@ class Comparison:
         degrees = (x.degree for x in values if isinstance(x, Measured))
         self.largest = max([self.largest, *degrees])
 
-    def _batch(self, given: Mapping[str, Any], count: int) -> None:
+    def _batch(self, arguments: Mapping[str, Any], count: int) -> None:
         """Compare ``rhs_batch`` with ``rhs`` on ``count`` states: that of the point, and random
         ones.
 
         An index is made of n and s by sums and products alone, so three counts tell two apart.
         """
         size, degrees = len(self.point.rates), {"x": self.claims.entry_degree, "u": (1, 0)}
-        states = [dict(given) for _ in range(count)]
+        states = [dict(arguments) for _ in range(count)]
         for other in states[1:]:
             for name, d in degrees.items():
-                drawn = [self._draw() for _ in given[name].values]
+                drawn = [self._draw() for _ in arguments[name].values]
                 other[name] = self._array(drawn, name, d)
-        both = dict(given) | {"n": len(states)}
+        both = dict(arguments) | {"n": len(states)}
         for name in degrees:
             rows = zip(*(x[name].values for x in states), strict=True)
             both[name] = Array([x for row in rows for x in row], name)
         found = self._call("rhs_batch", both, dx=len(states) * size)["dx"]
-        self._same("rhs_batch", self._rates, found[:: len(states)], self.point.rates)
+        self._require_equal("rhs_batch", self._rates, found[:: len(states)], self.point.rates)
         for s, other in enumerate(states[1:], 1):
             rates = self._call("rhs", other, dx=size)["dx"]
-            self._same("rhs_batch", self._rates, found[s :: len(states)], rates)
+            self._require_equal("rhs_batch", self._rates, found[s :: len(states)], rates)
 
-    def _alone(self, given: Mapping[str, Any], name: str, x: Sequence[Any]) -> Sequence[Any]:
+    def _drift_numbers(
+        self, arguments: Mapping[str, Any], name: str, x: Sequence[Any]
+    ) -> Sequence[Any]:
         """The numbers that ``project`` returns at the state x, or the summands of which ``defect``
         adds the sizes."""
         exact = all(isinstance(y, Fraction) for y in x)
         state = self._array(x, "x", self.claims.entry_degree) if exact else Array(x, "x")
-        given, function = {**given, "x": state}, self.module.functions.get("defect")
+        arguments, function = {**arguments, "x": state}, self.module.functions.get("defect")
         if name == "project":
-            found = self._call(name, given, out=len(x))["out"]
+            found = self._call(name, arguments, out=len(x))["out"]
         elif function is None:
             raise CodeError("defect: there is no such function")
         else:
             elementary, literal = self.machine.elementary, self.machine.literal
-            found = run(summands(function), given, elementary, literal)
+            found = run(summands(function), arguments, elementary, literal)
             self._measure(found)
         return [getattr(y, "value", y) for y in found]
 
     def _draw(self) -> Fraction:
         return Fraction(self.random.randint(1, self.claims.size))
 
-    def _jacobians(self, given: Mapping[str, Any]) -> list[str]:
+    def _jacobians(self, arguments: Mapping[str, Any]) -> list[str]:
         """The names of the module's Jacobians, each found equal to exact derivatives of ``rhs``."""
         plain = Machine(self.module, self.point.elementary, self.literal)
-        p, k = ([getattr(x, "value", x) for x in given[a].values] for a in ("p", "k"))
-        wanted = Varied(plain, self.claims.state, self.point, p, k).wanted
+        p, k = ([getattr(x, "value", x) for x in arguments[a].values] for a in ("p", "k"))
+        wanted = ExactJacobians(plain, self.claims.state, self.point, p, k).wanted
         found = [name for name in wanted if name in self.module.functions]
         for name in found:
             D = wanted[name]()
             rates = {"dx": len(self.point.rates)} if name == "jacobian" else {}
-            values = self._call(name, given, **rates, D=len(D))
+            values = self._call(name, arguments, **rates, D=len(D))
             if rates:
-                self._same(name, self._rates, values["dx"], self.point.rates)
-            self._same(name, [f"entry {i} of D" for i in range(len(D))], values["D"], D)
+                self._require_equal(name, self._rates, values["dx"], self.point.rates)
+            self._require_equal(name, [f"entry {i} of D" for i in range(len(D))], values["D"], D)
         return found
 
-    def _same(
+    def _require_equal(
         self, function: str, names: Sequence[str], found: Sequence[Any], wanted: Sequence[Any]
     ) -> None:
         """``DiffersError`` where numbers of a function are not those of the record; ``names``: what
@@ -266,14 +268,14 @@ class Comparison:
             raise DiffersError(f"{function}: {len(found)} numbers, the record has {len(wanted)}")
         for name, x, y in zip(names, found, wanted, strict=True):
             if x != y:
-                values = " and ".join(brief(v) for v in (x, y))
-                if brief(x) == brief(y):
+                values = " and ".join(as_text(v) for v in (x, y))
+                if as_text(x) == as_text(y):
                     off = getattr(x, "value", x) - getattr(y, "value", y)
-                    values += f", {brief(off)} apart"
+                    values += f", {as_text(off)} apart"
                 raise DiffersError(f"{function}: {name} differs from the record's: {values}")
 
 
-def brief(x: Any) -> str:
+def as_text(x: Any) -> str:
     """A number as short text by its first six digits; another with the same text may differ from it
     in later ones."""
     value = Fraction(getattr(x, "value", x))

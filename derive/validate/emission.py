@@ -16,7 +16,7 @@ from .exact_points import Claims
 from .module import Module
 from .names import DiffersError
 from .read_c import read_c
-from .read_python import read_python, unread
+from .read_python import read_python, unread_statements
 from .terms import CodeError
 
 UNREAD = "not validated: only C and Python are read back"
@@ -44,15 +44,16 @@ class Emission:
     """The files of one emission, ``files``: name → text; ``numbers``: what their decimals may be
     roundings of.
 
-    ``given``: is the body in the frame in which it is given, not in its principal frame? ``fresh``:
-    what is emitted now, if the files are others; the Python that is not read must equal it.
+    ``given_frame``: is the body in the frame in which it is given, not in its principal frame?
+    ``fresh``: what is emitted now, if the files are others; the Python that is not read must equal
+    it.
     """
 
     files: Mapping[str, str]
     prefix: str
     chart: Chart
     numbers: Collection[Fraction] = ()
-    given: bool = True
+    given_frame: bool = True
     fresh: Mapping[str, str] | None = None
 
     def reports(self, d: Derivation) -> list[Report]:
@@ -74,7 +75,7 @@ class Emission:
     def _report(self, names: tuple[str, ...], claims: Claims) -> Report:
         if names[-1] not in (f"{self.prefix}{end}" for end in (".h", ".c", ".py")):
             return Report(names, UNREAD, read=False)
-        if not self.given:
+        if not self.given_frame:
             return Report(names, FRAMED, read=False)
         if gone := [name for name in names if not self.files[name]]:
             return Report(names, f"cannot be read back: {gone[0]} is empty or missing", holds=False)
@@ -87,7 +88,7 @@ class Emission:
             return Report(names, f"cannot be read back: {error}", holds=False)
         except RecursionError:
             return Report(names, "cannot be read back: nested too deeply", holds=False)
-        return Report(names, said(verdict))
+        return Report(names, as_text(verdict))
 
     def _module(self, names: tuple[str, ...]) -> Module:
         if names[-1].endswith(".py"):
@@ -100,14 +101,15 @@ class Emission:
         emitted."""
         if self.fresh is None:
             return
-        pairs = zip_longest(unread(name, self.files[name]), unread(name, self.fresh[name]))
-        for here, wanted in pairs:
+        versions = (self.files, self.fresh)
+        statements = (unread_statements(name, files[name]) for files in versions)
+        for here, wanted in zip_longest(*statements):
             if here != wanted:
                 shown = (here or wanted or "").split("\n")[0][:60]
                 raise DiffersError(f"{shown!r} is not read, and not what is emitted")
 
 
-def said(v: Verdict) -> str:
+def as_text(v: Verdict) -> str:
     """The verdict as text of a report."""
     text = (
         f"{', '.join(v.functions)} equal the record at {v.points} exact points; "

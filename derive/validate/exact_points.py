@@ -35,14 +35,15 @@ PI = Fraction(math.pi)
 
 @dataclass(frozen=True)
 class Point:
-    """``given``: t, x and u of a call; g and Z = g⁻¹ġ behind them; and what the record says: the
-    rates of x, the energy and, for a body turned in space, the tensor of inertia by its upper rows.
+    """An exact point: the ``arguments`` t, x and u of a call, g and Z = g⁻¹ġ behind them, and what
+    the record says: the rates of x, the energy and, for a body turned in space, the tensor of
+    inertia by its upper rows.
 
     ``elementary`` gives the values of elementary functions at this point.
     """
 
     parameters: Mapping[str, Fraction]
-    given: Mapping[str, Any]
+    arguments: Mapping[str, Any]
     g: Matrix
     Z: Matrix
     rates: Numbers
@@ -61,7 +62,7 @@ class Claims:
         self.scope = str(d.problem.get("group"))
         (group,) = TrialPoints(d.problem, 0).groups(self.scope)
         if chart.attitude == "quaternion":
-            group = replace(group, sampler=squares(group))
+            group = replace(group, sampler=rational_quaternions(group))
         self.group, self.state = group, State(group.stated, chart)
 
     @cached_property
@@ -106,7 +107,11 @@ class Claims:
         tensor = self._value("I", env)
         return Point(
             model.parameters,
-            {"t": model.t, "x": self.state.values(model.g, model.Z), "u": self._given(model)},
+            {
+                "t": model.t,
+                "x": self.state.values(model.g, model.Z),
+                "u": self._input_values(model),
+            },
             model.g,
             model.Z,
             rates,
@@ -115,7 +120,7 @@ class Claims:
             model.elementary,
         )
 
-    def _given(self, model: Model) -> Numbers:
+    def _input_values(self, model: Model) -> Numbers:
         """The numbers of u: forces in space and covectors on the stated basis, in the order of the
         inputs."""
         found: list[Any] = []
@@ -200,7 +205,7 @@ def _largest(found: Iterable[Degree]) -> tuple[int, int]:
     return max((x for x, _ in pairs), default=1), max((x for _, x in pairs), default=0)
 
 
-def squares(group: Group) -> Sampler:
+def rational_quaternions(group: Group) -> Sampler:
     """A sampler of rotations whose quaternion is rational, squares of Cayley transforms; with any
     translation where there are some."""
     basis = tuple(group.linear_part(e) for e in group.linear_basis)

@@ -22,7 +22,7 @@ ZERO = Fraction(0)
 
 
 @dataclass(frozen=True)
-class Varied:
+class ExactJacobians:
     """The rates of one point as a function of what varies; ``p``, ``k``: its parameters and
     constants."""
 
@@ -47,11 +47,11 @@ class Varied:
         none = q.scaled(ZERO, Z)
         for e in group.basis:
             turn = group.nearest(q.minus(q.times(e, Z), q.times(Z, e)))
-            yield [*turn, *self._slopes(e, none)]
+            yield [*turn, *self._rates_along(e, none)]
         for a, e in enumerate(group.basis):
-            yield [*(Fraction(a == b) for b in range(group.dimension)), *self._slopes(none, e)]
+            yield [*(Fraction(a == b) for b in range(group.dimension)), *self._rates_along(none, e)]
 
-    def _slopes(self, eta: Matrix, change: Matrix) -> list[Fraction]:
+    def _rates_along(self, eta: Matrix, change: Matrix) -> list[Fraction]:
         """δζ̇ for δg = g η and δZ = ``change``."""
         x = self.state.varied(self.point.g, self.point.Z, eta, change)
         rates = self._rates({"x": x})
@@ -61,18 +61,18 @@ class Varied:
 
     def _inputs(self) -> Iterator[list[Fraction]]:
         """The columns of the Jacobian in the inputs u."""
-        u = self.point.given["u"]
+        u = self.point.arguments["u"]
         for j in range(len(u)):
-            yield self._slopes_at({"u": [y + EPSILON if i == j else y for i, y in enumerate(u)]})
+            yield self._rates_column({"u": [y + EPSILON if i == j else y for i, y in enumerate(u)]})
 
     def _parameters(self) -> Iterator[list[Fraction]]:
         """The columns of the Jacobian in the parameters p."""
         for j in range(len(self.p)):
             p = [y + EPSILON if i == j else y for i, y in enumerate(self.p)]
             k = self.machine.call("constants", {"p": Array(p, "p")}, k=len(self.k))["k"]
-            yield self._slopes_at({"k": k})
+            yield self._rates_column({"k": k})
 
-    def _slopes_at(self, changed: Mapping[str, Sequence[Any]]) -> list[Fraction]:
+    def _rates_column(self, changed: Mapping[str, Sequence[Any]]) -> list[Fraction]:
         """The column (0, δζ̇) where arguments of ``rhs`` have the changed values."""
         rates = self._rates(changed)
         found = self.state.acceleration(self.point.Z, self._inverse(), rates)
@@ -84,10 +84,15 @@ class Varied:
         return found
 
     def _rates(self, changed: Mapping[str, Sequence[Any]]) -> tuple[Any, ...]:
-        values = {"x": self.point.given["x"], "u": self.point.given["u"], "k": self.k, **changed}
-        given = {name: Array(x, name) for name, x in values.items()}
+        values = {
+            "x": self.point.arguments["x"],
+            "u": self.point.arguments["u"],
+            "k": self.k,
+            **changed,
+        }
+        arguments = {name: Array(x, name) for name, x in values.items()}
         size = len(self.point.rates)
-        found = self.machine.call("rhs", {"t": self.point.given["t"], **given}, dx=size)
+        found = self.machine.call("rhs", {"t": self.point.arguments["t"], **arguments}, dx=size)
         return tuple(found["dx"])
 
 

@@ -63,7 +63,7 @@ class Measured:
     __hash__ = None  # type: ignore[assignment]
 
 
-class Opaque:
+class MeasuredElementary:
     """The elementary functions of measured numbers: at each argument a number drawn for itself.
 
     ``calls``: how often they were called; ``largest``: the largest degree of an argument.

@@ -39,7 +39,7 @@ class Machine:
     elementary: Elementary
     literal: Literal
 
-    def call(self, name: str, given: Mapping[str, Any], **sizes: int) -> dict[str, list[Any]]:
+    def call(self, name: str, arguments: Mapping[str, Any], **sizes: int) -> dict[str, list[Any]]:
         """The arrays that a function computes, by their names in C; ``sizes``: how long each is.
 
         C writes into the arrays, Python returns all numbers in one list. ``CodeError`` where one is
@@ -49,7 +49,7 @@ class Machine:
         if f is None:
             raise CodeError("there is no such function")
         empty = {x: Array.empty(size, x) for x, size in sizes.items() if x in f.arguments}
-        value = run(f, {**given, **empty}, self.elementary, self.literal)
+        value = run(f, {**arguments, **empty}, self.elementary, self.literal)
         if not empty:
             return _returned(value, sizes)
         return {x: array.whole() for x, array in empty.items()}

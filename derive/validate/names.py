@@ -28,8 +28,8 @@ def compare_names(m: Module, claims: Claims) -> None:
     for what, size in sizes.items():
         if m.sizes.get(what, size) != size:
             raise DiffersError(f"the size {what} is {m.sizes[what]}, not {size}")
-    given = {x: declared[x]["default"] for x in listed}
-    defaults = {x: value for x, value in given.items() if value is not None}
+    recorded = {x: declared[x]["default"] for x in listed}
+    defaults = {x: value for x, value in recorded.items() if value is not None}
     if m.defaults is not None and {x: float(y) for x, y in m.defaults.items()} != defaults:
         raise DiffersError("the defaults of the parameters are not those of the record")
     if m.basis is not None and m.basis != claims.state.group.basis:

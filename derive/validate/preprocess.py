@@ -42,7 +42,7 @@ class Branch:
     cplusplus: bool = False
 
 
-def _left(comment: re.Match[str]) -> str:
+def _without_comment(comment: re.Match[str]) -> str:
     """What a comment leaves in the text: a space, and its line ends; a string stays as it is."""
     return comment[0] if comment[0][0] == '"' else " " + "\n" * comment[0].count("\n")
 
@@ -75,7 +75,7 @@ class Preprocessor:
         if "\\" in source or "??" in source:
             raise CodeError("a backslash or a trigraph is not read")
         plain_text(source)
-        plain = COMMENT.sub(_left, source)
+        plain = COMMENT.sub(_without_comment, source)
         if "'" in re.sub(r'"[^"\n]*"', "", plain):
             raise CodeError("a character is not read")
         branches: list[Branch] = []

@@ -265,8 +265,8 @@ class Reader:
             if self._whole(node.left) and self._whole(node.right):
                 raise CodeError("C cuts off a quotient of integers, and their sums and products")
             left, right = self._expression(node.left), self._expression(node.right)
-            asked = node.op == "==" and left[0] == "var" and right == ("int", 0)
-            return ("none", left) if asked else (SIGNS[node.op], left, right)
+            compared_with_zero = node.op == "==" and left[0] == "var" and right == ("int", 0)
+            return ("none", left) if compared_with_zero else (SIGNS[node.op], left, right)
         elif isinstance(node, c.FuncCall) and isinstance(node.name, c.ID):
             return self._call(node)
         raise self._unknown(node)

@@ -2,8 +2,8 @@
 
 Read are the functions in plain numbers: ``_constants``, ``_rhs``, ``_energy``, ``_inertia``,
 ``_project``, ``_defect`` and the Jacobians, with the names, the defaults and the basis. The public
-functions, which hand arrays to these, are not: :func:`unread` gives their text, to be compared with
-what is emitted.
+functions, which hand arrays to these, are not: :func:`unread_statements` gives their text, to be
+compared with what is emitted.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .terms import (
     Expression,
     Function,
     Statement,
-    operated,
+    apply_operation,
     plain_text,
 )
 
@@ -59,7 +59,7 @@ def parsed(name: str, text: str) -> ast.Module:
         raise CodeError(f"not Python: {error}") from None
 
 
-def unread(name: str, text: str) -> list[str]:
+def unread_statements(name: str, text: str) -> list[str]:
     """The statements of a module that Python runs and :func:`read_python` does not read, as
     text."""
     tree, found = parsed(name, text), []
@@ -145,7 +145,7 @@ class Reader:
             return Fraction(e[1])
         if e[0] not in ("neg", "div"):
             raise self._unknown(node)
-        return Fraction(operated(e[0], [self._number(x, node) for x in e[1:]]))
+        return Fraction(apply_operation(e[0], [self._number(x, node) for x in e[1:]]))
 
     # -- functions ---------------------------------------------------------------------------
 

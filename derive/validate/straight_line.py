@@ -19,7 +19,7 @@ finite."""
 UNSMOOTH = ("abs", "gt", "lt", "le", "eq", "not")
 
 
-def straight(f: Function) -> None:
+def require_straight_line(f: Function) -> None:
     """``CodeError`` unless what a function writes and returns depends on no size and no
     condition."""
     tainted: set[str] = set()
@@ -38,7 +38,7 @@ def _read(e: Any) -> bool:
     return isinstance(e, tuple) and (e[:1] == ("at",) or any(map(_read, e)))
 
 
-def asked(f: Function) -> set[int]:
+def tested_parameters(f: Function) -> set[int]:
     """The places in p of the parameters that a function tests for being 0, a branch that is tried
     separately.
 

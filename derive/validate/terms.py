@@ -100,13 +100,13 @@ class Array:
         return self.values
 
 
-def run(f: Function, given: Mapping[str, Any], elementary: Elementary, literal: Literal) -> Any:
-    """What a function returns for the arguments ``given``, whose arrays it may write.
+def run(f: Function, arguments: Mapping[str, Any], elementary: Elementary, literal: Literal) -> Any:
+    """What a function returns for these arguments, whose arrays it may write.
 
     ``elementary(name, x)`` is the value of a function, ``literal(text)`` that of a decimal.
     ``CodeError`` for what has no value, a division by zero among it.
     """
-    names = {name: given[name] for name in f.arguments if name in given}
+    names = {name: arguments[name] for name in f.arguments if name in arguments}
     return Run(elementary, literal).body(f.body, names)[1]
 
 
@@ -179,7 +179,7 @@ class Run:
             return self._array(e[1], names)[self.value(e[2], names)]
         if op == "fun":
             return self.elementary(e[1], self.value(e[2], names))
-        return operated(op, [self.value(x, names) for x in e[1:]])
+        return apply_operation(op, [self.value(x, names) for x in e[1:]])
 
     @staticmethod
     def _name(name: str, names: Mapping[str, Any]) -> Any:
@@ -188,12 +188,12 @@ class Run:
         return names[name]
 
 
-def plain(x: Any) -> Any:
+def base_value(x: Any) -> Any:
     """The number without its degree and its nilpotent parts."""
     return part(getattr(x, "value", x), 0)
 
 
-def operated(op: str, a: list[Any]) -> Any:
+def apply_operation(op: str, a: list[Any]) -> Any:
     """The value of an operation on values; ``CodeError`` for a division by zero."""
     if op == "div":
         try:
@@ -208,12 +208,12 @@ OPERATIONS: dict[str, Callable[..., Any]] = {
     "add": lambda a, b: a + b,
     "sub": lambda a, b: a - b,
     "mul": lambda a, b: a * b,
-    "abs": lambda a: a if plain(a) >= 0 else -a,
-    "gt": lambda a, b: plain(a) > plain(b),
-    "lt": lambda a, b: plain(a) < plain(b),
-    "le": lambda a, b: plain(a) <= plain(b),
-    "eq": lambda a, b: plain(a) == plain(b),
-    "none": lambda a: int(plain(a) == 0),
+    "abs": lambda a: a if base_value(a) >= 0 else -a,
+    "gt": lambda a, b: base_value(a) > base_value(b),
+    "lt": lambda a, b: base_value(a) < base_value(b),
+    "le": lambda a, b: base_value(a) <= base_value(b),
+    "eq": lambda a, b: base_value(a) == base_value(b),
+    "none": lambda a: int(base_value(a) == 0),
     "not": lambda a: not a,
     "list": lambda *a: list(a),
 }

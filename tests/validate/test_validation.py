@@ -75,7 +75,7 @@ def compared(name, language, text, **chosen):
     """Holds one text of a file against the record at one exact point."""
     literals = Literals(emitted(name)[1])
     module = read(name, language, text, **chosen)
-    return Comparison(module, claims(name), literals, point(name)).all()
+    return Comparison(module, claims(name), literals, point(name)).compare_all()
 
 
 def meaning(name, language, text):
