@@ -1,4 +1,4 @@
-"""The options of the command line; what they start is in :mod:`derive.command.cli`."""
+"""The options of the command line; the commands themselves are in :mod:`derive.command.cli`."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from ..views.rendering import FORMATS
 from .guard import one_line
 
 ALLOWED = {"mass": "mass", "stiffness": "stiffness or damping"}
-"""What may be negative where a flag allows it."""
+"""What may be negative where a flag allows it: the name in the flag → the quantity in messages."""
 
 
 def emission(emit: argparse.ArgumentParser) -> None:
-    """The choices about the emitted code."""
+    """Add the options that choose what code is emitted."""
     from ..code.languages import LANGUAGES
     from ..code.options import CHOICES, JACOBIANS
 
@@ -30,14 +30,14 @@ def emission(emit: argparse.ArgumentParser) -> None:
 
 
 def positive(words: str) -> float:
-    """A number of seconds."""
+    """A number of seconds from its text; ``ValueError`` unless it is positive and below 1e9."""
     if not 0 < (seconds := float(words)) < 1e9:
         raise ValueError(words)
     return seconds
 
 
 def natural(words: str) -> int:
-    """A number that is not negative."""
+    """An integer that is not negative, from its text; ``ValueError`` for any other."""
     if (number := int(words)) < 0:
         raise ValueError(words)
     return number
@@ -47,12 +47,13 @@ Command = Callable[[argparse.Namespace], int]
 
 
 class Parser(argparse.ArgumentParser):
-    """What a command does not know it says itself, with its own usage and the nearest option."""
+    """A parser of one command, which itself reports an unknown option, with its own usage and the
+    nearest option."""
 
     def parse_known_args(  # type: ignore[override]
         self, args: Sequence[str] | None = None, namespace: Any = None
     ) -> tuple[argparse.Namespace, list[str]]:
-        """The same; what is left over is an error."""
+        """The parsed arguments; what is left over is an error."""
         found, left = super().parse_known_args(args, namespace)
         if left:
             option = next((x for x in left if x.startswith("-")), "")
@@ -66,7 +67,8 @@ class Parser(argparse.ArgumentParser):
 
 
 def parser(commands: Mapping[str, Command], about: str | None) -> argparse.ArgumentParser:
-    """The options of every command, by the functions that run them, with their docstrings."""
+    """The parser of all commands; ``commands``: name → the function that runs it, whose docstring
+    is its help."""
     from ..views.language import LANGUAGES
 
     top = Parser(prog="derive", description=about)
@@ -105,7 +107,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
 
 
 def reading(walk: argparse.ArgumentParser, notes: argparse.ArgumentParser) -> None:
-    """What walks and notes are asked for: problems, a form, a language, notations."""
+    """Add the options of ``walk`` and ``notes``: problems, format, language, notations."""
     from ..printing.notation import NOTATIONS
     from ..views.language import LANGUAGES
 
@@ -124,7 +126,8 @@ def reading(walk: argparse.ArgumentParser, notes: argparse.ArgumentParser) -> No
 
 
 def writing(emit: argparse.ArgumentParser) -> None:
-    """Where code goes, and what is done in place of writing it."""
+    """Add the options of ``emit`` that say where code goes, and what is done instead of writing
+    it."""
     emit.add_argument("--out", metavar="DIR", help="default: the current directory")
     emit.add_argument("--prefix", metavar="NAME", help="default: the problem's name")
     current = "write nothing; exit 1 if a file on disk is not what would be written, "

@@ -26,7 +26,7 @@ READY = Path(__file__).resolve().parents[1] / "problems"
 
 
 class UsageError(Refused):
-    """Bad input: one clear line, exit 2."""
+    """Bad input on the command line: one clear line, and the exit code 2."""
 
 
 def ready_made() -> list[str]:
@@ -35,7 +35,8 @@ def ready_made() -> list[str]:
 
 
 def load_problem(name: str, **allowed: bool) -> Problem:
-    """A ready-made problem by name, or a TOML file by path; ``allowed``: as ``load`` has it."""
+    """A ready-made problem by name, or a TOML file by path; ``allowed``: what may be negative, as
+    in ``problem.toml.load``. ``UsageError`` where there is neither."""
     from ..problem.toml import load
 
     if name in ready_made():
@@ -54,7 +55,8 @@ def load_problem(name: str, **allowed: bool) -> Problem:
 
 
 def derive(name: str, **allowed: bool) -> tuple[Problem, Derivation]:
-    """A problem and its record; what may be doubted in it gets a warning."""
+    """A problem and its record; a warning on stderr for each doubt about it. ``UsageError`` where
+    it has no walk."""
     from ..pipeline import walk
     from ..problem.doubts import doubts
 
@@ -68,14 +70,14 @@ def derive(name: str, **allowed: bool) -> tuple[Problem, Derivation]:
 
 
 def allowed(args: argparse.Namespace) -> dict[str, bool]:
-    """What may be negative, as the flags say."""
+    """The keywords of :func:`load_problem` for what the flags allow to be negative."""
     from .arguments import ALLOWED
 
     return {f"negative_{x}": getattr(args, f"allow_negative_{x}") for x in ALLOWED}
 
 
 def save(text: str, out: str | None, form: str) -> None:
-    """A text of one of the formats to stdout, or whole to a file."""
+    """Write a text of one of the formats to stdout, or whole to the file ``out``."""
     from .writing import write
 
     if out is None:
@@ -130,14 +132,14 @@ def command_notes(args: argparse.Namespace) -> int:
 
 
 def warn_of_letters(records: Sequence[Derivation]) -> None:
-    """Say which letters LaTeX will not have."""
+    """Warn on stderr of the letters of some records that LaTeX does not have."""
     if lost := unprinted(records):
         shown = ", ".join(lost[:20])
         print(f"derive: warning: LaTeX has no {one_line(shown)} here, and shows ?", file=sys.stderr)
 
 
 def notation(args: argparse.Namespace) -> dict[str, str]:
-    """How transposes and skew matrices are to be written."""
+    """The notations that were chosen for transposes and skew matrices."""
     return {"transpose": args.notation, "hat": args.hat}
 
 
@@ -192,7 +194,7 @@ def command_check(args: argparse.Namespace) -> int:
 
 
 def _tried(v: Verdict) -> str:
-    """On what a step was found to hold."""
+    """What a verdict says was found to hold, and on which groups, as text."""
     count, groups = v.tried
     return f"{count} {v.of}{'s' * (count != 1)} on {', '.join(groups)}"
 
@@ -244,7 +246,8 @@ COMMANDS = {
 
 
 def _silence() -> None:
-    """Drop what stdout still holds: the interpreter would write it in the end, and tell why not."""
+    """Drop what stdout still holds, which the interpreter would write at its end, and complain if
+    it could not."""
     with suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
@@ -254,7 +257,7 @@ shown as text, LaTeX or a web page, and emitted as code."""
 
 
 def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:
-    """The exit code of what the arguments ask for."""
+    """Run the command of the arguments: its exit code."""
     try:
         args = options.parse_args(argv)
     except SystemExit:
@@ -265,7 +268,8 @@ def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command: 0, 1 when a check failed, 2 for bad input."""
+    """Run a command, with messages for all its errors: 0, 1 when a check failed, 2 for bad input,
+    130 after Ctrl-C."""
     from .arguments import parser
 
     if sys.stdout is None:  # closed by who started us

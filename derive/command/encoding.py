@@ -1,4 +1,5 @@
-"""Standard output in an encoding that lacks letters: they become ?, and that is said, once."""
+"""Standard output in an encoding that lacks letters: they are written as ?, and stderr says so
+once."""
 
 from __future__ import annotations
 
@@ -13,7 +14,8 @@ HANDLER = "derive.lost"
 
 @contextmanager
 def said() -> Iterator[None]:
-    """Within, what standard output cannot encode is written as ?; in the end stderr says so."""
+    """A context in which what standard output cannot encode is written as ?; at its end stderr says
+    how many letters."""
     lost: set[str] = set()
 
     def shown(error: UnicodeError) -> tuple[str, int]:
@@ -40,7 +42,8 @@ def said() -> Iterator[None]:
 
 
 def as_in_a_file() -> None:
-    """Write what follows in UTF-8, as formats that name their encoding do, but to a terminal."""
+    """From here on write standard output in UTF-8, as formats that name their encoding need, unless
+    it is a terminal."""
     out = sys.stdout
     if isinstance(out, io.TextIOWrapper) and not out.isatty():
         out.reconfigure(encoding="utf-8", errors=out.errors)

@@ -1,4 +1,4 @@
-"""What keeps a command within bounds: its processor time, and one line for one message."""
+"""The bounds of a command: a limit on its processor time, and one printable line for a message."""
 
 from __future__ import annotations
 
@@ -11,14 +11,16 @@ from ..language.limits import MESSAGE
 
 
 class StoppedError(BaseException):
-    """The time is over.  No ``Exception``, so that nothing on the way takes it for its own."""
+    """The limit on processor time is reached. Not an ``Exception``, so that nothing on the way
+    catches it."""
 
 
 @contextmanager
 def within(seconds: float | None) -> Iterator[None]:
-    """Stop what is inside after so many seconds of processor time; ``StoppedError``.
+    """A context that raises ``StoppedError`` after so many seconds of processor time; no limit for
+    ``None``.
 
-    Also where there are no such timers, and outside the main thread.
+    It is raised at once where there are no such timers, or outside the main thread.
     """
     if seconds is None:
         yield
@@ -41,6 +43,7 @@ def within(seconds: float | None) -> Iterator[None]:
 
 
 def one_line(words: object) -> str:
-    """A message as a line that a terminal only prints: it may quote a file, or its name."""
+    """A message as one line of bounded length that a terminal only prints: it may quote a file, or
+    its name."""
     shown = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in str(words)[: 2 * MESSAGE])
     return shown if len(shown) <= MESSAGE else f"{shown[: MESSAGE - 1]}…"

@@ -1,4 +1,4 @@
-"""What there is to choose from: groups and ready-made problems."""
+"""The list of groups and ready-made problems that ``derive list`` prints."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..problem.problem import Problem
 
 
 def listing(problems: Mapping[str, Problem]) -> str:
-    """Groups, then problems by name."""
+    """The text of the list: groups with their sizes, then problems by name."""
     lines = ["groups"]
     for name, family in FAMILIES.items():
         sizes = f"n = {family.least} … {family.most}"

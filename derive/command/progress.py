@@ -1,4 +1,5 @@
-"""How far a long command is: one line on stderr, where that is a terminal, gone in the end."""
+"""The progress of a long command: one line on stderr, where that is a terminal, erased at the
+end."""
 
 from __future__ import annotations
 
@@ -10,7 +11,7 @@ Item = TypeVar("Item")
 
 
 def counted(items: Iterable[Item], total: int, what: str) -> Iterator[Item]:
-    """The same items; while one of them is made, ``what: done of total`` is shown."""
+    """The items unchanged; while each is made, stderr shows ``what: done of total``."""
     shown, left = sys.stderr is not None and sys.stderr.isatty(), iter(items)
     for done in range(total):
         line = f"{what}: {done} of {total}" if shown else ""

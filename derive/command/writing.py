@@ -1,6 +1,6 @@
-"""Files are written whole or not at all: under a temporary name, then renamed.
+"""Writing files whole or not at all: under a temporary name, then renamed.
 
-Who writes to a folder has it locked, so that the files of two emissions are not mixed; what an
+A folder is locked while it is written to, so that the files of two emissions are not mixed; what an
 emission that was killed left over is removed by the next one.
 """
 
@@ -23,10 +23,11 @@ except ImportError:  # Windows: no lock
     fcntl = None  # type: ignore[assignment]
 
 PREFIX, SUFFIX = ".derive-", ".part"
-"""Of temporary files."""
+"""The first and the last letters of the names of temporary files."""
 
 PATIENCE = 60.0
-"""Seconds to wait for a folder; others hold it for as long as it takes to write a few files."""
+"""Seconds to wait for a locked folder; others lock it for as long as it takes to write a few
+files."""
 
 
 class WriteError(Refused, OSError):
@@ -34,10 +35,10 @@ class WriteError(Refused, OSError):
 
 
 def write(files: Mapping[str, str | bytes], out: Path, *, links: bool = False) -> list[Path]:
-    """Write every file under a temporary name, then rename them all.
+    """Write every file, name → content, under a temporary name, then rename them all; their paths.
 
     ``links``: may a file be a link that leads out of the folder, because the user named that file?
-    A device or a pipe is written to at once.  ``WriteError`` when that fails: then no file has been
+    A device or a pipe is written to at once. ``WriteError`` when that fails: then no file has been
     touched, unless a rename fails.
     """
     place = out
@@ -76,7 +77,7 @@ def write(files: Mapping[str, str | bytes], out: Path, *, links: bool = False) -
 
 
 def inside(path: Path, folder: Path) -> bool:
-    """Is a file in the folder, wherever links lead?"""
+    """Is a path in a folder, wherever links lead?"""
     try:
         return path.resolve().is_relative_to(folder.resolve())
     except RuntimeError:  # a link to itself
@@ -109,14 +110,14 @@ def stale(
 
 
 def there(path: Path) -> str:
-    """The text of a file that someone may have changed; empty where there is none."""
+    """The text of a file, whatever its line ends and wrong bytes; empty where there is none."""
     if not path.is_file():
         return ""
     return path.read_bytes().decode("utf-8", "replace").replace("\r\n", "\n")
 
 
 def _target(path: Path) -> Path:
-    """Where a file goes: not to a folder."""
+    """The path to which a file is written, links followed; ``IsADirectoryError`` for a folder."""
     path = path.resolve() if path.is_symlink() else path
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
@@ -124,7 +125,7 @@ def _target(path: Path) -> Path:
 
 
 def _temporary(folder: Path) -> Path:
-    """A new file with a name of its own."""
+    """The path of a new, empty file with a name of its own."""
     handle, name = tempfile.mkstemp(SUFFIX, PREFIX, folder)
     os.close(handle)
     return Path(name)
@@ -132,7 +133,8 @@ def _temporary(folder: Path) -> Path:
 
 @contextmanager
 def _locked(folders: Iterable[Path]) -> Iterator[None]:
-    """Hold folders alone, in one order for all, and clear them of what was left over.
+    """A context in which this process alone holds some folders, locked in one order by all
+    processes and cleared of temporary files left over.
 
     The lock is on the folder itself: no file remains, and the system frees it when a process ends.
     """
@@ -146,7 +148,8 @@ def _locked(folders: Iterable[Path]) -> Iterator[None]:
 
 
 def _hold(folder: Path, held: ExitStack) -> bool:
-    """Lock a folder until ``held`` ends; no where the folder or its file system has no locks."""
+    """Lock a folder until the stack ``held`` is left; False where it has no locks. ``OSError``
+    after PATIENCE seconds."""
     try:
         handle = os.open(folder, os.O_RDONLY)
     except OSError:  # writing will tell
