@@ -1,1 +1,2 @@
-"""What Python gets: problems in words, derivations in a notebook, compiled code, SymPy."""
+"""The interface from Python: problems built in words, derivations in a notebook, compiled code,
+SymPy."""

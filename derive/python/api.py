@@ -40,7 +40,7 @@ class Group:
         return Group(f"{self.name} x {other.name}")
 
     def table(self) -> Any:
-        """What stands under ``group`` in a file."""
+        """The value of ``group`` in a problem file: a name, or a table with a basis."""
         if self.basis is None:
             return self.name
         basis = [[[_plain(x) for x in row] for row in e] for e in self.basis]
@@ -48,57 +48,57 @@ class Group:
 
 
 def SO(n: int) -> Group:
-    """Rotations of Rⁿ."""
+    """The rotations of Rⁿ."""
     return Group(f"SO({n})")
 
 
 def SE(n: int) -> Group:
-    """Displacements of Rⁿ."""
+    """The displacements of Rⁿ."""
     return Group(f"SE({n})")
 
 
 def SL(n: int) -> Group:
-    """Linear maps of Rⁿ that keep the volume."""
+    """The linear maps of Rⁿ that keep the volume."""
     return Group(f"SL({n})")
 
 
 def Sp(n: int) -> Group:
-    """Symplectic maps of Rⁿ, n even."""
+    """The symplectic maps of Rⁿ, n even."""
     return Group(f"Sp({n})")
 
 
 def Sim(n: int) -> Group:
-    """Similarities of Rⁿ."""
+    """The similarities of Rⁿ."""
     return Group(f"Sim({n})")
 
 
 def UT(n: int) -> Group:
-    """Upper unitriangular maps of Rⁿ."""
+    """The upper unitriangular maps of Rⁿ."""
     return Group(f"UT({n})")
 
 
 def U(n: int) -> Group:
-    """Unitary maps of Cⁿ = R²ⁿ."""
+    """The unitary maps of Cⁿ = R²ⁿ."""
     return Group(f"U({n})")
 
 
 def SU(n: int) -> Group:
-    """Unitary maps of Cⁿ of determinant 1."""
+    """The unitary maps of Cⁿ = R²ⁿ of determinant 1."""
     return Group(f"SU({n})")
 
 
 def SAff(n: int) -> Group:
-    """Affine maps of Rⁿ that keep the volume."""
+    """The affine maps of Rⁿ that keep the volume."""
     return Group(f"SAff({n})")
 
 
 def GL(n: int) -> Group:
-    """Invertible linear maps of Rⁿ."""
+    """The invertible linear maps of Rⁿ."""
     return Group(f"GL({n})")
 
 
 def Aff(n: int) -> Group:
-    """Invertible affine maps of Rⁿ."""
+    """The invertible affine maps of Rⁿ."""
     return Group(f"Aff({n})")
 
 
@@ -111,12 +111,13 @@ class Table:
 
 
 def Points(*points: tuple[Any, ...]) -> list[Table]:
-    """(mass, place) for each point, and in a product the block that moves it."""
+    """A body of point masses: (mass, place) for each, and in a product the number of the block that
+    moves it."""
     return [Table("point", mass=p[0], at=p[1], block=p[2] if len(p) > 2 else None) for p in points]
 
 
 def Moments(**given: Any) -> list[Table]:
-    """A body by its moments: m, c and J given, or parameters when nothing is."""
+    """A body by its moments: m, c and J as given, or as parameters when none is given."""
     return [Table("body", given=given) if given else Table("body", moments="symbolic")]
 
 
@@ -126,15 +127,15 @@ def Solid(kind: str, density: Number, **sizes: Any) -> list[Table]:
 
 
 def Gravity(*g: Number) -> Table:
-    """U = −Σ m_i ⟨g, r_i⟩."""
+    """Uniform gravity, U = −Σ m_i ⟨g, r_i⟩."""
     return Table("potential", kind="gravity", g=list(g))
 
 
 def Spring(
     i: int | Sequence[Number], j: int | Sequence[Number], stiffness: Number, length: Number = 0
 ) -> Table:
-    """½ k (‖s‖ − length)² between points i and j, or from point i, or a place i of the body, to an
-    anchor j in space."""
+    """A spring, U = ½ k (‖s‖ − length)², between points i and j; or from point i, or a place i of
+    the body, to an anchor j in space."""
     if isinstance(j, int):
         ends: dict[str, Any] = {"between": [i, j]}
     else:
@@ -143,7 +144,7 @@ def Spring(
 
 
 def Potential(U: str) -> Table:
-    """Any U of r1_x, r2_y, …, t and the parameters."""
+    """Any potential, an expression U in r1_x, r2_y, …, t and the parameters."""
     return Table("potential", kind="expression", U=U)
 
 
@@ -165,12 +166,13 @@ def __getattr__(name: str) -> Any:
 
 
 def Covector(name: str) -> Table:
-    """An input: a covector of the Lie algebra."""
+    """An input: a covector of the Lie algebra, by its values on the basis."""
     return Table("input", kind="covector", name=name)
 
 
 def Force(name: str, on: int | Sequence[Number], frame: str = "space") -> Table:
-    """An input: a force on a point, or at a place of the body."""
+    """An input: a force on a point, or at a place of the body, with components in "space" or in the
+    "body"."""
     where = {"on": on} if isinstance(on, int) else {"at": on}
     return Table("input", kind="force", name=name, frame=frame, **where)
 
@@ -180,7 +182,8 @@ def Damping(
     on: Sequence[int] | None = None,
     at: Sequence[Number] | None = None,
 ) -> Table:
-    """−κ v on points (all of them), or at a place of the body, outside dϖ."""
+    """The damping −κ v of points (all of them if none are listed), or of a place of the body; it is
+    outside dϖ."""
     return Table("damping", coefficient=coefficient, on=on, at=at)
 
 
@@ -213,7 +216,7 @@ def Problem(
 
 
 def _tables(given: Any) -> list[Table]:
-    """The tables of a list, of lists in it, or one alone."""
+    """The tables in nested lists of tables, or in one alone; ``ProblemError`` for anything else."""
     if isinstance(given, Table):
         return [given]
     if not isinstance(given, (list, tuple)):
@@ -222,7 +225,7 @@ def _tables(given: Any) -> list[Table]:
 
 
 def _plain(x: Any) -> Any:
-    """Tuples and arrays as lists and fractions as text, as a file has them."""
+    """Plain data as a problem file has it: tuples and arrays as lists, fractions as text."""
     if hasattr(x, "tolist"):
         x = x.tolist()
     if isinstance(x, Fraction):

@@ -38,12 +38,12 @@ void derive_rhs(double *b)
     {name}_rhs(b[0], x, k, u, k + {name}_N_CONSTANTS);
 }}
 """
-"""Compiled beside the emitted C: rhs on one array of t, x, u, k and dx, as to convert five
-arguments takes ctypes longer than rhs takes."""
+"""C that is compiled beside the emitted one: rhs on one array of t, x, u, k and dx, as to convert
+five arguments takes ctypes longer than rhs takes."""
 
 
 class Names(NamedTuple):
-    """The names of the numbers, and how many there are of those that have none here."""
+    """The names of a program's numbers, and the counts of constants and of coordinates of 𝔤."""
 
     state: tuple[str, ...]
     inputs: tuple[str, ...]
@@ -53,14 +53,15 @@ class Names(NamedTuple):
 
     @classmethod
     def of(cls, program: Program) -> Names:
-        """Those of a program."""
+        """The names of a program."""
         defaults = {x[0]: x[1] for x in program.parameters}
         sizes = len(program.constants), program.dimension
         return cls(program.state, program.inputs, defaults, *sizes)
 
 
 class Values(NamedTuple):
-    """What stays from call to call, replaced as a whole: a call under way keeps those it has."""
+    """The numbers that stay from call to call: parameters, constants, inputs. They are replaced as
+    a whole: a call under way keeps those that it has."""
 
     p: Array
     k: Array
@@ -69,7 +70,7 @@ class Values(NamedTuple):
 
 
 class Buffers:
-    """Where one call of rhs at a time has its numbers."""
+    """The memory of one call of rhs at a time: views of t, x, u, k and dx in one array."""
 
     __slots__ = ("copy", "k", "now", "run", "u", "values", "x")
 
@@ -84,12 +85,12 @@ class Buffers:
 
 
 class Compiled:
-    """The functions of one problem in compiled C, for one body; itself dx/dt = f(t, x, u).
+    """The functions of one problem in compiled C, for one body; called, it is dx/dt = f(t, x, u).
 
     ``STATE``, ``PARAMETERS``, ``INPUTS``: names; ``p`` and ``k``: parameters and constants in use;
-    ``u``: the inputs of calls that are given none, zero at first.  These three are not to be
-    written into: :meth:`use` and ``f.u = …`` replace them.  Threads may share it, each call has
-    buffers of its own; pickled, it takes its C along, which is compiled where it is loaded.
+    ``u``: the inputs of calls that are given none, zero at first. These three are not to be written
+    into: :meth:`use` and ``f.u = …`` replace them. Threads may share it, each call has buffers of
+    its own; pickled, it takes its C along, which is compiled where it is loaded.
     """
 
     def __init__(self, names: Names, source: Source, values: Values | None = None):
@@ -107,7 +108,7 @@ class Compiled:
         return Compiled, (self._names, self._source, self._values)
 
     def __call__(self, t: float, x: Any, u: Any = None) -> Array:
-        """dx/dt, with the inputs u or else those of this object."""
+        """dx/dt, an array of len(STATE), with the inputs u or else those of this object."""
         try:
             mine = self._idle.pop()
         except IndexError:
@@ -124,13 +125,14 @@ class Compiled:
     rhs = __call__
 
     def _fill(self, mine: Buffers, u: Any) -> None:
-        """The constants and the inputs of the next call."""
+        """Put the constants and the inputs of the next call into its buffers."""
         values = self._in_use()
         mine.k[:] = values.k
         mine.u[:] = values.u if u is None else u
         mine.values = values if u is None else None
 
     def _in_use(self) -> Values:
+        """The numbers in use; ``ValueError`` where parameters have no value yet."""
         values = self._values
         if not values.ready:
             missing = [name for name, value in self._names.defaults.items() if value is None]
@@ -140,17 +142,17 @@ class Compiled:
 
     @property
     def p(self) -> Array:
-        """The parameters in use, read only."""
+        """The parameters in use, in the order of PARAMETERS, read only."""
         return _fixed(self._values.p)
 
     @property
     def k(self) -> Array:
-        """The constants in use, read only."""
+        """The constants in use, in the order of the emitted code, read only."""
         return _fixed(self._values.k)
 
     @property
     def u(self) -> Array:
-        """The inputs of a call that is given none, read only; assign others."""
+        """The inputs of a call that is given none, read only; assign an array to replace them."""
         return _fixed(self._values.u)
 
     @u.setter
@@ -160,7 +162,8 @@ class Compiled:
             self._values = self._values._replace(u=u)
 
     def use(self, parameters: Mapping[str, float] | Sequence[float] = ()) -> Compiled:
-        """Take these parameters, the defaults for the others; ``ValueError`` says what is wrong."""
+        """Use these parameters, by name or in order, and defaults for the others; ``ValueError``
+        says what is wrong."""
         defaults = self._names.defaults
         if isinstance(parameters, Mapping):
             named = dict(parameters)
@@ -186,23 +189,24 @@ class Compiled:
         return self
 
     def energy(self, t: float, x: Any) -> float:
-        """Kinetic plus potential energy."""
+        """The energy at time t in state x: kinetic plus potential."""
         return float(self._called("energy", ctypes.c_double, t, x, self._in_use().k))
 
     def jacobian(self, t: float, x: Any, u: Any = None) -> tuple[Array, Array]:
-        """dx/dt and D (2N, 2N); see the emitted header."""
+        """dx/dt and the (2d, 2d) matrix D of the linearised equations in the state; see the emitted
+        header."""
         k, dx, D = self._in_use().k, np.zeros(len(self.STATE)), self._zeros()
         self._called("jacobian", None, t, x, k, self._inputs(u), dx, D)
         return dx, D
 
     def jacobian_inputs(self, t: float, x: Any, u: Any = None) -> Array:
-        """D (2N, inputs)."""
+        """The (2d, inputs) matrix D of the linearised equations in the inputs."""
         k, D = self._in_use().k, self._zeros(len(self.INPUTS))
         self._called("jacobian_inputs", None, t, x, k, self._inputs(u), D)
         return D
 
     def jacobian_parameters(self, t: float, x: Any, u: Any = None) -> Array:
-        """D (2N, parameters)."""
+        """The (2d, parameters) matrix D of the linearised equations in the parameters."""
         p, D = self._in_use().p, self._zeros(len(self.PARAMETERS))
         self._called("jacobian_parameters", None, t, x, p, self._inputs(u), D)
         return D
@@ -242,16 +246,19 @@ class Compiled:
         return self._carried("inputs_out_of_frame", u, len(self.INPUTS))
 
     def _carried(self, what: str, x: Any, size: int) -> Array:
+        """A state or an input taken from one frame to another by the C function ``what``."""
         k, given, out = self._in_use().k, _array(x, size), np.zeros(size)
         self._function(what, None)(*map(_pointer, (given, k, out)))
         return out
 
     def _called(self, what: str, result: Any, t: float, x: Any, *arrays: Array) -> Any:
-        """A function of the time, the state and more arrays."""
+        """The result of a C function of the time, the state and more arrays."""
         state, function = _array(x, len(self.STATE)), self._function(what, result)
         return function(ctypes.c_double(t), *map(_pointer, (state, *arrays)))
 
     def _function(self, what: str, result: Any) -> Any:
+        """A C function of the library; ``ValueError`` says how to ask for it where it is not
+        compiled."""
         function = getattr(self._library, f"{self._source.name}_{what}", None)
         if function is None and what.endswith("_frame"):
             raise ValueError("not compiled: ask for it by compile(..., frame='principal')")
@@ -265,14 +272,14 @@ class Compiled:
 
 
 def _fixed(a: Array) -> Array:
-    """A view that cannot be written into."""
+    """A view of an array that cannot be written into."""
     view = a.view()
     view.flags.writeable = False
     return view
 
 
 def _array(values: Any, size: int) -> Array:
-    """An array of its own."""
+    """A new array of ``size`` numbers."""
     made = np.zeros(size)
     made[:] = values
     return made

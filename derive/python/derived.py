@@ -1,4 +1,4 @@
-"""What Python holds after a walk: the derivation, its steps and equations, in a notebook too."""
+"""A derivation as Python holds it: the record, its steps and equations, shown in a notebook too."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ class ShownEquation:
 
     @property
     def lhs(self) -> Any:
-        """The left side, an operator tree."""
+        """The left side, an operator tree (:mod:`derive.language.tree`)."""
         return self.equation.lhs
 
     @property
     def rhs(self) -> Any:
-        """The right side, an operator tree."""
+        """The right side, an operator tree (:mod:`derive.language.tree`)."""
         return self.equation.rhs
 
     def __str__(self) -> str:
@@ -85,7 +85,7 @@ class Shown:
 
 @dataclass(frozen=True)
 class Figure:
-    """The drawing of a body, shown in a notebook."""
+    """The drawing of a body, which a notebook shows."""
 
     scene: Scene
 
@@ -93,7 +93,7 @@ class Figure:
         return f"<figure {self.scene.width:.0f} mm by {self.scene.height:.0f} mm>"
 
     def svg(self) -> str:
-        """The drawing as SVG, a file of its own or an element of a page."""
+        """The drawing as SVG text, a file of its own or an element of a page."""
         from ..figure.figure import svg
 
         return svg(self.scene)
@@ -104,7 +104,7 @@ class Figure:
 
 @dataclass(frozen=True)
 class Derived:
-    """A derivation: the record of a problem and what one does with it."""
+    """A derivation: the record of a problem, with methods to print, check, draw and emit it."""
 
     problem: Problem
     record: Derivation
@@ -141,7 +141,7 @@ class Derived:
         return self.markdown()
 
     def figure(self) -> Figure | None:
-        """The drawing of the body, if there is one."""
+        """The drawing of the body; ``None`` where the problem has no body."""
         from ..figure.scene import scene
 
         drawn = scene(self.record)
@@ -154,8 +154,8 @@ class Derived:
         return render(self.record, "latex", lang, transpose=transpose, hat=hat)
 
     def check(self, seed: int | None = None) -> list[Verdict]:
-        """A verdict for every step, by exact arithmetic and another road, at points that are new
-        each time; the same ``seed`` gives the same points."""
+        """A verdict for the symbols and one for every step, by exact arithmetic and other formulas,
+        at points that are new each time; the same ``seed`` gives the same points."""
         from ..check.checker import check
 
         return check(self.record, seed)
@@ -193,7 +193,8 @@ class Derived:
 
 
 def derive(problem: Problem | str | Path) -> Derived:
-    """Walk the road of a problem, of a problem file, or of a ready-made problem."""
+    """The derivation of a problem, of a problem file, or of a ready-made problem; ``ProblemError``
+    says in one line what is wrong."""
     from ..command.cli import load_problem
     from ..pipeline import walk
 

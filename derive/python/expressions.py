@@ -1,4 +1,4 @@
-"""A program as SymPy expressions, for whoever goes on with the equations by hand."""
+"""The emitted program as SymPy expressions, for whoever goes on with the equations by hand."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ import sympy
 from ..code.program import Expression, Function, Program
 
 LARGEST = 10**6
-"""A denominator beyond it is that of a number such as √2, which programs have to 53 bits."""
+"""The largest denominator of an exact number; a larger one is that of a number such as √2, which
+programs have to 53 bits."""
 PI = Fraction(math.pi)
 
 
@@ -43,7 +44,7 @@ class Expressions:
 
 
 def expressions(program: Program) -> Expressions:
-    """A program in the given frame as expressions."""
+    """The functions of a program, which must be in the given frame, as SymPy expressions."""
     names = {
         "t": ["t"],
         "x": program.state,
@@ -62,7 +63,8 @@ def expressions(program: Program) -> Expressions:
 
 
 def _values(f: Function, arrays: Mapping[str, Sequence[Any]]) -> list[Any]:
-    """The outputs of a function, given the arrays that it loads from."""
+    """The outputs of a function as expressions, given the symbols in the arrays that it loads
+    from."""
     found = {x.name: arrays[x.array][x.index] for x in f.loads}
     for section in f.sections:
         for value in section.values:
@@ -88,7 +90,7 @@ def _expression(e: Expression, found: Mapping[str, Any]) -> Any:
 
 
 def _number(q: Fraction) -> Any:
-    """A fraction, a fraction of π, or a decimal number."""
+    """A number of a program as SymPy has it: a fraction, a fraction of π, or a decimal."""
     for unit, name in ((Fraction(1), sympy.Integer(1)), (PI, sympy.pi)):
         part = q / unit
         if part.denominator < LARGEST:

@@ -1,4 +1,5 @@
-"""Emitted C as a shared library of this process: compiled by the compiler at hand, loaded once."""
+"""Emitted C as a shared library: compiled with the compiler at hand, loaded once into this
+process."""
 
 from __future__ import annotations
 
@@ -17,12 +18,13 @@ FLAGS = ("-std=c99", "-O3", "-march=native", "-fPIC", "-shared")
 
 
 class CompileError(RuntimeError):
-    """No compiler, or one that refused: the message says which and why."""
+    """There is no compiler, or it refused the code: the message says which and why."""
 
 
 @dataclass(frozen=True)
 class Source:
-    """What is compiled: files by name, the compiler (``None``: the one at hand), its flags."""
+    """The source of a library: files by name, the compiler (``None``: the one at hand) and its
+    flags."""
 
     name: str
     files: tuple[tuple[str, str], ...]
@@ -31,7 +33,7 @@ class Source:
 
 
 def loaded(source: Source) -> ctypes.CDLL:
-    """The library of a source; a process compiles it once with the same compiler."""
+    """The library of a source, compiled once in a process for each compiler; ``CompileError``."""
     return _built(source, _compiler(source.compiler))
 
 
