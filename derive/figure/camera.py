@@ -1,4 +1,4 @@
-"""From where a body is seen: a direction in which its points and axes lie well apart."""
+"""The direction from which a body is seen: one in which its points and axes lie well apart."""
 
 from __future__ import annotations
 
@@ -13,15 +13,16 @@ from .drawn_body import Vector, dot, plus, scaled
 Segment = tuple[Vector, Vector]
 UNITS: tuple[Vector, Vector, Vector] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 AZIMUTH, ELEVATION = 30, 21
-"""The direction to prefer, in degrees, from the axis that comes forward."""
+"""The preferred direction in degrees, from the axis that comes forward."""
 ENOUGH = 0.2
-"""Distances above this, in sizes of the body, are all as good."""
+"""The clearance, in sizes of the body, above which all views are as good."""
 MOST = 14
 
 
 @dataclass(frozen=True)
 class View:
-    """Right and up on the paper, and towards the reader; ``flat``: the plane as it is."""
+    """A direction of view, by three unit vectors: right and up on the paper, and towards the
+    reader; ``flat``: the plane seen as it is."""
 
     right: Vector
     up: Vector
@@ -29,7 +30,7 @@ class View:
     flat: bool = False
 
     def __call__(self, p: Vector) -> Point:
-        """Where a point is on the paper."""
+        """The place of a point on the paper, before it is scaled."""
         return dot(self.right, p), dot(self.up, p)
 
 
@@ -37,7 +38,8 @@ FLAT = View(*UNITS, flat=True)
 
 
 def upright(gravity: Vector) -> tuple[Vector, Vector, Vector]:
-    """The axes that come forward, go right and go up: up is against gravity, or the third."""
+    """The axes that come forward, go right and go up: the one nearest to the vertical goes up, the
+    third without gravity."""
     k = max(range(3), key=lambda i: (abs(gravity[i]), i))
     first, second = UNITS[(k + 1) % 3], UNITS[(k + 2) % 3]
     if gravity[k] > 0:
@@ -50,7 +52,8 @@ def ranked(
     size: float,
     gravity: Vector,
 ) -> list[View]:
-    """Views, the better the farther apart the nearest two marks, or a mark and a line, are."""
+    """Views, best first: the farther apart the nearest two marks, or a mark and a line, of each
+    body are."""
     axes = upright(gravity)
     few = [(_distinct(marks)[:MOST], lines[:MOST]) for marks, lines in bodies]
 
@@ -93,5 +96,5 @@ def _distances(view: View, marks: Sequence[Vector], lines: Sequence[Segment]) ->
 
 
 def _between(p: Vector, a: Vector, b: Vector) -> bool:
-    """Is p on the line itself, in space?"""
+    """Is p on the segment from a to b itself, in space?"""
     return math.dist(a, p) + math.dist(p, b) < (1 + 1e-9) * math.dist(a, b)

@@ -1,4 +1,4 @@
-"""What a figure is made of: lines, dots and labels in the plane, whatever prints them."""
+"""The elements of a figure: lines, dots and labels in the plane, whatever prints them."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from ..record.sentence import Prose
 
 Point = tuple[float, float]
 Box = tuple[float, float, float, float]
-"""Left, bottom, right, top."""
+"""A rectangle by its left, bottom, right and top, in millimetres."""
 
 SIZE, SMALL = 3.7, 2.6
 """Heights of type in millimetres: letters and their indices."""
 INDEXED = re.compile(r"([A-Za-z][A-Za-z0-9]*)_([A-Za-z0-9]{1,3})|([A-Za-z]+)([0-9]{1,3})")
-"""A name and its index, as in :func:`parameter`."""
+"""A name that ends in an index, as in :func:`parameter`."""
 LONGEST = 24
-"""Names longer than this are cut."""
+"""The most letters of a name; longer ones are cut."""
 HEAD, HALF_HEAD = 2.3, 0.75
-"""Length and half the width of the head of an arrow."""
+"""The length and half the width of the head of an arrow, in millimetres."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Dot:
-    """A disc, or a ring that leaves free what is in it."""
+    """A disc, or a ``ring`` with an empty middle."""
 
     at: Point
     radius: float
@@ -52,7 +52,7 @@ class Dot:
 
 @dataclass(frozen=True)
 class Label:
-    """A letter with an index; ``name``: or a name that a user gave, upright."""
+    """A letter with an index; or, where ``name``, an upright name that a user gave."""
 
     base: str
     index: str = ""
@@ -61,7 +61,7 @@ class Label:
 
     @property
     def latex(self) -> str:
-        """The inside of a formula."""
+        """The label in LaTeX, without dollars."""
         if self.name:
             return parameter(shortened(self.base)).replace(r"\text{", r"\mbox{")  # no amsmath
         base = SYMBOLS.get(self.base, self.base)
@@ -69,7 +69,7 @@ class Label:
 
     @property
     def parts(self) -> tuple[str, str]:
-        """What stands on the line, and below it."""
+        """The text on the line, and the index below it."""
         if not self.name:
             return self.base, self.index
         name = shortened(self.base)
@@ -79,13 +79,13 @@ class Label:
 
     @property
     def box(self) -> Box:
-        """About what it covers."""
+        """The rectangle that the label covers, about."""
         w, h = self.half
         return self.at[0] - w, self.at[1] - h, self.at[0] + w, self.at[1] + h
 
     @property
     def half(self) -> Point:
-        """Half its width and half its height."""
+        """Half the width and half the height of the label in millimetres, about."""
         base, index = self.parts
         width = 0.56 * (SIZE * display_width(base) + SMALL * display_width(index))
         return width / 2, (SIZE * 0.42 if self.name else SIZE * (0.46 if index else 0.38))
@@ -105,12 +105,12 @@ class Scene:
 
 
 def shortened(name: str) -> str:
-    """A name of bounded length."""
+    """A name cut to LONGEST letters, the last of them then an ellipsis."""
     return name if len(name) <= LONGEST else name[: LONGEST - 1] + "…"
 
 
 def arrow(a: Point, b: Point, role: str, pen: str = "line") -> list[Stroke]:
-    """A line with a head at b."""
+    """The strokes of an arrow from a to b."""
     length = max(math.dist(a, b), 1e-9)
     x, y = (b[0] - a[0]) / length, (b[1] - a[1]) / length
     neck = (b[0] - HEAD * x, b[1] - HEAD * y)
@@ -120,7 +120,7 @@ def arrow(a: Point, b: Point, role: str, pen: str = "line") -> list[Stroke]:
 
 
 def zigzag(a: Point, b: Point) -> Iterator[Point]:
-    """A spring from a to b."""
+    """The points of a spring's zigzag from a to b."""
     length = max(math.dist(a, b), 1e-9)
     x, y = (b[0] - a[0]) / length, (b[1] - a[1]) / length
     coil = min(0.72 * length, 26.0)
@@ -134,7 +134,8 @@ def zigzag(a: Point, b: Point) -> Iterator[Point]:
 
 
 def support(at: Point, towards: Point) -> list[Stroke]:
-    """A hatched support at ``at``, level or upright, whatever hangs from it lying ``towards``."""
+    """The strokes of a hatched support at ``at``, level or upright; what hangs from it lies
+    ``towards``."""
     dx, dy = towards[0] - at[0], towards[1] - at[1]
     level = abs(dy) >= abs(dx)
     back = -math.copysign(1.6, dy if level else dx)
@@ -162,7 +163,7 @@ def _arc(at: Point, radius: float, start: float, end: float) -> Iterator[Point]:
 
 
 def hull(points: Sequence[Point]) -> tuple[Point, ...]:
-    """The convex hull, counterclockwise."""
+    """The vertices of the convex hull of points, counterclockwise."""
     ordered = sorted({(round(x, 9), round(y, 9)) for x, y in points})
     if len(ordered) < 3:
         return tuple(ordered)
@@ -178,12 +179,12 @@ def hull(points: Sequence[Point]) -> tuple[Point, ...]:
 
 
 def turn(a: Point, b: Point, c: Point) -> float:
-    """Twice the area of the triangle, with sign."""
+    """Twice the signed area of the triangle a b c, positive where it turns left."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def from_segment(p: Point, a: Point, b: Point) -> float:
-    """The distance of a point from a segment."""
+    """The distance of the point p from the segment a b."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     square = dx * dx + dy * dy
     t = ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square if square else 0.0

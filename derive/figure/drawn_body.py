@@ -1,4 +1,5 @@
-"""The body of a problem in numbers, for a drawing: what the record says, defaults put in."""
+"""The body of a problem in numbers, for a drawing: the record's expressions at the parameters'
+defaults."""
 
 from __future__ import annotations
 
@@ -11,19 +12,20 @@ from ..record.record import decode
 
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, ...]
-"""Rows."""
+"""A matrix by its rows."""
 
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 TRANSLATING = ("SE(", "SAff(", "Aff(", "Sim(")
 LARGEST = 1e30
-"""Beyond it a number cannot be drawn, and below its inverse it is 0."""
+"""The largest number that can be drawn; below its inverse a number is drawn as 0."""
 MOMENTS = {"m": 1.0, "J_11": 1.0, "J_22": 0.8, "J_33": 0.6}
-"""Moments for a drawing, where the record has no default."""
+"""The moments that are drawn where the record has no default."""
 
 
 @dataclass
 class Solid:
-    """A solid with its sizes as numbers: the points R r + s."""
+    """A solid with its sizes as numbers: in the body its points are R r + s, R the rotation and s
+    the shift."""
 
     kind: str
     sizes: dict[str, Any]
@@ -33,10 +35,10 @@ class Solid:
 
 @dataclass
 class Part:
-    """What one factor of the group moves.
+    """The part of a body that one factor of the group moves.
 
-    ``points`` and ``places`` are numbered as in the record, ``centre`` is that of mass;
-    ``moments``: m, c and J where nothing else is known.
+    ``fixed``: does the origin stay in place? ``points`` and ``places`` are numbered as in the
+    record; ``centre`` is that of mass; ``moments``: m, c and J where nothing else is known.
     """
 
     name: str
@@ -50,7 +52,8 @@ class Part:
 
 
 class Numbers:
-    """The values of the trees of a problem."""
+    """The numerical values of a problem's expressions, at the defaults of its parameters or sample
+    values."""
 
     def __init__(self, problem: Mapping[str, Any]) -> None:
         given = problem["parameters"]
@@ -64,7 +67,7 @@ class Numbers:
         self.parameters = values
 
     def of(self, data: Any) -> float:
-        """The number of a tree; 1 where the values at hand give none."""
+        """The number of an expression; 1 where the values at hand give none."""
         try:
             found = _fraction(data)
             if found is None:
@@ -76,17 +79,18 @@ class Numbers:
         return found if abs(found) > 1 / LARGEST else 0.0
 
     def length(self, data: Any) -> float:
-        """A positive number."""
+        """A positive number for an expression: its size, or 1."""
         return abs(self.of(data)) or 1.0
 
     def vector(self, data: Sequence[Any]) -> Vector:
-        """The first three coordinates."""
+        """The first three coordinates of a list of expressions, missing ones 0."""
         x, y, z = (*(self.of(entry) for entry in data[:3]), 0.0, 0.0, 0.0)[:3]
         return x, y, z
 
 
 def _fraction(data: Any) -> float | None:
-    """A number as the record has it; a mesh has a hundred thousand of them."""
+    """A number as it stands in the record, without decoding it as an expression: a mesh has a
+    hundred thousand of them."""
     if isinstance(data, (int, float)):
         return float(data)
     over, stroke, under = data.partition("/") if isinstance(data, str) else ("", "", "")
@@ -94,12 +98,13 @@ def _fraction(data: Any) -> float | None:
 
 
 def _plausible(k: int) -> float:
-    """A number between 0.4 and 1.2 for parameter k: multiples of the golden ratio, well apart."""
+    """A sample value between 0.4 and 1.2 for parameter k: multiples of the golden ratio, well
+    apart."""
     return round(0.4 + 0.8 * (0.618034 * k % 1.0), 3)
 
 
 def parts(problem: Mapping[str, Any], value: Numbers) -> list[Part]:
-    """The body, one part for each factor of the group; none for a text about any group."""
+    """The parts of the body, one for each factor of the group; none for a text about any group."""
     body = problem["body"]
     if body["kind"] == "any":
         return []
@@ -137,7 +142,7 @@ def _centre(points: Iterable[tuple[float, Vector]]) -> Vector | None:
 
 
 def _moments(problem: Mapping[str, Any], value: Numbers) -> tuple[float, Sequence[Any], Any]:
-    """m as a number, c and J as they are in the record."""
+    """The mass m as a number, c and J as expressions of the record."""
     body = problem["body"]
     if body["kind"] == "given":
         given = body["given"]

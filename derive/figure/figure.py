@@ -1,4 +1,4 @@
-"""A scene as SVG and as TikZ.
+"""A scene printed as SVG or as TikZ.
 
 The SVG stands alone or within a page: it is drawn in the colour of the text, or in what the page
 says by ``--figure-body``, ``--figure-axis``, ``--figure-spring``, ``--figure-support``,
@@ -18,7 +18,7 @@ PENS = {
     "wash": (0.0, 0.07), "hidden": (0.22, 0.5), "thin": (0.22, 0.6), "dashed": (0.28, 1.0),
     "line": (0.35, 1.0), "solid": (0.0, 1.0),
 }  # fmt: skip
-"""Widths in millimetres, and opacities."""
+"""Pen → the width of its lines in millimetres, and its opacity."""
 THINNER = {"axis": 0.28, "spring": 0.28, "support": 0.28}
 DASHES = {"hidden": (0.9, 0.8), "dashed": (1.4, 1.0)}
 AREAS = ("wash", "solid")
@@ -27,11 +27,11 @@ LETTERS = "STIX Two Math, Latin Modern Math, Cambria Math, Times New Roman, Time
 NAMES = "Latin Modern Sans, Helvetica, Arial, sans-serif"
 UPRIGHT = ' font-style="normal"'
 BELOW = 0.95
-"""How far an index stands below its letter."""
+"""How far an index stands below its letter, in millimetres."""
 
 
 def svg(scene: Scene) -> str:
-    """An element ``svg`` of the width of the scene, without scripts and identifiers."""
+    """The scene as an element ``svg`` of its width, without scripts and identifiers."""
     w, h = _n(scene.width), _n(scene.height)
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {w} {h}" width="{w}mm"'
@@ -120,7 +120,7 @@ def _text(words: str) -> str:
 
 
 def tikz(scene: Scene) -> str:
-    r"""A ``tikzpicture``, which needs ``\usepackage{tikz}`` alone."""
+    r"""The scene as a ``tikzpicture``, which needs ``\usepackage{tikz}`` alone."""
     w, h = _n(scene.width), _n(scene.height)
     lines = [
         r"\begin{tikzpicture}[x=1mm, y=1mm, line cap=round, line join=round]",
@@ -163,5 +163,5 @@ def _at(p: Point) -> str:
 
 
 def _n(x: float) -> str:
-    """Hundredths of a millimetre are enough."""
+    """A number as text, to hundredths of a millimetre."""
     return f"{round(x, 2) + 0.0:g}"

@@ -1,4 +1,4 @@
-"""A mesh of triangles as curves to draw, and what it hides."""
+"""A mesh of triangles for a drawing: the curves to draw, and what it hides."""
 
 from __future__ import annotations
 
@@ -13,12 +13,13 @@ from .drawn_body import Solid, Vector
 from .shapes import Curve
 
 FACES = 3000
-"""A mesh of more is drawn with fewer."""
+"""The most faces of a mesh that is drawn as it is; larger ones are simplified."""
 SHARP = 0.77
 """Faces whose normals have a smaller cosine (40°) meet in an edge."""
 SHARP_WHEN_SIMPLIFIED = 0.4
 NEAR = 0.02
-"""As in shapes, but a polyhedron is only near the smooth surface it stands for."""
+"""Crossings nearer than this count as those of the curve's own face, as in shapes; a polyhedron is
+only near the smooth surface that it stands for."""
 OUTSIDE = 0.012
 SHORT = 0.12
 PAIRS = 400_000
@@ -43,22 +44,22 @@ class Mesh:
         self.areas = np.linalg.norm(normals, axis=1)
 
     def hides(self, points: Sequence[Vector]) -> list[bool]:
-        """Which points are behind it, or in it."""
+        """For each point, whether it is behind the mesh, or in it."""
         p = np.array(points, dtype=float).reshape(-1, 3)
         step = max(1, PAIRS // len(self.faces))
         runs = [self._crossings(p[k : k + step], self.sight) for k in range(0, len(p), step)]
         return [bool((s > NEAR).any()) for run in runs for s in run]
 
     def reach(self, direction: Vector) -> float:
-        """How far it reaches from the origin along a direction, in lengths of it."""
+        """How far the mesh reaches from the origin along a direction, in lengths of that."""
         return max(0.0, float(self._crossings(np.zeros((1, 3)), np.array(direction)).max()))
 
     def corners(self) -> Iterator[Vector]:
-        """Its vertices."""
+        """The vertices of the mesh."""
         return ((float(x), float(y), float(z)) for x, y, z in self.points)
 
     def _crossings(self, p: Any, v: Any) -> Any:
-        """s where p + s v is on a face, for every point and face; −1 where it is on none."""
+        """For every point and face the s with p + s v on the face; −1 where there is none."""
         a, b, c = (self.points[k] for k in self.faces.T)
         x, y = b - a, c - a
         h = np.cross(v, y)
@@ -74,7 +75,8 @@ class Mesh:
         return np.where(inside, s, -1.0)
 
     def curves(self) -> Iterator[Curve]:
-        """Sharp edges, and the contour of what is smooth; of the hidden ones only when few."""
+        """The sharp edges, and the contour of what is smooth; hidden ones only when there are
+        few."""
         lines = [*self._sharp(), *self._contour()]
         few = sum(map(len, lines)) <= 120
         for line in lines:
@@ -85,6 +87,7 @@ class Mesh:
                 yield Curve(run)
 
     def _sharp(self) -> Iterator[list[Any]]:
+        """The lines of sharp edges, as lists of points."""
         sides: dict[Edge, list[int]] = defaultdict(list)
         at: dict[int, list[int]] = defaultdict(list)
         for f, (i, j, k) in enumerate(self.faces.tolist()):
@@ -100,16 +103,17 @@ class Mesh:
         yield from self._long([self.points[k] for k in chain] for chain in _chains(at))
 
     def _long(self, lines: Iterable[list[Any]]) -> Iterator[list[Any]]:
-        """Without the short pieces, which are flaws, in a mesh that was simplified."""
+        """The lines without short pieces where the mesh was simplified: there they are flaws."""
         least = SHORT * float(np.linalg.norm(self.sight)) if self.simplified else 0.0
         for line in lines:
             if sum(float(np.linalg.norm(b - a)) for a, b in pairwise(line)) > least:
                 yield line
 
     def _contour(self) -> Iterator[list[Any]]:
-        """Where the normal, mixed within each face from its corners, is across the line of sight.
+        """The lines where the normal, interpolated within each face from its corners, is across the
+        line of sight.
 
-        A little outside, as the smooth surface is.
+        They lie a little outside, as the smooth surface does.
         """
         around: dict[int, list[int]] = defaultdict(list)
         at: dict[Edge, list[Edge]] = defaultdict(list)
@@ -135,13 +139,14 @@ class Mesh:
         yield from self._long([places[edge] for edge in chain] for chain in _chains(at))
 
     def _facing(self, f: int, around: list[int]) -> float:
-        """How much a corner of a face looks at the reader: with the faces that go on smoothly."""
+        """How much a corner of a face looks at the reader: the mean over the faces around it that
+        continue it smoothly."""
         smooth = [g for g in around if self.normals[g] @ self.normals[f] >= self.sharp]
         return float((self.normals[smooth] * self.areas[smooth, None]).sum(axis=0) @ self.sight)
 
 
 def _chains(at: Mapping[K, Sequence[K]]) -> Iterator[list[K]]:
-    """The lines that neighbours make, open ones first, each from one end to the other."""
+    """The lines that neighbouring places form, open ones first, each from one end to the other."""
     left = {edge: list(others) for edge, others in at.items()}
     for start in sorted(left, key=lambda edge: (len(at[edge]) != 1, edge)):
         while left[start]:
@@ -154,7 +159,8 @@ def _chains(at: Mapping[K, Sequence[K]]) -> Iterator[list[K]]:
 
 
 def _simplified(points: Any, faces: Any) -> tuple[Any, Any]:
-    """The vertices in each cell of a grid as one, until there are few enough faces."""
+    """The mesh with the vertices in each cell of a grid merged, coarser until it has few enough
+    faces."""
     low, span = points.min(axis=0), float(np.ptp(points, axis=0).max()) or 1.0
     cells = 40
     while len(faces) > FACES and cells > 4:

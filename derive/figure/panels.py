@@ -1,4 +1,5 @@
-"""One panel of a figure: what a factor of the group moves, and its place on paper."""
+"""One panel of a figure: the part of the body that a factor of the group moves, and its place on
+paper."""
 
 from __future__ import annotations
 
@@ -14,13 +15,14 @@ from .meshes import Mesh
 from .shapes import Curve, Shape
 
 FAR, NEAR, PLACED = 1.9, 0.35, 1.5
-"""In sizes of the body: an anchor beyond FAR or within NEAR is drawn at the distance PLACED."""
+"""Distances in sizes of the body: an anchor beyond FAR or within NEAR is drawn at the distance
+PLACED."""
 
 Body = Shape | Mesh
 
 
 class Panel:
-    """A part of the body with its forces.
+    """A part of the body with its forces, before it is drawn.
 
     First ``look`` at it, then set ``scale`` and ``offset``.
     """
@@ -47,7 +49,7 @@ class Panel:
         self.moved = any(moved)
 
     def look(self, view: View) -> None:
-        """Take a view, and find what is in sight in it."""
+        """Choose a view, and compute the curves of the solids in it."""
         self.view, sight = view, scaled(self.size, view.towards)
         self.bodies: list[Body] = [
             Mesh(s, sight) if s.kind == "mesh" else Shape(s, sight) for s in self.part.solids
@@ -57,7 +59,7 @@ class Panel:
             self.curves = [list(body.curves()) for body in self.bodies]
 
     def _size(self) -> float:
-        """Half the diagonal of the box around the origin and the matter."""
+        """The size of the body: half the diagonal of the box around the origin and the matter."""
         corners = [ORIGIN, *self.at.values(), *(p for b in self.bodies for p in b.corners())]
         if self.part.moments:
             corners += [scaled(s * 1.2 * r, UNITS[0]) for r in [self._spread()] for s in (1, -1)]
@@ -65,14 +67,14 @@ class Panel:
         return math.hypot(*spans) / 2 or 1.0
 
     def _spread(self) -> float:
-        """The largest radius of gyration, about, of a body known by its moments."""
+        """About the largest radius of gyration of a body known by its moments."""
         assert self.part.moments
         m, _, J = self.part.moments
         largest = max((abs(row[i]) for i, row in enumerate(J)), default=1.0)
         return math.sqrt(largest / m) if m > 0 else 1.0
 
     def _length(self, k: int) -> float:
-        """An axis ends outside the body, and beyond the points that lie on it."""
+        """The length of axis k: it ends outside the body, and beyond the points that lie on it."""
         reach = [body.reach(UNITS[k]) for body in self.bodies]
         near = 0.2 * self.size
         reach += [r[k] for r in self.at.values() if math.dist(r, scaled(r[k], UNITS[k])) < near]
@@ -81,7 +83,7 @@ class Panel:
         return max(0.5 * self.size, max(reach, default=0.0) + 0.36 * self.size)
 
     def _within_reach(self, p: Vector, anchor: Vector) -> tuple[Vector, bool]:
-        """An anchor at a distance that can be drawn, and whether that is another one."""
+        """The place at which an anchor is drawn, and whether that is another than its own."""
         away = plus(anchor, p, -1.0)
         far = math.hypot(*away)
         if NEAR * self.size <= far <= FAR * self.size:
@@ -108,13 +110,13 @@ class Panel:
         ]
 
     def springs_on(self, k: int) -> list[tuple[float, float]]:
-        """The stretches of an axis along which a spring lies, from the origin outwards."""
+        """The intervals of axis k along which a spring lies, from the origin outwards."""
         pairs = [(self.at[i], self.at[j]) for i, j in (p["between"] for p in self.inside)]
         along = [sorted((a[k], b[k])) for a, b in pairs if _on_axis(k, a) and _on_axis(k, b)]
         return sorted((a, b) for a, b in along)
 
     def marks(self) -> tuple[list[Vector], list[Segment]]:
-        """The points and lines that the view should hold apart."""
+        """The points and the lines that a view should hold apart."""
         lines = [(ORIGIN, tip) for tip in self.tips]
         lines += [(self.at[p["on"]], a) for p, a in zip(self.anchored, self.anchors, strict=True)]
         lines += [(self.at[i], self.at[j]) for i, j in (p["between"] for p in self.inside)]
@@ -126,7 +128,8 @@ class Panel:
         return points, lines
 
     def centre_of(self, attraction: Mapping[str, Any]) -> tuple[Vector, bool]:
-        """The centre of attraction, and whether it is drawn elsewhere than it is."""
+        """The place at which a centre of attraction is drawn, and whether that is another than its
+        own."""
         home = self.part.centre or ORIGIN
         centre = self.value.vector(attraction["centre"])
         away = plus(centre, home, -1.0)
@@ -139,23 +142,24 @@ class Panel:
         return plus(aside, self.view.up, 0.8 * self.size), True
 
     def extent(self) -> list[Point]:
-        """What must fit, on paper before it is scaled."""
+        """All points that the panel must contain, on paper before it is scaled."""
         space = [ORIGIN, *self.tips, *self.at.values(), *self.anchors]
         space += [self.centre_of(p)[0] for p in self.attractions]
         space += [p for curves in self.curves for curve in curves for p in curve.points]
         return [self.view(p) for p in space] + list(self.outline())
 
     def to(self, p: Vector) -> Point:
-        """Where a point is, in millimetres."""
+        """The place of a point of the body on paper, in millimetres."""
         x, y = self.view(p)
         return self.offset[0] + self.scale * x, self.offset[1] + self.scale * y
 
     def to_paper(self, p: Point) -> Point:
-        """A point of the view in millimetres."""
+        """A point of the view in millimetres on paper."""
         return self.offset[0] + self.scale * p[0], self.offset[1] + self.scale * p[1]
 
     def outline(self) -> Iterator[Point]:
-        """A free form around the centre of mass, as wide as the radii of gyration on paper."""
+        """A free form around the centre of mass, as wide as the radii of gyration on paper; nothing
+        where the body is more than moments."""
         if self.part.moments is None:
             return
         m, c, J = self.part.moments
@@ -188,5 +192,5 @@ def _on_one_axis(a: Vector, b: Vector) -> bool:
 
 
 def _on_axis(k: int, p: Vector) -> bool:
-    """Is p on the half of an axis that is drawn?"""
+    """Is p on the half of axis k that is drawn?"""
     return p[k] >= 0 and not any((*p[:k], *p[k + 1 :]))

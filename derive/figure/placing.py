@@ -1,4 +1,4 @@
-"""Where labels go: beside what they name, free of each other and of the lines."""
+"""The placement of labels: beside what they name, free of each other and of the lines."""
 
 from __future__ import annotations
 
@@ -10,19 +10,20 @@ from itertools import pairwise
 from .drawing import Box, Dot, Label, Point, Stroke
 
 STEP = 0.6
-"""Lines are looked at point by point, this far apart."""
+"""The distance, in millimetres, of the points by which lines are seen."""
 WEIGHTS = {"line": 2.2, "dashed": 1.6, "thin": 1.2, "hidden": 0.8, "solid": 3.0, "wash": 0.0}
 CROWD = 1000
-"""Of more points near a label only some are looked at, each for several."""
+"""The most points of lines near a label that are looked at; of more, each counts for several."""
 OPTIONAL = 14.0
-"""A label that may be left out is, where it would be in the way more than this."""
+"""The largest cost at which an optional label is placed."""
 
 
 @dataclass(frozen=True)
 class Wish:
-    """A label, the place it names, how far from it to stay, and in which direction to look first.
+    """A label to be placed, the place that it names, how far from that to stay, and in which
+    direction to look first.
 
-    ``optional``: rather none than one in the way.
+    ``optional``: may it be left out where it would be in the way?
     """
 
     label: Label
@@ -35,7 +36,8 @@ class Wish:
 def placed(
     wishes: Sequence[Wish], strokes: Sequence[Stroke], dots: Sequence[Dot]
 ) -> tuple[Label, ...]:
-    """The labels one after the other, each where it is least in the way of what is there."""
+    """The labels in order, each at the place of least cost among the lines, dots and earlier
+    labels."""
     ink = [(p, WEIGHTS[s.pen]) for s in strokes if WEIGHTS[s.pen] for p in _along(s.points)]
     found: list[Label] = []
     for wish in wishes:
@@ -56,7 +58,8 @@ def placed(
 
 
 def _choices(wish: Wish) -> Iterator[Label]:
-    """Sixteen directions, nearest first, so far out at last that some place is free."""
+    """A label at its possible places: sixteen directions, nearest first, so far out at last that
+    some place is free."""
     w, h = wish.label.half
     for more in (0.0, 0.9, 2.0, 3.5, 6.0, 9.0, 13.0, 18.0, 26.0, 36.0):
         for k in range(16):
@@ -70,7 +73,8 @@ def _choices(wish: Wish) -> Iterator[Label]:
 
 
 def _away(label: Label, wish: Wish) -> float:
-    """The cost of being far, or in another direction than the one wished."""
+    """The cost of a label's distance from what it names, and of another direction than the one
+    wished."""
     dx, dy = label.at[0] - wish.at[0], label.at[1] - wish.at[1]
     w, h = label.half
     cost = 1.8 * math.hypot(max(0.0, abs(dx) - w), max(0.0, abs(dy) - h))
@@ -81,14 +85,14 @@ def _away(label: Label, wish: Wish) -> float:
 
 
 def _crowded(label: Label, dots: Sequence[Dot], boxes: Sequence[Box]) -> float:
-    """The cost of the points and labels in the way."""
+    """The cost of the dots and labels that a label would cover."""
     box = label.box
     cost = sum(60.0 for d in dots if _holds(box, d.at, d.radius + 0.3))
     return cost + sum(1000.0 for other in boxes if overlap(box, other, 0.4))
 
 
 def _crossed(label: Label, ink: Sequence[tuple[Point, float]]) -> float:
-    """The cost of the lines in the way."""
+    """The cost of the lines that a label would cover."""
     left, bottom, right, top = label.box
     left, bottom, right, top = left - 0.35, bottom - 0.35, right + 0.35, top + 0.35
     return sum(weight for (x, y), weight in ink if left < x < right and bottom < y < top)
@@ -100,7 +104,7 @@ def _holds(box: Box, p: Point, margin: float) -> bool:
 
 
 def overlap(a: Box, b: Box, margin: float = 0.0) -> bool:
-    """Do two boxes meet?"""
+    """Do two boxes come nearer to each other than ``margin``?"""
     return (
         a[0] < b[2] + margin
         and b[0] < a[2] + margin

@@ -24,21 +24,22 @@ GRAVITY = "γ"
 WIDTH, MARGIN, GAP = 80.0, 1.5, 13.0
 ROOM = {1: (58.0, 50.0), 2: (46.0, 46.0)}
 SMALLER = (36.0, 40.0)
-"""Millimetres: of the figure, and of a panel where there are one, two or more."""
+"""Sizes in millimetres: of the figure, and of a panel where there are one, two or more."""
 ROW = 3
 FEW = 3
-"""Of so many springs at most each bears the name of its stiffness."""
+"""The most springs of which each bears the name of its stiffness."""
 PENS = ("wash", "hidden", "thin", "dashed", "line", "solid")
 LOW = 0.25
-"""Gravity is drawn if more of it than this is on paper."""
+"""Gravity is drawn if more than this part of it lies in the paper."""
 TRIED, CLEAR = 60, 3.0
-"""So many views are tried for a spring between panels that passes marks at this distance."""
+"""How many views are tried at most, until springs between panels pass all other marks at a distance
+of CLEAR millimetres."""
 End = tuple[Panel, Vector]
 Spring = tuple[End, End, Any]
 
 
 def scene(d: Derivation) -> Scene | None:
-    """The figure; ``None`` for a text without a body."""
+    """The figure of a record's body; ``None`` for a text without a body."""
     problem = d.problem
     value = Numbers(problem)
     panels = [Panel(part, problem, value) for part in parts(problem, value)]
@@ -63,7 +64,7 @@ def scene(d: Derivation) -> Scene | None:
 
 
 def _gravity(problem: Mapping[str, Any], value: Numbers) -> Vector:
-    """The sum of all that are given, its first three coordinates."""
+    """The sum of the accelerations of gravity, its first three coordinates."""
     total = ORIGIN
     for p in problem["potentials"]:
         if p["kind"] == "gravity":
@@ -72,7 +73,8 @@ def _gravity(problem: Mapping[str, Any], value: Numbers) -> Vector:
 
 
 def _arranged(panels: Sequence[Panel], gravity: Vector, joined: Sequence[Spring]) -> None:
-    """One view for all panels, so that their axes agree, and springs between panels run free."""
+    """Choose one view for all panels, so that their axes agree, in which springs between panels run
+    free."""
     space = [p for p in panels if p.part.size > 2]
     size = min((p.size for p in space), default=1.0)
     views = ranked([p.marks() for p in space], size, gravity) if space else [FLAT]
@@ -103,7 +105,7 @@ def _room(panels: Sequence[Panel], joined: Sequence[Spring]) -> float:
 
 
 def _arrange(panels: Sequence[Panel]) -> None:
-    """One scale for all panels; rows of them, each row level."""
+    """Choose one scale for all panels, and place them in rows, each row level."""
     width, height = ROOM.get(len(panels), SMALLER)
     boxes = [_box(panel.extent()) for panel in panels]
     scales = [
@@ -126,7 +128,7 @@ def _box(points: Sequence[Point]) -> Box:
 
 
 def _joined(panels: Sequence[Panel], springs: Sequence[Mapping[str, Any]]) -> list[Spring]:
-    """The springs from one panel to another."""
+    """The springs from a point of one panel to a point of another."""
     home = {i: panel for panel in panels for i in panel.at}
     pairs = [(p["between"], p["stiffness"]) for p in springs if "between" in p]
     return [
@@ -137,7 +139,7 @@ def _joined(panels: Sequence[Panel], springs: Sequence[Mapping[str, Any]]) -> li
 
 
 def _names(sheet: Sheet, panels: Sequence[Panel]) -> None:
-    """The factors of a product, each below its panel."""
+    """Name the factors of a product, each below its panel."""
     if len(panels) < 2:
         return
     for panel in panels:
@@ -147,7 +149,7 @@ def _names(sheet: Sheet, panels: Sequence[Panel]) -> None:
 
 
 def _falling(sheet: Sheet, fall: Point, strength: float) -> None:
-    """Gravity as an arrow at the right."""
+    """Draw gravity as an arrow at the right of the panels."""
     points = [p for s in sheet.strokes for p in s.points]
     _, y0, right, y1 = _box(points)
     long = 12.0 / strength
@@ -160,7 +162,8 @@ def _falling(sheet: Sheet, fall: Point, strength: float) -> None:
 
 
 def _framed(sheet: Sheet, title: str, caption: Prose) -> Scene:
-    """Labels put in, all moved into the positive quadrant, at least as wide as a column."""
+    """The finished scene: labels placed, all moved into the positive quadrant, at least as wide as
+    a column."""
     labels = placed(sheet.wishes, sheet.strokes, sheet.dots)
     reach = [p for s in sheet.strokes for p in s.points]
     reach += [(d.at[0] + s * d.radius, d.at[1] + s * d.radius) for d in sheet.dots for s in (1, -1)]
@@ -187,7 +190,7 @@ def _framed(sheet: Sheet, title: str, caption: Prose) -> Scene:
 def _caption(
     problem: Mapping[str, Any], value: Numbers, panels: Sequence[Panel], falls: bool
 ) -> Prose:
-    """What the drawing does not say by itself."""
+    """The sentences of the caption: what the drawing does not say by itself."""
     said: list[Prose] = [say("The body at the identity of the group, with the axes of its frame.")]
     said += _about_the_body(panels)
     potentials = problem["potentials"]

@@ -1,7 +1,7 @@
-"""Solids as curves to draw, and what they hide.
+"""Solids for a drawing: the curves to draw, and what they hide.
 
-A solid is the image p = A u + s of a reference shape, where walls q(u) ≤ 0 of degree two at most
-bound it; what lies behind it is found along the line of sight.
+A solid is the image p = A u + s of a reference shape, bounded by walls q(u) ≤ 0 of degree two at
+most; what lies behind it is found along the line of sight.
 """
 
 from __future__ import annotations
@@ -16,15 +16,16 @@ from .drawn_body import Solid, Vector, cross, dot, image, plus, scaled
 Wall = Callable[[Vector], float]
 AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 NEAR = 2e-3
-"""Crossings nearer than this, in sizes of the figure, are those of the curve's own surface."""
+"""Crossings nearer than this, in sizes of the figure, count as those of the curve's own surface."""
 ROUND = 64
 
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve on a solid; ``edge``: a contour or an edge, else a line that shows its roundness.
+    """A curve on a solid, by its points; ``edge``: is it a contour or an edge, or else a line that
+    shows roundness?
 
-    ``always``: inside the solid, so never in sight.
+    ``always``: is it hidden always, being inside the solid?
     """
 
     points: tuple[Vector, ...]
@@ -66,12 +67,12 @@ class Shape:
         self.sight = self.into(sight)
 
     def out(self, u: Vector) -> Vector:
-        """A u + s."""
+        """A u + s, the point of the solid with the reference coordinates u."""
         x, y, z = self.columns
         return plus(plus(plus(self.shift, x, u[0]), y, u[1]), z, u[2])
 
     def into(self, v: Vector) -> Vector:
-        """A⁻¹ v, by Cramer; 0 for a solid without volume, which hides nothing."""
+        """A⁻¹ v, by Cramer's rule; 0 for a solid without volume, which hides nothing."""
         x, y, z = self.columns
         size = dot(x, cross(y, z))
         if abs(size) < 1e-300:
@@ -83,23 +84,23 @@ class Shape:
         )
 
     def hides(self, points: Sequence[Vector]) -> list[bool]:
-        """Which points are behind it, or in it."""
+        """For each point, whether it is behind the solid, or in it."""
         return [self._behind(self.into(plus(p, self.shift, -1.0))) for p in points]
 
     def reach(self, direction: Vector) -> float:
-        """How far it reaches from the origin along a direction, in lengths of it."""
+        """How far the solid reaches from the origin along a direction, in lengths of that."""
         u, w = self.into(scaled(-1.0, self.shift)), self.into(direction)
         return max((b for _, b in self._chords(u, w, 0.0)), default=0.0)
 
     def corners(self) -> Iterator[Vector]:
-        """Points that tell about how large it is."""
+        """Points of the solid that tell about how large it is."""
         return (self.out(scaled(s, e)) for e in AXES for s in (1.0, -1.0))
 
     def _behind(self, u: Vector) -> bool:
         return any(b - a > NEAR for a, b in self._chords(u, self.sight, NEAR))
 
     def _chords(self, u: Vector, w: Vector, start: float) -> Iterator[tuple[float, float]]:
-        """The stretches of u + s w, s > start, that are inside."""
+        """The intervals of s > start for which u + s w is inside the reference shape."""
         if not any(w):
             return
         cuts = {start} | {s for q in self.walls for s in _roots(q, u, w) if s > start}
@@ -110,7 +111,7 @@ class Shape:
                 yield a, b
 
     def curves(self) -> Iterator[Curve]:
-        """Contours, edges and rims, by the kind of solid."""
+        """The contours, edges and rims of the solid, by its kind."""
         if self.kind in ("box", "tetrahedron"):
             for a, b in _edges(self.kind):
                 yield self._curve(plus(scaled(1 - k / 48, a), b, k / 48) for k in range(49))
@@ -123,7 +124,8 @@ class Shape:
         return Curve(tuple(map(self.out, points)), edge, always)
 
     def _balls(self) -> Iterator[Curve]:
-        """The contour, where the radius is normal to the line of sight, and the equator."""
+        """The contour of an ellipsoid, where the radius is normal to the line of sight, its
+        equator, and a cavity."""
         w = self.sight
         a = cross(w, (0.0, 0.0, 1.0) if abs(w[2]) < 0.9 * math.hypot(*w) else (1.0, 0.0, 0.0))
         b = cross(w, a)
@@ -137,7 +139,7 @@ class Shape:
                 yield self._curve((scaled(inner, u) for u in contour), always=True)
 
     def _turned(self) -> Iterator[Curve]:
-        """The rims, and the lines where the mantle turns out of sight."""
+        """The rims of a cylinder or cone, and the lines where its mantle turns out of sight."""
         x, y, z = self.sight
         cone = self.kind == "cone"
         levels = (0.0,) if cone else (1.0, -1.0)
@@ -174,7 +176,8 @@ def _map(solid: Solid) -> tuple[list[Vector], Vector]:
 
 
 def _edges(kind: str) -> Iterator[tuple[Vector, Vector]]:
-    """The edges of the reference shape: corners that differ in one way."""
+    """The edges of the reference shape, as pairs of corners that differ in one coordinate, or any
+    two of a simplex."""
     if kind == "tetrahedron":
         corners = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
         yield from ((a, b) for i, a in enumerate(corners) for b in corners[:i])
@@ -196,7 +199,8 @@ def _circle() -> Iterator[float]:
 
 
 def _roots(q: Wall, u: Vector, w: Vector) -> Iterator[float]:
-    """Where the wall is met: q(u + s w) is a quadratic, known by three of its values."""
+    """The s at which u + s w meets a wall: q(u + s w) is a quadratic, known by three of its
+    values."""
     c, p, m = q(u), q(plus(u, w)), q(plus(u, w, -1.0))
     a, b = (p + m) / 2 - c, (p - m) / 2
     if abs(a) < 1e-12 * (abs(b) + abs(c) + 1e-300):

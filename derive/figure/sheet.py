@@ -1,4 +1,4 @@
-"""Panels drawn on a sheet: lines, dots, and what wants a label."""
+"""Panels drawn on a sheet: their lines and dots, and the labels that are wished for."""
 
 from __future__ import annotations
 
@@ -26,24 +26,24 @@ from .placing import Wish
 from .shapes import Shape
 
 APART = 2.7
-"""Marks on paper nearer than this are one."""
+"""Marks on paper nearer than this, in millimetres, are drawn as one."""
 NAMED = 12
-"""Of more points the first two and the last are named."""
+"""The most points of which all are named; of more the first two and the last."""
 HIDDEN_OF = 4
-"""Of more solids hidden lines are left out."""
+"""The most solids whose hidden lines are drawn."""
 RING = 1.15
 
 
 @dataclass
 class Sheet:
-    """The lines, dots and wishes for labels of the whole figure, in millimetres."""
+    """The whole figure while it is drawn: lines, dots and wishes for labels, in millimetres."""
 
     strokes: list[Stroke] = field(default_factory=list)
     dots: list[Dot] = field(default_factory=list)
     wishes: list[Wish] = field(default_factory=list)
 
     def spring(self, a: Point, b: Point, stiffness: Any, named: bool) -> None:
-        """A spring, and its stiffness where that is a parameter."""
+        """Draw a spring, and name its stiffness where that is a parameter."""
         if math.dist(a, b) < 4:
             return
         self.strokes.append(Stroke(tuple(zigzag(a, b)), "spring"))
@@ -53,7 +53,7 @@ class Sheet:
 
 
 def draw(panel: Panel, sheet: Sheet, named: bool) -> None:
-    """Everything but what ties the panel to others; ``named``: springs bear their names."""
+    """Draw a panel but for what ties it to others; ``named``: do springs bear their names?"""
     _solids(panel, sheet)
     _matter(panel, sheet)
     _axes(panel, sheet)
@@ -86,7 +86,7 @@ def _solids(panel: Panel, sheet: Sheet) -> None:
 
 
 def _matter(panel: Panel, sheet: Sheet) -> None:
-    """The points, the outline of a body of moments, and the centre of mass."""
+    """Draw the points, the outline of a body of moments, and the centre of mass."""
     outline = tuple(map(panel.to_paper, panel.outline()))
     if outline:
         sheet.strokes += [Stroke(outline, "body", pen) for pen in ("wash", "line")]
@@ -115,7 +115,7 @@ def _matter(panel: Panel, sheet: Sheet) -> None:
 
 
 def _beside(panel: Panel, p: Vector, other: Vector) -> Point:
-    """The end p of a line, at the ring if that is the origin."""
+    """The end p of a line towards another point, on the ring of the origin if p is that."""
     a, b = panel.to(p), panel.to(other)
     long = math.dist(a, b)
     if p != ORIGIN or not panel.part.fixed or long < RING:
@@ -152,7 +152,7 @@ def _axes(panel: Panel, sheet: Sheet) -> None:
 
 
 def _ring(panel: Panel, sheet: Sheet) -> float:
-    """The mark of a fixed origin, around a dot that is there; its radius."""
+    """Draw the mark of a fixed origin, around a dot that is there; its radius."""
     origin = panel.to(ORIGIN)
     inside = [d.radius + 0.6 for d in sheet.dots if math.dist(d.at, origin) < 0.3]
     sheet.dots.append(Dot(origin, max([RING, *inside]), "axis", ring=True))
@@ -169,7 +169,7 @@ def _attraction(panel: Panel, sheet: Sheet, p: Mapping[str, Any]) -> None:
 
 
 def _force(panel: Panel, sheet: Sheet, given: Mapping[str, Any]) -> None:
-    """An arrow outwards, turned to where there is room."""
+    """Draw a force input as an arrow outwards, turned to where there is room."""
     at = panel.to(panel.at[given["on"]])
     home = panel.to(panel.part.centre or ORIGIN)
     out = math.atan2(at[1] - home[1], at[0] - home[0]) if math.dist(at, home) > 0.5 else 0.6
@@ -192,7 +192,7 @@ def _force(panel: Panel, sheet: Sheet, given: Mapping[str, Any]) -> None:
 def _runs(
     points: Sequence[Vector], bodies: Sequence[Body]
 ) -> Iterator[tuple[bool, Sequence[Vector]]]:
-    """A curve cut where it goes out of sight or comes back."""
+    """A curve cut where it goes out of sight or comes back: (hidden, points) for each piece."""
     hidden = [body.hides(points) for body in bodies]
     flags = [any(row[k] for row in hidden) for k in range(len(points))]
     start = 0
