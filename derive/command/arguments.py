@@ -15,7 +15,7 @@ ALLOWED = {"mass": "mass", "stiffness": "stiffness or damping"}
 """What may be negative where a flag allows it: the name in the flag → the quantity in messages."""
 
 
-def emission(emit: argparse.ArgumentParser) -> None:
+def add_emission_options(emit: argparse.ArgumentParser) -> None:
     """Add the options that choose what code is emitted."""
     from ..code.languages import LANGUAGES
     from ..code.options import CHOICES, JACOBIANS
@@ -73,11 +73,11 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
 
     top = Parser(prog="derive", description=about)
     top.add_argument("--version", action="version", version=f"derive {__version__}")
-    made_of = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    subcommands = top.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     def command(name: str) -> argparse.ArgumentParser:
         run = commands[name]
-        made = made_of.add_parser(name, help=run.__doc__, description=run.__doc__)
+        made = subcommands.add_parser(name, help=run.__doc__, description=run.__doc__)
         made.set_defaults(run=run)
         stop = "stop after so many seconds of processor time"
         made.add_argument("--seconds", type=positive, metavar="N", help=stop)
@@ -85,10 +85,10 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
 
     command("list")
     walk, made, emit, check = map(command, ("walk", "notes", "emit", "check"))
-    reading(walk, made)
+    add_reading_options(walk, made)
     emit.add_argument("problem", help="a ready-made name or a .toml file")
-    writing(emit)
-    emission(emit)
+    add_writing_options(emit)
+    add_emission_options(emit)
     check.add_argument("problem", nargs="+", help="ready-made names, .toml files or .json records")
     about = "the seed of a run that is to be repeated (default: a new one)"
     check.add_argument("--seed", type=natural, metavar="N", help=about)
@@ -106,7 +106,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     return top
 
 
-def reading(walk: argparse.ArgumentParser, notes: argparse.ArgumentParser) -> None:
+def add_reading_options(walk: argparse.ArgumentParser, notes: argparse.ArgumentParser) -> None:
     """Add the options of ``walk`` and ``notes``: problems, format, language, notations."""
     from ..printing.notation import NOTATIONS
     from ..views.language import LANGUAGES
@@ -125,7 +125,7 @@ def reading(walk: argparse.ArgumentParser, notes: argparse.ArgumentParser) -> No
             one.add_argument(option, choices=values, default=values[0], help=about)
 
 
-def writing(emit: argparse.ArgumentParser) -> None:
+def add_writing_options(emit: argparse.ArgumentParser) -> None:
     """Add the options of ``emit`` that say where code goes, and what is done instead of writing
     it."""
     emit.add_argument("--out", metavar="DIR", help="default: the current directory")

@@ -15,9 +15,9 @@ from ..language.refused import Refused
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
 from ..views.rendering import NOTES, notes, pdf, render, unprinted
-from .encoding import as_in_a_file, said
-from .guard import StoppedError, one_line, within
-from .progress import counted
+from .encoding import as_in_a_file, replacing_unencodable
+from .guard import StoppedError, one_line, time_limit
+from .progress import with_progress
 
 if TYPE_CHECKING:
     from ..check.checker import Verdict
@@ -34,16 +34,16 @@ def ready_made() -> list[str]:
     return sorted(f.name.removesuffix(".toml") for f in READY.iterdir() if f.name.endswith(".toml"))
 
 
-def load_problem(name: str, **allowed: bool) -> Problem:
-    """A ready-made problem by name, or a TOML file by path; ``allowed``: what may be negative, as
-    in ``problem.toml.load``. ``UsageError`` where there is neither."""
+def load_problem(name: str, **allowances: bool) -> Problem:
+    """A ready-made problem by name, or a TOML file by path; ``allowances``: what may be negative,
+    as in ``problem.toml.load``. ``UsageError`` where there is neither."""
     from ..problem.toml import load
 
     if name in ready_made():
         return load(READY / f"{name}.toml")
     path = Path(name)
     if path.suffix == ".toml" or path.exists():
-        return load(path, **allowed)
+        return load(path, **allowances)
     near = difflib.get_close_matches(name.lower(), ready_made(), 1)
     if path.with_name(f"{path.name}.toml").is_file():
         near = [f"{name}.toml"]
@@ -54,13 +54,13 @@ def load_problem(name: str, **allowed: bool) -> Problem:
     )
 
 
-def derive(name: str, **allowed: bool) -> tuple[Problem, Derivation]:
+def derive(name: str, **allowances: bool) -> tuple[Problem, Derivation]:
     """A problem and its record; a warning on stderr for each doubt about it. ``UsageError`` where
     it has no walk."""
     from ..pipeline import walk
     from ..problem.doubts import doubts
 
-    problem = load_problem(name, **allowed)
+    problem = load_problem(name, **allowances)
     for doubt in doubts(problem):
         print(f"derive: warning: {one_line(name)}: {one_line(doubt)}", file=sys.stderr)
     try:
@@ -69,7 +69,7 @@ def derive(name: str, **allowed: bool) -> tuple[Problem, Derivation]:
         raise UsageError(f"{name}: {error}") from None
 
 
-def allowed(args: argparse.Namespace) -> dict[str, bool]:
+def allowances(args: argparse.Namespace) -> dict[str, bool]:
     """The keywords of :func:`load_problem` for what the flags allow to be negative."""
     from .arguments import ALLOWED
 
@@ -99,7 +99,7 @@ def command_list(_: argparse.Namespace) -> int:
 
 def command_walk(args: argparse.Namespace) -> int:
     """Print the walk of a problem."""
-    record = derive(args.problem, **allowed(args))[1]
+    record = derive(args.problem, **allowances(args))[1]
     shown = render(record, args.format, args.lang, fragment=args.fragment, **notation(args))
     if args.format == "latex":
         warn_of_letters([record])
@@ -115,7 +115,7 @@ def command_notes(args: argparse.Namespace) -> int:
     if out.suffix not in NOTES:
         raise UsageError(f"--out {args.out}: the name must end in {', '.join(NOTES)}")
     names = dict.fromkeys(args.problem)
-    records = list(counted((derive(name)[1] for name in names), len(names), "walks"))
+    records = list(with_progress((derive(name)[1] for name in names), len(names), "walks"))
     chosen = {"fragment": args.fragment, **notation(args)}
     text = notes(records, out.suffix, args.lang, **chosen)
     if out.suffix in (".tex", ".pdf"):
@@ -124,7 +124,7 @@ def command_notes(args: argparse.Namespace) -> int:
         paths = write({out.name: text}, out.parent, links=True)
     else:
         paths = write({out.with_suffix(".tex").name: text}, out.parent)
-        made = list(counted(map(pdf, [text]), 1, "LaTeX"))
+        made = list(with_progress(map(pdf, [text]), 1, "LaTeX"))
         paths += write({out.name: made[0]}, out.parent, links=True)
     for path in paths:
         print(path)
@@ -152,12 +152,12 @@ def command_emit(args: argparse.Namespace) -> int:
     if args.names:
         prefix = args.prefix  # with one, the problem need not be there
         if prefix is None:
-            prefix = load_problem(args.problem, **allowed(args)).name
+            prefix = load_problem(args.problem, **allowances(args)).name
         print(*planned(languages(args), prefix, options(args).form), sep="\n")
         return 0
     if args.check:
-        return checked(args, lambda **more: derive(args.problem, **allowed(args) | more))
-    problem, record = derive(args.problem, **allowed(args))
+        return checked(args, lambda **more: derive(args.problem, **allowances(args) | more))
+    problem, record = derive(args.problem, **allowances(args))
     asked = wanted(args, problem)
     compiled, files = made(problem, record, asked)
     if args.validate and not validated(files, files, record, compiled, asked):
@@ -176,11 +176,11 @@ def command_check(args: argparse.Namespace) -> int:
     failed, seed = 0, fresh_seed() if args.seed is None else args.seed
     for name in args.problem:
         stored = name.endswith(".json")
-        record = read(Path(name)) if stored else derive(name, **allowed(args))[1]
-        verdicts = list(counted(check(record, seed), 1 + len(record.steps), name))
+        record = read(Path(name)) if stored else derive(name, **allowances(args))[1]
+        verdicts = list(with_progress(check(record, seed), 1 + len(record.steps), name))
         for v in verdicts:
-            said = _tried(v) if v.holds else one_line(v.reason)
-            print(f"{'holds' if v.holds else 'FAILS'}  {v.label}: {said}")
+            words = _trial_text(v) if v.holds else one_line(v.reason)
+            print(f"{'holds' if v.holds else 'FAILS'}  {v.label}: {words}")
         bad, steps = sum(not v.holds for v in verdicts), [v for v in verdicts if v.of == "equation"]
         holding, bound = sum(v.holds for v in steps), max(v.bound for v in verdicts)
         print(
@@ -193,7 +193,7 @@ def command_check(args: argparse.Namespace) -> int:
     return 1 if failed else 0
 
 
-def _tried(v: Verdict) -> str:
+def _trial_text(v: Verdict) -> str:
     """What a verdict says was found to hold, and on which groups, as text."""
     count, groups = v.tried
     return f"{count} {v.of}{'s' * (count != 1)} on {', '.join(groups)}"
@@ -207,7 +207,7 @@ def command_paper(args: argparse.Namespace) -> int:
     from ..views.paper import as_json, as_text
 
     records = [derive(name)[1] for name in paper.PROBLEMS]
-    findings = list(counted(paper.findings(records), len(PAPER), "equations"))
+    findings = list(with_progress(paper.findings(records), len(PAPER), "equations"))
     shown = as_json(findings) if args.format == "json" else as_text(findings, language(args.lang))
     save(shown, args.out, args.format)
     return 0
@@ -224,7 +224,7 @@ def command_build(args: argparse.Namespace) -> int:
         files = {f"walk.{end}": render(record, form) for form, end in FILES.items()}
         return name, files | emit(program(problem, record), record, ("c", "python"), name)
 
-    for name, files in counted(map(made, BUILT), len(BUILT), "problems"):
+    for name, files in with_progress(map(made, BUILT), len(BUILT), "problems"):
         for path in write(files, Path(args.out) / name):
             print(path, file=sys.stderr)
         if args.print:
@@ -245,7 +245,7 @@ COMMANDS = {
 }
 
 
-def _silence() -> None:
+def _discard_stdout() -> None:
     """Drop what stdout still holds, which the interpreter would write at its end, and complain if
     it could not."""
     with suppress(OSError, ValueError):
@@ -263,7 +263,7 @@ def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:
     except SystemExit:
         sys.stdout.flush()  # the help: main tells what cannot be written
         raise
-    with within(getattr(args, "seconds", None)):
+    with time_limit(getattr(args, "seconds", None)):
         return int(args.run(args))
 
 
@@ -275,7 +275,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if sys.stdout is None:  # closed by who started us
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     try:
-        with said():
+        with replacing_unencodable():
             status = run(parser(COMMANDS, ABOUT), argv)
             sys.stdout.flush()
         return status
@@ -290,12 +290,12 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"derive: {what}: the input is too large for this machine", file=sys.stderr)
         return 2
     except BrokenPipeError:  # who reads has seen enough
-        _silence()
+        _discard_stdout()
         return 0
     except OSError as error:
         place = one_line(error.filename or "standard output")
         print(f"derive: {place}: {error.strerror}", file=sys.stderr)
-        _silence()
+        _discard_stdout()
         return 2
     except KeyboardInterrupt:
         return 130

@@ -22,7 +22,7 @@ from ..pipeline import program
 from ..problem.forces import negative_stiffness_of
 from ..problem.problem import Problem
 from ..record.record import Derivation
-from .writing import REMEDY, stale, there
+from .writing import REMEDY, stale, text_on_disk
 
 HEAD = 10_000
 """In so many characters a file says what it was made by."""
@@ -86,7 +86,7 @@ def checked(args: argparse.Namespace, derive: Callable[..., tuple[Problem, Deriv
             print(f"{path}: {how}")
         right = right and not old
         if args.validate:
-            kept = {x: there(folder / x) for x in files}
+            kept = {x: text_on_disk(folder / x) for x in files}
             right = validated(kept, files, record, compiled, now) and right
     return 0 if right else 1
 

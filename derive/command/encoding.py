@@ -13,7 +13,7 @@ HANDLER = "derive.lost"
 
 
 @contextmanager
-def said() -> Iterator[None]:
+def replacing_unencodable() -> Iterator[None]:
     """A context in which what standard output cannot encode is written as ?; at its end stderr says
     how many letters."""
     lost: set[str] = set()

@@ -16,7 +16,7 @@ class StoppedError(BaseException):
 
 
 @contextmanager
-def within(seconds: float | None) -> Iterator[None]:
+def time_limit(seconds: float | None) -> Iterator[None]:
     """A context that raises ``StoppedError`` after so many seconds of processor time; no limit for
     ``None``.
 

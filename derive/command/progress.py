@@ -10,7 +10,7 @@ from typing import TypeVar
 Item = TypeVar("Item")
 
 
-def counted(items: Iterable[Item], total: int, what: str) -> Iterator[Item]:
+def with_progress(items: Iterable[Item], total: int, what: str) -> Iterator[Item]:
     """The items unchanged; while each is made, stderr shows ``what: done of total``."""
     shown, left = sys.stderr is not None and sys.stderr.isatty(), iter(items)
     for done in range(total):

@@ -109,7 +109,7 @@ def stale(
     return found
 
 
-def there(path: Path) -> str:
+def text_on_disk(path: Path) -> str:
     """The text of a file, whatever its line ends and wrong bytes; empty where there is none."""
     if not path.is_file():
         return ""
@@ -138,23 +138,23 @@ def _locked(folders: Iterable[Path]) -> Iterator[None]:
 
     The lock is on the folder itself: no file remains, and the system frees it when a process ends.
     """
-    with ExitStack() as held:
+    with ExitStack() as stack:
         for folder in sorted(folders):
-            if fcntl is not None and _hold(folder, held):
+            if fcntl is not None and _lock(folder, stack):
                 for left in folder.glob(f"{PREFIX}*{SUFFIX}"):
                     with suppress(OSError):
                         left.unlink()
         yield
 
 
-def _hold(folder: Path, held: ExitStack) -> bool:
-    """Lock a folder until the stack ``held`` is left; False where it has no locks. ``OSError``
-    after PATIENCE seconds."""
+def _lock(folder: Path, stack: ExitStack) -> bool:
+    """Lock a folder until ``stack`` is closed; False where it has no locks. ``OSError`` after
+    PATIENCE seconds."""
     try:
         handle = os.open(folder, os.O_RDONLY)
     except OSError:  # writing will tell
         return False
-    held.callback(os.close, handle)
+    stack.callback(os.close, handle)
     end = time.monotonic() + PATIENCE
     while True:
         try:

@@ -13,7 +13,7 @@ import pytest
 
 from derive.code.statements import comment
 from derive.command.cli import main
-from derive.command.guard import StoppedError, one_line, within
+from derive.command.guard import StoppedError, one_line, time_limit
 from derive.language import limits
 from tests.fuzz.corpus import CORPUS, TOP, TURNED, bombs
 from tests.fuzz.hostile import STRINGS
@@ -107,7 +107,7 @@ def test_time_is_over(tmp_path, capsys):
 def test_time_is_over_within():
     """What takes no lock is stopped under coverage too, more than once."""
     for _ in range(2):
-        with pytest.raises(StoppedError, match=r"after 0\.01 s"), within(0.01):
+        with pytest.raises(StoppedError, match=r"after 0\.01 s"), time_limit(0.01):
             all(True for _ in iter(int, 1))
 
 
