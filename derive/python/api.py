@@ -215,13 +215,13 @@ def Problem(
     return problem_of(data, negative_mass=negative_mass, negative_stiffness=negative_stiffness)
 
 
-def _tables(given: Any) -> list[Table]:
-    """The tables in nested lists of tables, or in one alone; ``ProblemError`` for anything else."""
-    if isinstance(given, Table):
-        return [given]
-    if not isinstance(given, (list, tuple)):
-        raise mechanics.ProblemError(f"expected Points(…), Gravity(…) and so on, not {given!r:.40}")
-    return [table for part in given for table in _tables(part)]
+def _tables(parts: Any) -> list[Table]:
+    """The tables in parts lists of tables, or in one alone; ``ProblemError`` for anything else."""
+    if isinstance(parts, Table):
+        return [parts]
+    if not isinstance(parts, (list, tuple)):
+        raise mechanics.ProblemError(f"expected Points(…), Gravity(…) and so on, not {parts!r:.40}")
+    return [table for part in parts for table in _tables(part)]
 
 
 def _plain(x: Any) -> Any:

@@ -114,7 +114,7 @@ class Compiled:
         except IndexError:
             mine = Buffers(self._names, self._run)
         if u is not None or mine.values is not self._values:
-            self._fill(mine, u)
+            self._refill(mine, u)
         mine.x[...] = x
         mine.now[0] = t
         mine.run()
@@ -124,7 +124,7 @@ class Compiled:
 
     rhs = __call__
 
-    def _fill(self, mine: Buffers, u: Any) -> None:
+    def _refill(self, mine: Buffers, u: Any) -> None:
         """Put the constants and the inputs of the next call into its buffers."""
         values = self._in_use()
         mine.k[:] = values.k
@@ -143,17 +143,17 @@ class Compiled:
     @property
     def p(self) -> Array:
         """The parameters in use, in the order of PARAMETERS, read only."""
-        return _fixed(self._values.p)
+        return _read_only(self._values.p)
 
     @property
     def k(self) -> Array:
         """The constants in use, in the order of the emitted code, read only."""
-        return _fixed(self._values.k)
+        return _read_only(self._values.k)
 
     @property
     def u(self) -> Array:
         """The inputs of a call that is given none, read only; assign an array to replace them."""
-        return _fixed(self._values.u)
+        return _read_only(self._values.u)
 
     @u.setter
     def u(self, values: Any) -> None:
@@ -190,25 +190,25 @@ class Compiled:
 
     def energy(self, t: float, x: Any) -> float:
         """The energy at time t in state x: kinetic plus potential."""
-        return float(self._called("energy", ctypes.c_double, t, x, self._in_use().k))
+        return float(self._call_at("energy", ctypes.c_double, t, x, self._in_use().k))
 
     def jacobian(self, t: float, x: Any, u: Any = None) -> tuple[Array, Array]:
         """dx/dt and the (2d, 2d) matrix D of the linearised equations in the state; see the emitted
         header."""
         k, dx, D = self._in_use().k, np.zeros(len(self.STATE)), self._zeros()
-        self._called("jacobian", None, t, x, k, self._inputs(u), dx, D)
+        self._call_at("jacobian", None, t, x, k, self._inputs(u), dx, D)
         return dx, D
 
     def jacobian_inputs(self, t: float, x: Any, u: Any = None) -> Array:
         """The (2d, inputs) matrix D of the linearised equations in the inputs."""
         k, D = self._in_use().k, self._zeros(len(self.INPUTS))
-        self._called("jacobian_inputs", None, t, x, k, self._inputs(u), D)
+        self._call_at("jacobian_inputs", None, t, x, k, self._inputs(u), D)
         return D
 
     def jacobian_parameters(self, t: float, x: Any, u: Any = None) -> Array:
         """The (2d, parameters) matrix D of the linearised equations in the parameters."""
         p, D = self._in_use().p, self._zeros(len(self.PARAMETERS))
-        self._called("jacobian_parameters", None, t, x, p, self._inputs(u), D)
+        self._call_at("jacobian_parameters", None, t, x, p, self._inputs(u), D)
         return D
 
     def _inputs(self, u: Any) -> Array:
@@ -231,27 +231,27 @@ class Compiled:
 
     def into_frame(self, x: Any) -> Array:
         """The state x taken to the principal frame; needs ``frame="principal"``."""
-        return self._carried("into_frame", x, len(self.STATE))
+        return self._change_frame("into_frame", x, len(self.STATE))
 
     def out_of_frame(self, x: Any) -> Array:
         """The state x taken back from the principal frame."""
-        return self._carried("out_of_frame", x, len(self.STATE))
+        return self._change_frame("out_of_frame", x, len(self.STATE))
 
     def inputs_into_frame(self, u: Any) -> Array:
         """The inputs u taken to the principal frame."""
-        return self._carried("inputs_into_frame", u, len(self.INPUTS))
+        return self._change_frame("inputs_into_frame", u, len(self.INPUTS))
 
     def inputs_out_of_frame(self, u: Any) -> Array:
         """The inputs u taken back from the principal frame."""
-        return self._carried("inputs_out_of_frame", u, len(self.INPUTS))
+        return self._change_frame("inputs_out_of_frame", u, len(self.INPUTS))
 
-    def _carried(self, what: str, x: Any, size: int) -> Array:
+    def _change_frame(self, what: str, x: Any, size: int) -> Array:
         """A state or an input taken from one frame to another by the C function ``what``."""
         k, given, out = self._in_use().k, _array(x, size), np.zeros(size)
         self._function(what, None)(*map(_pointer, (given, k, out)))
         return out
 
-    def _called(self, what: str, result: Any, t: float, x: Any, *arrays: Array) -> Any:
+    def _call_at(self, what: str, result: Any, t: float, x: Any, *arrays: Array) -> Any:
         """The result of a C function of the time, the state and more arrays."""
         state, function = _array(x, len(self.STATE)), self._function(what, result)
         return function(ctypes.c_double(t), *map(_pointer, (state, *arrays)))
@@ -271,7 +271,7 @@ class Compiled:
         return function
 
 
-def _fixed(a: Array) -> Array:
+def _read_only(a: Array) -> Array:
     """A view of an array that cannot be written into."""
     view = a.view()
     view.flags.writeable = False

@@ -52,8 +52,8 @@ def expressions(program: Program) -> Expressions:
         "k": program.constants,
         "u": program.inputs,
     }
-    t, x, p, k, u = given = [tuple(sympy.Symbol(y, real=True) for y in v) for v in names.values()]
-    arrays = dict(zip(names, given, strict=True))
+    t, x, p, k, u = symbols = [tuple(sympy.Symbol(y, real=True) for y in v) for v in names.values()]
+    arrays = dict(zip(names, symbols, strict=True))
     constants = _values(program.functions["constants"], arrays)
     rates = _values(program.functions["rhs"], arrays)
     (energy,) = _values(program.functions["energy"], arrays)

@@ -50,8 +50,8 @@ def _built(source: Source, compiler: str) -> ctypes.CDLL:
         return ctypes.CDLL(str(target))  # once it is loaded, its file may go
 
 
-def _compiler(asked: str | None) -> str:
-    chosen = asked or os.environ.get("CC", "")
+def _compiler(requested: str | None) -> str:
+    chosen = requested or os.environ.get("CC", "")
     wanted = [chosen] if chosen else ["cc", "gcc", "clang"]
     found = next((path for path in map(shutil.which, wanted) if path), None)
     if found is None:
