@@ -55,17 +55,17 @@ def ranked(
     """Views, best first: the farther apart the nearest two marks, or a mark and a line, of each
     body are."""
     axes = upright(gravity)
-    few = [(_distinct(marks)[:MOST], lines[:MOST]) for marks, lines in bodies]
+    thinned = [(_distinct(marks)[:MOST], lines[:MOST]) for marks, lines in bodies]
 
-    def worth(angles: tuple[int, int]) -> float:
+    def score(angles: tuple[int, int]) -> float:
         view = _view(axes, *angles)
-        clear = min((_clearance(view, *body) for body in few), default=1.0) / size
+        clear = min((_clearance(view, *body) for body in thinned), default=1.0) / size
         azimuth, elevation = angles
-        habit = 0.001 * abs(azimuth - AZIMUTH) + 0.003 * abs(elevation - ELEVATION)
-        return min(clear, ENOUGH) - habit
+        preference = 0.001 * abs(azimuth - AZIMUTH) + 0.003 * abs(elevation - ELEVATION)
+        return min(clear, ENOUGH) - preference
 
     every = [(a, e) for a in range(14, 77, 4) for e in range(12, 41, 4)]
-    return [_view(axes, *angles) for angles in sorted(every, key=worth, reverse=True)]
+    return [_view(axes, *angles) for angles in sorted(every, key=score, reverse=True)]
 
 
 def _view(axes: tuple[Vector, Vector, Vector], azimuth: float, elevation: float) -> View:

@@ -62,7 +62,7 @@ class Numbers:
         self.invented = any(x is None for k, x in known.items() if not (moments and k == "m"))
         values = {}
         for k, (name, default) in enumerate(known.items(), 1):
-            own = MOMENTS.get(name, 0.0) if moments and name[:1] in "mcJ" else _plausible(k)
+            own = MOMENTS.get(name, 0.0) if moments and name[:1] in "mcJ" else _sample_value(k)
             values[name] = own if default is None else float(default)
         self.parameters = values
 
@@ -97,7 +97,7 @@ def _fraction(data: Any) -> float | None:
     return int(over) / int(under) if stroke and under.isdecimal() else None
 
 
-def _plausible(k: int) -> float:
+def _sample_value(k: int) -> float:
     """A sample value between 0.4 and 1.2 for parameter k: multiples of the golden ratio, well
     apart."""
     return round(0.4 + 0.8 * (0.618034 * k % 1.0), 3)

@@ -100,9 +100,9 @@ class Mesh:
             if len(n) != 2 or n[0] @ n[1] < self.sharp:
                 at[a].append(b)
                 at[b].append(a)
-        yield from self._long([self.points[k] for k in chain] for chain in _chains(at))
+        yield from self._without_short([self.points[k] for k in chain] for chain in _chains(at))
 
-    def _long(self, lines: Iterable[list[Any]]) -> Iterator[list[Any]]:
+    def _without_short(self, lines: Iterable[list[Any]]) -> Iterator[list[Any]]:
         """The lines without short pieces where the mesh was simplified: there they are flaws."""
         least = SHORT * float(np.linalg.norm(self.sight)) if self.simplified else 0.0
         for line in lines:
@@ -136,7 +136,7 @@ class Mesh:
             if len(ends) == 2:
                 at[ends[0]].append(ends[1])
                 at[ends[1]].append(ends[0])
-        yield from self._long([places[edge] for edge in chain] for chain in _chains(at))
+        yield from self._without_short([places[edge] for edge in chain] for chain in _chains(at))
 
     def _facing(self, f: int, around: list[int]) -> float:
         """How much a corner of a face looks at the reader: the mean over the faces around it that

@@ -34,7 +34,7 @@ class Panel:
         self.size = 1.0
         self.look(FLAT)
         self.size = self._size()
-        self.tips = [scaled(self._length(k), UNITS[k]) for k in range(min(part.size, 3))]
+        self.tips = [scaled(self._axis_length(k), UNITS[k]) for k in range(min(part.size, 3))]
         potentials = problem["potentials"]
         self.springs = [p for p in potentials if p["kind"] == "spring"]
         self.attractions = [p for p in potentials if p["kind"] == "attraction"]
@@ -43,7 +43,7 @@ class Panel:
         self.anchored = [p for p in self.springs if p.get("on") in self.at]
         self.anchors, moved = [], []
         for p in self.anchored:
-            place, was = self._within_reach(self.at[p["on"]], value.vector(p["anchor"]))
+            place, was = self._drawable_anchor(self.at[p["on"]], value.vector(p["anchor"]))
             self.anchors.append(place)
             moved.append(was)
         self.moved = any(moved)
@@ -62,27 +62,29 @@ class Panel:
         """The size of the body: half the diagonal of the box around the origin and the matter."""
         corners = [ORIGIN, *self.at.values(), *(p for b in self.bodies for p in b.corners())]
         if self.part.moments:
-            corners += [scaled(s * 1.2 * r, UNITS[0]) for r in [self._spread()] for s in (1, -1)]
+            corners += [
+                scaled(s * 1.2 * r, UNITS[0]) for r in [self._radius_of_gyration()] for s in (1, -1)
+            ]
         spans = [max(p[i] for p in corners) - min(p[i] for p in corners) for i in range(3)]
         return math.hypot(*spans) / 2 or 1.0
 
-    def _spread(self) -> float:
+    def _radius_of_gyration(self) -> float:
         """About the largest radius of gyration of a body known by its moments."""
         assert self.part.moments
         m, _, J = self.part.moments
         largest = max((abs(row[i]) for i, row in enumerate(J)), default=1.0)
         return math.sqrt(largest / m) if m > 0 else 1.0
 
-    def _length(self, k: int) -> float:
+    def _axis_length(self, k: int) -> float:
         """The length of axis k: it ends outside the body, and beyond the points that lie on it."""
         reach = [body.reach(UNITS[k]) for body in self.bodies]
         near = 0.2 * self.size
         reach += [r[k] for r in self.at.values() if math.dist(r, scaled(r[k], UNITS[k])) < near]
         if self.part.moments:
-            reach.append(0.95 * self._spread())
+            reach.append(0.95 * self._radius_of_gyration())
         return max(0.5 * self.size, max(reach, default=0.0) + 0.36 * self.size)
 
-    def _within_reach(self, p: Vector, anchor: Vector) -> tuple[Vector, bool]:
+    def _drawable_anchor(self, p: Vector, anchor: Vector) -> tuple[Vector, bool]:
         """The place at which an anchor is drawn, and whether that is another than its own."""
         away = plus(anchor, p, -1.0)
         far = math.hypot(*away)
@@ -174,7 +176,7 @@ class Panel:
         root = math.sqrt(max(xx * yy - xy * xy, 0.0))
         both = math.sqrt(max(xx + yy + 2 * root, 0.0))
         if root <= 0 or both <= 0:
-            xx = yy = self._spread()  # no matrix of masses: a round form
+            xx = yy = self._radius_of_gyration()  # no matrix of masses: a round form
             xy, root, both = 0.0, 0.0, 1.0
         x, y = self.view(scaled(1 / m, c))
         for k in range(97):

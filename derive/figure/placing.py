@@ -47,10 +47,10 @@ def placed(
         boxes = [label.box for label in found]
         cost, choice = math.inf, wish.label
         for label in _choices(wish):
-            least = _away(label, wish)
+            least = _distance_cost(label, wish)
             if least < cost:
-                least += _crowded(label, dots, boxes)
-            if least < cost and (whole := least + _crossed(label, near)) < cost:
+                least += _overlap_cost(label, dots, boxes)
+            if least < cost and (whole := least + _line_cost(label, near)) < cost:
                 cost, choice = whole, label
         if not (wish.optional and cost > OPTIONAL):
             found.append(choice)
@@ -72,7 +72,7 @@ def _choices(wish: Wish) -> Iterator[Label]:
             return
 
 
-def _away(label: Label, wish: Wish) -> float:
+def _distance_cost(label: Label, wish: Wish) -> float:
     """The cost of a label's distance from what it names, and of another direction than the one
     wished."""
     dx, dy = label.at[0] - wish.at[0], label.at[1] - wish.at[1]
@@ -84,21 +84,21 @@ def _away(label: Label, wish: Wish) -> float:
     return cost
 
 
-def _crowded(label: Label, dots: Sequence[Dot], boxes: Sequence[Box]) -> float:
+def _overlap_cost(label: Label, dots: Sequence[Dot], boxes: Sequence[Box]) -> float:
     """The cost of the dots and labels that a label would cover."""
     box = label.box
-    cost = sum(60.0 for d in dots if _holds(box, d.at, d.radius + 0.3))
+    cost = sum(60.0 for d in dots if _contains(box, d.at, d.radius + 0.3))
     return cost + sum(1000.0 for other in boxes if overlap(box, other, 0.4))
 
 
-def _crossed(label: Label, ink: Sequence[tuple[Point, float]]) -> float:
+def _line_cost(label: Label, ink: Sequence[tuple[Point, float]]) -> float:
     """The cost of the lines that a label would cover."""
     left, bottom, right, top = label.box
     left, bottom, right, top = left - 0.35, bottom - 0.35, right + 0.35, top + 0.35
     return sum(weight for (x, y), weight in ink if left < x < right and bottom < y < top)
 
 
-def _holds(box: Box, p: Point, margin: float) -> bool:
+def _contains(box: Box, p: Point, margin: float) -> bool:
     left, bottom, right, top = box
     return left - margin < p[0] < right + margin and bottom - margin < p[1] < top + margin
 

@@ -47,20 +47,20 @@ def scene(d: Derivation) -> Scene | None:
         return None
     gravity = _gravity(problem, value)
     springs = [p for p in problem["potentials"] if p["kind"] == "spring"]
-    joined, named = _joined(panels, springs), len(springs) <= FEW
-    _arranged(panels, gravity, joined)
+    joined, named = _springs_between(panels, springs), len(springs) <= FEW
+    _choose_view(panels, gravity, joined)
     sheet = Sheet()
     for panel in panels:
         draw(panel, sheet, named)
     for (one, a), (other, b), stiffness in joined:
         sheet.spring(one.to(a), other.to(b), stiffness, named)
-    _names(sheet, panels)
+    _name_panels(sheet, panels)
     fall = panels[0].view(gravity)
     falls = math.hypot(*fall) > LOW * math.hypot(*gravity)
     if falls:
-        _falling(sheet, fall, math.hypot(*gravity))
+        _draw_gravity(sheet, fall, math.hypot(*gravity))
     caption = _caption(problem, value, panels, falls)
-    return _framed(sheet, str(problem.get("title") or d.name), caption)
+    return _finished(sheet, str(problem.get("title") or d.name), caption)
 
 
 def _gravity(problem: Mapping[str, Any], value: Numbers) -> Vector:
@@ -72,7 +72,7 @@ def _gravity(problem: Mapping[str, Any], value: Numbers) -> Vector:
     return total
 
 
-def _arranged(panels: Sequence[Panel], gravity: Vector, joined: Sequence[Spring]) -> None:
+def _choose_view(panels: Sequence[Panel], gravity: Vector, joined: Sequence[Spring]) -> None:
     """Choose one view for all panels, so that their axes agree, in which springs between panels run
     free."""
     space = [p for p in panels if p.part.size > 2]
@@ -82,8 +82,8 @@ def _arranged(panels: Sequence[Panel], gravity: Vector, joined: Sequence[Spring]
     def take(view: View) -> float:
         for panel in panels:
             panel.look(view if panel in space else FLAT)
-        _arrange(panels)
-        return _room(panels, joined) if joined else CLEAR
+        _place_panels(panels)
+        return _clearance(panels, joined) if joined else CLEAR
 
     rooms = []
     for view in views[:TRIED]:
@@ -93,7 +93,7 @@ def _arranged(panels: Sequence[Panel], gravity: Vector, joined: Sequence[Spring]
     take(views[rooms.index(max(rooms))])
 
 
-def _room(panels: Sequence[Panel], joined: Sequence[Spring]) -> float:
+def _clearance(panels: Sequence[Panel], joined: Sequence[Spring]) -> float:
     """How near the springs between panels come to other marks, in millimetres."""
     marks = [(panel, p) for panel in panels for p in panel.marks()[0]]
     return min(
@@ -104,7 +104,7 @@ def _room(panels: Sequence[Panel], joined: Sequence[Spring]) -> float:
     )
 
 
-def _arrange(panels: Sequence[Panel]) -> None:
+def _place_panels(panels: Sequence[Panel]) -> None:
     """Choose one scale for all panels, and place them in rows, each row level."""
     width, height = ROOM.get(len(panels), SMALLER)
     boxes = [_box(panel.extent()) for panel in panels]
@@ -127,7 +127,7 @@ def _box(points: Sequence[Point]) -> Box:
     return min(xs), min(ys), max(xs), max(ys)
 
 
-def _joined(panels: Sequence[Panel], springs: Sequence[Mapping[str, Any]]) -> list[Spring]:
+def _springs_between(panels: Sequence[Panel], springs: Sequence[Mapping[str, Any]]) -> list[Spring]:
     """The springs from a point of one panel to a point of another."""
     home = {i: panel for panel in panels for i in panel.at}
     pairs = [(p["between"], p["stiffness"]) for p in springs if "between" in p]
@@ -138,7 +138,7 @@ def _joined(panels: Sequence[Panel], springs: Sequence[Mapping[str, Any]]) -> li
     ]
 
 
-def _names(sheet: Sheet, panels: Sequence[Panel]) -> None:
+def _name_panels(sheet: Sheet, panels: Sequence[Panel]) -> None:
     """Name the factors of a product, each below its panel."""
     if len(panels) < 2:
         return
@@ -148,7 +148,7 @@ def _names(sheet: Sheet, panels: Sequence[Panel]) -> None:
         sheet.wishes.insert(0, Wish(Label(panel.part.name, name=True), below, 0.0, (0.0, -1.0)))
 
 
-def _falling(sheet: Sheet, fall: Point, strength: float) -> None:
+def _draw_gravity(sheet: Sheet, fall: Point, strength: float) -> None:
     """Draw gravity as an arrow at the right of the panels."""
     points = [p for s in sheet.strokes for p in s.points]
     _, y0, right, y1 = _box(points)
@@ -161,7 +161,7 @@ def _falling(sheet: Sheet, fall: Point, strength: float) -> None:
     sheet.wishes.append(Wish(Label(GRAVITY), middle, 0.9, (1.0, 0.0)))
 
 
-def _framed(sheet: Sheet, title: str, caption: Prose) -> Scene:
+def _finished(sheet: Sheet, title: str, caption: Prose) -> Scene:
     """The finished scene: labels placed, all moved into the positive quadrant, at least as wide as
     a column."""
     labels = placed(sheet.wishes, sheet.strokes, sheet.dots)
@@ -191,33 +191,35 @@ def _caption(
     problem: Mapping[str, Any], value: Numbers, panels: Sequence[Panel], falls: bool
 ) -> Prose:
     """The sentences of the caption: what the drawing does not say by itself."""
-    said: list[Prose] = [say("The body at the identity of the group, with the axes of its frame.")]
-    said += _about_the_body(panels)
+    sentences: list[Prose] = [
+        say("The body at the identity of the group, with the axes of its frame.")
+    ]
+    sentences += _about_the_body(panels)
     potentials = problem["potentials"]
     there = {p["kind"] for p in potentials}
     legends = [x for kind, x in kinds().items() if kind in there and x.legend]
     told = {x.kind: say(x.legend) for x in legends if x.drawn}
     if any(panel.anchors for panel in panels):
         told["spring"] += say("The hatched supports are fixed in space.")
-    said += told.values()
+    sentences += told.values()
     elsewhere = any(panel.centre_of(p)[1] for panel in panels for p in panel.attractions)
     if elsewhere or any(panel.moved for panel in panels):
-        said.append(say("Distances to fixed places are not to scale."))
+        sentences.append(say("Distances to fixed places are not to scale."))
     if "gravity" in there and not falls:
-        said.append(say("Gravity has no component in the drawing."))
+        sentences.append(say("Gravity has no component in the drawing."))
     if any(i["kind"] == "force" for i in problem["inputs"]):
-        said.append(say("The directions of the input forces are arbitrary."))
-    said += [
+        sentences.append(say("The directions of the input forces are arbitrary."))
+    sentences += [
         say("The input {name} is a covector and not drawn.", name=i["name"])
         for i in problem["inputs"]
         if i["kind"] == "covector"
     ]
-    said += [say(x.legend) for x in legends if not x.drawn]
+    sentences += [say(x.legend) for x in legends if not x.drawn]
     if problem["damping"]:
-        said.append(say("Damping is not drawn."))
+        sentences.append(say("Damping is not drawn."))
     if value.invented:
-        said.append(say("Parameters without a default have sample values."))
-    return tuple(sentence for prose in said for sentence in prose)
+        sentences.append(say("Parameters without a default have sample values."))
+    return tuple(sentence for prose in sentences for sentence in prose)
 
 
 def _about_the_body(panels: Sequence[Panel]) -> Iterator[Prose]:

@@ -63,15 +63,15 @@ class Shape:
 
     def __init__(self, solid: Solid, sight: Vector) -> None:
         self.kind, self.sizes, self.walls = solid.kind, solid.sizes, WALLS[solid.kind]
-        self.columns, self.shift = _map(solid)
-        self.sight = self.into(sight)
+        self.columns, self.shift = _affine_map(solid)
+        self.sight = self.to_reference(sight)
 
-    def out(self, u: Vector) -> Vector:
+    def to_body(self, u: Vector) -> Vector:
         """A u + s, the point of the solid with the reference coordinates u."""
         x, y, z = self.columns
         return plus(plus(plus(self.shift, x, u[0]), y, u[1]), z, u[2])
 
-    def into(self, v: Vector) -> Vector:
+    def to_reference(self, v: Vector) -> Vector:
         """A⁻¹ v, by Cramer's rule; 0 for a solid without volume, which hides nothing."""
         x, y, z = self.columns
         size = dot(x, cross(y, z))
@@ -85,16 +85,16 @@ class Shape:
 
     def hides(self, points: Sequence[Vector]) -> list[bool]:
         """For each point, whether it is behind the solid, or in it."""
-        return [self._behind(self.into(plus(p, self.shift, -1.0))) for p in points]
+        return [self._behind(self.to_reference(plus(p, self.shift, -1.0))) for p in points]
 
     def reach(self, direction: Vector) -> float:
         """How far the solid reaches from the origin along a direction, in lengths of that."""
-        u, w = self.into(scaled(-1.0, self.shift)), self.into(direction)
+        u, w = self.to_reference(scaled(-1.0, self.shift)), self.to_reference(direction)
         return max((b for _, b in self._chords(u, w, 0.0)), default=0.0)
 
     def corners(self) -> Iterator[Vector]:
         """Points of the solid that tell about how large it is."""
-        return (self.out(scaled(s, e)) for e in AXES for s in (1.0, -1.0))
+        return (self.to_body(scaled(s, e)) for e in AXES for s in (1.0, -1.0))
 
     def _behind(self, u: Vector) -> bool:
         return any(b - a > NEAR for a, b in self._chords(u, self.sight, NEAR))
@@ -116,14 +116,14 @@ class Shape:
             for a, b in _edges(self.kind):
                 yield self._curve(plus(scaled(1 - k / 48, a), b, k / 48) for k in range(49))
         elif self.kind in ("cylinder", "cone"):
-            yield from self._turned()
+            yield from self._surface_of_revolution()
         else:
-            yield from self._balls()
+            yield from self._ellipsoid_curves()
 
     def _curve(self, points: Iterator[Vector], edge: bool = True, always: bool = False) -> Curve:
-        return Curve(tuple(map(self.out, points)), edge, always)
+        return Curve(tuple(map(self.to_body, points)), edge, always)
 
-    def _balls(self) -> Iterator[Curve]:
+    def _ellipsoid_curves(self) -> Iterator[Curve]:
         """The contour of an ellipsoid, where the radius is normal to the line of sight, its
         equator, and a cavity."""
         w = self.sight
@@ -138,7 +138,7 @@ class Shape:
             if inner > 0:
                 yield self._curve((scaled(inner, u) for u in contour), always=True)
 
-    def _turned(self) -> Iterator[Curve]:
+    def _surface_of_revolution(self) -> Iterator[Curve]:
         """The rims of a cylinder or cone, and the lines where its mantle turns out of sight."""
         x, y, z = self.sight
         cone = self.kind == "cone"
@@ -155,7 +155,7 @@ class Shape:
             yield self._curve(plus(scaled(1 - k / 48, foot), top, k / 48) for k in range(49))
 
 
-def _map(solid: Solid) -> tuple[list[Vector], Vector]:
+def _affine_map(solid: Solid) -> tuple[list[Vector], Vector]:
     """The columns of A, and s."""
     k, s = solid.kind, solid.sizes
     R, shift = solid.rotation, solid.shift

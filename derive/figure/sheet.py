@@ -168,9 +168,9 @@ def _attraction(panel: Panel, sheet: Sheet, p: Mapping[str, Any]) -> None:
     sheet.dots += [Dot(at, 0.7, "attraction"), Dot(at, 1.7, "attraction", ring=True)]
 
 
-def _force(panel: Panel, sheet: Sheet, given: Mapping[str, Any]) -> None:
+def _force(panel: Panel, sheet: Sheet, force: Mapping[str, Any]) -> None:
     """Draw a force input as an arrow outwards, turned to where there is room."""
-    at = panel.to(panel.at[given["on"]])
+    at = panel.to(panel.at[force["on"]])
     home = panel.to(panel.part.centre or ORIGIN)
     out = math.atan2(at[1] - home[1], at[0] - home[0]) if math.dist(at, home) > 0.5 else 0.6
     others = [s for s in sheet.strokes if s.pen in ("line", "dashed")]
@@ -178,15 +178,15 @@ def _force(panel: Panel, sheet: Sheet, given: Mapping[str, Any]) -> None:
     def end(angle: float) -> Point:
         return at[0] + 11 * math.cos(angle), at[1] + 11 * math.sin(angle)
 
-    def worth(turned: float) -> float:
+    def score(turned: float) -> float:
         tip = end(out + turned)
         rooms = (from_segment(tip, a, b) for s in others for a, b in pairwise(s.points))
         return min(min(rooms, default=9.0), 6.0) - 1.5 * abs(turned)
 
-    tip = end(out + max((math.pi * k / 12 for k in range(-8, 9)), key=worth))
+    tip = end(out + max((math.pi * k / 12 for k in range(-8, 9)), key=score))
     sheet.strokes += arrow(at, tip, "force")
     away = tip[0] - at[0], tip[1] - at[1]
-    sheet.wishes.append(Wish(Label(given["name"], name=True), tip, 0.8, away))
+    sheet.wishes.append(Wish(Label(force["name"], name=True), tip, 0.8, away))
 
 
 def _runs(
