@@ -216,7 +216,7 @@ def Problem(
 
 
 def _tables(parts: Any) -> list[Table]:
-    """The tables in parts lists of tables, or in one alone; ``ProblemError`` for anything else."""
+    """The tables in nested lists of tables, or in one alone; ``ProblemError`` for anything else."""
     if isinstance(parts, Table):
         return [parts]
     if not isinstance(parts, (list, tuple)):
