@@ -25,7 +25,7 @@ from .walk import (
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
 from .walk.failure import naming_steps
-from .walk.heading import problem_data, symbols
+from .walk.head import problem_data, symbols
 from .walk.inputs import acts
 from .walk.lineage import traced
 from .walk.special import turns_whole
