@@ -17,12 +17,10 @@ from .words import (
     Letter,
     Traces,
     Word,
-    col_dim,
     expr_of_word,
     number,
     one,
     rotations,
-    row_dim,
     scalar_of,
     trace,
     transpose_word,
@@ -53,15 +51,15 @@ def map_traces(e: Expr, image: Callable[[Word], Expr]) -> Expr:
     return map_terms(e, mapped)
 
 
+def _between(before: Word, image: Expr, after: Word) -> Expr:
+    """An expression between two words."""
+    result = expr_of_word(before) * image if before else image
+    return result * expr_of_word(after) if after else result
+
+
 def _apply_at(w: Word, k: int, image: Expr) -> Expr:
     """The word with its k-th factor replaced (image given for the plain letter)."""
-    middle = image.bar if w[k][1] else image
-    result = middle
-    if w[:k]:
-        result = expr_of_word(w[:k], row_dim(w[0]), col_dim(w[k - 1])) * result
-    if w[k + 1 :]:
-        result = result * expr_of_word(w[k + 1 :], row_dim(w[k + 1]), col_dim(w[-1]))
-    return result
+    return _between(w[:k], image.bar if w[k][1] else image, w[k + 1 :])
 
 
 def leibniz(w: Word, delta: Image) -> Expr | None:
@@ -101,7 +99,7 @@ def substitute(e: Expr, images: Mapping[Letter, Expr]) -> Expr:
             if moves:
                 pieces = [images[x].bar if bar else images[x] for x, bar in factors]
             else:
-                pieces = [expr_of_word(factors, row_dim(factors[0]), col_dim(factors[-1]))]
+                pieces = [expr_of_word(factors)]
             for piece in pieces:
                 result = piece if result is None else result * piece
         assert result is not None
@@ -113,13 +111,9 @@ def substitute(e: Expr, images: Mapping[Letter, Expr]) -> Expr:
         product = number(c)
         for cycle in traces:
             product = product * trace(of(cycle))
-        return product * of(w) if w else product * _unit(e)
+        return product * (of(w) if w else one(e.rows))
 
     return map_terms(e, image)
-
-
-def _unit(e: Expr) -> Expr:
-    return number(1) if e.is_scalar else one(e.rows)
 
 
 PairRule = Callable[[Factor, Factor], Expr | None]
@@ -158,12 +152,7 @@ def _rewrite_word(w: Word, rules: tuple[PairRule, ...]) -> Expr | None:
         for rule in rules:
             image = rule(w[k], w[k + 1])
             if image is not None:
-                result = image
-                if w[:k]:
-                    result = expr_of_word(w[:k], row_dim(w[0]), col_dim(w[k - 1])) * result
-                if w[k + 2 :]:
-                    result = result * expr_of_word(w[k + 2 :], row_dim(w[k + 2]), col_dim(w[-1]))
-                return result
+                return _between(w[:k], image, w[k + 2 :])
     return None
 
 
@@ -195,15 +184,10 @@ def gradient(e: Expr, letter: Letter) -> Expr:
             if not cycle[places[0]][1]:
                 sign, rest = transpose_word(rest)
             others = scalar_of(traces[:k] + traces[k + 1 :], c * sign)
-            shape = expr_of_word(rest, letter.rows, letter.cols) if rest else _unit_like(letter)
-            total = total + others * shape
+            total = total + others * (expr_of_word(rest) if rest else one(letter.rows))
     if letter.symmetry and total.rows == total.cols:
         return Fraction(1, 2) * (total + letter.symmetry * total.bar)
     return total
-
-
-def _unit_like(letter: Letter) -> Expr:
-    return number(1) if letter.rows == 1 == letter.cols else one(letter.rows)
 
 
 def coefficient_of(e: Expr, x: Letter) -> Expr:

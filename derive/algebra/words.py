@@ -299,6 +299,6 @@ def inner(a: Expr, b: Expr, metric: Expr | None = None) -> Expr:
     return trace(a * b.bar if metric is None else a * metric * b.bar)
 
 
-def expr_of_word(w: Word, rows: Dim, cols: Dim) -> Expr:
-    """A bare word as an expression of the given shape."""
-    return Expr(rows, cols, _collect([(Fraction(1), [], w)]))
+def expr_of_word(w: Word) -> Expr:
+    """A bare word as an expression."""
+    return Expr(row_dim(w[0]), col_dim(w[-1]), _collect([(UNITY, [], w)]))

@@ -12,7 +12,7 @@ from fractions import Fraction
 from .differentiate import DERIVATIVES
 from .divisors import has_zero_divisor
 from .limits import BITS, DEGREE, DEPTH, DIGITS, EXPONENT, EXPRESSION, MAGNITUDE, NESTING, SLOPE
-from .tree import Tree, add, mul, neg
+from .tree import Tree, add, mul, neg, nodes, operands
 from .values import approximate
 from .weight import depth, weight
 
@@ -62,28 +62,20 @@ def _affordable(tree: Tree) -> None:
 
 def names(tree: Tree) -> list[str]:
     """The parameters that occur, in reading order."""
-    if isinstance(tree, tuple):
-        if tree[0] == "par":
-            return [tree[1]]
-        return [name for part in tree[1:] for name in names(part)]
-    return []
+    return [x[1] for x in nodes(tree) if isinstance(x, tuple) and x[0] == "par"]
 
 
 def numbers(tree: Tree) -> Iterator[int | Fraction]:
     """The numbers that occur, exponents apart."""
-    if isinstance(tree, (int, Fraction)):
-        yield tree
-    elif isinstance(tree, tuple):
-        for part in tree[1:2] if tree[0] == "pow" else tree[1:]:
-            yield from numbers(part)
+    return (x for x in nodes(tree) if isinstance(x, (int, Fraction)))
 
 
 def constants(tree: Tree) -> Iterator[Tree]:
     """The largest parts without a parameter, numbers apart."""
     if isinstance(tree, tuple) and not names(tree):
         yield tree
-    elif isinstance(tree, tuple) and tree[0] != "par":
-        for part in tree[1:]:
+    else:
+        for part in operands(tree):
             yield from constants(part)
 
 

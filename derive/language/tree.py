@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
-from typing import Any
+from itertools import chain
+from typing import Any, TypeVar
 
+V = TypeVar("V")
 Tree = str | int | Fraction | tuple[Any, ...]
 
 OPERATORS: dict[str, tuple[int, int | None]] = {
@@ -39,10 +41,9 @@ OPERATORS: dict[str, tuple[int, int | None]] = {
 }
 
 
-def add(*terms: Tree) -> Tree:
+def add(*summed: Tree) -> Tree:
     """Sum, flattened, with zeros dropped."""
-    flat = [x for t in terms for x in (t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,))]
-    kept = [t for t in flat if t != 0]
+    kept = [x for t in summed for x in terms(t) if x != 0]
     return 0 if not kept else kept[0] if len(kept) == 1 else ("add", *kept)
 
 
@@ -84,13 +85,36 @@ def coefficient(t: Tree) -> tuple[Fraction, Tree]:
     return Fraction(1), t
 
 
+def terms(t: Tree) -> tuple[Tree, ...]:
+    """The terms of a sum; any other tree is the only one of its own."""
+    return t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
+
+
+def operands(t: Tree) -> tuple[Tree, ...]:
+    """The trees in a tree: a parameter's name, a function's and an exponent are none."""
+    if not isinstance(t, tuple) or t[0] == "par":
+        return ()
+    return t[2:] if t[0] == "fun" else t[1:2] if t[0] == "pow" else t[1:]
+
+
+def fold(at: Callable[..., V]) -> Callable[[Tree], V]:
+    """The function of trees that is at(tree, its values on the operands …)."""
+
+    def of(t: Tree) -> V:
+        return at(t, *map(of, operands(t)))
+
+    return of
+
+
+@fold
+def nodes(t: Tree, *inside: list[Tree]) -> list[Tree]:
+    """A tree and all trees in it, in reading order."""
+    return [t, *chain.from_iterable(inside)]
+
+
 def names(t: Tree) -> Iterator[str]:
     """Every name that occurs in a tree, in reading order, with repetitions; not the parameters."""
-    if isinstance(t, str):
-        yield t
-    elif isinstance(t, tuple) and t[0] != "par":
-        for part in t[1:]:
-            yield from names(part)
+    return (x for x in nodes(t) if isinstance(x, str))
 
 
 def replaced(t: Tree, old: Tree, new: Tree) -> Tree:

@@ -12,7 +12,7 @@ from typing import Any
 
 from . import rational as q
 from .differentiate import DERIVATIVES
-from .tree import Tree
+from .tree import Tree, fold
 
 Value = Any
 LARGEST_POWER = 64
@@ -30,23 +30,22 @@ def value(
     ``number``: what a number is; as floats a stranger's powers of powers take no time.
     """
 
-    def of(t: Tree) -> Value:
+    def at(t: Tree, *parts: Value) -> Value:
         if isinstance(t, (int, Fraction)):
             return number(t)
         if isinstance(t, str):
             return _looked_up(names, t)
-        op, *operands = t
-        if op == "par":
-            return _looked_up(parameters or {}, operands[0])
-        if op == "fun" and elementary is not None:
-            return elementary(operands[0], of(operands[1]))
-        if op == "pow":
-            return _power(of(operands[0]), operands[1])
-        if op not in OPERATIONS:
-            raise ValueError(f"no value for the operator {op!r}")
-        return OPERATIONS[op](*map(of, operands))
+        if t[0] == "par":
+            return _looked_up(parameters or {}, t[1])
+        if t[0] == "fun" and elementary is not None:
+            return elementary(t[1], *parts)
+        if t[0] == "pow":
+            return _power(parts[0], t[2])
+        if t[0] not in OPERATIONS:
+            raise ValueError(f"no value for the operator {t[0]!r}")
+        return OPERATIONS[t[0]](*parts)
 
-    return of(t)
+    return fold(at)(t)
 
 
 def approximate(

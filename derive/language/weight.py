@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from .tree import Tree
+from .tree import Tree, fold
 
 FUNCTION = 8
 """The degree of a function and its first three derivatives, as the checker bounds it."""
@@ -27,19 +27,19 @@ def depth(tree: Tree) -> int:
     return level
 
 
-def weight(t: Tree) -> Weight:
+@fold
+def weight(t: Tree, *parts: Weight) -> Weight:
     """The weight of a tree that is not too deep."""
     if isinstance(t, (int, Fraction)):
         return Weight(1, 0, 0)
     if isinstance(t, str) or t[0] == "par":
         return Weight(1, 1, 1)
     if t[0] == "pow":
-        base, n = weight(t[1]), abs(int(t[2]))
+        (base,), n = parts, abs(int(t[2]))
         return Weight(base.leaves + 1, base.slope + base.leaves + 1, n * base.degree)
     if t[0] == "fun":
-        inside = weight(t[2])
+        (inside,) = parts
         return Weight(inside.leaves + 1, inside.slope + inside.leaves, FUNCTION + inside.degree)
-    parts = [weight(x) for x in t[1:]]
     leaves = sum(x.leaves for x in parts)
     if t[0] == "add":  # a derivative has those of its terms; in a product all factors stay
         return Weight(leaves, sum(x.slope for x in parts), max(x.degree for x in parts))

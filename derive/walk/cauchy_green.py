@@ -7,7 +7,7 @@ some: the points of a flat body under a shear.  The forces of a potential keep t
 from __future__ import annotations
 
 from ..algebra.calculus import map_traces
-from ..algebra.words import Expr, Word, expr_of_word, row_dim, trace
+from ..algebra.words import Expr, Word, expr_of_word, trace
 from ..problem.left_invariant import EVERY, Bodies
 from ..record.formulas import stated
 from ..record.record import Equation
@@ -28,7 +28,7 @@ def without_gram(e: Expr, bodies: Bodies, a: Alphabet) -> Expr:
 
     def left(cycle: Word) -> Expr:
         kept = tuple(x for k, x in enumerate(cycle) if x[0] != a.C or not drops(cycle, k))
-        return trace(expr_of_word(kept, row_dim(kept[0]), row_dim(kept[0])))
+        return trace(expr_of_word(kept))
 
     return map_traces(e, left)
 

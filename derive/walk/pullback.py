@@ -90,13 +90,13 @@ def _moment(weights: tuple[Letter, ...], w: Word, members: set[Letter], moments:
         sign, opened = transpose_word(opened)
     x, y = opened[0][0], opened[-1][0]
     if y not in members:
-        return sign * (moments[(*weights, x)].bar * expr_of_word(opened[1:], x.rows, 1))
+        return sign * (moments[(*weights, x)].bar * expr_of_word(opened[1:]))
     key = (*weights, y, x)
     second = moments[key] if key in moments else moments[(*weights, x, y)].bar
     middle = opened[1:-1]
     if not middle:
         return sign * trace(second)
-    return sign * trace(expr_of_word(middle, x.rows, y.rows) * second)
+    return sign * trace(expr_of_word(middle) * second)
 
 
 def pullback(stage: Lagrangian, a: Alphabet, c: Chapter) -> Pullback:

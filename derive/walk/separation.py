@@ -6,7 +6,7 @@ separates where the potential is one as well.
 
 from __future__ import annotations
 
-from ..algebra.calculus import substitute
+from ..algebra.calculus import substitute, terms_with, without
 from ..algebra.words import Expr, Letter, word
 from ..algebra.written import Notation
 from ..language.read import read
@@ -71,10 +71,9 @@ def potential_separation(
     draft = c.draft("separation", "identification")
     energy = _centred(v.energy, b, Chapter(b.chapter).label("separation"))
     place = Letter("R", b.n)
-    terms = [{x for cycle in (*traces, w) for x, _ in cycle} for traces, w in energy.terms]
     inside = v.elements.keeps(turning=False)
-    both = any({place, b.A.position} <= letters for letters in terms)
-    rest = any(U_Q not in letters for letters in terms) and not both
+    both = bool(terms_with(terms_with(energy, place), b.A.position))
+    rest = bool(without(energy, U_Q)) and not both
     prose = _prose(problem, decided=inside and not both, rest=rest, given=bool(v.elements.energies))
     return (draft.step((Equation("Ũ", draft.tree(energy, _notation(b))),), prose),)
 

@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from fractions import Fraction
 
 from ..algebra.calculus import derivation, substitute
 from ..algebra.words import Expr, Letter, word
 from ..algebra.written import Notation, metrics, tree_of
 from ..language.read import read
-from ..language.tree import Tree
+from ..language.tree import Tree, nodes, operands
 from ..record.hypotheses import Hypothesis
 from ..record.record import Step
 from ..record.sentence import Prose, Sentence, say
@@ -199,7 +200,7 @@ def _inverted(t: Tree) -> Iterator[Tree]:
     """What stands in a denominator, or is inverted; numbers and the group's element apart."""
     if not isinstance(t, tuple):
         return
-    for x in t[1:]:
+    for x in operands(t):
         yield from _inverted(x)
     inverse = t[0] in ("inv", "div") or (t[0] == "pow" and t[2] < 0)
     below = t[2] if t[0] == "div" else t[1] if inverse else 1
@@ -209,7 +210,5 @@ def _inverted(t: Tree) -> Iterator[Tree]:
 
 def _constant(t: Tree) -> bool:
     """A number, as it stands."""
-    if not isinstance(t, tuple):
-        return not isinstance(t, str) or t == "π"
-    parts = t[2:] if t[0] == "fun" else t[1:]
-    return t[0] not in ("par", "at", "call", "sum") and all(map(_constant, parts))
+    leaves = (x for x in nodes(t) if not operands(x))
+    return all(x == "π" or isinstance(x, (int, Fraction)) or x == ("one",) for x in leaves)

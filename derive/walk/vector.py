@@ -16,7 +16,7 @@ from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.space import antisymmetry, hat, normal_form
 from ..algebra.words import Expr, Letter, word
 from ..algebra.written import Notation, metrics, tree_of
-from ..language.tree import Tree, add
+from ..language.tree import Tree, add, terms
 from ..record.record import Equation, Step
 from ..record.sentence import Sentence, listed, phrase, say
 from .alphabet import Alphabet, Dual, Frame
@@ -230,10 +230,9 @@ def _coadjoint(
 def _spun(t: Tree) -> Tree:
     """A sum with −(ζ ∧ ℓ_b) as ℓ_b ∧ ζ, before the other terms."""
     against: Tree = ("mul", -1, ("wedge", ZETA.name, SPIN.name))
-    terms = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
-    if against not in terms:
+    if against not in terms(t):
         return t
-    return add(("wedge", SPIN.name, ZETA.name), *(x for x in terms if x != against))
+    return add(("wedge", SPIN.name, ZETA.name), *(x for x in terms(t) if x != against))
 
 
 def _kernel(balance: dict[Letter, Expr], b: Alphabet, c: Chapter) -> Step:

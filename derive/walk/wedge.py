@@ -5,14 +5,12 @@ from __future__ import annotations
 from ..algebra.space import fold_double
 from ..algebra.words import Expr
 from ..algebra.written import PLAIN, Notation, tree_of
-from ..language.tree import Tree, add
+from ..language.tree import Tree, add, terms
 
 
 def vector_sum(e: Expr, notation: Notation = PLAIN) -> Tree:
     """The tree of a vector in normal form."""
-    t = tree_of(fold_double(e), notation)
-    terms = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
-    return add(*(flip_wedge(x) for x in terms))
+    return add(*map(flip_wedge, terms(tree_of(fold_double(e), notation))))
 
 
 def flip_wedge(t: Tree) -> Tree:
