@@ -6,9 +6,29 @@ from unicodedata import normalize
 
 import pytest
 
-from derive.algebra.calculus import derivation, gradient, reduce, substitute
+from derive.algebra.calculus import (
+    coefficient_of,
+    derivation,
+    gradient,
+    map_terms,
+    map_traces,
+    reduce,
+    substitute,
+    terms_with,
+    without,
+)
 from derive.algebra.space import double, fold_double, hat, normal_form
-from derive.algebra.words import Expr, Letter, inner, number, one, trace, word, zero
+from derive.algebra.words import (
+    Expr,
+    Letter,
+    inner,
+    number,
+    one,
+    scalar_of,
+    trace,
+    word,
+    zero,
+)
 from derive.algebra.written import tree_of
 from derive.language import rational as q
 from derive.language.show import show
@@ -154,6 +174,30 @@ def test_gradient_and_substitution(seed):
     moved = dict(table)
     moved[A] = value(image, table)
     assert value(substitute(e, {A: image}), table) == value(e, moved)
+
+
+def test_coefficients_and_terms():
+    """e = M v + (terms without v), also where v stands in a scalar; and so for a scalar letter."""
+    u, v, w, m = (word(x) for x in (U, V, W, M))
+    rest = inner(u, w) * w + m * u
+    e = m * (word(A) * v) + inner(v, w) * u + 2 * (word(S) * v) + rest
+    matrix = coefficient_of(e, V)
+    assert matrix == m * word(A) + u * w.bar + 2 * word(S)
+    assert matrix * v + without(e, V) == e
+    assert terms_with(e, V) == matrix * v
+    assert without(e, V) == rest
+    assert m * coefficient_of(e, M) + without(e, M) == e
+
+
+def test_terms_and_traces_are_mapped():
+    e = trace(word(A) * word(B)) * word(A) + word(M) * word(S)
+    again = map_terms(e, lambda traces, w, c: e.like({(traces, w): 2 * c}))
+    assert again == 2 * e
+    assert map_traces(e, lambda cycle: scalar_of((cycle,))) == e
+    assert map_traces(e, lambda cycle: number(len(cycle))) == 2 * word(A) + word(S)
+    assert map_terms(e, lambda traces, w, c: scalar_of(traces, c), zero()) == (
+        trace(word(A) * word(B)) + word(M)
+    )
 
 
 def test_gradient_of_a_skew_letter_is_skew():
