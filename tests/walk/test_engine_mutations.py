@@ -52,6 +52,16 @@ def test_the_changes_of_an_expression():
         "sign: ('mul', a, ('mul', -1, ('T', b)))",
         "transpose: ('mul', a, b)",
     }
+    assert changed("stated('c = m⁻¹ζ̄')") == {
+        "factor: stated('c = m⁻¹')",
+        "factor: stated('c = ζ̄')",
+        "factor: stated('c = mζ̄')",
+        "order: stated('c = ζ̄m⁻¹')",
+        "sign: stated('c = (−m⁻¹) ζ̄')",
+        "sign: stated('c = m⁻¹(−ζ̄)')",
+        "sign: stated('c = −m⁻¹ζ̄')",
+        "transpose: stated('c = m⁻¹ζ')",
+    }
     assert changed("x = c[i][j] if n < 2 else c[i, j]") == {
         "indices: x = c[j][i] if n < 2 else c[i, j]",
         "indices: x = c[i][j] if n < 2 else c[j, i]",

@@ -5,8 +5,13 @@ Left alone are annotations, texts, what is raised, and what only prints.
 
 import ast
 import copy
+import re
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import NamedTuple
+
+from derive.language.read import read
+from derive.language.show import show
 
 SIGNS = {ast.Add: ast.Sub, ast.Sub: ast.Add}
 PRODUCTS = (ast.Mult, ast.MatMult, ast.Div, ast.FloorDiv, ast.Pow, ast.Mod)
@@ -216,6 +221,8 @@ def of_call(node: ast.Call) -> Iterator[tuple[str, ast.AST]]:
     name = ast.unparse(node.func).rpartition(".")[2]
     if name in SILENT:
         return
+    if ast.unparse(node.func) in ("read", "stated") and isinstance(node.args[0], ast.Constant):
+        yield from of_formula(node, node.args[0].value)
     one = len(node.args) == 1 and not node.keywords and not isinstance(node.args[0], ast.Starred)
     if one and (name == "neg" or name in TRANSPOSES):
         yield "sign" if name == "neg" else "transpose", node.args[0]
@@ -234,3 +241,21 @@ def of_call(node: ast.Call) -> Iterator[tuple[str, ast.AST]]:
             parts = list(node.args)
             parts[k], parts[k + 1] = parts[k + 1], parts[k]
             yield "order", ast.Call(node.func, parts, node.keywords)
+
+
+def of_formula(node: ast.Call, text: str) -> Iterator[tuple[str, ast.AST]]:
+    """A formula that is written out, changed as its trees would be: stated("C = ĀA")."""
+    pieces = re.split(r"( = |,  )", text)
+    for k in range(0, len(pieces), 2):
+        whole = ast.parse(repr(read(pieces[k])), mode="eval").body
+        for part, _ in live(whole):
+            for kind, new in changes(part):
+                tree = eval(ast.unparse(with_node(whole, part, new)), {"Fraction": Fraction})
+                try:
+                    shown = show(tree)
+                    if show(read(shown)) != shown:
+                        continue
+                except (AttributeError, IndexError, TypeError, ValueError):
+                    continue  # no tree
+                formula = ast.Constant("".join([*pieces[:k], shown, *pieces[k + 1 :]]))
+                yield kind, ast.Call(node.func, [formula, *node.args[1:]], node.keywords)
