@@ -15,10 +15,11 @@ from ..language.laurent import OverlongError, collected
 from ..language.limits import TEXT
 from ..language.tree import Tree, add, mul, neg
 from ..language.values import approximate
-from .fields import choice, expression, known, missing, tables, vector, whole
+from ..schema.solid_kinds import SOLIDS
+from .fields import block, choice, expression, known, missing, tables, vector
 from .moments import Moments, SolidError
 from .problem import Body, GivenBody, MomentBody, PointBody, ProblemError
-from .solids import KINDS, Solid, moments, rotation_about, together
+from .solids import Solid, moments, rotation_about, together
 
 FIRST, SECOND = ("c", "centre"), ("J", "I", "I_centre")
 MEANINGS = {
@@ -59,6 +60,7 @@ def body(data: Mapping[str, Any], moved: Group | None, folder: Path) -> Body | N
         for key in ("moments", "given"):
             if key in table:
                 raise ProblemError(f"body: give either 'solid' or {key!r}")
+        choice(table, "solid", tuple(SOLIDS), "body")
         listed: dict[str, Mapping[str, Any]] = {
             "body": {"kind" if k == "solid" else k: x for k, x in table.items()}
         }
@@ -72,7 +74,7 @@ def _points(listed: list[Mapping[str, Any]], moved: Group) -> PointBody | None:
     for k, p in enumerate(listed, 1):
         where = f"point {k}"
         known(p, {"mass", "at", "block"}, where)
-        blocks.append(whole(p.get("block", 1), 1, len(moved.places), f"{where}, block"))
+        blocks.append(block(p, moved, where))
         masses.append(expression(missing(p, "mass", where), f"{where}, mass"))
         n = moved.places[blocks[-1] - 1][1].n
         positions.append(vector(missing(p, "at", where), n, f"{where}, at"))
@@ -161,10 +163,10 @@ def _half(*terms: Tree) -> Tree:
 
 
 def _solid(data: Mapping[str, Any], where: str, folder: Path) -> Solid:
-    kind = choice(data, "kind", tuple(KINDS), where)
-    known(data, {"kind", *PLACING, *KINDS[kind]}, where)
+    kind = choice(data, "kind", tuple(SOLIDS), where)
+    known(data, {"kind", *PLACING, *SOLIDS[kind]}, where)
     sizes: dict[str, Any] = {}
-    for key, shape in KINDS[kind].items():
+    for key, shape in SOLIDS[kind].items():
         value, place = missing(data, key, where), f"{where}, {key}"
         if shape is None:
             sizes[key] = _file(value, place, folder)

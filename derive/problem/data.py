@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .problem import Body, CovectorInput, GivenBody, Input, PointBody, Problem
+from .problem import Body, GivenBody, PointBody, Problem
 from .solids import Solid
 
 
@@ -22,9 +22,9 @@ def data(problem: Problem) -> dict[str, Any]:
         },
         "body": _body_data(problem.body),
         "potentials": [p.plain() for p in problem.potentials],
-        "inputs": [_input_data(i) for i in problem.inputs],
+        "inputs": [i.plain() for i in problem.inputs],
         "places": [{"at": list(p.at), "block": p.block} for p in problem.places],
-        "damping": [{"coefficient": d.coefficient, "on": list(d.on)} for d in problem.damping],
+        "damping": [d.plain() for d in problem.damping],
         **({"frame": dict(problem.frame)} if problem.frame else {}),
         **({"masses": "of any sign"} if problem.signed else {}),
     }
@@ -66,9 +66,3 @@ def _listed(x: Any) -> Any:
     if isinstance(x, tuple) and x and not isinstance(x[0], str):
         return [_listed(y) for y in x]
     return x
-
-
-def _input_data(i: Input) -> dict[str, Any]:
-    if isinstance(i, CovectorInput):
-        return {"kind": "covector", "name": i.name}
-    return {"kind": "force", "name": i.name, "on": i.on, "frame": i.frame}

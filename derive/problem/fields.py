@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
 from collections.abc import Mapping
 from typing import Any
 
+from ..algebra.groups import Group
 from ..language.expression import ExpressionError, parse
 from ..language.limits import TABLES, TEXT
 from ..language.reserved import WORDS
 from ..language.tree import Tree
+from ..schema.table import nearest
 from .problem import ProblemError
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
@@ -33,11 +34,9 @@ def known(data: Mapping[str, Any], keys: set[str], where: str) -> None:
     """Refuse a key that has no meaning, with the nearest that has one."""
     for key in data:
         if key not in keys:
-            near = difflib.get_close_matches(key[:40], sorted(keys), 1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
-            raise ProblemError(
-                f"{where}: unknown key {key[:40]!r}{hint} (known: {', '.join(sorted(keys))})"
-            )
+            listed = ", ".join(sorted(keys))
+            hint = nearest(key, keys)
+            raise ProblemError(f"{where}: unknown key {key[:40]!r}{hint} (known: {listed})")
 
 
 def text(data: Mapping[str, Any], key: str, where: str) -> str:
@@ -59,7 +58,8 @@ def choice(
         return default
     value = text(data, key, where)
     if value not in allowed:
-        raise ProblemError(f"{where}: key {key!r} must be one of {', '.join(allowed)}")
+        hint = nearest(value, allowed)
+        raise ProblemError(f"{where}: key {key!r} must be one of {', '.join(allowed)}{hint}")
     return value
 
 
@@ -99,6 +99,14 @@ def whole(value: Any, least: int, most: int, where: str) -> int:
     if type(value) is not int or not least <= value <= most:
         raise ProblemError(f"{where}: expected an integer from {least} to {most}")
     return value
+
+
+def block(data: Mapping[str, Any], group: Group, where: str) -> int:
+    """The factor of a product, counted from 1; without a product there is one."""
+    most, value = len(group.places), data.get("block", 1)
+    if most == 1 and value != 1:
+        raise ProblemError(f"{where}, block: {group.name} is no product: there is one block")
+    return whole(value, 1, most, f"{where}, block")
 
 
 def missing(data: Mapping[str, Any], key: str, where: str) -> Any:

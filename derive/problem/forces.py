@@ -11,9 +11,11 @@ from ..language.reserved import PLACE
 from ..language.tree import Tree, replaced, subtrees
 from ..schema.kind import Potential
 from ..schema.kinds import kinds
+from ..schema.outside import INPUTS, Damping, ForceInput, Input
 from .bodies import rotation
 from .fields import (
     LIKE_A_PLACE,
+    block,
     choice,
     expression,
     identifier,
@@ -26,11 +28,7 @@ from .fields import (
 from .inertia import is_negative
 from .problem import (
     Body,
-    CovectorInput,
-    Damping,
-    ForceInput,
     GivenBody,
-    Input,
     Parameter,
     Place,
     PointBody,
@@ -38,6 +36,7 @@ from .problem import (
 )
 
 AXES = "xyz"
+UNNUMBERED = "there are no [[point]] tables to number"
 Vector = tuple[Tree, ...]
 Rows = tuple[Vector, ...]
 Found = Mapping[str, Any]
@@ -74,7 +73,7 @@ class Points:
     def point(self, value: Any, where: str) -> int:
         """A point by its number."""
         if not self.masses:
-            raise ProblemError(f"{where}: there are no [[point]] tables to number")
+            raise ProblemError(f"{where}: {UNNUMBERED}")
         return whole(value, 1, self.masses, where)
 
     def attached(self, data: Mapping[str, Any], where: str) -> int:
@@ -82,13 +81,25 @@ class Points:
         if "on" in data:
             if "at" in data:
                 raise ProblemError(f"{where}: give either 'on' or 'at'")
-            return self.point(data["on"], f"{where}, on")
+            if not self.masses:
+                raise ProblemError(f"{where}, on: {UNNUMBERED}; give 'at', a place of the body")
+            listed = _as_list(data["on"])
+            if len(listed) != 1:
+                raise ProblemError(f"{where}: key 'on' must be one point")
+            return self.point(listed[0], f"{where}, on")
         assert self.group is not None
-        most = len(self.group.places)
-        block = whole(data.get("block", 1), 1, most, f"{where}, block")
-        n = self.factor(block)[1].n
-        self.places.append(Place(vector(missing(data, "at", where), n, f"{where}, at"), block))
+        if "at" not in data:
+            given = "'on' or 'at'" if self.masses else "'at', a place of the body,"
+            raise ProblemError(f"{where}: key {given} is missing")
+        number = block(data, self.group, where)
+        n = self.factor(number)[1].n
+        self.places.append(Place(vector(data["at"], n, f"{where}, at"), number))
         return self.masses + len(self.places)
+
+
+def _as_list(value: Any) -> list[Any]:
+    """A number of a point, or a list of them."""
+    return value if isinstance(value, list) else [value]
 
 
 def potential(data: Mapping[str, Any], where: str, points: Points) -> Potential:
@@ -105,7 +116,7 @@ def potential(data: Mapping[str, Any], where: str, points: Points) -> Potential:
 class FileReader:
     """Reads the table of a potential (:class:`Reader`): a method for each type of a key."""
 
-    points: Points
+    at: Points
 
     def fail(self, message: str) -> ProblemError:
         """The error of a file."""
@@ -118,7 +129,7 @@ class FileReader:
     def meets(self, need: str, kind: str, where: str) -> None:
         """``points alone``: nothing else has mass; ``one space``: all blocks are of one dimension,
         or the points where there are some."""
-        at = self.points
+        at = self.at
         if need == "points alone" and (not at.masses or at.heavy):
             raise ProblemError(f"{where}: {kind} needs a body of [[point]] tables alone")
         if need == "one space" and len(self._sizes()) > 1:
@@ -137,8 +148,8 @@ class FileReader:
             )
 
     def _sizes(self) -> set[int]:
-        assert self.points.group is not None
-        return {g.n for _, g in self.points.group.places}
+        assert self.at.group is not None
+        return {g.n for _, g in self.at.group.places}
 
     def scalar(self, table: Mapping[str, Any], key: str, where: str, _: Found) -> Tree:
         """An expression of the parameters."""
@@ -146,12 +157,12 @@ class FileReader:
 
     def vector(self, table: Mapping[str, Any], key: str, where: str, found: Found) -> Vector:
         """Of the space of the end that is given, or of all points."""
-        n = self.points.size(found["on"]) if found.get("on") else max(self._sizes())
+        n = self.at.size(found["on"]) if found.get("on") else max(self._sizes())
         return vector(missing(table, key, where), n, f"{where}, {key}")
 
     def energy(self, table: Mapping[str, Any], key: str, where: str, found: Found) -> Tree:
         """An expression of places in space, with one at least."""
-        U = _placed(self.scalar(table, key, where, found), where, self.points)
+        U = _placed(self.scalar(table, key, where, found), where, self.at)
         if not any(x[0] == "at" for _, x in subtrees(U) if isinstance(x, tuple)):
             raise ProblemError(
                 f"{where}, {key}: no place of a point, as r1_x, so no force; leave it out"
@@ -160,7 +171,7 @@ class FileReader:
 
     def pair(self, table: Mapping[str, Any], key: str, where: str, _: Found) -> tuple[int, int]:
         """Two points, in spaces of one dimension."""
-        ends, at = table[key], self.points
+        ends, at = table[key], self.at
         if not isinstance(ends, list) or len(ends) != 2:
             raise ProblemError(f"{where}: key {key!r} must be two points")
         i, j = (at.point(x, f"{where}, {key}") for x in ends)
@@ -172,12 +183,12 @@ class FileReader:
 
     def end(self, table: Mapping[str, Any], _: str, where: str, __: Found) -> int:
         """A point, or a new place."""
-        return self.points.attached(table, where)
+        return self.at.attached(table, where)
 
     def rotation(self, table: Mapping[str, Any], key: str, where: str, _: Found) -> Rows:
         """{ axis, angle } in R³, or rows of numbers."""
-        assert self.points.group is not None
-        return rotation(table[key], self.points.group.n, f"{where}, {key}")
+        assert self.at.group is not None
+        return rotation(table[key], self.at.group.n, f"{where}, {key}")
 
     def timed(self, table: Mapping[str, Any], key: str, where: str, found: Found) -> Vector:
         """A vector of the space of all points, of the time as well."""
@@ -185,10 +196,33 @@ class FileReader:
 
     def charges(self, table: Mapping[str, Any], key: str, where: str, _: Found) -> Vector:
         """A number for each point."""
-        count = self.points.masses
+        count = self.at.masses
         if not count:
             raise ProblemError(f"{where}: key {key!r} is for [[point]] tables, and there are none")
         return vector(missing(table, key, where), count, f"{where}, {key}")
+
+    def points(self, table: Mapping[str, Any], key: str, where: str, _: Found) -> tuple[int, ...]:
+        """A place of the body; or points, by a number or a list, all without either."""
+        at = self.at
+        if "at" in table:
+            return (at.attached(table, where),)
+        if not at.masses:
+            raise ProblemError(f"{where}: give a place of the body under 'at', or [[point]] tables")
+        listed = table.get(key, [*range(1, at.masses + 1)])
+        if not listed and isinstance(listed, list):
+            raise ProblemError(f"{where}: key {key!r} must be a point or a list of points")
+        on = tuple(at.point(i, f"{where}, {key}") for i in _as_list(listed))
+        if len(set(on)) != len(on):
+            raise ProblemError(f"{where}: key {key!r} names a point twice")
+        return on
+
+    def name(self, table: Mapping[str, Any], key: str, where: str, _: Found) -> str:
+        """One that every emitted language can take."""
+        return identifier(text(table, key, where), f"{where}, {key}")
+
+    def frame(self, table: Mapping[str, Any], key: str, where: str, _: Found) -> str:
+        """Space or body."""
+        return choice(table, key, ("space", "body"), where)
 
     def masses(self, *_: Any) -> tuple[()]:
         """Those of the points."""
@@ -230,35 +264,19 @@ def in_time(t: Tree) -> Tree:
 
 def given_input(data: Mapping[str, Any], where: str, points: Points) -> Input:
     """One table [[input]]."""
-    kind = choice(data, "kind", ("covector", "force"), where)
-    name = identifier(text(data, "name", where), f"{where}, name")
-    if kind == "covector":
-        known(data, {"name", "kind"}, where)
-        return CovectorInput(name)
-    known(data, {"name", "kind", "on", "at", "block", "frame"}, where)
-    if points.group is None:
+    own = INPUTS[choice(data, "kind", tuple(INPUTS), where)]
+    known(data, {"kind", *own.names()}, where)
+    if points.group is None and own is ForceInput:
         raise ProblemError(f"{where}: a text about any group has no points to push")
-    frame = choice(data, "frame", ("space", "body"), where, "space")
-    return ForceInput(name, points.attached(data, where), frame)
+    return own.read(data, where, FileReader(points))
 
 
 def damping(data: Mapping[str, Any], where: str, points: Points) -> Damping:
     """One table [[damping]]."""
-    known(data, {"coefficient", "on", "at", "block"}, where)
-    coefficient = expression(missing(data, "coefficient", where), f"{where}, coefficient")
-    if "at" in data:
-        if points.group is None:
-            raise ProblemError(f"{where}: a text about any group has no points to damp")
-        return Damping(coefficient, (points.attached(data, where),))
-    if not points.masses:
-        raise ProblemError(f"{where}: give a place of the body under 'at', or [[point]] tables")
-    listed = data.get("on", [*range(1, points.masses + 1)])
-    if not isinstance(listed, list) or not listed:
-        raise ProblemError(f"{where}: key 'on' must be a list of points")
-    on = tuple(points.point(i, f"{where}, on") for i in listed)
-    if len(set(on)) != len(on):
-        raise ProblemError(f"{where}: key 'on' names a point twice")
-    return Damping(coefficient, on)
+    known(data, {*Damping.names()}, where)
+    if points.group is None:
+        raise ProblemError(f"{where}: a text about any group has no points to damp")
+    return Damping.read(data, where, FileReader(points))
 
 
 def negative_stiffness_of(
@@ -268,20 +286,18 @@ def negative_stiffness_of(
 ) -> str | None:
     """Where a stiffness or a damping is negative, for the defaults of the parameters."""
     listed = [
-        (f"potential {k}: key {key!r}", value)
-        for k, p in enumerate(potentials, 1)
+        (f"{told} {k}: key {key!r}", value)
+        for told, tables in (("potential", potentials), ("damping", damping))
+        for k, p in enumerate(tables, 1)
         for key, about, value in p.values()
         if about.positive
     ]
-    listed += [(f"damping {k}: key 'coefficient'", d.coefficient) for k, d in enumerate(damping, 1)]
     return next((where for where, t in listed if is_negative(t, parameters)), None)
 
 
-def trees(p: Damping | Place | Body | None) -> list[Tree]:
+def trees(p: Place | Body | None) -> list[Tree]:
     """The expressions of a part of a problem."""
     match p:
-        case Damping():
-            return [p.coefficient]
         case Place():
             return [*p.at]
         case PointBody():

@@ -22,15 +22,14 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..language.tree import Tree, add, mul
-from ..schema.kind import Key, Potential
+from ..schema.kind import Potential
 from ..schema.kinds.gravity import Gravity, gravity
 from ..schema.kinds.spring import Spring, quadratic
+from ..schema.outside import Damping, ForceInput, Input
+from ..schema.table import Key
 from .problem import (
     Body,
-    Damping,
-    ForceInput,
     GivenBody,
-    Input,
     MomentBody,
     Parameter,
     Place,
@@ -123,7 +122,7 @@ class _Framing:
             inputs=tuple(_pushed(x, numbers) for x in self.problem.inputs),
             places=(*places, *ends),
             damping=tuple(
-                Damping(self._scaled(x.coefficient), tuple(numbers[i] for i in x.on))
+                Damping(coefficient=self._scaled(x.coefficient), on=tuple(numbers[i] for i in x.on))
                 for x in self.problem.damping
             ),
         )

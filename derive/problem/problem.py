@@ -10,6 +10,7 @@ from ..algebra.groups import Group
 from ..language.refused import Refused
 from ..language.tree import Tree
 from ..schema.kind import Potential
+from ..schema.outside import CovectorInput, Damping, ForceInput, Input
 from .solids import Solid
 
 
@@ -82,30 +83,6 @@ class GivenBody:
 
 
 @dataclass(frozen=True)
-class CovectorInput:
-    """A covector of the Lie algebra given at every call: power ⟨u, ζ⟩."""
-
-    name: str
-
-
-@dataclass(frozen=True)
-class ForceInput:
-    """A force on a point, given at every call; ``frame``: its components are in space or body."""
-
-    name: str
-    on: int
-    frame: str = "space"
-
-
-@dataclass(frozen=True)
-class Damping:
-    """−κ v on points: a Rayleigh function ½ κ |v|², no potential."""
-
-    coefficient: Tree
-    on: tuple[int, ...]
-
-
-@dataclass(frozen=True)
 class Place:
     """A place in the body without mass, where a spring or a force is attached."""
 
@@ -114,7 +91,6 @@ class Place:
 
 
 Body = PointBody | MomentBody | GivenBody
-Input = CovectorInput | ForceInput
 
 
 @dataclass(frozen=True)

@@ -16,21 +16,10 @@ from typing import Any
 from ..language.expression import LARGEST, SMALLEST
 from ..language.limits import EXPONENT
 from ..language.tree import Tree, add, coefficient, mul
+from ..schema.solid_kinds import SOLIDS
 from .moments import Moments, Row, SolidError
 
 Monomial = tuple[tuple[Any, int], ...]  # factors, each a tree that is no product, and powers
-
-KINDS: dict[str, dict[str, tuple[int, ...] | None]] = {
-    "ball": {"radius": ()},
-    "box": {"sides": (3,)},  # full lengths; centred
-    "ellipsoid": {"semi_axes": (3,)},
-    "cylinder": {"radius": (), "height": ()},  # about z; centred
-    "cone": {"radius": (), "height": ()},  # about z; base in the plane z = 0, apex at z = height
-    "hollow_ball": {"outer": (), "inner": ()},
-    "tetrahedron": {"vertices": (4, 3)},
-    "mesh": {"file": None},
-}
-"""``()`` is one tree, ``(3,)`` a tuple of three, ``(4, 3)`` four of three, ``None`` a file name."""
 
 SPAN, UNIT, TERMS = range(3), ((1, 0, 0), (0, 1, 0), (0, 0, 1)), 3
 
@@ -64,8 +53,8 @@ def together(a: Moments, b: Moments) -> Moments:
 def unit_moments(solid: Solid) -> Moments:
     """The moments of density 1 in the solid's own frame; :class:`SolidError`, ``MeshError``."""
     kind, sizes = solid.kind, solid.sizes
-    if kind not in KINDS or set(sizes) != set(KINDS[kind]):
-        known = "; ".join(f"{k}: {', '.join(v)}" for k, v in KINDS.items())
+    if kind not in SOLIDS or set(sizes) != set(SOLIDS[kind]):
+        known = "; ".join(f"{k}: {', '.join(v)}" for k, v in SOLIDS.items())
         raise SolidError(f"no solid {kind[:40]!r} with such sizes; there are {known}")
     if kind == "mesh":
         from .mesh import mesh_moments, read

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
 import tomllib
@@ -26,19 +25,18 @@ from ..language.reserved import taken
 from ..language.tree import Tree
 from ..language.weight import weight
 from ..schema.kind import Potential
+from ..schema.kinds import kinds
+from ..schema.outside import CovectorInput, Input
+from ..schema.table import nearest
 from . import inertia
 from .bodies import body
 from .fields import LIKE_A_PLACE, identifier, known, tables, text, unread, used_at
 from .forces import Points, damping, given_input, negative_stiffness_of, potential, trees
 from .group import group_of
 from .problem import (
-    CovectorInput,
-    Damping,
     GivenBody,
-    Input,
     MomentBody,
     Parameter,
-    Place,
     PointBody,
     Problem,
     ProblemError,
@@ -259,22 +257,34 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     for name in used:
         if name not in problem.parameters:
             if name == "t" or LIKE_A_PLACE.fullmatch(name):
-                where = used_at(data, name, "U")
-                raise ProblemError(f"{where}: {name!r} is known in the 'U' of an expression alone")
+                where = used_at(data, name, *keys_with(name))
+                raise ProblemError(f"{where}: {name!r} is known in {known_in(name)} alone")
             where, shown = used_at(data, name), name[:40]
-            near = difflib.get_close_matches(shown, problem.parameters, 1)
-            hint = f"did you mean {near[0]!r}? Else " if near else ""
-            raise ProblemError(f"{where}: {shown!r} is not declared; {hint}add it to [parameters]")
+            hint = nearest(shown, problem.parameters).removeprefix("; ")
+            other = f"{hint} Else " if hint else ""
+            raise ProblemError(f"{where}: {shown!r} is not declared; {other}add it to [parameters]")
     own = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}
     for name in data.get("parameters", {}):
         if name not in used and name not in own:
             raise ProblemError(f"parameter {name!r} is declared but not used; leave it out")
 
 
+def keys_with(name: str) -> dict[str, str]:
+    """The keys in which t, or a place r1_x, is known, with the kinds of potentials of these."""
+    types = ("energy", "timed") if name == "t" else ("energy",)
+    return {x: k for k, own in kinds().items() for x, y in own.keys().items() if y.type in types}
+
+
+def known_in(name: str) -> str:
+    """The same in words."""
+    listed = keys_with(name).items()
+    return " and ".join(f"the {x!r} of a{'n' * (k[0] in 'aeiou')} {k}" for x, k in listed)
+
+
 def _forces(problem: Problem) -> list[Tree]:
     potentials = [t for p in problem.potentials for t in p.trees()]
-    parts: tuple[Damping | Place, ...] = (*problem.damping, *problem.places)
-    return potentials + [t for p in parts for t in trees(p)]
+    damping = [t for p in problem.damping for t in p.trees()]
+    return potentials + damping + [t for p in problem.places for t in trees(p)]
 
 
 def _affordable(problem: Problem) -> None:

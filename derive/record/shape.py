@@ -16,23 +16,16 @@ from ..language.differentiate import DERIVATIVES
 from ..language.limits import BASIS, TEXT
 from ..language.reserved import WORDS, taken
 from ..language.tree import OPERATORS, Tree
-from ..schema.kind import nearest
 from ..schema.kinds import kinds
+from ..schema.outside import INPUTS, Damping
+from ..schema.solid_kinds import SOLIDS
+from ..schema.table import Table, nearest
 from .vocabulary import ACTIONS, CONVENTIONS
 
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
 FRACTION = re.compile(r"-?[0-9]{1,4000}(/0*[1-9][0-9]{0,4000})?")
 KINDS = ("points", "given", "moments", "any")
-SIZES = {
-    "ball": ("radius",),
-    "ellipsoid": ("semi_axes",),
-    "box": ("sides",),
-    "cylinder": ("radius", "height"),
-    "cone": ("radius", "height"),
-    "hollow_ball": ("outer", "inner"),
-    "tetrahedron": ("vertices",),
-    "mesh": ("vertices", "faces"),
-}
+SIZES = {x: tuple(sizes) for x, sizes in SOLIDS.items()} | {"mesh": ("vertices", "faces")}
 LONGEST = 16
 """The most entries of a vector, and the most rows of a matrix."""
 
@@ -111,9 +104,7 @@ class _Shape:
         if len({*inputs, *data["parameters"]}) < len(inputs) + len(data["parameters"]):
             raise ShapeError("inputs: two of one name, or one of a parameter's name")
         for k, x in self.each("damping"):
-            self.scalar(self.at(x, "coefficient", object, f"damping {k}"), f"damping {k}")
-            for i in self.at(x, "on", list, f"damping {k}"):
-                self.point(i, f"damping {k}")
+            self.table(Damping, x, f"damping {k}")
         self.basis(self.at(data, "basis", list, "basis"))
         if self.at(data, "conventions", list, "conventions") != [*CONVENTIONS]:
             raise ShapeError("conventions: not those by which equations are checked")
@@ -195,25 +186,25 @@ class _Shape:
             raise ShapeError(f"{where}: key 'block' must be one of the factors of the group")
 
     def potential(self, data: Any, where: str) -> None:
-        """By its kind; the types of its keys are the methods of :class:`_Keys`."""
+        """By its kind."""
         kind = self.at(data, "kind", str, where)
         self.one_of(kind, tuple(kinds()), f"{where}, kind")
-        own = kinds()[kind]
-        known = {"kind", *own.keys()}
-        for name in data:
+        self.table(kinds()[kind], data, where)
+
+    def input(self, data: Any, where: str) -> None:
+        """A covector or a force."""
+        kind = self.at(data, "kind", str, where)
+        self.one_of(kind, tuple(INPUTS), f"{where}, kind")
+        self.table(INPUTS[kind], data, where)
+
+    def table(self, own: type[Table], data: Any, where: str) -> None:
+        """Its keys and no others; their types are the methods of :class:`_Keys`."""
+        known = {*own.keys()} | ({"kind"} if own.kind else set())
+        for name in data if isinstance(data, dict) else ():
             if name not in known:
                 told = f"{ascii(name)[:60]}{nearest(name, known)}"
                 raise ShapeError(f"{where}: unknown key {told}")
         own.read(data, where, _Keys(self))
-
-    def input(self, data: Any, where: str) -> None:
-        """Check an input, a covector or a force on a point."""
-        self.identifier(self.at(data, "name", str, where), where)
-        kind = self.at(data, "kind", str, where)
-        self.one_of(kind, ("covector", "force"), f"{where}, kind")
-        if kind == "force":
-            self.point(self.at(data, "on", int, where), where)
-            self.one_of(self.at(data, "frame", str, where), ("space", "body"), f"{where}, frame")
 
     def basis(self, basis: list[Any]) -> None:
         """Check a basis: square matrices of fractions as strings."""
@@ -389,6 +380,23 @@ class _Keys:
         for x in value:
             self.shape.scalar(x, f"{where}, {key}")
         return value
+
+    def points(self, table: Any, key: str, where: str, _: Any) -> Any:
+        """Points or places."""
+        listed = self.shape.at(table, key, list, where)
+        return tuple(self.shape.point(i, where) for i in listed)
+
+    def name(self, table: Any, key: str, where: str, _: Any) -> Any:
+        """As the files of problems have them."""
+        name = self.shape.at(table, key, str, where)
+        self.shape.identifier(name, where)
+        return name
+
+    def frame(self, table: Any, key: str, where: str, _: Any) -> Any:
+        """Space or body."""
+        frame = self.shape.at(table, key, str, where)
+        self.shape.one_of(frame, ("space", "body"), f"{where}, {key}")
+        return frame
 
     def masses(self, table: Any, key: str, where: str, _: Any) -> Any:
         """Of a problem in its principal frame, which is not read."""

@@ -6,11 +6,12 @@ from fractions import Fraction
 
 from ..algebra.groups import Group
 from ..problem.data import data
-from ..problem.problem import ForceInput, Problem
+from ..problem.problem import Problem
 from ..record.record import Step, Symbol, encode
 from ..record.sentence import Prose, Sentence, listed, phrase, say
 from ..record.uses import of_steps
 from ..record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, Name
+from ..schema.outside import ForceInput
 
 
 def problem_data(problem: Problem) -> dict[str, object]:

@@ -14,10 +14,11 @@ from ..algebra.space import fold_inertia, normal_form
 from ..algebra.words import Expr, Letter, inner, number, word
 from ..algebra.written import tree_of
 from ..language.tree import Tree, add, mul
-from ..problem.problem import ForceInput, Problem
+from ..problem.problem import Problem
 from ..record.formulas import stated
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, listed, phrase, say
+from ..schema.outside import ForceInput
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .contraction import AND

@@ -14,6 +14,7 @@ from derive.record.record import to_data
 from derive.record.vocabulary import ANY_GROUP
 from tests.fuzz.hostile import NUMBERS, STRINGS, VALUES
 from tests.problems import PROBLEMS
+from tests.support.kinds import pages
 
 SMALL = """
 name = "small"
@@ -113,7 +114,7 @@ def _value(x):
 def sources():
     """The data of problem files to begin with."""
     texts = [*(PROBLEMS[name] for name in SOURCES), SOLID, GIVEN, small(Random(1), '"k*r1_x"')]
-    return [tomllib.loads(text) for text in texts]
+    return [tomllib.loads(text) for text in [*texts, *pages().values()]]
 
 
 def small(random, U, mass="1.5", at='"k"', g='"k"'):

@@ -6,11 +6,13 @@ from time import process_time
 import numpy as np
 import pytest
 
-from derive import SE, Damping, Gravity, Moments, Points, Problem, Spring
+from derive import SE, Damping, Force, Gravity, Moments, Points, Problem, Solid, Spring
 from derive.command.cli import COMMANDS, main
 from derive.language.values import approximate
+from derive.problem.data import data
 from derive.problem.problem import ProblemError
 from derive.problem.toml import load
+from derive.python.api import Table
 
 HEAD = 'name = "good"\ngroup = "SO(3)"\n'
 POINTS = "".join(f"[[point]]\nmass = 1\nat = {[int(i == j) for j in range(3)]}\n" for i in range(3))
@@ -225,3 +227,55 @@ def test_a_centre_that_is_too_long(tmp_path):
     path.write_text(text)
     with pytest.raises(ProblemError, match="body, given: centre or I_centre is too long"):
         load(path)
+
+
+def table(key, **fields):
+    """One table on three points of SE(3); its message."""
+    return refused("SE(3)", forces=[Table(key, **fields)])
+
+
+FORCE = {"kind": "force", "name": "f"}
+ALMOST = [
+    (("potential", {"kind": "sprng"}), "did you mean 'spring'?"),
+    (("potential", {"kind": "spring", "stifness": 1}), "'stifness'; did you mean 'stiffness'?"),
+    (("input", {"kind": "torque", "name": "f"}), "did you mean 'covector'?"),
+    (("input", {**FORCE, "on": 1, "frame": "world"}), "did you mean 'space'?"),
+    (("input", FORCE), "input 1: key 'on' or 'at' is missing"),
+    (("input", {**FORCE, "on": [1, 2]}), "input 1: key 'on' must be one point"),
+    (("input", {**FORCE, "at": [1, 0, 0], "block": 2}), "SE(3) is no product: there is one block"),
+    (
+        ("damping", {"coefficient": 1, "on": [[1]]}),
+        "damping 1, on: expected an integer from 1",
+    ),
+    (("damping", {"coefficient": 1, "on": []}), "damping 1: key 'on' must be a point or a list"),
+    (("damping", {"coefficient": "t"}), "'t' is known in the 'U' of an expression and the 'E'"),
+]
+
+
+@pytest.mark.parametrize(("given", "told"), ALMOST)
+def test_what_is_almost_right(given, told):
+    key, fields = given
+    assert told in table(key, **fields)
+
+
+@pytest.mark.parametrize("where", [[Solid("sphere", 1, radius=1)], [Table("body", solid="sphere")]])
+def test_a_sphere_is_a_ball(where):
+    with pytest.raises(ProblemError, match="did you mean 'ball'") as caught:
+        Problem("b", "SO(3)", where)
+    key = "solid" if str(caught.value).startswith("body") else "kind"
+    assert f"key {key!r}" in str(caught.value)
+
+
+def test_without_points_a_place_is_asked_for_alone():
+    for force in (Force("f", on=1), Table("input", **FORCE)):
+        with pytest.raises(ProblemError, match="'at'") as caught:
+            Problem("b", "SE(3)", Moments(), [force])
+        assert "'on' or" not in str(caught.value)
+
+
+def test_one_point_or_a_list_of_them():
+    """The same wherever points are named."""
+    for key, fields in (("damping", {"coefficient": 1}), ("input", FORCE)):
+        given = [Table(key, **fields, on=x) for x in (2, [2])]
+        one, listed = (Problem("b", "SE(3)", Points(*PLACES), [x]) for x in given)
+        assert data(one) == data(listed)

@@ -18,11 +18,12 @@ from derive.language import rational as q
 from derive.language.tree import mul
 from derive.problem.mesh import MeshError, mesh_moments, read
 from derive.problem.moments import SolidError
-from derive.problem.solids import KINDS, Solid, moments, rotation_about, together, unit_moments
+from derive.problem.solids import Solid, moments, rotation_about, together, unit_moments
+from derive.schema.solid_kinds import SOLIDS
 from tests.support.needs import needs
 
 needs_trimesh = needs("the module trimesh")
-PLAIN = [kind for kind in KINDS if kind != "mesh"]
+PLAIN = [kind for kind in SOLIDS if kind != "mesh"]
 RHO, A, B, H, M, PHI = (("par", x) for x in ("rho", "a", "b", "h", "m", "phi"))
 COS, SIN = ("fun", "cos", PHI), ("fun", "sin", PHI)
 
@@ -65,7 +66,7 @@ def random_sizes(kind, random):
         return {"vertices": tuple(tuple(size(random) - 2 for _ in "xyz") for _ in range(4))}
     return {
         name: size(random) if shape == () else tuple(size(random) for _ in range(shape[0]))
-        for name, shape in KINDS[kind].items()
+        for name, shape in SOLIDS[kind].items()
     }
 
 

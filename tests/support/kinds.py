@@ -17,14 +17,19 @@ PAGES = Path(__file__).parents[2] / "docs" / "potentials"
 BLOCK = re.compile(r"^```toml\n(.*?)^```$", re.M | re.S)
 
 
+def pages():
+    """The problem files in the pages, by kind and number."""
+    return {
+        f"{page.stem} {k}": text
+        for page in sorted(PAGES.glob("*.md"))
+        for k, text in enumerate(BLOCK.findall(page.read_text(encoding="utf-8")), 1)
+    }
+
+
 @cache
 def examples():
-    """The problems of the pages, by kind and number."""
-    found = {}
-    for page in sorted(PAGES.glob("*.md")):
-        for k, text in enumerate(BLOCK.findall(page.read_text(encoding="utf-8")), 1):
-            found[f"{page.stem} {k}"] = problem_of(tomllib.loads(text))
-    return found
+    """Their problems."""
+    return {name: problem_of(tomllib.loads(text)) for name, text in pages().items()}
 
 
 def cloud(n, rng, count=6):

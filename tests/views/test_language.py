@@ -15,7 +15,6 @@ from derive.paper.printed import PAPER
 from derive.pipeline import walk
 from derive.printing.escape import markdown_text, prose, tex_text
 from derive.problem.problem import MomentBody
-from derive.problem.solids import KINDS
 from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
 from derive.record.record import from_json, to_json
@@ -23,6 +22,7 @@ from derive.record.rules import RULES
 from derive.record.sentence import PLACE, english, phrase, say
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
 from derive.schema.kinds import kinds
+from derive.schema.solid_kinds import SOLIDS
 from derive.views import outline
 from derive.views.language import ENGLISH, LANGUAGES, THIN, WIDE, Language, entries, language
 from derive.views.latex import latex
@@ -156,7 +156,7 @@ def test_every_word_of_the_tables_is_in_the_catalogue():
     words |= {p.remark for p in PAPER if p.remark}
     words |= {outline.CONVENTIONS, outline.FORMULAS_CONVENTIONS, outline.PAPER}
     assert words | titles_and_meanings() <= set(FRENCH.messages)
-    assert set(KINDS) <= strings("walk/body.py")
+    assert set(SOLIDS) <= strings("walk/body.py")
 
 
 ROOMS = ("views", "figure", "walk", "walk/kinds")

@@ -1,10 +1,9 @@
 """Any U of the time and of the places of the points in space."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
-from ..kind import Energy, Potential
+from ..kind import Potential
+from ..table import Energy
 
 
 @dataclass(frozen=True, kw_only=True)

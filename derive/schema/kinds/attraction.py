@@ -1,10 +1,9 @@
 """U = −Σ m_i μ / ‖r_i − centre‖."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
-from ..kind import Masses, Potential, Scalar, Vector
+from ..kind import Potential
+from ..table import Masses, Scalar, Vector
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,10 +1,9 @@
 """The gravity of a far centre, U = −GM(m/R − ⟨n, Ac⟩/R² + (3⟨n, AJĀn⟩ − Tr AJĀ)/2R³), n = T/R."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
-from ..kind import Own, Potential, Scalar, Vector
+from ..kind import Own, Potential
+from ..table import Scalar, Vector
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,10 +1,9 @@
 """U = −Σ q_i ⟨E(t), r_i⟩, a uniform field on charged points."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
-from ..kind import Charges, Potential, Timed
+from ..kind import Potential
+from ..table import Charges, Timed
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,12 +1,11 @@
 """U = −Σ m_i ⟨g, r_i⟩."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ...language.tree import Tree, add
-from ..kind import Potential, Vector
+from ..kind import Potential
+from ..table import Vector
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,12 +1,11 @@
 """U = ½ k (‖s‖ − ℓ)² between two points, or from one to an anchor in space."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..kind import End, Pair, Potential, Scalar, Stiffness, Vector
+from ..kind import Potential
+from ..table import End, Pair, Scalar, Stiffness, Vector
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,10 +1,9 @@
 """U = ½ k Tr(1 − R̄A), a spring that turns the body back to the rotation R."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
-from ..kind import Own, Potential, Rotation, Stiffness
+from ..kind import Own, Potential
+from ..table import Rotation, Stiffness
 
 
 @dataclass(frozen=True, kw_only=True)
