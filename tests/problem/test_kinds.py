@@ -1,18 +1,21 @@
 """Each kind of potential, by the problems of its page in docs/potentials: walked, checked, read."""
 
 import json
+import tomllib
 
 import pytest
 
 from derive import derive
 from derive.pipeline import walk
+from derive.problem.principal import frame_of, principal
 from derive.problem.problem import ProblemError
+from derive.problem.toml import problem_of
 from derive.python.api import SE, Moments, Problem, Table
 from derive.record.record import RecordError, from_json, to_data
 from derive.schema.kinds import kinds
 from derive.views.language import language
 from derive.views.system import system
-from tests.support.kinds import PAGES, examples
+from tests.support.kinds import PAGES, examples, pages
 from tests.support.walks import own_verdicts
 
 
@@ -63,3 +66,27 @@ def test_a_key_that_is_almost_right_is_named(kind):
     wrong = Table("potential", kind=kind, **{key + "s": 1})
     with pytest.raises(ProblemError, match=rf"potential 1: unknown key '{key}s'; did you mean"):
         Problem("b", SE(3), Moments(), [wrong])
+
+
+@pytest.mark.parametrize("name", examples())
+def test_in_the_principal_frame_or_refused(name):
+    problem = examples()[name]
+    refused = [p.unturned for p in problem.potentials if p.unturned]
+    if refused or not frame_of(problem.group):
+        with pytest.raises(
+            ProblemError, match=refused[0] if frame_of(problem.group) else "no prin"
+        ):
+            principal(problem)
+    else:
+        record = walk(principal(problem))
+        assert all(v.holds for v in own_verdicts(record))
+
+
+@pytest.mark.parametrize("kind", [x for x, own in kinds().items() if own.alone])
+def test_one_alone(kind):
+    problem = examples()[f"{kind} 1"]
+    text = pages()[f"{kind} 1"]
+    second = text[text.index("[[potential]]") :]
+    assert len(problem.potentials) == 1
+    with pytest.raises(ProblemError, match=f"potential 2: a second {kind}"):
+        problem_of(tomllib.loads(text + second))
