@@ -29,7 +29,7 @@ _SILENT = {
 _IDENTIFIER = re.compile(r"(?<!\w)(?<!(?<!\.)\.)[^\W\d]\w*")
 """Not after one dot: a member of something is no name by itself, but ``...x`` is."""
 
-ONE: Expression = ("num", Fraction(1))
+ONE = Fraction(1)
 
 
 def identifiers(text: str, language: Language) -> set[str]:
@@ -48,7 +48,7 @@ def hollow(p: Program) -> Program:
     """
     called = sorted({name for f in p.all_functions() for name in f.calls()})
     calls: list[Expression] = [("fun", name, ONE) for name in called]
-    first: Expression = ("add", tuple((1, e) for e in (("abs", ONE), *calls)))
+    first: Expression = ("add", ("abs", ONE), *calls)
 
     def emptied(f: Function) -> Function:
         arrays = {x.array: replace(x, name=NAMELESS) for x in f.loads}
@@ -56,7 +56,7 @@ def hollow(p: Program) -> Program:
             tuple(arrays.values()),
             (Section("", "", (Assignment(NAMELESS, first),)),) * bool(f.sections),
             (ONE,) * len(f.outputs),
-            tuple(Check(ONE, c.scale and ONE) for c in f.checks),
+            tuple(Check(ONE, None if c.scale is None else ONE) for c in f.checks),
         )
 
     return replace(
@@ -101,12 +101,16 @@ def _each(p: Program, change: Any) -> Program:
 
 
 def _renamed(f: Function, new: Mapping[str, str]) -> Function:
-    def expression(e: Any) -> Any:
+    def expression(e: Expression) -> Expression:
+        if isinstance(e, str):
+            return new.get(e, e)
         if not isinstance(e, tuple):
             return e
-        if e[:1] == ("var",):
-            return ("var", new.get(e[1], e[1]))
-        return tuple(map(expression, e))
+        head = 2 if e[0] == "fun" else 1
+        return (*e[:head], *map(expression, e[head:]))
+
+    def check(c: Check) -> Check:
+        return Check(expression(c.value), None if c.scale is None else expression(c.scale))
 
     def section(s: Section) -> Section:
         values = (Assignment(new.get(v.name, v.name), expression(v.expression)) for v in s.values)
@@ -116,6 +120,6 @@ def _renamed(f: Function, new: Mapping[str, str]) -> Function:
         f,
         loads=tuple(replace(x, name=new.get(x.name, x.name)) for x in f.loads),
         sections=tuple(map(section, f.sections)),
-        outputs=expression(f.outputs),
-        checks=tuple(Check(expression(c.value), expression(c.scale)) for c in f.checks),
+        outputs=tuple(map(expression, f.outputs)),
+        checks=tuple(map(check, f.checks)),
     )

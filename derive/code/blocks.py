@@ -12,9 +12,8 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from typing import Any
 
-from .program import Assignment, Function, Load, Section
+from .program import Assignment, Expression, Function, Load, Section, parts
 
 
 @dataclass(frozen=True)
@@ -47,17 +46,15 @@ def blocks(f: Function) -> list[Block]:
     ]
 
 
-def names(e: Any) -> set[str]:
-    """The names that an expression, or each of several, reads."""
-    if not isinstance(e, tuple | list):
-        return set()
-    return {e[1]} if e and e[0] == "var" else {name for part in e for name in names(part)}
+def names(expressions: Iterable[Expression]) -> set[str]:
+    """The names that expressions read."""
+    return {x for e in expressions for x in parts(e) if isinstance(x, str)}
 
 
 def _placed(f: Function) -> list[tuple[Section, list[int]]]:
     """The sections, cut where outputs stand after a value, with these outputs."""
     loaded = {x.name for x in f.loads}
-    read = [names(x) for x in f.outputs]
+    read = [names([x]) for x in f.outputs]
     pending = _equations(f)
     known: set[str] = set()
     seen: set[str] = set()

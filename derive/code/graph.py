@@ -50,6 +50,12 @@ class Node:
 
     __rmul__ = __mul__
 
+    def __rtruediv__(self, other: int | Fraction) -> Node:
+        return self.graph.product([self.graph.of(other), self.graph.recip(self)])
+
+    def __pow__(self, n: int) -> Node:
+        return self.graph.product([self] * n)
+
     @property
     def is_zero(self) -> bool:
         """Is it the number 0?"""

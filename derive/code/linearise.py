@@ -12,10 +12,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 
+from ..language.differentiate import DERIVATIVES
+from ..language.values import value
 from .graph import Graph, Node
 from .state import State
-
-SLOPES: dict[str, str] = {"sin": "cos", "sinh": "cosh", "cosh": "sinh", "exp": "exp"}
 
 
 class Varied:
@@ -23,7 +23,7 @@ class Varied:
 
     def __init__(self, graph: Graph, seeds: Mapping[Node, Node], name: str):
         self.graph, self.name = graph, name
-        self.zero, self.one = graph.num(0), graph.num(1)
+        self.zero = graph.num(0)
         self._done: dict[Node, Node] = dict(seeds)
 
     def of(self, x: Node) -> Node:
@@ -49,7 +49,8 @@ class Varied:
         if x.op == "recip":
             return g.linear([(Fraction(-1), g.product((x, x, inner)))])
         if x.op == "fun":
-            return g.product((self._slope(x.data, x.args[0], x), inner))
+            slope = value(DERIVATIVES[x.data]("x"), {"x": x.args[0]}, None, g.function, g.num)
+            return g.product((slope, inner))
         raise ValueError(f"no derivative of {x.op!r}")
 
     def _factors(self, factors: Sequence[Node]) -> Iterable[Node]:
@@ -57,26 +58,6 @@ class Varied:
             varied = self.of(y)
             if not varied.is_zero:
                 yield self.graph.product([*factors[:k], varied, *factors[k + 1 :]])
-
-    def _slope(self, name: str, x: Node, value: Node) -> Node:
-        """The derivative of an elementary function at x, by its value there."""
-        g = self.graph
-        if name in SLOPES:
-            return value if name == "exp" else g.function(SLOPES[name], x)
-        square = g.product((value, value))
-        if name == "cos":
-            return -g.function("sin", x)
-        if name == "sqrt":
-            return g.linear([(Fraction(1, 2), g.recip(value))])
-        if name == "log":
-            return g.recip(x)
-        if name == "tan":
-            return g.sum((self.one, square))
-        if name == "tanh":
-            return g.sum((self.one, -square))
-        if name == "atan":
-            return g.recip(g.sum((self.one, g.product((x, x)))))
-        raise ValueError(f"no derivative of the function {name!r}")
 
 
 def by_state(space: State, accelerations: list[Node]) -> list[Node]:

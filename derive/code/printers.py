@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
-from .program import Expression, LoweringError
+from .program import Expression, LoweringError, is_negated
 
 SUM, PRODUCT, ATOM = 1, 2, 3
 
@@ -29,35 +30,34 @@ class Printer:
         return self._print(e)[0]
 
     def _print(self, e: Expression) -> tuple[str, int]:
-        if e[0] == "num":
-            text = self.number(e[1])
-            return text, ATOM if e[1] >= 0 and "/" not in text else SUM
-        if e[0] == "var":
-            return e[1], ATOM
-        if e[0] == "fun":
+        if isinstance(e, (int, Fraction)):
+            text = self.number(Fraction(e))
+            return text, ATOM if e >= 0 and "/" not in text else SUM
+        if isinstance(e, str):
+            return e, ATOM
+        op, *operands = e
+        if op == "fun":
             return f"{self.function(e[1])}({self(e[2])})", ATOM
-        if e[0] == "abs":
+        if op == "abs":
             return f"{self.absolute}({self(e[1])})", ATOM
-        if e[0] == "none":
+        if op == "none":
             return self.none.format(self(e[1])), ATOM
-        if e[0] == "add":
-            return self._sum(e[1]), SUM
-        if e[0] == "mul":
-            return "*".join(self._at(x, PRODUCT) for x in e[1]), PRODUCT
+        if op == "add" or is_negated(e):
+            return self._sum(operands if op == "add" else [e]), SUM
+        if op == "mul":
+            return "*".join(self._at(x, PRODUCT) for x in operands), PRODUCT
         return f"{self._at(e[1], PRODUCT)}/{self._at(e[2], ATOM)}", PRODUCT
 
     def _at(self, e: Expression, level: int) -> str:
         text, own = self._print(e)
         return text if own >= level else f"({text})"
 
-    def _sum(self, terms: tuple[tuple[int, Expression], ...]) -> str:
+    def _sum(self, terms: Sequence[Any]) -> str:
         text = ""
-        for sign, term in terms:
-            shown = self._at(term, PRODUCT)
-            if not text:
-                text = shown if sign > 0 else f"-{shown}"
-            else:
-                text += f" {'+' if sign > 0 else '-'} {shown}"
+        for term in terms:
+            sign, size = ("-", term[2]) if is_negated(term) else ("+", term)
+            shown = self._at(size, PRODUCT)
+            text += f" {sign} {shown}" if text else shown if sign == "+" else f"-{shown}"
         return text
 
 

@@ -5,9 +5,9 @@ what is zero, symmetric, skew, constant or equal to another entry is one node of
 and only what is left comes here.  Not supported: branches (a potential with if, min, abs),
 loops, complex numbers, tables, implicit equations, matrices whose size is not a number.
 
-An expression is a tuple ``(operator, operand, …)``: ``num``, ``var``, ``add`` (signed terms),
-``mul``, ``div``, ``abs``, ``none``, ``fun``.  A function loads inputs, computes sections of
-named values and stores outputs.
+An expression is a tree of names and fractions; a term of a sum that is taken away is a product by
+−1, and a sum of one term is in parentheses.  A function loads inputs, computes sections of named
+values and stores outputs.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
+
+from ..language.tree import Tree
 
 from ..language.refused import Refused
 
@@ -26,9 +27,27 @@ class LoweringError(Refused, ValueError):
 
 OPERATIONS = ("mul", "add", "div", "call")
 
-Expression = tuple[Any, ...]
-"""("num", q), ("var", name), ("add", ((sign, e), …)), ("mul", (e, …)), ("div", e, f), ("abs", e),
-("none", e): 1 where e is 0, else 0; ("fun", name, e)"""
+Expression = Tree
+"""A fraction, a name, ("add", e, …), ("mul", e, …), ("mul", −1, e), ("div", e, f),
+("fun", name, e), ("abs", e), and ("none", e): 1 where e is 0, else 0."""
+
+
+def negated(e: Expression) -> Expression:
+    """−e, as a term of a sum or by itself."""
+    return ("mul", -1, e)
+
+
+def is_negated(e: Expression) -> bool:
+    """Is it a product by −1?"""
+    return isinstance(e, tuple) and e[:2] == ("mul", -1)
+
+
+def parts(e: Expression) -> Iterator[Expression]:
+    """An expression and all that it is made of, but for the names of operators and functions."""
+    yield e
+    if isinstance(e, tuple):
+        for x in e[2 if e[0] == "fun" else 1 :]:
+            yield from parts(x)
 
 
 @dataclass(frozen=True)
@@ -80,23 +99,31 @@ class Function:
     titles: Mapping[int, str] = field(default_factory=dict)
     """Number of an output → the equation whose left side begins there."""
 
+    @property
+    def computed(self) -> list[Expression]:
+        """What sections and outputs compute."""
+        return [*(v.expression for s in self.sections for v in s.values), *self.outputs]
+
+    @property
+    def expressions(self) -> list[Expression]:
+        """The same, and what is checked."""
+        checked = (x for c in self.checks for x in (c.value, c.scale))
+        return [*self.computed, *(x for x in checked if x is not None)]
+
     def calls(self) -> set[str]:
         """The elementary functions that it calls."""
-        found: set[str] = set()
-        expressions = [v.expression for s in self.sections for v in s.values]
-        checked = [x for c in self.checks for x in (c.value, c.scale)]
-        for e in (*expressions, *self.outputs, *checked):
-            _collect(e, found)
-        return found
+        inside = (x for e in self.expressions for x in parts(e))
+        return {x[1] for x in inside if isinstance(x, tuple) and x[0] == "fun"}
 
     def operations(self) -> dict[str, int]:
         """Counts of mul, add, div and calls of functions in sections and outputs."""
         total = dict.fromkeys(OPERATIONS, 0)
-        for section in self.sections:
-            for v in section.values:
-                _count(v.expression, total)
-        for e in self.outputs:
-            _count(e, total)
+        for e in self.computed:
+            for x in parts(e):
+                if isinstance(x, tuple) and not is_negated(x):
+                    own = {"fun": "call"}.get(x[0], x[0])
+                    if own in total:
+                        total[own] += 1 if own in ("div", "call") else len(x) - 2
         return total
 
 
@@ -160,41 +187,8 @@ class Program:
     @property
     def asks_for_zero(self) -> bool:
         """Is there an expression ("none", e)?"""
-        return any(isinstance(x, tuple) and x[:1] == ("none",) for x in self._parts())
+        return any(isinstance(x, tuple) and x[0] == "none" for x in self._parts())
 
-    def _parts(self) -> Iterator[Any]:
+    def _parts(self) -> Iterator[Expression]:
         """All that its expressions are made of."""
-        for f in self.all_functions():
-            checked = [x for c in f.checks for x in (c.value, c.scale)]
-            values = [v.expression for s in f.sections for v in s.values]
-            stack: list[Any] = [*checked, *values, *f.outputs]
-            while stack:
-                e = stack.pop()
-                yield e
-                stack.extend(e if isinstance(e, tuple) else ())
-
-
-def _collect(e: Any, found: set[str]) -> None:
-    if isinstance(e, tuple):
-        if e and e[0] == "fun":
-            found.add(e[1])
-        for part in e:
-            _collect(part, found)
-
-
-def _count(e: Expression, total: dict[str, int]) -> None:
-    if e[0] in ("abs", "none", "fun"):
-        total["call"] += e[0] == "fun"
-        _count(e[-1], total)
-    elif e[0] == "add":
-        total["add"] += len(e[1]) - 1
-        for _, x in e[1]:
-            _count(x, total)
-    elif e[0] == "mul":
-        total["mul"] += len(e[1]) - 1
-        for x in e[1]:
-            _count(x, total)
-    elif e[0] == "div":
-        total["div"] += 1
-        _count(e[1], total)
-        _count(e[2], total)
+        return (x for f in self.all_functions() for e in f.expressions for x in parts(e))

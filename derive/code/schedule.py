@@ -14,9 +14,10 @@ from fractions import Fraction
 
 from .graph import PARAMETER, Node
 from .naming import Names, is_sum, suffixed, sum_name
-from .program import Assignment, Check, Expression, Function, Load, Section
+from .program import Assignment, Check, Expression, Function, Load, Section, negated
 from .rewrite import reachable
 
+ONE = Fraction(1)
 Source = tuple[str, int]
 """Array and index of an input."""
 
@@ -141,18 +142,17 @@ class _Builder:
     def expression(self, x: Node) -> Expression:
         """How a node is written where it is used."""
         if x in self.inputs:
-            return ("var", self.inputs[x][0])
-        if x in self.local:
-            return ("var", self.local[x])
-        return self._operation(x)
+            return self.inputs[x][0]
+        return self.local[x] if x in self.local else self._operation(x)
 
     def _operation(self, x: Node) -> Expression:
         if x.op == "num":
-            return ("num", x.data)
+            number: Fraction = x.data
+            return number
         if x.op == "value":
             return self.expression(x.args[0])
         if x.op == "recip":
-            return ("div", ("num", Fraction(1)), self.expression(x.args[0]))
+            return ("div", ONE, self.expression(x.args[0]))
         if x.op == "fun":
             return ("fun", x.data, self.expression(x.args[0]))
         if x.op in ("abs", "none"):
@@ -166,29 +166,28 @@ class _Builder:
     def _product(self, factors: tuple[Node, ...]) -> Expression:
         above = [x for x in factors if x.op != "recip" or x in self.local or x in self.inputs]
         below = [x.args[0] for x in factors if x not in above]
-        top = tuple(self.expression(x) for x in above) or (("num", Fraction(1)),)
-        numerator = top[0] if len(top) == 1 else ("mul", top)
-        if not below:
-            return numerator
-        bottom = tuple(self.expression(x) for x in below)
-        return ("div", numerator, bottom[0] if len(bottom) == 1 else ("mul", bottom))
+        numerator = _times([self.expression(x) for x in above] or [ONE])
+        return (
+            ("div", numerator, _times([self.expression(x) for x in below])) if below else numerator
+        )
 
     def _sum(self, x: Node) -> Expression:
-        terms = []
-        for c, y in zip(x.data, x.args, strict=True):
-            term = self.expression(y)
-            size = abs(c)
-            if size != 1:
-                term = _scaled(size, term)
-            terms.append((1 if c > 0 else -1, term))
-        terms.sort(key=lambda item: -item[0])
-        return ("add", tuple(terms))
+        terms = zip(x.data, map(self.expression, x.args), strict=True)
+        ordered = sorted(terms, key=lambda term: term[0] < 0)
+        return ("add", *(_term(c, e) for c, e in ordered))
 
 
-def _scaled(c: Fraction, e: Expression) -> Expression:
-    if e == ("num", Fraction(1)):
-        return ("num", c)
-    return ("mul", (("num", c), *(e[1] if e[0] == "mul" else (e,))))
+def _times(factors: list[Expression]) -> Expression:
+    return factors[0] if len(factors) == 1 else ("mul", *factors)
+
+
+def _term(c: Fraction, e: Expression) -> Expression:
+    """c e, as a term of a sum."""
+    size = abs(c)
+    if size != 1:
+        factors = e[1:] if isinstance(e, tuple) and e[0] == "mul" else (e,)
+        e = size if e == ONE else ("mul", size, *factors)
+    return e if c > 0 else negated(e)
 
 
 def _negation(x: Node) -> bool:

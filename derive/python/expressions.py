@@ -73,20 +73,17 @@ def _values(f: Function, arrays: Mapping[str, Sequence[Any]]) -> list[Any]:
 
 
 def _expression(e: Expression, found: Mapping[str, Any]) -> Any:
-    op = e[0]
-    if op == "num":
-        return _number(e[1])
-    if op == "none":  # of a spring: what it is added to is exact without it
+    if isinstance(e, (int, Fraction)):
+        return _number(Fraction(e))
+    if isinstance(e, str):
+        return found[e]
+    if e[0] == "none":  # of a spring: what it is added to is exact without it
         return sympy.Integer(0)
-    if op == "var":
-        return found[e[1]]
-    if op == "add":
-        return sympy.Add(*(sign * _expression(x, found) for sign, x in e[1]))
-    if op == "mul":
-        return sympy.Mul(*(_expression(x, found) for x in e[1]))
-    if op == "div":
-        return _expression(e[1], found) / _expression(e[2], found)
-    return getattr(sympy, "Abs" if op == "abs" else e[1])(_expression(e[-1], found))
+    operands = [_expression(x, found) for x in e[2 if e[0] == "fun" else 1 :]]
+    if e[0] == "div":
+        return operands[0] / operands[1]
+    own = {"add": "Add", "mul": "Mul", "abs": "Abs"}
+    return getattr(sympy, e[1] if e[0] == "fun" else own[e[0]])(*operands)
 
 
 def _number(q: Fraction) -> Any:

@@ -117,7 +117,7 @@ def test_blocks_hold_all_of_a_function_in_a_possible_order(name, options):
     for block in blocks(f):
         known |= {x.name for x in block.loads}
         for value in block.section.values:
-            assert names(value.expression) <= known
+            assert names([value.expression]) <= known
             assert value.name not in known
             known.add(value.name)
         known |= {x.name for x in block.output_loads}
