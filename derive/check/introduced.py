@@ -11,14 +11,14 @@ from collections.abc import Iterable, Iterator
 
 from ..language.tree import Tree, names
 from ..record.record import Equation, Step
+from .opaque import ELEMENTARY
 
 _FIRST = """
     t π i a b e m U v r F A T E z u f_u X δ δ′ α τ α̇ τ̇ Ż ẇ ζ̇ ṗ ℓ̇ Ũ dŨ ∂ₜŨ
     δΠ δ′Π Π̇ δp_b δ′p_b ṗ_b δℓ_b δ′ℓ_b ℓ̇_b
     ∫ d/dt δA δT δt δα δτ δx δy δZ δw δζ δ′A δ′T δ′t δ′α δ′τ δ′x δ′y δ′Z δ′w δ′ζ
-    sqrt sin cos tan exp log sinh cosh tanh atan
     """
-FIRST = frozenset(_FIRST.split())
+FIRST = frozenset(_FIRST.split()) | ELEMENTARY
 """The names that the walk starts from: the element and its parts, variations, rates of known names,
 indices, functions, what the problem gives."""
 

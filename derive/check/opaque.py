@@ -32,6 +32,9 @@ ALGEBRAIC: dict[str, Callable[[Any, Any], Derivatives]] = {
 }
 """Function → its first three derivatives at x, in x and in y, the value of the function there."""
 
+ELEMENTARY = frozenset((*PARTNERS, *ALGEBRAIC))
+"""The functions that a record has, and emitted code calls."""
+
 
 class ElementaryValues:
     """The elementary functions at one model, ``f(name, x)``: y is drawn once for each function and

@@ -16,9 +16,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from ..language.tree import Tree
-
 from ..language.refused import Refused
+from ..language.tree import Tree
 
 
 class LoweringError(Refused, ValueError):

@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+from ..check.opaque import ELEMENTARY
 from .module import Module
 from .preprocess import preprocessed
 from .terms import (
     DECIMAL,
-    FUNCTIONS,
     Body,
     CodeError,
     Expression,
@@ -279,7 +279,7 @@ class Reader:
         (argument,) = node.args.exprs
         if name == "fabs":
             return ("abs", self._expression(argument))
-        if name not in FUNCTIONS:
+        if name not in ELEMENTARY:
             raise CodeError(f"the function {node.name.name} is not known here")
         return ("fun", name, self._expression(argument))
 

@@ -13,10 +13,10 @@ import re
 from fractions import Fraction
 from typing import Any
 
+from ..check.opaque import ELEMENTARY
 from .module import Module
 from .terms import (
     DECIMAL,
-    FUNCTIONS,
     CodeError,
     Expression,
     Function,
@@ -197,7 +197,7 @@ class Reader:
         if isinstance(f, ast.Name) and f.id == "abs":
             return ("abs", argument)
         name = ast.unparse(f)
-        if name.startswith("xp.") and name[3:] in FUNCTIONS:
+        if name.startswith("xp.") and name[3:] in ELEMENTARY:
             return ("fun", name[3:], argument)
         raise self._unknown(f, f"the function {name[:40]} is not known here")
 

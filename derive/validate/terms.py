@@ -26,9 +26,6 @@ Body = tuple[Statement, ...]
 Elementary = Callable[[str, Any], Any]
 Literal = Callable[[str], Fraction]
 
-FUNCTIONS = frozenset(("sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", "atan"))
-"""The elementary functions that a record may have."""
-
 DECIMAL = re.compile(r"[0-9]{1,40}(\.[0-9]{0,40}(e[+-]?[0-9]{1,3})?|e[+-]?[0-9]{1,3})")
 """The form of a decimal number without sign or suffix."""
 
