@@ -39,6 +39,11 @@ class Laurent:
         return cls({((name, 1),): ONE})
 
     @classmethod
+    def monomial(cls, factors: Iterable[tuple[Tree, int]], q: Fraction = ONE) -> Laurent:
+        """q times powers of symbols, in any order and with repetitions."""
+        return cls({_product((), factors): q})
+
+    @classmethod
     def of(cls, x: Laurent | Fraction | int) -> Laurent:
         """A number as a constant polynomial."""
         return x if isinstance(x, Laurent) else cls({(): Fraction(x)})
@@ -95,7 +100,7 @@ def _gathered(terms: Iterable[tuple[Monomial, Fraction]]) -> Laurent:
     return Laurent(total)
 
 
-def _product(m: Monomial, n: Monomial) -> Monomial:
+def _product(m: Monomial, n: Iterable[tuple[Tree, int]]) -> Monomial:
     exponents = dict(m)
     for symbol, e in n:
         exponents[symbol] = exponents.get(symbol, 0) + e

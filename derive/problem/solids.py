@@ -5,7 +5,7 @@ The integrals are of monomials over a reference shape, exact; the sizes enter by
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
@@ -14,12 +14,11 @@ from pathlib import Path
 from typing import Any
 
 from ..language.expression import LARGEST, SMALLEST
+from ..language.laurent import Laurent, Monomial
 from ..language.limits import EXPONENT
 from ..language.tree import Tree, add, coefficient, mul
 from ..schema.solid_kinds import SOLIDS
 from .moments import Moments, Row, SolidError
-
-Monomial = tuple[tuple[Any, int], ...]  # factors, each a tree that is no product, and powers
 
 SPAN, UNIT, TERMS = range(3), ((1, 0, 0), (0, 1, 0), (0, 0, 1)), 3
 
@@ -77,10 +76,10 @@ def moments(solid: Solid, relations: bool = True) -> Moments:
     s = [_one(x) for x in solid.shift or (0, 0, 0)]
     V, f = _one(own.mass), [_one(x) for x in own.first]
     S = [[_one(x) for x in row] for row in own.second]
-    Rf = [sum((R[i][k] * f[k] for k in SPAN), _Sum()) for i in SPAN]
+    Rf = [sum((R[i][k] * f[k] for k in SPAN), Laurent({})) for i in SPAN]
 
     def second(i: int, j: int) -> Tree:
-        turned = sum((R[i][k] * S[k][h] * R[j][h] for k in SPAN for h in SPAN), _Sum())
+        turned = sum((R[i][k] * S[k][h] * R[j][h] for k in SPAN for h in SPAN), Laurent({}))
         J = density * (turned + Rf[i] * s[j] + s[i] * Rf[j] + V * s[i] * s[j])
         return _tree(_related(J) if relations else J)
 
@@ -110,7 +109,7 @@ def rotation_about(axis: Row, angle: Tree) -> tuple[Row, ...]:
         cos, sin = _one(("fun", "cos", angle)), _one(("fun", "sin", angle))
 
     def entry(i: int, j: int) -> Tree:
-        side = _Sum() if i == j else n[3 - i - j] * (1 if (i - j) % 3 == 1 else -1)
+        side = Laurent({}) if i == j else n[3 - i - j] * (1 if (i - j) % 3 == 1 else -1)
         nn = _related(n[i] * n[j])
         return _flat(cos * UNIT[i][j] + nn + nn * cos * -1 + side * sin)
 
@@ -119,7 +118,7 @@ def rotation_about(axis: Row, angle: Tree) -> tuple[Row, ...]:
 
 # ∫ xᵃ yᵇ zᶜ dV over a reference shape
 
-Integrals = Callable[..., "_Sum"]
+Integrals = Callable[..., Laurent]
 
 
 def _gamma(n: int) -> tuple[Fraction, int]:
@@ -130,14 +129,14 @@ def _gamma(n: int) -> tuple[Fraction, int]:
     return q * Fraction(n - 2, 2), k
 
 
-def _ball(*exponents: int) -> _Sum:
+def _ball(*exponents: int) -> Laurent:
     """Π Γ((aᵢ + 1)/2) / Γ(1 + Σ (aᵢ + 1)/2) over the unit ball of any dimension (Dirichlet)."""
     if any(a % 2 for a in exponents):
-        return _Sum()
+        return Laurent({})
     tops = [_gamma(a + 1) for a in exponents]
     q, k = _gamma(2 + sum(exponents) + len(exponents))
     power = (sum(x for _, x in tops) - k) // 2
-    return _monomial([("π", power)], prod((x for x, _ in tops), start=Fraction(1)) / q)
+    return Laurent.monomial([("π", power)], prod((x for x, _ in tops), start=Fraction(1)) / q)
 
 
 def _simplex(*a: int) -> Fraction:
@@ -164,7 +163,7 @@ def _centred(kind: str, sizes: Mapping[str, Any]) -> Integrals:
     reference, names = SHAPES[kind]
     scales = [sizes[name] for name in names] if len(names) == 3 else sizes[names[0]]
 
-    def integral(*axes: int) -> _Sum:
+    def integral(*axes: int) -> Laurent:
         powers = [axes.count(i) for i in SPAN]
         stretch = (("pow", s, a + 1) for s, a in zip(scales, powers, strict=True))
         return reference(*powers) * _one(("mul", *stretch))
@@ -180,40 +179,21 @@ def _corners(vertices: Sequence[Row]) -> Integrals:
     """
     p = [[_one(x) for x in vertex] for vertex in vertices]
     x, y, z = ([v[i] + p[0][i] * -1 for i in SPAN] for v in p[1:])
-    D = sum((x[i] * y[(i + s) % 3] * z[(i - s) % 3] * s for i in SPAN for s in (1, -1)), _Sum())
-    D = D * -1 if all(q < 0 for q in D.values()) else D
+    signed = (x[i] * y[(i + s) % 3] * z[(i - s) % 3] * s for i in SPAN for s in (1, -1))
+    D = sum(signed, Laurent({}))
+    D = D * -1 if all(q < 0 for q in D.terms.values()) else D
     volume = _one(_tree(D))
 
-    def integral(*axes: int) -> _Sum:
+    def integral(*axes: int) -> Laurent:
         corners = product(range(4), repeat=len(axes))
         weights = ((c, _one(_simplex(*map(c.count, range(4))))) for c in corners)
         terms = (prod((p[k][i] for k, i in zip(c, axes, strict=True)), start=w) for c, w in weights)
-        return volume * _one(_tree(sum(terms, _Sum())))
+        return volume * _one(_tree(sum(terms, Laurent({}))))
 
     return integral
 
 
-class _Sum(dict[Monomial, Fraction]):
-    """monomial → coefficient; a monomial is the powers of its factors, in a fixed order."""
-
-    def __add__(self, other: _Sum) -> _Sum:
-        both = ((m, self.get(m, Fraction(0)) + other.get(m, Fraction(0))) for m in self | other)
-        return _Sum({m: q for m, q in both if q})
-
-    def __mul__(self, other: _Sum | Fraction | int) -> _Sum:
-        right = other if isinstance(other, _Sum) else _one(other)
-        terms = product(self.items(), right.items())
-        return sum((_monomial((*m, *n), x * y) for (m, x), (n, y) in terms), _Sum())
-
-
-def _monomial(factors: Iterable[tuple[Any, int]], q: Fraction) -> _Sum:
-    powers: dict[Any, int] = {}
-    for atom, k in factors:
-        powers[atom] = powers.get(atom, 0) + k
-    return _Sum({tuple(sorted(((a, k) for a, k in powers.items() if k), key=repr)): q} if q else {})
-
-
-def _one(tree: Tree) -> _Sum:
+def _one(tree: Tree) -> Laurent:
     """Products, quotients and powers taken apart; a sum within them remains one factor."""
     factors: list[tuple[Any, int]] = []
     q, stack = Fraction(1), [(tree, 1)]
@@ -232,42 +212,44 @@ def _one(tree: Tree) -> _Sum:
                 stack.append((a, k * n))
             case _:
                 factors.append((t, k))
-    return _monomial(factors, q)
+    return Laurent.monomial(factors, q)
 
 
-def _terms(tree: Tree, most: int | None = None) -> _Sum:
+def _terms(tree: Tree, most: int | None = None) -> Laurent:
     """A sum term by term, if there are not more of them than ``most``."""
     if isinstance(tree, tuple) and tree[0] == "add" and len(tree) - 1 <= (most or len(tree)):
-        return sum(map(_one, tree[1:]), _Sum())
+        return sum(map(_one, tree[1:]), Laurent({}))
     return _one(tree)
 
 
-def _related(p: _Sum) -> _Sum:
+def _related(p: Laurent) -> Laurent:
     """By (√q)² = q, and cos² + sin² = 1 wherever a term with cos² has its partner."""
-    for m, q in p.items():
-        for atom, _ in (f for f in m if f[1] >= 2 and f[0][0] == "fun"):
-            rest = _monomial((*m, (atom, -2)), q)
-            if atom[1] == "sqrt" and not isinstance(atom[2], (str, tuple)):
-                return _related(p + _Sum({m: -q}) + rest * atom[2])
-            partner = rest * _one(("pow", ("fun", "sin", atom[2]), 2))
-            if atom[1] == "cos" and partner.keys() <= p.keys():
-                return _related(p + _Sum({m: -q}) + rest + partner * -1)
+    squares = ((m, q, atom) for m, q in p.terms.items() for atom, k in m if k >= 2)
+    for m, q, atom in squares:
+        if isinstance(atom, tuple) and atom[0] == "fun":
+            _, name, inside = atom
+            rest = Laurent.monomial((*m, (atom, -2)), q)
+            if name == "sqrt" and not isinstance(inside, (str, tuple)):
+                return _related(p + Laurent({m: -q}) + rest * inside)
+            partner = rest * _one(("pow", ("fun", "sin", inside), 2))
+            if name == "cos" and partner.terms.keys() <= p.terms.keys():
+                return _related(p + Laurent({m: -q}) + rest + partner * -1)
     return p
 
 
-def _flat(p: _Sum) -> Tree:
-    return add(*(_term(m, q) for m, q in p.items()))
+def _flat(p: Laurent) -> Tree:
+    return add(*(_term(m, q) for m, q in p.terms.items()))
 
 
-def _tree(p: _Sum) -> Tree:
+def _tree(p: Laurent) -> Tree:
     """The sum as a tree, what its terms have in common in front."""
-    if len(p) < 2:
+    if len(p.terms) < 2:
         return _flat(p)
-    over, under = ([getattr(q, x) for q in p.values()] for x in ("numerator", "denominator"))
+    over, under = ([getattr(q, x) for q in p.terms.values()] for x in ("numerator", "denominator"))
     content = Fraction(gcd(*over) if over[0] > 0 else -gcd(*over), lcm(*under))
-    columns = {a: [dict(m).get(a, 0) for m in p] for a, _ in next(iter(p))}
+    columns = {a: [dict(m).get(a, 0) for m in p.terms] for a, _ in next(iter(p.terms))}
     common = {a: min(k) if min(k) > 0 else min(max(k), 0) for a, k in columns.items()}
-    inside = p * _monomial(((a, -k) for a, k in common.items()), 1 / content)
+    inside = p * Laurent.monomial(((a, -k) for a, k in common.items()), 1 / content)
     return _term((*((a, k) for a, k in common.items() if k), (_flat(inside), 1)), content)
 
 
@@ -275,7 +257,12 @@ def _term(m: Monomial, q: Fraction) -> Tree:
     """Numbers first, then π, low powers, high powers, sums; all over the negative powers."""
     if not SMALLEST < abs(q) < LARGEST or any(abs(k) > EXPONENT for _, k in m):
         raise SolidError(f"the moments need a power above {EXPONENT} or a number beyond 1e±300")
-    ordered = sorted(m, key=lambda f: (f[0] != "π", f[0][0] == "add", f[1], repr(f[0])))
+
+    def place(factor: tuple[Tree, int]) -> tuple[bool, bool, int, str]:
+        t, k = factor
+        return t != "π", isinstance(t, tuple) and t[0] == "add", k, repr(t)
+
+    ordered = sorted(m, key=place)
     top, bottom = (
         mul(x, *(a if k == s else ("pow", a, s * k) for a, k in ordered if s * k > 0))
         for s, x in ((1, q), (-1, 1))
