@@ -76,12 +76,15 @@ def checked(args: argparse.Namespace, derive: Callable[..., tuple[Problem, Deriv
     right = True
     for e, now in emissions(args, p, own.values()):
         compiled, files = made(p, record, now)
-        chosen = planned(args.lang or now.languages, now.prefix, now.options.form)
+        places = planned(now.languages, now.prefix, now.options.form)
+        chosen = {
+            x for x, (name, _) in places.items() if name in covered(args.lang or now.languages)
+        }
         files = {x: text for x, text in files.items() if x in chosen and own.get(x, e) == e}
         command = ["derive", "emit", args.problem, "--out", str(folder)]
         full = f"run: {shlex.join(command)} {' '.join(now.words)}"
         remedy = REMEDY if now == wanted(args, p) else full
-        old = stale(files, folder, included(now.languages), remedy)
+        old = stale(files, folder, included(args.lang or now.languages), remedy)
         for path, how in old.items():
             print(f"{path}: {how}")
         right = right and not old
@@ -106,15 +109,20 @@ def statements(folder: Path) -> dict[str, Emission]:
     return found
 
 
+def covered(names: Collection[str]) -> set[str]:
+    """Some languages, and those whose files theirs include."""
+    return {*names, *(LANGUAGES[x].needs for x in names)}
+
+
 def emissions(
     args: argparse.Namespace, p: Problem, stated: Collection[Emission]
 ) -> Iterator[tuple[Emission, Emission]]:
     """Each emission that files state, and what it is now; then what no file states."""
     known = [*dict.fromkeys(stated)]
     for e in known:
-        if not args.lang or {*args.lang} & {*e.languages}:
+        if not args.lang or {*args.lang} & covered(e.languages):
             yield e, replace(e, options=options(args, e.options), allowed=allowances(p))
-    left = [x for x in languages(args) if not any(x in e.languages for e in known)]
+    left = [x for x in languages(args) if not any(x in covered(e.languages) for e in known)]
     if left and (args.lang or not known):
         base = known[0].options if known else None
         prefix = args.prefix or (known[0].prefix if known else p.name)

@@ -108,6 +108,20 @@ def test_a_language_that_is_asked_for_is_missed(tmp_path, capsys):
     assert check(tmp_path, "--prefix", "boat") == 1
 
 
+@pytest.mark.parametrize("lang", ["c", "cpp", "python"])
+def test_one_language_of_several_is_held_to_the_same(lang, tmp_path, capsys):
+    """Also C that is there because C++ includes it, and a form that a language does not know."""
+    emitted(tmp_path, "--lang", "cpp", "--lang", "python", "--form", "header")
+    assert check(tmp_path, "--lang", lang) == 0
+    for path in tmp_path.iterdir():
+        path.write_text(path.read_text() + " ")
+    capsys.readouterr()
+    assert check(tmp_path, "--lang", lang) == 1
+    said = capsys.readouterr().out
+    assert ("so3.py" in said) == (lang == "python")
+    assert ("so3.h:" in said) == (lang != "python")
+
+
 def test_a_check_of_an_empty_folder(tmp_path, capsys):
     assert check(tmp_path / "none") == 1
     assert capsys.readouterr().out.count("missing") == 3
