@@ -43,8 +43,7 @@ class Group:
 
     @cached_property
     def stated(self) -> Group:
-        """The same group in the basis that the user states: its coordinates are those of the
-        state."""
+        """The same group in the basis that the user states, the coordinates of the state."""
         return replace(self, basis=self.given, given=()) if self.given else self
 
     @property
@@ -182,7 +181,8 @@ class Group:
         return [(c, k // s, k % s) for k, c in enumerate(self._coordinate_rows[a]) if c]
 
     def nearest(self, z: Matrix) -> tuple[Any, ...]:
-        """The coordinates that the readers find in any matrix: those of Z when Z is in 𝔤."""
+        """The coordinates that the coordinate rows find in any matrix: those of Z when Z is in
+        𝔤."""
         flat = q.flatten(z)
         return tuple(
             sum((c * x for c, x in zip(row, flat, strict=True) if c), Fraction(0))

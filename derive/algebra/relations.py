@@ -1,4 +1,4 @@
-"""What keeps the matrices of a group, read off its Lie algebra: polynomial relations as data.
+"""The polynomial relations that keep the matrices of a group, read off its Lie algebra, as data.
 
 Three kinds, each sought only where those before it leave too much:
 

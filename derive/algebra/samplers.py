@@ -1,5 +1,4 @@
-"""Samplers of groups: exact rational elements for checking, polynomials or quotients of what is
-drawn.
+"""Samplers of groups: exact rational elements, whose entries are polynomials or quotients.
 
 A sampler takes what draws integers, and their range: a :class:`random.Random`, or anything else
 with its ``randint``, whose numbers need be no integers but of some ring over Q.

@@ -1,5 +1,4 @@
-"""The hypotheses under which the equations of a step hold, read off the step: they say at which
-points of the evolution space an equation is to be tried."""
+"""The hypotheses of a step, read equation by equation: at which points it is to be tried."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""The well-formedness of equations: every head is one of the vocabulary, its arguments are of the
-kinds that it takes, every index is a letter of indices.
+"""The well-formedness of equations: known heads, arguments of their kinds, letters of indices.
 
 What stands around a head, or beside its arguments, has no value of its own: it is judged here, by
 the tables of :mod:`derive.check.heads`, before anything is evaluated.
@@ -32,8 +31,7 @@ SHOWN = 40
 
 
 def first_fault(t: Tree, *, affine: bool, inside: str = "") -> str:
-    """What is wrong with the first ill-formed head, argument or index of a tree, in words; "" if
-    none.
+    """The first ill-formed head, argument or index of a tree, in words; "" if there is none.
 
     ``affine``: does the group translate? ``inside``: the operator of which the tree is an operand.
     """
@@ -112,8 +110,7 @@ def _indices(t: tuple[Any, ...]) -> Iterator[str]:
 
 
 def _call_fault(head: Tree, arguments: tuple[Tree, ...], affine: bool) -> str:
-    """What is wrong with a call: an unknown head, too many or few arguments, or one of another
-    kind."""
+    """What is wrong with a call: its head, how many arguments, or the kind of one."""
     kinds = _kinds_of(head)
     if kinds is None:
         return f"no function is called {_shortened(head)}"

@@ -180,8 +180,7 @@ class Checker(TrialPoints):
                 raise RefusedError(Verdict(step.label, False, reason, 1.0))
 
     def missing_hypothesis(self, g: Group, step: Step) -> str:
-        """A hypothesis that the equations of a step need and it does not make, in words; "" if
-        none."""
+        """A hypothesis that the equations of a step need and it does not make; "" if none."""
         model, env = self.point(g, step)
         return missing_hypothesis(step, self.problem, env, model)
 
@@ -199,8 +198,7 @@ class Checker(TrialPoints):
         return false_hypothesis(step, self.problem, env, model, ordered)
 
     def symbols(self, d: Derivation) -> Verdict:
-        """The verdict on the symbols of a record: types, roles, defining equations, and no
-        others."""
+        """The verdict on the symbols of a record: types, roles, defining equations, no others."""
         label = f"{d.name}.symbols"
         try:
             groups = {g.name: g for s in d.steps for g in self.groups(s.scope, driven=s.driven)}
@@ -230,8 +228,7 @@ def refusal(step: Step, equation: Equation, reason: str, where: str = "") -> Ver
 
 
 def bit_count(t: Tree) -> int:
-    """About how many bits the numbers written in a tree have together, its powers multiplied
-    out."""
+    """About how many bits the numbers written in a tree have, its powers multiplied out."""
     if isinstance(t, (int, Fraction)):
         return abs(t.numerator).bit_length() + t.denominator.bit_length()
     if not isinstance(t, tuple):
@@ -242,8 +239,7 @@ def bit_count(t: Tree) -> int:
 
 
 def ill_formed(equation: Equation, at: Assumed, *, affine: bool) -> str:
-    """What is wrong with a head, argument, index or quantifier of an equation, in words; "" if
-    nothing is."""
+    """What is wrong with a head, argument, index or quantifier of an equation; "" if nothing is."""
     both = (calls.first_fault(x, affine=affine) for x in (equation.lhs, equation.rhs))
     return next(filter(None, both), "") or calls.quantifier_fault(equation, at)
 

@@ -1,5 +1,4 @@
-"""Numbers of which only the degree is known: a model drawn in them gives the Schwartz–Zippel degree
-of a claim.
+"""Numbers of which only the degree is known, for the Schwartz–Zippel degree of a claim.
 
 Such a number stands for a rational function of all that is drawn: a numerator, over powers of a few
 named polynomials. Dividing by a number names it; sums go over the least common denominator. What is
@@ -71,8 +70,7 @@ def _times_powers(g: Grade, powers: Iterable[tuple[Factor, int]]) -> Grade:
 
 @lru_cache(MEMO)
 def _degree(num: Grade, den: Powers) -> Degree:
-    """The one Degree object of this value: equal degrees are identical, so that they are cheap to
-    compare."""
+    """The Degree of this value, one object for all that are equal: they are cheap to compare."""
     return Degree(num, den)
 
 
@@ -107,7 +105,7 @@ _number = count(1)
 
 
 def _factor(g: Grade) -> Factor:
-    """Another polynomial of this grade."""
+    """A new named polynomial of this grade."""
     return next(_number), g
 
 

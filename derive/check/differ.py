@@ -1,4 +1,4 @@
-"""The two sides of an equation at a point: do they differ, and how large is what is claimed?"""
+"""The two sides of an equation at a point: how they differ, and of what degree the claim is."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""The momenta Π and p_b in 𝔤*, their variations and rates, and the force Φ, as sums over the
-points; in space ℓ and p.
+"""The momenta Π, p_b, their variations and rates, and the force Φ, as sums over the points.
 
-ℓ_b is the skew part of Π, twice, or its axis for the rotations of space.
+ℓ_b is the skew part of Π, twice, or its axis for the rotations of space; ℓ and p are momenta in
+space.
 """
 
 from __future__ import annotations

@@ -1,5 +1,4 @@
-"""The group of a record's problem, rebuilt from its name or basis, and compared with what the
-record says of it."""
+"""The group of a record's problem, rebuilt from its name or basis, as the record must state it."""
 
 from __future__ import annotations
 

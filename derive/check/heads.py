@@ -1,5 +1,4 @@
-"""The heads of calls as data: which functions there are, which arguments each takes, what each
-index counts.
+"""The heads of calls as data: the functions, their arguments, and what each index counts.
 
 A head is a name of these tables and nothing else: no product, power, bar or sign of one.
 """

@@ -1,5 +1,4 @@
-"""A continuous body represented by its point masses: integrals over it, and functions of a place in
-it."""
+"""A continuous body at its point masses: integrals over it, and functions of a place in it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every name of a record is introduced, said what it is, before or where it is used.
+"""The introduction of names: every name of a record is said what it is, before it is used.
 
 A name is introduced where it stands alone on one side of an equation, as in Z = j(ζ), or is the one
 unknown of a pairing or a sum: Z = Σ ζ_a E_a, Tr N j(Ω′)‾ = ⟨μ, Ω′⟩, Tr j(ζ) J j(Ω)‾ = ⟨ζ, Ω⟩_I;

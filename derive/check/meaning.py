@@ -1,5 +1,4 @@
-"""The meanings of the names: from a model, one random exact point, to the environment in which
-every name of the vocabulary has the value that it means there."""
+"""The meanings of names: from a model, one exact point, to the values of all names there."""
 
 from __future__ import annotations
 

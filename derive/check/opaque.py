@@ -1,9 +1,8 @@
-"""Elementary functions in exact arithmetic: a random value at each argument, and derivatives by the
-rules of calculus.
+"""Elementary functions in exact arithmetic: a random value at each argument.
 
 √x, sin x and the rest are no rational numbers. A claim in which they occur is put to the test with
-an independent random value y for each function at each argument, and derivatives such as (√x)′ =
-1/(2y): what holds for every y holds for the true one.
+an independent random value y for each function at each argument, and derivatives by the rules of
+calculus, as (√x)′ = 1/(2y): what holds for every y holds for the true one.
 """
 
 from __future__ import annotations

@@ -1,5 +1,4 @@
-"""The groups on which a claim about any group is tried, and for how many n it must hold to hold for
-all.
+"""The groups on which a claim about any group is tried, and how many n are enough.
 
 Both sides of such a claim are sums of contractions: traces of words, pairings. On GL(n), where the
 letters are free, those with 2m indices are perfect matchings of these, which are independent for n

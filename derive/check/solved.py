@@ -1,5 +1,4 @@
-"""The names of the solved equations: rates along the motion, the multiplier, the mass matrix and
-the loads.
+"""The names of the solved equations: rates, the multiplier, the mass matrix and the loads.
 
 All are sums over the points at the exact position of the model, by d'Alembert's principle.
 """

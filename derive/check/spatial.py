@@ -1,5 +1,4 @@
-"""The names of R³ for rotations: Ω, ζ, φ, μ and the classical tensors of inertia, from the
-points."""
+"""The names of R³ for rotations, Ω, ζ, φ, μ and the tensors of inertia, from the points."""
 
 from __future__ import annotations
 

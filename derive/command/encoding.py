@@ -1,5 +1,4 @@
-"""Standard output in an encoding that lacks letters: they are written as ?, and stderr says so
-once."""
+"""Standard output in an encoding that lacks letters: they become ?, and stderr says so once."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""The progress of a long command: one line on stderr, where that is a terminal, erased at the
-end."""
+"""The progress of a long command: one line on stderr, where that is a terminal."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""The body of a problem in numbers, for a drawing: the record's expressions at the parameters'
-defaults."""
+"""The body of a problem in numbers, for a drawing: expressions at the parameters' defaults."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""One panel of a figure: the part of the body that a factor of the group moves, and its place on
-paper."""
+"""One panel of a figure: the part of the body that one factor of the group moves."""
 
 from __future__ import annotations
 

@@ -1,2 +1,1 @@
-"""The interface from Python: problems built in words, derivations in a notebook, compiled code,
-SymPy."""
+"""The interface from Python: problems in words, derivations in a notebook, compiled code, SymPy."""

@@ -1,5 +1,4 @@
-"""Emitted C as a shared library: compiled with the compiler at hand, loaded once into this
-process."""
+"""Emitted C as a shared library: compiled by the compiler at hand, loaded once."""
 
 from __future__ import annotations
 

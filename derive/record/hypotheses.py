@@ -1,5 +1,4 @@
-"""Hypotheses of steps as data: which number, matrix or form must have which property for a step's
-equations to hold."""
+"""Hypotheses as data: the property that a number, matrix or form must have for a step to hold."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Whether masses of a record's problem may be negative: by its key ``masses``, or by its
-numbers."""
+"""The sign of masses: does a record's problem allow negative ones, by its key or its numbers?"""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""The form of a record's problem, as the checker and the views need it: types of values and
-references alone.
+"""The form of a record's problem: types of values, and references, as its readers need them.
 
 A record is read from strangers; what passes here has a value or is refused by name in the checker,
 and can be drawn.

@@ -1,5 +1,4 @@
-"""A reader of strict JSON, as RFC 8259 has it: without NaN and infinities, and with every key of an
-object once."""
+"""A reader of strict JSON (RFC 8259): no NaN, no infinities, every key of an object once."""
 
 from __future__ import annotations
 

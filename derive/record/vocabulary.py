@@ -70,42 +70,42 @@ class Name(NamedTuple):
 
 
 def name(meaning: str, latex: str, *uses: Use) -> Name:
-    """A name with its uses; without any it is one of the text alone."""
+    """The :class:`Name` of a meaning, with its uses; without any it occurs in sentences alone."""
     return Name(meaning, latex, uses)
 
 
 def letter(type: Type) -> Use:
-    """What the walk starts from; what it is may be said later, as U of a problem."""
+    """The use of a name that the walk starts from; a step may say later what it is, as for U."""
     return Use(type, "letter")
 
 
 def defined(type: Type) -> Use:
-    """What an equation defines."""
+    """The use of a name that an equation defines."""
     return Use(type, "definition")
 
 
 def rate(type: Type) -> Use:
-    """A rate along the motion."""
+    """The use of a name whose value is a rate along the motion."""
     return Use(type, "value on X")
 
 
 def unknown(type: Type) -> Use:
-    """A multiplier."""
+    """The use of a name that exists by a theorem: a multiplier."""
     return Use(type, "unknown")
 
 
 def function(*types: Type) -> Use:
-    """A function: the types of its arguments and of its value."""
+    """The use of a name as a function: the types of its arguments, then that of its value."""
     return Use(("function", *types), "function")
 
 
 def of_X(type: Type) -> Use:
-    """The value of a variation on X."""
+    """The use of a name as the value of a variation on X."""
     return Use(("function", VARIATION, type), "value on X")
 
 
 def family(index: str, type: Type) -> Type:
-    """Members that an index counts."""
+    """The type of a family of members of a type, and what their index counts."""
     return ("family", index, type)
 
 

@@ -1,5 +1,4 @@
-"""The validation of all files of one emission: which of them are read back, and the result for
-each."""
+"""The validation of all files of one emission: which are read back, and with what result."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Exact points of a problem: the state and the other arguments of a call, and what the record says
-of them.
+"""Exact points of a problem: the arguments of a call, and what the record says of the result.
 
 The record's equations of motion and its energy are evaluated as the checker does it, by what their
 names mean for the points of the body; π is the double next to it, as in the code.

@@ -1,5 +1,4 @@
-"""The values of the decimals in emitted code: as they stand, or the exact number of which one is
-the nearest double."""
+"""The values of the decimals in emitted code."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""An emitted file as data, its functions and lists, whatever its language; and a machine that runs
-the functions."""
+"""An emitted file as data, whatever its language, and a machine that runs its functions."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""The tests of ``project`` and ``defect``: they do nothing on the group, and beside it ``project``
-is a Newton step.
+"""The tests of ``project``, a Newton step back to the group, and of ``defect``.
 
 If ``project`` keeps every state of the group, and its derivative there takes any change of a state
 to one that is tangent to the group, then of an error ε it leaves O(ε²). ``defect`` is a sum of

@@ -1,9 +1,8 @@
-"""The requirement that emitted functions are straight-line programs: one rational function
-everywhere.
+"""The requirement that emitted functions are straight-line programs.
 
-A proof at random points needs that; a branch could be one thing at the points that are tried and
-another elsewhere. A size |x| or a comparison may serve the checks of ``constants``, and ``defect``
-is a sum of sizes.
+A proof at random points needs one rational function everywhere; a branch could be one thing at the
+points that are tried and another elsewhere. A size |x| or a comparison may serve the checks of
+``constants``, and ``defect`` is a sum of sizes.
 """
 
 from __future__ import annotations
