@@ -25,8 +25,7 @@ LARGEST_PRODUCT = 12
 
 
 def so_basis(n: int) -> Basis:
-    """The basis of so(n): skew matrices, ordered and signed so that for n = 3 they are j(e₁),
-    j(e₂), j(e₃)."""
+    """The basis of so(n): skew, ordered and signed so that n = 3 has j(e₁), j(e₂), j(e₃)."""
     pairs = [(i, j) for i in range(n) for j in range(i + 1, n)][::-1]
     return tuple(
         q.scaled((-1) ** (i + j), q.minus(q.unit(n, i, j), q.unit(n, j, i))) for i, j in pairs
@@ -34,8 +33,7 @@ def so_basis(n: int) -> Basis:
 
 
 def sl_basis(n: int) -> Basis:
-    """The basis of sl(n): E_ij off the diagonal and E_ii − E_nn on it; ζ is Z row by row, less its
-    last entry."""
+    """The basis of sl(n): E_ij and E_ii − E_nn; ζ is Z row by row, less its last entry."""
     return tuple(
         q.unit(n, i, j) if i != j else q.minus(q.unit(n, i, i), q.unit(n, n - 1, n - 1))
         for i in range(n)
@@ -126,8 +124,7 @@ def sp_sampler(size: int) -> Sampler:
 
 
 def su_sampler(n: int) -> Sampler:
-    """A sampler of SU(n): products of the SU(2) of each pair of axes, where Cayley's transform
-    keeps det = 1."""
+    """A sampler of SU(n), by the SU(2) of pairs of axes, where Cayley's transform keeps det 1."""
     factors = []
     for i in range(n):
         for j in range(i + 1, n):
@@ -231,8 +228,7 @@ def group(name: str) -> Group:
 
 
 def _nearest(name: str) -> str:
-    """The name of the group that is meant by one with other letters or without parentheses; "" if
-    none."""
+    """The group that is meant by a name in other letters or without parentheses; "" if none."""
     families, parts = {x.casefold(): x for x in FAMILIES}, []
     for part in re.split(r"\s*[x×*]\s*", name.strip()):
         match = re.fullmatch(r"([A-Za-z]+)[\s_(\[]*([0-9]{1,3})[\s)\]]*", part)
@@ -244,8 +240,7 @@ def _nearest(name: str) -> str:
 
 
 def product(factors: tuple[Group, ...]) -> Group:
-    """The product of groups, with block diagonal matrices; ``ValueError`` where they are too
-    large."""
+    """The product, of block diagonal matrices; ``ValueError`` where they are too large."""
     size = sum(g.size for g in factors)
     name = " x ".join(g.name for g in factors)
     if size > LARGEST_PRODUCT:
@@ -266,8 +261,7 @@ def on_homogeneous(g: Group) -> Group:
 
 
 def turning_about_a_point() -> Group:
-    """The rotations of R³ about (1, 2, 3): a group of affine maps whose translations are not
-    free."""
+    """The rotations of R³ about (1, 2, 3): affine maps whose translations are not free."""
     place: Matrix = ((Fraction(1),), (Fraction(2),), (Fraction(3),))
     shift: Matrix = (*((*row, x) for row, (x,) in zip(q.identity(3), place, strict=True)), _LAST)
     back: Matrix = (

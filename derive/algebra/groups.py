@@ -101,8 +101,7 @@ class Group:
 
     @cached_property
     def free_translations(self) -> bool:
-        """Is the group H ⋉ Rⁿ, H not trivial, with the basis of 𝔥 first and then e_1, …, e_n of
-        Rⁿ?"""
+        """Is it H ⋉ Rⁿ, H not trivial, with the basis of 𝔥 first and then e_1, …, e_n of Rⁿ?"""
         n = self.n
         if not self.affine or self.dimension <= n:
             return False
@@ -112,8 +111,7 @@ class Group:
 
     @cached_property
     def turns_space(self) -> bool:
-        """Is the Lie algebra so(3) in the basis j(e₁), j(e₂), j(e₃), alone or with all translations
-        of R³?"""
+        """Is 𝔤 so(3) in the basis j(e₁), j(e₂), j(e₃), alone or with all translations of R³?"""
         if self.n != 3 or self.factors:
             return False
         turns = ((2, 1), (0, 2), (1, 0))
@@ -181,8 +179,7 @@ class Group:
         return [(c, k // s, k % s) for k, c in enumerate(self._coordinate_rows[a]) if c]
 
     def nearest(self, z: Matrix) -> tuple[Any, ...]:
-        """The coordinates that the coordinate rows find in any matrix: those of Z when Z is in
-        𝔤."""
+        """The coordinates that the same rows read off any matrix: those of Z when Z is in 𝔤."""
         flat = q.flatten(z)
         return tuple(
             sum((c * x for c, x in zip(row, flat, strict=True) if c), Fraction(0))
@@ -210,8 +207,7 @@ class Group:
 
     @cached_property
     def normal_space(self) -> tuple[Matrix, ...]:
-        """A basis of {Λ : Tr Λ̄ξ = 0 for every ξ in 𝔤}, s × s matrices: the multipliers of the
-        constraint."""
+        """A basis of {Λ : Tr Λ̄ξ = 0 for every ξ in 𝔤}: the multipliers of the constraint."""
         s = self.size
         vectors = q.nullspace(tuple(q.flatten(e) for e in self.basis))
         return tuple(tuple(v[i * s : (i + 1) * s] for i in range(s)) for v in vectors)

@@ -55,8 +55,7 @@ class Relations:
 
 @cache
 def relations(g: Group) -> Relations:
-    """The relations of one group, which is no product; those of a product are the relations of its
-    factors."""
+    """The relations of one group; for a product, ask for those of its factors."""
     n, linear = g.n, [e for e in map(g.linear_part, g.basis) if any(map(any, e))]
     conformal = any(q.trace(e) for e in linear)
     hull = left = _associative_hull(g)
@@ -92,8 +91,7 @@ class _Span:
         self.rows: dict[int, dict[int, Fraction]] = {}
 
     def rest(self, v: Iterable[Fraction]) -> dict[int, Fraction]:
-        """The rest of a vector after elimination by the rows, sparse; empty where the vector is in
-        the space."""
+        """What is left of a vector, sparse, when its first entries are eliminated."""
         rest = {i: x for i, x in enumerate(v) if x}
         while rest and (first := min(rest)) in self.rows:
             lead = rest[first]
@@ -208,8 +206,7 @@ def _traceless(e: Matrix) -> Matrix:
 
 
 def _variation(S: Matrix, e: Matrix, conformal: bool) -> Vector:
-    """The change ēS + Se of the form S along e, row by row; ``conformal``: along the traceless part
-    of e."""
+    """ēS + Se, the change of the form S along e, or along its traceless part (``conformal``)."""
     e = _traceless(e) if conformal else e
     return q.flatten(q.plus(_product(q.transposed(e), S), _product(S, e)))
 
@@ -238,8 +235,7 @@ def _unit(n: int, i: int, j: int, sign: int) -> Vector:
 
 
 def _candidates(space: Sequence[Vector], n: int) -> Iterable[Matrix]:
-    """Matrices in a linear space of forms, simple ones first: 1 where it is one, the basis, some
-    combinations."""
+    """Matrices in a linear space of forms, simple ones first: 1, the basis, combinations."""
     if not space:
         return
     one = q.identity(n)

@@ -77,8 +77,7 @@ def special_linear(n: int) -> Sampler:
 
 
 def general_linear(n: int) -> Sampler:
-    """A sampler of GL(n): any n × n matrix; singular with probability ≤ n / size, then drawn
-    again."""
+    """A sampler of GL(n): any matrix; singular with probability ≤ n / size, then drawn again."""
 
     def draw(random: Source, size: int) -> Matrix:
         while True:

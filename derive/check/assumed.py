@@ -51,8 +51,7 @@ class Assumed:
 
     @property
     def as_text(self) -> str:
-        """The hypotheses as a text that does not depend on the order of sets: a part of the seed of
-        a point."""
+        """The hypotheses as text, whatever the order of sets: a part of a point's seed."""
         sets = sorted(self.still), sorted(self.along)
         return f"{self.principal} {self.contracted} {sets} {self.coasting} {self.driven}"
 
@@ -83,8 +82,7 @@ def assumed(step: Step, equation: Equation | None = None) -> Assumed:
 
 
 def _part_of_velocity(lhs: Tree, rhs: Tree) -> str:
-    """The part of the velocity of X that lhs = rhs fixes, as δA(X) = α the linear one; "" for any
-    other equation."""
+    """The part of the velocity of X that lhs = rhs fixes, as δA(X) = α; "" for any other."""
     if isinstance(lhs, tuple) and lhs[0] == "call" and lhs[2:] == ("X",):
         return ALONG.get((lhs[1], rhs), "") if isinstance(rhs, str) else ""
     return ""

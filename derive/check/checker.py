@@ -106,8 +106,7 @@ class Checker(TrialPoints):
         return (*found, *(free(action, n) for n in sizes(grade)))
 
     def bound(self, step: Step) -> int:
-        """The Schwartz–Zippel degree of the claims of a step; ``RecordError`` for one that is too
-        large."""
+        """The Schwartz–Zippel degree of a step's claims; ``RecordError`` if it is too large."""
         degrees = [0, *(self.degree(step, e) for e in step.equations)]
         for g in self.groups(step.scope, driven=step.driven):
             env = self.counted(g, step)[1]
@@ -122,8 +121,7 @@ class Checker(TrialPoints):
         return degree + 1
 
     def degree(self, step: Step, equation: Equation) -> int:
-        """The largest degree of an equation on its groups; ``RefusedError`` where it has no
-        value."""
+        """The largest degree of an equation on its groups; ``RefusedError`` if it has none."""
         try:
             groups = self.groups_for(step, equation)
             return max(self.graded(g, step, equation)[0] for g in groups)

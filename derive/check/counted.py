@@ -196,8 +196,7 @@ def indeterminate(slots: int = 2, loops: int = 0) -> Counted:
 
 
 def with_slots(x: Any, slots: int) -> Any:
-    """The number x as an entry of a tensor with ``slots`` indices, where it is a counted one; else
-    as it is."""
+    """A counted number as an entry of a tensor with ``slots`` indices; any other as it is."""
     if not isinstance(x, Counted):
         return x
     top = x.degree.num

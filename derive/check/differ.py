@@ -30,8 +30,7 @@ def index_bindings(t: Tree, env: Environment) -> Iterator[Environment]:
 
 
 def difference(equation: Equation, env: Environment) -> str:
-    """How the two sides of an equation differ, for some value of a free index, in words; "" if they
-    agree."""
+    """How the sides of an equation differ, for some value of a free index; "" if they agree."""
     if equation.lhs == equation.rhs:
         return "both sides are the same tree: it claims nothing"
     try:

@@ -65,8 +65,7 @@ class Draws:
 
     @cached_property
     def expressions(self) -> Environment:
-        """The environment in which the expressions of the problem, in its parameters and π, have
-        values."""
+        """The environment of the problem's own expressions, in its parameters and π."""
         return Environment(
             self.n, {"π": self.pi}, parameters=self.parameters, elementary=self.elementary
         )

@@ -44,8 +44,7 @@ def dual_values(model: Model) -> dict[str, Any]:
 
 
 def _force_on_algebra(model: Model) -> Matrix:
-    """Φ = Σ Ā(m v)(g⁻¹v)‾, from the variation of the metric, and the potential's forces: CfJ, or Σ
-    ĀF r̄."""
+    """Φ = Σ Ā(m v)(g⁻¹v)‾, the variation of the metric, and CfJ or Σ ĀF r̄, the forces."""
     own = _moment_in_body(model, model.g, _momenta(model, model.g, model.Z), model.moved(model.Z))
     if model.group.affine:
         return q.plus(own, _moment_in_body(model, model.g, model.forces, model.points))
@@ -63,8 +62,7 @@ def _momenta(model: Model, g: Matrix, Z: Matrix) -> list[Vector]:
 def _moment_in_body(
     model: Model, g: Matrix, vectors: Sequence[Vector], arms: Sequence[Vector]
 ) -> Matrix:
-    """Σ Āv x̄ over the points, n × k, for a vector v in space and an arm x of k numbers in the
-    body."""
+    """Σ Āv x̄, n × k, over vectors v in space and arms x of k numbers in the body."""
     n = model.n
     total = [[Fraction(0)] * len(arms[0]) for _ in range(n)]
     for v, x in zip(vectors, arms, strict=True):

@@ -155,8 +155,7 @@ def _range(body: Tree, index: str, env: Environment) -> tuple[str, list[int]]:
 
 
 def _spans(t: Tree, index: str, env: Environment) -> Iterator[tuple[str, set[int]]]:
-    """What an index counts, and its values, for each family or entry of a tree in which it
-    stands."""
+    """What an index counts, and its values, for each place of a tree in which it stands."""
     if not isinstance(t, tuple):
         return
     if t[0] == "entry" and index in t[2:]:
@@ -175,8 +174,7 @@ def _spans(t: Tree, index: str, env: Environment) -> Iterator[tuple[str, set[int
 
 
 def free_indices(t: Tree) -> set[str]:
-    """The indices of families and entries in a tree that no sum binds: an equation holds for each
-    of their values."""
+    """The indices in a tree that no sum binds: an equation holds for each of their values."""
     if not isinstance(t, tuple):
         return set()
     if t[0] in ("at", "entry"):

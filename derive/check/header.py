@@ -41,8 +41,7 @@ def group_of(problem: Mapping[str, Any]) -> Group | None:
 
 
 def _named(name: str, basis: tuple[Any, ...]) -> Group:
-    """The group of a known name; ``RecordError`` where it is spelt otherwise or the basis is
-    another one."""
+    """The group of a known name; ``RecordError`` for another spelling or another basis."""
     try:
         named = group(name)
     except ValueError as error:
@@ -55,8 +54,7 @@ def _named(name: str, basis: tuple[Any, ...]) -> Group:
 
 
 def _stated(problem: Mapping[str, Any], name: str, basis: tuple[Any, ...]) -> Group:
-    """The group with the basis that the problem states; ``RecordError`` where that is no basis of a
-    Lie algebra."""
+    """The group of the basis that the problem states; ``RecordError`` where there is none."""
     affine = bool(problem.get("homogeneous")) or problem.get("action") == "affine"
     try:
         found = group_of_basis(name, "affine" if affine else "linear", basis)

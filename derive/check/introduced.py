@@ -44,8 +44,7 @@ def introduced(equation: Equation, known: set[str]) -> set[str]:
 
 
 def unexplained(steps: Iterable[Step]) -> Iterator[str]:
-    """For each step the first name that it uses and neither it nor an earlier one introduces; "" if
-    there is none."""
+    """For each step a name that it uses and that is not introduced by then; "" if there is none."""
     known = set(FIRST)
     for step in steps:
         here = {"λ"} if any("λ" in names(e.rhs) for e in step.given) else set()
@@ -58,8 +57,7 @@ def unexplained(steps: Iterable[Step]) -> Iterator[str]:
 
 
 def _hypothesis_trees(step: Step) -> Iterator[Tree]:
-    """The trees of a step's hypotheses: both sides of what is given, and what properties are
-    supposed of."""
+    """The trees of a step's hypotheses: of what is given, and of what properties are supposed."""
     for e in step.given:
         yield from (e.lhs, e.rhs)
     yield from (x.of for x in step.hypotheses)

@@ -81,8 +81,7 @@ def _translation(model: Model, x: Matrix) -> Matrix:
 
 
 def _parts(model: Model, linear: str, vector: str, x: Matrix) -> Values:
-    """A matrix of the group's size under two names: its linear part and, for an affine group, its
-    translation."""
+    """The linear part of a matrix and, in an affine group, its translation, by these names."""
     values: Values = {linear: _linear(model, x)}
     if model.group.affine:
         values[vector] = _translation(model, x)
@@ -103,8 +102,7 @@ def _bodies(model: Model) -> Values:
 
 
 def _group(model: Model) -> Values:
-    """The values of g and ν, of their variations δ and δ′ in space, and of those carried to the
-    identity by g⁻¹."""
+    """The values of g and ν, and of their variations in space and at the identity."""
     _, g, Z = model.family(model.first, model.second)
     nu = q.times(g, Z)
     values = _parts(model, "A", "T", model.g) | _parts(model, "α", "τ", part(nu, 0))
@@ -127,7 +125,7 @@ def _group(model: Model) -> Values:
 
 
 def _forces(model: Model) -> Values:
-    """The forces of the potential and their moments: F, N = Σ F r̄ in space, and F_b, N_b in the
+    """The potential's forces and their moments: F, N = Σ F r̄ in space, and F_b, N_b in the
     body."""
     pairs = list(zip(model.forces, model.points, strict=True))
     span = range(model.n)
@@ -139,8 +137,7 @@ def _forces(model: Model) -> Values:
 
 
 def _gradients(model: Model) -> Values:
-    """f and F̃ = A f, the forces on the group, found by solving with the metric; only for linear
-    actions."""
+    """f and F̃ = A f, found by solving with the metric; for linear actions only."""
     if model.group.affine:
         return {}
     return {"f": model.gradient, "F̃": q.times(model.g, model.gradient)}
@@ -156,8 +153,7 @@ def _energies(model: Model) -> Values:
 
 
 def _motion(model: Model) -> Values:
-    """The rates along the motion, coordinates and inputs, and the letters of the solved
-    equations."""
+    """The rates along the motion, the coordinates, the inputs, and the solved equations."""
     Z, Z_dot = model.Z, model.acceleration
     acceleration = q.times(model.g, q.plus(Z_dot, q.times(Z, Z)))
     values = _parts(model, "Ż", "ẇ", Z_dot)
@@ -175,8 +171,7 @@ def _motion(model: Model) -> Values:
 
 
 def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
-    """The members of indexed families by their indices, m and forces divided among the copies of a
-    point."""
+    """The members of families by indices; copies of a point share its mass and force."""
     nu = q.times(model.g, model.Z)
 
     def column(r: Any) -> Matrix:
@@ -273,8 +268,7 @@ def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
 
 
 def _rotation_vector(model: Model, xi: Matrix) -> Matrix:
-    """Ω with ξ = j(Ω), a vector of R³; ``EvaluationError`` for other groups than rotations of
-    space."""
+    """Ω with ξ = j(Ω); ``EvaluationError`` for groups that are not rotations of space."""
     if not model.group.turns_space:
         raise EvaluationError("Ω is of the rotations of space alone")
     return axial(xi)

@@ -26,8 +26,7 @@ from .points import listed_count
 
 @dataclass(frozen=True)
 class Direction:
-    """A tangent vector of the evolution space: the number δt, and ξ̂ = g⁻¹δg and δẐ in 𝔤
-    (matrices)."""
+    """A tangent vector of the evolution space: δt, and the matrices ξ̂ = g⁻¹δg, δẐ in 𝔤."""
 
     time: Any
     xi: Matrix
@@ -97,8 +96,7 @@ class Model(Body):
         ]
 
     def _without_parts(self, parts: Collection[str], xi: Matrix) -> Matrix:
-        """A random element of 𝔤 of which these parts vanish; ``xi`` itself where the group has no
-        such part."""
+        """A random element of 𝔤 without these parts; ``xi`` where the group has none of them."""
         basis = self.group.basis
         rows = []
         for e in basis:
@@ -114,8 +112,7 @@ class Model(Body):
         return total
 
     def _motion_like(self, along: Collection[str], *, contracted: bool) -> Direction:
-        """X, with δt = 1: its velocity is that of the motion in the parts ``along``, and any in the
-        others."""
+        """X, with δt = 1 and the velocity of the motion in the parts ``along``, any in others."""
         free = self._without_parts(along, self.first.xi if contracted else self.algebra())
         xi = q.plus(self.Z, free) if along else free
         return Direction(Fraction(1), xi, self.algebra())
@@ -123,8 +120,7 @@ class Model(Body):
     # -- potential ----------------------------------------------------------------------------
 
     def potential(self, t: Any, r: list[Vector]) -> Any:
-        """U(t, r): the problem's, or a random polynomial where the walk leaves the potential
-        open."""
+        """U(t, r): the problem's, or a random polynomial where the walk leaves it open."""
         if self.any_potential:
             return self.any_potential.energy(t, r)
         return self.exerted.potential(t, r, self.masses)
@@ -241,8 +237,7 @@ class Model(Body):
 
     @cached_property
     def input(self) -> list[Fraction]:
-        """The coordinates on the basis, the values u(E_a), of the covector of all inputs and
-        damping."""
+        """The values u(E_a) on the basis of the covector of all inputs and damping."""
         found = []
         for u, e in zip(self.covector, self.group.basis, strict=True):
             moved = self.moved(q.times(self.g, e))

@@ -43,8 +43,7 @@ INVERTIBLE = ("A", "C", ("T", "A"))
 
 
 def denominators(t: Tree) -> Iterator[Tree]:
-    """The subtrees by which a tree divides, or that it inverts, but for numbers and the element of
-    the group."""
+    """What a tree divides by, or inverts, but for numbers and the element of the group."""
     if not isinstance(t, tuple):
         return
     yield from (x for x in inverted(t) if x not in INVERTIBLE and not _number(x))
@@ -68,8 +67,7 @@ def states_velocity(equation: Equation) -> bool:
 
 
 def needs_metric(step: Step) -> bool:
-    """Does a step conclude what the velocity of X is, or introduce F̃ by its pairing with all
-    δA?"""
+    """Does a step conclude the velocity of X, or introduce F̃ by its pairing with all δA?"""
     if any(states_velocity(e) and e in step.given for e in step.equations):
         return True
     return any("δA" in e.for_all and "F̃" in {*names(e.lhs)} for e in step.equations)
@@ -228,8 +226,7 @@ def _variation_values(e: Matrix, model: Model, which: int) -> dict[str, Matrix]:
 
 
 def _is_metric(x: Hypothesis, env: Environment, model: Model) -> bool:
-    """Does the hypothesis say of the metric of the kinetic energy, or of its matrix, that it is not
-    degenerate?"""
+    """Does the hypothesis say that the kinetic metric, or its matrix, is not degenerate?"""
     if x.property == "invertible":
         return all(value == model.metric for value in values(x.of, env))
     return x.property == "nondegenerate"

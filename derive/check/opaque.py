@@ -36,8 +36,7 @@ ELEMENTARY = frozenset((*PARTNERS, *ALGEBRAIC))
 
 
 class ElementaryValues:
-    """The elementary functions at one model, ``f(name, x)``: y is drawn once for each function and
-    argument."""
+    """The elementary functions at one model, f(name, x): y is drawn once for each argument."""
 
     def __init__(self, draw: Callable[[], Any]):
         self.draw = draw
@@ -60,8 +59,7 @@ class ElementaryValues:
         return max((x.degree.total_degree for x in self.counted), default=0)
 
     def derivatives(self, name: str, x: Any) -> Derivatives:
-        """The first three derivatives of a function at x; ``EvaluationError`` for an unknown
-        one."""
+        """The first three derivatives of a function at x; ``EvaluationError`` if unknown."""
         y = self.value(name, x)
         if name in PARTNERS:
             z = self.value(PARTNERS[name], x)

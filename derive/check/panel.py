@@ -31,8 +31,7 @@ def triangular() -> Group:
 
 
 def triangular_affine() -> Group:
-    """B(2) ⋉ R: upper triangular maps of the plane, with translations along its first axis
-    alone."""
+    """B(2) ⋉ R: upper triangular maps of the plane, and translations along its first axis."""
     basis = [q.unit(3, *at) for at in ((0, 0), (0, 1), (1, 1), (0, 2))]
     return group_of_basis("B(2) ⋉ R", "affine", basis)
 

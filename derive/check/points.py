@@ -39,8 +39,7 @@ def points_of(model: Draws) -> Points:
 
 
 def listed_count(model: Draws) -> int:
-    """How many points the problem lists: they come first, and an equation may name them by
-    number."""
+    """How many points the problem lists: they come first, and have numbers in equations."""
     if model.opaque:
         return 0
     body = model.problem.get("body", {})
@@ -65,8 +64,7 @@ def principal_points(model: Draws) -> Points:
 def _points_with_moments(
     model: Draws, m: Fraction, c: Vector, J: Matrix
 ) -> tuple[list[Fraction], list[Vector]]:
-    """Points with the moments m, c, J, some of them random: no equation may rest on more than these
-    moments."""
+    """Points with the moments m, c, J, some at random: no more is known of them."""
     masses, points = _random_points(model, model.spare)
     more, rest = realising_points(*remaining_moments(masses, points, m, c, J))
     return masses + more, points + rest
@@ -79,8 +77,7 @@ def _random_points(model: Draws, count: int) -> tuple[list[Fraction], list[Vecto
 
 
 def _listed_places(model: Draws, listed: list[Mapping[str, Any]]) -> tuple[list[Vector], list[int]]:
-    """The places that the problem lists, each in the coordinates of its block of a product, and the
-    blocks."""
+    """The places that the problem lists, in the coordinates of a product, and their blocks."""
     places, blocks = [], []
     for data in listed:
         at = tuple(evaluate(decode(x, "at"), model.expressions) for x in data["at"])

@@ -50,8 +50,7 @@ def remaining_moments(
 
 
 def ldl_terms(a: Matrix) -> list[tuple[Any, Vector]]:
-    """A symmetric matrix as Σ d_k l_k l̄_k, in pairs (d_k, l_k); ``ZeroDivisionError`` where a
-    pivot is missing."""
+    """The (d_k, l_k) of a symmetric Σ d_k l_k l̄_k; ``ZeroDivisionError`` without a pivot."""
     found = []
     n = len(a)
     for k in range(n):
@@ -106,8 +105,7 @@ def _value(model: Draws, x: Any) -> Any:
 
 
 def _moments_of_solid(model: Draws, data: Mapping[str, Any]) -> tuple[Fraction, Vector, Matrix]:
-    """The moments m, c, J of one solid in the body's frame: those of its own frame, turned by R and
-    shifted by s."""
+    """The moments m, c, J of one solid: those of its own frame, turned and shifted."""
 
     def value(x: Any) -> Any:
         return _value(model, x)

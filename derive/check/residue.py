@@ -126,8 +126,7 @@ class Residue:
 
 
 class ResidueSource:
-    """A source of residues in the place of a random one: a model drawn from it is computed modulo
-    p."""
+    """A source of residues modulo p in the place of a random one, to draw a model from."""
 
     def __init__(self, random: Random, p: int):
         self.random, self.p = random, p

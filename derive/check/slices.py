@@ -50,8 +50,7 @@ def _fractions(x: Any) -> Any:
 
 
 def _integral(p: Row, ends: Row) -> Fraction:
-    """∫ p dz between two ends, of a polynomial given by its coefficients from the constant one
-    on."""
+    """∫ p dz between two ends, of a polynomial by its coefficients, the constant one first."""
     low, high = ends
     return sum((x * (high**k - low**k) / k for k, x in enumerate(p, 1)), ZERO)
 
@@ -86,8 +85,7 @@ def _cone(radius: Fraction, height: Fraction, pi: Fraction) -> SolidMoments:
 
 
 def _hollow_ball(ends: Row, pi: Fraction) -> SolidMoments:
-    """The moments of a ball with a hole, by shells of area 4π r², on which the mean of x² is
-    r²/3."""
+    """The moments of a hollow ball, by shells of area 4π r² with r²/3 as the mean of x²."""
     volume, square = (_integral((ZERO,) * k + (4 * pi,), ends) for k in (2, 4))
     return volume, (ZERO,) * 3, q.scaled(square / 3, q.identity(3))
 

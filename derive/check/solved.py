@@ -54,8 +54,7 @@ class Solved:
         return found
 
     def moment_in_body(self, vectors: list[Vector]) -> Matrix:
-        """Ā Σ v_i ρ̄_i, the moment in the body of vectors v_i in space at the points, ρ_i the
-        arms."""
+        """Ā Σ v_i ρ̄_i, the moment in the body of vectors v_i in space with the arms ρ_i."""
         span = range(self.model.n)
         pairs = list(zip(vectors, self.arms, strict=True))
         total = tuple(
@@ -64,16 +63,14 @@ class Solved:
         return q.times(q.transposed(self.group.linear_part(self.model.g)), total)
 
     def moment_of_inertia_forces(self, rate: Matrix) -> Matrix:
-        """The moment Ā Σ m_i a_i ρ̄_i of the masses times their accelerations, for g⁻¹g̈ =
-        ``rate``."""
+        """Ā Σ m_i a_i ρ̄_i, the moment of the accelerations for g⁻¹g̈ = ``rate``."""
         moved = self.model.moved(q.times(self.model.g, rate))
         weighted = [tuple(m * x for x in v) for m, v in zip(self.model.masses, moved, strict=True)]
         return self.moment_in_body(weighted)
 
     @cached_property
     def applied_moment(self) -> Matrix:
-        """The moment in the body, about the centre, of the potential's forces and of all inputs and
-        damping."""
+        """The moment in the body, about the centre, of all forces, inputs and damping."""
         forces = zip(self.model.forces, self.model.given_forces, strict=True)
         total = [tuple(x + y for x, y in zip(f, g, strict=True)) for f, g in forces]
         read = self.covector_matrix

@@ -72,8 +72,7 @@ def first_fault(d: Derivation, points: Points) -> str:
 
 
 def judge(steps: Sequence[Step], points: Points) -> Judge:
-    """The :class:`Judge` of the symbols of some steps; ``points``: where the checker tries a
-    step."""
+    """The :class:`Judge` of the symbols of some steps; ``points``: where a step is tried."""
     kinds = {(s.scope, _hypotheses(s)): s for s in steps}
     places = {kind: [*points(step)] for kind, step in kinds.items()}
     return Judge(used(steps), definitions(steps), places)
@@ -136,15 +135,13 @@ class Judge:
         return "" if use.role == role else f"its role is {role!r}, not {use.role!r}"
 
     def uncovered(self, name: str, position: str, uses: Iterable[Use]) -> str:
-        """The first use of a name that none of its declared types covers, in words; "" if there is
-        none."""
+        """The first use of a name that none of its declared types covers; "" if there is none."""
         kept = {x for use in uses for x in self.arguments_of_type((name, position), use.type)}
         over = [x for x in self.seen[name, position].where if x not in kept]
         return f"{show(_call((name, position), over[0]))} has none of its types" if over else ""
 
     def arguments_of_type(self, usage: Usage, type_: Type) -> Iterator[Arguments]:
-        """The tuples of arguments at which a type is that of a name in some position; () for what
-        is no function."""
+        """The arguments for which a type is that of a usage; () for what is no function."""
         return (x for x in self.seen[usage].where if self.fits(usage, type_, x))
 
     def fits(self, usage: Usage, type_: Type, arguments: Arguments) -> bool:
@@ -191,8 +188,7 @@ class Judge:
 
 
 def position_of(type_: Type) -> str:
-    """The position in which a name of a type stands in equations: value, member, function or
-    moved."""
+    """The position of a name of a type in equations: value, member, function or moved."""
     match type_:
         case ("family", _, ("function", *_)):
             return "moved"
@@ -204,8 +200,7 @@ def position_of(type_: Type) -> str:
 
 
 def _role(usage: Usage, type_: Type, key: str) -> str:
-    """The role that the steps give a name in some position; ``key``: of the equation that defines
-    it, or ""."""
+    """The role of a name in some position; ``key``: of the equation that defines it, or ""."""
     name, position = usage
     if position in ("function", "moved"):
         return "value on X" if HEADS.get(name) == (MOTION,) else "function"

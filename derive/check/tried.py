@@ -133,8 +133,7 @@ class TrialPoints:
 
     @property
     def coincidence(self) -> int:
-        """The degree of the event that two different arguments of elementary functions are equal by
-        chance."""
+        """The degree of two different arguments of elementary functions being equal by chance."""
         largest = max((m.elementary.largest for m, _ in self._counted.values()), default=0)
         distinct = max((len(m.elementary.values) for m, _ in self._places.values()), default=0)
         return distinct**2 * largest

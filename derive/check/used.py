@@ -17,8 +17,7 @@ MEMBERS = frozenset(f"{x}_" for x in ("m", "r", "v", "F", "E", "f_u"))
 
 
 def unused(steps: Iterable[Step]) -> Iterator[str]:
-    """For each step a name that an earlier step has, but none of the steps that it uses; "" if
-    there is none."""
+    """For each step a name of earlier steps, but of none that it uses; "" if there is none."""
     mentions: dict[str, set[str]] = {}
     known: set[str] = set()
     for step in steps:
@@ -30,8 +29,7 @@ def unused(steps: Iterable[Step]) -> Iterator[str]:
 
 
 def mentioned(t: Tree) -> Iterator[str]:
-    """The names in a tree but for those that the walk starts from; dϖ counts as ϖ, and a member m_i
-    as ``m_``."""
+    """The names in a tree, without those of the beginning; dϖ counts as ϖ, m_i is ``m_``."""
     if isinstance(t, str):
         if t not in FIRST:
             yield t.removeprefix("d") if t == "dϖ" else t

@@ -47,8 +47,7 @@ Command = Callable[[argparse.Namespace], int]
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser of one command, which itself reports an unknown option, with its own usage and the
-    nearest option."""
+    """A parser of one command, which reports an unknown option with the nearest known one."""
 
     def parse_known_args(  # type: ignore[override]
         self, args: Sequence[str] | None = None, namespace: Any = None
@@ -67,8 +66,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def parser(commands: Mapping[str, Command], about: str | None) -> argparse.ArgumentParser:
-    """The parser of all commands; ``commands``: name → the function that runs it, whose docstring
-    is its help."""
+    """The parser of all commands: name → function, whose docstring is its help."""
     from ..views.language import LANGUAGES
 
     top = Parser(prog="derive", description=about)
@@ -126,8 +124,7 @@ def add_reading_options(walk: argparse.ArgumentParser, notes: argparse.ArgumentP
 
 
 def add_writing_options(emit: argparse.ArgumentParser) -> None:
-    """Add the options of ``emit`` that say where code goes, and what is done instead of writing
-    it."""
+    """Add the options of ``emit``: where code goes, and what is done instead."""
     emit.add_argument("--out", metavar="DIR", help="default: the current directory")
     emit.add_argument("--prefix", metavar="NAME", help="default: the problem's name")
     current = "write nothing; exit 1 if a file on disk is not what would be written, "

@@ -55,8 +55,7 @@ def load_problem(name: str, **allowances: bool) -> Problem:
 
 
 def derive(name: str, **allowances: bool) -> tuple[Problem, Derivation]:
-    """A problem and its record; a warning on stderr for each doubt about it. ``UsageError`` where
-    it has no walk."""
+    """A problem and its record, with warnings of doubts; ``UsageError`` where it has no walk."""
     from ..pipeline import walk
     from ..problem.doubts import doubts
 
@@ -246,8 +245,7 @@ COMMANDS = {
 
 
 def _discard_stdout() -> None:
-    """Drop what stdout still holds, which the interpreter would write at its end, and complain if
-    it could not."""
+    """Drop what stdout holds, which the interpreter would try to write at its end."""
     with suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
@@ -268,8 +266,7 @@ def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command, with messages for all its errors: 0, 1 when a check failed, 2 for bad input,
-    130 after Ctrl-C."""
+    """Run a command: 0, 1 when a check failed, 2 for bad input, 130 after Ctrl-C."""
     from .arguments import parser
 
     if sys.stdout is None:  # closed by who started us

@@ -13,8 +13,7 @@ HANDLER = "derive.lost"
 
 @contextmanager
 def replacing_unencodable() -> Iterator[None]:
-    """A context in which what standard output cannot encode is written as ?; at its end stderr says
-    how many letters."""
+    """A context in which stdout writes ? for letters that it lacks; stderr says so at its end."""
     lost: set[str] = set()
 
     def shown(error: UnicodeError) -> tuple[str, int]:
@@ -41,8 +40,8 @@ def replacing_unencodable() -> Iterator[None]:
 
 
 def as_in_a_file() -> None:
-    """From here on write standard output in UTF-8, as formats that name their encoding need, unless
-    it is a terminal."""
+    """Write stdout in UTF-8 from here on, as formats that name their encoding, but to a
+    terminal."""
     out = sys.stdout
     if isinstance(out, io.TextIOWrapper) and not out.isatty():
         out.reconfigure(encoding="utf-8", errors=out.errors)

@@ -11,8 +11,7 @@ from ..language.limits import MESSAGE
 
 
 class StoppedError(BaseException):
-    """The limit on processor time is reached. Not an ``Exception``, so that nothing on the way
-    catches it."""
+    """The time is over. Not an ``Exception``, so that nothing on the way catches it."""
 
 
 @contextmanager
@@ -43,7 +42,6 @@ def time_limit(seconds: float | None) -> Iterator[None]:
 
 
 def one_line(words: object) -> str:
-    """A message as one line of bounded length that a terminal only prints: it may quote a file, or
-    its name."""
+    """A message, which may quote a file, as one line that a terminal can only print."""
     shown = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in str(words)[: 2 * MESSAGE])
     return shown if len(shown) <= MESSAGE else f"{shown[: MESSAGE - 1]}…"

@@ -148,8 +148,7 @@ def _locked(folders: Iterable[Path]) -> Iterator[None]:
 
 
 def _lock(folder: Path, stack: ExitStack) -> bool:
-    """Lock a folder until ``stack`` is closed; False where it has no locks. ``OSError`` after
-    PATIENCE seconds."""
+    """Lock a folder until ``stack`` is closed, if it has locks; ``OSError`` after PATIENCE."""
     try:
         handle = os.open(folder, os.O_RDONLY)
     except OSError:  # writing will tell

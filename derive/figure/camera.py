@@ -52,8 +52,7 @@ def ranked(
     size: float,
     gravity: Vector,
 ) -> list[View]:
-    """Views, best first: the farther apart the nearest two marks, or a mark and a line, of each
-    body are."""
+    """Views, best first: the farther apart the nearest marks and lines of a body are."""
     axes = upright(gravity)
     thinned = [(_distinct(marks)[:MOST], lines[:MOST]) for marks, lines in bodies]
 

@@ -134,8 +134,7 @@ def zigzag(a: Point, b: Point) -> Iterator[Point]:
 
 
 def support(at: Point, towards: Point) -> list[Stroke]:
-    """The strokes of a hatched support at ``at``, level or upright; what hangs from it lies
-    ``towards``."""
+    """The strokes of a hatched support at ``at``; what hangs from it lies ``towards``."""
     dx, dy = towards[0] - at[0], towards[1] - at[1]
     level = abs(dy) >= abs(dx)
     back = -math.copysign(1.6, dy if level else dx)

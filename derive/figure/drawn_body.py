@@ -23,8 +23,7 @@ MOMENTS = {"m": 1.0, "J_11": 1.0, "J_22": 0.8, "J_33": 0.6}
 
 @dataclass
 class Solid:
-    """A solid with its sizes as numbers: in the body its points are R r + s, R the rotation and s
-    the shift."""
+    """A solid with its sizes as numbers, turned by R and shifted by s: the points R r + s."""
 
     kind: str
     sizes: dict[str, Any]
@@ -51,8 +50,7 @@ class Part:
 
 
 class Numbers:
-    """The numerical values of a problem's expressions, at the defaults of its parameters or sample
-    values."""
+    """The values of a problem's expressions, at defaults of parameters or sample values."""
 
     def __init__(self, problem: Mapping[str, Any]) -> None:
         given = problem["parameters"]
@@ -97,8 +95,7 @@ def _fraction(data: Any) -> float | None:
 
 
 def _sample_value(k: int) -> float:
-    """A sample value between 0.4 and 1.2 for parameter k: multiples of the golden ratio, well
-    apart."""
+    """A number between 0.4 and 1.2 for parameter k: multiples of the golden ratio, well apart."""
     return round(0.4 + 0.8 * (0.618034 * k % 1.0), 3)
 
 

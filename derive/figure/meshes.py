@@ -75,8 +75,7 @@ class Mesh:
         return np.where(inside, s, -1.0)
 
     def curves(self) -> Iterator[Curve]:
-        """The sharp edges, and the contour of what is smooth; hidden ones only when there are
-        few."""
+        """The sharp edges, and the contour of what is smooth; hidden ones only if few."""
         lines = [*self._sharp(), *self._contour()]
         few = sum(map(len, lines)) <= 120
         for line in lines:
@@ -159,8 +158,7 @@ def _chains(at: Mapping[K, Sequence[K]]) -> Iterator[list[K]]:
 
 
 def _simplified(points: Any, faces: Any) -> tuple[Any, Any]:
-    """The mesh with the vertices in each cell of a grid merged, coarser until it has few enough
-    faces."""
+    """The mesh with the vertices in each cell of a grid merged, until its faces are few."""
     low, span = points.min(axis=0), float(np.ptp(points, axis=0).max()) or 1.0
     cells = 40
     while len(faces) > FACES and cells > 4:

@@ -129,8 +129,7 @@ class Panel:
         return points, lines
 
     def centre_of(self, attraction: Mapping[str, Any]) -> tuple[Vector, bool]:
-        """The place at which a centre of attraction is drawn, and whether that is another than its
-        own."""
+        """The place at which a centre of attraction is drawn, and whether it is another."""
         home = self.part.centre or ORIGIN
         centre = self.value.vector(attraction["centre"])
         away = plus(centre, home, -1.0)

@@ -36,8 +36,7 @@ class Wish:
 def placed(
     wishes: Sequence[Wish], strokes: Sequence[Stroke], dots: Sequence[Dot]
 ) -> tuple[Label, ...]:
-    """The labels in order, each at the place of least cost among the lines, dots and earlier
-    labels."""
+    """The labels in order, each at the place of least cost among lines, dots and labels."""
     ink = [(p, WEIGHTS[s.pen]) for s in strokes if WEIGHTS[s.pen] for p in _along(s.points)]
     found: list[Label] = []
     for wish in wishes:
@@ -73,8 +72,7 @@ def _choices(wish: Wish) -> Iterator[Label]:
 
 
 def _distance_cost(label: Label, wish: Wish) -> float:
-    """The cost of a label's distance from what it names, and of another direction than the one
-    wished."""
+    """The cost of a label's distance from what it names, and of an unwished direction."""
     dx, dy = label.at[0] - wish.at[0], label.at[1] - wish.at[1]
     w, h = label.half
     cost = 1.8 * math.hypot(max(0.0, abs(dx) - w), max(0.0, abs(dy) - h))

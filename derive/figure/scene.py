@@ -73,8 +73,7 @@ def _gravity(problem: Mapping[str, Any], value: Numbers) -> Vector:
 
 
 def _choose_view(panels: Sequence[Panel], gravity: Vector, joined: Sequence[Spring]) -> None:
-    """Choose one view for all panels, so that their axes agree, in which springs between panels run
-    free."""
+    """Choose one view for all panels, in which springs between panels run free."""
     space = [p for p in panels if p.part.size > 2]
     size = min((p.size for p in space), default=1.0)
     views = ranked([p.marks() for p in space], size, gravity) if space else [FLAT]
@@ -162,8 +161,7 @@ def _draw_gravity(sheet: Sheet, fall: Point, strength: float) -> None:
 
 
 def _finished(sheet: Sheet, title: str, caption: Prose) -> Scene:
-    """The finished scene: labels placed, all moved into the positive quadrant, at least as wide as
-    a column."""
+    """The scene: labels placed, all in the positive quadrant, as wide as a column at least."""
     labels = placed(sheet.wishes, sheet.strokes, sheet.dots)
     reach = [p for s in sheet.strokes for p in s.points]
     reach += [(d.at[0] + s * d.radius, d.at[1] + s * d.radius) for d in sheet.dots for s in (1, -1)]

@@ -58,8 +58,7 @@ WALLS = {
 
 
 class Shape:
-    """A solid that is no mesh, seen from the direction ``sight``, a vector as long as the figure is
-    large."""
+    """A solid that is no mesh, seen along ``sight``, a vector as long as the figure is large."""
 
     def __init__(self, solid: Solid, sight: Vector) -> None:
         self.kind, self.sizes, self.walls = solid.kind, solid.sizes, WALLS[solid.kind]
@@ -176,8 +175,7 @@ def _affine_map(solid: Solid) -> tuple[list[Vector], Vector]:
 
 
 def _edges(kind: str) -> Iterator[tuple[Vector, Vector]]:
-    """The edges of the reference shape, as pairs of corners that differ in one coordinate, or any
-    two of a simplex."""
+    """The edges of the reference shape of a box or a tetrahedron, as pairs of corners."""
     if kind == "tetrahedron":
         corners = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
         yield from ((a, b) for i, a in enumerate(corners) for b in corners[:i])
@@ -199,8 +197,7 @@ def _circle() -> Iterator[float]:
 
 
 def _roots(q: Wall, u: Vector, w: Vector) -> Iterator[float]:
-    """The s at which u + s w meets a wall: q(u + s w) is a quadratic, known by three of its
-    values."""
+    """The s at which u + s w meets a wall, where q(u + s w), a quadratic in s, vanishes."""
     c, p, m = q(u), q(plus(u, w)), q(plus(u, w, -1.0))
     a, b = (p + m) / 2 - c, (p - m) / 2
     if abs(a) < 1e-12 * (abs(b) + abs(c) + 1e-300):

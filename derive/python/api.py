@@ -111,8 +111,7 @@ class Table:
 
 
 def Points(*points: tuple[Any, ...]) -> list[Table]:
-    """A body of point masses: (mass, place) for each, and in a product the number of the block that
-    moves it."""
+    """A body of points: (mass, place) for each, and in a product the block that moves it."""
     return [Table("point", mass=p[0], at=p[1], block=p[2] if len(p) > 2 else None) for p in points]
 
 
@@ -171,8 +170,7 @@ def Covector(name: str) -> Table:
 
 
 def Force(name: str, on: int | Sequence[Number], frame: str = "space") -> Table:
-    """An input: a force on a point, or at a place of the body, with components in "space" or in the
-    "body"."""
+    """An input: a force on a point, or at a place of the body; its frame is "space" or "body"."""
     where = {"on": on} if isinstance(on, int) else {"at": on}
     return Table("input", kind="force", name=name, frame=frame, **where)
 
@@ -182,8 +180,7 @@ def Damping(
     on: Sequence[int] | None = None,
     at: Sequence[Number] | None = None,
 ) -> Table:
-    """The damping −κ v of points (all of them if none are listed), or of a place of the body; it is
-    outside dϖ."""
+    """The force −κ v on points (all by default), or on a place of the body, outside dϖ."""
     return Table("damping", coefficient=coefficient, on=on, at=at)
 
 

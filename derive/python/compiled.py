@@ -193,8 +193,7 @@ class Compiled:
         return float(self._call_at("energy", ctypes.c_double, t, x, self._in_use().k))
 
     def jacobian(self, t: float, x: Any, u: Any = None) -> tuple[Array, Array]:
-        """dx/dt and the (2d, 2d) matrix D of the linearised equations in the state; see the emitted
-        header."""
+        """dx/dt, and the (2d, 2d) matrix D of the equations linearised in the state."""
         k, dx, D = self._in_use().k, np.zeros(len(self.STATE)), self._zeros()
         self._call_at("jacobian", None, t, x, k, self._inputs(u), dx, D)
         return dx, D
@@ -257,8 +256,7 @@ class Compiled:
         return function(ctypes.c_double(t), *map(_pointer, (state, *arrays)))
 
     def _function(self, what: str, result: Any) -> Any:
-        """A C function of the library; ``ValueError`` says how to ask for it where it is not
-        compiled."""
+        """A C function of the library; ``ValueError`` says how to have it compiled."""
         function = getattr(self._library, f"{self._source.name}_{what}", None)
         if function is None and what.endswith("_frame"):
             raise ValueError("not compiled: ask for it by compile(..., frame='principal')")

@@ -63,8 +63,7 @@ def expressions(program: Program) -> Expressions:
 
 
 def _values(f: Function, arrays: Mapping[str, Sequence[Any]]) -> list[Any]:
-    """The outputs of a function as expressions, given the symbols in the arrays that it loads
-    from."""
+    """The outputs of a function as expressions in the symbols of the arrays that it loads from."""
     found = {x.name: arrays[x.array][x.index] for x in f.loads}
     for section in f.sections:
         for value in section.values:

@@ -22,8 +22,7 @@ class CompileError(RuntimeError):
 
 @dataclass(frozen=True)
 class Source:
-    """The source of a library: files by name, the compiler (``None``: the one at hand) and its
-    flags."""
+    """What is compiled: files by name, the compiler (``None``: the one at hand), its flags."""
 
     name: str
     files: tuple[tuple[str, str], ...]

@@ -34,8 +34,7 @@ def any_sign(problem: Mapping[str, Any]) -> bool:
 
 
 def _of_no_positive_masses(body: Mapping[str, Any]) -> bool:
-    """Are the given moments m, c, J numbers that no positive masses have: is [[J, c], [c̄, m]] not
-    semidefinite?"""
+    """Are the given m, c, J numbers for which [[J, c], [c̄, m]] is not semidefinite?"""
     given = body.get("given", {})
     if not given or body.get("solids"):
         return False
@@ -52,8 +51,7 @@ def _plain_number(x: Any) -> Fraction | None:
 
 
 def _default_value(x: Any, defaults: Mapping[str, float]) -> float | None:
-    """The value of an expression at the defaults of its parameters; ``None`` where one has no
-    default."""
+    """The value of an expression at its parameters' defaults; ``None`` if one has none."""
     try:
         return approximate(decode(x, "problem"), defaults, float)
     except ValueError:

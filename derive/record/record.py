@@ -41,8 +41,7 @@ class RecordError(Refused, ValueError):
 
 
 def equation_key(label: str, place: int) -> str:
-    """The key of an equation in all outputs: the label of its step and its place there,
-    ``so3.kernel.2``."""
+    """The key of an equation in all outputs, by its step and place there: ``so3.kernel.2``."""
     return f"{label}.{place}"
 
 
@@ -133,8 +132,7 @@ class Derivation:
 
     @cached_property
     def remarks(self) -> frozenset[str]:
-        """The labels of the steps that the step ``motion`` does not rest on; none where there is no
-        such step."""
+        """The labels of the steps that ``motion`` does not rest on; none without that step."""
         uses = {s.label: s.uses for s in self.steps}
         left = [f"{self.name}.motion"]
         if left[0] not in uses:
@@ -158,8 +156,7 @@ class Derivation:
 
 
 def encode(t: Tree) -> Any:
-    """A tree as plain data for JSON: names, integers, fractions as strings "p/q", operators as
-    lists."""
+    """A tree as plain data: names, integers, fractions as strings "p/q", operators as lists."""
     if isinstance(t, Fraction):
         return f"{t.numerator}/{t.denominator}"
     return [t[0], *(encode(x) for x in t[1:])] if isinstance(t, tuple) else t
@@ -371,8 +368,7 @@ def _step(data: Any, where: str, earlier: Set[str], group: str) -> Step:
 
 
 def _equations(data: Any, key: str, where: str, *, quantified: bool = True) -> tuple[Equation, ...]:
-    """The equations under a key; ``quantified``: may they have quantifiers, as those of what is
-    given may not?"""
+    """The equations under a key; ``quantified``: may they have quantifiers?"""
     found = []
     for k, item in enumerate(_field(data, key, list, where), 1):
         place = f"{where}, {'equation' if quantified else key} {k}"

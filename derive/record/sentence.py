@@ -40,8 +40,7 @@ def filled(message: str, places: Mapping[str, str]) -> str:
 
 
 def phrase(message: str, **places: Sentence | str) -> Sentence:
-    """A sentence from its message and the values of its places; also a part of one that stands in
-    another's place."""
+    """A sentence, or a part of one to stand in a place, from a message and its places' values."""
     return Sentence(message, tuple(places.items()))
 
 
@@ -51,8 +50,7 @@ def say(message: str, **places: Sentence | str) -> Prose:
 
 
 def listed(message: str, items: Sequence[Sentence]) -> Sentence:
-    """Many sentences joined to one, in a balanced tree of a message with the places ``first`` and
-    ``second``."""
+    """Many sentences as one, two by two, by a message with the places ``first`` and ``second``."""
     if len(items) < 2:
         return items[0] if items else phrase("")
     half = len(items) // 2
@@ -66,8 +64,7 @@ def english(prose: Prose) -> str:
 
 
 def plain(prose: Prose) -> bool:
-    """Is the prose one sentence without places, so that its English text alone tells which it
-    is?"""
+    """Is the prose one sentence without places, which its English text alone identifies?"""
     return len(prose) == 1 and not prose[0].places
 
 

@@ -163,8 +163,7 @@ class _Shape:
             self.vertices(sizes, f"{where}, vertices")
 
     def vertices(self, sizes: Mapping[str, Any], where: str) -> None:
-        """Check vertices: four of a tetrahedron; of a mesh any, with faces of three of their
-        numbers."""
+        """Check vertices: four of a tetrahedron; of a mesh any, with faces of three numbers."""
         listed = self.at(sizes, "vertices", list, where)
         if "faces" not in sizes and len(listed) != 4:
             raise ShapeError(f"{where}: expected four points")

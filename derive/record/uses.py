@@ -131,8 +131,7 @@ def with_sizes(type_: Type, sizes: Mapping[str, int]) -> Type:
 
 
 def _fits(name: str, use: Use, occurring: Iterable[Occurrence]) -> bool:
-    """Does a name occur in the position of a declared use, and if it is a function, with arguments
-    of its types?"""
+    """Does a name occur as declared: in its position, and as a function of its arguments' types?"""
     usage = (name, position_of(use.type))
     if usage[1] != "function":
         return any(x.usage == usage for x in occurring)
@@ -146,8 +145,7 @@ def _fits(name: str, use: Use, occurring: Iterable[Occurrence]) -> bool:
 
 
 def type_of(argument: Tree) -> Type:
-    """The type of an argument of a function: a name, a product with A, r r̄, r_i(t), or a
-    number."""
+    """The type of a function's argument: a name, a product with A, r r̄, r_i(t), or a number."""
     if isinstance(argument, str):
         return next(x.type for x in VOCABULARY[argument].uses if position_of(x.type) == "value")
     if not isinstance(argument, tuple):
@@ -193,8 +191,7 @@ def definitions(
 
 
 def lone_occurrence(t: Tree) -> Occurrence | None:
-    """The use that is all of a tree, also under j, a transpose, an inverse or as an entry; ``None``
-    if there is none."""
+    """The use that is all of a tree, also under j, a bar, an inverse, as an entry; or ``None``."""
     while isinstance(t, tuple) and t[0] in ("hat", "T", "inv", "entry"):
         t = t[1]
     alone = isinstance(t, str) or (isinstance(t, tuple) and t[0] in ("at", "call"))

@@ -125,8 +125,7 @@ class State:
         return self.group.nearest(q.minus(q.times(back, second), q.times(Z, Z)))
 
     def rates(self, g: Matrix, Z: Matrix, g_dot: Matrix, Z_dot: Matrix) -> Numbers:
-        """The derivative of the numbers of the state for these ġ and Ż: g̈ = ġZ + gŻ, and q̇ = ½ q
-        ζ."""
+        """The rates of the state for these ġ and Ż, with g̈ = ġZ + gŻ and q̇ = ½ q ζ."""
         place = self._read(g_dot)
         if self.chart.attitude == "quaternion":
             place = (*half_product(quaternion(g), axis(Z)), *place)

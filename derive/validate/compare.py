@@ -226,8 +226,7 @@ class Comparison:
     def _drift_numbers(
         self, arguments: Mapping[str, Any], name: str, x: Sequence[Any]
     ) -> Sequence[Any]:
-        """The numbers that ``project`` returns at the state x, or the summands of which ``defect``
-        adds the sizes."""
+        """The numbers of ``project`` at the state x, or the summands of ``defect`` there."""
         exact = all(isinstance(y, Fraction) for y in x)
         state = self._array(x, "x", self.claims.entry_degree) if exact else Array(x, "x")
         arguments, function = {**arguments, "x": state}, self.module.functions.get("defect")
@@ -262,8 +261,7 @@ class Comparison:
     def _require_equal(
         self, function: str, names: Sequence[str], found: Sequence[Any], wanted: Sequence[Any]
     ) -> None:
-        """``DiffersError`` where numbers of a function are not those of the record; ``names``: what
-        each is."""
+        """``DiffersError`` where numbers, of these names, are not those of the record."""
         if len(found) != len(wanted):
             raise DiffersError(f"{function}: {len(found)} numbers, the record has {len(wanted)}")
         for name, x, y in zip(names, found, wanted, strict=True):
@@ -276,7 +274,6 @@ class Comparison:
 
 
 def as_text(x: Any) -> str:
-    """A number as short text by its first six digits; another with the same text may differ from it
-    in later ones."""
+    """A number as short text, by its first six digits: numbers with one text may differ."""
     value = Fraction(getattr(x, "value", x))
     return f"{float(value):.6g} …" if abs(value) < Fraction(10) ** 300 else "a large number"

@@ -62,8 +62,7 @@ class Emission:
         return [self._report(names, claims) for names in self._groups()]
 
     def _groups(self) -> Iterator[tuple[str, ...]]:
-        """The names of the files that are read together: a header with its source, any other by
-        itself."""
+        """The names of files read together: a header with its source, others one by one."""
         header, source = f"{self.prefix}.h", f"{self.prefix}.c"
         for name in self.files:
             if name == header and source in self.files:
@@ -96,8 +95,7 @@ class Emission:
         return read_c(names[-1], self.files, self.prefix)
 
     def _same_unread(self, name: str) -> None:
-        """``DiffersError`` where statements of Python that are run but not read are not those now
-        emitted."""
+        """``DiffersError`` where Python that is run but not read is not what is emitted."""
         if self.fresh is None:
             return
         versions = (self.files, self.fresh)

@@ -88,8 +88,7 @@ class Claims:
         return self.group.places[self._block(i) - 1][1]
 
     def point(self, seed: str, zero: tuple[str, ...] = ()) -> Point:
-        """The point of a seed, the parameters ``zero`` being 0; ``CodeError`` where the record has
-        no value there."""
+        """The point of a seed, some parameters 0; ``CodeError`` where the record has no value."""
         if (seed, zero) not in self._points:
             try:
                 self._points[seed, zero] = self._point(seed, zero)
@@ -120,8 +119,7 @@ class Claims:
         )
 
     def _input_values(self, model: Model) -> Numbers:
-        """The numbers of u: forces in space and covectors on the stated basis, in the order of the
-        inputs."""
+        """The numbers of u, in order: forces in space, covectors on the stated basis."""
         found: list[Any] = []
         pushes = iter(model.pushes)
         for data in self.record.problem.get("inputs", []):
@@ -147,8 +145,7 @@ class Claims:
 
     @property
     def degree(self) -> int:
-        """A bound on the degree of what is computed from the record, as a function of what is
-        drawn."""
+        """A bound on the degree of what the record computes, as a function of the draws."""
         env = environment(self._counted)
         return (self.group.size + 1) * sum(
             largest_degree(e.rhs, env) for e in self.equations.values()

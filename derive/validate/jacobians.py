@@ -23,8 +23,7 @@ ZERO = Fraction(0)
 
 @dataclass(frozen=True)
 class ExactJacobians:
-    """The rates of one point as a function of what varies; ``p``, ``k``: its parameters and
-    constants."""
+    """The derivatives of the rates at one point; ``p``, ``k``: its parameters and constants."""
 
     machine: Machine
     state: State

@@ -56,8 +56,7 @@ def preprocessed(name: str, files: Mapping[str, str], prefix: str) -> str:
 
 
 class Preprocessor:
-    """A preprocessor of the emitted C; ``files``: name → text; ``prefix``: of the names of
-    macros."""
+    """A preprocessor of emitted C; ``files``: name → text; ``prefix``: of its macros' names."""
 
     def __init__(self, files: Mapping[str, str], prefix: str):
         self.files, self.prefix = files, prefix
@@ -66,8 +65,7 @@ class Preprocessor:
         self.guards: set[str] = set()
 
     def text(self, name: str) -> str:
-        """The text of one file, with includes and macros replaced; ``CodeError`` for what is not
-        known."""
+        """One file, its includes and macros replaced; ``CodeError`` for what is not known."""
         if name not in self.files or name in self.seen:
             raise CodeError(f"the file {name!r} is missing, or included twice")
         self.seen.append(name)

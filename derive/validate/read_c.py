@@ -84,8 +84,7 @@ class Reader:
         self.declared: set[str] = set()
 
     def module(self, tree: Any) -> Module:
-        """All functions and lists of the file as a module; ``CodeError`` for any other
-        definition."""
+        """All functions and lists of the file; ``CodeError`` for any other definition."""
         for node in tree.ext[1:]:
             if isinstance(node, self.c.FuncDef):
                 self._function(node)
@@ -109,8 +108,7 @@ class Reader:
 
     @property
     def _enumerators(self) -> dict[str, int]:
-        """The enumerators of the file → their value, or 0 for those that are compared with the
-        record."""
+        """The enumerators → their values, or 0 for those compared with the record."""
         sizes = dict.fromkeys((f"{self.prefix}_N_{x}" for x in SIZES), 0)
         counts = {x: self.sizes.get(f"{self.prefix}_N_{n}", 0) for x, n in DECLARED.items()}
         sizes |= {f"{self.prefix}_SIZE_{x}": max(1, n) for x, n in counts.items()}
@@ -146,8 +144,7 @@ class Reader:
             raise self._unknown(node)
 
     def _arguments(self, node: Any) -> tuple[str, ...]:
-        """The names of the arguments of a declared function, whose signature must be that of the
-        contract."""
+        """The names of a declared function's arguments, after a look at its signature."""
         name = node.name.removeprefix(f"{self.prefix}_")
         if node.type.args is None:
             raise self._unknown(node)
@@ -167,8 +164,7 @@ class Reader:
         return str(node.name) if kind == "real" else f"{kind} {node.name}"
 
     def _type(self, node: Any) -> str:
-        """The type at a node: "real" for double or float, one of them in a file; "int", "size_t" or
-        "void"."""
+        """The type at a node: "real" (double, or float), "int", "size_t" or "void"."""
         if not isinstance(node, self.c.TypeDecl) or len(getattr(node.type, "names", ())) != 1:
             raise self._unknown(node)
         (name,) = node.type.names

@@ -60,8 +60,7 @@ def parsed(name: str, text: str) -> ast.Module:
 
 
 def unread_statements(name: str, text: str) -> list[str]:
-    """The statements of a module that Python runs and :func:`read_python` does not read, as
-    text."""
+    """The statements of a module that Python runs and :func:`read_python` leaves out."""
     tree, found = parsed(name, text), []
     for node in tree.body:
         read = isinstance(node, ast.FunctionDef) and node.name in SIGNATURES
@@ -80,8 +79,7 @@ class Reader:
         self.functions: dict[str, Function] = {}
 
     def module(self, tree: ast.Module) -> Module:
-        """The functions and lists of the file as a module; ``CodeError`` for a name that is defined
-        twice."""
+        """The functions and lists of a file; ``CodeError`` for a name defined twice."""
         seen: set[str] = set()
         for node in tree.body:
             for name in self._names(node):

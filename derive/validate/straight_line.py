@@ -19,8 +19,7 @@ UNSMOOTH = ("abs", "gt", "lt", "le", "eq", "not")
 
 
 def require_straight_line(f: Function) -> None:
-    """``CodeError`` unless what a function writes and returns depends on no size and no
-    condition."""
+    """``CodeError`` unless what a function gives depends on no size and no condition."""
     tainted: set[str] = set()
     body = f.body
     if f.name == "defect":

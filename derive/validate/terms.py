@@ -35,8 +35,7 @@ class CodeError(ValueError):
 
 
 def plain_text(text: str) -> None:
-    """``CodeError`` for control characters, which some readers alone take for the end of a line or
-    do not show."""
+    """``CodeError`` for control characters, which not all readers take or show alike."""
     if control := next((c for c in text if ord(c) < 32 and c not in "\n\t"), ""):
         raise CodeError(f"the character {control!r} is not read")
 
@@ -47,8 +46,7 @@ class MissingParserError(Refused):
 
 @dataclass(frozen=True)
 class Function:
-    """A function of emitted code: its name, the names of its arguments in order, and its
-    statements."""
+    """A function: its name, the names of its arguments in order, and its statements."""
 
     name: str
     arguments: tuple[str, ...]
