@@ -1,7 +1,7 @@
 """The prose of the walk as data: messages with places, and what stands in the places.
 
-A message is an English sentence, or a part of one, with places ``{name}``; the catalogue has it in
-other languages under that very text.
+A message is an English sentence, or a part of one, with places ``{name}``; views have it in other
+languages under that very text.
 """
 
 from __future__ import annotations

@@ -9,9 +9,10 @@ from dataclasses import dataclass, field
 from functools import cache
 from importlib import resources
 
+from ..prose import LANGUAGES as LANGUAGES
+from ..prose import entries as steps
 from ..record.sentence import Prose, Sentence, filled, phrase
 
-LANGUAGES = ("en", "fr")
 CATALOGUE = resources.files(__package__) / "catalogue.toml"
 THIN, WIDE = "\u202f", "\u00a0"
 SPACES = ((r" (?=[;!?])", THIN), (r" (?=[:»])|(?<=«) ", WIDE))
@@ -55,9 +56,10 @@ def language(name: str) -> Language:
 
 
 def entries() -> list[dict[str, str]]:
-    """The entries of the catalogue, each in every language; a line break in them is a space."""
+    """The prose of the steps, then the catalogue, where a line break is a space."""
     listed = tomllib.loads(CATALOGUE.read_text(encoding="utf-8"))["message"]
-    return [{k: " ".join(text.split()) for k, text in entry.items()} for entry in listed]
+    flat = ({k: " ".join(text.split()) for k, text in entry.items()} for entry in listed)
+    return [*steps(), *flat]
 
 
 def typeset(french: str) -> str:

@@ -11,33 +11,26 @@ from ..problem.solids import Solid
 from ..record.formulas import stated
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, Sentence, listed, phrase, say
+from ..record.sentence import Prose, Sentence, listed
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .continuum import continuum
 from .lagrangian import Lagrangian
 from .pointwise import column, embedded
-from .supposed import of_moments, told
+from .supposed import of_moments
+from .telling import phrase, say, told
 
 SOLIDS = {
-    "ball": phrase("ball"),
-    "box": phrase("box"),
-    "ellipsoid": phrase("ellipsoid"),
-    "cylinder": phrase("cylinder"),
-    "cone": phrase("cone"),
-    "hollow_ball": phrase("hollow ball"),
-    "tetrahedron": phrase("tetrahedron"),
-    "mesh": phrase("mesh"),
+    "ball": phrase("integrals.ball"),
+    "box": phrase("integrals.box"),
+    "ellipsoid": phrase("integrals.ellipsoid"),
+    "cylinder": phrase("integrals.cylinder"),
+    "cone": phrase("integrals.cone"),
+    "hollow_ball": phrase("integrals.hollow_ball"),
+    "tetrahedron": phrase("integrals.tetrahedron"),
+    "mesh": phrase("integrals.mesh"),
 }
-SIZES = {
-    "radius": "radius {size}",
-    "outer": "outer {size}",
-    "inner": "inner {size}",
-    "sides": "sides {size}",
-    "semi_axes": "semi axes {size}",
-    "height": "height {size}",
-    "vertices": "vertices {size}",
-}
+SIZES = ("radius", "outer", "inner", "sides", "semi_axes", "height", "vertices")
 """The kinds of solids and their sizes in words."""
 
 
@@ -53,19 +46,19 @@ def body_step(problem: Problem, points: Lagrangian, a: Alphabet, c: Chapter) -> 
     supposed: tuple[Hypothesis, ...] = ()
     if isinstance(body, MomentBody):
         equations += _moments(body.mass(), body.first(), body.second())
-        prose = told("moments", problem.signed)
+        prose = told("body.symbolic", problem.signed)
         supposed = of_moments(problem.signed)
     elif isinstance(body, GivenBody):
         if body.solids:
             steps += [continuum(points, a, c), _integrals(body.solids, c)]
         equations += _moments(body.mass, body.first, body.second)
-        given = say("The moments of the body are given.")
-        prose = say("The moments of the body.") if body.solids else given
+        given = say("body.given")
+        prose = say("body.moments") if body.solids else given
     if problem.points:
         equations = [*_points(problem, problem.points), *equations]
-        prose = say("The points of the body and their masses.") + prose
+        prose = say("body.points") + prose
         if problem.group and problem.group.factors:
-            prose += say("Each is in its block of coordinates; an affine block ends in 1.")
+            prose += say("body.blocks")
     for k, p in enumerate(problem.places, problem.masses + 1):
         if isinstance(body, PointBody):
             equations.append(Equation(("at", "m", k), 0))
@@ -82,9 +75,9 @@ def body_step(problem: Problem, points: Lagrangian, a: Alphabet, c: Chapter) -> 
 
 def _massless(low: int, high: int) -> Prose:
     if low == high:
-        return say("Point {point} has no mass: forces are attached there.", point=str(low))
+        return say("body.place", point=str(low))
     return say(
-        "Points {low} to {high} have no mass: forces are attached there.",
+        "body.places",
         low=str(low),
         high=str(high),
     )
@@ -113,25 +106,25 @@ def _moments(
 
 def _described(s: Solid) -> Sentence:
     """A solid in words: kind, density, sizes, where it is."""
-    sizes = [phrase(SIZES[k], size=_size(x)) for k, x in s.sizes.items() if k in SIZES]
+    sizes = [phrase(f"integrals.{k}", size=_size(x)) for k, x in s.sizes.items() if k in SIZES]
     if s.mesh is not None:
         vertices, faces = (str(len(x)) for x in s.mesh)
         sizes = [
-            phrase("{count} vertices", count=vertices),
-            phrase("{count} triangles", count=faces),
+            phrase("integrals.count_of_vertices", count=vertices),
+            phrase("integrals.count_of_triangles", count=faces),
         ]
     solid = phrase(
-        "{kind} of density {density} ({sizes})",
+        "integrals.solid",
         kind=SOLIDS[s.kind],
         density=_size(s.density),
         sizes=listed("{first}, {second}", sizes),
     )
     if s.rotation and s.shift:
-        moved = "{solid}, turned by a rotation and then shifted by {shift}"
+        moved = "integrals.turned_and_shifted"
         return phrase(moved, solid=solid, shift=_size(s.shift))
     if s.shift:
-        return phrase("{solid}, shifted by {shift}", solid=solid, shift=_size(s.shift))
-    return phrase("{solid}, turned by a rotation", solid=solid) if s.rotation else solid
+        return phrase("integrals.shifted", solid=solid, shift=_size(s.shift))
+    return phrase("integrals.turned", solid=solid) if s.rotation else solid
 
 
 def _size(x: Any) -> str:
@@ -143,10 +136,7 @@ def _size(x: Any) -> str:
 def _integrals(solids: tuple[Solid, ...], c: Chapter) -> Step:
     return c.draft("integrals", "definition").step(
         stated("m = ∫ dm,  c = ∫ r dm,  J = ∫ rr̄ dm"),
-        say(
-            "The moments of a continuous body are integrals, and all else stays: its motions are "
-            "those of points with the same moments."
-        )
-        + say("Here: {solids}.", solids=listed("{first}; {second}", [*map(_described, solids)])),
+        say("integrals.moments")
+        + say("integrals.solids", solids=listed("{first}; {second}", [*map(_described, solids)])),
         (39,),
     )

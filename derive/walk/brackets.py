@@ -11,8 +11,9 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from ..record.formulas import stated
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, say
+from ..record.sentence import Prose
 from .chapter import Chapter
+from .telling import say
 
 Row = tuple[Any, ...]
 
@@ -27,24 +28,15 @@ def bracket_step(group: Group, c: Chapter) -> tuple[Step, ...]:
         equations += stated("[ξ′, ξ] = 0")
         if group.affine:
             equations += stated("ξ′η − ξη′ = 0")
-        prose += say(
-            "The group is commutative: the bracket vanishes, and with it the coadjoint term of the "
-            "momentum."
-        )
+        prose += say("brackets.commutative")
     elif not group.affine and not any(
         _nonzero(q.bracket(q.bracket(*pair), z)) for pair in combinations(basis, 2) for z in basis
     ):
         equations += stated("[[ξ′, ξ], Z] = 0")
-        prose += say(
-            "A bracket commutes with the whole Lie algebra: in the directions of brackets the "
-            "momentum has no coadjoint term."
-        )
+        prose += say("brackets.central")
     if not group.affine and (k := vanishing_power(basis)):
         equations.append(Equation(("pow", "Z", k), 0))
-        prose += say(
-            "The matrices of the Lie algebra are nilpotent: along its one-parameter groups the "
-            "points move by polynomials in the time."
-        )
+        prose += say("brackets.nilpotent")
     return (c.draft("brackets", "relation").step(equations, prose),) if equations else ()
 
 

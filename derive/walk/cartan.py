@@ -13,10 +13,10 @@ from ..algebra.written import Notation, metrics, tree_of
 from ..language.read import read
 from ..language.tree import add
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .pullback import Pullback
+from .telling import say
 from .trivialisation import carry, trivialisation
 
 
@@ -64,14 +64,7 @@ def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
     steps = (
         moving.step(
             _momentum_equations(moving, momentum, a, notation),
-            say(
-                "The momentum is the derivative of the Lagrangian with respect to the velocity, "
-                "for every (δA, δT), in particular for those tangent to the group."
-            )
-            if a.affine
-            else say(
-                "The momentum is the derivative of the Lagrangian with respect to the velocity."
-            ),
+            say("momentum.affine") if a.affine else say("momentum.linear"),
             (16, 20) if a.affine else (16,),
         ),
         resting.step(
@@ -79,7 +72,7 @@ def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
                 Equation("h̃", read(f"p̃({velocities}) − L̃")),
                 Equation("h̃", resting.tree(energy, notation)),
             ),
-            say("The energy is the momentum paired with the velocity, less the Lagrangian."),
+            say("energy.paired"),
             (16,) if a.affine else (16, 23),
         ),
         whole.step(
@@ -89,7 +82,7 @@ def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
                     add(whole.tree(moving.said(momentum), notation), read("−h̃ δt")),
                 ),
             ),
-            say("The Cartan form: momentum on the displacement, less energy on the time."),
+            say("cartan.form"),
             (15,) if a.affine else (15, 23),
         ),
     )
@@ -125,7 +118,7 @@ def trivialise(stage: Cartan, a: Alphabet, c: Chapter) -> Cartan:
     momentum, energy = carry(stage.momentum, a), carry(stage.energy, a)
     step = draft.step(
         (form_equation(draft, momentum, energy, metrics()),),
-        say("The Cartan form in this trivialisation."),
+        say("cartan_trivialised.form"),
     )
     form = draft.said(cartan_form(momentum, energy, a))
     steps = (trivialisation(a, c), step)

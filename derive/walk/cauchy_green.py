@@ -11,8 +11,9 @@ from ..algebra.words import Expr, Word, expr_of_word, trace
 from ..problem.left_invariant import EVERY, Bodies
 from ..record.formulas import stated
 from ..record.record import Equation
-from ..record.sentence import Prose, say
+from ..record.sentence import Prose
 from .alphabet import Alphabet
+from .telling import say
 
 
 def without_gram(e: Expr, bodies: Bodies, a: Alphabet) -> Expr:
@@ -41,11 +42,5 @@ def claims(bodies: Bodies) -> list[Equation]:
 def told(bodies: Bodies) -> Prose:
     """The same in words."""
     if bodies == EVERY:
-        return say(
-            "Between two elements of the Lie algebra C drops out: A keeps the lengths of all that "
-            "is in their images."
-        )
-    return say(
-        "The metric is left-invariant for this body, although C is not 𝟏: C drops out of it, and "
-        "stays in the forces of the potential."
-    )
+        return say("relation.lengths")
+    return say("relation.left_invariant")

@@ -17,10 +17,10 @@ from ..algebra.groups import Group
 from ..algebra.words import Expr, Factor, Letter, inner, one, word, zero
 from ..language.tree import Tree, add, mul, neg
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .pointwise import column
+from .telling import say
 
 
 @dataclass(frozen=True)
@@ -62,10 +62,7 @@ def seen_from_centres(
             Equation(draft.tree(reduce(images[b.J], annulled(S, set()))), "J"),
             *([_first(group)] if b.c in force.letters() else []),
         ),
-        say(
-            "Each factor with all its translations is seen from its centre of mass: that place is "
-            "in S, so that ZS is in the Lie algebra again and SZ = 0."
-        ),
+        say("elimination.centres"),
     )
     return Seen(draft.said(moved), gradient(draft.said(pushed), xi), draft.said(word(S)), (step,))
 

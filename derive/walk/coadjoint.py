@@ -17,10 +17,11 @@ from ..algebra.words import Expr, Letter, word
 from ..algebra.written import tree_of
 from ..language.tree import Tree, add
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, say
+from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .momentum import MomentumForm
+from .telling import say
 
 
 def halved(values: Mapping[Letter, Expr], b: Alphabet) -> dict[Letter, Expr]:
@@ -62,16 +63,12 @@ def _commuted(e: Expr, b: Alphabet) -> Tree:
 def momenta_told(b: Alphabet) -> Prose:
     """What the momenta are."""
     if b.affine:
-        return say(
-            "The angular momentum about the origin of the body and the momentum, in the body frame."
-        )
-    return say("The angular momentum in the body frame.")
+        return say("momenta.affine")
+    return say("momenta.linear")
 
 
 def motion_told(b: Alphabet) -> Prose:
     """What their rates are."""
     if b.affine:
-        return say(
-            "The equations of motion by the momenta (Kirchhoff): forces, and the coadjoint terms."
-        )
-    return say("The equations of motion by the momentum (Euler): forces, and the coadjoint term.")
+        return say("coadjoint.kirchhoff")
+    return say("coadjoint.euler")

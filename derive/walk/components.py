@@ -10,9 +10,9 @@ from ..language.tree import Tree, add, mul, names, replaced
 from ..language.values import Value, value
 from ..problem.problem import GivenBody, MomentBody, PointBody, Problem
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from ..schema.kinds.gravity import gravity
 from .chapter import Chapter
+from .telling import say
 
 AXES = (1, 2, 3)
 RATES = ("ζ", "w", "w_c")
@@ -81,7 +81,7 @@ def tensor_steps(
     entries = [Equation(("entry", name, i, j), written(found[i - 1][j - 1])) for i, j in order]
     draft = c.draft("tensor", "coordinates")
     draft.read(body[-1], inertia)
-    told = say("The tensor of inertia of this body, entry by entry.")
+    told = say("tensor.entries")
     step = draft.step(entries, told)
     return (
         (step, *_motion(problem, name, found, (body[-1], step, motion), c)) if straight else (step,)
@@ -119,7 +119,7 @@ def _motion(
         for e in rates
         for i, x in enumerate(components(e.rhs, known, moments), 1)
     ]
-    told = say("The equations of motion in coordinates: the axes of the body are principal ones.")
+    told = say("components.principal")
     driven = c.with_input() if motion.driven else c
     draft = driven.draft("components", "coordinates")
     draft.read(*made_from)

@@ -19,12 +19,13 @@ from ..language import rational as q
 from ..language.tree import Tree
 from ..problem.problem import Problem
 from ..record.record import Equation, Step
-from ..record.sentence import listed, say
+from ..record.sentence import listed
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .hat import isolate
 from .potential import U_Q, Potentials
 from .summed import moved
+from .telling import say
 from .wedge import vector_sum
 
 GAMMA = Letter("γ", 3)
@@ -55,32 +56,25 @@ def conserved_steps(
     vectors = momenta.vectors
     write = vector_sum if vectors else tree_of
     kept = [Equation("ḣ", 0)] if not v.timed else []
-    told = say("the energy") if kept else ()
+    told = say("conserved.energy") if kept else ()
     definitions = []
     if _turned(group) and (rate := _turning(v, b, vectors=vectors)) is not None:
         draft.read(momenta.turning, v.energy)
         definitions.append(Equation("ℓ", write(momenta.turning)))
         kept.append(Equation(rate, 0))
         whole = rate == "ℓ̇"
-        told += say(
-            "the angular momentum ℓ about the origin of space"
-            if whole
-            else "the component along gravity of the angular momentum ℓ about the origin of space"
-        )
+        told += say("conserved.angular_momentum" if whole else "conserved.along_gravity")
     if momenta.shifting is not None and (rate := _shifting(problem, v, b)) is not None:
         draft.read(momenta.shifting, v.energy)
         definitions.append(Equation("p", write(momenta.shifting)))
         kept.append(Equation(rate, 0))
-        told += say("the momentum p" if rate == "ṗ" else "the momentum p across gravity")
+        told += say("conserved.momentum" if rate == "ṗ" else "conserved.across_gravity")
     if not kept:
         return ()
     prose = say(
-        "Among what the motion keeps, without inputs and damping: {kept}.",
+        "conserved.kept",
         kept=listed("{first}, {second}", told),
-    ) + say(
-        "The Cartan form, on an infinitesimal symmetry of L̃, is constant along the motion "
-        "(Noether)."
-    )
+    ) + say("conserved.noether")
     draft.read(motion)
     return (draft.step([*definitions, *kept], prose),)
 

@@ -12,10 +12,10 @@ from ..algebra.written import Notation
 from ..language.read import read
 from ..language.tree import Tree, add, coefficient, mul, neg
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .lagrangian import Lagrangian
+from .telling import say
 
 
 def continuum(points: Lagrangian, a: Alphabet, c: Chapter) -> Step:
@@ -33,11 +33,7 @@ def continuum(points: Lagrangian, a: Alphabet, c: Chapter) -> Step:
             Equation(read("ϖ(δy)"), add(paired, read("−h̃ δt"))),
             Equation("h̃", add(kinetic, "U")),
         ),
-        say(
-            "A continuous body has a measure of mass dm, density times volume: its places r and "
-            "velocities v are functions on it, the group moves the body by g ∘ r, and the sums "
-            "over the points are integrals."
-        ),
+        say("continuum.integrals"),
         (36, 37, 38),
     )
 

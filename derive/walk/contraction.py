@@ -19,14 +19,15 @@ from ..language.read import read
 from ..language.tree import Tree
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
-from ..record.sentence import Sentence, phrase, say
+from ..record.sentence import Sentence
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .factored import gathered
-from .supposed import told, vertical_metric
+from .supposed import vertical_metric
+from .telling import phrase, say, told
 
 CONTRACTION = read("dϖ(X, δ′y)")
-REGULAR = phrase("the metric is not degenerate")
+REGULAR = phrase("second_order.displacement_signed")
 CONTRACTED = Equation("δt", 1)
 """The components of X are those of δ."""
 AND = "{first} and {second}"
@@ -146,7 +147,7 @@ def velocities(d: Draft, along: Mapping[Letter, Expr], letters: Iterable[Letter]
 
 def rate(dotted: str, varied: str) -> Sentence:
     """v̇ is δv(X)."""
-    return phrase("{rate} is {value}", rate=dotted, value=f"{varied}(X)")
+    return phrase("second_order.rate", rate=dotted, value=f"{varied}(X)")
 
 
 def steps_of(
@@ -169,12 +170,9 @@ def steps_of(
     finding = chapter.draft("second_order", "kernel")
     first = putting.step(
         [Equation(CONTRACTION, x.any_vector(putting)) for x in forms],
-        say(
-            "The motions are the extremals of the action, the integral of L̃: curves whose "
-            "tangent X is in the kernel of dϖ."
-        )
+        say("contraction.extremals")
         + say(
-            "A vector X with δt = 1 is inserted; its other components, {unknown}, are unknown.",
+            "contraction.unknown",
             unknown=unknown,
         ),
         given=(CONTRACTED,),
@@ -183,10 +181,7 @@ def steps_of(
     last = forms[-1]
     second = testing.step(
         [Equation(CONTRACTION, x.on_vertical(testing)) for x in forms],
-        say(
-            "X is in the kernel if and only if this expression vanishes for every δ′y; to "
-            "begin with, for every δ′y that varies the velocity alone."
-        ),
+        say("vertical.velocity"),
         given=(CONTRACTED, *last.at_rest()),
     )
     found = {x: testing.said(y) for x, y in last.velocity.items()}
@@ -194,7 +189,7 @@ def steps_of(
     along = velocities(finding, found, known)
     third = finding.step(
         (*along, *(Equation(CONTRACTION, x.remaining(finding), x.rates()) for x in forms)),
-        told("velocity of X", a.signed, regular=regular, rates=rates),
+        told("second_order.velocity", a.signed, regular=regular, rates=rates),
         paper,
         along,
         (last.metric(),),

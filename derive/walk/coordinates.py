@@ -1,4 +1,4 @@
-"""Coordinates of the Lie algebra in the basis of the group."""
+"coordinates.basis"
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from ..algebra.groups import Group
 from ..language.tree import Tree, add, mul
 from ..record.formulas import stated
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter
+from .telling import say
 
 
 def coordinates_step(group: Group, b: Alphabet, c: Chapter, *, reading: bool) -> Step:
@@ -20,9 +20,9 @@ def coordinates_step(group: Group, b: Alphabet, c: Chapter, *, reading: bool) ->
     equations = [*stated("Z = Σ_a ζ_a E_a"), Equation("Z", ("matrix", *rows))]
     if reading:
         equations += [Equation(("entry", "ζ̇", a + 1), _reading(group, a)) for a in span]
-    prose = say("Coordinates of the Lie algebra in the basis of the group.")
+    prose = say("coordinates.basis")
     if b.affine:
-        prose = say("Coordinates of the linear parts of the Lie algebra in the basis of the group.")
+        prose = say("coordinates.linear_parts")
     return c.draft("coordinates", "coordinates").step(equations, prose)
 
 
@@ -61,9 +61,6 @@ def stated_basis_step(group: Group, b: Alphabet, c: Chapter) -> tuple[Step, ...]
     return (
         c.draft("coordinates", "coordinates").step(
             equations,
-            say(
-                "The problem states a basis of its own: the coordinates of the velocity in it are "
-                "z, and they are those of the emitted state; ζ is the angular velocity still."
-            ),
+            say("coordinates.stated"),
         ),
     )

@@ -16,12 +16,11 @@ from ..algebra.words import Expr, Letter, word
 from ..algebra.written import Notation, tree_of
 from ..language.tree import Tree, add, mul
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .hat import INERTIA, OMEGA_P, ZETA, ZETA_DOT, isolate
 from .inverse import cancel_scalar, inverse_letter, inverse_tree
-from .supposed import told
+from .telling import say, told
 from .translation import central_moments
 from .vector import VectorForm
 from .wedge import vector_sum
@@ -77,8 +76,7 @@ def eliminate(stage: VectorForm, a: Alphabet, c: Chapter) -> Eliminated:
             Equation(CENTRAL.name, tree_of(central, notation(a))),
             Equation(("mul", CENTRAL.name, "ζ̇"), vector_tree(torque, a)),
         ),
-        told("mass", a.signed)
-        + say("The velocity of the centre of mass, in the body frame, is w_c."),
+        told("elimination.mass", a.signed) + say("elimination.velocity"),
     )
     return Eliminated(draft.said(torque), draft.said(acceleration), (step,))
 

@@ -14,11 +14,11 @@ from ..algebra.written import Notation, metrics, tree_of
 from ..language.read import read
 from ..language.tree import Tree
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .cartan import Cartan
 from .chapter import Chapter
 from .factored import at_constant_time, gathered, solve_for
+from .telling import say
 from .trivialisation import frame_rule, gram, trivial_images, varied_gram
 
 DOMEGA = read("dϖ(δy, δ′y)")
@@ -160,15 +160,12 @@ def exterior(stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
     steps = (
         whole.step(
             (Equation(DOMEGA, gathered(whole, form, static, images, notation)),),
-            say("The exterior derivative of the Cartan form.") + say("The terms in ∂Ũ/∂t cancel."),
+            say("exterior.derivative") + say("exterior.explicit_time"),
             (25,),
         ),
         resting.step(
             (Equation(read("ω(δx, δ′x)"), resting.tree(whole.said(static), notation)),),
-            say(
-                "At constant time it is dp ∧ dq, which the metric carries from the cotangent "
-                "bundle of the group to its tangent bundle: a symplectic form."
-            ),
+            say("symplectic.constant_time"),
             (26,),
         ),
     )
@@ -183,10 +180,7 @@ def structure(a: Alphabet, c: Chapter) -> Step:
     )
     return c.draft("structure", "structure equation").step(
         equations,
-        say(
-            "The variations commute on the group; carried to the Lie algebra, the crossed "
-            "variations δξ′ and δ′ξ differ by a bracket."
-        ),
+        say("structure.crossed"),
     )
 
 
@@ -200,7 +194,7 @@ def exterior_trivialised(natural: Exterior, stage: Cartan, a: Alphabet, c: Chapt
     core = terms_with(without(form, a.dt, a.dpt), *variations)
     step = draft.step(
         (Equation(DOMEGA, gathered(draft, form, core, images, Notation())),),
-        say("The exterior derivative in the trivialisation, for any group."),
+        say("exterior_trivialised.any_group"),
     )
     said = {x: draft.said(y) for x, y in images.items()}
     return Exterior(draft.said(form), said, (structure(a, c), step))

@@ -32,10 +32,10 @@ from ..algebra.words import (
 from ..language.read import read
 from ..record.formulas import stated
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet, Dual, Frame
 from .chapter import Chapter
 from .exterior import brackets_of
+from .telling import say
 
 
 def _vector(name: str) -> Letter:
@@ -163,15 +163,7 @@ def _identification(b: Alphabet, gram: Expr, cross: Expr, c: Chapter) -> Step:
         equations += stated("Tr N_b j(Ω′)‾ = ⟨μ, Ω′⟩", for_all=("Ω′",))
     return draft.step(
         equations,
-        say(
-            "The linear part 𝔰𝔬(3) of the Lie algebra is identified with R³ by j(X)Y = X ∧ "
-            "Y; the bracket is the vector product."
-        )
-        if affine
-        else say(
-            "The Lie algebra 𝔰𝔬(3) is identified with R³ by j(X)Y = X ∧ Y; the bracket is "
-            "the vector product."
-        ),
+        say("hat.displacements") if affine else say("hat.rotations"),
         () if affine else (33,),
     )
 
@@ -181,7 +173,7 @@ def _inertia(b: Alphabet, c: Chapter) -> Step:
     tensor = inertia_of(b.J)
     return draft.step(
         (*stated("Tr j(ζ) J j(Ω)‾ = ⟨ζ, Ω⟩_I"), Equation("I", draft.tree(tensor))),
-        say("The metric of J on 𝔰𝔬(3) is that of the tensor of inertia on R³."),
+        say("inertia.metric"),
         () if b.affine else (32,),
     )
 

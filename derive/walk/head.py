@@ -7,11 +7,13 @@ from fractions import Fraction
 from ..algebra.groups import Group
 from ..problem.data import data
 from ..problem.problem import Problem
+from ..record import sentence
 from ..record.record import Step, Symbol, encode
-from ..record.sentence import Prose, Sentence, listed, phrase, say
+from ..record.sentence import Prose, Sentence, listed
 from ..record.uses import of_steps
 from ..record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, Name
 from ..schema.outside import ForceInput
+from .telling import phrase, say
 
 
 def problem_data(problem: Problem) -> dict[str, object]:
@@ -35,7 +37,7 @@ def symbols(steps: tuple[Step, ...], problem: Problem) -> tuple[Symbol, ...]:
     """The names that the steps use, in the order in which they appear."""
     meant, group = _meant(problem), problem.group
     sizes = _sizes(group) if group else {}
-    said = {x: say(about.meaning) for x, about in meant.items()}
+    said = {x: sentence.say(about.meaning) for x, about in meant.items()}
     if problem.pushes:
         said["f_u"] = _inputs(problem)
     used = of_steps(steps, meant, sizes)
@@ -62,15 +64,11 @@ def _inputs(problem: Problem) -> Prose:
     """What f_u means where forces are given."""
     forces, group = [_force(x) for x in problem.pushes], problem.group
     if problem.covector and group and group.turns_space and group.affine:
-        at_origin = "{name}, a force on the body's origin, in the body frame"
+        at_origin = "input.covector_force"
         forces.insert(0, phrase(at_origin, name=problem.covector.name))
-    return say("input: {forces}", forces=listed("{first}; {second}", forces))
+    return say("input.meaning", forces=listed("{first}; {second}", forces))
 
 
 def _force(given: ForceInput) -> Sentence:
     """A force that is given at every call, in words."""
-    if given.frame == "body":
-        in_frame = "{name}, a force on point {point}, in the body frame"
-    else:
-        in_frame = "{name}, a force on point {point}, in the space frame"
-    return phrase(in_frame, name=given.name, point=str(given.on))
+    return phrase(f"input.{given.frame}_force", name=given.name, point=str(given.on))

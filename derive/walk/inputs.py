@@ -17,7 +17,7 @@ from ..language.tree import Tree, add, mul
 from ..problem.problem import Problem
 from ..record.formulas import stated
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, listed, phrase, say
+from ..record.sentence import Prose, listed
 from ..schema.outside import ForceInput
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
@@ -26,11 +26,12 @@ from .hat import OMEGA_P, ZETA, Reader, inertia_of, isolate
 from .point_forces import applied
 from .pointwise import embedded
 from .pullback import sum_over
+from .telling import phrase, say
 from .trivialisation import frame_rule
 from .wedge import vector_sum
 
-GIVEN = phrase("the forces that are given as functions of time and state")
-DRAG = phrase("the damping")
+GIVEN = phrase("input.forces")
+DRAG = phrase("input.damping")
 TORQUE, FORCE = Letter("u", 3), Letter("f_u", 3)
 
 
@@ -51,10 +52,7 @@ def acts(problem: Problem) -> bool:
 def prose(problem: Problem) -> Prose:
     """What acts from outside dϖ."""
     acting = [GIVEN] * bool(problem.inputs) + [DRAG] * bool(problem.damping)
-    return say("Outside dϖ: {forces}.", forces=listed(AND, acting)) + say(
-        "These are their moments and resultants in the body; their work joins that of the "
-        "potential in the equations of motion."
-    )
+    return say("input.outside", forces=listed(AND, acting)) + say("input.moments")
 
 
 def given_matrices(problem: Problem, b: Alphabet, gram: Expr, c: Chapter) -> Given | None:

@@ -11,7 +11,6 @@ from ..algebra.written import Notation
 from ..language.tree import Tree
 from ..record.formulas import stated
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .cartan import Cartan, form_equation
 from .chapter import Chapter, Draft
@@ -19,6 +18,7 @@ from .exterior import DOMEGA, primed, primes, shown_brackets
 from .factored import gathered, solve_for
 from .momentum import MomentumForm, fibre, horizontal
 from .restrict import restrict, restricted_prose
+from .telling import say
 
 
 @dataclass(frozen=True)
@@ -53,16 +53,11 @@ def isometry(general: Cartan, momenta: MomentumForm, a: Alphabet, n: int, c: Cha
     )
     relation = relating.step(
         stated("C = 𝟏,  Z̄ = −Z,  ξ̄ = −ξ"),
-        say(
-            "For isometries ĀA = 𝟏, so that C drops out, and Z and ξ are skew; w and η are "
-            "any vectors."
-        )
-        if a.affine
-        else say("For isometries ĀA = 𝟏, so that C drops out, and Z and ξ are skew."),
+        say("relation.displacements") if a.affine else say("relation.isometries"),
     )
     cartan = writing.step(
         (form_equation(writing, momentum, energy, Notation()),),
-        say("The Cartan form, trivialised."),
+        say("cartan.trivialised"),
         () if a.affine else (28,),
     )
     values = fibre(form.momentum, form.energy, {b.U: -work}, b)

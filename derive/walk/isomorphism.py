@@ -8,10 +8,10 @@ from ..algebra.space import normal_form
 from ..algebra.words import Expr, trace
 from ..algebra.written import tree_of
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .hat import OMEGA, ZETA, Reader, identified
+from .telling import say
 
 
 @dataclass(frozen=True)
@@ -35,8 +35,5 @@ def isomorphism(read: Reader, c: Chapter) -> Step:
     product = read.hatted(ZETA) * read.hatted(OMEGA).bar
     return draft.step(
         (Equation(tree_of(trace(product)), draft.tree(normal_form(trace(product)))),),
-        say(
-            "The operator j is an isomorphism of R³ onto 𝔰𝔬(3): both have dimension 3, and "
-            "j(ζ) = 0 for ζ = 0 alone."
-        ),
+        say("isomorphism.onto"),
     )

@@ -15,15 +15,16 @@ from ..algebra.forms import strip_left
 from ..algebra.words import Expr, Letter, number, word
 from ..algebra.written import Notation, metrics
 from ..language.tree import Tree, add
+from ..record import sentence
 from ..record.record import Equation, Step
-from ..record.sentence import listed, phrase, say
+from ..record.sentence import listed
 from .alphabet import Alphabet
 from .cartan import Cartan
 from .chapter import Chapter, Draft
 from .contraction import AND, CONTRACTION, Contraction, rate, steps_of, velocities
 from .exterior import Exterior, primed
 from .factored import at_constant_time, gathered
-from .supposed import told
+from .telling import say, told
 from .trivialisation import rates, trivial_images
 from .variation import Principle
 
@@ -71,7 +72,7 @@ def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Am
             )
         ],
         [p.d_position for p in a.parts],
-        phrase(AND, first=", ".join(others), second=last_one),
+        sentence.phrase(AND, first=", ".join(others), second=last_one),
         listed(AND, [rate(p.acceleration.name, p.d_velocity.name) for p in a.parts]),
         a,
         chapter,
@@ -92,19 +93,13 @@ def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Am
     variations = tuple(p.dp_position.name for p in a.parts)
     last = draft.step(
         (*first_order, Equation(balance, 0, variations)),
-        say(
-            "X is in the kernel if and only if this expression vanishes for every "
-            "displacement tangent to the group: the equations of motion."
-        )
+        say("kernel.displacements")
+        + say("kernel.tangent")
         + say(
-            "They fix the part of the acceleration that is tangent to the group; the velocity "
-            "gives the rest."
-        )
-        + say(
-            "The coefficient of δ′t then vanishes as well, for {velocity} is such a displacement.",
+            "kernel.energy",
             velocity=", ".join(f"{p.dp_position.name} = {p.velocity.name}" for p in a.parts),
         )
-        + told("line", a.signed),
+        + told("kernel.line", a.signed),
     )
     return Ambient(along, steps[-1].given, draft.said(virtual), (*steps, last))
 
@@ -130,7 +125,7 @@ def kernel_trivialised(
             *velocities(draft, c.velocity, c.velocity),
             Equation(CONTRACTION, c.remaining(draft), c.rates()),
         ),
-        say("The velocity of X is carried to the Lie algebra, and put into this form of dϖ."),
+        say("second_order_trivialised.carried"),
         given=natural.told,
     )
     images, velocity = (
@@ -167,8 +162,7 @@ def _equations(c: Contraction, work: Expr, a: Alphabet, chapter: Chapter) -> Ste
     return draft.step(
         (*rates(draft, a), Equation(shown, rhs, tuple(f.xi_prime.name for f in a.frames))),
         say(
-            "The equations of motion of any group of matrices that moves points (Exercise 1), one "
-            "for each direction of its Lie algebra, to which {acceleration} belongs.",
+            "equations.exercise",
             acceleration="(Ż, ẇ)" if a.affine else "Ż",
         ),
     )

@@ -14,9 +14,10 @@ from ..algebra.written import metrics, tree_of
 from ..language.read import read
 from ..language.tree import Tree, add, neg
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, say
+from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter
+from .telling import say
 
 POINT = read("rᵢ(t)")
 """r_i(t), the point in space; r_i alone is the point in the body."""
@@ -61,10 +62,7 @@ def lagrangian(a: Alphabet, c: Chapter) -> Lagrangian:
     steps = (
         first.step(
             (Equation("L", add(("sum", "i", indexed_tree(kinetic, v_i, a)), neg("U"))),),
-            say(
-                "A body is made of points r_i of mass m_i, which have the velocities v_i in "
-                "space. Its Lagrangian is the kinetic energy less the potential."
-            ),
+            say("lagrangian.points"),
             (3,),
         ),
         acting.step(
@@ -77,11 +75,7 @@ def lagrangian(a: Alphabet, c: Chapter) -> Lagrangian:
                 Equation(read("vᵢ"), indexed_tree(velocity, v_i, a)),
                 Equation(read("δ(rᵢ(t))"), indexed_tree(variation, v_i, a)),
             ),
-            _velocities(a)
-            + say(
-                "Here the velocity is a coordinate of its own: that it is the derivative of the "
-                "motion will come out of the kernel."
-            ),
+            _velocities(a) + say("velocity.independent"),
             (9, 10, 14),
         ),
     )
@@ -91,26 +85,14 @@ def lagrangian(a: Alphabet, c: Chapter) -> Lagrangian:
 
 def _moved(a: Alphabet) -> Prose:
     if a.affine:
-        return say(
-            "An element g = (A, T) of the group G moves the body: every point is the image of its "
-            "place in the body."
-        )
-    return say(
-        "An element g = A of the group G moves the body: every point is the image of its place in "
-        "the body."
-    )
+        return say("action.affine")
+    return say("action.linear")
 
 
 def _velocities(a: Alphabet) -> Prose:
     if a.affine:
-        return say(
-            "A velocity ν = (α, τ), tangent to G at g, gives one to each point; a variation, the "
-            "displacements that respect the constraint."
-        )
-    return say(
-        "A velocity ν = α, tangent to G at g, gives one to each point; a variation, the "
-        "displacements that respect the constraint."
-    )
+        return say("velocity.affine")
+    return say("velocity.linear")
 
 
 def indexed_tree(e: Expr, v_i: Letter, a: Alphabet, v: Tree = "") -> Tree:

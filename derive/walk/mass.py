@@ -11,12 +11,11 @@ from ..algebra.written import Notation
 from ..language.read import read
 from ..record.formulas import stated
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .centre import Seen
 from .chapter import Chapter, Draft
 from .inverse import inverse_letter
-from .supposed import told
+from .telling import say, told
 from .translation import Centred
 from .trivialisation import rates
 
@@ -62,19 +61,13 @@ def mass_steps(
             Equation(read("β_a"), weighing.tree(load, notation)),
             *stated(f"Σ_b M_ab {found}_b = β_a"),
         ),
-        say(
-            "For ξ′ = E_a(𝟏 − S) and Ż = Σ ψ_b E_b(𝟏 − S) the equations of motion are linear in "
-            "the ψ_b: M is the mass matrix of these, β_a the load along E_a(𝟏 − S)."
-            if seen
-            else "For ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are linear in the ζ̇_b: M "
-            "is the mass matrix of the basis, β_a the load along E_a."
-        ),
+        say("mass.centres" if seen else "mass.basis"),
     )
     solving.read(mass_step)
     solved = stated(f"{found} = M⁻¹β")
     motion = solving.step(
         (*rates(solving, b), *solved, *_whole(solving, b, seen), *translation),
-        say("The equations of motion of this problem.") + told("mass matrix", b.signed),
+        say("motion.problem") + told("motion.mass_matrix", b.signed),
     )
     return mass_step, motion
 

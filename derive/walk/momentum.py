@@ -24,12 +24,12 @@ from ..algebra.written import Notation, tree_of
 from ..language.read import read
 from ..language.tree import Tree, add
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet, Dual, Frame
 from .cartan import Cartan
 from .chapter import Chapter
 from .exterior import DOMEGA, brackets_of, primed, primes, shown_brackets
 from .factored import at_constant_time, gathered
+from .telling import say
 from .trivialisation import frame_rule, gram, varied_gram
 
 
@@ -60,8 +60,7 @@ def _values(stage: Cartan, a: Alphabet, c: Chapter) -> tuple[dict[Letter, Expr],
     step = draft.step(
         [Equation(x.name, draft.tree(e)) for x, e in values.items() if e != word(x)],
         say(
-            "The momentum of 𝔤* is the derivative of L̃ with respect to {velocity}, and {push} the "
-            "one along the group, at a fixed velocity; both are told by what they give on 𝔤.",
+            "momenta.derivatives",
             velocity="(Z, w)" if a.affine else "Z",
             push="(Φ, F_b)" if a.affine else "Φ",
         ),
@@ -100,7 +99,7 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
                 add(writing.tree(momentum, notation), read("−h̃ δt")),
             ),
         ),
-        say("The Cartan form by the momentum."),
+        say("cartan_momentum.form"),
     )
     form = writing.said(momentum - energy * word(a.dt))
     twins = primes(a) | {d.d_momentum: d.dp_momentum for d in a.duals}
@@ -112,8 +111,7 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
     derivative = varying.step(
         (Equation(DOMEGA, gathered(varying, derived, core, images, shown)),),
         say(
-            "Its exterior derivative, whatever the Lagrangian: {varied}; the bracket comes from "
-            "the structure equation.",
+            "exterior_momentum.derivative",
             varied="δL̃ = ⟨Π, δZ⟩ + ⟨p_b, δw⟩ + ⟨Φ, ξ⟩ + ⟨F_b, η⟩ + ∂L̃/∂t δt"
             if a.affine
             else "δL̃ = ⟨Π, δZ⟩ + ⟨Φ, ξ⟩ + ∂L̃/∂t δt",
@@ -195,8 +193,7 @@ def _kernel(form: Expr, notation: Notation, a: Alphabet, c: Chapter) -> tuple[Ex
             ),
         ),
         say(
-            "The equations of motion of any Lagrangian on the group (Euler–Poincaré): the rate of "
-            "the momentum is the force, {push}, and the coadjoint term of the momentum.",
+            "coadjoint.any_lagrangian",
             push="(Φ, F_b)" if a.affine else "Φ",
         ),
     )

@@ -10,13 +10,13 @@ from ..algebra.calculus import gradient, substitute, without
 from ..algebra.words import Expr, inner, word
 from ..algebra.written import PLAIN, metrics, tree_of
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .cartan import Cartan
 from .chapter import Chapter
 from .exterior import DOMEGA, natural_variations, primed, primes
 from .factored import at_constant_time, gathered
 from .kernel import Ambient
+from .telling import say
 
 
 def motions(form: Cartan, law: Ambient, a: Alphabet, c: Chapter) -> Step:
@@ -34,14 +34,7 @@ def motions(form: Cartan, law: Ambient, a: Alphabet, c: Chapter) -> Step:
     notation = metrics() if a.affine else metrics("J")
     return draft.step(
         (Equation(DOMEGA, gathered(draft, derivative, core, images, notation)),),
-        say(
-            "Of two variations dϖ sees what crosses the motions, and there it is ω: it is a form "
-            "on the manifold of the motions."
-        )
-        + say(
-            "Where every motion lasts for all times, each has one point at a given t, and this "
-            "manifold is the tangent bundle of the group with the symplectic form ω."
-        ),
+        say("motions.manifold") + say("motions.complete"),
         (26,),
     )
 
@@ -64,14 +57,5 @@ def held(law: Ambient, gram: Expr, n: int, c: Chapter) -> Step:
             Equation(left, right),
             Equation(tree_of(seen), tree_of(carried)),
         ),
-        say(
-            "The point A moves in the space of all matrices, with the metric of J, pushed by F̃ and "
-            "held on the group by what is orthogonal to it, α̇ − F̃: without forces it draws a "
-            "geodesic of the metric."
-        )
-        + say(
-            "Of Āα̇ = Ż + Z² the term in Z² does no work: for J = 𝟏 and without forces Z is then "
-            "constant, and the motions are the one-parameter groups, moved by an element of the "
-            "group."
-        ),
+        say("geodesics.held") + say("geodesics.free"),
     )

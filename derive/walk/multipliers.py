@@ -17,11 +17,11 @@ from ..language import rational as q
 from ..language.read import read
 from ..language.tree import Tree, add
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, say
+from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .inverse import cancelling, inverse_letter
-from .supposed import told
+from .telling import say, told
 from .translation import Centred
 from .trivialisation import gram, rates
 
@@ -110,12 +110,7 @@ def _in_space(
         equations.append(Equation(b.T.acceleration.name, draft.tree(pulled, notation)))
     return draft.step(
         equations,
-        say(
-            "The same in space, by C⁻¹ = A⁻¹Ā⁻¹: A(Ż + Z²) is the acceleration of A, A(ẇ + Zw) "
-            "that of T."
-            if drift is not None
-            else "The same in space, by C⁻¹ = A⁻¹Ā⁻¹: A(Ż + Z²) is the acceleration of A."
-        ),
+        say("space.affine" if drift is not None else "space.linear"),
     )
 
 
@@ -145,17 +140,13 @@ def _multiplier(solved: Expr, direction: Expr) -> tuple[Expr, Expr]:
 
 def _prose(direction: Expr | None, letters: list[Letter]) -> Prose:
     if direction is None:
-        return say("The equations hold for every matrix ξ′, so that its coefficient vanishes.")
+        return say("multiplier.none")
     if letters:
-        return say(
-            "The difference of the two sides is orthogonal to the Lie algebra: a multiple of Λ."
-        )
-    return say(
-        "The difference of the two sides is orthogonal, for Tr ab̄, to every matrix of "
-        "trace zero: a multiple θ of 𝟏, the multiplier of the volume."
-    )
+        return say("multiplier.normal")
+    return say("multiplier.volume")
 
 
 def _invertible(metric: str, b: Alphabet, *, multiplier: bool) -> Prose:
-    maps = "affine maps" if b.affine else "maps"
-    return told(f"{maps} of a volume" if multiplier else maps, b.signed, metric=metric)
+    maps = "affine_maps" if b.affine else "maps"
+    maps += "_of_a_volume" if multiplier else ""
+    return told(f"motion.{maps}", b.signed, metric=metric)

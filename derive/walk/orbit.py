@@ -16,12 +16,12 @@ from ..algebra.written import Notation, metrics
 from ..language.read import read
 from ..language.tree import add, neg
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, say
+from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .lagrangian import Lagrangian
 from .pullback import Moments, sum_over
-from .supposed import told
+from .telling import say, told
 from .trivialisation import frame_rule, gram
 
 
@@ -58,11 +58,8 @@ def _summed(points: Lagrangian, arm: Expr, moments: Moments, a: Alphabet) -> Exp
 
 
 def _told(a: Alphabet) -> Prose:
-    where = told("affine places" if a.affine else "places", a.signed)
-    return where + say(
-        "Elsewhere the path is told by its start, if no tangent vector but 0 leaves all the points "
-        "at rest."
-    )
+    where = told("unique.affine_span" if a.affine else "unique.span", a.signed)
+    return where + say("unique.elsewhere")
 
 
 @dataclass(frozen=True)
@@ -97,7 +94,7 @@ def distances(points: Lagrangian, a: Alphabet, c: Chapter) -> Distances:
     square = reduce(square, rule)
     step = draft.step(
         _equations(draft, square, varied, a),
-        say("The distances of the points change through C alone, the Cauchy–Green matrix."),
+        say("distances.cauchy_green"),
     )
     return Distances(draft.said(square), draft.said(varied), (step,))
 
@@ -108,9 +105,6 @@ def rigid(general: Distances, unit: Expr, a: Alphabet, c: Chapter) -> Step:
     square, varied = (a.respell(e, unit).of(unit) for e in (general.square, general.varied))
     return draft.step(
         _equations(draft, square, varied, a),
-        say(
-            "The body is rigid: C = 𝟏 says that the distances of its points are kept, so that it "
-            "moves on an orbit of the isometries."
-        ),
+        say("rigid.orbit"),
         (1, 6),
     )

@@ -11,11 +11,12 @@ from ..algebra.written import Notation, metrics, tree_of
 from ..language.tree import Tree, add, mul, replaced
 from ..problem.problem import Problem
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, say
+from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .hat import OMEGA_P, isolate
 from .pointwise import Elements, Radial, column, embedded
+from .telling import say
 from .trivialisation import frame_rule
 
 
@@ -50,21 +51,11 @@ def pushes_step(
 
 
 def _prose(*, vectors: bool, radials: bool) -> Prose:
-    if vectors:
-        prose = say(
-            "The part U_Q of the potential is given point by point: P_i is its force on "
-            "point i in the body frame, Ā on minus the derivative of U_Q with respect to "
-            "r_i(t)."
-        )
-    else:
-        prose = say(
-            "The part U_Q of the potential is given point by point: Q_i is its force on point i, "
-            "minus the derivative of U_Q by r_i(t)."
-        )
+    prose = say("pushes.body" if vectors else "pushes.space")
     if radials and vectors:
-        prose += say("Element e, a function of ‖d_e‖, pushes along d_e, and ‖d_e‖ = ‖Ād_e‖.")
+        prose += say("pushes.element_and_length")
     elif radials:
-        prose += say("Element e, a function of ‖d_e‖, pushes along d_e.")
+        prose += say("pushes.element")
     return prose
 
 

@@ -14,13 +14,14 @@ from ..algebra.words import Expr, Letter, number, word
 from ..language.tree import Tree, add
 from ..problem.problem import Problem
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, say
+from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .kinds import walked
 from .point_forces import applied, pushes_step
 from .pointwise import Elements
 from .summed import Own, Words, moved
+from .telling import say
 
 U_Q = Letter("U_Q")
 
@@ -84,8 +85,8 @@ def potentials(problem: Problem, a: Alphabet, c: Chapter, gram: Expr | None = No
 
 def _opening(over_points: list[Tree]) -> Prose:
     if not over_points:
-        return say("No potential: the motion is free.")
-    return say("The potential of the problem, on the points and pulled back to the group.")
+        return say("potential.none")
+    return say("potential.pulled_back")
 
 
 def _timed(t: Tree) -> bool:

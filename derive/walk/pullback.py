@@ -34,11 +34,11 @@ from ..language.tree import add, neg
 from ..record.formulas import stated
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .lagrangian import Lagrangian, kinetic_of_motion, moving_tree
-from .supposed import kinetic_metric, of_masses, told
+from .supposed import kinetic_metric, of_masses
+from .telling import say, told
 
 Moments = Mapping[tuple[Letter, ...], Expr]
 """Σ of a product of members: (m, r, r) ↦ Σ m_i r_i r̄_i, (F, r) ↦ Σ F_i r̄_i, (m,) ↦ Σ m_i, …"""
@@ -112,11 +112,7 @@ def pullback(stage: Lagrangian, a: Alphabet, c: Chapter) -> Pullback:
             Equation("L̃", add(("sum", "i", moving_tree(stage, a)), neg("Ũ"))),
             *(Equation("L̃", draft.tree(kinetic - word(a.U), n)) for n in notations),
         ],
-        say(
-            "The Lagrangian is pulled back to the group by r̂ : (t, g, ν) ↦ (t, g(r), ν(r)): the "
-            "velocities of the motion are put in and the sum over the points is carried out."
-        )
-        + told("kinetic energy", a.signed),
+        say("pullback.pulled") + told("pullback.metric", a.signed),
         (11, 12, 13, 17) if a.affine else (11, 12, 13, 21, 22),
         hypotheses=(*of_masses(a), metric),
     )
@@ -133,10 +129,7 @@ def _moments(a: Alphabet, c: Chapter) -> tuple[Moments, Step]:
     draft = c.draft("moments", "definition")
     step = draft.step(
         stated("m = Σᵢ mᵢ,  c = Σᵢ mᵢ rᵢ,  J = Σᵢ mᵢ rᵢ r̄ᵢ"),
-        say(
-            "The body enters the kinetic energy through its moments only: mass, first moment, "
-            "matrix of moments."
-        ),
+        say("moments.only"),
         (18, 19),
     )
     table = {(a.m_i,): a.m, (a.m_i, a.r_i): a.c, (a.m_i, a.r_i, a.r_i): a.J}
@@ -152,10 +145,7 @@ def _force(stage: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Expr, Moments, S
     varied = read("dŨ(δA, δT)" if a.affine else "dŨ(δA)")
     step = draft.step(
         (*definitions, Equation(varied, draft.tree(-work))),
-        say(
-            "The forces F_i, opposite to the derivatives of U with respect to the places "
-            "r_i(t) in space, act on the group through their moments."
-        ),
+        say("force.points"),
         (2,),
     )
     return draft.said(work), {key: draft.said(e) for key, e in table.items()}, step
@@ -167,9 +157,7 @@ def _gradient(a: Alphabet, c: Chapter, metric: Hypothesis) -> tuple[Expr, Step]:
     pairing = inner(word(a.F_group), word(a.A.d_position), word(a.J))
     step = draft.step(
         (Equation(draft.tree(pairing, metrics("J")), read("−dŨ(δA)"), ("δA",)),),
-        say(
-            "The force F̃, tangent to the group, is the opposite of the gradient of Ũ in the metric."
-        ),
+        say("gradient.metric"),
         (24,),
         hypotheses=(metric,),
     )

@@ -10,8 +10,9 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from ..algebra.calculus import derivation, substitute
 from ..algebra.words import Expr, Letter, word
-from ..record.sentence import Prose, say
+from ..record.sentence import Prose
 from .alphabet import Alphabet, Dual, Frame
+from .telling import say
 from .trivialisation import varied_gram
 
 
@@ -60,7 +61,6 @@ def moved(
 def restricted_prose(a: Alphabet) -> Prose:
     """What is said where dϖ is restricted."""
     return say(
-        "Its exterior derivative: that of any group by {momenta}, whose values here are read off "
-        "the Cartan form.",
+        "exterior.by_momenta",
         momenta="(Π, p_b, Φ, F_b)" if a.affine else "(Π, Φ)",
     )

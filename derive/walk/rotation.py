@@ -10,7 +10,7 @@ from ..algebra.words import Expr, Letter, word
 from ..algebra.written import metrics
 from ..language.tree import Tree, add, mul
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, say
+from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .components import components, diagonal
@@ -19,7 +19,7 @@ from .hat import INERTIA, MU, OMEGA_P, PHI, ZETA, ZETA_DOT, Reader, fold_moment,
 from .inputs import Given
 from .isometry import Isometry
 from .potential import Potentials, virtual_work
-from .supposed import told
+from .telling import say, told
 from .trivialisation import frame_rule, rates
 from .vector import VectorForm, pairing
 from .wedge import vector_sum
@@ -57,7 +57,7 @@ def torque(v: Potentials, stage: Isometry, read: Reader, c: Chapter) -> Torque:
     pairs = zip(left, forces.values(), strict=True)
     step = draft.step(
         (Equation(draft.tree(x), draft.tree(e)) for x, e in pairs),
-        say("The forces of this problem: the potential is varied along the group."),
+        say("torque.varied"),
     )
     return Torque({x: draft.said(e) for x, e in forces.items()}, (step,))
 
@@ -115,13 +115,11 @@ def displacement_motion(
 
 def _prose(given: Given | None, b: Alphabet) -> Prose:
     if b.affine:
-        prose = told("displacement", b.signed)
-        added = say(
-            "The given moment u and force f_u, outside dϖ, add ⟨u, Ω′⟩ + ⟨f_u, η′⟩ to the work."
-        )
+        prose = told("motion.displacement", b.signed)
+        added = say("motion.given_wrench")
     else:
-        prose = told("rotation", b.signed)
-        added = say("The given torque u, outside dϖ, adds ⟨u, Ω′⟩ to the work.")
+        prose = told("motion.rotation", b.signed)
+        added = say("motion.given_torque")
     return prose if given is None or given.steps else prose + added
 
 
@@ -129,9 +127,7 @@ def energy_step(stage: Isometry, v: Potentials, read: Reader, c: Chapter) -> Ste
     """h̃ in vectors, with the potential of the problem."""
     b, draft = stage.letters, c.draft("energy", "identification")
     energy = substitute(read.scalar(stage.cartan.energy), {b.U: v.energy})
-    return draft.step(
-        (Equation("h̃", draft.tree(energy, metrics("I"))),), say("The energy of this problem.")
-    )
+    return draft.step((Equation("h̃", draft.tree(energy, metrics("I"))),), say("energy.problem"))
 
 
 def principal_step(euler: Step, c: Chapter) -> Step:
@@ -143,10 +139,7 @@ def principal_step(euler: Step, c: Chapter) -> Step:
     found = components(euler.equations[0].rhs, {"I": diagonal(moments)}, moments)
     return draft.step(
         (Equation(("entry", "ζ̇", i), t) for i, t in enumerate(found, 1)),
-        say(
-            "In principal axes of inertia, where I is diagonal with entries λ₁, λ₂, λ₃; the term "
-            "of the potential stays."
-        ),
+        say("principal.axes"),
         (35,),
         (Equation("I", ("matrix", *rows)),),
     )
@@ -160,6 +153,6 @@ def euler_step(kernel: VectorForm, b: Alphabet, c: Chapter) -> Step:
     draft.read(rest)
     return draft.step(
         (Equation("ζ̇", add("φ", mul(("inv", "I"), vector_sum(rest)))),),
-        told("Euler", b.signed),
+        told("euler.solved", b.signed),
         (34,),
     )

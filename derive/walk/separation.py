@@ -13,12 +13,13 @@ from ..language.read import read
 from ..problem.problem import Problem
 from ..record.formulas import stated
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, listed, phrase, say
+from ..record.sentence import Prose, listed
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .contraction import AND
 from .inverse import cancel_scalar, inverse_letter
 from .potential import U_Q, Potentials
+from .telling import phrase, say
 from .translation import central_moments
 
 
@@ -51,14 +52,7 @@ def kinetic_separation(kinetic: Expr, a: Alphabet, c: Chapter) -> Step:
     )
     return draft.step(
         equations,
-        say(
-            "With the centre of mass R in place of T the kinetic energy is that of the linear part "
-            "about the centre of mass and that of the whole mass at it."
-        )
-        + say(
-            "Where the group has every translation, the two motions separate if the potential is "
-            "such a sum too."
-        ),
+        say("separation.kinetic") + say("separation.condition"),
     )
 
 
@@ -79,32 +73,25 @@ def potential_separation(
 
 
 def _prose(problem: Problem, *, decided: bool, rest: bool, given: bool) -> Prose:
-    damping = [phrase("damping")] if problem.damping else []
-    outside = damping + ([phrase("inputs")] if problem.inputs else [])
+    damping = [phrase("separation.damping")] if problem.damping else []
+    outside = damping + ([phrase("separation.inputs")] if problem.inputs else [])
     if not decided:
-        prose = say(
-            "The motion separates if U_Q, which is given point by point, is a sum of a function of "
-            "the linear part and one of R."
-        )
+        prose = say("separation.pointwise")
         if rest:
-            prose += say("The rest of the potential is such a sum.")
+            prose += say("separation.rest")
         if outside:
             prose += say(
-                "The forces outside dϖ, {forces}, may tie the two as well.",
+                "separation.outside_too",
                 forces=listed(AND, outside),
             )
         return prose
     if outside:
         prose = say(
-            "No term of the potential has both the linear part and the centre of mass; the forces "
-            "outside dϖ, {forces}, may tie the two.",
+            "separation.outside",
             forces=listed(AND, outside),
         )
     else:
-        prose = say(
-            "No term of the potential has both the linear part and the centre of mass: the motion "
-            "separates into theirs."
-        )
+        prose = say("separation.separates")
     if given:
-        prose += say("U_Q is made of differences of places, in which R cancels.")
+        prose += say("separation.differences")
     return prose

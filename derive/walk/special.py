@@ -18,7 +18,7 @@ from ..language.tree import Tree
 from ..problem.left_invariant import Bodies
 from ..record.formulas import stated
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, say
+from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .cartan import Cartan, form_equation
 from .cauchy_green import claims, told, without_gram
@@ -33,6 +33,7 @@ from .kernel import balanced
 from .momentum import MomentumForm, fibre
 from .potential import Potentials, virtual_work
 from .restrict import restrict, restricted_prose
+from .telling import say
 from .trivialisation import frame_rule, gram, rates, varied_gram
 
 
@@ -118,12 +119,10 @@ def specialise(
     said = {x: pushing.said(e).of(road.pushed) for x, e in forces.items()}
     writing = c.draft("cartan", "relation")
     opened = dict(zip((plain.bracket, plain.bracket_w), brackets_of(plain).values(), strict=False))
-    last = weighing.step(
-        (Equation("h̃", weighing.tree(restricted(energy))),), say("The energy of this problem.")
-    )
+    last = weighing.step((Equation("h̃", weighing.tree(restricted(energy))),), say("energy.problem"))
     written = writing.step(
         (form_equation(writing, restricted(momentum), restricted(energy), Notation()),),
-        say("The Cartan form of this problem."),
+        say("cartan.problem"),
     )
     momentum, energy = writing.said(momentum), writing.said(energy)
     domega = restricted(_derived(momentum, energy, road, v, plain, opened))
@@ -178,8 +177,7 @@ def _smaller(group: Group) -> Prose:
     if group.dimension == whole:
         return ()
     return say(
-        "There are more relations: the Lie algebra has dimension {dimension}, and its elements are "
-        "those in the step of the coordinates.",
+        "relation.more",
         dimension=str(group.dimension),
     )
 
@@ -189,31 +187,14 @@ def _kept(group: Group, *, stays: bool = True) -> Prose:
     skew = "orthogonal" in group.relations
     if group.affine:
         if skew:
-            return say("The linear parts of the Lie algebra are skew, so ĀA = 𝟏 and C drops out.")
-        return say(
-            "The linear parts of the Lie algebra have trace zero, so the volume is kept; C does "
-            "not drop out."
-        )
+            return say("relation.skew_parts")
+        return say("relation.traceless_parts")
     if skew:
-        return say("The matrices of the Lie algebra are skew, so ĀA = 𝟏 and C drops out.")
-    prose = (
-        say(
-            "The matrices of the Lie algebra have trace zero, so the volume is kept; C does not "
-            "drop out."
-        )
-        if stays
-        else say("The matrices of the Lie algebra have trace zero, so the volume is kept.")
-    )
+        return say("relation.skew")
+    prose = say("relation.traceless") if stays else say("relation.volume")
     if group.factors:
         return prose
-    return (
-        prose
-        + say(
-            "Only maps that fix the origin are allowed: a constraint, whose reaction at the "
-            "origin is α̇c less the sum of the forces."
-        )
-        + say("It vanishes if c = 0 and the forces have no resultant.")
-    )
+    return prose + say("relation.fixed_origin") + say("relation.reaction")
 
 
 def _derived(
@@ -268,8 +249,7 @@ def _kernel(
     step = draft.step(
         (*rates(draft, a), Equation(shown, draft.tree(work), tuple(x.name for x in tested))),
         say(
-            "X is in the kernel if and only if dϖ(X, δ′y) vanishes for every {variation} of the "
-            "Lie algebra, with the work of the forces on the right.",
+            "kernel.work",
             variation="(ξ′, η′)" if a.affine else "ξ′",
         ),
     )
@@ -280,8 +260,5 @@ def _forces(forces: dict[Letter, Expr], d: Draft) -> Step:
     sides = (read("ĀN"), read("ĀF"))
     return d.step(
         (Equation(x, d.tree(e)) for x, e in zip(sides, forces.values(), strict=False)),
-        say(
-            "The moments of this problem's forces in the body: the potential is varied over all "
-            "matrices δA, of which those of the group are a part."
-        ),
+        say("force.moments"),
     )

@@ -1,4 +1,4 @@
-"""What the walk supposes: hypotheses as data, and the words for them, by the sign of the masses.
+"""What the walk supposes: hypotheses as data, by the sign of the masses.
 
 With positive masses the metric of the kinetic energy is definite on the group.  Without that it is
 a quadratic form, degenerate for some bodies and, where it changes from place to place, at some
@@ -18,123 +18,10 @@ from ..language.read import read
 from ..language.tree import Tree, nodes, operands
 from ..record.hypotheses import Hypothesis
 from ..record.record import Step
-from ..record.sentence import Prose, Sentence, say
 from .alphabet import Alphabet
-
-WORDS: dict[str, tuple[str, str]] = {
-    "kinetic energy": (
-        "From here on the masses are positive and no tangent vector of the group but 0 leaves all "
-        "the points at rest: the kinetic energy is then half the square of a norm, a metric on the "
-        "group.",
-        "Masses may be negative here: the kinetic energy is half the value of a quadratic form, "
-        "which is called the metric; what follows holds wherever it is invertible on the tangent "
-        "vectors of the group.",
-    ),
-    "velocity of X": (
-        "As {regular}, this expression vanishes for all such variations only if X has the velocity "
-        "of the motion, which is inserted; {rates}.",
-        "Wherever {regular}, this expression vanishes for all such variations only if X has the "
-        "velocity of the motion, which is inserted; {rates}.",
-    ),
-    "metric of a displacement": (
-        "the metric is not degenerate (the masses are not all on one line)",
-        "the metric is not degenerate",
-    ),
-    "metric of a rotation": (
-        "the tensor I is invertible (the masses are not all on one line through the fixed point)",
-        "the tensor I is invertible",
-    ),
-    "line": (
-        "With δt = 0 the same two tests leave X = 0: the kernel is a line.",
-        "With δt = 0 the same two tests leave X = 0 wherever the metric is invertible: there the "
-        "kernel is a line.",
-    ),
-    "mass": (
-        "As m > 0, the balance of forces gives ẇ; inserted into the balance of moments, it makes "
-        "I_c appear there, the tensor of inertia about the centre of mass r_c, which follows from "
-        "J_c as I does from J.",
-        "Wherever m is not 0, the balance of forces gives ẇ; inserted into the balance of "
-        "moments, it makes I_c appear there, the tensor of inertia about the centre of mass r_c, "
-        "which follows from J_c as I does from J.",
-    ),
-    "mass of a map": (
-        "As the group has every translation, the coefficient of η′ gives ẇ; put into that of ξ′, "
-        "it leaves the equations of the linear parts about the centre of mass r_c, with the "
-        "moments of masses and forces about it; here ξ′ runs over the linear parts of 𝔤.",
-        "As the group has every translation, the coefficient of η′ gives ẇ wherever m is not 0; "
-        "put into that of ξ′, it leaves the equations of the linear parts about the centre of mass "
-        "r_c, with the moments of masses and forces about it; here ξ′ runs over the linear parts "
-        "of 𝔤.",
-    ),
-    "Euler": (
-        "Euler's equations, solved for the angular acceleration: the tensor I is invertible.",
-        "Euler's equations, solved for the angular acceleration wherever the tensor I is "
-        "invertible.",
-    ),
-    "rotation": (
-        "The equations of motion of this problem, solved for the accelerations: the tensor I is "
-        "invertible where the masses are not all on one line through the fixed point.",
-        "The equations of motion of this problem, solved for the accelerations wherever the "
-        "tensor I is invertible.",
-    ),
-    "displacement": (
-        "The equations of motion of this problem, solved for the accelerations: the tensor I_c is "
-        "invertible where the masses are not all on one line.",
-        "The equations of motion of this problem, solved for the accelerations wherever the "
-        "tensor I_c is invertible and m is not 0.",
-    ),
-    "affine maps of a volume": (
-        "The equations of motion of this problem: {metric} is invertible where the masses do not "
-        "lie in one hyperplane, and that Ż is in the Lie algebra gives θ.",
-        "The equations of motion of this problem, wherever m is not 0, {metric} is invertible and "
-        "θ has a value: that Ż is in the Lie algebra gives it.",
-    ),
-    "affine maps": (
-        "The equations of motion of this problem: {metric} is invertible where the masses do not "
-        "lie in one hyperplane.",
-        "The equations of motion of this problem, wherever m is not 0 and {metric} is invertible.",
-    ),
-    "maps of a volume": (
-        "The equations of motion of this problem: {metric} is invertible where the masses span the "
-        "space, and that Ż is in the Lie algebra gives θ.",
-        "The equations of motion of this problem, wherever {metric} is invertible and θ has a "
-        "value: that Ż is in the Lie algebra gives it.",
-    ),
-    "maps": (
-        "The equations of motion of this problem: {metric} is invertible where the masses span the "
-        "space.",
-        "The equations of motion of this problem, wherever {metric} is invertible.",
-    ),
-    "places": (
-        "The places of the points tell g where they span the space: g_t is then the only element "
-        "that moves the body so, and is as smooth in t as they are.",
-        "The places of the points tell g wherever J is invertible: g_t is then the only element "
-        "that moves the body so, and is as smooth in t as they are.",
-    ),
-    "affine places": (
-        "The places of the points tell g where they are not in one hyperplane: g_t is then the "
-        "only element that moves the body so, and is as smooth in t as they are.",
-        "The places of the points tell g wherever m is not 0 and J_c is invertible: g_t is then "
-        "the only element that moves the body so, and is as smooth in t as they are.",
-    ),
-    "mass matrix": (
-        "M is invertible where no direction of the group leaves every mass in its place.",
-        "They are solved for the ζ̇_b wherever M is invertible.",
-    ),
-    "moments": (
-        "The moments of the body are parameters: those of some positive masses.",
-        "The moments of the body are parameters: those of some masses, which may be negative.",
-    ),
-}
-"""What is said where the masses are positive, and where they may be of any sign."""
 
 ALWAYS = ("A", "C", read("Ā"))
 """The element of the group and C = ĀA have inverses."""
-
-
-def told(what: str, signed: bool, **places: Sentence | str) -> Prose:
-    """The words for a hypothesis; ``signed``: masses may be negative."""
-    return say(WORDS[what][signed], **places)
 
 
 # -- data ----------------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ from .alphabet import Alphabet
 from .chapter import Chapter
 from .inverse import cancel_scalar, cancelling, inverse_letter
 from .special import Special
-from .supposed import told
+from .telling import told
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def eliminate_translation(stage: Special, c: Chapter) -> Centred:
             Equation("N_c", draft.tree(force, notation)),
             Equation(draft.tree(inertial), draft.tree(pairing), (xi.name,)),
         ),
-        told("mass of a map", b.signed),
+        told("elimination.linear_parts", b.signed),
     )
     rate = tidy(substitute(-free, {b.c: from_centre[b.c]}))
     left_over, pushed = draft.said(inertial), draft.said(force)

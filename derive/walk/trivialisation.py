@@ -9,9 +9,9 @@ from ..algebra.words import Expr, Factor, Letter, word
 from ..algebra.written import tree_of
 from ..record.formulas import stated
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
+from .telling import say
 
 
 def frame_rule(a: Alphabet, gram: Expr) -> PairRule:
@@ -89,9 +89,6 @@ def trivialisation(a: Alphabet, c: Chapter) -> Step:
             *(Equation(p.d_velocity.name, tree_of(images[p.d_velocity])) for p in a.parts),
             Equation("δC", tree_of(varied_gram(a, a.Z.xi))),
         ),
-        say(
-            "Tangent vectors are carried to the Lie algebra by g⁻¹ (Maurer–Cartan); the metric "
-            "depends on g through C = ĀA only."
-        ),
+        say("trivialisation.carried"),
         (27, 30),
     )

@@ -20,13 +20,13 @@ from ..algebra.written import Notation, tree_of
 from ..language.read import read
 from ..language.tree import Tree, add
 from ..record.record import Equation, Step
-from ..record.sentence import say
 from .alphabet import Alphabet
 from .cartan import Cartan
 from .chapter import Chapter
 from .exterior import natural_variations, primes
 from .lagrangian import Lagrangian
 from .pullback import Pullback, sum_over
+from .telling import say
 
 ACROSS = read("dϖ(δy, X)")
 LATER = Letter("d/dt δt")
@@ -61,14 +61,7 @@ def principle(
                 add(ACROSS, read("d/dt(ϖ(δy))"), varying.tree(varied - exterior - rate)),
             ),
         ),
-        say(
-            "The action of a curve in the group is the integral of L̃ in time along its lift, where "
-            "ν is the velocity; on the tangent X of a lift ϖ is L̃, so this is the integral of ϖ."
-        )
-        + say(
-            "The lift is varied through lifts, and δ commutes with d/dt: where δt and δg vanish at "
-            "both ends, the action changes by the integral of dϖ(δy, X)."
-        ),
+        say("extremal.action") + say("extremal.lifts"),
         (5, 11),
         lift,
     )
@@ -83,15 +76,7 @@ def principle(
                 tuple(p.acceleration.name for p in a.parts),
             ),
         ),
-        say(
-            "Here δν does not occur, and δt and δg are any: so a lift is an extremal of the action "
-            "if and only if its tangent is in the kernel of dϖ, whether or not L̃ is regular."
-        )
-        + say(
-            "On the points it is d’Alembert’s principle of virtual work: what the constraint adds "
-            "to the forces F_i in Newton’s equations does no work in any displacement that "
-            "respects it."
-        ),
+        say("dalembert.extremal") + say("dalembert.points"),
         (2, 5),
         lift,
     )

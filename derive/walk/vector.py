@@ -17,8 +17,9 @@ from ..algebra.space import antisymmetry, hat, normal_form
 from ..algebra.words import Expr, Letter, word
 from ..algebra.written import Notation, metrics, tree_of
 from ..language.tree import Tree, add, terms
+from ..record import sentence
 from ..record.record import Equation, Step
-from ..record.sentence import Sentence, listed, phrase, say
+from ..record.sentence import Sentence, listed
 from .alphabet import Alphabet, Dual, Frame
 from .chapter import Chapter
 from .coadjoint import halved, momenta_told, motion_told
@@ -46,7 +47,7 @@ from .hat import (
 from .isometry import Isometry
 from .momentum import MomentumForm, horizontal
 from .restrict import moved
-from .supposed import told
+from .telling import say, told
 from .wedge import vector_sum
 
 HATS = tuple({hat(ZETA): word(hat(x))} for x in (TURNING.d_velocity, TURNING.dp_velocity, ZETA_DOT))
@@ -88,7 +89,7 @@ def vector_form(general: MomentumForm, stage: Isometry, read: Reader, c: Chapter
     forms = _by_momenta(domega, pairs, pushes, read), _by_value(stage, read)
     written = varying.step(
         [Equation(DOMEGA, x.whole(varying)) for x in forms],
-        say("The exterior derivative in vectors, by the momenta and with their values."),
+        say("exterior_vector.momenta"),
         () if b.affine else (31,),
     )
     found, steps = steps_of(
@@ -99,7 +100,7 @@ def vector_form(general: MomentumForm, stage: Isometry, read: Reader, c: Chapter
         b,
         c,
         () if b.affine else (34,),
-        *told(f"metric of a {'displacement' if b.affine else 'rotation'}", b.signed),
+        *told(f"second_order.{'displacement' if b.affine else 'rotation'}", b.signed),
     )
     balance, moving = _coadjoint(found, pairs, read, b, c)
     apart = [isolate(d.momentum) for d, _ in pairs]
@@ -185,7 +186,7 @@ def _brackets(pairs: Sequence[tuple[Dual, Frame]], read: Reader) -> dict[str, An
 def _unknown(pairs: Sequence[tuple[Dual, Frame]]) -> Sentence:
     """The components of X that are unknown, in words."""
     *others, last = [f.xi.name for _, f in pairs] + [f.d_velocity.name for _, f in pairs]
-    return phrase(AND, first=", ".join(others), second=last)
+    return sentence.phrase(AND, first=", ".join(others), second=last)
 
 
 def _rates(pairs: Sequence[tuple[Dual, Frame]]) -> list[Sentence]:
@@ -211,17 +212,12 @@ def _coadjoint(
     draft.read(*rates.values())
     step = draft.step(
         [Equation(x.name, _spun(vector_sum(e))) for x, e in rates.items()],
-        (
-            say("The coefficients of Ω′ and of η′ must vanish.")
-            if b.affine
-            else say("The coefficient of Ω′ must vanish.")
-        )
+        (say("coadjoint.turning_and_moving") if b.affine else say("coadjoint.turning"))
         + say(
-            "That of δ′t then vanishes as well: it is the opposite of what the rest gives for "
-            "{motion}.",
+            "coadjoint.energy",
             motion="Ω′ = ζ, η′ = w" if b.affine else "Ω′ = ζ",
         )
-        + told("line", b.signed)
+        + told("kernel.line", b.signed)
         + motion_told(b),
     )
     return {v: draft.said(e) for v, e in balance.items()}, step
@@ -246,8 +242,6 @@ def _kernel(balance: dict[Letter, Expr], b: Alphabet, c: Chapter) -> Step:
         equations.append(Equation(tree_of(left), vector_sum(left - e)))
     return draft.step(
         equations,
-        say("The same with the values of the momenta.")
-        if b.affine
-        else say("The same with the value of the momentum."),
+        say("kernel.values") if b.affine else say("kernel.value"),
         () if b.affine else (34,),
     )

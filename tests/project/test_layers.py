@@ -8,17 +8,18 @@ import pytest
 
 ROOT = Path(__file__).parents[2] / "derive"
 ALLOWED = {
+    "prose": {"prose"},
     "language": {"language"},
     "algebra": {"algebra", "language"},
     "schema": {"schema", "language"},
     "problem": {"problem", "schema", "algebra", "language"},
     "record": {"record", "schema", "language"},
-    "walk": {"walk", "record", "problem", "schema", "algebra", "language"},
+    "walk": {"walk", "prose", "record", "problem", "schema", "algebra", "language"},
     "check": {"check", "record", "algebra", "language"},
     "paper": {"paper", "check", "record", "algebra", "language"},
     "printing": {"printing", "record", "language"},
     "figure": {"figure", "printing", "record", "schema", "language"},
-    "views": {"views", "figure", "printing", "paper", "record", "schema", "language"},
+    "views": {"views", "prose", "figure", "printing", "paper", "record", "schema", "language"},
     "code": {"code", "record", "algebra", "language", "__init__"},
     "validate": {"validate", "check", "record", "algebra", "language"},
 }

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from derive import prose as texts
 from derive.command.cli import main, ready_made
 from derive.paper.printed import PAPER
 from derive.pipeline import walk
@@ -28,7 +29,6 @@ from derive.views.language import ENGLISH, LANGUAGES, THIN, WIDE, Language, entr
 from derive.views.latex import latex
 from derive.views.markdown import markdown, step_markdown
 from derive.views.text import step_text, text
-from derive.walk.supposed import WORDS
 from tests.problems import PROBLEMS
 from tests.support import walks
 from tests.support.kinds import examples
@@ -142,8 +142,9 @@ def test_every_sentence_is_in_the_catalogue(records):
 def test_every_message_of_the_walk_is_reached(records):
     """The problems above go through every branch that says something, but for what is said of
     masses of any sign (tests/walk/test_signed_masses.py)."""
+    steps = [(name, en) for named in texts.STEPS.values() for name, (en, _) in named.items()]
     written = strings("walk/*.py", "walk/kinds/*.py") & set(FRENCH.messages) - set(RULES)
-    written -= {signed for _, signed in WORDS.values()}
+    written |= {en for name, en in steps if not name.endswith("_signed")}
     meanings = titles_and_meanings()
     assert written - meanings <= set().union(*map(said, records))
 
@@ -170,9 +171,12 @@ def test_every_word_said_is_in_the_catalogue(path):
         name = getattr(called, "attr", getattr(called, "id", ""))
         if name in ("say", "phrase", "word") and node.args:
             message = node.args[0]
-            assert not isinstance(message, ast.JoinedStr)
             if isinstance(message, ast.Constant):
-                assert message.value in FRENCH.messages
+                text = message.value
+                of_walk = "walk" in path.parts[-3:] and isinstance(called, ast.Name)
+                assert (texts.english(text) if of_walk else text) in FRENCH.messages
+            else:
+                assert "walk" in path.parts[-3:] or not isinstance(message, ast.JoinedStr)
 
 
 def test_every_entry_is_used():
@@ -180,6 +184,7 @@ def test_every_entry_is_used():
     sources |= strings("paper/findings.py", "views/*.py", "figure/*.py", "schema/kinds/*.py")
     sources |= {p.remark for p in PAPER if p.remark}
     used = sources | strings("pipeline.py") | titles_and_meanings()
+    used |= {x["en"] for x in texts.entries()}  # tests/prose
     assert [x["en"] for x in ENTRIES if x["en"] not in used] == []
 
 

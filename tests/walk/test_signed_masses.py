@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import derive
+from derive import prose
 from derive.check.checker import check
 from derive.pipeline import general_road, walk
 from derive.problem.problem import ProblemError
@@ -23,7 +24,6 @@ from derive.record.sentence import Sentence
 from derive.record.vocabulary import ANY_GROUP
 from derive.views.language import language
 from derive.views.text import text
-from derive.walk.supposed import WORDS
 from tests.support.emitted import BUILDS, import_python
 from tests.support.needs import need
 from tests.support.walks import repeated
@@ -76,7 +76,13 @@ CLAIMS = re.compile(
     r"As m > 0|η′ gives ẇ;"
 )
 """What is said of positive masses alone."""
-POSITIVE, SIGNED = (frozenset(words) for words in zip(*WORDS.values(), strict=True))
+PAIRS = [
+    (named[name.removesuffix("_signed")][0], named[name][0])
+    for named in prose.STEPS.values()
+    for name in named
+    if name.endswith("_signed")
+]
+POSITIVE, SIGNED = (frozenset(words) for words in zip(*PAIRS, strict=True))
 
 
 @cache

@@ -16,7 +16,6 @@ from ...algebra.written import Notation, tree_of
 from ...language.tree import Tree, add, mul, neg
 from ...problem.problem import Problem
 from ...record.record import Equation
-from ...record.sentence import say
 from ...schema.kinds.far_centre import FarCentre
 from ..alphabet import Alphabet
 from ..chapter import Chapter
@@ -24,6 +23,7 @@ from ..lagrangian import POINT
 from ..pointwise import column
 from ..pullback import sum_over
 from ..summed import Own, Power, Words
+from ..telling import say
 
 KIND = FarCentre
 HALF = Fraction(1, 2)
@@ -59,10 +59,7 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
             Equation("V", ("div", p.strength, distance)),
         ],
         [("sum", "i", tree_of(_summand(a, x, near, near * near), shown))],
-        say(
-            "Of the gravity of the far centre, the terms of the fourth and higher orders in one "
-            "over the distance are dropped."
-        ),
+        say("potential.far_orders"),
         own,
     )
 

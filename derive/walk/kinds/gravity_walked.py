@@ -6,7 +6,6 @@ from ...algebra.words import Letter, inner, word
 from ...language.tree import neg
 from ...problem.problem import PointBody, Problem
 from ...record.record import Equation
-from ...record.sentence import say
 from ...schema.kinds.gravity import Gravity, gravity
 from ..alphabet import Alphabet
 from ..chapter import Chapter
@@ -14,6 +13,7 @@ from ..lagrangian import POINT
 from ..pointwise import column
 from ..pullback import sum_over
 from ..summed import Words
+from ..telling import say
 
 KIND = Gravity
 
@@ -33,7 +33,7 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
     }
     assert problem.group is not None
     spread = problem.body is not None and not isinstance(problem.body, PointBody)
-    told = say("Here Σ m_i stands for the sum over the whole body.") if spread else ()
+    told = say("potential.whole_body") if spread else ()
     return Words(
         sum_over(summand, {a.m_i, a.r_i}, table),
         [Equation("γ", column(problem.group.in_every_block(g)))],

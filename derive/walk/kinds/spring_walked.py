@@ -8,13 +8,13 @@ from ...algebra.words import Letter, inner, word
 from ...language.tree import Tree, add, mul, neg
 from ...problem.problem import Problem
 from ...record.record import Equation
-from ...record.sentence import say
 from ...schema.kinds.spring import Spring, quadratic
 from ..alphabet import Alphabet
 from ..chapter import Chapter
 from ..pointwise import Elements, column, in_space, place
 from ..pullback import sum_over
 from ..summed import Words
+from ..telling import say
 
 KIND = Spring
 
@@ -33,10 +33,7 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
         sum_over(summand, {k_e, s_e}, {(k_e, s_e, s_e): word(K)}),
         _definitions(springs),
         [_on_points(e, spring) for e, spring in enumerate(springs, 1)],
-        say(
-            "K is the sum over the springs of natural length 0; s_e joins the ends of one "
-            "of them in the body."
-        ),
+        say("potential.springs"),
     )
 
 

@@ -1,0 +1,32 @@
+"""The prose of each step in every language, by the label of the step.
+
+A sentence is called ``kernel.line``: the label without the chapter, and a name, which ends in
+``_signed`` where it is said of masses that may be negative.  Spaces that
+French does not break are written as ordinary ones (views/language.py).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from .general import STEPS as GENERAL
+from .material import STEPS as MATERIAL
+from .matrices import STEPS as MATRICES
+from .rotations import STEPS as ROTATIONS
+
+STEPS = {**GENERAL, **ROTATIONS, **MATRICES, **MATERIAL}
+"""Label → name → the sentence in ``LANGUAGES``."""
+LANGUAGES = ("en", "fr")
+
+
+def english(key: str) -> str:
+    """The English of a sentence, by its label and name."""
+    label, name = key.split(".")
+    return STEPS[label][name][0]
+
+
+def entries() -> Iterator[dict[str, str]]:
+    """Every sentence in every language."""
+    for named in STEPS.values():
+        for texts in named.values():
+            yield dict(zip(LANGUAGES, texts, strict=True))

@@ -1,0 +1,384 @@
+"""What is said of a group: its relations, its equations solved, what its motions keep.
+
+Label of a step, then a name for the sentence: English, French.
+"""
+
+from __future__ import annotations
+
+STEPS: dict[str, dict[str, tuple[str, str]]] = {
+    "relation": {
+        "isometries": (
+            "For isometries ĀA = 𝟏, so that C drops out, and Z and ξ are skew.",
+            "Pour les isométries, ĀA = 𝟏 : C disparaît, et Z et ξ sont antisymétriques.",
+        ),
+        "displacements": (
+            "For isometries ĀA = 𝟏, so that C drops out, and Z and ξ are skew; w and η are any "
+            "vectors.",
+            "Pour les isométries, ĀA = 𝟏 : C disparaît, et Z et ξ sont antisymétriques ; w et η "
+            "sont des vecteurs quelconques.",
+        ),
+        "skew": (
+            "The matrices of the Lie algebra are skew, so ĀA = 𝟏 and C drops out.",
+            "Les matrices de l’algèbre de Lie sont antisymétriques, donc ĀA = 𝟏 et C disparaît.",
+        ),
+        "skew_parts": (
+            "The linear parts of the Lie algebra are skew, so ĀA = 𝟏 and C drops out.",
+            "Les parties linéaires de l’algèbre de Lie sont antisymétriques, donc ĀA = 𝟏 et C "
+            "disparaît.",
+        ),
+        "traceless": (
+            "The matrices of the Lie algebra have trace zero, so the volume is kept; C does not "
+            "drop out.",
+            "Les matrices de l’algèbre de Lie sont de trace nulle, donc le volume est conservé ; "
+            "C ne disparaît pas.",
+        ),
+        "volume": (
+            "The matrices of the Lie algebra have trace zero, so the volume is kept.",
+            "Les matrices de l’algèbre de Lie sont de trace nulle, donc le volume est conservé.",
+        ),
+        "lengths": (
+            "Between two elements of the Lie algebra C drops out: A keeps the lengths of all that "
+            "is in their images.",
+            "Entre deux éléments de l’algèbre de Lie, C disparaît : les longueurs de tout ce qui "
+            "est dans leurs images sont conservées.",
+        ),
+        "left_invariant": (
+            "The metric is left-invariant for this body, although C is not 𝟏: C drops out of it, "
+            "and stays in the forces of the potential.",
+            "La métrique est invariante à gauche pour ce corps, bien que C ne soit pas 𝟏 : C en "
+            "disparaît, et reste dans les forces du potentiel.",
+        ),
+        "traceless_parts": (
+            "The linear parts of the Lie algebra have trace zero, so the volume is kept; C does "
+            "not drop out.",
+            "Les parties linéaires de l’algèbre de Lie sont de trace nulle, donc le volume est "
+            "conservé ; C ne disparaît pas.",
+        ),
+        "fixed_origin": (
+            "Only maps that fix the origin are allowed: a constraint, whose reaction at the "
+            "origin is α̇c less the sum of the forces.",
+            "Seules les applications qui fixent l’origine sont permises : c’est une contrainte, "
+            "dont la réaction à l’origine est α̇c moins la somme des forces.",
+        ),
+        "more": (
+            "There are more relations: the Lie algebra has dimension {dimension}, and its "
+            "elements are those in the step of the coordinates.",
+            "Les relations sont plus nombreuses : l’algèbre de Lie est de dimension {dimension}, "
+            "et ses éléments sont ceux de l’étape des coordonnées.",
+        ),
+        "reaction": (
+            "It vanishes if c = 0 and the forces have no resultant.",
+            "Elle s’annule si c = 0 et si les forces sont de résultante nulle.",
+        ),
+    },
+    "brackets": {
+        "commutative": (
+            "The group is commutative: the bracket vanishes, and with it the coadjoint term of "
+            "the momentum.",
+            "Le groupe est commutatif : le crochet est nul, et avec lui le terme coadjoint de "
+            "l’impulsion.",
+        ),
+        "central": (
+            "A bracket commutes with the whole Lie algebra: in the directions of brackets the "
+            "momentum has no coadjoint term.",
+            "Un crochet commute avec toute l’algèbre de Lie : dans les directions des crochets, "
+            "l’impulsion n’a pas de terme coadjoint.",
+        ),
+        "nilpotent": (
+            "The matrices of the Lie algebra are nilpotent: along its one-parameter groups the "
+            "points move by polynomials in the time.",
+            "Les matrices de l’algèbre de Lie sont nilpotentes : le long de ses groupes à un "
+            "paramètre, les points se déplacent par des polynômes du temps.",
+        ),
+    },
+    "coordinates": {
+        "basis": (
+            "Coordinates of the Lie algebra in the basis of the group.",
+            "Coordonnées de l’algèbre de Lie dans la base du groupe.",
+        ),
+        "linear_parts": (
+            "Coordinates of the linear parts of the Lie algebra in the basis of the group.",
+            "Coordonnées des parties linéaires de l’algèbre de Lie dans la base du groupe.",
+        ),
+        "stated": (
+            "The problem states a basis of its own: the coordinates of the velocity in it are z, "
+            "and they are those of the emitted state; ζ is the angular velocity still.",
+            "Le problème donne sa propre base : les coordonnées de la vitesse dans celle-ci sont "
+            "z, et ce sont celles de l’état du code ; ζ reste la vitesse angulaire.",
+        ),
+    },
+    "multiplier": {
+        "none": (
+            "The equations hold for every matrix ξ′, so that its coefficient vanishes.",
+            "Les équations valent pour toute matrice ξ′, dont le coefficient s’annule donc.",
+        ),
+        "normal": (
+            "The difference of the two sides is orthogonal to the Lie algebra: a multiple of Λ.",
+            "La différence des deux membres est orthogonale à l’algèbre de Lie : c’est un "
+            "multiple de Λ.",
+        ),
+        "volume": (
+            "The difference of the two sides is orthogonal, for Tr ab̄, to every matrix of trace "
+            "zero: a multiple θ of 𝟏, the multiplier of the volume.",
+            "La différence des deux membres est orthogonale, pour Tr ab̄, à toute matrice de "
+            "trace nulle : c’est un multiple θ de 𝟏, le multiplicateur du volume.",
+        ),
+    },
+    "mass": {
+        "centres": (
+            "For ξ′ = E_a(𝟏 − S) and Ż = Σ ψ_b E_b(𝟏 − S) the equations of motion are linear in "
+            "the ψ_b: M is the mass matrix of these, β_a the load along E_a(𝟏 − S).",
+            "Pour ξ′ = E_a(𝟏 − S) et Ż = Σ ψ_b E_b(𝟏 − S), les équations du mouvement sont "
+            "linéaires en les ψ_b : M est la matrice de masse de ceux-ci, β_a la charge le long "
+            "de E_a(𝟏 − S).",
+        ),
+        "basis": (
+            "For ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are linear in the ζ̇_b: M is "
+            "the mass matrix of the basis, β_a the load along E_a.",
+            "Pour ξ′ = E_a et Ż = Σ ζ̇_b E_b, les équations du mouvement sont linéaires en les "
+            "ζ̇_b : M est la matrice de masse de la base, β_a la charge le long de E_a.",
+        ),
+    },
+    "space": {
+        "linear": (
+            "The same in space, by C⁻¹ = A⁻¹Ā⁻¹: A(Ż + Z²) is the acceleration of A.",
+            "La même équation dans l’espace, par C⁻¹ = A⁻¹Ā⁻¹ : A(Ż + Z²) est l’accélération de A.",
+        ),
+        "affine": (
+            "The same in space, by C⁻¹ = A⁻¹Ā⁻¹: A(Ż + Z²) is the acceleration of A, A(ẇ + Zw) "
+            "that of T.",
+            "La même chose dans l’espace, par C⁻¹ = A⁻¹Ā⁻¹ : A(Ż + Z²) est l’accélération de A, "
+            "A(ẇ + Zw) celle de T.",
+        ),
+    },
+    "elimination": {
+        "mass": (
+            "As m > 0, the balance of forces gives ẇ; inserted into the balance of moments, it "
+            "makes I_c appear there, the tensor of inertia about the centre of mass r_c, which "
+            "follows from J_c as I does from J.",
+            "Comme m > 0, le bilan des forces donne ẇ ; reporté dans le bilan des moments, il "
+            "fait apparaître I_c, le tenseur d’inertie par rapport au centre de masse r_c, qui se "
+            "déduit de J_c comme I de J.",
+        ),
+        "velocity": (
+            "The velocity of the centre of mass, in the body frame, is w_c.",
+            "La vitesse du centre de masse, dans le repère du corps, est w_c.",
+        ),
+        "linear_parts": (
+            "As the group has every translation, the coefficient of η′ gives ẇ; put into that of "
+            "ξ′, it leaves the equations of the linear parts about the centre of mass r_c, with "
+            "the moments of masses and forces about it; here ξ′ runs over the linear parts of 𝔤.",
+            "Comme le groupe contient toutes les translations, le coefficient de η′ donne ẇ ; "
+            "substitué dans celui de ξ′, il laisse les équations des parties linéaires par "
+            "rapport au centre de masse r_c, avec les moments des masses et des forces pris en ce "
+            "point ; ici ξ′ parcourt les parties linéaires de 𝔤.",
+        ),
+        "centres": (
+            "Each factor with all its translations is seen from its centre of mass: that place is "
+            "in S, so that ZS is in the Lie algebra again and SZ = 0.",
+            "Chaque facteur qui a toutes ses translations est vu de son centre de masse : cette "
+            "place est dans S, de sorte que ZS est encore dans l’algèbre de Lie et que SZ = 0.",
+        ),
+        "mass_signed": (
+            "Wherever m is not 0, the balance of forces gives ẇ; inserted into the balance of "
+            "moments, it makes I_c appear there, the tensor of inertia about the centre of mass "
+            "r_c, which follows from J_c as I does from J.",
+            "Partout où m n’est pas nul, le bilan des forces donne ẇ ; reporté dans le bilan des "
+            "moments, il fait apparaître I_c, le tenseur d’inertie par rapport au centre de masse "
+            "r_c, qui se déduit de J_c comme I de J.",
+        ),
+        "linear_parts_signed": (
+            "As the group has every translation, the coefficient of η′ gives ẇ wherever m is not "
+            "0; put into that of ξ′, it leaves the equations of the linear parts about the centre "
+            "of mass r_c, with the moments of masses and forces about it; here ξ′ runs over the "
+            "linear parts of 𝔤.",
+            "Comme le groupe contient toutes les translations, le coefficient de η′ donne ẇ "
+            "partout où m n’est pas nul ; substitué dans celui de ξ′, il laisse les équations des "
+            "parties linéaires par rapport au centre de masse r_c, avec les moments des masses et "
+            "des forces par rapport à lui ; ici ξ′ parcourt les parties linéaires de 𝔤.",
+        ),
+    },
+    "motion": {
+        "rotation": (
+            "The equations of motion of this problem, solved for the accelerations: the tensor I "
+            "is invertible where the masses are not all on one line through the fixed point.",
+            "Les équations du mouvement de ce problème, résolues par rapport aux accélérations : "
+            "le tenseur I est inversible lorsque les masses ne sont pas toutes sur une même "
+            "droite passant par le point fixe.",
+        ),
+        "displacement": (
+            "The equations of motion of this problem, solved for the accelerations: the tensor "
+            "I_c is invertible where the masses are not all on one line.",
+            "Les équations du mouvement de ce problème, résolues par rapport aux accélérations : "
+            "le tenseur I_c est inversible lorsque les masses ne sont pas toutes alignées.",
+        ),
+        "given_torque": (
+            "The given torque u, outside dϖ, adds ⟨u, Ω′⟩ to the work.",
+            "Le moment donné u, extérieur à dϖ, ajoute ⟨u, Ω′⟩ au travail.",
+        ),
+        "given_wrench": (
+            "The given moment u and force f_u, outside dϖ, add ⟨u, Ω′⟩ + ⟨f_u, η′⟩ to the work.",
+            "Le moment u et la force f_u donnés, extérieurs à dϖ, ajoutent ⟨u, Ω′⟩ + ⟨f_u, η′⟩ au "
+            "travail.",
+        ),
+        "maps": (
+            "The equations of motion of this problem: {metric} is invertible where the masses "
+            "span the space.",
+            "Les équations du mouvement de ce problème : {metric} est inversible lorsque les "
+            "masses engendrent l’espace.",
+        ),
+        "maps_of_a_volume": (
+            "The equations of motion of this problem: {metric} is invertible where the masses "
+            "span the space, and that Ż is in the Lie algebra gives θ.",
+            "Les équations du mouvement de ce problème : {metric} est inversible lorsque les "
+            "masses engendrent l’espace, et l’appartenance de Ż à l’algèbre de Lie donne θ.",
+        ),
+        "affine_maps": (
+            "The equations of motion of this problem: {metric} is invertible where the masses do "
+            "not lie in one hyperplane.",
+            "Les équations du mouvement de ce problème : {metric} est inversible lorsque les "
+            "masses ne sont pas dans un même hyperplan.",
+        ),
+        "affine_maps_of_a_volume": (
+            "The equations of motion of this problem: {metric} is invertible where the masses do "
+            "not lie in one hyperplane, and that Ż is in the Lie algebra gives θ.",
+            "Les équations du mouvement de ce problème : {metric} est inversible lorsque les "
+            "masses ne sont pas dans un même hyperplan, et l’appartenance de Ż à l’algèbre de Lie "
+            "donne θ.",
+        ),
+        "problem": (
+            "The equations of motion of this problem.",
+            "Les équations du mouvement de ce problème.",
+        ),
+        "mass_matrix": (
+            "M is invertible where no direction of the group leaves every mass in its place.",
+            "M est inversible lorsqu’aucune direction du groupe ne laisse toutes les masses en "
+            "place.",
+        ),
+        "rotation_signed": (
+            "The equations of motion of this problem, solved for the accelerations wherever the "
+            "tensor I is invertible.",
+            "Les équations du mouvement de ce problème, résolues par rapport aux accélérations "
+            "partout où le tenseur I est inversible.",
+        ),
+        "displacement_signed": (
+            "The equations of motion of this problem, solved for the accelerations wherever the "
+            "tensor I_c is invertible and m is not 0.",
+            "Les équations du mouvement de ce problème, résolues par rapport aux accélérations "
+            "partout où le tenseur I_c est inversible et m non nul.",
+        ),
+        "affine_maps_of_a_volume_signed": (
+            "The equations of motion of this problem, wherever m is not 0, {metric} is invertible "
+            "and θ has a value: that Ż is in the Lie algebra gives it.",
+            "Les équations du mouvement de ce problème, partout où m n’est pas nul, où {metric} "
+            "est inversible et où θ a une valeur : l’appartenance de Ż à l’algèbre de Lie la "
+            "donne.",
+        ),
+        "affine_maps_signed": (
+            "The equations of motion of this problem, wherever m is not 0 and {metric} is "
+            "invertible.",
+            "Les équations du mouvement de ce problème, partout où m n’est pas nul et où {metric} "
+            "est inversible.",
+        ),
+        "maps_of_a_volume_signed": (
+            "The equations of motion of this problem, wherever {metric} is invertible and θ has a "
+            "value: that Ż is in the Lie algebra gives it.",
+            "Les équations du mouvement de ce problème, partout où {metric} est inversible et où "
+            "θ a une valeur : l’appartenance de Ż à l’algèbre de Lie la donne.",
+        ),
+        "maps_signed": (
+            "The equations of motion of this problem, wherever {metric} is invertible.",
+            "Les équations du mouvement de ce problème, partout où {metric} est inversible.",
+        ),
+        "mass_matrix_signed": (
+            "They are solved for the ζ̇_b wherever M is invertible.",
+            "On les résout par rapport aux ζ̇_b partout où M est inversible.",
+        ),
+    },
+    "separation": {
+        "kinetic": (
+            "With the centre of mass R in place of T the kinetic energy is that of the linear "
+            "part about the centre of mass and that of the whole mass at it.",
+            "Avec le centre de masse R à la place de T, l’énergie cinétique est la somme de celle "
+            "de la partie linéaire autour du centre de masse et de celle de la masse totale "
+            "placée en ce point.",
+        ),
+        "condition": (
+            "Where the group has every translation, the two motions separate if the potential is "
+            "such a sum too.",
+            "Lorsque le groupe contient toutes les translations, les deux mouvements se séparent "
+            "si le potentiel est lui aussi une telle somme.",
+        ),
+        "separates": (
+            "No term of the potential has both the linear part and the centre of mass: the motion "
+            "separates into theirs.",
+            "Aucun terme du potentiel ne contient à la fois la partie linéaire et le centre de "
+            "masse : leurs mouvements se séparent.",
+        ),
+        "outside": (
+            "No term of the potential has both the linear part and the centre of mass; the forces "
+            "outside dϖ, {forces}, may tie the two.",
+            "Aucun terme du potentiel ne contient à la fois la partie linéaire et le centre de "
+            "masse ; les forces extérieures à dϖ ({forces}) peuvent coupler les deux.",
+        ),
+        "pointwise": (
+            "The motion separates if U_Q, which is given point by point, is a sum of a function "
+            "of the linear part and one of R.",
+            "Le mouvement se sépare si U_Q, donné point par point, est la somme d’une fonction de "
+            "la partie linéaire et d’une fonction de R.",
+        ),
+        "rest": (
+            "The rest of the potential is such a sum.",
+            "Le reste du potentiel est une telle somme.",
+        ),
+        "outside_too": (
+            "The forces outside dϖ, {forces}, may tie the two as well.",
+            "Les forces extérieures à dϖ ({forces}) peuvent elles aussi coupler les deux.",
+        ),
+        "damping": (
+            "damping",
+            "amortissement",
+        ),
+        "inputs": (
+            "inputs",
+            "entrées",
+        ),
+        "differences": (
+            "U_Q is made of differences of places, in which R cancels.",
+            "U_Q est fait de différences de positions, où R s’élimine.",
+        ),
+    },
+    "conserved": {
+        "kept": (
+            "Among what the motion keeps, without inputs and damping: {kept}.",
+            "Parmi ce que le mouvement conserve, sans entrées ni amortissement : {kept}.",
+        ),
+        "noether": (
+            "The Cartan form, on an infinitesimal symmetry of L̃, is constant along the motion "
+            "(Noether).",
+            "La forme de Cartan, évaluée sur une symétrie infinitésimale de L̃, est constante le "
+            "long du mouvement (Noether).",
+        ),
+        "energy": (
+            "the energy",
+            "l’énergie",
+        ),
+        "angular_momentum": (
+            "the angular momentum ℓ about the origin of space",
+            "le moment cinétique ℓ par rapport à l’origine de l’espace",
+        ),
+        "along_gravity": (
+            "the component along gravity of the angular momentum ℓ about the origin of space",
+            "la composante le long de la pesanteur du moment cinétique ℓ par rapport à l’origine "
+            "de l’espace",
+        ),
+        "momentum": (
+            "the momentum p",
+            "l’impulsion p",
+        ),
+        "across_gravity": (
+            "the momentum p across gravity",
+            "l’impulsion p transverse à la pesanteur",
+        ),
+    },
+}
