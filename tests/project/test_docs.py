@@ -11,9 +11,9 @@ import derive
 from derive.command.arguments import parser
 from derive.command.cli import COMMANDS, main
 from derive.problem.problem import ProblemError
-from derive.problem.solids import KINDS
 from derive.problem.toml import problem_of
 from derive.schema.kinds import kinds, words
+from derive.schema.solid_kinds import SOLIDS
 from tests.project.test_layers import ALLOWED
 from tests.support.needs import need, needs
 from tests.support.pages import FENCE, PAGES, ROOT, TARGETS, Reader, blocks, shown
@@ -145,7 +145,7 @@ TABLES = [
         for x in kinds()
         if "rotations" not in kinds()[x].needs
     ),
-    *({"solid": [{"kind": x, "zz": 1}], "point": []} for x in KINDS),
+    *({"solid": [{"kind": x, "zz": 1}], "point": []} for x in SOLIDS),
 ]
 
 
