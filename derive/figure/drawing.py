@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from ..printing.escape import SYMBOLS
 from ..printing.letters import parameter
+from ..printing.signs import SYMBOLS
 from ..printing.wrap import display_width
 from ..record.sentence import Prose
 

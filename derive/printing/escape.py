@@ -6,7 +6,8 @@ import re
 import unicodedata
 from collections.abc import Callable
 
-from ..record.vocabulary import VOCABULARY
+from .signs import LOWERED, MATH_ACCENTS, NAMED, RAISED, SYMBOLS, math_char
+from .spoken import math_text
 
 TEX_SPECIAL = {
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "%": r"\%", "&": r"\&",
@@ -24,26 +25,6 @@ TEXT_ACCENTS = {
     "\u0307": ".", "\u0308": '"', "\u030a": "r", "\u030b": "H", "\u030c": "v", "\u0323": "d",
     "\u0327": "c",
 }  # fmt: skip
-MATH_ACCENTS = {"\u0304": r"\bar", "\u0303": r"\tilde", "\u0307": r"\dot", "\u0302": r"\hat"}
-GREEK = {
-    name: unicodedata.lookup(f"GREEK {case} LETTER {name.upper()}")
-    for case, names in (
-        ("SMALL", "alpha beta gamma delta epsilon zeta eta theta iota kappa mu nu xi pi rho "
-         "sigma tau upsilon phi chi psi omega"),
-        ("CAPITAL", "Gamma Delta Theta Xi Pi Sigma Upsilon Phi Psi Omega"),
-    )
-    for name in names.split()
-}  # fmt: skip
-NAMED = {"rho", "sigma", "omega", "gamma", "kappa", "theta", "lambda"}
-"""Parameters that equations have as Greek letters, and that are words of neither language."""
-SYMBOLS = {letter: rf"\{name}" for name, letter in GREEK.items()} | {
-    "λ": r"\lambda", "Λ": r"\Lambda", "φ": r"\varphi", "ϕ": r"\phi", "ϖ": r"\varpi",
-    "Σ": r"\sum", "∂": r"\partial", "−": "-", "∧": r"\wedge", "⟨": r"\langle", "⟩": r"\rangle",
-    "‖": r"\Vert", "≅": r"\cong", "≠": r"\neq", "≤": r"\le", "≥": r"\ge", "∈": r"\in", "→": r"\to",
-    "×": r"\times", "𝔤": r"\mathfrak{g}", "′": "'", "½": r"\tfrac12", "⅓": r"\tfrac13",
-    "¼": r"\tfrac14", "⅔": r"\tfrac23", "∇": r"\nabla", "∘": r"\circ",
-    "ℓ": r"\ell", "𝟏": r"\mathbf{1}", "𝔰": r"\mathfrak{s}", "𝔬": r"\mathfrak{o}",
-}  # fmt: skip
 TEXT = {
     "½": r"\textonehalf{}", "¼": r"\textonequarter{}", "¾": r"\textthreequarters{}",
     "⅓": "1/3", "⅔": "2/3", "µ": r"\ensuremath{\mu}", "∞": r"\ensuremath{\infty}",
@@ -54,8 +35,6 @@ TEXT = {
     "€": r"\texteuro{}", "†": r"\textdagger{}", "‰": r"\textperthousand{}",
 }  # fmt: skip
 """Outside formulas; a fraction of mathematics in a title would end TeX."""
-RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
-LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ", "0123456789ijet", strict=True))
 PLAIN = "+=/(),[].:0123456789 "
 OPERATORS = "=+−∧≅≠≤≥∈→×"
 NO_BREAK = "\u00a0\u202f"
@@ -79,7 +58,7 @@ def tex_text(words: str) -> str:
         elif c in TEX_SPECIAL:
             shown.append(TEX_SPECIAL[c])
         elif c in SYMBOLS or c in RAISED or c in LOWERED:
-            shown.append(rf"\ensuremath{{{_math_char(c)}}}")
+            shown.append(rf"\ensuremath{{{math_char(c)}}}")
         elif " " <= c <= "~":
             shown.append(c)
         elif not unicodedata.category(c).startswith(("M", "C")):
@@ -100,21 +79,40 @@ def markdown_text(words: str) -> str:
     return re.sub(r"([\\`*_{}\[\]#|~$])", r"\\\1", plain)
 
 
-def prose(words: str, escape: Callable[[str], str] = tex_text) -> str:
-    """A sentence with its formulas between dollars and the rest escaped."""
+def dollars(formula: str) -> str:
+    """A formula of a sentence as LaTeX between dollars."""
+    return f"${shown}$" if (shown := math_text(formula)) else ""
+
+
+def prose(
+    words: str,
+    escape: Callable[[str], str] = tex_text,
+    formula: Callable[[str], str] = dollars,
+) -> str:
+    """A sentence with its formulas between dollars, or otherwise shown, and the rest escaped."""
     found: list[str] = []
-    for formula, run in _runs(WORD.findall(words)):
-        before, core, after = _core(run) if formula else (run, "", "")
-        inside = f"${shown}$" if (shown := math_text(core)) else ""
-        found.append(escape(before) + inside + escape(after))
+    for mathematical, run in _runs(WORD.findall(words)):
+        before, core, after = _core(run) if mathematical else (run, "", "")
+        found.append(escape(before) + (formula(core) if core else "") + escape(after))
     return " ".join(found)
 
 
-def between_dollars(words: str, escape: Callable[[str], str] = tex_text) -> str:
+def unbraced(formula: str) -> str:
+    """The same, one letter by itself in no braces."""
+    tex = re.sub(r"([_^])\{(\w)\}", r"\1\2", dollars(formula))
+    return re.sub(r"\\bar\{(\w)\}", r"\\bar \1", tex)
+
+
+def between_dollars(
+    words: str,
+    escape: Callable[[str], str] = tex_text,
+    formula: Callable[[str], str] = unbraced,
+) -> str:
     """Text whose formulas stand between dollars already: the rest escaped, word by word."""
     parts = words.split("$")
     parts[::2] = [WORD.sub(lambda found: escape(found[0]), x) for x in parts[::2]]
-    return "$".join(parts)
+    parts[1::2] = map(formula, parts[1::2])
+    return "".join(parts)
 
 
 def _runs(words: list[str]) -> list[tuple[bool, str]]:
@@ -187,89 +185,6 @@ def _is_formula(word: str, first: bool) -> bool:
         c in SYMBOLS or c in RAISED or c in LOWERED or c in MATH_ACCENTS or c in "_="
         for c in decomposed
     )
-
-
-def _math_char(c: str) -> str:
-    if c in RAISED:
-        return f"^{{{RAISED[c]}}}"
-    if c in LOWERED:
-        return f"_{{{LOWERED[c]}}}"
-    return SYMBOLS.get(c, c)
-
-
-KNOWN = {unicodedata.normalize("NFC", name): x.latex for name, x in VOCABULARY.items()}
-TOKEN = re.compile(
-    "("
-    + "|".join(re.escape(name) for name in sorted(KNOWN, key=len, reverse=True) if len(name) > 1)
-    + r")(?![\u0300-\u036f])|_([A-Za-z0-9]+)|([⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)|([₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ]+)"
-    r"|([A-Za-z]{2,})(?![\u0300-\u036f])|(.)([\u0300-\u036f]*)"
-)
-
-
-SCRIPTS = f"_′{''.join(RAISED)}{''.join(LOWERED)}"
-BELOW, ABOVE = r"_(?:\{[^{}]*\}|\w)", r"\^\{[^{}]*\}"
-SECOND = {
-    "_": f"{BELOW}(?:{ABOVE}|'+)?$",
-    "^": f"(?:{ABOVE}|')(?:{BELOW})?$",
-    "'": f"(?:{ABOVE}(?:{BELOW})?|'{BELOW})$",
-}
-
-
-def math_text(formula: str) -> str:
-    """Letters of the paper, as ``r̄_i`` or ``∂U/∂r_i``, as the inside of a LaTeX formula."""
-    shown = ""
-    tight = re.sub(rf"(^|[{SCRIPTS}\s])[\u0300-\u036f]+", r"\1", formula)
-    tight = re.sub(rf"\s+(?=[{SCRIPTS}])", "", tight)
-    for match in TOKEN.finditer(unicodedata.normalize("NFC", tight)):
-        known, below, raised, lowered, word, letter, marks = match.groups()
-        if known:
-            piece = KNOWN[known]
-        elif below:
-            piece = f"_{{{below}}}"
-        elif raised:
-            piece = f"^{{{''.join(RAISED[c] for c in raised)}}}"
-        elif lowered:
-            piece = f"_{{{''.join(LOWERED[c] for c in lowered)}}}"
-        elif word:
-            piece = _word(word)
-        else:
-            piece = _letter(letter, marks, match.string[match.end() :])
-        shown += _joint(shown, piece) + piece
-    return shown
-
-
-def _joint(shown: str, piece: str) -> str:
-    """What keeps a command from its neighbour, and a second index or exponent from the first."""
-    if piece[:1].isalpha():
-        return " " if re.search(r"\\[A-Za-z]+$", shown) else ""
-    pattern = SECOND.get(piece[:1])
-    return "{}" if pattern and (not shown or re.search(pattern, shown)) else ""
-
-
-def _word(word: str) -> str:
-    if word == "Tr":
-        return r"\operatorname{Tr}"
-    if word in NAMED:
-        return rf"\{word}"
-    if len(word) == 2:
-        return rf"\mathrm{{d}}{word[1]}" if word[0] == "d" else word
-    return rf"\operatorname{{{word}}}"
-
-
-def _letter(letter: str, marks: str, rest: str) -> str:
-    """One character with its accents; R before an exponent is the field of the reals."""
-    base, *own = list(unicodedata.normalize("NFD", letter))
-    if unicodedata.combining(base):
-        return ""
-    shown = _math_char(base)
-    if letter == "R" and rest[:1] in RAISED:
-        shown = r"\mathbf{R}"
-    if letter == "d" and rest[:1] in SYMBOLS and rest[0].isalpha():
-        shown = r"\mathrm{d}"
-    for mark in [*own, *marks]:
-        if mark in MATH_ACCENTS and base.isalpha():
-            shown = f"{MATH_ACCENTS[mark]}{{{shown}}}"
-    return shown
 
 
 def formula_ok(name: str) -> bool:

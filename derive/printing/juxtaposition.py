@@ -8,22 +8,24 @@ from typing import Any
 
 from ..language.show import ATOM, SUM
 from ..language.tree import Tree
+from .typeset import BEFORE_FACTOR, Formula, fraction, literal
 
-Shown = tuple[str, int]
-"""LaTeX, and how tightly it holds together."""
-BEFORE_FACTOR = "\x04"
-"""The mark of a place where a line may break between factors."""
+NOTHING, SPACE, THIN = Formula(""), Formula(" "), literal(r"\,")
+BREAK = literal(BEFORE_FACTOR)
+DOT = BREAK + SPACE + literal(r"\cdot") + SPACE
 
 
-def number(q: int | Fraction) -> Shown:
+def number(q: int | Fraction) -> tuple[Formula, int]:
     """A number; a small fraction is set small."""
     level = ATOM if q >= 0 else SUM
+    sign = NOTHING if q > 0 else literal("-")
     if isinstance(q, int) or q.denominator == 1:
-        return str(int(q)), level
+        return literal(str(int(q))), level
     size = "tfrac" if abs(q.numerator) < 100 and q.denominator < 100 else "frac"
-    above, below = abs(q.numerator), q.denominator
-    digits = f"{above}{below}" if above < 10 and below < 10 else f"{{{above}}}{{{below}}}"
-    return rf"{'' if q > 0 else '-'}\{size}{digits}", level
+    above, below = str(abs(q.numerator)), str(q.denominator)
+    short = len(above) == len(below) == 1
+    digits = above + below if short else f"{{{above}}}{{{below}}}"
+    return sign + fraction(literal(above), literal(below), rf"\{size}{digits}"), level
 
 
 def outside(tex: str) -> str:
@@ -40,15 +42,15 @@ def _simple(t: Any) -> bool:
     return simple and (len(t) < 2 or _simple(t[1]))
 
 
-def glue(left: Tree, right: Tree) -> str:
+def glue(left: Tree, right: Tree) -> Formula:
     """What stands between two factors."""
     if isinstance(right, (int, Fraction)):
-        return rf"{BEFORE_FACTOR} \cdot "
+        return DOT
     if isinstance(left, (int, Fraction)):
-        return " "
+        return SPACE
     if isinstance(left, tuple) and left[0] == "one":
-        return r"\,"
+        return THIN
     if _simple(left) and _simple(right):
         named = [isinstance(x, tuple) and x[0] == "par" for x in (left, right)]
-        return r"\," if any(named) else " "
-    return rf"{BEFORE_FACTOR}\,"
+        return THIN if any(named) else SPACE
+    return BREAK + THIN

@@ -7,7 +7,8 @@ from collections.abc import Collection, Iterable, Mapping
 
 from ..record.record import Symbol
 from ..record.vocabulary import VOCABULARY
-from .escape import GREEK, tex_text
+from .escape import tex_text
+from .signs import GREEK
 
 NAMES = {name: x.latex for name, x in VOCABULARY.items()}
 HARMLESS = re.compile(
@@ -49,18 +50,3 @@ def _base(word: str) -> str:
     """A word sans serif; a Greek letter by itself, where the walk gives it no meaning."""
     free = word in GREEK and GREEK[word] not in VOCABULARY
     return rf"\{word}" if free else rf"\mathsf{{{word}}}"
-
-
-def paren(tex: str) -> str:
-    """In parentheses."""
-    return f"({tex})"
-
-
-def bar(tex: str) -> str:
-    """The bar of a transpose, over the letter that bears the name and not its prime or index."""
-    match = re.fullmatch(r"((?:\\delta'?\s*)?)(\\[a-z]+|[A-Za-z])('*)((?:_.+)?)", tex)
-    if match:
-        return rf"{match[1]}\bar{{{match[2]}}}{match[3]}{match[4]}"
-    match = re.fullmatch(r"(\\delta'?\s*)(\\[a-z]+\s*(?:\\[a-z]+|[A-Za-z]))", tex)
-    prefix, core = (match[1], match[2]) if match else ("", tex)
-    return rf"{prefix}\overline{{{core}}}"

@@ -69,11 +69,6 @@ def _renamed(macro: str, found: re.Match[str]) -> str:
     return f"{macro} " if found[1] else macro
 
 
-def spoken(tex: str) -> str:
-    """A formula of a sentence, where j(X) is a word and not yet a macro."""
-    return SPOKEN.sub(r"\\hatmap{\1}", tex)
-
-
 def standard(tex: str) -> str:
     """Formulas in standard commands alone."""
     return HAT.sub(r"j(\1)", tex)

@@ -1,28 +1,55 @@
-"""An operator tree as LaTeX, in the notation of the paper, with marks where a line may break.
+"""An operator tree as a formula in the notation of the paper, in LaTeX and in MathML at once.
 
-A mark is a control character that stands before an operator or after a comma; :func:`plain` takes
-the marks away, :func:`pieces` cuts at them.  Inside braces (bars, fractions, matrices) nothing
-breaks, so no mark survives there.
+Inside braces (bars, fractions, matrices) nothing breaks, so no mark survives there.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
+from operator import add
 
 from ..language.show import ATOM, PRODUCT, SUM, has_norm, signed, swallows
 from ..language.tree import Tree
-from .escape import formula_ok, math_text, tex_text
+from .escape import formula_ok, tex_text
 from .juxtaposition import glue, number, outside
-from .letters import NAMES, bar, parameter, paren
+from .letters import NAMES, parameter
 from .measure import measure
-from .wrap import COMMA, FACTOR, WEDGE, Piece, fill
-from .wrap import SUM as TERM
+from .notation import Notation
+from .spelling import named, parameter_formula, transposed
+from .spoken import spelt
+from .typeset import (
+    AFTER_COMMA,
+    BEFORE_FACTOR,
+    BEFORE_TERM,
+    BEFORE_WEDGE,
+    BREAKS,
+    IDENTITY,
+    MARKS,
+    SUM_SIGN,
+    Formula,
+    barred,
+    cut,
+    fraction,
+    group,
+    hat,
+    literal,
+    lowered,
+    matrix,
+    operator,
+    plain,
+    raised,
+    root,
+    stacked,
+    text,
+    upright,
+    word,
+)
+from .wrap import Piece, fill
 
-BREAKS = {"\x01": COMMA, "\x02": TERM, "\x03": WEDGE, "\x04": FACTOR}
-AFTER_COMMA, BEFORE_TERM, BEFORE_WEDGE, BEFORE_FACTOR = BREAKS
-MARKS = "".join(BREAKS)
 SCRIPTED = re.compile(r"\^|'.*_")
 OPENING = re.compile(r"\(|\[|\\(?:langle|lVert)(?![A-Za-z])")
 CLOSING = re.compile(r"\)|\]|\\(?:rangle|rVert)(?![A-Za-z])")
@@ -32,7 +59,8 @@ ENTRY_WIDTH = 24.0
 
 BARS = (r"\bar{", r"\overline{")
 
-Shown = tuple[str, int]
+Shown = tuple[Formula, int]
+"""A formula, and how tightly it holds together."""
 
 
 def latex_tree(t: Tree, names: Mapping[str, str] | None = None) -> str:
@@ -42,12 +70,14 @@ def latex_tree(t: Tree, names: Mapping[str, str] | None = None) -> str:
 
 def marked(t: Tree, names: Mapping[str, str] | None = None) -> str:
     """The same with marks where a line may break."""
-    return Printer(NAMES if names is None else names).show(t)[0]
+    return formula(t, names).tex
 
 
-def plain(tex: str) -> str:
-    """Without marks."""
-    return re.sub(f"[{MARKS}]", "", tex)
+def formula(
+    t: Tree, names: Mapping[str, str] | None = None, notation: Notation | None = None
+) -> Formula:
+    """A tree in both languages."""
+    return Printer(NAMES if names is None else names, notation or Notation()).bare(t)
 
 
 def pieces(tex: str) -> list[Piece]:
@@ -62,14 +92,40 @@ def pieces(tex: str) -> list[Piece]:
     return found
 
 
-class Printer:
-    """Trees to LaTeX: each method gives the text and how tightly it holds together."""
+@dataclass(frozen=True)
+class Cut(Piece):
+    """A piece of a formula in both languages."""
 
-    def __init__(self, names: Mapping[str, str]):
-        self.names = names
+    formula: Formula
+
+
+def cut_up(f: Formula) -> list[Cut]:
+    """A formula cut at its marks."""
+    both = zip(pieces(f.tex), cut(f), strict=True)
+    return [Cut(x.text, x.depth, part) for x, part in both]
+
+
+def paren(f: Formula) -> Formula:
+    """In parentheses."""
+    return literal("(") + f + literal(")")
+
+
+def joined(parts: list[Formula], between: Formula) -> Formula:
+    """One after the other."""
+    return reduce(lambda a, b: a + between + b, parts)
+
+
+COMMA_SPACE = literal(f",{AFTER_COMMA}") + Formula(" ")
+
+
+class Printer:
+    """Trees to formulas: each method gives one and how tightly it holds together."""
+
+    def __init__(self, names: Mapping[str, str], notation: Notation):
+        self.names, self.notation = names, notation
 
     def show(self, t: Tree) -> Shown:
-        """A tree: marked LaTeX and SUM, PRODUCT or ATOM."""
+        """A tree: a formula and SUM, PRODUCT or ATOM."""
         if isinstance(t, str):
             return self.name(t), ATOM
         if isinstance(t, (int, Fraction)):
@@ -77,40 +133,41 @@ class Printer:
         if t[0] in ("add", "mul"):
             return self.sum(t)
         method = getattr(self, f"op_{t[0]}")
-        shown: str | Shown = method(*t[1:])
-        return (shown, ATOM) if isinstance(shown, str) else shown
+        shown: Formula | Shown = method(*t[1:])
+        return shown if isinstance(shown, tuple) else (shown, ATOM)
 
-    def name(self, name: str) -> str:
+    def name(self, name: str) -> Formula:
         """A name of the record; one that it does not declare is spelt safely."""
         if name in self.names:
-            return self.names[name]
-        return math_text(name) if formula_ok(name) else rf"\text{{{tex_text(name)}}}"
+            return named(self.names[name])
+        return spelt(name) if formula_ok(name) else text(rf"\text{{{tex_text(name)}}}", name)
 
-    def bare(self, t: Tree) -> str:
+    def bare(self, t: Tree) -> Formula:
         """Inside brackets of its own."""
         return self.show(t)[0]
 
-    def atom(self, t: Tree) -> str:
+    def atom(self, t: Tree) -> Formula:
         """With parentheses where it is a sum or a product."""
-        tex, level = self.show(t)
-        return tex if level == ATOM else paren(tex)
+        f, level = self.show(t)
+        return f if level == ATOM else paren(f)
 
-    def base(self, t: Tree) -> str:
+    def base(self, t: Tree) -> Formula:
         """What may bear an exponent."""
-        tex = self.atom(t)
-        fraction = isinstance(t, Fraction) or (isinstance(t, tuple) and t[0] == "div")
-        return paren(tex) if SCRIPTED.search(outside(tex)) or (fraction and tex[0] != "(") else tex
+        f = self.atom(t)
+        over = isinstance(t, Fraction) or (isinstance(t, tuple) and t[0] == "div")
+        return paren(f) if SCRIPTED.search(outside(f.tex)) or (over and f.tex[0] != "(") else f
 
     def sum(self, t: Tree) -> Shown:
         """Terms with their signs."""
         terms = signed(t)
-        out = ""
+        out = Formula("")
         for k, (sign, term) in enumerate(terms):
-            tex, level = self.product(term)
-            lead = "-" if sign == "−" else ""
+            f, level = self.product(term)
+            lead = literal("-") if sign == "−" else Formula("")
             if k:
-                lead = f"{BEFORE_TERM} - " if lead else f"{BEFORE_TERM} + "
-            out += lead + (paren(tex) if level == SUM else tex)
+                lead = literal(BEFORE_TERM) + Formula(" ") + literal("-" if lead.tex else "+")
+                lead += Formula(" ")
+            out += lead + (paren(f) if level == SUM else f)
         return out, PRODUCT if len(terms) == 1 and terms[0][0] == "+" else SUM
 
     def product(self, t: Tree) -> Shown:
@@ -118,166 +175,193 @@ class Printer:
         if not isinstance(t, tuple) or t[0] != "mul":
             return self.show(t)
         factors: tuple[Tree, ...] = t[1:]
-        out = ""
-        for k, f in enumerate(factors):
-            tex, level = self.show(f)
+        out = Formula("")
+        for k, x in enumerate(factors):
+            f, level = self.show(x)
             last = k == len(factors) - 1
-            reaches = isinstance(f, tuple) and f[0] in ("tr", "sum", "wedge")
+            reaches = isinstance(x, tuple) and x[0] in ("tr", "sum", "wedge")
             inside = level == PRODUCT and not last and (k > 0 or reaches)
-            wedge = k > 0 and isinstance(f, tuple) and f[0] == "wedge"
+            wedge = k > 0 and isinstance(x, tuple) and x[0] == "wedge"
             if level == SUM or inside or wedge:
-                tex = paren(tex)
-            out += (glue(factors[k - 1], f) if k else "") + tex
+                f = paren(f)
+            out += (glue(factors[k - 1], x) if k else Formula("")) + f
         return out, PRODUCT
 
-    def op_T(self, a: Tree) -> str:
+    def op_T(self, a: Tree) -> Formula:
         """A bar: over a letter, or over the whole."""
         if isinstance(a, str):
-            return bar(self.name(a))
+            return self.transposed(a)
         if isinstance(a, tuple) and a[0] in ("at", "entry") and isinstance(a[1], str):
-            letter = bar(self.name(a[1]))
-            if "_" not in letter:
-                return letter + self.indices(a[2:])
-        return rf"\overline{{{plain(self.bare(a))}}}"
+            letter = self.transposed(a[1])
+            if "_" not in letter.tex:
+                return self.indexed(letter, a[2:])
+        inside = self.bare(a).plain()
+        return barred(inside, rf"\overline{{{inside.tex}}}", self.notation, letter=False)
+
+    def transposed(self, name: str) -> Formula:
+        """The transpose of a name."""
+        return transposed(self.name(name).tex, self.notation)
 
     def op_tr(self, a: Tree) -> Shown:
         """Tr of a word reaches to its end."""
-        tex, level = self.show(a)
-        space = r"\," if tex[:1] in "([" else " "
-        return rf"\operatorname{{Tr}}{paren(tex) if level == SUM else space + tex}", PRODUCT
+        f, level = self.show(a)
+        trace = operator("Tr", near=level == SUM)
+        if level == SUM:
+            return trace + paren(f), PRODUCT
+        return trace + (literal(r"\,") if f.tex[:1] in "([" else Formula(" ")) + f, PRODUCT
 
     def op_det(self, a: Tree) -> Shown:
         """det of a letter or of an expression."""
-        inside = f" {self.name(a)}" if isinstance(a, str) else paren(self.bare(a))
-        return rf"\det{inside}", PRODUCT
+        det = word(r"\det", "det")
+        if not isinstance(a, str):
+            return det + paren(self.bare(a)), PRODUCT
+        gap = Formula(" ", literal(r"\,").items)
+        return det + gap + self.name(a), PRODUCT
 
-    def op_inv(self, a: Tree) -> str:
+    def op_inv(self, a: Tree) -> Formula:
         """Inverse; braces, for a preamble may write a transpose as an exponent."""
         base = self.base(a)
-        return (f"{{{base}}}" if base.startswith(BARS) else base) + "^{-1}"
+        return raised(group(base) if base.tex.startswith(BARS) else base, literal("-1"))
 
-    def op_pow(self, a: Tree, n: Tree) -> str:
+    def op_pow(self, a: Tree, n: Tree) -> Formula:
         """Power; that of a function stands at its name."""
         named = isinstance(a, tuple) and a[0] == "fun" and a[1] != "sqrt"
         if named and isinstance(n, int) and n > 0:
-            head, argument = self.show(a)[0].split("(", 1)
-            return f"{head}^{{{n}}}({argument}"
-        return f"{self.base(a)}^{{{plain(self.bare(n))}}}"
+            return self.function(a[1], self.bare(a[2]), literal(str(n)))  # type: ignore[index]
+        return raised(self.base(a), self.bare(n))
 
-    def op_one(self) -> str:
+    def op_one(self) -> Formula:
         """Identity matrix."""
-        return r"\mathbf{1}"
+        return IDENTITY
 
-    def op_div(self, a: Tree, b: Tree) -> Shown | str:
+    def op_div(self, a: Tree, b: Tree) -> Shown | Formula:
         """A fraction; one too wide for its line is written with a stroke."""
-        above, below = self.bare(a), self.bare(b)
-        if max(measure(plain(above)), measure(plain(below))) > ENTRY_WIDTH:
-            return f"{self.atom(a)}{BEFORE_FACTOR} / {self.atom(b)}", PRODUCT
-        return rf"\frac{{{plain(above)}}}{{{plain(below)}}}"
+        above, below = self.bare(a).plain(), self.bare(b).plain()
+        if max(measure(above.tex), measure(below.tex)) > ENTRY_WIDTH:
+            stroke = literal(BEFORE_FACTOR) + Formula(" ") + literal("/") + Formula(" ")
+            return self.atom(a) + stroke + self.atom(b), PRODUCT
+        return fraction(above, below)
 
-    def op_inner(self, a: Tree, b: Tree) -> str:
+    def op_inner(self, a: Tree, b: Tree) -> Formula:
         """Scalar product."""
-        return rf"\langle {self.bare(a)},{AFTER_COMMA} {self.bare(b)}\rangle"
+        open_ = literal(r"\langle") + Formula(" ")
+        return open_ + self.bare(a) + COMMA_SPACE + self.bare(b) + literal(r"\rangle")
 
-    def op_metric(self, m: Tree, a: Tree, b: Tree) -> str:
+    def op_metric(self, m: Tree, a: Tree, b: Tree) -> Formula:
         """Scalar product of a metric."""
-        return f"{self.op_inner(a, b)}_{{{plain(self.bare(m))}}}"
+        return lowered(self.op_inner(a, b), self.bare(m))
 
-    def op_norm2(self, *a: Tree) -> str:
+    def op_norm2(self, *a: Tree) -> Formula:
         """Square of a norm."""
-        metric = f"_{{{plain(self.bare(a[0]))}}}" if len(a) == 2 else ""
-        return rf"{self.norm(a[-1])}{metric}^{{2}}"
+        norm = self.norm(a[-1])
+        return raised(lowered(norm, self.bare(a[0])) if len(a) == 2 else norm, literal("2"))
 
-    def norm(self, a: Tree) -> str:
+    def norm(self, a: Tree) -> Formula:
         """What has such strokes in itself is in brackets between them."""
-        return rf"\lVert {paren(self.bare(a)) if has_norm(a) else self.bare(a)}\rVert"
+        inside = paren(self.bare(a)) if has_norm(a) else self.bare(a)
+        return literal(r"\lVert") + Formula(" ") + inside + literal(r"\rVert")
 
-    def op_fun(self, name: str, a: Tree) -> Shown | str:
+    def op_fun(self, name: str, a: Tree) -> Shown | Formula:
         """An elementary function; the root of ‖a‖² is ‖a‖."""
         if name == "sqrt" and isinstance(a, tuple) and a[0] == "norm2" and len(a) == 2:
             return self.norm(a[1])
         if name == "sqrt":
-            return rf"\sqrt{{{plain(self.bare(a))}}}"
-        shown = {"atan": "arctan"}.get(name, name)
-        return rf"\operatorname{{{shown if shown.isalpha() else ''}}}({self.bare(a)})", PRODUCT
+            return root(self.bare(a))
+        return self.function(name, self.bare(a)), PRODUCT
 
-    def op_bracket(self, a: Tree, b: Tree) -> str:
+    def function(self, name: str, a: Formula, power: Formula | None = None) -> Formula:
+        """A function by its name."""
+        shown = {"atan": "arctan"}.get(name, name)
+        head = operator(shown if shown.isalpha() else "", near=True)
+        return (head if power is None else raised(head, power)) + paren(a)
+
+    def op_bracket(self, a: Tree, b: Tree) -> Formula:
         """Bracket of matrices."""
-        return f"[{self.bare(a)},{AFTER_COMMA} {self.bare(b)}]"
+        return literal("[") + self.bare(a) + COMMA_SPACE + self.bare(b) + literal("]")
 
     def op_wedge(self, a: Tree, b: Tree) -> Shown:
         """Vector product."""
         sides = []
         for x in (a, b):
-            tex, level = self.show(x)
-            sides.append(paren(tex) if level == SUM or swallows(x) else tex)
-        return rf"{sides[0]}{BEFORE_WEDGE} \wedge {sides[1]}", PRODUCT
+            f, level = self.show(x)
+            sides.append(paren(f) if level == SUM or swallows(x) else f)
+        wedge = literal(BEFORE_WEDGE) + Formula(" ") + literal(r"\wedge") + Formula(" ")
+        return sides[0] + wedge + sides[1], PRODUCT
 
-    def op_hat(self, a: Tree) -> str:
+    def op_hat(self, a: Tree) -> Formula:
         """The operator j."""
-        return rf"\hatmap{{{plain(self.bare(a))}}}"
+        return hat(self.bare(a), self.notation)
 
     def op_sum(self, index: Tree, body: Tree) -> Shown:
         """A sum over an index."""
-        tex, level = self.show(body)
-        lead = rf"\sum_{{{plain(self.bare(index))}}} "
-        return lead + (paren(tex) if level == SUM else tex), PRODUCT
+        f, level = self.show(body)
+        lead = lowered(SUM_SIGN, self.bare(index)) + Formula(" ")
+        return lead + (paren(f) if level == SUM else f), PRODUCT
 
-    def indices(self, indices: tuple[Tree, ...]) -> str:
+    def indexed(self, f: Formula, indices: tuple[Tree, ...]) -> Formula:
         """Indices below."""
-        shown = [plain(self.bare(i)) for i in indices]
-        return f"_{{{(',' if any(len(i) > 1 for i in shown) else '').join(shown)}}}"
+        shown = [self.bare(i).plain() for i in indices]
+        apart = literal("," if any(len(i.tex) > 1 for i in shown) else "")
+        if not apart.tex and all(i.tex.isdigit() for i in shown):  # one number of all digits
+            return lowered(f, literal("".join(i.tex for i in shown)))
+        return lowered(f, joined(shown, apart))
 
-    def op_at(self, a: Tree, *indices: Tree) -> str:
+    def op_at(self, a: Tree, *indices: Tree) -> Formula:
         """A member of a family."""
-        tex, level = self.show(a)
-        return (paren(tex) if level != ATOM or re.search("[_^]", tex) else tex) + self.indices(
-            indices
-        )
+        f, level = self.show(a)
+        scripted = level != ATOM or re.search("[_^]", f.tex)
+        return self.indexed(paren(f) if scripted else f, indices)
 
     op_entry = op_at
 
-    def op_call(self, f: Tree, *arguments: Tree) -> Shown | str:
+    def op_call(self, f: Tree, *arguments: Tree) -> Shown | Formula:
         """A function at its arguments; a variation of one thing needs no parentheses."""
         if f == "∫":
-            body = "" if arguments[0] == 1 else f"{self.bare(arguments[0])}"
-            return rf"\int {body}\,\mathrm{{d}}m", PRODUCT
+            body = Formula("") if arguments[0] == 1 else self.bare(arguments[0])
+            end = literal(r"\,") + upright("d") + literal("m")
+            return literal(r"\int") + Formula(" ") + body + end, PRODUCT
         lead = self.atom(f)
         simple = len(arguments) == 1 and self.show(arguments[0])[1] == ATOM
         if f in VARIATIONS and simple:
-            return f"{lead} {self.bare(arguments[0])}"
-        inside = f",{AFTER_COMMA} ".join(map(self.bare, arguments))
-        return f"{lead}({inside})"
+            return lead + Formula(" ") + self.bare(arguments[0])
+        return lead + paren(joined([*map(self.bare, arguments)], COMMA_SPACE))
 
-    def op_par(self, name: Tree) -> str:
+    def op_par(self, name: Tree) -> Formula:
         """A parameter, by its own name."""
-        return parameter(name, self.names) if isinstance(name, str) else self.bare(name)
+        if isinstance(name, str):
+            return parameter_formula(parameter(name, self.names))
+        return self.bare(name)
 
-    def op_matrix(self, *rows: Tree) -> str:
+    def op_matrix(self, *rows: Tree) -> Formula:
         """A matrix."""
-        shown = [" & ".join(self.cells(r)) for r in rows]
-        gap = "[2pt]" if any("frac" in x for x in shown) else ""
-        body = rf" \\{gap} ".join(shown)
-        return rf"\begin{{pmatrix}} {body} \end{{pmatrix}}"
+        return matrix([self.cells(r) for r in rows])
 
-    def cells(self, row: Tree) -> list[str]:
+    def cells(self, row: Tree) -> list[Formula]:
         """The entries of a row."""
         if isinstance(row, tuple) and row[0] == "row":
             return [_stacked(self.bare(x)) for x in row[1:]]
         return [_stacked(self.bare(row))]
 
-    def op_row(self, *entries: Tree) -> str:
+    def op_row(self, *entries: Tree) -> Formula:
         """A row that stands alone."""
-        return rf"\begin{{pmatrix}} {' & '.join(self.cells(('row', *entries)))} \end{{pmatrix}}"
+        return matrix([self.cells(("row", *entries))])
 
 
-def _stacked(tex: str) -> str:
+def _stacked(f: Formula) -> Formula:
     """An entry of a matrix, on several lines where it is long."""
-    if measure(plain(tex)) <= ENTRY_WIDTH:
-        return guarded(plain(tex))
-    lines = [guarded(x.text) for x in fill(pieces(tex), ENTRY_WIDTH, measure)]
-    body = r" \\ ".join(lines)
-    return rf"\begin{{array}}{{@{{}}l@{{}}}} {body} \end{{array}}"
+    whole = f.plain()
+    if measure(whole.tex) <= ENTRY_WIDTH:
+        return Formula(guarded(whole.tex), whole.items)
+    parts = cut(f)
+    lines, at = [], 0
+    for line in fill(pieces(f.tex), ENTRY_WIDTH, measure):
+        start, text = at, ""
+        while text.strip() != line.text:
+            text += plain(parts[at].tex)
+            at += 1
+        items = reduce(add, parts[start:at]).plain().items
+        lines.append(Formula(guarded(line.text), items))
+    return stacked(lines)
 
 
 def guarded(tex: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 COMMA, SUM, WEDGE, FACTOR = 0.0, 0.25, 0.5, 0.75
 """How readily a line is broken before an operator of the same depth."""
@@ -18,6 +19,9 @@ class Piece:
 
     text: str
     depth: float
+
+
+P = TypeVar("P", bound=Piece)
 
 
 @dataclass(frozen=True)
@@ -58,7 +62,7 @@ def fill(
     return [*lines, Line(current.strip(), 0)] if current else lines
 
 
-def groups(pieces: Sequence[Piece]) -> list[list[Piece]]:
+def groups(pieces: Sequence[P]) -> list[list[P]]:
     """The pieces cut at their shallowest breaks."""
     if len(pieces) == 1:
         return [[*pieces]]

@@ -9,14 +9,12 @@ from fractions import Fraction
 
 from ..language.tree import Tree
 from ..paper.findings import OMISSION, SIGN, Finding
-from ..printing.letters import NAMES
-from ..printing.tex import latex_tree
 from .book import Part
 from .language import Language
 from .paper import grouped
 
 FORMULA = re.compile("\ue000([^\ue001]*)\ue001")
-"""A formula in LaTeX among the words of a sentence."""
+"""The number of a formula among the words of a sentence."""
 
 TRUE = {
     SIGN: "This is true in the other convention of signs, with −dϖ for dϖ.",
@@ -27,15 +25,15 @@ TRUE = {
 
 @dataclass(frozen=True)
 class Told:
-    """A stretch of a correction: words, or a formula in LaTeX."""
+    """A stretch of a correction: words, or a formula, sides of which are equal."""
 
     text: str
-    formula: bool = False
+    formula: tuple[Tree, ...] = ()
 
-    def shown(self, words: Callable[[str], str], formula: Callable[[str], str]) -> str:
+    def shown(self, words: Callable[[str], str], formula: Callable[[Sequence[Tree]], str]) -> str:
         """In a language of markup; the spaces at the ends of words stay."""
         if self.formula:
-            return formula(self.text)
+            return formula(self.formula)
         inside = self.text.strip()
         before, _, after = self.text.partition(inside) if inside else (self.text, "", "")
         return f"{before}{words(inside)}{after}"
@@ -56,10 +54,16 @@ def corrections(
 
 def _told(f: Finding, language: Language) -> Iterator[Told]:
     """What was printed, how it is true if it is, what is wrong with it, and values that show it."""
-    printed = ", ".join(_formula(e.lhs, e.rhs) for e in f.equations)
+    formulas: list[tuple[Tree, ...]] = []
+
+    def formula(*sides: Tree) -> str:
+        formulas.append(sides)
+        return f"\ue000{len(formulas) - 1}\ue001"
+
+    printed = ", ".join(formula(e.lhs, e.rhs) for e in f.equations)
     *given, (_, left), (_, right) = (f.counterexample or {}).items()
-    sides = {"left": _formula(value_of(left)), "right": _formula(value_of(right))}
-    values = ", ".join(_formula(*names, value_of(x)) for *names, x in grouped(given))
+    sides = {"left": formula(value_of(left)), "right": formula(value_of(right))}
+    values = ", ".join(formula(*names, value_of(x)) for *names, x in grouped(given))
     said = "For {values}, the left side is {left}, the printed right side {right}."
     sentences = (
         language.word(
@@ -73,11 +77,7 @@ def _told(f: Finding, language: Language) -> Iterator[Told]:
     )
     for k, piece in enumerate(FORMULA.split(" ".join(filter(None, sentences)))):
         if piece:
-            yield Told(piece, formula=k % 2 == 1)
-
-
-def _formula(*sides: Tree) -> str:
-    return f"\ue000{' = '.join(latex_tree(x, NAMES) for x in sides)}\ue001"
+            yield Told(piece, formulas[int(piece)] if k % 2 else ())
 
 
 def value_of(text: str) -> Tree:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,22 +11,24 @@ from typing import Any
 from ..figure.figure import svg
 from ..figure.scene import scene
 from ..language.templating import environment
+from ..language.tree import Tree
 from ..paper.findings import Finding
-from ..printing.escape import prose
-from ..printing.letters import parameter
-from ..printing.macros import spoken, standard
-from ..printing.mathml import mathml
+from ..printing.escape import between_dollars, prose
+from ..printing.macros import standard
 from ..printing.measure import measure
 from ..printing.notation import Notation
-from ..printing.tex import latex_tree, marked, pieces, plain
-from ..printing.wrap import Piece, groups
+from ..printing.spoken import spelt, spoken
+from ..printing.tex import Cut, cut_up, joined, latex_tree
+from ..printing.tex import formula as typeset
+from ..printing.typeset import Formula, literal, plain
+from ..printing.wrap import groups
 from ..record.record import Derivation, Equation, Step
 from .book import MOTION, REGULAR, Part, book, parameters
 from .corrections import Told, corrections
 from .entries import entries
 from .language import ENGLISH, Language
 from .latex import anchor
-from .layout import ROOM, clause, quantifiers
+from .layout import ROOM, clause, quantifier, quantifiers
 from .outline import (
     FORMULAS_CONVENTIONS,
     PAPER,
@@ -50,6 +51,7 @@ LONG = 0.4 * ROOM
 
 Fields = dict[str, Any]
 """What a template shows, by name."""
+EQUALS = Formula(" ") + literal("=") + Formula(" ")
 PART: Fields = {"id": "", "number": "", "long": False, "cells": (), "clause": "", "tex": ""}
 """A line that belongs to the equation above it."""
 
@@ -106,12 +108,13 @@ def numbered(parts: Sequence[Part]) -> dict[str, str]:
 
 def words(text: str, notation: Notation, *, ready: bool = False) -> str:
     """A sentence as markup, its formulas as MathML; ``ready``: they stand between dollars."""
-    shown = escaped(text) if ready else prose(text, lambda x: escaped(x).replace("$", "&#36;"))
-    return re.sub(r"\$([^$]*)\$", lambda m: movable(m[1], mathml(spoken(m[1]), notation)), shown)
+    between = between_dollars if ready else prose
+    return between(text, escaped, lambda x: movable(spelt(x).tex, spoken(x, notation)))
 
 
-def movable(tex: str, markup: str) -> str:
+def movable(tex: str, shown: Formula, *, follows: bool = False) -> str:
     """A formula that is not broken; one that is wide moves in a box of its own."""
+    markup = shown.mathml(follows=follows) if tex else ""
     wide = "<mtable" in markup or measure(tex) > PHONE
     return f'<span class="wide">{markup}</span>' if wide else markup
 
@@ -187,8 +190,9 @@ class _Part:
     def correction(self, told: Iterable[Told]) -> str:
         """What is told of the print."""
 
-        def formula(tex: str) -> str:
-            return movable(tex, mathml(tex, self.notation))
+        def formula(sides: Sequence[Tree]) -> str:
+            whole = joined([typeset(x, None, self.notation) for x in sides], EQUALS)
+            return movable(whole.tex, whole)
 
         return "".join(x.shown(lambda text: words(text, self.notation), formula) for x in told)
 
@@ -201,56 +205,58 @@ class _Part:
                 "id": anchor(key),
                 "number": self.numbers[key],
                 "long": measure(latex_tree(first.lhs, self.names)) > LONG,
-                "left": self.cut(marked(first.lhs, self.names)),
-                "right": self.cut(marked(first.rhs, self.names), equals=True),
+                "left": self.cut(first.lhs),
+                "right": self.cut(first.rhs, equals=True),
                 "cells": [self.cell(e) for e in cells],
                 "clause": self.clause(first),
                 "tex": r",\qquad ".join(map(self.source, (*x.equations, *x.where))),
             }
             for e in x.where:
                 yield PART | {
-                    "left": self.cut(marked(e.lhs, self.names)),
-                    "right": self.cut(marked(e.rhs, self.names), equals=True),
+                    "left": self.cut(e.lhs),
+                    "right": self.cut(e.rhs, equals=True),
                 }
 
     def cell(self, e: Equation) -> str:
         """A short equation that stands beside others."""
-        tex = f"{latex_tree(e.lhs, self.names)} = {latex_tree(e.rhs, self.names)}"
-        return movable(tex, mathml(tex, self.notation))
+        whole = (self.formula(e.lhs) + EQUALS + self.formula(e.rhs)).plain()
+        return movable(whole.tex, whole)
 
-    def cut(self, tex: str, *, equals: bool = False) -> str:
+    def formula(self, t: Tree) -> Formula:
+        """A tree in the letters and the notation of this part."""
+        return typeset(t, self.names, self.notation)
+
+    def cut(self, t: Tree, *, equals: bool = False) -> str:
         """A formula in terms between which a line may break, and these in turn."""
-        whole = [p for p in pieces(tex) if p.text.strip()]
+        whole = [x for x in cut_up(self.formula(t)) if x.text.strip()]
         if equals:
-            whole[0] = Piece(f"= {whole[0].text}", 0.0)
+            first = whole[0]
+            whole[0] = Cut("= " + first.text, 0.0, literal("=") + first.formula)
         return "".join(self.nested(group, equals or k > 0) for k, group in enumerate(groups(whole)))
 
-    def nested(self, parts: Sequence[Piece], follows: bool) -> str:
+    def nested(self, parts: Sequence[Cut], follows: bool) -> str:
         """A term: one element, or terms of its own that stay on a line if they can."""
         if len(parts) == 1:
-            tex = parts[0].text
-            return movable(tex, mathml(tex, self.notation, follows=follows))
+            return movable(parts[0].text, parts[0].formula, follows=follows)
         inside = (self.nested(x, follows or k > 0) for k, x in enumerate(groups(parts)))
         return f'<span class="term">{"".join(inside)}</span>'
 
-    def spoken(self, e: Equation) -> str:
-        """For which names the equation holds, as LaTeX."""
-        return clause(e, self.names, quantifiers(self.language))
-
     def clause(self, e: Equation) -> str:
-        """The same as markup."""
-        return mathml(said, self.notation) if (said := self.spoken(e)) else ""
+        """For which names the equation holds."""
+        said = quantifier(e, self.names, quantifiers(self.language), self.notation)
+        return said.mathml() if said.tex else ""
 
     def source(self, e: Equation) -> str:
         """The LaTeX of an equation."""
         shown = standard(f"{latex_tree(e.lhs, self.names)} = {latex_tree(e.rhs, self.names)}")
-        return f"{shown} \\quad {plain(said)}" if (said := self.spoken(e)) else shown
+        said = clause(e, self.names, quantifiers(self.language))
+        return f"{shown} \\quad {plain(said)}" if said else shown
 
     def symbols(self) -> Iterable[dict[str, str]]:
         """The letters and their meanings."""
         for s in self.part.symbols:
             yield {
-                "name": mathml(latex_tree(s.name, self.names), self.notation),
+                "name": self.formula(s.name).mathml(),
                 "meaning": words(self.language.of(s.meaning), self.notation),
             }
 
@@ -259,6 +265,6 @@ class _Part:
         for run, meaning, unit in parameters(self.part.record, self.language):
             told = f"{meaning} [{unit}]" if unit else meaning
             yield {
-                "name": ", ".join(mathml(parameter(x, self.names), self.notation) for x in run),
+                "name": ", ".join(self.formula(("par", x)).mathml() for x in run),
                 "meaning": escaped(told),
             }

@@ -12,6 +12,7 @@ from ..figure.drawing import Scene
 from ..figure.figure import tikz
 from ..figure.scene import scene
 from ..language.templating import environment
+from ..language.tree import Tree
 from ..paper.findings import Finding
 from ..printing.escape import between_dollars, prose, tex_text
 from ..printing.letters import parameter
@@ -216,8 +217,9 @@ class _Writer:
         return {n for told in self.corrections.values() for n in told}
 
 
-def _small(formula: str) -> str:
+def _small(sides: Sequence[Tree]) -> str:
     """A formula of a footnote, its matrices small."""
+    formula = " = ".join(map(latex_tree, sides))
     return f"${re.sub(r'pmatrix(?=[}])', 'psmallmatrix', formula)}$"
 
 

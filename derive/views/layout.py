@@ -6,9 +6,12 @@ import re
 from collections.abc import Mapping, Sequence
 from itertools import groupby
 
-from ..printing.escape import math_text, tex_text
+from ..printing.escape import tex_text
 from ..printing.measure import measure
-from ..printing.tex import guarded, latex_tree, marked, pieces, plain
+from ..printing.notation import Notation
+from ..printing.spoken import spelt
+from ..printing.tex import formula, guarded, joined, latex_tree, marked, paren, pieces
+from ..printing.typeset import Formula, literal, plain, text
 from ..printing.wrap import Line, fill
 from ..record.record import Equation
 from .entries import Entry, entries
@@ -20,7 +23,7 @@ ROOM = 38.0
 EQUALS, INDENT = 1.4, 1.5
 
 Rows = list[str]
-Quantifiers = tuple[str, str]
+Quantifiers = tuple[Formula, Formula]
 
 
 def blocks(
@@ -55,8 +58,8 @@ def blocks(
 
 def quantifiers(language: Language) -> Quantifiers:
     """The words before the names for which an equation holds: "for every", "for some"."""
-    words = (language.word("for every"), language.word("for some"))
-    first, second = (rf"\text{{{tex_text(x)} }} " for x in words)
+    words = (f"{language.word(x)} " for x in ("for every", "for some"))
+    first, second = (text(rf"\text{{{tex_text(x[:-1])} }} ", x) for x in words)
     return first, second
 
 
@@ -112,16 +115,28 @@ def indented(line: Line, quads: int) -> str:
 
 
 def clause(e: Equation, names: Mapping[str, str], words: Quantifiers) -> str:
-    """For which names the equation holds: every one, or some."""
+    """For which names the equation holds, as LaTeX."""
+    return quantifier(e, names, words).tex
+
+
+def quantifier(
+    e: Equation, names: Mapping[str, str], words: Quantifiers, notation: Notation | None = None
+) -> Formula:
+    """For which names the equation holds: every one, or some; empty where nothing is said."""
+
+    def listed(these: Sequence[str]) -> Formula:
+        return joined([formula(x, names, notation) for x in these], literal(",") + Formula(" "))
+
     said = []
     if over := quantified(e):
-        shown, space = ", ".join(latex_tree(x, names) for x in over), domain(over)
-        shown = f"({shown})" if len(over) > 1 and space else shown
-        within = rf" \in {math_text(space)}" if space else ""
-        said.append(f"{words[0]}{shown}{within}")
+        shown, space = listed(over), domain(over)
+        shown = paren(shown) if len(over) > 1 and space else shown
+        if space:
+            shown += Formula(" ") + literal(r"\in") + Formula(" ") + spelt(space)
+        said.append(words[0] + shown)
     if e.exists:
-        said.append(words[1] + ", ".join(latex_tree(x, names) for x in e.exists))
-    return r",\ ".join(said)
+        said.append(words[1] + listed(e.exists))
+    return joined(said, literal(r",\ ")) if said else Formula("")
 
 
 def clause_width(words: str) -> float:

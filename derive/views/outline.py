@@ -20,27 +20,22 @@ CONVENTIONS = (
     "a time, an element of the group and a velocity; 𝔤 is the Lie algebra."
 )
 FORMULAS_CONVENTIONS = (
-    r"For matrices "
-    r"$\langle a, b\rangle_M = \operatorname{Tr} a M \bar b$, for vectors "
-    r"$\langle a, b\rangle_M = \bar a M b$, without index for $M = \mathbf{1}$; "
-    r"$\Vert a\Vert^2 = \langle a, a\rangle$; $[a, b] = ab - ba$ and "
-    r"$j(X)Y = X \wedge Y$. Variations commute, "
-    r"$\mathrm{d}\varpi(\delta, \delta') = \delta[\varpi(\delta')] - \delta'[\varpi(\delta)]$, "
-    r"and the tangent bundle of the group is trivialised on the left, $\xi = g^{-1}\delta g$. "
-    r"The point $y = (t, g, \nu)$ is a time, an element of the group and a velocity; "
-    r"$\mathfrak{g}$ is the Lie algebra. "
-    r"In equations, parameters of the problem are set in $\mathsf{sans\ serif}$."
+    "For matrices $⟨a, b⟩_M = Tr a M b̄$, for vectors $⟨a, b⟩_M = ā M b$, without index for $M "
+    "= 𝟏$; $‖a‖² = ⟨a, a⟩$; $[a, b] = ab − ba$ and $j(X)Y = X ∧ Y$. Variations commute, $dϖ(δ, "
+    "δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)]$, and the tangent bundle of the group is trivialised on the "
+    "left, $ξ = g⁻¹δg$. The point $y = (t, g, ν)$ is a time, an element of the group and a "
+    "velocity; $𝔤$ is the Lie algebra. In equations, parameters of the problem are set in "
+    "$‘sans serif’$."
 )
 """The same with formulas between dollars, for LaTeX and Markdown, but for its first sentence."""
 TRANSPOSES = {
-    "bar": r"Bars are transposes and $\mathbf{1}$ is the identity.",
-    "top": r"The mark $\top$ is the transpose and $\mathbf{1}$ the identity.",
+    "bar": "Bars are transposes and $𝟏$ is the identity.",
+    "top": "The mark $⊤$ is the transpose and $𝟏$ the identity.",
 }
 """That sentence, in each notation."""
 ROAD = (
-    r"The Lagrangian $L$ of the points is pulled back to the group, $\tilde L$; it gives the "
-    r"Cartan form $\varpi$, whose exterior derivative $\mathrm{d}\varpi$ has a kernel: the "
-    r"equations of motion."
+    "The Lagrangian $L$ of the points is pulled back to the group, $L̃$; it gives the Cartan "
+    "form $ϖ$, whose exterior derivative $dϖ$ has a kernel: the equations of motion."
 )
 """What is done, in one sentence."""
 PAPER = (

@@ -4,9 +4,8 @@ import random
 
 from derive.language.show import show
 from derive.printing.macros import styled
-from derive.printing.mathml import mathml as printed_mathml
 from derive.printing.notation import Notation
-from derive.printing.tex import latex_tree
+from derive.printing.tex import formula, latex_tree
 from derive.views import html
 from derive.views import latex as latex_view
 from derive.views import markdown as markdown_view
@@ -15,13 +14,14 @@ from tests.readers import latex, markdown, mathml, text
 from tests.readers.formula import Letters, UnreadableError, canonical, letters_of, value
 from tests.support import random_trees
 
+TOP = Notation(transpose="top")
 PAGES = {
     "text": lambda d: text_view.text(d),
     "narrow text": lambda d: text_view.text(d, 60),
     "latex": lambda d: latex_view.latex(d),
     "markdown": lambda d: markdown_view.markdown(d),
     "html": lambda d: html.html([d]),
-    "html, top": lambda d: html.html([d], Notation(transpose="top")),
+    "html, top": lambda d: html.html([d], TOP),
 }
 READERS = {"text": text, "latex": latex, "markdown": markdown, "html": mathml}
 
@@ -81,7 +81,8 @@ FORMULAS = {
     "text": lambda t, known: text.formula(show(t), known),
     "latex": lambda t, known: latex.formula(latex_tree(t), known),
     "macros": lambda t, known: latex.formula(styled(latex_tree(t)), known),
-    "mathml": lambda t, known: mathml.formula(printed_mathml(latex_tree(t)), known),
+    "mathml": lambda t, known: mathml.formula(formula(t).mathml(), known),
+    "mathml, top": lambda t, known: mathml.formula(formula(t, None, TOP).mathml(), known),
 }
 KNOWN = Letters(random_trees.OWN | {"δ"}, {*random_trees.PARAMETERS})
 

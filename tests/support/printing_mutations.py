@@ -18,25 +18,15 @@ from tests.readers.read import PAGES, faults, misread
 from tests.support import random_trees
 from tests.support.walks import record
 
-SHOW, TEX, MATHML = "language.show", "printing.tex", "printing.mathml"
+SHOW, TREES, TYPESET = "language.show", "printing.tex", "printing.typeset"
 LETTERS, TEXT, LAYOUT, HTML = "printing.letters", "views.text", "views.layout", "views.html"
+NAMES = "printing.spelling"
 GLUE, MACROS, ENTRIES = "printing.juxtaposition", "printing.macros", "views.entries"
 
 MUTATIONS = {
     "text: Σ of a sum without brackets": (
         SHOW, 'return f"Σ{_index(arguments[0])} " + (f"({text})" if level == SUM else text)',
         'return f"Σ{_index(arguments[0])} " + text'),
-    "LaTeX: Σ of a sum without brackets": (
-        TEX, "return lead + (paren(tex) if level == SUM else tex), PRODUCT",
-        "return lead + tex, PRODUCT"),
-    "LaTeX: a wide fraction upside down": (
-        TEX, 'f"{self.atom(a)}{BEFORE_FACTOR} / {self.atom(b)}"',
-        'f"{self.atom(b)}{BEFORE_FACTOR} / {self.atom(a)}"'),
-    "MathML: index and exponent exchanged": (
-        MATHML, "{_one(below)}{_one(above)}</msubsup>", "{_one(above)}{_one(below)}</msubsup>"),
-    "MathML: an infix minus printed as plus": (
-        MATHML, "{SIGNS.get(token, escape(token))}",
-        "{'+' if self.infix and token == '-' else SIGNS.get(token, escape(token))}"),
     "text: a long left side loses its first lines": (TEXT, "        yield from before\n", ""),
     "LaTeX: a long left side loses its continuation": (
         LAYOUT, '"&" + guarded(first.text), *("&" + indented(x, 1) for x in others)]',
@@ -79,57 +69,79 @@ MUTATIONS = {
     "text: continued lines lost": (
         TEXT, 'lines = [f"{lead} = {first[indent:]}", *others]',
         'lines = [f"{lead} = {first[indent:]}"]'),
-    "LaTeX: a minus lost": (TEX, 'lead = "-" if sign == "−" else ""', 'lead = ""'),
-    "LaTeX: a sum as a factor without brackets": (
-        TEX, "if level == SUM or inside or wedge:", "if inside or wedge:"),
-    "LaTeX: a trace that takes in the next factor": (
-        TEX, 'reaches = isinstance(f, tuple) and f[0] in ("tr", "sum", "wedge")',
-        "reaches = False"),
-    "LaTeX: a fraction upside down": (
-        TEX, r"\frac{{{plain(above)}}}{{{plain(below)}}}",
-        r"\frac{{{plain(below)}}}{{{plain(above)}}}"),
-    "LaTeX: the bar not over the whole": (
-        TEX, r'return rf"\overline{{{plain(self.bare(a))}}}"', "return plain(self.bare(a))"),
-    "LaTeX: two indices as one": (
-        TEX, "',' if any(len(i) > 1 for i in shown) else ''", "''"),
-    "LaTeX: powers without brackets": (
-        TEX, 'return paren(tex) if SCRIPTED.search(outside(tex)) or (fraction and '
-        'tex[0] != "(") else tex', "return tex"),
-    "LaTeX: ∧ turned round": (
-        TEX, r'rf"{sides[0]}{BEFORE_WEDGE} \wedge {sides[1]}"',
-        r'rf"{sides[1]}{BEFORE_WEDGE} \wedge {sides[0]}"'),
-    "LaTeX: the wrong power of a function": (TEX, r'{head}^{{{n}}}(', r'{head}^{{2}}('),
-    "LaTeX: an entry of a matrix lost": (
-        TEX, "return [_stacked(self.bare(x)) for x in row[1:]]",
-        "return [_stacked(self.bare(x)) for x in row[1:3]]"),
-    "LaTeX: the last line of a long entry lost": (
-        TEX, 'body = r" \\\\ ".join(lines)', 'body = r" \\\\ ".join(lines[:-1] or lines)'),
-    "LaTeX: numbers side by side": (
-        GLUE, r'return rf"{BEFORE_FACTOR} \cdot "', 'return " "'),
     "LaTeX: x1 and x_1 alike": (
         LETTERS, 'if f"par {name}" in names:', "if False:"),
     "LaTeX: continued lines lost": (
         LAYOUT, '*("&" + indented(x, 1) for x in lines[1:])]', "]"),
     "macros: the index of a barred letter lost": (
         MACROS, r'"\\transpose{\1\2}{\3}"'.replace('"', 'r"', 1), 'r"\\\\transpose{\\1\\2}{}"'),
-    "MathML: a fraction upside down": (
-        MATHML, "<mfrac>{_one(above)}{_one(below)}</mfrac>",
-        "<mfrac>{_one(below)}{_one(above)}</mfrac>"),
-    "MathML: no bar": (MATHML, """f'<mrow class="overline">{inside}</mrow>'""", "inside"),
-    "MathML: primes lost": (MATHML, """{"′" * len(token)}""", '{""}'),
-    "MathML: a digit of an exponent lost": (
-        MATHML, 'return f"<mn>{token}</mn>"', 'return f"<mn>{token[:1]}</mn>"'),
-    "MathML: accents exchanged": (
-        MATHML, 'ACCENTS = {"dot": "˙", "tilde": "~"', 'ACCENTS = {"dot": "~", "tilde": "˙"'),
-    "MathML: a parameter like a letter": (
-        MATHML, '<mi mathvariant="normal" class="parameter">{escape(shown)}</mi>',
-        "<mi>{escape(shown)}</mi>"),
-    "MathML: rows run together": (
-        MATHML, """rows.append(f"<mtr>{''.join(cells)}</mtr>")""",
-        """rows.append("".join(cells))"""),
     "HTML: terms lost": (
         HTML, "inside = (self.nested(x, follows or k > 0) for k, x in enumerate(groups(parts)))",
         "inside = (self.nested(x, follows or k > 0) for k, x in enumerate(groups(parts)[:1]))"),
+    "trees: Σ of a sum without brackets": (
+        TREES, "return lead + (paren(f) if level == SUM else f), PRODUCT",
+        "return lead + f, PRODUCT"),
+    "trees: a wide fraction upside down": (
+        TREES, "return self.atom(a) + stroke + self.atom(b), PRODUCT",
+        "return self.atom(b) + stroke + self.atom(a), PRODUCT"),
+    "trees: a minus lost": (
+        TREES, 'lead = literal("-") if sign == "−" else Formula("")', 'lead = Formula("")'),
+    "trees: a sum as a factor without brackets": (
+        TREES, "if level == SUM or inside or wedge:", "if inside or wedge:"),
+    "trees: a trace that takes in the next factor": (
+        TREES, 'reaches = isinstance(x, tuple) and x[0] in ("tr", "sum", "wedge")',
+        "reaches = False"),
+    "trees: the bar over the first factor alone": (
+        TREES, "inside = self.bare(a).plain()\n        return barred(",
+        'inside = self.bare(a[1] if a[0] == "mul" else a).plain()\n        return barred('),
+    "trees: two indices as one": (
+        TREES, 'literal("," if any(len(i.tex) > 1 for i in shown) else "")', 'literal("")'),
+    "trees: powers without brackets": (
+        TREES, 'return paren(f) if SCRIPTED.search(outside(f.tex)) or (over and f.tex[0] != "(") '
+        "else f", "return f"),
+    "trees: ∧ turned round": (
+        TREES, "return sides[0] + wedge + sides[1], PRODUCT",
+        "return sides[1] + wedge + sides[0], PRODUCT"),
+    "trees: the wrong power of a function": (TREES, "literal(str(n)))", 'literal("2"))'),
+    "trees: an entry of a matrix lost": (
+        TREES, "return [_stacked(self.bare(x)) for x in row[1:]]",
+        "return [_stacked(self.bare(x)) for x in row[1:3]]"),
+    "trees: the last line of a long entry lost": (
+        TREES, "return stacked(lines)", "return stacked(lines[:-1])"),
+    "trees: (A⁻¹)₁₂ and (A₁₂)⁻¹ alike": (
+        TREES, 'scripted = level != ATOM or re.search("[_^]", f.tex)', "scripted = level != ATOM"),
+    "trees: numbers side by side": (GLUE, "        return DOT\n", "        return SPACE\n"),
+    "LaTeX: a fraction upside down": (
+        TYPESET, r"\frac{{{a.tex}}}{{{b.tex}}}", r"\frac{{{b.tex}}}{{{a.tex}}}"),
+    "LaTeX: an exponent lost": (
+        TYPESET, 'f"^{{{exponent.tex}}}" if tex is None', '"" if tex is None'),
+    "LaTeX: a root of nothing": (TYPESET, r"\sqrt{{{f.tex}}}", r"\sqrt{{}}"),
+    "MathML: index and exponent exchanged": (
+        TYPESET, "{one(self.below)}{one(above)}</msubsup>",
+        "{one(above)}{one(self.below)}</msubsup>"),
+    "MathML: an infix minus printed as plus": (
+        TYPESET, 'found[-1] += f"{escape(x.shown)}</mo>"',
+        """found[-1] += f"{'+' if form == 'infix' else escape(x.shown)}</mo>\""""),
+    "MathML: a fraction upside down": (
+        TYPESET, "<mfrac>{one(a.row())}{one(b.row())}</mfrac>",
+        "<mfrac>{one(b.row())}{one(a.row())}</mfrac>"),
+    "MathML: no bar": (
+        TYPESET, """f'<mrow class="overline">{inside}</mrow>'""", "inside"),
+    "MathML: primes lost": (TYPESET, """{"′" * count}""", '{""}'),
+    "MathML: a digit of a number lost": (
+        TYPESET, 'return f"<mn>{token}</mn>"', 'return f"<mn>{token[:1]}</mn>"'),
+    "MathML: accents exchanged": (
+        TYPESET, 'ACCENTS = {"dot": "˙", "tilde": "~"', 'ACCENTS = {"dot": "~", "tilde": "˙"'),
+    "MathML: a parameter like a letter": (
+        TYPESET, '<mi mathvariant="normal" class="parameter">{escape(shown)}</mi>',
+        "<mi>{escape(shown)}</mi>"),
+    "MathML: rows run together": (
+        TYPESET, 'body = "".join(f"<mtr>{x}</mtr>" for x in cells)', 'body = "".join(cells)'),
+    "names: the prefix of a variation lost": (
+        NAMES, 'whole = _lead(found["lead"]) + primed(', "whole = primed("),
+    "names: an index lost under a bar": (
+        NAMES, "found = _lead(lead) + primed(letter, len(primes))\n    if below:",
+        "found = _lead(lead) + primed(letter, len(primes))\n    if False:"),
 }  # fmt: skip
 """What is changed → the module, its source, and what stands there instead."""
 
@@ -176,17 +188,27 @@ def changed(module, old, new):
     exec(compile(source.replace(old, new), module.__file__, "exec"), fresh.__dict__)
     sys.modules[module.__name__] = module
     undo = [*_transplanted(vars(module), vars(fresh))]
+    _forget()
     try:
         yield
     finally:
         for restore in undo:
             restore()
+        _forget()
+
+
+def _forget():
+    """What functions of the printers remember."""
+    for name, module in [*sys.modules.items()]:
+        if name.startswith("derive.printing."):
+            for x in vars(module).values():
+                getattr(x, "cache_clear", int)()
 
 
 def _transplanted(old, new):
     """The code of the new functions and methods put into the old; how to undo each."""
     for name, x in [*old.items()]:
-        y = new.get(name)
+        x, y = (getattr(f, "__wrapped__", f) for f in (x, new.get(name)))
         if isinstance(x, types.FunctionType) and isinstance(y, types.FunctionType):
             if x.__code__ != y.__code__:
                 code, x.__code__ = x.__code__, y.__code__

@@ -3,14 +3,16 @@
 import re
 import shutil
 from dataclasses import replace
+from fractions import Fraction
 from html.parser import HTMLParser
 
 import pytest
 
 from derive import derive
 from derive.paper.findings import amendments
-from derive.printing.mathml import mathml
 from derive.printing.notation import Notation
+from derive.printing.spoken import spelt, spoken
+from derive.printing.tex import formula
 from derive.record.vocabulary import AMENDED
 from derive.views.html import html
 from derive.views.language import language
@@ -128,27 +130,35 @@ def test_nothing_of_a_stranger_is_markup(bad, records):
 
 
 @pytest.mark.parametrize(
-    ("tex", "expected"),
+    ("tree", "expected"),
     [
-        (r"\bar{A}", '<mrow class="overline"><mi>A</mi></mrow>'),
-        (r"\overline{AB}", '<mrow class="overline"><mi>A</mi><mi>B</mi></mrow>'),
-        (r"\mathrm{d}\varpi", '<mi mathvariant="normal">d</mi><mi>ϖ</mi>'),
-        (r"\tfrac{1}{24}", "<mfrac><mrow><mn>1</mn></mrow><mrow><mn>24</mn></mrow></mfrac>"),
-        (r"\tfrac12", "<mfrac><mrow><mn>1</mn></mrow><mrow><mn>2</mn></mrow></mfrac>"),
-        (r"\text{for every } x", "<mtext>for\u00a0every\u00a0</mtext><mi>x</mi>"),
-        (r"(-x)", '<mo form="prefix">−</mo><mi>x</mi>'),
-        (r"\hatmap{\zeta}", '<mi>j</mi><mo stretchy="false">(</mo><mi>ζ</mi>'),
-        (r"J_{c}'", "<msub>"),
+        (("T", "A"), '<mrow class="overline"><mi>A</mi></mrow>'),
+        (("T", ("mul", "A", "Z")), '<mrow class="overline"><mi>A</mi><mi>Z</mi></mrow>'),
+        ("dϖ", '<mi mathvariant="normal">d</mi><mi>ϖ</mi>'),
+        (Fraction(1, 24), "<mfrac><mrow><mn>1</mn></mrow><mrow><mn>24</mn></mrow></mfrac>"),
+        (("wedge", ("mul", -1, "w"), "c"), '<mo form="prefix">−</mo><mi>w</mi>'),
+        (("hat", "ζ"), '<mi>j</mi><mo stretchy="false">(</mo><mi>ζ</mi>'),
+        (("pow", "J_c", 2), "<msubsup><mi>J</mi><mrow><mi>c</mi></mrow><mrow><mn>2</mn></mrow>"),
     ],
 )
-def test_formulas(tex, expected):
-    assert expected in mathml(tex)
+def test_formulas(tree, expected):
+    assert expected in formula(tree).mathml()
+
+
+def test_formulas_of_sentences():
+    assert spelt("ξ′").mathml() == formula("ξ′").mathml()
+    assert (
+        spelt("½ Tr αJᾱ").mathml()
+        == formula(("mul", Fraction(1, 2), ("tr", ("mul", "α", "J", ("T", "α"))))).mathml()
+    )
+    assert spoken("j(ζ)", Notation()).mathml() == formula(("hat", "ζ")).mathml()
 
 
 def test_other_notations():
     top = Notation("top", "wedge")
-    assert "⊤" in mathml(r"\bar{A}", top)
-    assert "⊤" in mathml(r"\overline{AB}", top)
-    assert "<mo>∧</mo></msup>" in mathml(r"\hatmap{\zeta}", top)
+    assert "⊤" in formula(("T", "A"), None, top).mathml()
+    assert "⊤" in formula(("T", ("mul", "A", "Z")), None, top).mathml()
+    assert "<mo>∧</mo></msup>" in formula(("hat", "ζ"), None, top).mathml()
+    assert "⊤" in spelt("Ā", top).mathml()
     with pytest.raises(ValueError, match="bar, top"):
         Notation("dagger")

@@ -1,0 +1,42 @@
+"""The letters of formulas, by the commands of LaTeX."""
+
+from __future__ import annotations
+
+import unicodedata
+
+GREEK = {
+    name: unicodedata.lookup(f"GREEK {case} LETTER {name.upper()}")
+    for case, names in (
+        ("SMALL", "alpha beta gamma delta epsilon zeta eta theta iota kappa mu nu xi pi rho "
+         "sigma tau upsilon phi chi psi omega"),
+        ("CAPITAL", "Gamma Delta Theta Xi Pi Sigma Upsilon Phi Psi Omega"),
+    )
+    for name in names.split()
+}  # fmt: skip
+LETTERS = GREEK | {
+    "varphi": "φ", "phi": "ϕ", "varpi": "ϖ", "lambda": "λ", "Lambda": "Λ", "partial": "∂",
+    "nabla": "∇", "ell": "ℓ",
+}  # fmt: skip
+"""Commands that are letters."""
+MATH_ACCENTS = {"\u0304": r"\bar", "\u0303": r"\tilde", "\u0307": r"\dot", "\u0302": r"\hat"}
+NAMED = {"rho", "sigma", "omega", "gamma", "kappa", "theta", "lambda"}
+"""Parameters that equations have as Greek letters, and that are words of neither language."""
+SYMBOLS = {letter: rf"\{name}" for name, letter in GREEK.items()} | {
+    "λ": r"\lambda", "Λ": r"\Lambda", "φ": r"\varphi", "ϕ": r"\phi", "ϖ": r"\varpi",
+    "Σ": r"\sum", "∂": r"\partial", "−": "-", "∧": r"\wedge", "⟨": r"\langle", "⟩": r"\rangle",
+    "‖": r"\Vert", "≅": r"\cong", "≠": r"\neq", "≤": r"\le", "≥": r"\ge", "∈": r"\in", "→": r"\to",
+    "×": r"\times", "𝔤": r"\mathfrak{g}", "′": "'", "½": r"\tfrac12", "⅓": r"\tfrac13",
+    "¼": r"\tfrac14", "⅔": r"\tfrac23", "∇": r"\nabla", "∘": r"\circ", "⊤": r"\top",
+    "ℓ": r"\ell", "𝟏": r"\mathbf{1}", "𝔰": r"\mathfrak{s}", "𝔬": r"\mathfrak{o}",
+}  # fmt: skip
+RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
+LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ", "0123456789ijet", strict=True))
+
+
+def math_char(c: str) -> str:
+    """One character as LaTeX."""
+    if c in RAISED:
+        return f"^{{{RAISED[c]}}}"
+    if c in LOWERED:
+        return f"_{{{LOWERED[c]}}}"
+    return SYMBOLS.get(c, c)
