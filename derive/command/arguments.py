@@ -110,6 +110,7 @@ def add_reading_options(walk: argparse.ArgumentParser, notes: argparse.ArgumentP
     from ..views.language import LANGUAGES
 
     walk.add_argument("problem", help="a ready-made name or a .toml file")
+    walk.add_argument("step", nargs="*", help="steps to print alone, as kernel or linear.kernel")
     walk.add_argument("--format", choices=FORMATS, default="text")
     walk.add_argument("--out", metavar="FILE")
     notes.add_argument("problem", nargs="*", help="ready-made names or .toml files")

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from ..language.refused import Refused
 from ..problem.problem import Problem, ProblemError
-from ..record.record import Derivation
+from ..record.record import Derivation, Step
 from ..views.rendering import NOTES, notes, pdf, render, unprinted
 from .encoding import as_in_a_file, replacing_unencodable
 from .guard import StoppedError, one_line, time_limit
@@ -99,11 +99,26 @@ def command_list(_: argparse.Namespace) -> int:
 def command_walk(args: argparse.Namespace) -> int:
     """Print the walk of a problem."""
     record = derive(args.problem, **allowances(args))[1]
-    shown = render(record, args.format, args.lang, fragment=args.fragment, **notation(args))
+    chosen = {"fragment": args.fragment, "steps": steps_of(record, args.step), **notation(args)}
+    shown = render(record, args.format, args.lang, **chosen)
     if args.format == "latex":
         warn_of_letters([record])
     save(shown, args.out, args.format)
     return 0
+
+
+def steps_of(record: Derivation, labels: Sequence[str]) -> list[Step]:
+    """The steps with these labels, which may lack the problem's name; ``UsageError`` for others."""
+    by_label = {s.label: s for s in record.steps}
+    short = {x.removeprefix(f"{record.name}."): x for x in by_label}
+    found = []
+    for label in labels:
+        if label not in by_label and label not in short:
+            near = difflib.get_close_matches(label, [*short, *by_label], 1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            raise UsageError(f"{record.name} has no step {label[:60]!r}{hint}")
+        found.append(by_label[short.get(label, label)])
+    return found
 
 
 def command_notes(args: argparse.Namespace) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ from ..record.record import Derivation
 
 if TYPE_CHECKING:
     from ..paper.findings import Finding
+    from ..record.record import Step
 
 FORMATS = ("text", "latex", "markdown", "html", "json")
 NOTES = (".tex", ".pdf", ".html", ".sty")
@@ -21,9 +23,15 @@ class RenderError(Refused, ValueError):
 
 
 def render(
-    d: Derivation, form: str, lang: str = "en", *, fragment: bool = False, **notation: str
+    d: Derivation,
+    form: str,
+    lang: str = "en",
+    *,
+    fragment: bool = False,
+    steps: Sequence[Step] = (),
+    **notation: str,
 ) -> str:
-    """A record in one of the formats, in one of the languages."""
+    """A record in one of the formats, in one of the languages; or some ``steps`` of it alone."""
     from ..printing.notation import Notation
     from .language import language
 
@@ -31,6 +39,10 @@ def render(
         raise RenderError("--fragment is for --format latex")
     if form not in ("latex", "html") and Notation(**notation) != Notation():
         raise RenderError("--notation and --hat are for --format latex and html")
+    if steps:
+        if form == "json":
+            raise RenderError("the JSON is of a whole walk: name no steps")
+        d = _of_steps(d, steps, linked=form in ("latex", "html"))
     if form == "json":
         from ..record.record import to_json
 
@@ -49,9 +61,19 @@ def render(
         return markdown(d, language=language(lang))
     if form == "html":
         return notes([d], ".html", lang, fragment=False, **notation)
-    from .text import text
+    from .text import step_text, text
 
+    if steps:
+        return "\n".join(step_text(step, language=language(lang)) for step in steps)
     return text(d, language=language(lang))
+
+
+def _of_steps(d: Derivation, steps: Sequence[Step], *, linked: bool) -> Derivation:
+    """A record of some steps; where references are ``linked``, of those among them alone."""
+    there = {s.label for s in steps}
+    if linked:
+        steps = [replace(s, uses=tuple(x for x in s.uses if x in there)) for s in steps]
+    return replace(d, steps=tuple(steps), symbols=())
 
 
 def notes(

@@ -213,3 +213,20 @@ def test_a_failing_step_says_what_and_where(capsys, tmp_path):
     )
     assert re.search(r"differ in entry \(\d, 1\): -?[\d/]{1,9} and -?[\d/]{1,9}$", failed)
     assert "holds  linear.energy: 2 equations on B(2), SO(3), SL(3), GL(6)" in lines
+
+
+@pytest.mark.parametrize("form", ["text", "latex", "markdown", "html"])
+def test_steps_alone(form, capsys):
+    """Those that are named, from any chapter, and no other."""
+    assert main(["walk", "so3", "euler", "linear.kernel", "--format", form]) == 0
+    out = capsys.readouterr().out
+    shown = {x for x in ("so3.euler", "linear.kernel", "so3.motion", "linear.action") if x in out}
+    # what a step uses is named beside it, but where that would be a link to nothing
+    assert {"so3.euler", "linear.kernel"} <= shown <= {"so3.euler", "linear.kernel"}
+
+
+def test_a_step_that_is_none(capsys):
+    assert main(["walk", "so3", "kernal"]) == 2
+    assert "so3 has no step 'kernal'; did you mean 'kernel'?" in capsys.readouterr().err
+    assert main(["walk", "so3", "kernel", "--format", "json"]) == 2
+    assert "the JSON is of a whole walk" in capsys.readouterr().err
