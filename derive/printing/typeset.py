@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from html import escape
 from typing import NamedTuple
 
@@ -22,6 +23,7 @@ from .wrap import SUM as TERM
 BREAKS = {"\x01": COMMA, "\x02": TERM, "\x03": WEDGE, "\x04": FACTOR}
 AFTER_COMMA, BEFORE_TERM, BEFORE_WEDGE, BEFORE_FACTOR = BREAKS
 MARKS = "".join(BREAKS)
+UNMARKED = dict.fromkeys(map(ord, MARKS))
 OPERATORS = {
     r"\wedge": "∧", r"\cdot": "·", r"\times": "×", r"\to": "→", r"\in": "∈", r"\le": "≤",
     r"\ge": "≥", r"\cong": "≅", r"\neq": "≠", r"\circ": "∘", r"\int": "∫", r"\top": "⊤",
@@ -33,6 +35,7 @@ SPACES = {r"\quad": "1em", r"\qquad": "2em", r"\,": "0.17em", "\\ ": "0.3em"}
 ACCENTS = {"dot": "˙", "tilde": "~", "hat": "^"}
 LITERAL = re.compile(rf"\\[A-Za-z]+|\\.|[0-9]+|[{MARKS}]|\S")
 TOP = "<mo>⊤</mo>"
+OPENED: dict[object, str] = {f'<mo stretchy="false">{c}</mo>': c for c in "(["}
 PREFIXED = ("=", "(", "[", ",", "{")
 
 
@@ -79,6 +82,8 @@ class Formula:
 
     def plain(self) -> Formula:
         """Without marks: inside braces nothing breaks."""
+        if not any(x in self.tex for x in MARKS):
+            return self
         return Formula(plain(self.tex), tuple(x for x in self.items if x not in BREAKS))
 
     def row(self) -> str:
@@ -92,7 +97,7 @@ class Formula:
 
 def plain(tex: str) -> str:
     """LaTeX without marks."""
-    return re.sub(f"[{MARKS}]", "", tex)
+    return tex.translate(UNMARKED)
 
 
 def markup(items: Sequence[Item], *, before: str = "", follows: bool = False) -> str:
@@ -108,8 +113,7 @@ def markup(items: Sequence[Item], *, before: str = "", follows: bool = False) ->
             found[-1] += f"{escape(x.shown)}</mo>"
         else:
             found.append(element(x))
-        fence = isinstance(x, str) and re.fullmatch(r"<mo [^>]*>([(\[])</mo>", x)
-        before = x.shown if isinstance(x, Sign) else fence[1] if fence else ""
+        before = x.shown if isinstance(x, Sign) else OPENED.get(x, "")
     return "".join(found)
 
 
@@ -128,6 +132,7 @@ def one(inside: str) -> str:
 # -- parts ---------------------------------------------------------------------------------------
 
 
+@lru_cache(1024)
 def literal(tex: str) -> Formula:
     """Signs, brackets, spaces, numbers and letters, as LaTeX has them."""
     return Formula(tex, tuple(_item(x) for x in LITERAL.findall(tex)))

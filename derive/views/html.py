@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache, partial
 from html import escape
 from typing import Any
 
@@ -18,8 +18,7 @@ from ..printing.macros import standard
 from ..printing.measure import measure
 from ..printing.notation import Notation
 from ..printing.spoken import spelt, spoken
-from ..printing.tex import Cut, cut_up, joined, latex_tree
-from ..printing.tex import formula as typeset
+from ..printing.tex import Cut, cut_up, formula, joined
 from ..printing.typeset import Formula, literal, plain
 from ..printing.wrap import groups
 from ..record.record import Derivation, Equation, Step
@@ -190,11 +189,11 @@ class _Part:
     def correction(self, told: Iterable[Told]) -> str:
         """What is told of the print."""
 
-        def formula(sides: Sequence[Tree]) -> str:
-            whole = joined([typeset(x, None, self.notation) for x in sides], EQUALS)
+        def shown(sides: Sequence[Tree]) -> str:
+            whole = joined([formula(x, None, self.notation) for x in sides], EQUALS)
             return movable(whole.tex, whole)
 
-        return "".join(x.shown(lambda text: words(text, self.notation), formula) for x in told)
+        return "".join(x.shown(lambda text: words(text, self.notation), shown) for x in told)
 
     def equations(self, step: Step) -> Iterable[Fields]:
         """What has a number in a step, with its anchor and its LaTeX."""
@@ -204,7 +203,7 @@ class _Part:
             yield {
                 "id": anchor(key),
                 "number": self.numbers[key],
-                "long": measure(latex_tree(first.lhs, self.names)) > LONG,
+                "long": measure(self.formula(first.lhs).plain().tex) > LONG,
                 "left": self.cut(first.lhs),
                 "right": self.cut(first.rhs, equals=True),
                 "cells": [self.cell(e) for e in cells],
@@ -222,9 +221,14 @@ class _Part:
         whole = (self.formula(e.lhs) + EQUALS + self.formula(e.rhs)).plain()
         return movable(whole.tex, whole)
 
+    @cached_property
+    def typeset(self) -> Callable[[Tree], Formula]:
+        """A tree as a formula, which is asked for more than once."""
+        return lru_cache(64)(partial(formula, names=self.names, notation=self.notation))
+
     def formula(self, t: Tree) -> Formula:
         """A tree in the letters and the notation of this part."""
-        return typeset(t, self.names, self.notation)
+        return self.typeset(t)
 
     def cut(self, t: Tree, *, equals: bool = False) -> str:
         """A formula in terms between which a line may break, and these in turn."""
@@ -248,7 +252,7 @@ class _Part:
 
     def source(self, e: Equation) -> str:
         """The LaTeX of an equation."""
-        shown = standard(f"{latex_tree(e.lhs, self.names)} = {latex_tree(e.rhs, self.names)}")
+        shown = standard((self.formula(e.lhs) + EQUALS + self.formula(e.rhs)).plain().tex)
         said = clause(e, self.names, quantifiers(self.language))
         return f"{shown} \\quad {plain(said)}" if said else shown
 
