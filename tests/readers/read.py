@@ -10,11 +10,13 @@ from derive.views import html
 from derive.views import latex as latex_view
 from derive.views import markdown as markdown_view
 from derive.views import text as text_view
+from derive.views.language import language
 from tests.readers import latex, markdown, mathml, text
 from tests.readers.formula import Letters, UnreadableError, canonical, letters_of, value
 from tests.support import random_trees
 
 TOP = Notation(transpose="top")
+FRENCH = language("fr")
 PAGES = {
     "text": lambda d: text_view.text(d),
     "narrow text": lambda d: text_view.text(d, 60),
@@ -22,6 +24,8 @@ PAGES = {
     "markdown": lambda d: markdown_view.markdown(d),
     "html": lambda d: html.html([d]),
     "html, top": lambda d: html.html([d], TOP),
+    "text, fr": lambda d: text_view.text(d, language=FRENCH),
+    "latex, fr": lambda d: latex_view.latex(d, language=FRENCH),
 }
 READERS = {"text": text, "latex": latex, "markdown": markdown, "html": mathml}
 
