@@ -11,9 +11,9 @@ from random import Random
 
 import pytest
 
-from derive.code import emit as emission
 from derive.code.emit import emit
 from derive.code.options import Options
+from derive.command import emitting
 from derive.command.cli import main
 from derive.pipeline import program, walk
 from derive.problem.toml import problem_of
@@ -372,7 +372,7 @@ def test_nothing_that_differs_is_written(tmp_path, capsys, monkeypatch):
         files = emit(*given)
         return files | {"so3.c": files["so3.c"].replace("J_13*zeta_1 + J_23", "J_13*zeta_1 - J_23")}
 
-    monkeypatch.setattr(emission, "emit", wrong)
+    monkeypatch.setattr(emitting, "emit", wrong)
     assert main(["emit", "so3", "--validate", "--out", str(tmp_path)]) == 1
     out, err = capsys.readouterr()
     assert out == ""
