@@ -8,8 +8,8 @@
 ``show(read(s)) == s``, and ``read(show(t)) == t`` but where trees print alike; then it is the first
 of these: the number 1, not the unit matrix 𝟏, where it is no factor; a letter of the walk, not a
 parameter, unless the reader is told its name or it stands in ‘quotes’; a member F₁ of a family,
-not an entry of the resultant, and d₁₁ the first entry of d₁; an inverse, not the power −1; ‖a‖²,
-not a square of ‖a‖; (−a)/b, not −(a/b); [a, b] = ab − ba; after Σ or ∧ all of the next product.
+not an entry of the resultant; an inverse, not the power −1; ‖a‖², not a square of ‖a‖; (−a)/b, not
+−(a/b).  Of a matrix two digits are two indices; [a, b] = ab − ba, and [a, b;] is a row.
 Spaces between factors may be left out, ``αδt``, and an index may stand after _, ``r_i``.
 """
 
@@ -38,7 +38,7 @@ TOKEN = (
     r"(?P<quoted>‘[^’]*’)|(?P<opening>(?<= )‖)"
     rf"|(?P<word>Tr(?=[ (\[])|Σ(?:[ᵢⱼₑ]|_[a-z])|∫|√|(?:{_CALLED})(?=\())"
     rf"|(?P<name>d/dt|(?!dm(?![A-Za-z])){_VARIED}{_LETTER}[\u0300-\u036f]*′?(?:_(?:[abij][abij]|[A-Za-z]))?)"
-    r"|(?P<index>[₀-₉ᵢⱼₑ]+)"
+    r"|(?P<index>[₀-₉ᵢⱼₑ]+(?:,[₀-₉ᵢⱼₑ]+)*)"
     r"|(?P<power>⁻?[⁰¹²³⁴-⁹]+)"
     r"|(?P<number>\d+(?:/[1-9]\d*)?|[½⅓¼⅔])"
     r"|(?P<mark>dm(?![A-Za-z])|\S)"
@@ -195,14 +195,14 @@ class _Reader:
         self.take("[")
         rows: list[list[Tree]] = [[self.sum()]]
         while (mark := self.next()) in (";", ","):
-            if mark == ";":
-                rows.append([])
-            rows[-1].append(self.sum())
+            rows += [[]] if mark == ";" else []
+            if self.tokens[self.k][0] != "]":
+                rows[-1].append(self.sum())
         self.k -= 1
         self.take("]")
         if len(rows) == 1 and len(rows[0]) == 2:
             return ("bracket", *rows[0])
-        return ("matrix", *(("row", *row) for row in rows))
+        return ("matrix", *(("row", *row) for row in rows if row))
 
     def named(self, text: str) -> Tree:
         """A letter with its marks, and the index behind it: parameters have none."""
@@ -214,11 +214,10 @@ class _Reader:
             index += self.next()
         if name + index in self.parameters:
             return ("par", self.parameters[name + index])
-        cut = 0 if name not in FAMILIES else 1 if name in "dχ" else len(index)
-        found: Tree = ("at", name, *_numbers(index[:cut])) if index[:cut] else name
-        if MACRON in text:
-            found = ("T", found)
-        entry = _numbers(index[cut:], pair=name.lstrip("δ′")[:1].isupper())
+        member = name in FAMILIES and index
+        found: Tree = ("at", name, *_numbers(index)) if member else name
+        found = ("T", found) if MACRON in text else found
+        entry = [] if member else _numbers(index, pair=name.lstrip("δ′")[:1].isupper())
         return ("entry", found, *entry) if entry else found
 
 
