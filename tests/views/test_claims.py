@@ -14,7 +14,7 @@ ONLY = re.compile(
     NE + r"(?:(?!\b(?:pas|aucune?|ni)\b|\bne |\bn[’']|[.;:]).)*?\bqu(?:e |[’'])", re.I
 )
 NE_PAS = re.compile(NE + r"(?:(?!\bne |\bn[’']|[.;:]).)*?\bpas\b", re.I)
-OTHERS = re.compile(r"\b(?:non|absence|sans(?!\\)|(?<!trace )(?<!vide )nulle)\b", re.I)
+OTHERS = re.compile(r"\b(?:non|absence|sans(?! empattement)|(?<!trace )(?<!vide )nulle)\b", re.I)
 
 # each English term with its French, both as patterns of words
 TERMS = {

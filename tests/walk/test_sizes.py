@@ -5,13 +5,14 @@ from random import Random
 import numpy as np
 import pytest
 
-from derive import Gravity, Group, Moments, Problem, derive, pipeline
+from derive import Gravity, Group, Moments, Problem, derive
 from derive.check.model import Model
 from derive.code.assemble import assemble
 from derive.code.emit import emit
 from derive.language import rational as q
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
+from derive.walk import solution
 from tests.support.walks import own_verdicts
 
 
@@ -101,7 +102,7 @@ def test_a_multiplier_costs_less_than_the_mass_matrix(group, monkeypatch):
 
     ours = multiplications()
 
-    monkeypatch.setattr(pipeline, "MULTIPLIERS", -1)
+    monkeypatch.setattr(solution, "MULTIPLIERS", -1)
     assert 3 * ours < 2 * multiplications()
 
 
