@@ -24,7 +24,7 @@ coverage: $(STAMP) ## the tests, and the lines and branches of derive/ that none
 	$(BIN)/python -m pytest -n 2 --cov --cov-report= --cov-report=json
 	$(BIN)/python -m tests.support.covered 95
 
-mutants: $(STAMP) ## an hour or more: every record, emitted program and rule of the engine made wrong
+mutants: $(STAMP) ## hours: every record, emitted program and rule of the engine made wrong
 	$(BIN)/python -m tests.support.mutants
 
 lint: $(STAMP)   ## ruff and mypy alone

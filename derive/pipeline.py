@@ -1,9 +1,10 @@
 """The whole road on one screen: the stages from a problem to its record, a table that is run.
 
 A row: the stage, what it takes, the type of what it gives, its function (``walk.stages`` runs it);
-a: the letters of any group, c: the chapter of the record, c_u: where inputs act.  From the record
-the road goes on in ``derive.code``: reader → lower → assemble → factor → schedule → program → apart
-→ statements → the templates; the checker, the paper and the views read it, too.
+a: the letters of any group, c: the chapter that the steps belong to, c_u: the same where an input
+acts.  From the record the road goes on in ``derive.code``: assemble (which reads it, lowers,
+factors and schedules) → program → emit, by the signatures and the templates; the checker, the paper
+and the views read it, too.
 """
 
 from __future__ import annotations
