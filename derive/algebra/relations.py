@@ -102,7 +102,7 @@ class _Span:
         return rest
 
     def add(self, v: Iterable[Fraction]) -> bool:
-        """Add a vector to the space; was it not in it?"""
+        """Add a vector to the space; true if it was not in it."""
         rest = self.rest(v)
         if rest:
             first = min(rest)

@@ -19,7 +19,7 @@ class Source(Protocol):
     """A source of random numbers, as :class:`random.Random` is one."""
 
     def randint(self, a: int, b: int, /) -> Any:
-        """A number from a to b."""
+        """A random integer from a to b."""
 
 
 Sampler = Callable[[Source, int], Matrix]

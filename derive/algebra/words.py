@@ -152,15 +152,15 @@ class Expr:
     lineage: Lineage = NONE
 
     def marked(self, *marks: str) -> Expr:
-        """The same with these marks alone."""
+        """The same expression with these marks, and no others, as its lineage."""
         return Expr(self.rows, self.cols, self.terms, frozenset(marks))
 
     def like(self, terms: Terms) -> Expr:
-        """Other terms of the same shape, made from this."""
+        """An expression of the same shape and lineage with other terms."""
         return Expr(self.rows, self.cols, terms, self.lineage)
 
     def of(self, *others: Expr) -> Expr:
-        """The same, made from others as well."""
+        """The same expression, its lineage extended by that of others."""
         lineage = self.lineage.union(*(x.lineage for x in others))
         return Expr(self.rows, self.cols, self.terms, lineage)
 

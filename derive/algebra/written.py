@@ -80,7 +80,7 @@ def tree_of(e: Expr, notation: Notation = PLAIN) -> Tree:
 
 
 def _weight(t: Tree) -> int:
-    """Single letters before traces, variations of time last."""
+    """The key by which terms are ordered: single letters before traces, variations of time last."""
     if isinstance(t, str):
         return 2 if t.startswith("δ") else 0
     return 1
@@ -145,7 +145,7 @@ def _scalar_product(w: Word, notation: Notation) -> Tree:
 
 
 def _inner_order(w: Word) -> tuple[object, ...]:
-    """Few bars, and the body's own vector innermost: ⟨Zc, η⟩."""
+    """The key by which ⟨a, b⟩ is ordered: few bars, the body's own vector innermost, ⟨Zc, η⟩."""
     return _bars(w), len(w) > 2 and w[-1][0].name != "c", _rank(w[0][0]), _names(w)
 
 

@@ -149,7 +149,7 @@ class Exerted:
         return pushed(lambda places: self.potential(t, places, masses), r)
 
     def single_forces(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> list[Vector]:
-        """Of what is given point by point."""
+        """The forces on the points by the potentials that are given point by point."""
         return pushed(lambda places: self.single_potential(t, places, masses), r)
 
     def tension(self, energy: Any) -> Any:

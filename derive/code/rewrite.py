@@ -14,7 +14,7 @@ Rule = Callable[[Node, Image], Node]
 
 
 def operands(x: Node) -> Sequence[Node]:
-    """All of them."""
+    """The nodes that a node is computed from."""
     return x.args
 
 

@@ -79,7 +79,7 @@ def product(*factors: Tree) -> Tree:
 
 
 def quotient(a: Tree, b: Tree) -> Tree:
-    """a / b in the same form."""
+    """a / b, simplified as :func:`product` simplifies."""
     return product(a, ("div", 1, b))
 
 

@@ -178,7 +178,7 @@ def _power(p: Laurent, k: int) -> Laurent:
 
 
 def _long(p: Laurent, r: Laurent) -> Laurent:
-    """A product that is not too long."""
+    """The product of two polynomials; ``OverlongError`` if it may have too many terms."""
     if len(p.terms) * len(r.terms) > LONGEST:
         raise OverlongError("too many terms")
     return p * r

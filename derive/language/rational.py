@@ -145,7 +145,8 @@ def echelon(a: Matrix) -> tuple[Matrix, tuple[int, ...]]:
 
 
 def _whole_echelon(rows: list[list[int]]) -> tuple[Matrix, tuple[int, ...]]:
-    """The same of integers: no row is divided before the end, but by its common factor."""
+    """The echelon form of integer rows: no row is divided before the end, but by its common
+    factor."""
     pivots: list[int] = []
     for col in range(len(rows[0])):
         r = len(pivots)
@@ -190,7 +191,7 @@ def inverse(a: Matrix) -> Matrix | None:
 
 
 def determinant(a: Matrix) -> Any:
-    """Of a square matrix, by elimination."""
+    """The determinant of a square matrix, by elimination."""
     rows, value = [list(row) for row in a], Fraction(1)
     for k in range(len(rows)):
         pivot = next((i for i in range(k, len(rows)) if rows[i][k]), None)

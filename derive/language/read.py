@@ -71,7 +71,7 @@ def _tokens(text: str, parameters: dict[str, str]) -> list[tuple[str, str]]:
 
 
 class _Reader:
-    """Tokens, and how far they are read."""
+    """The tokens of a formula, and how far they are read."""
 
     def __init__(self, text: str, parameters: dict[str, str]) -> None:
         self.text, self.tokens, self.k = text, _tokens(text, parameters), 0
@@ -94,7 +94,7 @@ class _Reader:
             raise self.error(wanted or "the end")
 
     def error(self, wanted: str) -> FormulaError:
-        """Of what should stand here and does not."""
+        """The error that says what should stand here and does not."""
         rest = "".join(text for _, text in self.tokens[self.k :]) or "the end"
         return FormulaError(f"{self.text!r}: {wanted} is expected at {rest}")
 

@@ -110,13 +110,15 @@ def _atom(t: Tree) -> str:
 
 
 def _base(t: Tree) -> str:
-    """What is raised to a power or divides: what has a number above it is in brackets, too."""
+    """The text of what is raised to a power or divides: in brackets if a number stands above it,
+    too."""
     raised = isinstance(t, tuple) and t[0] in ("pow", "inv", "norm2", "metric")
     return f"({_show(t)[0]})" if raised or isinstance(t, Fraction) else _atom(t)
 
 
 def _below(t: Tree) -> str:
-    """The metric of a product, of which an index or an exponent would be that of the product."""
+    """The text of a metric below a product, in brackets where its index would be read as the
+    product's."""
     inner = t[1] if isinstance(t, tuple) and t[0] in ("T", "inv") else t
     return _atom(t) if isinstance(inner, str) else f"({show(t)})"
 
@@ -132,7 +134,7 @@ def has_norm(t: Tree) -> bool:
 
 
 def _letter(text: str) -> bool:
-    """One mathematical letter with its marks, so that a product needs no space."""
+    """Is a text one mathematical letter with its marks, so that a product needs no space?"""
     return re.fullmatch(r"[^\W\d_][\u0300-\u036f]*′?(⁻¹|²)?", text) is not None
 
 
@@ -227,7 +229,7 @@ def _operand(t: Tree) -> str:
 
 
 def swallows(t: Tree) -> bool:
-    """Would it take in what follows, or only its last factor be taken: Tr a, Σ a, a ∧ b?"""
+    """Would what follows be read into a tree, or only its last factor: Tr a, Σ a, a ∧ b?"""
     if not isinstance(t, tuple):
         return False
     if t[0] == "mul":  # in which a ∧ b has brackets

@@ -12,7 +12,7 @@ FUNCTION = 8
 
 
 class Weight(NamedTuple):
-    """Leaves; operands of all first derivatives together; degree in the parameters and places."""
+    """What an expression costs: leaves; operands of all its first derivatives; degree."""
 
     leaves: int
     slope: int

@@ -35,9 +35,7 @@ RULES: dict[str, Rule] = {
     "contraction": Rule("A vector is put into dϖ.", "restriction"),
     "kernel": Rule("The coefficient of each free variation must vanish.", "kernel"),
     "relation": Rule("A relation of the group is used.", "identity"),
-    "identification": Rule(
-        "The same in other letters: so(3) as R³ by j, say.", "identity"
-    ),
+    "identification": Rule("The same in other letters: so(3) as R³ by j, say.", "identity"),
     "elimination": Rule("One unknown is solved for and put into the other equations.", "solution"),
     "multiplier": Rule(
         "An element orthogonal to the Lie algebra is a multiplier of its constraint.", "kernel"

@@ -42,5 +42,5 @@ class Potential(Table):
 
     @property
     def summed(self) -> bool:
-        """Has it a term for every point?"""
+        """Is this potential a sum with a term for every point?"""
         return any(about.type == "masses" for about in self.keys().values())

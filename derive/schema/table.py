@@ -26,7 +26,7 @@ class Reader(Protocol):
         """The error of a file, or of a record."""
 
     def has(self, table: Mapping[str, Any], key: str) -> bool:
-        """Is there a value to be read?"""
+        """Has a table a value under a key?"""
 
     def meets(self, need: str, kind: str, where: str) -> None:
         """Refuse a kind where the problem is not what it needs."""
@@ -80,7 +80,7 @@ class Key:
 
     @property
     def as_type(self) -> Type:
-        """Its type."""
+        """The type of this key."""
         return TYPES[self.type]
 
 
@@ -152,7 +152,7 @@ class Table:
 
     @classmethod
     def names(cls) -> tuple[str, ...]:
-        """The keys of its table in a file."""
+        """The keys that a table of this kind may have in a file."""
         stated = {name: k for name, k in cls.keys().items() if k.type != "masses"}
         found = [x for name, k in stated.items() for x in k.as_type.keys or (name,)]
         return tuple(dict.fromkeys(found))
@@ -205,5 +205,5 @@ class Table:
         }
 
     def trees(self) -> list[Tree]:
-        """Its expressions."""
+        """The expressions in this table."""
         return [t for _, k, value in self.values() for t in k.as_type.trees(value)]

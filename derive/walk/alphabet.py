@@ -58,7 +58,7 @@ class Dual:
 
     @property
     def letters(self) -> tuple[Letter, ...]:
-        """All of them."""
+        """The momentum, its variations and rate, and the derivative of L̃ along g."""
         return self.momentum, self.d_momentum, self.dp_momentum, self.rate, self.push
 
 
@@ -137,7 +137,7 @@ class Alphabet:
         return (self.Pi, self.p_b) if self.affine else (self.Pi,)
 
     def freed(self) -> Alphabet:
-        """The same with a ξ′ that may be any matrix: what pairs with it is then a whole matrix."""
+        """The same alphabet with ξ′ any matrix, so that what pairs with it is a whole matrix."""
         copy = Alphabet(self.n, affine=self.affine)
         vars(copy).update(vars(self))
         copy.Z = replace(self.Z, xi_prime=Letter(self.Z.xi_prime.name, self.n, self.n))

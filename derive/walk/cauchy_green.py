@@ -35,12 +35,12 @@ def without_gram(e: Expr, bodies: Bodies, a: Alphabet) -> Expr:
 
 
 def claims(bodies: Bodies) -> list[Equation]:
-    """What is so on the group."""
+    """The equation by which C drops out of the metric on 𝔤: for every body, or for this one."""
     return stated("ξ̄CZ = ξ̄Z" if bodies == EVERY else "Tr ξJZ̄C = Tr ξJZ̄")
 
 
 def told(bodies: Bodies) -> Prose:
-    """The same in words."""
+    """The sentence for :func:`claims`."""
     if bodies == EVERY:
         return say("relation.lengths")
     return say("relation.left_invariant")

@@ -28,15 +28,15 @@ class Chapter:
     driven: bool = False
 
     def with_input(self) -> Chapter:
-        """The same where an input acts."""
+        """The same chapter for steps in which an input or damping acts."""
         return replace(self, driven=True)
 
     def label(self, short: str) -> str:
-        """``so3.kernel`` for ``kernel``."""
+        """The label of a step of this chapter: ``so3.kernel`` for ``kernel``."""
         return f"{self.name}.{short}"
 
     def draft(self, label: str, rule: str) -> Draft:
-        """A step of it in the making."""
+        """A step of this chapter in the making, made by a rule."""
         return Draft(self, self.label(label), rule)
 
 
@@ -55,7 +55,7 @@ class Draft:
             self.uses |= dict.fromkeys(marks)
 
     def tree(self, e: Expr, notation: Notation = PLAIN) -> Tree:
-        """An expression, written."""
+        """The tree of an expression, whose origin is noted among the uses of this step."""
         self.read(e)
         return tree_of(e, notation)
 
@@ -85,5 +85,5 @@ class Draft:
         )
 
     def said(self, e: Expr) -> Expr:
-        """An expression as this step says it."""
+        """The same expression, marked as made by this step: who uses it uses this step."""
         return e.marked(self.label)

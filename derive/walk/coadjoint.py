@@ -25,7 +25,10 @@ from .telling import say
 
 
 def halved(values: Mapping[Letter, Expr], b: Alphabet) -> dict[Letter, Expr]:
-    """Π = ½ ℓ_b and so on, which on so(n) is as good; and Φ by its value."""
+    """The values Π = ½ ℓ_b, of its variations and its rate alike, and that of Φ.
+
+    On so(n) ⟨Π, ξ⟩ = ½ Tr ξℓ̄_b, so that a skew ℓ_b says as much as any Π.
+    """
     pairs = zip(b.Pi.letters[:4], b.spin.letters[:4], strict=True)
     return {x: Fraction(1, 2) * word(y) for x, y in pairs} | {b.Pi.push: values[b.Pi.push]}
 
@@ -51,7 +54,7 @@ def coadjoint_steps(stage: MomentumForm, b: Alphabet, gram: Expr, c: Chapter) ->
 
 
 def _commuted(e: Expr, b: Alphabet) -> Tree:
-    """With [ℓ_b, Z] where its two terms stand."""
+    """The tree of an expression, with the bracket [ℓ_b, Z] for its two terms ℓ_b Z − Zℓ_b."""
     spin, Z = word(b.spin.momentum), word(b.Z.velocity)
     commutator = spin * Z - Z * spin
     if not {*commutator.terms.items()} <= {*e.terms.items()}:
@@ -61,14 +64,14 @@ def _commuted(e: Expr, b: Alphabet) -> Tree:
 
 
 def momenta_told(b: Alphabet) -> Prose:
-    """What the momenta are."""
+    """The sentence that says what ℓ_b (and p_b) are."""
     if b.affine:
         return say("momenta.affine")
     return say("momenta.linear")
 
 
 def motion_told(b: Alphabet) -> Prose:
-    """What their rates are."""
+    """The sentence for the rates of ℓ_b (and p_b): Euler's equations, or Kirchhoff's."""
     if b.affine:
         return say("coadjoint.kirchhoff")
     return say("coadjoint.euler")

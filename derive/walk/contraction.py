@@ -72,7 +72,7 @@ class Contraction:
         return gathered(d, self.form, self.core, self.images, self.notation)
 
     def said_by(self, d: Draft) -> Contraction:
-        """The same as a step says it."""
+        """The same contraction, its expressions marked as made by a step."""
         images = {x: d.said(y) for x, y in self.images.items()}
         return replace(self, form=d.said(self.form), images=images)
 
@@ -82,7 +82,10 @@ class Contraction:
         return gathered(d, form, self.core, self._shifts, self.notation)
 
     def on_vertical(self, d: Draft) -> Tree:
-        """The same for δ′t = 0, δ′g = 0; ``NoKernelError`` if the velocity is not its zero."""
+        """dϖ(X, ·) on variations of the velocity alone, δ′t = 0 and δ′g = 0.
+
+        ``NoKernelError`` if it does not vanish for the velocity of the motion.
+        """
         vertical = terms_with(without(self.form, self.times[1]), *self.vertical)
         vertical = substitute(vertical, self._now)
         if substitute(vertical, self.velocity):
@@ -92,7 +95,7 @@ class Contraction:
         return gathered(d, vertical, core, shifts, self.notation)
 
     def at_rest(self) -> tuple[Equation, ...]:
-        """δ′t = 0 and δ′x = 0."""
+        """The equations δ′t = 0 and δ′x = 0 of a variation of the velocity alone."""
         return tuple(Equation(x.name, 0) for x in (self.times[1], *self.resting.values()))
 
     def rates(self) -> tuple[str, ...]:
@@ -134,7 +137,7 @@ class Contraction:
         return terms_with(core, *self.acceleration.values())
 
     def remaining(self, d: Draft) -> Tree:
-        """How dϖ(X, δ′) is written for X with the velocity of the motion."""
+        """The tree of dϖ(X, δ′) for X with the velocity of the motion."""
         display = {**self.notation.display, **self.display}
         notation = replace(self.notation, display=display)
         return gathered(d, self.second_order, self.remaining_core, self.shifts, notation)
@@ -146,7 +149,7 @@ def velocities(d: Draft, along: Mapping[Letter, Expr], letters: Iterable[Letter]
 
 
 def rate(dotted: str, varied: str) -> Sentence:
-    """v̇ is δv(X)."""
+    """The sentence “v̇ is δv(X)”."""
     return phrase("second_order.rate", rate=dotted, value=f"{varied}(X)")
 
 

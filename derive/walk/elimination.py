@@ -44,7 +44,7 @@ class Eliminated:
 
 
 def notation(a: Alphabet) -> Notation:
-    """m⁻¹ as an inverse."""
+    """The notation that writes the letter m⁻¹ as an inverse."""
     return Notation(display={inverse_letter(a.m): inverse_tree(a.m)})
 
 
@@ -87,7 +87,7 @@ def simplified(e: Expr, a: Alphabet) -> Expr:
 
 
 def from_centre(e: Expr, a: Alphabet) -> Expr:
-    """The same with c = m r_c."""
+    """An expression with c = m r_c put in."""
     mass = word(a.m)
     images = {a.c: mass * word(CENTRE), hat(a.c): mass * word(hat(CENTRE))}
     return simplified(substitute(e, images), a)

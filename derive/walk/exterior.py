@@ -98,7 +98,7 @@ def brackets_of(a: Alphabet) -> dict[Letter, Expr]:
 
 
 def shown_brackets(a: Alphabet) -> list[Tree]:
-    """How they are written."""
+    """The trees of [ξ′, ξ] and, for an affine action, of what the bracket gives η."""
     first, *others = brackets_of(a).values()
     return [
         read("[ξ′, ξ]") if first == _bracket(a) else tree_of(first),

@@ -37,7 +37,7 @@ class Way:
 
 
 def _functions(error: Exception) -> str:
-    """Those of the walk in which it came about, the last one innermost."""
+    """The functions of the walk in which an error came about, the innermost last."""
     room, runners = Path(__file__).parent, ("failure", "stages")
     frames = [(Path(x.filename), x.name) for x in traceback.extract_tb(error.__traceback__)]
     inside = [f"{p.stem}.{x}" for p, x in frames if p.parent == room and p.stem not in runners]
@@ -48,13 +48,13 @@ WAY: ContextVar[Way] = ContextVar("WAY")
 
 
 def begin(label: str, rule: str) -> None:
-    """A step is being drafted."""
+    """Note that a step is being drafted."""
     if way := WAY.get(None):
         way.begun[label] = rule
 
 
 def end(label: str, rule: str) -> None:
-    """It is written."""
+    """Note that a step is written."""
     if way := WAY.get(None):
         way.begun.pop(label, None)
         way.last = f"{label} ({rule})"
@@ -62,7 +62,7 @@ def end(label: str, rule: str) -> None:
 
 @contextmanager
 def naming_steps() -> Iterator[None]:
-    """``WalkError`` for what the engine does not expect."""
+    """Turn an error that the engine does not expect into ``WalkError``, which names the step."""
     way = Way()
     token = WAY.set(way)
     try:

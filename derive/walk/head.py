@@ -45,14 +45,14 @@ def symbols(steps: tuple[Step, ...], problem: Problem) -> tuple[Symbol, ...]:
 
 
 def _sizes(group: Group) -> dict[str, int]:
-    """What the letters of sizes stand for; a block is of none where the factors are of several."""
+    """What n, d and dim are for a group; and ``block``, where all its factors are of one size."""
     sizes = {"n": group.n, "d": len(group.linear_basis), "dim": group.dimension}
     blocks = {factor.n for _, factor in group.places}
     return sizes | ({"block": blocks.pop()} if len(blocks) == 1 else {})
 
 
 def _meant(problem: Problem) -> dict[str, Name]:
-    """What the names mean in a problem."""
+    """The vocabulary of a problem: name → its meanings there."""
     group = problem.group
     blocks = PRODUCTS if group and group.factors and not group.affine else {}
     turning = group is not None and group.turns_space
@@ -61,7 +61,7 @@ def _meant(problem: Problem) -> dict[str, Name]:
 
 
 def _inputs(problem: Problem) -> Prose:
-    """What f_u means where forces are given."""
+    """The meaning of f_u: the forces that are given, one by one."""
     forces, group = [_force(x) for x in problem.pushes], problem.group
     if problem.covector and group and group.turns_space and group.affine:
         at_origin = "input.covector_force"

@@ -45,7 +45,7 @@ class Given:
 
 
 def acts(problem: Problem) -> bool:
-    """Is there anything outside dϖ?"""
+    """Is there anything outside dϖ, an input or damping?"""
     return bool(problem.inputs or problem.damping)
 
 

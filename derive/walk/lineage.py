@@ -38,7 +38,8 @@ def traced(steps: Iterable[Step]) -> tuple[Step, ...]:
 
 
 def subjects(t: Tree) -> Iterator[str]:
-    """The names that a tree speaks of, but those that all begins with; ``m_`` of a member m_i."""
+    """The names that a tree speaks of, without those that the walk starts from; ``m_`` of a member
+    m_i."""
     if isinstance(t, str):
         x = DERIVATIVE_OF.get(t, t)
         if _is_defined(x, "value") or _is_defined(x, "function"):
@@ -53,7 +54,7 @@ def subjects(t: Tree) -> Iterator[str]:
 
 @cache
 def _is_defined(name: str, way: str) -> bool:
-    """Is it something else than what all begins with?"""
+    """Is a name, in this position, given by an equation, not one that the walk starts from?"""
     uses = VOCABULARY[name].uses if name in VOCABULARY else ()
     roles = [use.role for use in uses if position_of(use.type) == way]
     free = FREE if name in OPERATORS or way != "function" else FREE[:2]

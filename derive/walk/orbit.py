@@ -26,7 +26,7 @@ from .trivialisation import frame_rule, gram
 
 
 def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Step:
-    """A, and for an affine action T, by sums over the points where they are."""
+    """The step that tells A, and for an affine action T, by sums over the points where they are."""
     draft = c.draft("unique", "pull-back")
     centre = Letter("m⁻¹c", a.n)
     arm = word(a.r_i) - word(centre) if a.affine else word(a.r_i)
@@ -100,7 +100,8 @@ def distances(points: Lagrangian, a: Alphabet, c: Chapter) -> Distances:
 
 
 def rigid(general: Distances, unit: Expr, a: Alphabet, c: Chapter) -> Step:
-    """C = 1: the distances are kept, and by their variations (6)."""
+    """The step that says that C = 1 keeps the distances of the points, and that their variations
+    vanish (6)."""
     draft = c.draft("rigid", "relation")
     square, varied = (a.respell(e, unit).of(unit) for e in (general.square, general.varied))
     return draft.step(
