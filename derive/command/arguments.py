@@ -54,6 +54,8 @@ class Parser(argparse.ArgumentParser):
     ) -> tuple[argparse.Namespace, list[str]]:
         """The parsed arguments; what is left over is an error."""
         found, left = super().parse_known_args(args, namespace)
+        if hasattr(found, "step") and not any(x.startswith("-") for x in left):
+            found.step, left = [*found.step, *left], []  # steps behind an option
         if left:
             option = next((x for x in left if x.startswith("-")), "")
             what = f"unknown option {option!r}" if option else f"unexpected {left[0]!r}"

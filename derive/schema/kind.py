@@ -24,11 +24,10 @@ class Own(NamedTuple):
 class Potential(Table):
     """One potential of a problem.
 
-    ``rank``: in which order kinds are told.  ``phrase``, ``several``:
-    what acts, in words.  ``drawn``: is it in the figure?  ``legend``: what the figure says of it.
-    ``turns``: can it be said in the principal frame; else ``unturned`` says what cannot.
-    ``alone``: there is one of the kind.  ``letters``: those
-    that its words have for their own.
+    ``rank``: in which order kinds are told.  ``phrase``, ``several``: what acts, in words.
+    ``drawn``: is it in the figure?  ``legend``: what the figure says of it.  ``unturned``: what
+    ``--frame principal`` cannot carry into its frame; empty where it can.  ``alone``: there is one
+    of the kind.  ``letters``: those that its words have for their own.
     """
 
     rank: ClassVar[int] = 100

@@ -225,6 +225,11 @@ def test_steps_alone(form, capsys):
     assert {"so3.euler", "linear.kernel"} <= shown <= {"so3.euler", "linear.kernel"}
 
 
+def test_steps_behind_an_option(capsys):
+    assert main(["walk", "so3", "--lang", "fr", "kernel"]) == 0
+    assert capsys.readouterr().out.startswith("so3.kernel")
+
+
 def test_a_step_that_is_none(capsys):
     assert main(["walk", "so3", "kernal"]) == 2
     assert "so3 has no step 'kernal'; did you mean 'kernel'?" in capsys.readouterr().err

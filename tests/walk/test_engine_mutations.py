@@ -13,7 +13,7 @@ from tests.support.engine_mutations.jobs import JOBS
 from tests.support.engine_mutations.judge import CAUGHT, LATE, Verdict, numbers
 from tests.support.engine_mutations.known import EXPLAINED, reason
 from tests.support.engine_mutations.operators import mutants
-from tests.support.engine_mutations.run import LEFT, MODULES, Survey, chosen, results
+from tests.support.engine_mutations.run import LEFT, MODULES, ROOMS, Survey, chosen, results
 from tests.support.engine_mutations.table import counted, line, table, told, wrong
 
 pytestmark = pytest.mark.no_cover
@@ -75,8 +75,8 @@ def test_the_changes_of_an_expression():
 
 
 def test_every_module_is_changed_or_left_for_a_reason():
-    rooms = ("algebra", "walk", "mechanics", "code")
-    files = {str(p.relative_to(ROOT)) for room in rooms for p in (ROOT / room).glob("*.py")}
+    assert all((ROOT / room).is_dir() for room in ROOMS)
+    files = {str(p.relative_to(ROOT)) for room in ROOMS for p in (ROOT / room).glob("*.py")}
     assert {x for x in files if not x.endswith("__init__.py")} <= {*MODULES, *LEFT}
     assert {module for module, _ in EXPLAINED} <= {*MODULES}
 

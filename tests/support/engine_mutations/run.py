@@ -26,7 +26,7 @@ LEFT = {
     "algebra/samplers.py": "the checker's alone",
     "language/divisors.py": "refuses expressions; held against fractions by tests of its own",
     "problem/mesh.py": "reads files of meshes, for which the oracle has no reader",
-    "code/languages.py": "how five languages are written, compared with C by their own tests",
+    "code/languages.py": "how the languages are written, compared with C by their own tests",
     "code/conventions.py": "words at the head of a file",
     "code/titles.py": "words of comments",
     "code/naming.py": "names of intermediate numbers",
