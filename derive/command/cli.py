@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from ..language.refused import Refused
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation, Step
+from ..schema.table import nearest
 from ..views.rendering import NOTES, notes, pdf, render, unprinted
 from .encoding import as_in_a_file, replacing_unencodable
 from .guard import StoppedError, one_line, time_limit
@@ -114,8 +115,7 @@ def steps_of(record: Derivation, labels: Sequence[str]) -> list[Step]:
     found = []
     for label in labels:
         if label not in by_label and label not in short:
-            near = difflib.get_close_matches(label, [*short, *by_label], 1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
+            hint = nearest(label, {*short, *by_label})
             raise UsageError(f"{record.name} has no step {label[:60]!r}{hint}")
         found.append(by_label[short.get(label, label)])
     return found

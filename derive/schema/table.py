@@ -115,6 +115,9 @@ def _key(hint: Any) -> Key:
     raise TypeError(f"{hint} is no type of a key")
 
 
+NEEDS = ("points alone", "one space", "rotations", "affine of R^3")
+"""What a kind may need of its problem: nothing has mass but the points; blocks of one dimension;
+linear parts that are rotations; all translations of R³."""
 OTHER_WORDS = {
     **dict.fromkeys(("sphere", "globe"), "ball"),
     **dict.fromkeys(("cube", "cuboid", "brick", "block"), "box"),

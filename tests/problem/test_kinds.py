@@ -13,6 +13,7 @@ from derive.problem.toml import problem_of
 from derive.python.api import SE, Moments, Problem, Table
 from derive.record.record import RecordError, from_json, to_data
 from derive.schema.kinds import kinds
+from derive.schema.table import NEEDS
 from derive.views.language import language
 from derive.views.system import system
 from tests.support.kinds import PAGES, examples, pages
@@ -90,3 +91,8 @@ def test_one_alone(kind):
     assert len(problem.potentials) == 1
     with pytest.raises(ProblemError, match=f"potential 2: a second {kind}"):
         problem_of(tomllib.loads(text + second))
+
+
+def test_what_a_kind_needs_is_known():
+    """Else nothing would refuse a problem for it."""
+    assert {need for kind in kinds().values() for need in kind.needs} == {*NEEDS}

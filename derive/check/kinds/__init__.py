@@ -1,4 +1,4 @@
-"""The checker's own account of each kind of potential: a file for each, found by lying here.
+"""The checker's own account of each kind of potential: each module of this folder is one.
 
 Each has ``KIND``, its name, and ``energy(at, p, t, r, masses)``, U from the places of the points.
 Where the walk sums some of a kind up in words, ``summed(at, p)`` says which, and

@@ -1,4 +1,4 @@
-"""The kinds of potentials: a file for each, found by lying here."""
+"""The kinds of potentials: each module of this folder is one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the walk makes of each kind of potential: a file for each, found by lying here.
+"""What the walk makes of each kind of potential: each module of this folder is one.
 
 ``words(problem, a, vectors)``: the potentials of the kind together as a word, ``None`` without any;
 ``pointwise(found, p, problem)``: one of them, given point by point.  A kind has one or both.
