@@ -15,7 +15,8 @@ from ..algebra.words import Dim, Expr, Letter, one, word
 
 @dataclass(frozen=True)
 class Part:
-    """x, ẋ, δx, δ′x, δẋ, δ′ẋ, ẍ and second variations δδ′x, δδ′ẋ, for one part of g.
+    """The letters of one part x of g, in space: x, ẋ, δx, δ′x, δẋ, δ′ẋ, ẍ and the second variations
+    δδ′x, δδ′ẋ.
 
     ``rate`` is the name of dx/dt along the motion.
     """
@@ -34,7 +35,8 @@ class Part:
 
 @dataclass(frozen=True)
 class Frame:
-    """The same part carried to the identity: Z, ξ, ξ′, δZ, δ′Z, Ż."""
+    """The letters of a part carried to the identity by g⁻¹: Z, ξ, ξ′, δZ, δ′Z, Ż, δδ′ξ, δδ′Z (of T:
+    w, η, …)."""
 
     velocity: Letter
     xi: Letter
@@ -48,7 +50,8 @@ class Frame:
 
 @dataclass(frozen=True)
 class Dual:
-    """What pairs with a frame: a momentum P, δP, δ′P, Ṗ, and the derivative of L̃ along g."""
+    """The letters in 𝔤* that pair with those of a part carried to the identity: a momentum P, δP,
+    δ′P, Ṗ, and F, the derivative of L̃ along g."""
 
     momentum: Letter
     d_momentum: Letter
@@ -58,15 +61,15 @@ class Dual:
 
     @property
     def letters(self) -> tuple[Letter, ...]:
-        """The momentum, its variations and rate, and the derivative of L̃ along g."""
+        """P, δP, δ′P, Ṗ and F, in this order."""
         return self.momentum, self.d_momentum, self.dp_momentum, self.rate, self.push
 
 
 class Alphabet:
-    """Letters for points of Rⁿ moved linearly or affinely.
+    """The letters of one group that moves points of Rⁿ, linearly or affinely.
 
-    ``skew``: Z and its kin are skew, as in so(n); ``traceless``: their trace vanishes, as in sl(n).
-    ``signed``: masses may be negative.
+    ``n``: a number, or a name where n is any. ``skew``: Z and its kin are skew, as in so(n);
+    ``traceless``: their trace vanishes, as in sl(n). ``signed``: masses may be negative.
     """
 
     def __init__(
@@ -113,27 +116,28 @@ class Alphabet:
 
     @property
     def chapter(self) -> str:
-        """The chapter about any group, which says what the letters mean."""
+        """The name of the chapter about any group with this action: ``linear`` or ``affine``."""
         return "affine" if self.affine else "linear"
 
     @property
     def bodily(self) -> tuple[tuple[Letter, Letter], ...]:
-        """N and N_b, F and F_b."""
+        """(N, N_b) and (F, F_b): moments and resultant of the forces, in space and in the body."""
         return (self.N, self.N_body), (self.F, self.F_body)
 
     @property
     def parts(self) -> tuple[Part, ...]:
-        """A, and T for an affine action."""
+        """The letters of A, and of T for an affine action."""
         return (self.A, self.T) if self.affine else (self.A,)
 
     @property
     def frames(self) -> tuple[Frame, ...]:
-        """Z, and w for an affine action, in the order of :attr:`parts`."""
+        """The letters of Z, and of w for an affine action, in the order of :attr:`parts`."""
         return (self.Z, self.w) if self.affine else (self.Z,)
 
     @property
     def duals(self) -> tuple[Dual, ...]:
-        """What pairs with :attr:`frames`."""
+        """The letters of Π, and of p_b for an affine action, which pair with those of
+        :attr:`frames`."""
         return (self.Pi, self.p_b) if self.affine else (self.Pi,)
 
     def freed(self) -> Alphabet:
@@ -157,7 +161,8 @@ class Alphabet:
         return found
 
     def respell(self, e: Expr, gram: Expr | None = None) -> Expr:
-        """An expression of another alphabet in these letters, which know more (and C = gram)."""
+        """An expression of another alphabet in the letters of the same names here, which know more,
+        and with ``gram`` for C, if that is said."""
         mine = self.letters()
         images = {x: word(mine[x.name]) for x in e.letters() if x.name in mine}
         if gram is not None:
@@ -167,15 +172,15 @@ class Alphabet:
 
     @property
     def unit(self) -> Expr:
-        """The identity matrix."""
+        """The n × n identity matrix."""
         return one(self.n)
 
 
 def vars_of(value: Part | Frame | Dual) -> list[object]:
-    """The fields of a part or a frame."""
+    """The values of all the fields of a part, a frame or a dual."""
     return [getattr(value, name) for name in value.__dataclass_fields__]
 
 
 def of_matrices(group: Group) -> Alphabet:
-    """The letters of any matrices of the size of a group's."""
+    """The alphabet of all matrices of the size of a group's, neither skew nor traceless."""
     return Alphabet(group.n, affine=group.affine)

@@ -30,12 +30,14 @@ SOLIDS = {
     "tetrahedron": phrase("integrals.tetrahedron"),
     "mesh": phrase("integrals.mesh"),
 }
+"""The name of each kind of solid."""
 SIZES = ("radius", "outer", "inner", "sides", "semi_axes", "height", "vertices")
-"""The kinds of solids and their sizes in words."""
+"""The sizes of a solid that are told in words."""
 
 
 def body_step(problem: Problem, points: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Step, ...]:
-    """One step, and for solids the integrals that it evaluates; none for no body.
+    """The step that states the numbers of the body, after that of its integrals for solids; none
+    where there is no body.
 
     ``points``: what is said of the points of any body, with the alphabet ``a``.
     """

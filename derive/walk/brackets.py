@@ -19,7 +19,8 @@ Row = tuple[Any, ...]
 
 
 def bracket_step(group: Group, c: Chapter) -> tuple[Step, ...]:
-    """Is the group commutative, nilpotent, its brackets central?  None for none of these."""
+    """The step that says whether 𝔤 is commutative, its brackets central, its matrices nilpotent;
+    none where nothing of this holds."""
     basis, equations = group.basis, list[Equation]()
     prose: Prose = ()
     if not any(map(_nonzero, group.linear_basis)):
@@ -41,7 +42,7 @@ def bracket_step(group: Group, c: Chapter) -> tuple[Step, ...]:
 
 
 def vanishing_power(basis: Sequence[Matrix]) -> int:
-    """k for which all products of k elements vanish, and no less will do; 0 for none."""
+    """The least k for which all products of k matrices of 𝔤 vanish; 0 where there is none."""
     if any(q.trace(q.times(e, e)) != 0 for e in basis):
         return 0
     k, image = 0, list[Row](q.identity(len(basis[0])))

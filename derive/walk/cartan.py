@@ -22,7 +22,8 @@ from .trivialisation import carry, trivialisation
 
 @dataclass(frozen=True)
 class Cartan:
-    """``momentum`` = p̃(δg) and ``energy`` = h̃ on words; ``form`` = ϖ(δ) = momentum − energy δt.
+    """The Cartan form on words: ``momentum`` = p̃(δg), ``energy`` = h̃, ``form`` = ϖ(δ) = momentum
+    − energy δt.
 
     ``work`` = −dŨ(δg).
     """
@@ -50,7 +51,8 @@ def cartan_form(momentum: Expr, energy: Expr, a: Alphabet) -> Expr:
 
 
 def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
-    """The Cartan form in the variables (t, g, ν)."""
+    """The Cartan form in the variables (t, g, ν), with the steps ``momentum``, ``energy``,
+    ``cartan``."""
     moving, resting, whole = (
         c.draft("momentum", "fibre derivative"),
         c.draft("energy", "Legendre transform"),
@@ -113,7 +115,7 @@ def _momentum_equations(
 
 
 def trivialise(stage: Cartan, a: Alphabet, c: Chapter) -> Cartan:
-    """ϖ in the variables (g, Z), with ξ = g⁻¹δg."""
+    """The Cartan form in the variables (t, g, Z), with ξ = g⁻¹δg."""
     draft = c.draft("cartan_trivialised", "trivialisation")
     momentum, energy = carry(stage.momentum, a), carry(stage.energy, a)
     step = draft.step(
@@ -127,7 +129,7 @@ def trivialise(stage: Cartan, a: Alphabet, c: Chapter) -> Cartan:
 
 
 def form_equation(d: Draft, momentum: Expr, energy: Expr, notation: Notation) -> Equation:
-    """ϖ(δy) = p̃ − (h̃) δt with the energy written out."""
+    """The equation ϖ(δy) = p̃ − (h̃) δt, with the energy written out."""
     return Equation(
         read("ϖ(δy)"),
         add(d.tree(momentum, notation), ("mul", -1, d.tree(energy, notation), "δt")),

@@ -17,7 +17,8 @@ from .telling import say
 
 
 def without_gram(e: Expr, bodies: Bodies, a: Alphabet) -> Expr:
-    """A scalar without the C that drops out: between a bar of 𝔤 and an element of 𝔤."""
+    """A scalar with 1 for each C that drops out of the metric: those between a barred letter of 𝔤
+    and a plain one."""
     algebra = {x.name for f in a.frames for x in (f.velocity, f.xi, f.xi_prime)}
     algebra |= {x.name for f in a.frames for x in (f.d_velocity, f.dp_velocity, f.acceleration)}
 

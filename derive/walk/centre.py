@@ -25,7 +25,8 @@ from .telling import say
 
 @dataclass(frozen=True)
 class Seen:
-    """``inertial`` and ``force`` in ξ′ and Ż_c; ``shift``: S."""
+    """The equations of motion seen from the centres of mass: ``inertial`` and ``force`` in ξ′ and
+    Ż_c; ``shift``: S."""
 
     inertial: Expr
     force: Expr
@@ -36,7 +37,8 @@ class Seen:
 def seen_from_centres(
     inertial: Expr, force: Expr, group: Group, b: Alphabet, c: Chapter
 ) -> Seen | None:
-    """The equations for ξ′(1 − S) in the place of ξ′; ``None`` where there is no such factor."""
+    """The equations of motion with ξ′(1 − S) in the place of ξ′, and their step; ``None`` for a
+    group without a factor H ⋉ Rⁿ."""
     if not group.centred:
         return None
     draft, n = c.draft("elimination", "elimination"), b.n
@@ -68,7 +70,7 @@ def seen_from_centres(
 
 
 def annulled(S: Letter, algebra: set[Letter]) -> PairRule:
-    """SS = 0 and SY = 0 for Y in 𝔤, and their bars."""
+    """The relations SS = 0 and SY = 0, for Y one of the letters ``algebra`` of 𝔤, and their bars."""
     after = {S, *algebra}
 
     def rule(x: Factor, y: Factor) -> Expr | None:
@@ -80,12 +82,12 @@ def annulled(S: Letter, algebra: set[Letter]) -> PairRule:
 
 
 def _columns(group: Group) -> dict[int, int]:
-    """Row of a block → the place of its last row, for the factors with a centre."""
+    """Row → column of the centre of mass, counted from 0, for the rows of each factor that has one."""
     return {o + i: o + f.n for o, f in group.centred for i in range(f.n)}
 
 
 def _shift(group: Group) -> Tree:
-    """S: m⁻¹c of each factor, from the last column of its block of J."""
+    """The matrix S: m⁻¹c of each factor, read off the last column of its block of J."""
     last = _columns(group)
 
     def entry(i: int, j: int) -> Tree:
@@ -95,7 +97,7 @@ def _shift(group: Group) -> Tree:
 
 
 def _central(group: Group) -> Tree:
-    """J_c: J − m⁻¹cc̄ in each block, and the mass of the factor in its corner."""
+    """The matrix J_c: J − m⁻¹cc̄ in each block, and the mass of the factor in its corner."""
     last = _columns(group)
     block = [k for k, (_, factor) in enumerate(group.places) for _ in range(factor.size)]
 
@@ -112,7 +114,7 @@ def _central(group: Group) -> Tree:
 
 
 def _first(group: Group) -> Equation:
-    """c_c: c without the places of the centres."""
+    """The equation of c_c, which is c with 0 for the first moments of factors that have a centre."""
     last = _columns(group)
     rows: list[Tree] = [0 if i in last else ("entry", "c", i + 1) for i in range(group.n)]
     return Equation("c_c", column(tuple(rows)))

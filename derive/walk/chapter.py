@@ -21,7 +21,8 @@ from .failure import begin, end
 
 @dataclass(frozen=True)
 class Chapter:
-    """``name`` prefixes the labels of its steps, whose equations hold on ``scope``."""
+    """A part of a record: ``name`` prefixes the labels of its steps, whose equations hold on
+    ``scope``; ``driven``: does an input or damping act in them?"""
 
     name: str
     scope: str = ANY_GROUP
@@ -36,7 +37,7 @@ class Chapter:
         return f"{self.name}.{short}"
 
     def draft(self, label: str, rule: str) -> Draft:
-        """A step of this chapter in the making, made by a rule."""
+        """A step of this chapter in the making, by its label without the chapter and its rule."""
         return Draft(self, self.label(label), rule)
 
 
@@ -49,7 +50,7 @@ class Draft:
         begin(label, rule)
 
     def read(self, *made: Expr | Step) -> None:
-        """Note an expression, or another step, that enters the equations."""
+        """Note among the uses of this step what an expression was made from, or another step."""
         for x in made:
             marks = (x.label,) if isinstance(x, Step) else sorted(x.lineage)
             self.uses |= dict.fromkeys(marks)
@@ -67,7 +68,7 @@ class Draft:
         given: Iterable[Equation] = (),
         hypotheses: Iterable[Hypothesis] = (),
     ) -> Step:
-        """The step, whose equations hold where those ``given`` and its ``hypotheses`` do."""
+        """The step, finished: its equations hold where those ``given`` and its ``hypotheses`` do."""
         written = tuple(equations)  # before the uses are read off, for it may be a generator
         c = self.chapter
         end(self.label, self.rule)

@@ -25,7 +25,7 @@ from .telling import say
 
 
 def halved(values: Mapping[Letter, Expr], b: Alphabet) -> dict[Letter, Expr]:
-    """The values Π = ½ ℓ_b, of its variations and its rate alike, and that of Φ.
+    """The values Π = ½ ℓ_b, δΠ = ½ δℓ_b, δ′Π = ½ δ′ℓ_b, Π̇ = ½ ℓ̇_b, and that of Φ.
 
     On so(n) ⟨Π, ξ⟩ = ½ Tr ξℓ̄_b, so that a skew ℓ_b says as much as any Π.
     """
@@ -34,7 +34,8 @@ def halved(values: Mapping[Letter, Expr], b: Alphabet) -> dict[Letter, Expr]:
 
 
 def coadjoint_steps(stage: MomentumForm, b: Alphabet, gram: Expr, c: Chapter) -> tuple[Step, ...]:
-    """In matrices: Euler–Manakov."""
+    """The steps ``momenta`` and ``coadjoint``: ℓ_b (and p_b) and their rates in matrices,
+    Euler–Manakov's equations; ``gram``: ĀA."""
     telling, moving = c.draft("momenta", "relation"), c.draft("coadjoint", "kernel")
     own = {b.letters()[x.name]: b.respell(e, gram).of(gram) for x, e in stage.values.items()}
     momentum = own[b.Pi.momentum]

@@ -16,27 +16,27 @@ from .telling import say
 
 AXES = (1, 2, 3)
 RATES = ("ζ", "w", "w_c")
-"""Terms with these come after the forces."""
+"""Velocities: terms with their entries are written after those of the forces."""
 UNIT = "1"
 LONGEST = 8
-"""Entries with more terms than this are not written out."""
+"""A tensor with more terms than this in an entry is not written out."""
 
 Rows = tuple[tuple[Tree, ...], ...]
 Tensor = tuple[tuple[Laurent, ...], ...]
 
 
 def letters(name: str) -> tuple[tuple[Laurent], ...]:
-    """The column of the entries of a vector."""
+    """The 3 × 1 column of the entries of the vector ``name``, each a symbol."""
     return tuple((Laurent.symbol(("entry", name, i)),) for i in AXES)
 
 
 def square(name: str) -> tuple[tuple[Laurent, ...], ...]:
-    """The entries of a matrix."""
+    """The 3 × 3 matrix of the entries of ``name``, each a symbol."""
     return tuple(tuple(Laurent.symbol(("entry", name, i, j)) for j in AXES) for i in AXES)
 
 
 def diagonal(entries: Sequence[Tree]) -> tuple[tuple[Laurent, ...], ...]:
-    """A diagonal matrix of symbols."""
+    """The 3 × 3 matrix with these symbols on the diagonal, and 0 elsewhere."""
     zero = Laurent({})
     return tuple(
         tuple(Laurent.symbol(x) if i == j else zero for j in range(3))
@@ -61,7 +61,8 @@ def _is_rate(symbol: Tree) -> bool:
 def tensor_steps(
     problem: Problem, body: tuple[Step, ...], inertia: Step, motion: Step, c: Chapter
 ) -> tuple[Step, ...]:
-    """The entries of I, or I_c, from the numbers of the body; the motion where it is diagonal.
+    """The step of the entries of I, or I_c, from the numbers of the body, and where it is diagonal
+    that of the motion by components; none where the entries are too long.
 
     ``inertia``: the step that says I, or I_c.
     """
@@ -91,7 +92,7 @@ def tensor_steps(
 def _motion(
     problem: Problem, name: str, found: Tensor, made_from: tuple[Step, Step, Step], c: Chapter
 ) -> tuple[Step, ...]:
-    """The accelerations component by component, where only letters that are known enter.
+    """The step of the accelerations by components; none where letters enter that are not known.
 
     ``made_from``: the steps of the body, of its tensor, and of the motion.
     """
@@ -127,7 +128,7 @@ def _motion(
 
 
 def _numbers(problem: Problem) -> dict[str, Value]:
-    """c, r_c and γ, where they are numbers of the problem."""
+    """The values of γ, if there is gravity, of c, and of r_c: 0 where c is, else its entries."""
     found: dict[str, Value] = {}
     if (g := gravity(problem.potentials)) is not None:
         found["γ"] = _column(g)
@@ -142,7 +143,7 @@ def _column(entries: Sequence[Tree]) -> tuple[tuple[Laurent], ...]:
 
 
 def _tensor(problem: Problem, inertia: Step) -> Tensor | None:
-    """The tensor of a body with numbers, by the last equation for it."""
+    """I, or I_c, in the numbers of the body, by the last equation for it; ``None`` without a body."""
     if problem.body is None:
         return None
     _, first, second = moments_of(problem)
@@ -160,7 +161,7 @@ def _tensor(problem: Problem, inertia: Step) -> Tensor | None:
 
 
 def moments_of(problem: Problem) -> tuple[Tree, tuple[Tree, ...], Rows]:
-    """m, c and J of all that the body is made of, as trees in the parameters."""
+    """m, c (3 entries) and J (3 × 3) of all that the body is made of, as trees in the parameters."""
     body = problem.body
     if isinstance(body, MomentBody):
         return body.mass(), body.first(), body.second()

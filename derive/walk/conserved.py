@@ -34,7 +34,8 @@ AXIS = Letter("y", 3)
 
 @dataclass(frozen=True)
 class SpaceMomenta:
-    """``turning``: ℓ, a skew matrix or, of ``vectors``, a vector; ``shifting``: p."""
+    """The momenta of the displacements of space: ``turning``: ℓ, a skew matrix or, of ``vectors``,
+    a vector; ``shifting``: p."""
 
     turning: Expr
     shifting: Expr | None
@@ -49,7 +50,7 @@ def conserved_steps(
     b: Alphabet,
     c: Chapter,
 ) -> tuple[Step, ...]:
-    """The energy, ℓ and p, as far as this problem keeps them."""
+    """The step that says which of the energy, ℓ and p the motions keep; none where they keep none."""
     group = problem.group
     assert group is not None
     draft = c.draft("conserved", "conservation")
@@ -80,7 +81,7 @@ def conserved_steps(
 
 
 def matrix_momenta(momentum: Expr, a: Alphabet) -> SpaceMomenta:
-    """p̃(YA, YT + b) for every Y: ℓ = G − Ḡ with G its gradient, and for every b."""
+    """ℓ = G − Ḡ, with G the gradient of p̃(YA, YT + b) by Y, and p, its gradient by b."""
     Y, shift = Letter("Y", a.n, a.n), Letter("b", a.n)
     images = {a.A.d_position: word(Y) * word(a.A.position)}
     if a.affine:
@@ -92,7 +93,8 @@ def matrix_momenta(momentum: Expr, a: Alphabet) -> SpaceMomenta:
 
 
 def vector_momenta(momenta: Mapping[Letter, Expr], b: Alphabet) -> SpaceMomenta:
-    """The same in R³, from ⟨ℓ_b, Ω⟩ + ⟨p_b, η⟩ with Ω = Āy and η = Ā(y ∧ T + b)."""
+    """ℓ and p in R³: the gradients by y and b of ⟨ℓ_b, Ω⟩ + ⟨p_b, η⟩, with Ω = Āy and η = Ā(y ∧ T +
+    b)."""
     turned, *pushed = momenta.values()
     g, shift = word(b.A.position), Letter("b", 3)
     paired = inner(turned, g.bar * word(AXIS))
@@ -104,7 +106,7 @@ def vector_momenta(momenta: Mapping[Letter, Expr], b: Alphabet) -> SpaceMomenta:
 
 
 def _turned(group: Group) -> bool:
-    """Are the rotations of space in the group, from the left?"""
+    """Does the group contain the rotations of space, which act from the left?"""
     n, size = group.n, group.size
     if group.factors:
         return False
@@ -113,7 +115,8 @@ def _turned(group: Group) -> bool:
 
 
 def _turning(v: Potentials, b: Alphabet, *, vectors: bool) -> Tree | None:
-    """ℓ̇, or its component along gravity, if the potential leaves it alone."""
+    """What vanishes of ℓ̇: all of it, or ⟨γ, ℓ̇⟩, where the potential is kept by all rotations of
+    space, or by those about gravity; ``None`` where by neither."""
     Y = Letter("Y", b.n, b.n, -1)
     if not v.elements.keeps(turning=True):
         return None
@@ -126,7 +129,8 @@ def _turning(v: Potentials, b: Alphabet, *, vectors: bool) -> Tree | None:
 
 
 def _shifting(problem: Problem, v: Potentials, b: Alphabet) -> Tree | None:
-    """ṗ, or its part across gravity, if the potential leaves it alone."""
+    """What vanishes of ṗ: all of it, or γ ∧ ṗ, where the potential is kept by all translations of
+    space, or by those across gravity; ``None`` where by neither."""
     group = problem.group
     assert group is not None
     if not group.free_translations or not v.elements.keeps(turning=False):
@@ -140,7 +144,8 @@ def _shifting(problem: Problem, v: Potentials, b: Alphabet) -> Tree | None:
 
 
 def _varied(v: Potentials, turn: Expr | None, shift: Expr | None, b: Alphabet) -> Expr:
-    """The derivative of Ũ along δA = YA, δT = YT + b; U_Q is judged by its terms."""
+    """The derivative of Ũ along δA = YA, δT = YT with Y = ``turn``, or along δT = ``shift``;
+    without U_Q, which is judged by its terms."""
     images = {}
     if turn is not None:
         images[b.A.position] = turn * word(b.A.position)

@@ -19,7 +19,8 @@ from .telling import say
 
 
 def continuum(points: Lagrangian, a: Alphabet, c: Chapter) -> Step:
-    """g(r), v, L, ϖ and h̃ of a body with a measure of mass."""
+    """The step that says g(r), v, L, ϖ and h̃ of a body with a measure of mass, as integrals
+    (36)–(38)."""
     draft = c.draft("continuum", "definition")
     varied = Letter("δr", a.n)
     notation = Notation(display={a.r_i: "r", points.v_i: "v", varied: read("δ(g(r))")})
@@ -39,6 +40,6 @@ def continuum(points: Lagrangian, a: Alphabet, c: Chapter) -> Step:
 
 
 def _integral(d: Draft, e: Expr, a: Alphabet, notation: Notation) -> Tree:
-    """Σ m_i … as ∫ … dm."""
+    """The tree ∫ … dm for the summand m_i … ."""
     factor, inside = coefficient(d.tree(substitute(e, {a.m_i: number(1)}), notation))
     return mul(factor, ("call", "∫", inside))

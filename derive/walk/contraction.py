@@ -28,8 +28,9 @@ from .telling import phrase, say, told
 
 CONTRACTION = read("dϖ(X, δ′y)")
 REGULAR = phrase("second_order.displacement_signed")
+"""The words for a metric that is not degenerate, of any group."""
 CONTRACTED = Equation("δt", 1)
-"""The components of X are those of δ."""
+"""δt(X) = 1: the components of X are written as those of δ."""
 AND = "{first} and {second}"
 
 
@@ -39,11 +40,12 @@ class NoKernelError(ValueError):
 
 @dataclass(frozen=True)
 class Contraction:
-    """``form`` = dϖ(δ, δ′); ``core``: its terms without δt, δ′t, to be written with ``images``.
+    """dϖ(X, ·) for an unknown X, where ``form`` = dϖ(δ, δ′); ``core``: its terms without δt, δ′t,
+    to be written with ``images``.
 
     ``velocity``: δx ↦ its value on the kernel, for δt = 1; ``acceleration``: δv ↦ v̇; ``vertical``:
     the letters δ′v; ``times``: δt and δ′t; ``display``: how letters read once X has its velocity;
-    ``opening``: what is worked out then.  ``resting``: δ′v ↦ δ′x, tangent vectors of ``space``.
+    ``opening``: what is worked out then. ``resting``: δ′v ↦ δ′x, tangent vectors of ``space``.
     """
 
     form: Expr
@@ -68,7 +70,7 @@ class Contraction:
         return {x: substitute(y, self._now) for x, y in self.images.items()}
 
     def whole(self, d: Draft) -> Tree:
-        """dϖ(δ, δ′)."""
+        """The tree of dϖ(δ, δ′)."""
         return gathered(d, self.form, self.core, self.images, self.notation)
 
     def said_by(self, d: Draft) -> Contraction:
@@ -77,12 +79,12 @@ class Contraction:
         return replace(self, form=d.said(self.form), images=images)
 
     def any_vector(self, d: Draft) -> Tree:
-        """dϖ(X, δ′): the components of X are those of δ."""
+        """The tree of dϖ(X, δ′), in which δt(X) = 1 and the other components of X are those of δ."""
         form = substitute(self.form, self._now)
         return gathered(d, form, self.core, self._shifts, self.notation)
 
     def on_vertical(self, d: Draft) -> Tree:
-        """dϖ(X, ·) on variations of the velocity alone, δ′t = 0 and δ′g = 0.
+        """The tree of dϖ(X, ·) on variations of the velocity alone, δ′t = 0 and δ′g = 0.
 
         ``NoKernelError`` if it does not vanish for the velocity of the motion.
         """
@@ -103,7 +105,8 @@ class Contraction:
         return tuple(dict.fromkeys(x.name for x in self.acceleration.values() if x.axis is None))
 
     def metric(self) -> Hypothesis:
-        """The metric of the kinetic energy, by the vertical part of dϖ, is not degenerate."""
+        """The hypothesis that the metric of the kinetic energy, read off the vertical part of dϖ,
+        is not degenerate."""
         vertical = terms_with(without(self.form, *self.times), *self.vertical)
         hats = {hat(x): word(hat(y)) for x, y in self.resting.items() if y.cols == 1}
         images = {x: word(y) for x, y in self.resting.items()} | hats
@@ -121,7 +124,8 @@ class Contraction:
 
     @cached_property
     def shifts(self) -> dict[Letter, Expr]:
-        """δ′x ↦ δ′x − ẋ δ′t and v̇ ↦ v̇ − F̃, where there is such a shift."""
+        """The letters δ′x ↦ δ′x − ẋ δ′t and v̇ ↦ v̇ − F̃, for X with the velocity of the motion, as
+        far as dϖ is written with them."""
         rates = {
             dot: substitute(self.images[x], self._along)
             for x, dot in self.acceleration.items()
@@ -132,7 +136,7 @@ class Contraction:
 
     @cached_property
     def remaining_core(self) -> Expr:
-        """The accelerations in the core, for X with the velocity of the motion."""
+        """The terms of the core with accelerations, for X with the velocity of the motion."""
         core = self.opening(substitute(without(self.core, *self.vertical), self._along))
         return terms_with(core, *self.acceleration.values())
 
@@ -144,7 +148,7 @@ class Contraction:
 
 
 def velocities(d: Draft, along: Mapping[Letter, Expr], letters: Iterable[Letter]) -> list[Equation]:
-    """δx(X) = ẋ."""
+    """The equations δx(X) = ẋ for these letters δx."""
     return [Equation(read(f"{x.name}(X)"), d.tree(along[x])) for x in letters]
 
 
@@ -163,10 +167,11 @@ def steps_of(
     paper: tuple[int, ...] = (),
     regular: Sentence = REGULAR,
 ) -> tuple[Contraction, tuple[Step, ...]]:
-    """X put into dϖ, its vertical part, and what remains once the velocity is known.
+    """The steps ``contraction``, ``vertical`` and ``second_order``: X put into dϖ, its vertical
+    part, and what remains once the velocity is known.
 
     ``forms``: how dϖ is written, the last of them by velocities; ``known``: the letters whose
-    values on X are told; ``a``: the alphabet.  Also: the first form as these steps say it.
+    values on X are told; ``a``: the alphabet. Also: the first form as these steps say it.
     """
     putting = chapter.draft("contraction", "contraction")
     testing = chapter.draft("vertical", "restriction")

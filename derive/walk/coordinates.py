@@ -1,4 +1,4 @@
-"coordinates.basis"
+"""Coordinates ζ on 𝔤: Z = Σ ζ_a E_a, in the basis of the group or in one that the problem states."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .telling import say
 
 
 def coordinates_step(group: Group, b: Alphabet, c: Chapter, *, reading: bool) -> Step:
-    """Z = Σ ζ_a E_a, also entry by entry, and with ``reading`` how ζ̇ is read off Ż."""
+    """The step Z = Σ ζ_a E_a, also entry by entry; with ``reading``, how ζ̇ is read off Ż."""
     span = range(len(group.linear_basis))
     rows = tuple(
         ("row", *(add(*_terms(group, i, j)) for j in range(group.n))) for i in range(group.n)
@@ -44,7 +44,8 @@ def _reading(group: Group, a: int) -> Tree:
 
 
 def stated_basis_step(group: Group, b: Alphabet, c: Chapter) -> tuple[Step, ...]:
-    """Z (and w) by coordinates in the basis that the problem states, where j has another."""
+    """The step that gives Z (and w) by coordinates in the basis that the problem states, where the
+    equations are in that of j; none where there is one basis."""
     if not group.given:
         return ()
     span, size = range(group.n), group.dimension

@@ -31,7 +31,8 @@ CENTRE, CENTRE_VELOCITY = Letter("r_c", 3), Letter("w_c", 3)
 
 @dataclass(frozen=True)
 class Eliminated:
-    """``torque`` = I_c ζ̇ and ``acceleration`` = ẇ on words, in ζ, w_c, r_c, m⁻¹, μ, F_b."""
+    """The equations of SE(3), solved: ``torque`` = I_c ζ̇ and ``acceleration`` = ẇ on words, in ζ,
+    w_c, r_c, m⁻¹, μ, F_b."""
 
     torque: Expr
     acceleration: Expr
@@ -49,7 +50,7 @@ def notation(a: Alphabet) -> Notation:
 
 
 def eliminate(stage: VectorForm, a: Alphabet, c: Chapter) -> Eliminated:
-    """Solve the balance of forces for ẇ, then put it into the balance of moments."""
+    """The balance of forces solved for ẇ, and put into the balance of moments."""
     draft, w_dot = c.draft("elimination", "elimination"), a.w.acceleration
     forces, moments = stage.balance[a.w.xi_prime], stage.balance[OMEGA_P]
     acceleration = -simplified(word(inverse_letter(a.m)) * without(forces, w_dot), a)
@@ -82,19 +83,19 @@ def eliminate(stage: VectorForm, a: Alphabet, c: Chapter) -> Eliminated:
 
 
 def simplified(e: Expr, a: Alphabet) -> Expr:
-    """Normal form with m m⁻¹ = 1."""
+    """The normal form of an expression, with m m⁻¹ = 1."""
     return cancel_scalar(normal_form(e), a.m)
 
 
 def from_centre(e: Expr, a: Alphabet) -> Expr:
-    """An expression with c = m r_c put in."""
+    """An expression with m r_c for c, simplified."""
     mass = word(a.m)
     images = {a.c: mass * word(CENTRE), hat(a.c): mass * word(hat(CENTRE))}
     return simplified(substitute(e, images), a)
 
 
 def vector_tree(e: Expr, a: Alphabet) -> Tree:
-    """A sum of vectors, the terms with m⁻¹ gathered behind it."""
+    """The tree of a sum of vectors, the terms with m⁻¹ together behind one m⁻¹."""
     light, heavy = without(e, inverse_letter(a.m)), coefficient_of(e, inverse_letter(a.m))
     parts = [vector_sum(light, notation(a))] if light else []
     if heavy:

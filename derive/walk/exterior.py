@@ -26,7 +26,8 @@ DOMEGA = read("dϖ(δy, δ′y)")
 
 @dataclass(frozen=True)
 class Exterior:
-    """``form`` = dϖ(δ, δ′) on words; ``images`` the horizontal variations it is written with."""
+    """The exterior derivative: ``form`` = dϖ(δ, δ′) on words; ``images``: the horizontal variations
+    with which it is written."""
 
     form: Expr
     images: dict[Letter, Expr]
@@ -50,7 +51,7 @@ def primes(a: Alphabet) -> dict[Letter, Letter]:
 
 
 def primed(e: Expr, a: Alphabet) -> Expr:
-    """δ turned into δ′."""
+    """An expression with the letters of δ′ for those of δ."""
     return substitute(e, {x: word(y) for x, y in primes(a).items()})
 
 
@@ -87,7 +88,7 @@ def horizontal_images(form: Expr, a: Alphabet) -> dict[Letter, Expr]:
 
 
 def brackets_of(a: Alphabet) -> dict[Letter, Expr]:
-    """δξ′ − δ′ξ (and δη′ − δ′η), as the structure equation says."""
+    """The values of δξ′ − δ′ξ (and δη′ − δ′η), by ξ′ (and η′), as the structure equation says."""
     mark = Chapter(a.chapter).label("structure")
     return {
         f.xi_prime: forms.structure_equation(
@@ -133,7 +134,7 @@ def trivial_variations(a: Alphabet, work: Expr) -> tuple[Image, Image]:
 
 
 def trivialised_images(stage: Exterior, a: Alphabet) -> dict[Letter, Expr]:
-    """The horizontal variations carried to the identity: ξ − Z δt, δZ + ξZ − f δt."""
+    """The horizontal variations carried to the identity: ξ ↦ ξ − Z δt, δZ ↦ δZ + ξZ − f δt."""
     carried = trivial_images(a)
     g = a.A.position
     images: dict[Letter, Expr] = {}
@@ -150,7 +151,8 @@ def trivialised_images(stage: Exterior, a: Alphabet) -> dict[Letter, Expr]:
 
 
 def exterior(stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
-    """dϖ in the variables (t, g, ν)."""
+    """dϖ in the variables (t, g, ν), with the steps ``exterior`` and, at constant time,
+    ``symplectic``."""
     form = derivative(stage.form, stage.work, a)
     images = horizontal_images(form, a)
     static = at_constant_time(form, a.dt, a.dpt)
@@ -173,7 +175,7 @@ def exterior(stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
 
 
 def structure(a: Alphabet, c: Chapter) -> Step:
-    """The structure equation."""
+    """The step of the structure equation, δξ′ − δ′ξ = [ξ′, ξ]."""
     equations = (
         Equation(read(f"δ({f.xi_prime.name}) − δ′({f.xi.name})"), t)
         for f, t in zip(a.frames, shown_brackets(a), strict=True)
@@ -185,7 +187,7 @@ def structure(a: Alphabet, c: Chapter) -> Step:
 
 
 def exterior_trivialised(natural: Exterior, stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
-    """dϖ in the variables (t, g, Z), for any group, with C = ĀA."""
+    """dϖ in the variables (t, g, Z), for any group, with C = ĀA, and its step."""
     draft = c.draft("exterior_trivialised", "exterior derivative")
     varied = forms.exterior(stage.form, primes(a), *trivial_variations(a, stage.work))
     form = reduce(varied, frame_rule(a, gram(a)))

@@ -19,7 +19,8 @@ from .chapter import Draft
 
 
 def solve_for(e: Expr, x: Letter) -> Expr | None:
-    """y with x = y, read off the terms of ``e = 0`` in the same place as x, or ``None``."""
+    """The y for which ``e = 0`` says x = y, by the terms between the same factors as x; ``None``
+    where x does not occur alone."""
     for (traces, w), c in e.terms.items():
         places = [k for k, factor in enumerate(w) if factor == (x, False)]
         if len(places) == 1 and not traces:
@@ -29,6 +30,8 @@ def solve_for(e: Expr, x: Letter) -> Expr | None:
 
 
 def _same_place(e: Expr, head: Word, tail: Word, x: Letter, factor: object) -> Expr:
+    """What stands in the place of x, times ``factor``, in the terms that begin with ``head`` and
+    end with ``tail``."""
     terms: dict[tuple[Traces, Word], object] = {}
     size = len(head) + len(tail)
     for (traces, w), c in e.terms.items():
@@ -48,7 +51,8 @@ def _shape(w: Word) -> tuple[object, object]:
 def gathered(
     d: Draft, e: Expr, core: Expr, images: Mapping[Letter, Expr], notation: Notation
 ) -> Tree:
-    """``core`` with letters replaced by parenthesised sums, plus whatever of ``e`` that leaves."""
+    """The tree of ``e``: ``core`` with letters replaced by parenthesised sums, and whatever of
+    ``e`` that leaves."""
     d.read(e, *(images[x] for x in core.letters() if x in images))
     display = {**notation.display, **{x: tree_of(y) for x, y in images.items()}}
     remainder = e - substitute(core, images)
@@ -57,5 +61,5 @@ def gathered(
 
 
 def at_constant_time(e: Expr, *times: Letter) -> Expr:
-    """The part without δt and δ′t."""
+    """An expression with δt = δ′t = 0."""
     return substitute(e, {t: number(0) for t in times})

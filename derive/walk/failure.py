@@ -12,12 +12,13 @@ from pathlib import Path
 from ..problem.problem import ProblemError
 
 BROKEN = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError)
-"""What a rule ends in that makes something else of an equation."""
+"""The errors in which a rule may end that makes something else of an equation."""
 SHOWN = 200
+"""As many letters of a message are quoted."""
 
 
 class WalkError(Exception):
-    """A rule of the engine is wrong: no fault of a problem."""
+    """An error of the engine: one of its rules is wrong, and no problem is at fault."""
 
 
 @dataclass
@@ -28,7 +29,7 @@ class Way:
     last: str = ""
 
     def told(self, error: Exception) -> str:
-        """Where on the way an error came, and what it is."""
+        """Where on the way an error came about, and what it is, as one text."""
         steps = " or ".join(f"{label} ({rule})" for label, rule in self.begun.items())
         before = f"after the step {self.last}" if self.last else "before the first step of its own"
         place = f"in the step {steps}" if steps else before

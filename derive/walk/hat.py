@@ -54,7 +54,7 @@ SPINNING = Dual(SPIN, D_SPIN, DP_SPIN, SPIN_RATE, MU)
 
 
 def isolate(v: Letter) -> PairRule:
-    """``v ∧ y = −y ∧ v``: carry the vector v out of every j(v)."""
+    """The rule ``v ∧ y = −y ∧ v``, which carries the vector v out of every j(v)."""
 
     def rule(left: Factor, right: Factor) -> Expr | None:
         (a, a_bar), (b, b_bar) = left, right
@@ -69,14 +69,15 @@ def isolate(v: Letter) -> PairRule:
 
 @dataclass(frozen=True)
 class Reader:
-    """Reads so(3) by vectors; the labels of the steps that say Z = j(ζ) and I."""
+    """so(3) ≅ R³ on the expressions of an alphabet; ``hat``, ``inertia``: the labels of the steps
+    that say Z = j(ζ) and I."""
 
     letters: Alphabet
     hat: str
     inertia: str
 
     def scalar(self, e: Expr) -> Expr:
-        """Z → j(ζ), traces with J by the inertia, N_b by the moment μ."""
+        """A scalar in vectors: j(ζ) for Z, the inertia for traces with J, the moment μ for N_b."""
         b = self.letters
         images = self._hats(e) | {b.bracket: self.hatted(BRACKET)}
         work = fold_inertia(substitute(e, images), b.J, word(INERTIA).marked(self.inertia))
@@ -88,12 +89,13 @@ class Reader:
         return _flat(substitute(e, images) if images else e)
 
     def hatted(self, x: Letter) -> Expr:
-        """j(x)."""
+        """The matrix j(x), as said by the step ``hat``."""
         return word(hat(x)).marked(self.hat)
 
     @cached_property
     def brackets(self) -> Mapping[Letter, Expr]:
-        """[ξ′, ξ] and ξ′η − ξη′, from the structure equation with ξ = j(Ω), ξ′ = j(Ω′)."""
+        """The letters of [ξ′, ξ] and ξ′η − ξη′ with their values in vectors, from the structure
+        equation with ξ = j(Ω), ξ′ = j(Ω′)."""
         derived = brackets_of(self.letters).values()
         turning, *others = (normal_form(substitute(e, self._axes(e))) for e in derived)
         found = {BRACKET: reduce(axial(turning), isolate(OMEGA))}
@@ -108,7 +110,7 @@ class Reader:
 
 
 def identified(b: Alphabet, gram: Expr, chapter: Chapter) -> tuple[Reader, tuple[Step, Step]]:
-    """so(3) read by vectors: j and the tensor of inertia; ``gram``: ĀA = 1."""
+    """so(3) ≅ R³ for an alphabet, with the steps ``hat`` and ``inertia``; ``gram``: ĀA = 1."""
     reader = Reader(b, chapter.label("hat"), chapter.label("inertia"))
     cross = reader.brackets[BRACKET]
     return reader, (_identification(b, gram, cross, chapter), _inertia(b, chapter))
@@ -129,7 +131,8 @@ def _flat(e: Expr) -> Expr:
 
 
 def fold_moment(e: Expr, moment: Letter, vector: Letter) -> Expr:
-    """``Tr N j(x)‾ = ⟨μ, x⟩``: what defines the vector of a moment, as N_b and μ."""
+    """A scalar with ⟨μ, x⟩ for ``Tr N j(x)‾``, which defines the vector of a moment; N and μ are
+    the letters ``moment`` and ``vector``."""
 
     def folded(cycle: Word) -> Expr:
         axes = [x.axis for x, _ in cycle if x.axis is not None]

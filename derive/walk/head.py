@@ -61,7 +61,7 @@ def _meant(problem: Problem) -> dict[str, Name]:
 
 
 def _inputs(problem: Problem) -> Prose:
-    """The meaning of f_u: the forces that are given, one by one."""
+    """The meaning of f_u in words: the forces that the user gives, one by one."""
     forces, group = [_force(x) for x in problem.pushes], problem.group
     if problem.covector and group and group.turns_space and group.affine:
         at_origin = "input.covector_force"

@@ -37,7 +37,8 @@ TORQUE, FORCE = Letter("u", 3), Letter("f_u", 3)
 
 @dataclass(frozen=True)
 class Given:
-    """``moments`` and ``resultant`` of all that is given, on words, and the step that says so."""
+    """The forces from outside dϖ on words: their ``moments`` and ``resultant``, and the step that
+    says these."""
 
     moments: Expr
     resultant: Expr
@@ -45,18 +46,21 @@ class Given:
 
 
 def acts(problem: Problem) -> bool:
-    """Is there anything outside dϖ, an input or damping?"""
+    """Does anything act that is outside dϖ, an input or damping?"""
     return bool(problem.inputs or problem.damping)
 
 
 def prose(problem: Problem) -> Prose:
-    """What acts from outside dϖ."""
+    """The sentences that say what acts from outside dϖ."""
     acting = [GIVEN] * bool(problem.inputs) + [DRAG] * bool(problem.damping)
     return say("input.outside", forces=listed(AND, acting)) + say("input.moments")
 
 
 def given_matrices(problem: Problem, b: Alphabet, gram: Expr, c: Chapter) -> Given | None:
-    """N_u and F_u; ``gram``: ĀA, as a step says it."""
+    """N_u and F_u of what acts from outside dϖ, with their step; ``None`` where nothing does.
+
+    ``gram``: ĀA, as a step says it.
+    """
     if not acts(problem):
         return None
     group = problem.group
@@ -82,7 +86,8 @@ def given_matrices(problem: Problem, b: Alphabet, gram: Expr, c: Chapter) -> Giv
 
 
 def _carried(d: Draft, problem: Problem, e: int, push: ForceInput, gram: Expr, b: Alphabet) -> Tree:
-    """A given force in the body: Āf for one in space, ĀA f for one that turns with the body."""
+    """Force ``e`` in the body, a tree: Āf for a force in space, ĀA f for one that turns with the
+    body."""
     f: Tree = ("at", "f_u", e)
     group = problem.group
     assert group is not None
@@ -96,7 +101,8 @@ def _carried(d: Draft, problem: Problem, e: int, push: ForceInput, gram: Expr, b
 
 
 def _covector(group: Group, b: Alphabet) -> tuple[Tree, Tree]:
-    """A matrix whose pairing with ξ′ is u(ξ′), by the rows that read coordinates."""
+    """A matrix (and for an affine group a column) whose pairing with ξ′ (and η′) is u(ξ′), by the
+    rows that read coordinates."""
     size = group.size
     entries: list[list[list[Tree]]] = [[[] for _ in range(size)] for _ in range(size)]
     for a in range(group.dimension):
@@ -111,7 +117,8 @@ def _covector(group: Group, b: Alphabet) -> tuple[Tree, Tree]:
 
 
 def _damping(problem: Problem, b: Alphabet) -> tuple[list[Equation], Expr]:
-    """κ_i and their sums; and the work −Σ κ_i ⟨v_i, v′_i⟩ in a displacement ξ′, η′."""
+    """The equations of κ_i and their sums over the points; and the work −Σ κ_i ⟨v_i, v′_i⟩ on
+    words, in a displacement ξ′, η′."""
     kappa, g = Letter("κ_i"), word(b.A.position)
     D, first, total = Letter("D", b.n, b.n, 1), Letter("D_c", b.n), Letter("D_m")
     xi, eta = word(Letter("ξ′", b.n, b.n)), word(Letter("η′", b.n))
@@ -141,7 +148,8 @@ def _damping(problem: Problem, b: Alphabet) -> tuple[list[Equation], Expr]:
 def given_vectors(
     problem: Problem, b: Alphabet, gram: Expr, read: Reader, c: Chapter
 ) -> Given | None:
-    """μ_u and F_u in R³; a covector alone keeps its own name."""
+    """μ_u and F_u in R³, with their step; a covector alone keeps its own name. ``None`` where
+    nothing acts from outside dϖ."""
     if not acts(problem):
         return None
     if not problem.pushes and not problem.damping:
@@ -168,7 +176,8 @@ def given_vectors(
 
 
 def _in_vectors(drag: Expr, b: Alphabet, gram: Expr, read: Reader) -> tuple[Expr, Expr]:
-    """The moment and the resultant of the damping: coefficients of Ω′ and η′."""
+    """The moment and the resultant of the damping, vectors: the coefficients of Ω′ and η′ in its
+    work."""
     images = {b.Z.velocity: read.hatted(ZETA), Letter("ξ′", 3, 3): read.hatted(OMEGA_P)}
     work = substitute(reduce(drag, frame_rule(b, gram)), images)
     work = normal_form(fold_inertia(work, Letter("D", 3, 3, 1), word(Letter("I_D", 3, 3, 1))))

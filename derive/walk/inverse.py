@@ -15,12 +15,12 @@ def inverse_letter(x: Letter) -> Letter:
 
 
 def inverse_tree(x: Letter) -> Tree:
-    """How x⁻¹ is written in a tree."""
+    """The tree of x⁻¹."""
     return ("inv", x.name)
 
 
 def cancelling(*letters: Letter) -> PairRule:
-    """x⁻¹x = 1 and xx⁻¹ = 1 for matrix letters."""
+    """The relations x⁻¹x = 1 and xx⁻¹ = 1 for these matrix letters."""
     inverses = {inverse_letter(x): x for x in letters}
 
     def rule(left: Factor, right: Factor) -> Expr | None:
@@ -32,7 +32,7 @@ def cancelling(*letters: Letter) -> PairRule:
 
 
 def cancel_scalar(e: Expr, x: Letter) -> Expr:
-    """m m⁻¹ = 1 for a scalar letter."""
+    """An expression with x x⁻¹ = 1 for the scalar letter x, as m."""
     up, down = ((x, False),), ((inverse_letter(x), False),)
 
     def cancelled(traces: Traces, w: Word, c: Fraction) -> Expr:

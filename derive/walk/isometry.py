@@ -23,7 +23,8 @@ from .telling import say
 
 @dataclass(frozen=True)
 class Isometry:
-    """ϖ in skew letters, the ``values`` of P and F, and dϖ = ``form``; ``gram``: ĀA = 1.
+    """The forms where ĀA = 1: ϖ in skew letters, the ``values`` of P and F, and dϖ = ``form``;
+    ``gram``: 1, as a step says it.
 
     ``images``: the horizontal variations with which dϖ is written.
     """
@@ -38,7 +39,8 @@ class Isometry:
 
 
 def isometry(general: Cartan, momenta: MomentumForm, a: Alphabet, n: int, c: Chapter) -> Isometry:
-    """The forms of any group, with the values of their letters on isometries."""
+    """The forms of any group restricted to isometries, with the steps ``relation``, ``cartan`` and
+    ``exterior``."""
     b = Alphabet(n, affine=a.affine, skew=True, signed=a.signed)
     relating, writing = c.draft("relation", "relation"), c.draft("cartan", "relation")
     gram = relating.said(b.unit)
@@ -75,19 +77,20 @@ def _exterior(domega: Expr, images: Mapping[Letter, Expr], b: Alphabet, c: Chapt
 
 
 def bracketed(d: Draft, domega: Expr, images: Mapping[Letter, Expr], b: Alphabet) -> Tree:
-    """dϖ with [ξ′, ξ] and ξ′η − ξη′ for their letters."""
+    """The tree of dϖ, with [ξ′, ξ] and ξ′η − ξη′ written where their letters stand."""
     display = dict(zip((b.bracket, b.bracket_w), shown_brackets(b), strict=False))
     return gathered(d, domega, without(domega, b.dt, b.dpt), images, Notation(display=display))
 
 
 def resting(b: Alphabet) -> dict[Letter, Expr]:
-    """ξ ↦ ξ − Z δt and η ↦ η − w δt, and the same for δ′."""
+    """The horizontal displacements: ξ ↦ ξ − Z δt and η ↦ η − w δt, and the same for δ′."""
     found = horizontal(zip(b.duals, b.frames, strict=True), b, {})
     return {x: found[x] for f in b.frames for x in (f.xi, f.xi_prime)}
 
 
 def _images(domega: Expr, b: Alphabet) -> dict[Letter, Expr]:
-    """Also δZ ↦ δZ − f δt where the force has a letter of its own."""
+    """The horizontal variations: displacements, and δZ ↦ δZ − f δt where the force has a letter of
+    its own."""
     images = resting(b)
     if not b.affine:
         flat = without(domega, b.bracket)

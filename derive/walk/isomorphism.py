@@ -16,7 +16,7 @@ from .telling import say
 
 @dataclass(frozen=True)
 class Axial:
-    """What reads skew letters as vectors; ``inertia``: the step that says I."""
+    """The identification of so(3) with R³, ``read``; ``inertia``: the step that says I."""
 
     read: Reader
     inertia: Step
@@ -24,13 +24,14 @@ class Axial:
 
 
 def axial(b: Alphabet, gram: Expr, c: Chapter) -> Axial:
-    """j, that it is an isomorphism, and the metric of J as that of I."""
+    """The identification by j, with the steps of j, that it is an isomorphism, and of the metric of
+    J as that of I."""
     read, (identification, inertia) = identified(b, gram, c)
     return Axial(read, inertia, (identification, isomorphism(read, c), inertia))
 
 
 def isomorphism(read: Reader, c: Chapter) -> Step:
-    """Tr j(x) j(y)‾ = 2⟨x, y⟩."""
+    """The step Tr j(x) j(y)‾ = 2⟨x, y⟩, by which j is one to one."""
     draft = c.draft("isomorphism", "identification")
     product = read.hatted(ZETA) * read.hatted(OMEGA).bar
     return draft.step(

@@ -31,8 +31,9 @@ from .variation import Principle
 
 @dataclass(frozen=True)
 class Ambient:
-    """``velocity``: δg(X), part by part; ``told``: the equations that say it; ``balance``: what
-    vanishes for every displacement δ′g tangent to the group."""
+    """The kernel in the variables (t, g, ν): ``velocity``: δg(X), part by part; ``told``: the
+    equations that say it; ``balance``: what vanishes for every displacement δ′g tangent to the
+    group."""
 
     velocity: Mapping[Letter, Expr]
     told: tuple[Equation, ...]
@@ -51,7 +52,8 @@ def on_kernel(stage: Exterior, a: Alphabet) -> tuple[dict[Letter, Expr], Expr]:
 
 
 def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Ambient:
-    """The kernel in the variables (t, g, ν): by the ``law`` it is the tangents of the motions."""
+    """The kernel in the variables (t, g, ν), with its steps: by the ``law`` it is the tangents of
+    the motions."""
     notation = metrics() if a.affine else metrics("J")
     draft = chapter.draft("kernel", "kernel")
     *others, last_one = (x.name for p in a.parts for x in (p.d_position, p.d_velocity))
@@ -107,7 +109,8 @@ def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Am
 def kernel_trivialised(
     stage: Exterior, natural: Ambient, forms: Cartan, a: Alphabet, chapter: Chapter
 ) -> tuple[Step, ...]:
-    """The kernel in the variables (t, g, Z): Exercise 1 for every group that moves points."""
+    """The steps of the kernel in the variables (t, g, Z): Exercise 1 for every group that moves
+    points."""
     variations = [x for f in a.frames for x in (f.d_velocity, f.dp_velocity)]
     draft = chapter.draft("second_order_trivialised", "trivialisation")
     c = Contraction(
@@ -136,7 +139,7 @@ def kernel_trivialised(
 
 
 def carried_velocity(stage: Ambient, a: Alphabet) -> dict[Letter, Expr]:
-    """ξ(X) = Z, from gξ(X) = δg(X)."""
+    """The values ξ(X) = Z (and η(X) = w), by their letters, from gξ(X) = δg(X)."""
     carried, g = trivial_images(a), a.A.position
     return {
         f.xi: strip_left(substitute(stage.velocity[p.d_position], carried), g)
@@ -146,7 +149,7 @@ def carried_velocity(stage: Ambient, a: Alphabet) -> dict[Letter, Expr]:
 
 def balanced(d: Draft, c: Contraction, work: Expr, a: Alphabet) -> tuple[Expr, Tree]:
     """dϖ(X, δ′) for X with the velocity of the motion and δ′t = 0, without the ``work`` of the
-    forces; and as it is written, by Ż + Z²."""
+    forces: on words, and as a tree by Ż + Z²."""
     inertial = without(c.second_order, a.dpt) + work
     shifts = {f.acceleration: without(c.shifts[f.acceleration], a.f) for f in a.frames}
     core = without(c.remaining_core, a.dpt)
@@ -154,7 +157,7 @@ def balanced(d: Draft, c: Contraction, work: Expr, a: Alphabet) -> tuple[Expr, T
 
 
 def _equations(c: Contraction, work: Expr, a: Alphabet, chapter: Chapter) -> Step:
-    """dϖ(X, δ′) = 0 with the work of the forces carried to the right: −dŨ(gξ′)."""
+    """The step dϖ(X, δ′) = 0, with the work of the forces carried to the right: −dŨ(gξ′)."""
     draft = chapter.draft("equations", "kernel")
     _, shown = balanced(draft, c, without(primed(work, a), a.dpt), a)
     images = trivial_images(a)

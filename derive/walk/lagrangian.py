@@ -25,7 +25,8 @@ POINT = read("rᵢ(t)")
 
 @dataclass(frozen=True)
 class Lagrangian:
-    """``kinetic``: the summand ½ m_i ⟨v_i, v_i⟩ on words, with v_i given by ``velocity``.
+    """The Lagrangian of the points, on words: ``kinetic``: the summand ½ m_i ⟨v_i, v_i⟩, with v_i
+    given by ``velocity``.
 
     ``position``: the place of a point in space, ``variation``: its δ.
     """
@@ -39,7 +40,7 @@ class Lagrangian:
 
 
 def kinetic_energy(v_i: Letter, a: Alphabet) -> Expr:
-    """½ m_i ⟨v_i, v_i⟩, of which L = Σ_i ½ m_i ⟨v_i, v_i⟩ − U."""
+    """The summand ½ m_i ⟨v_i, v_i⟩ of L = Σ_i ½ m_i ⟨v_i, v_i⟩ − U."""
     return Fraction(1, 2) * word(a.m_i) * inner(word(v_i), word(v_i))
 
 
@@ -51,7 +52,8 @@ def velocities(position: Expr, a: Alphabet) -> tuple[Expr, Expr]:
 
 
 def lagrangian(a: Alphabet, c: Chapter) -> Lagrangian:
-    """L, and the points and velocities that an element of the group and a tangent vector give."""
+    """L, and the places and velocities that an element of the group and a tangent vector give to
+    the points."""
     first = c.draft("lagrangian", "definition")
     kinetic = kinetic_energy(v_i := Letter("v_i", a.n), a)
     acting = c.draft("action", "definition")
@@ -96,16 +98,17 @@ def _velocities(a: Alphabet) -> Prose:
 
 
 def indexed_tree(e: Expr, v_i: Letter, a: Alphabet, v: Tree = "") -> Tree:
-    """The tree of a summand, with m_i, r_i, v_i as members of indexed families."""
+    """The tree of a summand, with m_i, r_i, v_i as members of indexed families; ``v``: the tree for
+    v_i."""
     display = {a.m_i: read("mᵢ"), a.r_i: read("rᵢ"), v_i: v or read("vᵢ")}
     return tree_of(e, metrics(display=display))
 
 
 def moving_tree(stage: Lagrangian, a: Alphabet) -> Tree:
-    """The tree of that summand with the velocity of the motion."""
+    """The tree of the summand ½ m_i ‖v_i‖², with the velocity of the motion for v_i."""
     return indexed_tree(stage.kinetic, stage.v_i, a, indexed_tree(stage.velocity, stage.v_i, a))
 
 
 def kinetic_of_motion(stage: Lagrangian) -> Expr:
-    """½ m_i ⟨v_i, v_i⟩ with the velocity of the motion put in."""
+    """The summand ½ m_i ⟨v_i, v_i⟩ on words, with the velocity of the motion for v_i."""
     return substitute(stage.kinetic, {stage.v_i: stage.velocity})

@@ -13,8 +13,9 @@ from ..record.uses import position_of
 from ..record.vocabulary import DERIVATIVE_OF, VOCABULARY
 
 FREE = ("letter", "value on X", "function")
-"""Roles of what all begins with; of functions, those of these names alone."""
+"""Roles of the names that the walk starts from, which no equation gives."""
 OPERATORS = ("δ", "δ′", "d/dt", "∫")
+"""The functions that the walk starts from."""
 
 
 def traced(steps: Iterable[Step]) -> tuple[Step, ...]:

@@ -33,11 +33,12 @@ def mass_steps(
     balanced: bool = True,
     seen: Seen | None = None,
 ) -> tuple[Step, ...]:
-    """M, β and the solved equations from  inertial = Tr ξ′ force‾  for every ξ′ in 𝔤.
+    """The steps ``mass`` and ``motion``: M, β and the solved equations, from  inertial = Tr ξ′
+    force‾  for every ξ′ in 𝔤.
 
-    ``place``: the step of the coordinates, Ż = Σ ζ̇_b E_b.  ``balanced``: is there a B, the balance
-    as a matrix?  Not where C dropped out for what pairs with 𝔤 alone.  ``seen``: from the centres
-    of mass; the coordinates ψ are then those of Ż(1 + S).
+    ``place``: the step of the coordinates, Ż = Σ ζ̇_b E_b. ``balanced``: is there a B, the balance
+    as a matrix? Not where C dropped out for what pairs with 𝔤 alone. ``seen``: from the centres of
+    mass; the coordinates ψ are then those of Ż(1 + S).
     """
     weighing, solving = c.draft("mass", "coordinates"), c.draft("motion", "solution")
     E_a, E_b = _member("a", b), _member("b", b)
@@ -73,7 +74,7 @@ def mass_steps(
 
 
 def _whole(d: Draft, b: Alphabet, seen: Seen | None) -> list[Equation]:
-    """Ż from its coordinates, where ẇ or ζ̇ needs it."""
+    """The equation of Ż by its coordinates, where ẇ or ζ̇ needs it."""
     if seen is None:
         return stated("Ż = Σ_a ζ̇_a E_a") if b.affine else []
     rate = b.Z.acceleration
@@ -82,6 +83,6 @@ def _whole(d: Draft, b: Alphabet, seen: Seen | None) -> list[Equation]:
 
 
 def _member(index: str, b: Alphabet) -> Letter:
-    """An element of the basis, with what the letters of the algebra know."""
+    """The letter E_a of a basis matrix, skew or traceless where Z is."""
     z = b.Z.velocity
     return Letter(f"E_{index}", b.n, b.n, z.symmetry, z.traceless)

@@ -35,9 +35,8 @@ from .trivialisation import frame_rule, gram, varied_gram
 
 @dataclass(frozen=True)
 class MomentumForm:
-    """``values``: P and F on words, by their letters.  In these letters, whatever the Lagrangian:
-    ``form``: dϖ(δ, δ′), and ``balance``: ⟨Ṗ − F, ξ′⟩ − ⟨P, [Z, ξ′]⟩.
-    """
+    """The momentum form: ``values``: P and F on words, by their letters. In these letters, whatever
+    the Lagrangian: ``form``: dϖ(δ, δ′), and ``balance``: ⟨Ṗ − F, ξ′⟩ − ⟨P, [Z, ξ′]⟩."""
 
     values: Mapping[Letter, Expr]
     form: Expr
@@ -46,14 +45,15 @@ class MomentumForm:
 
 
 def momentum_form(stage: Cartan, a: Alphabet, c: Chapter) -> MomentumForm:
-    """P and F of the points, then ϖ, dϖ and its kernel by them."""
+    """P and F of the points, then ϖ, dϖ and its kernel by them: the steps that the module names."""
     values, told = _values(stage, a, c)
     form, balance, steps = _forms(a, c)
     return MomentumForm(values, form, balance, (told, *steps))
 
 
 def _values(stage: Cartan, a: Alphabet, c: Chapter) -> tuple[dict[Letter, Expr], Step]:
-    """P = ∂L̃/∂Z and F, the derivative of L̃ along gξ, with L̃ = ⟨P, Z⟩ − h̃."""
+    """P = ∂L̃/∂Z and F, the derivative of L̃ along gξ, with L̃ = ⟨P, Z⟩ − h̃; and the step
+    ``momenta``."""
     draft = c.draft("momenta", "fibre derivative")
     moved = {a.C: varied_gram(a, a.Z.xi), a.U: -stage.work}
     values = fibre(stage.momentum, stage.energy, moved, a)
@@ -86,7 +86,8 @@ def fibre(
 
 
 def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
-    """ϖ, dϖ and the kernel in the letters P, F, Z, ξ and the bracket."""
+    """dϖ and the balance in the letters P, F, Z, ξ and the bracket; and the steps of ϖ, dϖ and the
+    kernel."""
     writing = c.draft("cartan_momentum", "Cartan form")
     varying = c.draft("exterior_momentum", "exterior derivative")
     momentum, lagrangian = _paired(a, [f.xi for f in a.frames], c), Letter("L̃")
@@ -123,7 +124,7 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
 
 
 def _paired(a: Alphabet, along: Iterable[Letter], c: Chapter) -> Expr:
-    """⟨P, x⟩."""
+    """⟨P, x⟩, for the letters x of ``along``, part by part."""
     pairs = zip(a.duals, along, strict=True)
     terms = (inner(word(d.momentum).marked(c.label("momenta")), word(x)) for d, x in pairs)
     return sum(terms, number(0))
@@ -165,7 +166,8 @@ def horizontal(
 
 
 def _kernel(form: Expr, notation: Notation, a: Alphabet, c: Chapter) -> tuple[Expr, Step]:
-    """Ṗ = F + ad*_Z P: the coefficient of ξ′, for X with the velocity of the motion."""
+    """The balance ⟨Ṗ − F, ξ′⟩ − ⟨P, [Z, ξ′]⟩, and the step Ṗ = F + ad*_Z P, by X with the velocity
+    of the motion."""
     draft, mark = c.draft("coadjoint", "kernel"), c.label("second_order_trivialised")
     here = {f.xi: word(f.velocity).marked(mark) for f in a.frames}
     here |= {d.d_momentum: word(d.rate) for d in a.duals}

@@ -20,7 +20,8 @@ from .telling import say
 
 
 def motions(form: Cartan, law: Ambient, a: Alphabet, c: Chapter) -> Step:
-    """dϖ by what crosses the motions: there the forces do the work of the acceleration."""
+    """The step that writes dϖ by what crosses the motions: there the forces do the work of the
+    acceleration."""
     draft = c.draft("motions", "kernel")
     along = {p.dp_position: word(p.d_position) for p in a.parts}
     work = substitute(law.balance, along) + form.work
@@ -40,7 +41,8 @@ def motions(form: Cartan, law: Ambient, a: Alphabet, c: Chapter) -> Step:
 
 
 def held(law: Ambient, gram: Expr, n: int, c: Chapter) -> Step:
-    """SO(n) in the space of all matrices: what the constraint adds is orthogonal to the group."""
+    """The step about SO(n) in the space of all matrices: what the constraint adds is orthogonal to
+    the group."""
     draft, b = c.draft("geodesics", "relation"), Alphabet(n, affine=False, skew=True)
     any_matrix, rate = b.freed().Z.xi_prime, b.A.acceleration
     along = {b.A.dp_position: word(b.A.position) * word(any_matrix)}

@@ -37,7 +37,8 @@ def multiplier_steps(
     c: Chapter,
     centred: Centred | None = None,
 ) -> tuple[Step, ...]:
-    """Ż and θ from  Tr ξ′ (residue − force)‾ = 0,  with J (or J_c) as ``metric``."""
+    """The steps ``multiplier``, ``motion`` and ``space``: Ż and θ from  Tr ξ′ (residue − force)‾ =
+    0,  with J (or J_c) as ``metric``."""
     residue = gradient(inertial, b.Z.xi_prime)
     direction, letters, definition = _direction(group, b)
     rule = "multiplier" if direction else "kernel"
@@ -84,7 +85,8 @@ def multiplier_steps(
 def _in_space(
     solved: Expr, drift: Expr | None, b: Alphabet, display: Mapping[Letter, Tree], c: Chapter
 ) -> Step:
-    """α̇ = A(Ż + Z²) and τ̇ = A(ẇ + Zw), with C⁻¹ = A⁻¹Ā⁻¹: the point r has α̇r + τ̇."""
+    """The step ``space``: α̇ = A(Ż + Z²) and τ̇ = A(ẇ + Zw), with C⁻¹ = A⁻¹Ā⁻¹: the point r has α̇r
+    + τ̇."""
     draft = c.draft("space", "solution")
     left, right = Letter("A⁻¹", b.n, b.n), Letter("Ā⁻¹", b.n, b.n)
     g, Z, within = b.A.position, word(b.Z.velocity), Letter("Y", b.n, b.n)
@@ -115,7 +117,8 @@ def _in_space(
 
 
 def _direction(group: Group, b: Alphabet) -> tuple[Expr | None, list[Letter], list[Equation]]:
-    """The normal direction as a word: 1, or a letter Λ with its value; ``None`` for GL(n)."""
+    """The normal direction as a word, with its letters and their equations: 1, or a letter Λ with
+    its value; ``None`` for GL(n)."""
     if not group.normal_space_of_linear_parts:
         return None, [], []
     normal = group.normal_direction
@@ -132,7 +135,7 @@ def _number(x: Fraction) -> Tree:
 
 
 def _multiplier(solved: Expr, direction: Expr) -> tuple[Expr, Expr]:
-    """θ = numerator / denominator from ⟨Λ, Ż⟩ = 0."""
+    """The numerator and the denominator of θ, from ⟨Λ, Ż⟩ = 0."""
     total = inner(solved, direction)
     denominator = substitute(terms_with(total, MULTIPLIER), {MULTIPLIER: number(1)})
     return -without(total, MULTIPLIER), denominator

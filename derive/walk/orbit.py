@@ -51,7 +51,8 @@ def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Ste
 
 
 def _summed(points: Lagrangian, arm: Expr, moments: Moments, a: Alphabet) -> Expr:
-    """Σ m_i r_i(t) x̄ for a vector x of each point, or Σ m_i r_i(t) for x = 1."""
+    """The sum over the points Σ m_i r_i(t) x̄ for a vector x = ``arm`` of each, or Σ m_i r_i(t) for
+    x = 1."""
     tested = Letter("Y", a.n, arm.rows)
     summand = inner(word(a.m_i) * points.position * arm.bar, word(tested))
     return gradient(sum_over(summand, {a.m_i, a.r_i}, moments), tested)
@@ -83,7 +84,7 @@ def _equations(d: Draft, square: Expr, varied: Expr, a: Alphabet) -> tuple[Equat
 
 
 def distances(points: Lagrangian, a: Alphabet, c: Chapter) -> Distances:
-    """The square of a distance by C, and its variation."""
+    """‖r_i(t) − r_j(t)‖² by C, and half its variation, with their step."""
     draft = c.draft("distances", "trivialisation")
     other = Letter("r_j", a.n)
     beside = substitute(points.position, {a.r_i: word(other)})

@@ -22,19 +22,19 @@ from .trivialisation import frame_rule
 
 @dataclass(frozen=True)
 class Applied:
-    """The letters of the forces given point by point, and how they are summed."""
+    """The letters of the sums over the points of some forces: N and F, or the vectors μ and F."""
 
     moments: Letter
     resultant: Letter
 
     def work(self, xi: Expr, eta: Expr | None) -> Expr:
-        """Their virtual work."""
+        """The virtual work of the forces, ⟨N, ξ⟩ + ⟨F, η⟩."""
         pairing = inner(word(self.moments), xi)
         return pairing if eta is None else pairing + inner(word(self.resultant), eta)
 
 
 def applied(a: Alphabet, mark: str, *, vectors: bool) -> Applied:
-    """N and F, or μ and F in vectors, with a mark: N_Q, μ_Q, F_Q."""
+    """N and F, or μ and F in vectors, with a mark behind: N_Q, μ_Q, F_Q."""
     moments = Letter(f"μ_{mark}", 3) if vectors else Letter(f"N_{mark}", a.n, a.n)
     return Applied(moments, Letter(f"F_{mark}", a.n))
 
@@ -42,7 +42,8 @@ def applied(a: Alphabet, mark: str, *, vectors: bool) -> Applied:
 def pushes_step(
     found: Elements, forces: Applied, a: Alphabet, c: Chapter, gram: Expr | None
 ) -> Step:
-    """The tensions, the forces and their sums: in the body frame where ĀA = 1 is at hand."""
+    """The step of the tensions, the forces and their sums: in the body where ĀA = 1 is at hand
+    (``gram``), else in space."""
     draft = c.draft("pushes", "variation")
     equations = _in_space(found) if gram is None else _in_body(draft, found, a, gram)
     prose = _prose(vectors=gram is not None, radials=bool(found.radials))
@@ -60,7 +61,7 @@ def _prose(*, vectors: bool, radials: bool) -> Prose:
 
 
 def _in_space(found: Elements) -> list[Equation]:
-    """σ_e and Q_i = Σ ± σ_e d_e − ∂U/∂r_i(t)."""
+    """The equations σ_e = … and Q_i = Σ ± σ_e d_e − ∂U/∂r_i(t)."""
     equations = [Equation(x.sigma, x.tension) for x in found.radials]
     terms: dict[int, list[Tree]] = {}
     for x in found.radials:
@@ -72,7 +73,7 @@ def _in_space(found: Elements) -> list[Equation]:
 
 
 def _placed(problem: Problem, i: int, sigma: Tree, d: Tree, sign: int) -> Tree:
-    """± σ d on point i, in its block of a product."""
+    """The tree ± σ d of a force on point i, in its block of a product."""
     group = problem.group
     assert group is not None
     if not group.factors:
@@ -83,7 +84,7 @@ def _placed(problem: Problem, i: int, sigma: Tree, d: Tree, sign: int) -> Tree:
 
 
 def _in_body(d: Draft, found: Elements, a: Alphabet, gram: Expr) -> list[Equation]:
-    """χ_e = Ād_e, σ_e and P_i = Σ ± σ_e χ_e − Ā ∂U/∂r_i(t)."""
+    """The equations χ_e = Ād_e, σ_e = … and P_i = Σ ± σ_e χ_e − Ā ∂U/∂r_i(t)."""
     equations = []
     terms: dict[int, list[Tree]] = {}
     for x in found.radials:
@@ -98,7 +99,7 @@ def _in_body(d: Draft, found: Elements, a: Alphabet, gram: Expr) -> list[Equatio
 
 
 def _carried(d: Draft, x: Radial, a: Alphabet, gram: Expr) -> Tree:
-    """Ād_e: the places in the body, by ĀA = 1, and Ā on what is in space."""
+    """The tree of Ād_e: the places in the body, by ĀA = 1, and Ā on what is in space."""
     g, total = word(a.A.position), zero(a.n, 1)
     display: dict[Letter, Tree] = {}
     for i, sign in x.signs.items():
@@ -118,7 +119,8 @@ def _carried(d: Draft, x: Radial, a: Alphabet, gram: Expr) -> Tree:
 
 
 def _sums_over_points(d: Draft, a: Alphabet, forces: Applied, gram: Expr | None) -> list[Equation]:
-    """N_Q = Σ ĀQ_i r̄_i and F_Q = Σ ĀQ_i, or μ_Q = Σ r_i ∧ P_i and F_Q = Σ P_i with AP_i = Q_i."""
+    """The equations N_Q = Σ ĀQ_i r̄_i and F_Q = Σ ĀQ_i, or μ_Q = Σ r_i ∧ P_i and F_Q = Σ P_i with
+    AP_i = Q_i."""
     vectors = gram is not None
     push, xi = Letter("P_i" if vectors else "Q_i", a.n), Letter("ξ′", a.n, a.n)
     eta = Letter("η′", a.n)

@@ -16,7 +16,7 @@ from ..record.record import Equation
 
 
 def in_space(i: int) -> Tree:
-    """r_i(t)."""
+    """The tree r_i(t), the place of point i in space."""
     return ("call", ("at", "r", i), "t")
 
 
@@ -26,14 +26,14 @@ def column(entries: tuple[Tree, ...]) -> Tree:
 
 
 def embedded(problem: Problem, i: int, entries: tuple[Tree, ...], corner: int) -> Tree:
-    """A vector of the space of point i; in a product, in its block, with a corner."""
+    """A vector of the space of point i as a column; in a product, in its block, with a corner."""
     assert problem.group is not None
     return column(problem.group.in_block(problem.block(i), entries, corner))
 
 
 @dataclass(frozen=True)
 class Radial:
-    """A potential of ‖d‖², with d = Σ ± r_i(t) − anchor: σ_e = ``tension``, as a tree in d_e."""
+    """A potential of ‖d‖², where d = Σ ± r_i(t) − anchor: σ_e = ``tension``, a tree in d_e."""
 
     d: Tree
     signs: dict[int, int]
@@ -48,13 +48,14 @@ class Radial:
 
     @property
     def sigma(self) -> Tree:
-        """σ_e."""
+        """The tree σ_e."""
         return ("at", "σ", self.d[2])  # type: ignore[index]
 
 
 @dataclass
 class Elements:
-    """``differences``: d_e; ``energies``: U_e; ``pushes``: −∂U/∂r_i(t) of those given as U."""
+    """The potentials given point by point, whose sum is U_Q: ``differences``: the equations of d_e;
+    ``energies``: U_e; ``radials``: those of a distance; ``pushes``: −∂U/∂r_i(t) of the others."""
 
     problem: Problem
     differences: list[Equation] = field(default_factory=list)
@@ -67,11 +68,11 @@ class Elements:
         return not self.pushes and all(x.keeps(turning=turning) for x in self.radials)
 
     def push(self, i: int, force: Tree) -> None:
-        """A term of the force on point i."""
+        """Add a term to the force on point i."""
         self.pushes.setdefault(i, []).append(force)
 
     def energy(self, U: Tree) -> None:
-        """Any U of entries of the places, with its forces."""
+        """Add a potential U of entries of places r_i(t), with its forces −∂U/∂r_i(t)."""
         self.energies.append(U)
         assert self.problem.group is not None
         span = range(1, self.problem.group.n + 1)
@@ -80,7 +81,7 @@ class Elements:
             self.push(i, column(tuple(product(-1, x) for x in slopes)))
 
     def difference(self, ends: Tree) -> Tree:
-        """A new d_e."""
+        """Name a difference d_e, and give its tree."""
         d: Tree = ("at", "d", len(self.differences) + 1)
         self.differences.append(Equation(d, ends))
         return d
@@ -88,7 +89,7 @@ class Elements:
     def radial(
         self, energy: Tree, d: Tree, signs: dict[int, int], anchor: tuple[Tree, ...] = ()
     ) -> None:
-        """A potential of ‖d‖²."""
+        """Add a potential of ‖d‖²; ``signs``: those of r_i(t) in d, by the point."""
         self.energies.append(energy)
         tension = product(-2, derivative(energy, ("norm2", d)))
         self.radials.append(Radial(d, signs, anchor, tension))
@@ -105,6 +106,7 @@ def place(problem: Problem, i: int) -> Tree:
 
 
 def _points(t: Tree) -> Iterator[int]:
+    """The numbers i of the points whose places are in a tree."""
     for _, x in subtrees(t):
         if isinstance(x, tuple) and x[:2] == ("at", "r"):
             yield x[2]

@@ -28,9 +28,10 @@ U_Q = Letter("U_Q")
 
 @dataclass(frozen=True)
 class Potentials:
-    """``energy`` = Ũ on words in A, T, c, m, γ, K, U_Q; ``work(ξ, η)`` of what U_Q exerts.
+    """The potentials of a problem: ``energy`` = Ũ on words in A, T, c, m, γ, K, U_Q; ``work(ξ, η)``
+    of what U_Q exerts.
 
-    ``elements``: what is in U_Q; ``timed``: does U depend on the time by itself?  ``own``: letters
+    ``elements``: what is in U_Q; ``timed``: does U depend on the time by itself? ``own``: letters
     of the potentials beside these.
     """
 
@@ -44,14 +45,15 @@ class Potentials:
     def moved(
         self, a: Alphabet, xi: Expr, eta: Expr | None = None, axis: Expr | None = None
     ) -> dict[Letter, Expr]:
-        """What δA = Aξ, δT = Aη make of the letters of Ũ; ``axis``: x for ξ = j(x)."""
+        """The images of the letters of Ũ under δA = Aξ, δT = Aη; ``axis``: x for ξ = j(x)."""
         g = word(a.A.position)
         images = {a.A.position: g * xi, U_Q: -self.work(xi if axis is None else axis, eta)}
         return moved(self.own, images if eta is None else images | {a.T.position: g * eta})
 
 
 def potentials(problem: Problem, a: Alphabet, c: Chapter, gram: Expr | None = None) -> Potentials:
-    """Ũ of the problem, with the vectors and matrices it needs.
+    """The potentials of the problem, with the step of Ũ, and of the forces that are given point by
+    point.
 
     ``gram``: ĀA = 1, where the forces are to be said in vectors.
     """
@@ -90,7 +92,7 @@ def _opening(over_points: list[Tree]) -> Prose:
 
 
 def _timed(t: Tree) -> bool:
-    """Does t stand outside the places r_i(t)?"""
+    """Does t stand in a tree outside the places r_i(t)?"""
     if not isinstance(t, tuple):
         return t == "t"
     return t[0] != "call" and any(map(_timed, t[1:]))
@@ -99,5 +101,6 @@ def _timed(t: Tree) -> bool:
 def virtual_work(
     v: Potentials, a: Alphabet, xi: Expr, eta: Expr | None, axis: Expr | None = None
 ) -> Expr:
-    """−dŨ(Aξ, Aη) on words; the moments of Q are paired with the axis of ξ = j(axis), if given."""
+    """−dŨ(Aξ, Aη) on words; the moments of Q are paired with the axis of ξ = j(axis), if that is
+    said."""
     return -derivation(v.energy, v.moved(a, xi, eta, axis).get)

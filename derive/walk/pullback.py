@@ -46,10 +46,10 @@ Moments = Mapping[tuple[Letter, ...], Expr]
 
 @dataclass(frozen=True)
 class Pullback:
-    """``kinetic``: the quadratic part of L̃ on words, so that L̃ = kinetic − Ũ.
+    """L̃ on words: ``kinetic``: its quadratic part, so that L̃ = kinetic − Ũ.
 
     ``work``: −dŨ(δg), by the force on the group, or by the moments of forces for an affine action;
-    ``pushed``: by these always.  ``moments``: of masses and of forces.
+    ``pushed``: by these always. ``moments``: of masses and of forces.
     """
 
     kinetic: Expr
@@ -100,7 +100,7 @@ def _moment(weights: tuple[Letter, ...], w: Word, members: set[Letter], moments:
 
 
 def pullback(stage: Lagrangian, a: Alphabet, c: Chapter) -> Pullback:
-    """Put the motion into L and sum over the points; then the force on the group."""
+    """L̃: the motion put into L and summed over the points; then the force on the group."""
     moments, definitions = _moments(a, c)
     draft = c.draft("pullback", "pull-back")
     kinetic = pulled_back(stage, moments, a)
@@ -125,7 +125,8 @@ def pullback(stage: Lagrangian, a: Alphabet, c: Chapter) -> Pullback:
 
 
 def _moments(a: Alphabet, c: Chapter) -> tuple[Moments, Step]:
-    """m, c and J: the letters that the sums over the points become, and their definitions."""
+    """The table of m, c and J, the letters that the sums over the points become, and the step that
+    defines them."""
     draft = c.draft("moments", "definition")
     step = draft.step(
         stated("m = Σᵢ mᵢ,  c = Σᵢ mᵢ rᵢ,  J = Σᵢ mᵢ rᵢ r̄ᵢ"),
@@ -137,7 +138,8 @@ def _moments(a: Alphabet, c: Chapter) -> tuple[Moments, Step]:
 
 
 def _force(stage: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Expr, Moments, Step]:
-    """−dŨ by the forces on the points, F_i = −∂U/∂r_i: a sum like that of the moments."""
+    """−dŨ(δg) by the forces on the points, F_i = −∂U/∂r_i, a sum like that of the moments; the
+    table of their moments, and the step."""
     table = {(a.F_i, a.r_i): word(a.N), (a.F_i,): word(a.F)}
     draft = c.draft("force", "pull-back")
     work = sum_over(inner(word(a.F_i), stage.variation), {a.F_i, a.r_i}, table)
@@ -152,7 +154,7 @@ def _force(stage: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Expr, Moments, S
 
 
 def _gradient(a: Alphabet, c: Chapter, metric: Hypothesis) -> tuple[Expr, Step]:
-    """−dŨ by the force on the group."""
+    """−dŨ(δA) = ⟨F̃, δA⟩_J by the force on the group, and the step that says so (24)."""
     draft = c.draft("gradient", "definition")
     pairing = inner(word(a.F_group), word(a.A.d_position), word(a.J))
     step = draft.step(

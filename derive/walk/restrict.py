@@ -59,7 +59,7 @@ def moved(
 
 
 def restricted_prose(a: Alphabet) -> Prose:
-    """What is said where dϖ is restricted."""
+    """The sentence for a dϖ that is restricted to a group."""
     return say(
         "exterior.by_momenta",
         momenta="(Π, p_b, Φ, F_b)" if a.affine else "(Π, Φ)",

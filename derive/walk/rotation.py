@@ -27,14 +27,15 @@ from .wedge import vector_sum
 
 @dataclass(frozen=True)
 class Torque:
-    """The ``forces`` of a problem in the body: μ, and F_b where the group translates."""
+    """The ``forces`` of a problem in the body, by their letters: μ, and F_b where the group
+    translates."""
 
     forces: dict[Letter, Expr]
     steps: tuple[Step, ...]
 
 
 def _forces(v: Potentials, b: Alphabet, gram: Expr) -> dict[Letter, Expr]:
-    """The moment μ of the forces in the body, and their resultant F_b, of the given potentials."""
+    """μ, the moment in the body of the forces of the potentials, and F_b, their resultant."""
     eta = word(b.w.xi_prime) if b.affine else None
     work = virtual_work(v, b, word(hat(OMEGA_P)), eta, word(OMEGA_P))
     for x in v.own:
@@ -70,7 +71,7 @@ def spherical_motion(
     given: Given | None,
     c: Chapter,
 ) -> Step:
-    """ζ̇ = I⁻¹(Iζ ∧ ζ + torque + u)."""
+    """The step ``motion`` of SO(3): ζ̇ = I⁻¹(Iζ ∧ ζ + μ + u)."""
     inertial = word(INERTIA) * word(ZETA_DOT)
     # Iφ is the torque, and what is given adds to it
     balance = kernel.balance[OMEGA_P] + word(INERTIA) * word(PHI) - torque.forces[MU]
@@ -94,7 +95,8 @@ def displacement_motion(
     given: Given | None,
     c: Chapter,
 ) -> Step:
-    """ζ̇ and ẇ, with the forces of this problem and what is given put in."""
+    """The step ``motion`` of SE(3): ζ̇ and ẇ, with the forces of this problem and those from
+    outside put in."""
     forces = dict(torque.forces)
     if given is not None:
         forces[MU] = forces[MU] + given.moments
@@ -124,14 +126,15 @@ def _prose(given: Given | None, b: Alphabet) -> Prose:
 
 
 def energy_step(stage: Isometry, v: Potentials, read: Reader, c: Chapter) -> Step:
-    """h̃ in vectors, with the potential of the problem."""
+    """The step ``energy``: h̃ in vectors, with the potential of the problem."""
     b, draft = stage.letters, c.draft("energy", "identification")
     energy = substitute(read.scalar(stage.cartan.energy), {b.U: v.energy})
     return draft.step((Equation("h̃", draft.tree(energy, metrics("I"))),), say("energy.problem"))
 
 
 def principal_step(euler: Step, c: Chapter) -> Step:
-    """(35): the solved equation in axes that diagonalise I, component by component."""
+    """The step ``principal`` (35): the solved equation in axes that diagonalise I, component by
+    component."""
     draft = c.draft("principal", "coordinates")
     draft.read(euler)
     moments: list[Tree] = [("entry", "λ", i) for i in (1, 2, 3)]
@@ -146,7 +149,7 @@ def principal_step(euler: Step, c: Chapter) -> Step:
 
 
 def euler_step(kernel: VectorForm, b: Alphabet, c: Chapter) -> Step:
-    """(34) solved: ζ̇ = φ + I⁻¹(Iζ ∧ ζ)."""
+    """The step ``euler``, (34) solved: ζ̇ = φ + I⁻¹(Iζ ∧ ζ)."""
     draft = c.draft("euler", "solution")
     inertial = word(INERTIA) * word(ZETA_DOT)
     rest = inertial - kernel.balance[OMEGA_P] - word(INERTIA) * word(PHI)

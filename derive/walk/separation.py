@@ -28,7 +28,8 @@ def _notation(a: Alphabet) -> Notation:
 
 
 def _centred(e: Expr, a: Alphabet, mark: str = "") -> Expr:
-    """An expression with T and τ by the centre of mass R, Ṙ, and J by J_c; ``mark``: said where."""
+    """An expression with T and τ by the centre of mass R, Ṙ, and J by J_c; ``mark``: the step that
+    says so."""
     moment, value = central_moments(a)
     lighter, first = word(inverse_letter(a.m)), word(a.c)
     place, rate = Letter("R", a.n), Letter("Ṙ", a.n)
@@ -43,7 +44,7 @@ def _centred(e: Expr, a: Alphabet, mark: str = "") -> Expr:
 
 
 def kinetic_separation(kinetic: Expr, a: Alphabet, c: Chapter) -> Step:
-    """L̃ by the centre of mass: no term has both α and Ṙ."""
+    """The step that writes L̃ by the centre of mass: no term has both α and Ṙ."""
     draft = c.draft("separation", "identification")
     equations = (
         *stated("R = T + m⁻¹Ac,  Ṙ = τ + m⁻¹αc"),
@@ -59,7 +60,8 @@ def kinetic_separation(kinetic: Expr, a: Alphabet, c: Chapter) -> Step:
 def potential_separation(
     problem: Problem, v: Potentials, b: Alphabet, c: Chapter
 ) -> tuple[Step, ...]:
-    """Ũ by the centre of mass, and whether the motion of this problem separates."""
+    """The step that writes Ũ by the centre of mass, and says whether the motion of this problem
+    separates; none where Ũ is no sum of such terms."""
     if any(b.T.position in x.value.letters() for x in v.own):
         return ()  # a function of T that is no sum
     draft = c.draft("separation", "identification")

@@ -15,13 +15,14 @@ from .special import Special
 from .translation import Centred
 
 MULTIPLIERS = 1
-"""Through the normal space of 𝔤 where it has so many dimensions: the counted operations of the
-emitted code are then fewer than through the mass matrix (tests/walk/test_roads.py)."""
+"""The kernel is solved through the normal space of 𝔤 where it has at most so many dimensions: the
+counted operations of the emitted code are then fewer than through the mass matrix
+(tests/walk/test_roads.py)."""
 
 
 @dataclass(frozen=True)
 class Solution:
-    """``motion``: the step of the equations of motion."""
+    """The steps that solve the kernel; ``motion``: that of the equations of motion."""
 
     motion: Step
     steps: tuple[Step, ...]

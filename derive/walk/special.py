@@ -39,7 +39,7 @@ from .trivialisation import frame_rule, gram, rates, varied_gram
 
 @dataclass(frozen=True)
 class General:
-    """What is known of every group of one action: ``cartan`` and ``exterior`` are carried to 𝔤.
+    """What is known of every group of one action; ``cartan`` and ``exterior`` are carried to 𝔤.
 
     ``pushed``: −dŨ(δg) by the moments of forces.
     """
@@ -53,9 +53,10 @@ class General:
 
 @dataclass(frozen=True)
 class Special:
-    """``inertial``: dϖ(X, δ′) without the work of the ``forces`` on ξ′ (and η′).
+    """The kernel for one problem, unsolved: ``inertial``: dϖ(X, δ′) without the work of the
+    ``forces`` on ξ′ (and η′).
 
-    ``gram``: ĀA, the letter C or 1.  ``last``: steps that belong at the end of the record.
+    ``gram``: ĀA, the letter C or 1. ``last``: steps that belong at the end of the record.
     ``bodies``: where C is not 1, and drops out of the metric.
     """
 
@@ -80,7 +81,7 @@ def letters_of(group: Group, *, signed: bool) -> Alphabet:
 
 
 def pushed(stage: Special, given: Given | None) -> Special:
-    """The same with what is given from outside on ξ′ (and η′)."""
+    """The same kernel with the forces from outside dϖ added to those on ξ′ (and η′)."""
     b, forces = stage.letters, dict(stage.forces)
     if given:
         forces[b.Z.xi_prime] += given.moments
@@ -92,7 +93,8 @@ def pushed(stage: Special, given: Given | None) -> Special:
 def specialise(
     road: General, group: Group, v: Potentials, c: Chapter, bodies: Bodies | None
 ) -> Special:
-    """The forms, forces and energy of a problem; ``bodies``: whose metric is left-invariant."""
+    """The forms, forces and energy of a problem, with their steps; ``bodies``: those whose metric
+    is left-invariant."""
     b = letters_of(group, signed=road.letters.signed)
     plain = Alphabet(group.n, affine=group.affine, signed=b.signed)
     free, turned = b.freed(), "orthogonal" in group.relations
@@ -143,13 +145,14 @@ def specialise(
 
 
 def turns_whole(group: Group) -> bool:
-    """Are the linear parts all skew matrices, so that a skew coefficient of ξ′ vanishes?"""
+    """Are the linear parts of 𝔤 all the skew matrices, so that a skew coefficient of ξ′ vanishes?"""
     n = group.n
     return "orthogonal" in group.relations and len(group.linear_basis) == n * (n - 1) // 2 > 0
 
 
 def relation(group: Group, bodies: Bodies | None, c: Chapter) -> tuple[Step, ...]:
-    """What the group keeps, read off the basis of its Lie algebra."""
+    """The step that says what the group keeps, read off the basis of 𝔤; none where it keeps
+    nothing."""
     known: list[Equation] = []
     prose: Prose = ()
     if "orthogonal" in group.relations:
@@ -169,7 +172,7 @@ def relation(group: Group, bodies: Bodies | None, c: Chapter) -> tuple[Step, ...
 
 
 def _smaller(group: Group) -> Prose:
-    """That the relations are not all, where others have them, too."""
+    """The sentence that further relations hold, where a larger group has the same ones; else none."""
     n, skew = group.n, "orthogonal" in group.relations
     whole = n * (n - 1) // 2 if skew else n * n - 1
     if group.affine:
@@ -183,7 +186,7 @@ def _smaller(group: Group) -> Prose:
 
 
 def _kept(group: Group, *, stays: bool = True) -> Prose:
-    """What the relations say; ``stays``: C does not drop out."""
+    """The sentences for the relations; ``stays``: C does not drop out."""
     skew = "orthogonal" in group.relations
     if group.affine:
         if skew:
@@ -205,7 +208,7 @@ def _derived(
     a: Alphabet,
     brackets: Mapping[Letter, Expr],
 ) -> Expr:
-    """dϖ by the values of P and F, with the potential of the problem."""
+    """dϖ on words, by the values of P and F, with the potential of the problem."""
     moved = {a.C: varied_gram(a, a.Z.xi), **v.moved(a, *(word(f.xi) for f in a.frames))}
     values = fibre(momentum, energy, moved, a)
     return reduce(restrict(road.momenta.form, values, a, brackets), frame_rule(a, gram(a)))
@@ -214,7 +217,8 @@ def _derived(
 def _exterior(
     domega: Expr, road: General, a: Alphabet, varying: Draft, by_bracket: Iterable[Tree]
 ) -> tuple[Contraction, Step]:
-    """dϖ with the potential of the problem; also as it is written ``by_bracket``."""
+    """dϖ ready to be contracted, and its step, with the potential of the problem; also as it is
+    written ``by_bracket``."""
     letters = a.letters()
     images = {letters[x.name]: without(a.respell(y), a.f) for x, y in road.exterior.images.items()}
     moving = [x for f in a.frames for x in (f.d_velocity, f.dp_velocity)]
@@ -240,7 +244,8 @@ def _exterior(
 def _kernel(
     contraction: Contraction, forces: list[Expr], a: Alphabet, c: Chapter
 ) -> tuple[Expr, Step]:
-    """dϖ(X, δ′) = 0 for X with the velocity of the motion; also without the work of the forces."""
+    """dϖ(X, δ′) for X with the velocity of the motion, without the work of the forces; and the step
+    that says that with it it is 0."""
     draft = c.draft("kernel", "kernel")
     tested = [f.xi_prime for f in a.frames]
     pairs = zip(forces, tested, strict=True)
@@ -257,6 +262,7 @@ def _kernel(
 
 
 def _forces(forces: dict[Letter, Expr], d: Draft) -> Step:
+    """The step of the forces in the body, ĀN and ĀF."""
     sides = (read("ĀN"), read("ĀF"))
     return d.step(
         (Equation(x, d.tree(e)) for x, e in zip(sides, forces.values(), strict=False)),

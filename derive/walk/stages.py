@@ -17,10 +17,11 @@ Values = dict[str, Any]
 
 @dataclass(frozen=True)
 class Stage:
-    """``run`` of the values that ``takes`` names gives ``name``, of the type ``gives``.
+    """A row of the table: ``run`` of the values that ``takes`` names gives ``name``, of the type
+    ``gives``.
 
     ``takes``: names, and fields of them as ``pullback.moments``; with ``?`` one that may be
-    missing.  Where another is missing, the stage gives nothing.  ``on``: the kind of road that has
+    missing. Where another is missing, the stage gives nothing. ``on``: the kind of road that has
     this stage; all have one without.
     """
 
@@ -31,7 +32,7 @@ class Stage:
     on: str = ""
 
     def value(self, values: Mapping[str, Any]) -> Any:
-        """What it gives; ``None`` where something that it takes is missing."""
+        """What the stage makes of these values; ``None`` where something that it takes is missing."""
         given = [(_found(x.rstrip("?"), values), x.endswith("?")) for x in self.takes.split()]
         if any(x is None and not optional for x, optional in given):
             return None
@@ -39,13 +40,13 @@ class Stage:
 
 
 def _found(path: str, values: Mapping[str, Any]) -> Any:
-    """A value by its name, or a field of it."""
+    """A value by its name, or a field of it; ``None`` where there is none."""
     name, *fields = path.split(".")
     return reduce(lambda x, field: x if x is None else getattr(x, field), fields, values.get(name))
 
 
 def follow(road: Iterable[Stage], given: Mapping[str, Any], kinds: Collection[str]) -> Values:
-    """The values of the stages of a road of these ``kinds``, after those that are given."""
+    """The values of the stages of a road of these ``kinds``, after those that it starts from."""
     values, steps = {**given}, list[Step]()
     for stage in road:
         if not stage.on or stage.on in kinds:
@@ -55,7 +56,7 @@ def follow(road: Iterable[Stage], given: Mapping[str, Any], kinds: Collection[st
 
 
 def _steps_of(value: Any) -> Steps:
-    """A step, steps, or those that a value came with."""
+    """The steps in what a stage gave: a step, a tuple of them, or the field ``steps``."""
     if isinstance(value, Step):
         return (value,)
     return value if isinstance(value, tuple) else getattr(value, "steps", ())

@@ -19,8 +19,8 @@ from ..record.sentence import Prose
 
 @dataclass(frozen=True)
 class Own:
-    """A letter that stands for ``value``; for a product āb, if that is one: ``factors`` (a, b) and
-    the ``share`` of the letter that āb is.
+    """A letter of a potential's own, which stands for ``value``; for a product āb, if that is one:
+    ``factors`` (a, b) and the ``share`` of the letter that āb is.
 
     ``axial``: in R³, the vector of the letter N, ⟨axial, x⟩ = Tr N j(x)‾.
     """
@@ -32,11 +32,12 @@ class Own:
     axial: Letter | None = None
 
     def varied(self, delta: Callable[[Letter], Expr | None]) -> Expr:
-        """What a displacement makes of it."""
+        """The derivative of the letter along a displacement, whose value on other letters is
+        ``delta``."""
         return derivation(self.value, delta)
 
     def written(self, left: Factor, right: Factor) -> Expr | None:
-        """āb, or b̄a, by the letter."""
+        """The product āb, or b̄a, by the letter; ``None`` for another pair of factors."""
         if self.factors:
             a, b = self.factors
             if (left, right) == ((a, True), (b, False)):
@@ -57,12 +58,12 @@ class Power(Own):
     over: Expr = field(kw_only=True)
 
     def varied(self, delta: Callable[[Letter], Expr | None]) -> Expr:
-        """By the chain rule."""
+        """The derivative of the letter, by the chain rule."""
         return self.exponent * word(self.letter) * self.over * derivation(self.value, delta)
 
 
 def moved(own: Iterable[Own], images: Mapping[Letter, Expr]) -> dict[Letter, Expr]:
-    """The images of A, T and so on under a displacement, and with them those of own letters."""
+    """The images of A, T and so on under a displacement, completed by those of own letters."""
     found, listed = dict(images), [*own]
     rules: list[PairRule] = [x.written for x in listed]
     for x in listed:
@@ -72,7 +73,8 @@ def moved(own: Iterable[Own], images: Mapping[Letter, Expr]) -> dict[Letter, Exp
 
 @dataclass(frozen=True)
 class Words:
-    """``energy``: what the potentials of a kind add to Ũ; the same ``over_points``, as trees.
+    """The potentials of one kind on words: ``energy``: what they add to Ũ; the same
+    ``over_points``, as trees.
 
     ``definitions``: of the letters that are its own; ``prose``: what is said of them; ``own``: how
     those move, each after those that it stands for.

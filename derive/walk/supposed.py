@@ -21,21 +21,22 @@ from ..record.record import Step
 from .alphabet import Alphabet
 
 ALWAYS = ("A", "C", read("Ā"))
-"""The element of the group and C = ĀA have inverses."""
+"""The element of the group and C = ĀA, which have inverses without a hypothesis."""
 
 
 # -- data ----------------------------------------------------------------------------------------
 
 
 def kinetic_metric(kinetic: Expr, a: Alphabet) -> Hypothesis:
-    """The form ⟨δg, δ′g⟩ whose half at δg = δ′g = ν is the kinetic energy: not degenerate."""
+    """The hypothesis that the form ⟨δg, δ′g⟩ is not degenerate, half of which at δg = δ′g = ν is
+    the kinetic energy."""
     form = derivation(kinetic, {p.velocity: word(p.d_position) for p in a.parts}.get)
     form = substitute(form, {p.velocity: word(p.dp_position) for p in a.parts})
     return regular(tree_of(form, metrics() if a.affine else metrics("J")), "T_g G")
 
 
 def regular(form: Tree, space: str) -> Hypothesis:
-    """A form on a space is not degenerate; of ⟨Ω, Ω′⟩_I this says that I has an inverse."""
+    """The hypothesis that a form on a space is not degenerate; of ⟨Ω, Ω′⟩_I that I has an inverse."""
     if isinstance(form, tuple) and form[0] == "metric" and {*form[2:]} == {"Ω", "Ω′"}:
         return Hypothesis("invertible", form[1])
     return Hypothesis("nondegenerate", form, space)
@@ -44,7 +45,8 @@ def regular(form: Tree, space: str) -> Hypothesis:
 def vertical_metric(
     vertical: Expr, horizontal: Mapping[Letter, Expr], notation: Notation, space: str
 ) -> Hypothesis:
-    """The metric as it stands in −dϖ(δ, δ′) for a δ′ that varies the velocity alone.
+    """The hypothesis that the metric is not degenerate, as it stands in −dϖ(δ, δ′) for a δ′ that
+    varies the velocity alone.
 
     ``horizontal``: δ′v ↦ δ′x, of the same kind.
     """
@@ -52,23 +54,24 @@ def vertical_metric(
 
 
 def of_masses(a: Alphabet) -> tuple[Hypothesis, ...]:
-    """The masses are positive, unless they may have any sign."""
+    """The hypothesis that the masses are positive; none where they may have any sign."""
     return () if a.signed else (Hypothesis("positive", read("mᵢ")),)
 
 
 def of_moments(signed: bool) -> tuple[Hypothesis, ...]:
-    """m, c, J are those of some positive masses: m > 0, and J − m⁻¹cc̄ has no negative square."""
+    """The hypotheses that m, c, J are those of some positive masses: m > 0, and J − m⁻¹cc̄ has no
+    negative square; none where masses may be negative."""
     if signed:
         return ()
     return Hypothesis("positive", "m"), Hypothesis("semidefinite", read("J − m⁻¹cc̄"))
 
 
 MATRICES = frozenset({"J", "J_c", "I", "I_c", "M"})
-"""What is inverted and no number."""
+"""The names that are matrices, among those that are inverted."""
 
 
 def supposing(step: Step) -> Step:
-    """The step with the hypotheses of all that its equations divide by, or invert."""
+    """The step with hypotheses for all that its equations divide by, or invert."""
     trees = (t for e in step.equations for side in (e.lhs, e.rhs) for t in _inverted(side))
     needed = (Hypothesis("invertible" if _matrix(t) else "nonzero", t) for t in trees)
     return replace(step, hypotheses=tuple(dict.fromkeys((*step.hypotheses, *needed))))
@@ -79,12 +82,12 @@ def _matrix(t: Tree) -> bool:
 
 
 def supposing_all(steps: Iterable[Step]) -> tuple[Step, ...]:
-    """Every step with what it inverts."""
+    """Every step with hypotheses for what it divides by, or inverts."""
     return tuple(map(supposing, steps))
 
 
 def _inverted(t: Tree) -> Iterator[Tree]:
-    """What stands in a denominator, or is inverted; numbers and the group's element apart."""
+    """The trees that stand in a denominator of a tree, or are inverted; without numbers, A and C."""
     if not isinstance(t, tuple):
         return
     for x in operands(t):
@@ -96,6 +99,6 @@ def _inverted(t: Tree) -> Iterator[Tree]:
 
 
 def _constant(t: Tree) -> bool:
-    """A number, as it stands."""
+    """Is a tree a number as it stands, made of numbers and π alone?"""
     leaves = (x for x in nodes(t) if not operands(x))
     return all(x == "π" or isinstance(x, (int, Fraction)) or x == ("one",) for x in leaves)

@@ -22,7 +22,7 @@ from .telling import told
 
 @dataclass(frozen=True)
 class Centred:
-    """The linear problem left: ``inertial`` in ξ′ with ``metric`` J_c, and its ``force``.
+    """The linear problem that is left: ``inertial`` in ξ′ with ``metric`` J_c, and its ``force``.
 
     ``acceleration``: ẇ, as the record has it; ``rate``: the same on words in r_c and w.
     """
@@ -36,13 +36,14 @@ class Centred:
 
 
 def central_moments(b: Alphabet) -> tuple[Letter, Expr]:
-    """J_c and its value J − m⁻¹ c c̄."""
+    """The letter J_c and its value J − m⁻¹ c c̄."""
     first = word(b.c)
     return Letter("J_c", b.n, b.n, 1), word(b.J) - word(inverse_letter(b.m)) * first * first.bar
 
 
 def eliminate_translation(stage: Special, c: Chapter) -> Centred:
-    """Solve for ẇ; then the equations of the linear parts."""
+    """The equations of the linear parts about the centre of mass, with ẇ solved for; and their
+    step."""
     b, draft = stage.letters, c.draft("elimination", "elimination")
     xi, eta, w_dot = b.Z.xi_prime, b.w.xi_prime, b.w.acceleration
     cancel = cancelling(b.C)

@@ -15,7 +15,8 @@ from .telling import say
 
 
 def frame_rule(a: Alphabet, gram: Expr) -> PairRule:
-    """``ĀA = gram``, ``ĀN = N_b``, ``ĀF = F_b``: what g leaves in a word carried to 1.
+    """The relations ``ĀA = gram``, ``ĀN = N_b``, ``ĀF = F_b``: what g leaves in a word carried to
+    1.
 
     ``gram`` is the letter C for any group and the identity for isometries.
     """
@@ -32,13 +33,14 @@ def frame_rule(a: Alphabet, gram: Expr) -> PairRule:
 
 
 def varied_gram(a: Alphabet, xi: Letter) -> Expr:
-    """δC for C = ĀA and δA = Aξ."""
+    """The variation δC of C = ĀA along δA = Aξ: ξ̄C + Cξ, derived."""
     g = word(a.A.position)
     return reduce(derivation(g.bar * g, {a.A.position: g * word(xi)}.get), frame_rule(a, gram(a)))
 
 
 def trivial_images(a: Alphabet) -> dict[Letter, Expr]:
-    """ν = gZ, δg = gξ, δ′g = gξ′, F̃ = A f, and the velocities varied by the product rule."""
+    """The images of letters in space: ν = gZ, δg = gξ, δ′g = gξ′, F̃ = A f, and δν, δ′ν by the
+    product rule."""
     g = _told(word(a.A.position), a)
     images: dict[Letter, Expr] = {a.F_group: g * word(a.f)}
     for part, frame in zip(a.parts, a.frames, strict=True):
@@ -53,29 +55,29 @@ def trivial_images(a: Alphabet) -> dict[Letter, Expr]:
 
 
 def rates(d: Draft, a: Alphabet, turned: Mapping[Letter, Expr] | None = None) -> list[Equation]:
-    """Ȧ = AZ and Ṫ = Aw, with Z as given."""
+    """The equations Ȧ = AZ and Ṫ = Aw; ``turned``: what is written for Z."""
     images, first = trivial_images(a), Chapter(a.chapter).label("kernel")
     speeds = {p.rate: substitute(word(p.velocity).marked(first), images) for p in a.parts}
     return [Equation(x, d.tree(substitute(e, turned or {}))) for x, e in speeds.items()]
 
 
 def carry(e: Expr, a: Alphabet) -> Expr:
-    """A scalar expression carried to the identity."""
+    """A scalar expression carried to the identity, in Z, ξ, C and the forces in the body."""
     return reduce(substitute(e, trivial_images(a)), frame_rule(a, gram(a)))
 
 
 def gram(a: Alphabet) -> Expr:
-    """C = ĀA."""
+    """The Cauchy–Green matrix C = ĀA as a word, marked by the step that defines it."""
     return _told(word(a.C), a)
 
 
 def _told(e: Expr, a: Alphabet) -> Expr:
-    """An expression as the step below says it."""
+    """An expression marked as said by the step ``trivialisation``."""
     return e.marked(Chapter(a.chapter).label("trivialisation"))
 
 
 def trivialisation(a: Alphabet, c: Chapter) -> Step:
-    """The definitions of Z, ξ, ξ′, C and what they make of variations."""
+    """The step that defines Z, ξ, ξ′, C, and says what they make of variations."""
     definitions = stated("Z = A⁻¹α,  ξ = A⁻¹δA,  ξ′ = A⁻¹δ′A")
     if a.affine:
         definitions += stated("w = A⁻¹τ,  η = A⁻¹δT,  η′ = A⁻¹δ′T,  N_b = ĀN,  F_b = ĀF")

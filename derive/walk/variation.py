@@ -30,11 +30,13 @@ from .telling import say
 
 ACROSS = read("dϖ(δy, X)")
 LATER = Letter("d/dt δt")
+"""The derivative of δt along a lift."""
 
 
 @dataclass(frozen=True)
 class Principle:
-    """``across``: dϖ(δy, X) on lifts, which vanishes on extremals alone."""
+    """The variation of the action: ``across``: dϖ(δy, X) on lifts, which vanishes on extremals
+    alone."""
 
     across: Expr
     steps: tuple[Step, Step]
@@ -43,7 +45,8 @@ class Principle:
 def principle(
     points: Lagrangian, pulled: Pullback, form: Cartan, a: Alphabet, c: Chapter
 ) -> Principle:
-    """The variation of the action by dϖ, and what dϖ is there: d’Alembert's principle."""
+    """The variation of the action by dϖ, and what dϖ is there, d’Alembert's principle: the steps
+    ``extremal`` and ``dalembert``."""
     varying, working = c.draft("extremal", "variation"), c.draft("dalembert", "contraction")
     lift = tuple(Equation(("call", p.d_position.name, "X"), p.velocity.name) for p in a.parts)
     lagrangian = pulled.kinetic - word(a.U)
@@ -84,7 +87,7 @@ def principle(
 
 
 def tangent_of_lift(a: Alphabet) -> dict[Letter, Expr]:
-    """δ′ ↦ d/dt along a lift: δ′t = 1, δ′g = ν, δ′ν = ν̇."""
+    """The values of δ′ as d/dt along a lift: δ′t = 1, δ′g = ν, δ′ν = ν̇."""
     tangent = {a.dpt: number(1)}
     for p in a.parts:
         tangent |= {p.dp_position: word(p.velocity), p.dp_velocity: word(p.acceleration)}

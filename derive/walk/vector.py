@@ -56,7 +56,7 @@ HATS = tuple({hat(ZETA): word(hat(x))} for x in (TURNING.d_velocity, TURNING.dp_
 
 @dataclass(frozen=True)
 class VectorForm:
-    """The kernel in vectors: ``balance[v]`` = 0 for each free v of δ′; ``inertia`` = I by J.
+    """The kernel in vectors: ``balance[v]`` = 0 for each free v of δ′; ``inertia``: I by J.
 
     ``momenta``: ℓ_b and p_b by their letters.
     """
@@ -68,12 +68,12 @@ class VectorForm:
 
 
 def pairs_of(b: Alphabet) -> list[tuple[Dual, Frame]]:
-    """(ℓ_b, ζ) and (p_b, w)."""
+    """The letters of ℓ_b with those of ζ and, for an affine action, of p_b with those of w."""
     return [(SPINNING, TURNING), *([(b.p_b, b.w)] if b.affine else [])]
 
 
 def vector_form(general: MomentumForm, stage: Isometry, read: Reader, c: Chapter) -> VectorForm:
-    """Write ϖ's derivative by vectors and read the kernel off it."""
+    """dϖ by vectors, and the kernel read off it, with the steps ``momenta`` to ``kernel``."""
     b, pairs = stage.letters, pairs_of(stage.letters)
     momenta = body_momenta(stage, read)
     telling, varying = c.draft("momenta", "identification"), c.draft("exterior_vector", "relation")
@@ -115,7 +115,7 @@ def vector_form(general: MomentumForm, stage: Isometry, read: Reader, c: Chapter
 
 
 def body_momenta(stage: Isometry, read: Reader) -> dict[Letter, Expr]:
-    """ℓ_b and p_b: the coefficients of Ω and η in p̃."""
+    """The values of ℓ_b and p_b, by their letters: the coefficients of Ω and η in p̃."""
     momentum = read.scalar(stage.cartan.momentum)
     found = {SPIN: gradient(reduce(normal_form(momentum), isolate(OMEGA)), OMEGA)}
     b = stage.letters
@@ -123,7 +123,7 @@ def body_momenta(stage: Isometry, read: Reader) -> dict[Letter, Expr]:
 
 
 def pairing(stage: Isometry, read: Reader) -> dict[Letter, Expr]:
-    """The force of the walk in vectors, read off −dŨ(AΩ′, Aη′): Iφ, or μ and F_b."""
+    """The force of the walk in vectors, by Ω′ and η′, read off −dŨ(AΩ′, Aη′): Iφ, or μ and F_b."""
     virtual = read.scalar(primed(stage.cartan.work, stage.letters))
     return {f.xi_prime: gradient(virtual, f.xi_prime) for _, f in pairs_of(stage.letters)}
 
@@ -131,7 +131,7 @@ def pairing(stage: Isometry, read: Reader) -> dict[Letter, Expr]:
 def _by_momenta(
     domega: Expr, pairs: Sequence[tuple[Dual, Frame]], pushes: Mapping[Letter, Expr], read: Reader
 ) -> Contraction:
-    """dϖ in ℓ_b, p_b and their variations."""
+    """dϖ in ℓ_b, p_b and their variations, ready to be contracted."""
     b = read.letters
     return Contraction(
         domega,
@@ -147,7 +147,7 @@ def _by_momenta(
 
 
 def _by_value(stage: Isometry, read: Reader) -> Contraction:
-    """dϖ in ζ and w, as (31)."""
+    """dϖ in ζ and w, as (31), ready to be contracted."""
     b, pairs, form = stage.letters, pairs_of(stage.letters), read.scalar(stage.form)
     return Contraction(
         form,
@@ -164,7 +164,7 @@ def _by_value(stage: Isometry, read: Reader) -> Contraction:
 
 
 def _velocity(pairs: Sequence[tuple[Dual, Frame]]) -> dict[Letter, Expr]:
-    """Ω(X) = ζ and η(X) = w."""
+    """The values Ω(X) = ζ and η(X) = w, by their letters."""
     return {f.xi: word(f.velocity) for _, f in pairs} | {hat(OMEGA): word(hat(ZETA))}
 
 
@@ -173,7 +173,8 @@ def _notation(read: Reader) -> Notation:
 
 
 def _brackets(pairs: Sequence[tuple[Dual, Frame]], read: Reader) -> dict[str, Any]:
-    """How the brackets read, and what they are, once X has the velocity of the motion."""
+    """The fields ``display`` and ``opening`` of a contraction: how the brackets read, and what they
+    are, once X has the velocity of the motion."""
     velocity = _velocity(pairs)
     opened = {x: substitute(e, velocity).marked() for x, e in read.brackets.items()}
     turning = opened.pop(BRACKET)
@@ -190,7 +191,7 @@ def _unknown(pairs: Sequence[tuple[Dual, Frame]]) -> Sentence:
 
 
 def _rates(pairs: Sequence[tuple[Dual, Frame]]) -> list[Sentence]:
-    """What the dotted letters are, in words."""
+    """The phrases that say what ζ̇, ẇ, ℓ̇_b, ṗ_b are."""
     told = [(f.acceleration, f.d_velocity) for _, f in pairs]
     told += [(d.rate, d.d_momentum) for d, _ in pairs]
     return [rate(x.name, y.name) for x, y in told]
@@ -199,7 +200,8 @@ def _rates(pairs: Sequence[tuple[Dual, Frame]]) -> list[Sentence]:
 def _coadjoint(
     c: Contraction, pairs: Sequence[tuple[Dual, Frame]], read: Reader, b: Alphabet, chapter: Chapter
 ) -> tuple[dict[Letter, Expr], Step]:
-    """ℓ̇_b and ṗ_b (Euler, Kirchhoff): the coefficients of Ω′ and η′."""
+    """The balance of moments and forces, coefficients of Ω′ and η′, in ℓ_b and p_b; and the step of
+    ℓ̇_b and ṗ_b (Euler, Kirchhoff)."""
     draft = chapter.draft("coadjoint", "kernel")
     bracket = substitute(read.brackets[BRACKET], c.velocity).marked()
     opened = substitute(without(c.second_order, b.dpt), {BRACKET: bracket})
@@ -224,7 +226,7 @@ def _coadjoint(
 
 
 def _spun(t: Tree) -> Tree:
-    """A sum with −(ζ ∧ ℓ_b) as ℓ_b ∧ ζ, before the other terms."""
+    """The tree of a sum in which ℓ_b ∧ ζ, first, is written for −(ζ ∧ ℓ_b)."""
     against: Tree = ("mul", -1, ("wedge", ZETA.name, SPIN.name))
     if against not in terms(t):
         return t

@@ -16,7 +16,7 @@ from ...schema.kinds import kinds
 
 @cache
 def walked() -> dict[str, Any]:
-    """The module of each kind, in the order in which kinds are told."""
+    """The module of each kind of potential, by its name, in the order in which kinds are told."""
     names = (x.name for x in pkgutil.iter_modules(__path__))
     modules = [import_module(f"{__name__}.{name}") for name in names]
     found = {m.KIND.kind: m for m in modules}

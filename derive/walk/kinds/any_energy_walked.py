@@ -10,6 +10,6 @@ KIND = Expression
 
 
 def pointwise(found: Elements, p: Expression, problem: Problem) -> None:
-    """U and −∂U/∂r_i(t)."""
+    """Add U, with its forces −∂U/∂r_i(t)."""
     del problem
     found.energy(p.U)

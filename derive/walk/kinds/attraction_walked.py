@@ -12,7 +12,7 @@ KIND = Attraction
 
 
 def pointwise(found: Elements, p: Attraction, problem: Problem) -> None:
-    """One element for each point."""
+    """Add −m_i μ / ‖r_i(t) − centre‖ for each point."""
     body = problem.points
     for i, m in p.on or enumerate(body.masses if body else (), 1):
         centre = neg(column(p.centre)) if p.centre else 0

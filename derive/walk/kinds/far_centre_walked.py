@@ -31,7 +31,7 @@ V, W = Letter("V"), Letter("W")
 
 
 def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
-    """The expansion, summed over the points."""
+    """The expansion on words, summed over the points; ``None`` without a far centre."""
     del vectors
     p = next((p for p in problem.potentials if isinstance(p, FarCentre)), None)
     if p is None:
@@ -65,7 +65,8 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
 
 
 def _summand(a: Alphabet, x: Letter, near: Expr, squared: Expr) -> Expr:
-    """−V m_i (1 + s)^(−½) by the binomial series, with ``near`` = ⟨T, x⟩ and its square."""
+    """The summand −V m_i (1 + s)^(−½), by the binomial series, with ``near`` = ⟨T, x⟩ and its
+    square."""
     first, second = -HALF, -HALF * (-HALF - 1) / 2
     over = word(W) * word(W)
     linear = over * (2 * near + inner(word(x), word(x)))

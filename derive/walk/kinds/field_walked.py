@@ -11,7 +11,7 @@ KIND = Field
 
 
 def pointwise(found: Elements, p: Field, problem: Problem) -> None:
-    """The sum over the points, in the block of each."""
+    """Add −Σ q_i ⟨E, r_i(t)⟩, each place in its block."""
     group = problem.group
     assert group is not None
     terms = []

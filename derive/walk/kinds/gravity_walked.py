@@ -19,7 +19,7 @@ KIND = Gravity
 
 
 def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
-    """−⟨γ, Ac⟩ − m⟨γ, T⟩."""
+    """Gravity on words, −⟨γ, Ac⟩ − m⟨γ, T⟩; ``None`` without any."""
     del vectors
     g = gravity(problem.potentials)
     if g is None:

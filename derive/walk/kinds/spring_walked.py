@@ -20,7 +20,8 @@ KIND = Spring
 
 
 def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
-    """Σ ½ k_e ‖A s_e‖²."""
+    """The springs of natural length 0 inside one block on words, Σ ½ k_e ‖A s_e‖²; ``None`` without
+    any."""
     del vectors
     springs = quadratic(problem.potentials, problem.block)
     if not springs:
@@ -38,12 +39,13 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
 
 
 def _on_points(e: int, spring: Spring) -> Tree:
-    """½ k_e ‖r_i(t) − r_j(t)‖²."""
+    """The tree ½ k_e ‖r_i(t) − r_j(t)‖² of one spring."""
     i, j = map(in_space, spring.points())
     return ("mul", Fraction(1, 2), ("at", "k", e), ("norm2", ("add", i, neg(j))))
 
 
 def _definitions(springs: tuple[Spring, ...]) -> list[Equation]:
+    """The equations of s_e, k_e and K = Σ k_e s_e s̄_e."""
     equations = []
     for e, spring in enumerate(springs, 1):
         i, j = spring.ends
@@ -55,7 +57,7 @@ def _definitions(springs: tuple[Spring, ...]) -> list[Equation]:
 
 
 def pointwise(found: Elements, p: Spring, problem: Problem) -> None:
-    """½ k (‖d‖ − ℓ)², but for those that are in K."""
+    """Add ½ k (‖d‖ − ℓ)², unless the spring is in K."""
     if p in quadratic((p,), problem.block):
         return
     i, j = p.ends

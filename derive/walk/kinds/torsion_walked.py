@@ -17,7 +17,7 @@ HALF = Fraction(1, 2)
 
 
 def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
-    """½ k_A Tr 1 − Tr N_A."""
+    """Torsion springs on words, ½ k_A Tr 1 − Tr N_A; ``None`` without any."""
     springs = [p for p in problem.potentials if isinstance(p, Torsion)]
     if not springs:
         return None
@@ -39,17 +39,17 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
 
 
 def _back(p: Torsion) -> Tree:
-    """R̄A."""
+    """The tree R̄A."""
     return mul(("T", _rest(p)), "A") if p.rest else "A"
 
 
 def _rest(p: Torsion) -> Tree:
-    """R, nothing where it is 1."""
+    """The tree R, or 1 where the spring rests there."""
     return ("matrix", *(("row", *row) for row in p.rest)) if p.rest else 1
 
 
 def _axial(N: Tree) -> Tree:
-    """The vector of a matrix: (N₃₂ − N₂₃, …), for j(x)₃₂ = x₁."""
+    """The column of the vector of a matrix: (N₃₂ − N₂₃, …), for j(x)₃₂ = x₁."""
     pairs = ((3, 2), (1, 3), (2, 1))
     entries = (add(("entry", N, i, j), neg(("entry", N, j, i))) for i, j in pairs)
     return ("matrix", *(("row", x) for x in entries))
