@@ -70,7 +70,8 @@ def seen_from_centres(
 
 
 def annulled(S: Letter, algebra: set[Letter]) -> PairRule:
-    """The relations SS = 0 and SY = 0, for Y one of the letters ``algebra`` of 𝔤, and their bars."""
+    """The relations SS = 0 and SY = 0, for Y one of the letters ``algebra`` of 𝔤, and their
+    bars."""
     after = {S, *algebra}
 
     def rule(x: Factor, y: Factor) -> Expr | None:
@@ -82,7 +83,8 @@ def annulled(S: Letter, algebra: set[Letter]) -> PairRule:
 
 
 def _columns(group: Group) -> dict[int, int]:
-    """Row → column of the centre of mass, counted from 0, for the rows of each factor that has one."""
+    """Row → column of the centre of mass, counted from 0, for the rows of each factor that
+    has one."""
     return {o + i: o + f.n for o, f in group.centred for i in range(f.n)}
 
 
@@ -114,7 +116,8 @@ def _central(group: Group) -> Tree:
 
 
 def _first(group: Group) -> Equation:
-    """The equation of c_c, which is c with 0 for the first moments of factors that have a centre."""
+    """The equation of c_c, which is c with 0 for the first moments of factors that have a
+    centre."""
     last = _columns(group)
     rows: list[Tree] = [0 if i in last else ("entry", "c", i + 1) for i in range(group.n)]
     return Equation("c_c", column(tuple(rows)))

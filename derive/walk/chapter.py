@@ -68,7 +68,8 @@ class Draft:
         given: Iterable[Equation] = (),
         hypotheses: Iterable[Hypothesis] = (),
     ) -> Step:
-        """The step, finished: its equations hold where those ``given`` and its ``hypotheses`` do."""
+        """The step, finished: its equations hold where those ``given`` and its ``hypotheses``
+        do."""
         written = tuple(equations)  # before the uses are read off, for it may be a generator
         c = self.chapter
         end(self.label, self.rule)

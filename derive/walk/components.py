@@ -143,7 +143,8 @@ def _column(entries: Sequence[Tree]) -> tuple[tuple[Laurent], ...]:
 
 
 def _tensor(problem: Problem, inertia: Step) -> Tensor | None:
-    """I, or I_c, in the numbers of the body, by the last equation for it; ``None`` without a body."""
+    """I, or I_c, in the numbers of the body, by the last equation for it; ``None`` without a
+    body."""
     if problem.body is None:
         return None
     _, first, second = moments_of(problem)
@@ -161,7 +162,8 @@ def _tensor(problem: Problem, inertia: Step) -> Tensor | None:
 
 
 def moments_of(problem: Problem) -> tuple[Tree, tuple[Tree, ...], Rows]:
-    """m, c (3 entries) and J (3 × 3) of all that the body is made of, as trees in the parameters."""
+    """m, c (3 entries) and J (3 × 3) of all that the body is made of, as trees in the
+    parameters."""
     body = problem.body
     if isinstance(body, MomentBody):
         return body.mass(), body.first(), body.second()

@@ -50,7 +50,8 @@ def conserved_steps(
     b: Alphabet,
     c: Chapter,
 ) -> tuple[Step, ...]:
-    """The step that says which of the energy, ℓ and p the motions keep; none where they keep none."""
+    """The step that says which of the energy, ℓ and p the motions keep; none where they keep
+    none."""
     group = problem.group
     assert group is not None
     draft = c.draft("conserved", "conservation")

@@ -79,7 +79,8 @@ class Contraction:
         return replace(self, form=d.said(self.form), images=images)
 
     def any_vector(self, d: Draft) -> Tree:
-        """The tree of dϖ(X, δ′), in which δt(X) = 1 and the other components of X are those of δ."""
+        """The tree of dϖ(X, δ′), in which δt(X) = 1 and the other components of X are those
+        of δ."""
         form = substitute(self.form, self._now)
         return gathered(d, form, self.core, self._shifts, self.notation)
 

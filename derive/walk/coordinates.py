@@ -1,4 +1,5 @@
-"""Coordinates ζ on 𝔤: Z = Σ ζ_a E_a, in the basis of the group or in one that the problem states."""
+"""Coordinates ζ on 𝔤: Z = Σ ζ_a E_a, in the basis of the group or in one that the problem
+states."""
 
 from __future__ import annotations
 

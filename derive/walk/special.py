@@ -145,7 +145,8 @@ def specialise(
 
 
 def turns_whole(group: Group) -> bool:
-    """Are the linear parts of 𝔤 all the skew matrices, so that a skew coefficient of ξ′ vanishes?"""
+    """Are the linear parts of 𝔤 all the skew matrices, so that a skew coefficient of ξ′
+    vanishes?"""
     n = group.n
     return "orthogonal" in group.relations and len(group.linear_basis) == n * (n - 1) // 2 > 0
 
@@ -172,7 +173,8 @@ def relation(group: Group, bodies: Bodies | None, c: Chapter) -> tuple[Step, ...
 
 
 def _smaller(group: Group) -> Prose:
-    """The sentence that further relations hold, where a larger group has the same ones; else none."""
+    """The sentence that further relations hold, where a larger group has the same ones; else
+    none."""
     n, skew = group.n, "orthogonal" in group.relations
     whole = n * (n - 1) // 2 if skew else n * n - 1
     if group.affine:

@@ -32,7 +32,8 @@ class Stage:
     on: str = ""
 
     def value(self, values: Mapping[str, Any]) -> Any:
-        """What the stage makes of these values; ``None`` where something that it takes is missing."""
+        """What the stage makes of these values; ``None`` where something that it takes is
+        missing."""
         given = [(_found(x.rstrip("?"), values), x.endswith("?")) for x in self.takes.split()]
         if any(x is None and not optional for x, optional in given):
             return None

@@ -36,7 +36,8 @@ def kinetic_metric(kinetic: Expr, a: Alphabet) -> Hypothesis:
 
 
 def regular(form: Tree, space: str) -> Hypothesis:
-    """The hypothesis that a form on a space is not degenerate; of ⟨Ω, Ω′⟩_I that I has an inverse."""
+    """The hypothesis that a form on a space is not degenerate; of ⟨Ω, Ω′⟩_I that I has an
+    inverse."""
     if isinstance(form, tuple) and form[0] == "metric" and {*form[2:]} == {"Ω", "Ω′"}:
         return Hypothesis("invertible", form[1])
     return Hypothesis("nondegenerate", form, space)
@@ -87,7 +88,8 @@ def supposing_all(steps: Iterable[Step]) -> tuple[Step, ...]:
 
 
 def _inverted(t: Tree) -> Iterator[Tree]:
-    """The trees that stand in a denominator of a tree, or are inverted; without numbers, A and C."""
+    """The trees that stand in a denominator of a tree, or are inverted; without numbers, A
+    and C."""
     if not isinstance(t, tuple):
         return
     for x in operands(t):
