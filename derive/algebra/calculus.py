@@ -27,12 +27,14 @@ from .words import (
 )
 
 Image = Callable[[Letter], Expr | None]
+"""The value of a derivation on a letter; ``None`` for a constant."""
 
 
 def map_terms(
     e: Expr, image: Callable[[Traces, Word, Fraction], Expr], shape: Expr | None = None
 ) -> Expr:
-    """Σ image(traces, word, coefficient) over the terms; ``shape``: a zero as the images are."""
+    """Σ image(traces, word, coefficient) over the terms of an expression; ``shape``: a zero of the
+    shape of the images, where that is another."""
     total = (e if shape is None else shape.of(e)).like({})
     for (traces, w), c in e.terms.items():
         total = total + image(traces, w, c)
@@ -40,7 +42,7 @@ def map_terms(
 
 
 def map_traces(e: Expr, image: Callable[[Word], Expr]) -> Expr:
-    """Every trace replaced by a scalar."""
+    """An expression with image(word) for the trace of each word, images being scalars."""
 
     def mapped(traces: Traces, w: Word, c: Fraction) -> Expr:
         term = Expr(e.rows, e.cols, {((), w): c})
@@ -52,18 +54,18 @@ def map_traces(e: Expr, image: Callable[[Word], Expr]) -> Expr:
 
 
 def _between(before: Word, image: Expr, after: Word) -> Expr:
-    """An expression between two words."""
+    """The product of a word, an expression and a word, either of which may be empty."""
     result = expr_of_word(before) * image if before else image
     return result * expr_of_word(after) if after else result
 
 
 def _apply_at(w: Word, k: int, image: Expr) -> Expr:
-    """The word with its k-th factor replaced (image given for the plain letter)."""
+    """The word with its k-th factor replaced; ``image``: of the plain letter."""
     return _between(w[:k], image.bar if w[k][1] else image, w[k + 1 :])
 
 
 def leibniz(w: Word, delta: Image) -> Expr | None:
-    """The product rule on a word, one factor at a time; ``None`` when all are constant."""
+    """δw of a word w, by the product rule; ``None`` when all its letters are constant."""
     total: Expr | None = None
     for k, (letter, _) in enumerate(w):
         image = delta(letter)
@@ -90,7 +92,7 @@ def derivation(e: Expr, delta: Image) -> Expr:
 
 
 def substitute(e: Expr, images: Mapping[Letter, Expr]) -> Expr:
-    """The homomorphism that sends letters to expressions (bars go along)."""
+    """An expression with its letters replaced by ``images``: a homomorphism, bars go along."""
 
     def of(w: Word) -> Expr:
         result: Expr | None = None
@@ -167,7 +169,8 @@ def _rewrite_cycle(cycle: Word, rules: tuple[PairRule, ...]) -> Expr | None:
 
 
 def gradient(e: Expr, letter: Letter) -> Expr:
-    """``G`` with ``e = Tr x̄ G + (terms without x)``, for a scalar ``e`` linear in the letter x.
+    """The ``G`` with ``e = Tr x̄ G + (terms without x)``, for a scalar ``e`` linear in the letter
+    x; ``ValueError`` where it is not.
 
     For a symmetric or skew letter only that part of G is determined, and it is what is returned.
     """
@@ -191,8 +194,8 @@ def gradient(e: Expr, letter: Letter) -> Expr:
 
 
 def coefficient_of(e: Expr, x: Letter) -> Expr:
-    """``M`` with ``e = M x + (terms without x)``, for a vector ``e`` linear in the vector x, or any
-    ``e`` linear in the scalar x."""
+    """The ``M`` with ``e = M x + (terms without x)``, for a vector ``e`` linear in the vector x, or
+    any ``e`` linear in the scalar x."""
     scalar, ending = x.rows == 1 == x.cols, (x, False)
 
     def coefficient(traces: Traces, w: Word, c: Fraction) -> Expr:
@@ -209,12 +212,12 @@ def coefficient_of(e: Expr, x: Letter) -> Expr:
 
 
 def without(e: Expr, *letters: Letter) -> Expr:
-    """The terms in which none of the letters occurs."""
+    """The sum of the terms in which none of the letters occurs."""
     return e.like({key: c for key, c in e.terms.items() if not _occurs(letters, *key)})
 
 
 def terms_with(e: Expr, *letters: Letter) -> Expr:
-    """The terms in which one of the letters occurs."""
+    """The sum of the terms in which at least one of the letters occurs."""
     return e.like({key: c for key, c in e.terms.items() if _occurs(letters, *key)})
 
 

@@ -21,7 +21,9 @@ from .samplers import Sampler, Source
 Basis = tuple[Matrix, ...]
 
 LARGEST = 8
+"""The largest size of the matrices of a named group, without the last row of an affine one."""
 LARGEST_PRODUCT = 12
+"""The largest size of the matrices of a product."""
 
 
 def so_basis(n: int) -> Basis:
@@ -144,8 +146,8 @@ def affine_basis(linear: Sequence[Matrix], n: int) -> Basis:
 
 @dataclass(frozen=True)
 class Family:
-    """A family of groups with a parameter n: linear ones, or the affine ones with the same linear
-    parts.
+    """A family of groups with a parameter n, by a basis and a sampler of their linear parts;
+    ``affine``: with all translations.
 
     ``least``: the smallest n; ``step``: of n from one group to the next; ``doubled``: are the
     matrices of size 2n?
@@ -161,7 +163,7 @@ class Family:
 
     @property
     def most(self) -> int:
-        """The largest n of the family."""
+        """The largest n of a group of the family."""
         return LARGEST // 2 if self.doubled else LARGEST
 
     def make(self, name: str, n: int) -> Group:
@@ -228,7 +230,8 @@ def group(name: str) -> Group:
 
 
 def _nearest(name: str) -> str:
-    """The group that is meant by a name in other letters or without parentheses; "" if none."""
+    """The known name that is meant by one in other letters or without parentheses; "" if none is
+    near."""
     families, parts = {x.casefold(): x for x in FAMILIES}, []
     for part in re.split(r"\s*[x×*]\s*", name.strip()):
         match = re.fullmatch(r"([A-Za-z]+)[\s_(\[]*([0-9]{1,3})[\s)\]]*", part)
@@ -240,7 +243,8 @@ def _nearest(name: str) -> str:
 
 
 def product(factors: tuple[Group, ...]) -> Group:
-    """The product, of block diagonal matrices; ``ValueError`` where they are too large."""
+    """The product of groups, of block diagonal matrices; ``ValueError`` where they are too
+    large."""
     size = sum(g.size for g in factors)
     name = " x ".join(g.name for g in factors)
     if size > LARGEST_PRODUCT:

@@ -25,7 +25,7 @@ def exterior(form: Expr, prime: Mapping[Letter, Letter], delta: Image, delta_pri
 def structure_equation(
     frame: Letter, xi: Letter, xi_prime: Letter, eta: Letter, eta_prime: Letter
 ) -> Expr:
-    """``δη′ − δ′η`` when  δg = g ξ  and  δx = g η  (so ``[ξ′, ξ]`` for η = ξ).
+    """The value of ``δη′ − δ′η`` when  δg = g ξ  and  δx = g η  (so ``[ξ′, ξ]`` for η = ξ).
 
     From δ(δ′x) = δ′(δx): the terms in which the frame g is varied must balance it.
     """
@@ -36,7 +36,8 @@ def structure_equation(
 
 
 def strip_left(e: Expr, frame: Letter) -> Expr:
-    """The expression y with e = g y, for an invertible first letter g."""
+    """The expression y with e = g y, for an invertible letter g that each word of e begins with;
+    ``ValueError`` where one does not."""
     terms = {}
     for (traces, w), c in e.terms.items():
         if not w or w[0] != (frame, False):

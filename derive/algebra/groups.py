@@ -43,12 +43,13 @@ class Group:
 
     @cached_property
     def stated(self) -> Group:
-        """The same group in the basis that the user states, the coordinates of the state."""
+        """The same group in the basis that the user states, whose coordinates are those of the
+        state."""
         return replace(self, basis=self.given, given=()) if self.given else self
 
     @property
     def dimension(self) -> int:
-        """d = dim 𝔤."""
+        """The dimension d of 𝔤."""
         return len(self.basis)
 
     @property
@@ -121,7 +122,8 @@ class Group:
 
     @cached_property
     def places(self) -> tuple[tuple[int, Group], ...]:
-        """The blocks of a product: (first row, factor); one block for any other group."""
+        """The blocks of a product as (first row, factor), rows counted from 0; one block for any
+        other group."""
         found, offset = [], 0
         for factor in self.factors or (self,):
             found.append((offset, factor))
@@ -157,7 +159,7 @@ class Group:
         return tuple(x for corner in corners for x in (*entries, *corner))
 
     def hat(self, coordinates: Sequence[Any]) -> Matrix:
-        """Z = Σ ζᵃ E_a, the element of 𝔤 with these d coordinates."""
+        """The element Z = Σ ζᵃ E_a of 𝔤 with the d coordinates ζ."""
         return q.combine(coordinates, self.basis)
 
     @cached_property
@@ -174,12 +176,13 @@ class Group:
         return q.matrix(rows)
 
     def reading(self, a: int) -> list[tuple[Fraction, int, int]]:
-        """ζᵃ as Σ coefficient · Z_ij: the terms (coefficient, i, j), counted from 0."""
+        """The terms (coefficient, i, j) of ζᵃ = Σ coefficient · Z_ij, a, i and j counted from 0."""
         s = self.size
         return [(c, k // s, k % s) for k, c in enumerate(self._coordinate_rows[a]) if c]
 
     def nearest(self, z: Matrix) -> tuple[Any, ...]:
-        """The coordinates that the same rows read off any matrix: those of Z when Z is in 𝔤."""
+        """The d coordinates that :meth:`reading` reads off any matrix of the size: those of Z where
+        it is in 𝔤."""
         flat = q.flatten(z)
         return tuple(
             sum((c * x for c, x in zip(row, flat, strict=True) if c), Fraction(0))
@@ -193,7 +196,8 @@ class Group:
 
     @cached_property
     def structure_constants(self) -> tuple[Matrix, ...]:
-        """The coordinates ``c[a][b]`` of [E_a, E_b]; ``ValueError`` if 𝔤 is not closed."""
+        """The coordinates ``c[a][b]`` of [E_a, E_b], d × d × d; ``ValueError`` if 𝔤 is not
+        closed."""
         table = []
         for a in self.basis:
             row = []

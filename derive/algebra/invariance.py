@@ -29,7 +29,8 @@ def changes(g: Group) -> Iterator[Matrix]:
 
 
 def pairings(g: Group) -> Iterator[Matrix]:
-    """Ē_b S E_a, each once: a metric is left-invariant where all of them pair with J to 0."""
+    """The matrices Ē_b S E_a, each once: a metric is left-invariant where J pairs with each of them
+    to 0."""
     for S in changes(g):
         for a, x in enumerate(g.basis):
             for y in g.basis[: a + 1]:

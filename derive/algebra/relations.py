@@ -49,7 +49,7 @@ class Relations:
 
     @property
     def none(self) -> bool:
-        """Is the group open among all maps, so that it has no relations?"""
+        """Are there no relations, the group being open among all maps?"""
         return not (self.hull or self.form or self.determinant)
 
 
@@ -124,7 +124,7 @@ def _kernel(space: Sequence[Vector], value: Callable[[Vector], Sequence[Fraction
 
 
 def _matrix_of(v: Vector, n: int) -> Matrix:
-    """The n × n matrix of a vector's first n² entries."""
+    """The n × n matrix whose entries are a vector's first n²."""
     return tuple(v[n * i : n * i + n] for i in range(n))
 
 
@@ -132,7 +132,7 @@ def _matrix_of(v: Vector, n: int) -> Matrix:
 
 
 def _associative_hull(g: Group) -> list[Vector]:
-    """A basis of E₀: products of matrices of 𝔤, until nothing is added or all is there."""
+    """A basis, in echelon form, of E₀, which products of matrices of 𝔤 span."""
     n, most, span = g.n, g.n * (g.n + g.affine), _Span()
     found: list[Matrix] = []
 
@@ -163,7 +163,8 @@ def _product(a: Matrix, b: Matrix) -> Matrix:
 
 
 def _projector(hull: Sequence[Vector], n: int) -> Matrix:
-    """The projection onto the hull: orthogonal in A, then in T among what A leaves to it."""
+    """The matrix H of the projection onto the hull: orthogonal in A, then in T among what A leaves
+    to it."""
     size, width = n * n, len(hull[0]) - n * n
     moving = [v for v in hull if any(v[:size])]
     a, t = (tuple(v[part] for v in moving) for part in (slice(size), slice(size, None)))
@@ -189,7 +190,8 @@ def _combination(rows: Matrix, dual: Matrix, height: int, width: int) -> Matrix:
 
 
 def _dual(rows: Matrix) -> Matrix:
-    """(bb̄)⁻¹b: the coefficients of the orthogonal projection onto independent rows b."""
+    """The matrix (bb̄)⁻¹b, which gives the coefficients of the orthogonal projection onto the
+    independent rows b."""
     if not rows:
         return ()
     inverse = q.inverse(q.times(rows, q.transposed(rows)))
@@ -206,7 +208,8 @@ def _traceless(e: Matrix) -> Matrix:
 
 
 def _variation(S: Matrix, e: Matrix, conformal: bool) -> Vector:
-    """ēS + Se, the change of the form S along e, or along its traceless part (``conformal``)."""
+    """The n² entries of ēS + Se, the change of the form S along e, or along its traceless part
+    (``conformal``)."""
     e = _traceless(e) if conformal else e
     return q.flatten(q.plus(_product(q.transposed(e), S), _product(S, e)))
 
@@ -229,13 +232,14 @@ def _form(linear: Sequence[Matrix], n: int) -> Matrix:
 
 
 def _unit(n: int, i: int, j: int, sign: int) -> Vector:
-    """E_ij + sign E_ji, or E_ii, as a vector."""
+    """The entries of E_ij + sign E_ji, or of E_ii."""
     unit = q.unit(n, i, j)
     return q.flatten(unit if i == j else q.plus(unit, q.scaled(sign, q.unit(n, j, i))))
 
 
 def _candidates(space: Sequence[Vector], n: int) -> Iterable[Matrix]:
-    """Matrices in a linear space of forms, simple ones first: 1, the basis, combinations."""
+    """Matrices of a linear space of forms, one of which is likely to be invertible, simple ones
+    first: 1, the basis, combinations."""
     if not space:
         return
     one = q.identity(n)
@@ -284,5 +288,5 @@ def _complex_frame(K: Matrix) -> Matrix:
 
 
 def _image(K: Matrix, v: Vector) -> Vector:
-    """K v."""
+    """The vector K v."""
     return tuple(sum((x * y for x, y in zip(row, v, strict=True)), Fraction(0)) for row in K)

@@ -37,7 +37,7 @@ def combination(random: Source, size: int, basis: Sequence[Matrix]) -> Matrix:
 
 
 def cayley(skew: Matrix) -> Matrix:
-    """(1 − S)(1 + S)⁻¹: a rotation for a skew S, for which 1 + S is invertible."""
+    """The rotation (1 − S)(1 + S)⁻¹ of a skew S, for which 1 + S is invertible."""
     one = q.identity(len(skew))
     inverse = q.inverse(q.plus(one, skew))
     assert inverse is not None

@@ -20,7 +20,8 @@ def _is_vector(letter: Letter) -> bool:
 
 
 def antisymmetry(left: Factor, right: Factor) -> Expr | None:
-    """``x ∧ y = −y ∧ x``: the lesser name goes inside j, from the left and from the right alike.
+    """The rule ``x ∧ y = −y ∧ x``: the lesser name goes inside j, from the left and from the right
+    alike.
 
     Both sides must choose the same way: a transpose turns one into the other.
     """
@@ -39,7 +40,7 @@ def antisymmetry(left: Factor, right: Factor) -> Expr | None:
 
 
 def double(left: Factor, right: Factor) -> Expr | None:
-    """``j(x) j(y) = y x̄ − ⟨x, y⟩ 1``: the double vector product."""
+    """The rule ``j(x) j(y) = y x̄ − ⟨x, y⟩ 1``: the double vector product."""
     x, y = left[0].axis, right[0].axis
     if x is None or y is None:
         return None
@@ -47,15 +48,17 @@ def double(left: Factor, right: Factor) -> Expr | None:
 
 
 RULES: tuple[PairRule, ...] = (antisymmetry, double)
+"""The rules of the normal form: no two neighbouring j's, and j(x)y with x before y."""
 
 
 def normal_form(e: Expr) -> Expr:
-    """The normal form of an expression with j's and vectors."""
+    """An expression by :data:`RULES`, in which two that are equal have the same terms."""
     return reduce(e, *RULES)
 
 
 def fold_inertia(e: Expr, moments: Letter, inertia: Expr) -> Expr:
-    """``Tr j(x) J j(y)‾ = ⟨x, y⟩_I`` wherever the left side stands as a trace."""
+    """A scalar with ``⟨x, y⟩_I`` for each trace ``Tr j(x) J j(y)‾``; J and I are ``moments``,
+    ``inertia``."""
 
     def metric(cycle: Word) -> Expr:
         axes = [x.axis for x, _ in cycle if x.axis is not None]
@@ -67,7 +70,8 @@ def fold_inertia(e: Expr, moments: Letter, inertia: Expr) -> Expr:
 
 
 def fold_double(e: Expr) -> Expr:
-    """``⟨x, y⟩ z − ⟨x, z⟩ y = x ∧ (z ∧ y)`` wherever two terms of a vector allow it."""
+    """A vector with ``x ∧ (z ∧ y)`` for two terms ``⟨x, y⟩ z − ⟨x, z⟩ y``, wherever they stand
+    together."""
     terms = dict(e.terms)
     folded = zero(e.rows, e.cols)
     for key, c in e.terms.items():
@@ -82,7 +86,7 @@ def fold_double(e: Expr) -> Expr:
 
 
 def _inner_factors(key: Key) -> list[tuple[Letter, Letter, Expr]]:
-    """The ways to read  ⟨x, y⟩ · others · z  in a term that ends in one vector."""
+    """The (x, y, others) for which a term that ends in the vector z is  ⟨x, y⟩ · others · z."""
     traces, w = key
     if len(w) != 1:
         return []

@@ -34,14 +34,15 @@ def group_of_basis(
 
 
 def _turning(g: Group) -> Group:
-    """so(3), alone or with all translations, in the basis that j gives it."""
+    """The group, which is SO(3) or SE(3), in the basis that j gives; ``given``: the one it had, if
+    another."""
     basis = affine_basis(so_basis(3), 3) if g.affine else so_basis(3)
     given = () if g.basis == basis else g.basis
     return Group(g.name, 3, g.action, basis, enclosing(g), larger=True, given=given)
 
 
 def nilpotent(basis: Sequence[Matrix]) -> bool:
-    """Do the products of n matrices of the basis, of size n, all vanish?"""
+    """Do all products of n matrices of the basis vanish, n being their size?"""
     products = [*basis]
     for _ in basis[0][1:]:
         rows: tuple[tuple[Fraction, ...], ...] = ()
@@ -54,7 +55,7 @@ def nilpotent(basis: Sequence[Matrix]) -> bool:
 
 
 def enclosing(g: Group) -> Sampler:
-    """Elements of the largest named group with the same relations.
+    """A sampler of the largest named group with the same relations.
 
     A point g₀ of it stands for the coset g₀G, which left translation makes a copy of G with the
     same Lagrangian up to the potential: what holds on every such coset holds on G.
@@ -104,5 +105,5 @@ def _closed(g: Group) -> None:
 
 
 def shown(m: Matrix) -> str:
-    """A matrix in one line."""
+    """The text of a matrix in one line, for a message."""
     return "[" + ", ".join("[" + ", ".join(map(str, row)) + "]" for row in m) + "]"

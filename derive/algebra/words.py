@@ -41,9 +41,11 @@ class Letter:
 
 
 Factor = tuple[Letter, bool]
+"""A letter, and whether it is barred."""
 Word = tuple[Factor, ...]
 Traces = tuple[Word, ...]
 Key = tuple[Traces, Word]
+"""Of a term: the words whose traces are multiplied, and the word outside them."""
 Terms = dict[Key, Fraction]
 UNITY = Fraction(1)
 
@@ -53,17 +55,17 @@ def _order(word: Word) -> tuple[int, tuple[tuple[str, bool], ...]]:
 
 
 def row_dim(factor: Factor) -> Dim:
-    """Rows of a letter, columns of a barred one."""
+    """The number of rows of a factor: of a barred letter, its columns."""
     return factor[0].cols if factor[1] else factor[0].rows
 
 
 def col_dim(factor: Factor) -> Dim:
-    """Columns of a letter, rows of a barred one."""
+    """The number of columns of a factor: of a barred letter, its rows."""
     return factor[0].rows if factor[1] else factor[0].cols
 
 
 def transpose_word(word: Word) -> tuple[int, Word]:
-    """``(x y)‾ = ȳ x̄``: the sign that skew letters leave, and the word."""
+    """The sign and the word of the transpose, ``(x y)‾ = ȳ x̄``; skew letters leave the sign."""
     sign = 1
     factors: list[Factor] = []
     for letter, bar in reversed(word):
@@ -83,7 +85,8 @@ def rotations(word: Word) -> Iterator[Word]:
 
 @lru_cache(2**14)
 def canonical_trace(word: Word) -> tuple[int, Word]:
-    """Sign and least representative of ``Tr word``; sign 0 when the trace vanishes."""
+    """The sign and the least word of ``Tr word`` among those of equal or opposite trace; sign 0
+    when it vanishes."""
     if len(word) == 1 and (word[0][0].traceless or word[0][0].symmetry < 0):
         return 0, ()
     best = min(rotations(word), key=_order)
@@ -95,7 +98,8 @@ def canonical_trace(word: Word) -> tuple[int, Word]:
 
 
 def _cut(word: Word) -> tuple[list[Word], Word]:
-    """Split a word where the inner dimension is 1 into its scalars and the rest."""
+    """The scalars of a word, which is split where the inner dimension is 1, and the word that is
+    left."""
     pieces: list[Word] = []
     start = 0
     for k in range(1, len(word) + 1):
@@ -116,7 +120,7 @@ def _cut_cycle(word: Word) -> list[Word]:
 
 
 def _collect(items: Iterable[tuple[Fraction, list[Word], Word]]) -> Terms:
-    """Sum canonical terms; each item is coefficient, words under a trace, open word."""
+    """The canonical terms of a sum; each item is coefficient, words under a trace, open word."""
     total: Terms = {}
     for coefficient, traced, word in items:
         scalars, rest = _cut(word)
@@ -140,7 +144,7 @@ NONE: Lineage = frozenset()
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Expr:
-    """A sum of words of one shape; immutable, comparable, hash-free.
+    """A sum of words of one shape, rows × cols; immutable, comparable, not hashable.
 
     ``lineage``: marks of what it was made from, which every operation hands on; equality and
     arithmetic do not see it.
@@ -166,7 +170,7 @@ class Expr:
 
     @property
     def is_scalar(self) -> bool:
-        """Is it 1 × 1?"""
+        """Is the shape 1 × 1?"""
         return self.rows == 1 == self.cols
 
     def _same(self, other: Expr) -> None:
@@ -245,7 +249,7 @@ def _both(a: Lineage, b: Lineage) -> Lineage:
 
 
 def word(*letters: Letter) -> Expr:
-    """The product of letters, as an expression."""
+    """The product of letters, plain, as an expression."""
     product = Expr(letters[0].rows, letters[0].cols, _collect([_single(letters[0])]))
     for letter in letters[1:]:
         product = product * Expr(letter.rows, letter.cols, _collect([_single(letter)]))
@@ -257,12 +261,12 @@ def _single(letter: Letter) -> tuple[Fraction, list[Word], Word]:
 
 
 def zero(rows: Dim = 1, cols: Dim = 1) -> Expr:
-    """The zero of a shape."""
+    """The zero of a shape, rows × cols."""
     return Expr(rows, cols, {})
 
 
 def number(value: int | Fraction) -> Expr:
-    """A rational scalar."""
+    """A rational number as a 1 × 1 expression."""
     return Expr(1, 1, {((), ()): Fraction(value)} if value else {})
 
 
@@ -277,7 +281,8 @@ def one(n: Dim) -> Expr:
 
 
 def trace(e: Expr) -> Expr:
-    """``Tr e``; the trace of the identity is its size."""
+    """The trace ``Tr e`` of a square expression, ``ValueError`` for any other; that of 1 is its
+    size."""
     if e.rows != e.cols:
         raise ValueError(f"no trace of a {e.rows}×{e.cols} expression")
     size = Fraction(e.rows) if isinstance(e.rows, int) else None
@@ -293,12 +298,13 @@ def trace(e: Expr) -> Expr:
 
 
 def inner(a: Expr, b: Expr, metric: Expr | None = None) -> Expr:
-    """``⟨a, b⟩ = Tr a b̄`` for matrices and ``ā b`` for vectors, with a metric in between."""
+    """The scalar ``⟨a, b⟩ = Tr a b̄`` of matrices, ``ā b`` of vectors, with a metric in between if
+    there is one."""
     if a.cols == 1:
         return a.bar * b if metric is None else a.bar * metric * b
     return trace(a * b.bar if metric is None else a * metric * b.bar)
 
 
 def expr_of_word(w: Word) -> Expr:
-    """A bare word as an expression."""
+    """The expression whose only term is a word, not empty."""
     return Expr(row_dim(w[0]), col_dim(w[-1]), _collect([(UNITY, [], w)]))

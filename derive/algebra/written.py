@@ -17,7 +17,8 @@ from .words import Expr, Factor, Letter, Word, rotations, row_dim, transpose_wor
 
 @dataclass(frozen=True)
 class Notation:
-    """``metrics``: letters written as ⟨·,·⟩_M; ``display``: trees that letters stand for.
+    """How expressions are written: ``metrics``: letters written as ⟨·,·⟩_M; ``display``: trees that
+    letters stand for.
 
     ``covectors``: letters whose traces with another are written ⟨·,·⟩.
     """
@@ -53,7 +54,7 @@ READING = [
     "ζ",
     "Z",
 ]
-"""Which letter comes first where a product may be read from either end."""
+"""The letters in the order in which they begin a product that may be read from either end."""
 
 
 def _rank(letter: Letter) -> int:
@@ -67,7 +68,7 @@ def metrics(*names: str, display: Mapping[Letter, Tree] | None = None) -> Notati
 
 
 def tree_of(e: Expr, notation: Notation = PLAIN) -> Tree:
-    """The expression as a tree, positive terms first, otherwise in order of derivation."""
+    """The tree of an expression, positive terms first, otherwise in order of derivation."""
     terms: list[tuple[bool, Tree]] = []
     for (traces, w), c in e.terms.items():
         scalars = _group_powers(sorted((_scalar(t, notation) for t in traces), key=_weight))
@@ -80,7 +81,8 @@ def tree_of(e: Expr, notation: Notation = PLAIN) -> Tree:
 
 
 def _weight(t: Tree) -> int:
-    """The key by which terms are ordered: single letters before traces, variations of time last."""
+    """0 for a single letter, 1 for a trace, 2 for a variation as δt: the order of the factors of a
+    term."""
     if isinstance(t, str):
         return 2 if t.startswith("δ") else 0
     return 1
@@ -107,7 +109,8 @@ def _factor(f: Factor, notation: Notation) -> Tree:
 
 
 def _product(w: Word, notation: Notation) -> Tree:
-    """A word with a vector at its right end is folded from there, so that j(a) b reads a ∧ b."""
+    """The tree of a word; with a vector at its right end it is folded from there, so that j(a) b
+    reads a ∧ b."""
     if row_dim(w[0]) == 1:
         sign, column = transpose_word(w)
         shown = ("T", _product(column, notation))
@@ -145,7 +148,8 @@ def _scalar_product(w: Word, notation: Notation) -> Tree:
 
 
 def _inner_order(w: Word) -> tuple[object, ...]:
-    """The key by which ⟨a, b⟩ is ordered: few bars, the body's own vector innermost, ⟨Zc, η⟩."""
+    """The key of the ways to write ⟨a, b⟩, least first: few bars, the body's own vector innermost,
+    ⟨Zc, η⟩."""
     return _bars(w), len(w) > 2 and w[-1][0].name != "c", _rank(w[0][0]), _names(w)
 
 
@@ -179,7 +183,7 @@ def _reading_order(w: Word) -> tuple[object, ...]:
 
 
 def _paired(candidates: list[tuple[int, Word]], notation: Notation) -> Tree | None:
-    """⟨P, x⟩ for Tr P x̄, where P is a covector."""
+    """The tree ⟨P, x⟩ for Tr P x̄, where P is a covector; ``None`` where there is none."""
     for sign, ((left, barred), right) in candidates:
         if left in notation.covectors and not barred and (right[1] or right[0].symmetry < 0):
             pair = (_factor((x, False), notation) for x in (left, right[0]))
