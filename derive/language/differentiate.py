@@ -1,4 +1,4 @@
-"""Derivatives of scalar trees, and the tidy form of products and quotients."""
+"""Derivatives of scalar trees, and products and quotients with like powers in one."""
 
 from __future__ import annotations
 
@@ -28,11 +28,12 @@ DERIVATIVES: dict[str, Callable[[Tree], Tree]] = {
     "tanh": lambda x: _plus_square(_f("tanh", x), -1),
     "atan": lambda x: ("div", 1, _plus_square(x)),
 }
-"""The elementary functions of problem files and their derivatives."""
+"""The elementary functions of problem files, by name, and the derivative of each at a tree."""
 
 
 def derivative(t: Tree, x: Tree) -> Tree:
-    """∂t/∂x for a scalar tree and a subtree x of it, taken as a variable."""
+    """The derivative ∂t/∂x of a scalar tree by a subtree x of it, taken as a variable;
+    ``ValueError`` for operators that have none."""
     if t == x:
         return 1
     if not isinstance(t, tuple) or t[0] in ("par", "at", "entry", "norm2", "call", "inner"):
@@ -61,12 +62,12 @@ def derivative(t: Tree, x: Tree) -> Tree:
 
 
 def power(x: Tree, n: int) -> Tree:
-    """xⁿ."""
+    """The tree xⁿ; 1 and x where n is 0 and 1."""
     return 1 if n == 0 else x if n == 1 else ("pow", x, n)
 
 
 def product(*factors: Tree) -> Tree:
-    """The product as number · powers / powers, equal bases gathered."""
+    """The product of trees as number · powers / powers, the powers of one base in one."""
     powers: dict[Tree, int] = {}
     number = _gather(mul(1, *factors) if 0 not in factors else 0, 1, powers)
     if number == 0:
@@ -79,12 +80,12 @@ def product(*factors: Tree) -> Tree:
 
 
 def quotient(a: Tree, b: Tree) -> Tree:
-    """a / b, simplified as :func:`product` simplifies."""
+    """The quotient a / b, as :func:`product` writes it."""
     return product(a, ("div", 1, b))
 
 
 def _gather(t: Tree, n: int, powers: dict[Tree, int]) -> Fraction:
-    """The rational factor of tⁿ; what else it is made of goes into ``powers``."""
+    """The rational factor of tⁿ; the exponents of all other factors are added to ``powers``."""
     if isinstance(t, (int, Fraction)):
         return Fraction(t) ** n
     if isinstance(t, tuple) and t[0] == "mul":

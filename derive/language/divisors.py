@@ -17,7 +17,7 @@ PRIMES = (2**61 - 1, 2**89 - 1)
 
 
 def has_zero_divisor(tree: Tree) -> bool:
-    """Does it divide by what is identically zero, or take the root or logarithm of it?"""
+    """Does a tree divide by what is identically zero, or take the root or logarithm of it?"""
     return all(_divides_by_zero(tree, p) for p in PRIMES)
 
 
@@ -30,7 +30,8 @@ def _divides_by_zero(tree: Tree, p: int) -> bool:
 
 
 def residue(tree: Tree, p: int) -> int:
-    """The value modulo p; ``ZeroDivisionError`` for a divisor that is 0 modulo p."""
+    """The value of a tree modulo p; ``ZeroDivisionError`` for a divisor, root or logarithm of 0
+    modulo p."""
     if isinstance(tree, (int, Fraction)):
         q = Fraction(tree)
         return q.numerator * inverse(q.denominator, p) % p
@@ -51,12 +52,12 @@ def residue(tree: Tree, p: int) -> int:
 
 
 def inverse(x: int, p: int) -> int:
-    """1/x modulo p."""
+    """The inverse of x modulo p; ``ZeroDivisionError`` of 0."""
     if x % p == 0:
         raise ZeroDivisionError
     return pow(x, -1, p)
 
 
 def hashed(text: str, p: int) -> int:
-    """A residue that is not 0, by a text."""
+    """A residue modulo p, not 0, that a text determines."""
     return int.from_bytes(sha256(text.encode()).digest()) % (p - 1) + 1

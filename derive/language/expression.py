@@ -23,11 +23,12 @@ TOKEN = re.compile(
 
 
 class ExpressionError(ValueError):
-    """What is wrong with the text, and where in it."""
+    """A text that is no expression, or one too costly: the message says what is wrong with it."""
 
 
 def parse(text: str) -> Tree:
-    """The tree of an expression; names become parameters."""
+    """The tree of an expression, whose names become parameters; ``ExpressionError`` for any other
+    text."""
     if len(text) > EXPRESSION:
         raise ExpressionError(f"an expression of {len(text)} characters; at most {EXPRESSION}")
     parser = _Parser(_tokens(text))
@@ -42,7 +43,8 @@ def parse(text: str) -> Tree:
 
 
 def _affordable(tree: Tree) -> None:
-    """``ExpressionError`` for what would take long to derive, or be too deep for recursion."""
+    """Raise ``ExpressionError`` for a tree that would take long to derive, or is too deep for
+    recursion."""
     if depth(tree) > DEPTH:
         raise ExpressionError(f"operations nested deeper than {DEPTH}; gather factors")
     for q in numbers(tree):
@@ -61,17 +63,17 @@ def _affordable(tree: Tree) -> None:
 
 
 def names(tree: Tree) -> list[str]:
-    """The parameters that occur, in reading order."""
+    """The names of the parameters in a tree, in reading order, with repetitions."""
     return [x[1] for x in nodes(tree) if isinstance(x, tuple) and x[0] == "par"]
 
 
 def numbers(tree: Tree) -> Iterator[int | Fraction]:
-    """The numbers that occur, exponents apart."""
+    """The numbers in a tree, except exponents."""
     return (x for x in nodes(tree) if isinstance(x, (int, Fraction)))
 
 
 def constants(tree: Tree) -> Iterator[Tree]:
-    """The largest parts without a parameter, numbers apart."""
+    """The largest subtrees without a parameter, except numbers."""
     if isinstance(tree, tuple) and not names(tree):
         yield tree
     else:
@@ -91,7 +93,8 @@ def _tokens(text: str) -> list[str]:
 
 
 class _Parser:
-    """Recursive descent; the depth of nesting is bounded."""
+    """A parser by recursive descent, a method for each level of the grammar; ``depth``: of the
+    parentheses around it, which is bounded."""
 
     def __init__(self, tokens: list[str]):
         self.tokens = tokens

@@ -13,11 +13,12 @@ Monomial = tuple[tuple[Tree, int], ...]
 
 ONE = Fraction(1)
 MOST = 40
-"""A tree is not multiplied out to more terms: a power of a sum has any number of them."""
+"""As many terms has a tree at most that is multiplied out: a power of a sum has any number of
+them."""
 
 
 class OverlongError(ValueError):
-    """A tree that is too long when it is multiplied out."""
+    """A tree that has too many terms when it is multiplied out."""
 
 
 class Laurent:
@@ -35,17 +36,17 @@ class Laurent:
 
     @classmethod
     def symbol(cls, name: Tree) -> Laurent:
-        """A symbol by itself."""
+        """The polynomial that is one symbol."""
         return cls({((name, 1),): ONE})
 
     @classmethod
     def monomial(cls, factors: Iterable[tuple[Tree, int]], q: Fraction = ONE) -> Laurent:
-        """q times powers of symbols, in any order and with repetitions."""
+        """The polynomial q times powers of symbols, in any order and with repetitions."""
         return cls({_product((), factors): q})
 
     @classmethod
     def of(cls, x: Laurent | Fraction | int) -> Laurent:
-        """A number as a constant polynomial."""
+        """A number as a constant polynomial; a polynomial as it is."""
         return x if isinstance(x, Laurent) else cls({(): Fraction(x)})
 
     def __bool__(self) -> bool:
@@ -86,7 +87,7 @@ class Laurent:
         return hash(frozenset(self.terms.items()))
 
     def reciprocal(self) -> Laurent:
-        """1/p of a monomial; ``ZeroDivisionError`` of anything else."""
+        """The polynomial 1/p of a monomial p; ``ZeroDivisionError`` of anything else."""
         if len(self.terms) != 1:
             raise ZeroDivisionError("only a monomial has an inverse here")
         ((m, q),) = self.terms.items()
@@ -115,7 +116,7 @@ def _written(factor: tuple[Tree, int]) -> tuple[str, int]:
 
 
 def polynomial(t: Tree) -> Laurent:
-    """A tree of numbers as a polynomial; what is neither sum nor product in it is a symbol.
+    """The polynomial of a tree of numbers; what is neither sum nor product in it is a symbol.
 
     ``OverlongError`` where that has more than ``MOST`` terms.
     """
@@ -142,12 +143,13 @@ LONGEST = 5000
 
 
 def vanishes(t: Tree) -> bool:
-    """Is a rational function of parameters 0 everywhere?  Functions of them count as parameters."""
+    """Is a rational function of parameters 0 everywhere? Functions of them count as parameters."""
     return not _quotient_of(t)[0]
 
 
 def _quotient_of(t: Tree) -> tuple[Laurent, Laurent]:
-    """Numerator and denominator; ``OverlongError`` where one has more than ``LONGEST`` terms."""
+    """The numerator and the denominator of a tree; ``OverlongError`` where one has more than
+    ``LONGEST`` terms."""
     above, below = Laurent.symbol(t), Laurent.of(1)
     if isinstance(t, (int, Fraction)):
         above = Laurent.of(t)
@@ -185,17 +187,18 @@ def _long(p: Laurent, r: Laurent) -> Laurent:
 
 
 def collected(t: Tree) -> Tree:
-    """A tree of numbers with its like terms added."""
+    """A tree of numbers, multiplied out, with its like terms added."""
     return written(polynomial(t))
 
 
 def written(p: Laurent) -> Tree:
-    """A polynomial as a sum of its terms."""
+    """The tree of a polynomial, a sum of its terms."""
     return gathered(p, lambda _: False, lambda _: False)
 
 
 def gathered(p: Laurent, together: Callable[[Tree], bool], last: Callable[[Tree], bool]) -> Tree:
-    """Σ (sum of some symbols)/(their divisor) · others: the terms with the same others at once.
+    """The tree Σ (sum of some symbols)/(their divisor) · others of a polynomial, in which terms
+    with the same others are one.
 
     ``together`` picks the symbols that are summed; terms that have a symbol of ``last`` come last.
     """
@@ -212,7 +215,8 @@ def gathered(p: Laurent, together: Callable[[Tree], bool], last: Callable[[Tree]
 
 
 def _quotient(terms: dict[Monomial, Fraction], others: Monomial) -> Tree:
-    """A sum over what divides every term of it, times others; one term has them above the line."""
+    """The tree of a sum over what divides every term of it, times others; of one term they stand
+    above the line."""
     below = {s: e for m in terms for s, e in m if e < 0}
     common = tuple(sorted(((s, -e) for s, e in below.items()), key=_written))
     lifted = (Laurent(terms) * Laurent({common: ONE})).terms

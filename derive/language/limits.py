@@ -10,67 +10,69 @@ from __future__ import annotations
 # -- problem files ------------------------------------------------------------------------------
 
 PROBLEM_BYTES = 500_000
-"""The TOML is parsed within a second."""
+"""Bytes of a problem file, whose TOML is then parsed within a second."""
 KEY_PARTS = 20
-"""Of a dotted key: the parser takes the square of their number."""
+"""Parts of a dotted key: the parser takes the square of their number."""
 TABLES = {"point": 500, "solid": 12, "potential": 100, "input": 60, "damping": 100}
-"""Of more points the moments are better given ([body] given); moments of solids have products that
-grow with the square of their number; each other table is a term of every view."""
+"""Tables of each kind in a file. Of more points the moments are better given ([body] given);
+moments of solids have products that grow with the square of their number; each other table is a
+term of every view."""
 PULLS = 150
-"""Points times attractions: each is a sum with a root in the emitted code."""
+"""Points times attractions, each of which is a sum with a root in the emitted code."""
 PARAMETERS = 1000
-"""Each may be a parameter of the emitted functions."""
+"""Parameters of a problem, each of which may be one of the emitted functions."""
 BASIS, MATRIX = 64, 9
-"""Elements of a basis of one's own, as many as gl(8) has, and rows of its matrices."""
+"""Matrices of a basis of one's own, as many as gl(8) has, and their rows."""
 TEXT = 1000
-"""Letters of a title, a unit, a meaning: it stands in the head of every output."""
+"""Letters of a title, a unit, a meaning, which stand in the head of every output."""
 
 # -- expressions --------------------------------------------------------------------------------
 
 EXPRESSION = 10_000
-"""Characters."""
+"""Characters of an expression."""
 NESTING, DEPTH = 40, 60
 """Parentheses, and operations, in one another: recursion is bounded, and derivatives by the chain
 rule are as long as that."""
 SLOPE = 5_000
 """Operands of all first derivatives of an expression: those of a product of k factors have k²."""
 LEAVES = 5_000
-"""Names and numbers of all the expressions of one file."""
+"""Names and numbers in all the expressions of one file."""
 EXPONENT = 64
-"""Powers are written as products."""
+"""The largest exponent: powers are written as products."""
 DIGITS = 40
 """Characters of a number; a double has 17 digits."""
 MAGNITUDE, BITS = 10**300, 1100
 """What a double holds, and the bits of a numerator or denominator: 1e300 has 997."""
 COMMON_BITS = 1100
-"""Of the common denominator of all the numbers of a file: sums over the body have that cubed, and
-more than 4300 digits are not written by Python."""
+"""Bits of the common denominator of all the numbers of a file: sums over the body have that cubed,
+and more than 4300 digits are not written by Python."""
 DEGREE = 1000
-"""Of an expression; the checker's bound on a false pass grows with it."""
+"""The degree of an expression, with which the checker's bound on a false pass grows."""
 
 # -- emitted code -------------------------------------------------------------------------------
 
 OPERANDS = 300_000
-"""Of all values of one program.  Sp(8) has 158656, of which 66436 operations are left: gcc takes
-half a minute and 0.5 GB for them."""
+"""Operands of all values of one program. Sp(8) has 158656, of which 66436 operations are left: gcc
+takes half a minute and 0.5 GB for them."""
 SLOPES = 4000
 """Entries of the linearised equations by the state: 3600 are those of Aff(5)."""
 SLOPES_BY_PARAMETERS = 2000
-"""The same by parameters: Aff(5) with symbolic moments has 1260, and takes seconds."""
+"""Entries of the linearised equations by parameters: Aff(5) with symbolic moments has 1260, and
+takes seconds."""
 
 # -- meshes -------------------------------------------------------------------------------------
 
 MESH_BYTES, MESH_LINES, MESH_LINE = 50_000_000, 2_000_000, 20_000
 """Bytes and lines of a file, characters of a line of OFF: read whole into memory."""
 TRIANGLES = 40_000
-"""Of a mesh: the exact sums over them take one second."""
+"""Triangles of a mesh: the exact sums over them take one second."""
 COORDINATE_BITS = 256
-"""Of a coordinate over the common denominator of all: the sums have five times as many."""
+"""Bits of a coordinate over the common denominator of all: the sums have five times as many."""
 
 # -- records ------------------------------------------------------------------------------------
 
 RECORD_BYTES = 20_000_000
-"""A record of a mesh with as many triangles as there may be has half of it."""
+"""Bytes of a record: one of a mesh with as many triangles as there may be has half of it."""
 TREE, SENTENCE = 200, 30
 """Operators and sentences in one another: recursion is bounded."""
 

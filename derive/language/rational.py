@@ -18,7 +18,8 @@ ZERO = Fraction(0)
 
 
 def over_one(x: Sequence[Any]) -> tuple[list[int], int] | None:
-    """Exact numbers over one denominator, which saves to reduce each; ``None`` for any others."""
+    """Exact numbers as integers over one denominator, so that not each is reduced; ``None`` for
+    others."""
     if not {*map(type, x)} <= EXACT:
         return None
     pairs = [a.as_integer_ratio() for a in x]
@@ -27,7 +28,7 @@ def over_one(x: Sequence[Any]) -> tuple[list[int], int] | None:
 
 
 def dot(a: Iterable[Any], b: Iterable[Any]) -> Any:
-    """Σ a_i b_i.
+    """The sum Σ a_i b_i; ``ValueError`` where the lengths differ.
 
     Numbers that have a way of their own to it, a static method ``dot``, are asked for it; where
     there are two kinds of them, that whose ``parts`` are of the other.
@@ -61,27 +62,27 @@ def unit(n: int, i: int, j: int) -> Matrix:
 
 
 def plus(a: Matrix, b: Matrix) -> Matrix:
-    """a + b."""
+    """The sum a + b of matrices."""
     return tuple(tuple(x + y for x, y in zip(r, s, strict=True)) for r, s in zip(a, b, strict=True))
 
 
 def scaled(k: Any, a: Matrix) -> Matrix:
-    """k · a."""
+    """The matrix k · a."""
     return tuple(tuple(k * x for x in row) for row in a)
 
 
 def minus(a: Matrix, b: Matrix) -> Matrix:
-    """a − b."""
+    """The difference a − b of matrices."""
     return plus(a, scaled(-1, b))
 
 
 def transposed(a: Matrix) -> Matrix:
-    """The transpose."""
+    """The transpose of a matrix."""
     return tuple(zip(*a, strict=True))
 
 
 def times(a: Matrix, b: Matrix) -> Matrix:
-    """a b."""
+    """The product a b of matrices."""
     columns = transposed(b)
     left = [x for row in a if (x := over_one(row))]
     right = [x for col in columns if (x := over_one(col))]
@@ -92,22 +93,22 @@ def times(a: Matrix, b: Matrix) -> Matrix:
 
 
 def trace(a: Matrix) -> Any:
-    """Tr a."""
+    """The trace of a square matrix."""
     return sum((a[i][i] for i in range(len(a))), Fraction(0))
 
 
 def bracket(a: Matrix, b: Matrix) -> Matrix:
-    """[a, b] = ab − ba."""
+    """The commutator [a, b] = ab − ba of square matrices."""
     return minus(times(a, b), times(b, a))
 
 
 def flatten(a: Matrix) -> tuple[Any, ...]:
-    """The entries, row after row."""
+    """The entries of a matrix, row after row."""
     return tuple(x for row in a for x in row)
 
 
 def combine(weights: Sequence[Any], basis: Sequence[Matrix]) -> Matrix:
-    """Σ w_a E_a."""
+    """The linear combination Σ w_a E_a of matrices of one size."""
     n, m = len(basis[0]), len(basis[0][0])
     return tuple(
         tuple(
@@ -119,7 +120,7 @@ def combine(weights: Sequence[Any], basis: Sequence[Matrix]) -> Matrix:
 
 
 def echelon(a: Matrix) -> tuple[Matrix, tuple[int, ...]]:
-    """Reduced row echelon form and its pivot columns."""
+    """The reduced row echelon form of a matrix, and its pivot columns, from 0."""
     whole = [over_one(row) for row in a]
     if whole and all(whole):
         return _whole_echelon([x[0] for x in whole if x])
@@ -170,7 +171,7 @@ def _whole_echelon(rows: list[list[int]]) -> tuple[Matrix, tuple[int, ...]]:
 
 
 def solve(a: Matrix, b: Matrix) -> Matrix | None:
-    """x with a x = b for a of full column rank; ``None`` when there is no such x.
+    """The matrix x with a x = b, for a of full column rank; ``None`` when there is no such x.
 
     Numbers that have a way of their own to it, a static method ``solved``, are asked for it.
     """
@@ -186,7 +187,7 @@ def solve(a: Matrix, b: Matrix) -> Matrix | None:
 
 
 def inverse(a: Matrix) -> Matrix | None:
-    """a⁻¹, or ``None`` when a is singular."""
+    """The inverse a⁻¹ of a square matrix, or ``None`` when it is singular."""
     return solve(a, identity(len(a)))
 
 
@@ -207,12 +208,12 @@ def determinant(a: Matrix) -> Any:
 
 
 def rank(a: Matrix) -> int:
-    """The rank."""
+    """The rank of a matrix."""
     return len(echelon(a)[1])
 
 
 def nullspace(a: Matrix) -> list[tuple[Any, ...]]:
-    """A basis of {x : a x = 0}."""
+    """A basis of {x : a x = 0}, vectors of as many entries as a has columns."""
     reduced, pivots = echelon(a)
     width = len(a[0])
     basis = []
@@ -226,7 +227,7 @@ def nullspace(a: Matrix) -> list[tuple[Any, ...]]:
 
 
 def semidefinite(a: Sequence[Sequence[Any]]) -> bool:
-    """Is x̄ a x ≥ 0 for every x?  By elimination, for a symmetric a."""
+    """Is x̄ a x ≥ 0 for every x? By elimination, for a symmetric matrix a."""
     m = [[*row] for row in a]
     for k in range(len(m)):
         if m[k][k] < 0 or (m[k][k] == 0 and any(m[k][k:])):
@@ -238,5 +239,5 @@ def semidefinite(a: Sequence[Sequence[Any]]) -> bool:
 
 
 def definite(a: Matrix) -> bool:
-    """Is x̄ a x > 0 for every x but 0?"""
+    """Is x̄ a x > 0 for every x but 0, for a symmetric matrix a?"""
     return semidefinite(a) and rank(a) == len(a)

@@ -25,11 +25,11 @@ from .show import FRACTIONS, show_name
 from .tree import Tree, neg
 
 FAMILIES = frozenset({*"rmvFQdPχσκEks", "f_u"})
-"""Letters whose members an index counts; with one, others have entries."""
+"""Letters of families, whose members an index counts; after any other it tells an entry."""
 IN_THE_BASIS = frozenset({"E", "M", "β", "ζ", "ζ̇", "ψ"})
-"""What the indices a and b count; after another letter they belong to its name, as in ℓ_b."""
+"""Letters that have the indices a and b; after any other these belong to its name, as in ℓ_b."""
 FUNCTIONS = frozenset({"dŨ", "p̃", "ϖ", "dϖ", "ω", "g", "δ", "δ′", "d/dt"})
-"""What is applied to the brackets after it; other names are so to t and X alone."""
+"""Names that are applied to the brackets after them; others are to t and X alone."""
 
 _LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉½⅓¼⅔ᵢⱼₑₜ]"
 _VARIED = r"(?:δ′?|∂ₜ|d(?=ϖ|U\u0303))?"
@@ -55,7 +55,8 @@ class FormulaError(ValueError):
 
 @lru_cache(2**10)
 def read(text: str, *parameters: str) -> Tree:
-    """The tree of a formula; ``parameters``: the names that stand for those of the problem."""
+    """The tree of a formula, ``FormulaError`` for any other text; ``parameters``: the names that
+    stand for those of the problem."""
     reader = _Reader(normalize("NFD", text), {show_name(x): x for x in parameters})
     found = reader.sum()
     reader.take("")
@@ -63,7 +64,7 @@ def read(text: str, *parameters: str) -> Tree:
 
 
 def _tokens(text: str, parameters: dict[str, str]) -> list[tuple[str, str]]:
-    """Kinds and texts; a parameter of several letters is a word of its own."""
+    """The tokens of a formula as (kind, text); a parameter of several letters is one."""
     long = "|".join(sorted((re.escape(x) for x in parameters if len(x) > 1), key=len, reverse=True))
     own = rf"(?P<parameter>(?<!\w)(?:{long})(?![A-Za-z0-9_₀-₉′]))|" if long else ""
     found = ((str(m.lastgroup), m[0]) for m in re.finditer(own + TOKEN, text))
@@ -71,35 +72,36 @@ def _tokens(text: str, parameters: dict[str, str]) -> list[tuple[str, str]]:
 
 
 class _Reader:
-    """The tokens of a formula, and how far they are read."""
+    """The parser of one formula: its tokens, how far they are read, and a method for each level of
+    the grammar."""
 
     def __init__(self, text: str, parameters: dict[str, str]) -> None:
         self.text, self.tokens, self.k = text, _tokens(text, parameters), 0
         self.parameters, self.inside_norm = parameters, False
 
     def next(self) -> str:
-        """Go past a token."""
+        """Go past the token that stands here, and give its text."""
         self.k += 1
         return self.tokens[self.k - 1][1]
 
     def met(self, wanted: str) -> bool:
-        """Go past a token, if it stands here."""
+        """Go past a token if it stands here, and say whether it did."""
         here = self.tokens[self.k][1] == wanted
         self.k += here
         return here
 
     def take(self, wanted: str) -> None:
-        """Go past a token that must stand here."""
+        """Go past a token; ``FormulaError`` if another stands here."""
         if not self.met(wanted):
             raise self.error(wanted or "the end")
 
     def error(self, wanted: str) -> FormulaError:
-        """The error that says what should stand here and does not."""
+        """The error that says what is expected here."""
         rest = "".join(text for _, text in self.tokens[self.k :]) or "the end"
         return FormulaError(f"{self.text!r}: {wanted} is expected at {rest}")
 
     def sum(self, norm: bool = False) -> Tree:
-        """Terms and their signs."""
+        """A sum, of terms with their signs."""
         outer, self.inside_norm = self.inside_norm, norm
         terms = [_minus(self.term()) if self.met("−") else self.term()]
         while self.tokens[self.k][0] in ("+", "−"):
@@ -108,12 +110,12 @@ class _Reader:
         return terms[0] if len(terms) == 1 else ("add", *terms)
 
     def term(self) -> Tree:
-        """A product, or two with ∧ between them."""
+        """A term: a product, or two with ∧ between them."""
         left = self.product()
         return ("wedge", left, self.product()) if self.met("∧") else left
 
     def product(self) -> Tree:
-        """Factors; what stands before / is divided by the factor after it."""
+        """A product of factors; what stands before / is divided by the factor after it."""
         factors = [self.factor()]
         while (kind := self.tokens[self.k][0]) in BEGIN and not (kind == "‖" and self.inside_norm):
             if self.met("/"):
@@ -123,7 +125,7 @@ class _Reader:
         return _of_factors(factors)
 
     def factor(self) -> Tree:
-        """Tr and Σ of what follows, or an atom with what stands behind it."""
+        """A factor: Tr and Σ of what follows, or an atom with what stands behind it."""
         if self.met("Tr"):
             return ("tr", self.product())
         if self.tokens[self.k][1].startswith("Σ"):
@@ -139,12 +141,14 @@ class _Reader:
                 return found
 
     def _applied(self, t: Tree) -> bool:
+        """Is a tree a function, or applied to t or X, before the parenthesis that stands here?"""
         inside = "".join(text for _, text in self.tokens[self.k : self.k + 3])
         name = isinstance(t, str) or (isinstance(t, tuple) and t[0] == "at")
         return t in FUNCTIONS or (name and inside in ("(t)", "(X)"))
 
     def listed(self, opening: str, closing: str, count: int = 0) -> list[Tree]:
-        """What stands between brackets, and commas: so many, if it is said."""
+        """The sums between brackets, with commas between them: ``count`` of them, if that is
+        not 0."""
         self.take(opening)
         found = [self.sum()]
         while len(found) != count and self.met(","):
@@ -153,7 +157,7 @@ class _Reader:
         return found
 
     def atom(self) -> Tree:
-        """A name, a number, or something in brackets of any kind."""
+        """An atom: a name, a number, or something in brackets of any kind."""
         kind, text = self.tokens[self.k]
         if kind == "name":
             return self.named(self.next())
@@ -178,11 +182,11 @@ class _Reader:
         return squared or ("fun", "sqrt", ("norm2", inside))
 
     def measured(self, with_metric: str, without: str, *found: Tree) -> Tree:
-        """With the metric that stands behind _, if one does."""
+        """The tree of ⟨·, ·⟩ or ‖·‖², with the metric that stands behind _, if one does."""
         return (with_metric, self.atom(), *found) if self.met("_") else (without, *found)
 
     def worded(self, text: str) -> Tree:
-        """∫ … dm, and functions with a name of their own."""
+        """The tree behind a word: ∫ … dm, and functions with a name of their own."""
         if text == "∫":
             found = 1 if self.tokens[self.k][0] == "dm" else self.sum()
             self.take("dm")
@@ -191,7 +195,7 @@ class _Reader:
         return (*own, *self.listed("(", ")", 1))
 
     def rows(self) -> Tree:
-        """[a, b], or the rows of a matrix."""
+        """The tree of [a, b], or of a matrix by its rows."""
         self.take("[")
         rows: list[list[Tree]] = [[self.sum()]]
         while (mark := self.next()) in (";", ","):
@@ -205,7 +209,7 @@ class _Reader:
         return ("matrix", *(("row", *row) for row in rows if row))
 
     def named(self, text: str) -> Tree:
-        """A letter with its marks, and the index behind it: parameters have none."""
+        """The tree of a letter with its marks, and the index behind it: parameters have none."""
         name, index = normalize("NFC", text.replace(MACRON, "")), ""
         base, _, behind = name.partition("_")
         if behind and {*behind} <= ({*"abije"} if base in IN_THE_BASIS else {*"ijke"}):
@@ -222,13 +226,14 @@ class _Reader:
 
 
 def _numbers(text: str, pair: bool = False) -> list[Tree]:
-    """What an index says: letters, and a number; two digits of a matrix are two numbers."""
+    """What an index says, letters and numbers; two digits behind a matrix (``pair``) are two
+    numbers."""
     each = r"\d|[a-z]" if pair and len(text) == 2 else r"\d+|[a-z]"
     return [int(x) if x.isdigit() else x for x in re.findall(each, text.translate(DIGITS))]
 
 
 def _behind(t: Tree, kind: str, text: str) -> Tree:
-    """With what stands behind an atom."""
+    """The entry, power, inverse or transpose of a tree, as the token behind it says."""
     if kind == "index":
         return ("entry", t, *_numbers(text))
     if kind == "power" and text != "⁻¹":
@@ -237,13 +242,13 @@ def _behind(t: Tree, kind: str, text: str) -> Tree:
 
 
 def _of_factors(factors: list[Tree]) -> Tree:
-    """The product; beside others, 1 is the unit matrix."""
+    """The tree of a product; beside other factors, 1 is the unit matrix."""
     beside = (("one",) if f == 1 else f for f in factors)
     return ("mul", *beside) if len(factors) > 1 else factors[0]
 
 
 def _minus(t: Tree) -> Tree:
-    """The opposite, with the sign above a fraction's line."""
+    """The opposite of a tree, with the sign above a fraction's line."""
     if isinstance(t, tuple) and t[0] == "div":
         return ("div", neg(t[1]), t[2])
     return neg(t)

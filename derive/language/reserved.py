@@ -40,7 +40,7 @@ STANDARD_MACROS = {
     "stdin",
     "stdout",
 }
-"""Of complex.h, stdio.h, errno.h and assert.h, in lower case or of few letters."""
+"""Macros of complex.h, stdio.h, errno.h and assert.h, in lower case or of few letters."""
 
 _FUNCTIONS = [name + suffix for name in _MATH.split() for suffix in ("", "f", "l")]
 
@@ -51,14 +51,15 @@ WORDS: dict[str, str] = (
     | dict.fromkeys(_CPP.split(), "a keyword of C++")
     | dict.fromkeys(_C.split(), "a keyword of C")
 )
-"""Each word with what it is."""
+"""The words that no emitted name may be, each with what it is."""
 
 PLACE = re.compile(r"r(0|[1-9][0-9]{0,3})_(?:([xyz])|([0-9]))")
 """A coordinate of a point in space, as an expression names it: r1_x, r2_1."""
 CONSTANTS = {"t": "the time", "pi": "the number π"}
-"""What a name means in every expression."""
+"""Names with a meaning of their own in every expression."""
 
 
 def taken(name: str) -> str:
-    """What a name means in an expression, so that no parameter has it; else empty."""
+    """What a name means in every expression, so that no parameter may have it; "" for a free
+    one."""
     return CONSTANTS.get(name, "a place of a point" if PLACE.fullmatch(name) else "")

@@ -12,18 +12,18 @@ from .tree import Tree, coefficient, mul, neg
 SUBSCRIPTS = str.maketrans("0123456789ije", "₀₁₂₃₄₅₆₇₈₉ᵢⱼₑ")
 FRACTIONS = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(1, 4): "¼", Fraction(2, 3): "⅔"}
 TAKEN = ("Tr", "det", "dm", "dt", "j")
-"""What is a word of the notation, and no name of C."""
+"""Words of the notation, which are no names of C."""
 WORD = re.compile(rf"(?:{'|'.join((*DERIVATIVES, 'Tr', 'det', 'dm', 'dŨ'))})$")
 SUM, PRODUCT, ATOM = 1, 2, 3
 
 
 def show(t: Tree) -> str:
-    """The tree in one line."""
+    """The text of a tree, in one line."""
     return _show(t)[0]
 
 
 def parts(t: Tree) -> list[tuple[str, str]]:
-    """The terms of a sum as (sign, text) pairs; a single one for any other tree."""
+    """The terms of a sum as (sign, text) pairs, signs + and −; any other tree is one term."""
     shown = []
     for sign, term in signed(t):
         text, level = _show(term)
@@ -32,7 +32,8 @@ def parts(t: Tree) -> list[tuple[str, str]]:
 
 
 def signed(t: Tree) -> list[tuple[str, Tree]]:
-    """The terms of a sum as (sign, tree) pairs, the trees without their sign."""
+    """The terms of a sum as (sign, tree) pairs, the trees without their sign; any other tree is one
+    term."""
     terms = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
     found: list[tuple[str, Tree]] = []
     for term in terms:
@@ -45,7 +46,7 @@ def signed(t: Tree) -> list[tuple[str, Tree]]:
 
 
 def show_name(name: str) -> str:
-    """``J_11`` as ``J₁₁``, ``I_c`` as it is."""
+    """The text of a name: ``J_11`` as ``J₁₁``, ``I_c`` as it is."""
     base, _, index = name.partition("_")
     return base + index.translate(SUBSCRIPTS) if re.fullmatch(r"[0-9]+", index) else name
 
@@ -53,6 +54,7 @@ def show_name(name: str) -> str:
 MOMENT = re.compile(r"m|c_[0-9]|J_[0-9]{2}")
 """The entries of the letters of symbolic moments, parameters of the same name."""
 INDEX = re.compile(r"_?[0-9]+$|_[abeijn]{1,2}$")
+"""What is taken for an index at the end of a name."""
 
 
 def unclear(letters: Container[str], parameters: Collection[str], symbolic: bool) -> frozenset[str]:
@@ -85,7 +87,7 @@ def in_quotes(t: Tree, names: Container[str]) -> Tree:
 
 
 def _indices(indices: tuple[object, ...]) -> str:
-    """r_i, M_ab, M_1,11: subscripts where there are such letters."""
+    """The text of indices, as in r_i, M_ab, M_1,11: subscripts where there are such letters."""
     apart = "," if len(indices) > 1 and any(len(str(i)) > 1 for i in indices) else ""
     plain = apart.join(map(str, indices))
     shown = plain.translate(SUBSCRIPTS)
@@ -93,7 +95,7 @@ def _indices(indices: tuple[object, ...]) -> str:
 
 
 def _indexed(t: Tree, indices: tuple[object, ...]) -> str:
-    """A member of a family, (d₁)₂ of a member."""
+    """The text of a member of a family or of an entry; (d₁)₂ for an entry of a member."""
     inner = t[1] if isinstance(t, tuple) and t[0] == "T" else t
     scripted = isinstance(inner, tuple) and inner[0] in ("at", "entry", "inv", "pow")
     return (f"({show(t)})" if scripted else _atom(t)) + _indices(indices)
@@ -124,12 +126,12 @@ def _below(t: Tree) -> str:
 
 
 def _norm(t: Tree) -> str:
-    """‖a‖; what has such strokes in itself is in brackets between them."""
+    """The text ‖a‖, with brackets between the strokes where a has such strokes in itself."""
     return f"‖({show(t)})‖" if has_norm(t) else f"‖{show(t)}‖"
 
 
 def has_norm(t: Tree) -> bool:
-    """Is there a norm in it?"""
+    """Is there a norm in a tree?"""
     return isinstance(t, tuple) and (t[0] == "norm2" or any(map(has_norm, t[1:])))
 
 
@@ -139,7 +141,8 @@ def _letter(text: str) -> bool:
 
 
 def bar(text: str) -> str:
-    """The transpose of a letter: a bar over its base."""
+    """The text of a transpose: of a letter with a bar over its base, of anything else with ‾ behind
+    it."""
     match = re.fullmatch(r"(δ?′?)([^\W\d_][\u0300-\u036f]*)(′?)", text)
     return f"{match[1]}{match[2]}\u0304{match[3]}" if match else f"{text}‾"
 
@@ -223,7 +226,7 @@ def _negative(t: Tree) -> str:
 
 
 def _operand(t: Tree) -> str:
-    """An operand of ∧: products stay bare, sums and other wedges get parentheses."""
+    """The text of an operand of ∧: products stay bare, sums and other wedges get parentheses."""
     text, level = _show(t)
     return f"({text})" if level == SUM or swallows(t) else text
 

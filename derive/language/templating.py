@@ -1,4 +1,4 @@
-"""Where templates are, and how they are read: dumb fields, and an undefined one is an error."""
+"""Templates: where they are, and how they are filled; a field that is not defined is an error."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ if TYPE_CHECKING:
 
 
 def folder(name: str) -> Path:
-    """The folder of a language: inside the package when installed, beside it in a checkout."""
+    """The folder ``name`` of templates: inside the package when installed, beside it in a checkout;
+    ``FileNotFoundError`` for none."""
     package = Path(__file__).parents[1]
     for root in (package / "templates", package.parent / "templates"):
         if (root / name).is_dir():

@@ -42,13 +42,14 @@ OPERATORS: dict[str, tuple[int, int | None]] = {
 
 
 def add(*summed: Tree) -> Tree:
-    """Sum, flattened, with zeros dropped."""
+    """The sum of trees, flattened, with zeros dropped."""
     kept = [x for t in summed for x in terms(t) if x != 0]
     return 0 if not kept else kept[0] if len(kept) == 1 else ("add", *kept)
 
 
 def mul(*factors: Tree) -> Tree:
-    """Product in order, with ones dropped, products flattened and a zero absorbing."""
+    """The product of trees, in order, with numbers in front as one, products flattened and a zero
+    absorbing."""
     flat: list[Tree] = []
     for f in factors:
         flat.extend(f[1:] if isinstance(f, tuple) and f[0] == "mul" else (f,))
@@ -71,12 +72,13 @@ def _plain(q: Fraction) -> Tree:
 
 
 def neg(t: Tree) -> Tree:
-    """The opposite, as a product with −1."""
+    """The opposite of a tree, a product with −1."""
     return mul(-1, t)
 
 
 def coefficient(t: Tree) -> tuple[Fraction, Tree]:
-    """A tree as rational number · rest."""
+    """The rational number q and the tree t with q · t equal to a tree; (1, t) where it has none in
+    front."""
     if isinstance(t, (int, Fraction)):
         return Fraction(t), 1
     if isinstance(t, tuple) and t[0] == "mul" and isinstance(t[1], (int, Fraction)):
@@ -86,19 +88,20 @@ def coefficient(t: Tree) -> tuple[Fraction, Tree]:
 
 
 def terms(t: Tree) -> tuple[Tree, ...]:
-    """The terms of a sum; any other tree is the only one of its own."""
+    """The terms of a sum; any other tree is one term."""
     return t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
 
 
 def operands(t: Tree) -> tuple[Tree, ...]:
-    """The trees in a tree: a parameter's name, a function's and an exponent are none."""
+    """The trees of which a tree is made; a parameter's name, a function's and an exponent are
+    none."""
     if not isinstance(t, tuple) or t[0] == "par":
         return ()
     return t[2:] if t[0] == "fun" else t[1:2] if t[0] == "pow" else t[1:]
 
 
 def fold(at: Callable[..., V]) -> Callable[[Tree], V]:
-    """The function of trees that is at(tree, its values on the operands …)."""
+    """The function of trees with the value at(tree, *values on its operands)."""
 
     def of(t: Tree) -> V:
         return at(t, *map(of, operands(t)))
@@ -108,7 +111,7 @@ def fold(at: Callable[..., V]) -> Callable[[Tree], V]:
 
 @fold
 def nodes(t: Tree, *inside: list[Tree]) -> list[Tree]:
-    """A tree and all trees in it, in reading order."""
+    """All subtrees of a tree, itself first, in reading order."""
     return [t, *chain.from_iterable(inside)]
 
 
@@ -118,7 +121,7 @@ def names(t: Tree) -> Iterator[str]:
 
 
 def replaced(t: Tree, old: Tree, new: Tree) -> Tree:
-    """The tree with every occurrence of a subtree replaced."""
+    """The tree with ``new`` for every occurrence of the subtree ``old``."""
     if t == old:
         return new
     return (t[0], *(replaced(part, old, new) for part in t[1:])) if isinstance(t, tuple) else t
@@ -133,7 +136,7 @@ def subtrees(t: Tree, path: tuple[int, ...] = ()) -> Iterator[tuple[tuple[int, .
 
 
 def replace_at(t: Tree, path: tuple[int, ...], change: Callable[[Tree], Tree]) -> Tree:
-    """The tree with the subtree at ``path`` changed."""
+    """The tree with change(subtree) for the subtree at ``path``."""
     if not path:
         return change(t)
     assert isinstance(t, tuple)

@@ -27,6 +27,7 @@ def value(
 ) -> Value:
     """The value of a tree without indices, calls and determinants; ``ValueError`` for any other.
 
+    ``names``, ``parameters``: their values; ``elementary(name, x)``: the value of a function;
     ``number``: what a number is; as floats a stranger's powers of powers take no time.
     """
 
@@ -53,7 +54,8 @@ def approximate(
     parameters: Mapping[str, float],
     number: Callable[[int | Fraction], Value] = Fraction,
 ) -> float | None:
-    """The value in floats; ``None`` where a parameter is missing, or there is no value."""
+    """The value of a tree in floats; ``None`` where a parameter is missing, or there is no
+    value."""
     try:
         return float(value(t, {"π": math.pi}, parameters, elementary, number))
     except (ArithmeticError, TypeError, ValueError):
@@ -61,7 +63,7 @@ def approximate(
 
 
 def elementary(name: str, x: float) -> float:
-    """A function of :data:`DERIVATIVES`; ``ValueError`` for others."""
+    """The value at x of a function of :data:`DERIVATIVES`; ``ValueError`` for others."""
     if name not in DERIVATIVES:
         raise ValueError(f"no function {name!r}")
     return float(getattr(math, name)(x))
@@ -118,7 +120,7 @@ def _inverse(x: Value) -> Value:
 
 
 def _inner(a: Value, b: Value, metric: Value | None = None) -> Value:
-    """ā M b for vectors, Tr a M b̄ for matrices."""
+    """The value ā M b of vectors, Tr a M b̄ of matrices, a b of numbers."""
     if not _is_matrix(a):
         return a * b
     if len(a[0]) == 1:
@@ -127,14 +129,14 @@ def _inner(a: Value, b: Value, metric: Value | None = None) -> Value:
 
 
 def wedge(a: Value, b: Value) -> Value:
-    """The vector product in R³."""
+    """The vector product a ∧ b in R³, 3 × 1."""
     (x,), (y,), (z,) = a
     (u,), (v,), (w,) = b
     return ((y * w - z * v,), (z * u - x * w,), (x * v - y * u,))
 
 
 def hat(a: Value) -> Value:
-    """j(a)."""
+    """The matrix j(a) of a vector, 3 × 3."""
     (x,), (y,), (z,) = a
     zero = x * 0
     return ((zero, -z, y), (z, zero, -x), (-y, x, zero))

@@ -20,7 +20,8 @@ class Weight(NamedTuple):
 
 
 def depth(tree: Tree) -> int:
-    """How deep operations are in one another; without recursion, for it is what bounds that."""
+    """The number of operations of a tree that are in one another; without recursion, which this
+    bounds."""
     level, inside = 0, [tree]
     while inside := [x for t in inside if isinstance(t, tuple) for x in t[1:]]:
         level += 1
