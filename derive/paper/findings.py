@@ -33,23 +33,24 @@ SIGN, OMISSION, MISPRINT = "sign convention", "omission", "misprint"
 VERDICTS = (CONFIRMED, SIGN, OMISSION, MISPRINT, DEFINITION)
 
 HOLDS = {SIGN: "with −dϖ for dϖ, −ω for ω", OMISSION: "where there are no forces"}
-"""Of what is false as it stands: how it is true."""
+"""How what is false as it stands is true, by its verdict."""
 
 ORIENTED = ("dϖ", "ω")
-"""What changes its sign with the convention: dϖ(δ, δ′) is δ[ϖ(δ′)] − δ′[ϖ(δ)], or the opposite."""
+"""Forms that change their sign with the convention: dϖ(δ, δ′) is δ[ϖ(δ′)] − δ′[ϖ(δ)], or the
+opposite."""
 
 PROBLEMS = ("so3", "affine")
 """The records that hold the derived form of the numbered equations."""
 
 READABLE = 2
-"""Counterexamples are sought among parameters of this size, most of them zero."""
+"""Counterexamples are sought among integers within ± this, most of them zero."""
 
 
 class Sparse(Random):
-    """Draws zero more often than not, where it may."""
+    """A source of random numbers that draws zero more often than not, where it may."""
 
     def randint(self, a: int, b: int) -> int:
-        """An integer from a to b."""
+        """A random integer from a to b."""
         zero = self.random() < 0.7
         return 0 if zero and a <= 0 <= b else super().randint(a, b)
 
@@ -58,7 +59,7 @@ class Sparse(Random):
 class Finding:
     """What became of one numbered equation.
 
-    ``verdict``: one of the five above; ``equations``: those that are false as printed.
+    ``verdict``: one of :data:`VERDICTS`; ``equations``: those that are false as printed.
     """
 
     number: int
@@ -71,12 +72,12 @@ class Finding:
 
     @property
     def holds(self) -> str | None:
-        """How the print is true after all, if it is."""
+        """In words, how a print that is false as it stands is true; ``None`` for any other."""
         return HOLDS.get(self.verdict)
 
 
 def compare(records: Sequence[Derivation]) -> list[Finding]:
-    """A finding for each of the numbered equations."""
+    """A finding for each of the numbered equations, by the records of :data:`PROBLEMS`."""
     return list(findings(records))
 
 
@@ -86,7 +87,7 @@ def findings(records: Sequence[Derivation]) -> Iterator[Finding]:
 
 
 def amendments(numbers: Container[int]) -> list[Finding]:
-    """The findings of some numbers that are known to be false as printed, without the records."""
+    """The findings of the given numbers, known to be false as printed, without the records."""
     found = []
     for p in PAPER:
         if p.number in numbers:
@@ -100,25 +101,25 @@ def amendments(numbers: Container[int]) -> list[Finding]:
 def holds(
     p: Printed, equation: Equation, size: int = SIZE, seed: int = 0, *, forces: bool = True
 ) -> bool:
-    """Does a printed equation hold at a random exact point?"""
+    """Does a printed equation hold at a random exact point of its group?"""
     return not bool(difference(equation, _anywhere(p.group, p.principal, size, seed, forces)))
 
 
 @lru_cache(maxsize=8)
 def _anywhere(group: str, principal: bool, size: int, seed: int, forces: bool) -> Environment:
-    """A point for all printed equations of a group."""
+    """A random exact point for all printed equations of a group."""
     return situation(group, principal, Random(f"paper {group} {seed}"), size, forces=forces)
 
 
 def _cause(p: Printed) -> str:
-    """Why a print is false."""
+    """The verdict on a print that is false as it stands: sign convention, omission or misprint."""
     if all(holds(p, _other_sign(e)) for e in p.equations):
         return SIGN
     return OMISSION if all(holds(p, e, forces=False) for e in p.equations) else MISPRINT
 
 
 def _other_sign(e: Equation) -> Equation:
-    """An equation in the other convention."""
+    """An equation with the opposite of dϖ and ω."""
 
     def opposite(t: Tree) -> Tree:
         if not isinstance(t, tuple):
@@ -151,7 +152,7 @@ def situation(
 
 
 def _meaningless(model: Model) -> dict[str, Any]:
-    """f′ and φ′: the print gives them no meaning, so they are any element of the algebra."""
+    """Values for f′ and φ′: the print gives them no meaning, so they are any element of 𝔤."""
     if model.group.name != "SO(3)":
         return {}
     Z = model.algebra()
@@ -168,7 +169,7 @@ def _finding(p: Printed, records: Sequence[Derivation]) -> Finding:
 
 
 def _derived(p: Printed, records: Iterable[Derivation]) -> str | None:
-    """What the records derive: the printed left sides in the steps that carry the number.
+    """What the records derive, as text: the printed left sides in the steps that carry the number.
 
     Failing that, all that such a step says; failing that, the left sides wherever they stand.
     """
@@ -185,7 +186,8 @@ def _derived(p: Printed, records: Iterable[Derivation]) -> str | None:
 
 
 def _suits(record: Derivation, p: Printed) -> bool:
-    """Equations of SE(3) are read in the affine record, the others in that of SO(3)."""
+    """Is an equation to be read in this record: of SE(3) in the affine one, others in that of
+    SO(3)?"""
     return bool((record.problem["action"] == "affine") == (p.group == "SE(3)"))
 
 
@@ -211,7 +213,7 @@ def _counterexample(p: Printed, equation: Equation, tries: int = 1000) -> dict[s
 
 
 def text(x: Any) -> str:
-    """An exact value: a fraction, or the rows of a matrix."""
+    """The text of an exact value: a fraction, or the rows of a matrix."""
     if isinstance(x, tuple):
         return "[" + "; ".join(", ".join(text(y) for y in row) for row in x) + "]"
     q = Fraction(x)

@@ -17,7 +17,7 @@ from ..record.formulas import stated
 from ..record.record import Equation
 
 ALWAYS = {"Σ ": "Σᵢ ", "(t, g, ν)": "", " ∈ so(3)": "", "(δx)": "(δy)"}
-"""Parts of prints that mean the same everywhere: sums run over the points, dϖ and ϖ are of y."""
+"""Parts of prints, and what they mean everywhere: sums run over the points, dϖ and ϖ are of y."""
 ABOUT_A_POINT = {*range(21, 36), 39}
 """The numbers that speak of the solid about a fixed point; the others are about the free solid."""
 
@@ -45,7 +45,7 @@ class Printed:
 
     @property
     def group(self) -> str:
-        """Of which solid it speaks."""
+        """The group of the solid of which the equation speaks."""
         return "SO(3)" if self.number in ABOUT_A_POINT else "SE(3)"
 
     @cached_property
@@ -68,7 +68,8 @@ claim, definition = partial(Printed, True), partial(Printed, False)
 
 
 def permuted(text: str) -> str:
-    """For (i, j, k) = pc(1, 2, 3)."""
+    """The text for each (i, j, k) = pc(1, 2, 3), the cyclic permutations, with commas between
+    them."""
     cycles = (("₁", "₂", "₃"), ("₂", "₃", "₁"), ("₃", "₁", "₂"))
     each = (text.replace("_i", i).replace("_j", j).replace("_k", k) for i, j, k in cycles)
     return ",  ".join(each)

@@ -15,18 +15,19 @@ from .matrices import STEPS as MATRICES
 from .rotations import STEPS as ROTATIONS
 
 STEPS = {**GENERAL, **ROTATIONS, **MATRICES, **MATERIAL}
-"""Label → name → the sentence in ``LANGUAGES``."""
+"""Label → name → the sentence in each of ``LANGUAGES``."""
 LANGUAGES = ("en", "fr")
+"""The languages of the prose, in the order of the texts of a sentence."""
 
 
 def english(key: str) -> str:
-    """The English of a sentence, by its label and name."""
+    """The English of a sentence, by its key ``label.name``; ``KeyError`` for none."""
     label, name = key.split(".")
     return STEPS[label][name][0]
 
 
 def entries() -> Iterator[dict[str, str]]:
-    """Every sentence in every language."""
+    """Every sentence, as its text by language."""
     for named in STEPS.values():
         for texts in named.values():
             yield dict(zip(LANGUAGES, texts, strict=True))
