@@ -57,7 +57,8 @@ ANY_GROUP = (
 """Exercise 1: L → L̃ → ϖ → dϖ → kernel for every matrix group, in space and carried to 𝔤."""
 
 MATRICES = (
-    Stage("general", "a pullback.pushed trivial derivative momenta", "General", special.General),
+    Stage("general", "a pullback.moment_work trivial derivative momenta",
+          "General", special.General),
     Stage("body", "problem lagrangian a c", "Steps", body.body_step),
     Stage("brackets", "group c", "Steps", brackets.bracket_step),
     Stage("bodies", "problem", "Bodies", left_invariant.invariant),
@@ -65,15 +66,17 @@ MATRICES = (
     Stage("plain", "group", "Alphabet", alphabet.of_matrices),
     Stage("potentials", "problem plain c", "Potentials", potential.potentials),
     Stage("special", "general group potentials c bodies?", "Special", special.specialise),
-    Stage("given", "problem special.letters special.gram c_u", "Given", inputs.given_matrices),
-    Stage("driven", "special given?", "Special", special.pushed),
+    Stage("external", "problem special.letters special.C c_u",
+          "External", inputs.external_matrices),
+    Stage("driven", "special external?", "Special", special.with_external),
     Stage("centred", "driven c_u", "Centred", translation.eliminate_translation, "affine"),
     Stage("solution", "driven centred? group c c_u", "Solution", solution.solution),
     Stage("energy", "special.last", "Steps", tuple),
-    Stage("rigid", "distances special.gram special.letters c", "Step", orbit.rigid, "orthogonal"),
+    Stage("rigid", "distances special.C special.letters c",
+          "Step", orbit.rigid, "orthogonal"),
     Stage("apart", "problem potentials special.letters c",
           "Steps", separation.potential_separation, "affine"),
-    Stage("held", "kernel special.gram group.n c", "Step", motions.held, "rotations"),
+    Stage("held", "kernel special.C group.n c", "Step", motions.held, "rotations"),
     Stage("space", "cartan.momentum a", "SpaceMomenta", conserved.matrix_momenta),
     Stage("conserved", "problem potentials space solution.motion special.letters c",
           "Steps", conserved.conserved_steps),
@@ -83,27 +86,27 @@ MATRICES = (
 VECTORS = (
     Stage("body", "problem lagrangian a c", "Steps", body.body_step),
     Stage("isometry", "trivial momenta a group.n c", "Isometry", isometry.isometry),
-    Stage("rigid", "distances isometry.gram isometry.letters c", "Step", orbit.rigid),
-    Stage("held", "kernel isometry.gram group.n c", "Step", motions.held, "linear"),
-    Stage("axial", "isometry.letters isometry.gram c", "Axial", isomorphism.axial),
-    Stage("vectors", "momenta isometry axial.read c", "VectorForm", vector.vector_form),
+    Stage("rigid", "distances isometry.C isometry.letters c", "Step", orbit.rigid),
+    Stage("held", "kernel isometry.C group.n c", "Step", motions.held, "linear"),
+    Stage("axial", "isometry.letters isometry.C c", "Axial", isomorphism.axial),
+    Stage("vectors", "momenta isometry axial.hat_map c", "VectorForm", vector.vector_form),
     Stage("centred", "vectors isometry.letters c", "Eliminated", elimination.eliminate, "affine"),
     Stage("euler", "vectors isometry.letters c", "Step", rotation.euler_step, "linear"),
     Stage("principal", "euler c", "Step", rotation.principal_step),
-    Stage("potentials", "problem isometry.letters c isometry.gram",
+    Stage("potentials", "problem isometry.letters c isometry.C",
           "Potentials", potential.potentials),
-    Stage("torque", "potentials isometry axial.read c", "Torque", rotation.torque),
-    Stage("given", "problem isometry.letters isometry.gram axial.read c_u",
-          "Given", inputs.given_vectors),
-    Stage("motion", "vectors torque isometry.letters axial.read given? c_u",
+    Stage("torque", "potentials isometry axial.hat_map c", "Torque", rotation.torque),
+    Stage("external", "problem isometry.letters isometry.C axial.hat_map c_u",
+          "External", inputs.external_vectors),
+    Stage("motion", "vectors torque isometry.letters axial.hat_map external? c_u",
           "Step", rotation.spherical_motion, "linear"),
-    Stage("motion", "centred torque isometry.letters axial.read given? c_u",
+    Stage("motion", "centred torque isometry.letters axial.hat_map external? c_u",
           "Step", rotation.displacement_motion, "affine"),
     Stage("tensor", "problem body axial.inertia motion c",
           "Steps", components.tensor_steps, "linear"),
     Stage("tensor", "problem body centred.inertia motion c",
           "Steps", components.tensor_steps, "affine"),
-    Stage("energy", "isometry potentials axial.read c", "Step", rotation.energy_step),
+    Stage("energy", "isometry potentials axial.hat_map c", "Step", rotation.energy_step),
     Stage("space", "vectors.momenta isometry.letters", "SpaceMomenta", conserved.vector_momenta),
     Stage("conserved", "problem potentials space motion isometry.letters c",
           "Steps", conserved.conserved_steps),
@@ -135,8 +138,8 @@ def walk(problem: Problem) -> Derivation:
 def general_road(*, affine: bool, signed: bool = False) -> Values:
     """The road of any group, which several problems share; ``signed``: masses may be negative."""
     a = Alphabet("n", affine=affine, signed=signed)
-    given = {"a": a, "c": Chapter(a.chapter)}
-    return follow(ANY_GROUP, given, {"affine" if affine else "linear"})
+    start = {"a": a, "c": Chapter(a.chapter)}
+    return follow(ANY_GROUP, start, {"affine" if affine else "linear"})
 
 
 def program(problem: Problem, record: Derivation, options: Options | None = None) -> Program:

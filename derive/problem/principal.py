@@ -240,7 +240,7 @@ def _needed(problem: Problem, *, root: bool) -> Iterable[int]:
             yield from range(1, problem.masses + 1)
         if p not in inside:
             yield from p.points()
-    yield from (x.on for x in problem.pushes)
+    yield from (x.on for x in problem.force_inputs)
     yield from (i for x in problem.damping for i in x.on)
 
 

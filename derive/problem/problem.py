@@ -147,7 +147,7 @@ class Problem:
         return next((i for i in self.inputs if isinstance(i, CovectorInput)), None)
 
     @property
-    def pushes(self) -> tuple[ForceInput, ...]:
+    def force_inputs(self) -> tuple[ForceInput, ...]:
         """The force inputs."""
         return tuple(i for i in self.inputs if isinstance(i, ForceInput))
 

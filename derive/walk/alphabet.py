@@ -1,7 +1,7 @@
 """The letters of the walk.
 
 A *part* of the configuration is A, or T when the group also translates.  Each part has a velocity
-and its variations, in space (``Part``) and carried to the identity (``Frame``).
+and its variations, in space (``Part``) and carried to the identity (``AlgebraPart``).
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Frame:
+class AlgebraPart:
     """The letters of a part carried to the identity by g⁻¹: Z, ξ, ξ′, δZ, δ′Z, Ż, δδ′ξ, δδ′Z (of T:
     w, η, …)."""
 
@@ -57,12 +57,12 @@ class Dual:
     d_momentum: Letter
     dp_momentum: Letter
     rate: Letter
-    push: Letter
+    force: Letter
 
     @property
     def letters(self) -> tuple[Letter, ...]:
         """P, δP, δ′P, Ṗ and F, in this order."""
-        return self.momentum, self.d_momentum, self.dp_momentum, self.rate, self.push
+        return self.momentum, self.d_momentum, self.dp_momentum, self.rate, self.force
 
 
 class Alphabet:
@@ -99,9 +99,9 @@ class Alphabet:
         vector = (Letter(x, n) for x in self._part("T", "τ"))
         self.A, self.T = Part("Ȧ", *linear), Part("Ṫ", *vector)
         names = ("Z", "ξ", "ξ′", "δZ", "δ′Z", "Ż", "δδ′ξ", "δδ′Z")
-        self.Z = Frame(*(self._algebra(x, skew, traceless) for x in names))
+        self.Z = AlgebraPart(*(self._algebra(x, skew, traceless) for x in names))
         names = ("w", "η", "η′", "δw", "δ′w", "ẇ", "δδ′η", "δδ′w")
-        self.w = Frame(*(Letter(x, n) for x in names))
+        self.w = AlgebraPart(*(Letter(x, n) for x in names))
         self.Pi = Dual(*(Letter(x, n, n) for x in ("Π", "δΠ", "δ′Π", "Π̇", "Φ")))
         self.p_b = Dual(*(Letter(x, n) for x in ("p_b", "δp_b", "δ′p_b", "ṗ_b", "F_b")))
         spin = [Letter(x, n, n, -1) for x in ("ℓ_b", "δℓ_b", "δ′ℓ_b", "ℓ̇_b")]
@@ -130,14 +130,14 @@ class Alphabet:
         return (self.A, self.T) if self.affine else (self.A,)
 
     @property
-    def frames(self) -> tuple[Frame, ...]:
+    def algebra_parts(self) -> tuple[AlgebraPart, ...]:
         """The letters of Z, and of w for an affine action, in the order of :attr:`parts`."""
         return (self.Z, self.w) if self.affine else (self.Z,)
 
     @property
     def duals(self) -> tuple[Dual, ...]:
         """The letters of Π, and of p_b for an affine action, which pair with those of
-        :attr:`frames`."""
+        :attr:`algebra_parts`."""
         return (self.Pi, self.p_b) if self.affine else (self.Pi,)
 
     def freed(self) -> Alphabet:
@@ -156,17 +156,17 @@ class Alphabet:
         """Every letter of the alphabet by its name."""
         found: dict[str, Letter] = {}
         for value in vars(self).values():
-            members = vars_of(value) if isinstance(value, (Part, Frame, Dual)) else [value]
-            found |= {x.name: x for x in members if isinstance(x, Letter)}
+            own = members(value) if isinstance(value, (Part, AlgebraPart, Dual)) else [value]
+            found |= {x.name: x for x in own if isinstance(x, Letter)}
         return found
 
-    def respell(self, e: Expr, gram: Expr | None = None) -> Expr:
+    def respell(self, e: Expr, C: Expr | None = None) -> Expr:
         """An expression of another alphabet in the letters of the same names here, which know more,
-        and with ``gram`` for C, if that is said."""
+        and with ``C`` for C, if that is said."""
         mine = self.letters()
         images = {x: word(mine[x.name]) for x in e.letters() if x.name in mine}
-        if gram is not None:
-            images |= {x: gram for x in e.letters() if x.name == self.C.name}
+        if C is not None:
+            images |= {x: C for x in e.letters() if x.name == self.C.name}
         rows, cols = (self.n if isinstance(x, str) else x for x in (e.rows, e.cols))
         return substitute(Expr(rows, cols, e.terms, e.lineage), images)
 
@@ -176,8 +176,8 @@ class Alphabet:
         return one(self.n)
 
 
-def vars_of(value: Part | Frame | Dual) -> list[object]:
-    """The values of all the fields of a part, a frame or a dual."""
+def members(value: Part | AlgebraPart | Dual) -> list[object]:
+    """The values of all the fields of a part, in space or in 𝔤, or of a dual."""
     return [getattr(value, name) for name in value.__dataclass_fields__]
 
 

@@ -18,7 +18,7 @@ from .continuum import continuum
 from .lagrangian import Lagrangian
 from .pointwise import column, embedded
 from .supposed import of_moments
-from .telling import phrase, say, told
+from .telling import phrase, say, say_signed
 
 SOLIDS = {
     "ball": phrase("integrals.ball"),
@@ -48,14 +48,13 @@ def body_step(problem: Problem, points: Lagrangian, a: Alphabet, c: Chapter) -> 
     supposed: tuple[Hypothesis, ...] = ()
     if isinstance(body, MomentBody):
         equations += _moments(body.mass(), body.first(), body.second())
-        prose = told("body.symbolic", problem.signed)
+        prose = say_signed("body.symbolic", problem.signed)
         supposed = of_moments(problem.signed)
     elif isinstance(body, GivenBody):
         if body.solids:
             steps += [continuum(points, a, c), _integrals(body.solids, c)]
         equations += _moments(body.mass, body.first, body.second)
-        given = say("body.given")
-        prose = say("body.moments") if body.solids else given
+        prose = say("body.moments" if body.solids else "body.given")
     if problem.points:
         equations = [*_points(problem, problem.points), *equations]
         prose = say("body.points") + prose
@@ -71,7 +70,7 @@ def body_step(problem: Problem, points: Lagrangian, a: Alphabet, c: Chapter) -> 
     if not equations:
         return ()
     draft = c.draft("body", "definition")
-    draft.read(*steps[-1:])
+    draft.depends_on(*steps[-1:])
     return (*steps, draft.step(equations, prose, hypotheses=supposed))
 
 

@@ -17,7 +17,7 @@ from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .pullback import Pullback
 from .telling import say
-from .trivialisation import carry, trivialisation
+from .trivialisation import at_identity, trivialisation
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
     )
     lagrangian = stage.kinetic - word(a.U)
     momentum = fibre_derivative(lagrangian, a)
-    energy = legendre(moving.said(momentum), lagrangian, a)
+    energy = legendre(moving.mark(momentum), lagrangian, a)
     velocities = ", ".join(p.velocity.name for p in a.parts)
     notation = metrics() if a.affine else metrics("J")
     steps = (
@@ -81,16 +81,16 @@ def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
             (
                 Equation(
                     read("ϖ(δy)"),
-                    add(whole.tree(moving.said(momentum), notation), read("−h̃ δt")),
+                    add(whole.tree(moving.mark(momentum), notation), read("−h̃ δt")),
                 ),
             ),
             say("cartan.form"),
             (15,) if a.affine else (15, 23),
         ),
     )
-    rest = resting.said(energy)
-    form = cartan_form(whole.said(momentum), rest, a)
-    return Cartan(moving.said(momentum), rest, form, stage.work, steps)
+    rest = resting.mark(energy)
+    form = cartan_form(whole.mark(momentum), rest, a)
+    return Cartan(moving.mark(momentum), rest, form, stage.work, steps)
 
 
 def _momentum_equations(
@@ -117,15 +117,15 @@ def _momentum_equations(
 def trivialise(stage: Cartan, a: Alphabet, c: Chapter) -> Cartan:
     """The Cartan form in the variables (t, g, Z), with ξ = g⁻¹δg."""
     draft = c.draft("cartan_trivialised", "trivialisation")
-    momentum, energy = carry(stage.momentum, a), carry(stage.energy, a)
+    momentum, energy = at_identity(stage.momentum, a), at_identity(stage.energy, a)
     step = draft.step(
         (form_equation(draft, momentum, energy, metrics()),),
         say("cartan_trivialised.form"),
     )
-    form = draft.said(cartan_form(momentum, energy, a))
+    form = draft.mark(cartan_form(momentum, energy, a))
     steps = (trivialisation(a, c), step)
-    work = carry(stage.work, a)
-    return Cartan(draft.said(momentum), draft.said(energy), form, work, steps)
+    work = at_identity(stage.work, a)
+    return Cartan(draft.mark(momentum), draft.mark(energy), form, work, steps)
 
 
 def form_equation(d: Draft, momentum: Expr, energy: Expr, notation: Notation) -> Equation:

@@ -16,11 +16,13 @@ from .alphabet import Alphabet
 from .telling import say
 
 
-def without_gram(e: Expr, bodies: Bodies, a: Alphabet) -> Expr:
+def without_cauchy_green(e: Expr, bodies: Bodies, a: Alphabet) -> Expr:
     """A scalar with 1 for each C that drops out of the metric: those between a barred letter of 𝔤
     and a plain one."""
-    algebra = {x.name for f in a.frames for x in (f.velocity, f.xi, f.xi_prime)}
-    algebra |= {x.name for f in a.frames for x in (f.d_velocity, f.dp_velocity, f.acceleration)}
+    algebra = {x.name for f in a.algebra_parts for x in (f.velocity, f.xi, f.xi_prime)}
+    algebra |= {
+        x.name for f in a.algebra_parts for x in (f.d_velocity, f.dp_velocity, f.acceleration)
+    }
 
     def drops(cycle: Word, k: int) -> bool:
         before, after = cycle[k - 1], cycle[(k + 1) % len(cycle)]
@@ -35,13 +37,13 @@ def without_gram(e: Expr, bodies: Bodies, a: Alphabet) -> Expr:
     return map_traces(e, left)
 
 
-def claims(bodies: Bodies) -> list[Equation]:
+def metric_equations(bodies: Bodies) -> list[Equation]:
     """The equation by which C drops out of the metric on 𝔤: for every body, or for this one."""
     return stated("ξ̄CZ = ξ̄Z" if bodies == EVERY else "Tr ξJZ̄C = Tr ξJZ̄")
 
 
-def told(bodies: Bodies) -> Prose:
-    """The sentence for :func:`claims`."""
+def metric_prose(bodies: Bodies) -> Prose:
+    """The sentence for :func:`metric_equations`."""
     if bodies == EVERY:
         return say("relation.lengths")
     return say("relation.left_invariant")

@@ -52,7 +52,7 @@ def seen_from_centres(
         Y: word(Y) * back,
         xi: word(xi) * back,
     }
-    moved, pushed = (
+    left, right = (
         reduce(substitute(e, images), annulled(S, {Z_c, Y, xi}))
         for e in (inertial, inner(force, word(xi)))
     )
@@ -66,7 +66,7 @@ def seen_from_centres(
         ),
         say("elimination.centres"),
     )
-    return Seen(draft.said(moved), gradient(draft.said(pushed), xi), draft.said(word(S)), (step,))
+    return Seen(draft.mark(left), gradient(draft.mark(right), xi), draft.mark(word(S)), (step,))
 
 
 def annulled(S: Letter, algebra: set[Letter]) -> PairRule:

@@ -49,7 +49,7 @@ class Draft:
         self.uses: dict[str, None] = {}
         begin(label, rule)
 
-    def read(self, *made: Expr | Step) -> None:
+    def depends_on(self, *made: Expr | Step) -> None:
         """Note among the uses of this step what an expression was made from, or another step."""
         for x in made:
             marks = (x.label,) if isinstance(x, Step) else sorted(x.lineage)
@@ -57,7 +57,7 @@ class Draft:
 
     def tree(self, e: Expr, notation: Notation = PLAIN) -> Tree:
         """The tree of an expression, whose origin is noted among the uses of this step."""
-        self.read(e)
+        self.depends_on(e)
         return tree_of(e, notation)
 
     def step(
@@ -65,10 +65,10 @@ class Draft:
         equations: Iterable[Equation],
         prose: Prose,
         paper: Sequence[int] = (),
-        given: Iterable[Equation] = (),
+        where: Iterable[Equation] = (),
         hypotheses: Iterable[Hypothesis] = (),
     ) -> Step:
-        """The step, finished: its equations hold where those ``given`` and its ``hypotheses``
+        """The step, finished: its equations hold where those of ``where`` and its ``hypotheses``
         do."""
         written = tuple(equations)  # before the uses are read off, for it may be a generator
         c = self.chapter
@@ -81,11 +81,11 @@ class Draft:
             prose,
             tuple(paper),
             c.scope,
-            tuple(given),
+            tuple(where),
             c.driven,
             tuple(hypotheses),
         )
 
-    def said(self, e: Expr) -> Expr:
+    def mark(self, e: Expr) -> Expr:
         """The same expression, marked as made by this step: who uses it uses this step."""
         return e.marked(self.label)

@@ -30,28 +30,28 @@ def halved(values: Mapping[Letter, Expr], b: Alphabet) -> dict[Letter, Expr]:
     On so(n) ⟨Π, ξ⟩ = ½ Tr ξℓ̄_b, so that a skew ℓ_b says as much as any Π.
     """
     pairs = zip(b.Pi.letters[:4], b.spin.letters[:4], strict=True)
-    return {x: Fraction(1, 2) * word(y) for x, y in pairs} | {b.Pi.push: values[b.Pi.push]}
+    return {x: Fraction(1, 2) * word(y) for x, y in pairs} | {b.Pi.force: values[b.Pi.force]}
 
 
-def coadjoint_steps(stage: MomentumForm, b: Alphabet, gram: Expr, c: Chapter) -> tuple[Step, ...]:
+def coadjoint_steps(stage: MomentumForm, b: Alphabet, C: Expr, c: Chapter) -> tuple[Step, ...]:
     """The steps ``momenta`` and ``coadjoint``: ℓ_b (and p_b) and their rates in matrices,
-    Euler–Manakov's equations; ``gram``: ĀA."""
+    Euler–Manakov's equations; ``C``: ĀA."""
     telling, moving = c.draft("momenta", "relation"), c.draft("coadjoint", "kernel")
-    own = {b.letters()[x.name]: b.respell(e, gram).of(gram) for x, e in stage.values.items()}
+    own = {b.letters()[x.name]: b.respell(e, C).of(C) for x, e in stage.values.items()}
     momentum = own[b.Pi.momentum]
     values = {b.spin.momentum: momentum - momentum.bar}
     if b.affine:
         values[b.p_b.momentum] = own[b.p_b.momentum]
-    told = telling.step(
-        [Equation(x.name, telling.tree(e)) for x, e in values.items()], momenta_told(b)
+    momenta = telling.step(
+        [Equation(x.name, telling.tree(e)) for x, e in values.items()], momenta_prose(b)
     )
-    balance = substitute(b.respell(stage.balance), halved(own, b)).of(telling.said(gram))
+    balance = substitute(b.respell(stage.balance), halved(own, b)).of(telling.mark(C))
     rates = {b.spin.rate: word(b.spin.rate) - 2 * gradient(balance, b.Z.xi_prime)}
     if b.affine:
         rates[b.p_b.rate] = word(b.p_b.rate) - gradient(balance, b.w.xi_prime)
-    moving.read(*rates.values())
+    moving.depends_on(*rates.values())
     equations = [Equation(x.name, _commuted(e, b)) for x, e in rates.items()]
-    return told, moving.step(equations, motion_told(b))
+    return momenta, moving.step(equations, motion_prose(b))
 
 
 def _commuted(e: Expr, b: Alphabet) -> Tree:
@@ -64,14 +64,14 @@ def _commuted(e: Expr, b: Alphabet) -> Tree:
     return add(("bracket", b.spin.momentum.name, b.Z.velocity.name), tree_of(rest))
 
 
-def momenta_told(b: Alphabet) -> Prose:
+def momenta_prose(b: Alphabet) -> Prose:
     """The sentence that says what ℓ_b (and p_b) are."""
     if b.affine:
         return say("momenta.affine")
     return say("momenta.linear")
 
 
-def motion_told(b: Alphabet) -> Prose:
+def motion_prose(b: Alphabet) -> Prose:
     """The sentence for the rates of ℓ_b (and p_b): Euler's equations, or Kirchhoff's."""
     if b.affine:
         return say("coadjoint.kirchhoff")

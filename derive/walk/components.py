@@ -81,9 +81,8 @@ def tensor_steps(
         order.sort(key=lambda x: x[0] != x[1])
     entries = [Equation(("entry", name, i, j), written(found[i - 1][j - 1])) for i, j in order]
     draft = c.draft("tensor", "coordinates")
-    draft.read(body[-1], inertia)
-    told = say("tensor.entries")
-    step = draft.step(entries, told)
+    draft.depends_on(body[-1], inertia)
+    step = draft.step(entries, say("tensor.entries"))
     return (
         (step, *_motion(problem, name, found, (body[-1], step, motion), c)) if straight else (step,)
     )
@@ -120,11 +119,10 @@ def _motion(
         for e in rates
         for i, x in enumerate(components(e.rhs, known, moments), 1)
     ]
-    told = say("components.principal")
     driven = c.with_input() if motion.driven else c
     draft = driven.draft("components", "coordinates")
-    draft.read(*made_from)
-    return (draft.step(equations, told),)
+    draft.depends_on(*made_from)
+    return (draft.step(equations, say("components.principal")),)
 
 
 def _numbers(problem: Problem) -> dict[str, Value]:

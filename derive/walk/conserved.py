@@ -22,7 +22,7 @@ from ..record.record import Equation, Step
 from ..record.sentence import listed
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .hat import isolate
+from .hat import anticommute
 from .potential import U_Q, Potentials
 from .summed import moved
 from .telling import say
@@ -58,26 +58,26 @@ def conserved_steps(
     vectors = momenta.vectors
     write = vector_sum if vectors else tree_of
     kept = [Equation("ḣ", 0)] if not v.timed else []
-    told = say("conserved.energy") if kept else ()
+    laws = say("conserved.energy") if kept else ()
     definitions = []
     if _turned(group) and (rate := _turning(v, b, vectors=vectors)) is not None:
-        draft.read(momenta.turning, v.energy)
+        draft.depends_on(momenta.turning, v.energy)
         definitions.append(Equation("ℓ", write(momenta.turning)))
         kept.append(Equation(rate, 0))
         whole = rate == "ℓ̇"
-        told += say("conserved.angular_momentum" if whole else "conserved.along_gravity")
+        laws += say("conserved.angular_momentum" if whole else "conserved.along_gravity")
     if momenta.shifting is not None and (rate := _shifting(problem, v, b)) is not None:
-        draft.read(momenta.shifting, v.energy)
+        draft.depends_on(momenta.shifting, v.energy)
         definitions.append(Equation("p", write(momenta.shifting)))
         kept.append(Equation(rate, 0))
-        told += say("conserved.momentum" if rate == "ṗ" else "conserved.across_gravity")
+        laws += say("conserved.momentum" if rate == "ṗ" else "conserved.across_gravity")
     if not kept:
         return ()
     prose = say(
         "conserved.kept",
-        kept=listed("{first}, {second}", told),
+        kept=listed("{first}, {second}", laws),
     ) + say("conserved.noether")
-    draft.read(motion)
+    draft.depends_on(motion)
     return (draft.step([*definitions, *kept], prose),)
 
 
@@ -96,13 +96,13 @@ def matrix_momenta(momentum: Expr, a: Alphabet) -> SpaceMomenta:
 def vector_momenta(momenta: Mapping[Letter, Expr], b: Alphabet) -> SpaceMomenta:
     """ℓ and p in R³: the gradients by y and b of ⟨ℓ_b, Ω⟩ + ⟨p_b, η⟩, with Ω = Āy and η = Ā(y ∧ T +
     b)."""
-    turned, *pushed = momenta.values()
+    turned, *shifted = momenta.values()
     g, shift = word(b.A.position), Letter("b", 3)
     paired = inner(turned, g.bar * word(AXIS))
     if b.affine:
         moved = word(hat(AXIS)) * word(b.T.position) + word(shift)
-        paired = paired + inner(pushed[0], g.bar * moved)
-    whole = gradient(reduce(paired, isolate(AXIS)), AXIS)
+        paired = paired + inner(shifted[0], g.bar * moved)
+    whole = gradient(reduce(paired, anticommute(AXIS)), AXIS)
     return SpaceMomenta(whole, gradient(paired, shift) if b.affine else None, vectors=True)
 
 
@@ -119,7 +119,7 @@ def _turning(v: Potentials, b: Alphabet, *, vectors: bool) -> Tree | None:
     """What vanishes of ℓ̇: all of it, or ⟨γ, ℓ̇⟩, where the potential is kept by all rotations of
     space, or by those about gravity; ``None`` where by neither."""
     Y = Letter("Y", b.n, b.n, -1)
-    if not v.elements.keeps(turning=True):
+    if not v.pointwise.keeps(turning=True):
         return None
     rate = _varied(v, word(Y), None, b)
     if not rate:
@@ -134,7 +134,7 @@ def _shifting(problem: Problem, v: Potentials, b: Alphabet) -> Tree | None:
     space, or by those across gravity; ``None`` where by neither."""
     group = problem.group
     assert group is not None
-    if not group.free_translations or not v.elements.keeps(turning=False):
+    if not group.free_translations or not v.pointwise.keeps(turning=False):
         return None
     if not _varied(v, None, word(Letter("b", b.n)), b):
         return "ṗ"

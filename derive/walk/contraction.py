@@ -24,7 +24,7 @@ from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .factored import gathered
 from .supposed import vertical_metric
-from .telling import phrase, say, told
+from .telling import phrase, say, say_signed
 
 CONTRACTION = read("dϖ(X, δ′y)")
 REGULAR = phrase("second_order.displacement_signed")
@@ -73,10 +73,10 @@ class Contraction:
         """The tree of dϖ(δ, δ′)."""
         return gathered(d, self.form, self.core, self.images, self.notation)
 
-    def said_by(self, d: Draft) -> Contraction:
+    def marked_by(self, d: Draft) -> Contraction:
         """The same contraction, its expressions marked as made by a step."""
-        images = {x: d.said(y) for x, y in self.images.items()}
-        return replace(self, form=d.said(self.form), images=images)
+        images = {x: d.mark(y) for x, y in self.images.items()}
+        return replace(self, form=d.mark(self.form), images=images)
 
     def any_vector(self, d: Draft) -> Tree:
         """The tree of dϖ(X, δ′), in which δt(X) = 1 and the other components of X are those
@@ -184,21 +184,21 @@ def steps_of(
             "contraction.unknown",
             unknown=unknown,
         ),
-        given=(CONTRACTED,),
+        where=(CONTRACTED,),
     )
-    forms = [x.said_by(putting) for x in forms]
+    forms = [x.marked_by(putting) for x in forms]
     last = forms[-1]
     second = testing.step(
         [Equation(CONTRACTION, x.on_vertical(testing)) for x in forms],
         say("vertical.velocity"),
-        given=(CONTRACTED, *last.at_rest()),
+        where=(CONTRACTED, *last.at_rest()),
     )
-    found = {x: testing.said(y) for x, y in last.velocity.items()}
+    found = {x: testing.mark(y) for x, y in last.velocity.items()}
     forms = [replace(x, velocity=found) for x in forms]
     along = velocities(finding, found, known)
     third = finding.step(
         (*along, *(Equation(CONTRACTION, x.remaining(finding), x.rates()) for x in forms)),
-        told("second_order.velocity", a.signed, regular=regular, rates=rates),
+        say_signed("second_order.velocity", a.signed, regular=regular, rates=rates),
         paper,
         along,
         (last.metric(),),

@@ -18,9 +18,9 @@ from ..language.tree import Tree, add, mul
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .hat import INERTIA, OMEGA_P, ZETA, ZETA_DOT, isolate
+from .hat import INERTIA, OMEGA_P, ZETA, ZETA_DOT, anticommute
 from .inverse import cancel_scalar, inverse_letter, inverse_tree
-from .telling import say, told
+from .telling import say, say_signed
 from .translation import central_moments
 from .vector import VectorForm
 from .wedge import vector_sum
@@ -55,7 +55,7 @@ def eliminate(stage: VectorForm, a: Alphabet, c: Chapter) -> Eliminated:
     forces, moments = stage.balance[a.w.xi_prime], stage.balance[OMEGA_P]
     acceleration = -simplified(word(inverse_letter(a.m)) * without(forces, w_dot), a)
     reduced = simplified(substitute(moments, {w_dot: acceleration}), a)
-    tensor = coefficient_of(reduce(reduced, isolate(ZETA_DOT)), ZETA_DOT)
+    tensor = coefficient_of(reduce(reduced, anticommute(ZETA_DOT)), ZETA_DOT)
     J_c, moments_c = central_moments(a)
     by_moments = substitute(tensor, {INERTIA: stage.inertia})
     central = substitute(by_moments, {a.J: word(J_c) + word(a.J) - moments_c})
@@ -64,9 +64,9 @@ def eliminate(stage: VectorForm, a: Alphabet, c: Chapter) -> Eliminated:
     torque = from_centre(substitute(rest, shift), a)
     velocity = word(a.w.velocity) + word(hat(ZETA)) * word(CENTRE)
     carried = word(a.w.velocity) + word(CENTRE_VELOCITY) - velocity
-    ending = reduce(acceleration, isolate(a.w.velocity))
+    ending = reduce(acceleration, anticommute(a.w.velocity))
     acceleration = from_centre(substitute(ending, {a.w.velocity: carried}), a)
-    draft.read(acceleration, central, torque)
+    draft.depends_on(acceleration, central, torque)
     step = draft.step(
         (
             Equation(CENTRE.name, tree_of(word(inverse_letter(a.m)) * word(a.c), notation(a))),
@@ -77,9 +77,9 @@ def eliminate(stage: VectorForm, a: Alphabet, c: Chapter) -> Eliminated:
             Equation(CENTRAL.name, tree_of(central, notation(a))),
             Equation(("mul", CENTRAL.name, "ζ̇"), vector_tree(torque, a)),
         ),
-        told("elimination.mass", a.signed) + say("elimination.velocity"),
+        say_signed("elimination.mass", a.signed) + say("elimination.velocity"),
     )
-    return Eliminated(draft.said(torque), draft.said(acceleration), (step,))
+    return Eliminated(draft.mark(torque), draft.mark(acceleration), (step,))
 
 
 def simplified(e: Expr, a: Alphabet) -> Expr:

@@ -19,7 +19,7 @@ from .cartan import Cartan
 from .chapter import Chapter
 from .factored import at_constant_time, gathered, solve_for
 from .telling import say
-from .trivialisation import frame_rule, gram, trivial_images, varied_gram
+from .trivialisation import body_rule, cauchy_green, trivial_images, varied_cauchy_green
 
 DOMEGA = read("dϖ(δy, δ′y)")
 
@@ -42,11 +42,11 @@ def derivative(form: Expr, work: Expr, a: Alphabet) -> Expr:
 def primes(a: Alphabet) -> dict[Letter, Letter]:
     """Each variation letter and its primed twin."""
     table = {a.dt: a.dpt}
-    for part, frame in zip(a.parts, a.frames, strict=True):
+    for part, inner in zip(a.parts, a.algebra_parts, strict=True):
         table[part.d_position] = part.dp_position
         table[part.d_velocity] = part.dp_velocity
-        table[frame.xi] = frame.xi_prime
-        table[frame.d_velocity] = frame.dp_velocity
+        table[inner.xi] = inner.xi_prime
+        table[inner.d_velocity] = inner.dp_velocity
     return table
 
 
@@ -94,7 +94,7 @@ def brackets_of(a: Alphabet) -> dict[Letter, Expr]:
         f.xi_prime: forms.structure_equation(
             a.A.position, a.Z.xi, a.Z.xi_prime, f.xi, f.xi_prime
         ).marked(mark)
-        for f in a.frames
+        for f in a.algebra_parts
     }
 
 
@@ -118,14 +118,14 @@ def trivial_variations(a: Alphabet, work: Expr) -> tuple[Image, Image]:
     """
     images, brackets = trivial_images(a), brackets_of(a)
     potential = word(a.dU_dt) * word(a.dt) - work
-    delta: dict[Letter, Expr] = {a.U: potential, a.C: varied_gram(a, a.Z.xi)}
+    delta: dict[Letter, Expr] = {a.U: potential, a.C: varied_cauchy_green(a, a.Z.xi)}
     delta_prime: dict[Letter, Expr] = {
         a.U: primed(potential, a),
-        a.C: varied_gram(a, a.Z.xi_prime),
+        a.C: varied_cauchy_green(a, a.Z.xi_prime),
     }
     for p in a.parts:
         delta[p.position], delta_prime[p.position] = images[p.d_position], images[p.dp_position]
-    for f in a.frames:
+    for f in a.algebra_parts:
         delta[f.velocity], delta_prime[f.velocity] = word(f.d_velocity), word(f.dp_velocity)
         delta[f.xi_prime] = word(f.second) + brackets[f.xi_prime]
         delta_prime[f.xi] = word(f.second)
@@ -138,12 +138,12 @@ def trivialised_images(stage: Exterior, a: Alphabet) -> dict[Letter, Expr]:
     carried = trivial_images(a)
     g = a.A.position
     images: dict[Letter, Expr] = {}
-    for part, frame in zip(a.parts, a.frames, strict=True):
+    for part, inner in zip(a.parts, a.algebra_parts, strict=True):
         for x, y in (
-            (part.d_position, frame.xi),
-            (part.dp_position, frame.xi_prime),
-            (part.d_velocity, frame.d_velocity),
-            (part.dp_velocity, frame.dp_velocity),
+            (part.d_position, inner.xi),
+            (part.dp_position, inner.xi_prime),
+            (part.d_velocity, inner.d_velocity),
+            (part.dp_velocity, inner.dp_velocity),
         ):
             shift = stage.images.get(x, word(x))
             images[y] = forms.strip_left(substitute(shift, carried), g)
@@ -166,19 +166,19 @@ def exterior(stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
             (25,),
         ),
         resting.step(
-            (Equation(read("ω(δx, δ′x)"), resting.tree(whole.said(static), notation)),),
+            (Equation(read("ω(δx, δ′x)"), resting.tree(whole.mark(static), notation)),),
             say("symplectic.constant_time"),
             (26,),
         ),
     )
-    return Exterior(whole.said(form), {x: whole.said(y) for x, y in images.items()}, steps)
+    return Exterior(whole.mark(form), {x: whole.mark(y) for x, y in images.items()}, steps)
 
 
 def structure(a: Alphabet, c: Chapter) -> Step:
     """The step of the structure equation, δξ′ − δ′ξ = [ξ′, ξ]."""
     equations = (
         Equation(read(f"δ({f.xi_prime.name}) − δ′({f.xi.name})"), t)
-        for f, t in zip(a.frames, shown_brackets(a), strict=True)
+        for f, t in zip(a.algebra_parts, shown_brackets(a), strict=True)
     )
     return c.draft("structure", "structure equation").step(
         equations,
@@ -190,13 +190,13 @@ def exterior_trivialised(natural: Exterior, stage: Cartan, a: Alphabet, c: Chapt
     """dϖ in the variables (t, g, Z), for any group, with C = ĀA, and its step."""
     draft = c.draft("exterior_trivialised", "exterior derivative")
     varied = forms.exterior(stage.form, primes(a), *trivial_variations(a, stage.work))
-    form = reduce(varied, frame_rule(a, gram(a)))
+    form = reduce(varied, body_rule(a, cauchy_green(a)))
     images = trivialised_images(natural, a)
-    variations = [x for f in a.frames for x in (f.d_velocity, f.dp_velocity)]
+    variations = [x for f in a.algebra_parts for x in (f.d_velocity, f.dp_velocity)]
     core = terms_with(without(form, a.dt, a.dpt), *variations)
     step = draft.step(
         (Equation(DOMEGA, gathered(draft, form, core, images, Notation())),),
         say("exterior_trivialised.any_group"),
     )
-    said = {x: draft.said(y) for x, y in images.items()}
-    return Exterior(draft.said(form), said, (structure(a, c), step))
+    images = {x: draft.mark(y) for x, y in images.items()}
+    return Exterior(draft.mark(form), images, (structure(a, c), step))

@@ -53,7 +53,7 @@ def gathered(
 ) -> Tree:
     """The tree of ``e``: ``core`` with letters replaced by parenthesised sums, and whatever of
     ``e`` that leaves."""
-    d.read(e, *(images[x] for x in core.letters() if x in images))
+    d.depends_on(e, *(images[x] for x in core.letters() if x in images))
     display = {**notation.display, **{x: tree_of(y) for x, y in images.items()}}
     remainder = e - substitute(core, images)
     shown = tree_of(core, replace(notation, display=display))

@@ -28,7 +28,7 @@ class Way:
     begun: dict[str, str] = field(default_factory=dict)
     last: str = ""
 
-    def told(self, error: Exception) -> str:
+    def describe(self, error: Exception) -> str:
         """Where on the way an error came about, and what it is, as one text."""
         steps = " or ".join(f"{label} ({rule})" for label, rule in self.begun.items())
         before = f"after the step {self.last}" if self.last else "before the first step of its own"
@@ -71,6 +71,6 @@ def naming_steps() -> Iterator[None]:
     except ProblemError:
         raise
     except BROKEN as error:
-        raise WalkError(way.told(error)) from error
+        raise WalkError(way.describe(error)) from error
     finally:
         WAY.reset(token)

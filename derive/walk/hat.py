@@ -32,7 +32,7 @@ from ..algebra.words import (
 from ..language.read import read
 from ..record.formulas import stated
 from ..record.record import Equation, Step
-from .alphabet import Alphabet, Dual, Frame
+from .alphabet import AlgebraPart, Alphabet, Dual
 from .chapter import Chapter
 from .exterior import brackets_of
 from .telling import say
@@ -49,11 +49,13 @@ SPIN, D_SPIN, DP_SPIN, SPIN_RATE = map(_vector, ("ℓ_b", "δℓ_b", "δ′ℓ_b
 INERTIA = Letter("I", 3, 3, 1)
 AXES = {"Z": ZETA, "ξ": OMEGA, "ξ′": OMEGA_P, "δZ": D_ZETA, "δ′Z": DP_ZETA, "f": PHI}
 AXES |= {x.name: x for x in (SPIN, D_SPIN, DP_SPIN, SPIN_RATE)}
-TURNING = Frame(ZETA, OMEGA, OMEGA_P, D_ZETA, DP_ZETA, ZETA_DOT, _vector("δδ′Ω"), _vector("δδ′ζ"))
+TURNING = AlgebraPart(
+    ZETA, OMEGA, OMEGA_P, D_ZETA, DP_ZETA, ZETA_DOT, _vector("δδ′Ω"), _vector("δδ′ζ")
+)
 SPINNING = Dual(SPIN, D_SPIN, DP_SPIN, SPIN_RATE, MU)
 
 
-def isolate(v: Letter) -> PairRule:
+def anticommute(v: Letter) -> PairRule:
     """The rule ``v ∧ y = −y ∧ v``, which carries the vector v out of every j(v)."""
 
     def rule(left: Factor, right: Factor) -> Expr | None:
@@ -68,7 +70,7 @@ def isolate(v: Letter) -> PairRule:
 
 
 @dataclass(frozen=True)
-class Reader:
+class HatMap:
     """so(3) ≅ R³ on the expressions of an alphabet; ``hat``, ``inertia``: the labels of the steps
     that say Z = j(ζ) and I."""
 
@@ -98,7 +100,7 @@ class Reader:
         equation with ξ = j(Ω), ξ′ = j(Ω′)."""
         derived = brackets_of(self.letters).values()
         turning, *others = (normal_form(substitute(e, self._axes(e))) for e in derived)
-        found = {BRACKET: reduce(axial(turning), isolate(OMEGA))}
+        found = {BRACKET: reduce(axial(turning), anticommute(OMEGA))}
         return found | dict(zip((self.letters.bracket_w,), others, strict=False))
 
     def _hats(self, e: Expr) -> dict[Letter, Expr]:
@@ -109,11 +111,11 @@ class Reader:
         return {x: word(hat(axis(x))) for x in e.letters() if x.name in AXES}
 
 
-def identified(b: Alphabet, gram: Expr, chapter: Chapter) -> tuple[Reader, tuple[Step, Step]]:
-    """so(3) ≅ R³ for an alphabet, with the steps ``hat`` and ``inertia``; ``gram``: ĀA = 1."""
-    reader = Reader(b, chapter.label("hat"), chapter.label("inertia"))
+def identified(b: Alphabet, C: Expr, chapter: Chapter) -> tuple[HatMap, tuple[Step, Step]]:
+    """so(3) ≅ R³ for an alphabet, with the steps ``hat`` and ``inertia``; ``C``: ĀA = 1."""
+    reader = HatMap(b, chapter.label("hat"), chapter.label("inertia"))
     cross = reader.brackets[BRACKET]
-    return reader, (_identification(b, gram, cross, chapter), _inertia(b, chapter))
+    return reader, (_identification(b, C, cross, chapter), _inertia(b, chapter))
 
 
 def axis(x: Letter) -> Letter:
@@ -154,13 +156,13 @@ def axial(e: Expr) -> Expr:
     return normal_form(map_terms(e, turned, zero(3, 1)))
 
 
-def _identification(b: Alphabet, gram: Expr, cross: Expr, c: Chapter) -> Step:
+def _identification(b: Alphabet, C: Expr, cross: Expr, c: Chapter) -> Step:
     affine = b.affine
     draft = c.draft("hat", "identification")
     equations = stated("Z = j(ζ),  ξ = j(Ω),  ξ′ = j(Ω′)")
     if not affine:
         equations += stated("f = j(φ)")
-    draft.read(gram)  # only a skew matrix is a j(X)
+    draft.depends_on(C)  # only a skew matrix is a j(X)
     equations.append(Equation(read("[ξ′, ξ]"), ("hat", draft.tree(cross))))
     if affine:
         equations += stated("Tr N_b j(Ω′)‾ = ⟨μ, Ω′⟩", for_all=("Ω′",))

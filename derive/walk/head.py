@@ -37,11 +37,11 @@ def symbols(steps: tuple[Step, ...], problem: Problem) -> tuple[Symbol, ...]:
     """The names that the steps use, in the order in which they appear."""
     meant, group = _meant(problem), problem.group
     sizes = _sizes(group) if group else {}
-    said = {x: sentence.say(about.meaning) for x, about in meant.items()}
-    if problem.pushes:
-        said["f_u"] = _inputs(problem)
+    meanings = {x: sentence.say(about.meaning) for x, about in meant.items()}
+    if problem.force_inputs:
+        meanings["f_u"] = _inputs(problem)
     used = of_steps(steps, meant, sizes)
-    return tuple(Symbol(x, said[x], meant[x].latex, uses) for x, uses in used.items())
+    return tuple(Symbol(x, meanings[x], meant[x].latex, uses) for x, uses in used.items())
 
 
 def _sizes(group: Group) -> dict[str, int]:
@@ -62,7 +62,7 @@ def _meant(problem: Problem) -> dict[str, Name]:
 
 def _inputs(problem: Problem) -> Prose:
     """The meaning of f_u in words: the forces that the user gives, one by one."""
-    forces, group = [_force(x) for x in problem.pushes], problem.group
+    forces, group = [_force(x) for x in problem.force_inputs], problem.group
     if problem.covector and group and group.turns_space and group.affine:
         at_origin = "input.covector_force"
         forces.insert(0, phrase(at_origin, name=problem.covector.name))

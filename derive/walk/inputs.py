@@ -22,21 +22,21 @@ from ..schema.outside import ForceInput
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .contraction import AND
-from .hat import OMEGA_P, ZETA, Reader, inertia_of, isolate
+from .hat import OMEGA_P, ZETA, HatMap, anticommute, inertia_of
 from .point_forces import applied
 from .pointwise import embedded
 from .pullback import sum_over
 from .telling import phrase, say
-from .trivialisation import frame_rule
+from .trivialisation import body_rule
 from .wedge import vector_sum
 
-GIVEN = phrase("input.forces")
+INPUTS = phrase("input.forces")
 DRAG = phrase("input.damping")
 TORQUE, FORCE = Letter("u", 3), Letter("f_u", 3)
 
 
 @dataclass(frozen=True)
-class Given:
+class External:
     """The forces from outside dϖ on words: their ``moments`` and ``resultant``, and the step that
     says these."""
 
@@ -52,14 +52,14 @@ def acts(problem: Problem) -> bool:
 
 def prose(problem: Problem) -> Prose:
     """The sentences that say what acts from outside dϖ."""
-    acting = [GIVEN] * bool(problem.inputs) + [DRAG] * bool(problem.damping)
+    acting = [INPUTS] * bool(problem.inputs) + [DRAG] * bool(problem.damping)
     return say("input.outside", forces=listed(AND, acting)) + say("input.moments")
 
 
-def given_matrices(problem: Problem, b: Alphabet, gram: Expr, c: Chapter) -> Given | None:
+def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> External | None:
     """N_u and F_u of what acts from outside dϖ, with their step; ``None`` where nothing does.
 
-    ``gram``: ĀA, as a step says it.
+    ``C``: ĀA, as a step says it.
     """
     if not acts(problem):
         return None
@@ -67,12 +67,12 @@ def given_matrices(problem: Problem, b: Alphabet, gram: Expr, c: Chapter) -> Giv
     assert group is not None
     forces, draft = applied(b, "u", vectors=False), c.draft("input", "input")
     definitions, drag = _damping(problem, b)
-    drag = reduce(drag, frame_rule(b, gram))
+    drag = reduce(drag, body_rule(b, C))
     xi, eta = Letter("ξ′", b.n, b.n), Letter("η′", b.n)
     moments, pulls = [draft.tree(gradient(drag, xi))], [draft.tree(gradient(drag, eta))]
-    for e, push in enumerate(problem.pushes, 1):
-        force = _carried(draft, problem, e, push, gram, b)
-        moments.append(mul(force, ("T", ("at", "r", push.on))))
+    for e, given in enumerate(problem.force_inputs, 1):
+        force = _carried(draft, problem, e, given, C, b)
+        moments.append(mul(force, ("T", ("at", "r", given.on))))
         pulls.append(force)
     if problem.covector:
         moment, pull = _covector(group, b)
@@ -82,22 +82,22 @@ def given_matrices(problem: Problem, b: Alphabet, gram: Expr, c: Chapter) -> Giv
     if b.affine:
         equations.append(Equation(forces.resultant.name, add(*pulls)))
     step = draft.step(equations, prose(problem))
-    return Given(draft.said(word(forces.moments)), draft.said(word(forces.resultant)), (step,))
+    return External(draft.mark(word(forces.moments)), draft.mark(word(forces.resultant)), (step,))
 
 
-def _carried(d: Draft, problem: Problem, e: int, push: ForceInput, gram: Expr, b: Alphabet) -> Tree:
+def _carried(d: Draft, problem: Problem, e: int, given: ForceInput, C: Expr, b: Alphabet) -> Tree:
     """Force ``e`` in the body, a tree: Āf for a force in space, ĀA f for one that turns with the
     body."""
     f: Tree = ("at", "f_u", e)
     group = problem.group
     assert group is not None
     if group.factors:
-        n = group.places[problem.block(push.on) - 1][1].n
-        f = embedded(problem, push.on, tuple(("entry", f, k) for k in range(1, n + 1)), 0)
-    if push.frame == "space":
+        n = group.places[problem.block(given.on) - 1][1].n
+        f = embedded(problem, given.on, tuple(("entry", f, k) for k in range(1, n + 1)), 0)
+    if given.frame == "space":
         return mul(("T", "A"), f)
-    d.read(gram)
-    return f if gram == b.unit else mul("C", f)
+    d.depends_on(C)
+    return f if b.unit == C else mul("C", f)
 
 
 def _covector(group: Group, b: Alphabet) -> tuple[Tree, Tree]:
@@ -145,25 +145,25 @@ def _damping(problem: Problem, b: Alphabet) -> tuple[list[Equation], Expr]:
     return equations, work
 
 
-def given_vectors(
-    problem: Problem, b: Alphabet, gram: Expr, read: Reader, c: Chapter
-) -> Given | None:
+def external_vectors(
+    problem: Problem, b: Alphabet, C: Expr, hat_map: HatMap, c: Chapter
+) -> External | None:
     """μ_u and F_u in R³, with their step; a covector alone keeps its own name. ``None`` where
     nothing acts from outside dϖ."""
     if not acts(problem):
         return None
-    if not problem.pushes and not problem.damping:
-        return Given(word(TORQUE), word(FORCE), ())
+    if not problem.force_inputs and not problem.damping:
+        return External(word(TORQUE), word(FORCE), ())
     forces, draft = applied(b, "u", vectors=True), c.draft("input", "input")
     definitions, drag = _damping(problem, b)
-    turned, pulled = _in_vectors(drag, b, gram, read)
-    draft.read(turned, pulled)
+    turned, pulled = _in_vectors(drag, b, C, hat_map)
+    draft.depends_on(turned, pulled)
     moments, pulls = [vector_sum(turned)], [vector_sum(pulled)]
     if problem.damping:
         definitions.append(Equation("I_D", tree_of(inertia_of(Letter("D", 3, 3, 1)))))
-    for e, push in enumerate(problem.pushes, 1):
-        force = _carried(draft, problem, e, push, gram, b)
-        moments.append(("wedge", ("at", "r", push.on), force))
+    for e, given in enumerate(problem.force_inputs, 1):
+        force = _carried(draft, problem, e, given, C, b)
+        moments.append(("wedge", ("at", "r", given.on), force))
         pulls.append(force)
     if problem.covector:
         moments.append(TORQUE.name)
@@ -172,15 +172,15 @@ def given_vectors(
     if b.affine:
         equations.append(Equation(forces.resultant.name, add(*pulls)))
     step = draft.step(equations, prose(problem))
-    return Given(draft.said(word(forces.moments)), draft.said(word(forces.resultant)), (step,))
+    return External(draft.mark(word(forces.moments)), draft.mark(word(forces.resultant)), (step,))
 
 
-def _in_vectors(drag: Expr, b: Alphabet, gram: Expr, read: Reader) -> tuple[Expr, Expr]:
+def _in_vectors(drag: Expr, b: Alphabet, C: Expr, hat_map: HatMap) -> tuple[Expr, Expr]:
     """The moment and the resultant of the damping, vectors: the coefficients of Ω′ and η′ in its
     work."""
-    images = {b.Z.velocity: read.hatted(ZETA), Letter("ξ′", 3, 3): read.hatted(OMEGA_P)}
-    work = substitute(reduce(drag, frame_rule(b, gram)), images)
+    images = {b.Z.velocity: hat_map.hatted(ZETA), Letter("ξ′", 3, 3): hat_map.hatted(OMEGA_P)}
+    work = substitute(reduce(drag, body_rule(b, C)), images)
     work = normal_form(fold_inertia(work, Letter("D", 3, 3, 1), word(Letter("I_D", 3, 3, 1))))
-    turned = normal_form(gradient(reduce(work, isolate(OMEGA_P)), OMEGA_P))
+    turned = normal_form(gradient(reduce(work, anticommute(OMEGA_P)), OMEGA_P))
     eta = Letter("η′", 3)
-    return turned, normal_form(gradient(reduce(work, isolate(eta)), eta))
+    return turned, normal_form(gradient(reduce(work, anticommute(eta)), eta))

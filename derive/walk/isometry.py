@@ -24,13 +24,13 @@ from .telling import say
 @dataclass(frozen=True)
 class Isometry:
     """The forms where ĀA = 1: ϖ in skew letters, the ``values`` of P and F, and dϖ = ``form``;
-    ``gram``: 1, as a step says it.
+    ``C``: 1, as a step says it.
 
     ``images``: the horizontal variations with which dϖ is written.
     """
 
     letters: Alphabet
-    gram: Expr
+    C: Expr
     cartan: Cartan
     values: Mapping[Letter, Expr]
     form: Expr
@@ -43,13 +43,13 @@ def isometry(general: Cartan, momenta: MomentumForm, a: Alphabet, n: int, c: Cha
     ``exterior``."""
     b = Alphabet(n, affine=a.affine, skew=True, signed=a.signed)
     relating, writing = c.draft("relation", "relation"), c.draft("cartan", "relation")
-    gram = relating.said(b.unit)
-    momentum, energy = (b.respell(e, gram).of(gram) for e in (general.momentum, general.energy))
-    work = b.respell(general.work, gram)
+    C = relating.mark(b.unit)
+    momentum, energy = (b.respell(e, C).of(C) for e in (general.momentum, general.energy))
+    work = b.respell(general.work, C)
     form = Cartan(
-        writing.said(momentum),
-        writing.said(energy),
-        writing.said(momentum - energy * word(b.dt)),
+        writing.mark(momentum),
+        writing.mark(energy),
+        writing.mark(momentum - energy * word(b.dt)),
         work,
         (),
     )
@@ -63,11 +63,11 @@ def isometry(general: Cartan, momenta: MomentumForm, a: Alphabet, n: int, c: Cha
         () if a.affine else (28,),
     )
     values = fibre(form.momentum, form.energy, {b.U: -work}, b)
-    domega = restrict(momenta.form, values, b).of(gram)
+    domega = restrict(momenta.form, values, b).of(C)
     images = _images(domega, b)
     exterior = _exterior(domega, images, b, c)
-    said = domega.marked(exterior.label)
-    return Isometry(b, gram, form, values, said, images, (relation, cartan, exterior))
+    domega = domega.marked(exterior.label)
+    return Isometry(b, C, form, values, domega, images, (relation, cartan, exterior))
 
 
 def _exterior(domega: Expr, images: Mapping[Letter, Expr], b: Alphabet, c: Chapter) -> Step:
@@ -84,8 +84,8 @@ def bracketed(d: Draft, domega: Expr, images: Mapping[Letter, Expr], b: Alphabet
 
 def resting(b: Alphabet) -> dict[Letter, Expr]:
     """The horizontal displacements: ξ ↦ ξ − Z δt and η ↦ η − w δt, and the same for δ′."""
-    found = horizontal(zip(b.duals, b.frames, strict=True), b, {})
-    return {x: found[x] for f in b.frames for x in (f.xi, f.xi_prime)}
+    found = horizontal(zip(b.duals, b.algebra_parts, strict=True), b, {})
+    return {x: found[x] for f in b.algebra_parts for x in (f.xi, f.xi_prime)}
 
 
 def _images(domega: Expr, b: Alphabet) -> dict[Letter, Expr]:

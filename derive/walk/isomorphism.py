@@ -10,30 +10,30 @@ from ..algebra.written import tree_of
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .hat import OMEGA, ZETA, Reader, identified
+from .hat import OMEGA, ZETA, HatMap, identified
 from .telling import say
 
 
 @dataclass(frozen=True)
 class Axial:
-    """The identification of so(3) with R³, ``read``; ``inertia``: the step that says I."""
+    """The identification of so(3) with R³, ``hat_map``; ``inertia``: the step that says I."""
 
-    read: Reader
+    hat_map: HatMap
     inertia: Step
     steps: tuple[Step, ...]
 
 
-def axial(b: Alphabet, gram: Expr, c: Chapter) -> Axial:
+def axial(b: Alphabet, C: Expr, c: Chapter) -> Axial:
     """The identification by j, with the steps of j, that it is an isomorphism, and of the metric of
     J as that of I."""
-    read, (identification, inertia) = identified(b, gram, c)
-    return Axial(read, inertia, (identification, isomorphism(read, c), inertia))
+    hat_map, (identification, inertia) = identified(b, C, c)
+    return Axial(hat_map, inertia, (identification, isomorphism(hat_map, c), inertia))
 
 
-def isomorphism(read: Reader, c: Chapter) -> Step:
+def isomorphism(hat_map: HatMap, c: Chapter) -> Step:
     """The step Tr j(x) j(y)‾ = 2⟨x, y⟩, by which j is one to one."""
     draft = c.draft("isomorphism", "identification")
-    product = read.hatted(ZETA) * read.hatted(OMEGA).bar
+    product = hat_map.hatted(ZETA) * hat_map.hatted(OMEGA).bar
     return draft.step(
         (Equation(tree_of(trace(product)), draft.tree(normal_form(trace(product)))),),
         say("isomorphism.onto"),

@@ -24,19 +24,19 @@ from .chapter import Chapter, Draft
 from .contraction import AND, CONTRACTION, Contraction, rate, steps_of, velocities
 from .exterior import Exterior, primed
 from .factored import at_constant_time, gathered
-from .telling import say, told
+from .telling import say, say_signed
 from .trivialisation import rates, trivial_images
 from .variation import Principle
 
 
 @dataclass(frozen=True)
 class Ambient:
-    """The kernel in the variables (t, g, ν): ``velocity``: δg(X), part by part; ``told``: the
-    equations that say it; ``balance``: what vanishes for every displacement δ′g tangent to the
-    group."""
+    """The kernel in the variables (t, g, ν): ``velocity``: δg(X), part by part;
+    ``velocity_equations``: these as equations; ``balance``: what vanishes for every displacement
+    δ′g tangent to the group."""
 
     velocity: Mapping[Letter, Expr]
-    told: tuple[Equation, ...]
+    velocity_equations: tuple[Equation, ...]
     balance: Expr
     steps: tuple[Step, ...]
 
@@ -101,9 +101,9 @@ def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Am
             "kernel.energy",
             velocity=", ".join(f"{p.dp_position.name} = {p.velocity.name}" for p in a.parts),
         )
-        + told("kernel.line", a.signed),
+        + say_signed("kernel.line", a.signed),
     )
-    return Ambient(along, steps[-1].given, draft.said(virtual), (*steps, last))
+    return Ambient(along, steps[-1].given, draft.mark(virtual), (*steps, last))
 
 
 def kernel_trivialised(
@@ -111,15 +111,15 @@ def kernel_trivialised(
 ) -> tuple[Step, ...]:
     """The steps of the kernel in the variables (t, g, Z): Exercise 1 for every group that moves
     points."""
-    variations = [x for f in a.frames for x in (f.d_velocity, f.dp_velocity)]
+    variations = [x for f in a.algebra_parts for x in (f.d_velocity, f.dp_velocity)]
     draft = chapter.draft("second_order_trivialised", "trivialisation")
     c = Contraction(
         stage.form,
         terms_with(without(stage.form, a.dt, a.dpt), *variations),
         stage.images,
         carried_velocity(natural, a),
-        {f.d_velocity: f.acceleration for f in a.frames},
-        tuple(f.dp_velocity for f in a.frames),
+        {f.d_velocity: f.acceleration for f in a.algebra_parts},
+        tuple(f.dp_velocity for f in a.algebra_parts),
         (a.dt, a.dpt),
         Notation(),
     )
@@ -129,13 +129,13 @@ def kernel_trivialised(
             Equation(CONTRACTION, c.remaining(draft), c.rates()),
         ),
         say("second_order_trivialised.carried"),
-        given=natural.told,
+        where=natural.velocity_equations,
     )
     images, velocity = (
-        {x: draft.said(e) for x, e in found.items()} for found in (c.images, c.velocity)
+        {x: draft.mark(e) for x, e in found.items()} for found in (c.images, c.velocity)
     )
-    said = replace(c, form=draft.said(c.form), images=images, velocity=velocity)
-    return first, _equations(said, forms.work, a, chapter)
+    found = replace(c, form=draft.mark(c.form), images=images, velocity=velocity)
+    return first, _equations(found, forms.work, a, chapter)
 
 
 def carried_velocity(stage: Ambient, a: Alphabet) -> dict[Letter, Expr]:
@@ -143,7 +143,7 @@ def carried_velocity(stage: Ambient, a: Alphabet) -> dict[Letter, Expr]:
     carried, g = trivial_images(a), a.A.position
     return {
         f.xi: strip_left(substitute(stage.velocity[p.d_position], carried), g)
-        for p, f in zip(a.parts, a.frames, strict=True)
+        for p, f in zip(a.parts, a.algebra_parts, strict=True)
     }
 
 
@@ -151,7 +151,7 @@ def balanced(d: Draft, c: Contraction, work: Expr, a: Alphabet) -> tuple[Expr, T
     """dϖ(X, δ′) for X with the velocity of the motion and δ′t = 0, without the ``work`` of the
     forces: on words, and as a tree by Ż + Z²."""
     inertial = without(c.second_order, a.dpt) + work
-    shifts = {f.acceleration: without(c.shifts[f.acceleration], a.f) for f in a.frames}
+    shifts = {f.acceleration: without(c.shifts[f.acceleration], a.f) for f in a.algebra_parts}
     core = without(c.remaining_core, a.dpt)
     return inertial, gathered(d, inertial, core, shifts, Notation())
 
@@ -163,7 +163,7 @@ def _equations(c: Contraction, work: Expr, a: Alphabet, chapter: Chapter) -> Ste
     images = trivial_images(a)
     rhs: Tree = ("mul", -1, ("call", "dŨ", *(draft.tree(images[p.dp_position]) for p in a.parts)))
     return draft.step(
-        (*rates(draft, a), Equation(shown, rhs, tuple(f.xi_prime.name for f in a.frames))),
+        (*rates(draft, a), Equation(shown, rhs, tuple(f.xi_prime.name for f in a.algebra_parts))),
         say(
             "equations.exercise",
             acceleration="(Ż, ẇ)" if a.affine else "Ż",

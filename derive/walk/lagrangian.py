@@ -57,10 +57,10 @@ def lagrangian(a: Alphabet, c: Chapter) -> Lagrangian:
     first = c.draft("lagrangian", "definition")
     kinetic = kinetic_energy(v_i := Letter("v_i", a.n), a)
     acting = c.draft("action", "definition")
-    position = acting.said(a.moved(word(a.A.position), word(a.T.position)))
+    position = acting.mark(a.moved(word(a.A.position), word(a.T.position)))
     varied = c.draft("velocity", "variation")
     velocity, variation = velocities(position, a)
-    varied.read(velocity, variation)
+    varied.depends_on(velocity, variation)
     steps = (
         first.step(
             (Equation("L", add(("sum", "i", indexed_tree(kinetic, v_i, a)), neg("U"))),),
@@ -81,8 +81,8 @@ def lagrangian(a: Alphabet, c: Chapter) -> Lagrangian:
             (9, 10, 14),
         ),
     )
-    velocity, variation = varied.said(velocity), varied.said(variation)
-    return Lagrangian(first.said(kinetic), v_i, position, velocity, variation, steps)
+    velocity, variation = varied.mark(velocity), varied.mark(variation)
+    return Lagrangian(first.mark(kinetic), v_i, position, velocity, variation, steps)
 
 
 def _moved(a: Alphabet) -> Prose:

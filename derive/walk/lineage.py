@@ -30,8 +30,8 @@ def traced(steps: Iterable[Step]) -> tuple[Step, ...]:
     for step in steps:
         here = {x for e in step.equations for side in (e.lhs, e.rhs) for x in subjects(side)}
         heard = set().union(*(spoken[x] for x in step.uses))
-        said = {first[x] for x in here - heard if x in first}
-        uses = sorted({*step.uses, *said}, key=order.__getitem__)
+        naming = {first[x] for x in here - heard if x in first}
+        uses = sorted({*step.uses, *naming}, key=order.__getitem__)
         order[step.label], spoken[step.label] = len(order), here
         first |= dict.fromkeys(here - {*first}, step.label)
         found.append(replace(step, uses=tuple(uses)))

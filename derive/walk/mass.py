@@ -15,7 +15,7 @@ from .alphabet import Alphabet
 from .centre import Seen
 from .chapter import Chapter, Draft
 from .inverse import inverse_letter
-from .telling import say, told
+from .telling import say, say_signed
 from .translation import Centred
 from .trivialisation import rates
 
@@ -50,7 +50,7 @@ def mass_steps(
     rest = force - gradient(without(inertial, b.Z.acceleration), b.Z.xi_prime)
     lighter = Notation(display={inverse_letter(b.m): read("m⁻¹")})
     if centred:
-        solving.read(*centred.steps)
+        solving.depends_on(*centred.steps)
     translation = (Equation("ẇ", centred.acceleration),) if centred else ()
     balance = [Equation("B", weighing.tree(rest, lighter))] if balanced else []
     load = inner(word(E_a), word(Letter("B", b.n, b.n)) if balanced else rest)
@@ -64,11 +64,11 @@ def mass_steps(
         ),
         say("mass.centres" if seen else "mass.basis"),
     )
-    solving.read(mass_step)
+    solving.depends_on(mass_step)
     solved = stated(f"{found} = M⁻¹β")
     motion = solving.step(
         (*rates(solving, b), *solved, *_whole(solving, b, seen), *translation),
-        say("motion.problem") + told("motion.mass_matrix", b.signed),
+        say("motion.problem") + say_signed("motion.mass_matrix", b.signed),
     )
     return mass_step, motion
 

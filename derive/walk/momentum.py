@@ -24,13 +24,13 @@ from ..algebra.written import Notation, tree_of
 from ..language.read import read
 from ..language.tree import Tree, add
 from ..record.record import Equation, Step
-from .alphabet import Alphabet, Dual, Frame
+from .alphabet import AlgebraPart, Alphabet, Dual
 from .cartan import Cartan
 from .chapter import Chapter
 from .exterior import DOMEGA, brackets_of, primed, primes, shown_brackets
 from .factored import at_constant_time, gathered
 from .telling import say
-from .trivialisation import frame_rule, gram, varied_gram
+from .trivialisation import body_rule, cauchy_green, varied_cauchy_green
 
 
 @dataclass(frozen=True)
@@ -46,16 +46,16 @@ class MomentumForm:
 
 def momentum_form(stage: Cartan, a: Alphabet, c: Chapter) -> MomentumForm:
     """P and F of the points, then ϖ, dϖ and its kernel by them: the steps that the module names."""
-    values, told = _values(stage, a, c)
+    values, momenta = _values(stage, a, c)
     form, balance, steps = _forms(a, c)
-    return MomentumForm(values, form, balance, (told, *steps))
+    return MomentumForm(values, form, balance, (momenta, *steps))
 
 
 def _values(stage: Cartan, a: Alphabet, c: Chapter) -> tuple[dict[Letter, Expr], Step]:
     """P = ∂L̃/∂Z and F, the derivative of L̃ along gξ, with L̃ = ⟨P, Z⟩ − h̃; and the step
     ``momenta``."""
     draft = c.draft("momenta", "fibre derivative")
-    moved = {a.C: varied_gram(a, a.Z.xi), a.U: -stage.work}
+    moved = {a.C: varied_cauchy_green(a, a.Z.xi), a.U: -stage.work}
     values = fibre(stage.momentum, stage.energy, moved, a)
     step = draft.step(
         [Equation(x.name, draft.tree(e)) for x, e in values.items() if e != word(x)],
@@ -65,7 +65,7 @@ def _values(stage: Cartan, a: Alphabet, c: Chapter) -> tuple[dict[Letter, Expr],
             push="(Φ, F_b)" if a.affine else "Φ",
         ),
     )
-    return {x: draft.said(e) for x, e in values.items()}, step
+    return {x: draft.mark(e) for x, e in values.items()}, step
 
 
 def fibre(
@@ -76,13 +76,13 @@ def fibre(
     Each by a whole matrix, of which the elements of 𝔤 determine a part.  ``along_group``: what ξ
     (and η) make of the other letters.
     """
-    along = substitute(momentum, {f.xi: word(f.velocity) for f in a.frames})
-    varied = reduce(derivation(along - energy, along_group.get), frame_rule(a, gram(a)))
-    any_xi = {f.xi: Letter(f.xi.name, f.xi.rows, f.xi.cols) for f in a.frames}
-    told = [substitute(e, {x: word(y) for x, y in any_xi.items()}) for e in (momentum, varied)]
-    pairs = [*zip(a.duals, a.frames, strict=True)]
-    values = {d.momentum: gradient(told[0], any_xi[f.xi]) for d, f in pairs}
-    return values | {d.push: gradient(told[1], any_xi[f.xi]) for d, f in pairs}
+    along = substitute(momentum, {f.xi: word(f.velocity) for f in a.algebra_parts})
+    varied = reduce(derivation(along - energy, along_group.get), body_rule(a, cauchy_green(a)))
+    any_xi = {f.xi: Letter(f.xi.name, f.xi.rows, f.xi.cols) for f in a.algebra_parts}
+    whole = [substitute(e, {x: word(y) for x, y in any_xi.items()}) for e in (momentum, varied)]
+    pairs = [*zip(a.duals, a.algebra_parts, strict=True)]
+    values = {d.momentum: gradient(whole[0], any_xi[f.xi]) for d, f in pairs}
+    return values | {d.force: gradient(whole[1], any_xi[f.xi]) for d, f in pairs}
 
 
 def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
@@ -90,10 +90,10 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
     kernel."""
     writing = c.draft("cartan_momentum", "Cartan form")
     varying = c.draft("exterior_momentum", "exterior derivative")
-    momentum, lagrangian = _paired(a, [f.xi for f in a.frames], c), Letter("L̃")
-    energy = _paired(a, [f.velocity for f in a.frames], c) - word(lagrangian)
+    momentum, lagrangian = _paired(a, [f.xi for f in a.algebra_parts], c), Letter("L̃")
+    energy = _paired(a, [f.velocity for f in a.algebra_parts], c) - word(lagrangian)
     notation = Notation(covectors=frozenset(x for d in a.duals for x in d.letters))
-    told = writing.step(
+    written = writing.step(
         (
             Equation(
                 read("ϖ(δy)"),
@@ -102,11 +102,11 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
         ),
         say("cartan_momentum.form"),
     )
-    form = writing.said(momentum - energy * word(a.dt))
+    form = writing.mark(momentum - energy * word(a.dt))
     twins = primes(a) | {d.d_momentum: d.dp_momentum for d in a.duals}
     derived = forms.exterior(form, twins, *_variations(lagrangian, a, c))
     core = at_constant_time(derived, a.dt, a.dpt)
-    images = horizontal(zip(a.duals, a.frames, strict=True), a, {})
+    images = horizontal(zip(a.duals, a.algebra_parts, strict=True), a, {})
     display = dict(zip((a.bracket, a.bracket_w), shown_brackets(a), strict=False))
     shown = replace(notation, display=display)
     derivative = varying.step(
@@ -118,9 +118,9 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
             else "δL̃ = ⟨Π, δZ⟩ + ⟨Φ, ξ⟩ + ∂L̃/∂t δt",
         ),
     )
-    found = varying.said(derived)
+    found = varying.mark(derived)
     balance, motion = _kernel(found, notation, a, c)
-    return found, balance, (told, derivative, motion)
+    return found, balance, (written, derivative, motion)
 
 
 def _paired(a: Alphabet, along: Iterable[Letter], c: Chapter) -> Expr:
@@ -137,27 +137,29 @@ def _variations(lagrangian: Letter, a: Alphabet, c: Chapter) -> tuple[Image, Ima
     letters = dict(zip(brackets, (a.bracket, a.bracket_w), strict=False))
     delta: dict[Letter, Expr] = {}
     delta_prime: dict[Letter, Expr] = {}
-    for d, f in zip(a.duals, a.frames, strict=True):
-        push = inner(word(d.push).marked(c.label("momenta")), word(f.xi))
-        varied = varied + inner(word(d.momentum), word(f.d_velocity)) + push
+    for d, f in zip(a.duals, a.algebra_parts, strict=True):
+        force = inner(word(d.force).marked(c.label("momenta")), word(f.xi))
+        varied = varied + inner(word(d.momentum), word(f.d_velocity)) + force
         delta |= {d.momentum: word(d.d_momentum), f.velocity: word(f.d_velocity)}
         delta_prime |= {d.momentum: word(d.dp_momentum), f.velocity: word(f.dp_velocity)}
         bracket = word(letters[f.xi_prime]).of(brackets[f.xi_prime])
         delta[f.xi_prime], delta_prime[f.xi] = word(f.second) + bracket, word(f.second)
-    delta |= {lagrangian: varied} | {f.dp_velocity: word(f.second_velocity) for f in a.frames}
+    delta |= {lagrangian: varied} | {
+        f.dp_velocity: word(f.second_velocity) for f in a.algebra_parts
+    }
     delta_prime |= {lagrangian: primed(varied, a)}
-    delta_prime |= {f.d_velocity: word(f.second_velocity) for f in a.frames}
+    delta_prime |= {f.d_velocity: word(f.second_velocity) for f in a.algebra_parts}
     return delta.get, delta_prime.get
 
 
 def horizontal(
-    pairs: Iterable[tuple[Dual, Frame]], a: Alphabet, pushes: Mapping[Letter, Expr]
+    pairs: Iterable[tuple[Dual, AlgebraPart]], a: Alphabet, forces: Mapping[Letter, Expr]
 ) -> dict[Letter, Expr]:
-    """δP ↦ δP − F δt and ξ ↦ ξ − Z δt, and the same for δ′, with F by ``pushes``."""
+    """δP ↦ δP − F δt and ξ ↦ ξ − Z δt, and the same for δ′, with F by ``forces``."""
     images = {}
     for d, f in pairs:
         for rate, x, twin in (
-            (pushes.get(d.push, word(d.push)), d.d_momentum, d.dp_momentum),
+            (forces.get(d.force, word(d.force)), d.d_momentum, d.dp_momentum),
             (word(f.velocity), f.xi, f.xi_prime),
         ):
             images[x] = word(x) - rate * word(a.dt)
@@ -169,7 +171,7 @@ def _kernel(form: Expr, notation: Notation, a: Alphabet, c: Chapter) -> tuple[Ex
     """The balance ⟨Ṗ − F, ξ′⟩ − ⟨P, [Z, ξ′]⟩, and the step Ṗ = F + ad*_Z P, by X with the velocity
     of the motion."""
     draft, mark = c.draft("coadjoint", "kernel"), c.label("second_order_trivialised")
-    here = {f.xi: word(f.velocity).marked(mark) for f in a.frames}
+    here = {f.xi: word(f.velocity).marked(mark) for f in a.algebra_parts}
     here |= {d.d_momentum: word(d.rate) for d in a.duals}
     here |= {a.dt: number(1), a.dpt: number(0)}
     turned = {}
@@ -184,14 +186,14 @@ def _kernel(form: Expr, notation: Notation, a: Alphabet, c: Chapter) -> tuple[Ex
     if turned[first] == commutator:
         display[first] = read("[Z, ξ′]")
     shown = replace(notation, display=display)
-    pairs = zip(a.duals, a.frames, strict=True)
+    pairs = zip(a.duals, a.algebra_parts, strict=True)
     moving = sum((inner(word(d.rate), word(f.xi_prime)) for d, f in pairs), number(0))
     step = draft.step(
         (
             Equation(
                 draft.tree(moving, shown),
                 draft.tree(moving - balance, shown),
-                tuple(f.xi_prime.name for f in a.frames),
+                tuple(f.xi_prime.name for f in a.algebra_parts),
             ),
         ),
         say(
@@ -199,4 +201,4 @@ def _kernel(form: Expr, notation: Notation, a: Alphabet, c: Chapter) -> tuple[Ex
             push="(Φ, F_b)" if a.affine else "Φ",
         ),
     )
-    return draft.said(substitute(balance, turned)), step
+    return draft.mark(substitute(balance, turned)), step

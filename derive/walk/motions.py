@@ -40,13 +40,13 @@ def motions(form: Cartan, law: Ambient, a: Alphabet, c: Chapter) -> Step:
     )
 
 
-def held(law: Ambient, gram: Expr, n: int, c: Chapter) -> Step:
+def held(law: Ambient, C: Expr, n: int, c: Chapter) -> Step:
     """The step about SO(n) in the space of all matrices: what the constraint adds is orthogonal to
     the group."""
     draft, b = c.draft("geodesics", "relation"), Alphabet(n, affine=False, skew=True)
     any_matrix, rate = b.freed().Z.xi_prime, b.A.acceleration
     along = {b.A.dp_position: word(b.A.position) * word(any_matrix)}
-    added = gradient(substitute(b.respell(law.balance), along), any_matrix).of(gram)
+    added = gradient(substitute(b.respell(law.balance), along), any_matrix).of(C)
     core = {rate: word(rate) - word(b.F_group)}
     left, right = (
         gathered(draft, e, without(e, b.F_group), core, PLAIN) for e in (added, added.bar)

@@ -21,9 +21,9 @@ from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .inverse import cancelling, inverse_letter
-from .telling import say, told
+from .telling import say, say_signed
 from .translation import Centred
-from .trivialisation import gram, rates
+from .trivialisation import cauchy_green, rates
 
 MULTIPLIER = Letter("θ")
 
@@ -51,7 +51,7 @@ def multiplier_steps(
         exists=(MULTIPLIER.name,) if direction else (),
     )
     left, right = word(inverse_letter(b.C)), word(inverse_letter(metric))
-    open_balance = balancing.said(force + pressed - residue)
+    open_balance = balancing.mark(force + pressed - residue)
     free = reduce(left * open_balance * right, cancelling(b.C, metric))
     solved = free + word(b.Z.acceleration)
     display = {inverse_letter(x): ("inv", x.name) for x in (b.C, metric, b.m)}
@@ -60,7 +60,7 @@ def multiplier_steps(
     if direction:
         numerator, denominator = _multiplier(solved, direction)
         if group.relations:
-            solving.read(number(1).marked(c.label("relation")))  # Tr Ż = 0
+            solving.depends_on(number(1).marked(c.label("relation")))  # Tr Ż = 0
         ratio: Tree = (
             "div",
             solving.tree(numerator, notation),
@@ -68,17 +68,17 @@ def multiplier_steps(
         )
         equations.append(Equation("θ", ratio))
     if centred:
-        solving.read(*centred.steps)
+        solving.depends_on(*centred.steps)
     translation = (Equation("ẇ", centred.acceleration),) if centred else ()
     equations += [Equation("Ż", solving.tree(solved, notation)), *translation]
-    said = solving.said(solved)
+    solved = solving.mark(solved)
     return (
         balancing.step((*definition, balance), _prose(direction, letters)),
         solving.step(
             equations,
             _invertible(metric.name, b, multiplier=direction is not None),
         ),
-        _in_space(said, solving.said(centred.rate) if centred else None, b, display, c),
+        _in_space(solved, solving.mark(centred.rate) if centred else None, b, display, c),
     )
 
 
@@ -90,7 +90,7 @@ def _in_space(
     draft = c.draft("space", "solution")
     left, right = Letter("A⁻¹", b.n, b.n), Letter("Ā⁻¹", b.n, b.n)
     g, Z, within = b.A.position, word(b.Z.velocity), Letter("Y", b.n, b.n)
-    twice = gram(b)
+    twice = cauchy_green(b)
 
     def rule(x: Factor, y: Factor) -> Expr | None:
         """Ā⁻¹Ā = 1, and AY = α̇ for Y = Ż + Z²."""
@@ -152,4 +152,4 @@ def _prose(direction: Expr | None, letters: list[Letter]) -> Prose:
 def _invertible(metric: str, b: Alphabet, *, multiplier: bool) -> Prose:
     maps = "affine_maps" if b.affine else "maps"
     maps += "_of_a_volume" if multiplier else ""
-    return told(f"motion.{maps}", b.signed, metric=metric)
+    return say_signed(f"motion.{maps}", b.signed, metric=metric)

@@ -21,8 +21,8 @@ from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .lagrangian import Lagrangian
 from .pullback import Moments, sum_over
-from .telling import say, told
-from .trivialisation import frame_rule, gram
+from .telling import say, say_signed
+from .trivialisation import body_rule, cauchy_green
 
 
 def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Step:
@@ -47,7 +47,7 @@ def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Ste
         others = _summed(points, number(1), moments, a) - mass * word(a.T.position)
         left = add(read("Σᵢ mᵢ rᵢ(t)"), neg(draft.tree(others)))
         equations.append(Equation(("mul", ("inv", draft.tree(mass)), left), "T"))
-    return draft.step(equations, _told(a), (8,))
+    return draft.step(equations, _prose(a), (8,))
 
 
 def _summed(points: Lagrangian, arm: Expr, moments: Moments, a: Alphabet) -> Expr:
@@ -58,8 +58,8 @@ def _summed(points: Lagrangian, arm: Expr, moments: Moments, a: Alphabet) -> Exp
     return gradient(sum_over(summand, {a.m_i, a.r_i}, moments), tested)
 
 
-def _told(a: Alphabet) -> Prose:
-    where = told("unique.affine_span" if a.affine else "unique.span", a.signed)
+def _prose(a: Alphabet) -> Prose:
+    where = say_signed("unique.affine_span" if a.affine else "unique.span", a.signed)
     return where + say("unique.elsewhere")
 
 
@@ -89,7 +89,7 @@ def distances(points: Lagrangian, a: Alphabet, c: Chapter) -> Distances:
     other = Letter("r_j", a.n)
     beside = substitute(points.position, {a.r_i: word(other)})
     between = substitute(points.position, {a.r_i: word(other) + word(a.apart)}) - beside
-    square, rule = inner(between, between), frame_rule(a, gram(a))
+    square, rule = inner(between, between), body_rule(a, cauchy_green(a))
     turned = {a.A.position: word(a.A.position) * word(a.Z.xi)}
     varied = reduce(derivation(square, turned.get), rule) * Fraction(1, 2)
     square = reduce(square, rule)
@@ -97,7 +97,7 @@ def distances(points: Lagrangian, a: Alphabet, c: Chapter) -> Distances:
         _equations(draft, square, varied, a),
         say("distances.cauchy_green"),
     )
-    return Distances(draft.said(square), draft.said(varied), (step,))
+    return Distances(draft.mark(square), draft.mark(varied), (step,))
 
 
 def rigid(general: Distances, unit: Expr, a: Alphabet, c: Chapter) -> Step:

@@ -14,10 +14,10 @@ from ..record.record import Equation, Step
 from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
-from .hat import OMEGA_P, isolate
-from .pointwise import Elements, Radial, column, embedded
+from .hat import OMEGA_P, anticommute
+from .pointwise import PointPotentials, Radial, column, embedded
 from .telling import say
-from .trivialisation import frame_rule
+from .trivialisation import body_rule
 
 
 @dataclass(frozen=True)
@@ -39,15 +39,15 @@ def applied(a: Alphabet, mark: str, *, vectors: bool) -> Applied:
     return Applied(moments, Letter(f"F_{mark}", a.n))
 
 
-def pushes_step(
-    found: Elements, forces: Applied, a: Alphabet, c: Chapter, gram: Expr | None
+def point_forces_step(
+    found: PointPotentials, forces: Applied, a: Alphabet, c: Chapter, C: Expr | None
 ) -> Step:
     """The step of the tensions, the forces and their sums: in the body where ĀA = 1 is at hand
-    (``gram``), else in space."""
+    (``C``), else in space."""
     draft = c.draft("pushes", "variation")
-    equations = _in_space(found) if gram is None else _in_body(draft, found, a, gram)
-    prose = _prose(vectors=gram is not None, radials=bool(found.radials))
-    sums = _sums_over_points(draft, a, forces, gram)
+    equations = _in_space(found) if C is None else _in_body(draft, found, a, C)
+    prose = _prose(vectors=C is not None, radials=bool(found.radials))
+    sums = _sums_over_points(draft, a, forces, C)
     return draft.step((*equations, *sums), prose)
 
 
@@ -60,15 +60,15 @@ def _prose(*, vectors: bool, radials: bool) -> Prose:
     return prose
 
 
-def _in_space(found: Elements) -> list[Equation]:
+def _in_space(found: PointPotentials) -> list[Equation]:
     """The equations σ_e = … and Q_i = Σ ± σ_e d_e − ∂U/∂r_i(t)."""
     equations = [Equation(x.sigma, x.tension) for x in found.radials]
     terms: dict[int, list[Tree]] = {}
     for x in found.radials:
         for i, sign in x.signs.items():
             terms.setdefault(i, []).append(_placed(found.problem, i, x.sigma, x.d, sign))
-    for i, pushes in found.pushes.items():
-        terms.setdefault(i, []).extend(pushes)
+    for i, forces_on_point in found.forces.items():
+        terms.setdefault(i, []).extend(forces_on_point)
     return equations + [Equation(("at", "Q", i), add(*x)) for i, x in sorted(terms.items())]
 
 
@@ -83,22 +83,22 @@ def _placed(problem: Problem, i: int, sigma: Tree, d: Tree, sign: int) -> Tree:
     return embedded(problem, i, entries, 0)
 
 
-def _in_body(d: Draft, found: Elements, a: Alphabet, gram: Expr) -> list[Equation]:
+def _in_body(d: Draft, found: PointPotentials, a: Alphabet, C: Expr) -> list[Equation]:
     """The equations χ_e = Ād_e, σ_e = … and P_i = Σ ± σ_e χ_e − Ā ∂U/∂r_i(t)."""
     equations = []
     terms: dict[int, list[Tree]] = {}
     for x in found.radials:
         chi: Tree = ("at", "χ", x.d[2])  # type: ignore[index]
-        equations.append(Equation(chi, _carried(d, x, a, gram)))
+        equations.append(Equation(chi, _carried(d, x, a, C)))
         equations.append(Equation(x.sigma, replaced(x.tension, x.d, chi)))
         for i, sign in x.signs.items():
             terms.setdefault(i, []).append(mul(sign, x.sigma, chi))
-    for i, pushes in found.pushes.items():
-        terms.setdefault(i, []).extend(mul(("T", "A"), push) for push in pushes)
+    for i, forces_on_point in found.forces.items():
+        terms.setdefault(i, []).extend(mul(("T", "A"), push) for push in forces_on_point)
     return equations + [Equation(("at", "P", i), add(*x)) for i, x in sorted(terms.items())]
 
 
-def _carried(d: Draft, x: Radial, a: Alphabet, gram: Expr) -> Tree:
+def _carried(d: Draft, x: Radial, a: Alphabet, C: Expr) -> Tree:
     """The tree of Ād_e: the places in the body, by ĀA = 1, and Ā on what is in space."""
     g, total = word(a.A.position), zero(a.n, 1)
     display: dict[Letter, Tree] = {}
@@ -114,24 +114,24 @@ def _carried(d: Draft, x: Radial, a: Alphabet, gram: Expr) -> Tree:
         display[anchor] = column(x.anchor)
         outside = outside - word(anchor)
     notation = Notation(display=display)
-    body = d.tree(reduce(g.bar * inside, frame_rule(a, gram)), notation)
+    body = d.tree(reduce(g.bar * inside, body_rule(a, C)), notation)
     return add(body, mul(("T", "A"), tree_of(outside, notation)) if outside else 0)
 
 
-def _sums_over_points(d: Draft, a: Alphabet, forces: Applied, gram: Expr | None) -> list[Equation]:
+def _sums_over_points(d: Draft, a: Alphabet, forces: Applied, C: Expr | None) -> list[Equation]:
     """The equations N_Q = Σ ĀQ_i r̄_i and F_Q = Σ ĀQ_i, or μ_Q = Σ r_i ∧ P_i and F_Q = Σ P_i with
     AP_i = Q_i."""
-    vectors = gram is not None
+    vectors = C is not None
     push, xi = Letter("P_i" if vectors else "Q_i", a.n), Letter("ξ′", a.n, a.n)
     eta = Letter("η′", a.n)
     g = word(a.A.position)
     force = g.bar * word(push)
-    if gram is not None:
-        force = reduce(g.bar * g * word(push), frame_rule(a, gram))
+    if C is not None:
+        force = reduce(g.bar * g * word(push), body_rule(a, C))
     turned = word(hat(OMEGA_P)) if vectors else word(xi)
     work = inner(force, turned * word(a.r_i))
     if vectors:
-        work = reduce(work, isolate(OMEGA_P))
+        work = reduce(work, anticommute(OMEGA_P))
     moment = gradient(work, OMEGA_P if vectors else xi)
     display = metrics(display={push: ("at", push.name[0], "i"), a.r_i: ("at", "r", "i")})
     equations = [Equation(forces.moments.name, ("sum", "i", d.tree(moment, display)))]

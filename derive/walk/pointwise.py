@@ -53,40 +53,40 @@ class Radial:
 
 
 @dataclass
-class Elements:
+class PointPotentials:
     """The potentials given point by point, whose sum is U_Q: ``differences``: the equations of d_e;
-    ``energies``: U_e; ``radials``: those of a distance; ``pushes``: −∂U/∂r_i(t) of the others."""
+    ``energies``: U_e; ``radials``: those of a distance; ``forces``: −∂U/∂r_i(t) of the others."""
 
     problem: Problem
     differences: list[Equation] = field(default_factory=list)
     energies: list[Tree] = field(default_factory=list)
     radials: list[Radial] = field(default_factory=list)
-    pushes: dict[int, list[Tree]] = field(default_factory=dict)
+    forces: dict[int, list[Tree]] = field(default_factory=dict)
 
     def keeps(self, *, turning: bool) -> bool:
         """Is U_Q a function of distances that stay when space is turned, or shifted?"""
-        return not self.pushes and all(x.keeps(turning=turning) for x in self.radials)
+        return not self.forces and all(x.keeps(turning=turning) for x in self.radials)
 
-    def push(self, i: int, force: Tree) -> None:
+    def add_force(self, i: int, force: Tree) -> None:
         """Add a term to the force on point i."""
-        self.pushes.setdefault(i, []).append(force)
+        self.forces.setdefault(i, []).append(force)
 
-    def energy(self, U: Tree) -> None:
+    def add_energy(self, U: Tree) -> None:
         """Add a potential U of entries of places r_i(t), with its forces −∂U/∂r_i(t)."""
         self.energies.append(U)
         assert self.problem.group is not None
         span = range(1, self.problem.group.n + 1)
         for i in sorted({*_points(U)}):
             slopes = (derivative(U, ("entry", in_space(i), k)) for k in span)
-            self.push(i, column(tuple(product(-1, x) for x in slopes)))
+            self.add_force(i, column(tuple(product(-1, x) for x in slopes)))
 
-    def difference(self, ends: Tree) -> Tree:
+    def add_difference(self, ends: Tree) -> Tree:
         """Name a difference d_e, and give its tree."""
         d: Tree = ("at", "d", len(self.differences) + 1)
         self.differences.append(Equation(d, ends))
         return d
 
-    def radial(
+    def add_radial(
         self, energy: Tree, d: Tree, signs: dict[int, int], anchor: tuple[Tree, ...] = ()
     ) -> None:
         """Add a potential of ‖d‖²; ``signs``: those of r_i(t) in d, by the point."""

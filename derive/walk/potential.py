@@ -18,8 +18,8 @@ from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .kinds import walked
-from .point_forces import applied, pushes_step
-from .pointwise import Elements
+from .point_forces import applied, point_forces_step
+from .pointwise import PointPotentials
 from .summed import Own, Words, moved
 from .telling import say
 
@@ -31,14 +31,14 @@ class Potentials:
     """The potentials of a problem: ``energy`` = Ũ on words in A, T, c, m, γ, K, U_Q; ``work(ξ, η)``
     of what U_Q exerts.
 
-    ``elements``: what is in U_Q; ``timed``: does U depend on the time by itself? ``own``: letters
+    ``pointwise``: what is in U_Q; ``timed``: does U depend on the time by itself? ``own``: letters
     of the potentials beside these.
     """
 
     energy: Expr
     steps: tuple[Step, ...]
     work: Callable[[Expr, Expr | None], Expr]
-    elements: Elements
+    pointwise: PointPotentials
     timed: bool
     own: tuple[Own, ...] = ()
 
@@ -51,18 +51,18 @@ class Potentials:
         return moved(self.own, images if eta is None else images | {a.T.position: g * eta})
 
 
-def potentials(problem: Problem, a: Alphabet, c: Chapter, gram: Expr | None = None) -> Potentials:
+def potentials(problem: Problem, a: Alphabet, c: Chapter, C: Expr | None = None) -> Potentials:
     """The potentials of the problem, with the step of Ũ, and of the forces that are given point by
     point.
 
-    ``gram``: ĀA = 1, where the forces are to be said in vectors.
+    ``C``: ĀA = 1, where the forces are to be said in vectors.
     """
     draft = c.draft("potential", "pull-back")
-    vectors = gram is not None
+    vectors = C is not None
     modules = walked()
     having = [m for m in modules.values() if hasattr(m, "words")]
     parts: list[Words] = [w for m in having if (w := m.words(problem, a, vectors=vectors))]
-    found, forces = Elements(problem), applied(a, "Q", vectors=vectors)
+    found, forces = PointPotentials(problem), applied(a, "Q", vectors=vectors)
     for p in problem.potentials:
         if hasattr(modules[p.kind], "pointwise"):
             modules[p.kind].pointwise(found, p, problem)
@@ -72,17 +72,17 @@ def potentials(problem: Problem, a: Alphabet, c: Chapter, gram: Expr | None = No
     if found.energies:
         energy = energy + word(U_Q)
         definitions += [*found.differences, Equation("U_Q", add(*found.energies))]
-    told = [
+    energies = [
         Equation("U", add(*over_points)),
         Equation("Ũ", draft.tree(energy)),
     ]
     prose = sum((w.prose for w in parts), _opening(over_points))
-    steps = [draft.step((*definitions, *told), prose)]
+    steps = [draft.step((*definitions, *energies), prose)]
     if found.energies:
-        steps.append(pushes_step(found, forces, a, c, gram))
+        steps.append(point_forces_step(found, forces, a, c, C))
     timed = any(map(_timed, over_points))
     own = tuple(x for w in parts for x in w.own)
-    return Potentials(draft.said(energy), tuple(steps), forces.work, found, timed, own)
+    return Potentials(draft.mark(energy), tuple(steps), forces.work, found, timed, own)
 
 
 def _opening(over_points: list[Tree]) -> Prose:

@@ -38,7 +38,7 @@ from .alphabet import Alphabet
 from .chapter import Chapter
 from .lagrangian import Lagrangian, kinetic_of_motion, moving_tree
 from .supposed import kinetic_metric, of_masses
-from .telling import say, told
+from .telling import say, say_signed
 
 Moments = Mapping[tuple[Letter, ...], Expr]
 """Σ of a product of members: (m, r, r) ↦ Σ m_i r_i r̄_i, (F, r) ↦ Σ F_i r̄_i, (m,) ↦ Σ m_i, …"""
@@ -49,12 +49,12 @@ class Pullback:
     """L̃ on words: ``kinetic``: its quadratic part, so that L̃ = kinetic − Ũ.
 
     ``work``: −dŨ(δg), by the force on the group, or by the moments of forces for an affine action;
-    ``pushed``: by these always. ``moments``: of masses and of forces.
+    ``moment_work``: by these always. ``moments``: of masses and of forces.
     """
 
     kinetic: Expr
     work: Expr
-    pushed: Expr
+    moment_work: Expr
     moments: Moments
     steps: tuple[Step, ...]
 
@@ -112,16 +112,16 @@ def pullback(stage: Lagrangian, a: Alphabet, c: Chapter) -> Pullback:
             Equation("L̃", add(("sum", "i", moving_tree(stage, a)), neg("Ũ"))),
             *(Equation("L̃", draft.tree(kinetic - word(a.U), n)) for n in notations),
         ],
-        say("pullback.pulled") + told("pullback.metric", a.signed),
+        say("pullback.pulled") + say_signed("pullback.metric", a.signed),
         (11, 12, 13, 17) if a.affine else (11, 12, 13, 21, 22),
         hypotheses=(*of_masses(a), metric),
     )
-    pushed, pushes, force = _force(stage, a, c)
-    moments, steps = {**moments, **pushes}, (definitions, step, force)
+    moment_work, sums, force = _force(stage, a, c)
+    moments, steps = {**moments, **sums}, (definitions, step, force)
     if a.affine:
-        return Pullback(draft.said(kinetic), pushed, pushed, moments, steps)
+        return Pullback(draft.mark(kinetic), moment_work, moment_work, moments, steps)
     work, gradient = _gradient(a, c, metric)
-    return Pullback(draft.said(kinetic), work, pushed, moments, (*steps, gradient))
+    return Pullback(draft.mark(kinetic), work, moment_work, moments, (*steps, gradient))
 
 
 def _moments(a: Alphabet, c: Chapter) -> tuple[Moments, Step]:
@@ -134,7 +134,7 @@ def _moments(a: Alphabet, c: Chapter) -> tuple[Moments, Step]:
         (18, 19),
     )
     table = {(a.m_i,): a.m, (a.m_i, a.r_i): a.c, (a.m_i, a.r_i, a.r_i): a.J}
-    return {key: draft.said(word(x)) for key, x in table.items()}, step
+    return {key: draft.mark(word(x)) for key, x in table.items()}, step
 
 
 def _force(stage: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Expr, Moments, Step]:
@@ -150,7 +150,7 @@ def _force(stage: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Expr, Moments, S
         say("force.points"),
         (2,),
     )
-    return draft.said(work), {key: draft.said(e) for key, e in table.items()}, step
+    return draft.mark(work), {key: draft.mark(e) for key, e in table.items()}, step
 
 
 def _gradient(a: Alphabet, c: Chapter, metric: Hypothesis) -> tuple[Expr, Step]:
@@ -163,4 +163,4 @@ def _gradient(a: Alphabet, c: Chapter, metric: Hypothesis) -> tuple[Expr, Step]:
         (24,),
         hypotheses=(metric,),
     )
-    return draft.said(pairing), step
+    return draft.mark(pairing), step

@@ -11,9 +11,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from ..algebra.calculus import derivation, substitute
 from ..algebra.words import Expr, Letter, word
 from ..record.sentence import Prose
-from .alphabet import Alphabet, Dual, Frame
+from .alphabet import AlgebraPart, Alphabet, Dual
 from .telling import say
-from .trivialisation import varied_gram
+from .trivialisation import varied_cauchy_green
 
 
 def restrict(
@@ -27,28 +27,29 @@ def restrict(
     ``brackets``: what those letters stand for, where they are to be opened.  ``ValueError`` for a P
     with other letters than those of the velocity, the body and C: how they vary is not known here.
     """
-    known = {a.C, a.J, a.c, a.m, *(f.velocity for f in a.frames)}
+    known = {a.C, a.J, a.c, a.m, *(f.velocity for f in a.algebra_parts)}
     for d in a.duals:
         for x in values[d.momentum].letters():
             if x not in known:
                 raise ValueError(f"{d.momentum.name} has {x.name}, whose variation is not known")
-    grams = [{a.C: varied_gram(a, x)} for x in (a.Z.xi, a.Z.xi_prime, a.Z.velocity)]
-    return substitute(a.respell(e), moved(values, a.duals, a.frames, grams) | dict(brackets or {}))
+    further = [{a.C: varied_cauchy_green(a, x)} for x in (a.Z.xi, a.Z.xi_prime, a.Z.velocity)]
+    images = moved(values, a.duals, a.algebra_parts, further) | dict(brackets or {})
+    return substitute(a.respell(e), images)
 
 
 def moved(
     values: Mapping[Letter, Expr],
     duals: Iterable[Dual],
-    frames: Sequence[Frame],
+    parts: Sequence[AlgebraPart],
     further: Iterable[Mapping[Letter, Expr]],
 ) -> dict[Letter, Expr]:
     """P, δP, δ′P, Ṗ and F by their values in Z and w; letters that do not vary are constants.
 
     ``further``: what else varies, under δ, under δ′ and along the motion.
     """
-    letters = zip(*((f.d_velocity, f.dp_velocity, f.acceleration) for f in frames), strict=True)
+    letters = zip(*((f.d_velocity, f.dp_velocity, f.acceleration) for f in parts), strict=True)
     varied = [
-        {f.velocity: word(x) for f, x in zip(frames, found, strict=True)} | dict(others)
+        {f.velocity: word(x) for f, x in zip(parts, found, strict=True)} | dict(others)
         for found, others in zip(letters, further, strict=True)
     ]
     images = dict(values)

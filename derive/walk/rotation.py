@@ -15,12 +15,12 @@ from .alphabet import Alphabet
 from .chapter import Chapter
 from .components import components, diagonal
 from .elimination import CENTRAL, Eliminated, from_centre, vector_tree
-from .hat import INERTIA, MU, OMEGA_P, PHI, ZETA, ZETA_DOT, Reader, fold_moment, isolate
-from .inputs import Given
+from .hat import INERTIA, MU, OMEGA_P, PHI, ZETA, ZETA_DOT, HatMap, anticommute, fold_moment
+from .inputs import External
 from .isometry import Isometry
 from .potential import Potentials, virtual_work
-from .telling import say, told
-from .trivialisation import frame_rule, rates
+from .telling import say, say_signed
+from .trivialisation import body_rule, rates
 from .vector import VectorForm, pairing
 from .wedge import vector_sum
 
@@ -34,14 +34,14 @@ class Torque:
     steps: tuple[Step, ...]
 
 
-def _forces(v: Potentials, b: Alphabet, gram: Expr) -> dict[Letter, Expr]:
+def _forces(v: Potentials, b: Alphabet, C: Expr) -> dict[Letter, Expr]:
     """μ, the moment in the body of the forces of the potentials, and F_b, their resultant."""
     eta = word(b.w.xi_prime) if b.affine else None
     work = virtual_work(v, b, word(hat(OMEGA_P)), eta, word(OMEGA_P))
     for x in v.own:
         work = work if x.axial is None else fold_moment(work, x.letter, x.axial)
-    work = normal_form(reduce(work, frame_rule(b, gram)))
-    isolated = reduce(work, isolate(OMEGA_P))
+    work = normal_form(reduce(work, body_rule(b, C)))
+    isolated = reduce(work, anticommute(OMEGA_P))
     if hat(OMEGA_P) in isolated.letters():
         raise ValueError("a moment that is no vector")
     forces = {MU: normal_form(gradient(isolated, OMEGA_P))}
@@ -50,40 +50,40 @@ def _forces(v: Potentials, b: Alphabet, gram: Expr) -> dict[Letter, Expr]:
     return forces
 
 
-def torque(v: Potentials, stage: Isometry, read: Reader, c: Chapter) -> Torque:
+def torque(v: Potentials, stage: Isometry, hat_map: HatMap, c: Chapter) -> Torque:
     """The forces of this problem, from Ũ by varying A by A j(Ω′) (and T by A η′)."""
     draft = c.draft("torque", "variation")
-    forces = _forces(v, stage.letters, stage.gram)
-    left = pairing(stage, read).values()
+    forces = _forces(v, stage.letters, stage.C)
+    left = pairing(stage, hat_map).values()
     pairs = zip(left, forces.values(), strict=True)
     step = draft.step(
         (Equation(draft.tree(x), draft.tree(e)) for x, e in pairs),
         say("torque.varied"),
     )
-    return Torque({x: draft.said(e) for x, e in forces.items()}, (step,))
+    return Torque({x: draft.mark(e) for x, e in forces.items()}, (step,))
 
 
 def spherical_motion(
     kernel: VectorForm,
     torque: Torque,
     b: Alphabet,
-    read: Reader,
-    given: Given | None,
+    hat_map: HatMap,
+    external: External | None,
     c: Chapter,
 ) -> Step:
     """The step ``motion`` of SO(3): ζ̇ = I⁻¹(Iζ ∧ ζ + μ + u)."""
     inertial = word(INERTIA) * word(ZETA_DOT)
-    # Iφ is the torque, and what is given adds to it
+    # Iφ is the torque, and what acts from outside adds to it
     balance = kernel.balance[OMEGA_P] + word(INERTIA) * word(PHI) - torque.forces[MU]
-    if given is not None:
-        balance = balance - given.moments
+    if external is not None:
+        balance = balance - external.moments
     draft = c.draft("motion", "solution")
-    draft.read(balance)
+    draft.depends_on(balance)
     right = vector_sum(inertial - balance)
-    turned = {b.Z.velocity: read.hatted(ZETA)}
+    turned = {b.Z.velocity: hat_map.hatted(ZETA)}
     return draft.step(
         (*rates(draft, b, turned), Equation("ζ̇", mul(("inv", "I"), right))),
-        _prose(given, b),
+        _prose(external, b),
     )
 
 
@@ -91,44 +91,44 @@ def displacement_motion(
     stage: Eliminated,
     torque: Torque,
     b: Alphabet,
-    read: Reader,
-    given: Given | None,
+    hat_map: HatMap,
+    external: External | None,
     c: Chapter,
 ) -> Step:
     """The step ``motion`` of SE(3): ζ̇ and ẇ, with the forces of this problem and those from
     outside put in."""
     forces = dict(torque.forces)
-    if given is not None:
-        forces[MU] = forces[MU] + given.moments
-        forces[b.F_body] = forces[b.F_body] + given.resultant
-    rotation = from_centre(substitute(reduce(stage.torque, isolate(b.F_body)), forces), b)
+    if external is not None:
+        forces[MU] = forces[MU] + external.moments
+        forces[b.F_body] = forces[b.F_body] + external.resultant
+    rotation = from_centre(substitute(reduce(stage.torque, anticommute(b.F_body)), forces), b)
     translation = from_centre(substitute(stage.acceleration, forces), b)
     draft = c.draft("motion", "solution")
-    draft.read(rotation, translation)
+    draft.depends_on(rotation, translation)
     return draft.step(
         (
-            *rates(draft, b, {b.Z.velocity: read.hatted(ZETA)}),
+            *rates(draft, b, {b.Z.velocity: hat_map.hatted(ZETA)}),
             Equation("ζ̇", mul(("inv", CENTRAL.name), vector_tree(rotation, b))),
             Equation("ẇ", vector_tree(translation, b)),
         ),
-        _prose(given, b),
+        _prose(external, b),
     )
 
 
-def _prose(given: Given | None, b: Alphabet) -> Prose:
+def _prose(external: External | None, b: Alphabet) -> Prose:
     if b.affine:
-        prose = told("motion.displacement", b.signed)
+        prose = say_signed("motion.displacement", b.signed)
         added = say("motion.given_wrench")
     else:
-        prose = told("motion.rotation", b.signed)
+        prose = say_signed("motion.rotation", b.signed)
         added = say("motion.given_torque")
-    return prose if given is None or given.steps else prose + added
+    return prose if external is None or external.steps else prose + added
 
 
-def energy_step(stage: Isometry, v: Potentials, read: Reader, c: Chapter) -> Step:
+def energy_step(stage: Isometry, v: Potentials, hat_map: HatMap, c: Chapter) -> Step:
     """The step ``energy``: h̃ in vectors, with the potential of the problem."""
     b, draft = stage.letters, c.draft("energy", "identification")
-    energy = substitute(read.scalar(stage.cartan.energy), {b.U: v.energy})
+    energy = substitute(hat_map.scalar(stage.cartan.energy), {b.U: v.energy})
     return draft.step((Equation("h̃", draft.tree(energy, metrics("I"))),), say("energy.problem"))
 
 
@@ -136,7 +136,7 @@ def principal_step(euler: Step, c: Chapter) -> Step:
     """The step ``principal`` (35): the solved equation in axes that diagonalise I, component by
     component."""
     draft = c.draft("principal", "coordinates")
-    draft.read(euler)
+    draft.depends_on(euler)
     moments: list[Tree] = [("entry", "λ", i) for i in (1, 2, 3)]
     rows = (("row", *(x if i == j else 0 for j in range(3))) for i, x in enumerate(moments))
     found = components(euler.equations[0].rhs, {"I": diagonal(moments)}, moments)
@@ -153,9 +153,9 @@ def euler_step(kernel: VectorForm, b: Alphabet, c: Chapter) -> Step:
     draft = c.draft("euler", "solution")
     inertial = word(INERTIA) * word(ZETA_DOT)
     rest = inertial - kernel.balance[OMEGA_P] - word(INERTIA) * word(PHI)
-    draft.read(rest)
+    draft.depends_on(rest)
     return draft.step(
         (Equation("ζ̇", add("φ", mul(("inv", "I"), vector_sum(rest)))),),
-        told("euler.solved", b.signed),
+        say_signed("euler.solved", b.signed),
         (34,),
     )

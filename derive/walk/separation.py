@@ -67,14 +67,16 @@ def potential_separation(
     draft = c.draft("separation", "identification")
     energy = _centred(v.energy, b, Chapter(b.chapter).label("separation"))
     place = Letter("R", b.n)
-    inside = v.elements.keeps(turning=False)
+    inside = v.pointwise.keeps(turning=False)
     both = bool(terms_with(terms_with(energy, place), b.A.position))
     rest = bool(without(energy, U_Q)) and not both
-    prose = _prose(problem, decided=inside and not both, rest=rest, given=bool(v.elements.energies))
+    prose = _prose(
+        problem, decided=inside and not both, rest=rest, pointwise=bool(v.pointwise.energies)
+    )
     return (draft.step((Equation("Ũ", draft.tree(energy, _notation(b))),), prose),)
 
 
-def _prose(problem: Problem, *, decided: bool, rest: bool, given: bool) -> Prose:
+def _prose(problem: Problem, *, decided: bool, rest: bool, pointwise: bool) -> Prose:
     damping = [phrase("separation.damping")] if problem.damping else []
     outside = damping + ([phrase("separation.inputs")] if problem.inputs else [])
     if not decided:
@@ -94,6 +96,6 @@ def _prose(problem: Problem, *, decided: bool, rest: bool, given: bool) -> Prose
         )
     else:
         prose = say("separation.separates")
-    if given:
+    if pointwise:
         prose += say("separation.differences")
     return prose

@@ -48,6 +48,7 @@ def solution(
             seen.inertial, seen.force, place, b, c, balanced=False, seen=seen
         )
         return Solution(motion, (*seen.steps, *solved, place))
-    told = stage.bodies is None
-    _, motion = solved = mass_steps(inertial, force, place, b, c, centred, balanced=told)
+    _, motion = solved = mass_steps(
+        inertial, force, place, b, c, centred, balanced=stage.bodies is None
+    )
     return Solution(motion, (place, *solved))

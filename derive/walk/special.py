@@ -21,31 +21,31 @@ from ..record.record import Equation, Step
 from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .cartan import Cartan, form_equation
-from .cauchy_green import claims, told, without_gram
+from .cauchy_green import metric_equations, metric_prose, without_cauchy_green
 from .chapter import Chapter, Draft
 from .coadjoint import coadjoint_steps
 from .contraction import Contraction
 from .exterior import DOMEGA, Exterior, brackets_of
 from .factored import gathered
-from .inputs import Given
+from .inputs import External
 from .isometry import bracketed, resting
 from .kernel import balanced
 from .momentum import MomentumForm, fibre
 from .potential import Potentials, virtual_work
 from .restrict import restrict, restricted_prose
 from .telling import say
-from .trivialisation import frame_rule, gram, rates, varied_gram
+from .trivialisation import body_rule, cauchy_green, rates, varied_cauchy_green
 
 
 @dataclass(frozen=True)
 class General:
     """What is known of every group of one action; ``cartan`` and ``exterior`` are carried to 𝔤.
 
-    ``pushed``: −dŨ(δg) by the moments of forces.
+    ``moment_work``: −dŨ(δg) by the moments of forces.
     """
 
     letters: Alphabet
-    pushed: Expr
+    moment_work: Expr
     cartan: Cartan
     exterior: Exterior
     momenta: MomentumForm
@@ -56,12 +56,12 @@ class Special:
     """The kernel for one problem, unsolved: ``inertial``: dϖ(X, δ′) without the work of the
     ``forces`` on ξ′ (and η′).
 
-    ``gram``: ĀA, the letter C or 1. ``last``: steps that belong at the end of the record.
+    ``C``: ĀA, the letter C or 1. ``last``: steps that belong at the end of the record.
     ``bodies``: where C is not 1, and drops out of the metric.
     """
 
     letters: Alphabet
-    gram: Expr
+    C: Expr
     inertial: Expr
     forces: dict[Letter, Expr]
     steps: tuple[Step, ...]
@@ -80,13 +80,13 @@ def letters_of(group: Group, *, signed: bool) -> Alphabet:
     return Alphabet(group.n, affine=group.affine, **known)
 
 
-def pushed(stage: Special, given: Given | None) -> Special:
+def with_external(stage: Special, external: External | None) -> Special:
     """The same kernel with the forces from outside dϖ added to those on ξ′ (and η′)."""
     b, forces = stage.letters, dict(stage.forces)
-    if given:
-        forces[b.Z.xi_prime] += given.moments
-    if given and b.affine:
-        forces[b.w.xi_prime] += given.resultant
+    if external:
+        forces[b.Z.xi_prime] += external.moments
+    if external and b.affine:
+        forces[b.w.xi_prime] += external.resultant
     return replace(stage, forces=forces, steps=(), last=())
 
 
@@ -98,27 +98,27 @@ def specialise(
     b = letters_of(group, signed=road.letters.signed)
     plain = Alphabet(group.n, affine=group.affine, signed=b.signed)
     free, turned = b.freed(), "orthogonal" in group.relations
-    whole = b.unit.marked(c.label("relation")) if turned else gram(b)
-    carried = frame_rule(b, whole)
+    whole = b.unit.marked(c.label("relation")) if turned else cauchy_green(b)
+    carried = body_rule(b, whole)
 
     def restricted(e: Expr, letters: Alphabet = plain) -> Expr:
         """An expression about any group on this one, where C may be 1."""
         found = letters.respell(e, whole)
         if bodies:
-            shorter = without_gram(found, bodies, letters)
+            shorter = without_cauchy_green(found, bodies, letters)
             return shorter if shorter == found else shorter.of(b.unit.marked(c.label("relation")))
         return found.of(whole) if turned else found
 
     eta = word(b.w.xi_prime) if b.affine else None
     virtual = virtual_work(v, b, word(free.Z.xi_prime), eta)
-    primed = [f.xi_prime for f in free.frames]
+    primed = [f.xi_prime for f in free.algebra_parts]
     forces = {x: reduce(gradient(virtual, x), carried) for x in primed}
-    potential = {plain.U: reduce(v.energy, frame_rule(plain, gram(plain)))}
+    potential = {plain.U: reduce(v.energy, body_rule(plain, cauchy_green(plain)))}
     energy = substitute(plain.respell(road.cartan.energy), potential)
     momentum = plain.respell(road.cartan.momentum)
-    pushing, weighing = c.draft("force", "variation"), c.draft("energy", "pull-back")
-    pushes = _forces(forces, pushing)
-    said = {x: pushing.said(e).of(road.pushed) for x, e in forces.items()}
+    acting, weighing = c.draft("force", "variation"), c.draft("energy", "pull-back")
+    force = _forces(forces, acting)
+    forces = {x: acting.mark(e).of(road.moment_work) for x, e in forces.items()}
     writing = c.draft("cartan", "relation")
     opened = dict(zip((plain.bracket, plain.bracket_w), brackets_of(plain).values(), strict=False))
     last = weighing.step((Equation("h̃", weighing.tree(restricted(energy))),), say("energy.problem"))
@@ -126,22 +126,22 @@ def specialise(
         (form_equation(writing, restricted(momentum), restricted(energy), Notation()),),
         say("cartan.problem"),
     )
-    momentum, energy = writing.said(momentum), writing.said(energy)
+    momentum, energy = writing.mark(momentum), writing.mark(energy)
     domega = restricted(_derived(momentum, energy, road, v, plain, opened))
     varying, by_bracket = c.draft("exterior", "relation"), []
     if turned:
         skew = _derived(b.respell(momentum, whole), b.respell(energy, whole), road, v, b, {})
         by_bracket = [bracketed(varying, skew.of(whole), resting(b), b)]
     contraction, derivative = _exterior(domega, road, plain, varying, by_bracket)
-    inertial, motion = _kernel(contraction, [*said.values()], plain, c)
+    inertial, motion = _kernel(contraction, [*forces.values()], plain, c)
     steps = (
-        pushes,
+        force,
         written,
         derivative,
         *(coadjoint_steps(road.momenta, b, whole, c) if turns_whole(group) else ()),
         motion,
     )
-    return Special(free, whole, free.respell(inertial), said, steps, (last,), bodies)
+    return Special(free, whole, free.respell(inertial), forces, steps, (last,), bodies)
 
 
 def turns_whole(group: Group) -> bool:
@@ -163,8 +163,8 @@ def relation(group: Group, bodies: Bodies | None, c: Chapter) -> tuple[Step, ...
         known = stated("det(A) = 1,  Tr Z = 0,  Tr ξ = 0")
         prose = _kept(group, stays=not bodies)
     if bodies:
-        prose += told(bodies)
-    equations = [*known, *(claims(bodies) if bodies else ())]
+        prose += metric_prose(bodies)
+    equations = [*known, *(metric_equations(bodies) if bodies else ())]
     if not equations:
         return ()
     if known:
@@ -211,9 +211,10 @@ def _derived(
     brackets: Mapping[Letter, Expr],
 ) -> Expr:
     """dϖ on words, by the values of P and F, with the potential of the problem."""
-    moved = {a.C: varied_gram(a, a.Z.xi), **v.moved(a, *(word(f.xi) for f in a.frames))}
+    moved = v.moved(a, *(word(f.xi) for f in a.algebra_parts))
+    moved |= {a.C: varied_cauchy_green(a, a.Z.xi)}
     values = fibre(momentum, energy, moved, a)
-    return reduce(restrict(road.momenta.form, values, a, brackets), frame_rule(a, gram(a)))
+    return reduce(restrict(road.momenta.form, values, a, brackets), body_rule(a, cauchy_green(a)))
 
 
 def _exterior(
@@ -223,19 +224,19 @@ def _exterior(
     written ``by_bracket``."""
     letters = a.letters()
     images = {letters[x.name]: without(a.respell(y), a.f) for x, y in road.exterior.images.items()}
-    moving = [x for f in a.frames for x in (f.d_velocity, f.dp_velocity)]
+    moving = [x for f in a.algebra_parts for x in (f.d_velocity, f.dp_velocity)]
     core = terms_with(without(domega, a.dt, a.dpt), *moving)
     shown = gathered(varying, domega, core, images, Notation())
     step = varying.step((Equation(DOMEGA, t) for t in (shown, *by_bracket)), restricted_prose(a))
     found = Chapter(a.chapter).label("second_order_trivialised")
     return (
         Contraction(
-            varying.said(domega),
+            varying.mark(domega),
             core,
-            {x: varying.said(y) for x, y in images.items()},
-            {f.xi: word(f.velocity).marked(found) for f in a.frames},
-            {f.d_velocity: f.acceleration for f in a.frames},
-            tuple(f.dp_velocity for f in a.frames),
+            {x: varying.mark(y) for x, y in images.items()},
+            {f.xi: word(f.velocity).marked(found) for f in a.algebra_parts},
+            {f.d_velocity: f.acceleration for f in a.algebra_parts},
+            tuple(f.dp_velocity for f in a.algebra_parts),
             (a.dt, a.dpt),
             Notation(),
         ),
@@ -249,7 +250,7 @@ def _kernel(
     """dϖ(X, δ′) for X with the velocity of the motion, without the work of the forces; and the step
     that says that with it it is 0."""
     draft = c.draft("kernel", "kernel")
-    tested = [f.xi_prime for f in a.frames]
+    tested = [f.xi_prime for f in a.algebra_parts]
     pairs = zip(forces, tested, strict=True)
     work = sum((inner(e, word(x)) for e, x in pairs), number(0))
     inertial, shown = balanced(draft, contraction, work, a)
@@ -260,7 +261,7 @@ def _kernel(
             variation="(ξ′, η′)" if a.affine else "ξ′",
         ),
     )
-    return draft.said(inertial), step
+    return draft.mark(inertial), step
 
 
 def _forces(forces: dict[Letter, Expr], d: Draft) -> Step:

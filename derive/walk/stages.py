@@ -34,10 +34,10 @@ class Stage:
     def value(self, values: Mapping[str, Any]) -> Any:
         """What the stage makes of these values; ``None`` where something that it takes is
         missing."""
-        given = [(_found(x.rstrip("?"), values), x.endswith("?")) for x in self.takes.split()]
-        if any(x is None and not optional for x, optional in given):
+        taken = [(_found(x.rstrip("?"), values), x.endswith("?")) for x in self.takes.split()]
+        if any(x is None and not optional for x, optional in taken):
             return None
-        return self.run(*(x for x, _ in given))
+        return self.run(*(x for x, _ in taken))
 
 
 def _found(path: str, values: Mapping[str, Any]) -> Any:
@@ -46,9 +46,9 @@ def _found(path: str, values: Mapping[str, Any]) -> Any:
     return reduce(lambda x, field: x if x is None else getattr(x, field), fields, values.get(name))
 
 
-def follow(road: Iterable[Stage], given: Mapping[str, Any], kinds: Collection[str]) -> Values:
+def follow(road: Iterable[Stage], start: Mapping[str, Any], kinds: Collection[str]) -> Values:
     """The values of the stages of a road of these ``kinds``, after those that it starts from."""
-    values, steps = {**given}, list[Step]()
+    values, steps = {**start}, list[Step]()
     for stage in road:
         if not stage.on or stage.on in kinds:
             found = values[stage.name] = stage.value(values)

@@ -17,6 +17,6 @@ def say(key: str, **places: Sentence | str) -> Prose:
     return (phrase(key, **places),)
 
 
-def told(key: str, signed: bool, **places: Sentence | str) -> Prose:
+def say_signed(key: str, signed: bool, **places: Sentence | str) -> Prose:
     """A sentence for positive masses, or if they may be negative (``signed``) another."""
     return say(f"{key}_signed" if signed else key, **places)

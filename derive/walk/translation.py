@@ -17,7 +17,7 @@ from .alphabet import Alphabet
 from .chapter import Chapter
 from .inverse import cancel_scalar, cancelling, inverse_letter
 from .special import Special
-from .telling import told
+from .telling import say_signed
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def eliminate_translation(stage: Special, c: Chapter) -> Centred:
     def tidy(e: Expr) -> Expr:
         return cancel_scalar(reduce(e, cancel), b.m)
 
-    left = word(inverse_letter(b.C)) if stage.gram != b.unit else b.unit
+    left = word(inverse_letter(b.C)) if b.unit != stage.C else b.unit
     balance = gradient(stage.inertial, eta) - stage.forces[eta]
     free = tidy(word(inverse_letter(b.m)) * (left * without(balance, w_dot)))
     metric, value = central_moments(b)
@@ -81,8 +81,8 @@ def eliminate_translation(stage: Special, c: Chapter) -> Centred:
             Equation("N_c", draft.tree(force, notation)),
             Equation(draft.tree(inertial), draft.tree(pairing), (xi.name,)),
         ),
-        told("elimination.linear_parts", b.signed),
+        say_signed("elimination.linear_parts", b.signed),
     )
     rate = tidy(substitute(-free, {b.c: from_centre[b.c]}))
-    left_over, pushed = draft.said(inertial), draft.said(force)
-    return Centred(left_over, pushed, metric, solved, draft.said(rate), (step,))
+    inertial, force, rate = (draft.mark(e) for e in (inertial, force, rate))
+    return Centred(inertial, force, metric, solved, rate, (step,))

@@ -14,13 +14,13 @@ from .chapter import Chapter, Draft
 from .telling import say
 
 
-def frame_rule(a: Alphabet, gram: Expr) -> PairRule:
-    """The relations ``ĀA = gram``, ``ĀN = N_b``, ``ĀF = F_b``: what g leaves in a word carried to
+def body_rule(a: Alphabet, C: Expr) -> PairRule:
+    """The relations ``ĀA = C``, ``ĀN = N_b``, ``ĀF = F_b``: what g leaves in a word carried to
     1.
 
-    ``gram`` is the letter C for any group and the identity for isometries.
+    ``C`` is the letter C for any group and the identity for isometries.
     """
-    pairs = {a.A.position: gram} | {x: _told(word(y), a) for x, y in a.bodily}
+    pairs = {a.A.position: C} | {x: _marked(word(y), a) for x, y in a.bodily}
 
     def rule(left: Factor, right: Factor) -> Expr | None:
         if left == (a.A.position, True) and not right[1] and right[0] in pairs:
@@ -32,24 +32,26 @@ def frame_rule(a: Alphabet, gram: Expr) -> PairRule:
     return rule
 
 
-def varied_gram(a: Alphabet, xi: Letter) -> Expr:
+def varied_cauchy_green(a: Alphabet, xi: Letter) -> Expr:
     """The variation δC of C = ĀA along δA = Aξ: ξ̄C + Cξ, derived."""
     g = word(a.A.position)
-    return reduce(derivation(g.bar * g, {a.A.position: g * word(xi)}.get), frame_rule(a, gram(a)))
+    return reduce(
+        derivation(g.bar * g, {a.A.position: g * word(xi)}.get), body_rule(a, cauchy_green(a))
+    )
 
 
 def trivial_images(a: Alphabet) -> dict[Letter, Expr]:
     """The images of letters in space: ν = gZ, δg = gξ, δ′g = gξ′, F̃ = A f, and δν, δ′ν by the
     product rule."""
-    g = _told(word(a.A.position), a)
+    g = _marked(word(a.A.position), a)
     images: dict[Letter, Expr] = {a.F_group: g * word(a.f)}
-    for part, frame in zip(a.parts, a.frames, strict=True):
-        images[part.velocity] = g * word(frame.velocity)
-        images[part.d_position] = g * word(frame.xi)
-        images[part.dp_position] = g * word(frame.xi_prime)
-        delta = {a.A.position: g * word(a.Z.xi), frame.velocity: word(frame.d_velocity)}
+    for part, inner in zip(a.parts, a.algebra_parts, strict=True):
+        images[part.velocity] = g * word(inner.velocity)
+        images[part.d_position] = g * word(inner.xi)
+        images[part.dp_position] = g * word(inner.xi_prime)
+        delta = {a.A.position: g * word(a.Z.xi), inner.velocity: word(inner.d_velocity)}
         images[part.d_velocity] = derivation(images[part.velocity], delta.get)
-        delta = {a.A.position: g * word(a.Z.xi_prime), frame.velocity: word(frame.dp_velocity)}
+        delta = {a.A.position: g * word(a.Z.xi_prime), inner.velocity: word(inner.dp_velocity)}
         images[part.dp_velocity] = derivation(images[part.velocity], delta.get)
     return images
 
@@ -61,17 +63,17 @@ def rates(d: Draft, a: Alphabet, turned: Mapping[Letter, Expr] | None = None) ->
     return [Equation(x, d.tree(substitute(e, turned or {}))) for x, e in speeds.items()]
 
 
-def carry(e: Expr, a: Alphabet) -> Expr:
+def at_identity(e: Expr, a: Alphabet) -> Expr:
     """A scalar expression carried to the identity, in Z, ξ, C and the forces in the body."""
-    return reduce(substitute(e, trivial_images(a)), frame_rule(a, gram(a)))
+    return reduce(substitute(e, trivial_images(a)), body_rule(a, cauchy_green(a)))
 
 
-def gram(a: Alphabet) -> Expr:
+def cauchy_green(a: Alphabet) -> Expr:
     """The Cauchy–Green matrix C = ĀA as a word, marked by the step that defines it."""
-    return _told(word(a.C), a)
+    return _marked(word(a.C), a)
 
 
-def _told(e: Expr, a: Alphabet) -> Expr:
+def _marked(e: Expr, a: Alphabet) -> Expr:
     """An expression marked as said by the step ``trivialisation``."""
     return e.marked(Chapter(a.chapter).label("trivialisation"))
 
@@ -89,7 +91,7 @@ def trivialisation(a: Alphabet, c: Chapter) -> Step:
             *definitions,
             *stated("C = ĀA"),
             *(Equation(p.d_velocity.name, tree_of(images[p.d_velocity])) for p in a.parts),
-            Equation("δC", tree_of(varied_gram(a, a.Z.xi))),
+            Equation("δC", tree_of(varied_cauchy_green(a, a.Z.xi))),
         ),
         say("trivialisation.carried"),
         (27, 30),

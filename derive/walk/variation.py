@@ -53,7 +53,7 @@ def principle(
     twins, tangent = primes(a), tangent_of_lift(a)
     onto = {x: tangent[y] for x, y in twins.items() if y in tangent}
     apart = substitute(form.form, onto) - lagrangian
-    delta, delta_prime = natural_variations(pulled.pushed, a)
+    delta, delta_prime = natural_variations(pulled.moment_work, a)
     exterior = substitute(forms.exterior(form.form, twins, delta, delta_prime), tangent)
     varied, rate = _varied(lagrangian, pulled, a), _rate(form.form, pulled, a)
     first = varying.step(
@@ -69,7 +69,7 @@ def principle(
         lift,
     )
     summand, shown = _work(points, a)
-    across = varying.said(varied) - rate
+    across = varying.mark(varied) - rate
     balance = sum_over(summand, {a.m_i, a.r_i, a.F_i}, pulled.moments)
     second = working.step(
         (
@@ -83,7 +83,7 @@ def principle(
         (2, 5),
         lift,
     )
-    return Principle(working.said(across), (first, second))
+    return Principle(working.mark(across), (first, second))
 
 
 def tangent_of_lift(a: Alphabet) -> dict[Letter, Expr]:
@@ -97,7 +97,7 @@ def tangent_of_lift(a: Alphabet) -> dict[Letter, Expr]:
 def _varied(lagrangian: Expr, pulled: Pullback, a: Alphabet) -> Expr:
     """δ(L̃ dt) / dt through lifts: ν = dg/dt, whose variation is d(δg)/dt − ν d(δt)/dt."""
     later = word(LATER)
-    delta = {a.U: word(a.dU_dt) * word(a.dt) - pulled.pushed}
+    delta = {a.U: word(a.dU_dt) * word(a.dt) - pulled.moment_work}
     for p in a.parts:
         delta[p.position] = word(p.d_position)
         delta[p.velocity] = word(p.second) - word(p.velocity) * later
@@ -106,7 +106,7 @@ def _varied(lagrangian: Expr, pulled: Pullback, a: Alphabet) -> Expr:
 
 def _rate(form: Expr, pulled: Pullback, a: Alphabet) -> Expr:
     """d/dt of ϖ(δy) along a lift."""
-    along = substitute(pulled.pushed, {p.d_position: word(p.velocity) for p in a.parts})
+    along = substitute(pulled.moment_work, {p.d_position: word(p.velocity) for p in a.parts})
     rate = {a.U: word(a.dU_dt) - along, a.dt: word(LATER)}
     for p in a.parts:
         rate |= {p.position: word(p.velocity), p.velocity: word(p.acceleration)}
@@ -118,11 +118,11 @@ def _work(points: Lagrangian, a: Alphabet) -> tuple[Expr, Tree]:
     """⟨m_i r̈_i − F_i, δr_i − v_i δt⟩ on words, with the acceleration at hand; and as written."""
     acceleration = substitute(points.velocity, {p.velocity: word(p.acceleration) for p in a.parts})
     varied = Letter("δr_i", a.n)
-    pushed = word(a.m_i) * acceleration - word(a.F_i)
+    balance = word(a.m_i) * acceleration - word(a.F_i)
     moved = word(varied) - word(points.v_i) * word(a.dt)
     members = {a.m_i: "m", a.r_i: "r", a.F_i: "F", points.v_i: "v"}
     display: dict[Letter, Tree] = {x: ("at", name, "i") for x, name in members.items()}
     notation = Notation(display=display | {varied: read("δ(rᵢ(t))")})
-    shown: Tree = ("inner", tree_of(pushed, notation), tree_of(moved, notation))
+    shown: Tree = ("inner", tree_of(balance, notation), tree_of(moved, notation))
     images = {varied: points.variation, points.v_i: points.velocity}
-    return inner(pushed, substitute(moved, images)), shown
+    return inner(balance, substitute(moved, images)), shown

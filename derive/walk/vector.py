@@ -20,9 +20,9 @@ from ..language.tree import Tree, add, terms
 from ..record import sentence
 from ..record.record import Equation, Step
 from ..record.sentence import Sentence, listed
-from .alphabet import Alphabet, Dual, Frame
+from .alphabet import AlgebraPart, Alphabet, Dual
 from .chapter import Chapter
-from .coadjoint import halved, momenta_told, motion_told
+from .coadjoint import halved, momenta_prose, motion_prose
 from .contraction import AND, Contraction, rate, steps_of
 from .exterior import DOMEGA, primed
 from .factored import at_constant_time
@@ -39,15 +39,15 @@ from .hat import (
     TURNING,
     ZETA,
     ZETA_DOT,
-    Reader,
+    HatMap,
+    anticommute,
     axis,
     inertia_of,
-    isolate,
 )
 from .isometry import Isometry
 from .momentum import MomentumForm, horizontal
 from .restrict import moved
-from .telling import say, told
+from .telling import say, say_signed
 from .wedge import vector_sum
 
 HATS = tuple({hat(ZETA): word(hat(x))} for x in (TURNING.d_velocity, TURNING.dp_velocity, ZETA_DOT))
@@ -67,116 +67,119 @@ class VectorForm:
     steps: tuple[Step, ...]
 
 
-def pairs_of(b: Alphabet) -> list[tuple[Dual, Frame]]:
+def pairs_of(b: Alphabet) -> list[tuple[Dual, AlgebraPart]]:
     """The letters of ℓ_b with those of ζ and, for an affine action, of p_b with those of w."""
     return [(SPINNING, TURNING), *([(b.p_b, b.w)] if b.affine else [])]
 
 
-def vector_form(general: MomentumForm, stage: Isometry, read: Reader, c: Chapter) -> VectorForm:
+def vector_form(general: MomentumForm, stage: Isometry, hat_map: HatMap, c: Chapter) -> VectorForm:
     """dϖ by vectors, and the kernel read off it, with the steps ``momenta`` to ``kernel``."""
     b, pairs = stage.letters, pairs_of(stage.letters)
-    momenta = body_momenta(stage, read)
+    momenta = body_momenta(stage, hat_map)
     telling, varying = c.draft("momenta", "identification"), c.draft("exterior_vector", "relation")
-    telling.read(*momenta.values())
+    telling.depends_on(*momenta.values())
     naming = telling.step(
-        [Equation(x.name, vector_sum(e)) for x, e in momenta.items()], momenta_told(b)
+        [Equation(x.name, vector_sum(e)) for x, e in momenta.items()], momenta_prose(b)
     )
-    values = {x: telling.said(e) for x, e in momenta.items()}
-    forces = pairing(stage, read)
-    pushes = {d.push: forces[f.xi_prime] for d, f in pairs}
-    by_value = moved(values | pushes, [d for d, _ in pairs], [f for _, f in pairs], HATS)
-    domega = read.scalar(substitute(b.respell(general.form), halved(stage.values, b)))
-    forms = _by_momenta(domega, pairs, pushes, read), _by_value(stage, read)
+    values = {x: telling.mark(e) for x, e in momenta.items()}
+    forces = pairing(stage, hat_map)
+    acting = {d.force: forces[f.xi_prime] for d, f in pairs}
+    by_value = moved(values | acting, [d for d, _ in pairs], [f for _, f in pairs], HATS)
+    domega = hat_map.scalar(substitute(b.respell(general.form), halved(stage.values, b)))
+    forms = _by_momenta(domega, pairs, acting, hat_map), _by_value(stage, hat_map)
     written = varying.step(
         [Equation(DOMEGA, x.whole(varying)) for x in forms],
         say("exterior_vector.momenta"),
         () if b.affine else (31,),
     )
     found, steps = steps_of(
-        [x.said_by(varying) for x in forms],
+        [x.marked_by(varying) for x in forms],
         [f.xi for _, f in pairs if f.xi.axis is None],
         _unknown(pairs),
         listed("{first}, {second}", _rates(pairs)),
         b,
         c,
         () if b.affine else (34,),
-        *told(f"second_order.{'displacement' if b.affine else 'rotation'}", b.signed),
+        *say_signed(f"second_order.{'displacement' if b.affine else 'rotation'}", b.signed),
     )
-    balance, moving = _coadjoint(found, pairs, read, b, c)
-    apart = [isolate(d.momentum) for d, _ in pairs]
+    balance, moving = _coadjoint(found, pairs, hat_map, b, c)
+    apart = [anticommute(d.momentum) for d, _ in pairs]
     solved = {v: normal_form(substitute(reduce(e, *apart), by_value)) for v, e in balance.items()}
     motion = _kernel(solved, b, c)
     return VectorForm(
         {v: e.marked(motion.label) for v, e in solved.items()},
-        inertia_of(b.J).marked(read.inertia),
+        inertia_of(b.J).marked(hat_map.inertia),
         values,
         (naming, written, *steps, moving, motion),
     )
 
 
-def body_momenta(stage: Isometry, read: Reader) -> dict[Letter, Expr]:
+def body_momenta(stage: Isometry, hat_map: HatMap) -> dict[Letter, Expr]:
     """The values of ℓ_b and p_b, by their letters: the coefficients of Ω and η in p̃."""
-    momentum = read.scalar(stage.cartan.momentum)
-    found = {SPIN: gradient(reduce(normal_form(momentum), isolate(OMEGA)), OMEGA)}
+    momentum = hat_map.scalar(stage.cartan.momentum)
+    found = {SPIN: gradient(reduce(normal_form(momentum), anticommute(OMEGA)), OMEGA)}
     b = stage.letters
     return found | ({b.p_b.momentum: gradient(momentum, b.w.xi)} if b.affine else {})
 
 
-def pairing(stage: Isometry, read: Reader) -> dict[Letter, Expr]:
+def pairing(stage: Isometry, hat_map: HatMap) -> dict[Letter, Expr]:
     """The force of the walk in vectors, by Ω′ and η′, read off −dŨ(AΩ′, Aη′): Iφ, or μ and F_b."""
-    virtual = read.scalar(primed(stage.cartan.work, stage.letters))
+    virtual = hat_map.scalar(primed(stage.cartan.work, stage.letters))
     return {f.xi_prime: gradient(virtual, f.xi_prime) for _, f in pairs_of(stage.letters)}
 
 
 def _by_momenta(
-    domega: Expr, pairs: Sequence[tuple[Dual, Frame]], pushes: Mapping[Letter, Expr], read: Reader
+    domega: Expr,
+    pairs: Sequence[tuple[Dual, AlgebraPart]],
+    forces: Mapping[Letter, Expr],
+    hat_map: HatMap,
 ) -> Contraction:
     """dϖ in ℓ_b, p_b and their variations, ready to be contracted."""
-    b = read.letters
+    b = hat_map.letters
     return Contraction(
         domega,
         at_constant_time(domega, b.dt, b.dpt),
-        horizontal(pairs, b, pushes),
+        horizontal(pairs, b, forces),
         _velocity(pairs),
         {d.d_momentum: d.rate for d, _ in pairs} | {hat(D_SPIN): hat(SPIN_RATE)},
         tuple(x for d, _ in pairs for x in (d.dp_momentum, hat(d.dp_momentum))),
         (b.dt, b.dpt),
-        _notation(read),
-        **_brackets(pairs, read),
+        _notation(hat_map),
+        **_brackets(pairs, hat_map),
     )
 
 
-def _by_value(stage: Isometry, read: Reader) -> Contraction:
+def _by_value(stage: Isometry, hat_map: HatMap) -> Contraction:
     """dϖ in ζ and w, as (31), ready to be contracted."""
-    b, pairs, form = stage.letters, pairs_of(stage.letters), read.scalar(stage.form)
+    b, pairs, form = stage.letters, pairs_of(stage.letters), hat_map.scalar(stage.form)
     return Contraction(
         form,
         without(form, b.dt, b.dpt),
-        {axis(x): read.vector(y) for x, y in stage.images.items()},
+        {axis(x): hat_map.vector(y) for x, y in stage.images.items()},
         _velocity(pairs),
         {f.d_velocity: f.acceleration for _, f in pairs} | {hat(D_ZETA): hat(ZETA_DOT)},
         tuple(x for _, f in pairs for x in (f.dp_velocity, hat(f.dp_velocity))),
         (b.dt, b.dpt),
-        _notation(read),
+        _notation(hat_map),
         resting={f.dp_velocity: f.xi_prime for _, f in pairs},
-        **_brackets(pairs, read),
+        **_brackets(pairs, hat_map),
     )
 
 
-def _velocity(pairs: Sequence[tuple[Dual, Frame]]) -> dict[Letter, Expr]:
+def _velocity(pairs: Sequence[tuple[Dual, AlgebraPart]]) -> dict[Letter, Expr]:
     """The values Ω(X) = ζ and η(X) = w, by their letters."""
     return {f.xi: word(f.velocity) for _, f in pairs} | {hat(OMEGA): word(hat(ZETA))}
 
 
-def _notation(read: Reader) -> Notation:
-    return metrics("I", display={x: tree_of(e) for x, e in read.brackets.items()})
+def _notation(hat_map: HatMap) -> Notation:
+    return metrics("I", display={x: tree_of(e) for x, e in hat_map.brackets.items()})
 
 
-def _brackets(pairs: Sequence[tuple[Dual, Frame]], read: Reader) -> dict[str, Any]:
+def _brackets(pairs: Sequence[tuple[Dual, AlgebraPart]], hat_map: HatMap) -> dict[str, Any]:
     """The fields ``display`` and ``opening`` of a contraction: how the brackets read, and what they
     are, once X has the velocity of the motion."""
     velocity = _velocity(pairs)
-    opened = {x: substitute(e, velocity).marked() for x, e in read.brackets.items()}
+    opened = {x: substitute(e, velocity).marked() for x, e in hat_map.brackets.items()}
     turning = opened.pop(BRACKET)
     return {
         "display": {BRACKET: tree_of(turning)},
@@ -184,34 +187,38 @@ def _brackets(pairs: Sequence[tuple[Dual, Frame]], read: Reader) -> dict[str, An
     }
 
 
-def _unknown(pairs: Sequence[tuple[Dual, Frame]]) -> Sentence:
+def _unknown(pairs: Sequence[tuple[Dual, AlgebraPart]]) -> Sentence:
     """The components of X that are unknown, in words."""
     *others, last = [f.xi.name for _, f in pairs] + [f.d_velocity.name for _, f in pairs]
     return sentence.phrase(AND, first=", ".join(others), second=last)
 
 
-def _rates(pairs: Sequence[tuple[Dual, Frame]]) -> list[Sentence]:
+def _rates(pairs: Sequence[tuple[Dual, AlgebraPart]]) -> list[Sentence]:
     """The phrases that say what ζ̇, ẇ, ℓ̇_b, ṗ_b are."""
-    told = [(f.acceleration, f.d_velocity) for _, f in pairs]
-    told += [(d.rate, d.d_momentum) for d, _ in pairs]
-    return [rate(x.name, y.name) for x, y in told]
+    rates = [(f.acceleration, f.d_velocity) for _, f in pairs]
+    rates += [(d.rate, d.d_momentum) for d, _ in pairs]
+    return [rate(x.name, y.name) for x, y in rates]
 
 
 def _coadjoint(
-    c: Contraction, pairs: Sequence[tuple[Dual, Frame]], read: Reader, b: Alphabet, chapter: Chapter
+    c: Contraction,
+    pairs: Sequence[tuple[Dual, AlgebraPart]],
+    hat_map: HatMap,
+    b: Alphabet,
+    chapter: Chapter,
 ) -> tuple[dict[Letter, Expr], Step]:
     """The balance of moments and forces, coefficients of Ω′ and η′, in ℓ_b and p_b; and the step of
     ℓ̇_b and ṗ_b (Euler, Kirchhoff)."""
     draft = chapter.draft("coadjoint", "kernel")
-    bracket = substitute(read.brackets[BRACKET], c.velocity).marked()
+    bracket = substitute(hat_map.brackets[BRACKET], c.velocity).marked()
     opened = substitute(without(c.second_order, b.dpt), {BRACKET: bracket})
     opened = opened.marked(chapter.label("second_order"))
     balance = {
-        f.xi_prime: normal_form(gradient(reduce(opened, isolate(f.xi_prime)), f.xi_prime))
+        f.xi_prime: normal_form(gradient(reduce(opened, anticommute(f.xi_prime)), f.xi_prime))
         for _, f in pairs
     }
     rates = {d.rate: word(d.rate) - balance[f.xi_prime] for d, f in pairs}
-    draft.read(*rates.values())
+    draft.depends_on(*rates.values())
     step = draft.step(
         [Equation(x.name, _spun(vector_sum(e))) for x, e in rates.items()],
         (say("coadjoint.turning_and_moving") if b.affine else say("coadjoint.turning"))
@@ -219,10 +226,10 @@ def _coadjoint(
             "coadjoint.energy",
             motion="Ω′ = ζ, η′ = w" if b.affine else "Ω′ = ζ",
         )
-        + told("kernel.line", b.signed)
-        + motion_told(b),
+        + say_signed("kernel.line", b.signed)
+        + motion_prose(b),
     )
-    return {v: draft.said(e) for v, e in balance.items()}, step
+    return {v: draft.mark(e) for v, e in balance.items()}, step
 
 
 def _spun(t: Tree) -> Tree:
@@ -240,7 +247,7 @@ def _kernel(balance: dict[Letter, Expr], b: Alphabet, c: Chapter) -> Step:
     for v, e in balance.items():
         moving = terms_with(e, ZETA_DOT, hat(ZETA_DOT), b.w.acceleration)
         left = moving if b.affine else inertial[v]
-        draft.read(e)
+        draft.depends_on(e)
         equations.append(Equation(tree_of(left), vector_sum(left - e)))
     return draft.step(
         equations,

@@ -27,12 +27,12 @@ def forgetful(w, k, image):
 
 
 right_product = calculus._apply_at
-right_frame = trivialisation.frame_rule
+right_rule = trivialisation.body_rule
 
 
-def unbarred(a, gram):
-    """The rule of the frame, a bar forgotten."""
-    right = right_frame(a, gram)
+def unbarred(a, C):
+    """The rule of what g leaves in the body, a bar forgotten."""
+    right = right_rule(a, C)
 
     def rule(left, other):
         image = right(left, other)
@@ -50,13 +50,12 @@ def test_a_product_rule_that_forgets_a_factor(name, monkeypatch):
 
 
 @pytest.mark.parametrize("name", ["affine", "se3"])
-def test_a_frame_rule_that_is_not_barred(name, monkeypatch):
+def test_a_body_rule_that_is_not_barred(name, monkeypatch):
     for module in sys.modules.values():
-        if getattr(module, "frame_rule", None) is right_frame:
-            monkeypatch.setattr(module, "frame_rule", unbarred)
-    told(
-        name, r"after the step affine\.trivialisation \(triv.*\), in cartan\.trivialise, .*carry: V"
-    )
+        if getattr(module, "body_rule", None) is right_rule:
+            monkeypatch.setattr(module, "body_rule", unbarred)
+    where = r"cartan\.trivialise, .*at_identity: V"
+    told(name, rf"after the step affine\.trivialisation \(triv.*\), in {where}")
 
 
 def test_a_letter_without_an_image(monkeypatch):

@@ -92,7 +92,7 @@ def test_a_momentum_that_moves_with_the_group_is_not_restricted_in_silence():
     """Its variation would be lost: a gyroscopic term N̄A, say."""
     a = Alphabet("n", affine=False)
     form = general_road(affine=False)["momenta"].form
-    values = {a.Pi.momentum: word(a.N).bar * word(a.A.position), a.Pi.push: word(a.N_body)}
+    values = {a.Pi.momentum: word(a.N).bar * word(a.A.position), a.Pi.force: word(a.N_body)}
     with pytest.raises(ValueError, match=r"Π has [AN], whose variation is not known"):
         restrict(form, values, a)
 

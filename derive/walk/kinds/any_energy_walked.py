@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from ...problem.problem import Problem
 from ...schema.kinds.any_energy import Expression
-from ..pointwise import Elements
+from ..pointwise import PointPotentials
 
 KIND = Expression
 
 
-def pointwise(found: Elements, p: Expression, problem: Problem) -> None:
+def pointwise(found: PointPotentials, p: Expression, problem: Problem) -> None:
     """Add U, with its forces −∂U/∂r_i(t)."""
     del problem
-    found.energy(p.U)
+    found.add_energy(p.U)

@@ -6,17 +6,17 @@ from ...language.differentiate import product
 from ...language.tree import Tree, add, neg
 from ...problem.problem import Problem
 from ...schema.kinds.attraction import Attraction
-from ..pointwise import Elements, column, place
+from ..pointwise import PointPotentials, column, place
 
 KIND = Attraction
 
 
-def pointwise(found: Elements, p: Attraction, problem: Problem) -> None:
+def pointwise(found: PointPotentials, p: Attraction, problem: Problem) -> None:
     """Add −m_i μ / ‖r_i(t) − centre‖ for each point."""
     body = problem.points
     for i, m in p.on or enumerate(body.masses if body else (), 1):
         centre = neg(column(p.centre)) if p.centre else 0
-        d = found.difference(add(place(problem, i), centre))
+        d = found.add_difference(add(place(problem, i), centre))
         distance: Tree = ("fun", "sqrt", ("norm2", d))
         energy = product(-1, m, p.strength, ("div", 1, distance))
-        found.radial(energy, d, {i: 1}, p.centre)
+        found.add_radial(energy, d, {i: 1}, p.centre)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from ...language.tree import add, mul
 from ...problem.problem import Problem
 from ...schema.kinds.field import Field
-from ..pointwise import Elements, in_space
+from ..pointwise import PointPotentials, in_space
 
 KIND = Field
 
 
-def pointwise(found: Elements, p: Field, problem: Problem) -> None:
+def pointwise(found: PointPotentials, p: Field, problem: Problem) -> None:
     """Add −Σ q_i ⟨E, r_i(t)⟩, each place in its block."""
     group = problem.group
     assert group is not None
@@ -21,4 +21,4 @@ def pointwise(found: Elements, p: Field, problem: Problem) -> None:
         along = add(*(mul(x, ("entry", in_space(i), k)) for x, k in pairs))
         terms.append(mul(-1, charge, along))
     if (U := add(*terms)) != 0:
-        found.energy(U)
+        found.add_energy(U)

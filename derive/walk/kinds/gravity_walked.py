@@ -33,10 +33,10 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
     }
     assert problem.group is not None
     spread = problem.body is not None and not isinstance(problem.body, PointBody)
-    told = say("potential.whole_body") if spread else ()
+    prose = say("potential.whole_body") if spread else ()
     return Words(
         sum_over(summand, {a.m_i, a.r_i}, table),
         [Equation("γ", column(problem.group.in_every_block(g)))],
         [neg(("sum", "i", ("mul", ("at", "m", "i"), ("inner", "γ", POINT))))],
-        told,
+        prose,
     )

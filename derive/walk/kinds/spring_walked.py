@@ -11,7 +11,7 @@ from ...record.record import Equation
 from ...schema.kinds.spring import Spring, quadratic
 from ..alphabet import Alphabet
 from ..chapter import Chapter
-from ..pointwise import Elements, column, in_space, place
+from ..pointwise import PointPotentials, column, in_space, place
 from ..pullback import sum_over
 from ..summed import Words
 from ..telling import say
@@ -56,17 +56,17 @@ def _definitions(springs: tuple[Spring, ...]) -> list[Equation]:
     return equations
 
 
-def pointwise(found: Elements, p: Spring, problem: Problem) -> None:
+def pointwise(found: PointPotentials, p: Spring, problem: Problem) -> None:
     """Add ½ k (‖d‖ − ℓ)², unless the spring is in K."""
     if p in quadratic((p,), problem.block):
         return
     i, j = p.ends
     anchor = p.anchor or ()
     other = column(anchor) if j is None else place(problem, j)
-    d = found.difference(add(place(problem, i), neg(other)))
+    d = found.add_difference(add(place(problem, i), neg(other)))
     square: Tree = ("norm2", d)
     stretched = square
     if p.length != 0:
         stretched = ("pow", add(("fun", "sqrt", square), neg(p.length)), 2)
     energy = mul(Fraction(1, 2), p.stiffness, stretched)
-    found.radial(energy, d, {i: 1} if j is None else {i: 1, j: -1}, anchor)
+    found.add_radial(energy, d, {i: 1} if j is None else {i: 1, j: -1}, anchor)
