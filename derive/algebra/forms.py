@@ -23,24 +23,24 @@ def exterior(form: Expr, prime: Mapping[Letter, Letter], delta: Image, delta_pri
 
 
 def structure_equation(
-    frame: Letter, xi: Letter, xi_prime: Letter, eta: Letter, eta_prime: Letter
+    g: Letter, xi: Letter, xi_prime: Letter, eta: Letter, eta_prime: Letter
 ) -> Expr:
     """The value of ``δη′ − δ′η`` when  δg = g ξ  and  δx = g η  (so ``[ξ′, ξ]`` for η = ξ).
 
-    From δ(δ′x) = δ′(δx): the terms in which the frame g is varied must balance it.
+    From δ(δ′x) = δ′(δx): the terms in which g is varied must balance it.
     """
-    g = word(frame)
-    delta = derivation(g * word(eta_prime), {frame: g * word(xi)}.get)
-    delta_prime = derivation(g * word(eta), {frame: g * word(xi_prime)}.get)
-    return strip_left(delta_prime - delta, frame)
+    moving = word(g)
+    delta = derivation(moving * word(eta_prime), {g: moving * word(xi)}.get)
+    delta_prime = derivation(moving * word(eta), {g: moving * word(xi_prime)}.get)
+    return strip_left(delta_prime - delta, g)
 
 
-def strip_left(e: Expr, frame: Letter) -> Expr:
+def strip_left(e: Expr, g: Letter) -> Expr:
     """The expression y with e = g y, for an invertible letter g that each word of e begins with;
     ``ValueError`` where one does not."""
     terms = {}
     for (traces, w), c in e.terms.items():
-        if not w or w[0] != (frame, False):
-            raise ValueError(f"{frame.name} is not a common left factor")
+        if not w or w[0] != (g, False):
+            raise ValueError(f"{g.name} is not a common left factor")
         terms[traces, w[1:]] = c
     return e.like(terms)

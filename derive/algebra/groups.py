@@ -28,8 +28,7 @@ class Group:
     ``basis``: d matrices of size n (linear) or n + 1 with last row zero (affine), over Q.
     ``sampler``: random exact elements; ``larger``: are they those of a larger group that has the
     same relations? ``factors``: of a product, in order; its n is the size of its block diagonal
-    matrices. ``given``: the basis that the user states, where ``basis`` is another one of the same
-    𝔤.
+    matrices. ``stated_basis``: that of the user, where ``basis`` is another one of the same 𝔤.
     """
 
     name: str
@@ -39,13 +38,15 @@ class Group:
     sampler: Sampler
     factors: tuple[Group, ...] = ()
     larger: bool = False
-    given: tuple[Matrix, ...] = ()
+    stated_basis: tuple[Matrix, ...] = ()
 
     @cached_property
     def stated(self) -> Group:
         """The same group in the basis that the user states, whose coordinates are those of the
         state."""
-        return replace(self, basis=self.given, given=()) if self.given else self
+        return (
+            replace(self, basis=self.stated_basis, stated_basis=()) if self.stated_basis else self
+        )
 
     @property
     def dimension(self) -> int:

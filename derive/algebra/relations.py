@@ -35,8 +35,8 @@ class Relations:
 
     ``hull``: the matrix H of the projection with v = H v for the entries v of A − 1, then of T;
     empty where they are free. ``form``: S with ĀSA = S, or empty; ``conformal``: ĀSA = μS for some
-    factor μ. ``determinant``: is it 1? ``frame``: where that determinant is complex, P with P⁻¹AP =
-    [[X, −Y], [Y, X]] for the complex matrix X + iY. ``left``: the dimension of what they leave, at
+    factor μ. ``determinant``: is it 1? ``complex_basis``: where that determinant is complex, P with
+    P⁻¹AP = [[X, −Y], [Y, X]] for the complex matrix X + iY. ``dimension``: of what they leave, at
     least that of the group.
     """
 
@@ -44,8 +44,8 @@ class Relations:
     form: Matrix
     conformal: bool
     determinant: bool
-    frame: Matrix
-    left: int
+    complex_basis: Matrix
+    dimension: int
 
     @property
     def none(self) -> bool:
@@ -58,26 +58,26 @@ def relations(g: Group) -> Relations:
     """The relations of one group; for a product, ask for those of its factors."""
     n, linear = g.n, [e for e in map(g.linear_part, g.basis) if any(map(any, e))]
     conformal = any(q.trace(e) for e in linear)
-    hull = left = _associative_hull(g)
+    hull = space = _associative_hull(g)
     form: Matrix = ()
-    frame: Matrix = ()
+    complex_basis: Matrix = ()
     determinant = False
 
     def kept(value: Linear) -> list[Vector]:
-        return _kernel(left, lambda v: value(_matrix_of(v, n)))
+        return _kernel(space, lambda v: value(_matrix_of(v, n)))
 
     S = _form(linear, n)
-    if S and len(fewer := kept(lambda e: _variation(S, e, conformal))) < len(left):
-        form, left = S, fewer
-    if not conformal and len(fewer := kept(lambda e: (q.trace(e),))) < len(left):
-        determinant, left = True, fewer
-    K = _complex_structure(linear, hull, n) if len(left) > g.dimension and not conformal else ()
+    if S and len(fewer := kept(lambda e: _variation(S, e, conformal))) < len(space):
+        form, space = S, fewer
+    if not conformal and len(fewer := kept(lambda e: (q.trace(e),))) < len(space):
+        determinant, space = True, fewer
+    K = _complex_structure(linear, hull, n) if len(space) > g.dimension and not conformal else ()
     if K and not any(q.trace(q.times(K, e)) for e in linear):
-        determinant, frame = True, _complex_frame(K)
-        left = kept(lambda e: (q.trace(q.times(K, e)),))
+        determinant, complex_basis = True, _complex_basis(K)
+        space = kept(lambda e: (q.trace(q.times(K, e)),))
     free = len(hull) == n * (n + g.affine)
     projector = () if free else _projector(hull, n)
-    return Relations(projector, form, conformal, determinant, frame, len(left))
+    return Relations(projector, form, conformal, determinant, complex_basis, len(space))
 
 
 # -- spaces of vectors ---------------------------------------------------------------------------
@@ -276,7 +276,7 @@ def _complex_structure(linear: Sequence[Matrix], hull: Sequence[Vector], n: int)
     return q.scaled(1 / root, moving[0]) if root * root == size else ()
 
 
-def _complex_frame(K: Matrix) -> Matrix:
+def _complex_basis(K: Matrix) -> Matrix:
     """The matrix P with the columns v₁ … v_m, Kv₁ … Kv_m, a complex basis and its images."""
     n, chosen = len(K), _Span()
     first: list[Vector] = []

@@ -1,9 +1,9 @@
 """From words to trees: choosing how an expression is written.
 
 The paper writes ``Tr α J ᾱ`` in one place and ``⟨α, α⟩_J`` in another; both are one word.
-A :class:`Notation` says which symmetric letters are written as metrics and which letters stand for
-a subtree (``δA − α δt``); the rest are fixed habits: a trace starts with a plain letter and ends
-with a barred one, a word with a vector is an inner product, ``j(a) b`` is ``a ∧ b``.
+A :class:`WordNotation` says which symmetric letters are written as metrics and which letters stand
+for a subtree (``δA − α δt``); the rest are fixed habits: a trace starts with a plain letter and
+ends with a barred one, a word with a vector is an inner product, ``j(a) b`` is ``a ∧ b``.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .words import Expr, Factor, Letter, Word, rotations, row_dim, transpose_wor
 
 
 @dataclass(frozen=True)
-class Notation:
+class WordNotation:
     """How expressions are written: ``metrics``: letters written as ⟨·,·⟩_M; ``display``: trees that
     letters stand for.
 
@@ -28,7 +28,7 @@ class Notation:
     covectors: frozenset[Letter] = frozenset()
 
 
-PLAIN = Notation()
+PLAIN = WordNotation()
 
 READING = [
     *("Π̇", "ṗ_b", "δΠ", "δp_b", "δ′Π", "δ′p_b", "Π", "p_b", "Φ"),
@@ -62,12 +62,12 @@ def _rank(letter: Letter) -> int:
     return READING.index(name) if name in READING else len(READING)
 
 
-def metrics(*names: str, display: Mapping[Letter, Tree] | None = None) -> Notation:
+def metrics(*names: str, display: Mapping[Letter, Tree] | None = None) -> WordNotation:
     """The notation that writes the named letters as metrics."""
-    return Notation(frozenset(names), display or {})
+    return WordNotation(frozenset(names), display or {})
 
 
-def tree_of(e: Expr, notation: Notation = PLAIN) -> Tree:
+def tree_of(e: Expr, notation: WordNotation = PLAIN) -> Tree:
     """The tree of an expression, positive terms first, otherwise in order of derivation."""
     terms: list[tuple[bool, Tree]] = []
     for (traces, w), c in e.terms.items():
@@ -100,7 +100,7 @@ def _group_powers(factors: list[Tree]) -> list[Tree]:
     return grouped
 
 
-def _factor(f: Factor, notation: Notation) -> Tree:
+def _factor(f: Factor, notation: WordNotation) -> Tree:
     letter, bar = f
     shown: Tree = notation.display.get(letter, letter.name)
     if letter.axis is not None and letter not in notation.display:
@@ -108,7 +108,7 @@ def _factor(f: Factor, notation: Notation) -> Tree:
     return ("T", shown) if bar else shown
 
 
-def _product(w: Word, notation: Notation) -> Tree:
+def _product(w: Word, notation: WordNotation) -> Tree:
     """The tree of a word; with a vector at its right end it is folded from there, so that j(a) b
     reads a ∧ b."""
     if row_dim(w[0]) == 1:
@@ -126,14 +126,14 @@ def _product(w: Word, notation: Notation) -> Tree:
     return tail
 
 
-def _scalar(w: Word, notation: Notation) -> Tree:
+def _scalar(w: Word, notation: WordNotation) -> Tree:
     seams = [turned for turned in rotations(w) if row_dim(turned[0]) == 1]
     if seams:
         return _scalar_product(seams[0], notation)
     return _trace(w, notation)
 
 
-def _scalar_product(w: Word, notation: Notation) -> Tree:
+def _scalar_product(w: Word, notation: WordNotation) -> Tree:
     if len(w) == 1:
         return _factor(w[0], notation)
     sign, w = min(((1, w), transpose_word(w)), key=lambda item: _inner_order(item[1]))
@@ -182,7 +182,7 @@ def _reading_order(w: Word) -> tuple[object, ...]:
     )
 
 
-def _paired(candidates: list[tuple[int, Word]], notation: Notation) -> Tree | None:
+def _paired(candidates: list[tuple[int, Word]], notation: WordNotation) -> Tree | None:
     """The tree ⟨P, x⟩ for Tr P x̄, where P is a covector; ``None`` where there is none."""
     for sign, ((left, barred), right) in candidates:
         if left in notation.covectors and not barred and (right[1] or right[0].symmetry < 0):
@@ -191,7 +191,7 @@ def _paired(candidates: list[tuple[int, Word]], notation: Notation) -> Tree | No
     return None
 
 
-def _trace(w: Word, notation: Notation) -> Tree:
+def _trace(w: Word, notation: WordNotation) -> Tree:
     sign, other = transpose_word(w)
     candidates = [(1, turned) for turned in rotations(w)]
     candidates += [(sign, turned) for turned in rotations(other)]

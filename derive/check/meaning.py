@@ -163,7 +163,7 @@ def _motion(model: Model) -> Values:
     d = len(model.group.linear_basis)
     for name, element in (("ζ", Z), ("ζ̇", Z_dot)):
         values[name] = tuple((x,) for x in model.group.nearest(element)[:d])
-    if model.group.given:
+    if model.group.stated_basis:
         values["z"] = tuple((x,) for x in model.group.stated.nearest(Z))
     if model.driven:
         values["u"] = tuple((x,) for x in model.covector)

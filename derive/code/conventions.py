@@ -31,11 +31,11 @@ def conventions(
             "The names that end in _dot are the entries of the velocity dg/dt; the basis below is"
         )
         lines.append("that of the Lie algebra, in which the linearised equations are written.")
-    elif group.turns_space and not group.given:
+    elif group.turns_space and not group.stated_basis:
         lines.append(
             "zeta is the angular velocity in the body frame: dA/dt = A j(zeta), j(x) y = x cross y."
         )
-    elif not group.affine or group.given:
+    elif not group.affine or group.stated_basis:
         lines.append("zeta are the coordinates of Z = g^-1 dg/dt in the basis below.")
     else:
         lines.append("zeta are the coordinates of Z = A^-1 dA/dt in the basis below.")
@@ -67,7 +67,7 @@ def _drift(group: Group, options: Options) -> str:
     for k, (_, factor) in enumerate(() if quaternion else group.places, 1):
         kept = relations(factor)
         told += _relations(kept, str(k) if several else "")
-        left += kept.left
+        left += kept.dimension
     if not told:
         return "Every invertible matrix is in the group: there is nothing to project a state to."
     text = (
@@ -101,7 +101,7 @@ def _relations(kept: Relations, mark: str) -> Iterator[str]:
         )
         yield f"{law} with {S} = {' '.join(entries).removeprefix('+ ')}"
     if kept.determinant:
-        yield f"det {A} = 1{' over the complex numbers' if kept.frame else ''}"
+        yield f"det {A} = 1{' over the complex numbers' if kept.complex_basis else ''}"
 
 
 def _frame(group: Group, frame: Mapping[str, Any], driven: bool) -> list[str]:
@@ -172,12 +172,12 @@ def _input(group: Group, given: Mapping[str, Any], places: Mapping[int, str]) ->
         frame = "the space frame" if given["frame"] == "space" else "the body frame"
         point = f"the body{where}" if where else f"point {given['on']}"
         return [f"Input {name}: a force on {point}, in {frame}."]
-    if group.turns_space and group.affine and not group.given:
+    if group.turns_space and group.affine and not group.stated_basis:
         return [
             f"Input {name}: a moment about the body's origin (its first 3 components) and a force",
             "on it (the last 3), both in the body frame; power <moment, zeta> + <force, w>.",
         ]
-    if group.turns_space and not group.given:
+    if group.turns_space and not group.stated_basis:
         return [f"Input {name}: a torque about the fixed point, in the body frame."]
     pair = "(zeta, w)" if group.stated.free_translations else "zeta"
     return [f"Input {name}: a covector of the Lie algebra; its power is <{name}, {pair}>."]

@@ -108,7 +108,7 @@ class _Block:
         A = tuple(tuple(placed[i * n : i * n + n]) for i in range(n))
         X = self._form(A) if self.kept.form else ()
         if self.kept.determinant:
-            X = self._complex(A, X) if self.kept.frame else self._determinant(A)
+            X = self._complex(A, X) if self.kept.complex_basis else self._determinant(A)
         if X:
             moved = zip(placed, q.flatten(dense.times(self.graph, A, X)), strict=False)
             placed = [*(a + change for a, change in moved), *placed[n * n :]]
@@ -163,7 +163,11 @@ class _Block:
 
     def _complex(self, A: Matrix, X: Matrix) -> Matrix:
         """X − (det A − 1 + Tr X)/m, all complex."""
-        g, P, back = self.graph, self._numbers(self.kept.frame), self._inverse(self.kept.frame)
+        g, P, back = (
+            self.graph,
+            self._numbers(self.kept.complex_basis),
+            self._inverse(self.kept.complex_basis),
+        )
         m = len(P) // 2
 
         def complexes(M: Matrix) -> list[list[_Complex]]:

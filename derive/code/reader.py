@@ -74,7 +74,7 @@ class Reader:
                 self.state["f_u"] = self._given(name, n, d - n)
         both = [matrix(self.state[name]) for name in ("u", "f_u") if name in self.state]
         self.covector: list[Node] = [x for column in both for (x,) in column]
-        if self.group.given and self.covector:
+        if self.group.stated_basis and self.covector:
             self._restated()
 
     def _restated(self) -> None:

@@ -69,7 +69,7 @@ def power(x: Tree, n: int) -> Tree:
 def product(*factors: Tree) -> Tree:
     """The product of trees as number · powers / powers, the powers of one base in one."""
     powers: dict[Tree, int] = {}
-    number = _gather(mul(1, *factors) if 0 not in factors else 0, 1, powers)
+    number = _factor_powers(mul(1, *factors) if 0 not in factors else 0, 1, powers)
     if number == 0:
         return 0
     above = [power(x, n) for x, n in powers.items() if n > 0]
@@ -84,18 +84,18 @@ def quotient(a: Tree, b: Tree) -> Tree:
     return product(a, ("div", 1, b))
 
 
-def _gather(t: Tree, n: int, powers: dict[Tree, int]) -> Fraction:
+def _factor_powers(t: Tree, n: int, powers: dict[Tree, int]) -> Fraction:
     """The rational factor of tⁿ; the exponents of all other factors are added to ``powers``."""
     if isinstance(t, (int, Fraction)):
         return Fraction(t) ** n
     if isinstance(t, tuple) and t[0] == "mul":
         number = Fraction(1)
         for x in t[1:]:
-            number *= _gather(x, n, powers)
+            number *= _factor_powers(x, n, powers)
         return number
     if isinstance(t, tuple) and t[0] == "div":
-        return _gather(t[1], n, powers) * _gather(t[2], -n, powers)
+        return _factor_powers(t[1], n, powers) * _factor_powers(t[2], -n, powers)
     if isinstance(t, tuple) and t[0] == "pow":
-        return _gather(t[1], n * t[2], powers)
+        return _factor_powers(t[1], n * t[2], powers)
     powers[t] = powers.get(t, 0) + n
     return Fraction(1)

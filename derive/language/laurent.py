@@ -53,7 +53,7 @@ class Laurent:
         return bool(self.terms)
 
     def __add__(self, other: Laurent | Fraction | int) -> Laurent:
-        return _gathered((*self.terms.items(), *Laurent.of(other).terms.items()))
+        return _summed((*self.terms.items(), *Laurent.of(other).terms.items()))
 
     __radd__ = __add__
 
@@ -68,7 +68,7 @@ class Laurent:
 
     def __mul__(self, other: Laurent | Fraction | int) -> Laurent:
         right = Laurent.of(other).terms.items()
-        return _gathered((_product(m, n), p * q) for m, p in self.terms.items() for n, q in right)
+        return _summed((_product(m, n), p * q) for m, p in self.terms.items() for n, q in right)
 
     __rmul__ = __mul__
 
@@ -94,7 +94,7 @@ class Laurent:
         return Laurent({tuple((s, -e) for s, e in m): 1 / q})
 
 
-def _gathered(terms: Iterable[tuple[Monomial, Fraction]]) -> Laurent:
+def _summed(terms: Iterable[tuple[Monomial, Fraction]]) -> Laurent:
     total: dict[Monomial, Fraction] = {}
     for m, q in terms:
         total[m] = total.get(m, Fraction(0)) + q
@@ -193,10 +193,10 @@ def collected(t: Tree) -> Tree:
 
 def written(p: Laurent) -> Tree:
     """The tree of a polynomial, a sum of its terms."""
-    return gathered(p, lambda _: False, lambda _: False)
+    return grouped(p, lambda _: False, lambda _: False)
 
 
-def gathered(p: Laurent, together: Callable[[Tree], bool], last: Callable[[Tree], bool]) -> Tree:
+def grouped(p: Laurent, together: Callable[[Tree], bool], last: Callable[[Tree], bool]) -> Tree:
     """The tree Σ (sum of some symbols)/(their divisor) · others of a polynomial, in which terms
     with the same others are one.
 

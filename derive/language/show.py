@@ -155,7 +155,7 @@ def _product(factors: tuple[Tree, ...]) -> str:
         shown, level = _show(f)
         inside = k < len(factors) - 1 and level == PRODUCT and (text or _spreads(f))
         piece = f"({shown})" if level == SUM or inside or (text and _spread(f)) else shown
-        text += _glue(text, last, piece) + piece
+        text += _separator(text, last, piece) + piece
         last = piece
     return text
 
@@ -168,7 +168,7 @@ def _spread(f: Tree) -> bool:
     return isinstance(f, tuple) and f[0] in ("wedge", "div")
 
 
-def _glue(text: str, last: str, piece: str) -> str:
+def _separator(text: str, last: str, piece: str) -> str:
     if not last or piece.startswith("("):
         return ""
     if _letter(last) and _letter(piece):

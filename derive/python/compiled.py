@@ -23,7 +23,7 @@ from ..code.program import Program
 from ..pipeline import program
 from ..problem.problem import Problem, ProblemError
 from .derived import Derived, derive
-from .library import FLAGS, CompileError, Source, loaded
+from .library import FLAGS, CompileError, CSource, loaded
 
 __all__ = ["CompileError", "Compiled", "compile"]
 
@@ -93,7 +93,7 @@ class Compiled:
     its own; pickled, it takes its C along, which is compiled where it is loaded.
     """
 
-    def __init__(self, names: Names, source: Source, values: Values | None = None):
+    def __init__(self, names: Names, source: CSource, values: Values | None = None):
         self.STATE, self.INPUTS, self.PARAMETERS = names.state, names.inputs, tuple(names.defaults)
         self._names, self._source, self._library = names, source, loaded(source)
         p, k, u = map(np.zeros, (len(self.PARAMETERS), names.constants, len(self.INPUTS)))
@@ -317,6 +317,6 @@ def compile(
     name = derived.problem.name
     files = emit(made_of, derived.record, ("c",), name, options)
     files["binding.c"] = BINDING.format(name=name)
-    made = Compiled(Names.of(made_of), Source(name, tuple(files.items()), compiler, tuple(flags)))
+    made = Compiled(Names.of(made_of), CSource(name, tuple(files.items()), compiler, tuple(flags)))
     ready = all(x[1] is not None for x in made_of.parameters)
     return made.use(parameters or ()) if parameters is not None or ready else made

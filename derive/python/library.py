@@ -21,7 +21,7 @@ class CompileError(RuntimeError):
 
 
 @dataclass(frozen=True)
-class Source:
+class CSource:
     """What is compiled: files by name, the compiler (``None``: the one at hand), its flags."""
 
     name: str
@@ -30,13 +30,13 @@ class Source:
     flags: tuple[str, ...]
 
 
-def loaded(source: Source) -> ctypes.CDLL:
+def loaded(source: CSource) -> ctypes.CDLL:
     """The library of a source, compiled once in a process for each compiler; ``CompileError``."""
     return _built(source, _compiler(source.compiler))
 
 
 @cache
-def _built(source: Source, compiler: str) -> ctypes.CDLL:
+def _built(source: CSource, compiler: str) -> ctypes.CDLL:
     with tempfile.TemporaryDirectory(prefix="derive-") as folder:
         write(dict(source.files), Path(folder))
         target = Path(folder) / f"{source.name}.so"

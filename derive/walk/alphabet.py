@@ -1,7 +1,7 @@
 """The letters of the walk.
 
 A *part* of the configuration is A, or T when the group also translates.  Each part has a velocity
-and its variations, in space (``Part``) and carried to the identity (``AlgebraPart``).
+and its variations, in space (``SpacePart``) and carried to the identity (``AlgebraPart``).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from ..algebra.words import Dim, Expr, Letter, one, word
 
 
 @dataclass(frozen=True)
-class Part:
+class SpacePart:
     """The letters of one part x of g, in space: x, ẋ, δx, δ′x, δẋ, δ′ẋ, ẍ and the second variations
     δδ′x, δδ′ẋ.
 
@@ -97,7 +97,7 @@ class Alphabet:
         self.bracket_w = Letter("ξ′η − ξη′", n)
         linear = (Letter(x, n, n) for x in self._part("A", "α"))
         vector = (Letter(x, n) for x in self._part("T", "τ"))
-        self.A, self.T = Part("Ȧ", *linear), Part("Ṫ", *vector)
+        self.A, self.T = SpacePart("Ȧ", *linear), SpacePart("Ṫ", *vector)
         names = ("Z", "ξ", "ξ′", "δZ", "δ′Z", "Ż", "δδ′ξ", "δδ′Z")
         self.Z = AlgebraPart(*(self._algebra(x, skew, traceless) for x in names))
         names = ("w", "η", "η′", "δw", "δ′w", "ẇ", "δδ′η", "δδ′w")
@@ -125,7 +125,7 @@ class Alphabet:
         return (self.N, self.N_body), (self.F, self.F_body)
 
     @property
-    def parts(self) -> tuple[Part, ...]:
+    def parts(self) -> tuple[SpacePart, ...]:
         """The letters of A, and of T for an affine action."""
         return (self.A, self.T) if self.affine else (self.A,)
 
@@ -156,7 +156,7 @@ class Alphabet:
         """Every letter of the alphabet by its name."""
         found: dict[str, Letter] = {}
         for value in vars(self).values():
-            own = members(value) if isinstance(value, (Part, AlgebraPart, Dual)) else [value]
+            own = members(value) if isinstance(value, (SpacePart, AlgebraPart, Dual)) else [value]
             found |= {x.name: x for x in own if isinstance(x, Letter)}
         return found
 
@@ -176,7 +176,7 @@ class Alphabet:
         return one(self.n)
 
 
-def members(value: Part | AlgebraPart | Dual) -> list[object]:
+def members(value: SpacePart | AlgebraPart | Dual) -> list[object]:
     """The values of all the fields of a part, in space or in 𝔤, or of a dual."""
     return [getattr(value, name) for name in value.__dataclass_fields__]
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from ..algebra.calculus import derivation, gradient, substitute
 from ..algebra.words import Expr, word
-from ..algebra.written import Notation, metrics, tree_of
+from ..algebra.written import WordNotation, metrics, tree_of
 from ..language.read import read
 from ..language.tree import add
 from ..record.record import Equation, Step
@@ -94,7 +94,7 @@ def cartan(stage: Pullback, a: Alphabet, c: Chapter) -> Cartan:
 
 
 def _momentum_equations(
-    d: Draft, momentum: Expr, a: Alphabet, notation: Notation
+    d: Draft, momentum: Expr, a: Alphabet, notation: WordNotation
 ) -> list[Equation]:
     variations = tuple(p.d_position.name for p in a.parts)
     equations = [Equation(("call", "p̃", *variations), d.tree(momentum, notation))]
@@ -128,7 +128,7 @@ def trivialise(stage: Cartan, a: Alphabet, c: Chapter) -> Cartan:
     return Cartan(draft.mark(momentum), draft.mark(energy), form, work, steps)
 
 
-def form_equation(d: Draft, momentum: Expr, energy: Expr, notation: Notation) -> Equation:
+def form_equation(d: Draft, momentum: Expr, energy: Expr, notation: WordNotation) -> Equation:
     """The equation ϖ(δy) = p̃ − (h̃) δt, with the energy written out."""
     return Equation(
         read("ϖ(δy)"),

@@ -24,7 +24,7 @@ from .telling import say
 
 
 @dataclass(frozen=True)
-class Seen:
+class CentralEquations:
     """The equations of motion seen from the centres of mass: ``inertial`` and ``force`` in ξ′ and
     Ż_c; ``shift``: S."""
 
@@ -36,7 +36,7 @@ class Seen:
 
 def seen_from_centres(
     inertial: Expr, force: Expr, group: Group, b: Alphabet, c: Chapter
-) -> Seen | None:
+) -> CentralEquations | None:
     """The equations of motion with ξ′(1 − S) in the place of ξ′, and their step; ``None`` for a
     group without a factor H ⋉ Rⁿ."""
     if not group.centred:
@@ -66,7 +66,9 @@ def seen_from_centres(
         ),
         say("elimination.centres"),
     )
-    return Seen(draft.mark(left), gradient(draft.mark(right), xi), draft.mark(word(S)), (step,))
+    return CentralEquations(
+        draft.mark(left), gradient(draft.mark(right), xi), draft.mark(word(S)), (step,)
+    )
 
 
 def annulled(S: Letter, algebra: set[Letter]) -> PairRule:

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from ..algebra.words import Expr
-from ..algebra.written import PLAIN, Notation, tree_of
+from ..algebra.written import PLAIN, WordNotation, tree_of
 from ..language.tree import Tree
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
@@ -55,7 +55,7 @@ class Draft:
             marks = (x.label,) if isinstance(x, Step) else sorted(x.lineage)
             self.uses |= dict.fromkeys(marks)
 
-    def tree(self, e: Expr, notation: Notation = PLAIN) -> Tree:
+    def tree(self, e: Expr, notation: WordNotation = PLAIN) -> Tree:
         """The tree of an expression, whose origin is noted among the uses of this step."""
         self.depends_on(e)
         return tree_of(e, notation)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ..language import rational as q
-from ..language.laurent import Laurent, OverlongError, gathered, polynomial, written
+from ..language.laurent import Laurent, OverlongError, grouped, polynomial, written
 from ..language.tree import Tree, add, mul, names, replaced
 from ..language.values import Value, value
 from ..problem.problem import GivenBody, MomentBody, PointBody, Problem
@@ -51,7 +51,7 @@ def components(t: Tree, known: Mapping[str, Value], moments: Sequence[Tree]) -> 
     """
     vectors = {x: letters(x) for x in names(t) if x not in known}
     found = value(t, {**vectors, **known})
-    return [gathered(x, {*moments}.__contains__, _is_rate) for (x,) in found]
+    return [grouped(x, {*moments}.__contains__, _is_rate) for (x,) in found]
 
 
 def _is_rate(symbol: Tree) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ..algebra.calculus import derivation, substitute
 from ..algebra.words import Expr, Letter, number, word
-from ..algebra.written import Notation
+from ..algebra.written import WordNotation
 from ..language.read import read
 from ..language.tree import Tree, add, coefficient, mul, neg
 from ..record.record import Equation, Step
@@ -23,7 +23,7 @@ def continuum(points: Lagrangian, a: Alphabet, c: Chapter) -> Step:
     (36)–(38)."""
     draft = c.draft("continuum", "definition")
     varied = Letter("δr", a.n)
-    notation = Notation(display={a.r_i: "r", points.v_i: "v", varied: read("δ(g(r))")})
+    notation = WordNotation(display={a.r_i: "r", points.v_i: "v", varied: read("δ(g(r))")})
     momentum = derivation(points.kinetic, {points.v_i: word(varied)}.get)
     kinetic, paired = (_integral(draft, e, a, notation) for e in (points.kinetic, momentum))
     return draft.step(
@@ -39,7 +39,7 @@ def continuum(points: Lagrangian, a: Alphabet, c: Chapter) -> Step:
     )
 
 
-def _integral(d: Draft, e: Expr, a: Alphabet, notation: Notation) -> Tree:
+def _integral(d: Draft, e: Expr, a: Alphabet, notation: WordNotation) -> Tree:
     """The tree ∫ … dm for the summand m_i … ."""
     factor, inside = coefficient(d.tree(substitute(e, {a.m_i: number(1)}), notation))
     return mul(factor, ("call", "∫", inside))

@@ -14,7 +14,7 @@ from functools import cached_property
 from ..algebra.calculus import substitute, terms_with, without
 from ..algebra.space import hat
 from ..algebra.words import Expr, Letter, number, word
-from ..algebra.written import Notation
+from ..algebra.written import WordNotation
 from ..language.read import read
 from ..language.tree import Tree
 from ..record.hypotheses import Hypothesis
@@ -22,7 +22,7 @@ from ..record.record import Equation, Step
 from ..record.sentence import Sentence
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
-from .factored import gathered
+from .factored import factored_tree
 from .supposed import vertical_metric
 from .telling import phrase, say, say_signed
 
@@ -55,7 +55,7 @@ class Contraction:
     acceleration: Mapping[Letter, Letter]
     vertical: tuple[Letter, ...]
     times: tuple[Letter, Letter]
-    notation: Notation
+    notation: WordNotation
     display: Mapping[Letter, Tree] = field(default_factory=dict)
     opening: Callable[[Expr], Expr] = lambda e: e
     resting: Mapping[Letter, Letter] = field(default_factory=dict)
@@ -71,7 +71,7 @@ class Contraction:
 
     def whole(self, d: Draft) -> Tree:
         """The tree of dϖ(δ, δ′)."""
-        return gathered(d, self.form, self.core, self.images, self.notation)
+        return factored_tree(d, self.form, self.core, self.images, self.notation)
 
     def marked_by(self, d: Draft) -> Contraction:
         """The same contraction, its expressions marked as made by a step."""
@@ -82,7 +82,7 @@ class Contraction:
         """The tree of dϖ(X, δ′), in which δt(X) = 1 and the other components of X are those
         of δ."""
         form = substitute(self.form, self._now)
-        return gathered(d, form, self.core, self._shifts, self.notation)
+        return factored_tree(d, form, self.core, self._shifts, self.notation)
 
     def on_vertical(self, d: Draft) -> Tree:
         """The tree of dϖ(X, ·) on variations of the velocity alone, δ′t = 0 and δ′g = 0.
@@ -95,7 +95,7 @@ class Contraction:
             raise NoKernelError("the kernel of dϖ has not the velocity of the motion")
         shifts = {x: y for x, y in self._shifts.items() if x in self.velocity}
         core = terms_with(self.core, *self.vertical)
-        return gathered(d, vertical, core, shifts, self.notation)
+        return factored_tree(d, vertical, core, shifts, self.notation)
 
     def at_rest(self) -> tuple[Equation, ...]:
         """The equations δ′t = 0 and δ′x = 0 of a variation of the velocity alone."""
@@ -145,7 +145,7 @@ class Contraction:
         """The tree of dϖ(X, δ′) for X with the velocity of the motion."""
         display = {**self.notation.display, **self.display}
         notation = replace(self.notation, display=display)
-        return gathered(d, self.second_order, self.remaining_core, self.shifts, notation)
+        return factored_tree(d, self.second_order, self.remaining_core, self.shifts, notation)
 
 
 def velocities(d: Draft, along: Mapping[Letter, Expr], letters: Iterable[Letter]) -> list[Equation]:

@@ -47,7 +47,7 @@ def _reading(group: Group, a: int) -> Tree:
 def stated_basis_step(group: Group, b: Alphabet, c: Chapter) -> tuple[Step, ...]:
     """The step that gives Z (and w) by coordinates in the basis that the problem states, where the
     equations are in that of j; none where there is one basis."""
-    if not group.given:
+    if not group.stated_basis:
         return ()
     span, size = range(group.n), group.dimension
     own = group.stated.basis

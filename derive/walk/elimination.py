@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from ..algebra.calculus import coefficient_of, reduce, substitute, without
 from ..algebra.space import hat, normal_form
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import Notation, tree_of
+from ..algebra.written import WordNotation, tree_of
 from ..language.tree import Tree, add, mul
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
@@ -44,9 +44,9 @@ class Eliminated:
         return self.steps[0]
 
 
-def notation(a: Alphabet) -> Notation:
+def notation(a: Alphabet) -> WordNotation:
     """The notation that writes the letter m⁻¹ as an inverse."""
-    return Notation(display={inverse_letter(a.m): inverse_tree(a.m)})
+    return WordNotation(display={inverse_letter(a.m): inverse_tree(a.m)})
 
 
 def eliminate(stage: VectorForm, a: Alphabet, c: Chapter) -> Eliminated:

@@ -10,14 +10,14 @@ from dataclasses import dataclass
 from ..algebra import forms
 from ..algebra.calculus import Image, gradient, reduce, substitute, terms_with, without
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import Notation, metrics, tree_of
+from ..algebra.written import WordNotation, metrics, tree_of
 from ..language.read import read
 from ..language.tree import Tree
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .cartan import Cartan
 from .chapter import Chapter
-from .factored import at_constant_time, gathered, solve_for
+from .factored import at_constant_time, factored_tree, solve_for
 from .telling import say
 from .trivialisation import body_rule, cauchy_green, trivial_images, varied_cauchy_green
 
@@ -161,7 +161,7 @@ def exterior(stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
     resting = c.draft("symplectic", "restriction")
     steps = (
         whole.step(
-            (Equation(DOMEGA, gathered(whole, form, static, images, notation)),),
+            (Equation(DOMEGA, factored_tree(whole, form, static, images, notation)),),
             say("exterior.derivative") + say("exterior.explicit_time"),
             (25,),
         ),
@@ -195,7 +195,7 @@ def exterior_trivialised(natural: Exterior, stage: Cartan, a: Alphabet, c: Chapt
     variations = [x for f in a.algebra_parts for x in (f.d_velocity, f.dp_velocity)]
     core = terms_with(without(form, a.dt, a.dpt), *variations)
     step = draft.step(
-        (Equation(DOMEGA, gathered(draft, form, core, images, Notation())),),
+        (Equation(DOMEGA, factored_tree(draft, form, core, images, WordNotation())),),
         say("exterior_trivialised.any_group"),
     )
     images = {x: draft.mark(y) for x, y in images.items()}

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from ..algebra.calculus import substitute
 from ..algebra.words import Expr, Letter, Traces, Word, number
-from ..algebra.written import Notation, tree_of
+from ..algebra.written import WordNotation, tree_of
 from ..language.tree import Tree, add
 from .chapter import Draft
 
@@ -48,8 +48,8 @@ def _shape(w: Word) -> tuple[object, object]:
     return (first.cols if first_bar else first.rows, last.rows if last_bar else last.cols)
 
 
-def gathered(
-    d: Draft, e: Expr, core: Expr, images: Mapping[Letter, Expr], notation: Notation
+def factored_tree(
+    d: Draft, e: Expr, core: Expr, images: Mapping[Letter, Expr], notation: WordNotation
 ) -> Tree:
     """The tree of ``e``: ``core`` with letters replaced by parenthesised sums, and whatever of
     ``e`` that leaves."""

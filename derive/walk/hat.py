@@ -147,7 +147,7 @@ def fold_moment(e: Expr, moment: Letter, vector: Letter) -> Expr:
 
 
 def axial(e: Expr) -> Expr:
-    """X with j(X) the given skew sum of words y x̄: from  j(x ∧ y) = y x̄ − x ȳ."""
+    """The vector X for which j(X) is a skew sum of words y x̄, by  j(x ∧ y) = y x̄ − x ȳ."""
 
     def turned(traces: Traces, w: Word, c: Fraction) -> Expr:
         (y, _), (x, _) = w

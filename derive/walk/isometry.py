@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, without
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import Notation
+from ..algebra.written import WordNotation
 from ..language.tree import Tree
 from ..record.formulas import stated
 from ..record.record import Equation, Step
@@ -15,7 +15,7 @@ from .alphabet import Alphabet
 from .cartan import Cartan, form_equation
 from .chapter import Chapter, Draft
 from .exterior import DOMEGA, primed, primes, shown_brackets
-from .factored import gathered, solve_for
+from .factored import factored_tree, solve_for
 from .momentum import MomentumForm, fibre, horizontal
 from .restrict import restrict, restricted_prose
 from .telling import say
@@ -58,7 +58,7 @@ def isometry(general: Cartan, momenta: MomentumForm, a: Alphabet, n: int, c: Cha
         say("relation.displacements") if a.affine else say("relation.isometries"),
     )
     cartan = writing.step(
-        (form_equation(writing, momentum, energy, Notation()),),
+        (form_equation(writing, momentum, energy, WordNotation()),),
         say("cartan.trivialised"),
         () if a.affine else (28,),
     )
@@ -79,7 +79,9 @@ def _exterior(domega: Expr, images: Mapping[Letter, Expr], b: Alphabet, c: Chapt
 def bracketed(d: Draft, domega: Expr, images: Mapping[Letter, Expr], b: Alphabet) -> Tree:
     """The tree of dϖ, with [ξ′, ξ] and ξ′η − ξη′ written where their letters stand."""
     display = dict(zip((b.bracket, b.bracket_w), shown_brackets(b), strict=False))
-    return gathered(d, domega, without(domega, b.dt, b.dpt), images, Notation(display=display))
+    return factored_tree(
+        d, domega, without(domega, b.dt, b.dpt), images, WordNotation(display=display)
+    )
 
 
 def resting(b: Alphabet) -> dict[Letter, Expr]:

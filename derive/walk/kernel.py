@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from ..algebra.calculus import gradient, substitute, terms_with, without
 from ..algebra.forms import strip_left
 from ..algebra.words import Expr, Letter, number, word
-from ..algebra.written import Notation, metrics
+from ..algebra.written import WordNotation, metrics
 from ..language.tree import Tree, add
 from ..record import sentence
 from ..record.record import Equation, Step
@@ -23,7 +23,7 @@ from .cartan import Cartan
 from .chapter import Chapter, Draft
 from .contraction import AND, CONTRACTION, Contraction, rate, steps_of, velocities
 from .exterior import Exterior, primed
-from .factored import at_constant_time, gathered
+from .factored import at_constant_time, factored_tree
 from .telling import say, say_signed
 from .trivialisation import rates, trivial_images
 from .variation import Principle
@@ -89,7 +89,7 @@ def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Am
         balance = add(*pairs)
     else:
         kept = {a.A.acceleration: c.shifts[a.A.acceleration].marked(mark)}
-        balance = gathered(draft, virtual, c.remaining_core, kept, notation)
+        balance = factored_tree(draft, virtual, c.remaining_core, kept, notation)
     along = {x: e.marked(mark) for x, e in velocity.items()}
     first_order = tuple(Equation(p.rate, draft.tree(along[p.d_position])) for p in a.parts)
     variations = tuple(p.dp_position.name for p in a.parts)
@@ -121,7 +121,7 @@ def kernel_trivialised(
         {f.d_velocity: f.acceleration for f in a.algebra_parts},
         tuple(f.dp_velocity for f in a.algebra_parts),
         (a.dt, a.dpt),
-        Notation(),
+        WordNotation(),
     )
     first = draft.step(
         (
@@ -153,7 +153,7 @@ def balanced(d: Draft, c: Contraction, work: Expr, a: Alphabet) -> tuple[Expr, T
     inertial = without(c.second_order, a.dpt) + work
     shifts = {f.acceleration: without(c.shifts[f.acceleration], a.f) for f in a.algebra_parts}
     core = without(c.remaining_core, a.dpt)
-    return inertial, gathered(d, inertial, core, shifts, Notation())
+    return inertial, factored_tree(d, inertial, core, shifts, WordNotation())
 
 
 def _equations(c: Contraction, work: Expr, a: Alphabet, chapter: Chapter) -> Step:

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from ..algebra.calculus import gradient, substitute, without
 from ..algebra.words import Expr, Letter, inner, word
-from ..algebra.written import Notation
+from ..algebra.written import WordNotation
 from ..language.read import read
 from ..record.formulas import stated
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
-from .centre import Seen
+from .centre import CentralEquations
 from .chapter import Chapter, Draft
 from .inverse import inverse_letter
 from .telling import say, say_signed
@@ -31,30 +31,30 @@ def mass_steps(
     centred: Centred | None = None,
     *,
     balanced: bool = True,
-    seen: Seen | None = None,
+    central: CentralEquations | None = None,
 ) -> tuple[Step, ...]:
     """The steps ``mass`` and ``motion``: M, β and the solved equations, from  inertial = Tr ξ′
     force‾  for every ξ′ in 𝔤.
 
     ``place``: the step of the coordinates, Ż = Σ ζ̇_b E_b. ``balanced``: is there a B, the balance
-    as a matrix? Not where C dropped out for what pairs with 𝔤 alone. ``seen``: from the centres of
-    mass; the coordinates ψ are then those of Ż(1 + S).
+    as a matrix? Not where C dropped out for what pairs with 𝔤 alone. ``central``: the equations
+    seen from the centres of mass; the coordinates ψ are then those of Ż(1 + S).
     """
     weighing, solving = c.draft("mass", "coordinates"), c.draft("motion", "solution")
     E_a, E_b = _member("a", b), _member("b", b)
-    notation = Notation(display={E_a: read("E_a"), E_b: read("E_b")})
+    notation = WordNotation(display={E_a: read("E_a"), E_b: read("E_b")})
     rate = word(RATE) * word(E_b)
-    rate = rate if seen else rate.marked(place.label)
+    rate = rate if central else rate.marked(place.label)
     along = {b.Z.xi_prime: word(E_a), b.Z.acceleration: rate}
     mass = gradient(substitute(inertial, along), RATE)
     rest = force - gradient(without(inertial, b.Z.acceleration), b.Z.xi_prime)
-    lighter = Notation(display={inverse_letter(b.m): read("m⁻¹")})
+    lighter = WordNotation(display={inverse_letter(b.m): read("m⁻¹")})
     if centred:
         solving.depends_on(*centred.steps)
     translation = (Equation("ẇ", centred.acceleration),) if centred else ()
     balance = [Equation("B", weighing.tree(rest, lighter))] if balanced else []
     load = inner(word(E_a), word(Letter("B", b.n, b.n)) if balanced else rest)
-    found = "ψ" if seen else "ζ̇"
+    found = "ψ" if central else "ζ̇"
     mass_step = weighing.step(
         (
             Equation(read("M_ab"), weighing.tree(mass, notation)),
@@ -62,24 +62,24 @@ def mass_steps(
             Equation(read("β_a"), weighing.tree(load, notation)),
             *stated(f"Σ_b M_ab {found}_b = β_a"),
         ),
-        say("mass.centres" if seen else "mass.basis"),
+        say("mass.centres" if central else "mass.basis"),
     )
     solving.depends_on(mass_step)
     solved = stated(f"{found} = M⁻¹β")
     motion = solving.step(
-        (*rates(solving, b), *solved, *_whole(solving, b, seen), *translation),
+        (*rates(solving, b), *solved, *_whole(solving, b, central), *translation),
         say("motion.problem") + say_signed("motion.mass_matrix", b.signed),
     )
     return mass_step, motion
 
 
-def _whole(d: Draft, b: Alphabet, seen: Seen | None) -> list[Equation]:
+def _whole(d: Draft, b: Alphabet, central: CentralEquations | None) -> list[Equation]:
     """The equation of Ż by its coordinates, where ẇ or ζ̇ needs it."""
-    if seen is None:
+    if central is None:
         return stated("Ż = Σ_a ζ̇_a E_a") if b.affine else []
     rate = b.Z.acceleration
-    whole = word(rate) - word(rate) * seen.shift
-    return [Equation("Ż", d.tree(whole, Notation(display={rate: read("Σ_a ψ_a E_a")})))]
+    whole = word(rate) - word(rate) * central.shift
+    return [Equation("Ż", d.tree(whole, WordNotation(display={rate: read("Σ_a ψ_a E_a")})))]
 
 
 def _member(index: str, b: Alphabet) -> Letter:

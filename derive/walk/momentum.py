@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 from ..algebra import forms
 from ..algebra.calculus import Image, derivation, gradient, reduce, substitute
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..algebra.written import Notation, tree_of
+from ..algebra.written import WordNotation, tree_of
 from ..language.read import read
 from ..language.tree import Tree, add
 from ..record.record import Equation, Step
@@ -28,7 +28,7 @@ from .alphabet import AlgebraPart, Alphabet, Dual
 from .cartan import Cartan
 from .chapter import Chapter
 from .exterior import DOMEGA, brackets_of, primed, primes, shown_brackets
-from .factored import at_constant_time, gathered
+from .factored import at_constant_time, factored_tree
 from .telling import say
 from .trivialisation import body_rule, cauchy_green, varied_cauchy_green
 
@@ -92,7 +92,7 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
     varying = c.draft("exterior_momentum", "exterior derivative")
     momentum, lagrangian = _paired(a, [f.xi for f in a.algebra_parts], c), Letter("L̃")
     energy = _paired(a, [f.velocity for f in a.algebra_parts], c) - word(lagrangian)
-    notation = Notation(covectors=frozenset(x for d in a.duals for x in d.letters))
+    notation = WordNotation(covectors=frozenset(x for d in a.duals for x in d.letters))
     written = writing.step(
         (
             Equation(
@@ -110,7 +110,7 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
     display = dict(zip((a.bracket, a.bracket_w), shown_brackets(a), strict=False))
     shown = replace(notation, display=display)
     derivative = varying.step(
-        (Equation(DOMEGA, gathered(varying, derived, core, images, shown)),),
+        (Equation(DOMEGA, factored_tree(varying, derived, core, images, shown)),),
         say(
             "exterior_momentum.derivative",
             varied="δL̃ = ⟨Π, δZ⟩ + ⟨p_b, δw⟩ + ⟨Φ, ξ⟩ + ⟨F_b, η⟩ + ∂L̃/∂t δt"
@@ -167,7 +167,7 @@ def horizontal(
     return images
 
 
-def _kernel(form: Expr, notation: Notation, a: Alphabet, c: Chapter) -> tuple[Expr, Step]:
+def _kernel(form: Expr, notation: WordNotation, a: Alphabet, c: Chapter) -> tuple[Expr, Step]:
     """The balance ⟨Ṗ − F, ξ′⟩ − ⟨P, [Z, ξ′]⟩, and the step Ṗ = F + ad*_Z P, by X with the velocity
     of the motion."""
     draft, mark = c.draft("coadjoint", "kernel"), c.label("second_order_trivialised")

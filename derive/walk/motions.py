@@ -14,7 +14,7 @@ from .alphabet import Alphabet
 from .cartan import Cartan
 from .chapter import Chapter
 from .exterior import DOMEGA, natural_variations, primed, primes
-from .factored import at_constant_time, gathered
+from .factored import at_constant_time, factored_tree
 from .kernel import Ambient
 from .telling import say
 
@@ -34,7 +34,7 @@ def motions(form: Cartan, law: Ambient, a: Alphabet, c: Chapter) -> Step:
     core = at_constant_time(derivative, a.dt, a.dpt)
     notation = metrics() if a.affine else metrics("J")
     return draft.step(
-        (Equation(DOMEGA, gathered(draft, derivative, core, images, notation)),),
+        (Equation(DOMEGA, factored_tree(draft, derivative, core, images, notation)),),
         say("motions.manifold") + say("motions.complete"),
         (26,),
     )
@@ -49,7 +49,7 @@ def held(law: Ambient, C: Expr, n: int, c: Chapter) -> Step:
     added = gradient(substitute(b.respell(law.balance), along), any_matrix).of(C)
     core = {rate: word(rate) - word(b.F_group)}
     left, right = (
-        gathered(draft, e, without(e, b.F_group), core, PLAIN) for e in (added, added.bar)
+        factored_tree(draft, e, without(e, b.F_group), core, PLAIN) for e in (added, added.bar)
     )
     Z, tested = word(b.Z.velocity), word(b.Z.xi_prime)
     seen = inner(tested, word(b.A.position).bar * word(rate))

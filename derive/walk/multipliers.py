@@ -12,7 +12,7 @@ from fractions import Fraction
 from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.groups import Group
 from ..algebra.words import Expr, Factor, Letter, inner, number, one, word
-from ..algebra.written import Notation
+from ..algebra.written import WordNotation
 from ..language import rational as q
 from ..language.read import read
 from ..language.tree import Tree, add
@@ -44,7 +44,7 @@ def multiplier_steps(
     rule = "multiplier" if direction else "kernel"
     balancing, solving = c.draft("multiplier", rule), c.draft("motion", "solution")
     pressed = word(MULTIPLIER) * direction if direction else force * 0
-    lighter = Notation(display={inverse_letter(b.m): read("m⁻¹")})
+    lighter = WordNotation(display={inverse_letter(b.m): read("m⁻¹")})
     balance = Equation(
         balancing.tree(residue),
         add(balancing.tree(force, lighter), balancing.tree(pressed)),
@@ -55,7 +55,7 @@ def multiplier_steps(
     free = reduce(left * open_balance * right, cancelling(b.C, metric))
     solved = free + word(b.Z.acceleration)
     display = {inverse_letter(x): ("inv", x.name) for x in (b.C, metric, b.m)}
-    notation = Notation(display=display)
+    notation = WordNotation(display=display)
     equations = rates(solving, b)
     if direction:
         numerator, denominator = _multiplier(solved, direction)
@@ -103,7 +103,7 @@ def _in_space(
         return reduce(word(g) * inside, cancelling(g), rule)
 
     shown = {**display, left: read("A⁻¹"), right: read("Ā⁻¹")}
-    notation = Notation(display=shown)
+    notation = WordNotation(display=shown)
     total = carried(solved + Z * Z)
     equations = [Equation(b.A.acceleration.name, draft.tree(total, notation))]
     if drift is not None:

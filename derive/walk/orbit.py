@@ -12,7 +12,7 @@ from fractions import Fraction
 from ..algebra import forms
 from ..algebra.calculus import derivation, gradient, reduce, substitute, terms_with, without
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..algebra.written import Notation, metrics
+from ..algebra.written import WordNotation, metrics
 from ..language.read import read
 from ..language.tree import add, neg
 from ..record.record import Equation, Step
@@ -34,7 +34,7 @@ def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Ste
     inertia = forms.strip_left(terms_with(turned, a.A.position), a.A.position)
     # what is left of T, nothing as m m⁻¹c = c
     rest = substitute(without(turned, a.A.position), {a.c: word(a.m) * word(centre)})
-    notation = Notation(display={centre: read("m⁻¹c")})
+    notation = WordNotation(display={centre: read("m⁻¹c")})
     second = read("Σᵢ mᵢ rᵢ(t)(rᵢ − m⁻¹c)‾" if a.affine else "Σᵢ mᵢ rᵢ(t) r̄ᵢ")
     turning = add(second, neg(draft.tree(rest, notation)))
     named: list[Equation] = []

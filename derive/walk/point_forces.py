@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..algebra.calculus import gradient, reduce, substitute, without
 from ..algebra.space import hat
 from ..algebra.words import Expr, Letter, inner, word, zero
-from ..algebra.written import Notation, metrics, tree_of
+from ..algebra.written import WordNotation, metrics, tree_of
 from ..language.tree import Tree, add, mul, replaced
 from ..problem.problem import Problem
 from ..record.record import Equation, Step
@@ -113,7 +113,7 @@ def _carried(d: Draft, x: Radial, a: Alphabet, C: Expr) -> Tree:
         anchor = Letter("a", a.n)
         display[anchor] = column(x.anchor)
         outside = outside - word(anchor)
-    notation = Notation(display=display)
+    notation = WordNotation(display=display)
     body = d.tree(reduce(g.bar * inside, body_rule(a, C)), notation)
     return add(body, mul(("T", "A"), tree_of(outside, notation)) if outside else 0)
 

@@ -20,7 +20,7 @@ from .chapter import Chapter
 from .kinds import walked
 from .point_forces import applied, point_forces_step
 from .pointwise import PointPotentials
-from .summed import Own, Words, moved
+from .summed import PotentialLetter, Words, moved
 from .telling import say
 
 U_Q = Letter("U_Q")
@@ -40,7 +40,7 @@ class Potentials:
     work: Callable[[Expr, Expr | None], Expr]
     pointwise: PointPotentials
     timed: bool
-    own: tuple[Own, ...] = ()
+    own: tuple[PotentialLetter, ...] = ()
 
     def moved(
         self, a: Alphabet, xi: Expr, eta: Expr | None = None, axis: Expr | None = None

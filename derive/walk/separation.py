@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ..algebra.calculus import substitute, terms_with, without
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import Notation
+from ..algebra.written import WordNotation
 from ..language.read import read
 from ..problem.problem import Problem
 from ..record.formulas import stated
@@ -23,8 +23,8 @@ from .telling import phrase, say
 from .translation import central_moments
 
 
-def _notation(a: Alphabet) -> Notation:
-    return Notation(display={inverse_letter(a.m): read("m⁻¹")})
+def _notation(a: Alphabet) -> WordNotation:
+    return WordNotation(display={inverse_letter(a.m): read("m⁻¹")})
 
 
 def _centred(e: Expr, a: Alphabet, mark: str = "") -> Expr:

@@ -42,12 +42,12 @@ def solution(
     if multiplied:
         _, motion, _ = solved = multiplier_steps(inertial, force, metric, group, b, c, centred)
         return Solution(motion, (*solved, place))
-    seen = seen_from_centres(inertial, force, group, b, c)
-    if seen is not None:
+    central = seen_from_centres(inertial, force, group, b, c)
+    if central is not None:
         _, motion = solved = mass_steps(
-            seen.inertial, seen.force, place, b, c, balanced=False, seen=seen
+            central.inertial, central.force, place, b, c, balanced=False, central=central
         )
-        return Solution(motion, (*seen.steps, *solved, place))
+        return Solution(motion, (*central.steps, *solved, place))
     _, motion = solved = mass_steps(
         inertial, force, place, b, c, centred, balanced=stage.bodies is None
     )

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.groups import Group
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..algebra.written import Notation
+from ..algebra.written import WordNotation
 from ..language.read import read
 from ..language.tree import Tree
 from ..problem.left_invariant import Bodies
@@ -26,7 +26,7 @@ from .chapter import Chapter, Draft
 from .coadjoint import coadjoint_steps
 from .contraction import Contraction
 from .exterior import DOMEGA, Exterior, brackets_of
-from .factored import gathered
+from .factored import factored_tree
 from .inputs import External
 from .isometry import bracketed, resting
 from .kernel import balanced
@@ -123,7 +123,7 @@ def specialise(
     opened = dict(zip((plain.bracket, plain.bracket_w), brackets_of(plain).values(), strict=False))
     last = weighing.step((Equation("h̃", weighing.tree(restricted(energy))),), say("energy.problem"))
     written = writing.step(
-        (form_equation(writing, restricted(momentum), restricted(energy), Notation()),),
+        (form_equation(writing, restricted(momentum), restricted(energy), WordNotation()),),
         say("cartan.problem"),
     )
     momentum, energy = writing.mark(momentum), writing.mark(energy)
@@ -226,7 +226,7 @@ def _exterior(
     images = {letters[x.name]: without(a.respell(y), a.f) for x, y in road.exterior.images.items()}
     moving = [x for f in a.algebra_parts for x in (f.d_velocity, f.dp_velocity)]
     core = terms_with(without(domega, a.dt, a.dpt), *moving)
-    shown = gathered(varying, domega, core, images, Notation())
+    shown = factored_tree(varying, domega, core, images, WordNotation())
     step = varying.step((Equation(DOMEGA, t) for t in (shown, *by_bracket)), restricted_prose(a))
     found = Chapter(a.chapter).label("second_order_trivialised")
     return (
@@ -238,7 +238,7 @@ def _exterior(
             {f.d_velocity: f.acceleration for f in a.algebra_parts},
             tuple(f.dp_velocity for f in a.algebra_parts),
             (a.dt, a.dpt),
-            Notation(),
+            WordNotation(),
         ),
         step,
     )

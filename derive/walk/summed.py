@@ -18,7 +18,7 @@ from ..record.sentence import Prose
 
 
 @dataclass(frozen=True)
-class Own:
+class PotentialLetter:
     """A letter of a potential's own, which stands for ``value``; for a product āb, if that is one:
     ``factors`` (a, b) and the ``share`` of the letter that āb is.
 
@@ -48,7 +48,7 @@ class Own:
 
 
 @dataclass(frozen=True)
-class Power(Own):
+class PowerLetter(PotentialLetter):
     """A letter x for a power of a scalar q, its ``value``: δx = exponent · x q⁻¹ δq.
 
     ``over``: q⁻¹ by letters.
@@ -62,7 +62,7 @@ class Power(Own):
         return self.exponent * word(self.letter) * self.over * derivation(self.value, delta)
 
 
-def moved(own: Iterable[Own], images: Mapping[Letter, Expr]) -> dict[Letter, Expr]:
+def moved(own: Iterable[PotentialLetter], images: Mapping[Letter, Expr]) -> dict[Letter, Expr]:
     """The images of A, T and so on under a displacement, completed by those of own letters."""
     found, listed = dict(images), [*own]
     rules: list[PairRule] = [x.written for x in listed]
@@ -84,4 +84,4 @@ class Words:
     definitions: Sequence[Equation]
     over_points: Sequence[Tree]
     prose: Prose = ()
-    own: Sequence[Own] = ()
+    own: Sequence[PotentialLetter] = ()

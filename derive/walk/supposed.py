@@ -13,7 +13,7 @@ from fractions import Fraction
 
 from ..algebra.calculus import derivation, substitute
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import Notation, metrics, tree_of
+from ..algebra.written import WordNotation, metrics, tree_of
 from ..language.read import read
 from ..language.tree import Tree, nodes, operands
 from ..record.hypotheses import Hypothesis
@@ -44,7 +44,7 @@ def regular(form: Tree, space: str) -> Hypothesis:
 
 
 def vertical_metric(
-    vertical: Expr, horizontal: Mapping[Letter, Expr], notation: Notation, space: str
+    vertical: Expr, horizontal: Mapping[Letter, Expr], notation: WordNotation, space: str
 ) -> Hypothesis:
     """The hypothesis that the metric is not degenerate, as it stands in −dϖ(δ, δ′) for a δ′ that
     varies the velocity alone.

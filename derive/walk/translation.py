@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.words import Expr, Letter, inner, word
-from ..algebra.written import Notation
+from ..algebra.written import WordNotation
 from ..language.tree import Tree
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
@@ -48,7 +48,7 @@ def eliminate_translation(stage: Special, c: Chapter) -> Centred:
     xi, eta, w_dot = b.Z.xi_prime, b.w.xi_prime, b.w.acceleration
     cancel = cancelling(b.C)
     display: dict[Letter, Tree] = {inverse_letter(x): ("inv", x.name) for x in (b.C, b.m)}
-    notation = Notation(display=display)
+    notation = WordNotation(display=display)
 
     centre, drift = Letter("r_c", b.n), Letter("w_c", b.n)
     velocity = word(b.w.velocity) + word(b.Z.velocity) * word(centre)

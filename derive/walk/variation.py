@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from ..algebra import forms
 from ..algebra.calculus import derivation, substitute
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..algebra.written import Notation, tree_of
+from ..algebra.written import WordNotation, tree_of
 from ..language.read import read
 from ..language.tree import Tree, add
 from ..record.record import Equation, Step
@@ -122,7 +122,7 @@ def _work(points: Lagrangian, a: Alphabet) -> tuple[Expr, Tree]:
     moved = word(varied) - word(points.v_i) * word(a.dt)
     members = {a.m_i: "m", a.r_i: "r", a.F_i: "F", points.v_i: "v"}
     display: dict[Letter, Tree] = {x: ("at", name, "i") for x, name in members.items()}
-    notation = Notation(display=display | {varied: read("δ(rᵢ(t))")})
+    notation = WordNotation(display=display | {varied: read("δ(rᵢ(t))")})
     shown: Tree = ("inner", tree_of(balance, notation), tree_of(moved, notation))
     images = {varied: points.variation, points.v_i: points.velocity}
     return inner(balance, substitute(moved, images)), shown

@@ -15,7 +15,7 @@ from typing import Any
 from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.space import antisymmetry, hat, normal_form
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import Notation, metrics, tree_of
+from ..algebra.written import WordNotation, metrics, tree_of
 from ..language.tree import Tree, add, terms
 from ..record import sentence
 from ..record.record import Equation, Step
@@ -171,7 +171,7 @@ def _velocity(pairs: Sequence[tuple[Dual, AlgebraPart]]) -> dict[Letter, Expr]:
     return {f.xi: word(f.velocity) for _, f in pairs} | {hat(OMEGA): word(hat(ZETA))}
 
 
-def _notation(hat_map: HatMap) -> Notation:
+def _notation(hat_map: HatMap) -> WordNotation:
     return metrics("I", display={x: tree_of(e) for x, e in hat_map.brackets.items()})
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from ..algebra.space import fold_double
 from ..algebra.words import Expr
-from ..algebra.written import PLAIN, Notation, tree_of
+from ..algebra.written import PLAIN, WordNotation, tree_of
 from ..language.tree import Tree, add, terms
 
 
-def vector_sum(e: Expr, notation: Notation = PLAIN) -> Tree:
+def vector_sum(e: Expr, notation: WordNotation = PLAIN) -> Tree:
     """The tree of a vector in normal form."""
     return add(*map(flip_wedge, terms(tree_of(fold_double(e), notation))))
 

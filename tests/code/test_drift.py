@@ -30,15 +30,18 @@ def test_the_relations_of_a_family_single_it_out(name):
     family = FAMILIES[name]
     for n in range(family.least, family.most + 1, family.step):
         g = group(f"{name}({n})")
-        assert relations(g).left == g.dimension
+        assert relations(g).dimension == g.dimension
         assert relations(g).none == (name in ("GL", "Aff"))
 
 
 def test_groups_of_a_basis_are_kept_as_far_as_is_known():
     about = on_homogeneous(turning_about_a_point()).factors[0]
-    assert relations(about).left == about.dimension == 3  # T = (1 - A) p is in the hull
+    assert relations(about).dimension == about.dimension == 3  # T = (1 - A) p is in the hull
     screw = walked("screw").problem.group.factors[0]
-    assert (screw.dimension, relations(screw).left) == (1, 2)  # no polynomial ties T_3 to the angle
+    assert (screw.dimension, relations(screw).dimension) == (
+        1,
+        2,
+    )  # no polynomial ties T_3 to the angle
 
 
 # -- the emitted functions ----------------------------------------------------------------------

@@ -12,7 +12,7 @@ from fractions import Fraction
 
 from ...algebra.calculus import reduce, substitute
 from ...algebra.words import Expr, Letter, inner, number, word
-from ...algebra.written import Notation, tree_of
+from ...algebra.written import WordNotation, tree_of
 from ...language.tree import Tree, add, mul, neg
 from ...problem.problem import Problem
 from ...record.record import Equation
@@ -22,7 +22,7 @@ from ..chapter import Chapter
 from ..lagrangian import POINT
 from ..pointwise import column
 from ..pullback import sum_over
-from ..summed import Own, Power, Words
+from ..summed import PotentialLetter, PowerLetter, Words
 from ..telling import say
 
 KIND = FarCentre
@@ -41,15 +41,15 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
     seen: Tree = add("T", neg(column(p.centre))) if p.centre else "T"
     apart: Tree = add(POINT, neg("T"))
     distance: Tree = ("fun", "sqrt", ("norm2", seen))
-    shown = Notation(display={a.m_i: ("at", "m", "i"), T: seen, x: apart})
+    shown = WordNotation(display={a.m_i: ("at", "m", "i"), T: seen, x: apart})
     square, over = inner(word(T), word(T)), word(W) * word(W)
     near = inner(word(T), word(x))
-    body = Own(T_b, word(a.A.position).bar * word(T), (a.A.position, T))
+    body = PotentialLetter(T_b, word(a.A.position).bar * word(T), (a.A.position, T))
     own = (
-        *((Own(T, word(a.T.position)),) if p.centre else ()),
+        *((PotentialLetter(T, word(a.T.position)),) if p.centre else ()),
         body,
-        Power(W, square, exponent=-HALF, over=over),
-        Power(V, square, exponent=-HALF, over=over),
+        PowerLetter(W, square, exponent=-HALF, over=over),
+        PowerLetter(V, square, exponent=-HALF, over=over),
     )
     return Words(
         _summed(a, x, T, body),
@@ -74,7 +74,7 @@ def _summand(a: Alphabet, x: Letter, near: Expr, squared: Expr) -> Expr:
     return -word(a.m_i) * word(V) * (number(1) + first * linear + second * quadratic)
 
 
-def _summed(a: Alphabet, x: Letter, T: Letter, body: Own) -> Expr:
+def _summed(a: Alphabet, x: Letter, T: Letter, body: PotentialLetter) -> Expr:
     """The sum over the points, where ⟨T, x⟩² is ⟨x, T T̄ x⟩, with T_b."""
     general, TT = Chapter(a.chapter), Letter("T T̄", a.n, a.n, 1)
     squared = inner(word(x), word(TT) * word(x))

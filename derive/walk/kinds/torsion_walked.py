@@ -10,7 +10,7 @@ from ...problem.problem import Problem
 from ...record.record import Equation
 from ...schema.kinds.torsion import Torsion
 from ..alphabet import Alphabet
-from ..summed import Own, Words
+from ..summed import PotentialLetter, Words
 
 KIND = Torsion
 HALF = Fraction(1, 2)
@@ -34,7 +34,7 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
         HALF * word(Letter("k_A")) * trace(one(a.n)) - trace(word(N)),
         definitions,
         [mul(HALF, p.stiffness, ("tr", add(("one",), neg(_back(p))))) for p in springs],
-        own=[Own(N, moments, (a.A.position, turned), Fraction(2), mu)],
+        own=[PotentialLetter(N, moments, (a.A.position, turned), Fraction(2), mu)],
     )
 
 
