@@ -21,7 +21,7 @@ from .record.record import Derivation
 from .walk import (
     alphabet, body, brackets, cartan, components, conserved, coordinates, elimination, exterior,
     inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit, potential,
-    pullback, rotation, separation, solution, special, translation, variation, vector,
+    pullback, rotation, separation, solution, specialisation, translation, variation, vector,
 )
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
@@ -29,9 +29,9 @@ from .walk.failure import naming_steps
 from .walk.head import problem_data, symbols
 from .walk.inputs import acts
 from .walk.lineage import traced
-from .walk.special import turns_whole
+from .walk.regularity import supposing_all
+from .walk.specialisation import turns_whole
 from .walk.stages import Stage, Values, follow
-from .walk.supposed import supposing_all
 # isort: on
 
 if TYPE_CHECKING:
@@ -58,17 +58,17 @@ ANY_GROUP = (
 
 MATRICES = (
     Stage("general", "a pullback.moment_work trivial derivative momenta",
-          "General", special.General),
+          "General", specialisation.General),
     Stage("body", "problem lagrangian a c", "Steps", body.body_step),
     Stage("brackets", "group c", "Steps", brackets.bracket_step),
     Stage("bodies", "problem", "Bodies", left_invariant.invariant),
-    Stage("relation", "group bodies? c", "Steps", special.relation),
+    Stage("relation", "group bodies? c", "Steps", specialisation.relation),
     Stage("plain", "group", "Alphabet", alphabet.of_matrices),
     Stage("potentials", "problem plain c", "Potentials", potential.potentials),
-    Stage("special", "general group potentials c bodies?", "Special", special.specialise),
+    Stage("special", "general group potentials c bodies?", "Special", specialisation.specialise),
     Stage("external", "problem special.letters special.C c_u",
           "External", inputs.external_matrices),
-    Stage("driven", "special external?", "Special", special.with_external),
+    Stage("driven", "special external?", "Special", specialisation.with_external),
     Stage("centred", "driven c_u", "Centred", translation.eliminate_translation, "affine"),
     Stage("solution", "driven centred? group c c_u", "Solution", solution.solution),
     Stage("energy", "special.last", "Steps", tuple),

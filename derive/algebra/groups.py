@@ -44,9 +44,8 @@ class Group:
     def stated(self) -> Group:
         """The same group in the basis that the user states, whose coordinates are those of the
         state."""
-        return (
-            replace(self, basis=self.stated_basis, stated_basis=()) if self.stated_basis else self
-        )
+        own = self.stated_basis
+        return replace(self, basis=own, stated_basis=()) if own else self
 
     @property
     def dimension(self) -> int:

@@ -163,11 +163,8 @@ class _Block:
 
     def _complex(self, A: Matrix, X: Matrix) -> Matrix:
         """X − (det A − 1 + Tr X)/m, all complex."""
-        g, P, back = (
-            self.graph,
-            self._numbers(self.kept.complex_basis),
-            self._inverse(self.kept.complex_basis),
-        )
+        g, basis = self.graph, self.kept.complex_basis
+        P, back = self._numbers(basis), self._inverse(basis)
         m = len(P) // 2
 
         def complexes(M: Matrix) -> list[list[_Complex]]:

@@ -16,9 +16,9 @@ from .alphabet import Alphabet
 from .chapter import Chapter
 from .continuum import continuum
 from .lagrangian import Lagrangian
-from .pointwise import column, embedded
-from .supposed import of_moments
-from .telling import phrase, say, say_signed
+from .point_potentials import column, embedded
+from .regularity import of_moments
+from .wording import phrase, say, say_signed
 
 SOLIDS = {
     "ball": phrase("integrals.ball"),

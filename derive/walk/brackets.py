@@ -13,7 +13,7 @@ from ..record.formulas import stated
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
 from .chapter import Chapter
-from .telling import say
+from .wording import say
 
 Row = tuple[Any, ...]
 

@@ -8,16 +8,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..algebra.calculus import derivation, gradient, substitute
+from ..algebra.word_trees import WordNotation, metrics, tree_of
 from ..algebra.words import Expr, word
-from ..algebra.written import WordNotation, metrics, tree_of
 from ..language.read import read
 from ..language.tree import add
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .pullback import Pullback
-from .telling import say
 from .trivialisation import at_identity, trivialisation
+from .wording import say
 
 
 @dataclass(frozen=True)

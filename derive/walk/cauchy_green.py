@@ -13,7 +13,7 @@ from ..record.formulas import stated
 from ..record.record import Equation
 from ..record.sentence import Prose
 from .alphabet import Alphabet
-from .telling import say
+from .wording import say
 
 
 def without_cauchy_green(e: Expr, bodies: Bodies, a: Alphabet) -> Expr:

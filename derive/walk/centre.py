@@ -19,8 +19,8 @@ from ..language.tree import Tree, add, mul, neg
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .pointwise import column
-from .telling import say
+from .point_potentials import column
+from .wording import say
 
 
 @dataclass(frozen=True)

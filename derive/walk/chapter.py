@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
+from ..algebra.word_trees import PLAIN, WordNotation, tree_of
 from ..algebra.words import Expr
-from ..algebra.written import PLAIN, WordNotation, tree_of
 from ..language.tree import Tree
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step

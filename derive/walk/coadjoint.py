@@ -13,15 +13,15 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from ..algebra.calculus import gradient, substitute
+from ..algebra.word_trees import tree_of
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import tree_of
 from ..language.tree import Tree, add
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .momentum import MomentumForm
-from .telling import say
+from .wording import say
 
 
 def halved(values: Mapping[Letter, Expr], b: Alphabet) -> dict[Letter, Expr]:

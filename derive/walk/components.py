@@ -12,7 +12,7 @@ from ..problem.problem import GivenBody, MomentBody, PointBody, Problem
 from ..record.record import Equation, Step
 from ..schema.kinds.gravity import gravity
 from .chapter import Chapter
-from .telling import say
+from .wording import say
 
 AXES = (1, 2, 3)
 RATES = ("ζ", "w", "w_c")

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from ..algebra.calculus import derivation, gradient, reduce, substitute, without
 from ..algebra.groups import Group
 from ..algebra.space import hat, normal_form
+from ..algebra.word_trees import tree_of
 from ..algebra.words import Expr, Letter, inner, word
-from ..algebra.written import tree_of
 from ..language import rational as q
 from ..language.tree import Tree
 from ..problem.problem import Problem
@@ -24,9 +24,9 @@ from .alphabet import Alphabet
 from .chapter import Chapter
 from .hat import anticommute
 from .potential import U_Q, Potentials
-from .summed import moved
-from .telling import say
+from .potential_letters import moved
 from .wedge import vector_sum
+from .wording import say
 
 GAMMA = Letter("γ", 3)
 AXIS = Letter("y", 3)

@@ -7,15 +7,15 @@ velocity in space, are functions on the body.
 from __future__ import annotations
 
 from ..algebra.calculus import derivation, substitute
+from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Letter, number, word
-from ..algebra.written import WordNotation
 from ..language.read import read
 from ..language.tree import Tree, add, coefficient, mul, neg
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .lagrangian import Lagrangian
-from .telling import say
+from .wording import say
 
 
 def continuum(points: Lagrangian, a: Alphabet, c: Chapter) -> Step:

@@ -13,8 +13,8 @@ from functools import cached_property
 
 from ..algebra.calculus import substitute, terms_with, without
 from ..algebra.space import hat
+from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Letter, number, word
-from ..algebra.written import WordNotation
 from ..language.read import read
 from ..language.tree import Tree
 from ..record.hypotheses import Hypothesis
@@ -22,9 +22,9 @@ from ..record.record import Equation, Step
 from ..record.sentence import Sentence
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
-from .factored import factored_tree
-from .supposed import vertical_metric
-from .telling import phrase, say, say_signed
+from .factorisation import factored_tree
+from .regularity import vertical_metric
+from .wording import phrase, say, say_signed
 
 CONTRACTION = read("dϖ(X, δ′y)")
 REGULAR = phrase("second_order.displacement_signed")

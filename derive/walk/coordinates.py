@@ -9,7 +9,7 @@ from ..record.formulas import stated
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .telling import say
+from .wording import say
 
 
 def coordinates_step(group: Group, b: Alphabet, c: Chapter, *, reading: bool) -> Step:

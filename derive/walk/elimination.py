@@ -12,18 +12,18 @@ from dataclasses import dataclass
 
 from ..algebra.calculus import coefficient_of, reduce, substitute, without
 from ..algebra.space import hat, normal_form
+from ..algebra.word_trees import WordNotation, tree_of
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import WordNotation, tree_of
 from ..language.tree import Tree, add, mul
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .hat import INERTIA, OMEGA_P, ZETA, ZETA_DOT, anticommute
 from .inverse import cancel_scalar, inverse_letter, inverse_tree
-from .telling import say, say_signed
 from .translation import central_moments
 from .vector import VectorForm
 from .wedge import vector_sum
+from .wording import say, say_signed
 
 CENTRAL = Letter("I_c", 3, 3, 1)
 CENTRE, CENTRE_VELOCITY = Letter("r_c", 3), Letter("w_c", 3)

@@ -9,17 +9,17 @@ from dataclasses import dataclass
 
 from ..algebra import forms
 from ..algebra.calculus import Image, gradient, reduce, substitute, terms_with, without
+from ..algebra.word_trees import WordNotation, metrics, tree_of
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import WordNotation, metrics, tree_of
 from ..language.read import read
 from ..language.tree import Tree
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .cartan import Cartan
 from .chapter import Chapter
-from .factored import at_constant_time, factored_tree, solve_for
-from .telling import say
+from .factorisation import at_constant_time, factored_tree, solve_for
 from .trivialisation import body_rule, cauchy_green, trivial_images, varied_cauchy_green
+from .wording import say
 
 DOMEGA = read("dϖ(δy, δ′y)")
 

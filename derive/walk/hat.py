@@ -35,7 +35,7 @@ from ..record.record import Equation, Step
 from .alphabet import AlgebraPart, Alphabet, Dual
 from .chapter import Chapter
 from .exterior import brackets_of
-from .telling import say
+from .wording import say
 
 
 def _vector(name: str) -> Letter:

@@ -13,7 +13,7 @@ from ..record.sentence import Prose, Sentence, listed
 from ..record.uses import of_steps
 from ..record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, Name
 from ..schema.outside import ForceInput
-from .telling import phrase, say
+from .wording import phrase, say
 
 
 def problem_data(problem: Problem) -> dict[str, object]:

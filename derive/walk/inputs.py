@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from ..algebra.calculus import gradient, reduce, substitute
 from ..algebra.groups import Group
 from ..algebra.space import fold_inertia, normal_form
+from ..algebra.word_trees import tree_of
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..algebra.written import tree_of
 from ..language.tree import Tree, add, mul
 from ..problem.problem import Problem
 from ..record.formulas import stated
@@ -24,11 +24,11 @@ from .chapter import Chapter, Draft
 from .contraction import AND
 from .hat import OMEGA_P, ZETA, HatMap, anticommute, inertia_of
 from .point_forces import applied
-from .pointwise import embedded
+from .point_potentials import embedded
 from .pullback import sum_over
-from .telling import phrase, say
 from .trivialisation import body_rule
 from .wedge import vector_sum
+from .wording import phrase, say
 
 INPUTS = phrase("input.forces")
 DRAG = phrase("input.damping")

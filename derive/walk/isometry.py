@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, without
+from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import WordNotation
 from ..language.tree import Tree
 from ..record.formulas import stated
 from ..record.record import Equation, Step
@@ -15,10 +15,10 @@ from .alphabet import Alphabet
 from .cartan import Cartan, form_equation
 from .chapter import Chapter, Draft
 from .exterior import DOMEGA, primed, primes, shown_brackets
-from .factored import factored_tree, solve_for
+from .factorisation import factored_tree, solve_for
 from .momentum import MomentumForm, fibre, horizontal
-from .restrict import restrict, restricted_prose
-from .telling import say
+from .restriction import restrict, restricted_prose
+from .wording import say
 
 
 @dataclass(frozen=True)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..algebra.space import normal_form
+from ..algebra.word_trees import tree_of
 from ..algebra.words import Expr, trace
-from ..algebra.written import tree_of
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .hat import OMEGA, ZETA, HatMap, identified
-from .telling import say
+from .wording import say
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 
 from ..algebra.calculus import gradient, substitute, terms_with, without
 from ..algebra.forms import strip_left
+from ..algebra.word_trees import WordNotation, metrics
 from ..algebra.words import Expr, Letter, number, word
-from ..algebra.written import WordNotation, metrics
 from ..language.tree import Tree, add
 from ..record import sentence
 from ..record.record import Equation, Step
@@ -23,10 +23,10 @@ from .cartan import Cartan
 from .chapter import Chapter, Draft
 from .contraction import AND, CONTRACTION, Contraction, rate, steps_of, velocities
 from .exterior import Exterior, primed
-from .factored import at_constant_time, factored_tree
-from .telling import say, say_signed
+from .factorisation import at_constant_time, factored_tree
 from .trivialisation import rates, trivial_images
 from .variation import Principle
+from .wording import say, say_signed
 
 
 @dataclass(frozen=True)

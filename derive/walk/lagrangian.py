@@ -9,15 +9,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..algebra.calculus import derivation, substitute
+from ..algebra.word_trees import metrics, tree_of
 from ..algebra.words import Expr, Letter, inner, word
-from ..algebra.written import metrics, tree_of
 from ..language.read import read
 from ..language.tree import Tree, add, neg
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter
-from .telling import say
+from .wording import say
 
 POINT = read("rᵢ(t)")
 """r_i(t), the point in space; r_i alone is the point in the body."""

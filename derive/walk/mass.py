@@ -6,8 +6,8 @@ With ξ′ = E_a and Ż = Σ ζ̇_b E_b the equations of motion are  Σ_b M_ab �
 from __future__ import annotations
 
 from ..algebra.calculus import gradient, substitute, without
+from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Letter, inner, word
-from ..algebra.written import WordNotation
 from ..language.read import read
 from ..record.formulas import stated
 from ..record.record import Equation, Step
@@ -15,9 +15,9 @@ from .alphabet import Alphabet
 from .centre import CentralEquations
 from .chapter import Chapter, Draft
 from .inverse import inverse_letter
-from .telling import say, say_signed
 from .translation import Centred
 from .trivialisation import rates
+from .wording import say, say_signed
 
 RATE = Letter("ζ̇_b")
 

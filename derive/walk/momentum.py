@@ -19,8 +19,8 @@ from dataclasses import dataclass, replace
 
 from ..algebra import forms
 from ..algebra.calculus import Image, derivation, gradient, reduce, substitute
+from ..algebra.word_trees import WordNotation, tree_of
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..algebra.written import WordNotation, tree_of
 from ..language.read import read
 from ..language.tree import Tree, add
 from ..record.record import Equation, Step
@@ -28,9 +28,9 @@ from .alphabet import AlgebraPart, Alphabet, Dual
 from .cartan import Cartan
 from .chapter import Chapter
 from .exterior import DOMEGA, brackets_of, primed, primes, shown_brackets
-from .factored import at_constant_time, factored_tree
-from .telling import say
+from .factorisation import at_constant_time, factored_tree
 from .trivialisation import body_rule, cauchy_green, varied_cauchy_green
+from .wording import say
 
 
 @dataclass(frozen=True)

@@ -7,16 +7,16 @@ from __future__ import annotations
 
 from ..algebra import forms
 from ..algebra.calculus import gradient, substitute, without
+from ..algebra.word_trees import PLAIN, metrics, tree_of
 from ..algebra.words import Expr, inner, word
-from ..algebra.written import PLAIN, metrics, tree_of
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .cartan import Cartan
 from .chapter import Chapter
 from .exterior import DOMEGA, natural_variations, primed, primes
-from .factored import at_constant_time, factored_tree
+from .factorisation import at_constant_time, factored_tree
 from .kernel import Ambient
-from .telling import say
+from .wording import say
 
 
 def motions(form: Cartan, law: Ambient, a: Alphabet, c: Chapter) -> Step:

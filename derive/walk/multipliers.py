@@ -11,8 +11,8 @@ from fractions import Fraction
 
 from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.groups import Group
+from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Factor, Letter, inner, number, one, word
-from ..algebra.written import WordNotation
 from ..language import rational as q
 from ..language.read import read
 from ..language.tree import Tree, add
@@ -21,9 +21,9 @@ from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .inverse import cancelling, inverse_letter
-from .telling import say, say_signed
 from .translation import Centred
 from .trivialisation import cauchy_green, rates
+from .wording import say, say_signed
 
 MULTIPLIER = Letter("θ")
 

@@ -11,8 +11,8 @@ from fractions import Fraction
 
 from ..algebra import forms
 from ..algebra.calculus import derivation, gradient, reduce, substitute, terms_with, without
+from ..algebra.word_trees import WordNotation, metrics
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..algebra.written import WordNotation, metrics
 from ..language.read import read
 from ..language.tree import add, neg
 from ..record.record import Equation, Step
@@ -21,8 +21,8 @@ from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .lagrangian import Lagrangian
 from .pullback import Moments, sum_over
-from .telling import say, say_signed
 from .trivialisation import body_rule, cauchy_green
+from .wording import say, say_signed
 
 
 def unique(points: Lagrangian, moments: Moments, a: Alphabet, c: Chapter) -> Step:

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, reduce, substitute, without
 from ..algebra.space import hat
+from ..algebra.word_trees import WordNotation, metrics, tree_of
 from ..algebra.words import Expr, Letter, inner, word, zero
-from ..algebra.written import WordNotation, metrics, tree_of
 from ..language.tree import Tree, add, mul, replaced
 from ..problem.problem import Problem
 from ..record.record import Equation, Step
@@ -15,9 +15,9 @@ from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
 from .hat import OMEGA_P, anticommute
-from .pointwise import PointPotentials, Radial, column, embedded
-from .telling import say
+from .point_potentials import PointPotentials, Radial, column, embedded
 from .trivialisation import body_rule
+from .wording import say
 
 
 @dataclass(frozen=True)

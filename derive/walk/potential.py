@@ -19,9 +19,9 @@ from .alphabet import Alphabet
 from .chapter import Chapter
 from .kinds import walked
 from .point_forces import applied, point_forces_step
-from .pointwise import PointPotentials
-from .summed import PotentialLetter, Words, moved
-from .telling import say
+from .point_potentials import PointPotentials
+from .potential_letters import PotentialLetter, Words, moved
+from .wording import say
 
 U_Q = Letter("U_Q")
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..algebra.calculus import map_terms
+from ..algebra.word_trees import metrics
 from ..algebra.words import (
     Expr,
     Letter,
@@ -28,7 +29,6 @@ from ..algebra.words import (
     transpose_word,
     word,
 )
-from ..algebra.written import metrics
 from ..language.read import read
 from ..language.tree import add, neg
 from ..record.formulas import stated
@@ -37,8 +37,8 @@ from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .lagrangian import Lagrangian, kinetic_of_motion, moving_tree
-from .supposed import kinetic_metric, of_masses
-from .telling import say, say_signed
+from .regularity import kinetic_metric, of_masses
+from .wording import say, say_signed
 
 Moments = Mapping[tuple[Letter, ...], Expr]
 """Σ of a product of members: (m, r, r) ↦ Σ m_i r_i r̄_i, (F, r) ↦ Σ F_i r̄_i, (m,) ↦ Σ m_i, …"""

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, reduce, substitute
 from ..algebra.space import hat, normal_form
+from ..algebra.word_trees import metrics
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import metrics
 from ..language.tree import Tree, add, mul
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
@@ -19,10 +19,10 @@ from .hat import INERTIA, MU, OMEGA_P, PHI, ZETA, ZETA_DOT, HatMap, anticommute,
 from .inputs import External
 from .isometry import Isometry
 from .potential import Potentials, virtual_work
-from .telling import say, say_signed
 from .trivialisation import body_rule, rates
 from .vector import VectorForm, pairing
 from .wedge import vector_sum
+from .wording import say, say_signed
 
 
 @dataclass(frozen=True)

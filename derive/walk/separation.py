@@ -7,8 +7,8 @@ separates where the potential is one as well.
 from __future__ import annotations
 
 from ..algebra.calculus import substitute, terms_with, without
+from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import WordNotation
 from ..language.read import read
 from ..problem.problem import Problem
 from ..record.formulas import stated
@@ -19,8 +19,8 @@ from .chapter import Chapter
 from .contraction import AND
 from .inverse import cancel_scalar, inverse_letter
 from .potential import U_Q, Potentials
-from .telling import phrase, say
 from .translation import central_moments
+from .wording import phrase, say
 
 
 def _notation(a: Alphabet) -> WordNotation:

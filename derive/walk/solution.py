@@ -11,7 +11,7 @@ from .chapter import Chapter
 from .coordinates import coordinates_step
 from .mass import mass_steps
 from .multipliers import multiplier_steps
-from .special import Special
+from .specialisation import Special
 from .translation import Centred
 
 MULTIPLIERS = 1

@@ -9,15 +9,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
+from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Letter, inner, word
-from ..algebra.written import WordNotation
 from ..language.tree import Tree
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .inverse import cancel_scalar, cancelling, inverse_letter
-from .special import Special
-from .telling import say_signed
+from .specialisation import Special
+from .wording import say_signed
 
 
 @dataclass(frozen=True)

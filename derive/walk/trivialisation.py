@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..algebra.calculus import PairRule, derivation, reduce, substitute
+from ..algebra.word_trees import tree_of
 from ..algebra.words import Expr, Factor, Letter, word
-from ..algebra.written import tree_of
 from ..record.formulas import stated
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
-from .telling import say
+from .wording import say
 
 
 def body_rule(a: Alphabet, C: Expr) -> PairRule:

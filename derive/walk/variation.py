@@ -15,8 +15,8 @@ from dataclasses import dataclass
 
 from ..algebra import forms
 from ..algebra.calculus import derivation, substitute
+from ..algebra.word_trees import WordNotation, tree_of
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..algebra.written import WordNotation, tree_of
 from ..language.read import read
 from ..language.tree import Tree, add
 from ..record.record import Equation, Step
@@ -26,7 +26,7 @@ from .chapter import Chapter
 from .exterior import natural_variations, primes
 from .lagrangian import Lagrangian
 from .pullback import Pullback, sum_over
-from .telling import say
+from .wording import say
 
 ACROSS = read("dϖ(δy, X)")
 LATER = Letter("d/dt δt")

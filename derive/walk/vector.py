@@ -14,8 +14,8 @@ from typing import Any
 
 from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.space import antisymmetry, hat, normal_form
+from ..algebra.word_trees import WordNotation, metrics, tree_of
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import WordNotation, metrics, tree_of
 from ..language.tree import Tree, add, terms
 from ..record import sentence
 from ..record.record import Equation, Step
@@ -25,7 +25,7 @@ from .chapter import Chapter
 from .coadjoint import halved, momenta_prose, motion_prose
 from .contraction import AND, Contraction, rate, steps_of
 from .exterior import DOMEGA, primed
-from .factored import at_constant_time
+from .factorisation import at_constant_time
 from .hat import (
     BRACKET,
     D_SPIN,
@@ -46,9 +46,9 @@ from .hat import (
 )
 from .isometry import Isometry
 from .momentum import MomentumForm, horizontal
-from .restrict import moved
-from .telling import say, say_signed
+from .restriction import moved
 from .wedge import vector_sum
+from .wording import say, say_signed
 
 HATS = tuple({hat(ZETA): word(hat(x))} for x in (TURNING.d_velocity, TURNING.dp_velocity, ZETA_DOT))
 """How j(ζ) varies with ζ: under δ, δ′ and along the motion."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ..algebra.space import fold_double
+from ..algebra.word_trees import PLAIN, WordNotation, tree_of
 from ..algebra.words import Expr
-from ..algebra.written import PLAIN, WordNotation, tree_of
 from ..language.tree import Tree, add, terms
 
 

@@ -18,6 +18,7 @@ from derive.algebra.calculus import (
     without,
 )
 from derive.algebra.space import double, fold_double, hat, normal_form
+from derive.algebra.word_trees import tree_of
 from derive.algebra.words import (
     Expr,
     Letter,
@@ -29,7 +30,6 @@ from derive.algebra.words import (
     word,
     zero,
 )
-from derive.algebra.written import tree_of
 from derive.language import rational as q
 from derive.language.show import show
 

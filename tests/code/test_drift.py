@@ -38,10 +38,8 @@ def test_groups_of_a_basis_are_kept_as_far_as_is_known():
     about = on_homogeneous(turning_about_a_point()).factors[0]
     assert relations(about).dimension == about.dimension == 3  # T = (1 - A) p is in the hull
     screw = walked("screw").problem.group.factors[0]
-    assert (screw.dimension, relations(screw).dimension) == (
-        1,
-        2,
-    )  # no polynomial ties T_3 to the angle
+    # no polynomial ties T_3 to the angle
+    assert (screw.dimension, relations(screw).dimension) == (1, 2)
 
 
 # -- the emitted functions ----------------------------------------------------------------------

@@ -9,7 +9,7 @@ import pytest
 from derive.algebra.words import word
 from derive.pipeline import general_road
 from derive.walk.alphabet import Alphabet
-from derive.walk.restrict import restrict
+from derive.walk.restriction import restrict
 from tests.support.walks import NAMES, OTHERS, record
 
 SHOWN = json.loads((Path(__file__).parents[1] / "support" / "shown.json").read_text())

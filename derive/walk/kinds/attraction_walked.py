@@ -6,7 +6,7 @@ from ...language.differentiate import product
 from ...language.tree import Tree, add, neg
 from ...problem.problem import Problem
 from ...schema.kinds.attraction import Attraction
-from ..pointwise import PointPotentials, column, place
+from ..point_potentials import PointPotentials, column, place
 
 KIND = Attraction
 

@@ -11,8 +11,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ...algebra.calculus import reduce, substitute
+from ...algebra.word_trees import WordNotation, tree_of
 from ...algebra.words import Expr, Letter, inner, number, word
-from ...algebra.written import WordNotation, tree_of
 from ...language.tree import Tree, add, mul, neg
 from ...problem.problem import Problem
 from ...record.record import Equation
@@ -20,10 +20,10 @@ from ...schema.kinds.far_centre import FarCentre
 from ..alphabet import Alphabet
 from ..chapter import Chapter
 from ..lagrangian import POINT
-from ..pointwise import column
+from ..point_potentials import column
+from ..potential_letters import PotentialLetter, PowerLetter, Words
 from ..pullback import sum_over
-from ..summed import PotentialLetter, PowerLetter, Words
-from ..telling import say
+from ..wording import say
 
 KIND = FarCentre
 HALF = Fraction(1, 2)

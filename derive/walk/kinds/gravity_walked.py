@@ -10,10 +10,10 @@ from ...schema.kinds.gravity import Gravity, gravity
 from ..alphabet import Alphabet
 from ..chapter import Chapter
 from ..lagrangian import POINT
-from ..pointwise import column
+from ..point_potentials import column
+from ..potential_letters import Words
 from ..pullback import sum_over
-from ..summed import Words
-from ..telling import say
+from ..wording import say
 
 KIND = Gravity
 

@@ -11,10 +11,10 @@ from ...record.record import Equation
 from ...schema.kinds.spring import Spring, quadratic
 from ..alphabet import Alphabet
 from ..chapter import Chapter
-from ..pointwise import PointPotentials, column, in_space, place
+from ..point_potentials import PointPotentials, column, in_space, place
+from ..potential_letters import Words
 from ..pullback import sum_over
-from ..summed import Words
-from ..telling import say
+from ..wording import say
 
 KIND = Spring
 

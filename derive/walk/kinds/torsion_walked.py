@@ -10,7 +10,7 @@ from ...problem.problem import Problem
 from ...record.record import Equation
 from ...schema.kinds.torsion import Torsion
 from ..alphabet import Alphabet
-from ..summed import PotentialLetter, Words
+from ..potential_letters import PotentialLetter, Words
 
 KIND = Torsion
 HALF = Fraction(1, 2)

@@ -12,8 +12,8 @@ from dataclasses import replace
 from fractions import Fraction
 
 from ..algebra.calculus import derivation, substitute
+from ..algebra.word_trees import WordNotation, metrics, tree_of
 from ..algebra.words import Expr, Letter, word
-from ..algebra.written import WordNotation, metrics, tree_of
 from ..language.read import read
 from ..language.tree import Tree, nodes, operands
 from ..record.hypotheses import Hypothesis

@@ -12,8 +12,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from ..algebra.calculus import substitute
+from ..algebra.word_trees import WordNotation, tree_of
 from ..algebra.words import Expr, Letter, Traces, Word, number
-from ..algebra.written import WordNotation, tree_of
 from ..language.tree import Tree, add
 from .chapter import Draft
 

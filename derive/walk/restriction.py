@@ -12,8 +12,8 @@ from ..algebra.calculus import derivation, substitute
 from ..algebra.words import Expr, Letter, word
 from ..record.sentence import Prose
 from .alphabet import AlgebraPart, Alphabet, Dual
-from .telling import say
 from .trivialisation import varied_cauchy_green
+from .wording import say
 
 
 def restrict(

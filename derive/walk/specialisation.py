@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.groups import Group
+from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Letter, inner, number, word
-from ..algebra.written import WordNotation
 from ..language.read import read
 from ..language.tree import Tree
 from ..problem.left_invariant import Bodies
@@ -26,15 +26,15 @@ from .chapter import Chapter, Draft
 from .coadjoint import coadjoint_steps
 from .contraction import Contraction
 from .exterior import DOMEGA, Exterior, brackets_of
-from .factored import factored_tree
+from .factorisation import factored_tree
 from .inputs import External
 from .isometry import bracketed, resting
 from .kernel import balanced
 from .momentum import MomentumForm, fibre
 from .potential import Potentials, virtual_work
-from .restrict import restrict, restricted_prose
-from .telling import say
+from .restriction import restrict, restricted_prose
 from .trivialisation import body_rule, cauchy_green, rates, varied_cauchy_green
+from .wording import say
 
 
 @dataclass(frozen=True)
