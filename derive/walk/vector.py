@@ -15,7 +15,7 @@ from typing import Any
 from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.space import antisymmetry, hat, normal_form
 from ..algebra.word_trees import WordNotation, metrics, tree_of
-from ..algebra.words import Expr, Letter, word
+from ..algebra.words import Expr, Letter, inner, word
 from ..language.tree import Tree, add, terms
 from ..record import sentence
 from ..record.record import Equation, Step
@@ -115,11 +115,15 @@ def vector_form(general: MomentumForm, stage: Isometry, hat_map: HatMap, c: Chap
 
 
 def body_momenta(stage: Isometry, hat_map: HatMap) -> dict[Letter, Expr]:
-    """The values of ℓ_b and p_b, by their letters: the coefficients of Ω and η in p̃."""
-    momentum = hat_map.scalar(stage.cartan.momentum)
-    found = {SPIN: gradient(reduce(normal_form(momentum), anticommute(OMEGA)), OMEGA)}
-    b = stage.letters
-    return found | ({b.p_b.momentum: gradient(momentum, b.w.xi)} if b.affine else {})
+    """The values of ℓ_b and p_b, by their letters: ⟨Π, j(Ω)⟩ = ⟨ℓ_b, Ω⟩, and p_b in vectors.
+
+    Π and p_b are those of the isometries, which :mod:`derive.walk.isometry` reads off p̃.
+    """
+    b, found = stage.letters, dict[Letter, Expr]()
+    for dual, part, (d, f) in zip(b.duals, b.algebra_parts, pairs_of(b), strict=True):
+        paired = hat_map.scalar(inner(stage.values[dual.momentum], word(part.xi)))
+        found[d.momentum] = gradient(reduce(paired, anticommute(f.xi)), f.xi)
+    return found
 
 
 def pairing(stage: Isometry, hat_map: HatMap) -> dict[Letter, Expr]:
