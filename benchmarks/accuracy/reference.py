@@ -166,7 +166,7 @@ class Reference:
         alpha = _linear(speed, n)
         Z = terms.times(back, alpha)
         turns = group.dimension - (n if group.affine else 0)
-        readings = [group.reading(a) for a in range(turns)]
+        readings = [group.coordinate_terms(a) for a in range(turns)]
         zeta = [
             terms.total([Terms.number(c) * Z[i][j] for c, i, j in reading]) for reading in readings
         ]

@@ -175,14 +175,14 @@ class Group:
                 rows[a][p] = row[k]
         return q.matrix(rows)
 
-    def reading(self, a: int) -> list[tuple[Fraction, int, int]]:
+    def coordinate_terms(self, a: int) -> list[tuple[Fraction, int, int]]:
         """The terms (coefficient, i, j) of ζᵃ = Σ coefficient · Z_ij, a, i and j counted from 0."""
         s = self.size
         return [(c, k // s, k % s) for k, c in enumerate(self._coordinate_rows[a]) if c]
 
     def nearest(self, z: Matrix) -> tuple[Any, ...]:
-        """The d coordinates that :meth:`reading` reads off any matrix of the size: those of Z where
-        it is in 𝔤."""
+        """The d coordinates that :meth:`coordinate_terms` takes of any matrix of the size: those of
+        Z where it is in 𝔤."""
         flat = q.flatten(z)
         return tuple(
             sum((c * x for c, x in zip(row, flat, strict=True) if c), Fraction(0))

@@ -87,7 +87,7 @@ class Solved:
         s = self.group.size
         total = q.scaled(Fraction(0), q.identity(s))
         for a, u in enumerate(self.model.covector):
-            for x, i, j in self.group.reading(a):
+            for x, i, j in self.group.coordinate_terms(a):
                 total = q.plus(total, q.scaled(u * x, q.unit(s, i, j)))
         return total
 

@@ -179,7 +179,7 @@ class State:
     def read(self, a: int, z: Matrix, group: Group | None = None) -> Node:
         """Coordinate a of a matrix of the Lie algebra in the stated basis, or that of a group."""
         group = group or self.group
-        return self.graph.linear((c, z[i][j]) for c, i, j in group.reading(a))
+        return self.graph.linear((c, z[i][j]) for c, i, j in group.coordinate_terms(a))
 
     def _by(self, group: Group, z: Matrix) -> list[Node]:
         return [self.read(a, z, group) for a in range(group.dimension)]

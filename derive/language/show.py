@@ -88,8 +88,8 @@ def in_quotes(t: Tree, names: Container[str]) -> Tree:
 
 def _indices(indices: tuple[object, ...]) -> str:
     """The text of indices, as in r_i, M_ab, M_1,11: subscripts where there are such letters."""
-    apart = "," if len(indices) > 1 and any(len(str(i)) > 1 for i in indices) else ""
-    plain = apart.join(map(str, indices))
+    comma = "," if len(indices) > 1 and any(len(str(i)) > 1 for i in indices) else ""
+    plain = comma.join(map(str, indices))
     shown = plain.translate(SUBSCRIPTS)
     return shown if not re.search(r"[A-Za-z]", shown) else f"_{plain}"
 

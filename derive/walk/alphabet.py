@@ -87,7 +87,7 @@ class Alphabet:
         self.t, self.dt, self.dpt = (Letter(x) for x in ("t", "δt", "δ′t"))
         self.m, self.c, self.J = Letter("m"), Letter("c", n), Letter("J", n, n, 1)
         self.m_i, self.r_i, self.F_i = Letter("m_i"), Letter("r_i", n), Letter("F_i", n)
-        self.apart = Letter("r_i − r_j", n)
+        self.difference = Letter("r_i − r_j", n)
         self.U, self.dU_dt = Letter("Ũ"), Letter("∂ₜŨ")
         self.F_group, self.f = Letter("F̃", n, n), self._algebra("f", skew, traceless)
         self.N, self.F = Letter("N", n, n), Letter("F", n)
@@ -120,7 +120,7 @@ class Alphabet:
         return "affine" if self.affine else "linear"
 
     @property
-    def bodily(self) -> tuple[tuple[Letter, Letter], ...]:
+    def body_forces(self) -> tuple[tuple[Letter, Letter], ...]:
         """(N, N_b) and (F, F_b): moments and resultant of the forces, in space and in the body."""
         return (self.N, self.N_body), (self.F, self.F_body)
 

@@ -36,16 +36,16 @@ def halved(values: Mapping[Letter, Expr], b: Alphabet) -> dict[Letter, Expr]:
 def coadjoint_steps(stage: MomentumForm, b: Alphabet, C: Expr, c: Chapter) -> tuple[Step, ...]:
     """The steps ``momenta`` and ``coadjoint``: ℓ_b (and p_b) and their rates in matrices,
     Euler–Manakov's equations; ``C``: ĀA."""
-    telling, moving = c.draft("momenta", "relation"), c.draft("coadjoint", "kernel")
+    stating, moving = c.draft("momenta", "relation"), c.draft("coadjoint", "kernel")
     own = {b.letters()[x.name]: b.respell(e, C).of(C) for x, e in stage.values.items()}
     momentum = own[b.Pi.momentum]
     values = {b.spin.momentum: momentum - momentum.bar}
     if b.affine:
         values[b.p_b.momentum] = own[b.p_b.momentum]
-    momenta = telling.step(
-        [Equation(x.name, telling.tree(e)) for x, e in values.items()], momenta_prose(b)
+    momenta = stating.step(
+        [Equation(x.name, stating.tree(e)) for x, e in values.items()], momenta_prose(b)
     )
-    balance = substitute(b.respell(stage.balance), halved(own, b)).of(telling.mark(C))
+    balance = substitute(b.respell(stage.balance), halved(own, b)).of(stating.mark(C))
     rates = {b.spin.rate: word(b.spin.rate) - 2 * gradient(balance, b.Z.xi_prime)}
     if b.affine:
         rates[b.p_b.rate] = word(b.p_b.rate) - gradient(balance, b.w.xi_prime)

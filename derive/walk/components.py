@@ -75,16 +75,18 @@ def tensor_steps(
         return ()
     if found is None or max(len(x.terms) for row in found for x in row) > LONGEST:
         return ()
-    straight = not any(found[i][j] for i in range(3) for j in range(3) if i != j)
+    diagonal_tensor = not any(found[i][j] for i in range(3) for j in range(3) if i != j)
     order = [(i, j) for i in AXES for j in AXES[i - 1 :]]
-    if straight:  # the products of inertia, which vanish, together
+    if diagonal_tensor:  # the products of inertia, which vanish, together
         order.sort(key=lambda x: x[0] != x[1])
     entries = [Equation(("entry", name, i, j), written(found[i - 1][j - 1])) for i, j in order]
     draft = c.draft("tensor", "coordinates")
     draft.depends_on(body[-1], inertia)
     step = draft.step(entries, say("tensor.entries"))
     return (
-        (step, *_motion(problem, name, found, (body[-1], step, motion), c)) if straight else (step,)
+        (step, *_motion(problem, name, found, (body[-1], step, motion), c))
+        if diagonal_tensor
+        else (step,)
     )
 
 

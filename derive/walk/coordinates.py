@@ -12,15 +12,15 @@ from .chapter import Chapter
 from .wording import say
 
 
-def coordinates_step(group: Group, b: Alphabet, c: Chapter, *, reading: bool) -> Step:
-    """The step Z = Σ ζ_a E_a, also entry by entry; with ``reading``, how ζ̇ is read off Ż."""
+def coordinates_step(group: Group, b: Alphabet, c: Chapter, *, with_rates: bool) -> Step:
+    """The step Z = Σ ζ_a E_a, also entry by entry; ``with_rates``: and how ζ̇ is read off Ż."""
     span = range(len(group.linear_basis))
     rows = tuple(
         ("row", *(add(*_terms(group, i, j)) for j in range(group.n))) for i in range(group.n)
     )
     equations = [*stated("Z = Σ_a ζ_a E_a"), Equation("Z", ("matrix", *rows))]
-    if reading:
-        equations += [Equation(("entry", "ζ̇", a + 1), _reading(group, a)) for a in span]
+    if with_rates:
+        equations += [Equation(("entry", "ζ̇", a + 1), _rate(group, a)) for a in span]
     prose = say("coordinates.basis")
     if b.affine:
         prose = say("coordinates.linear_parts")
@@ -36,9 +36,9 @@ def _terms(group: Group, i: int, j: int) -> list[Tree]:
     return found
 
 
-def _reading(group: Group, a: int) -> Tree:
+def _rate(group: Group, a: int) -> Tree:
     terms: list[Tree] = []
-    for x, i, j in group.reading(a):
+    for x, i, j in group.coordinate_terms(a):
         entry: Tree = ("entry", "Ż", i + 1, j + 1)
         terms.append(mul(int(x) if x.denominator == 1 else x, entry))
     return add(*terms)

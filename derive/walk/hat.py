@@ -113,9 +113,9 @@ class HatMap:
 
 def identified(b: Alphabet, C: Expr, chapter: Chapter) -> tuple[HatMap, tuple[Step, Step]]:
     """so(3) ≅ R³ for an alphabet, with the steps ``hat`` and ``inertia``; ``C``: ĀA = 1."""
-    reader = HatMap(b, chapter.label("hat"), chapter.label("inertia"))
-    cross = reader.brackets[BRACKET]
-    return reader, (_identification(b, C, cross, chapter), _inertia(b, chapter))
+    hat_map = HatMap(b, chapter.label("hat"), chapter.label("inertia"))
+    cross = hat_map.brackets[BRACKET]
+    return hat_map, (_identification(b, C, cross, chapter), _inertia(b, chapter))
 
 
 def axis(x: Letter) -> Letter:

@@ -106,7 +106,7 @@ def _covector(group: Group, b: Alphabet) -> tuple[Tree, Tree]:
     size = group.size
     entries: list[list[list[Tree]]] = [[[] for _ in range(size)] for _ in range(size)]
     for a in range(group.dimension):
-        for x, i, j in group.reading(a):
+        for x, i, j in group.coordinate_terms(a):
             number: Tree = int(x) if x.denominator == 1 else x
             entries[i][j].append(mul(number, ("entry", "u", a + 1)))
     n = b.n

@@ -73,7 +73,7 @@ class Distances:
 
 
 def _equations(d: Draft, square: Expr, varied: Expr, a: Alphabet) -> tuple[Equation, ...]:
-    notation = metrics("C", display={a.apart: read("rᵢ − rⱼ")})
+    notation = metrics("C", display={a.difference: read("rᵢ − rⱼ")})
     return (
         Equation(read("‖rᵢ(t) − rⱼ(t)‖²"), d.tree(square, notation)),
         Equation(
@@ -88,7 +88,7 @@ def distances(points: Lagrangian, a: Alphabet, c: Chapter) -> Distances:
     draft = c.draft("distances", "trivialisation")
     other = Letter("r_j", a.n)
     beside = substitute(points.position, {a.r_i: word(other)})
-    between = substitute(points.position, {a.r_i: word(other) + word(a.apart)}) - beside
+    between = substitute(points.position, {a.r_i: word(other) + word(a.difference)}) - beside
     square, rule = inner(between, between), body_rule(a, cauchy_green(a))
     turned = {a.A.position: word(a.A.position) * word(a.Z.xi)}
     varied = reduce(derivation(square, turned.get), rule) * Fraction(1, 2)

@@ -94,7 +94,9 @@ def _in_body(d: Draft, found: PointPotentials, a: Alphabet, C: Expr) -> list[Equ
         for i, sign in x.signs.items():
             terms.setdefault(i, []).append(mul(sign, x.sigma, chi))
     for i, forces_on_point in found.forces.items():
-        terms.setdefault(i, []).extend(mul(("T", "A"), push) for push in forces_on_point)
+        terms.setdefault(i, []).extend(
+            mul(("T", "A"), point_force) for point_force in forces_on_point
+        )
     return equations + [Equation(("at", "P", i), add(*x)) for i, x in sorted(terms.items())]
 
 
@@ -122,18 +124,20 @@ def _sums_over_points(d: Draft, a: Alphabet, forces: Applied, C: Expr | None) ->
     """The equations N_Q = Σ ĀQ_i r̄_i and F_Q = Σ ĀQ_i, or μ_Q = Σ r_i ∧ P_i and F_Q = Σ P_i with
     AP_i = Q_i."""
     vectors = C is not None
-    push, xi = Letter("P_i" if vectors else "Q_i", a.n), Letter("ξ′", a.n, a.n)
+    point_force, xi = Letter("P_i" if vectors else "Q_i", a.n), Letter("ξ′", a.n, a.n)
     eta = Letter("η′", a.n)
     g = word(a.A.position)
-    force = g.bar * word(push)
+    force = g.bar * word(point_force)
     if C is not None:
-        force = reduce(g.bar * g * word(push), body_rule(a, C))
+        force = reduce(g.bar * g * word(point_force), body_rule(a, C))
     turned = word(hat(OMEGA_P)) if vectors else word(xi)
     work = inner(force, turned * word(a.r_i))
     if vectors:
         work = reduce(work, anticommute(OMEGA_P))
     moment = gradient(work, OMEGA_P if vectors else xi)
-    display = metrics(display={push: ("at", push.name[0], "i"), a.r_i: ("at", "r", "i")})
+    display = metrics(
+        display={point_force: ("at", point_force.name[0], "i"), a.r_i: ("at", "r", "i")}
+    )
     equations = [Equation(forces.moments.name, ("sum", "i", d.tree(moment, display)))]
     if a.affine:
         pull = gradient(inner(force, word(eta)), eta)

@@ -38,7 +38,7 @@ def solution(
     if centred is not None:
         inertial, force, metric = centred.inertial, centred.force, centred.metric
     multiplied = len(group.normal_space_of_linear_parts) <= MULTIPLIERS
-    place = coordinates_step(group, b, here, reading=multiplied or bool(group.centred))
+    place = coordinates_step(group, b, here, with_rates=multiplied or bool(group.centred))
     if multiplied:
         _, motion, _ = solved = multiplier_steps(inertial, force, metric, group, b, c, centred)
         return Solution(motion, (*solved, place))

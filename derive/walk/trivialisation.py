@@ -20,7 +20,7 @@ def body_rule(a: Alphabet, C: Expr) -> PairRule:
 
     ``C`` is the letter C for any group and the identity for isometries.
     """
-    pairs = {a.A.position: C} | {x: _marked(word(y), a) for x, y in a.bodily}
+    pairs = {a.A.position: C} | {x: _marked(word(y), a) for x, y in a.body_forces}
 
     def rule(left: Factor, right: Factor) -> Expr | None:
         if left == (a.A.position, True) and not right[1] and right[0] in pairs:

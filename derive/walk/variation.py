@@ -52,13 +52,13 @@ def principle(
     lagrangian = pulled.kinetic - word(a.U)
     twins, tangent = primes(a), tangent_of_lift(a)
     onto = {x: tangent[y] for x, y in twins.items() if y in tangent}
-    apart = substitute(form.form, onto) - lagrangian
+    excess = substitute(form.form, onto) - lagrangian
     delta, delta_prime = natural_variations(pulled.moment_work, a)
     exterior = substitute(forms.exterior(form.form, twins, delta, delta_prime), tangent)
     varied, rate = _varied(lagrangian, pulled, a), _rate(form.form, pulled, a)
     first = varying.step(
         (
-            Equation(read("ϖ(X)"), add("L̃", varying.tree(apart))),
+            Equation(read("ϖ(X)"), add("L̃", varying.tree(excess))),
             Equation(
                 read("δ(ϖ(X))"),
                 add(ACROSS, read("d/dt(ϖ(δy))"), varying.tree(varied - exterior - rate)),

@@ -76,12 +76,12 @@ def vector_form(general: MomentumForm, stage: Isometry, hat_map: HatMap, c: Chap
     """dϖ by vectors, and the kernel read off it, with the steps ``momenta`` to ``kernel``."""
     b, pairs = stage.letters, pairs_of(stage.letters)
     momenta = body_momenta(stage, hat_map)
-    telling, varying = c.draft("momenta", "identification"), c.draft("exterior_vector", "relation")
-    telling.depends_on(*momenta.values())
-    naming = telling.step(
+    stating, varying = c.draft("momenta", "identification"), c.draft("exterior_vector", "relation")
+    stating.depends_on(*momenta.values())
+    naming = stating.step(
         [Equation(x.name, vector_sum(e)) for x, e in momenta.items()], momenta_prose(b)
     )
-    values = {x: telling.mark(e) for x, e in momenta.items()}
+    values = {x: stating.mark(e) for x, e in momenta.items()}
     forces = pairing(stage, hat_map)
     acting = {d.force: forces[f.xi_prime] for d, f in pairs}
     by_value = moved(values | acting, [d for d, _ in pairs], [f for _, f in pairs], HATS)
@@ -103,8 +103,8 @@ def vector_form(general: MomentumForm, stage: Isometry, hat_map: HatMap, c: Chap
         *say_signed(f"second_order.{'displacement' if b.affine else 'rotation'}", b.signed),
     )
     balance, moving = _coadjoint(found, pairs, hat_map, b, c)
-    apart = [anticommute(d.momentum) for d, _ in pairs]
-    solved = {v: normal_form(substitute(reduce(e, *apart), by_value)) for v, e in balance.items()}
+    rules = [anticommute(d.momentum) for d, _ in pairs]
+    solved = {v: normal_form(substitute(reduce(e, *rules), by_value)) for v, e in balance.items()}
     motion = _kernel(solved, b, c)
     return VectorForm(
         {v: e.marked(motion.label) for v, e in solved.items()},

@@ -46,7 +46,7 @@ def test_coordinates(name):
     zeta = tuple(Fraction(random.randint(-9, 9)) for _ in g.basis)
     Z = g.hat(zeta)
     assert g.vee(Z) == zeta
-    read = tuple(sum(c * Z[i][j] for c, i, j in g.reading(a)) for a in range(g.dimension))
+    read = tuple(sum(c * Z[i][j] for c, i, j in g.coordinate_terms(a)) for a in range(g.dimension))
     assert read == zeta
     outside = q.plus(Z, g.normal_space[0]) if g.normal_space else None
     assert outside is None or g.vee(outside) is None

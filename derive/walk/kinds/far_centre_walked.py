@@ -39,9 +39,9 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
     x, T_b = Letter("x", a.n), Letter("T_b", a.n)
     T = Letter("T − a", a.n) if p.centre else a.T.position
     seen: Tree = add("T", neg(column(p.centre))) if p.centre else "T"
-    apart: Tree = add(POINT, neg("T"))
+    arm: Tree = add(POINT, neg("T"))
     distance: Tree = ("fun", "sqrt", ("norm2", seen))
-    shown = WordNotation(display={a.m_i: ("at", "m", "i"), T: seen, x: apart})
+    shown = WordNotation(display={a.m_i: ("at", "m", "i"), T: seen, x: arm})
     square, over = inner(word(T), word(T)), word(W) * word(W)
     near = inner(word(T), word(x))
     body = PotentialLetter(T_b, word(a.A.position).bar * word(T), (a.A.position, T))
