@@ -83,11 +83,9 @@ def tensor_steps(
     draft = c.draft("tensor", "coordinates")
     draft.depends_on(body[-1], inertia)
     step = draft.step(entries, say("tensor.entries"))
-    return (
-        (step, *_motion(problem, name, found, (body[-1], step, motion), c))
-        if diagonal_tensor
-        else (step,)
-    )
+    if not diagonal_tensor:
+        return (step,)
+    return step, *_motion(problem, name, found, (body[-1], step, motion), c)
 
 
 def _motion(

@@ -94,9 +94,7 @@ def _in_body(d: Draft, found: PointPotentials, a: Alphabet, C: Expr) -> list[Equ
         for i, sign in x.signs.items():
             terms.setdefault(i, []).append(mul(sign, x.sigma, chi))
     for i, forces_on_point in found.forces.items():
-        terms.setdefault(i, []).extend(
-            mul(("T", "A"), point_force) for point_force in forces_on_point
-        )
+        terms.setdefault(i, []).extend(mul(("T", "A"), f) for f in forces_on_point)
     return equations + [Equation(("at", "P", i), add(*x)) for i, x in sorted(terms.items())]
 
 
@@ -124,7 +122,8 @@ def _sums_over_points(d: Draft, a: Alphabet, forces: Applied, C: Expr | None) ->
     """The equations N_Q = Σ ĀQ_i r̄_i and F_Q = Σ ĀQ_i, or μ_Q = Σ r_i ∧ P_i and F_Q = Σ P_i with
     AP_i = Q_i."""
     vectors = C is not None
-    point_force, xi = Letter("P_i" if vectors else "Q_i", a.n), Letter("ξ′", a.n, a.n)
+    family, xi = "P" if vectors else "Q", Letter("ξ′", a.n, a.n)
+    point_force = Letter(f"{family}_i", a.n)
     eta = Letter("η′", a.n)
     g = word(a.A.position)
     force = g.bar * word(point_force)
@@ -135,9 +134,7 @@ def _sums_over_points(d: Draft, a: Alphabet, forces: Applied, C: Expr | None) ->
     if vectors:
         work = reduce(work, anticommute(OMEGA_P))
     moment = gradient(work, OMEGA_P if vectors else xi)
-    display = metrics(
-        display={point_force: ("at", point_force.name[0], "i"), a.r_i: ("at", "r", "i")}
-    )
+    display = metrics(display={point_force: ("at", family, "i"), a.r_i: ("at", "r", "i")})
     equations = [Equation(forces.moments.name, ("sum", "i", d.tree(moment, display)))]
     if a.affine:
         pull = gradient(inner(force, word(eta)), eta)
