@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 
-from ..language.differentiate import DERIVATIVES
+from ..language.derivatives import DERIVATIVES
 from ..language.values import value
 from .graph import Graph, Node
 from .state import State

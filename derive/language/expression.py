@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 from fractions import Fraction
 
-from .differentiate import DERIVATIVES
+from .derivatives import DERIVATIVES
 from .divisors import has_zero_divisor
 from .limits import BITS, DEGREE, DEPTH, DIGITS, EXPONENT, EXPRESSION, MAGNITUDE, NESTING, SLOPE
 from .tree import Tree, add, mul, neg, nodes, operands

@@ -20,7 +20,7 @@ from fractions import Fraction
 from functools import lru_cache
 from unicodedata import normalize
 
-from .differentiate import DERIVATIVES
+from .derivatives import DERIVATIVES
 from .show import FRACTIONS, show_name
 from .tree import Tree, neg
 

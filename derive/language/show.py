@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection, Container
 from fractions import Fraction
 
-from .differentiate import DERIVATIVES
+from .derivatives import DERIVATIVES
 from .tree import Tree, coefficient, mul, neg
 
 SUBSCRIPTS = str.maketrans("0123456789ije", "₀₁₂₃₄₅₆₇₈₉ᵢⱼₑ")

@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import Any
 
 from . import rational as q
-from .differentiate import DERIVATIVES
+from .derivatives import DERIVATIVES
 from .tree import Tree, fold
 
 Value = Any

@@ -10,7 +10,7 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..language import rational as q
-from ..language.differentiate import product, quotient
+from ..language.derivatives import product, quotient
 from ..language.laurent import OverlongError, collected
 from ..language.limits import TEXT
 from ..language.tree import Tree, add, mul, neg

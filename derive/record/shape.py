@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ..language.differentiate import DERIVATIVES
+from ..language.derivatives import DERIVATIVES
 from ..language.limits import BASIS, TEXT
 from ..language.reserved import WORDS, taken
 from ..language.tree import OPERATORS, Tree

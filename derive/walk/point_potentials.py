@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from ..language.differentiate import derivative, product
+from ..language.derivatives import derivative, product
 from ..language.tree import Tree, subtrees
 from ..problem.problem import Problem
 from ..record.record import Equation

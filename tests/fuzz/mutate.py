@@ -7,7 +7,7 @@ from copy import deepcopy
 from functools import cache
 from random import Random
 
-from derive.language.differentiate import DERIVATIVES
+from derive.language.derivatives import DERIVATIVES
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.record import to_data

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...language.differentiate import product
+from ...language.derivatives import product
 from ...language.tree import Tree, add, neg
 from ...problem.problem import Problem
 from ...schema.kinds.attraction import Attraction
