@@ -255,7 +255,8 @@ def _candidates(space: Sequence[Vector], n: int) -> Iterable[Matrix]:
 
 
 def _complex_structure(linear: Sequence[Matrix], hull: Sequence[Vector], n: int) -> Matrix:
-    """K with K² = −1, where the centre of the hull is spanned by 1 and K; () if there is none."""
+    """The matrix K with K² = −1, where the centre of the hull is spanned by 1 and K; () if there is
+    none."""
     centre = [v[: n * n] for v in hull if any(v[: n * n])]
     for e in linear:
         centre = _kernel(

@@ -110,7 +110,7 @@ def exponentials(basis: Sequence[Matrix]) -> Sampler:
 
 
 def dilations(n: int) -> Sampler:
-    """A sampler of the positive integer multiples of the n × n identity."""
+    """A sampler of the dilations: positive integer multiples of the n × n identity."""
     return lambda random, size: q.scaled(random.randint(1, size), q.identity(n))
 
 

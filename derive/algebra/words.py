@@ -228,7 +228,7 @@ class Expr:
 
     @property
     def bar(self) -> Expr:
-        """The transpose, written with a bar in the paper."""
+        """The transpose of the expression, written with a bar in the paper."""
         items = []
         for (traces, word), c in self.terms.items():
             sign, turned = transpose_word(word)
@@ -236,7 +236,7 @@ class Expr:
         return Expr(self.cols, self.rows, _collect(items), self.lineage)
 
     def letters(self) -> set[Letter]:
-        """Every letter that occurs, plain or barred, inside or outside a trace."""
+        """The letters that occur, plain or barred, inside or outside a trace."""
         found: set[Letter] = set()
         for traces, word in self.terms:
             for w in (*traces, word):

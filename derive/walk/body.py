@@ -106,7 +106,7 @@ def _moments(
 
 
 def _described(s: Solid) -> Sentence:
-    """A solid in words: kind, density, sizes, where it is."""
+    """The words for a solid: kind, density, sizes, where it is."""
     sizes = [phrase(f"integrals.{k}", size=_size(x)) for k, x in s.sizes.items() if k in SIZES]
     if s.mesh is not None:
         vertices, faces = (str(len(x)) for x in s.mesh)

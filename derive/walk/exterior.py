@@ -56,7 +56,8 @@ def primed(e: Expr, a: Alphabet) -> Expr:
 
 
 def natural_variations(work: Expr, a: Alphabet) -> tuple[Image, Image]:
-    """δ and δ′ on the letters t, A, α, (T, τ), Ũ; second variations commute.
+    """The derivations δ and δ′ by their values on the letters t, A, α, (T, τ), Ũ; second variations
+    commute.
 
     ``work``: −dŨ(δg).
     """
@@ -71,7 +72,8 @@ def natural_variations(work: Expr, a: Alphabet) -> tuple[Image, Image]:
 
 
 def horizontal_images(form: Expr, a: Alphabet) -> dict[Letter, Expr]:
-    """δx ↦ δx − X δt where the kernel X of the ambient form can be read off dϖ (and for δ′)."""
+    """The letters δx ↦ δx − X δt, where the kernel X of the ambient form can be read off dϖ (and
+    for δ′)."""
     images: dict[Letter, Expr] = {}
     for x in [p.d_position for p in a.parts]:
         for p in a.parts:
@@ -112,7 +114,8 @@ def _bracket(a: Alphabet) -> Expr:
 
 
 def trivial_variations(a: Alphabet, work: Expr) -> tuple[Image, Image]:
-    """δ and δ′ on Z, ξ, C, Ũ, with the structure equation for the second variations.
+    """The derivations δ and δ′ by their values on Z, ξ, C, Ũ, with the structure equation for the
+    second variations.
 
     ``work``: −dŨ(gξ).
     """

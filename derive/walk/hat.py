@@ -124,7 +124,7 @@ def axis(x: Letter) -> Letter:
 
 
 def _flat(e: Expr) -> Expr:
-    """j(a) + j(b) ↦ a + b for a sum of single hats; sums of vectors stay."""
+    """The vector a + b for a sum j(a) + j(b) of single hats; sums of vectors stay."""
     terms = {}
     for (traces, w), c in e.terms.items():
         axis = w[0][0].axis
@@ -184,6 +184,7 @@ def _inertia(b: Alphabet, c: Chapter) -> Step:
 
 
 def inertia_of(J: Letter) -> Expr:
-    """I with  Tr j(ζ) J j(Ω)‾ = ⟨ζ, IΩ⟩,  by the double vector product under the trace."""
+    """The tensor I with  Tr j(ζ) J j(Ω)‾ = ⟨ζ, IΩ⟩,  by the double vector product under the
+    trace."""
     pairing = reduce(trace(word(hat(ZETA)) * word(J) * word(hat(OMEGA)).bar), double)
     return coefficient_of(gradient(pairing, ZETA), OMEGA)

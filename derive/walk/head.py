@@ -52,7 +52,8 @@ def _sizes(group: Group) -> dict[str, int]:
 
 
 def _meant(problem: Problem) -> dict[str, Name]:
-    """The vocabulary of a problem: name → its meanings there."""
+    """The vocabulary of a problem, name → its meanings there: of all problems, of turning, of
+    products."""
     group = problem.group
     blocks = PRODUCTS if group and group.factors and not group.affine else {}
     turning = group is not None and group.turns_space

@@ -45,7 +45,8 @@ def kinetic_energy(v_i: Letter, a: Alphabet) -> Expr:
 
 
 def velocities(position: Expr, a: Alphabet) -> tuple[Expr, Expr]:
-    """v_i = α r_i + τ  and  δr_i(t) = δA r_i + δT,  from  r_i(t) = A r_i + T."""
+    """The velocity v_i = α r_i + τ and the variation δr_i(t) = δA r_i + δT, from r_i(t) = A r_i +
+    T."""
     velocity = derivation(position, {p.position: word(p.velocity) for p in a.parts}.get)
     variation = derivation(position, {p.position: word(p.d_position) for p in a.parts}.get)
     return velocity, variation

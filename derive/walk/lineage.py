@@ -19,7 +19,8 @@ OPERATORS = ("δ", "δ′", "d/dt", "∫")
 
 
 def traced(steps: Iterable[Step]) -> tuple[Step, ...]:
-    """The steps, in whose ``uses`` is now where every name comes from, in the order of the record.
+    """The steps in the order of the record, with ``uses`` completed: every name comes from one of
+    these.
 
     A name that is in none of the steps used comes from the first step that speaks of it.
     """

@@ -131,7 +131,8 @@ def _paired(a: Alphabet, along: Iterable[Letter], c: Chapter) -> Expr:
 
 
 def _variations(lagrangian: Letter, a: Alphabet, c: Chapter) -> tuple[Image, Image]:
-    """δ and δ′ on L̃, P, Z and ξ, with the structure equation for the second variations."""
+    """The derivations δ and δ′ by their values on L̃, P, Z and ξ, with the structure equation for
+    the second variations."""
     varied = word(Letter("∂ₜL̃")) * word(a.dt)
     brackets = brackets_of(a)
     letters = dict(zip(brackets, (a.bracket, a.bracket_w), strict=False))
@@ -155,7 +156,8 @@ def _variations(lagrangian: Letter, a: Alphabet, c: Chapter) -> tuple[Image, Ima
 def horizontal(
     pairs: Iterable[tuple[Dual, AlgebraPart]], a: Alphabet, forces: Mapping[Letter, Expr]
 ) -> dict[Letter, Expr]:
-    """δP ↦ δP − F δt and ξ ↦ ξ − Z δt, and the same for δ′, with F by ``forces``."""
+    """The horizontal variations δP ↦ δP − F δt and ξ ↦ ξ − Z δt, and the same for δ′; F by
+    ``forces``, else by its letter."""
     images = {}
     for d, f in pairs:
         for rate, x, twin in (

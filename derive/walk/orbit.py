@@ -65,7 +65,7 @@ def _prose(a: Alphabet) -> Prose:
 
 @dataclass(frozen=True)
 class Distances:
-    """‖r_i(t) − r_j(t)‖² and half its variation, by r_i − r_j."""
+    """The words for ‖r_i(t) − r_j(t)‖² and half its variation, by r_i − r_j."""
 
     square: Expr
     varied: Expr

@@ -65,7 +65,8 @@ def pulled_back(stage: Lagrangian, moments: Moments, a: Alphabet) -> Expr:
 
 
 def sum_over(e: Expr, members: set[Letter], moments: Moments) -> Expr:
-    """Σ_i of a scalar summand in which the members of indexed families are the given letters.
+    """The sum Σ_i of a scalar summand, in which ``members`` are the letters of indexed families, by
+    a table of moments.
 
     ``ValueError`` for a product of two moments; ``KeyError`` for a moment that is not in the table.
     """
@@ -84,7 +85,7 @@ def sum_over(e: Expr, members: set[Letter], moments: Moments) -> Expr:
 
 
 def _moment(weights: tuple[Letter, ...], w: Word, members: set[Letter], moments: Moments) -> Expr:
-    """A scalar word x̄ W y summed over its members: Tr W Σ y x̄, or (Σ x)‾ W y."""
+    """The sum of a scalar word x̄ W y over its members: Tr W Σ y x̄, or (Σ x)‾ W y."""
     sign, opened = 1, next(t for t in rotations(w) if row_dim(t[0]) == 1)
     if opened[0][0] not in members:
         sign, opened = transpose_word(opened)

@@ -43,7 +43,8 @@ def moved(
     parts: Sequence[AlgebraPart],
     further: Iterable[Mapping[Letter, Expr]],
 ) -> dict[Letter, Expr]:
-    """P, δP, δ′P, Ṗ and F by their values in Z and w; letters that do not vary are constants.
+    """The images of P, δP, δ′P, Ṗ and F: their values in Z and w; letters that do not vary are
+    constants.
 
     ``further``: what else varies, under δ, under δ′ and along the motion.
     """

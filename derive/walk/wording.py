@@ -8,15 +8,16 @@ from ..record.sentence import Prose, Sentence
 
 
 def phrase(key: str, **places: Sentence | str) -> Sentence:
-    """A sentence, or a part of one, that ``kernel.line`` names, its places filled."""
+    """The sentence, or a part of one, of a key as ``kernel.line``, its places filled."""
     return sentence.phrase(english(key), **places)
 
 
 def say(key: str, **places: Sentence | str) -> Prose:
-    """One sentence as prose."""
+    """One sentence as prose, by its key, its places filled."""
     return (phrase(key, **places),)
 
 
 def say_signed(key: str, signed: bool, **places: Sentence | str) -> Prose:
-    """A sentence for positive masses, or if they may be negative (``signed``) another."""
+    """The sentence for positive masses or, where they may be negative (``signed``), the other
+    one."""
     return say(f"{key}_signed" if signed else key, **places)
