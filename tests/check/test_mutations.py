@@ -7,7 +7,7 @@ import pytest
 
 from derive import pipeline
 from derive.algebra import calculus, forms, words
-from derive.algebra import written as notation
+from derive.algebra import word_trees as notation
 from derive.check.checker import Checker, check
 from derive.command.cli import load_problem
 from derive.language.tree import mul, neg
