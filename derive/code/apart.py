@@ -1,4 +1,4 @@
-"""Names of a program that mean nothing else in the text of a language that stands around them.
+"""Emitted names kept apart from the identifiers that a language's templates use themselves.
 
 The words of a template are not listed anywhere: a program of the same form, but with nothing in it,
 is emitted, and what identifiers that text has are its own.
@@ -20,32 +20,31 @@ NAMELESS = "·"
 """Stands for every name of the empty program: no identifier of any language."""
 
 _STRING = r'(?<![A-Za-z])"(?:[^"\\\n]|\\.)*"'
-"""But for one with a letter before it: an f-string holds names."""
+"""A string literal; not one with a letter before it, as an f-string holds names."""
 _SILENT = {
     True: re.compile(rf'"""(?s:.*?)"""|{_STRING}|#.*'),
     False: re.compile(rf"/\*(?s:.*?)\*/|//.*|#\s*include.*|{_STRING}"),
 }
-"""What no name is read in, in a language whose comments begin with # and in the others."""
+"""What no name is read in: comments, strings and includes; by whether comments begin with #."""
 _IDENTIFIER = re.compile(r"(?<!\w)(?<!(?<!\.)\.)[^\W\d]\w*")
-"""Not after one dot: a member of something is no name by itself, but ``...x`` is."""
+"""A name; not after a single dot (a member is no name by itself), but after ``...``."""
 
 ONE = Fraction(1)
 
 
 def identifiers(text: str, language: Language) -> set[str]:
-    """The names that a text of a language has, comments and strings left out.
+    """The names that a text of a language uses, comments and strings left out.
 
-    And in C what standard headers that the user may include before define as macros.
+    For C also the macros of the standard headers that a user may include before the emitted one.
     """
     own = set(_IDENTIFIER.findall(_SILENT[language.comment == HASH].sub(" ", text)))
     return own | STANDARD_MACROS if "c" in (language.name, language.needs) else own
 
 
 def hollow(p: Program) -> Program:
-    """A program of the same form without names and statements: all that is emitted is template.
-
-    Each function still reads the same arrays, calls the same functions and has as many results.
-    """
+    """The program with its names replaced by NAMELESS and its statements dropped: its text is the
+    templates' own. Each function still reads the same arrays, calls the same elementary functions
+    and has as many results."""
     called = sorted({name for f in p.all_functions() for name in f.calls()})
     calls: list[Expression] = [("fun", name, ONE) for name in called]
     first: Expression = ("add", ("abs", ONE), *calls)
@@ -71,7 +70,8 @@ def hollow(p: Program) -> Program:
 
 
 def apart(p: Program, words: Iterable[str]) -> Program:
-    """The same program; an underscore is added to what its functions call by one of the words."""
+    """The program with an underscore added to every loaded or computed name that is in
+    ``words``."""
     functions = p.all_functions()
     # the time is an argument, whose name the templates give
     own = dict.fromkeys(x.name for f in functions for x in f.loads if x.array != "t")
@@ -92,7 +92,7 @@ def apart(p: Program, words: Iterable[str]) -> Program:
 
 
 def _each(p: Program, change: Any) -> Program:
-    """A program with another one in place of each function."""
+    """The program with ``change(f)`` in place of each of its functions f."""
     framing = p.framing and Framing(
         tuple((n, change(f)) for n, f in p.framing.matrices), change(p.framing.numbers)
     )
@@ -101,6 +101,8 @@ def _each(p: Program, change: Any) -> Program:
 
 
 def _renamed(f: Function, new: Mapping[str, str]) -> Function:
+    """The function with its names replaced by ``new``, in loads, sections, outputs, checks."""
+
     def expression(e: Expression) -> Expression:
         if isinstance(e, str):
             return new.get(e, e)

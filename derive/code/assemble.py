@@ -35,7 +35,7 @@ LOCAL = (
 )
 
 Check = tuple[Node, Node | None]
-"""What must not vanish, and the scale of its rounding error."""
+"""A node that must be positive, and the scale of its rounding error."""
 
 
 def assemble(
@@ -97,7 +97,8 @@ def _functions(
     parameters: Sequence[str],
     frame: Frame | None,
 ) -> tuple[dict[str, Function], list[str], Framing | None]:
-    """The functions, the names of the constants, and how the frame is found."""
+    """The program's functions by name, the names of the entries of ``k``, and the functions that
+    find the principal frame where there is one."""
     names = Names()
     space, inputs = lowering.reader.space, lowering.reader.inputs
     state = space.names
@@ -130,7 +131,8 @@ def _functions(
 
 
 def _refused(d: Derivation, group: Group, chosen: Options) -> None:
-    """What cannot be had together, or is too much."""
+    """``LoweringError`` for options that exclude one another or the group, and for a Jacobian of
+    more entries than compilers manage."""
     rows = 2 * group.dimension
     columns = {
         "state": (rows, SLOPES),
@@ -158,12 +160,13 @@ def _refused(d: Derivation, group: Group, chosen: Options) -> None:
 
 
 def _inertia(reader: Reader) -> dict[str, list[Node]]:
+    """The function ``inertia``, where space is R³, as name → outputs."""
     tensor = inertia(reader)
     return {"inertia": tensor} if tensor else {}
 
 
 def _frame_places(frame: Frame, names: Names, nodes: list[Node]) -> dict[Node, Place]:
-    """Where ``constants`` reads the numbers of the frame that it needs."""
+    """The numbers of the frame that some nodes depend on, as entries of ``frame``."""
     used = _leaves(nodes)
     return _leaf_places(names, [x for x in frame.numbers if x in used], "frame")
 
@@ -186,16 +189,18 @@ def _framing(
 
 
 def _leaf_places(names: Names, leaves: list[Node], array: str) -> dict[Node, Place]:
-    """The entries of an array, each with a name of its own (never a reserved word)."""
+    """Leaf → its place in an array; the local name is its own, claimed in ``names``."""
     return {x: (names.claim(x.data[1], " ".join(x.data)), (array, i)) for i, x in enumerate(leaves)}
 
 
 def _several(groups: Iterable[Iterable[Node | None]]) -> list[Node]:
+    """The nodes of all groups in one list, ``None`` left out."""
     return [x for group in groups for x in group if x is not None]
 
 
 def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
-    """What each function of the state, or of the parameters, computes, by its name."""
+    """Name → the nodes that the function of this name computes; ``LoweringError`` where a
+    denominator, or the mass matrix, is 0 whatever the parameters."""
     reader, graph = lowering.reader, lowering.graph
     space = reader.space
     try:
@@ -220,7 +225,7 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
 
 
 def _places(reader: Reader, names: Names, state: list[str], inputs: list[str]) -> dict[Node, Place]:
-    """Where what changes is read from."""
+    """The leaves that change with time and where they are read: state x, inputs u, time t."""
     found: dict[Node, Place] = {}
     for array, kind, members in (("x", "state", state), ("u", "input", inputs)):
         found |= _leaf_places(names, [reader.leaf(x, kind) for x in members], array)
@@ -228,24 +233,25 @@ def _places(reader: Reader, names: Names, state: list[str], inputs: list[str]) -
 
 
 def _used_parameters(d: Derivation, nodes: list[Node]) -> list[str]:
-    """The parameters that the equations contain, in the order of the problem."""
+    """The parameters that some nodes depend on, in the order of the problem."""
     used = {x.data[1] for x in _leaves(nodes) if x.data[0] == "parameter"}
     return [name for name in d.problem["parameters"] if name in used]
 
 
 def _leaves(nodes: Iterable[Node]) -> set[Node]:
-    """All inputs of some nodes."""
+    """All leaves that some nodes depend on."""
     return {x for x in reachable(nodes) if x.op == "leaf"}
 
 
 def _constant_name(names: Names, x: Node, i: int) -> str:
+    """The name of entry i of ``k``: that of its factors, else ``constant_i``."""
     if x.op == "leaf":
         return names.claim(x.data[1], " ".join(x.data))
     return names.claim(_wanted(x) or suffixed("constant", i), f"node {x.id}")
 
 
 def _wanted(x: Node) -> str:
-    """A name from the names of a product's factors; empty when they have none."""
+    """A name made of the names of a product's factors; empty when one of them has none."""
     if x.op in ("value", "leaf"):
         return x.graph.titles[x][0] if x.op == "value" else str(x.data[1])
     if x.op == "mul" and len(x.args) <= 3:
@@ -255,6 +261,7 @@ def _wanted(x: Node) -> str:
 
 
 def _parameter(d: Derivation, name: str) -> tuple[str, float | None, str, str]:
+    """Name, default, unit and meaning of a parameter."""
     p = d.problem["parameters"][name]
     return name, p["default"], p["unit"], p["meaning"]
 

@@ -18,7 +18,8 @@ from .program import Assignment, Expression, Function, Load, Section, parts
 
 @dataclass(frozen=True)
 class Block:
-    """Values of one section, then outputs, told by their numbers; each after the loads it needs."""
+    """Values of one section, then the outputs (by index) that stand behind them, each with its
+    loads."""
 
     loads: tuple[Load, ...]
     section: Section
@@ -27,7 +28,8 @@ class Block:
 
 
 def blocks(f: Function) -> list[Block]:
-    """The whole function: each load, value and output once, after what it needs."""
+    """The function cut into blocks: every load, value and output stands once, after what it
+    reads."""
     left = list(f.loads)
 
     def loads(read: set[str]) -> tuple[Load, ...]:
@@ -52,7 +54,7 @@ def names(expressions: Iterable[Expression]) -> set[str]:
 
 
 def _placed(f: Function) -> list[tuple[Section, list[int]]]:
-    """The sections, cut where outputs stand after a value, with these outputs."""
+    """The sections, cut where outputs are stored, each with the indices of these outputs."""
     loaded = {x.name for x in f.loads}
     read = [names([x]) for x in f.outputs]
     pending = _equations(f)
@@ -82,12 +84,12 @@ def _placed(f: Function) -> list[tuple[Section, list[int]]]:
 
 
 def _equations(f: Function) -> list[list[int]]:
-    """The outputs of each equation, by their numbers."""
+    """The indices of a function's outputs, grouped by the equation they come from."""
     starts = sorted({0, *f.titles})
     return [list(range(a, b)) for a, b in zip(starts, [*starts[1:], len(f.outputs)], strict=True)]
 
 
 def _vectors(values: Iterable[Assignment]) -> list[Sequence[Assignment]]:
-    """Consecutive values that are the entries of one vector or matrix, by their names."""
+    """Consecutive values grouped by name stem: the entries of one vector or matrix each."""
     stems = groupby(values, lambda v: re.sub(r"(_\d+)+$", "", v.name))
     return [list(vector) for _, vector in stems]

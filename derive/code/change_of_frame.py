@@ -1,4 +1,4 @@
-"""What carries a state and inputs into the principal frame and back: (S g h⁻¹, h Z h⁻¹)."""
+"""The change of a state, and of inputs, to the principal frame and back: (S g h⁻¹, h Z h⁻¹)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .state import State
 
 
 def carrying(frame: Frame, framed: Reader) -> dict[str, list[Node]]:
-    """The functions of the emitted code by name."""
+    """Function name → outputs: ``into_frame``, ``out_of_frame``, and the same of inputs."""
     there, x = _Map.of(frame), framed.space
     back = there.inverse
     found = {"into_frame": there.carried(x), "out_of_frame": back.carried(x)}
@@ -28,7 +28,10 @@ def carrying(frame: Frame, framed: Reader) -> dict[str, list[Node]]:
 
 @dataclass(frozen=True)
 class _Map:
-    """``S``, ``h`` and ``back`` = h⁻¹, of the size of the group's matrices; and as quaternions."""
+    """A change of frame r ↦ h r in the body and S in space; ``back`` = h⁻¹.
+
+    All are of the size of the group's matrices; ``quaternions``: those of S and of h⁻¹.
+    """
 
     S: Matrix
     h: Matrix
@@ -37,7 +40,7 @@ class _Map:
 
     @staticmethod
     def of(frame: Frame) -> _Map:
-        """r ↦ H(r − s)."""
+        """The map into the principal frame: r ↦ H(r − s) in the body, S in space."""
         num, span = frame.graph.num, range(frame.n)
         S = frame.S or tuple(tuple(num(int(i == j)) for j in span) for i in span)
         if not frame.affine:
@@ -50,12 +53,12 @@ class _Map:
 
     @property
     def inverse(self) -> _Map:
-        """The way back; S is a rotation, and where G translates it fixes the origin."""
+        """The map out of the frame; S is a rotation, and where G translates it fixes the origin."""
         back = tuple(conjugate(a) for a in self.quaternions)
         return _Map(q.transposed(self.S), self.back, self.h, back)
 
     def carried(self, x: State) -> list[Node]:
-        """S g h⁻¹ and h Z h⁻¹ (or S ġ h⁻¹)."""
+        """The numbers of the state in the other frame: S g h⁻¹, then h Z h⁻¹ (or S ġ h⁻¹)."""
         g = x.graph
         element = dense.times(g, self.S, dense.times(g, x.element, self.back))
         if x.tangent:
@@ -71,13 +74,14 @@ class _Map:
 
 
 def _bordered(m: Matrix, column: Matrix, corner: tuple[Node, Node]) -> Matrix:
-    """[[m, column], [0, 1]]."""
+    """The matrix [[m, column], [0, 1]]; ``corner`` holds 0 and 1 as nodes."""
     rows = ((*row, x) for row, (x,) in zip(m, column, strict=True))
     return (*rows, (*(corner[0],) * len(m), corner[1]))
 
 
 def _inputs(frame: Frame, there: _Map, scale: Node) -> list[Node]:
-    """H f in the body, S f in space, and covectors with ⟨u″, h ξ h⁻¹⟩ = ⟨u, ξ⟩; in units of μ."""
+    """The inputs in the other frame, in units of μ: forces h f (in the body) or S f (in space), and
+    covectors u″ with ⟨u″, h ξ h⁻¹⟩ = ⟨u, ξ⟩."""
     old, g, n = frame.old, frame.graph, frame.n
     found: list[Node] = []
     pushes = 0
@@ -93,7 +97,7 @@ def _inputs(frame: Frame, there: _Map, scale: Node) -> list[Node]:
 
 
 def _coadjoint(x: State, there: _Map, u: list[Node]) -> list[Node]:
-    """u″_a = Σ u_b (h⁻¹ E_a h)^b."""
+    """The covector in the other frame: u″_a = Σ u_b (h⁻¹ E_a h)^b."""
     g = x.graph
     found = []
     for a in range(x.group.dimension):

@@ -18,7 +18,7 @@ from .options import Options
 def conventions(
     group: Group, problem: Mapping[str, Any], options: Options, frame: Mapping[str, Any] | None
 ) -> tuple[str, ...]:
-    """One sentence each, in plain ASCII."""
+    """What a reader of the emitted files must know, one sentence each, in plain ASCII."""
     inputs: Sequence[Mapping[str, Any]] = problem.get("inputs", [])
     places = _places(problem)
     order = "column by column" if options.layout == "col" else "row by row"
@@ -49,7 +49,7 @@ def conventions(
 
 
 def _lengths(problem: Mapping[str, Any]) -> list[str]:
-    """Where a spring has no direction."""
+    """The sentences about springs of natural length l ≠ 0, which have no direction at length 0."""
     if not any(p.get("length", 0) != 0 for p in problem.get("potentials", [])):
         return []
     text = (
@@ -60,7 +60,7 @@ def _lengths(problem: Mapping[str, Any]) -> list[str]:
 
 
 def _drift(group: Group, options: Options) -> str:
-    """What project and defect are for, and how far they go."""
+    """The sentences about ``project`` and ``defect``: what they are for, and how far they go."""
     quaternion = options.attitude == "quaternion"
     several = len(group.places) > 1
     told, left = ["|q| = 1"] if quaternion else [], 0
@@ -85,7 +85,7 @@ def _drift(group: Group, options: Options) -> str:
 
 
 def _relations(kept: Relations, mark: str) -> Iterator[str]:
-    """The relations of one factor in words."""
+    """The relations of one factor of the group in words; ``mark``: its number among several."""
     A, S, one = f"A{mark}", f"S{mark}", q.identity(len(kept.form))
     if kept.hull:
         yield f"{A} in the affine span of the group"
@@ -105,7 +105,7 @@ def _relations(kept: Relations, mark: str) -> Iterator[str]:
 
 
 def _frame(group: Group, frame: Mapping[str, Any], driven: bool) -> list[str]:
-    """In which frame the state is, and what carries it there."""
+    """The sentences about the principal frame: what it is, and the functions that go there."""
     place = "H (r - s), s the centre of mass" if group.affine else "H r"
     lines = ["All this in the principal frame of the body, where a point r of the file is at"]
     if frame["kind"] == "rotation":
@@ -143,7 +143,7 @@ def _place(A: str, T: str, g: Group, order: str) -> str:
 
 
 def _places(problem: Mapping[str, Any]) -> dict[int, str]:
-    """The points without mass by their numbers, with where they are in the body."""
+    """Number of a point without mass → " at (x, y, z)" in the body, where that is plain ASCII."""
     masses = len(problem.get("body", {}).get("points", []))
     found = {}
     for k, place in enumerate(problem.get("places", []), masses + 1):
@@ -153,7 +153,7 @@ def _places(problem: Mapping[str, Any]) -> dict[int, str]:
 
 
 def _ascii(text: str) -> str:
-    """An expression as it may stand in a comment: 1/4 for the one letter, pi, ^2."""
+    """An expression as it may stand in an ASCII comment: 1/4 for the one letter, pi, ^2."""
     for letter, shown in (("\u2212", "-"), ("π", "pi"), ("²", "^2"), ("³", "^3")):
         text = text.replace(letter, shown)
     return unicodedata.normalize("NFKD", text).replace("\u2044", "/")

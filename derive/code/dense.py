@@ -17,12 +17,12 @@ NodeNamer = Callable[[str, Node], Node]
 
 
 def stage_of(m: Matrix) -> int:
-    """0 when the matrix depends on parameters alone."""
+    """PARAMETER when every entry depends on parameters alone, else STATE."""
     return int(max(x.stage for row in m for x in row))
 
 
 def times(g: Graph, a: Matrix, b: Matrix) -> Matrix:
-    """a b."""
+    """The matrix product a b."""
     columns = list(zip(*b, strict=True))
     return tuple(
         tuple(
@@ -36,15 +36,16 @@ def times(g: Graph, a: Matrix, b: Matrix) -> Matrix:
 
 
 def chain(g: Graph, factors: Sequence[Matrix], named: Namer) -> Matrix:
-    """The product of a chain, multiplied in the order with the fewest multiplications.
+    """The product of a chain of matrices, in the order with the fewest multiplications.
 
-    What depends on parameters alone costs nothing: it is computed once.  ``named(m, i, j)`` gives a
+    What depends on parameters alone costs nothing: it is computed once. ``named(m, i, j)`` gives a
     name to the partial product of the factors i … j.
     """
 
     @cache
     def best(i: int, j: int) -> tuple[int, int]:
-        """(cost, split) of the factors i … j."""
+        """The fewest multiplications for the factors i … j, and the index behind which to split
+        them."""
         if i == j:
             return 0, i
         options = []
@@ -66,14 +67,14 @@ def chain(g: Graph, factors: Sequence[Matrix], named: Namer) -> Matrix:
 
 
 def dot(g: Graph, a: Matrix, b: Matrix) -> Node:
-    """Σ a_ij b_ij."""
+    """The inner product of matrices of one shape, Σ a_ij b_ij."""
     return g.sum(
         g.product((x, y)) for r, s in zip(a, b, strict=True) for x, y in zip(r, s, strict=True)
     )
 
 
 def determinant(g: Graph, m: Matrix) -> Node:
-    """By expansion along the first row."""
+    """det m, by expansion along the first row."""
     if len(m) == 1:
         only: Node = m[0][0]
         return only
@@ -84,12 +85,12 @@ def determinant(g: Graph, m: Matrix) -> Node:
 
 
 def expanded(m: Sequence[Sequence[Any]]) -> Any:
-    """The determinant in any ring, by expansion along the rows, each minor once."""
+    """The determinant in any ring, by expansion along the rows, each minor computed once."""
     n = len(m)
 
     @cache
     def below(columns: tuple[int, ...]) -> Any:
-        """That of the last rows in as many columns."""
+        """The minor of the last rows in these columns, as many of each."""
         row = m[n - len(columns)]
         if len(columns) == 1:
             return row[columns[0]]
@@ -108,7 +109,7 @@ def minor(m: Matrix, i: int, j: int) -> Matrix:
 
 
 def adjugate(g: Graph, m: Matrix) -> Matrix:
-    """The transpose of the cofactors: det m · m⁻¹."""
+    """The transpose of the cofactor matrix: det m · m⁻¹."""
     n = len(m)
     if n == 1:
         return ((g.num(1),),)
@@ -131,7 +132,7 @@ class Factors:
 
 
 def factorised(g: Graph, m: Matrix, named: NodeNamer) -> Factors:
-    """The factors; ``named(name, node)`` names an intermediate value."""
+    """The factors L, D of m = L D L̄; ``named(name, node)`` names an intermediate value."""
     n = len(m)
     f = Factors({}, [], [])
     for j in range(n):
@@ -147,7 +148,7 @@ def factorised(g: Graph, m: Matrix, named: NodeNamer) -> Factors:
 
 
 def solve(g: Graph, f: Factors, right: Matrix, named: NodeNamer) -> Matrix:
-    """x with L D L̄ x = right, a column: forward, diagonal, backward."""
+    """The column x with L D L̄ x = ``right``: forward, diagonal, backward."""
     n = len(f.pivots)
     y: list[Node] = []
     for i in range(n):
@@ -163,7 +164,7 @@ def solve(g: Graph, f: Factors, right: Matrix, named: NodeNamer) -> Matrix:
 
 
 def _quotient(g: Graph, x: Node, f: Factors, i: int) -> Node:
-    """x over a pivot, as weight over mass: what has the pivot as a factor just loses it."""
+    """x over pivot i; terms with the pivot as a factor just lose it, as weight over mass."""
     core = x.args[0] if x.op == "value" else x
     terms = zip(core.data, core.args, strict=True) if core.op == "add" else [(Fraction(1), core)]
     free: list[tuple[Fraction, Node]] = []
@@ -177,7 +178,7 @@ def _quotient(g: Graph, x: Node, f: Factors, i: int) -> Node:
 
 
 def _without(g: Graph, x: Node, factor: Node) -> Node | None:
-    """x over one of its factors; ``None`` if it is none."""
+    """x divided by one of its factors; ``None`` if it is none."""
     if x == factor:
         return g.num(1)
     if x.op == "value":
@@ -193,7 +194,7 @@ def _without(g: Graph, x: Node, factor: Node) -> Node | None:
 
 
 def symmetric_inverse(g: Graph, m: Matrix, named: NodeNamer) -> tuple[Matrix, list[Node]]:
-    """m⁻¹ and the pivots, from the factors."""
+    """m⁻¹ for a positive definite m, and the pivots of its factors L D L̄."""
     n = len(m)
     f = factorised(g, m, named)
     W: list[list[Node]] = [[g.num(0)] * n for _ in range(n)]
@@ -217,12 +218,12 @@ def diagonal(g: Graph, m: Matrix) -> Node:
 
 
 def is_constant(m: Matrix) -> bool:
-    """Is it a matrix of numbers?"""
+    """Are all entries numbers?"""
     return all(x.op == "num" for row in m for x in row)
 
 
 def is_diagonal(m: Matrix) -> bool:
-    """Is all beside the diagonal 0?"""
+    """Are all entries beside the diagonal 0?"""
     return all(x.is_zero for i, row in enumerate(m) for j, x in enumerate(row) if i != j)
 
 

@@ -1,4 +1,5 @@
-"""x a + x b = x (a + b), where nothing else needs the products."""
+"""Common factors of the terms of a sum in front: x a + x b = x (a + b), where nothing else needs
+the products."""
 
 from __future__ import annotations
 
@@ -42,7 +43,7 @@ def spread_over(graph: Graph, x: Node, uses: Mapping[Node, int]) -> Node | None:
 
 
 def _terms(x: Node, uses: Mapping[Node, int]) -> list[Term]:
-    """The terms of a sum, and of sums in it that have a name but stand here alone."""
+    """The terms of a sum, and of the named sums in it that nothing else uses."""
     inner = x.args[0] if x.op == "value" and uses[x] == 1 else x
     if inner.op != "add" or uses[x] > 1:
         return [(Fraction(1), x)]
@@ -52,7 +53,7 @@ def _terms(x: Node, uses: Mapping[Node, int]) -> list[Term]:
 
 
 def _common(terms: Sequence[Term]) -> tuple[Node, list[Term]] | None:
-    """The moving factor of most of the terms, and these terms."""
+    """The factor, not of the parameters alone, that most terms share, and these terms."""
     count = Counter(
         f for _, x in terms if x.op == "mul" for f in set(x.args) if f.stage != PARAMETER
     )
@@ -65,14 +66,14 @@ def _common(terms: Sequence[Term]) -> tuple[Node, list[Term]] | None:
 
 
 def _without(graph: Graph, x: Node, factor: Node) -> Node:
-    """A product with one such factor less."""
+    """A product with this factor taken out once."""
     args = list(x.args)
     args.remove(factor)
     return graph.product(args)
 
 
 def _looked_through(graph: Graph, terms: Sequence[Term]) -> Node:
-    """A sum; named sums in it are opened where they then cancel to a single leaf."""
+    """The sum of the terms, with its named sums opened where all then cancels to a leaf."""
     opened = []
     for c, x in terms:
         inner = x.args[0] if x.op == "value" else x

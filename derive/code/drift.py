@@ -38,7 +38,7 @@ TEXTS = {
 
 
 def drift(x: State) -> dict[str, list[Node]]:
-    """What ``project`` and ``defect`` of a state compute; nothing where nothing keeps the group."""
+    """The outputs of ``project`` and ``defect``, by name; empty where G has no relations."""
     g, leaves = x.graph, [x.graph.leaf(name, "state") for name in x.names]
     steps = [_unit_quaternion(x)] if x.quaternion else _blocks(x)
     images = {leaf: image for step in steps for leaf, image in step.images.items()}
@@ -57,14 +57,14 @@ def drift(x: State) -> dict[str, list[Node]]:
 
 @dataclass
 class _Step:
-    """Leaf of the state → what it becomes; what the relations leave at the state."""
+    """A Newton step: leaf of the state → its new value; ``residuals``: what the relations leave."""
 
     images: dict[Node, Node] = field(default_factory=dict)
     residuals: list[Node] = field(default_factory=list)
 
 
 def _unit_quaternion(x: State) -> _Step:
-    """q ← q − ½ q (q̄q − 1)."""
+    """The step of a unit quaternion: q ← q − ½ q (q̄q − 1)."""
     square = multiplied(conjugate(x.q), x.q)[0]
     left = x.graph.value(square - 1, "left", "unit")
     change = x.graph.value(left * Fraction(-1, 2), "step", "unit")
@@ -72,7 +72,7 @@ def _unit_quaternion(x: State) -> _Step:
 
 
 def _blocks(x: State) -> list[_Step]:
-    """A step for each factor that something keeps."""
+    """One step for each factor of the group that has relations."""
     found = []
     for place, (offset, factor) in enumerate(x.group.places, 1):
         kept, mark = relations(factor), str(place) if len(x.group.places) > 1 else ""
@@ -82,7 +82,7 @@ def _blocks(x: State) -> list[_Step]:
 
 
 def _entries(x: State, offset: int, factor: Group) -> list[Node]:
-    """The leaves of the A of a factor row by row, then of its T."""
+    """The leaves of A of a factor, row by row, then those of its T."""
     found = {(s.letter, s.row, s.column): x.graph.leaf(s.name, "state") for s in x.slots}
     span, last = range(offset, offset + factor.n), offset + factor.n
     A = [found["A", i, j] for i in span for j in span]
@@ -93,7 +93,7 @@ def _entries(x: State, offset: int, factor: Group) -> list[Node]:
 
 @dataclass
 class _Block:
-    """One factor and what keeps it; ``mark``: its number among several."""
+    """One factor of the group with its relations; ``mark``: its number among several."""
 
     graph: Graph
     factor: Group
@@ -102,7 +102,7 @@ class _Block:
     residuals: list[Node] = field(default_factory=list)
 
     def step(self, leaves: list[Node]) -> _Step:
-        """The step from the entries of A, then T."""
+        """The step of this factor; ``leaves``: its A row by row, then T."""
         n = self.factor.n
         placed = self._in_hull(leaves) if self.kept.hull else leaves
         A = tuple(tuple(placed[i * n : i * n + n]) for i in range(n))
@@ -115,7 +115,7 @@ class _Block:
         return _Step(dict(zip(leaves, placed, strict=True)), self.residuals)
 
     def _in_hull(self, leaves: list[Node]) -> list[Node]:
-        """The entries in the affine span of the group."""
+        """The leaves projected to the affine span of the group."""
         g, n, found = self.graph, self.factor.n, []
         one = (*q.flatten(q.identity(n)), *[Fraction(0)] * (len(leaves) - n * n))
         for y, start, row in zip(leaves, one, self.kept.hull, strict=True):
@@ -128,7 +128,7 @@ class _Block:
         return found
 
     def _form(self, A: Matrix) -> Matrix:
-        """X = −½ S⁻¹R."""
+        """The matrix X = −½ S⁻¹R that restores ĀSA = S (or μS)."""
         g, n, S = self.graph, self.factor.n, self._numbers(self.kept.form)
         inverse = self._inverse(self.kept.form)
         sign = 1 if self.kept.form == q.transposed(self.kept.form) else -1
@@ -148,23 +148,23 @@ class _Block:
         return self._names(X, f"step{self.mark}", label)
 
     def _mirrored(self, m: Matrix, sign: int) -> Matrix:
-        """The symmetric or skew matrix with these entries above the diagonal."""
+        """The symmetric (sign 1) or skew (−1) matrix with the upper triangle of m."""
         span = range(len(m))
         return tuple(tuple(m[i][j] if i <= j else m[j][i] * sign for j in span) for i in span)
 
     def _determinant(self, A: Matrix) -> Matrix:
-        """X = −(det A − 1)/n."""
+        """The matrix X = −(det A − 1)/n that restores det A = 1."""
         left = self._left(dense.expanded(A) - 1, "left")
         step = self._named(left * Fraction(-1, len(A)), f"step{self.mark}", "determinant")
         return self._multiple(step, len(A))
 
     def _multiple(self, y: Node, n: int) -> Matrix:
+        """y times the n × n identity."""
         return tuple(tuple(y if i == j else self.graph.num(0) for j in range(n)) for i in range(n))
 
     def _complex(self, A: Matrix, X: Matrix) -> Matrix:
-        """X − (det A − 1 + Tr X)/m, all complex."""
-        g, basis = self.graph, self.kept.complex_basis
-        P, back = self._numbers(basis), self._inverse(basis)
+        """X − (det A − 1 + Tr X)/m with a complex determinant of m × m, as real matrices."""
+        g, P, back = self.graph, self._numbers(self.kept.complex_basis), self._inverse(self.kept.complex_basis)
         m = len(P) // 2
 
         def complexes(M: Matrix) -> list[list[_Complex]]:
@@ -188,11 +188,12 @@ class _Block:
         return self._names(q.plus(X, change), f"step{self.mark}", "determinant") if X else change
 
     def _left(self, y: Node, name: str) -> Node:
-        """What a determinant leaves, named and listed."""
+        """What the determinant leaves, named, and added to the residuals."""
         self.residuals.append(self._named(y, f"{name}{self.mark}", "determinant"))
         return self.residuals[-1]
 
     def _inverse(self, m: Matrix) -> Matrix:
+        """The inverse of a rational matrix, as nodes."""
         found = q.inverse(m)
         assert found is not None
         return self._numbers(found)
@@ -211,7 +212,7 @@ class _Block:
 
 
 def _label(kept: Relations) -> str:
-    """That of the form."""
+    """The key in TEXTS of the relation that a form expresses."""
     if kept.form == q.identity(len(kept.form)):
         return "similar" if kept.conformal else "orthogonal"
     return "conformal" if kept.conformal else "form"
@@ -219,7 +220,7 @@ def _label(kept: Relations) -> str:
 
 @dataclass(frozen=True)
 class _Complex:
-    """re + i im, of nodes."""
+    """A complex number re + i im whose parts are nodes."""
 
     re: Node
     im: Node

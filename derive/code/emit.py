@@ -1,4 +1,4 @@
-"""Files from programs: finished strings for the templates of each language."""
+"""The files of each language from a program: its templates, filled with finished strings."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def included(languages: Iterable[str]) -> tuple[str, ...]:
 
 
 def problem_hash(d: Derivation) -> str:
-    """A short hash of the problem as the record states it."""
+    """The first 16 hexadecimal digits of SHA-256 of the problem as the record states it."""
     data = json.dumps(dict(d.problem), sort_keys=True, ensure_ascii=False)
     return hashlib.sha256(data.encode()).hexdigest()[:16]
 
@@ -94,12 +94,13 @@ def problem_hash(d: Derivation) -> str:
 def _rendered(
     p: Program, d: Derivation, asked: Emission, language: Language, places: Mapping[str, str]
 ) -> dict[str, str]:
-    """The files of one language, by the templates of their names."""
+    """File name → text, of one language; ``places``: file name → template."""
     templates, fields = environment(language.name), _fields(p, d, asked, language)
     return {file: templates.get_template(x).render(fields) for file, x in places.items()}
 
 
 def _fields(p: Program, d: Derivation, asked: Emission, language: Language) -> dict[str, Any]:
+    """What the templates of a language are filled with, by the names they use."""
     prefix, real = asked.prefix, asked.options.real
     printer = language.printer(real)
     sizes = {"x": len(p.state), "k": len(p.constants), "u": len(p.inputs)}
@@ -143,7 +144,7 @@ def _fields(p: Program, d: Derivation, asked: Emission, language: Language) -> d
 
 
 def _framing(p: Program, written: Statements, sizes: Mapping[str, int]) -> dict[str, Any] | None:
-    """How the principal frame is found: the matrices, where their axes go, and what follows."""
+    """The template fields of the principal frame: matrices, where their axes go, the numbers."""
     if p.framing is None:
         return None
     matrices, start = [], 0
@@ -161,6 +162,7 @@ def _framing(p: Program, written: Statements, sizes: Mapping[str, int]) -> dict[
 
 
 def _parameter(x: tuple[str, float | None, str, str]) -> dict[str, str]:
+    """A parameter as a comment says it: meaning, unit, default."""
     name, default, unit, meaning = x
     words = [comment(meaning), f"[{comment(unit)}]" if unit else ""]
     words.append(f"default {default!r}" if default is not None else "")
@@ -168,6 +170,8 @@ def _parameter(x: tuple[str, float | None, str, str]) -> dict[str, str]:
 
 
 def _basis(p: Program) -> list[list[list[str]]]:
+    """The entries of E_1, E_2, …, as integers or fractions."""
+
     def text(x: Fraction) -> str:
         return str(int(x)) if x.denominator == 1 else f"{x.numerator}/{x.denominator}"
 

@@ -20,7 +20,7 @@ PASSES = 4
 
 
 def factored(graph: Graph, roots: Sequence[Node]) -> list[Node]:
-    """The same values with fewer multiplications: of four ways the one that counts fewest."""
+    """Nodes of the same values with fewer multiplications: of four ways the cheapest."""
     ways = [
         _factored(graph, start, numbers)
         for start in dict.fromkeys((tuple(roots), tuple(spread(graph, roots))))
@@ -30,7 +30,8 @@ def factored(graph: Graph, roots: Sequence[Node]) -> list[Node]:
 
 
 def cost(roots: Sequence[Node]) -> int:
-    """Multiplications in what moves, each value computed once, and constants to be loaded."""
+    """Multiplications of nodes that are not of the parameters alone, plus constants to be
+    loaded."""
     total = len(frontier(roots))
     for x in _moving_in(roots):
         if x.op == "mul":
@@ -41,6 +42,7 @@ def cost(roots: Sequence[Node]) -> int:
 
 
 def _factored(graph: Graph, roots: Sequence[Node], numbers: bool) -> list[Node]:
+    """The same values after one of the four ways: names lost, restored, factors in front."""
     found = list(roots)
     for _ in range(PASSES):
         lost = _lost(found, numbers)
@@ -52,7 +54,7 @@ def _factored(graph: Graph, roots: Sequence[Node], numbers: bool) -> list[Node]:
 
 
 def spread(graph: Graph, roots: Sequence[Node]) -> list[Node]:
-    """The same with p (q x + r y) as (pq) x + (pr) y, where p, q, r depend on parameters alone."""
+    """The nodes with p (q x + r y) as (pq) x + (pr) y where p, q, r depend on parameters alone."""
     order = _moving_in(roots)
     uses = _uses(roots, order)
     opened = {x: other for x in order if (other := spread_over(graph, x, uses)) is not None}
@@ -60,12 +62,13 @@ def spread(graph: Graph, roots: Sequence[Node]) -> list[Node]:
 
 
 def _looking_through(lost: set[Node]) -> Rule:
-    """Some names are left behind."""
+    """The rule that replaces the value nodes in ``lost`` by what they name."""
     return lambda x, image: image(x.args[0]) if x in lost else remade(x, image)
 
 
 def _naming(order: Sequence[Node]) -> Rule:
-    """Sums and products that have a name get it where they stand without it."""
+    """The rule that puts the named node wherever the same sum or product stands without its
+    name."""
     named = {x.args[0]: x for x in order if x.op == "value"}
 
     def rule(x: Node, image: Image) -> Node:
@@ -75,7 +78,7 @@ def _naming(order: Sequence[Node]) -> Rule:
 
 
 def _distributing(graph: Graph, roots: Sequence[Node], order: Sequence[Node]) -> Rule:
-    """Common factors of the terms of sums are taken in front of them."""
+    """The rule that takes common factors of the terms of a sum in front of it."""
     uses = _uses(roots, order)
 
     def rule(x: Node, image: Image) -> Node:
@@ -86,12 +89,12 @@ def _distributing(graph: Graph, roots: Sequence[Node], order: Sequence[Node]) ->
 
 
 def _uses(roots: Sequence[Node], order: Sequence[Node]) -> Counter[Node]:
-    """How often each node stands."""
+    """Node → how often it is an operand or a root."""
     return Counter(roots) + Counter(y for x in order for y in x.args)
 
 
 def _moving_in(roots: Iterable[Node]) -> list[Node]:
-    """The nodes that do not depend on parameters alone, operands first."""
+    """The nodes reached that do not depend on parameters alone, operands first."""
 
     def moving(nodes: Iterable[Node]) -> list[Node]:
         return [x for x in nodes if x.stage != PARAMETER]
@@ -100,7 +103,7 @@ def _moving_in(roots: Iterable[Node]) -> list[Node]:
 
 
 def _lost(roots: Sequence[Node], merging: bool) -> set[Node]:
-    """The value nodes to look through."""
+    """The value nodes whose names hide a common factor, or a number that could be merged."""
     order = _moving_in(roots)
     parents: dict[Node, list[Node]] = defaultdict(list)
     for x in order:
@@ -116,7 +119,7 @@ def _lost(roots: Sequence[Node], merging: bool) -> set[Node]:
 
 
 def _numeric(x: Node, parent: Node) -> bool:
-    """May the number in front of x, or that of its parent in front of all its terms, be merged?"""
+    """Can the numbers in front of the sum x merge with those of its one parent?"""
     if len(x.args) == 1:
         return parent.op in ("add", "mul")
     scales = parent.op == "add" and len(parent.args) == 1 and abs(parent.data[0]) != 1
@@ -124,18 +127,18 @@ def _numeric(x: Node, parent: Node) -> bool:
 
 
 def _is_scaled(x: Node) -> bool:
-    """Is it a product with a factor of the parameters, or a number times one?"""
+    """Is it a product with a factor of the parameters alone, or a number times one?"""
     core = x.args[0] if x.op == "add" and len(x.args) == 1 else x
     return core.op == "mul" and core.args[0].stage == PARAMETER
 
 
 def _moving(x: Node) -> tuple[Node, ...]:
-    """The factors that do not depend on parameters alone."""
+    """The factors of a product that do not depend on parameters alone."""
     return tuple(y for y in x.args if y.stage != PARAMETER) if x.op == "mul" else (x,)
 
 
 def _sharing(s: Node, single: set[Node]) -> list[Node]:
-    """The summands that are sums of their own and have moving factors in common with the rest."""
+    """The named sums among the summands of s that share moving factors with the other summands."""
     own = {x: [_moving(y) for y in (x.args[0].args if x in single else (x,))] for x in s.args}
     count = Counter(m for moving in own.values() for m in set(moving))
     return [x for x in s.args if x in single and any(count[m] > 1 for m in own[x])]

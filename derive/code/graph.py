@@ -22,9 +22,10 @@ PARAMETER, STATE = 0, 1
 
 @dataclass(frozen=True, eq=False)
 class Node:
-    """``op`` is one of num, leaf, add, mul, recip, abs, none, fun, value.
+    """One value: an operation on other nodes, a number, a leaf, or a node with a name.
 
-    ``data``: the number, the leaf's (kind, name), the coefficients of a sum, or the function.
+    ``op`` is one of num, leaf, add, mul, recip, abs, none, fun, value; ``data``: the number, the
+    leaf's (kind, name), the coefficients of a sum, or the elementary function's name.
     """
 
     graph: Graph
@@ -68,13 +69,13 @@ class Node:
 
 
 class Graph:
-    """The nodes of one program."""
+    """The interned nodes of one program, and the names of its values."""
 
     def __init__(self) -> None:
         self._nodes: dict[tuple[Any, ...], Node] = {}
         self._operands = 0
         self.titles: dict[Node, tuple[str, str, bool]] = {}
-        """Value node → name, label of the equation, and whether the record gave the name."""
+        """Value node → name, label of its equation, and whether the record gave the name."""
 
     def _intern(self, op: str, data: Any, args: tuple[Node, ...], stage: int) -> Node:
         key = (op, data, *(a.id for a in args))
@@ -89,20 +90,21 @@ class Graph:
         return self._nodes[key]
 
     def num(self, value: int | Fraction) -> Node:
-        """A rational number."""
+        """The node of a rational number."""
         return self._intern("num", Fraction(value), (), PARAMETER)
 
     def of(self, x: Node | int | Fraction) -> Node:
-        """A node, from a node or a number."""
+        """The node itself, or the node of a number."""
         return x if isinstance(x, Node) else self.num(x)
 
     def leaf(self, name: str, kind: str) -> Node:
-        """An input: of the ``state``, a ``parameter``, of its ``frame``, or an ``input``."""
+        """A leaf by name; ``kind``: state, time, input, parameter, or frame (a number of the
+        principal frame)."""
         stage = PARAMETER if kind in ("parameter", "frame") else STATE
         return self._intern("leaf", (kind, name), (), stage)
 
     def value(self, node: Node, name: str, label: str, *, given: bool = False) -> Node:
-        """A node with a name; a name given by the record replaces one made from a tree."""
+        """The node under a name; a name ``given`` by the record replaces one made from a tree."""
         if node.is_atom or (node.op == "add" and node.data == (-1,) and node.args[0].is_atom):
             return node  # −L is no name of its own, so that it cancels L
         value = node if node.op == "value" else self._intern("value", None, (node,), node.stage)
@@ -120,11 +122,11 @@ class Graph:
         return self.linear([(1 / coefficient, self._intern("recip", None, (core,), core.stage))])
 
     def function(self, name: str, x: Node) -> Node:
-        """An elementary function of a value."""
+        """An elementary function (``name``) of x."""
         return self._intern("fun", name, (x,), x.stage)
 
     def none(self, x: Node) -> Node:
-        """1 where x is 0, else 0."""
+        """The indicator of x = 0: 1 where x is 0, else 0."""
         return (
             self.num(int(x.is_zero)) if x.op == "num" else self._intern("none", None, (x,), x.stage)
         )
@@ -134,7 +136,7 @@ class Graph:
         return self.num(abs(x.data)) if x.op == "num" else self._intern("abs", None, (x,), x.stage)
 
     def magnitude(self, x: Node) -> Node:
-        """The size of a value before its terms cancel: what its rounding error is measured by."""
+        """The sum of the sizes of a node's terms: the scale of its rounding error."""
         if x.op == "num":
             return self.num(abs(x.data))
         if x.op == "add":
@@ -150,11 +152,11 @@ class Graph:
         return self.absolute(x)
 
     def sum(self, nodes: Iterable[Node]) -> Node:
-        """Their sum."""
+        """The sum of the nodes."""
         return self.linear((Fraction(1), x) for x in nodes)
 
     def linear(self, terms: Iterable[tuple[Fraction, Node]]) -> Node:
-        """Σ c · x, flattened; a common rational factor is taken out in front."""
+        """The sum Σ c · x, flattened; a common rational factor is taken out in front."""
         gathered: dict[Node, Fraction] = {}
         constant = Fraction(0)
         for c, x in terms:
@@ -178,6 +180,7 @@ class Graph:
         return self._intern("add", (content,), (core,), core.stage)
 
     def _terms(self, c: Fraction, x: Node) -> list[tuple[Fraction, Node]]:
+        """The terms of c x, sums in it opened."""
         if x.op != "add":
             return [(c, x)]
         return [
@@ -187,7 +190,7 @@ class Graph:
         ]
 
     def _collected(self, parts: list[tuple[Fraction, Node]]) -> list[tuple[Fraction, Node]]:
-        """a x + b x = (a + b) x, for a and b of the parameters alone and the same moving x."""
+        """The terms with a x + b x = (a + b) x for a, b of the parameters alone, x not."""
         alike: dict[tuple[Node, ...], list[tuple[Fraction, Node]]] = {}
         for c, x in parts:
             factors = x.args if x.op == "mul" else (x,)
@@ -208,7 +211,7 @@ class Graph:
         return sorted(((c, x) for c, x in found if not x.is_zero), key=lambda i: i[1].id)
 
     def _sum_of(self, parts: list[tuple[Fraction, Node]]) -> Node:
-        """A sum in which what depends on parameters alone is one term."""
+        """The sum of collected terms; what depends on parameters alone becomes one term."""
         if len(parts) == 1 and parts[0][0] == 1:
             return parts[0][1]
         fixed = [(c, x) for c, x in parts if x.stage == PARAMETER]
@@ -220,13 +223,13 @@ class Graph:
         return self._intern("add", coefficients, args, max(x.stage for x in args))
 
     def _split(self, x: Node) -> tuple[Fraction, Node]:
-        """A node as rational · node."""
+        """A node x as (rational, node) whose product is x."""
         if x.op == "add" and len(x.args) == 1:
             return x.data[0], x.args[0]
         return Fraction(1), x
 
     def product(self, nodes: Iterable[Node]) -> Node:
-        """Their product, flattened; what depends on parameters alone is one factor."""
+        """The product of the nodes, flattened; what depends on parameters alone is one factor."""
         coefficient = Fraction(1)
         factors: list[Node] = []
         for x in nodes:
@@ -252,7 +255,7 @@ class Graph:
 
 
 def _content(coefficients: list[Fraction]) -> Fraction:
-    """The rational factor to take out: common to all, with the sign of the first."""
+    """The rational factor common to the coefficients of a sum, negative where all of them are."""
     if all(c == 1 for c in coefficients):  # as most are
         return Fraction(1)
     numerator = gcd(*(c.numerator for c in coefficients))

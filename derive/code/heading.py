@@ -1,4 +1,4 @@
-"""What the comment at the head of a file says of its program, line by line."""
+"""The text of the comment at the head of a file, line by line."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def heading(
 ) -> list[str]:
     """Conventions, state, basis, parameters, inputs and cost; empty lines between them.
 
-    ``cost``: function → its operations.
+    ``cost``: function → its operations in words; ``parameters``: name and text of each.
     """
     none = "" if p.parameters else " none, every number is in the code."
     return [
@@ -39,7 +39,7 @@ def heading(
 
 
 def listed(before: str, names: Sequence[str], after: str, width: int) -> list[str]:
-    """Names with commas, in lines below each other."""
+    """The names with commas between ``before`` and ``after``, wrapped and aligned."""
     lines = textwrap.wrap(", ".join(names), width, break_long_words=False)
     return (before + f"\n{' ' * len(before)}".join(lines) + after).split("\n")
 

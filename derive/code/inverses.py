@@ -25,10 +25,10 @@ as elimination divides by it."""
 
 
 class Inverses:
-    """Of the matrices of one record, as a reader of it has them.
+    """The inverses and linear solves of one record, and what ``constants`` must test for them.
 
-    ``checks``: what must be positive in constants, and the scale of its rounding error;
-    ``local``: do they hold the metric at g = 1 alone?
+    ``checks``: what must be positive, and the scale of its rounding error; ``local``: do they hold
+    the metric at g = 1 alone?
     """
 
     def __init__(self, reader: Reader):
@@ -37,7 +37,7 @@ class Inverses:
         self.local = False
 
     def of(self, t: Tree) -> Value:
-        """The inverse of the value of a tree."""
+        """The inverse of the value of a tree, a number or a matrix; its check is noted."""
         g, space = self.graph, self.reader.space
         if t == ("T", "A"):
             return q.transposed(space.inverse)
@@ -64,8 +64,8 @@ class Inverses:
         return found
 
     def require_regular(self) -> None:
-        """J and m must be positive even if no force asks for their inverses, where a multiplier
-        solves the kernel and where the group has all translations."""
+        """Note the checks of J and m even if no force asks for their inverses: where a multiplier
+        solves the kernel, and where the group has all translations."""
         record = self.reader.record
         if any(step.label.endswith(".multiplier") for step in record.steps):
             central = record.definition("N_c") is not None
@@ -74,16 +74,18 @@ class Inverses:
             self._check([(self.reader.number("m"), None)])
 
     def solved(self, t: Tree, right: Matrix) -> Matrix:
-        """The column x with t x = right, for a positive definite t."""
+        """The column x with t x = right, for a positive definite t; its checks are noted."""
         value = matrix(self.reader.tree(t))
         factors = dense.factorised(self.graph, value, self._namer(name_of(t)))
         self._check_pivots(t, value, factors.pivots)
         return dense.solve(self.graph, factors, right, self._namer(f"{name_of(t)}_solve"))
 
     def _namer(self, name: str) -> dense.NodeNamer:
+        """What names the intermediate values of an elimination: ``name_part``."""
         return lambda part, x: self.graph.value(x, f"{name}_{part}", self.reader.label)
 
     def _check_pivots(self, t: Tree, value: Matrix, pivots: list[Node]) -> None:
+        """Note that the pivots of a matrix of the parameters, or of M at g = 1, are positive."""
         if dense.stage_of(value) == PARAMETER:
             self._check(zip(pivots, self._sizes(t, value), strict=True))
         elif t == "M":
@@ -94,8 +96,10 @@ class Inverses:
             self._check_moments()
 
     def _check_moments(self) -> None:
-        """M at g is Tr Z μ Z̄ C: where no moment is negative it is singular at all g or at none, as
-        it is where C is a multiple of 1.  Elsewhere, where masses may be negative, who knows?
+        """Note that the moments of inertia are not negative, where masses may be.
+
+        M at g is Tr Z μ Z̄ C: where no moment is negative it is singular at all g or at none, as it
+        is where C is a multiple of 1. Elsewhere, where masses may be negative, nothing is known.
         """
         body = self.reader.record.problem["body"]
         masses = [decode(p["mass"], "mass") for p in body.get("points", [])]
@@ -121,7 +125,7 @@ class Inverses:
             self._check((x, None) for x in tests)
 
     def _seen(self, J: Matrix) -> Matrix:
-        """R J R̄, the rows of R spanning those of 𝔤: what the metric has of J."""
+        """The part R J R̄ of J that the metric sees; the rows of R span those of 𝔤."""
         g = self.graph
         rows = tuple(row for e in self.group.linear_basis for row in e)
         reduced, pivots = q.echelon(rows)
@@ -140,10 +144,11 @@ class Inverses:
         return tuple(tuple(replaced(x, images) for x in row) for row in m)
 
     def _by_adjugate(self, t: Tree, value: Matrix, name: str) -> Matrix:
-        """For a matrix of the state: the fewest operations, though det may lose κ² (Higham 14.6).
+        """m⁻¹ as adjugate over determinant: few operations, but det may lose κ² (Higham 14.6).
 
-        One of the parameters is factorised instead, which is done once and loses κ alone; but where
-        all axes are alike, so are the entries of the adjugate, which rhs needs only once.
+        For matrices of the state. One of the parameters is factorised instead, which is done once
+        and loses κ alone; but where all axes are alike, so are the entries of the adjugate, which
+        rhs needs only once.
         """
         g, base = self.graph, name_of(t)
         adjugate = self.reader.entries(dense.adjugate(g, value), f"adj_{base}")
@@ -163,17 +168,19 @@ class Inverses:
         return [g.value(g.magnitude(x), name, self.reader.label) for name, x in pairs]
 
     def _check_diagonal(self, t: Tree, m: Matrix, inverse: Matrix) -> None:
-        """1/(M⁻¹)_ii too: after a small pivot, rounding could make a larger one of none."""
+        """Note that 1/(M⁻¹)_ii is positive too: after a small pivot, rounding could make a larger
+        one of none."""
         for i, scale in enumerate(self._sizes(t, m)):
             x = inverse[i][i]
             pivot = x.op == "value" and x.args[0].op == "recip"
             self._check([] if pivot else [(self.graph.recip(x), scale)])
 
     def _check(self, checks: Iterable[tuple[Node, Node | None]]) -> None:
+        """Note checks that are not noted yet."""
         self.checks += [x for x in dict.fromkeys(checks) if x not in self.checks]
 
     def _unit_determinant(self, t: Tree) -> bool:
-        """A and C = ĀA where the record says det A = 1."""
+        """Is it A or C = ĀA, in a record that says det A = 1?"""
         unimodular = any(
             e.lhs == ("det", "A") and e.rhs == 1
             for s in self.reader.record.steps
@@ -183,11 +190,12 @@ class Inverses:
 
 
 def _positive(x: object) -> bool:
+    """Is it a positive number?"""
     return isinstance(x, (int, Fraction)) and x > 0
 
 
 def _alike(m: Matrix) -> bool:
-    """Is a matrix the same in all axes, a on the diagonal and b beside it?"""
+    """Is it a I + b (𝟙 − I), a on the diagonal and b ≠ 0 everywhere beside it, not of numbers?"""
     beside = {x for i, row in enumerate(m) for j, x in enumerate(row) if i != j}
     if len({row[i] for i, row in enumerate(m)}) != 1 or len(beside) != 1:
         return False

@@ -1,4 +1,4 @@
-"""The languages of the emitted code: how each writes a number, a statement and a comment."""
+"""The table of the languages of the emitted code: how each writes numbers, statements, comments."""
 
 from __future__ import annotations
 
@@ -39,12 +39,13 @@ class Language:
 
 
 def _c(real: str) -> Printer:
+    """The printer of C: suffix f for float."""
     suffix = "f" if real == "float" else ""
     return Printer(lambda q: decimal(q, suffix), "fabs" + suffix, lambda name: f"{name}{suffix}")
 
 
 def _plain(function: str, absolute: str, none: str) -> Callable[[str], Printer]:
-    """Numbers without suffix; functions by a pattern."""
+    """Printers of a language whose numbers have no suffix and whose functions are a pattern."""
     return lambda real: Printer(decimal, absolute, lambda name: function.format(name), none)
 
 

@@ -19,7 +19,7 @@ from .state import State
 
 
 class Varied:
-    """Directional derivatives of nodes; ``seeds``: the derivatives of the leaves."""
+    """Directional derivatives of nodes, named ``d_…_name``; ``seeds``: leaf → its derivative."""
 
     def __init__(self, graph: Graph, seeds: Mapping[Node, Node], name: str):
         self.graph, self.name = graph, name
@@ -27,7 +27,7 @@ class Varied:
         self._done: dict[Node, Node] = dict(seeds)
 
     def of(self, x: Node) -> Node:
-        """The derivative of a node."""
+        """The derivative of a node; leaves without a seed are constant."""
         if x not in self._done:
             self._done[x] = self._derivative(x)
         return self._done[x]
@@ -54,6 +54,7 @@ class Varied:
         raise ValueError(f"no derivative of {x.op!r}")
 
     def _factors(self, factors: Sequence[Node]) -> Iterable[Node]:
+        """The terms of the derivative of a product."""
         for k, y in enumerate(factors):
             varied = self.of(y)
             if not varied.is_zero:
@@ -61,7 +62,7 @@ class Varied:
 
 
 def by_state(space: State, accelerations: list[Node]) -> list[Node]:
-    """2N × 2N by rows: η̇ and δζ̇ by η and δζ; ``accelerations``: ζ̇ (and ẇ)."""
+    """The matrix, 2N × 2N by rows, of (η, δζ) ↦ (η̇, δζ̇); ``accelerations``: ζ̇ (and ẇ)."""
     g, d = space.graph, space.group.dimension
     span = range(d)
     turned = [Varied(g, space.along(a), f"eta_{a + 1}") for a in span]
@@ -75,7 +76,8 @@ def by_state(space: State, accelerations: list[Node]) -> list[Node]:
 
 
 def by_leaves(space: State, accelerations: list[Node], leaves: Sequence[Node]) -> list[Node]:
-    """2N × len(leaves) by rows: the same by inputs or parameters, on which η̇ does not depend."""
+    """The derivative of (η̇, ζ̇) by ``leaves``, inputs or parameters: 2N × len(leaves) by rows, the
+    first N of them 0."""
     g, d = space.graph, space.group.dimension
     varied = [Varied(g, {x: g.num(1)}, str(x.data[1])) for x in leaves]
     zeros = [g.num(0)] * (d * len(leaves))

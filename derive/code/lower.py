@@ -29,7 +29,7 @@ from .springs import SLACK, tension
 
 
 class Lowering:
-    """The values of the trees of one record, in a graph.
+    """The values, as nodes, of the trees of one record.
 
     ``reader``: what the names in them stand for; ``inverses``: those of matrices.
     """
@@ -48,11 +48,11 @@ class Lowering:
 
     @property
     def solving(self) -> bool:
-        """Is it an equation of the solved motion that is read?"""
+        """Does the equation that is being read belong to the solved motion?"""
         return step_of(self.reader.label).endswith(".motion")
 
     def tree(self, t: Tree) -> Value:
-        """The value of a tree."""
+        """The value of a tree: a node, or a matrix of nodes."""
         if t == "π":
             return self.graph.num(Fraction(math.pi))
         if isinstance(t, str):
@@ -68,6 +68,7 @@ class Lowering:
         return value
 
     def _node(self, t: tuple[Any, ...]) -> Value:
+        """The value of an operator tree; ``LoweringError`` for an operator without code."""
         op = t[0]
         if op == "fun":
             found = self.graph.function(t[1], self._number(t[2]))
@@ -101,7 +102,7 @@ class Lowering:
     def _tension(
         self, factors: tuple[Tree, ...], distance: Tree, square: Tree, length: Tree
     ) -> Node:
-        """c(s − l)/s as c − cl/s, with s not 0 where l is: there cl/s is 0 even at distance 0."""
+        """The tension c(s − l)/s of a spring, as c − cl/s with s kept off 0 where l = 0."""
         g = self.graph
         c, q = g.product([self._number(x) for x in factors]), self._number(square)
         at_rest = self._number(length)
@@ -111,6 +112,7 @@ class Lowering:
         return c - g.product((c, at_rest, g.recip(s)))
 
     def _simple(self, op: str, a: list[Any], t: tuple[Any, ...]) -> Value:
+        """The value of an operator whose operands have the values ``a``."""
         g = self.graph
         if op == "add":
             if isinstance(a[0], Node):
@@ -172,11 +174,13 @@ class Lowering:
         return self.reader.entries(product, f"{name}_0_{name_of(vector)}")
 
     def _sum(self, t: tuple[Any, ...]) -> Value:
+        """The value of a sum over an index: over the members that the record defines."""
         _, index, body = t
         terms = [self.tree(bound(body, {index: i})) for i in self.reader.members(body, index)]
         return self._simple("add", terms, t)
 
     def _product(self, t: tuple[Any, ...]) -> Value:
+        """The value of a product of numbers and matrices."""
         if is_solve(t) and (len(M := self._matrix(t[1][1])) > SMALL or dense.is_diagonal(M)):
             return self.inverses.solved(t[1][1], self._matrix(mul(*t[2:])))
         factors = [(x, self.tree(x)) for x in t[1:]]
@@ -192,6 +196,7 @@ class Lowering:
         return tuple(tuple(self.graph.product([*scalars, x]) for x in row) for row in whole)
 
     def _chain(self, factors: list[tuple[Tree, Matrix]]) -> Matrix:
+        """The named product of matrices; the same chain is computed once."""
         if len(factors) == 1:
             return factors[0][1]
         factors = [(x, self._operand(x, v)) for x, v in factors]
@@ -209,14 +214,15 @@ class Lowering:
         return value
 
     def _operand(self, t: Tree, value: Matrix) -> Matrix:
-        """A sum that is multiplied is computed once, under a name."""
+        """A factor of a matrix product: a sum gets a name, and is computed once."""
         if isinstance(t, tuple) and t[0] == "add":
             name = "balance" if self.solving else name_of(t)
             return self.reader.entries(value, name)
         return value
 
     def _trace(self, t: Tree) -> Node:
-        """Tr of a product: its diagonal when the product is wanted anyway, else Σ P_ij Q_ji."""
+        """Tr of a tree: of a product its diagonal when the product is wanted anyway, else Σ P_ij
+        Q_ji."""
         g, name = self.graph, name_of(("tr", t))
         factors = [x for x in t[1:] if not is_scalar(x)] if isinstance(t, tuple) else []
         if isinstance(t, tuple) and t[0] == "mul" and len(factors) > 1:
@@ -260,6 +266,7 @@ class Lowering:
         return scalar(self.tree(t))
 
     def _metric(self, t: tuple[Any, ...]) -> Value:
+        """⟨a, M b⟩ or |a|², or the latter in a metric."""
         if t[0] == "norm2":
             if len(t) == 2:
                 value = self._matrix(t[1])
@@ -275,7 +282,7 @@ SCALAR_OPERATORS = {"tr", "inner", "metric", "norm2", "det", "par", "entry", "fu
 
 
 def untraced(t: Tree) -> Tree | None:
-    """J of (Tr J) 1 − J; ``None`` for any other tree."""
+    """The tree J of (Tr J) 1 − J; ``None`` for any other tree."""
     match t:
         case ("add", ("mul", ("tr", inside), ("one",)), ("mul", -1, other)) if inside == other:
             found: Tree = inside
@@ -284,12 +291,12 @@ def untraced(t: Tree) -> Tree | None:
 
 
 def is_solve(t: tuple[Any, ...]) -> bool:
-    """Is a product the solution M⁻¹β of a linear system in coordinates?"""
+    """Is a product M⁻¹β, the solution of a linear system in coordinates?"""
     return len(t) == 3 and t[1] == ("inv", "M")
 
 
 def is_scalar(t: Tree) -> bool:
-    """Is a tree's value a number, whatever the sizes?"""
+    """Is a tree's value a number, whatever the sizes of the matrices in it?"""
     if isinstance(t, str):
         return t in SCALARS
     if isinstance(t, tuple):
@@ -298,7 +305,7 @@ def is_scalar(t: Tree) -> bool:
 
 
 def standalone(t: Tree) -> Iterator[Tree]:
-    """The matrix products in a tree that are not merely traced."""
+    """The matrix products and powers in a tree that are wanted whole, not only their traces."""
     if not isinstance(t, tuple):
         return
     if t[0] == "pow":

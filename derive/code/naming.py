@@ -32,7 +32,7 @@ _OTHER_LANGUAGES = """
     """
 _WORDS = set(WORDS) | set(_OTHER_LANGUAGES.split())
 RESERVED = _WORDS | set(_LOCAL.split())
-"""What no name of a program is: words of some language, and the arrays and loops of all of them.
+"""Names that no value of a program has: words of some language, arrays and loops of all.
 
 What else the text of one language uses, ``apart.py`` finds there.
 """
@@ -42,14 +42,14 @@ _HEADERS = """
     string strings tgmath threads time uchar unistd wchar wctype
     """
 FILES = set(_HEADERS.split()) | set(sys.stdlib_module_names)
-"""Files of these names would stand before those of C and of Python."""
+"""Names that no file has, as it would stand before a header of C or a module of Python."""
 
 PREFIXES = FILES | _WORDS | set(_EMITTED.split())
-"""What no prefix is."""
+"""Names that no prefix is: of headers and modules, of words, of the emitted code itself."""
 
 
 def ascii_name(name: str) -> str:
-    """``ζ̇`` as ``zeta_dot``, ``I_c`` as ``I_c``."""
+    """The name in ASCII: ``ζ̇`` as ``zeta_dot``, ``I_c`` as ``I_c``; other signs dropped."""
     out = ""
     for ch in unicodedata.normalize("NFD", name):
         kept = ch if ch.isascii() and (ch.isalnum() or ch == "_") else ""
@@ -88,13 +88,14 @@ def name_of(t: Tree) -> str:
 
 
 def suffixed(name: str, *index: int) -> str:
-    """An entry: ``I_12``; indices above 9 are kept apart."""
+    """The name of an entry: ``I_12``; where an index is above 9, ``I_1_12``."""
     digits = "".join(map(str, index)) if max(index) < 10 else "_".join(map(str, index))
     return f"{name}_{digits}"
 
 
 def sum_name(coefficients: Sequence[Fraction], names: Sequence[str]) -> str:
-    """``a_plus_b``, ``a_minus_b``, ``a_minus_2_b``; empty where no such name would be true."""
+    """The name of a sum of two: ``a_plus_b``, ``a_minus_b``, ``a_minus_2_b``; empty where no such
+    name would be true."""
     terms = sorted(zip(coefficients, names, strict=True), key=lambda term: term[0] != 1)
     if len(terms) != 2:
         return ""
@@ -106,12 +107,12 @@ def sum_name(coefficients: Sequence[Fraction], names: Sequence[str]) -> str:
 
 
 def is_sum(name: str) -> bool:
-    """Would what stands before or behind a name be read as if it went with one term alone?"""
+    """Is it the name of a sum, which a prefix or suffix would seem to apply to in part?"""
     return "_plus_" in name or "_minus_" in name
 
 
 class Names:
-    """Names already given in one program; a second claim gets an underscore."""
+    """The names taken in one program; a second owner of one gets it with an underscore."""
 
     def __init__(self) -> None:
         self._taken = dict.fromkeys(RESERVED, "")

@@ -15,12 +15,12 @@ CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
 """Option → its values, the first one the default, and what they choose."""
 
 JACOBIANS = ("state", "inputs", "parameters")
-"""What the equations may be linearised in."""
+"""What the equations may be linearised in, besides nothing."""
 
 
 @dataclass(frozen=True)
 class Options:
-    """The choices of one emission; see :data:`CHOICES` and :data:`JACOBIANS`."""
+    """The choices of one emission, by CHOICES and JACOBIANS; ``ValueError`` for others."""
 
     real: str = "double"
     form: str = "source"

@@ -14,7 +14,8 @@ MOMENTS = tuple(f"J_{i}{j}" for i in (1, 2, 3) for j in range(i, 4))
 
 
 def inertia(reader: Reader) -> list[Node]:
-    """I_11, I_12, I_13, I_22, I_23, I_33 about the body's origin; none where space is not R³."""
+    """The tensor I_11, I_12, I_13, I_22, I_23, I_33 about the origin; empty where space is not
+    R³."""
     if not reader.group.turns_space:
         return []
     tensor = reader.vector("I")
@@ -22,7 +23,10 @@ def inertia(reader: Reader) -> list[Node]:
 
 
 def turning(problem: Mapping[str, Any], parameters: Sequence[str]) -> Turning | None:
-    """How parameters change with the axes; ``None`` where they cannot express the turned body."""
+    """How parameters change with the body's axes; ``None`` where they cannot express that.
+
+    ``problem`` as in the record; ``parameters``: the emitted ones, in order.
+    """
     body = problem["body"]
     at = {name: i for i, name in enumerate(parameters)}
     if body["kind"] == "moments" and {*MOMENTS} <= {*at} - {*_parameters(problem)}:
@@ -42,7 +46,8 @@ def turning(problem: Mapping[str, Any], parameters: Sequence[str]) -> Turning | 
 def _vectors(
     places: Sequence[Sequence[Any]], uses: Mapping[str, int], at: Mapping[str, int]
 ) -> tuple[tuple[int, ...], ...] | None:
-    """The places that are not 0, when each is three parameters that stand nowhere else."""
+    """The indices of the parameters of the places that are not 0; ``None`` unless each is three
+    parameters that stand nowhere else."""
     found = []
     for place in places:
         names = [x[1] for x in place if isinstance(x, (list, tuple)) and x[0] == "par"]
@@ -55,7 +60,7 @@ def _vectors(
 
 
 def _parameters(data: Any) -> Iterator[str]:
-    """Every parameter in plain data, with repetitions."""
+    """The names of all parameters in the trees of plain data, with repetitions."""
     if isinstance(data, (list, tuple)):
         if len(data) == 2 and data[0] == "par" and isinstance(data[1], str):
             yield data[1]

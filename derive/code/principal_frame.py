@@ -27,12 +27,13 @@ SMALL = Fraction(1, 10**30)
 """Added to the size of gravity, which may be 0."""
 
 SPREAD = (31, 27, 16, 11, 7, 5, 3, 2)
-"""No two directions across a rational γ are alike in this diagonal matrix, in hundredths."""
+"""A diagonal matrix, in hundredths, in which no two directions across a rational γ are alike."""
 
 
 @dataclass(frozen=True)
 class Axes:
-    """The eigenvalues of a symmetric matrix, smallest first; its axes, the rows of a rotation."""
+    """The spectral decomposition of a symmetric ``matrix``: eigenvalues ``values``, smallest first;
+    ``rows``: a rotation whose rows are the eigenvectors."""
 
     matrix: Matrix
     values: tuple[Node, ...]
@@ -40,17 +41,17 @@ class Axes:
 
     @property
     def leaves(self) -> list[Node]:
-        """Values, then rows, as the emitted code stores them."""
+        """The numbers found: eigenvalues, then rows, as the emitted code stores them."""
         return [*self.values, *q.flatten(self.rows)]
 
 
 class Frame:
-    """``given``: what the new parameters stand for; ``old``: the problem as it is given, read in
-    the graph of the framed one.
+    """The principal frame of a problem: H, s, S and the new parameters, as nodes.
 
-    ``axes``: in order, each needs those before it; ``numbers``: leaf → node in the parameters and
-    axes, for each new parameter of the framed problem and each entry of H, H⁻¹, s, S.  ``unit``,
-    ``scale``: the leaves of μ and 1/μ, else 1.
+    ``given``: what the new parameters stand for; ``old``: the problem as it is given, read in the
+    graph of the framed one. ``axes``: in order, each needs those before it; ``numbers``: leaf →
+    node in the parameters and axes, for each new parameter of the framed problem and each entry of
+    H, H⁻¹, s, S. ``unit``, ``scale``: the leaves of μ and 1/μ, else 1.
     """
 
     def __init__(self, given: Mapping[str, Any], old: Reader, quaternion: bool):
@@ -66,13 +67,13 @@ class Frame:
         self.quaternions = self._quaternions() if quaternion else ()
 
     def nodes(self) -> list[Node]:
-        """All that is computed on the way."""
+        """All that the frame computes: the numbers, and the matrices whose axes are wanted."""
         return [*self.numbers.values(), *(x for axes in self.axes for x in q.flatten(axes.matrix))]
 
     # -- the frame ---------------------------------------------------------------------------
 
     def _principal(self, m: Matrix, value: str, axis: str) -> Axes:
-        """The axes of a matrix, whose numbers the emitted code finds."""
+        """The axes of a symmetric matrix, as leaves: the emitted code finds their numbers."""
         leaf = self.graph.leaf
         span = range(1, len(m) + 1)
         values = tuple(leaf(suffixed(value, i), "frame") for i in span)
@@ -81,7 +82,7 @@ class Frame:
         return self.axes[-1]
 
     def _kept(self, name: str, m: Matrix) -> Matrix:
-        """Numbers that ``constants`` keeps: leaves of the frame."""
+        """The matrix as leaves ``name_ij`` of the frame, which ``constants`` keeps."""
         column = len(m[0]) == 1
         return tuple(
             tuple(
@@ -92,13 +93,13 @@ class Frame:
         )
 
     def _number_of(self, name: str, x: Node, kind: str = "frame") -> Node:
-        """A leaf for a number that the frame computes."""
+        """The leaf for a number x that the frame computes."""
         leaf = self.graph.leaf(name, kind)
         self.numbers[leaf] = x
         return leaf
 
     def _material(self) -> None:
-        """H, H⁻¹ and s; the numbers that tell a singular body."""
+        """Set H, H⁻¹, s, and the numbers that tell a singular body."""
         g, n = self.graph, self.n
         J = self.old.vector("J")
         self.s: Matrix = ()
@@ -131,7 +132,7 @@ class Frame:
         self.regular.append(moments)
 
     def _root(self, J: Axes) -> tuple[Matrix, Matrix]:
-        """H with H J H̄ = μ1, and H⁻¹."""
+        """H with H J H̄ = μ1, and H⁻¹; with stiffnesses also H K H̄ diagonal."""
         g = self.graph
         mu: Node = g.num(1)
         if self.given["per_unit"]:
@@ -163,7 +164,7 @@ class Frame:
         return dense.times(g, along.rows, H), dense.times(g, back, q.transposed(along.rows))
 
     def _space(self) -> None:
-        """S, which puts gravity along the last axis; empty where space stays."""
+        """Set S, the rotation that puts gravity along the last axis; empty where space stays."""
         self.S: Matrix = ()
         if self.given["turned"]:
             g = self.old.vector("γ")
@@ -190,7 +191,7 @@ class Frame:
         return q.plus(along, dense.times(g, Q, spread))
 
     def _parameters(self) -> None:
-        """Places H(r − s), vectors of space S a, and Hc."""
+        """Set the new places H(r − s), vectors of space S a, and first moment Hc."""
         g = self.graph
         for names, at in self.given["places"]:
             place = self._column(at)
@@ -208,12 +209,13 @@ class Frame:
             self._set(self.given["first"], scaled)
 
     def _set(self, names: Sequence[str], values: Sequence[Node]) -> None:
-        """New parameters of the framed problem."""
+        """Let new parameters of the framed problem stand for these values."""
         for name, x in zip(names, values, strict=True):
             self._number_of(name, x, "parameter")
 
     def _quaternions(self) -> tuple[tuple[Node, ...], ...]:
-        """Those of S and of H̄: the axis of the largest eigenvalue of a matrix of R (Horn 1987)."""
+        """The quaternions of S and of H̄: the axis of the largest eigenvalue of a matrix of R (Horn
+        1987)."""
         found = []
         for name, R in (("space", self.S and self._S), ("frame", self._H)):
             if not R:
@@ -227,6 +229,7 @@ class Frame:
     # -- values of the given problem ---------------------------------------------------------
 
     def _column(self, trees: Sequence[Any]) -> Matrix:
+        """A list of trees of the given problem, as a column of nodes."""
         return tuple((scalar(self.old.tree(decode(t, "frame"))),) for t in trees)
 
     def _named(self, name: str, m: Matrix) -> Matrix:
@@ -238,7 +241,8 @@ def _entries(column: Matrix) -> list[Node]:
 
 
 def _horn(R: Matrix) -> Matrix:
-    """4 × 4, of largest eigenvalue 3 at the quaternion of the rotation R, scalar first."""
+    """The symmetric 4 × 4 matrix of a rotation R whose eigenvalue 3, the largest, is at its
+    quaternion, scalar first (Horn 1987)."""
     (a, b, c), (d, e, f), (g, h, i) = R
     return (
         (a + e + i, h - f, c - g, d - b),

@@ -62,7 +62,10 @@ class Printer:
 
 
 def decimal(q: Fraction, suffix: str = "") -> str:
-    """The nearest literal; a quotient of small integers stays one."""
+    """The decimal literal nearest to q; a quotient of small integers stays one.
+
+    ``LoweringError`` for a number larger than 1e308.
+    """
     try:
         value = float(q)
     except OverflowError:
@@ -74,7 +77,7 @@ def decimal(q: Fraction, suffix: str = "") -> str:
 
 
 def wrapped(text: str, width: int, indent: str) -> str:
-    """A long statement broken before + and -, every line at most ``width`` wide where it can be."""
+    """The text broken before + and -, every line at most ``width`` wide where it can be."""
     line, *terms = re.split(r" (?=[+-] )", text)
     lines = []
     for term in terms:

@@ -32,7 +32,7 @@ Expression = Tree
 
 
 def negated(e: Expression) -> Expression:
-    """−e, as a term of a sum or by itself."""
+    """The product −1 · e: −e as a term of a sum or by itself."""
     return ("mul", -1, e)
 
 
@@ -42,7 +42,7 @@ def is_negated(e: Expression) -> bool:
 
 
 def parts(e: Expression) -> Iterator[Expression]:
-    """An expression and all that it is made of, but for the names of operators and functions."""
+    """An expression and all its subexpressions, without names of operators and functions."""
     yield e
     if isinstance(e, tuple):
         for x in e[2 if e[0] == "fun" else 1 :]:
@@ -51,7 +51,7 @@ def parts(e: Expression) -> Iterator[Expression]:
 
 @dataclass(frozen=True)
 class Load:
-    """``name`` = ``array[index]``."""
+    """A local name read from an array: ``name`` = ``array[index]``."""
 
     name: str
     array: str
@@ -60,7 +60,7 @@ class Load:
 
 @dataclass(frozen=True)
 class Assignment:
-    """``name`` = ``expression``."""
+    """A named value: ``name`` = ``expression``."""
 
     name: str
     expression: Expression
@@ -68,7 +68,7 @@ class Assignment:
 
 @dataclass(frozen=True)
 class Section:
-    """Consecutive values that come from one equation of the record."""
+    """Consecutive values that come from one equation of the record, its label and text."""
 
     label: str
     equation: str
@@ -84,12 +84,15 @@ class Check:
 
 
 TOLERANCE = {"double": 1e-13, "float": 1e-6}
-"""Relative to what rounding can make of a singular matrix; float leaves room for slender bodies."""
+"""Least ratio of a checked value to its scale, by the type of numbers.
+
+Relative to what rounding can make of a singular matrix; float leaves room for slender bodies.
+"""
 
 
 @dataclass(frozen=True)
 class Function:
-    """One emitted function."""
+    """One emitted function: inputs loaded, sections of values, outputs, and checks before them."""
 
     loads: tuple[Load, ...]
     sections: tuple[Section, ...]
@@ -100,22 +103,22 @@ class Function:
 
     @property
     def computed(self) -> list[Expression]:
-        """What sections and outputs compute."""
+        """The expressions of all values and outputs."""
         return [*(v.expression for s in self.sections for v in s.values), *self.outputs]
 
     @property
     def expressions(self) -> list[Expression]:
-        """The same, and what is checked."""
+        """The expressions of all values, outputs and checks."""
         checked = (x for c in self.checks for x in (c.value, c.scale))
         return [*self.computed, *(x for x in checked if x is not None)]
 
     def calls(self) -> set[str]:
-        """The elementary functions that it calls."""
+        """The names of the elementary functions that it calls."""
         inside = (x for e in self.expressions for x in parts(e))
         return {x[1] for x in inside if isinstance(x, tuple) and x[0] == "fun"}
 
     def operations(self) -> dict[str, int]:
-        """Counts of mul, add, div and calls of functions in sections and outputs."""
+        """Counts of mul, add, div and call in values and outputs."""
         total = dict.fromkeys(OPERATIONS, 0)
         for e in self.computed:
             for x in parts(e):
@@ -174,7 +177,7 @@ class Program:
     framing: Framing | None = None
 
     def all_functions(self) -> tuple[Function, ...]:
-        """Those that are called, and those that find the frame."""
+        """The functions of the program, and those that find its frame."""
         found = self.framing
         own = (*(f for _, f in found.matrices), found.numbers) if found else ()
         return (*self.functions.values(), *own)
@@ -185,9 +188,9 @@ class Program:
 
     @property
     def asks_for_zero(self) -> bool:
-        """Is there an expression ("none", e)?"""
+        """Is there an expression ("none", e), 1 where e is 0?"""
         return any(isinstance(x, tuple) and x[0] == "none" for x in self._parts())
 
     def _parts(self) -> Iterator[Expression]:
-        """All that its expressions are made of."""
+        """All subexpressions of all functions."""
         return (x for f in self.all_functions() for e in f.expressions for x in parts(e))

@@ -12,7 +12,7 @@ Quaternion = tuple[Any, ...]
 
 
 def multiplied(a: Quaternion, b: Quaternion) -> Quaternion:
-    """Hamilton's product, in any ring."""
+    """Hamilton's product a b, in any ring."""
     p, x, y, z = a
     s, u, v, w = b
     return (
@@ -24,13 +24,14 @@ def multiplied(a: Quaternion, b: Quaternion) -> Quaternion:
 
 
 def conjugate(a: Quaternion) -> Quaternion:
-    """(p, −x, −y, −z)."""
+    """The conjugate (p, −x, −y, −z) of (p, x, y, z)."""
     p, x, y, z = a
     return (p, -x, -y, -z)
 
 
 def matrix_of(g: Graph, q: tuple[Node, ...]) -> Matrix:
-    """A with A e = q e q̄, where q q̄ = 1 takes the square of the scalar out of the diagonal."""
+    """The rotation A of a unit quaternion q, A e = q e q̄, 3 × 3, entries named; q q̄ = 1 takes the
+    square of the scalar out of the diagonal."""
     p, x, y, z = q
     unit = multiplied((p, x, y, z), conjugate((p, x, y, z)))[0]
     zero = g.num(0)
@@ -46,5 +47,5 @@ def matrix_of(g: Graph, q: tuple[Node, ...]) -> Matrix:
 
 
 def halves(column: Matrix) -> list[Node]:
-    """½ ζ."""
+    """The entries of ½ ζ, for a column ζ."""
     return [x * Fraction(1, 2) for (x,) in column]

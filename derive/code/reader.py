@@ -19,14 +19,14 @@ Value = Node | Matrix
 
 
 def scalar(value: Value) -> Node:
-    """A value that is a number."""
+    """The value if it is a number; ``LoweringError`` for a matrix."""
     if not isinstance(value, Node):
         raise LoweringError("a matrix stands where a number is wanted")
     return value
 
 
 def matrix(value: Value) -> Matrix:
-    """A value that is a matrix."""
+    """The value if it is a matrix; ``LoweringError`` for a number."""
     if isinstance(value, Node):
         raise LoweringError("a number stands where a matrix is wanted")
     return value
@@ -36,7 +36,7 @@ DROPPED = Equation(("mul", ("T", "ξ"), "C", "Z"), ("mul", ("T", "ξ"), "Z"))
 
 
 class Reader:
-    """The values of the names of one record; ``tree``: how that of a tree is computed."""
+    """The values of the names of one record; ``tree``: how the value of a tree is computed."""
 
     def __init__(
         self,
@@ -56,6 +56,7 @@ class Reader:
     # -- inputs ------------------------------------------------------------------------------
 
     def _inputs(self) -> None:
+        """Set the values of the state's names, and of the problem's inputs."""
         n, d = self.n, self.group.dimension
         self.state: dict[str, Value] = dict(self.space.values)
         self.state["t"] = self.leaf("t", "time")
@@ -78,7 +79,7 @@ class Reader:
             self._restated()
 
     def _restated(self) -> None:
-        """u and f_u of the basis of the record, from the inputs, which are in the stated one."""
+        """Set u and f_u in the basis of the record, from inputs in the stated basis."""
         columns = [self.group.stated.nearest(e) for e in self.group.basis]
         rows = tuple((self.graph.linear(zip(c, self.covector, strict=True)),) for c in columns)
         self.state["u"] = rows[:3]
@@ -87,7 +88,7 @@ class Reader:
 
     @property
     def in_space(self) -> bool:
-        """Are ġ and its rate wanted, and does the record have the accelerations in space?"""
+        """Does the state hold ġ, and the record have the accelerations α̇, τ̇ in space?"""
         return self.space.tangent and self.record.definition("α̇") is not None
 
     def force(self, i: int) -> Matrix:
@@ -95,20 +96,20 @@ class Reader:
         return matrix(self.memo["at", "f_u", i])
 
     def _given(self, name: str, size: int, after: int = 0) -> Matrix:
-        """A column of inputs."""
+        """A column of new inputs of the program, ``name_1`` …, counted from ``after`` + 1."""
         found = self.column(name, size, "input", after)
         self.inputs += [row[0].data[1] for row in found]
         return found
 
     def _block(self, i: int) -> Group:
-        """The factor that moves point i, counted from 1."""
+        """The factor of the group that moves point i, counted from 1; massless places come last."""
         points = self.record.problem.get("body", {}).get("points", [])
         listed = [*points, *self.record.problem.get("places", [])]
         _, factor = self.group.places[int(listed[i - 1].get("block", 1)) - 1]
         return factor
 
     def leaf(self, name: str, kind: str = "state") -> Node:
-        """A state variable or an input."""
+        """The leaf of a name: a state variable, an input, a parameter or the time, by ``kind``."""
         return self.graph.leaf(name, kind)
 
     def column(self, name: str, size: int, kind: str = "state", after: int = 0) -> Matrix:
@@ -119,7 +120,8 @@ class Reader:
     # -- names -------------------------------------------------------------------------------
 
     def name(self, name: str) -> Value:
-        """The value of a name: an input, or what the record defines."""
+        """The value of a name: of an input, or by the last equation of the record that defines
+        it."""
         if name in self.state:
             return self.state[name]
         if name not in self.memo:
@@ -133,7 +135,7 @@ class Reader:
         return self.memo[name]
 
     def _kept(self, C: Matrix) -> Matrix:
-        """C with 1 for what it is in the images of 𝔤, where the record has ξ̄CZ = ξ̄Z."""
+        """C with 1 for what it is on the images of 𝔤, where the record has ξ̄CZ = ξ̄Z."""
         if not any(e == DROPPED for step in self.record.steps for e in step.equations):
             return C
         images = tuple(column for e in self.group.basis for column in q.transposed(e))
@@ -158,6 +160,8 @@ class Reader:
         raise LoweringError(f"the record does not define {name!r}")
 
     def _table(self, name: str, step: Step, e: Equation, indices: list[str]) -> Matrix:
+        """The vector or matrix of a defining equation whose left side is an entry with
+        ``indices``."""
         span = range(1, len(self.group.linear_basis) + 1)
         outer, self.label = self.label, step.key(e)
 
@@ -171,6 +175,7 @@ class Reader:
         return table
 
     def _defined(self, found: tuple[Step, Equation], name: str) -> Value:
+        """The value of the right side of a definition, named unless it is J from a given I."""
         step, equation = found
         outer, self.label = self.label, step.key(equation)
         value = self.tree(equation.rhs)
@@ -181,13 +186,13 @@ class Reader:
         return value
 
     def named(self, value: Value, name: str, *, given: bool = False) -> Value:
-        """A value with a name, or its entries with names."""
+        """The value under a name, or a matrix whose entries have names."""
         if isinstance(value, Node):
             return self.graph.value(value, name, self.label, given=given)
         return self.entries(value, name, given=given)
 
     def entries(self, m: Matrix, name: str, *, given: bool = False) -> Matrix:
-        """A matrix whose entries have names; a column has one index."""
+        """The matrix with its entries named; those of a column have one index."""
         column = len(m[0]) == 1
 
         def entry(x: Node, i: int, j: int) -> Node:
@@ -199,7 +204,8 @@ class Reader:
         )
 
     def member(self, t: Tree) -> Value:
-        """A member of an indexed family: the equation that has it on the left."""
+        """The value of a member of an indexed family, as E_2 or r_1, by the equation that defines
+        it."""
         if t not in self.memo and isinstance(t, tuple) and t[1] == "E":
             basis = self.group.linear_part(self.group.basis[t[2] - 1])
             self.memo[t] = tuple(tuple(self.graph.num(x) for x in row) for row in basis)
@@ -211,7 +217,7 @@ class Reader:
         return self.memo[t]
 
     def component(self, name: str, index: int) -> Node:
-        """An output: an entry of a vector, or where the record has no vector an entry by itself."""
+        """Entry ``index``, from 1, of a vector of the record, or what it defines entry by entry."""
         found = self.record.definition(("entry", name, index))
         if found is not None and self.record.definition(name) is None:
             return scalar(self._defined(found, suffixed(name_of(name), index)))
@@ -219,15 +225,15 @@ class Reader:
         return entry
 
     def vector(self, name: str) -> Matrix:
-        """The value of a name that is a vector or a matrix."""
+        """The value of a name that is a vector or a matrix; else ``LoweringError``."""
         return matrix(self.name(name))
 
     def number(self, name: str) -> Node:
-        """The value of a name that is a number."""
+        """The value of a name that is a number; else ``LoweringError``."""
         return scalar(self.name(name))
 
     def members(self, body: Tree, index: str) -> list[int]:
-        """The values that an index takes: the members that the record defines."""
+        """The values of an index of a sum: the members that the record defines, from 1."""
         if any(x[1] == "E" for _, x in subtrees(body) if isinstance(x, tuple) and x[0] == "at"):
             return [*range(1, len(self.group.linear_basis) + 1)]
         families = {
@@ -248,7 +254,7 @@ class Reader:
         return sorted(common)
 
     def applied(self, t: tuple[Tree, ...]) -> Value:
-        """A member of a family at the time, as r_i(t): by the equation for any index."""
+        """The value of a family's member at the time, as r_i(t), by the equation for any index."""
         _, head, argument = t
         assert isinstance(head, tuple)
         for step in self.record.steps:
@@ -274,7 +280,7 @@ def bound(t: Tree, values: Mapping[str, int]) -> Tree:
 
 
 def _sums_of_parameters(value: Value) -> bool:
-    """Has a matrix entries that are ½(a + b − c), or simpler, in parameters a, b, c alone?"""
+    """Are all entries of a matrix atoms or sums of atoms, as ½(a + b − c), one a sum?"""
     if isinstance(value, Node):
         return False
     entries = [x for row in value for x in row]
@@ -282,4 +288,5 @@ def _sums_of_parameters(value: Value) -> bool:
 
 
 def _linear(x: Node) -> bool:
+    """Is it an atom, or a sum of such?"""
     return x.is_atom or (x.op == "add" and all(map(_linear, x.args)))

@@ -25,7 +25,7 @@ class Emission:
 
     @property
     def words(self) -> list[str]:
-        """The options of a command line."""
+        """The options as words of a command line, each with its value."""
         found = [("lang", x) for x in self.languages] + [("prefix", self.prefix)]
         found += [(name, getattr(self.options, name)) for name in CHOICES]
         found += [("jacobian", x) for x in self.options.jacobian]

@@ -1,4 +1,4 @@
-"""A graph is gone through and rewritten in one way: operands first, then what they stand in."""
+"""Rewriting of a graph: operands first, then what they stand in."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from .graph import Node
 
 Image = Callable[[Node], Node]
-"""What became of a node; itself, where nothing did."""
+"""What became of a node under a rewriting; the node itself, where nothing did."""
 
 Rule = Callable[[Node, Image], Node]
-"""What becomes of a node."""
+"""What becomes of a node, by the images of its operands."""
 
 
 def operands(x: Node) -> Sequence[Node]:
@@ -21,7 +21,10 @@ def operands(x: Node) -> Sequence[Node]:
 def reachable(
     roots: Iterable[Node], within: Callable[[Node], Iterable[Node]] = operands
 ) -> list[Node]:
-    """Nodes, their operands within what is looked at, the operands of these …, operands first."""
+    """The nodes that some nodes are computed from, these included, operands first.
+
+    ``within``: the operands of a node that are looked at.
+    """
     seen: set[Node] = set()
     stack = list(roots)
     while stack:
@@ -38,7 +41,10 @@ def rewritten(
     rule: Rule,
     known: Mapping[Node, Node] | None = None,
 ) -> list[Node]:
-    """What becomes of some nodes when those in ``order``, operands first, are rewritten."""
+    """The images of ``roots`` when the nodes in ``order``, operands first, follow the rule.
+
+    ``known``: nodes whose image is given already.
+    """
     found = dict(known or {})
 
     def image(x: Node) -> Node:
@@ -51,7 +57,7 @@ def rewritten(
 
 
 def remade(x: Node, image: Image) -> Node:
-    """The same operation on what became of the operands, under the same name if it has one."""
+    """The same operation on the images of the operands, under the same name if it has one."""
     g, args = x.graph, [image(y) for y in x.args]
     if all(a is b for a, b in zip(args, x.args, strict=True)):
         return x
@@ -68,7 +74,7 @@ def remade(x: Node, image: Image) -> Node:
 
 
 def replaced(x: Node, images: Mapping[Node, Node]) -> Node:
-    """The value of a node when some are others; names are left behind."""
+    """The node with images in place of some nodes; names are left behind."""
 
     def nameless(y: Node, image: Image) -> Node:
         return image(y.args[0]) if y.op == "value" else remade(y, image)

@@ -19,12 +19,13 @@ from .rewrite import reachable
 
 ONE = Fraction(1)
 Source = tuple[str, int]
-"""Array and index of an input."""
+"""The array that an input is read from, and its index."""
 
 
 @dataclass(frozen=True)
 class Scheduler:
-    """Names and equations shared by the functions of one program."""
+    """What makes functions of nodes: names, and texts of equations by key, shared by all functions
+    of one program."""
 
     names: Names
     equations: Mapping[str, str]
@@ -35,7 +36,10 @@ class Scheduler:
         inputs: Mapping[Node, tuple[str, Source]],
         checks: Iterable[tuple[Node, Node | None]] = (),
     ) -> Function:
-        """The function that computes ``outputs`` from ``inputs`` (node → name and place)."""
+        """The function that computes ``outputs`` from ``inputs`` (node → name and place).
+
+        ``checks``: nodes that must be positive, with the scales of their rounding errors.
+        """
         tests = list(checks)
         roots = outputs + [x for test in tests for x in test if x is not None]
         order = reachable(roots, lambda x: () if x in inputs else x.args)
@@ -58,12 +62,14 @@ class Scheduler:
 
 
 def frontier(outputs: Iterable[Node]) -> list[Node]:
-    """What depends on parameters alone and is used by something that does not, or is an output."""
+    """The nodes of the parameters alone that an output, or a node not of these alone, reads."""
     found = reachable(outputs, lambda x: () if x.stage == PARAMETER else x.args)
     return [x for x in found if x.stage == PARAMETER and x.op != "num"]
 
 
 class _Builder:
+    """The statements of one function, as they are made; ``uses``: how often a node is read."""
+
     def __init__(
         self,
         scheduler: Scheduler,
@@ -77,7 +83,7 @@ class _Builder:
         self.statements: list[tuple[str, Assignment]] = []
 
     def build(self, order: list[Node]) -> None:
-        """Statements in the order of creation: operands come before what uses them."""
+        """Make the statements, operands before what uses them."""
         named = {x.args[0]: x for x in order if x.op == "value" and x not in self.inputs}
         for x in order:
             if x in self.inputs or x.is_atom or x in self.local:
@@ -91,6 +97,7 @@ class _Builder:
                 self.local[x] = self.local[value] = name
 
     def _stands_alone(self, x: Node) -> bool:
+        """Is the value of a node a statement of its own?"""
         if x.op == "value":
             written = _weight(x.args[0])
             if x in self.outputs and written <= 6:
@@ -100,10 +107,11 @@ class _Builder:
         return shared and not (x.op == "mul" and _weight(x) < 1)
 
     def _inline(self, x: Node) -> int:
-        """How much is written at the place of a summand."""
+        """How many operations are written at the place of a summand."""
         return 0 if x in self.local or x in self.inputs else sum(map(self._inline, x.args)) + 1
 
     def _wanted(self, x: Node) -> str:
+        """The name of a statement: that of the value, or made from its operands' names."""
         if x.op == "value":
             return x.graph.titles[x][0]
         parts = [self._short(a) for a in x.args]
@@ -118,12 +126,13 @@ class _Builder:
         return found or suffixed("part", len(self.statements) + 1)
 
     def _short(self, x: Node) -> str:
+        """The name that a node has already; else empty."""
         if x in self.inputs:
             return self.inputs[x][0]
         return self.local.get(x, "")
 
     def sections(self) -> tuple[Section, ...]:
-        """Consecutive statements of one label; unnamed ones go with what follows."""
+        """Consecutive statements of one label; unlabelled ones go with what follows."""
         labelled: list[tuple[str, Assignment]] = []
         following = self.statements[-1][0] if self.statements else ""
         for label, statement in reversed(self.statements):
@@ -140,7 +149,7 @@ class _Builder:
     # -- expressions -------------------------------------------------------------------------
 
     def expression(self, x: Node) -> Expression:
-        """How a node is written where it is used."""
+        """How a node is written where it is used: its name, or its operation."""
         if x in self.inputs:
             return self.inputs[x][0]
         return self.local[x] if x in self.local else self._operation(x)
@@ -164,6 +173,7 @@ class _Builder:
         raise ValueError(f"no place for the input {x.data!r}")
 
     def _product(self, factors: tuple[Node, ...]) -> Expression:
+        """A product or quotient of the factors, reciprocals below the bar."""
         above = [x for x in factors if x.op != "recip" or x in self.local or x in self.inputs]
         below = [x.args[0] for x in factors if x not in above]
         numerator = _times([self.expression(x) for x in above] or [ONE])
@@ -178,11 +188,12 @@ class _Builder:
 
 
 def _times(factors: list[Expression]) -> Expression:
+    """The product of expressions; of one, itself."""
     return factors[0] if len(factors) == 1 else ("mul", *factors)
 
 
 def _term(c: Fraction, e: Expression) -> Expression:
-    """c e, as a term of a sum."""
+    """The expression c e, as a term of a sum."""
     size = abs(c)
     if size != 1:
         factors = e[1:] if isinstance(e, tuple) and e[0] == "mul" else (e,)
@@ -191,11 +202,12 @@ def _term(c: Fraction, e: Expression) -> Expression:
 
 
 def _negation(x: Node) -> bool:
+    """Is it −1 times a node?"""
     return x.op == "add" and len(x.args) == 1 and x.data[0] == -1
 
 
 def _weight(x: Node) -> int:
-    """How much there is to compute at a node itself."""
+    """How many operations a node itself takes."""
     if x.op == "add":
         return sum(1 + (y.op == "mul") * (len(y.args) - 1) for y in x.args)
     return len(x.args) - 1 if x.op == "mul" else 1

@@ -18,8 +18,11 @@ from .statements import Statements
 
 @dataclass(frozen=True)
 class Argument:
-    """An array of as many numbers as its sizes multiply to, or without any a number: ``t``, the
-    time, or ``n``, a count."""
+    """An argument of an emitted function.
+
+    An array of as many numbers as its sizes multiply to, or without sizes a number: ``t``, the
+    time, or ``n``, a count.
+    """
 
     name: str
     sizes: tuple[str, ...] = ()
@@ -27,11 +30,11 @@ class Argument:
 
 @dataclass(frozen=True)
 class Signature:
-    """A function that writes arrays, or returns a number where it writes none.
+    """An emitted function that writes arrays, or returns a number where it writes none.
 
-    ``doc``: what it gives, as a part of a sentence.  ``in_place``: may what is written be what is
-    read?  ``of``: the function of the program, where that has another name;
-    ``only``: the language that has it, empty for all.
+    ``doc``: what it gives, as a part of a sentence. ``in_place``: may what is written be what is
+    read? ``of``: the function of the program, where that has another name; ``only``: the language
+    that has it, empty for all.
     """
 
     name: str
@@ -88,7 +91,8 @@ SIGNATURES = (
         only="python",
     ),
 )
-"""In the order of the files; a program has some of them: derivatives and frames are asked for."""
+"""The functions in the order of the files; a program has some: derivatives and frames are asked
+for."""
 
 
 def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:

@@ -1,4 +1,4 @@
-"""The numbers of a state that are entries of the group element, and those that are none."""
+"""The layout of a group element in the state: which of its entries are numbers of it."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ def layout(group: Group, columns: bool = False) -> list[Slot]:
 
 
 def _factor(g: Group, mark: str, offset: int, apart: bool, columns: bool) -> list[Slot]:
-    """``apart``: the translation is a vector of its own, not a column of A."""
+    """The slots of one factor, its block at ``offset``; ``apart``: its T is a vector of its own,
+    not a column of A."""
     span = range(g.n)
     pairs = [(j, i) if columns else (i, j) for i in span for j in span]
     slots = [
@@ -48,7 +49,8 @@ def _factor(g: Group, mark: str, offset: int, apart: bool, columns: bool) -> lis
 
 
 def fixed_entries(group: Group) -> dict[tuple[int, int], int]:
-    """The entries of A that are no part of the state but 1: the corners of affine factors."""
+    """Place → 1, for the entries of A that are no numbers of the state but always 1: the corners of
+    affine factors."""
     return {
         (offset + f.n, offset + f.n): 1 for offset, f in group.places if group.factors and f.affine
     }

@@ -13,12 +13,15 @@ from ..language.tree import Tree
 SLACK = {"double": Fraction(1, 10**37), "float": Fraction(1, 10**20)}
 """Added to the square of a distance that may be 0; its root has a third power that is not 0.
 
-That of doubles is a number of 32 bits as well, for arrays of these."""
+That of doubles is a number of 32 bits as well, for arrays of these.
+"""
 
 
 def tension(t: Tree) -> tuple[tuple[Tree, ...], Tree, Tree, Tree] | None:
-    """The factors of c, s = √q, q and l of c(s − l)/s, for l a parameter: a spring, which may have
-    no natural length; ``None`` for any other tree."""
+    """The factors of c, then s = √q, q and l of a spring's tension c(s − l)/s, l a parameter.
+
+    ``None`` for any other tree.
+    """
     match t:
         case ("div", ("mul", *factors), ("fun", "sqrt", q) as s):
             for k, x in enumerate(factors):

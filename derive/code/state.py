@@ -23,14 +23,15 @@ from .quaternion import halves, matrix_of, multiplied
 from .slots import Slot, fixed_entries, layout
 
 Seeds = dict[Node, Node]
-"""A variation: leaf of the state → its derivative."""
+"""A variation of the state: leaf → its derivative."""
 
 Named = Callable[[str], Matrix]
 Component = Callable[[str, int], Node]
 
 
 class State:
-    """``names`` in order; ``values``: A, T, ζ, w as nodes in the leaves of these names."""
+    """The numbers of a state: ``names`` in order; ``values``: A, T, ζ, w as nodes in their
+    leaves."""
 
     def __init__(self, graph: Graph, group: Group, options: Options):
         self.graph, self.group, self.n = graph, group.stated, group.n
@@ -46,10 +47,12 @@ class State:
     # -- the group element -------------------------------------------------------------------
 
     def _leaf(self, name: str) -> Node:
+        """A new number of the state."""
         self.names.append(name)
         return self.graph.leaf(name, "state")
 
     def _element(self) -> None:
+        """Add the numbers of the group element; set A and T."""
         slots = self.slots
         if self.quaternion:
             self.q = tuple(self._leaf(suffixed("q", i)) for i in range(4))
@@ -74,7 +77,7 @@ class State:
         }
 
     def along(self, a: int) -> Seeds:
-        """The variation δg = g E_a at constant ζ."""
+        """The variation δg = g E_a at constant ζ; a from 0."""
         e = self.member(a)
         seeds = self._moved(e)
         if self.tangent:  # δġ = g E_a Z
@@ -82,17 +85,17 @@ class State:
         return seeds
 
     def faster(self, a: int) -> Seeds:
-        """The variation of ζ_a alone."""
+        """The variation of ζ_a alone; a from 0."""
         if self.tangent:
             return self._speeds(self.member(a))
         return {self.coordinates[a]: self.graph.num(1)}
 
     def member(self, a: int) -> Matrix:
-        """E_a as a matrix of nodes."""
+        """E_a as a matrix of nodes; a from 0."""
         return tuple(tuple(self.graph.num(x) for x in row) for row in self.group.basis[a])
 
     def _speeds(self, e: Matrix) -> Seeds:
-        """The leaves of ġ for δġ = g e."""
+        """The variation δġ = g e, as derivatives of the leaves of ġ."""
         change = dense.times(self.graph, self.values["A"], self._linear(e))
         seeds = self._seeds("α", change)
         if self.group.affine:
@@ -101,7 +104,7 @@ class State:
         return seeds
 
     def _moved(self, e: Matrix) -> Seeds:
-        """The leaves of g for δg = g e, with e of the size of the group's matrices."""
+        """The variation δg = g e, as derivatives of the leaves of g."""
         if self.quaternion:
             half = halves(((e[2][1],), (e[0][2],), (e[1][0],)))
             rates = multiplied(self.q, (self.graph.num(0), *half))
@@ -123,6 +126,7 @@ class State:
     # -- the velocity ------------------------------------------------------------------------
 
     def _velocity(self) -> None:
+        """Add the numbers of the velocity; set ζ, w, and with ġ in the state α, τ."""
         n, turns = self.n, self._turns
         if not self.tangent:
             zeta = [self._leaf(suffixed("zeta", a)) for a in self._span(self._stated_turns)]
@@ -150,7 +154,8 @@ class State:
         self.coordinates = self._restated([x for (x,) in found])
 
     def _back(self) -> Matrix:
-        """[[Ā, −ĀT], [0, 1]] in every block, where the linear parts of all factors are skew."""
+        """The inverse [[Ā, −ĀT], [0, 1]] in every block, where the linear parts of all factors are
+        skew."""
         A, num = self.values["A"], self.graph.num
         corners = {i for i, _ in fixed_entries(self.group)}
         span = range(self.n)
@@ -168,7 +173,7 @@ class State:
 
     @property
     def _turns(self) -> int:
-        """How many numbers ζ has."""
+        """The dimension of the linear parts: how many numbers ζ has."""
         return self.group.dimension - (self.n if self.group.affine else 0)
 
     @property
@@ -177,15 +182,17 @@ class State:
         return self._turns if self.group.free_translations else self.group.dimension
 
     def read(self, a: int, z: Matrix, group: Group | None = None) -> Node:
-        """Coordinate a of a matrix of the Lie algebra in the stated basis, or that of a group."""
+        """Coordinate a, from 0, of a matrix of the Lie algebra in the stated basis, or in a
+        group's."""
         group = group or self.group
         return self.graph.linear((c, z[i][j]) for c, i, j in group.coordinate_terms(a))
 
     def _by(self, group: Group, z: Matrix) -> list[Node]:
+        """The coordinates of a matrix of the Lie algebra in the basis of a group."""
         return [self.read(a, z, group) for a in range(group.dimension)]
 
     def _restated(self, coordinates: list[Node]) -> list[Node]:
-        """ζ and w, in the stated basis."""
+        """The coordinates ζ and w of the standard basis, in the stated one."""
         if self.standard is self.group:
             return coordinates
         return self._by(self.group, self._matrix(self.standard, coordinates))
@@ -195,6 +202,7 @@ class State:
         return range(1, count + 1)
 
     def _named(self, name: str, column: Matrix) -> Matrix:
+        """The column with its entries named."""
         return tuple(
             (self.graph.value(x, suffixed(name, i), ""),) for i, (x,) in enumerate(column, 1)
         )
@@ -229,7 +237,7 @@ class State:
     # -- rates and variations ----------------------------------------------------------------
 
     def velocity(self, component: Component) -> list[Node]:
-        """ζ̇, and ẇ where there is w, in the stated basis."""
+        """The accelerations ζ̇, and ẇ where there is w, in the stated basis."""
         found = [component("ζ̇", a) for a in self._span(self._turns)]
         found += [component("ẇ", i) for i in self._span(self.n)] if self.group.affine else []
         return self._restated(found)
@@ -251,6 +259,7 @@ class State:
         return [*found, *(x for (x,) in (name("Ṫ") if affine else ())), *velocity]
 
     def _entries(self, A: Matrix, T: Matrix) -> list[Node]:
+        """The entries of A and T that are numbers of the state, in its order."""
         return [{"A": A, "T": T}[x.letter][x.row][x.column] for x in self.slots]
 
     def entries(self, g: Matrix) -> list[Node]:
@@ -260,15 +269,17 @@ class State:
 
     @property
     def element(self) -> Matrix:
-        """g, of the size of the group's matrices."""
+        """The group element g as nodes, of the size of the group's matrices."""
         return self._whole(self.values["A"], self.values.get("T", ()), 1)
 
     @property
     def rate(self) -> Matrix:
-        """ġ, where the state holds it."""
+        """ġ as nodes, of the size of the group's matrices, where the state holds it."""
         return self._whole(self.values["α"], self.values.get("τ", ()), 0)
 
     def _whole(self, linear: Matrix, shift: Matrix, corner: int) -> Matrix:
+        """The matrix [[linear, shift], [0, corner]] of an affine group; of a linear one
+        ``linear``."""
         if not self.group.affine:
             return linear
         num = self.graph.num
@@ -276,7 +287,7 @@ class State:
         return (*rows, (*(num(0),) * self.n, num(corner)))
 
     def hat(self, coordinates: Sequence[Node]) -> Matrix:
-        """Σ x_a E_a."""
+        """The matrix Σ x_a E_a of coordinates in the stated basis."""
         return self._matrix(self.group, coordinates)
 
     def _matrix(self, group: Group, coordinates: Sequence[Node]) -> Matrix:
@@ -292,7 +303,7 @@ class State:
         )
 
     def _second(self, rate: list[Node]) -> list[Node]:
-        """g̈ = g(Ż + Z²): its linear part and its shift."""
+        """The numbers of g̈ = g(Ż + Z²), its linear part and its shift; ``rate``: ζ̇ and ẇ."""
         g, n = self.graph, self.n
         Z = self.hat(self.coordinates)
         total = q.plus(self.hat(rate), dense.times(g, Z, Z))

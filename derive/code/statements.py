@@ -22,10 +22,10 @@ class Statements:
     language: Language
     real: str
     sizes: Mapping[str, int]
-    """How many numbers each array holds."""
+    """Array → how many numbers it holds."""
 
     def function(self, f: Function) -> dict[str, Any]:
-        """Lines of text: loads, sections with their comments, outputs, checks."""
+        """Name of a template's field → lines of text: loads, sections, outputs, checks."""
         printer = self.language.printer(self.real)
         loads = [x for x in f.loads if x.array != "t"]
         return {
@@ -71,7 +71,7 @@ class Statements:
         }
 
     def _loads(self, loads: Iterable[Load], pattern: str) -> list[str]:
-        """Constants are the same for each state of a batch."""
+        """Loads of a batch by ``pattern``; constants are the same for each of its states."""
         plain = self.language.load
         return [
             self._load(x, plain if x.array == "k" else pattern) for x in loads if x.array != "t"
@@ -85,7 +85,7 @@ class Statements:
         }
 
     def _comment(self, *texts: str) -> list[str]:
-        """Lines of a comment; a long text is cut."""
+        """The lines of a comment; each text is cut at 200 letters."""
         short = (comment(x if len(x) <= 200 else x[:197] + "...") for x in texts)
         told = [line for x in short for line in textwrap.wrap(x, EQUATION, break_long_words=False)]
         if not told:
@@ -118,5 +118,5 @@ def comment(text: str) -> str:
 
 
 def operations(f: Function) -> str:
-    """The counts of a function in words."""
+    """The operation counts of a function in words."""
     return ", ".join(f"{n} {name}" for name, n in f.operations().items() if n) or "none"

@@ -1,4 +1,4 @@
-"""Which numbers of dx/dt are the left side of which equation of the record, for comments."""
+"""Titles of the numbers of dx/dt: which equation of the record has them on its left side."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from .state import State
 
 
 def titles(reader: Reader) -> dict[int, str]:
-    """Where the numbers of an equation's left side begin in dx/dt, and the equation."""
+    """Index in dx/dt at which an equation's left side begins → label and equation."""
     found = {}
     for start, names in _beginnings(reader.space).items():
         known = (reader.record.definition(name) for name in names)
@@ -19,7 +19,7 @@ def titles(reader: Reader) -> dict[int, str]:
 
 
 def _beginnings(space: State) -> dict[int, tuple[str, ...]]:
-    """The same with the names by which the record may have the left side."""
+    """Index in dx/dt → the names by which the record may have what begins there."""
     slots = [x for x in space.slots if x.letter == "T" or not space.quaternion]
     letters, before = [x.letter for x in slots], 4 if space.quaternion else 0
     first = {x: before + letters.index(x) for x in dict.fromkeys(letters)}
