@@ -70,8 +70,7 @@ def hollow(p: Program) -> Program:
 
 
 def apart(p: Program, words: Iterable[str]) -> Program:
-    """The program with an underscore added to every loaded or computed name that is in
-    ``words``."""
+    """The program with an underscore added to every loaded or computed name in ``words``."""
     functions = p.all_functions()
     # the time is an argument, whose name the templates give
     own = dict.fromkeys(x.name for f in functions for x in f.loads if x.array != "t")

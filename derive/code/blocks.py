@@ -18,8 +18,7 @@ from .program import Assignment, Expression, Function, Load, Section, parts
 
 @dataclass(frozen=True)
 class Block:
-    """Values of one section, then the outputs (by index) that stand behind them, each with its
-    loads."""
+    """Values of one section, then the outputs (by index) behind them, each with its loads."""
 
     loads: tuple[Load, ...]
     section: Section
@@ -28,8 +27,7 @@ class Block:
 
 
 def blocks(f: Function) -> list[Block]:
-    """The function cut into blocks: every load, value and output stands once, after what it
-    reads."""
+    """The blocks of a function: every load, value and output once, after what it reads."""
     left = list(f.loads)
 
     def loads(read: set[str]) -> tuple[Load, ...]:

@@ -44,8 +44,7 @@ def chain(g: Graph, factors: Sequence[Matrix], named: Namer) -> Matrix:
 
     @cache
     def best(i: int, j: int) -> tuple[int, int]:
-        """The fewest multiplications for the factors i … j, and the index behind which to split
-        them."""
+        """The fewest multiplications for the factors i … j, and the index after which to split."""
         if i == j:
             return 0, i
         options = []

@@ -1,5 +1,4 @@
-"""Common factors of the terms of a sum in front: x a + x b = x (a + b), where nothing else needs
-the products."""
+"""Common factors of a sum's terms in front: x a + x b = x (a + b), if none else needs x a."""
 
 from __future__ import annotations
 

@@ -30,8 +30,7 @@ def factored(graph: Graph, roots: Sequence[Node]) -> list[Node]:
 
 
 def cost(roots: Sequence[Node]) -> int:
-    """Multiplications of nodes that are not of the parameters alone, plus constants to be
-    loaded."""
+    """Multiplications of nodes that vary with the state, plus constants to be loaded."""
     total = len(frontier(roots))
     for x in _moving_in(roots):
         if x.op == "mul":
@@ -67,8 +66,7 @@ def _looking_through(lost: set[Node]) -> Rule:
 
 
 def _naming(order: Sequence[Node]) -> Rule:
-    """The rule that puts the named node wherever the same sum or product stands without its
-    name."""
+    """The rule that puts the named node wherever the same sum or product stands nameless."""
     named = {x.args[0]: x for x in order if x.op == "value"}
 
     def rule(x: Node, image: Image) -> Node:

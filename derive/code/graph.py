@@ -98,8 +98,7 @@ class Graph:
         return x if isinstance(x, Node) else self.num(x)
 
     def leaf(self, name: str, kind: str) -> Node:
-        """A leaf by name; ``kind``: state, time, input, parameter, or frame (a number of the
-        principal frame)."""
+        """A leaf; ``kind``: state, time, input, parameter, or frame (of the principal frame)."""
         stage = PARAMETER if kind in ("parameter", "frame") else STATE
         return self._intern("leaf", (kind, name), (), stage)
 

@@ -168,8 +168,8 @@ class Inverses:
         return [g.value(g.magnitude(x), name, self.reader.label) for name, x in pairs]
 
     def _check_diagonal(self, t: Tree, m: Matrix, inverse: Matrix) -> None:
-        """Note that 1/(M⁻¹)_ii is positive too: after a small pivot, rounding could make a larger
-        one of none."""
+        """Note that 1/(M⁻¹)_ii is positive: rounding after a small pivot may hide that one is
+        not."""
         for i, scale in enumerate(self._sizes(t, m)):
             x = inverse[i][i]
             pivot = x.op == "value" and x.args[0].op == "recip"

@@ -76,8 +76,7 @@ def by_state(space: State, accelerations: list[Node]) -> list[Node]:
 
 
 def by_leaves(space: State, accelerations: list[Node], leaves: Sequence[Node]) -> list[Node]:
-    """The derivative of (η̇, ζ̇) by ``leaves``, inputs or parameters: 2N × len(leaves) by rows, the
-    first N of them 0."""
+    """∂(η̇, ζ̇)/∂leaves, for inputs or parameters: 2N × len(leaves) by rows, the first N 0."""
     g, d = space.graph, space.group.dimension
     varied = [Varied(g, {x: g.num(1)}, str(x.data[1])) for x in leaves]
     zeros = [g.num(0)] * (d * len(leaves))

@@ -221,8 +221,7 @@ class Lowering:
         return value
 
     def _trace(self, t: Tree) -> Node:
-        """Tr of a tree: of a product its diagonal when the product is wanted anyway, else Σ P_ij
-        Q_ji."""
+        """Tr of a tree: of a product its diagonal where that is wanted anyway, else Σ P_ij Q_ji."""
         g, name = self.graph, name_of(("tr", t))
         factors = [x for x in t[1:] if not is_scalar(x)] if isinstance(t, tuple) else []
         if isinstance(t, tuple) and t[0] == "mul" and len(factors) > 1:

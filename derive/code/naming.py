@@ -94,8 +94,7 @@ def suffixed(name: str, *index: int) -> str:
 
 
 def sum_name(coefficients: Sequence[Fraction], names: Sequence[str]) -> str:
-    """The name of a sum of two: ``a_plus_b``, ``a_minus_b``, ``a_minus_2_b``; empty where no such
-    name would be true."""
+    """``a_plus_b``, ``a_minus_b``, ``a_minus_2_b`` for a sum of two; empty where none is true."""
     terms = sorted(zip(coefficients, names, strict=True), key=lambda term: term[0] != 1)
     if len(terms) != 2:
         return ""

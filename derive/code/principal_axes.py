@@ -14,8 +14,7 @@ MOMENTS = tuple(f"J_{i}{j}" for i in (1, 2, 3) for j in range(i, 4))
 
 
 def inertia(reader: Reader) -> list[Node]:
-    """The tensor I_11, I_12, I_13, I_22, I_23, I_33 about the origin; empty where space is not
-    R³."""
+    """I_11, I_12, I_13, I_22, I_23, I_33 about the body's origin; empty where space is not R³."""
     if not reader.group.turns_space:
         return []
     tensor = reader.vector("I")

@@ -214,8 +214,7 @@ class Frame:
             self._number_of(name, x, "parameter")
 
     def _quaternions(self) -> tuple[tuple[Node, ...], ...]:
-        """The quaternions of S and of H̄: the axis of the largest eigenvalue of a matrix of R (Horn
-        1987)."""
+        """The quaternions of S and of H̄, by the axis of the largest eigenvalue (see ``_horn``)."""
         found = []
         for name, R in (("space", self.S and self._S), ("frame", self._H)):
             if not R:

@@ -120,8 +120,7 @@ class Reader:
     # -- names -------------------------------------------------------------------------------
 
     def name(self, name: str) -> Value:
-        """The value of a name: of an input, or by the last equation of the record that defines
-        it."""
+        """The value of a name: of an input, or by the last equation that defines it."""
         if name in self.state:
             return self.state[name]
         if name not in self.memo:
@@ -160,8 +159,7 @@ class Reader:
         raise LoweringError(f"the record does not define {name!r}")
 
     def _table(self, name: str, step: Step, e: Equation, indices: list[str]) -> Matrix:
-        """The vector or matrix of a defining equation whose left side is an entry with
-        ``indices``."""
+        """The vector or matrix whose entry with ``indices`` is the left side of an equation."""
         span = range(1, len(self.group.linear_basis) + 1)
         outer, self.label = self.label, step.key(e)
 
@@ -204,8 +202,7 @@ class Reader:
         )
 
     def member(self, t: Tree) -> Value:
-        """The value of a member of an indexed family, as E_2 or r_1, by the equation that defines
-        it."""
+        """The value of a member of a family, as E_2 or r_1, by the equation that defines it."""
         if t not in self.memo and isinstance(t, tuple) and t[1] == "E":
             basis = self.group.linear_part(self.group.basis[t[2] - 1])
             self.memo[t] = tuple(tuple(self.graph.num(x) for x in row) for row in basis)

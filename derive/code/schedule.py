@@ -24,8 +24,7 @@ Source = tuple[str, int]
 
 @dataclass(frozen=True)
 class Scheduler:
-    """What makes functions of nodes: names, and texts of equations by key, shared by all functions
-    of one program."""
+    """What turns nodes into functions: names, and equation texts by key, of one program."""
 
     names: Names
     equations: Mapping[str, str]

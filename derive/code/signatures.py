@@ -91,8 +91,7 @@ SIGNATURES = (
         only="python",
     ),
 )
-"""The functions in the order of the files; a program has some: derivatives and frames are asked
-for."""
+"""The functions in the order of the files; derivatives and frames are there when asked for."""
 
 
 def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:

@@ -31,8 +31,7 @@ def layout(group: Group, columns: bool = False) -> list[Slot]:
 
 
 def _factor(g: Group, mark: str, offset: int, apart: bool, columns: bool) -> list[Slot]:
-    """The slots of one factor, its block at ``offset``; ``apart``: its T is a vector of its own,
-    not a column of A."""
+    """The slots of a factor, its block at ``offset``; ``apart``: T is a vector, no column of A."""
     span = range(g.n)
     pairs = [(j, i) if columns else (i, j) for i in span for j in span]
     slots = [
@@ -49,8 +48,7 @@ def _factor(g: Group, mark: str, offset: int, apart: bool, columns: bool) -> lis
 
 
 def fixed_entries(group: Group) -> dict[tuple[int, int], int]:
-    """Place → 1, for the entries of A that are no numbers of the state but always 1: the corners of
-    affine factors."""
+    """Place → 1: the corners of affine factors, entries of A that are always 1."""
     return {
         (offset + f.n, offset + f.n): 1 for offset, f in group.places if group.factors and f.affine
     }

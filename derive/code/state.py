@@ -30,8 +30,7 @@ Component = Callable[[str, int], Node]
 
 
 class State:
-    """The numbers of a state: ``names`` in order; ``values``: A, T, ζ, w as nodes in their
-    leaves."""
+    """The numbers of a state: ``names`` in order; ``values``: A, T, ζ, w as nodes in them."""
 
     def __init__(self, graph: Graph, group: Group, options: Options):
         self.graph, self.group, self.n = graph, group.stated, group.n
@@ -154,8 +153,7 @@ class State:
         self.coordinates = self._restated([x for (x,) in found])
 
     def _back(self) -> Matrix:
-        """The inverse [[Ā, −ĀT], [0, 1]] in every block, where the linear parts of all factors are
-        skew."""
+        """The inverse [[Ā, −ĀT], [0, 1]] of every block, if all factors have skew linear parts."""
         A, num = self.values["A"], self.graph.num
         corners = {i for i, _ in fixed_entries(self.group)}
         span = range(self.n)
@@ -182,8 +180,7 @@ class State:
         return self._turns if self.group.free_translations else self.group.dimension
 
     def read(self, a: int, z: Matrix, group: Group | None = None) -> Node:
-        """Coordinate a, from 0, of a matrix of the Lie algebra in the stated basis, or in a
-        group's."""
+        """Coordinate a, from 0, of a Lie algebra matrix in the stated basis, or in a group's."""
         group = group or self.group
         return self.graph.linear((c, z[i][j]) for c, i, j in group.coordinate_terms(a))
 
@@ -278,8 +275,8 @@ class State:
         return self._whole(self.values["α"], self.values.get("τ", ()), 0)
 
     def _whole(self, linear: Matrix, shift: Matrix, corner: int) -> Matrix:
-        """The matrix [[linear, shift], [0, corner]] of an affine group; of a linear one
-        ``linear``."""
+        """The matrix [[linear, shift], [0, corner]] of an affine group; ``linear`` of a linear
+        one."""
         if not self.group.affine:
             return linear
         num = self.graph.num
