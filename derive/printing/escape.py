@@ -1,4 +1,4 @@
-"""Words and names for LaTeX and Markdown: nothing a user typed reaches them as a command."""
+"""Escaping of words and names for LaTeX and Markdown: what a user typed is never a command."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ TEXT = {
     "⋉": r"\ensuremath{\ltimes}", "↦": r"\ensuremath{\mapsto}", "⊗": r"\ensuremath{\otimes}",
     "€": r"\texteuro{}", "†": r"\textdagger{}", "‰": r"\textperthousand{}",
 }  # fmt: skip
-"""Outside formulas; a fraction of mathematics in a title would end TeX."""
+"""Characters outside formulas → LaTeX; a fraction of mathematics in a title would end TeX."""
 PLAIN = "+=/(),[].:0123456789 "
 OPERATORS = "=+−∧≅≠≤≥∈→×"
 NO_BREAK = "\u00a0\u202f"
@@ -67,12 +67,12 @@ def tex_text(words: str) -> str:
 
 
 def unknown_to_tex(words: str) -> str:
-    """The characters that :func:`tex_text` shows as question marks."""
+    """The distinct characters of a text that :func:`tex_text` shows as question marks."""
     return "".join(dict.fromkeys(c for c in words if c != "?" and "?" in tex_text(c)))
 
 
 def markdown_text(words: str) -> str:
-    """Any text as Markdown that prints it."""
+    """Any text as Markdown that prints it, with no markup and no HTML in it."""
     spaced = " ".join(WORD.findall(words))
     plain = "".join(c for c in spaced if c.isprintable() or c in NO_BREAK)
     plain = plain.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
@@ -89,7 +89,7 @@ def prose(
     escape: Callable[[str], str] = tex_text,
     formula: Callable[[str], str] = dollars,
 ) -> str:
-    """A sentence with its formulas between dollars, or otherwise shown, and the rest escaped."""
+    """A sentence, its formulas between dollars or as ``formula`` shows them, the rest escaped."""
     found: list[str] = []
     for mathematical, run in _runs(WORD.findall(words)):
         before, core, after = _core(run) if mathematical else (run, "", "")
@@ -98,7 +98,7 @@ def prose(
 
 
 def unbraced(formula: str) -> str:
-    """The same, one letter by itself in no braces."""
+    """A formula as :func:`dollars` has it, without braces around a single letter."""
     tex = re.sub(r"([_^])\{(\w)\}", r"\1\2", dollars(formula))
     return re.sub(r"\\bar\{(\w)\}", r"\\bar \1", tex)
 
@@ -116,7 +116,7 @@ def between_dollars(
 
 
 def _runs(words: list[str]) -> list[tuple[bool, str]]:
-    """The words joined into formulas and other text; a comma ends a formula that is not open."""
+    """The words joined into runs, each a formula or not; a comma ends a closed formula."""
     runs: list[tuple[bool, str]] = []
     closed = True
     for word, formula in zip(words, _flags(words), strict=True):
@@ -143,11 +143,13 @@ def _flags(words: list[str]) -> list[bool]:
 
 
 def _operator(word: str) -> bool:
+    """Is it a sign of an operator or relation that stands between formulas?"""
     return word != "" and word in OPERATORS
 
 
 def _core(word: str) -> tuple[str, str, str]:
-    """A word without the elided one before it, punctuation and unmatched parentheses around it."""
+    """A word in three parts: an elided word and opening parentheses before it, itself, punctuation
+    and unmatched parentheses after it."""
     elided = ELIDED.match(word)
     start, end = elided.end() if elided else 0, len(word.rstrip(",.;:!?" + NO_BREAK))
     excess = word[:end].count("(") - word[:end].count(")")
@@ -159,6 +161,7 @@ def _core(word: str) -> tuple[str, str, str]:
 
 
 def _allowed(word: str) -> bool:
+    """Has the word letters and signs alone that formulas can have, and no index left open?"""
     return bool(word) and all(
         (c.isascii() and c.isalpha()) or c in SYMBOLS or c in RAISED or c in LOWERED
         or c in MATH_ACCENTS or c in PLAIN or c == "_"
@@ -167,10 +170,10 @@ def _allowed(word: str) -> bool:
 
 
 def _is_formula(word: str, first: bool) -> bool:
-    """A word with a sign of mathematics in it, a quotient of letters, or a single letter.
+    """Is it a word with a sign of mathematics in it, a quotient of letters, or one letter?
 
-    The article “a” is none, nor is a capital that may begin the sentence; a circumflex in a longer
-    word is a letter of French.
+    The article “a” is none, nor is a capital that may begin the sentence (``first``); a circumflex
+    in a longer word is a letter of French.
     """
     if not _allowed(word):
         return False

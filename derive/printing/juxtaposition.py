@@ -1,4 +1,4 @@
-"""What stands between the factors of a LaTeX product, and numbers as factors."""
+"""Factors of a LaTeX product side by side: numbers, and what separates two factors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ DOT = BREAK + SPACE + literal(r"\cdot") + SPACE
 
 
 def number(q: int | Fraction) -> tuple[Formula, int]:
-    """A number; a small fraction is set small."""
+    """A number and how tightly it holds together; a small fraction is set small."""
     level = ATOM if q >= 0 else SUM
     sign = NOTHING if q > 0 else literal("-")
     if isinstance(q, int) or q.denominator == 1:
@@ -29,13 +29,13 @@ def number(q: int | Fraction) -> tuple[Formula, int]:
 
 
 def outside(tex: str) -> str:
-    """What stands outside every brace and parenthesis."""
+    """The part of a LaTeX formula that is outside every brace and parenthesis."""
     inner = re.sub(r"\{[^{}]*\}|\([^()]*\)", "", tex)
     return tex if inner == tex else outside(inner)
 
 
 def _simple(t: Any) -> bool:
-    """A letter with its marks, which stands beside another without a space."""
+    """Is it a letter with its marks, which stands beside another without a space?"""
     if isinstance(t, str):
         return not t.startswith("δ")
     simple = isinstance(t, tuple) and t[0] in ("T", "inv", "pow", "at", "entry", "par", "one")
@@ -43,7 +43,7 @@ def _simple(t: Any) -> bool:
 
 
 def glue(left: Tree, right: Tree) -> Formula:
-    """What stands between two factors."""
+    """The sign, or space, between two factors."""
     if isinstance(right, (int, Fraction)):
         return DOT
     if isinstance(left, (int, Fraction)):

@@ -1,4 +1,4 @@
-"""How names are written in LaTeX: those of the walk, those of the user, and their bars."""
+"""Names in LaTeX: those of the walk from the vocabulary or record, those of the user sans serif."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ HARMLESS = re.compile(
 
 
 def names_of(symbols: Iterable[Symbol], parameters: Collection[str] = ()) -> dict[str, str]:
-    """How the names of a record are written: its own LaTeX where that is one harmless letter.
+    """Name → LaTeX, for the names of a record: its own LaTeX where that is one harmless letter.
 
     Beside a parameter x_1 there may be x1, which then has no index: its key is ``par x1``.
     """
@@ -31,7 +31,7 @@ def names_of(symbols: Iterable[Symbol], parameters: Collection[str] = ()) -> dic
 
 
 def parameter(name: str, names: Mapping[str, str] = NAMES) -> str:
-    """A name that the user gave, sans serif; a short end after _, or digits, is an index."""
+    """The LaTeX of a parameter, sans serif; a short end after _, or digits, is an index."""
     if f"par {name}" in names:
         return names[f"par {name}"]
     match = re.fullmatch(r"([A-Za-z][A-Za-z0-9]*)_([A-Za-z0-9]{1,3})", name) or re.fullmatch(
@@ -47,6 +47,6 @@ def parameter(name: str, names: Mapping[str, str] = NAMES) -> str:
 
 
 def _base(word: str) -> str:
-    """A word sans serif; a Greek letter by itself, where the walk gives it no meaning."""
+    """A word sans serif; a Greek letter as itself, where the walk gives it no meaning."""
     free = word in GREEK and GREEK[word] not in VOCABULARY
     return rf"\{word}" if free else rf"\mathsf{{{word}}}"

@@ -56,7 +56,7 @@ DEFINED = {
 
 
 def styled(tex: str) -> str:
-    """Formulas, or a text with formulas between dollars, in macros."""
+    """Formulas, or a text with formulas between dollars, with macros in place of commands."""
     tex = re.sub(r"\$[^$]*\$", lambda m: SPOKEN.sub(r"\\hatmap{\1}", m[0]), tex)
     tex = BAR.sub(r"\\transpose{\1\2}{\3}", tex)
     for pattern, macro in RENAMED:
@@ -65,17 +65,17 @@ def styled(tex: str) -> str:
 
 
 def _renamed(macro: str, found: re.Match[str]) -> str:
-    """The macro, apart from a letter that follows."""
+    """The macro, followed by a space where a letter follows."""
     return f"{macro} " if found[1] else macro
 
 
 def standard(tex: str) -> str:
-    """Formulas in standard commands alone."""
+    """Formulas with j(x) in place of the macro ``hatmap``: standard commands alone."""
     return HAT.sub(r"j(\1)", tex)
 
 
 def definitions(notation: Notation) -> list[str]:
-    """The macros, a line each; one that a preamble has already stays."""
+    """The definitions of the macros, a line each; one that a preamble has already stays."""
     chosen = {"transpose": notation.transpose, "transposeof": notation.transpose}
     chosen["hatmap"] = notation.hat
     lines = []

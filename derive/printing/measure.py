@@ -1,4 +1,4 @@
-"""How wide a LaTeX formula will be, near enough to choose where its lines break."""
+"""The width of a LaTeX formula, estimated well enough to choose where its lines break."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ MATRIX = re.compile(r"\\begin\{pmatrix\}(.*?)\\end\{pmatrix\}", re.S)
 
 @lru_cache(4096)  # terms in terms are measured again at every depth
 def measure(tex: str) -> float:
-    """About how wide a formula is, in em; rather too wide than too narrow."""
+    """The estimated width of a formula in em; rather too wide than too narrow."""
     wide = sum(
         1.8 + max(map(measure, re.split(r" \\\\(?:\[2pt\])? ", m[1]))) for m in MATRIX.finditer(tex)
     )

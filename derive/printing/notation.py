@@ -1,4 +1,4 @@
-"""What a reader may choose about the notation."""
+"""The choices of notation that a reader has."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ NOTATIONS = {
 
 @dataclass(frozen=True)
 class Notation:
-    """See :data:`NOTATIONS`."""
+    """How transposes and skew matrices are written, by NOTATIONS; ``ValueError`` for others."""
 
     transpose: str = "bar"
     hat: str = "j"

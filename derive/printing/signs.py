@@ -1,4 +1,4 @@
-"""The letters of formulas, by the commands of LaTeX."""
+"""Tables of the letters and signs of formulas, and their LaTeX commands."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LETTERS = GREEK | {
     "varphi": "φ", "phi": "ϕ", "varpi": "ϖ", "lambda": "λ", "Lambda": "Λ", "partial": "∂",
     "nabla": "∇", "ell": "ℓ",
 }  # fmt: skip
-"""Commands that are letters."""
+"""Command of LaTeX (without its backslash) → letter, for commands that are letters."""
 MATH_ACCENTS = {"\u0304": r"\bar", "\u0303": r"\tilde", "\u0307": r"\dot", "\u0302": r"\hat"}
 NAMED = {"rho", "sigma", "omega", "gamma", "kappa", "theta", "lambda"}
 """Parameters that equations have as Greek letters, and that are words of neither language."""
@@ -34,7 +34,7 @@ LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ", "0123456789ijet
 
 
 def math_char(c: str) -> str:
-    """One character as LaTeX."""
+    """The LaTeX of one character of a formula."""
     if c in RAISED:
         return f"^{{{RAISED[c]}}}"
     if c in LOWERED:

@@ -1,4 +1,4 @@
-"""Names as formulas: one letter with what stands before, over and below it."""
+"""Formulas of single names: a letter with what stands before, over and below it."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ BARS = Notation()
 
 @lru_cache(1024)
 def named(tex: str) -> Formula:
-    """A name, from its LaTeX."""
+    """The formula of a name, from its LaTeX."""
     if tex == RATE:
         return fraction(upright("d"), upright("d") + literal("t"), RATE)
     found = NAME.fullmatch(tex)
@@ -51,6 +51,7 @@ def named(tex: str) -> Formula:
 
 
 def _lead(tex: str) -> Formula:
+    """The formula of what stands before a letter: d, ∂_t, or δ with its primes."""
     if tex.startswith(r"\mathrm"):
         return upright("d")
     if tex.startswith(r"\partial"):
@@ -62,7 +63,7 @@ BARRED = re.compile(r"((?:\\delta'?\s*)?)\\(bar|overline)\{(.*?)\}('*)((?:_.+)?)
 
 
 def bar(tex: str) -> str:
-    """The bar of a transpose, over the letter that bears the name and not its prime or index."""
+    """The LaTeX of a transposed name: the bar is over its letter, not over its prime or index."""
     match = re.fullmatch(r"((?:\\delta'?\s*)?)(\\[a-z]+|[A-Za-z])('*)((?:_.+)?)", tex)
     if match:
         return rf"{match[1]}\bar{{{match[2]}}}{match[3]}{match[4]}"
@@ -73,7 +74,7 @@ def bar(tex: str) -> str:
 
 @lru_cache(1024)
 def transposed(tex: str, notation: Notation) -> Formula:
-    """The transpose of a name: a bar over its letter."""
+    """The formula of the transpose of a name: a bar over its letter."""
     whole = bar(tex)
     lead, kind, inside, primes, below = BARRED.fullmatch(whole).groups()  # type: ignore[union-attr]
     single = kind == "bar" or re.fullmatch(r"\\[A-Za-z]+", inside) is not None
@@ -85,7 +86,7 @@ def transposed(tex: str, notation: Notation) -> Formula:
 
 
 def parameter_formula(tex: str) -> Formula:
-    """A parameter, from its LaTeX."""
+    """The formula of a parameter, from its LaTeX."""
     found = re.fullmatch(r"(\\mathsf\{(.*?)\}|\\[A-Za-z]+)(?:_\{\\mathsf\{(.*?)\}\})?", tex)
     if found is None:
         words = re.sub(r"\\[a-z]+\{\}|\\[a-z]+|[\\{}]", "", tex[6:-1])

@@ -1,4 +1,4 @@
-"""Formulas of sentences: letters of the paper, as ``r̄_i`` or ``∂U/∂r_i``, spelt as formulas."""
+"""Formulas in sentences: plain text with the letters of the paper, as ``r̄_i`` or ``∂U/∂r_i``."""
 
 from __future__ import annotations
 
@@ -46,16 +46,16 @@ SECOND = {
 
 
 SPOKEN = re.compile(r"(?<![A-Za-z_])j\(([^()]*)\)")
-"""The skew matrix of a vector, as a sentence has it."""
+"""The skew matrix of a vector, j(…), as a sentence has it."""
 
 
 def math_text(formula: str) -> str:
-    """The inside of a LaTeX formula."""
+    """The LaTeX, without dollars, of a formula of a sentence."""
     return spelt(formula).tex
 
 
 def spoken(formula: str, notation: Notation) -> Formula:
-    """The same where j(X) is the skew matrix of X, in a notation."""
+    """A formula of a sentence, in a notation, with j(X) as the skew matrix of X."""
     found, at = Formula(""), 0
     for match in SPOKEN.finditer(formula):
         found += spelt(formula[at : match.start()], notation)
@@ -65,7 +65,7 @@ def spoken(formula: str, notation: Notation) -> Formula:
 
 
 def spelt(formula: str, notation: Notation = BARS) -> Formula:
-    """A formula of a sentence; what is in quotes is in the letters of parameters."""
+    """A formula of a sentence, j as any letter; letters in ‘quotes’ are those of parameters."""
     if quoted := re.fullmatch("‘([^’]*)’", formula):
         return sans(quoted[1].replace(" ", "\\ "), quoted[1])
     found = Formula("")
@@ -94,12 +94,13 @@ def spelt(formula: str, notation: Notation = BARS) -> Formula:
 
 
 def _open(f: Formula, mark: str) -> Formula:
-    """What may bear a prime, an index or an exponent: not a second one."""
+    """The formula with an empty base appended where it cannot bear ``mark`` a second time."""
     second = not f.tex or re.search(SECOND[mark], f.tex)
     return f + Formula("{}", ("",)) if second else f
 
 
 def _word(letters: str, after: str) -> Formula:
+    """The formula of several letters: a Greek name, a differential as dx, or an operator as Tr."""
     if letters in NAMED:
         return literal(rf"\{letters}")
     if len(letters) == 2 and letters != "Tr":
@@ -108,7 +109,7 @@ def _word(letters: str, after: str) -> Formula:
 
 
 def _letter(letter: str, marks: str, rest: str, notation: Notation) -> Formula:
-    """One character with its accents; R before an exponent is the field of the reals."""
+    """The formula of a character with its accents; R before an exponent is that of the reals."""
     base, *own = list(unicodedata.normalize("NFD", letter))
     if unicodedata.combining(base):
         return Formula("")
@@ -127,7 +128,7 @@ def _letter(letter: str, marks: str, rest: str, notation: Notation) -> Formula:
 
 
 def symbol(c: str) -> Formula:
-    """One character."""
+    """The formula of one character."""
     tex = SYMBOLS.get(c, c)
     if c == "Σ":
         return SUM_SIGN

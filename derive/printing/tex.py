@@ -55,12 +55,12 @@ OPENING = re.compile(r"\(|\[|\\(?:langle|lVert)(?![A-Za-z])")
 CLOSING = re.compile(r"\)|\]|\\(?:rangle|rVert)(?![A-Za-z])")
 VARIATIONS = ("δ", "δ′")
 ENTRY_WIDTH = 24.0
-"""An entry of a matrix wider than this (in em) is set on several lines."""
+"""The width, in em, above which an entry of a matrix is set on several lines."""
 
 BARS = (r"\bar{", r"\overline{")
 
 Shown = tuple[Formula, int]
-"""A formula, and how tightly it holds together."""
+"""A formula, and how tightly it holds together: SUM, PRODUCT or ATOM."""
 
 
 def latex_tree(t: Tree, names: Mapping[str, str] | None = None) -> str:
@@ -69,14 +69,14 @@ def latex_tree(t: Tree, names: Mapping[str, str] | None = None) -> str:
 
 
 def marked(t: Tree, names: Mapping[str, str] | None = None) -> str:
-    """The same with marks where a line may break."""
+    """A tree as LaTeX with marks where a line may break; ``names``: as in latex_tree."""
     return formula(t, names).tex
 
 
 def formula(
     t: Tree, names: Mapping[str, str] | None = None, notation: Notation | None = None
 ) -> Formula:
-    """A tree in both languages."""
+    """A tree as a formula, LaTeX and MathML; ``names`` says how names are written."""
     return Printer(NAMES if names is None else names, notation or Notation()).bare(t)
 
 
@@ -94,24 +94,24 @@ def pieces(tex: str) -> list[Piece]:
 
 @dataclass(frozen=True)
 class Cut(Piece):
-    """A piece of a formula in both languages."""
+    """A piece of a formula: its LaTeX, the depth of the break before it, and the formula itself."""
 
     formula: Formula
 
 
 def cut_up(f: Formula) -> list[Cut]:
-    """A formula cut at its marks."""
+    """The pieces of a formula, cut where a line may break."""
     both = zip(pieces(f.tex), cut(f), strict=True)
     return [Cut(x.text, x.depth, part) for x, part in both]
 
 
 def paren(f: Formula) -> Formula:
-    """In parentheses."""
+    """The formula in parentheses."""
     return literal("(") + f + literal(")")
 
 
 def joined(parts: list[Formula], between: Formula) -> Formula:
-    """One after the other."""
+    """The formulas one after the other, with ``between`` between them."""
     return reduce(lambda a, b: a + between + b, parts)
 
 
@@ -119,13 +119,13 @@ COMMA_SPACE = literal(f",{AFTER_COMMA}") + Formula(" ")
 
 
 class Printer:
-    """Trees to formulas: each method gives one and how tightly it holds together."""
+    """Trees to formulas; ``op_X`` is the formula of the operator X of its operands."""
 
     def __init__(self, names: Mapping[str, str], notation: Notation):
         self.names, self.notation = names, notation
 
     def show(self, t: Tree) -> Shown:
-        """A tree: a formula and SUM, PRODUCT or ATOM."""
+        """The formula of a tree, and SUM, PRODUCT or ATOM: how tightly it holds together."""
         if isinstance(t, str):
             return self.name(t), ATOM
         if isinstance(t, (int, Fraction)):
@@ -137,28 +137,28 @@ class Printer:
         return shown if isinstance(shown, tuple) else (shown, ATOM)
 
     def name(self, name: str) -> Formula:
-        """A name of the record; one that it does not declare is spelt safely."""
+        """The formula of a name of the record; one that it does not declare is spelt safely."""
         if name in self.names:
             return named(self.names[name])
         return spelt(name) if formula_ok(name) else text(rf"\text{{{tex_text(name)}}}", name)
 
     def bare(self, t: Tree) -> Formula:
-        """Inside brackets of its own."""
+        """The formula of a tree that stands in brackets already."""
         return self.show(t)[0]
 
     def atom(self, t: Tree) -> Formula:
-        """With parentheses where it is a sum or a product."""
+        """The formula of a tree as a factor, in parentheses where it is a sum or a product."""
         f, level = self.show(t)
         return f if level == ATOM else paren(f)
 
     def base(self, t: Tree) -> Formula:
-        """What may bear an exponent."""
+        """The formula of a tree that is to bear an exponent."""
         f = self.atom(t)
         over = isinstance(t, Fraction) or (isinstance(t, tuple) and t[0] == "div")
         return paren(f) if SCRIPTED.search(outside(f.tex)) or (over and f.tex[0] != "(") else f
 
     def sum(self, t: Tree) -> Shown:
-        """Terms with their signs."""
+        """A sum: its terms with their signs."""
         terms = signed(t)
         out = Formula("")
         for k, (sign, term) in enumerate(terms):
@@ -171,7 +171,7 @@ class Printer:
         return out, PRODUCT if len(terms) == 1 and terms[0][0] == "+" else SUM
 
     def product(self, t: Tree) -> Shown:
-        """Factors side by side; what reaches further than its neighbour is put in parentheses."""
+        """A product: factors side by side; those that reach too far are in parentheses."""
         if not isinstance(t, tuple) or t[0] != "mul":
             return self.show(t)
         factors: tuple[Tree, ...] = t[1:]
@@ -188,7 +188,7 @@ class Printer:
         return out, PRODUCT
 
     def op_T(self, a: Tree) -> Formula:
-        """A bar: over a letter, or over the whole."""
+        """The transpose: a bar over a letter, or over the whole."""
         if isinstance(a, str):
             return self.transposed(a)
         if isinstance(a, tuple) and a[0] in ("at", "entry") and isinstance(a[1], str):
@@ -203,7 +203,7 @@ class Printer:
         return transposed(self.name(name).tex, self.notation)
 
     def op_tr(self, a: Tree) -> Shown:
-        """Tr of a word reaches to its end."""
+        """The trace, which reaches to the end of a word; a sum is in parentheses."""
         f, level = self.show(a)
         trace = operator("Tr", near=level == SUM)
         if level == SUM:
@@ -211,7 +211,7 @@ class Printer:
         return trace + (literal(r"\,") if f.tex[:1] in "([" else Formula(" ")) + f, PRODUCT
 
     def op_det(self, a: Tree) -> Shown:
-        """det of a letter or of an expression."""
+        """The determinant of a letter or of an expression."""
         det = word(r"\det", "det")
         if not isinstance(a, str):
             return det + paren(self.bare(a)), PRODUCT
@@ -219,19 +219,19 @@ class Printer:
         return det + gap + self.name(a), PRODUCT
 
     def op_inv(self, a: Tree) -> Formula:
-        """Inverse; braces, for a preamble may write a transpose as an exponent."""
+        """The inverse; a barred base is in braces: a preamble may write ⊤ as an exponent."""
         base = self.base(a)
         return raised(group(base) if base.tex.startswith(BARS) else base, literal("-1"))
 
     def op_pow(self, a: Tree, n: Tree) -> Formula:
-        """Power; that of a function stands at its name."""
+        """A power; that of a function stands at its name."""
         named = isinstance(a, tuple) and a[0] == "fun" and a[1] != "sqrt"
         if named and isinstance(n, int) and n > 0:
             return self.function(a[1], self.bare(a[2]), literal(str(n)))  # type: ignore[index]
         return raised(self.base(a), self.bare(n))
 
     def op_one(self) -> Formula:
-        """Identity matrix."""
+        """The identity matrix."""
         return IDENTITY
 
     def op_div(self, a: Tree, b: Tree) -> Shown | Formula:
@@ -243,21 +243,21 @@ class Printer:
         return fraction(above, below)
 
     def op_inner(self, a: Tree, b: Tree) -> Formula:
-        """Scalar product."""
+        """The scalar product ⟨a, b⟩."""
         open_ = literal(r"\langle") + Formula(" ")
         return open_ + self.bare(a) + COMMA_SPACE + self.bare(b) + literal(r"\rangle")
 
     def op_metric(self, m: Tree, a: Tree, b: Tree) -> Formula:
-        """Scalar product of a metric."""
+        """The scalar product ⟨a, b⟩_m of a metric."""
         return lowered(self.op_inner(a, b), self.bare(m))
 
     def op_norm2(self, *a: Tree) -> Formula:
-        """Square of a norm."""
+        """The square of a norm, ‖a‖², or ‖a‖²_m of a metric."""
         norm = self.norm(a[-1])
         return raised(lowered(norm, self.bare(a[0])) if len(a) == 2 else norm, literal("2"))
 
     def norm(self, a: Tree) -> Formula:
-        """What has such strokes in itself is in brackets between them."""
+        """The norm ‖a‖; where a has such strokes in itself, it is in parentheses."""
         inside = paren(self.bare(a)) if has_norm(a) else self.bare(a)
         return literal(r"\lVert") + Formula(" ") + inside + literal(r"\rVert")
 
@@ -270,17 +270,17 @@ class Printer:
         return self.function(name, self.bare(a)), PRODUCT
 
     def function(self, name: str, a: Formula, power: Formula | None = None) -> Formula:
-        """A function by its name."""
+        """An elementary function by its name; ``power``: its exponent."""
         shown = {"atan": "arctan"}.get(name, name)
         head = operator(shown if shown.isalpha() else "", near=True)
         return (head if power is None else raised(head, power)) + paren(a)
 
     def op_bracket(self, a: Tree, b: Tree) -> Formula:
-        """Bracket of matrices."""
+        """The bracket [a, b] of matrices."""
         return literal("[") + self.bare(a) + COMMA_SPACE + self.bare(b) + literal("]")
 
     def op_wedge(self, a: Tree, b: Tree) -> Shown:
-        """Vector product."""
+        """The vector product a ∧ b."""
         sides = []
         for x in (a, b):
             f, level = self.show(x)
@@ -289,17 +289,17 @@ class Printer:
         return sides[0] + wedge + sides[1], PRODUCT
 
     def op_hat(self, a: Tree) -> Formula:
-        """The operator j."""
+        """The skew matrix j(a) of a vector."""
         return hat(self.bare(a), self.notation)
 
     def op_sum(self, index: Tree, body: Tree) -> Shown:
-        """A sum over an index."""
+        """The sum of ``body`` over an index."""
         f, level = self.show(body)
         lead = lowered(SUM_SIGN, self.bare(index)) + Formula(" ")
         return lead + (paren(f) if level == SUM else f), PRODUCT
 
     def indexed(self, f: Formula, indices: tuple[Tree, ...]) -> Formula:
-        """Indices below."""
+        """A formula with indices below it."""
         shown = [self.bare(i).plain() for i in indices]
         apart = literal("," if any(len(i.tex) > 1 for i in shown) else "")
         if not apart.tex and all(i.tex.isdigit() for i in shown):  # one number of all digits
@@ -307,7 +307,7 @@ class Printer:
         return lowered(f, joined(shown, apart))
 
     def op_at(self, a: Tree, *indices: Tree) -> Formula:
-        """A member of a family."""
+        """A member of a family, or an entry, by its indices."""
         f, level = self.show(a)
         scripted = level != ATOM or re.search("[_^]", f.tex)
         return self.indexed(paren(f) if scripted else f, indices)
@@ -333,22 +333,22 @@ class Printer:
         return self.bare(name)
 
     def op_matrix(self, *rows: Tree) -> Formula:
-        """A matrix."""
+        """A matrix of rows; a row that is no ``row`` is one entry."""
         return matrix([self.cells(r) for r in rows])
 
     def cells(self, row: Tree) -> list[Formula]:
-        """The entries of a row."""
+        """The entries of a row of a matrix."""
         if isinstance(row, tuple) and row[0] == "row":
             return [_stacked(self.bare(x)) for x in row[1:]]
         return [_stacked(self.bare(row))]
 
     def op_row(self, *entries: Tree) -> Formula:
-        """A row that stands alone."""
+        """A row that stands alone, as a matrix."""
         return matrix([self.cells(("row", *entries))])
 
 
 def _stacked(f: Formula) -> Formula:
-    """An entry of a matrix, on several lines where it is long."""
+    """An entry of a matrix, on several lines where it is wider than ENTRY_WIDTH."""
     whole = f.plain()
     if measure(whole.tex) <= ENTRY_WIDTH:
         return Formula(guarded(whole.tex), whole.items)
@@ -365,5 +365,6 @@ def _stacked(f: Formula) -> Formula:
 
 
 def guarded(tex: str) -> str:
-    r"""A line that may follow ``\\`` or start with a sign: no option, and a binary sign."""
+    r"""LaTeX that may follow ``\\`` or start with a sign: ``{}`` keeps it from being read
+    otherwise."""
     return "{}" + tex if tex[:1] in ("[", "*", "+", "-") and tex[:2] != "-\\" else tex

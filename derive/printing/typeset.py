@@ -40,13 +40,13 @@ PREFIXED = ("=", "(", "[", ",", "{")
 
 
 class Sign(NamedTuple):
-    """An operator; what stands before it says whether it is one of two sides."""
+    """An operator of MathML, a prefix or an infix by what stands before it."""
 
     shown: str
 
 
 class Scripted(NamedTuple):
-    """An element that may bear an index and an exponent, and that may be transposed by a ⊤."""
+    """An element of MathML with the markup of its index and exponent; maybe transposed by a ⊤."""
 
     base: str
     below: str = ""
@@ -54,7 +54,7 @@ class Scripted(NamedTuple):
     transposed: bool = False
 
     def markup(self) -> str:
-        """With both in their places; the index of a letter stands before its ⊤."""
+        """The element with index and exponent; the index of a letter stands before its ⊤."""
         base, above = self.base, self.above
         if self.transposed:
             above, base = (above, f"<msup>{base}{TOP}</msup>") if above else (TOP, base)
@@ -72,7 +72,7 @@ Item = str | Sign | Scripted
 
 @dataclass(frozen=True)
 class Formula:
-    """LaTeX with marks, and the elements of MathML."""
+    """A formula: its LaTeX, with marks where a line may break, and its elements of MathML."""
 
     tex: str
     items: tuple[Item, ...] = ()
@@ -81,27 +81,30 @@ class Formula:
         return Formula(self.tex + other.tex, self.items + other.items)
 
     def plain(self) -> Formula:
-        """Without marks: inside braces nothing breaks."""
+        """The formula without marks: inside braces nothing breaks."""
         if not any(x in self.tex for x in MARKS):
             return self
         return Formula(plain(self.tex), tuple(x for x in self.items if x not in BREAKS))
 
     def row(self) -> str:
-        """The markup of what stands in braces."""
+        """The MathML of the formula as it stands in braces."""
         return markup(self.items, before="{")
 
     def mathml(self, *, follows: bool = False) -> str:
-        """One element; ``follows``: it continues another, whose operator it starts with."""
+        """The formula as one MathML element ``math``.
+
+        ``follows``: it continues another, whose operator it starts with.
+        """
         return f"<math>{markup(self.items, follows=follows)}</math>"
 
 
 def plain(tex: str) -> str:
-    """LaTeX without marks."""
+    """LaTeX without its marks."""
     return tex.translate(UNMARKED)
 
 
 def markup(items: Sequence[Item], *, before: str = "", follows: bool = False) -> str:
-    """Elements one after the other; a sign after a relation or a parenthesis is a prefix."""
+    """Elements of MathML in a row; a + or − after a relation or parenthesis is a prefix."""
     found: list[str] = []
     for x in items:
         if x in BREAKS:
@@ -118,14 +121,14 @@ def markup(items: Sequence[Item], *, before: str = "", follows: bool = False) ->
 
 
 def element(x: Item) -> str:
-    """One element by itself."""
+    """The MathML of one element by itself."""
     if isinstance(x, Sign):
         return f"<mo>{escape(x.shown)}</mo>"
     return x if isinstance(x, str) else x.markup()
 
 
 def one(inside: str) -> str:
-    """As one child."""
+    """Markup as one child, in an ``mrow``."""
     return f"<mrow>{inside}</mrow>"
 
 
@@ -134,11 +137,12 @@ def one(inside: str) -> str:
 
 @lru_cache(1024)
 def literal(tex: str) -> Formula:
-    """Signs, brackets, spaces, numbers and letters, as LaTeX has them."""
+    """The formula of signs, brackets, spaces, numbers and letters, as LaTeX has them."""
     return Formula(tex, tuple(_item(x) for x in LITERAL.findall(tex)))
 
 
 def _item(token: str) -> Item:
+    """The element of MathML of one token of LaTeX."""
     if token in OPERATORS:
         return Sign(OPERATORS[token])
     if token in FENCES:
@@ -154,23 +158,26 @@ def _item(token: str) -> Item:
 
 
 def word(tex: str, shown: str) -> Formula:
-    """An upright word."""
+    """An upright word, as det."""
     return Formula(tex, (f"<mi>{escape(shown)}</mi>",))
 
 
 def operator(name: str, *, near: bool) -> Formula:
-    """Tr, sin, …; apart from what follows, unless that is a bracket or a script."""
+    """The name of a function, as Tr or sin.
+
+    ``near``: it is followed by a bracket or a script, and needs no gap.
+    """
     gap = () if near else ('<mspace width="0.17em"></mspace>',)
     return Formula(rf"\operatorname{{{name}}}", (f"<mi>{escape(name)}</mi>", *gap))
 
 
 def upright(letter: str) -> Formula:
-    """The d of a differential."""
+    """An upright letter, as the d of a differential."""
     return Formula(rf"\mathrm{{{letter}}}", (f'<mi mathvariant="normal">{letter}</mi>',))
 
 
 def sans(tex: str, shown: str) -> Formula:
-    """A parameter of the user."""
+    """A parameter of the user, sans serif."""
     return Formula(
         rf"\mathsf{{{tex}}}", (f'<mi mathvariant="normal" class="parameter">{escape(shown)}</mi>',)
     )
@@ -181,12 +188,12 @@ SUM_SIGN = Formula(r"\sum", ('<mo movablelimits="false">∑</mo>',))
 
 
 def group(f: Formula) -> Formula:
-    """In braces."""
+    """The formula in braces: one element."""
     return Formula(f"{{{f.tex}}}", (one(f.row()),))
 
 
 def lowered(f: Formula, index: Formula, tex: str | None = None) -> Formula:
-    """With an index."""
+    """The formula with an index at its last element; ``tex``: the LaTeX of the index."""
     index = index.plain()
     last = _last(f)
     items = (*f.items[:-1], last._replace(below=last.below + index.row()))
@@ -194,7 +201,7 @@ def lowered(f: Formula, index: Formula, tex: str | None = None) -> Formula:
 
 
 def raised(f: Formula, exponent: Formula, tex: str | None = None) -> Formula:
-    """With an exponent."""
+    """The formula with an exponent at its last element; ``tex``: the LaTeX of the exponent."""
     exponent = exponent.plain()
     last = _last(f)
     items = (*f.items[:-1], last._replace(above=last.above + exponent.row()))
@@ -202,7 +209,7 @@ def raised(f: Formula, exponent: Formula, tex: str | None = None) -> Formula:
 
 
 def primed(f: Formula, count: int = 1) -> Formula:
-    """With primes: ′ is a raised letter, which fonts raise again in an exponent."""
+    """The formula with primes: ′ is a raised letter, which fonts raise again in an exponent."""
     if not count:
         return f
     last = _last(f)
@@ -211,18 +218,19 @@ def primed(f: Formula, count: int = 1) -> Formula:
 
 
 def _last(f: Formula) -> Scripted:
+    """The last element of a formula, which is to bear a script."""
     last = f.items[-1]
     return last if isinstance(last, Scripted) else Scripted(element(last))
 
 
 def accented(name: str, f: Formula, tex: str) -> Formula:
-    """With ~ or ˙ over it."""
+    """The formula with an accent over it: ``name`` of ACCENTS; ``tex``: the LaTeX of the whole."""
     mark = f'<mo stretchy="false">{ACCENTS[name]}</mo>'
     return Formula(tex, (f'<mover accent="true">{one(f.row())}{mark}</mover>',))
 
 
 def barred(f: Formula, tex: str, notation: Notation, *, letter: bool) -> Formula:
-    """The transpose of a letter or of an expression, with a bar or a ⊤."""
+    """The transpose of a letter or of an expression, with a bar or a ⊤; ``tex``: its LaTeX."""
     inside = f.plain().row()
     if notation.transpose == "bar":
         # fonts stretch no bar over an expression, and set that of a letter on its stroke
@@ -231,7 +239,7 @@ def barred(f: Formula, tex: str, notation: Notation, *, letter: bool) -> Formula
 
 
 def hat(f: Formula, notation: Notation) -> Formula:
-    """The skew matrix of a vector."""
+    """The skew matrix of a vector, as j(x) or as x with a raised wedge."""
     f = f.plain()
     inside = fenced(f.row())
     markup = f"<mrow><mi>j</mi>{inside}</mrow>"
@@ -246,20 +254,20 @@ def fenced(inside: str) -> str:
 
 
 def fraction(a: Formula, b: Formula, tex: str = "") -> Formula:
-    """One over the other."""
+    """The fraction a over b; ``tex``: its LaTeX where that is not a plain ``frac``."""
     a, b = a.plain(), b.plain()
     shown = f"<mfrac>{one(a.row())}{one(b.row())}</mfrac>"
     return Formula(tex or rf"\frac{{{a.tex}}}{{{b.tex}}}", (shown,))
 
 
 def root(f: Formula) -> Formula:
-    """A square root."""
+    """The square root of a formula."""
     f = f.plain()
     return Formula(rf"\sqrt{{{f.tex}}}", (f"<msqrt>{f.row()}</msqrt>",))
 
 
 def matrix(rows: Sequence[Sequence[Formula]]) -> Formula:
-    """Rows of entries in parentheses."""
+    """A matrix of entries, in parentheses."""
     shown = [" & ".join(x.tex for x in row) for row in rows]
     gap = "[2pt]" if any("frac" in x for x in shown) else ""
     cells = ("".join(f"<mtd>{markup(x.items)}</mtd>" for x in row) for row in rows)
@@ -272,7 +280,7 @@ def matrix(rows: Sequence[Sequence[Formula]]) -> Formula:
 
 
 def stacked(lines: Sequence[Formula]) -> Formula:
-    """Lines of an entry that is too long for one."""
+    """The lines of a matrix entry that is too long for one, below each other."""
     body = "".join(f"<mtr><mtd>{markup(x.items)}</mtd></mtr>" for x in lines)
     tex = r" \\ ".join(x.tex for x in lines)
     return Formula(
@@ -282,12 +290,12 @@ def stacked(lines: Sequence[Formula]) -> Formula:
 
 
 def text(tex: str, words: str) -> Formula:
-    """Words in a formula."""
+    """Words in a formula; ``tex``: their LaTeX."""
     return Formula(tex, (f"<mtext>{escape(words).replace(' ', chr(160))}</mtext>",))
 
 
 def cut(f: Formula) -> list[Formula]:
-    """The formula at its marks, which stay at the heads of the pieces."""
+    """The formula cut at its marks, which stay at the heads of the pieces."""
     texts = re.split(f"(?=[{MARKS}])", f.tex)
     pieces: list[list[Item]] = [[]]
     for x in f.items:

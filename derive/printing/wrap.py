@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 COMMA, SUM, WEDGE, FACTOR = 0.0, 0.25, 0.5, 0.75
-"""How readily a line is broken before an operator of the same depth."""
+"""Depth added to a break by the operator it stands before: the less, the sooner."""
 
 MARK = re.compile("[\u0300-\u036f]")
 
@@ -33,7 +33,7 @@ class Line:
 
 
 def display_width(text: str) -> int:
-    """Columns of a text in a terminal: combining marks take none."""
+    """The columns of a text in a terminal: combining marks take none."""
     return len(MARK.sub("", text))
 
 
@@ -63,7 +63,7 @@ def fill(
 
 
 def groups(pieces: Sequence[P]) -> list[list[P]]:
-    """The pieces cut at their shallowest breaks."""
+    """The pieces in runs, cut at the shallowest breaks."""
     if len(pieces) == 1:
         return [[*pieces]]
     shallow = min(p.depth for p in pieces[1:])
