@@ -23,7 +23,8 @@ GENERAL = ("For any group of matrices, linear action", "For any group of matrice
 
 @dataclass(frozen=True)
 class Part:
-    """Steps under a heading; ``name`` is the anchor; ``record`` is that of a problem's own part.
+    """A chapter: steps under a heading; ``name`` is the anchor; ``record``: of a problem's own
+    part.
 
     ``symbols``: the letters to explain here, which no part before has with the same meaning.
     """
@@ -38,7 +39,7 @@ class Part:
 
 
 def book(records: Sequence[Derivation], language: Language = ENGLISH) -> list[Part]:
-    """The parts, each step once."""
+    """The parts of several records: each step stands once, those of any group first."""
     parts: list[Part] = []
     seen: set[str] = set()
     told: dict[str, str] = {}
@@ -61,7 +62,7 @@ def book(records: Sequence[Derivation], language: Language = ENGLISH) -> list[Pa
 def new_letters(
     symbols: Sequence[Symbol], steps: Sequence[Step], told: dict[str, str]
 ) -> tuple[Symbol, ...]:
-    """The letters of these steps that were not last told with that meaning, and now are.
+    """The symbols of these steps whose meaning is not explained before; ``told`` gets them.
 
     Without variations and rates, which have one rule.
     """
@@ -92,18 +93,18 @@ def parameters(d: Derivation | None, language: Language) -> list[tuple[list[str]
 
 
 def of_any_group(s: Symbol) -> Symbol:
-    """A letter with the meaning that it has whatever the group."""
+    """The symbol with the meaning that it has whatever the group."""
     known = VOCABULARY.get(s.name)
     return replace(s, meaning=say(known.meaning)) if known else s
 
 
 def _regular(name: str) -> bool:
-    """δA, δ′A and Ȧ beside A, of which ``REGULAR`` speaks."""
+    """Is it a variation or rate as δA, δ′A, Ȧ, which REGULAR explains?"""
     return name.startswith(VARIATIONS) or RATE in normalize("NFD", name)
 
 
 def steps(parts: Sequence[Part]) -> Iterator[tuple[Part, Step]]:
-    """All steps with their parts."""
+    """All steps of the parts, each with its part."""
     for part in parts:
         for step in part.steps:
             yield part, step

@@ -1,4 +1,4 @@
-"""Where the print of the paper is corrected: what it says, why that is wrong, an example."""
+"""Corrections of the paper's print: what it says, why that is wrong, a counterexample."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ TRUE = {
     SIGN: "This is true in the other convention of signs, with −dϖ for dϖ.",
     OMISSION: "This is true where there are no forces.",
 }
-"""How a print that is false as it stands is true."""
+"""Verdict → how a print that is false as it stands is true."""
 
 
 @dataclass(frozen=True)
 class Told:
-    """A stretch of a correction: words, or a formula, sides of which are equal."""
+    """A stretch of a correction: words, or a formula whose sides are equal."""
 
     text: str
     formula: tuple[Tree, ...] = ()
 
     def shown(self, words: Callable[[str], str], formula: Callable[[Sequence[Tree]], str]) -> str:
-        """In a language of markup; the spaces at the ends of words stay."""
+        """The stretch in a language of markup; the spaces at the ends of words stay."""
         if self.formula:
             return formula(self.formula)
         inside = self.text.strip()
@@ -42,7 +42,7 @@ class Told:
 def corrections(
     parts: Sequence[Part], findings: Sequence[Finding], language: Language
 ) -> dict[str, dict[int, list[Told]]]:
-    """The corrections at each step, by its label: those of a number where it stands first."""
+    """Label of a step → number of the paper → its correction, at the first step that has it."""
     left = {f.number: f for f in findings}
     found: dict[str, dict[int, list[Told]]] = {}
     for part in parts:
@@ -53,7 +53,7 @@ def corrections(
 
 
 def _told(f: Finding, language: Language) -> Iterator[Told]:
-    """What was printed, how it is true if it is, what is wrong with it, and values that show it."""
+    """A correction: what was printed, how it is true, what is wrong, values that show it."""
     formulas: list[tuple[Tree, ...]] = []
 
     def formula(*sides: Tree) -> str:

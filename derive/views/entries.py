@@ -1,4 +1,4 @@
-"""What of a step's equations gets a number: each by itself, short ones of a family by the row."""
+"""The numbered entries of a step: equations one by one, short ones of a family by the row."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from ..printing.wrap import display_width
 from ..record.record import Equation
 
 TABLE, CELL, ROW = 4, 24, 72
-"""More cells than this stand side by side; how wide one is at most, and a row, in letters."""
+"""Above how many cells they stand side by side; the width, in letters, of a cell and a row."""
 WIDE, LETTER = 30.0, 10
-"""A matrix wider than this (in em) has letters for its entries of more than so many letters."""
+"""A matrix wider than WIDE (in em) has letters for its entries of more than LETTER letters."""
 SIMPLE = ("par", "entry", "matrix", "add", "mul")
 
 
@@ -34,12 +34,12 @@ class Entry:
 
     @property
     def only(self) -> Equation | None:
-        """The equation, where it stands alone."""
+        """The equation of an entry that has one; else ``None``."""
         return self.equations[0] if len(self.equations) == 1 else None
 
 
 def entries(equations: Sequence[Equation]) -> list[Entry]:
-    """What is numbered; that a parameter is itself is not said beside other equations."""
+    """The entries of a step; that a parameter is itself is not said beside other equations."""
     numbered = list(enumerate(equations))
     kept = [(k, e) for k, e in numbered if not _itself(e)] or numbered
     found: list[Entry] = []
@@ -53,7 +53,7 @@ Placed = tuple[int, Equation]
 
 
 def rows(equations: Iterable[Placed]) -> Iterator[list[Placed]]:
-    """Many short equations by the row, a few zeros in one, others each by itself."""
+    """The equations in rows: many short ones side by side, a few zeros in one row, others alone."""
     for short, run in groupby(equations, key=lambda x: bool(cell(x[1]))):
         members = [*run]
         if short and len(members) > TABLE:
@@ -66,12 +66,12 @@ def rows(equations: Iterable[Placed]) -> Iterator[list[Placed]]:
 
 
 def told(row: Sequence[Placed]) -> tuple[Equation, ...]:
-    """The equations of a numbered row."""
+    """The equations of a row, without their places."""
     return tuple(e for _, e in row)
 
 
 def _apart(place: int, e: Equation) -> Entry:
-    """An equation; the long entries of a matrix that is too wide get letters of their own."""
+    """An equation as an entry; the long entries of a wide matrix get letters of their own."""
     matrix = isinstance(e.rhs, tuple) and e.rhs[0] == "matrix"
     if not matrix or not isinstance(e.lhs, str) or breadth(e.rhs) <= WIDE:
         return Entry(place, (e,))
@@ -93,26 +93,26 @@ def _apart(place: int, e: Equation) -> Entry:
 
 
 def breadth(matrix: Tree) -> float:
-    """The widths of the columns of a matrix, in em, each on one line."""
+    """The width of a matrix in em: that of its columns, each entry on one line."""
     rows = [row[1:] if row[0] == "row" else (row,) for row in matrix[1:]]  # type: ignore[index]
     across = zip(*rows, strict=True)
     return sum(max(measure(latex_tree(x)) for x in column) for column in across)
 
 
 def columns(cells: Sequence[Equation]) -> int:
-    """How many stand in a row: an even number, for families often come in pairs."""
+    """How many cells stand in a row: an even number, for families often come in pairs."""
     return 4 if 4 * max(map(width, cells)) <= ROW else 2
 
 
 def width(e: Equation) -> int:
-    """Letters of a cell; a column vector is as wide as its widest entry."""
+    """The width of a cell in letters; a column vector is as wide as its widest entry."""
     if isinstance(e.rhs, tuple) and e.rhs[0] == "matrix":
         return display_width(f"{show(e.lhs)} = ") + max(display_width(show(x)) for x in e.rhs[1:])
     return display_width(cell(e))
 
 
 def cell(e: Equation) -> str:
-    """An equation that names a number or an entry, as text; empty for others."""
+    """The text of a short equation that names a number or an entry; empty for others."""
     named = isinstance(e.lhs, tuple) and e.lhs[0] in ("at", "entry")
     simple = isinstance(e.rhs, (str, int, Fraction)) or e.rhs[0] in SIMPLE
     text = f"{show(e.lhs)} = {show(e.rhs)}"
@@ -124,5 +124,5 @@ def cell(e: Equation) -> str:
 
 
 def _itself(e: Equation) -> bool:
-    """m = m, for a parameter m that has the name of what it is."""
+    """Is it m = m, for a parameter m that has the name of what it is?"""
     return isinstance(e.rhs, tuple) and e.rhs[0] == "par" and show(e.lhs) == show(e.rhs)

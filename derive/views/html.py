@@ -44,15 +44,15 @@ from .outline import (
 )
 
 PHONE = 16.0
-"""What is wider (in em) and cannot be broken may have to be moved on a phone."""
+"""The width, in em, above which what cannot be broken moves in a box of its own on a phone."""
 LONG = 0.4 * ROOM
-"""A left side that is wider has lines of its own."""
+"""The width, in em, above which a left side has lines of its own."""
 
 Fields = dict[str, Any]
 """What a template shows, by name."""
 EQUALS = Formula(" ") + literal("=") + Formula(" ")
 PART: Fields = {"id": "", "number": "", "long": False, "cells": (), "clause": "", "tex": ""}
-"""A line that belongs to the equation above it."""
+"""The fields of a line that belongs to the equation above it."""
 
 SPACES = "\u00a0\u202f"
 
@@ -64,7 +64,7 @@ def html(
     language: Language = ENGLISH,
     findings: Sequence[Finding] = (),
 ) -> str:
-    """A page: what holds for any group, then a part for each record."""
+    """The walk of records as a web page: what holds for any group, then a part for each record."""
     chosen, word = notation or Notation(), language.word
     parts = book(records, language)
     numbers, told = numbered(parts), corrections(parts, findings, language)
@@ -112,25 +112,25 @@ def words(text: str, notation: Notation, *, ready: bool = False) -> str:
 
 
 def movable(tex: str, shown: Formula, *, follows: bool = False) -> str:
-    """A formula that is not broken; one that is wide moves in a box of its own."""
+    """The markup of a formula that is not broken; a wide one moves in a box of its own."""
     markup = shown.mathml(follows=follows) if tex else ""
     wide = "<mtable" in markup or measure(tex) > PHONE
     return f'<span class="wide">{markup}</span>' if wide else markup
 
 
 def escaped(text: str) -> str:
-    """Text as markup."""
+    """Text as markup: escaped, and without hidden characters."""
     return escape(visible(text), quote=False)
 
 
 def visible(text: str) -> str:
-    """Text without what would turn its direction or hide."""
+    """Text without characters that turn its direction or hide."""
     return "".join(c for c in text if c.isprintable() or c in SPACES)
 
 
 @dataclass(frozen=True)
 class _Part:
-    """One part of the book."""
+    """A part of the book as the fields of its template."""
 
     part: Part
     notation: Notation
@@ -140,11 +140,11 @@ class _Part:
 
     @cached_property
     def names(self) -> Mapping[str, str]:
-        """How its names are written."""
+        """Name → LaTeX, of the part's record."""
         return spelling(self.part.source)
 
     def fields(self, shown: Mapping[str, list[Fields]]) -> Fields:
-        """What the template shows; ``shown``: the equations of every step, by its label."""
+        """What the template shows of the part; ``shown``: label → the equations of that step."""
         return {
             "id": anchor(self.part.name),
             "number": self.numbers[self.part.name],
@@ -164,7 +164,7 @@ class _Part:
         return {"figure": svg(drawn), "caption": caption}
 
     def step(self, step: Step, shown: Mapping[str, list[Fields]]) -> Fields:
-        """A step, and the equations of those that it rests on, or that write it in coordinates."""
+        """The fields of a step, with the equations it rests on, or that write it in coordinates."""
 
         def unfolded(label: str) -> Fields:
             return {"label": label, "id": anchor(label), "equations": shown[label]}
@@ -187,7 +187,7 @@ class _Part:
         }
 
     def correction(self, told: Iterable[Told]) -> str:
-        """What is told of the print."""
+        """The markup of a correction of the print."""
 
         def shown(sides: Sequence[Tree]) -> str:
             whole = joined([formula(x, None, self.notation) for x in sides], EQUALS)
@@ -196,7 +196,7 @@ class _Part:
         return "".join(x.shown(lambda text: words(text, self.notation), shown) for x in told)
 
     def equations(self, step: Step) -> Iterable[Fields]:
-        """What has a number in a step, with its anchor and its LaTeX."""
+        """The fields of each numbered entry of a step, with its anchor and its LaTeX."""
         for x in entries(step.equations):
             key = step.keys[x.first]
             first, cells = x.equations[0], x.equations if x.only is None else ()
@@ -217,13 +217,13 @@ class _Part:
                 }
 
     def cell(self, e: Equation) -> str:
-        """A short equation that stands beside others."""
+        """The markup of a short equation that stands beside others."""
         whole = (self.formula(e.lhs) + EQUALS + self.formula(e.rhs)).plain()
         return movable(whole.tex, whole)
 
     @cached_property
     def typeset(self) -> Callable[[Tree], Formula]:
-        """A tree as a formula, which is asked for more than once."""
+        """The formula of a tree, remembered: it is asked for more than once."""
         return lru_cache(64)(partial(formula, names=self.names, notation=self.notation))
 
     def formula(self, t: Tree) -> Formula:
@@ -231,7 +231,7 @@ class _Part:
         return self.typeset(t)
 
     def cut(self, t: Tree, *, equals: bool = False) -> str:
-        """A formula in terms between which a line may break, and these in turn."""
+        """The markup of a formula in terms between which a line may break, and these in turn."""
         whole = [x for x in cut_up(self.formula(t)) if x.text.strip()]
         if equals:
             first = whole[0]
@@ -239,25 +239,25 @@ class _Part:
         return "".join(self.nested(group, equals or k > 0) for k, group in enumerate(groups(whole)))
 
     def nested(self, parts: Sequence[Cut], follows: bool) -> str:
-        """A term: one element, or terms of its own that stay on a line if they can."""
+        """The markup of a term: one element, or terms of its own kept on a line if they fit."""
         if len(parts) == 1:
             return movable(parts[0].text, parts[0].formula, follows=follows)
         inside = (self.nested(x, follows or k > 0) for k, x in enumerate(groups(parts)))
         return f'<span class="term">{"".join(inside)}</span>'
 
     def clause(self, e: Equation) -> str:
-        """For which names the equation holds."""
+        """The markup of "for every …": for which names the equation holds."""
         said = quantifier(e, self.names, quantifiers(self.language), self.notation)
         return said.mathml() if said.tex else ""
 
     def source(self, e: Equation) -> str:
-        """The LaTeX of an equation."""
+        """The LaTeX of an equation, in standard commands."""
         shown = standard((self.formula(e.lhs) + EQUALS + self.formula(e.rhs)).plain().tex)
         said = clause(e, self.names, quantifiers(self.language))
         return f"{shown} \\quad {plain(said)}" if said else shown
 
     def symbols(self) -> Iterable[dict[str, str]]:
-        """The letters and their meanings."""
+        """The letters of the part and their meanings."""
         for s in self.part.symbols:
             yield {
                 "name": self.formula(s.name).mathml(),
@@ -265,7 +265,7 @@ class _Part:
             }
 
     def parameters(self) -> Iterable[dict[str, str]]:
-        """The parameters of the problem."""
+        """The parameters of the problem and their meanings."""
         for run, meaning, unit in parameters(self.part.record, self.language):
             told = f"{meaning} [{unit}]" if unit else meaning
             yield {

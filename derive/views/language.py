@@ -1,4 +1,4 @@
-"""The language of a view: the messages of the record and of the views, by the catalogue."""
+"""Languages of the views: the messages of the record and of the views, from the catalogue."""
 
 from __future__ import annotations
 
@@ -21,26 +21,26 @@ SPACES = ((r" (?=[;!?])", THIN), (r" (?=[:»])|(?<=«) ", WIDE))
 
 @dataclass(frozen=True)
 class Language:
-    """``messages``: English messages in this language; what is not there stays as it is."""
+    """A language of the views; ``messages``: English → this one, missing ones stay English."""
 
     name: str
     messages: Mapping[str, str] = field(default_factory=dict)
 
     def of(self, prose: Prose) -> str:
-        """Sentences in this language."""
+        """The sentences of a step, or of a caption, in this language."""
         return " ".join(map(self.sentence, prose))
 
     def sentence(self, x: Sentence) -> str:
-        """One sentence in this language, and what fills its places."""
+        """One sentence in this language, its places filled."""
         places = {name: y if isinstance(y, str) else self.sentence(y) for name, y in x.places}
         return filled(self.messages.get(x.message, x.message), places)
 
     def decimal(self, x: float) -> str:
-        """A number with the mark of the language."""
+        """A number with the decimal mark of the language."""
         return f"{x:g}".replace(".", "," if self.name == "fr" else ".")
 
     def word(self, message: str, **places: str) -> str:
-        """A message of the views, or what a problem says: one of the user’s own stays as it is."""
+        """A message of the views in this language, or a word of the user's, which stays."""
         return self.sentence(phrase(message, **places))
 
 
@@ -49,21 +49,21 @@ ENGLISH = Language("en")
 
 @cache
 def language(name: str) -> Language:
-    """One of ``LANGUAGES``."""
+    """The language of a name in ``LANGUAGES``, with the messages of the catalogue."""
     if name == ENGLISH.name:
         return ENGLISH
     return Language(name, {x["en"]: typeset(x[name]) for x in entries()})
 
 
 def entries() -> list[dict[str, str]]:
-    """The prose of the steps, then the catalogue, where a line break is a space."""
+    """All messages by language: the prose of the steps, then the catalogue; breaks are spaces."""
     listed = tomllib.loads(CATALOGUE.read_text(encoding="utf-8"))["message"]
     flat = ({k: " ".join(text.split()) for k, text in entry.items()} for entry in listed)
     return [*steps(), *flat]
 
 
 def typeset(french: str) -> str:
-    """French with the spaces that do not break."""
+    """French with the spaces that do not break where French has them."""
     for pattern, space in SPACES:
         french = re.sub(pattern, space, french)
     return french

@@ -57,7 +57,7 @@ def latex(
 ) -> str:
     """A document for pdflatex; every equation bears its label.
 
-    Of several records what holds for any group comes once.  ``findings``: where the print of the
+    Of several records what holds for any group comes once. ``findings``: where the print of the
     paper is corrected, to be told in footnotes.
     """
     records = [d] if isinstance(d, Derivation) else [*d]
@@ -120,15 +120,15 @@ def fragment(
 
 
 WITHOUT_KEYS = r"\providecommand{\walkalso}[2]{}"
-"""So that a fragment needs no more macros than before in a document that has its own."""
+"""The one macro newer than most preambles, so that a fragment needs no more than before."""
 
 ROOM = "0.4\\textheight"
-"""What must be left on a page for a section and its figure to begin there."""
+"""The space that must be left on a page for a section and its figure to begin there."""
 
 
 @dataclass(frozen=True)
 class _Writer:
-    """The parts of a book as LaTeX."""
+    """A book as LaTeX."""
 
     parts: Sequence[Part]
     language: Language
@@ -136,11 +136,11 @@ class _Writer:
 
     @cached_property
     def drawings(self) -> dict[str, Scene | None]:
-        """The figures of the problems' own parts."""
+        """Name of a part → the figure of its problem's body; ``None`` for the general text."""
         return {p.name: scene(p.record) if p.record else None for p in self.parts}
 
     def body(self) -> Iterator[str]:
-        """Sections with their figures, steps and names."""
+        """The lines of the document's body: sections with figures, steps and names."""
         for part in self.parts:
             yield rf"\walkroom{{{ROOM}}}\section{{{tex_text(part.heading)}}}"
             if part.about:
@@ -157,27 +157,27 @@ class _Writer:
 
     @cached_property
     def corrections(self) -> dict[str, dict[int, list[Told]]]:
-        """What is told of the print at each step."""
+        """Label of a step → number of the paper → the correction told at this step."""
         return corrections(self.parts, self.findings, self.language)
 
     @cached_property
     def labels(self) -> dict[str, list[str]]:
-        """Label of a step → those of all in it that has a number."""
+        """Label of a step → the LaTeX labels of its numbered entries."""
         return {step.label: labels(step) for _, step in steps(self.parts)}
 
     @cached_property
     def numbered(self) -> list[str]:
-        """The labels of all that has a number, in order."""
+        """The LaTeX labels of all numbered entries, in order."""
         return [label for found in self.labels.values() for label in found]
 
     @cached_property
     def spans(self) -> dict[str, tuple[int, int]]:
-        """Label of a step → the places of its first equation and of what follows its last."""
+        """Label of a step → the places of its first numbered entry and of what follows its last."""
         ends = [*accumulate(map(len, self.labels.values()), initial=0)]
         return dict(zip(self.labels, pairwise(ends), strict=True))
 
     def references(self, labels: Iterable[str]) -> Iterator[str]:
-        """The numbers of all the equations of some steps, neighbours in one span."""
+        """References to all the equations of some steps, neighbours in one span."""
         spans: list[tuple[int, int]] = []
         for first, end in sorted(self.spans[x] for x in labels):
             near = spans and spans[-1][1] == first and first not in self.begins
@@ -188,11 +188,11 @@ class _Writer:
 
     @cached_property
     def begins(self) -> set[int]:
-        """The places of the first equations of the parts."""
+        """The places of the first numbered entries of the parts."""
         return {self.spans[part.steps[0].label][0] for part in self.parts if part.steps}
 
     def step(self, part: Part, step: Step) -> Iterator[str]:
-        """Heading, sentences, equations."""
+        """The lines of a step: heading, sentences, equations."""
         names, language = spelling(part.source), self.language
         beside = "".join(f", {prose(x)}" for x in assumed(step, language)) + self.footnotes(step)
         rule = tex_text(capitalised(language.word(step.rule)))
@@ -203,7 +203,7 @@ class _Writer:
         yield from _equations(step, self.labels[step.label], names, language)
 
     def footnotes(self, step: Step) -> str:
-        """Where the print of the paper is corrected, or the number of the note that has said it."""
+        """The corrections of the print as footnotes, or the number of one made before."""
         told = self.corrections[step.label]
         shown = {n: "".join(x.shown(prose, _small) for x in t) for n, t in told.items()}
         notes = [rf"\footnote{{\label{{paper.{n}}}{x}}}" for n, x in shown.items()]
@@ -213,7 +213,7 @@ class _Writer:
 
     @cached_property
     def corrected(self) -> set[int]:
-        """The numbers that are told of somewhere."""
+        """The numbers of the paper that have a correction somewhere."""
         return {n for told in self.corrections.values() for n in told}
 
 
@@ -226,7 +226,7 @@ def _small(sides: Sequence[Tree]) -> str:
 def _equations(
     step: Step, numbered: Iterable[str], names: Mapping[str, str], language: Language
 ) -> Iterator[str]:
-    """The alignments of a step, whose equations have these labels."""
+    """The alignments of a step, whose numbered entries have the labels ``numbered``."""
     listed = iter(numbered)
     for block in blocks(step.equations, names, language):
         yield r"\begin{align}"
@@ -243,7 +243,7 @@ def _equations(
 
 
 def labels(step: Step) -> list[str]:
-    """Of all that has a number in a step: the keys, but the step's own for the first."""
+    """The LaTeX labels of a step's entries: their keys, but the step's own for the first."""
     return [step.label, *keys(step)[1:]]
 
 
@@ -268,6 +268,6 @@ def _names(part: Part, names: Mapping[str, str], language: Language) -> Iterator
 
 
 def _unit(unit: str) -> str:
-    """A unit, its exponents raised."""
+    """The LaTeX of a unit, its exponents raised."""
     raised = re.sub(r"\\textasciicircum\{\}(-?[0-9]+)", r"$^{\1}$", tex_text(unit))
     return raised.replace(" ", r"\,")

@@ -19,7 +19,7 @@ from .language import ENGLISH, Language
 from .outline import domain, quantified
 
 ROOM = 38.0
-"""Width of an equation in em, its number aside."""
+"""The width of an equation in em, its number aside."""
 EQUALS, INDENT = 1.4, 1.5
 
 Rows = list[str]
@@ -64,7 +64,7 @@ def quantifiers(language: Language) -> Quantifiers:
 
 
 def rows(x: Entry, names: Mapping[str, str], column: float, every: Quantifiers) -> Rows:
-    """An entry whose left side has a column of the given width."""
+    """The rows of an entry whose left side has a column of the given width."""
     if x.only is None:
         return side(x, names)
     below = (aligned(e, names, column, every) for e in x.where)
@@ -72,7 +72,7 @@ def rows(x: Entry, names: Mapping[str, str], column: float, every: Quantifiers) 
 
 
 def side(x: Entry, names: Mapping[str, str]) -> Rows:
-    """Short equations side by side."""
+    """The row of short equations side by side."""
     cells = [(latex_tree(e.lhs, names), latex_tree(e.rhs, names)) for e in x.equations]
     (head, first), *others = cells
     more = (rf"{a} = {b}" for a, b in others)
@@ -80,7 +80,7 @@ def side(x: Entry, names: Mapping[str, str]) -> Rows:
 
 
 def aligned(e: Equation, names: Mapping[str, str], column: float, every: Quantifiers) -> Rows:
-    """An equation whose left side has a column of the given width."""
+    """The rows of an equation whose left side has a column of the given width."""
     lines = broken(marked(e.rhs, names), ROOM - column - EQUALS)
     head = guarded(latex_tree(e.lhs, names))
     rows = [f"{head} &= {lines[0].text}", *("&" + indented(x, 1) for x in lines[1:])]
@@ -88,7 +88,7 @@ def aligned(e: Equation, names: Mapping[str, str], column: float, every: Quantif
 
 
 def alone(e: Equation, names: Mapping[str, str], every: Quantifiers) -> Rows:
-    """An equation by itself; a left side that leaves no room has lines of its own."""
+    """The rows of an equation with an alignment of its own; a long left side has its own lines."""
     head = latex_tree(e.lhs, names)
     column = measure(head)
     words = clause(e, names, every)
@@ -103,13 +103,13 @@ def alone(e: Equation, names: Mapping[str, str], every: Quantifiers) -> Rows:
 
 
 def broken(tex: str, room: float) -> list[Line]:
-    """Marked LaTeX in lines."""
+    """Marked LaTeX in lines of at most ``room`` em."""
     lines = fill(pieces(tex), room, lambda x: measure(plain(x)), INDENT)
     return [Line(plain(x.text), x.inside) for x in lines]
 
 
 def indented(line: Line, quads: int) -> str:
-    """A line that continues a formula."""
+    """The LaTeX of a line that continues a formula, indented by ``quads`` and its depth."""
     sign = "{}" if line.text[:1] in "+-" else ""
     return r"\quad" * (quads + line.inside) + " " + sign + line.text
 
@@ -140,12 +140,12 @@ def quantifier(
 
 
 def clause_width(words: str) -> float:
-    """The room that a clause takes."""
+    """The width, in em, that a clause takes at the end of a row."""
     return INDENT + 4.5 + measure(re.sub(r"\\text\{.*?\} ", "", words, count=1)) if words else 0.0
 
 
 def closed(rows: Rows, words: str, last: float) -> Rows:
-    """The rows with a clause at their end, or below."""
+    """The rows with a clause at their end, or below where the last, ``last`` em wide, is full."""
     if not words:
         return rows
     if last + clause_width(words) <= ROOM:

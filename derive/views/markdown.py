@@ -24,7 +24,7 @@ from .outline import (
 
 
 def markdown(d: Derivation, *, language: Language = ENGLISH) -> str:
-    """Headings, prose and display formulas; no raw HTML."""
+    """The walk: headings, prose and display formulas; no raw HTML."""
     names = spelling(d)
     heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
     conventions = " ".join(
@@ -58,7 +58,7 @@ def _step(step: Step, names: Mapping[str, str], language: Language) -> Iterator[
 def formula(
     equations: Sequence[Equation], symbols: Iterable[Symbol], *, language: Language = ENGLISH
 ) -> str:
-    """Equations as formulas between no dollars."""
+    """Equations as aligned LaTeX, without dollars."""
     return "\n".join(_aligned(equations, names_of(symbols), language))
 
 

@@ -1,4 +1,4 @@
-"""What every view says about a record, whatever its language: title, sections, labels, notes."""
+"""What every view says of a record, whatever its markup: title, sections, labels, notes."""
 
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ FORMULAS_CONVENTIONS = (
     "velocity; $𝔤$ is the Lie algebra. In equations, parameters of the problem are set in "
     "$‘sans serif’$."
 )
-"""The same with formulas between dollars, for LaTeX and Markdown, but for its first sentence."""
+"""CONVENTIONS with formulas between dollars, but for the first sentence."""
 TRANSPOSES = {
     "bar": "Bars are transposes and $𝟏$ is the identity.",
     "top": "The mark $⊤$ is the transpose and $𝟏$ the identity.",
 }
-"""That sentence, in each notation."""
+"""The first sentence of the conventions, in each notation of transposes."""
 ROAD = (
     "The Lagrangian $L$ of the points is pulled back to the group, $L̃$; it gives the Cartan "
     "form $ϖ$, whose exterior derivative $dϖ$ has a kernel: the equations of motion."
 )
-"""What is done, in one sentence."""
+"""What the walk does, in one sentence."""
 PAPER = (
     "Numbers in the margin or beside the name of a step are those of the paper, "
     "P. Iglesias-Zemmour, “D’où viennent les équations du mouvement des solides ?”; what is "
@@ -69,12 +69,12 @@ GIVEN: tuple[tuple[frozenset[Equation], str], ...] = (
         for parts in reversed(STILL)
     ),
 )
-"""What is given, and how that is said."""
+"""Equations that a step assumes, and how that is said in words."""
 ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇_b", "ṗ_b")
 
 
 def spelling(d: Derivation) -> dict[str, str]:
-    """How its names are written in LaTeX."""
+    """Name → LaTeX, of a record with its problem's parameters."""
     return names_of(d.symbols, [*map(str, d.problem.get("parameters") or ())])
 
 
@@ -85,7 +85,7 @@ def title(d: Derivation, language: Language = ENGLISH) -> str:
 
 
 def group(d: Derivation) -> str:
-    """The name of the group."""
+    """The name of the group of a record."""
     return product(" ".join(str(d.problem.get("group", ANY_GROUP)).split()))
 
 
@@ -102,7 +102,7 @@ def subtitle(d: Derivation, language: Language = ENGLISH) -> str:
 
 
 def heading(scope: str, language: Language = ENGLISH) -> str:
-    """The heading of the steps that hold in a scope."""
+    """The heading of the steps that hold in a scope: any group, or one by name."""
     if scope == ANY_GROUP:
         return language.word("For any group of matrices")
     return language.word("For {group}", group=product(scope))
@@ -126,7 +126,7 @@ def printed(step: Step) -> str:
 
 
 def _run(run: list[int]) -> str:
-    """(11)–(13), or one after the other where there are fewer."""
+    """A run of numbers as (11)–(13), or one after the other where there are fewer than three."""
     if len(run) > 2:
         return f"({run[0]})–({run[-1]})"
     return ", ".join(f"({n})" + "*" * (n in AMENDED) for n in run)
@@ -147,12 +147,12 @@ def assumed(step: Step, language: Language = ENGLISH) -> list[str]:
 
 
 def _velocity(e: Equation) -> bool:
-    """Is it said of the velocity of X, which goes with any acceleration?"""
+    """Is it an equation for the velocity of X, which goes with any acceleration?"""
     return isinstance(e.lhs, tuple) and e.lhs[0] == "call" and e.lhs[2:] == ("X",)
 
 
 def notes(step: Step, language: Language = ENGLISH) -> list[str]:
-    """What stands beside a rule where there is no margin."""
+    """The notes beside a rule where there is no margin: numbers of the paper, assumptions."""
     numbers = printed(step)
     paper = [language.word("paper {numbers}", numbers=numbers)] if numbers else []
     return [*paper, *assumed(step, language)]
@@ -173,7 +173,7 @@ def quantified(e: Equation) -> tuple[str, ...]:
 
 
 def keys(step: Step) -> list[str]:
-    """The keys of all that has a number in a step, in order: of a row, that of its first."""
+    """The keys of a step's numbered entries, in order: of a row, that of its first equation."""
     return [step.keys[x.first] for x in entries(step.equations)]
 
 

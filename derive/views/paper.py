@@ -19,7 +19,7 @@ HEADS = ("printed", "derived", "holds", "but for", "remark")
 
 
 def as_json(findings: Sequence[Finding]) -> str:
-    """A list of objects, one for each numbered equation."""
+    """The findings as JSON: a list of objects, one for each numbered equation."""
     data = [
         {
             "number": f.number,
@@ -36,7 +36,7 @@ def as_json(findings: Sequence[Finding]) -> str:
 
 
 def as_text(findings: Sequence[Finding], language: Language = ENGLISH) -> str:
-    """One paragraph for each equation; corrections and counterexamples of what is false."""
+    """The findings as text, a paragraph each; what is false with its correction."""
     lines, word = [], language.word
     heads = [word(x) for x in HEADS]
     wide = max(map(len, heads))
@@ -54,7 +54,7 @@ def as_text(findings: Sequence[Finding], language: Language = ENGLISH) -> str:
 
 
 def _example(f: Finding, language: Language) -> str:
-    """Values at which a printed equation is false."""
+    """The values at which a printed equation is false, and its two sides there."""
     *given, (_, left), (_, right) = (f.counterexample or {}).items()
     values = ",  ".join(" = ".join(x) for x in grouped(given))
     said = "{values}: the left side is {left}, the printed right side {right}"
@@ -62,7 +62,7 @@ def _example(f: Finding, language: Language) -> str:
 
 
 def grouped(values: Iterable[tuple[str, str]]) -> Iterator[tuple[str, ...]]:
-    """Names and what they are; those that are zero, or the identity, together with 0 or 1."""
+    """Names and their values; names that are 0, or 1, together before that value."""
     together: dict[str, list[str]] = {"1": [], "0": []}
     others = []
     for name, value in values:
@@ -75,7 +75,7 @@ def grouped(values: Iterable[tuple[str, str]]) -> Iterator[tuple[str, ...]]:
 
 
 def _short(value: str) -> str:
-    """0 or 1 for such a matrix."""
+    """0 or 1 for a matrix that is zero or the identity; else the value."""
     if not value.startswith("["):
         return value
     rows = [row.split(", ") for row in value[1:-1].split("; ")]

@@ -31,7 +31,10 @@ def render(
     steps: Sequence[Step] = (),
     **notation: str,
 ) -> str:
-    """A record in one of the formats, in one of the languages; or some ``steps`` of it alone."""
+    """A record in one of the formats, in one of the languages; or some ``steps`` of it alone.
+
+    :class:`RenderError` for choices that do not go together.
+    """
     from ..printing.notation import Notation
     from .language import language
 
@@ -134,7 +137,7 @@ def corrections(records: Sequence[Derivation]) -> list[Finding]:
 
 
 def pdf(tex: str) -> bytes:
-    """The LaTeX compiled; ``RenderError`` names what is missing or the first error."""
+    """The PDF of a LaTeX document; ``RenderError`` names what is missing or the first error."""
     import os
     import shutil
     import subprocess

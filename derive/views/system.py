@@ -13,7 +13,7 @@ from .outline import group
 
 
 def system(d: Derivation, language: Language) -> str:
-    """One or two sentences; empty where the record has no body."""
+    """What moves, by which group, and what acts on it; empty where the record has no body."""
     basis, body = d.problem.get("basis"), d.problem.get("body")
     if not isinstance(basis, list) or not basis or not isinstance(body, Mapping):
         return ""
@@ -57,4 +57,5 @@ def _acting(problem: Mapping[str, Any]) -> Iterator[Sentence]:
 
 
 def _many(x: Any) -> int:
+    """The length of a list; 0 for anything else."""
     return len(x) if isinstance(x, list) else 0

@@ -50,11 +50,12 @@ def step_text(step: Step, width: int = 100, *, language: Language = ENGLISH) -> 
 
 
 def equation_text(e: Equation, width: int = 100) -> str:
-    """One equation as text."""
+    """One equation as text, its lines at most ``width`` columns wide."""
     return textwrap.dedent("\n".join(_equations((e,), width, ENGLISH)))
 
 
 def _named(name: str, meaning: str, width: int) -> Iterator[str]:
+    """The lines of a name with its meaning."""
     first, *others = _paragraph(meaning, NAME, width)
     yield f"{'':{MARGIN}}{padded(name, NAME - MARGIN - 1)} {first[NAME:]}"
     yield from others
@@ -84,6 +85,7 @@ def clashing(d: Derivation) -> frozenset[str]:
 
 
 def _step(step: Step, width: int, quoted: frozenset[str], language: Language) -> Iterator[str]:
+    """The lines of a step: heading, sentences, what it uses, equations."""
     head = [step.label, language.word(step.rule), *notes(step, language)]
     yield from _paragraph("  ·  ".join(head), 0, width)
     yield from _paragraph(language.of(step.prose), MARGIN, width)
@@ -116,7 +118,7 @@ def _equations(equations: tuple[Equation, ...], room: int, language: Language) -
 
 
 def _table(cells: list[str], room: int) -> Iterator[str]:
-    """Cells in columns, row by row."""
+    """The lines of short equations in columns, row by row."""
     widest = max(map(display_width, cells)) + 4
     columns = max(1, min(4, room // widest))
     for k in range(0, len(cells), columns):
@@ -130,6 +132,7 @@ def padded(words: str, width: int) -> str:
 
 
 def _equation(lhs: str, e: Equation, column: int, room: int, language: Language) -> Iterator[str]:
+    """The lines of an equation whose left side has ``column`` columns; 0: its own lines."""
     right = show(e.rhs)
     if isinstance(e.rhs, tuple) and e.rhs[0] == "par" and right == lhs:
         right += f"  {language.word('(a parameter)')}"
@@ -153,6 +156,7 @@ def _equation(lhs: str, e: Equation, column: int, room: int, language: Language)
 
 
 def _clause(e: Equation, language: Language) -> str:
+    """For which names the equation holds: every one, or some; empty where nothing is said."""
     said = []
     if names := quantified(e):
         shown, space = ", ".join(map(show_name, names)), domain(names)
@@ -172,7 +176,7 @@ def _broken(formula: str, room: int, indent: int) -> list[str]:
 
 
 def pieces(formula: str) -> list[Piece]:
-    """A formula cut before its operators and after its commas, with the depth of each cut."""
+    """The pieces of a formula, cut before its operators and after its commas, with their depth."""
     found, start, depth, strength = [], 0, 0, 0.0
     norm = 0
     for k, c in enumerate(formula):
@@ -193,7 +197,7 @@ def pieces(formula: str) -> list[Piece]:
 
 
 def _cut(line: str, width: int) -> list[str]:
-    """A line cut by force where nothing else made it short enough."""
+    """A line cut by force into ones of ``width`` where nothing else made it short enough."""
     if display_width(line) <= width:
         return [line]
     columns = 0
@@ -219,5 +223,6 @@ def _paragraph(words: str, margin: int, width: int) -> Iterator[str]:
 
 
 def _underlined(heading: str, mark: str, width: int) -> list[str]:
+    """A heading with a line of ``mark`` below it."""
     lines = [*_paragraph(heading, 0, width)]
     return [*lines, mark * max(map(display_width, lines))]
