@@ -1,7 +1,7 @@
-"""Is it a body that the group can move: every direction moves some mass, and no mass is negative?
+"""Checks of a body on its group: does every direction move some mass, is no mass negative?
 
 The metric of 𝔤 at g = 1 is ⟨Z, Z′⟩ = Tr Z M Z̄′, with M the moments of the body as the group's
-matrices see it.  Its kernel is found exactly, in fractions, at two choices of the parameters.
+matrices see it. Its kernel is found exactly, in fractions, at two choices of the parameters.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from .problem import Body, GivenBody, MomentBody, Parameter, PointBody
 Vector = tuple[Any, ...]
 
 ROUNDED = 10**9
-"""Moments of solids are numbers to less than this part of them."""
+"""One over the relative error allowed in the moments of solids."""
 LARGEST_SHOWN = 3
-"""Rows of a matrix that is written out in a message."""
+"""The rows of the largest matrix that a message writes out."""
 
 
 def still_direction(group: Group, body: Body) -> str | None:
-    """What moves no mass, in words; ``None`` when every direction of the group moves some."""
+    """The direction that moves no mass, in words; ``None`` when every one moves some."""
     if isinstance(body, MomentBody):
         return None
     if isinstance(body, PointBody) and (empty := _empty_block(group, body)):
@@ -49,7 +49,7 @@ def still_direction(group: Group, body: Body) -> str | None:
 
 
 def _empty_block(group: Group, body: PointBody) -> str | None:
-    """The first factor of a product that has no point at all."""
+    """The first factor of a product that has no point, in words; ``None`` for none such."""
     for block, (_, factor) in enumerate(group.places, 1):
         if block not in (body.blocks or (1,)):
             return f"block {block}, {factor.name}, which has no [[point]] with block = {block},"
@@ -57,7 +57,7 @@ def _empty_block(group: Group, body: PointBody) -> str | None:
 
 
 def _kernel(group: Group, body: Body, values: _Values) -> Vector | None:
-    """Coordinates of the first direction that moves no mass."""
+    """The coordinates of the first direction in the metric's kernel; ``None`` if it is 0."""
     try:
         m = _moments(group, body, values)
     except ZeroDivisionError:
@@ -76,7 +76,7 @@ def _inner(a: Matrix, b: Matrix) -> Fraction:
 
 
 def _moments(group: Group, body: Body, values: _Values) -> Matrix:
-    """Σ m r r̄ with r as the matrices of the group act on it, (r, 1) for an affine one."""
+    """The matrix Σ m r r̄ with r as the group's matrices act on it, (r, 1) for an affine one."""
     if isinstance(body, PointBody):
         total = q.scaled(0, q.identity(group.size))
         blocks = body.blocks or (1,) * len(body.masses)
@@ -102,7 +102,7 @@ def _trees(body: Body) -> Iterator[Tree]:
 
 
 class _Values:
-    """Fractions for trees; each function of each argument, and π, is a number of its own."""
+    """Trees to fractions; each function of each argument, and π, is a random number of its own."""
 
     def __init__(self, parameters: Mapping[str, Fraction]):
         self.parameters = parameters
@@ -111,7 +111,7 @@ class _Values:
         self._random = Random(2)
 
     def mass(self, t: Tree) -> Fraction:
-        """The value of a mass, remembering whether one is negative."""
+        """The value of a mass; ``negative`` remembers whether one was."""
         mass = self.of(t)
         self.negative |= mass < 0
         return mass
@@ -125,7 +125,7 @@ class _Values:
 
 
 def _words(group: Group, coordinates: Vector) -> str:
-    """The direction: an axis for rotations of space, else the matrix Z."""
+    """A direction in words: an axis for rotations of space, else the matrix Z."""
     x = _whole(coordinates)
     if len(group.factors) > 1:
         start = 0
@@ -151,7 +151,7 @@ def _words(group: Group, coordinates: Vector) -> str:
 
 
 def _axis(turn: Vector, shift: Vector) -> str:
-    """Where ζ ∧ r + w vanishes, or the screw when it nowhere does."""
+    """The axis where ζ ∧ r + w vanishes, in words, or the screw when it nowhere does."""
     foot = tuple(y / sum(x * x for x in turn) for y in _cross(turn, shift))
     still = all(x + y == 0 for x, y in zip(_cross(turn, foot), shift, strict=True))
     if still:
@@ -164,7 +164,7 @@ def _cross(a: Vector, b: Vector) -> Vector:
 
 
 def _whole(x: Vector) -> Vector:
-    """The same direction in the smallest integers, the first that is not zero positive."""
+    """The direction in the smallest integers, the first that is not zero positive."""
     up = [int(y * lcm(*(y.denominator for y in x))) for y in x]
     sign = next(1 if y > 0 else -1 for y in up if y)
     return tuple(Fraction(sign * y // gcd(*up)) for y in up)
@@ -175,7 +175,7 @@ def _listed(x: Vector) -> str:
 
 
 def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str | None:
-    """Where a mass is negative, for the defaults of the parameters; ``None`` when nowhere."""
+    """The key of a mass that is negative at the parameters' defaults; ``None`` for none."""
     points = body if isinstance(body, PointBody) else None
     if isinstance(body, GivenBody):
         points = body.points
@@ -187,7 +187,7 @@ def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str
 
 
 def is_negative(t: Tree, parameters: Mapping[str, Parameter]) -> bool:
-    """Is it negative for the defaults of the parameters?  No, where one has none."""
+    """Is it negative for the defaults of the parameters? No, where one has none."""
     found = approximate(t, _defaults(parameters))
     return found is not None and found < 0
 
@@ -197,7 +197,7 @@ def _defaults(parameters: Mapping[str, Parameter]) -> dict[str, float]:
 
 
 def massless(body: Body) -> bool:
-    """Is the mass the number 0?"""
+    """Is the total mass the number 0?"""
     masses = body.masses if isinstance(body, PointBody) else ()
     masses = (body.mass,) if isinstance(body, GivenBody) else masses
     numbers = [Fraction(x) for x in masses if isinstance(x, (int, Fraction))]
@@ -205,7 +205,7 @@ def massless(body: Body) -> bool:
 
 
 def impossible(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
-    """Are the moments those of no masses?  J − m⁻¹cc̄ must not be negative.
+    """Are the moments those of no masses? J − m⁻¹cc̄ must not be negative.
 
     Given ones are tried where all are numbers; those of solids by the defaults of the parameters.
     """

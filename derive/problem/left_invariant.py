@@ -1,4 +1,4 @@
-"""Is the metric of a body left-invariant on its group, where C = ĀA is not 1?
+"""Left-invariance of the metric of a body on its group, where C = ĀA is not 1.
 
 Decided exactly, in polynomials of the parameters.
 """
@@ -21,9 +21,9 @@ THIS: Bodies = "this body"
 
 
 def invariant(problem: Problem) -> Bodies | None:
-    """For which bodies Tr Y J Ȳ′ C = Tr Y J Ȳ′ for all Y, Y′ of 𝔤, this one among them.
+    """For which bodies, this one among them, Tr Y J Ȳ′ C = Tr Y J Ȳ′ for all Y, Y′ of 𝔤.
 
-    ``None`` too where to tell would take polynomials that are too long.
+    ``None`` where not for this one, or where to tell would take polynomials that are too long.
     """
     group, body = problem.group, problem.body
     if group is None or body is None or group.affine or skew(group):
@@ -40,7 +40,7 @@ def invariant(problem: Problem) -> Bodies | None:
 
 
 def _paired(k: Matrix, J: tuple[tuple[Tree, ...], ...]) -> Tree:
-    """Σ k_ij J_ij."""
+    """The tree Σ k_ij J_ij."""
     pairs = zip(k, J, strict=True)
     return add(*(mul(_number(x), t) for a, b in pairs for x, t in zip(a, b, strict=True) if x))
 
@@ -50,12 +50,12 @@ def _number(x: Fraction) -> Tree:
 
 
 def _vanishes(t: Tree) -> bool:
-    """A residue that is not 0 settles it without multiplying out."""
+    """Is it 0 for all parameters? A residue that is not 0 settles it without multiplying out."""
     return residue(t, PRIMES[0]) == 0 and vanishes(t)
 
 
 def _moments(problem: Problem, body: Body) -> tuple[tuple[Tree, ...], ...]:
-    """Σ m r r̄ with r as the matrices of the group act on it."""
+    """The matrix Σ m r r̄ with r as the matrices of the group act on it."""
     group = problem.group
     assert group is not None
     if isinstance(body, PointBody):

@@ -33,10 +33,10 @@ class MeshError(SolidError):
 
 
 def read(path: Path) -> Mesh:
-    """Vertices, three exact coordinates each, and faces, three indices from 0 each.
+    """The mesh of a file: vertices, three exact coordinates each; faces, three indices from 0 each.
 
     A decimal number of up to 15 digits is itself, a longer one the shortest decimal of its double;
-    binary numbers are themselves.  Equal vertices are one; a triangle with two of them is left out.
+    binary numbers are themselves. Equal vertices are one; a triangle with two of them is left out.
     :class:`MeshError` unless they close up, oriented outwards; crossings are not looked for.
     """
     try:
@@ -46,10 +46,10 @@ def read(path: Path) -> Mesh:
 
 
 def mesh_moments(vertices: Sequence[Sequence[Fraction]], faces: Sequence[Sequence[int]]) -> Moments:
-    """m, c, J of density 1, summed over the tetrahedra from the origin to the faces, with sign.
+    """The moments of density 1, sums over the tetrahedra from the origin to the faces.
 
-    Those of 0abc, with D = det(a, b, c) and s = a + b + c, are D/6, D s/24 and
-    D (a ā + b b̄ + c c̄ + s s̄)/120.
+    With their signs: those of 0abc, with D = det(a, b, c) and s = a + b + c, are D/6, D s/24 and D
+    (a ā + b b̄ + c c̄ + s s̄)/120.
     """
     scale = lcm(*{x.denominator for v in vertices for x in v})
     p = [tuple(x.numerator * (scale // x.denominator) for x in v) for v in vertices]
@@ -78,11 +78,13 @@ def mesh_moments(vertices: Sequence[Sequence[Fraction]], faces: Sequence[Sequenc
 
 
 def _must(holds: bool, otherwise: str) -> None:
+    """``MeshError(otherwise)`` unless it holds."""
     if not holds:
         raise MeshError(otherwise)
 
 
 def _limit(count: int) -> None:
+    """``MeshError`` for no faces, or for more than TRIANGLES."""
     _must(count > 0, "no faces")
     _must(count <= TRIANGLES, f"more than {TRIANGLES} triangles; simplify the mesh")
 
@@ -121,7 +123,7 @@ def _read(path: Path) -> Mesh:
 
 
 def _obj(text: bytes) -> tuple[bytes, int]:
-    """The vertices, and the faces without textures and normals; the number of triangles."""
+    """An OBJ of vertices and faces alone, without textures and normals; how many triangles."""
     points, faces = re.findall(rb"\nv" + NUMBERS, text), re.findall(rb"\nf([ \t].*)", text)
     sound = len(points) == len(re.findall(rb"\nv[ \t]", text))
     _must(sound, f"a vertex is not three numbers; {AGAIN}")
@@ -133,7 +135,7 @@ def _obj(text: bytes) -> tuple[bytes, int]:
 
 
 def _off(text: bytes) -> tuple[bytes, int]:
-    """The text without comments."""
+    """An OFF without comments, and how many triangles it has."""
     lines = [x for x in re.sub(rb"#[^\n]*", b"", text).split(b"\n") if x and not x.isspace()]
     _must(
         max(map(len, lines), default=0) <= MESH_LINE, f"a line of more than {MESH_LINE} characters"
@@ -151,7 +153,7 @@ def _off(text: bytes) -> tuple[bytes, int]:
 
 
 def _stl(text: bytes) -> tuple[bytes, int]:
-    """The corners alone."""
+    """An STL of its corners alone, and how many triangles it has."""
     corners = re.findall(rb"vertex" + NUMBERS, text := text.lower())
     sound = len(corners) == 3 * text.count(b"endfacet")
     _must(sound, f"a facet is not three vertices of three numbers; {AGAIN}")
@@ -162,6 +164,7 @@ PREPARED = {".obj": _obj, ".off": _off, ".stl": _stl}
 
 
 def _load(data: bytes, kind: str) -> tuple[Any, Any]:
+    """Points and faces as trimesh reads them; ``MeshError`` where it cannot."""
     try:
         trimesh = importlib.import_module("trimesh")
     except ImportError:
@@ -182,7 +185,7 @@ def _load(data: bytes, kind: str) -> tuple[Any, Any]:
 
 
 def _closed(points: Any, faces: Any) -> None:
-    """Each edge is run through once in each direction, and the volume is positive."""
+    """``MeshError`` unless edges run once each way, and the volume is positive."""
 
     def unlike(a: Any, b: Any, expected: int) -> tuple[int, str]:
         edges, counts = np.unique(a * len(points) + b, return_counts=True)

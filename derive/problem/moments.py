@@ -15,7 +15,7 @@ class SolidError(ValueError):
 
 @dataclass(frozen=True)
 class Moments:
-    """m, c (3 entries) and J (3 × 3); those of a mixture are the sums of those of its parts."""
+    """The moments of a body in R³: m, c (3 entries) and J (3 × 3); they add."""
 
     mass: Tree
     first: Row

@@ -41,7 +41,7 @@ from .problem import (
 Vector = tuple[Tree, ...]
 ROTATION, ROOT = "rotation", "root"
 MANY = 100
-"""Of more points only those are kept on which something acts, and numbered anew."""
+"""Above so many points only those are kept on which something acts, numbered anew."""
 
 
 def principal(problem: Problem) -> Problem:
@@ -66,7 +66,10 @@ def principal(problem: Problem) -> Problem:
 
 
 def frame_of(group: Group) -> str:
-    """``rotation`` for SO(n) and SE(n), ``root`` for SL(n), GL(n), SAff(n), Aff(n), else empty."""
+    """The kind of principal frame of a group.
+
+    ``rotation`` for SO(n) and SE(n), ``root`` for SL(n), GL(n), SAff(n), Aff(n), else empty.
+    """
     if group.factors or (group.affine and not group.free_translations):
         return ""
     n, d = group.n, len(group.linear_basis)
@@ -76,6 +79,8 @@ def frame_of(group: Group) -> str:
 
 
 class _Framing:
+    """The change of one problem to its principal frame, with the parameters it introduces."""
+
     def __init__(self, problem: Problem, group: Group, kind: str):
         self.problem, self.group, self.kind, self.n = problem, group, kind, group.n
         self.new: dict[str, Parameter] = {}
@@ -83,7 +88,7 @@ class _Framing:
         self.vectors: dict[tuple[str, ...], Vector] = {}
 
     def framed(self) -> Problem:
-        """The new problem and its parameters."""
+        """The problem in the frame; what its new parameters stand for is in ``frame``."""
         unimodular = "unimodular" in self.group.relations
         root = self.kind == ROOT
         moments = () if root else self._names("moment", "second moment along axis {}")
@@ -130,7 +135,7 @@ class _Framing:
     # -- new parameters ----------------------------------------------------------------------
 
     def _name(self, wanted: str, meaning: str) -> str:
-        """A new parameter, whose name is not taken."""
+        """The name of a new parameter: as wanted, with _ while it is taken."""
         name = wanted
         while name in self.problem.parameters or name in self.new:
             name += "_"
@@ -138,17 +143,18 @@ class _Framing:
         return name
 
     def _names(self, wanted: str, meaning: str) -> tuple[str, ...]:
+        """The names of n new parameters, one for each coordinate."""
         span = range(1, self.n + 1)
         return tuple(self._name(f"{wanted}_{i}", meaning.format(i)) for i in span)
 
     def _place(self, at: Vector, k: int) -> Vector:
-        """A place of the body in the new frame."""
+        """The new coordinates, parameters, of a place ``at`` in the body."""
         names = self._names(f"place_{k}", f"point {k} in the frame, component {{}}")
         self.places[names] = at
         return _pars(names)
 
     def _vector(self, v: Vector, what: str) -> Vector:
-        """A vector of space, turned; itself where space stays."""
+        """The new coordinates, parameters, of a vector of space; itself where space stays."""
         if not self._turns or not any(x != 0 for x in v):
             return v
         names = self._names(what, f"{what.replace('_', ' ')} in the frame, component {{}}")
@@ -163,10 +169,11 @@ class _Framing:
         return g is not None and sum(x != 0 for x in g) > 1
 
     def _gravity(self) -> str:
-        """The name of |g| where space is turned to have gravity along its last axis."""
+        """The name of |g| where space is turned to have gravity along its last axis; else empty."""
         return self._name("gravity", "gravity along the last axis") if self._turns else ""
 
     def _pull(self, name: str) -> tuple[Potential, ...]:
+        """Gravity in the frame, if there is any."""
         g = gravity(self.problem.potentials)
         if g is None:
             return ()
@@ -177,12 +184,16 @@ class _Framing:
         return mul(t, ("par", self.per_unit)) if self.per_unit else t
 
     def _second(self, moments: tuple[str, ...]) -> tuple[Vector, ...]:
+        """The matrix J in the frame: diagonal, or 1."""
         span = range(self.n)
         diagonal = _pars(moments) or (1,) * self.n
         return tuple(tuple(diagonal[i] if i == j else 0 for j in span) for i in span)
 
     def _points(self) -> tuple[tuple[Place, ...], dict[int, int]]:
-        """The points as places, under their old numbers if few are left out, and the numbers."""
+        """The points as places in the frame, and old number → new.
+
+        Numbers stay if few points are left out.
+        """
         points = self.problem.points
         old = (*(points.positions if points else ()), *(p.at for p in self.problem.places))
         needed = {*_needed(self.problem, root=self.kind == ROOT)}
@@ -192,7 +203,7 @@ class _Framing:
         return places, {i: k for k, i in enumerate(sorted(needed), 1)}
 
     def _potential(self, p: Potential, numbers: Mapping[int, int]) -> Potential:
-        """The potential in the frame, key by key."""
+        """A potential in the frame, key by key."""
         on = getattr(p, "on", None)
         mark = f"_{on}" if isinstance(on, int) else ""
         keys = p.keys().items()
@@ -200,7 +211,7 @@ class _Framing:
         return replace(p, **values)
 
     def _value(self, value: Any, about: Key, name: str, numbers: Mapping[int, int]) -> Any:
-        """Points by their new numbers, vectors of space turned, masses in their unit."""
+        """The value of a key in the frame: points by new numbers, vectors turned, masses scaled."""
         if about.type == "masses":
             points = self.problem.points
             masses = points.masses if points else ()
@@ -216,7 +227,7 @@ class _Framing:
     def _along(
         self, origin: int, stiffness: tuple[str, ...]
     ) -> tuple[tuple[Place, ...], tuple[Spring, ...]]:
-        """Springs along the axes, whose matrix is diagonal: from the origin to e_1, e_2, …"""
+        """The springs along the axes, with places for their ends: from the origin to e_1, e_2, …"""
         if not stiffness:
             return (), ()
         span = range(self.n)
@@ -229,11 +240,15 @@ class _Framing:
 
 
 def _inside(problem: Problem) -> tuple[Spring, ...]:
+    """The springs whose matrix K the root of J makes diagonal."""
     return quadratic(problem.potentials, problem.block)
 
 
 def _needed(problem: Problem, *, root: bool) -> Iterable[int]:
-    """The points on which something acts; springs inside a body with a root go into K."""
+    """The numbers of the points on which something acts, with repetitions.
+
+    With a root, springs inside the body are left out: they go into K.
+    """
     inside = _inside(problem) if root else ()
     for p in problem.potentials:
         if p.summed:
@@ -245,6 +260,7 @@ def _needed(problem: Problem, *, root: bool) -> Iterable[int]:
 
 
 def _pars(names: Iterable[str]) -> Vector:
+    """The parameters of these names as trees."""
     return tuple(("par", x) for x in names)
 
 
@@ -258,4 +274,5 @@ def _mass(body: Body | None) -> Tree:
 
 
 def _pushed(x: Input, numbers: Mapping[int, int]) -> Input:
+    """An input with its point's new number."""
     return replace(x, on=numbers[x.on]) if isinstance(x, ForceInput) else x

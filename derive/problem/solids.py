@@ -1,4 +1,4 @@
-"""Solids of uniform density: m = ∫ρ dV, c = ∫ρ r dV, J = ∫ρ r r̄ dV, as (36)–(39) of the note.
+"""Moments of solids of uniform density: m = ∫ρ dV, c = ∫ρ r dV, J = ∫ρ r r̄ dV, as (36)–(39).
 
 The integrals are of monomials over a reference shape, exact; the sizes enter by stretching it.
 """
@@ -25,7 +25,7 @@ SPAN, UNIT, TERMS = range(3), ((1, 0, 0), (0, 1, 0), (0, 0, 1)), 3
 
 @dataclass(frozen=True)
 class Solid:
-    """The points R r + s of a kind of solid: ``rotation`` R, 3 × 3, and ``shift`` s, 3 entries.
+    """A solid: the points R r + s of a kind; ``rotation`` R, 3 × 3, and ``shift`` s, 3 entries.
 
     ``mesh``: vertices and faces where the file of a mesh was read before.
     """
@@ -39,7 +39,7 @@ class Solid:
 
 
 def together(a: Moments, b: Moments) -> Moments:
-    """The moments of a mixture of two bodies."""
+    """The moments of two bodies together, sums of theirs."""
 
     def total(x: Tree, y: Tree) -> Tree:
         return _flat(_terms(x) + _terms(y))
@@ -67,9 +67,10 @@ def unit_moments(solid: Solid) -> Moments:
 
 
 def moments(solid: Solid, relations: bool = True) -> Moments:
-    """c = ρ(R f + V s), J = ρ(R S R̄ + R f s̄ + s f̄ R̄ + V s s̄) with V, f, S of density 1.
+    """The moments of a placed solid, from V, f, S of density 1 in its own frame.
 
-    With ``relations``, cos² + sin² = 1 and (√q)² = q shorten J; without, it makes no use of them.
+    m = ρV, c = ρ(R f + V s), J = ρ(R S R̄ + R f s̄ + s f̄ R̄ + V s s̄). With ``relations``, cos² +
+    sin² = 1 and (√q)² = q shorten J; without, it makes no use of them.
     """
     own, density = unit_moments(solid), _one(solid.density)
     R = [[_terms(x, TERMS) for x in row] for row in solid.rotation or UNIT]
@@ -91,9 +92,10 @@ def moments(solid: Solid, relations: bool = True) -> Moments:
 
 
 def rotation_about(axis: Row, angle: Tree) -> tuple[Row, ...]:
-    """Rodrigues: 1 cos φ + (1 − cos φ) n n̄ + j(n) sin φ, 3 × 3; n is the axis over its length.
+    """The rotation by ``angle`` about an axis, 3 × 3, by Rodrigues' formula.
 
-    ``SolidError`` unless the axis is three numbers, not all zero; any length will do.
+    1 cos φ + (1 − cos φ) n n̄ + j(n) sin φ, n the axis over its length. ``SolidError`` unless the
+    axis is three numbers, not all zero; any length will do.
     """
     numbers = [Fraction(x) for x in axis if isinstance(x, (int, Fraction))]
     if len(axis) != 3 or len(numbers) != 3 or not any(numbers):
@@ -130,7 +132,7 @@ def _gamma(n: int) -> tuple[Fraction, int]:
 
 
 def _ball(*exponents: int) -> Laurent:
-    """Π Γ((aᵢ + 1)/2) / Γ(1 + Σ (aᵢ + 1)/2) over the unit ball of any dimension (Dirichlet)."""
+    """∫ Π xᵢ^aᵢ over the unit ball: Π Γ((aᵢ + 1)/2) / Γ(1 + Σ (aᵢ + 1)/2) (Dirichlet)."""
     if any(a % 2 for a in exponents):
         return Laurent({})
     tops = [_gamma(a + 1) for a in exponents]
@@ -152,11 +154,11 @@ SHAPES: dict[str, tuple[Integrals, tuple[str, ...]]] = {
     "cylinder": (lambda a, b, c: _ball(a, b) * _ball(c) * Fraction(1, 2 ** (c + 1)), ROUND),
     "cone": (lambda a, b, c: _ball(a, b) * _simplex(a + b + 2, c), ROUND),  # at z the disc 1 − z
 }
-"""∫ xᵃ yᵇ zᶜ dV over the reference shape, and the sizes that stretch it along x, y and z."""
+"""Kind → ∫ xᵃ yᵇ zᶜ dV over the reference shape, and the sizes that stretch it along x, y, z."""
 
 
 def _centred(kind: str, sizes: Mapping[str, Any]) -> Integrals:
-    """``integral()``, ``(i)``, ``(i, j)``: of 1, r_i, r_i r_j over the stretched shape."""
+    """The integrals of 1, r_i, r_i r_j over a stretched shape, as functions of the axes i, j."""
     if kind == "hollow_ball":
         outer, inner = (_centred("ball", {"radius": sizes[k]}) for k in ("outer", "inner"))
         return lambda *axes: outer(*axes) + inner(*axes) * -1
@@ -172,7 +174,7 @@ def _centred(kind: str, sizes: Mapping[str, Any]) -> Integrals:
 
 
 def _corners(vertices: Sequence[Row]) -> Integrals:
-    """A tetrahedron, the simplex mapped by λ ↦ Σ λ_k v_k, of determinant D.
+    """The integrals over a tetrahedron: the simplex mapped by λ ↦ Σ λ_k v_k, of determinant D.
 
     D is taken positive where numbers tell its sign, or where every parameter being positive does;
     elsewhere the vertices must be given in an order that makes it positive.
@@ -194,7 +196,7 @@ def _corners(vertices: Sequence[Row]) -> Integrals:
 
 
 def _one(tree: Tree) -> Laurent:
-    """Products, quotients and powers taken apart; a sum within them remains one factor."""
+    """A tree as one monomial: products, quotients, powers taken apart, a sum is one factor."""
     factors: list[tuple[Any, int]] = []
     q, stack = Fraction(1), [(tree, 1)]
     while stack:
@@ -216,14 +218,14 @@ def _one(tree: Tree) -> Laurent:
 
 
 def _terms(tree: Tree, most: int | None = None) -> Laurent:
-    """A sum term by term, if there are not more of them than ``most``."""
+    """A tree as a sum of monomials, if it has no more terms than ``most``; else as one."""
     if isinstance(tree, tuple) and tree[0] == "add" and len(tree) - 1 <= (most or len(tree)):
         return sum(map(_one, tree[1:]), Laurent({}))
     return _one(tree)
 
 
 def _related(p: Laurent) -> Laurent:
-    """By (√q)² = q, and cos² + sin² = 1 wherever a term with cos² has its partner."""
+    """The polynomial reduced by (√q)² = q, and by cos² + sin² = 1 where both terms are there."""
     squares = ((m, q, atom) for m, q in p.terms.items() for atom, k in m if k >= 2)
     for m, q, atom in squares:
         if isinstance(atom, tuple) and atom[0] == "fun":
@@ -238,11 +240,12 @@ def _related(p: Laurent) -> Laurent:
 
 
 def _flat(p: Laurent) -> Tree:
+    """A polynomial as a tree, term by term."""
     return add(*(_term(m, q) for m, q in p.terms.items()))
 
 
 def _tree(p: Laurent) -> Tree:
-    """The sum as a tree, what its terms have in common in front."""
+    """A polynomial as a tree, what its terms have in common in front."""
     if len(p.terms) < 2:
         return _flat(p)
     over, under = ([getattr(q, x) for q in p.terms.values()] for x in ("numerator", "denominator"))
@@ -254,7 +257,7 @@ def _tree(p: Laurent) -> Tree:
 
 
 def _term(m: Monomial, q: Fraction) -> Tree:
-    """Numbers first, then π, low powers, high powers, sums; all over the negative powers."""
+    """A monomial as a tree: numbers, π, low powers, high powers, sums; over the negative powers."""
     if not SMALLEST < abs(q) < LARGEST or any(abs(k) > EXPONENT for _, k in m):
         raise SolidError(f"the moments need a power above {EXPONENT} or a number beyond 1e±300")
 

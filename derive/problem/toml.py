@@ -47,7 +47,7 @@ TOP |= {"damping", "solid"}
 DOTTED = re.compile(
     rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
 )
-"""Tried at dots alone, and possessive: no text makes it slow."""
+"""A dotted key of too many parts. Tried at dots alone, and possessive: no text is slow."""
 
 
 def load(path: Path, **allowed: bool) -> Problem:
@@ -91,7 +91,7 @@ HUGE = "an integer of hundreds of digits; numbers go up to 1e300"
 
 
 def _huge(data: Any) -> bool:
-    """Is there an integer that no message could show?"""
+    """Is there an integer in the data that no message could show?"""
     left = [data]
     while left:
         x = left.pop()
@@ -107,10 +107,7 @@ def problem_of(
     negative_mass: bool = False,
     negative_stiffness: bool = False,
 ) -> Problem:
-    """A problem from the plain data of a file in a folder, where its meshes are.
-
-    ``negative_mass``, ``negative_stiffness`` (damping included): may they be negative numbers?
-    """
+    """The problem of the plain data of a file in ``folder``, where its meshes are."""
     known(data, TOP, "file")
     moved, action = group_of(data)
     name = _name(data, moved)
@@ -161,7 +158,7 @@ def problem_of(
 
 
 def _alone(potentials: Sequence[Potential], inputs: Sequence[Input]) -> None:
-    """There is one of what may be there once."""
+    """``ProblemError`` for a second potential of a kind, or covector, of which there may be one."""
     for k, p in enumerate(potentials, 1):
         if p.alone and any(x.kind == p.kind for x in potentials[: k - 1]):
             raise ProblemError(f"potential {k}: a second {p.kind}; there may be one")
@@ -178,7 +175,7 @@ def _name(data: Mapping[str, Any], moved: Group | None) -> str:
 
 
 def _positive(where: str | None, what: str) -> None:
-    """``ProblemError`` where something is negative that no flag allows to be."""
+    """``ProblemError`` that ``where`` is negative, if anywhere: no flag allows it."""
     if where:
         raise ProblemError(
             f"{where} is negative; correct it, or allow it with --allow-negative-{what} "
@@ -187,7 +184,7 @@ def _positive(where: str | None, what: str) -> None:
 
 
 def _massive(problem: Problem, negative_mass: bool) -> None:
-    """The body has inertia in every direction, and masses that can be."""
+    """``ProblemError`` for a direction without inertia, and for masses that cannot be."""
     moved, own = problem.group, problem.body
     if moved and own and (still := inertia.still_direction(moved, own)):
         raise ProblemError(
@@ -242,7 +239,7 @@ def _parameters(data: Any) -> dict[str, Parameter]:
 
 
 def _distinct(inputs: list[str], parameters: Mapping[str, Parameter]) -> None:
-    """No two inputs of one name, and none with the name of a parameter."""
+    """``ProblemError`` for two inputs of one name, or one with the name of a parameter."""
     for k, name in enumerate(inputs, 1):
         if name in inputs[: k - 1]:
             raise ProblemError(f"input {k}: a second input {name!r}; give each its own name")
@@ -251,7 +248,7 @@ def _distinct(inputs: list[str], parameters: Mapping[str, Parameter]) -> None:
 
 
 def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
-    """Every name that is used is a parameter, and every parameter is used."""
+    """``ProblemError`` for a name that is no parameter, or a parameter that is not used."""
     found = [*trees(problem.points), *trees(problem.body), *_forces(problem)]
     used = dict.fromkeys(x for t in found for x in names(t))
     for name in used:
@@ -270,13 +267,13 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
 
 
 def keys_with(name: str) -> dict[str, str]:
-    """The keys in which t, or a place r1_x, is known, with the kinds of potentials of these."""
+    """Key → kind of potential, for the keys whose expressions know t, or a place r1_x."""
     types = ("energy", "timed") if name == "t" else ("energy",)
     return {x: k for k, own in kinds().items() for x, y in own.keys().items() if y.type in types}
 
 
 def known_in(name: str) -> str:
-    """The same in words."""
+    """The keys whose expressions know a name, with the kinds of potentials, in words."""
     listed = keys_with(name).items()
     return " and ".join(f"the {x!r} of a{'n' * (k[0] in 'aeiou')} {k}" for x, k in listed)
 
@@ -288,7 +285,7 @@ def _forces(problem: Problem) -> list[Tree]:
 
 
 def _affordable(problem: Problem) -> None:
-    """The expressions together are not too many, their numbers not too unlike one another."""
+    """``ProblemError`` for too many expressions, or numbers too unlike one another."""
     solids = isinstance(problem.body, GivenBody) and problem.body.solids
     found = [*_forces(problem), *trees(problem.points if solids else problem.body)]
     leaves = sum(weight(t).leaves for t in found)
