@@ -9,19 +9,19 @@ from ..algebra.groups import Group
 from ..language.limits import SLOPES, SLOPES_BY_PARAMETERS
 from ..language.show import show
 from ..record.record import Derivation
-from .change_of_frame import carrying
+from .change_of_frame import frame_changes
 from .conventions import conventions
 from .drift import TEXTS, drift
 from .factor import factored
 from .graph import Node
 from .linearise import by_leaves, by_state
 from .lower import Lowering
-from .naming import Names, suffixed
+from .naming import ClaimedNames, suffixed
 from .options import Options
 from .principal_axes import inertia, turning
-from .principal_frame import Frame
-from .program import Framing, Function, LoweringError, Program
-from .reader import Reader
+from .principal_frame import PrincipalFrame
+from .program import EmittedFunction, Framing, LoweringError, Program
+from .reader import RecordReader
 from .rewrite import reachable
 from .schedule import Scheduler, frontier
 from .titles import titles
@@ -56,11 +56,11 @@ def assemble(
     frame = None
     if framed:
         old = Lowering(d, group, chosen, lowering.graph).reader
-        frame = Frame(framed.problem["frame"], old, chosen.attitude == "quaternion")
+        frame = PrincipalFrame(framed.problem["frame"], old, chosen.attitude == "quaternion")
     wanted = _outputs(lowering, chosen)
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
-        wanted |= _inertia(frame.old) | carrying(frame, lowering.reader)
+        wanted |= _inertia(frame.old) | frame_changes(frame, lowering.reader)
     checks = [(x, size) for x, size in lowering.inverses.checks if x.op != "num" or x.data <= 0]
     checks += frame.regular if frame else []
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
@@ -95,11 +95,11 @@ def _functions(
     wanted: Mapping[str, list[Node]],
     checks: Sequence[Check],
     parameters: Sequence[str],
-    frame: Frame | None,
-) -> tuple[dict[str, Function], list[str], Framing | None]:
+    frame: PrincipalFrame | None,
+) -> tuple[dict[str, EmittedFunction], list[str], Framing | None]:
     """The program's functions by name, the names of the entries of ``k``, and the functions that
     find the principal frame where there is one."""
-    names = Names()
+    names = ClaimedNames()
     space, inputs = lowering.reader.space, lowering.reader.inputs
     state = space.names
     for kind, members in (("state", state), ("input", inputs)):
@@ -108,14 +108,14 @@ def _functions(
     scheduler = Scheduler(names, _equations(lowering.record) | TEXTS)
     fixed = frontier(x for name in wanted if name != "inertia" for x in wanted[name])
     leaves = [lowering.reader.leaf(x, "parameter") for x in parameters]
-    given = _leaf_places(names, leaves, "p")
+    from_p = _leaf_places(names, leaves, "p")
     numbers = _frame_places(frame, names, [*fixed, *_several(checks)]) if frame else {}
-    functions = {"constants": scheduler.function(fixed, given | numbers, checks)}
+    functions = {"constants": scheduler.function(fixed, from_p | numbers, checks)}
     constants = [_constant_name(names, x, i) for i, x in enumerate(fixed)]
     moving = _places(lowering.reader, names, state, inputs)
     kept = {x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))}
     for name, nodes in wanted.items():
-        places = given if name == "inertia" else moving | kept
+        places = from_p if name == "inertia" else moving | kept
         functions[name] = scheduler.function(nodes, places)
     functions["rhs"] = replace(functions["rhs"], titles=titles(lowering.reader))
     if "parameters" in options.jacobian:
@@ -123,8 +123,8 @@ def _functions(
             lowering.reader.space, lowering.reader.space.velocity(lowering.reader.component), leaves
         )
         slopes = factored(lowering.graph, slopes)
-        functions["jacobian_parameters"] = scheduler.function(slopes, moving | given)
-    framing = _framing(frame, scheduler, given, numbers) if frame else None
+        functions["jacobian_parameters"] = scheduler.function(slopes, moving | from_p)
+    framing = _framing(frame, scheduler, from_p, numbers) if frame else None
     for name, nodes in drift(space).items():
         functions[name] = scheduler.function(nodes, moving)
     return functions, constants, framing
@@ -159,25 +159,30 @@ def _refused(d: Derivation, group: Group, chosen: Options) -> None:
         )
 
 
-def _inertia(reader: Reader) -> dict[str, list[Node]]:
+def _inertia(reader: RecordReader) -> dict[str, list[Node]]:
     """The function ``inertia``, where space is R³, as name → outputs."""
     tensor = inertia(reader)
     return {"inertia": tensor} if tensor else {}
 
 
-def _frame_places(frame: Frame, names: Names, nodes: list[Node]) -> dict[Node, Place]:
+def _frame_places(
+    frame: PrincipalFrame, names: ClaimedNames, nodes: list[Node]
+) -> dict[Node, Place]:
     """The numbers of the frame that some nodes depend on, as entries of ``frame``."""
     used = _leaves(nodes)
     return _leaf_places(names, [x for x in frame.numbers if x in used], "frame")
 
 
 def _framing(
-    frame: Frame, scheduler: Scheduler, given: dict[Node, Place], numbers: dict[Node, Place]
+    frame: PrincipalFrame,
+    scheduler: Scheduler,
+    from_p: dict[Node, Place],
+    numbers: dict[Node, Place],
 ) -> Framing:
     """The functions that find the frame: each matrix whose axes are wanted, then the numbers."""
     scheduler = Scheduler(scheduler.names, _equations(frame.old.record))
     axes = [x for found in frame.axes for x in found.leaves]
-    places = given | _leaf_places(scheduler.names, axes, "axes")
+    places = from_p | _leaf_places(scheduler.names, axes, "axes")
     outputs = [frame.numbers[x] for x in numbers]
     return Framing(
         tuple(
@@ -188,7 +193,7 @@ def _framing(
     )
 
 
-def _leaf_places(names: Names, leaves: list[Node], array: str) -> dict[Node, Place]:
+def _leaf_places(names: ClaimedNames, leaves: list[Node], array: str) -> dict[Node, Place]:
     """Leaf → its place in an array; the local name is its own, claimed in ``names``."""
     return {x: (names.claim(x.data[1], " ".join(x.data)), (array, i)) for i, x in enumerate(leaves)}
 
@@ -224,7 +229,9 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
     return found | tensor
 
 
-def _places(reader: Reader, names: Names, state: list[str], inputs: list[str]) -> dict[Node, Place]:
+def _places(
+    reader: RecordReader, names: ClaimedNames, state: list[str], inputs: list[str]
+) -> dict[Node, Place]:
     """The leaves that change with time and where they are read: state x, inputs u, time t."""
     found: dict[Node, Place] = {}
     for array, kind, members in (("x", "state", state), ("u", "input", inputs)):
@@ -243,7 +250,7 @@ def _leaves(nodes: Iterable[Node]) -> set[Node]:
     return {x for x in reachable(nodes) if x.op == "leaf"}
 
 
-def _constant_name(names: Names, x: Node, i: int) -> str:
+def _constant_name(names: ClaimedNames, x: Node, i: int) -> str:
     """The name of entry i of ``k``: that of its factors, else ``constant_i``."""
     if x.op == "leaf":
         return names.claim(x.data[1], " ".join(x.data))

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from .program import Assignment, Expression, Function, Load, Section, parts
+from .program import Assignment, EmittedFunction, Expression, Load, Section, parts
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Block:
     outputs: tuple[int, ...]
 
 
-def blocks(f: Function) -> list[Block]:
+def blocks(f: EmittedFunction) -> list[Block]:
     """The blocks of a function: every load, value and output once, after what it reads."""
     left = list(f.loads)
 
@@ -51,7 +51,7 @@ def names(expressions: Iterable[Expression]) -> set[str]:
     return {x for e in expressions for x in parts(e) if isinstance(x, str)}
 
 
-def _placed(f: Function) -> list[tuple[Section, list[int]]]:
+def _placed(f: EmittedFunction) -> list[tuple[Section, list[int]]]:
     """The sections, cut where outputs are stored, each with the indices of these outputs."""
     loaded = {x.name for x in f.loads}
     read = [names([x]) for x in f.outputs]
@@ -81,7 +81,7 @@ def _placed(f: Function) -> list[tuple[Section, list[int]]]:
     return [*found, (Section("", "", ()), rest)] if rest else found
 
 
-def _equations(f: Function) -> list[list[int]]:
+def _equations(f: EmittedFunction) -> list[list[int]]:
     """The indices of a function's outputs, grouped by the equation they come from."""
     starts = sorted({0, *f.titles})
     return [list(range(a, b)) for a, b in zip(starts, [*starts[1:], len(f.outputs)], strict=True)]

@@ -9,17 +9,17 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from . import dense
 from .graph import Node
-from .principal_frame import Frame
+from .principal_frame import PrincipalFrame
 from .quaternion import conjugate, multiplied
-from .reader import Reader
-from .state import State
+from .reader import RecordReader
+from .state import StateSpace
 
 
-def carrying(frame: Frame, framed: Reader) -> dict[str, list[Node]]:
+def frame_changes(frame: PrincipalFrame, framed: RecordReader) -> dict[str, list[Node]]:
     """Function name → outputs: ``into_frame``, ``out_of_frame``, and the same of inputs."""
     there, x = _Map.of(frame), framed.space
     back = there.inverse
-    found = {"into_frame": there.carried(x), "out_of_frame": back.carried(x)}
+    found = {"into_frame": there.image(x), "out_of_frame": back.image(x)}
     if framed.inputs:
         found["inputs_into_frame"] = _inputs(frame, there, frame.scale)
         found["inputs_out_of_frame"] = _inputs(frame, back, frame.unit)
@@ -39,7 +39,7 @@ class _Map:
     quaternions: tuple[Any, ...]
 
     @staticmethod
-    def of(frame: Frame) -> _Map:
+    def of(frame: PrincipalFrame) -> _Map:
         """The map into the principal frame: r ↦ H(r − s) in the body, S in space."""
         num, span = frame.graph.num, range(frame.n)
         S = frame.S or tuple(tuple(num(int(i == j)) for j in span) for i in span)
@@ -57,7 +57,7 @@ class _Map:
         back = tuple(conjugate(a) for a in self.quaternions)
         return _Map(q.transposed(self.S), self.back, self.h, back)
 
-    def carried(self, x: State) -> list[Node]:
+    def image(self, x: StateSpace) -> list[Node]:
         """The numbers of the state in the other frame: S g h⁻¹, then h Z h⁻¹ (or S ġ h⁻¹)."""
         g = x.graph
         element = dense.times(g, self.S, dense.times(g, x.element, self.back))
@@ -79,24 +79,24 @@ def _bordered(m: Matrix, column: Matrix, corner: tuple[Node, Node]) -> Matrix:
     return (*rows, (*(corner[0],) * len(m), corner[1]))
 
 
-def _inputs(frame: Frame, there: _Map, scale: Node) -> list[Node]:
+def _inputs(frame: PrincipalFrame, there: _Map, scale: Node) -> list[Node]:
     """The inputs in the other frame, in units of μ: forces h f (in the body) or S f (in space), and
     covectors u″ with ⟨u″, h ξ h⁻¹⟩ = ⟨u, ξ⟩."""
     old, g, n = frame.old, frame.graph, frame.n
     found: list[Node] = []
-    pushes = 0
-    for given in old.record.problem["inputs"]:
-        if given["kind"] == "covector":
+    forces = 0
+    for entry in old.record.problem["inputs"]:
+        if entry["kind"] == "covector":
             found += _coadjoint(old.space, there, old.covector)
             continue
-        pushes += 1
-        turn = there.h if given["frame"] == "body" else there.S
+        forces += 1
+        turn = there.h if entry["frame"] == "body" else there.S
         linear = tuple(row[:n] for row in turn[:n])
-        found += q.flatten(dense.times(g, linear, old.force(pushes)))
+        found += q.flatten(dense.times(g, linear, old.force(forces)))
     return [g.product((scale, x)) for x in found]
 
 
-def _coadjoint(x: State, there: _Map, u: list[Node]) -> list[Node]:
+def _coadjoint(x: StateSpace, there: _Map, u: list[Node]) -> list[Node]:
     """The covector in the other frame: u″_a = Σ u_b (h⁻¹ E_a h)^b."""
     g = x.graph
     found = []

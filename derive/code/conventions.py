@@ -43,9 +43,15 @@ def conventions(
         lines.append(
             "w is the velocity of the body's origin (r = 0) in the body frame: dT/dt = A w."
         )
-    given = (line for x in inputs for line in _input(group, x, places))
+    driving = (line for x in inputs for line in _input(group, x, places))
     framed = _frame(group, frame, bool(inputs)) if frame else ()
-    return (*lines, *given, *_lengths(problem), *framed, *textwrap.wrap(_drift(group, options), 92))
+    return (
+        *lines,
+        *driving,
+        *_lengths(problem),
+        *framed,
+        *textwrap.wrap(_drift(group, options), 92),
+    )
 
 
 def _lengths(problem: Mapping[str, Any]) -> list[str]:
@@ -63,16 +69,16 @@ def _drift(group: Group, options: Options) -> str:
     """The sentences about ``project`` and ``defect``: what they are for, and how far they go."""
     quaternion = options.attitude == "quaternion"
     several = len(group.places) > 1
-    told, left = ["|q| = 1"] if quaternion else [], 0
+    laws, left = ["|q| = 1"] if quaternion else [], 0
     for k, (_, factor) in enumerate(() if quaternion else group.places, 1):
         kept = relations(factor)
-        told += _relations(kept, str(k) if several else "")
+        laws += _relations(kept, str(k) if several else "")
         left += kept.dimension
-    if not told:
+    if not laws:
         return "Every invertible matrix is in the group: there is nothing to project a state to."
     text = (
         f"Integrators err, and the state drifts off the group: project takes it back by one Newton "
-        f"step for {', '.join(told)}; defect is the sum of the sizes of what these leave."
+        f"step for {', '.join(laws)}; defect is the sum of the sizes of what these leave."
     )
     if left > group.dimension and not quaternion:
         text += f" They leave a group of dimension {left}, of which this one is a part."
@@ -120,10 +126,10 @@ def _frame(group: Group, frame: Mapping[str, Any], driven: bool) -> list[str]:
         )
     law = f"A' = {S}A H^-1" + (f", T' = {S}(T + A s)" if group.affine else "")
     lines.append(f"into_frame takes x there, {law}, and out_of_frame takes it back;")
-    told = ["inputs_into_frame and inputs_out_of_frame do so with u;"] * driven
+    inputs = ["inputs_into_frame and inputs_out_of_frame do so with u;"] * driven
     return [
         *lines,
-        *told,
+        *inputs,
         "constants finds H and keeps it in k; equal moments leave a choice to it.",
     ]
 
@@ -166,12 +172,12 @@ def _factors(group: Group, order: str) -> list[str]:
     return lines + [_place(f"A{k}", f"T{k}", g, order) for k, g in enumerate(group.factors, 1)]
 
 
-def _input(group: Group, given: Mapping[str, Any], places: Mapping[int, str]) -> list[str]:
-    name, where = given["name"], places.get(given.get("on", 0), "")
-    if given["kind"] == "force":
-        frame = "the space frame" if given["frame"] == "space" else "the body frame"
-        point = f"the body{where}" if where else f"point {given['on']}"
-        return [f"Input {name}: a force on {point}, in {frame}."]
+def _input(group: Group, entry: Mapping[str, Any], places: Mapping[int, str]) -> list[str]:
+    name, where = entry["name"], places.get(entry.get("on", 0), "")
+    if entry["kind"] == "force":
+        axes = f"the {entry['frame']} frame"
+        point = f"the body{where}" if where else f"point {entry['on']}"
+        return [f"Input {name}: a force on {point}, in {axes}."]
     if group.turns_space and group.affine and not group.stated_basis:
         return [
             f"Input {name}: a moment about the body's origin (its first 3 components) and a force",

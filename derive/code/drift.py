@@ -23,7 +23,7 @@ from .graph import Graph, Node
 from .linearise import Varied
 from .naming import suffixed
 from .quaternion import conjugate, multiplied
-from .state import State
+from .state import StateSpace
 
 TEXTS = {
     "hull": "A in the affine span of the group",
@@ -37,7 +37,7 @@ TEXTS = {
 """The label of the values of a relation, and what stands in a comment before them."""
 
 
-def drift(x: State) -> dict[str, list[Node]]:
+def drift(x: StateSpace) -> dict[str, list[Node]]:
     """The outputs of ``project`` and ``defect``, by name; empty where G has no relations."""
     g, leaves = x.graph, [x.graph.leaf(name, "state") for name in x.names]
     steps = [_unit_quaternion(x)] if x.quaternion else _blocks(x)
@@ -63,7 +63,7 @@ class _Step:
     residuals: list[Node] = field(default_factory=list)
 
 
-def _unit_quaternion(x: State) -> _Step:
+def _unit_quaternion(x: StateSpace) -> _Step:
     """The step of a unit quaternion: q ← q − ½ q (q̄q − 1)."""
     square = multiplied(conjugate(x.q), x.q)[0]
     left = x.graph.value(square - 1, "left", "unit")
@@ -71,7 +71,7 @@ def _unit_quaternion(x: State) -> _Step:
     return _Step({y: y + y * change for y in x.q}, [left])
 
 
-def _blocks(x: State) -> list[_Step]:
+def _blocks(x: StateSpace) -> list[_Step]:
     """One step for each factor of the group that has relations."""
     found = []
     for place, (offset, factor) in enumerate(x.group.places, 1):
@@ -81,7 +81,7 @@ def _blocks(x: State) -> list[_Step]:
     return found
 
 
-def _entries(x: State, offset: int, factor: Group) -> list[Node]:
+def _entries(x: StateSpace, offset: int, factor: Group) -> list[Node]:
     """The leaves of A of a factor, row by row, then those of its T."""
     found = {(s.letter, s.row, s.column): x.graph.leaf(s.name, "state") for s in x.slots}
     span, last = range(offset, offset + factor.n), offset + factor.n
@@ -134,13 +134,13 @@ class _Block:
         sign = 1 if self.kept.form == q.transposed(self.kept.form) else -1
         label = _label(self.kept)
         SA = self._names(dense.times(g, S, A), f"SA{self.mark}", label)
-        gram = self._mirrored(dense.times(g, q.transposed(A), SA), sign)
+        pulled_back = self._mirrored(dense.times(g, q.transposed(A), SA), sign)
         if self.kept.conformal:
-            gram = self._names(gram, f"gram{self.mark}", label)
-            mu = dense.diagonal(g, dense.times(g, inverse, gram)) * Fraction(1, n)
+            pulled_back = self._names(pulled_back, f"gram{self.mark}", label)
+            mu = dense.diagonal(g, dense.times(g, inverse, pulled_back)) * Fraction(1, n)
             inv_mu = self._named(g.recip(mu), f"inv_mu{self.mark}", label)
-            gram = tuple(tuple(y * inv_mu for y in row) for row in gram)
-        R = q.plus(gram, self._numbers(q.scaled(-1, self.kept.form)))
+            pulled_back = tuple(tuple(y * inv_mu for y in row) for row in pulled_back)
+        R = q.plus(pulled_back, self._numbers(q.scaled(-1, self.kept.form)))
         R = self._mirrored(self._names(R, f"left{self.mark}", label), sign)
         self.residuals += [R[i][j] for i in range(n) for j in range(i, n) if not R[i][j].is_zero]
         X = dense.times(g, inverse, R)

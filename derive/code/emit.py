@@ -13,13 +13,13 @@ from .. import __version__
 from ..language.refused import Refused
 from ..language.templating import environment
 from ..record.record import Derivation
-from .apart import apart, hollow, identifiers
+from .collisions import hollowed, identifiers, without_collisions
 from .heading import heading
-from .languages import LANGUAGES, Language
+from .languages import LANGUAGES, TargetLanguage
 from .naming import PREFIXES
 from .options import Options
 from .program import TOLERANCE, Program
-from .recorded import Emission
+from .request import EmissionRequest
 from .signatures import functions
 from .statements import Statements, comment
 
@@ -41,7 +41,7 @@ def emit(
     ``allowed``: what may be negative in the problem, ``mass`` or ``stiffness``.
     """
     chosen = options or Options()
-    asked = Emission(d.name, prefix, tuple(languages), chosen, tuple(allowed))
+    asked = EmissionRequest(d.name, prefix, tuple(languages), chosen, tuple(allowed))
     places = planned(languages, prefix, chosen.form)
     plain = [name for name in languages if program.framing and not LANGUAGES[name].framed]
     if plain:
@@ -51,8 +51,8 @@ def emit(
     for name in dict.fromkeys(language for language, _ in places.values()):
         own = {file: template for file, (language, template) in places.items() if language == name}
         language = LANGUAGES[name]
-        frame = "\n".join(_rendered(hollow(program), d, asked, language, own).values())
-        named = apart(program, identifiers(frame, language))
+        skeleton = "\n".join(_rendered(hollowed(program), d, asked, language, own).values())
+        named = without_collisions(program, identifiers(skeleton, language))
         files |= _rendered(named, d, asked, language, own)
     return files
 
@@ -92,14 +92,20 @@ def problem_hash(d: Derivation) -> str:
 
 
 def _rendered(
-    p: Program, d: Derivation, asked: Emission, language: Language, places: Mapping[str, str]
+    p: Program,
+    d: Derivation,
+    asked: EmissionRequest,
+    language: TargetLanguage,
+    places: Mapping[str, str],
 ) -> dict[str, str]:
     """File name → text, of one language; ``places``: file name → template."""
     templates, fields = environment(language.name), _fields(p, d, asked, language)
     return {file: templates.get_template(x).render(fields) for file, x in places.items()}
 
 
-def _fields(p: Program, d: Derivation, asked: Emission, language: Language) -> dict[str, Any]:
+def _fields(
+    p: Program, d: Derivation, asked: EmissionRequest, language: TargetLanguage
+) -> dict[str, Any]:
     """What the templates of a language are filled with, by the names they use."""
     prefix, real = asked.prefix, asked.options.real
     printer = language.printer(real)

@@ -102,13 +102,13 @@ class Graph:
         stage = PARAMETER if kind in ("parameter", "frame") else STATE
         return self._intern("leaf", (kind, name), (), stage)
 
-    def value(self, node: Node, name: str, label: str, *, given: bool = False) -> Node:
-        """The node under a name; a name ``given`` by the record replaces one made from a tree."""
+    def value(self, node: Node, name: str, label: str, *, recorded: bool = False) -> Node:
+        """The node under a name; a name that the record has (``recorded``) replaces one made up."""
         if node.is_atom or (node.op == "add" and node.data == (-1,) and node.args[0].is_atom):
             return node  # −L is no name of its own, so that it cancels L
         value = node if node.op == "value" else self._intern("value", None, (node,), node.stage)
-        if value not in self.titles or (given and not self.titles[value][2]):
-            self.titles[value] = (name, label, given)
+        if value not in self.titles or (recorded and not self.titles[value][2]):
+            self.titles[value] = (name, label, recorded)
         return value
 
     def recip(self, x: Node) -> Node:
@@ -156,15 +156,15 @@ class Graph:
 
     def linear(self, terms: Iterable[tuple[Fraction, Node]]) -> Node:
         """The sum Σ c · x, flattened; a common rational factor is taken out in front."""
-        gathered: dict[Node, Fraction] = {}
+        totals: dict[Node, Fraction] = {}
         constant = Fraction(0)
         for c, x in terms:
             for k, y in self._terms(c, x):
                 if y.op == "num":
                     constant += k * y.data
                 else:
-                    gathered[y] = gathered[y] + k if y in gathered else k
-        parts = [(c, x) for x, c in sorted(gathered.items(), key=lambda i: i[0].id) if c]
+                    totals[y] = totals[y] + k if y in totals else k
+        parts = [(c, x) for x, c in sorted(totals.items(), key=lambda i: i[0].id) if c]
         parts = self._collected(parts)
         if constant:
             parts.append((constant, self.num(1)))

@@ -5,14 +5,17 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Mapping, Sequence
 
-from .languages import Language
+from .languages import TargetLanguage
 from .program import Program
 
 BASIS = "State x and the basis E_a of the Lie algebra (e_ij: a single 1 in row i, column j):"
 
 
 def heading(
-    p: Program, language: Language, parameters: Sequence[Mapping[str, str]], cost: Mapping[str, str]
+    p: Program,
+    language: TargetLanguage,
+    parameters: Sequence[Mapping[str, str]],
+    cost: Mapping[str, str],
 ) -> list[str]:
     """Conventions, state, basis, parameters, inputs and cost; empty lines between them.
 

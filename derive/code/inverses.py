@@ -13,7 +13,7 @@ from ..record.record import decode
 from . import dense
 from .graph import PARAMETER, Node
 from .naming import name_of, suffixed
-from .reader import Reader, Value, matrix
+from .reader import RecordReader, Value, matrix
 from .rewrite import replaced
 
 SMALL = 3
@@ -31,7 +31,7 @@ class Inverses:
     the metric at g = 1 alone?
     """
 
-    def __init__(self, reader: Reader):
+    def __init__(self, reader: RecordReader):
         self.reader, self.graph, self.group = reader, reader.graph, reader.group
         self.checks: list[tuple[Node, Node | None]] = []
         self.local = False
@@ -57,7 +57,7 @@ class Inverses:
         inverse, pivots = dense.symmetric_inverse(g, value, self._namer(name_of(t)))
         if len(value) <= SMALL and _alike(value):
             inverse = self._by_adjugate(t, value, name)
-        found = self.reader.entries(inverse, name, given=True)
+        found = self.reader.entries(inverse, name, recorded=True)
         self._check_pivots(t, value, pivots)
         if dense.stage_of(value) == PARAMETER:
             self._check_diagonal(t, value, found)

@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .printers import Printer, decimal
+from .printers import SourcePrinter, decimal
 
 
 @dataclass(frozen=True)
-class Language:
+class TargetLanguage:
     """A language is this table and a folder of templates.
 
     ``files``: for each form of emission what follows the prefix in the names of the files, which
@@ -25,7 +25,7 @@ class Language:
 
     name: str
     files: Mapping[str, tuple[str, ...]]
-    printer: Callable[[str], Printer]
+    printer: Callable[[str], SourcePrinter]
     declare: str
     comment: tuple[str, str, str]
     reals: Mapping[str, str]
@@ -38,37 +38,39 @@ class Language:
     framed: bool = False
 
 
-def _c(real: str) -> Printer:
+def _c(real: str) -> SourcePrinter:
     """The printer of C: suffix f for float."""
     suffix = "f" if real == "float" else ""
-    return Printer(lambda q: decimal(q, suffix), "fabs" + suffix, lambda name: f"{name}{suffix}")
+    return SourcePrinter(
+        lambda q: decimal(q, suffix), "fabs" + suffix, lambda name: f"{name}{suffix}"
+    )
 
 
-def _plain(function: str, absolute: str, none: str) -> Callable[[str], Printer]:
+def _plain(function: str, absolute: str, none: str) -> Callable[[str], SourcePrinter]:
     """Printers of a language whose numbers have no suffix and whose functions are a pattern."""
-    return lambda real: Printer(decimal, absolute, lambda name: function.format(name), none)
+    return lambda real: SourcePrinter(decimal, absolute, lambda name: function.format(name), none)
 
 
-def _rust(real: str) -> Printer:
+def _rust(real: str) -> SourcePrinter:
     none = f"{'f32' if real == 'float' else 'f64'}::from(u8::from({{}} == 0.0))"
-    return Printer(decimal, "abs", none=none)
+    return SourcePrinter(decimal, "abs", none=none)
 
 
-def _julia(real: str) -> Printer:
+def _julia(real: str) -> SourcePrinter:
     def number(q: Fraction) -> str:
         text = decimal(q)
         if real == "double":
             return text
         return "/".join(x.replace("e", "f") if "e" in x else f"{x}f0" for x in text.split("/"))
 
-    return Printer(number, none="iszero({})")
+    return SourcePrinter(number, none="iszero({})")
 
 
 BLOCK, HASH, SLASH = ("/* ", " * ", " */"), ("# ", "# ", ""), ("// ", "// ", "")
 C_REALS = {"double": "double", "float": "float"}
 
-LANGUAGES: dict[str, Language] = {
-    "c": Language(
+LANGUAGES: dict[str, TargetLanguage] = {
+    "c": TargetLanguage(
         "c",
         {"source": (".h", ".c"), "header": (".inline.h:.h",)},
         _c,
@@ -78,7 +80,7 @@ LANGUAGES: dict[str, Language] = {
         batch="{array}[{index}*n + s]",
         framed=True,
     ),
-    "cpp": Language(
+    "cpp": TargetLanguage(
         "cpp",
         {"source": (".hpp",), "header": (".hpp",)},
         _c,
@@ -88,7 +90,7 @@ LANGUAGES: dict[str, Language] = {
         needs="c",
         framed=True,
     ),
-    "cvode": Language(
+    "cvode": TargetLanguage(
         "cvode",
         {"source": ("_cvode.h",), "header": ("_cvode.h",)},
         _c,
@@ -98,7 +100,7 @@ LANGUAGES: dict[str, Language] = {
         needs="c",
         framed=True,
     ),
-    "python": Language(
+    "python": TargetLanguage(
         "python",
         {"source": (".py",), "header": (".py",)},
         _plain("xp.{}", "abs", "_is_zero(xp, {})"),
@@ -108,7 +110,7 @@ LANGUAGES: dict[str, Language] = {
         parenthesised=True,
         framed=True,
     ),
-    "rust": Language(
+    "rust": TargetLanguage(
         "rust",
         {"source": (".rs",), "header": (".rs",)},
         _rust,
@@ -116,7 +118,7 @@ LANGUAGES: dict[str, Language] = {
         SLASH,
         {"double": "f64", "float": "f32"},
     ),
-    "julia": Language(
+    "julia": TargetLanguage(
         "julia",
         {"source": (".jl",), "header": (".jl",)},
         _julia,
@@ -127,7 +129,7 @@ LANGUAGES: dict[str, Language] = {
         parenthesised=True,
         mutates="!",
     ),
-    "javascript": Language(
+    "javascript": TargetLanguage(
         "javascript",
         {"source": (".mjs",), "header": (".mjs",)},
         _plain("Math.{}", "Math.abs", "Number({} === 0)"),

@@ -15,7 +15,7 @@ from fractions import Fraction
 from ..language.derivatives import DERIVATIVES
 from ..language.values import value
 from .graph import Graph, Node
-from .state import State
+from .state import StateSpace
 
 
 class Varied:
@@ -61,7 +61,7 @@ class Varied:
                 yield self.graph.product([*factors[:k], varied, *factors[k + 1 :]])
 
 
-def by_state(space: State, accelerations: list[Node]) -> list[Node]:
+def by_state(space: StateSpace, accelerations: list[Node]) -> list[Node]:
     """The matrix, 2N × 2N by rows, of (η, δζ) ↦ (η̇, δζ̇); ``accelerations``: ζ̇ (and ẇ)."""
     g, d = space.graph, space.group.dimension
     span = range(d)
@@ -75,7 +75,7 @@ def by_state(space: State, accelerations: list[Node]) -> list[Node]:
     return [x for row in rows for x in row]
 
 
-def by_leaves(space: State, accelerations: list[Node], leaves: Sequence[Node]) -> list[Node]:
+def by_leaves(space: StateSpace, accelerations: list[Node], leaves: Sequence[Node]) -> list[Node]:
     """∂(η̇, ζ̇)/∂leaves, for inputs or parameters: 2N × len(leaves) by rows, the first N 0."""
     g, d = space.graph, space.group.dimension
     varied = [Varied(g, {x: g.num(1)}, str(x.data[1])) for x in leaves]
@@ -83,7 +83,7 @@ def by_leaves(space: State, accelerations: list[Node], leaves: Sequence[Node]) -
     return zeros + [v.of(x) for x in accelerations for v in varied]
 
 
-def _adjoint(space: State) -> list[list[Node]]:
+def _adjoint(space: StateSpace) -> list[list[Node]]:
     """The matrix of ad_Z = [Z, ·] in the basis: Σ_c ζ_c [E_c, E_b]ᵃ."""
     g, d = space.graph, space.group.dimension
     constants, zeta = space.group.structure_constants, space.coordinates

@@ -24,7 +24,7 @@ from .inverses import SMALL, Inverses
 from .naming import name_of
 from .options import Options
 from .program import LoweringError
-from .reader import Reader, Value, bound, matrix, scalar
+from .reader import RecordReader, Value, bound, matrix, scalar
 from .springs import SLACK, tension
 
 
@@ -36,7 +36,7 @@ class Lowering:
 
     def __init__(self, d: Derivation, group: Group, options: Options, graph: Graph | None = None):
         self.graph, self.record = graph or Graph(), d
-        self.reader = Reader(d, group, options, self.graph, self.tree)
+        self.reader = RecordReader(d, group, options, self.graph, self.tree)
         self.inverses = Inverses(self.reader)
         self._products = {  # that stand alone in the record's motion: their traces come free
             product

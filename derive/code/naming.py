@@ -34,7 +34,7 @@ _WORDS = set(WORDS) | set(_OTHER_LANGUAGES.split())
 RESERVED = _WORDS | set(_LOCAL.split())
 """Names that no value of a program has: words of some language, arrays and loops of all.
 
-What else the text of one language uses, ``apart.py`` finds there.
+What else the text of one language uses, ``collisions.py`` finds there.
 """
 _HEADERS = """
     assert complex ctype errno features fenv float inttypes iso646 limits locale malloc math memory
@@ -82,8 +82,8 @@ def name_of(t: Tree) -> str:
     prefix = [words[t[0]]] if words.get(t[0]) else []
     suffix = ["T"] if t[0] == "T" else [str(t[2])] if t[0] == "pow" else []
     inside = [name_of(x) for x in t[1:] if not (t[0] == "pow" and x == t[2])]
-    glue = ["x"] * (t[0] == "wedge")
-    body = [inside[0], *glue, *inside[1:]] if inside else []
+    sign = ["x"] * (t[0] == "wedge")
+    body = [inside[0], *sign, *inside[1:]] if inside else []
     return "_".join(x for x in (*prefix, *body, *suffix) if x)
 
 
@@ -110,7 +110,7 @@ def is_sum(name: str) -> bool:
     return "_plus_" in name or "_minus_" in name
 
 
-class Names:
+class ClaimedNames:
     """The names taken in one program; a second owner of one gets it with an underscore."""
 
     def __init__(self) -> None:

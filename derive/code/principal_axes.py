@@ -8,12 +8,12 @@ from typing import Any
 
 from .graph import Node
 from .program import Turning
-from .reader import Reader
+from .reader import RecordReader
 
 MOMENTS = tuple(f"J_{i}{j}" for i in (1, 2, 3) for j in range(i, 4))
 
 
-def inertia(reader: Reader) -> list[Node]:
+def inertia(reader: RecordReader) -> list[Node]:
     """I_11, I_12, I_13, I_22, I_23, I_33 about the body's origin; empty where space is not R³."""
     if not reader.group.turns_space:
         return []

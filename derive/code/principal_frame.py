@@ -18,7 +18,7 @@ from . import dense
 from .graph import Node
 from .naming import suffixed
 from .quaternion import conjugate
-from .reader import Reader, scalar
+from .reader import RecordReader, scalar
 
 FRAME = "frame"
 """The label of what comes from no equation of the record but from the choice of the frame."""
@@ -45,17 +45,17 @@ class Axes:
         return [*self.values, *q.flatten(self.rows)]
 
 
-class Frame:
+class PrincipalFrame:
     """The principal frame of a problem: H, s, S and the new parameters, as nodes.
 
-    ``given``: what the new parameters stand for; ``old``: the problem as it is given, read in the
-    graph of the framed one. ``axes``: in order, each needs those before it; ``numbers``: leaf →
-    node in the parameters and axes, for each new parameter of the framed problem and each entry of
-    H, H⁻¹, s, S. ``unit``, ``scale``: the leaves of μ and 1/μ, else 1.
+    ``data``: what the new parameters stand for, ``Problem.frame``; ``old``: the problem as the user
+    gave it, read in the graph of the framed one. ``axes``: in order, each needs those before it;
+    ``numbers``: leaf → node in the parameters and axes, for each new parameter of the framed
+    problem and each entry of H, H⁻¹, s, S. ``unit``, ``scale``: the leaves of μ and 1/μ, else 1.
     """
 
-    def __init__(self, given: Mapping[str, Any], old: Reader, quaternion: bool):
-        self.given, self.old, self.graph = given, old, old.graph
+    def __init__(self, data: Mapping[str, Any], old: RecordReader, quaternion: bool):
+        self.data, self.old, self.graph = data, old, old.graph
         old.label = FRAME
         self.n, self.affine = old.group.n, old.group.affine
         self.axes: list[Axes] = []
@@ -115,18 +115,18 @@ class Frame:
         J = self._named("J_c" if self.affine else "J", J)
         found = self._principal(J, "second", "axis")
         scale = g.magnitude(dense.diagonal(g, J))
-        if self.given["kind"] == "root":
+        if self.data["kind"] == "root":
             H, back = self._root(found)
             least = found.values[0]
             self.H, self.back = self._kept("frame", H), self._kept("frame_inverse", back)
             self._H = self._named("frame", H)
         else:
             least = found.values[0] + found.values[1]
-            self._set(self.given["moments"], found.values)
+            self._set(self.data["moments"], found.values)
             self.H, self._H = self._kept("frame", found.rows), found.rows
             self.back = q.transposed(self.H)
         self.regular: list[tuple[Node, Node | None]] = []
-        if self.affine and self.given["per_unit"]:  # without mass, nothing below is a number
+        if self.affine and self.data["per_unit"]:  # without mass, nothing below is a number
             self.regular.append((self._number_of("mass", self.old.number("m")), None))
         moments = self._number_of("least_moment", least), self._number_of("size_of_J", scale)
         self.regular.append(moments)
@@ -135,13 +135,13 @@ class Frame:
         """H with H J H̄ = μ1, and H⁻¹; with stiffnesses also H K H̄ diagonal."""
         g = self.graph
         mu: Node = g.num(1)
-        if self.given["per_unit"]:
+        if self.data["per_unit"]:
             logarithm = g.sum(g.function("log", x) for x in J.values)
             mu = g.function("exp", g.linear([(Fraction(1, self.n), logarithm)]))
             mu = g.value(mu, "unit_of_mass", FRAME)
             self.per_unit = g.value(g.recip(mu), "per_unit", FRAME)
-            self._set((self.given["per_unit"],), (self.per_unit,))
-            self.scale = self.graph.leaf(self.given["per_unit"], "parameter")
+            self._set((self.data["per_unit"],), (self.per_unit,))
+            self.scale = self.graph.leaf(self.data["per_unit"], "parameter")
             self.unit = self._number_of("unit_of_mass", mu)
         roots = [
             g.value(g.function("sqrt", g.product((mu, g.recip(x)))), suffixed("stretch", i), FRAME)
@@ -154,24 +154,24 @@ class Frame:
             tuple(g.product((x, g.recip(k))) for x, k in zip(row, roots, strict=True))
             for row in q.transposed(J.rows)
         )
-        if not self.given["stiffness"]:
+        if not self.data["stiffness"]:
             return H, back
         H, back = self._named("root", H), self._named("root_inverse", back)
         K = dense.times(g, dense.times(g, H, self.old.vector("K")), q.transposed(H))
         along = self._principal(K, "spring", "turn")
         stiffness = [g.product((self.per_unit, x)) for x in along.values]
-        self._set(self.given["stiffness"], stiffness)
+        self._set(self.data["stiffness"], stiffness)
         return dense.times(g, along.rows, H), dense.times(g, back, q.transposed(along.rows))
 
     def _space(self) -> None:
         """Set S, the rotation that puts gravity along the last axis; empty where space stays."""
         self.S: Matrix = ()
-        if self.given["turned"]:
+        if self.data["turned"]:
             g = self.old.vector("γ")
             found = self._principal(self._upright(g), "pull", "space")
             self.S, self._S = self._kept("space", found.rows), found.rows
             whole = dense.times(self.graph, (found.rows[-1],), g)
-            self._set((self.given["gravity"],), whole[0])
+            self._set((self.data["gravity"],), whole[0])
 
     def _upright(self, gamma: Matrix) -> Matrix:
         """A matrix whose last axis is γ, and whose others are definite as well: s²uū + QDQ with u
@@ -193,20 +193,20 @@ class Frame:
     def _parameters(self) -> None:
         """Set the new places H(r − s), vectors of space S a, and first moment Hc."""
         g = self.graph
-        for names, at in self.given["places"]:
+        for names, at in self.data["places"]:
             place = self._column(at)
             if self.s:
                 place = q.minus(place, self._s)
             self._set(names, _entries(dense.times(g, self._H, place)))
-        for names, v in self.given["vectors"]:
+        for names, v in self.data["vectors"]:
             turned = dense.times(
                 g, self._S, tuple((scalar(self.old.tree(decode(x, "frame"))),) for x in v)
             )
             self._set(names, _entries(turned))
-        if self.given["first"]:
+        if self.data["first"]:
             first = dense.times(g, self._H, self.old.vector("c"))
             scaled = [g.product((self.per_unit, x)) for x in _entries(first)]
-            self._set(self.given["first"], scaled)
+            self._set(self.data["first"], scaled)
 
     def _set(self, names: Sequence[str], values: Sequence[Node]) -> None:
         """Let new parameters of the framed problem stand for these values."""

@@ -14,7 +14,7 @@ SUM, PRODUCT, ATOM = 1, 2, 3
 
 
 @dataclass(frozen=True)
-class Printer:
+class SourcePrinter:
     """How a language writes a number, |x|, and 1 where x is 0, else 0.
 
     The rest is common to all that have + − * /.

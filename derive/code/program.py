@@ -91,7 +91,7 @@ Relative to what rounding can make of a singular matrix; float leaves room for s
 
 
 @dataclass(frozen=True)
-class Function:
+class EmittedFunction:
     """One emitted function: inputs loaded, sections of values, outputs, and checks before them."""
 
     loads: tuple[Load, ...]
@@ -149,8 +149,8 @@ class Framing:
     ``axes``, which later functions read.  ``numbers``: the array ``frame``, which constants reads.
     """
 
-    matrices: tuple[tuple[int, Function], ...]
-    numbers: Function
+    matrices: tuple[tuple[int, EmittedFunction], ...]
+    numbers: EmittedFunction
 
 
 @dataclass(frozen=True)
@@ -171,12 +171,12 @@ class Program:
     inputs: tuple[str, ...]
     constants: tuple[str, ...]
     basis: tuple[tuple[tuple[Fraction, ...], ...], ...]
-    functions: Mapping[str, Function]
+    functions: Mapping[str, EmittedFunction]
     translates: bool = False
     turning: Turning | None = None
     framing: Framing | None = None
 
-    def all_functions(self) -> tuple[Function, ...]:
+    def all_functions(self) -> tuple[EmittedFunction, ...]:
         """The functions of the program, and those that find its frame."""
         found = self.framing
         own = (*(f for _, f in found.matrices), found.numbers) if found else ()

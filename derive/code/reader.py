@@ -13,7 +13,7 @@ from .graph import Graph, Node
 from .naming import name_of, suffixed
 from .options import Options
 from .program import LoweringError
-from .state import State
+from .state import StateSpace
 
 Value = Node | Matrix
 
@@ -35,7 +35,7 @@ def matrix(value: Value) -> Matrix:
 DROPPED = Equation(("mul", ("T", "ξ"), "C", "Z"), ("mul", ("T", "ξ"), "Z"))
 
 
-class Reader:
+class RecordReader:
     """The values of the names of one record; ``tree``: how the value of a tree is computed."""
 
     def __init__(
@@ -48,7 +48,7 @@ class Reader:
     ):
         self.record, self.group, self.n = d, group, group.n
         self.graph, self.options, self.tree = graph, options, tree
-        self.space = State(self.graph, group, options)
+        self.space = StateSpace(self.graph, group, options)
         self.label = ""
         self.memo: dict[Tree, Value] = {}
         self._inputs()
@@ -61,18 +61,18 @@ class Reader:
         self.state: dict[str, Value] = dict(self.space.values)
         self.state["t"] = self.leaf("t", "time")
         self.inputs: list[str] = []
-        pushes = 0
-        for given in self.record.problem.get("inputs", []):
-            name = given["name"]
-            if given["kind"] == "force":
-                pushes += 1
-                block = self._block(given["on"])
-                self.memo["at", "f_u", pushes] = self._given(name, block.n)
+        forces = 0
+        for entry in self.record.problem.get("inputs", []):
+            name = entry["name"]
+            if entry["kind"] == "force":
+                forces += 1
+                block = self._block(entry["on"])
+                self.memo["at", "f_u", forces] = self._input_column(name, block.n)
                 continue
             moved = self.group.turns_space and self.group.affine
-            self.state["u"] = self._given(name, d - n if moved else d)
+            self.state["u"] = self._input_column(name, d - n if moved else d)
             if moved:
-                self.state["f_u"] = self._given(name, n, d - n)
+                self.state["f_u"] = self._input_column(name, n, d - n)
         both = [matrix(self.state[name]) for name in ("u", "f_u") if name in self.state]
         self.covector: list[Node] = [x for column in both for (x,) in column]
         if self.group.stated_basis and self.covector:
@@ -95,7 +95,7 @@ class Reader:
         """Force input i, counted from 1, as a column."""
         return matrix(self.memo["at", "f_u", i])
 
-    def _given(self, name: str, size: int, after: int = 0) -> Matrix:
+    def _input_column(self, name: str, size: int, after: int = 0) -> Matrix:
         """A column of new inputs of the program, ``name_1`` …, counted from ``after`` + 1."""
         found = self.column(name, size, "input", after)
         self.inputs += [row[0].data[1] for row in found]
@@ -165,7 +165,7 @@ class Reader:
 
         def entry(*values: int) -> Node:
             value = scalar(self.tree(bound(e.rhs, dict(zip(indices, values, strict=True)))))
-            return self.graph.value(value, suffixed(name, *values), self.label, given=True)
+            return self.graph.value(value, suffixed(name, *values), self.label, recorded=True)
 
         columns = span if len(indices) == 2 else (None,)
         table = tuple(tuple(entry(i) if j is None else entry(i, j) for j in columns) for i in span)
@@ -179,23 +179,23 @@ class Reader:
         value = self.tree(equation.rhs)
         # a J that comes from a given I goes back to it: its terms cancel before they are rounded
         if equation.lhs != "J" or not _sums_of_parameters(value):
-            value = self.named(value, name, given=True)
+            value = self.named(value, name, recorded=True)
         self.label = outer
         return value
 
-    def named(self, value: Value, name: str, *, given: bool = False) -> Value:
+    def named(self, value: Value, name: str, *, recorded: bool = False) -> Value:
         """The value under a name, or a matrix whose entries have names."""
         if isinstance(value, Node):
-            return self.graph.value(value, name, self.label, given=given)
-        return self.entries(value, name, given=given)
+            return self.graph.value(value, name, self.label, recorded=recorded)
+        return self.entries(value, name, recorded=recorded)
 
-    def entries(self, m: Matrix, name: str, *, given: bool = False) -> Matrix:
+    def entries(self, m: Matrix, name: str, *, recorded: bool = False) -> Matrix:
         """The matrix with its entries named; those of a column have one index."""
         column = len(m[0]) == 1
 
         def entry(x: Node, i: int, j: int) -> Node:
             own = suffixed(name, i) if column else suffixed(name, i, j)
-            return self.graph.value(x, own, self.label, given=given)
+            return self.graph.value(x, own, self.label, recorded=recorded)
 
         return tuple(
             tuple(entry(x, i, j) for j, x in enumerate(row, 1)) for i, row in enumerate(m, 1)

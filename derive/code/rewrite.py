@@ -62,8 +62,8 @@ def remade(x: Node, image: Image) -> Node:
     if all(a is b for a, b in zip(args, x.args, strict=True)):
         return x
     if x.op == "value":
-        name, label, given = g.titles[x]
-        return g.value(args[0], name, label, given=given)
+        name, label, recorded = g.titles[x]
+        return g.value(args[0], name, label, recorded=recorded)
     if x.op == "add":
         return g.linear(zip(x.data, args, strict=True))
     if x.op == "mul":

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from .graph import PARAMETER, Node
-from .naming import Names, is_sum, suffixed, sum_name
-from .program import Assignment, Check, Expression, Function, Load, Section, negated
+from .naming import ClaimedNames, is_sum, suffixed, sum_name
+from .program import Assignment, Check, EmittedFunction, Expression, Load, Section, negated
 from .rewrite import reachable
 
 ONE = Fraction(1)
@@ -26,7 +26,7 @@ Source = tuple[str, int]
 class Scheduler:
     """What turns nodes into functions: names, and equation texts by key, of one program."""
 
-    names: Names
+    names: ClaimedNames
     equations: Mapping[str, str]
 
     def function(
@@ -34,7 +34,7 @@ class Scheduler:
         outputs: list[Node],
         inputs: Mapping[Node, tuple[str, Source]],
         checks: Iterable[tuple[Node, Node | None]] = (),
-    ) -> Function:
+    ) -> EmittedFunction:
         """The function that computes ``outputs`` from ``inputs`` (node → name and place).
 
         ``checks``: nodes that must be positive, with the scales of their rounding errors.
@@ -47,7 +47,7 @@ class Scheduler:
         builder = _Builder(self, inputs, uses, outputs)
         builder.build(order)
         loads = [Load(name, *place) for x, (name, place) in inputs.items() if x in order]
-        return Function(
+        return EmittedFunction(
             tuple(sorted(loads, key=lambda item: (item.array, item.index))),
             builder.sections(),
             tuple(builder.expression(x) for x in outputs),

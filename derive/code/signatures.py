@@ -97,8 +97,8 @@ SIGNATURES = (
 def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
     """Name → signature and statements, of the functions that a program has in a language.
 
-    ``counts``: how many numbers each array that is written has; ``stores``: the array, the index
-    (from 0), the text and the title of each number.
+    ``reads``: the letters of what it takes; ``counts``: how many numbers each array that is written
+    has; ``stores``: the array, the index (from 0), the text and the title of each number.
     """
     sizes = {
         "STATE": len(p.state),
@@ -122,7 +122,7 @@ def _function(s: Signature, body: Mapping[str, Any], sizes: Mapping[str, int]) -
     return {
         **vars(s),
         **body,
-        "given": "".join(a.name for a in s.takes),
+        "reads": "".join(a.name for a in s.takes),
         "counts": counts,
         "stores": [{"array": a, "index": i, "text": x, "title": t} for (a, i), x, t in texts],
     }

@@ -29,7 +29,7 @@ Named = Callable[[str], Matrix]
 Component = Callable[[str, int], Node]
 
 
-class State:
+class StateSpace:
     """The numbers of a state: ``names`` in order; ``values``: A, T, ζ, w as nodes in them."""
 
     def __init__(self, graph: Graph, group: Group, options: Options):
@@ -221,10 +221,10 @@ class State:
             return self._back()
         if self.n > 3:
             bar = q.transposed(A)
-            gram, _ = dense.symmetric_inverse(
+            inverse_square, _ = dense.symmetric_inverse(
                 g, dense.times(g, bar, A), lambda name, x: g.value(x, f"gram_{name}", "")
             )
-            return dense.times(g, gram, bar)
+            return dense.times(g, inverse_square, bar)
         adjugate = dense.adjugate(g, A)
         if "unimodular" in self.group.relations:
             return adjugate

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from .blocks import Block, blocks
-from .languages import Language
+from .languages import TargetLanguage
 from .printers import wrapped
-from .program import Check, Function, Load, Section
+from .program import Check, EmittedFunction, Load, Section
 
 TEXT, EQUATION = 96, 92
 
@@ -19,12 +19,12 @@ TEXT, EQUATION = 96, 92
 class Statements:
     """How one language writes the parts of a function, for ``double`` or ``float``."""
 
-    language: Language
+    language: TargetLanguage
     real: str
     sizes: Mapping[str, int]
     """Array → how many numbers it holds."""
 
-    def function(self, f: Function) -> dict[str, Any]:
+    def function(self, f: EmittedFunction) -> dict[str, Any]:
         """Name of a template's field → lines of text: loads, sections, outputs, checks."""
         printer = self.language.printer(self.real)
         loads = [x for x in f.loads if x.array != "t"]
@@ -50,7 +50,7 @@ class Statements:
         index = x.index + self.language.first
         return self._declared(x.name, pattern.format(array=x.array, index=index))
 
-    def _unpacked(self, array: str, f: Function) -> str:
+    def _unpacked(self, array: str, f: EmittedFunction) -> str:
         """The names of all entries of an array with commas, _ for those that are not read."""
         names = ["_"] * self.sizes[array]
         for x in f.loads:
@@ -78,7 +78,7 @@ class Statements:
         ]
 
     def _section(self, s: Section) -> dict[str, Any]:
-        cost = operations(Function((), (s,), ()))
+        cost = operations(EmittedFunction((), (s,), ()))
         return {
             "comment": self._comment(f"{s.label}: {cost}" if s.label else cost, s.equation),
             "statements": [self._statement(v.name, v.expression) for v in s.values],
@@ -87,11 +87,11 @@ class Statements:
     def _comment(self, *texts: str) -> list[str]:
         """The lines of a comment; each text is cut at 200 letters."""
         short = (comment(x if len(x) <= 200 else x[:197] + "...") for x in texts)
-        told = [line for x in short for line in textwrap.wrap(x, EQUATION, break_long_words=False)]
-        if not told:
+        rows = [row for x in short for row in textwrap.wrap(x, EQUATION, break_long_words=False)]
+        if not rows:
             return []
         first, between, last = self.language.comment
-        lines = [first + told[0], *(between + x for x in told[1:])]
+        lines = [first + rows[0], *(between + x for x in rows[1:])]
         return [*lines[:-1], lines[-1] + last]
 
     def _statement(self, name: str, expression: Any) -> str:
@@ -117,6 +117,6 @@ def comment(text: str) -> str:
     return plain.replace("*/", "* /").replace("/*", "/ *").replace('"""', "'''")
 
 
-def operations(f: Function) -> str:
+def operations(f: EmittedFunction) -> str:
     """The operation counts of a function in words."""
     return ", ".join(f"{n} {name}" for name, n in f.operations().items() if n) or "none"

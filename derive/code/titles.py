@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from ..language.show import show
-from .reader import Reader
-from .state import State
+from .reader import RecordReader
+from .state import StateSpace
 
 
-def titles(reader: Reader) -> dict[int, str]:
+def titles(reader: RecordReader) -> dict[int, str]:
     """Index in dx/dt at which an equation's left side begins → label and equation."""
     found = {}
     for start, names in _beginnings(reader.space).items():
@@ -18,7 +18,7 @@ def titles(reader: Reader) -> dict[int, str]:
     return found
 
 
-def _beginnings(space: State) -> dict[int, tuple[str, ...]]:
+def _beginnings(space: StateSpace) -> dict[int, tuple[str, ...]]:
     """Index in dx/dt → the names by which the record may have what begins there."""
     slots = [x for x in space.slots if x.letter == "T" or not space.quaternion]
     letters, before = [x.letter for x in slots], 4 if space.quaternion else 0

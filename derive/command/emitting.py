@@ -17,7 +17,7 @@ from ..code.emit import emit, included, planned
 from ..code.languages import LANGUAGES
 from ..code.options import CHOICES, Options
 from ..code.program import Program
-from ..code.recorded import Emission, emission_of
+from ..code.request import EmissionRequest, request_of
 from ..pipeline import program
 from ..problem.forces import negative_stiffness_of
 from ..problem.problem import Problem
@@ -47,13 +47,13 @@ def allowances(p: Problem) -> tuple[str, ...]:
     return ("mass",) * p.signed + ("stiffness",) * bool(stiffness)
 
 
-def wanted(args: argparse.Namespace, p: Problem) -> Emission:
+def wanted(args: argparse.Namespace, p: Problem) -> EmissionRequest:
     """The emission that a command asks for."""
     prefix = p.name if args.prefix is None else args.prefix
-    return Emission(p.name, prefix, languages(args), options(args), allowances(p))
+    return EmissionRequest(p.name, prefix, languages(args), options(args), allowances(p))
 
 
-def made(p: Problem, record: Derivation, e: Emission) -> tuple[Program, dict[str, str]]:
+def made(p: Problem, record: Derivation, e: EmissionRequest) -> tuple[Program, dict[str, str]]:
     """The program of an emission, and its files by name."""
     compiled = program(p, record, e.options)
     return compiled, emit(compiled, record, e.languages, e.prefix, e.options, e.allowed)
@@ -94,7 +94,7 @@ def checked(args: argparse.Namespace, derive: Callable[..., tuple[Problem, Deriv
     return 0 if right else 1
 
 
-def statements(folder: Path) -> dict[str, Emission]:
+def statements(folder: Path) -> dict[str, EmissionRequest]:
     """What the emitted files of a folder say that they were made by."""
     ends = {
         x.rpartition(":")[2] for y in LANGUAGES.values() for form in y.files.values() for x in form
@@ -103,7 +103,7 @@ def statements(folder: Path) -> dict[str, Emission]:
     for path in sorted(folder.iterdir() if folder.is_dir() else ()):
         if path.is_file() and path.name.endswith(tuple(ends)):
             with path.open(encoding="utf-8", errors="replace") as file:
-                e = emission_of(file.read(HEAD))
+                e = request_of(file.read(HEAD))
             if e is not None:
                 found[path.name] = e
     return found
@@ -115,8 +115,8 @@ def covered(names: Collection[str]) -> set[str]:
 
 
 def emissions(
-    args: argparse.Namespace, p: Problem, stated: Collection[Emission]
-) -> Iterator[tuple[Emission, Emission]]:
+    args: argparse.Namespace, p: Problem, stated: Collection[EmissionRequest]
+) -> Iterator[tuple[EmissionRequest, EmissionRequest]]:
     """Each emission that files state, and what it is now; then what no file states."""
     known = [*dict.fromkeys(stated)]
     for e in known:
@@ -126,7 +126,7 @@ def emissions(
     if left and (args.lang or not known):
         base = known[0].options if known else None
         prefix = args.prefix or (known[0].prefix if known else p.name)
-        new = Emission(p.name, prefix, tuple(left), options(args, base), allowances(p))
+        new = EmissionRequest(p.name, prefix, tuple(left), options(args, base), allowances(p))
         yield new, new
 
 
@@ -135,7 +135,7 @@ def validated(
     fresh: Mapping[str, str],
     d: Derivation,
     program: Program,
-    e: Emission,
+    e: EmissionRequest,
 ) -> bool:
     """Do the files that can be read back equal the record?  A line on stderr for each of them.
 

@@ -179,13 +179,13 @@ class Derived:
         ``choices``: those of :class:`derive.code.options.Options`, as ``real="float"``.
         """
         from ..code.options import Options
-        from ..code.recorded import Emission
+        from ..code.request import EmissionRequest
         from ..command.emitting import allowances, made
         from ..command.writing import write
 
         own = self.problem
         allowed, options = allowances(own), Options(**choices)
-        asked = Emission(own.name, prefix or own.name, tuple(languages), options, allowed)
+        asked = EmissionRequest(own.name, prefix or own.name, tuple(languages), options, allowed)
         files = made(own, self.record, asked)[1]
         if out is not None:
             write(files, Path(out))

@@ -10,7 +10,7 @@ from typing import Any
 
 import sympy
 
-from ..code.program import Expression, Function, Program
+from ..code.program import EmittedFunction, Expression, Program
 
 LARGEST = 10**6
 """The largest denominator of an exact number; a larger one is that of a number such as √2, which
@@ -62,7 +62,7 @@ def expressions(program: Program) -> Expressions:
     return Expressions(t[0], x, p, kept, u, sympy.Matrix(rates), energy)
 
 
-def _values(f: Function, arrays: Mapping[str, Sequence[Any]]) -> list[Any]:
+def _values(f: EmittedFunction, arrays: Mapping[str, Sequence[Any]]) -> list[Any]:
     """The outputs of a function as expressions in the symbols of the arrays that it loads from."""
     found = {x.name: arrays[x.array][x.index] for x in f.loads}
     for section in f.sections:

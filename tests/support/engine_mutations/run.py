@@ -31,7 +31,7 @@ LEFT = {
     "code/titles.py": "words of comments",
     "code/naming.py": "names of intermediate numbers",
     "code/options.py": "names of choices",
-    "code/recorded.py": "the same in the head of a file",
+    "code/request.py": "the same in the head of a file",
     "code/heading.py": "words at the head of a file",
     "code/signatures.py": "arguments of functions, compared with C by the tests of languages",
     "code/emit.py": "fills templates",

@@ -13,8 +13,8 @@ from fractions import Fraction
 from typing import Any
 
 from ..language.reserved import STANDARD_MACROS
-from .languages import HASH, Language
-from .program import Assignment, Check, Expression, Framing, Function, Program, Section
+from .languages import HASH, TargetLanguage
+from .program import Assignment, Check, EmittedFunction, Expression, Framing, Program, Section
 
 NAMELESS = "·"
 """Stands for every name of the empty program: no identifier of any language."""
@@ -32,7 +32,7 @@ _IDENTIFIER = re.compile(r"(?<!\w)(?<!(?<!\.)\.)[^\W\d]\w*")
 ONE = Fraction(1)
 
 
-def identifiers(text: str, language: Language) -> set[str]:
+def identifiers(text: str, language: TargetLanguage) -> set[str]:
     """The names that a text of a language uses, comments and strings left out.
 
     For C also the macros of the standard headers that a user may include before the emitted one.
@@ -41,7 +41,7 @@ def identifiers(text: str, language: Language) -> set[str]:
     return own | STANDARD_MACROS if "c" in (language.name, language.needs) else own
 
 
-def hollow(p: Program) -> Program:
+def hollowed(p: Program) -> Program:
     """The program with its names replaced by NAMELESS and its statements dropped: its text is the
     templates' own. Each function still reads the same arrays, calls the same elementary functions
     and has as many results."""
@@ -49,9 +49,9 @@ def hollow(p: Program) -> Program:
     calls: list[Expression] = [("fun", name, ONE) for name in called]
     first: Expression = ("add", ("abs", ONE), *calls)
 
-    def emptied(f: Function) -> Function:
+    def emptied(f: EmittedFunction) -> EmittedFunction:
         arrays = {x.array: replace(x, name=NAMELESS) for x in f.loads}
-        return Function(
+        return EmittedFunction(
             tuple(arrays.values()),
             (Section("", "", (Assignment(NAMELESS, first),)),) * bool(f.sections),
             (ONE,) * len(f.outputs),
@@ -69,7 +69,7 @@ def hollow(p: Program) -> Program:
     )
 
 
-def apart(p: Program, words: Iterable[str]) -> Program:
+def without_collisions(p: Program, words: Iterable[str]) -> Program:
     """The program with an underscore added to every loaded or computed name in ``words``."""
     functions = p.all_functions()
     # the time is an argument, whose name the templates give
@@ -99,7 +99,7 @@ def _each(p: Program, change: Any) -> Program:
     return replace(p, functions=changed, framing=framing)
 
 
-def _renamed(f: Function, new: Mapping[str, str]) -> Function:
+def _renamed(f: EmittedFunction, new: Mapping[str, str]) -> EmittedFunction:
     """The function with its names replaced by ``new``, in loads, sections, outputs, checks."""
 
     def expression(e: Expression) -> Expression:

@@ -14,7 +14,7 @@ _OPTION = re.compile(r"--([a-z-]+)(?: (\w+))?")
 
 
 @dataclass(frozen=True)
-class Emission:
+class EmissionRequest:
     """What ``derive emit`` was asked for; ``allowed``: what may be negative, as its flags say."""
 
     problem: str
@@ -41,7 +41,7 @@ class Emission:
         return [line.replace("\0", " ") for line in lines]
 
 
-def emission_of(text: str) -> Emission | None:
+def request_of(text: str) -> EmissionRequest | None:
     """What the head of a file says of its emission; ``None`` where it says nothing of the kind."""
     stated = _STATED.search(text)
     if stated is None:
@@ -58,4 +58,4 @@ def emission_of(text: str) -> Emission | None:
         return None
     if not {*languages} <= {*LANGUAGES}:
         return None
-    return Emission(stated[1], prefix, languages, options, allowed)
+    return EmissionRequest(stated[1], prefix, languages, options, allowed)
