@@ -22,7 +22,7 @@ MOMENTS = {"m": 1.0, "J_11": 1.0, "J_22": 0.8, "J_33": 0.6}
 
 
 @dataclass
-class Solid:
+class DrawnSolid:
     """A solid with its sizes as numbers, turned by R and shifted by s: the points R r + s."""
 
     kind: str
@@ -32,7 +32,7 @@ class Solid:
 
 
 @dataclass
-class Part:
+class BodyPart:
     """The part of a body that one factor of the group moves.
 
     ``fixed``: does the origin stay in place? ``points`` and ``places`` are numbered as in the
@@ -44,7 +44,7 @@ class Part:
     fixed: bool
     points: dict[int, tuple[float, Vector]] = field(default_factory=dict)
     places: dict[int, Vector] = field(default_factory=dict)
-    solids: list[Solid] = field(default_factory=list)
+    solids: list[DrawnSolid] = field(default_factory=list)
     moments: tuple[float, Vector, Matrix] | None = None
     centre: Vector | None = None
 
@@ -53,8 +53,8 @@ class Numbers:
     """The values of a problem's expressions, at defaults of parameters or sample values."""
 
     def __init__(self, problem: Mapping[str, Any]) -> None:
-        given = problem["parameters"]
-        known = {k: p["default"] if isinstance(p, Mapping) else p for k, p in given.items()}
+        declared = problem["parameters"]
+        known = {k: p["default"] if isinstance(p, Mapping) else p for k, p in declared.items()}
         moments = problem["body"]["kind"] == "moments"
         self.invented = any(x is None for k, x in known.items() if not (moments and k == "m"))
         values = {}
@@ -99,7 +99,7 @@ def _sample_value(k: int) -> float:
     return round(0.4 + 0.8 * (0.618034 * k % 1.0), 3)
 
 
-def parts(problem: Mapping[str, Any], value: Numbers) -> list[Part]:
+def parts(problem: Mapping[str, Any], value: Numbers) -> list[BodyPart]:
     """The parts of the body, one for each factor of the group; none for a text about any group."""
     body = problem["body"]
     if body["kind"] == "any":
@@ -107,7 +107,7 @@ def parts(problem: Mapping[str, Any], value: Numbers) -> list[Part]:
     masses = body.get("points", [])
     names = str(problem["group"]).split(" x ") if masses else [str(problem["group"])]
     moving = problem["action"] == "affine" or bool(problem["homogeneous"])
-    found = [Part(x, 0, not (moving or x.startswith(TRANSLATING))) for x in names]
+    found = [BodyPart(x, 0, not (moving or x.startswith(TRANSLATING))) for x in names]
     for i, p in enumerate(masses, 1):
         part = found[p["block"] - 1]
         part.size = len(p["at"])
@@ -148,7 +148,7 @@ def _moments(problem: Mapping[str, Any], value: Numbers) -> tuple[float, Sequenc
     return value.of(["par", "m"]), [["par", f"c_{i}"] for i in span], rows
 
 
-def _solid(data: Mapping[str, Any], value: Numbers) -> Solid:
+def _solid(data: Mapping[str, Any], value: Numbers) -> DrawnSolid:
     sizes: dict[str, Any] = {}
     for key, size in data["sizes"].items():
         if key == "faces":
@@ -163,7 +163,7 @@ def _solid(data: Mapping[str, Any], value: Numbers) -> Solid:
             sizes[key] = value.length(size)
     unit = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
     rotation = tuple(value.vector(row) for row in data["rotation"] or unit)
-    return Solid(data["kind"], sizes, rotation, value.vector(data["shift"] or (0, 0, 0)))
+    return DrawnSolid(data["kind"], sizes, rotation, value.vector(data["shift"] or (0, 0, 0)))
 
 
 def dot(a: Sequence[float], b: Sequence[float]) -> float:

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from .drawn_body import Solid, Vector
+from .drawn_body import DrawnSolid, Vector
 from .shapes import Curve
 
 FACES = 3000
@@ -31,7 +31,7 @@ K = TypeVar("K", int, Edge)
 class Mesh:
     """A mesh seen from the direction ``sight``, a vector as long as the figure is large."""
 
-    def __init__(self, solid: Solid, sight: Vector) -> None:
+    def __init__(self, solid: DrawnSolid, sight: Vector) -> None:
         own = np.array(solid.sizes["vertices"], dtype=float)
         points = own @ np.array(solid.rotation, dtype=float).T + np.array(solid.shift)
         self.points, self.faces = _simplified(points, np.array(solid.sizes["faces"], dtype=int))

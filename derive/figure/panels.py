@@ -9,7 +9,7 @@ from typing import Any
 
 from .camera import FLAT, UNITS, Segment, View
 from .drawing import Point
-from .drawn_body import ORIGIN, Numbers, Part, Vector, plus, scaled
+from .drawn_body import ORIGIN, BodyPart, Numbers, Vector, plus, scaled
 from .meshes import Mesh
 from .shapes import Curve, Shape
 
@@ -26,7 +26,7 @@ class Panel:
     First ``look`` at it, then set ``scale`` and ``offset``.
     """
 
-    def __init__(self, part: Part, problem: Mapping[str, Any], value: Numbers) -> None:
+    def __init__(self, part: BodyPart, problem: Mapping[str, Any], value: Numbers) -> None:
         self.part, self.value = part, value
         self.scale, self.offset = 1.0, (0.0, 0.0)
         self.at: dict[int, Vector] = {i: r for i, (_, r) in part.points.items()} | part.places

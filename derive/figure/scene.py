@@ -196,10 +196,10 @@ def _caption(
     potentials = problem["potentials"]
     there = {p["kind"] for p in potentials}
     legends = [x for kind, x in kinds().items() if kind in there and x.legend]
-    told = {x.kind: say(x.legend) for x in legends if x.drawn}
+    legend = {x.kind: say(x.legend) for x in legends if x.drawn}
     if any(panel.anchors for panel in panels):
-        told["spring"] += say("The hatched supports are fixed in space.")
-    sentences += told.values()
+        legend["spring"] += say("The hatched supports are fixed in space.")
+    sentences += legend.values()
     elsewhere = any(panel.centre_of(p)[1] for panel in panels for p in panel.attractions)
     if elsewhere or any(panel.moved for panel in panels):
         sentences.append(say("Distances to fixed places are not to scale."))

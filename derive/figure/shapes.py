@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise, product
 
-from .drawn_body import Solid, Vector, cross, dot, image, plus, scaled
+from .drawn_body import DrawnSolid, Vector, cross, dot, image, plus, scaled
 
 Wall = Callable[[Vector], float]
 AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -60,7 +60,7 @@ WALLS = {
 class Shape:
     """A solid that is no mesh, seen along ``sight``, a vector as long as the figure is large."""
 
-    def __init__(self, solid: Solid, sight: Vector) -> None:
+    def __init__(self, solid: DrawnSolid, sight: Vector) -> None:
         self.kind, self.sizes, self.walls = solid.kind, solid.sizes, WALLS[solid.kind]
         self.columns, self.shift = _affine_map(solid)
         self.sight = self.to_reference(sight)
@@ -154,7 +154,7 @@ class Shape:
             yield self._curve(plus(scaled(1 - k / 48, foot), top, k / 48) for k in range(49))
 
 
-def _affine_map(solid: Solid) -> tuple[list[Vector], Vector]:
+def _affine_map(solid: DrawnSolid) -> tuple[list[Vector], Vector]:
     """The columns of A, and s."""
     k, s = solid.kind, solid.sizes
     R, shift = solid.rotation, solid.shift

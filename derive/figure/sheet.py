@@ -161,8 +161,8 @@ def _ring(panel: Panel, sheet: Sheet) -> float:
 
 def _attraction(panel: Panel, sheet: Sheet, p: Mapping[str, Any]) -> None:
     at = panel.to(panel.centre_of(p)[0])
-    pulled = [i for i, _ in p["on"] if i in panel.at] if "on" in p else list(panel.part.points)
-    for i in pulled:
+    attracted = [i for i, _ in p["on"] if i in panel.at] if "on" in p else list(panel.part.points)
+    for i in attracted:
         line = (panel.to(panel.at[i]), at)
         sheet.strokes.append(Stroke(line, "attraction", "dashed"))
     sheet.dots += [Dot(at, 0.7, "attraction"), Dot(at, 1.7, "attraction", ring=True)]

@@ -6,8 +6,8 @@ import re
 import unicodedata
 from collections.abc import Callable
 
+from .inline import math_text
 from .signs import LOWERED, MATH_ACCENTS, NAMED, RAISED, SYMBOLS, math_char
-from .spoken import math_text
 
 TEX_SPECIAL = {
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "%": r"\%", "&": r"\&",

@@ -42,7 +42,7 @@ def _simple(t: Any) -> bool:
     return simple and (len(t) < 2 or _simple(t[1]))
 
 
-def glue(left: Tree, right: Tree) -> Formula:
+def separator(left: Tree, right: Tree) -> Formula:
     """The sign, or space, between two factors."""
     if isinstance(right, (int, Fraction)):
         return DOT

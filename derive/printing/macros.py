@@ -27,7 +27,7 @@ RENAMED = (
 INDEX = r"'*(?:_(?:\{[^{}]*\}|[A-Za-z0-9]))?'*"
 BAR = re.compile(rf"\\bar(?:\{{((?:[^{{}}]|\{{[^{{}}]*\}})*)\}}|\s+([A-Za-z]))({INDEX})")
 HAT = re.compile(r"\\hatmap\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}")
-SPOKEN = re.compile(r"(?<![A-Za-z_\\{])j\(([^()]*)\)")
+SKEW = re.compile(r"(?<![A-Za-z_\\{])j\(([^()]*)\)")
 
 DEFINED = {
     "transpose": (
@@ -57,7 +57,7 @@ DEFINED = {
 
 def styled(tex: str) -> str:
     """Formulas, or a text with formulas between dollars, with macros in place of commands."""
-    tex = re.sub(r"\$[^$]*\$", lambda m: SPOKEN.sub(r"\\hatmap{\1}", m[0]), tex)
+    tex = re.sub(r"\$[^$]*\$", lambda m: SKEW.sub(r"\\hatmap{\1}", m[0]), tex)
     tex = BAR.sub(r"\\transpose{\1\2}{\3}", tex)
     for pattern, macro in RENAMED:
         tex = re.sub(rf"{pattern}(?=([A-Za-z])?)", partial(_renamed, macro), tex)

@@ -15,12 +15,12 @@ from operator import add
 from ..language.show import ATOM, PRODUCT, SUM, has_norm, signed, swallows
 from ..language.tree import Tree
 from .escape import formula_ok, tex_text
-from .juxtaposition import glue, number, outside
+from .inline import spelt
+from .juxtaposition import number, outside, separator
 from .letters import NAMES, parameter
 from .measure import measure
 from .notation import Notation
 from .spelling import named, parameter_formula, transposed
-from .spoken import spelt
 from .typeset import (
     AFTER_COMMA,
     BEFORE_FACTOR,
@@ -77,7 +77,7 @@ def formula(
     t: Tree, names: Mapping[str, str] | None = None, notation: Notation | None = None
 ) -> Formula:
     """A tree as a formula, LaTeX and MathML; ``names`` says how names are written."""
-    return Printer(NAMES if names is None else names, notation or Notation()).bare(t)
+    return FormulaPrinter(NAMES if names is None else names, notation or Notation()).bare(t)
 
 
 def pieces(tex: str) -> list[Piece]:
@@ -118,7 +118,7 @@ def joined(parts: list[Formula], between: Formula) -> Formula:
 COMMA_SPACE = literal(f",{AFTER_COMMA}") + Formula(" ")
 
 
-class Printer:
+class FormulaPrinter:
     """Trees to formulas; ``op_X`` is the formula of the operator X of its operands."""
 
     def __init__(self, names: Mapping[str, str], notation: Notation):
@@ -184,7 +184,7 @@ class Printer:
             wedge = k > 0 and isinstance(x, tuple) and x[0] == "wedge"
             if level == SUM or inside or wedge:
                 f = paren(f)
-            out += (glue(factors[k - 1], x) if k else Formula("")) + f
+            out += (separator(factors[k - 1], x) if k else Formula("")) + f
         return out, PRODUCT
 
     def op_T(self, a: Tree) -> Formula:

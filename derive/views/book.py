@@ -22,7 +22,7 @@ GENERAL = ("For any group of matrices, linear action", "For any group of matrice
 
 
 @dataclass(frozen=True)
-class Part:
+class BookPart:
     """A chapter: steps under a heading; ``name`` is the anchor; ``record``: of a problem's own
     part.
 
@@ -38,31 +38,33 @@ class Part:
     record: Derivation | None = None
 
 
-def book(records: Sequence[Derivation], language: Language = ENGLISH) -> list[Part]:
+def book(records: Sequence[Derivation], language: Language = ENGLISH) -> list[BookPart]:
     """The parts of several records: each step stands once, those of any group first."""
-    parts: list[Part] = []
+    parts: list[BookPart] = []
     seen: set[str] = set()
-    told: dict[str, str] = {}
+    explained: dict[str, str] = {}
     for d in records:
         general = tuple(s for s in d.steps if s.scope == ANY_GROUP and s.label not in seen)
         if general:
             kind = general[0].label.partition(".")[0]
             heading = language.word(GENERAL[kind == "affine"])
-            letters = new_letters([*map(of_any_group, d.symbols)], general, told)
-            parts.append(Part(kind, heading, "", general, d, letters))
+            letters = new_letters([*map(of_any_group, d.symbols)], general, explained)
+            parts.append(BookPart(kind, heading, "", general, d, letters))
             seen |= {s.label for s in general}
     for d in records:
         own = tuple(s for s in d.steps if s.scope != ANY_GROUP)
         if own:
-            letters = new_letters(d.symbols, own, told)
-            parts.append(Part(d.name, title(d, language), system(d, language), own, d, letters, d))
+            letters = new_letters(d.symbols, own, explained)
+            parts.append(
+                BookPart(d.name, title(d, language), system(d, language), own, d, letters, d)
+            )
     return parts
 
 
 def new_letters(
-    symbols: Sequence[Symbol], steps: Sequence[Step], told: dict[str, str]
+    symbols: Sequence[Symbol], steps: Sequence[Step], explained: dict[str, str]
 ) -> tuple[Symbol, ...]:
-    """The symbols of these steps whose meaning is not explained before; ``told`` gets them.
+    """The symbols of these steps whose meaning is not explained before; ``explained`` gets them.
 
     Without variations and rates, which have one rule.
     """
@@ -71,20 +73,20 @@ def new_letters(
     found = []
     for s in symbols:
         meaning = english(s.meaning)
-        if s.name in used and told.get(s.name) != meaning and not _regular(s.name):
-            told[s.name] = meaning
+        if s.name in used and explained.get(s.name) != meaning and not _regular(s.name):
+            explained[s.name] = meaning
             found.append(s)
     return tuple(found)
 
 
 def parameters(d: Derivation | None, language: Language) -> list[tuple[list[str], str, str]]:
     """The parameters of a problem in runs of one meaning and unit: names, meaning, unit."""
-    given = d.problem.get("parameters") if d else None
+    declared = d.problem.get("parameters") if d else None
     found: list[tuple[list[str], str, str]] = []
-    for name, told in given.items() if isinstance(given, Mapping) else ():
-        told = told if isinstance(told, Mapping) else {}
-        meaning = language.word(str(told.get("meaning") or "parameter"))
-        unit = str(told.get("unit") or "")
+    for name, about in declared.items() if isinstance(declared, Mapping) else ():
+        about = about if isinstance(about, Mapping) else {}
+        meaning = language.word(str(about.get("meaning") or "parameter"))
+        unit = str(about.get("unit") or "")
         if found and found[-1][1:] == (meaning, unit):
             found[-1][0].append(str(name))
         else:
@@ -103,7 +105,7 @@ def _regular(name: str) -> bool:
     return name.startswith(VARIATIONS) or RATE in normalize("NFD", name)
 
 
-def steps(parts: Sequence[Part]) -> Iterator[tuple[Part, Step]]:
+def steps(parts: Sequence[BookPart]) -> Iterator[tuple[BookPart, Step]]:
     """All steps of the parts, each with its part."""
     for part in parts:
         for step in part.steps:

@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from ..language.tree import Tree
 from ..paper.findings import OMISSION, SIGN, Finding
-from .book import Part
+from .book import BookPart
 from .language import Language
 from .paper import grouped
 
@@ -24,7 +24,7 @@ TRUE = {
 
 
 @dataclass(frozen=True)
-class Told:
+class Passage:
     """A stretch of a correction: words, or a formula whose sides are equal."""
 
     text: str
@@ -40,19 +40,19 @@ class Told:
 
 
 def corrections(
-    parts: Sequence[Part], findings: Sequence[Finding], language: Language
-) -> dict[str, dict[int, list[Told]]]:
+    parts: Sequence[BookPart], findings: Sequence[Finding], language: Language
+) -> dict[str, dict[int, list[Passage]]]:
     """Label of a step → number of the paper → its correction, at the first step that has it."""
     left = {f.number: f for f in findings}
-    found: dict[str, dict[int, list[Told]]] = {}
+    found: dict[str, dict[int, list[Passage]]] = {}
     for part in parts:
         for step in part.steps:
             here = [left.pop(n) for n in step.paper if n in left]
-            found[step.label] = {f.number: [*_told(f, language)] for f in here}
+            found[step.label] = {f.number: [*_passages(f, language)] for f in here}
     return found
 
 
-def _told(f: Finding, language: Language) -> Iterator[Told]:
+def _passages(f: Finding, language: Language) -> Iterator[Passage]:
     """A correction: what was printed, how it is true, what is wrong, values that show it."""
     formulas: list[tuple[Tree, ...]] = []
 
@@ -61,10 +61,10 @@ def _told(f: Finding, language: Language) -> Iterator[Told]:
         return f"\ue000{len(formulas) - 1}\ue001"
 
     printed = ", ".join(formula(e.lhs, e.rhs) for e in f.equations)
-    *given, (_, left), (_, right) = (f.counterexample or {}).items()
+    *point, (_, left), (_, right) = (f.counterexample or {}).items()
     sides = {"left": formula(value_of(left)), "right": formula(value_of(right))}
-    values = ", ".join(formula(*names, value_of(x)) for *names, x in grouped(given))
-    said = "For {values}, the left side is {left}, the printed right side {right}."
+    values = ", ".join(formula(*names, value_of(x)) for *names, x in grouped(point))
+    template = "For {values}, the left side is {left}, the printed right side {right}."
     sentences = (
         language.word(
             "The paper prints in {number}, here in the letters of these notes: {printed}.",
@@ -73,11 +73,11 @@ def _told(f: Finding, language: Language) -> Iterator[Told]:
         ),
         language.word(TRUE[f.verdict]) if f.holds else "",
         language.word(f.remark),
-        language.word(said, values=values, **sides),
+        language.word(template, values=values, **sides),
     )
     for k, piece in enumerate(FORMULA.split(" ".join(filter(None, sentences)))):
         if piece:
-            yield Told(piece, formulas[int(piece)] if k % 2 else ())
+            yield Passage(piece, formulas[int(piece)] if k % 2 else ())
 
 
 def value_of(text: str) -> Tree:

@@ -45,7 +45,9 @@ def entries(equations: Sequence[Equation]) -> list[Entry]:
     found: list[Entry] = []
     for row in rows(kept):
         place = row[0][0] if found else 0
-        found.append(_apart(place, row[0][1]) if len(row) == 1 else Entry(place, told(row)))
+        found.append(
+            _lettered(place, row[0][1]) if len(row) == 1 else Entry(place, equations_of(row))
+        )
     return found
 
 
@@ -65,12 +67,12 @@ def rows(equations: Iterable[Placed]) -> Iterator[list[Placed]]:
             yield from [together] if zero else ([x] for x in together)
 
 
-def told(row: Sequence[Placed]) -> tuple[Equation, ...]:
+def equations_of(row: Sequence[Placed]) -> tuple[Equation, ...]:
     """The equations of a row, without their places."""
     return tuple(e for _, e in row)
 
 
-def _apart(place: int, e: Equation) -> Entry:
+def _lettered(place: int, e: Equation) -> Entry:
     """An equation as an entry; the long entries of a wide matrix get letters of their own."""
     matrix = isinstance(e.rhs, tuple) and e.rhs[0] == "matrix"
     if not matrix or not isinstance(e.lhs, str) or breadth(e.rhs) <= WIDE:

@@ -14,16 +14,16 @@ from ..language.templating import environment
 from ..language.tree import Tree
 from ..paper.findings import Finding
 from ..printing.escape import between_dollars, prose
+from ..printing.inline import inline, spelt
 from ..printing.macros import standard
 from ..printing.measure import measure
 from ..printing.notation import Notation
-from ..printing.spoken import spelt, spoken
 from ..printing.tex import Cut, cut_up, formula, joined
 from ..printing.typeset import Formula, literal, plain
 from ..printing.wrap import groups
 from ..record.record import Derivation, Equation, Step
-from .book import MOTION, REGULAR, Part, book, parameters
-from .corrections import Told, corrections
+from .book import MOTION, REGULAR, BookPart, book, parameters
+from .corrections import Passage, corrections
 from .entries import entries
 from .language import ENGLISH, Language
 from .latex import anchor
@@ -37,8 +37,8 @@ from .outline import (
     assumed,
     capitalised,
     keys,
+    latex_names,
     printed,
-    spelling,
     subtitle,
     title,
 )
@@ -51,7 +51,7 @@ LONG = 0.4 * ROOM
 Fields = dict[str, Any]
 """What a template shows, by name."""
 EQUALS = Formula(" ") + literal("=") + Formula(" ")
-PART: Fields = {"id": "", "number": "", "long": False, "cells": (), "clause": "", "tex": ""}
+CONTINUATION: Fields = {"id": "", "number": "", "long": False, "cells": (), "clause": "", "tex": ""}
 """The fields of a line that belongs to the equation above it."""
 
 SPACES = "\u00a0\u202f"
@@ -67,8 +67,8 @@ def html(
     """The walk of records as a web page: what holds for any group, then a part for each record."""
     chosen, word = notation or Notation(), language.word
     parts = book(records, language)
-    numbers, told = numbered(parts), corrections(parts, findings, language)
-    written = [_Part(p, chosen, language, numbers, told) for p in parts]
+    numbers, found = numbered(parts), corrections(parts, findings, language)
+    written = [_PartFields(p, chosen, language, numbers, found) for p in parts]
     shown = {s.label: [*p.equations(s)] for p in written for s in p.part.steps}
     template = environment("html", autoescape=True).get_template("page.html.jinja")
     return template.render(
@@ -95,7 +95,7 @@ def html(
     )
 
 
-def numbered(parts: Sequence[Part]) -> dict[str, str]:
+def numbered(parts: Sequence[BookPart]) -> dict[str, str]:
     """The numbers of parts, by name, and of equations, by key: those of the LaTeX."""
     found = {}
     for i, part in enumerate(parts, 1):
@@ -108,7 +108,7 @@ def numbered(parts: Sequence[Part]) -> dict[str, str]:
 def words(text: str, notation: Notation, *, ready: bool = False) -> str:
     """A sentence as markup, its formulas as MathML; ``ready``: they stand between dollars."""
     between = between_dollars if ready else prose
-    return between(text, escaped, lambda x: movable(spelt(x).tex, spoken(x, notation)))
+    return between(text, escaped, lambda x: movable(spelt(x).tex, inline(x, notation)))
 
 
 def movable(tex: str, shown: Formula, *, follows: bool = False) -> str:
@@ -129,19 +129,19 @@ def visible(text: str) -> str:
 
 
 @dataclass(frozen=True)
-class _Part:
+class _PartFields:
     """A part of the book as the fields of its template."""
 
-    part: Part
+    part: BookPart
     notation: Notation
     language: Language
     numbers: Mapping[str, str]
-    told: Mapping[str, Mapping[int, list[Told]]]
+    corrections: Mapping[str, Mapping[int, list[Passage]]]
 
     @cached_property
     def names(self) -> Mapping[str, str]:
         """Name → LaTeX, of the part's record."""
-        return spelling(self.part.source)
+        return latex_names(self.part.source)
 
     def fields(self, shown: Mapping[str, list[Fields]]) -> Fields:
         """What the template shows of the part; ``shown``: label → the equations of that step."""
@@ -175,7 +175,7 @@ class _Part:
             "rule": capitalised(self.language.word(step.rule)),
             "printed": printed(step),
             "notes": [words(x, self.notation) for x in assumed(step, self.language)],
-            "corrections": [*map(self.correction, self.told[step.label].values())],
+            "corrections": [*map(self.correction, self.corrections[step.label].values())],
             "prose": words(self.language.of(step.prose), self.notation),
             "equations": shown[step.label],
             "uses": [unfolded(x) for x in step.uses],
@@ -186,14 +186,14 @@ class _Part:
             ],
         }
 
-    def correction(self, told: Iterable[Told]) -> str:
+    def correction(self, passages: Iterable[Passage]) -> str:
         """The markup of a correction of the print."""
 
         def shown(sides: Sequence[Tree]) -> str:
             whole = joined([formula(x, None, self.notation) for x in sides], EQUALS)
             return movable(whole.tex, whole)
 
-        return "".join(x.shown(lambda text: words(text, self.notation), shown) for x in told)
+        return "".join(x.shown(lambda text: words(text, self.notation), shown) for x in passages)
 
     def equations(self, step: Step) -> Iterable[Fields]:
         """The fields of each numbered entry of a step, with its anchor and its LaTeX."""
@@ -211,7 +211,7 @@ class _Part:
                 "tex": r",\qquad ".join(map(self.source, (*x.equations, *x.where))),
             }
             for e in x.where:
-                yield PART | {
+                yield CONTINUATION | {
                     "left": self.cut(e.lhs),
                     "right": self.cut(e.rhs, equals=True),
                 }
@@ -247,14 +247,14 @@ class _Part:
 
     def clause(self, e: Equation) -> str:
         """The markup of "for every …": for which names the equation holds."""
-        said = quantifier(e, self.names, quantifiers(self.language), self.notation)
-        return said.mathml() if said.tex else ""
+        over = quantifier(e, self.names, quantifiers(self.language), self.notation)
+        return over.mathml() if over.tex else ""
 
     def source(self, e: Equation) -> str:
         """The LaTeX of an equation, in standard commands."""
         shown = standard((self.formula(e.lhs) + EQUALS + self.formula(e.rhs)).plain().tex)
-        said = clause(e, self.names, quantifiers(self.language))
-        return f"{shown} \\quad {plain(said)}" if said else shown
+        over = clause(e, self.names, quantifiers(self.language))
+        return f"{shown} \\quad {plain(over)}" if over else shown
 
     def symbols(self) -> Iterable[dict[str, str]]:
         """The letters of the part and their meanings."""
@@ -267,8 +267,8 @@ class _Part:
     def parameters(self) -> Iterable[dict[str, str]]:
         """The parameters of the problem and their meanings."""
         for run, meaning, unit in parameters(self.part.record, self.language):
-            told = f"{meaning} [{unit}]" if unit else meaning
+            about = f"{meaning} [{unit}]" if unit else meaning
             yield {
                 "name": ", ".join(self.formula(("par", x)).mathml() for x in run),
-                "meaning": escaped(told),
+                "meaning": escaped(about),
             }

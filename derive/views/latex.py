@@ -20,8 +20,8 @@ from ..printing.macros import definitions, styled
 from ..printing.notation import Notation
 from ..printing.tex import latex_tree
 from ..record.record import Derivation, Step
-from .book import MOTION, REGULAR, Part, book, parameters, steps
-from .corrections import Told, corrections
+from .book import MOTION, REGULAR, BookPart, book, parameters, steps
+from .corrections import Passage, corrections
 from .language import ENGLISH, Language
 from .layout import blocks
 from .outline import (
@@ -33,8 +33,8 @@ from .outline import (
     assumed,
     capitalised,
     keys,
+    latex_names,
     printed,
-    spelling,
     subtitle,
     title,
 )
@@ -65,8 +65,8 @@ def latex(
     parts = book(records, language)
     writer = _Writer(parts, language, findings)
     chosen = notation or Notation()
-    told = (TRANSPOSES[chosen.transpose], FORMULAS_CONVENTIONS)
-    conventions = " ".join(between_dollars(language.word(x)) for x in told)
+    stated = (TRANSPOSES[chosen.transpose], FORMULAS_CONVENTIONS)
+    conventions = " ".join(between_dollars(language.word(x)) for x in stated)
     template = environment("latex", **DELIMITERS).get_template("walk.tex.jinja")
     return template.render(
         language=language.name,
@@ -130,7 +130,7 @@ ROOM = "0.4\\textheight"
 class _Writer:
     """A book as LaTeX."""
 
-    parts: Sequence[Part]
+    parts: Sequence[BookPart]
     language: Language
     findings: Sequence[Finding]
 
@@ -150,13 +150,13 @@ class _Writer:
                 yield rf"\walkfigure{{{tikz(drawn)}}}{{{caption}}}"
             for step in part.steps:
                 yield from ("", *self.step(part, step))
-            if names := [*_names(part, spelling(part.source), self.language)]:
+            if names := [*_names(part, latex_names(part.source), self.language)]:
                 heading = tex_text(self.language.word("Names"))
                 yield rf"\begin{{walknames}}{{{heading}}}"
                 yield from (*names, r"\end{walknames}", "")
 
     @cached_property
-    def corrections(self) -> dict[str, dict[int, list[Told]]]:
+    def corrections(self) -> dict[str, dict[int, list[Passage]]]:
         """Label of a step → number of the paper → the correction told at this step."""
         return corrections(self.parts, self.findings, self.language)
 
@@ -191,30 +191,30 @@ class _Writer:
         """The places of the first numbered entries of the parts."""
         return {self.spans[part.steps[0].label][0] for part in self.parts if part.steps}
 
-    def step(self, part: Part, step: Step) -> Iterator[str]:
+    def step(self, part: BookPart, step: Step) -> Iterator[str]:
         """The lines of a step: heading, sentences, equations."""
-        names, language = spelling(part.source), self.language
+        names, language = latex_names(part.source), self.language
         beside = "".join(f", {prose(x)}" for x in assumed(step, language)) + self.footnotes(step)
         rule = tex_text(capitalised(language.word(step.rule)))
         paper = tex_text(printed(step))
-        yield rf"\walkstep{{{paper}}}{{{rule}}}{{{beside}}}{{{spelt(step.label)}}}"
+        yield rf"\walkstep{{{paper}}}{{{rule}}}{{{beside}}}{{{breakable(step.label)}}}"
         used = ", ".join(self.references(step.uses))
         yield prose(language.of(step.prose)) + (rf" \walkfrom{{{used}}}" if used else "")
         yield from _equations(step, self.labels[step.label], names, language)
 
     def footnotes(self, step: Step) -> str:
         """The corrections of the print as footnotes, or the number of one made before."""
-        told = self.corrections[step.label]
-        shown = {n: "".join(x.shown(prose, _small) for x in t) for n, t in told.items()}
+        here = self.corrections[step.label]
+        shown = {n: "".join(x.shown(prose, _small) for x in t) for n, t in here.items()}
         notes = [rf"\footnote{{\label{{paper.{n}}}{x}}}" for n, x in shown.items()]
-        again = [n for n in step.paper if n in self.corrected and n not in told]
+        again = [n for n in step.paper if n in self.corrected and n not in here]
         marks = [rf"\textsuperscript{{\ref{{paper.{n}}}}}" for n in again]
         return r"\textsuperscript{,}".join([*notes, *marks])
 
     @cached_property
     def corrected(self) -> set[int]:
         """The numbers of the paper that have a correction somewhere."""
-        return {n for told in self.corrections.values() for n in told}
+        return {n for found in self.corrections.values() for n in found}
 
 
 def _small(sides: Sequence[Tree]) -> str:
@@ -252,12 +252,12 @@ def anchor(label: str) -> str:
     return re.sub(r"[^A-Za-z0-9_.:-]", "-", label)
 
 
-def spelt(label: str) -> str:
+def breakable(label: str) -> str:
     """A label to be read, which may break after its stops."""
     return re.sub(r"(\.|\\_)", r"\1\\allowbreak{}", tex_text(label))
 
 
-def _names(part: Part, names: Mapping[str, str], language: Language) -> Iterator[str]:
+def _names(part: BookPart, names: Mapping[str, str], language: Language) -> Iterator[str]:
     """The letters of a part with their meanings, then the parameters of the problem."""
     for symbol in part.symbols:
         meaning = prose(language.of(symbol.meaning))

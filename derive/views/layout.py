@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from itertools import groupby
 
 from ..printing.escape import tex_text
+from ..printing.inline import spelt
 from ..printing.measure import measure
 from ..printing.notation import Notation
-from ..printing.spoken import spelt
 from ..printing.tex import formula, guarded, joined, latex_tree, marked, paren, pieces
 from ..printing.typeset import Formula, literal, plain, text
 from ..printing.wrap import Line, fill
@@ -127,16 +127,16 @@ def quantifier(
     def listed(these: Sequence[str]) -> Formula:
         return joined([formula(x, names, notation) for x in these], literal(",") + Formula(" "))
 
-    said = []
+    clauses = []
     if over := quantified(e):
         shown, space = listed(over), domain(over)
         shown = paren(shown) if len(over) > 1 and space else shown
         if space:
             shown += Formula(" ") + literal(r"\in") + Formula(" ") + spelt(space)
-        said.append(words[0] + shown)
+        clauses.append(words[0] + shown)
     if e.exists:
-        said.append(words[1] + listed(e.exists))
-    return joined(said, literal(r",\ ")) if said else Formula("")
+        clauses.append(words[1] + listed(e.exists))
+    return joined(clauses, literal(r",\ ")) if clauses else Formula("")
 
 
 def clause_width(words: str) -> float:

@@ -15,9 +15,9 @@ from .outline import (
     PAPER,
     TRANSPOSES,
     capitalised,
+    latex_names,
     notes,
     sections,
-    spelling,
     subtitle,
     title,
 )
@@ -25,7 +25,7 @@ from .outline import (
 
 def markdown(d: Derivation, *, language: Language = ENGLISH) -> str:
     """The walk: headings, prose and display formulas; no raw HTML."""
-    names = spelling(d)
+    names = latex_names(d)
     heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
     conventions = " ".join(
         between_dollars(language.word(x), markdown_text)

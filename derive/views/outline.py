@@ -61,7 +61,7 @@ DIAGONAL = tuple(
     ("row", *(("entry", "λ", i) if i == j else 0 for j in (1, 2, 3))) for i in (1, 2, 3)
 )
 STILL = (("δ′A",), ("ξ′",), ("Ω′",), ("δ′A", "δ′T"), ("ξ′", "η′"), ("Ω′", "η′"))
-GIVEN: tuple[tuple[frozenset[Equation], str], ...] = (
+ASSUMPTIONS: tuple[tuple[frozenset[Equation], str], ...] = (
     (frozenset({Equation("I", ("matrix", *DIAGONAL))}), "in principal axes"),
     (frozenset({Equation("δt", 1)}), "for any X with δt = 1"),
     *(
@@ -73,15 +73,15 @@ GIVEN: tuple[tuple[frozenset[Equation], str], ...] = (
 ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇_b", "ṗ_b")
 
 
-def spelling(d: Derivation) -> dict[str, str]:
+def latex_names(d: Derivation) -> dict[str, str]:
     """Name → LaTeX, of a record with its problem's parameters."""
     return names_of(d.symbols, [*map(str, d.problem.get("parameters") or ())])
 
 
 def title(d: Derivation, language: Language = ENGLISH) -> str:
     """The title of the problem, or its name."""
-    name, given = (" ".join(str(x or d.name).split()) for x in (d.name, d.problem.get("title")))
-    return given if given == name else language.word(given)
+    name, titled = (" ".join(str(x or d.name).split()) for x in (d.name, d.problem.get("title")))
+    return titled if titled == name else language.word(titled)
 
 
 def group(d: Derivation) -> str:
@@ -136,7 +136,7 @@ def assumed(step: Step, language: Language = ENGLISH) -> list[str]:
     """What a step assumes further: in words where there are some, else as equations."""
     left = dict.fromkeys(step.given)
     found = [language.word("with input")] if step.driven else []
-    for equations, words in GIVEN:
+    for equations, words in ASSUMPTIONS:
         if equations <= left.keys():
             found.append(language.word(words))
             left = {e: None for e in left if e not in equations}

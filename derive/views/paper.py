@@ -45,8 +45,8 @@ def as_text(findings: Sequence[Finding], language: Language = ENGLISH) -> str:
         derived = f.derived if f.verdict != "definition" else None
         example = _example(f, language) if f.counterexample else None
         holds = word(f.holds) if f.holds else None
-        told = (f.printed, derived, holds, example, word(f.remark))
-        for head, text in zip(heads, told, strict=True):
+        texts = (f.printed, derived, holds, example, word(f.remark))
+        for head, text in zip(heads, texts, strict=True):
             lines += _indented(f"{head:{wide}}  ", text) if text else []
     counts = Counter(f.verdict for f in findings)
     numbers = {x.split()[0]: str(counts[x]) for x in VERDICTS}
@@ -55,10 +55,10 @@ def as_text(findings: Sequence[Finding], language: Language = ENGLISH) -> str:
 
 def _example(f: Finding, language: Language) -> str:
     """The values at which a printed equation is false, and its two sides there."""
-    *given, (_, left), (_, right) = (f.counterexample or {}).items()
-    values = ",  ".join(" = ".join(x) for x in grouped(given))
-    said = "{values}: the left side is {left}, the printed right side {right}"
-    return language.word(said, values=values, left=left, right=right)
+    *point, (_, left), (_, right) = (f.counterexample or {}).items()
+    values = ",  ".join(" = ".join(x) for x in grouped(point))
+    template = "{values}: the left side is {left}, the printed right side {right}"
+    return language.word(template, values=values, left=left, right=right)
 
 
 def grouped(values: Iterable[tuple[str, str]]) -> Iterator[tuple[str, ...]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,14 +12,61 @@ from ..record.record import Derivation
 
 if TYPE_CHECKING:
     from ..paper.findings import Finding
+    from ..printing.notation import Notation
     from ..record.record import Step
+    from .language import Language
 
-FORMATS = ("text", "latex", "markdown", "html", "json")
 NOTES = (".tex", ".pdf", ".html", ".sty")
 
 
 class RenderError(Refused, ValueError):
     """A choice that has no sense, or TeX that is not there: the message says what to do."""
+
+
+def _text(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
+    from .text import step_text, text
+
+    if alone:
+        return "\n".join(step_text(step, language=words) for step in d.steps)
+    return text(d, language=words)
+
+
+def _latex(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
+    from .latex import latex
+
+    return latex(d, notation, language=words)
+
+
+def _markdown(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
+    from .markdown import markdown
+
+    return markdown(d, language=words)
+
+
+def _html(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
+    return notes([d], ".html", words.name, **vars(notation))
+
+
+def _json(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
+    from ..record.record import to_json
+
+    if alone:
+        raise RenderError("the JSON is of a whole walk: name no steps")
+    if words.name != "en":
+        raise RenderError("--lang: the JSON is in English, its messages and places are for any")
+    return to_json(d)
+
+
+FORMATS: dict[str, Callable[[Derivation, Language, Notation, bool], str]] = {
+    "text": _text,
+    "latex": _latex,
+    "markdown": _markdown,
+    "html": _html,
+    "json": _json,
+}
+"""Format → its text of a record, or of a record of some steps ``alone``, in a language."""
+LINKED = ("latex", "html")
+"""Formats whose references are links, and whose notation may be chosen."""
 
 
 def render(
@@ -33,42 +80,25 @@ def render(
 ) -> str:
     """A record in one of the formats, in one of the languages; or some ``steps`` of it alone.
 
-    :class:`RenderError` for choices that do not go together.
+    :class:`RenderError` for a format that is none, and for choices that do not go together.
     """
     from ..printing.notation import Notation
     from .language import language
 
+    if form not in FORMATS:
+        raise RenderError(f"no format {form[:40]!r}; there are {', '.join(FORMATS)}")
     if fragment and form != "latex":
         raise RenderError("--fragment is for --format latex")
-    if form not in ("latex", "html") and Notation(**notation) != Notation():
+    chosen = Notation(**notation)
+    if form not in LINKED and chosen != Notation():
         raise RenderError("--notation and --hat are for --format latex and html")
     if steps:
-        if form == "json":
-            raise RenderError("the JSON is of a whole walk: name no steps")
-        d = _of_steps(d, steps, linked=form in ("latex", "html"))
-    if form == "json":
-        from ..record.record import to_json
+        d = _of_steps(d, steps, linked=form in LINKED)
+    if fragment:
+        from .latex import fragment as fragment_of
 
-        if lang != "en":
-            raise RenderError("--lang: the JSON is in English, its messages and places are for any")
-        return to_json(d)
-    if form == "latex":
-        from . import latex
-
-        if fragment:
-            return latex.fragment(d, language=language(lang))
-        return latex.latex(d, Notation(**notation), language=language(lang))
-    if form == "markdown":
-        from .markdown import markdown
-
-        return markdown(d, language=language(lang))
-    if form == "html":
-        return notes([d], ".html", lang, fragment=False, **notation)
-    from .text import step_text, text
-
-    if steps:
-        return "\n".join(step_text(step, language=language(lang)) for step in steps)
-    return text(d, language=language(lang))
+        return fragment_of(d, language=language(lang))
+    return FORMATS[form](d, language(lang), chosen, bool(steps))
 
 
 def _of_steps(d: Derivation, steps: Sequence[Step], *, linked: bool) -> Derivation:
@@ -96,6 +126,8 @@ def notes(
     from .html import html
     from .language import language
 
+    if ending not in NOTES:
+        raise RenderError(f"no notes end in {ending[:40]!r}; they end in {', '.join(NOTES)}")
     chosen, words = Notation(**notation), language(lang)
     if fragment and ending != ".tex":
         raise RenderError("--fragment is LaTeX: give --out FILE.tex")

@@ -43,9 +43,9 @@ def _body(body: Mapping[str, Any]) -> Sentence:
 
 def _acting(problem: Mapping[str, Any]) -> Iterator[Sentence]:
     potentials, inputs = problem.get("potentials"), problem.get("inputs")
-    told = [p.get("kind") for p in potentials] if isinstance(potentials, list) else []
+    present = [p.get("kind") for p in potentials] if isinstance(potentials, list) else []
     for kind, about in kinds().items():
-        count = told.count(kind)
+        count = present.count(kind)
         if count > 1 and about.several:
             yield phrase(about.several, n=str(count))
         elif count:

@@ -36,9 +36,9 @@ def text(d: Derivation, width: int = 100, *, language: Language = ENGLISH) -> st
         blocks.append([*_underlined(language.word("Names"), "-", width)])
         named = [(show_name(s.name), language.of(s.meaning)) for s in d.symbols]
         blocks.append([line for name, about in named for line in _named(name, about, width)])
-    if given := [*_parameters(d, quoted, language)]:
+    if declared := [*_parameters(d, quoted, language)]:
         blocks.append([*_underlined(language.word("Parameters"), "-", width)])
-        blocks.append([line for name, about in given for line in _named(name, about, width)])
+        blocks.append([line for name, about in declared for line in _named(name, about, width)])
     lines = "\n\n".join("\n".join(line.rstrip() for line in block) for block in blocks)
     return "".join(c for c in lines if c in f"\n{NO_BREAK}" or c.isprintable()) + "\n"
 
@@ -78,10 +78,10 @@ def _parameters(
 
 def clashing(d: Derivation) -> frozenset[str]:
     """The parameters that would read like a name of the walk; text sets them in quotes."""
-    body, given = d.problem.get("body"), d.problem.get("parameters")
+    body, declared = d.problem.get("body"), d.problem.get("parameters")
     symbolic = isinstance(body, Mapping) and body.get("kind") == "moments"
     own = {"g", *(s.name for s in d.symbols)}
-    return unclear(own, [*map(str, given or ())], symbolic)
+    return unclear(own, [*map(str, declared or ())], symbolic)
 
 
 def _step(step: Step, width: int, quoted: frozenset[str], language: Language) -> Iterator[str]:
@@ -157,15 +157,15 @@ def _equation(lhs: str, e: Equation, column: int, room: int, language: Language)
 
 def _clause(e: Equation, language: Language) -> str:
     """For which names the equation holds: every one, or some; empty where nothing is said."""
-    said = []
+    clauses = []
     if names := quantified(e):
         shown, space = ", ".join(map(show_name, names)), domain(names)
         shown = f"({shown})" if len(names) > 1 and space else shown
         within = f" ∈ {space}" if space else ""
-        said.append(f"{language.word('for every')} {shown}{within}")
+        clauses.append(f"{language.word('for every')} {shown}{within}")
     if e.exists:
-        said.append(f"{language.word('for some')} {', '.join(map(show_name, e.exists))}")
-    return ", ".join(said)
+        clauses.append(f"{language.word('for some')} {', '.join(map(show_name, e.exists))}")
+    return ", ".join(clauses)
 
 
 def _broken(formula: str, room: int, indent: int) -> list[str]:

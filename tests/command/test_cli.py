@@ -11,6 +11,7 @@ import pytest
 
 from derive.command.cli import main, ready_made
 from derive.record.record import to_data, to_json
+from derive.views.rendering import FORMATS
 from tests.support.needs import CC, needs
 from tests.support.walks import record
 
@@ -37,7 +38,7 @@ def test_list(capsys):
     assert all(name in out for name in (*ready_made(), "SO(n)", "SE(n)", "SL(n)"))
 
 
-@pytest.mark.parametrize("form", ["text", "latex", "markdown", "json"])
+@pytest.mark.parametrize("form", FORMATS)
 def test_walk_formats(form, capsys, tmp_path):
     assert main(["walk", "so3", "--format", form]) == 0
     out = capsys.readouterr().out
@@ -215,7 +216,7 @@ def test_a_failing_step_says_what_and_where(capsys, tmp_path):
     assert "holds  linear.energy: 2 equations on B(2), SO(3), SL(3), GL(6)" in lines
 
 
-@pytest.mark.parametrize("form", ["text", "latex", "markdown", "html"])
+@pytest.mark.parametrize("form", [x for x in FORMATS if x != "json"])
 def test_steps_alone(form, capsys):
     """Those that are named, from any chapter, and no other."""
     assert main(["walk", "so3", "euler", "linear.kernel", "--format", form]) == 0

@@ -15,6 +15,7 @@ from derive.code.statements import comment
 from derive.command.cli import main
 from derive.command.guard import StoppedError, one_line, time_limit
 from derive.language import limits
+from derive.views.rendering import FORMATS
 from tests.fuzz.corpus import CORPUS, TOP, TURNED, bombs
 from tests.fuzz.hostile import STRINGS
 from tests.fuzz.mutate import case, quoted
@@ -182,7 +183,7 @@ def test_a_pipe_where_a_file_should_be(tmp_path, capsys):
     assert os.listdir(tmp_path) == ["so3.c"]
 
 
-@pytest.mark.parametrize("form", ["html", "json", "text", "latex", "markdown"])
+@pytest.mark.parametrize("form", FORMATS)
 def test_no_control_characters(form, tmp_path, capsys):
     path = tmp_path / "a.toml"
     words = r"a\u001b[31m\u202e\u0000\u009b31m\u0007 b"

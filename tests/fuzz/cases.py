@@ -7,12 +7,13 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from derive.check.checker import Checker
+from derive.code.languages import LANGUAGES
 from derive.pipeline import walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import load
 from derive.record.record import RecordError, from_json, to_json
 from derive.record.vocabulary import ANY_GROUP
-from derive.views.rendering import render
+from derive.views.rendering import FORMATS, render
 from tests.fuzz.mutate import SOLID, binary_stl, mesh
 from tests.fuzz.outputs import wrong_with
 from tests.fuzz.watch import SECONDS, judged, run, uncaught, watched
@@ -26,7 +27,7 @@ solid = "mesh"
 density = 2
 file = "{}"
 """
-OTHERS = [x for name in ("cpp", "rust", "julia", "javascript", "cvode") for x in ("--lang", name)]
+OTHERS = [x for name in LANGUAGES if name not in ("c", "python") for x in ("--lang", name)]
 COMMANDS = {
     "text": ("walk", "{}", "--out", "out/walk.txt"),
     "french": ("walk", "{}", "--lang", "fr", "--out", "out/walk.txt"),
@@ -123,7 +124,7 @@ def record_faults(text):
         except BaseException as error:
             return [("read", uncaught(error))]
         found = []
-        for form in ("text", "latex", "html", "markdown", "json"):
+        for form in FORMATS:
             try:
                 words = wrong_with(f"walk.{ENDINGS[form]}", render(record, form))
                 found += [(form, words)] if words else []

@@ -11,9 +11,7 @@ import io
 import os
 import sys
 
-LANGUAGES = ("c", "cpp", "cvode", "python", "rust", "julia", "javascript")
 WALKS = {"so3": ("en", "fr"), "se3": ("en", "fr"), "two_tops": ("en",), "affine": ("en",)}
-FORMATS = ("text", "latex", "markdown", "html", "json")
 FORMS = {
     "plain": ["so3", "se3", "sl3", "saff3", "comet", "top", "two_tops"],
     "principal": ["so3", "saff3"],
@@ -22,6 +20,10 @@ FORMS = {
 
 def commands(pdf):
     """The arguments of every run, and the file for its output."""
+    from derive.code.languages import LANGUAGES
+    from derive.views.rendering import FORMATS
+
+    able = [name for name, x in LANGUAGES.items() if x.framed and name != "cvode"]
     yield "list", ["list"]
     yield "build", ["build", "--print"]
     for name, languages in WALKS.items():
@@ -30,7 +32,7 @@ def commands(pdf):
                 yield f"{name}.{lang}.{form}", ["walk", name, "--format", form, "--lang", lang]
     for form, names in FORMS.items():
         for name in names:
-            written = LANGUAGES if form == "plain" else ("c", "cpp", "python")
+            written = LANGUAGES if form == "plain" else able
             chosen = [x for each in written for x in ("--lang", each)]
             chosen += ["--jacobian", "state"] if form == "plain" else ["--frame", form]
             out = f"{form}/{name}"

@@ -10,8 +10,8 @@ import pytest
 
 from derive import derive
 from derive.paper.findings import amendments
+from derive.printing.inline import inline, spelt
 from derive.printing.notation import Notation
-from derive.printing.spoken import spelt, spoken
 from derive.printing.tex import formula
 from derive.record.vocabulary import AMENDED
 from derive.views.html import html
@@ -151,7 +151,7 @@ def test_formulas_of_sentences():
         spelt("½ Tr αJᾱ").mathml()
         == formula(("mul", Fraction(1, 2), ("tr", ("mul", "α", "J", ("T", "α"))))).mathml()
     )
-    assert spoken("j(ζ)", Notation()).mathml() == formula(("hat", "ζ")).mathml()
+    assert inline("j(ζ)", Notation()).mathml() == formula(("hat", "ζ")).mathml()
 
 
 def test_other_notations():

@@ -153,7 +153,7 @@ def test_every_word_of_the_tables_is_in_the_catalogue():
     tables = (VOCABULARY, ROTATIONS, PRODUCTS, DISPLACEMENTS)
     words = {x.meaning for table in tables for x in table.values()}
     words |= {x for k in kinds().values() for x in (k.phrase, k.several, k.legend) if x}
-    words |= {*RULES, *(words for _, words in outline.GIVEN)}
+    words |= {*RULES, *(words for _, words in outline.ASSUMPTIONS)}
     words |= {p.remark for p in PAPER if p.remark}
     words |= {outline.CONVENTIONS, outline.FORMULAS_CONVENTIONS, outline.PAPER}
     assert words | titles_and_meanings() <= set(FRENCH.messages)

@@ -6,13 +6,19 @@ import pytest
 
 from derive.language.show import unclear
 from derive.printing.letters import names_of, parameter
-from tests.readers.read import PAGES, faults, misread
+from derive.views.rendering import FORMATS
+from tests.readers.read import PAGES, READERS, faults, misread
 from tests.support import printing_mutations, random_trees
 from tests.support.renamed import renamed
 from tests.support.walks import NAMES, OTHERS, record, repeated
 
 SEEDS = 4
 TREES = 500
+
+
+def test_every_format_has_a_reader():
+    assert {*FORMATS} == {*READERS, "json"}  # which the record itself reads
+    assert {*READERS} <= {*PAGES}
 
 
 @pytest.mark.parametrize("name", repeated(dict.fromkeys((*NAMES, *OTHERS))))

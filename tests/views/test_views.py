@@ -21,9 +21,10 @@ from derive.printing.wrap import Piece, display_width, fill
 from derive.problem.toml import load
 from derive.record.record import Derivation, Equation, Step, Symbol
 from derive.record.sentence import say
-from derive.views.latex import anchor, labels, latex, spelt
+from derive.views.latex import anchor, breakable, labels, latex
 from derive.views.markdown import markdown
 from derive.views.outline import printed
+from derive.views.rendering import FORMATS, NOTES, RenderError, notes, render
 from derive.views.text import text
 from tests.support.needs import need
 
@@ -68,6 +69,14 @@ def test_text_keeps_to_its_width(name: str, width: int) -> None:
     assert all(line == line.rstrip() for line in lines)
 
 
+@pytest.mark.parametrize("form", ["txt", "", "TEXT", "html "])
+def test_a_format_that_is_none(form: str) -> None:
+    with pytest.raises(RenderError, match=f"no format '{form}'; there are {', '.join(FORMATS)}"):
+        render(record("so3"), form)
+    with pytest.raises(RenderError, match=f"no notes end in '{form}'; .*{', '.join(NOTES)}"):
+        notes([record("so3")], form)
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_every_step_is_in_every_view(name: str) -> None:
     d = record(name)
@@ -75,7 +84,7 @@ def test_every_step_is_in_every_view(name: str) -> None:
     for step in d.steps:
         assert f"\n{step.label}  ·  {step.rule}" in plain
         assert f"— `{step.label}`\n" in marked
-        assert f"{{{spelt(step.label)}}}" in source
+        assert f"{{{breakable(step.label)}}}" in source
         heading = re.search(rf"^{re.escape(step.label)}  ·.*", plain, re.M)
         assert heading
         assert numbers(heading[0]) == set(step.paper)

@@ -45,7 +45,7 @@ SECOND = {
 }
 
 
-SPOKEN = re.compile(r"(?<![A-Za-z_])j\(([^()]*)\)")
+SKEW = re.compile(r"(?<![A-Za-z_])j\(([^()]*)\)")
 """The skew matrix of a vector, j(…), as a sentence has it."""
 
 
@@ -54,10 +54,10 @@ def math_text(formula: str) -> str:
     return spelt(formula).tex
 
 
-def spoken(formula: str, notation: Notation) -> Formula:
+def inline(formula: str, notation: Notation) -> Formula:
     """A formula of a sentence, in a notation, with j(X) as the skew matrix of X."""
     found, at = Formula(""), 0
-    for match in SPOKEN.finditer(formula):
+    for match in SKEW.finditer(formula):
         found += spelt(formula[at : match.start()], notation)
         found += hat(spelt(match[1], notation), notation)
         at = match.end()
