@@ -10,6 +10,7 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.relations import Relations, relations
 from ..language import rational as q
+from ..language.greek import SPELT
 from ..language.show import show
 from ..record.record import decode
 from .options import Options
@@ -160,9 +161,8 @@ def _places(problem: Mapping[str, Any]) -> dict[int, str]:
 
 def _ascii(text: str) -> str:
     """An expression as it may stand in an ASCII comment: 1/4 for the one letter, pi, ^2."""
-    for letter, shown in (("\u2212", "-"), ("π", "pi"), ("²", "^2"), ("³", "^3")):
-        text = text.replace(letter, shown)
-    return unicodedata.normalize("NFKD", text).replace("\u2044", "/")
+    spelt = str.maketrans(SPELT | {"\u2212": "-", "²": "^2", "³": "^3"})
+    return unicodedata.normalize("NFKD", text.translate(spelt)).replace("\u2044", "/")
 
 
 def _factors(group: Group, order: str) -> list[str]:

@@ -7,15 +7,17 @@ import unicodedata
 from collections.abc import Sequence
 from fractions import Fraction
 
+from ..language.greek import SPELT
 from ..language.reserved import WORDS
 from ..language.tree import Tree
 
-GREEK = {
-    "ζ": "zeta", "Ω": "omega", "φ": "phi", "θ": "multiplier", "γ": "gravity", "ξ": "xi", "η": "eta",
-    "μ": "moment", "α": "alpha", "τ": "tau", "β": "load", "σ": "tension", "χ": "reach",
-    "κ": "damping", "π": "pi", "ψ": "psi",
+MEANINGS = {
+    "Ω": "omega", "θ": "multiplier", "γ": "gravity", "μ": "moment", "β": "load", "σ": "tension",
+    "χ": "reach", "κ": "damping",
 }  # fmt: skip
-MARKS = {"\u0307": "_dot", "\u0303": "_tilde", "′": "_prime"}
+"""What letters of the walk stand for; other Greek letters have their names."""
+WORD_OF = SPELT | MEANINGS | {"\u0307": "_dot", "\u0303": "_tilde", "′": "_prime"}
+"""Letter or mark → its word in a name."""
 _LOCAL = "D axes dx frame i k n out p s t u x xp"
 _EMITTED = """
     abs all importlib numpy math regular std NULL STATE PARAMETERS INPUTS CONSTANTS DEFAULTS BASIS
@@ -49,11 +51,11 @@ PREFIXES = FILES | _WORDS | set(_EMITTED.split())
 
 
 def ascii_name(name: str) -> str:
-    """The name in ASCII: ``ζ̇`` as ``zeta_dot``, ``I_c`` as ``I_c``; other signs dropped."""
+    """The name in ASCII: ``ζ̇`` as ``zeta_dot``, ``I_c`` as ``I_c``; signs are dropped."""
     out = ""
     for ch in unicodedata.normalize("NFD", name):
         kept = ch if ch.isascii() and (ch.isalnum() or ch == "_") else ""
-        out += GREEK.get(ch, MARKS.get(ch, kept))
+        out += WORD_OF.get(ch, kept)
     return out
 
 

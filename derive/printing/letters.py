@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Mapping
 
+from ..language.greek import GREEK
 from ..record.record import Symbol
 from ..record.vocabulary import VOCABULARY
 from .escape import tex_text
-from .signs import GREEK
 
 NAMES = {name: x.latex for name, x in VOCABULARY.items()}
 HARMLESS = re.compile(

@@ -2,17 +2,8 @@
 
 from __future__ import annotations
 
-import unicodedata
+from ..language.greek import GREEK
 
-GREEK = {
-    name: unicodedata.lookup(f"GREEK {case} LETTER {name.upper()}")
-    for case, names in (
-        ("SMALL", "alpha beta gamma delta epsilon zeta eta theta iota kappa mu nu xi pi rho "
-         "sigma tau upsilon phi chi psi omega"),
-        ("CAPITAL", "Gamma Delta Theta Xi Pi Sigma Upsilon Phi Psi Omega"),
-    )
-    for name in names.split()
-}  # fmt: skip
 LETTERS = GREEK | {
     "varphi": "φ", "phi": "ϕ", "varpi": "ϖ", "lambda": "λ", "Lambda": "Λ", "partial": "∂",
     "nabla": "∇", "ell": "ℓ",
