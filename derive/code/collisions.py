@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 from ..language.reserved import STANDARD_MACROS
-from .languages import HASH, TargetLanguage
+from .languages import TargetLanguage
 from .program import Assignment, Check, EmittedFunction, Expression, Framing, Program, Section
 
 NAMELESS = "·"
@@ -21,11 +21,8 @@ NAMELESS = "·"
 
 _STRING = r'(?<![A-Za-z])"(?:[^"\\\n]|\\.)*"'
 """A string literal; not one with a letter before it, as an f-string holds names."""
-_SILENT = {
-    True: re.compile(rf'"""(?s:.*?)"""|{_STRING}|#.*'),
-    False: re.compile(rf"/\*(?s:.*?)\*/|//.*|#\s*include.*|{_STRING}"),
-}
-"""What no name is read in: comments, strings and includes; by whether comments begin with #."""
+_OF_C = re.compile(rf"/\*(?s:.*?)\*/|//.*|#\s*include.*|{_STRING}")
+"""Comments, strings and includes of a language whose comments are those of C or C++."""
 _IDENTIFIER = re.compile(r"(?<!\w)(?<!(?<!\.)\.)[^\W\d]\w*")
 """A name; not after a single dot (a member is no name by itself), but after ``...``."""
 
@@ -33,12 +30,20 @@ ONE = Fraction(1)
 
 
 def identifiers(text: str, language: TargetLanguage) -> set[str]:
-    """The names that a text of a language uses, comments and strings left out.
+    """The reserved words of a language, and what names a text of it has beside comments, strings.
 
     For C also the macros of the standard headers that a user may include before the emitted one.
     """
-    own = set(_IDENTIFIER.findall(_SILENT[language.comment == HASH].sub(" ", text)))
+    own = {*_IDENTIFIER.findall(_silent(language).sub(" ", text)), *language.reserved.split()}
     return own | STANDARD_MACROS if "c" in (language.name, language.needs) else own
+
+
+def _silent(language: TargetLanguage) -> re.Pattern[str]:
+    """What no name is read in: comments, strings, includes."""
+    sign = language.comment[0].strip()
+    if sign in ("/*", "//"):
+        return _OF_C
+    return re.compile(rf'"""(?s:.*?)"""|{_STRING}|{re.escape(sign)}.*')
 
 
 def hollowed(p: Program) -> Program:
@@ -69,25 +74,31 @@ def hollowed(p: Program) -> Program:
     )
 
 
-def without_collisions(p: Program, words: Iterable[str]) -> Program:
-    """The program with an underscore added to every loaded or computed name in ``words``."""
+def without_collisions(p: Program, words: Iterable[str], *, caseless: bool = False) -> Program:
+    """The program with an underscore added to every loaded or computed name in ``words``.
+
+    ``caseless``: names that differ by capitals alone are the same; the later one gets underscores.
+    """
+    key = str.lower if caseless else str
     functions = p.all_functions()
     # the time is an argument, whose name the templates give
     own = dict.fromkeys(x.name for f in functions for x in f.loads if x.array != "t")
     own |= dict.fromkeys(v.name for f in functions for s in f.sections for v in s.values)
-    taken = set(words)
-    clash = [name for name in own if name in taken]
-    if not clash:
-        return p
-    taken |= set(own)
+    taken, clash = {*map(key, words)}, []
+    for name in own:
+        if key(name) in taken:
+            clash.append(name)
+        elif caseless:
+            taken.add(key(name))
+    taken |= {*map(key, own)}
     new = {}
     for name in clash:
         other = name
-        while other in taken:
+        while key(other) in taken:
             other += "_"
-        taken.add(other)
+        taken.add(key(other))
         new[name] = other
-    return _each(p, lambda f: _renamed(f, new))
+    return _each(p, lambda f: _renamed(f, new)) if new else p
 
 
 def _each(p: Program, change: Any) -> Program:

@@ -52,7 +52,8 @@ def emit(
         own = {file: template for file, (language, template) in places.items() if language == name}
         language = LANGUAGES[name]
         skeleton = "\n".join(_rendered(hollowed(program), d, asked, language, own).values())
-        named = without_collisions(program, identifiers(skeleton, language))
+        words = identifiers(skeleton, language)
+        named = without_collisions(program, words, caseless=language.caseless)
         files |= _rendered(named, d, asked, language, own)
     return files
 

@@ -11,13 +11,16 @@ from .printers import SourcePrinter, decimal
 
 @dataclass(frozen=True)
 class TargetLanguage:
-    """A language is this table and a folder of templates.
+    """A language: an entry of the table below, and a folder of templates.
 
     ``files``: for each form of emission what follows the prefix in the names of the files, which
     is that of the templates as well unless one is named before a colon.
     ``declare``: a constant, of ``{real}``, ``{name}`` and ``{text}``; ``load`` reads entry
     ``{index}`` (counted from ``first``) of an array; ``batch`` the same of state s of n.
-    ``parenthesised``: a statement of several lines needs parentheses.
+    ``parenthesised``: a statement of several lines needs parentheses; ``continued``: what ends a
+    line of it that goes on.
+    ``reserved``: words, with spaces, that no name is in this language alone; ``caseless``: capitals
+    and small letters are the same.
     ``mutates``: how the name of a function ends that writes what it is given.
     ``needs``: a language whose files these ones include.  ``framed``: are there templates of
     what finds a principal frame?
@@ -33,6 +36,9 @@ class TargetLanguage:
     batch: str = ""
     first: int = 0
     parenthesised: bool = False
+    continued: str = ""
+    reserved: str = ""
+    caseless: bool = False
     mutates: str = ""
     needs: str = ""
     framed: bool = False

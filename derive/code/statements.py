@@ -35,12 +35,16 @@ class Statements:
             "unpacked": {array: self._unpacked(array, f) for array in self.sizes},
             "blocks": [self._block(x) for x in blocks(f)] if self.language.batch else [],
             "sections": [self._section(s) for s in f.sections],
-            "outputs": [wrapped(printer(e), TEXT - 12, " " * 8) for e in f.outputs],
+            "outputs": [self._wrapped(printer(e), TEXT - 12) for e in f.outputs],
             "titles": [self._comment(f.titles.get(i, "")) for i in range(len(f.outputs))],
             "checks": [self._check(c) for c in f.checks],
             "calls": sorted(f.calls()),
             "operations": operations(f),
         }
+
+    def _wrapped(self, text: str, width: int) -> str:
+        """An expression on several lines where it is wider than ``width``."""
+        return wrapped(text, width, " " * 8).replace("\n", f"{self.language.continued}\n")
 
     def _declared(self, name: str, text: str) -> str:
         real = self.language.reals[self.real]
@@ -97,9 +101,9 @@ class Statements:
     def _statement(self, name: str, expression: Any) -> str:
         text = self.language.printer(self.real)(expression)
         if not self.language.parenthesised:
-            return self._declared(name, wrapped(text, TEXT - 22 - len(name), " " * 8))
+            return self._declared(name, self._wrapped(text, TEXT - 22 - len(name)))
         if len(text) + len(name) > TEXT - 8:
-            text = f"(\n        {wrapped(text, TEXT - 10, ' ' * 8)}\n    )"
+            text = f"(\n        {self._wrapped(text, TEXT - 10)}\n    )"
         return self._declared(name, text)
 
     def _check(self, c: Check) -> dict[str, str]:
@@ -107,7 +111,7 @@ class Statements:
         scale = printer(c.scale) if c.scale is not None else ""
         value = printer(c.value)
         value = f"({value})" if " " in value else value
-        scale = wrapped(scale, TEXT - 44 - len(value), " " * 8)
+        scale = self._wrapped(scale, TEXT - 44 - len(value))
         return {"value": value, "scale": f"({scale})" if "+" in scale else scale}
 
 

@@ -10,6 +10,7 @@ import derive
 from derive import derive as walked
 from derive.algebra.families import FAMILIES, group, on_homogeneous, turning_about_a_point
 from derive.algebra.relations import relations
+from derive.code.languages import LANGUAGES
 from derive.problem.toml import problem_of
 from tests.problems import GROUPS, PROBLEMS
 from tests.support.emitted import compile_c, import_python, vector
@@ -236,7 +237,7 @@ def test_in_the_principal_frame_the_group_is_the_same(name, law, velocity, tmp_p
 
 
 def test_where_nothing_keeps_the_group_there_is_nothing_to_project(tmp_path):
-    files = walked("gl3").emit(tmp_path, ("c", "python", "rust", "julia", "javascript", "cpp"))
+    files = walked("gl3").emit(tmp_path, (*LANGUAGES,))
     for path, what in files.items():
         assert "project(" not in what, path
         assert "defect(" not in what, path

@@ -6,14 +6,26 @@ import numpy as np
 import pytest
 
 from derive import SE, Points, Potential, Problem, derive
+from derive.code.languages import LANGUAGES
 from tests.support.calls import T
-from tests.support.languages import BUILDS, RUSTC, Emitted, agree, command, known
+from tests.support.languages import (
+    BUILDS,
+    ONE_BUILD,
+    OTHERS,
+    PIECES,
+    REFERENCE,
+    RUSTC,
+    Emitted,
+    agree,
+    built,
+    command,
+    known,
+)
 from tests.support.needs import CC, need
 from tests.support.read_julia import Module, Numbers
 
 ALL = ("state", "inputs", "parameters")
 RUST_LIBRARY = ("--crate-type=lib", "--emit=metadata", "-Dwarnings")
-OTHERS = ("cpp", "rust", "julia", "javascript")
 BARE = Problem(  # nothing but numbers: no parameter, no constant, no input
     "bare",
     SE(2),
@@ -40,30 +52,35 @@ def emitted(tmp_path_factory):
     need("cc")
     folder = tmp_path_factory.mktemp("languages")
     plain = [
-        Emitted(name, BARE if name == "bare" else name, folder, ("c", "python", *OTHERS), chosen)
+        Emitted(name, BARE if name == "bare" else name, folder, (*REFERENCE, *OTHERS), chosen)
         for name, chosen in ((name, {"jacobian": x}) for name, x in PROBLEMS.items())
     ]
     framed = {"frame": "principal", "jacobian": ALL[:2]}
-    turned = Emitted("turned", "se3", folder, ("c", "python", "cpp"), framed, tolerance=1e-12)
+    able = tuple(x for x in (*REFERENCE, *OTHERS) if LANGUAGES[x].framed)
+    turned = Emitted("turned", "se3", folder, able, framed, tolerance=1e-12)
     reasons = {status for x in plain for status in x.reference["status"]}
     assert reasons == {0, 1, 2}
     assert {1, 2} <= {*plain[0].reference["status"]}
     return folder, plain, turned
 
 
+def test_every_language_is_built_and_compared():
+    assert {*LANGUAGES} == {*ONE_BUILD} | {*PIECES} | {"c"}
+    assert not {*ONE_BUILD} & {*PIECES}
+
+
 @pytest.mark.parametrize("build", BUILDS)
 def test_every_language_says_the_same(build, emitted):
     folder, plain, turned = emitted
-    has_frames = build not in ("julia", "javascript", "rust2021", "rust2024")
-    agree(build, folder, [*plain, turned] if has_frames else plain)
+    agree(build, folder, [*plain, turned] if LANGUAGES[BUILDS[build][0]].framed else plain)
 
 
-@pytest.mark.parametrize("build", ["rust2021", "javascript", "julia", "g++17"])
+@pytest.mark.parametrize("build", built(but=REFERENCE))
 def test_floats_agree_to_their_accuracy(build, tmp_path):
     need("cc")
     problems = {"se3": ("se3", ALL), "bare": (BARE, ALL[:1])}
     chosen = [
-        Emitted(name, problem, tmp_path, ("c", "python", *OTHERS), {"jacobian": x}, "float")
+        Emitted(name, problem, tmp_path, (*REFERENCE, *OTHERS), {"jacobian": x}, "float")
         for name, (problem, x) in problems.items()
     ]
     agree(build, tmp_path, chosen, "float", 2e-6)
@@ -103,7 +120,8 @@ def worded(tmp_path_factory):
     problem = Problem("words", SE(2), points, Potential(U), dict.fromkeys(words, 1.5))
     folder = tmp_path_factory.mktemp("words")
     files = derive(problem).emit(folder, ("c", *OTHERS), jacobian=(ALL[0], ALL[2]))
-    assert all(f'"{w}"' in files[f"words.{x}"] for w in words for x in ("rs", "jl", "mjs", "hpp"))
+    texts = [files[f"words{end}"] for x in OTHERS for end in LANGUAGES[x].files["source"]]
+    assert all(f'"{w}"' in text for w in words for text in texts)
     return folder
 
 

@@ -5,15 +5,20 @@ with a reason, or the code that has it gives the numbers of the same problem und
 """
 
 import re
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
 from derive import SE, SL, Gravity, Points, Potential, Problem, Spring, derive
+from derive.code.collisions import identifiers, without_collisions
+from derive.code.languages import LANGUAGES
+from derive.code.statements import Statements
+from derive.pipeline import program
 from derive.problem.problem import ProblemError
 from tests.support.emitted import compile_c, import_python
-from tests.support.languages import BUILDS, Emitted, agree, known
+from tests.support.languages import BUILDS, REFERENCE, Emitted, agree, built, known
 from tests.support.needs import CC, needs
 
 LINEARISED = ("state", "inputs", "parameters")
@@ -76,14 +81,14 @@ def plain(names):
 
 @needs("cc")
 @pytest.mark.parametrize("part", range(PARTS))
-@pytest.mark.parametrize("build", ["rust2021", "javascript", "g++17", "julia"])
+@pytest.mark.parametrize("build", built(but=REFERENCE))
 def test_in_a_language(build, part, tmp_path):
-    known(build, BUILDS[build][1])
-    language = {"rust2021": "rust", "g++17": "cpp"}.get(build, build)
+    language, _, program = BUILDS[build]
+    known(build, program)
     names = words(language)[part::PARTS]
     assert len(names) > 50
     worded, neutral = (
-        Emitted(own, problem(used, own), tmp_path, ("c", "python", language), {})
+        Emitted(own, problem(used, own), tmp_path, (*REFERENCE, language), {})
         for own, used in (("worded", names), ("neutral", plain(names)))
     )
     worded.reference = neutral.reference
@@ -124,3 +129,51 @@ def test_in_c_and_in_python(language, framed, part, tmp_path):
         assert np.allclose(ours.rhs(0.3, x, ours.constants(p[1])), found[1, :-1], 1e-12, 1e-12)
     scale = np.abs(expected).max()
     assert np.abs(np.array(found) - expected).max() < 1e-12 * scale
+
+
+FORTRAN = replace(
+    LANGUAGES["julia"],
+    name="fortran",
+    comment=("! ", "! ", ""),
+    parenthesised=False,
+    continued=" &",
+    reserved="allocate where",
+    caseless=True,
+)
+"""What an entry can say of a language with comments, words and lines of its own, without case."""
+
+
+def made(named):
+    d = derive(named)
+    return program(d.problem, d.record)
+
+
+def names_in(p):
+    """What the functions of a program load and compute, each once."""
+    own = (x for f in p.all_functions() for x in f.loads if x.array != "t")
+    values = (v for f in p.all_functions() for s in f.sections for v in s.values)
+    return [*dict.fromkeys(x.name for x in (*own, *values))]
+
+
+def test_names_without_case_and_words_of_one_language():
+    p = made(problem(["Ka", "ka", "Allocate", "allocate_", "pure"]))
+    words = identifiers('x = PURE ! where not "string"\n', FORTRAN)
+    assert words == {"x", "PURE", "allocate", "where"}
+    own, apart = names_in(p), names_in(without_collisions(p, words, caseless=True))
+    assert len({x.lower() for x in own}) < len(own)
+    assert len({x.lower() for x in apart}) == len(apart) == len(own)
+    assert not {x.lower() for x in apart} & {x.lower() for x in words}
+    assert names_in(without_collisions(p, words)) == own  # none of these in so many letters
+
+
+def test_a_line_that_goes_on_says_so():
+    p = made("se3")
+    sizes = {"x": len(p.state), "k": len(p.constants), "u": len(p.inputs), "p": len(p.parameters)}
+    text = Statements(FORTRAN, "double", sizes).function(p.functions["rhs"])
+    rows = [x.split("\n") for s in text["sections"] for x in s["statements"]] + [
+        x.split("\n") for x in text["outputs"]
+    ]
+    assert any(len(x) > 1 for x in rows)
+    assert all(line.endswith(" &") for x in rows for line in x[:-1])
+    assert not any(x[-1].endswith("&") for x in rows)
+    assert all(line.startswith("! ") for s in text["sections"] for line in s["comment"])

@@ -43,7 +43,6 @@ stiffness = "k"
 length = VALUE
 """
 GROUPS = ("SE(3)", "SL(3)", "SAff(3)")
-LANGUAGES = ("c", "python", "rust", "javascript")
 
 
 def made(group, length, folder, **options):
@@ -51,7 +50,7 @@ def made(group, length, folder, **options):
     text = TIED.replace("GROUP", group).replace("LENGTH", "l = 0" if length else "")
     d = derive(problem_of(tomllib.loads(text.replace("VALUE", '"l"' if length else "0"))))
     folder.mkdir(exist_ok=True)
-    d.emit(folder, LANGUAGES, **options)
+    d.emit(folder, ("c", "python", *OTHERS), **options)
     return import_python("tied", folder), d
 
 

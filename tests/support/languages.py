@@ -240,22 +240,32 @@ def listed(names):
 
 
 BUILDS = {
-    "python": (python, []),
-    "julia": (julia, []),
-    "javascript": (javascript, ["node"]),
-    "rust2021": (rust, [RUSTC, "--edition=2021"]),
-    "rust2024": (rust, [RUSTC, "--edition=2024"]),
+    "python": ("python", python, []),
+    "julia": ("julia", julia, []),
+    "javascript": ("javascript", javascript, ["node"]),
+    "rust2021": ("rust", rust, [RUSTC, "--edition=2021"]),
+    "rust2024": ("rust", rust, [RUSTC, "--edition=2024"]),
 } | {
-    f"{compiler}{year}": (cpp, [compiler, f"-std=c++{year}"])
+    f"{compiler}{year}": ("cpp", cpp, [compiler, f"-std=c++{year}"])
     for compiler in ("g++", "clang++")
     for year in (17, 20)
 }
-"""A language, or its compiler and standard → how it is run, and with which words."""
+"""A language, or its compiler and standard → the language, how it is run, and with which words."""
+REFERENCE, PIECES = ("c", "python"), {"cvode": cvode}
+"""What every case is emitted in, and languages of one function, run by themselves."""
+OTHERS = tuple(x for x in LANGUAGES if x not in (*REFERENCE, *PIECES))
+ONE_BUILD = {language: build for build, (language, *_) in reversed(BUILDS.items())}
+"""The first build of each language."""
+
+
+def built(*, but=()):
+    """Those first builds, but for some languages."""
+    return [build for language, build in reversed(ONE_BUILD.items()) if language not in but]
 
 
 def run(build, folder, emitted, real="double"):
     """name of a problem → (what, words) of all that it shows."""
-    function, words = BUILDS[build]
+    _, function, words = BUILDS[build]
     known(build, words)
     return function(folder, emitted, real, words)
 
@@ -264,4 +274,4 @@ def agree(build, folder, emitted, real="double", tolerance=None):
     """All that a build shows of the problems equals what the C makes of them."""
     found = run(build, folder, emitted, real)
     for x in emitted:
-        x.compare(found[x.name], tolerance, told=BUILDS[build][0] is not cpp)
+        x.compare(found[x.name], tolerance, told=BUILDS[build][0] != "cpp")

@@ -7,9 +7,10 @@ import shutil
 import numpy as np
 import pytest
 
+from derive.code.languages import LANGUAGES
 from tests.support.calls import T
 from tests.support.emitted import compile_c
-from tests.support.languages import Emitted, agree, cvode
+from tests.support.languages import BUILDS, ONE_BUILD, Emitted, agree, cvode
 from tests.support.needs import CC, need
 
 SIZE = 6
@@ -20,9 +21,8 @@ SIZE = 6
 def so3(tmp_path_factory):
     """The solid about a point in all languages, with all that it can be linearised in."""
     need("cc")
-    languages = ("c", "python", "cpp", "rust", "julia", "javascript", "cvode")
     chosen = {"jacobian": ("state", "inputs", "parameters")}
-    return Emitted("so3", "so3", tmp_path_factory.mktemp("right"), languages, chosen)
+    return Emitted("so3", "so3", tmp_path_factory.mktemp("right"), LANGUAGES, chosen)
 
 
 def put(old, new):
@@ -116,6 +116,10 @@ def wrong(case, tmp_path, name, change):
     assert text != case.files[name]
     (tmp_path / name).write_text(text, encoding="utf-8")
     return tmp_path
+
+
+def test_every_language_that_is_built_has_faults():
+    assert {BUILDS[build][0] for build in FAULTS} == {*ONE_BUILD}
 
 
 @pytest.mark.parametrize("build", FAULTS)
