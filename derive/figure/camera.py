@@ -38,8 +38,7 @@ FLAT = View(*UNITS, flat=True)
 
 
 def upright(gravity: Vector) -> tuple[Vector, Vector, Vector]:
-    """The axes that come forward, go right and go up: the one nearest to the vertical goes up, the
-    third without gravity."""
+    """The axes forward, right and up: the one nearest to gravity goes up, else the third."""
     k = max(range(3), key=lambda i: (abs(gravity[i]), i))
     first, second = UNITS[(k + 1) % 3], UNITS[(k + 2) % 3]
     if gravity[k] > 0:

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from ..printing.letters import parameter
+from ..printing.line_breaking import display_width
 from ..printing.signs import SYMBOLS
-from ..printing.wrap import display_width
 from ..record.sentence import Prose
 
 Point = tuple[float, float]
@@ -28,12 +28,7 @@ HEAD, HALF_HEAD = 2.3, 0.75
 
 @dataclass(frozen=True)
 class Stroke:
-    """A line through points, or the outline of an area.
-
-    ``role``: what it belongs to, ``body``, ``axis``, ``spring``, ``support``, ``attraction``,
-    ``gravity`` or ``force``; ``pen``: ``line``, ``thin``, ``dashed``, ``hidden`` (dashed and pale),
-    ``wash`` (a pale area) or ``solid`` (a full one).
-    """
+    """A line through points, or the outline of an area; ``role``: what it draws, ``pen``: how."""
 
     points: tuple[Point, ...]
     role: str
@@ -42,7 +37,7 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Dot:
-    """A disc, or a ``ring`` with an empty middle."""
+    """A disc, or a ``ring`` with an empty middle; ``role``: what it draws."""
 
     at: Point
     radius: float

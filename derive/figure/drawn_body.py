@@ -86,8 +86,8 @@ class Numbers:
 
 
 def _fraction(data: Any) -> float | None:
-    """A number as it stands in the record, without decoding it as an expression: a mesh has a
-    hundred thousand of them."""
+    """A number as the record has it, not decoded as an expression: a mesh has a hundred
+    thousand."""
     if isinstance(data, (int, float)):
         return float(data)
     over, stroke, under = data.partition("/") if isinstance(data, str) else ("", "", "")

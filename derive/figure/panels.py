@@ -14,14 +14,13 @@ from .meshes import Mesh
 from .shapes import Curve, Shape
 
 FAR, NEAR, PLACED = 1.9, 0.35, 1.5
-"""Distances in sizes of the body: an anchor beyond FAR or within NEAR is drawn at the distance
-PLACED."""
+"""Distances in sizes of the body: an anchor beyond FAR or within NEAR is drawn at PLACED."""
 
 Body = Shape | Mesh
 
 
 class Panel:
-    """A part of the body with its forces, before it is drawn.
+    """A panel: the part of a body that one factor of the group moves, with its forces.
 
     First ``look`` at it, then set ``scale`` and ``offset``.
     """

@@ -155,7 +155,7 @@ class Shape:
 
 
 def _affine_map(solid: DrawnSolid) -> tuple[list[Vector], Vector]:
-    """The columns of A, and s."""
+    """The affine map u ↦ A u + s from the reference shape to a solid: the columns of A, and s."""
     k, s = solid.kind, solid.sizes
     R, shift = solid.rotation, solid.shift
     if k == "tetrahedron":

@@ -18,7 +18,7 @@ from .escape import formula_ok, tex_text
 from .inline import spelt
 from .juxtaposition import number, outside, separator
 from .letters import NAMES, parameter
-from .measure import measure
+from .line_breaking import Piece, fill
 from .notation import Notation
 from .spelling import named, parameter_formula, transposed
 from .typeset import (
@@ -48,7 +48,7 @@ from .typeset import (
     upright,
     word,
 )
-from .wrap import Piece, fill
+from .widths import measure
 
 SCRIPTED = re.compile(r"\^|'.*_")
 OPENING = re.compile(r"\(|\[|\\(?:langle|lVert)(?![A-Za-z])")

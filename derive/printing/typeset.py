@@ -15,10 +15,10 @@ from functools import lru_cache
 from html import escape
 from typing import NamedTuple
 
+from .line_breaking import COMMA, FACTOR, WEDGE
+from .line_breaking import SUM as TERM
 from .notation import Notation
 from .signs import LETTERS
-from .wrap import COMMA, FACTOR, WEDGE
-from .wrap import SUM as TERM
 
 BREAKS = {"\x01": COMMA, "\x02": TERM, "\x03": WEDGE, "\x04": FACTOR}
 AFTER_COMMA, BEFORE_TERM, BEFORE_WEDGE, BEFORE_FACTOR = BREAKS

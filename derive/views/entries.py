@@ -9,9 +9,9 @@ from itertools import groupby
 
 from ..language.show import show
 from ..language.tree import Tree
-from ..printing.measure import measure
+from ..printing.line_breaking import display_width
 from ..printing.tex import latex_tree
-from ..printing.wrap import display_width
+from ..printing.widths import measure
 from ..record.record import Equation
 
 TABLE, CELL, ROW = 4, 24, 72

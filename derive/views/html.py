@@ -15,12 +15,12 @@ from ..language.tree import Tree
 from ..paper.findings import Finding
 from ..printing.escape import between_dollars, prose
 from ..printing.inline import inline, spelt
+from ..printing.line_breaking import groups
 from ..printing.macros import standard
-from ..printing.measure import measure
 from ..printing.notation import Notation
 from ..printing.tex import Cut, cut_up, formula, joined
 from ..printing.typeset import Formula, literal, plain
-from ..printing.wrap import groups
+from ..printing.widths import measure
 from ..record.record import Derivation, Equation, Step
 from .book import MOTION, REGULAR, BookPart, book, parameters
 from .corrections import Passage, corrections

@@ -8,11 +8,11 @@ from itertools import groupby
 
 from ..printing.escape import tex_text
 from ..printing.inline import spelt
-from ..printing.measure import measure
+from ..printing.line_breaking import Line, fill
 from ..printing.notation import Notation
 from ..printing.tex import formula, guarded, joined, latex_tree, marked, paren, pieces
 from ..printing.typeset import Formula, literal, plain, text
-from ..printing.wrap import Line, fill
+from ..printing.widths import measure
 from ..record.record import Equation
 from .entries import Entry, entries
 from .language import ENGLISH, Language

@@ -9,7 +9,7 @@ from itertools import groupby
 
 from ..language.show import in_quotes, show, show_name, unclear
 from ..printing.escape import NO_BREAK
-from ..printing.wrap import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
+from ..printing.line_breaking import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
 from ..record.record import Derivation, Equation, Step
 from .entries import TABLE, cell
 from .language import ENGLISH, Language

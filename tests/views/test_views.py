@@ -15,9 +15,9 @@ from derive.language.show import show
 from derive.pipeline import walk
 from derive.printing.escape import markdown_text, prose, tex_text
 from derive.printing.letters import names_of, parameter
+from derive.printing.line_breaking import Piece, display_width, fill
 from derive.printing.spelling import bar
 from derive.printing.tex import latex_tree
-from derive.printing.wrap import Piece, display_width, fill
 from derive.problem.toml import load
 from derive.record.record import Derivation, Equation, Step, Symbol
 from derive.record.sentence import say
