@@ -120,7 +120,7 @@ def fragment(
 
 
 WITHOUT_KEYS = r"\providecommand{\walkalso}[2]{}"
-"""The one macro newer than most preambles, so that a fragment needs no more than before."""
+"""An empty definition of the one macro of a fragment that older preambles lack."""
 
 ROOM = "0.4\\textheight"
 """The space that must be left on a page for a section and its figure to begin there."""

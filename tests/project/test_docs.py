@@ -15,6 +15,7 @@ from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.schema.kinds import kinds, words
 from derive.schema.solid_kinds import SOLIDS
+from derive.views.rendering import FORMATS
 from tests.project.test_layers import ALLOWED
 from tests.support.needs import need, needs
 from tests.support.pages import FENCE, PAGES, ROOT, TARGETS, Reader, blocks, shown
@@ -49,6 +50,12 @@ def test_the_pages_are_found():
     kinds = {x.kind for page in PAGES for x in blocks(page)}
     run = {*LANGUAGES} - {"julia", "cvode"}  # no page has a program for these
     assert {"sh", "toml", "cmake", "latex"} | run <= kinds
+
+
+def test_languages_and_formats_are_named():
+    assert re.findall(r"^\| `(\w+)` \| `so3", PAGES["docs/code.md"], re.M) == [*LANGUAGES]
+    line = re.search(r"--format (\w+) .*or (.*):", PAGES["docs/commands.md"])
+    assert {"text", line[1], *line[2].split(", ")} == {*FORMATS}
 
 
 @pytest.mark.parametrize("page", [x for x in PAGES if any(y.kind == "toml" for y in blocks(x))])
