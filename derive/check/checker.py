@@ -3,7 +3,7 @@
 The names of a step are given the values that they mean (:mod:`derive.check.meaning`) at random
 exact points of the group, and both sides must agree, with no tolerance.  A false equation survives
 with probability at most  degree / size  (Schwartz–Zippel), the degree being that of what is
-computed (:mod:`derive.check.counted`).  Nothing is imported from the walk.
+computed (:mod:`derive.check.grades`).  Nothing is imported from the walk.
 """
 
 from __future__ import annotations
@@ -21,15 +21,20 @@ from ..language.show import show
 from ..language.tree import Tree
 from ..record.record import Derivation, Equation, RecordError, Step, to_json
 from ..record.vocabulary import ANY_GROUP
-from . import calls, symbols
+from . import symbols, well_formedness
 from .arithmetic import EvaluationError
-from .assumed import Assumed, assumed
-from .differ import difference, largest_degree
-from .introduced import unexplained
-from .needed import ORDER, false_hypothesis, missing_hypothesis, missing_mass_hypotheses
-from .panel import LEAST, fault_for_any_group, free, sizes
-from .tried import SIZE, TrialPoints, action_of
-from .used import unused
+from .definitions import unexplained
+from .dependencies import unused
+from .equation_sides import difference, largest_degree
+from .locus import Locus, locus_of
+from .necessary_hypotheses import (
+    ORDER,
+    false_hypothesis,
+    missing_hypothesis,
+    missing_mass_hypotheses,
+)
+from .trial_groups import LEAST, fault_for_any_group, free, sizes
+from .trial_points import SIZE, TrialPoints, action_of
 
 LARGEST_DEGREE = 2**24
 """The largest Schwartz–Zippel degree of a claim that is tried: its numbers have 128 times as many
@@ -102,14 +107,14 @@ class Checker(TrialPoints):
             if reason := fault_for_any_group(side):
                 raise RecordError(reason)
         action = action_of(self.problem)
-        _, grade = self.graded(free(action, LEAST), step, equation)
+        _, grade = self.grade(free(action, LEAST), step, equation)
         return (*found, *(free(action, n) for n in sizes(grade)))
 
     def bound(self, step: Step) -> int:
         """The Schwartz–Zippel degree of a step's claims; ``RecordError`` if it is too large."""
         degrees = [0, *(self.degree(step, e) for e in step.equations)]
         for g in self.groups(step.scope, driven=step.driven):
-            env = self.counted(g, step)[1]
+            env = self.graded_point(g, step)[1]
             degrees += (largest_degree(x.of, env) for x in step.hypotheses)
         return self.checked_degree(max(degrees))
 
@@ -124,7 +129,7 @@ class Checker(TrialPoints):
         """The largest degree of an equation on its groups; ``RefusedError`` if it has none."""
         try:
             groups = self.groups_for(step, equation)
-            return max(self.graded(g, step, equation)[0] for g in groups)
+            return max(self.grade(g, step, equation)[0] for g in groups)
         except (EvaluationError, RecordError) as error:
             raise RefusedError(refusal(step, equation, str(error))) from error
 
@@ -147,13 +152,13 @@ class Checker(TrialPoints):
     def degree_if_true(self, step: Step) -> int:
         """The Schwartz–Zippel degree of a step whose claims all hold; ``RefusedError`` or another
         error where one does not."""
-        at, affine = assumed(step), action_of(self.problem) == "affine"
+        at, affine = locus_of(step), action_of(self.problem) == "affine"
         groups = self.groups(step.scope, driven=step.driven)
         for e in step.equations:
             if reason := ill_formed(e, at, affine=affine):
                 raise RefusedError(refusal(step, e, reason))
         for x in (*(x.of for x in step.hypotheses), *(e.lhs for e in step.given)):
-            if reason := calls.first_fault(x, affine=affine):
+            if reason := well_formedness.first_fault(x, affine=affine):
                 raise RefusedError(Verdict(step.label, False, reason, 1.0))
         sides = (x for e in (*step.equations, *step.given) for x in (e.lhs, e.rhs))
         if any(bit_count(x) > MOST_BITS for x in (*sides, *(x.of for x in step.hypotheses))):
@@ -187,8 +192,8 @@ class Checker(TrialPoints):
         model, env = self.point(g, step)
         for e in step.given:
             if reason := difference(e, env):
-                said = f"what is given, {show(e.lhs)} = {show(e.rhs)}, cannot be tried"
-                return f"{said}: {reason}"
+                what = f"what is given, {show(e.lhs)} = {show(e.rhs)}, cannot be tried"
+                return f"{what}: {reason}"
         if any(x.property in ORDER for x in step.hypotheses):
             ordered = [self.environment(g, step, size) for size in ORDERED]
         else:
@@ -219,9 +224,9 @@ class Checker(TrialPoints):
 
 def refusal(step: Step, equation: Equation, reason: str, where: str = "") -> Verdict:
     """The verdict on a step that fails by one of its equations, which its reason quotes."""
-    said = f"{show(equation.lhs)} = {show(equation.rhs)}"
-    said = said if len(said) <= SHOWN else f"{said[:SHOWN]} …"
-    place = f"{step.key(equation)}{where}, {said}"
+    text = f"{show(equation.lhs)} = {show(equation.rhs)}"
+    text = text if len(text) <= SHOWN else f"{text[:SHOWN]} …"
+    place = f"{step.key(equation)}{where}, {text}"
     return Verdict(step.label, False, f"{place}: {reason}", 1.0)
 
 
@@ -236,10 +241,10 @@ def bit_count(t: Tree) -> int:
     return sum(bit_count(x) for x in t[1:])
 
 
-def ill_formed(equation: Equation, at: Assumed, *, affine: bool) -> str:
+def ill_formed(equation: Equation, at: Locus, *, affine: bool) -> str:
     """What is wrong with a head, argument, index or quantifier of an equation; "" if nothing is."""
-    both = (calls.first_fault(x, affine=affine) for x in (equation.lhs, equation.rhs))
-    return next(filter(None, both), "") or calls.quantifier_fault(equation, at)
+    both = (well_formedness.first_fault(x, affine=affine) for x in (equation.lhs, equation.rhs))
+    return next(filter(None, both), "") or well_formedness.quantifier_fault(equation, at)
 
 
 def fresh_seed() -> int:
@@ -272,5 +277,5 @@ def verdicts(d: Derivation, seed: int | None = None) -> Iterator[Verdict]:
     )
     for verdict, (new, old, other) in zip(map(checker.check, d.steps), faults, strict=True):
         reason = UNEXPLAINED.format(new) if new else UNUSED.format(old) if old else other
-        said = not reason or not verdict.holds
-        yield verdict if said else Verdict(verdict.label, False, reason, 1.0)
+        stands = not reason or not verdict.holds
+        yield verdict if stands else Verdict(verdict.label, False, reason, 1.0)

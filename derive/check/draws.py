@@ -10,9 +10,9 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.samplers import Source
 from ..language.rational import Matrix
-from .counted import Counted, DegreeSource, indeterminate
+from .elementary_values import ElementaryValues
 from .evaluate import Environment
-from .opaque import ElementaryValues
+from .grades import DegreeSource, Graded, indeterminate
 
 SPARE = 2
 """So many points more than are needed, where the problem leaves them open: no equation may hold by
@@ -23,7 +23,7 @@ class Draws:
     """The random numbers of a model before it has points, and the values of the problem's own
     expressions in them.
 
-    ``size``: integers are drawn within ±size. ``opaque``: the potential is left open, and with it
+    ``size``: integers are drawn within ±size. ``generic``: the potential is left open, and with it
     inputs and places. ``pi``: the value of π, else any number; ``few``: no spare points; ``zero``:
     the names of parameters that vanish.
     """
@@ -35,25 +35,25 @@ class Draws:
         random: Source,
         size: int,
         *,
-        opaque: bool = False,
+        generic: bool = False,
         pi: Fraction | None = None,
         few: bool = False,
         zero: Collection[str] = (),
     ):
         self.problem, self.group, self.random, self.size = problem, group, random, size
-        self.opaque, self.spare, self.n = opaque, 0 if few else SPARE, group.n
+        self.generic, self.spare, self.n = generic, 0 if few else SPARE, group.n
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
         self.parameters |= dict.fromkeys(zero, Fraction(0))
         self.elementary = ElementaryValues(lambda: self.draw(positive=True))
-        self.counted = isinstance(random, DegreeSource)
-        self.unit = indeterminate(0, 1) if self.counted else Fraction(1)
+        self.graded = isinstance(random, DegreeSource)
+        self.unit = indeterminate(0, 1) if self.graded else Fraction(1)
         self.pi = self.draw(positive=True) if pi is None else pi
 
     def draw(self, *, positive: bool = False, slots: int = 0) -> Any:
         """A random integer of the ring drawn from, ``positive`` from 1 on; ``slots``: counted as an
         entry of a tensor of so many indices."""
         x = Fraction(1) * self.random.randint(1 if positive else -self.size, self.size)
-        return indeterminate(slots) if isinstance(x, Counted) else x
+        return indeterminate(slots) if isinstance(x, Graded) else x
 
     def place(self) -> tuple[Any, ...]:
         """A random point of space, n numbers."""
@@ -70,8 +70,8 @@ class Draws:
             self.n, {"π": self.pi}, parameters=self.parameters, elementary=self.elementary
         )
 
-    def given(self, kind: str) -> list[Mapping[str, Any]]:
+    def inputs_of(self, kind: str) -> list[Mapping[str, Any]]:
         """The inputs of a kind, "force" or "covector"; none where the potential is left open."""
-        if self.opaque:
+        if self.generic:
             return []
         return [i for i in self.problem.get("inputs", []) if i["kind"] == kind]

@@ -30,7 +30,7 @@ from .arithmetic import (
     transpose,
     wedge,
 )
-from .heads import AXIS, COUNTED, MATRIX, POINT
+from .function_signatures import AXIS, INDEX_SETS, MATRIX, POINT
 
 LARGEST_NESTING = 3
 
@@ -167,7 +167,7 @@ def _spans(t: Tree, index: str, env: Environment) -> Iterator[tuple[str, set[int
         family = env.families.get(t[1])
         if not family:
             raise EvaluationError(f"no members of {t[1]!r}")
-        yield COUNTED[t[1]], {i for (i,) in family}
+        yield INDEX_SETS[t[1]], {i for (i,) in family}
     else:
         for part in t[1:]:
             yield from _spans(part, index, env)
@@ -208,7 +208,7 @@ def _index(i: Any, env: Environment) -> int:
 
 
 def _at(t: tuple[Any, ...], env: Environment) -> Value:
-    number = point_index if COUNTED.get(t[1]) == POINT else _index
+    number = point_index if INDEX_SETS.get(t[1]) == POINT else _index
     key = tuple(number(i, env) for i in t[2:])
     try:
         return env.families[t[1]][key]

@@ -11,31 +11,31 @@ from typing import Any
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.tree import Tree
-from .acting import exerted_families, exerted_values
 from .arithmetic import EvaluationError, is_matrix, times
-from .duals import dual_values, space_values
 from .evaluate import Environment, evaluate, point_index
-from .heads import MOVED_PLACE, SHARED
+from .force_balance import centred_values, solution_values
+from .function_signatures import MOVED_PLACE, SHARED
+from .generalised_forces import force_families, force_values
 from .integrals import integral, moved, place_values
 from .lifts import ON_TANGENT, action_varied, form_rate
 from .model import Direction, Model
+from .momenta import momentum_values, space_values
 from .nilpotent import EPS, EPS_PRIME, derivative_of, nilpotent, part
 from .points import listed_count
-from .solved import centred_values, solved_values
-from .spatial import axial, moments_about, spatial_values
+from .rigid_body import axial, moments_about, rigid_body_values
 
 Values = dict[str, Any]
 
 
-class Names(Mapping[str, Any]):
+class NameValues(Mapping[str, Any]):
     """The mapping from names to values at a model; groups of them are computed when a name is first
     asked for that no earlier group has."""
 
     def __init__(self, model: Model):
         self.model = model
         self.known: Values = {}
-        self.pending = [_times, _bodies, _group, _forces, _energies, spatial_values]
-        self.pending += [_gradients, _motion, dual_values, place_values]
+        self.pending = [_times, _bodies, _group, _forces, _energies, rigid_body_values]
+        self.pending += [_gradients, _motion, momentum_values, place_values]
 
     def __getitem__(self, name: str) -> Any:
         while name not in self.known and self.pending:
@@ -59,7 +59,7 @@ def environment(model: Model) -> Environment:
     """The environment in which the equations of a record are claims."""
     return Environment(
         model.n,
-        Names(model),
+        NameValues(model),
         _families(model),
         _functions(model),
         model.parameters,
@@ -96,7 +96,7 @@ def _bodies(model: Model) -> Values:
     """The moments m, c, J of the points, and J_c about the centre of mass."""
     m, c, J = model.moments
     values: Values = {"m": m, "c": c, "J": J}
-    if model.group.centred and not model.opaque:
+    if model.group.centred and not model.generic:
         return values | centred_values(model)
     return values | {"J_c": moments_about(model, tuple(x[0] / m for x in c))}
 
@@ -133,7 +133,7 @@ def _forces(model: Model) -> Values:
     F = tuple((sum((f[i] for f, _ in pairs), Fraction(0)),) for i in span)
     back = q.transposed(_linear(model, model.g))
     values: Values = {"N": N, "F": F, "N_b": q.times(back, N), "F_b": q.times(back, F)}
-    return values if model.opaque else values | exerted_values(model)
+    return values if model.generic else values | force_values(model)
 
 
 def _gradients(model: Model) -> Values:
@@ -167,7 +167,7 @@ def _motion(model: Model) -> Values:
         values["z"] = tuple((x,) for x in model.group.stated.nearest(Z))
     if model.driven:
         values["u"] = tuple((x,) for x in model.covector)
-    return values | ({} if model.opaque else solved_values(model))
+    return values | ({} if model.generic else solution_values(model))
 
 
 def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
@@ -183,10 +183,10 @@ def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
         "v": {(i,): column(v) for i, v in enumerate(model.moved(nu), 1)},
         "F": {(i,): column(f) for i, f in enumerate(model.forces, 1)},
     }
-    if not model.opaque:
+    if not model.generic:
         own = model.group.basis[: len(model.group.linear_basis)]
         families["E"] = {(a,): model.group.linear_part(e) for a, e in enumerate(own, 1)}
-        families |= exerted_families(model)
+        families |= force_families(model)
     for name in {*SHARED} & {*families}:
         whole = families[name].items()
         families[name] = {(i,): times(1 / model.copies[i - 1], x) for (i,), x in whole}
@@ -194,8 +194,8 @@ def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
 
 
 def _functions(model: Model) -> dict[str, Callable[..., Any]]:
-    """The functions of the record by the heads of :mod:`derive.check.heads`; they are called with
-    arguments of the kinds stated there."""
+    """The functions of the record by their heads, called with arguments of the kinds that
+    :mod:`derive.check.function_signatures` states."""
     first, second = model.first, model.second
 
     @cache

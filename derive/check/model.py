@@ -17,8 +17,8 @@ from ..algebra.groups import Group
 from ..algebra.samplers import Source
 from ..language import rational as q
 from ..language.rational import Matrix
-from .counted import with_slots
-from .exerted import RATE, AnyPotential, Exerted, damping_members
+from .applied_forces import RATE_SLOTS, AnyPotential, AppliedForces, damping_members
+from .grades import with_slots
 from .nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, derivative_in, derivative_of, nilpotent, part
 from .point_masses import Body, Vector
 from .points import listed_count
@@ -36,8 +36,8 @@ class Direction:
 class Model(Body):
     """One random point of the evolution space of a problem, with two variations and the motion.
 
-    ``principal``: the body has a diagonal J; ``driven``: the input does not vanish; ``opaque``: the
-    potential is any polynomial; ``pi``: its value, else any. ``few``: no more points than are
+    ``principal``: the body has a diagonal J; ``driven``: the input does not vanish; ``generic``:
+    the potential is any polynomial; ``pi``: its value, else any. ``few``: no more points than are
     needed, and each of them once. ``zero``: the names of parameters that vanish. X is the motion;
     or, where ``along`` is given, a random vector with δt = 1 whose velocity has these parts from
     the motion, and is δ itself where ``contracted``. ``coasting``: the acceleration is that of X.
@@ -57,21 +57,23 @@ class Model(Body):
         contracted: bool = False,
         coasting: bool = False,
         still: Collection[str] = (),
-        opaque: bool = False,
+        generic: bool = False,
         pi: Fraction | None = None,
         few: bool = False,
         zero: Collection[str] = (),
     ):
-        super().__init__(problem, group, random, size, opaque=opaque, pi=pi, few=few, zero=zero)
+        super().__init__(problem, group, random, size, generic=generic, pi=pi, few=few, zero=zero)
         self.driven, self.coasting, self.principal = driven, coasting, principal
         self.s = group.size
         self.hypothesis_failures: dict[Any, str] = {}
         self._families: dict[tuple[int, int], tuple[Any, tuple[Any, Matrix, Matrix]]] = {}
         self.embody(principal=principal)
-        self.exerted = Exerted({} if opaque else problem, group, self.blocks, self.expressions)
+        self.applied = AppliedForces(
+            {} if generic else problem, group, self.blocks, self.expressions
+        )
         self.t = self.draw()
         self.g = group.sample(random, size)
-        self.any_potential = AnyPotential(self, self.t, self.moved(self.g)) if opaque else None
+        self.any_potential = AnyPotential(self, self.t, self.moved(self.g)) if generic else None
         self.Z = self.algebra()
         self.first, self.second, self.mixed = (
             Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
@@ -84,11 +86,11 @@ class Model(Body):
         self.vector = None if along is None else self._motion_like(along, contracted=contracted)
         if contracted and self.vector is not None:
             self.first = self.vector
-        pulled = driven and bool(self.given("covector"))
-        self.covector = [self.draw() if pulled else Fraction(0) for _ in group.basis]
-        self.pushes = [
+        turning = driven and bool(self.inputs_of("covector"))
+        self.covector = [self.draw() if turning else Fraction(0) for _ in group.basis]
+        self.input_forces = [
             tuple(self.draw() if driven else Fraction(0) for _ in range(self.n))
-            for _ in self.given("force")
+            for _ in self.inputs_of("force")
         ]
         once = len(self.points) if few else listed_count(self)
         self.copies = [
@@ -123,7 +125,7 @@ class Model(Body):
         """U(t, r): the problem's, or a random polynomial where the walk leaves it open."""
         if self.any_potential:
             return self.any_potential.energy(t, r)
-        return self.exerted.potential(t, r, self.masses)
+        return self.applied.potential(t, r, self.masses)
 
     # -- Lagrangian, Cartan form and its derivative --------------------------------------------
 
@@ -213,17 +215,17 @@ class Model(Body):
     def forces(self) -> list[Vector]:
         """F_i = −∂U/∂r_i for each point, in space."""
         if self.any_potential:
-            return self.any_potential.pushes
-        return self.exerted.forces(self.t, self.moved(self.g), self.masses)
+            return self.any_potential.forces
+        return self.applied.forces(self.t, self.moved(self.g), self.masses)
 
     @cached_property
-    def given_forces(self) -> list[Vector]:
+    def nonpotential_forces(self) -> list[Vector]:
         """The force on each point, in space, by force inputs and damping together."""
         total = [[Fraction(0)] * self.n for _ in self.points]
         linear = self.group.linear_part(self.g)
-        for push, data in zip(self.pushes, self.given("force"), strict=True):
+        for u, data in zip(self.input_forces, self.inputs_of("force"), strict=True):
             block = self.blocks[data["on"] - 1]
-            here = push[self.group.of_block(block)]
+            here = u[self.group.of_block(block)]
             inside = tuple((x,) for x in self.group.in_block(block, here))
             force = q.times(linear, inside) if data["frame"] == "body" else inside
             for k, (x,) in enumerate(force):
@@ -244,7 +246,7 @@ class Model(Body):
             work = sum(
                 (
                     x * y
-                    for f, v in zip(self.given_forces, moved, strict=True)
+                    for f, v in zip(self.nonpotential_forces, moved, strict=True)
                     for x, y in zip(f, v, strict=True)
                 ),
                 Fraction(0),
@@ -268,7 +270,7 @@ class Model(Body):
     def as_indeterminates(self, x: Matrix, slots: int) -> Matrix:
         """A matrix that was found by solving, as one of new indeterminates of ``slots`` indices
         where any forces act: what they are is then as free as it is."""
-        if not self.opaque:
+        if not self.generic:
             return x
         return tuple(tuple(with_slots(y, slots) for y in row) for row in x)
 
@@ -282,13 +284,13 @@ class Model(Body):
         for u, e in zip(self.input, self.group.basis, strict=True):
             displacement = q.times(self.g, e)
             covector.append(u - self.work(displacement) - self.pairing(centripetal, displacement))
-        return self.as_indeterminates(self.solve_metric(covector), RATE)
+        return self.as_indeterminates(self.solve_metric(covector), RATE_SLOTS)
 
     @cached_property
     def gradient(self) -> Matrix:
         """f in 𝔤, with ⟨A f, A ξ⟩ = −dŨ(A ξ) for every ξ: the metric sends A f to −dŨ."""
         covector = [-self.work(q.times(self.g, e)) for e in self.group.basis]
-        return self.as_indeterminates(self.solve_metric(covector), 2 * RATE)
+        return self.as_indeterminates(self.solve_metric(covector), 2 * RATE_SLOTS)
 
     @property
     def motion(self) -> Direction:

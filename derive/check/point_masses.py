@@ -9,7 +9,7 @@ from typing import Any
 from ..language import rational as q
 from ..language.rational import Matrix
 from .draws import Draws
-from .kinds import framed
+from .kinds import uses_body_axes
 from .points import points_of, principal_points
 
 Vector = tuple[Any, ...]
@@ -28,7 +28,7 @@ class Body(Draws):
         self.masses, self.points, self.blocks = (
             principal_points(self) if principal else points_of(self)
         )
-        if not self.opaque and framed(self.problem):
+        if not self.generic and uses_body_axes(self.problem):
             self._axes()
         if self.problem.get("body", {}).get("kind") != "moments":
             return

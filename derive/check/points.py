@@ -10,8 +10,8 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from ..record.record import decode
 from .draws import Draws
+from .equimomental import equimomental_points, moments_of, remaining_moments
 from .evaluate import evaluate
-from .realised import moments_of, realising_points, remaining_moments
 
 Vector = tuple[Any, ...]
 Points = tuple[list[Fraction], list[Vector], list[int]]
@@ -22,10 +22,10 @@ def points_of(model: Draws) -> Points:
     """The points of a model: those that the problem lists, its other places without mass, and then
     points for what it does not list."""
     body = model.problem.get("body", {})
-    listed = [] if model.opaque else model.problem.get("places", [])
+    listed = [] if model.generic else model.problem.get("places", [])
     places, blocks = _listed_places(model, listed)
     empty = [Fraction(0)] * len(places)
-    if body.get("kind") in ("points", "given") and not model.opaque:
+    if body.get("kind") in ("points", "given") and not model.generic:
         listed = body.get("points", [])
         own = [evaluate(decode(p["mass"], "mass"), model.expressions) for p in listed]
         points, first = _listed_places(model, listed)
@@ -40,7 +40,7 @@ def points_of(model: Draws) -> Points:
 
 def listed_count(model: Draws) -> int:
     """How many points the problem lists: they come first, and have numbers in equations."""
-    if model.opaque:
+    if model.generic:
         return 0
     body = model.problem.get("body", {})
     return len(body.get("points", [])) + len(model.problem.get("places", []))
@@ -66,7 +66,7 @@ def _points_with_moments(
 ) -> tuple[list[Fraction], list[Vector]]:
     """Points with the moments m, c, J, some at random: no more is known of them."""
     masses, points = _random_points(model, model.spare)
-    more, rest = realising_points(*remaining_moments(masses, points, m, c, J))
+    more, rest = equimomental_points(*remaining_moments(masses, points, m, c, J))
     return masses + more, points + rest
 
 

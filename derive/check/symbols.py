@@ -17,18 +17,21 @@ from ..language.show import show
 from ..language.tree import Tree
 from ..record.record import Derivation, Equation, Step, Symbol
 from ..record.vocabulary import ANY_GROUP, Type, Use
-from . import calls
+from . import well_formedness
 from .arithmetic import is_matrix
+from .definitions import Usage, definitions, occurrences
 from .evaluate import Environment, evaluate, free_indices
-from .heads import AT_ONE_TIME, AXIS, COUNTED, HEADS, MOTION, VARIATION
-from .introduced import Usage, definitions, occurrences
+from .function_signatures import AT_ONE_TIME, AXIS, HEADS, INDEX_SETS, MOTION, VARIATION
 
 RATES = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "ṗ_b", "ℓ̇_b")
 """The names whose value is one on X: rates along the motion."""
 
 MULTIPLIER = "θ"
 
-INDEX = {x: x for x in COUNTED.values()} | {"forces along a distance": "distances", AXIS: "basis"}
+INDEX = {x: x for x in INDEX_SETS.values()} | {
+    "forces along a distance": "distances",
+    AXIS: "basis",
+}
 """How a record says what the index of a family counts."""
 
 VARIATIONS = dict.fromkeys(VARIATION.letters, "variation")
@@ -45,7 +48,7 @@ Arguments = tuple[Tree, ...]
 
 
 @dataclass
-class Seen:
+class NameUses:
     """The uses of a name in one position: for each tuple of arguments, in each scope, the
     hypotheses of one such step. ``general``: is it used in the text about any group?"""
 
@@ -66,7 +69,9 @@ def first_fault(d: Derivation, points: Points) -> str:
             return f"{name} {fault}"
     affine = d.problem.get("action") == "affine"
     heads = (_call(usage, x) for usage, seen in used(d.steps).items() for x in seen.where)
-    if reason := next(filter(None, (calls.first_fault(t, affine=affine) for t in heads)), ""):
+    if reason := next(
+        filter(None, (well_formedness.first_fault(t, affine=affine) for t in heads)), ""
+    ):
         return reason  # nothing else is evaluated
     return next(filter(None, map(judge(d.steps, points).fault_of, d.symbols)), "")
 
@@ -83,14 +88,14 @@ def _hypotheses(step: Step) -> Hypotheses:
     return step.given, step.driven
 
 
-def used(steps: Iterable[Step]) -> dict[Usage, Seen]:
+def used(steps: Iterable[Step]) -> dict[Usage, NameUses]:
     """All uses of names in some steps, with the arguments, scopes and hypotheses of each."""
-    found: dict[Usage, Seen] = {}
+    found: dict[Usage, NameUses] = {}
     for step in steps:
         for side in (x for e in step.equations for x in (e.lhs, e.rhs)):
             for usage, arguments in occurrences(side):
                 if usage[0] not in CONSTANTS:
-                    here = found.setdefault(usage, Seen())
+                    here = found.setdefault(usage, NameUses())
                     here.where.setdefault(arguments, {})[step.scope] = _hypotheses(step)
                     here.general |= step.scope == ANY_GROUP
     return found
@@ -101,7 +106,7 @@ class Judge:
     """What the steps do with names: where they use them (``seen``), which equation defines them
     (``defined``), at which points they are tried (``places``)."""
 
-    seen: Mapping[Usage, Seen]
+    seen: Mapping[Usage, NameUses]
     defined: Mapping[Usage, tuple[str, Arguments]]
     places: Places
     memo: dict[tuple[int, Tree], list[Any]] = field(default_factory=dict)
@@ -150,7 +155,7 @@ class Judge:
         if position != position_of(type_) or arguments not in self.seen[usage].where:
             return False
         if position in ("member", "moved"):
-            if type_[1] != INDEX.get(COUNTED.get(name, "")):
+            if type_[1] != INDEX.get(INDEX_SETS.get(name, "")):
                 return False
             type_ = type_[2]
         kinds = type_[1:] if position in ("function", "moved") else (type_,)
@@ -172,7 +177,7 @@ class Judge:
         found = [(x, g) for g, env in places for x in self.values(t, env)]
         if not found or not all(_is(type_, x, g, general) for x, g in found):
             return False
-        basis = isinstance(t, tuple) and t[0] == "at" and COUNTED.get(t[1]) == AXIS
+        basis = isinstance(t, tuple) and t[0] == "at" and INDEX_SETS.get(t[1]) == AXIS
         if type_ == ("algebra",):  # of one group alone that may be by chance
             return general or basis
         proper = [(x, g) for x, g in found if len(g.linear_basis) < g.n**2]

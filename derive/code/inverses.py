@@ -8,7 +8,7 @@ from fractions import Fraction
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.tree import Tree
-from ..record.masses import ANY_SIGN
+from ..record.mass_signs import ANY_SIGN
 from ..record.record import decode
 from . import dense
 from .graph import PARAMETER, Node

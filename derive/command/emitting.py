@@ -147,7 +147,9 @@ def validated(
 
     chart = Chart(e.options.layout, e.options.attitude, e.options.velocity)
     given = e.options.frame == "given"
-    reports = emission.Emission(files, e.prefix, chart, program.numbers(), given, fresh).reports(d)
+    reports = emission.EmittedFiles(
+        files, e.prefix, chart, program.numbers(), given, fresh
+    ).reports(d)
     for report in reports:
         print(f"{', '.join(report.files)}: {report.text}", file=sys.stderr)
     if not any(report.read for report in reports):

@@ -17,11 +17,11 @@ from random import Random
 from typing import Any
 
 from ..algebra.families import group
-from ..check.differ import difference
+from ..check.equation_sides import difference
 from ..check.evaluate import Environment, evaluate
 from ..check.meaning import environment
 from ..check.model import Model
-from ..check.tried import SIZE
+from ..check.trial_points import SIZE
 from ..language import rational as q
 from ..language.show import show
 from ..language.tree import Tree, names, neg
@@ -144,7 +144,7 @@ def situation(
     """A random exact point of the paper's situation, with an arbitrary potential or none."""
     g = group(group_name)
     problem = {"name": "paper", "group": group_name, "action": g.action}
-    model = Model(problem, g, random, size, opaque=forces, principal=principal, few=True)
+    model = Model(problem, g, random, size, generic=forces, principal=principal, few=True)
     env = environment(model)
     numbered = len(model.points)  # a counterexample may name one
     names = ChainMap(_meaningless(model), env.names)  # type: ignore[arg-type]

@@ -29,7 +29,7 @@ from .hypotheses import PROPERTIES, SPACES, Hypothesis
 from .rules import RULES
 from .sentence import Prose, english
 from .shape import ShapeError, deepest, problem_shape, tree_shape
-from .strict import loads
+from .strict_json import loads
 from .vocabulary import ACTIONS, ANY_GROUP, COMMENTARY, ROLES, VOCABULARY, Type, Use
 
 DEEPEST_TYPE = 4

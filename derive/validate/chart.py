@@ -36,7 +36,7 @@ class Chart:
 
 
 @dataclass(frozen=True)
-class State:
+class StateChart:
     """The coordinates of the states (g, ġ) of a group in a chart."""
 
     group: Group

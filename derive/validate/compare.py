@@ -15,12 +15,12 @@ from random import Random
 from typing import Any
 
 from ..record.record import to_json
+from .declarations import DiffersError, compare_names
+from .degree_bounds import Measured, MeasuredElementary
+from .emitted_file import Machine, Module
 from .exact_points import Claims, Point
 from .jacobians import ExactJacobians
 from .literals import Literals
-from .measured import Measured, MeasuredElementary
-from .module import Machine, Module
-from .names import DiffersError, compare_names
 from .projection import compare_drift
 from .straight_line import require_straight_line, summands, tested_parameters
 from .terms import Array, CodeError, run
@@ -39,7 +39,7 @@ degree, as a factor."""
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Agreement:
     """The names of the ``functions`` that equal the record at so many ``points``; ``bound`` on the
     probability of a false pass.
 
@@ -60,7 +60,7 @@ def compare(
     exact: Iterable[Fraction] = (),
     text: str = "",
     bound: float = BOUND,
-) -> Verdict:
+) -> Agreement:
     """The verdict on a module whose functions equal the record; ``CodeError`` where it cannot be
     read, or differs.
 
@@ -84,7 +84,7 @@ def compare(
         _compare_at_zero(module, claims, literal, digest, zero)
     size = module.sizes.get("CONSTANTS", 0)
     unread = tuple(f"k[{i}]" for i in range(size) if i not in first.read)
-    return Verdict(functions, points, one**points, tuple(sorted(literal.rounded)), unread)
+    return Agreement(functions, points, one**points, tuple(sorted(literal.rounded)), unread)
 
 
 def _tested_sets(module: Module) -> list[tuple[str, ...]]:

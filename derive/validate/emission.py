@@ -10,10 +10,10 @@ from itertools import zip_longest
 
 from ..record.record import Derivation
 from .chart import Chart
-from .compare import SIZE, Verdict, compare
+from .compare import SIZE, Agreement, compare
+from .declarations import DiffersError
+from .emitted_file import Module
 from .exact_points import Claims
-from .module import Module
-from .names import DiffersError
 from .read_c import read_c
 from .read_python import read_python, unread_statements
 from .terms import CodeError
@@ -21,7 +21,7 @@ from .terms import CodeError
 UNREAD = "not validated: only C and Python are read back"
 SHOWN = 3
 """The most decimals that a report lists."""
-FRAMED = "not validated: the principal frame has eigenvectors, which are not rational"
+PRINCIPAL = "not validated: the principal frame has eigenvectors, which are not rational"
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Report:
 
 
 @dataclass(frozen=True)
-class Emission:
+class EmittedFiles:
     """The files of one emission, ``files``: name → text; ``numbers``: what their decimals may be
     roundings of.
 
@@ -74,7 +74,7 @@ class Emission:
         if names[-1] not in (f"{self.prefix}{end}" for end in (".h", ".c", ".py")):
             return Report(names, UNREAD, read=False)
         if not self.given_frame:
-            return Report(names, FRAMED, read=False)
+            return Report(names, PRINCIPAL, read=False)
         if gone := [name for name in names if not self.files[name]]:
             return Report(names, f"cannot be read back: {gone[0]} is empty or missing", holds=False)
         whole = "".join(self.files.values())  # all of one emission are tried at the same points
@@ -106,7 +106,7 @@ class Emission:
                 raise DiffersError(f"{shown!r} is not read, and not what is emitted")
 
 
-def as_text(v: Verdict) -> str:
+def as_text(v: Agreement) -> str:
     """The verdict as text of a report."""
     text = (
         f"{', '.join(v.functions)} equal the record at {v.points} exact points; "

@@ -17,16 +17,16 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.samplers import Sampler, Source, affine, by_cayley
 from ..check.arithmetic import EvaluationError
-from ..check.counted import Degree, DegreeSource, degrees
-from ..check.differ import largest_degree
+from ..check.equation_sides import largest_degree
 from ..check.evaluate import Environment, evaluate
+from ..check.grades import Degree, DegreeSource, degrees
 from ..check.meaning import environment
 from ..check.model import Model
-from ..check.tried import TrialPoints
+from ..check.trial_points import TrialPoints
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..record.record import Derivation, Equation, RecordError
-from .chart import Chart, Numbers, State
+from .chart import Chart, Numbers, StateChart
 from .terms import CodeError
 
 PI = Fraction(math.pi)
@@ -62,7 +62,7 @@ class Claims:
         (group,) = TrialPoints(d.problem, 0).groups(self.scope)
         if chart.attitude == "quaternion":
             group = replace(group, sampler=rational_quaternions(group))
-        self.group, self.state = group, State(group.stated, chart)
+        self.group, self.state = group, StateChart(group.stated, chart)
 
     @cached_property
     def driven(self) -> bool:
@@ -121,10 +121,10 @@ class Claims:
     def _input_values(self, model: Model) -> Numbers:
         """The numbers of u, in order: forces in space, covectors on the stated basis."""
         found: list[Any] = []
-        pushes = iter(model.pushes)
+        forces = iter(model.input_forces)
         for data in self.record.problem.get("inputs", []):
             if data["kind"] == "force":
-                found += next(pushes)[self.group.of_block(self._block(data["on"]))]
+                found += next(forces)[self.group.of_block(self._block(data["on"]))]
             else:
                 found += self._stated(model.covector)
         return tuple(found)
@@ -146,13 +146,13 @@ class Claims:
     @property
     def degree(self) -> int:
         """A bound on the degree of what the record computes, as a function of the draws."""
-        env = environment(self._counted)
+        env = environment(self._graded_model)
         return (self.group.size + 1) * sum(
             largest_degree(e.rhs, env) for e in self.equations.values()
         )
 
     @cached_property
-    def _counted(self) -> Model:
+    def _graded_model(self) -> Model:
         """A model of which the degrees alone are known."""
         return Model(self.record.problem, self.group, DegreeSource(), self.size, driven=self.driven)
 
@@ -160,14 +160,14 @@ class Claims:
     def entry_degree(self) -> tuple[int, int]:
         """The degrees of numerator and denominator of a number of the state, also of its product
         with one that is drawn."""
-        num, den = _largest(degrees(q.flatten(self._counted.g)))
+        num, den = _largest(degrees(q.flatten(self._graded_model.g)))
         return num + 1, den
 
     @property
     def moment_degree(self) -> tuple[int, int]:
         """The degrees of numerator and denominator of a parameter: of sums of m, m r and m r r̄,
         where these are the parameters."""
-        return _largest(degrees(self._counted.parameters.values()))
+        return _largest(degrees(self._graded_model.parameters.values()))
 
     def _value(self, name: str, env: Environment) -> Any:
         e = self.equations.get(name)

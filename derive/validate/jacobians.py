@@ -13,9 +13,9 @@ from typing import Any
 from ..check.nilpotent import EPS, part
 from ..language import rational as q
 from ..language.rational import Matrix
-from .chart import EPSILON, State
+from .chart import EPSILON, StateChart
+from .emitted_file import Machine
 from .exact_points import Point
-from .module import Machine
 from .terms import Array
 
 ZERO = Fraction(0)
@@ -26,7 +26,7 @@ class ExactJacobians:
     """The derivatives of the rates at one point; ``p``, ``k``: its parameters and constants."""
 
     machine: Machine
-    state: State
+    state: StateChart
     point: Point
     p: Sequence[Fraction]
     k: Sequence[Fraction]

@@ -15,9 +15,9 @@ from ..algebra.families import group
 from ..algebra.groups import Group
 from ..check.nilpotent import EPS, part
 from ..language import rational as q
-from .chart import EPSILON, State
+from .chart import EPSILON, StateChart
+from .declarations import DiffersError
 from .exact_points import Point
-from .names import DiffersError
 
 PRIME = 2**61 - 1
 """The prime modulo which ranks are counted: they are no larger than the true ones."""
@@ -26,7 +26,7 @@ Run = Callable[[str, Sequence[Any]], Sequence[Any]]
 """(name, state) → the numbers of ``project``, or the summands of ``defect``, at a state."""
 
 
-def compare_drift(run: Run, draw: Callable[[], Fraction], state: State, point: Point) -> str:
+def compare_drift(run: Run, draw: Callable[[], Fraction], state: StateChart, point: Point) -> str:
     """The functions that were found right at a point, as text for a report; ``DiffersError`` where
     one is wrong.
 

@@ -7,15 +7,15 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from ..check.opaque import ELEMENTARY
-from .module import Module
-from .preprocess import preprocessed
+from ..check.elementary_values import ELEMENTARY
+from .emitted_file import Module
+from .preprocessor import preprocessed
 from .terms import (
     DECIMAL,
     Body,
     CodeError,
+    CodeFunction,
     Expression,
-    Function,
     MissingParserError,
     Statement,
 )
@@ -62,7 +62,7 @@ def read_c(name: str, files: Mapping[str, str], prefix: str) -> Module:
         tree = c_parser.CParser().parse(text, name)
     except (c_parser.ParseError, RecursionError) as error:
         raise CodeError(f"not C: {error}") from None
-    found = Reader(c_ast, prefix).module(tree)
+    found = CReader(c_ast, prefix).module(tree)
     if found.parameters is None:  # one header of functions names them in a comment
         named = re.findall(r"^ \*   p\[([0-9]+)\] (\w+)", files[name], re.MULTILINE)
         if [int(i) for i, _ in named] != list(range(found.sizes["PARAMETERS"])):
@@ -71,7 +71,7 @@ def read_c(name: str, files: Mapping[str, str], prefix: str) -> Module:
     return found
 
 
-class Reader:
+class CReader:
     """The reader of one translation unit; ``c``: the classes of the parser's nodes."""
 
     def __init__(self, c: Any, prefix: str):
@@ -80,7 +80,7 @@ class Reader:
         self.sizes: dict[str, int] = {}
         self.integers: set[str] = set()
         self.lists: dict[str, tuple[str, ...]] = {}
-        self.functions: dict[str, Function] = {}
+        self.functions: dict[str, CodeFunction] = {}
         self.declared: set[str] = set()
 
     def module(self, tree: Any) -> Module:
@@ -183,7 +183,7 @@ class Reader:
         if name in self.functions:
             raise CodeError(f"the function {node.decl.name} stands twice")
         self.integers = {"n"} if name == "rhs_batch" else set()
-        self.functions[name] = Function(name, arguments, self._body(node.body))
+        self.functions[name] = CodeFunction(name, arguments, self._body(node.body))
 
     def _body(self, node: Any) -> Body:
         if not isinstance(node, self.c.Compound):

@@ -13,13 +13,13 @@ import re
 from fractions import Fraction
 from typing import Any
 
-from ..check.opaque import ELEMENTARY
-from .module import Module
+from ..check.elementary_values import ELEMENTARY
+from .emitted_file import Module
 from .terms import (
     DECIMAL,
     CodeError,
+    CodeFunction,
     Expression,
-    Function,
     Statement,
     apply_operation,
     plain_text,
@@ -44,7 +44,7 @@ DATA = (*LISTS, "BASIS", "DEFAULTS")
 
 def read_python(name: str, text: str) -> Module:
     """The module in a Python file; ``CodeError`` says what cannot be read, and where."""
-    return Reader(text).module(parsed(name, text))
+    return PythonReader(text).module(parsed(name, text))
 
 
 def parsed(name: str, text: str) -> ast.Module:
@@ -70,13 +70,13 @@ def unread_statements(name: str, text: str) -> list[str]:
     return found
 
 
-class Reader:
+class PythonReader:
     """The reader of one module in Python."""
 
     def __init__(self, text: str):
         self.lines = [line.encode() for line in text.split("\n")]
         self.values: dict[str, Any] = {}
-        self.functions: dict[str, Function] = {}
+        self.functions: dict[str, CodeFunction] = {}
 
     def module(self, tree: ast.Module) -> Module:
         """The functions and lists of a file; ``CodeError`` for a name defined twice."""
@@ -156,7 +156,7 @@ class Reader:
             raise self._unknown(node, f"{node.name}({', '.join(names)}) has other arguments")
         name = node.name[1:]
         body = tuple(self._statement(x, names) for x in node.body)
-        self.functions[name] = Function(name, names, body)
+        self.functions[name] = CodeFunction(name, names, body)
 
     def _statement(self, node: ast.stmt, arguments: tuple[str, ...]) -> Statement:
         if isinstance(node, ast.Assign) and len(node.targets) == 1:

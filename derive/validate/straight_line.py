@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from .terms import Body, CodeError, Function
+from .terms import Body, CodeError, CodeFunction
 
 REFUSED = (1, 2)
 """What ``constants`` returns of a body with a singular mass matrix, or with numbers that are not
@@ -18,7 +18,7 @@ finite."""
 UNSMOOTH = ("abs", "gt", "lt", "le", "eq", "not")
 
 
-def require_straight_line(f: Function) -> None:
+def require_straight_line(f: CodeFunction) -> None:
     """``CodeError`` unless what a function gives depends on no size and no condition."""
     tainted: set[str] = set()
     body = f.body
@@ -36,7 +36,7 @@ def _read(e: Any) -> bool:
     return isinstance(e, tuple) and (e[:1] == ("at",) or any(map(_read, e)))
 
 
-def tested_parameters(f: Function) -> set[int]:
+def tested_parameters(f: CodeFunction) -> set[int]:
     """The places in p of the parameters that a function tests for being 0, a branch that is tried
     separately.
 
@@ -63,7 +63,7 @@ def tested_parameters(f: Function) -> set[int]:
     return found
 
 
-def summands(f: Function) -> Function:
+def summands(f: CodeFunction) -> CodeFunction:
     """The function that returns a, b, … in the place of |a| + |b| + …, so that none can hide
     another; ``CodeError`` where it returns no such sum."""
     body, last = f.body[:-1], f.body[-1:]
@@ -72,7 +72,7 @@ def summands(f: Function) -> Function:
     return replace(f, body=(*body, ("return", ("list", *_sizes(f, last[0][1])))))
 
 
-def _sizes(f: Function, e: Any) -> list[Any]:
+def _sizes(f: CodeFunction, e: Any) -> list[Any]:
     """The operands a, b, … of a sum |a| + |b| + …."""
     if e[0] == "list" and len(e) == 2:
         return _sizes(f, e[1])
@@ -83,7 +83,7 @@ def _sizes(f: Function, e: Any) -> list[Any]:
     return [e[1]]
 
 
-def _body(f: Function, body: Body, tainted: set[str], checks: list[str]) -> None:
+def _body(f: CodeFunction, body: Body, tainted: set[str], checks: list[str]) -> None:
     """Check statements; ``tainted``: the names that depend on a size or a condition, ``checks``:
     the conditions met so far."""
     for s in body:

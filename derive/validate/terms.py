@@ -45,7 +45,7 @@ class MissingParserError(Refused):
 
 
 @dataclass(frozen=True)
-class Function:
+class CodeFunction:
     """A function: its name, the names of its arguments in order, and its statements."""
 
     name: str
@@ -95,7 +95,9 @@ class Array:
         return self.values
 
 
-def run(f: Function, arguments: Mapping[str, Any], elementary: Elementary, literal: Literal) -> Any:
+def run(
+    f: CodeFunction, arguments: Mapping[str, Any], elementary: Elementary, literal: Literal
+) -> Any:
     """What a function returns for these arguments, whose arrays it may write.
 
     ``elementary(name, x)`` is the value of a function, ``literal(text)`` that of a decimal.

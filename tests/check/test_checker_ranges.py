@@ -8,7 +8,7 @@ import pytest
 
 from derive.check.arithmetic import scalar
 from derive.check.checker import Checker, check
-from derive.check.counted import Counted
+from derive.check.grades import Graded
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.record import Equation
@@ -83,7 +83,7 @@ def test_no_degree_is_larger_than_that_of_the_bound(part, monkeypatch):
     """And it would be, for some name, if a product forgot a factor."""
     d, driven = walked(PARTS[part]), part == "damping"
     assert [*exceeding(d, driven=driven)] == []
-    monkeypatch.setattr(Counted, "__mul__", forgetful)
+    monkeypatch.setattr(Graded, "__mul__", forgetful)
     assert [*exceeding(d, driven=driven)]
 
 
@@ -92,7 +92,7 @@ def test_the_degree_of_a_body_in_principal_axes_counts(monkeypatch):
     d = walked(SOLID.replace("mass = 1", 'mass = "a"'), "SO(3)")
     given = d["large.principal"].given
     assert [*exceeding(d, given=given)] == []
-    monkeypatch.setattr(Counted, "__mul__", forgetful)
+    monkeypatch.setattr(Graded, "__mul__", forgetful)
     assert ("at", "m", "i") in [*exceeding(d, given=given)]
 
 

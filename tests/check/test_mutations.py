@@ -222,7 +222,7 @@ def test_identities_of_small_matrices_are_no_claims_about_any_group(dimension):
     assert not checker("linear").check(step).holds
 
 
-def test_translations_that_are_not_free_are_on_the_panel():
+def test_translations_that_are_not_free_are_among_the_trial_groups():
     """The equations of an affine group hold jointly, not one for A and one for T."""
     step = record("affine")["affine.kernel"]
     whole = step.equations[-1]

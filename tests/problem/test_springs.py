@@ -11,8 +11,8 @@ from derive.pipeline import program
 from derive.problem.toml import problem_of
 from derive.validate.chart import Chart
 from derive.validate.compare import compare
+from derive.validate.declarations import DiffersError
 from derive.validate.exact_points import Claims
-from derive.validate.names import DiffersError
 from derive.validate.read_c import read_c
 from tests.support.emitted import compile_c, import_python
 from tests.support.needs import CC, need, needs

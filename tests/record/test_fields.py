@@ -8,9 +8,9 @@ from functools import cache
 import pytest
 
 from derive.check.checker import Checker
-from derive.check.heads import RATES
-from derive.check.introduced import unexplained
-from derive.check.used import unused
+from derive.check.definitions import unexplained
+from derive.check.dependencies import unused
+from derive.check.function_signatures import RATES
 from derive.record.record import RecordError, from_json, to_data
 from derive.record.rules import RULES
 from derive.record.vocabulary import ANY_GROUP, COMMENTARY

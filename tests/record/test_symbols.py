@@ -9,7 +9,7 @@ import pytest
 
 from derive.check import symbols
 from derive.check.checker import Checker
-from derive.check.heads import HEADS
+from derive.check.function_signatures import HEADS
 from derive.record.record import RecordError, from_json, to_data
 from derive.record.uses import position_of
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROLES, ROTATIONS, VOCABULARY

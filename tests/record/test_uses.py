@@ -7,7 +7,7 @@ import pytest
 from derive import pipeline
 from derive.algebra.words import Expr
 from derive.check.checker import UNUSED, check
-from derive.check.used import mentioned, unused
+from derive.check.dependencies import mentioned, unused
 from derive.record.record import Equation
 from derive.walk.chapter import Draft
 from derive.walk.failure import WalkError

@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
-from derive.check.introduced import unexplained
-from derive.check.needed import missing_mass_hypotheses
+from derive.check.definitions import unexplained
+from derive.check.necessary_hypotheses import missing_mass_hypotheses
 
 
 def without_a_hypothesis(step):

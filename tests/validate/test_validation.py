@@ -19,11 +19,11 @@ from derive.pipeline import program, walk
 from derive.problem.toml import problem_of
 from derive.validate.chart import Chart
 from derive.validate.compare import Comparison
-from derive.validate.emission import Emission
+from derive.validate.declarations import DiffersError
+from derive.validate.emission import EmittedFiles
+from derive.validate.emitted_file import Machine
 from derive.validate.exact_points import Claims
 from derive.validate.literals import Literals
-from derive.validate.module import Machine
-from derive.validate.names import DiffersError
 from derive.validate.read_c import read_c
 from derive.validate.read_python import read_python
 from derive.validate.terms import Array, CodeError
@@ -51,7 +51,7 @@ def emitted(name, **chosen):
 def reports(name, changed=None, **chosen):
     files, numbers, chart = emitted(name, **chosen)
     given = chosen.get("frame", "given") == "given"
-    return Emission(files | (changed or {}), name, chart, numbers, given).reports(record(name))
+    return EmittedFiles(files | (changed or {}), name, chart, numbers, given).reports(record(name))
 
 
 @cache
@@ -190,7 +190,7 @@ def test_every_elementary_function_has_its_slope():
     d = walk(derived)
     compiled = program(derived, d, options)
     files = emit(compiled, d, ("c", "python"), "test", options)
-    for report in Emission(files, "test", Chart(), compiled.numbers()).reports(d):
+    for report in EmittedFiles(files, "test", Chart(), compiled.numbers()).reports(d):
         assert report.holds, report.text
         assert "jacobian" in report.text
 
@@ -419,9 +419,9 @@ def test_python_that_is_run_and_not_read_must_be_what_is_emitted(case):
     old, new = HIDDEN[case]
     assert old in files["so3.py"]
     changed = {"so3.py": files["so3.py"].replace(old, new, 1)}
-    (found,) = Emission(changed, "so3", chart, numbers, True, files).reports(record("so3"))
+    (found,) = EmittedFiles(changed, "so3", chart, numbers, True, files).reports(record("so3"))
     assert not found.holds
-    assert Emission(files, "so3", chart, numbers, True, files).reports(record("so3"))[1].holds
+    assert EmittedFiles(files, "so3", chart, numbers, True, files).reports(record("so3"))[1].holds
 
 
 @pytest.mark.parametrize("old", ["*n + s] =", "s < n"])

@@ -18,7 +18,7 @@ from derive.pipeline import general_road, walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.record.hypotheses import OF_MASSES
-from derive.record.masses import SUPPOSED
+from derive.record.mass_signs import SUPPOSED
 from derive.record.record import from_json, to_json
 from derive.record.sentence import Sentence
 from derive.record.vocabulary import ANY_GROUP

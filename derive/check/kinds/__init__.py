@@ -4,7 +4,8 @@ Each has ``KIND``, its name, and ``energy(at, p, t, r, masses)``, U from the pla
 Where the walk sums some of a kind up in words, ``summed(at, p)`` says which, and
 ``values(model, members)`` what the letters of these are; where it has distances,
 ``radial(at, p, r, masses)`` gives each of them with U as a function of its square.
-``FRAMED``: it is of the axes of the body, whose ends are then points (``Exerted.frame``).
+``OF_BODY_AXES``: it is of the axes of the body, whose ends are then points
+(``AppliedForces.body_axes``).
 """
 
 from __future__ import annotations
@@ -16,10 +17,10 @@ from importlib import import_module
 from typing import Any
 
 
-def framed(problem: Mapping[str, Any]) -> bool:
+def uses_body_axes(problem: Mapping[str, Any]) -> bool:
     """Is there a potential of the axes of the body, whose ends are points to it?"""
-    given = (accounts().get(p["kind"]) for p in problem.get("potentials", []))
-    return any(getattr(account, "FRAMED", False) for account in given)
+    own = (accounts().get(p["kind"]) for p in problem.get("potentials", []))
+    return any(getattr(account, "OF_BODY_AXES", False) for account in own)
 
 
 @cache

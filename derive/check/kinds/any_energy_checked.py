@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..exerted import Exerted, Vector
+from ..applied_forces import AppliedForces, Vector
 
 KIND = "expression"
 
 
 def energy(
-    at: Exerted, p: Mapping[str, Any], t: Any, r: Sequence[Vector], masses: Sequence[Any]
+    at: AppliedForces, p: Mapping[str, Any], t: Any, r: Sequence[Vector], masses: Sequence[Any]
 ) -> Any:
     """Its value."""
     del masses

@@ -8,31 +8,33 @@ from functools import partial
 from typing import Any
 
 from ...language import rational as q
-from ..exerted import Distance, Exerted, Vector
+from ..applied_forces import AppliedForces, Distance, Vector
 
 KIND = "attraction"
 Data = Mapping[str, Any]
 
 
-def energy(at: Exerted, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
     """The sum over the masses."""
     del t
     terms = (_pulled(at, pull, q.dot(d, d)) for d, pull in _attracted(at, p, r, masses))
     return sum(terms, Fraction(0))
 
 
-def radial(at: Exerted, p: Data, r: Sequence[Vector], masses: Sequence[Any]) -> Iterator[Distance]:
+def radial(
+    at: AppliedForces, p: Data, r: Sequence[Vector], masses: Sequence[Any]
+) -> Iterator[Distance]:
     """The distance of each mass."""
     for d, pull in _attracted(at, p, r, masses):
         yield d, partial(_pulled, at, pull)
 
 
-def _pulled(at: Exerted, pull: Any, square: Any) -> Any:
+def _pulled(at: AppliedForces, pull: Any, square: Any) -> Any:
     return -pull / at.root(square)
 
 
 def _attracted(
-    at: Exerted, p: Data, r: Sequence[Vector], masses: Sequence[Any]
+    at: AppliedForces, p: Data, r: Sequence[Vector], masses: Sequence[Any]
 ) -> Iterator[tuple[Vector, Any]]:
     """For each mass its place seen from the centre, and m · strength."""
     strength, centre = at.number(p["strength"]), at.vector(p["centre"])

@@ -7,23 +7,23 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ..exerted import Exerted, Vector, column
+from ..applied_forces import AppliedForces, Vector, column
 from ..model import Model
 
-KIND, FRAMED = "far_centre", True
+KIND, OF_BODY_AXES = "far_centre", True
 Data = Mapping[str, Any]
 
 
-def summed(at: Exerted, p: Data) -> bool:
+def summed(at: AppliedForces, p: Data) -> bool:
     """All of it."""
     del at, p
     return True
 
 
-def energy(at: Exerted, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
     """The sum over the masses."""
     del t
-    origin, _ = at.frame(r)
+    origin, _ = at.body_axes(r)
     T = _seen(at, p, origin)
     R = at.root(q.dot(T, T))
     n = tuple(x / R for x in T)
@@ -37,15 +37,15 @@ def energy(at: Exerted, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[A
     return -at.number(p["strength"]) * total
 
 
-def _seen(at: Exerted, p: Data, origin: Vector) -> Vector:
+def _seen(at: AppliedForces, p: Data, origin: Vector) -> Vector:
     centre = at.vector(p["centre"]) or (Fraction(0),) * len(origin)
     return tuple(a - b for a, b in zip(origin, centre, strict=True))
 
 
 def values(model: Model, members: Sequence[Data]) -> dict[str, Any]:
     """T in the body's frame, 1/R and GM/R."""
-    at, p = model.exerted, members[0]
-    T = _seen(at, p, at.frame(model.moved(model.g))[0])
+    at, p = model.applied, members[0]
+    T = _seen(at, p, at.body_axes(model.moved(model.g))[0])
     R = at.root(q.dot(T, T))
     back = q.transposed(model.group.linear_part(model.g))
     return {"T_b": q.times(back, column(T)), "W": 1 / R, "V": at.number(p["strength"]) / R}

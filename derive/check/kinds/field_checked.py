@@ -7,13 +7,13 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ..exerted import Exerted, Vector
+from ..applied_forces import AppliedForces, Vector
 
 KIND = "field"
 
 
 def energy(
-    at: Exerted, p: Mapping[str, Any], t: Any, r: Sequence[Vector], masses: Sequence[Any]
+    at: AppliedForces, p: Mapping[str, Any], t: Any, r: Sequence[Vector], masses: Sequence[Any]
 ) -> Any:
     """Over the points that the problem lists, the first of all."""
     del masses

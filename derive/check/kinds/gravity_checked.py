@@ -7,20 +7,20 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ..exerted import Exerted, Vector, column
+from ..applied_forces import AppliedForces, Vector, column
 from ..model import Model
 
 KIND = "gravity"
 Data = Mapping[str, Any]
 
 
-def summed(at: Exerted, p: Data) -> bool:
+def summed(at: AppliedForces, p: Data) -> bool:
     """All of it."""
     del at, p
     return True
 
 
-def energy(at: Exerted, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
     """The weight of the points that have one."""
     del t
     g = at.group.in_every_block(at.vector(p["g"]))
@@ -30,7 +30,7 @@ def energy(at: Exerted, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[A
 
 def values(model: Model, members: Sequence[Data]) -> dict[str, Any]:
     """γ, the sum of all."""
-    ex = model.exerted
+    ex = model.applied
     whole = [column(model.group.in_every_block(ex.vector(p["g"]))) for p in members]
     total = whole[0]
     for x in whole[1:]:

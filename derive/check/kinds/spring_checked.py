@@ -8,14 +8,14 @@ from typing import Any
 
 from ...language import rational as q
 from ...language.rational import Matrix
-from ..exerted import Distance, Exerted, Vector, column
+from ..applied_forces import AppliedForces, Distance, Vector, column
 from ..model import Model
 
 KIND = "spring"
 Data = Mapping[str, Any]
 
 
-def summed(at: Exerted, p: Data) -> bool:
+def summed(at: AppliedForces, p: Data) -> bool:
     """Those of length 0 inside one block."""
     if "between" not in p or p["length"] != 0:
         return False
@@ -23,20 +23,22 @@ def summed(at: Exerted, p: Data) -> bool:
     return bool(at.blocks[i - 1] == at.blocks[j - 1])
 
 
-def energy(at: Exerted, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
     """By the square of the distance."""
     del t, masses
     d = _difference(at, p, r)
     return _stretch(at, p, q.dot(d, d))
 
 
-def radial(at: Exerted, p: Data, r: Sequence[Vector], masses: Sequence[Any]) -> Iterator[Distance]:
+def radial(
+    at: AppliedForces, p: Data, r: Sequence[Vector], masses: Sequence[Any]
+) -> Iterator[Distance]:
     """Its one distance."""
     del masses
     yield _difference(at, p, r), lambda square: _stretch(at, p, square)
 
 
-def _difference(at: Exerted, p: Data, r: Sequence[Vector]) -> Vector:
+def _difference(at: AppliedForces, p: Data, r: Sequence[Vector]) -> Vector:
     """From the second end to the first."""
     if "between" in p:
         a, b = (at.place(r, i) for i in p["between"])
@@ -45,7 +47,7 @@ def _difference(at: Exerted, p: Data, r: Sequence[Vector]) -> Vector:
     return tuple(x - y for x, y in zip(a, b, strict=True))
 
 
-def _stretch(at: Exerted, p: Data, square: Any) -> Any:
+def _stretch(at: AppliedForces, p: Data, square: Any) -> Any:
     k, length = at.number(p["stiffness"]), at.number(p["length"])
     if p["length"] == 0:
         return k * square * Fraction(1, 2)
@@ -71,4 +73,4 @@ def _ends(model: Model, members: Sequence[Data]) -> Iterator[tuple[Fraction, Mat
     for p in members:
         i, j = p["between"]
         ends = zip(model.points[i - 1], model.points[j - 1], strict=True)
-        yield model.exerted.number(p["stiffness"]), column(a - b for a, b in ends)
+        yield model.applied.number(p["stiffness"]), column(a - b for a, b in ends)

@@ -7,29 +7,29 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ..exerted import Exerted, Vector
+from ..applied_forces import AppliedForces, Vector
 from ..model import Model
 from ..nilpotent import ETA, Nilpotent, nilpotent
 
-KIND, FRAMED = "torsion", True
+KIND, OF_BODY_AXES = "torsion", True
 Data = Mapping[str, Any]
 
 
-def summed(at: Exerted, p: Data) -> bool:
+def summed(at: AppliedForces, p: Data) -> bool:
     """All of it."""
     del at, p
     return True
 
 
-def energy(at: Exerted, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
+def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
     """By the cosines of the axes with where they rest."""
     del t, masses
-    _, axes = at.frame(r)
+    _, axes = at.body_axes(r)
     cosines = [q.dot(x, y) for x, y in zip(axes, _rest(at, p), strict=True)]
     return at.number(p["stiffness"]) * (len(axes) - sum(cosines, Fraction(0))) * Fraction(1, 2)
 
 
-def _rest(at: Exerted, p: Data) -> list[Vector]:
+def _rest(at: AppliedForces, p: Data) -> list[Vector]:
     """Where the axes rest, the columns of R."""
     rows = tuple(at.vector(row) for row in p["rest"]) or q.identity(at.env.size)
     return [*q.transposed(rows)]
@@ -37,7 +37,7 @@ def _rest(at: Exerted, p: Data) -> list[Vector]:
 
 def values(model: Model, members: Sequence[Data]) -> dict[str, Any]:
     """k_A; N_A by its work, for any matrix ξ; its vector."""
-    at, n = model.exerted, model.n
+    at, n = model.applied, model.n
     A = model.group.linear_part(model.g)
 
     def work(i: int, j: int) -> Any:

@@ -232,11 +232,11 @@ def read_back(job: Job, output: Output) -> list[Any]:
     """What the validator says of emitted code."""
     from derive.record.record import from_json
     from derive.validate.chart import Chart
-    from derive.validate.emission import Emission
+    from derive.validate.emission import EmittedFiles
 
     chosen = {k: x for k, x in job.options.items() if k in Chart.__dataclass_fields__}
     name, record = job.data["name"], from_json(output.record)
-    return Emission(output.files, name, Chart(**chosen), output.numbers).reports(record)
+    return EmittedFiles(output.files, name, Chart(**chosen), output.numbers).reports(record)
 
 
 # -- what a job runs ----------------------------------------------------------------------------

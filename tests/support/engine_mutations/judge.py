@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from derive.check.checker import Checker
-from derive.check.introduced import unexplained
+from derive.check.definitions import unexplained
 from derive.language.tree import mul
 from derive.record.record import Derivation, RecordError, Step, from_json
 from derive.record.vocabulary import ANY_GROUP

@@ -31,8 +31,8 @@ def group_of(problem: Mapping[str, Any]) -> Group | None:
     found = _stated(problem, name, basis) if IDENTIFIER.fullmatch(name) else _named(name, basis)
     homogeneous = len(found.factors) == 1
     if homogeneous != problem.get("homogeneous"):
-        said = "an affine group kept as a linear one on (r, 1)"
-        raise RecordError(f"key 'homogeneous': {name} is {'' if homogeneous else 'not '}{said}")
+        kept = "an affine group kept as a linear one on (r, 1)"
+        raise RecordError(f"key 'homogeneous': {name} is {'' if homogeneous else 'not '}{kept}")
     if found.n != problem.get("n"):
         raise RecordError(f"key 'n': {name} moves the points of a space of dimension {found.n}")
     if found.action != problem.get("action"):

@@ -8,24 +8,24 @@ from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from .exerted import Vector, column, damping_members
+from .applied_forces import Vector, column, damping_members
+from .force_balance import ForceBalance
 from .model import Model
-from .solved import Solved
 
 Values = dict[str, Any]
 
 
-def exerted_values(model: Model) -> Values:
+def force_values(model: Model) -> Values:
     """γ, K, U_Q, N_Q, F_Q, N_u, F_u, D and their kin."""
-    ex, places = model.exerted, model.moved(model.g)
+    ex, places = model.applied, model.moved(model.g)
     values: Values = {}
     for account, members in ex.members():
         values |= account.values(model, members)
     values["U_Q"] = ex.single_potential(model.t, places, model.masses)
-    pushes = ex.single_forces(model.t, places, model.masses)
-    values |= _summed(model, pushes, "Q")
+    forces = ex.single_forces(model.t, places, model.masses)
+    values |= _summed(model, forces, "Q")
     if model.driven:
-        values |= _summed(model, model.given_forces, "u")
+        values |= _summed(model, model.nonpotential_forces, "u")
         values |= _with_covector(model, values)
     return values | _damping(model)
 
@@ -47,10 +47,10 @@ def _summed(model: Model, forces: list[Vector], mark: str) -> Values:
 
 def _with_covector(model: Model, values: Values) -> Values:
     """The covector input joins N_u and F_u by the rows that read coordinates, μ_u and F_u in R³."""
-    read = Solved(model).covector_matrix
-    found = {"N_u": q.plus(values["N_u"], model.group.linear_part(read))}
+    dual = ForceBalance(model).covector_matrix
+    found = {"N_u": q.plus(values["N_u"], model.group.linear_part(dual))}
     if model.group.affine:
-        arm = tuple((read[i][-1],) for i in range(model.n))
+        arm = tuple((dual[i][-1],) for i in range(model.n))
         found["F_u"] = q.plus(values["F_u"], arm)
     if model.group.turns_space:
         found["μ_u"] = q.plus(values["μ_u"], column(model.covector[:3]))
@@ -77,24 +77,26 @@ def _in_body(model: Model, vector: Sequence[Any]) -> Matrix:
     return q.times(q.transposed(model.group.linear_part(model.g)), column(vector))
 
 
-def exerted_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
+def force_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     """k, s, d, σ, Q, κ and f_u by their indices."""
     families: dict[str, dict[tuple[int, ...], Any]] = {}
-    for account, members in model.exerted.members():
+    for account, members in model.applied.members():
         if hasattr(account, "families"):
             families |= account.families(model, members)
     places = model.moved(model.g)
-    for e, (d, sigma) in enumerate(model.exerted.radial(places, model.masses), 1):
+    for e, (d, sigma) in enumerate(model.applied.radial(places, model.masses), 1):
         families.setdefault("d", {})[e,] = column(d)
         families.setdefault("χ", {})[e,] = _in_body(model, d)
         families.setdefault("σ", {})[e,] = sigma
-    if model.exerted.single:
-        pushes = model.exerted.single_forces(model.t, places, model.masses)
-        families["Q"] = {(i,): column(f) for i, f in enumerate(pushes, 1)}
-        families["P"] = {(i,): _in_body(model, f) for i, f in enumerate(pushes, 1)}
+    if model.applied.single:
+        forces = model.applied.single_forces(model.t, places, model.masses)
+        families["Q"] = {(i,): column(f) for i, f in enumerate(forces, 1)}
+        families["P"] = {(i,): _in_body(model, f) for i, f in enumerate(forces, 1)}
     if damped := damping_members(model):
         families["κ"] = {(i,): damped.get(i, Fraction(0)) for i in range(1, len(places) + 1)}
-    for e, (push, data) in enumerate(zip(model.pushes, model.given("force"), strict=True), 1):
+    for e, (force, data) in enumerate(
+        zip(model.input_forces, model.inputs_of("force"), strict=True), 1
+    ):
         here = model.group.of_block(model.blocks[data["on"] - 1])
-        families.setdefault("f_u", {})[e,] = column(push[here])
+        families.setdefault("f_u", {})[e,] = column(force[here])
     return families

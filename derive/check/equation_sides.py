@@ -11,8 +11,8 @@ from ..language.rational import flatten
 from ..language.tree import Tree
 from ..record.record import Equation
 from .arithmetic import EvaluationError, describe_shapes, is_matrix, shape
-from .counted import ZERO_GRADE, Degree, Grade, common_degree, degrees
 from .evaluate import Environment, evaluate, free_indices, index_values
+from .grades import ZERO_GRADE, Degree, Grade, common_degree, degrees
 
 MOST_INDICES = 2
 
@@ -80,7 +80,7 @@ def as_text(x: Any) -> str:
 
 
 def claim_grade(equation: Equation, env: Environment) -> tuple[int, Grade]:
-    """At a point in counted numbers: the degree of an equation, of numerators and denominators
+    """At a point in graded numbers: the degree of an equation, of numerators and denominators
     together, and the grade of its numerators, open indices closed in pairs."""
     whole, top = 0, ZERO_GRADE
     for a, b in _sides(equation, env):
@@ -97,7 +97,7 @@ def claim_grade(equation: Equation, env: Environment) -> tuple[int, Grade]:
 
 
 def largest_degree(t: Tree, env: Environment) -> int:
-    """The largest degree of a value of a tree at a point in counted numbers."""
+    """The largest degree of a value of a tree at a point in graded numbers."""
     values = (evaluate(t, there) for there in index_bindings(t, env))
     found: Iterator[Degree] = (d for x in values for d in degrees(_entries(x)))
     return max((d.total_degree for d in found), default=0)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from .emitted_file import Module
 from .exact_points import Claims
-from .module import Module
 from .terms import CodeError
 
 

@@ -1,4 +1,4 @@
-"""The hypotheses of a step, read equation by equation: at which points it is to be tried."""
+"""The locus of an equation: the points at which the hypotheses of its step hold."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..language.show import show
 from ..language.tree import Tree
 from ..record.record import Equation, RecordError, Step
-from .heads import RATES
+from .function_signatures import RATES
 
 TIME, LINEAR, TRANSLATION = "time", "linear", "translation"
 
@@ -33,7 +33,7 @@ those in which X has the velocity of the motion."""
 
 
 @dataclass(frozen=True)
-class Assumed:
+class Locus:
     """The points at which an equation is to hold.
 
     ``principal``: those with I = diag(λ₁, λ₂, λ₃). ``contracted``: δt = 1, and X is the vector of
@@ -56,8 +56,8 @@ class Assumed:
         return f"{self.principal} {self.contracted} {sets} {self.coasting} {self.driven}"
 
 
-def assumed(step: Step, equation: Equation | None = None) -> Assumed:
-    """The hypotheses of a step; with ``equation``, also whether that holds for all accelerations.
+def locus_of(step: Step, equation: Equation | None = None) -> Locus:
+    """The locus of a step; with ``equation``, also whether that holds for all accelerations.
 
     ``RecordError`` for a hypothesis that is none of these.
     """
@@ -75,10 +75,10 @@ def assumed(step: Step, equation: Equation | None = None) -> Assumed:
         elif part := _part_of_velocity(lhs, rhs):
             along.add(part)
         else:
-            said = f"{show(lhs)} = {show(rhs)}"
-            raise RecordError(f"the hypothesis {said[:80]} is not one that can be tried")
+            text = f"{show(lhs)} = {show(rhs)}"
+            raise RecordError(f"the hypothesis {text[:80]} is not one that can be tried")
     coasting = equation is not None and any({*equation.for_all} & {*form} for form in RATES)
-    return Assumed(principal, contracted, frozenset(still), frozenset(along), coasting, step.driven)
+    return Locus(principal, contracted, frozenset(still), frozenset(along), coasting, step.driven)
 
 
 def _part_of_velocity(lhs: Tree, rhs: Tree) -> str:

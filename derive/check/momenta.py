@@ -15,7 +15,7 @@ from ..language.rational import Matrix
 from .model import Model
 from .nilpotent import EPS, EPS_PRIME, nilpotent, part
 from .point_masses import Vector
-from .spatial import axial
+from .rigid_body import axial
 
 NAMES = (("Π", "δΠ", "δ′Π", "Π̇"), ("p_b", "δp_b", "δ′p_b", "ṗ_b"))
 """The names of the linear part of the momentum and of its translation part: the value, its two
@@ -23,7 +23,7 @@ variations, its rate."""
 SPINS = ("ℓ_b", "δℓ_b", "δ′ℓ_b", "ℓ̇_b")
 
 
-def dual_values(model: Model) -> dict[str, Any]:
+def momentum_values(model: Model) -> dict[str, Any]:
     """Π = Σ m Āv r̄ and p_b = Σ m Āv on the families of δ, δ′ and the motion; and Φ."""
     _, g, Z = model.family(model.first, model.second)
     e = nilpotent(EPS)

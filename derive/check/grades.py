@@ -109,40 +109,40 @@ def _factor(g: Grade) -> Factor:
     return next(_number), g
 
 
-class Counted:
+class Graded:
     """A number of which the degree alone is known; equal to itself alone."""
 
     __slots__ = ("_inverse", "degree")
 
     def __init__(self, degree: Degree):
         self.degree = degree
-        self._inverse: Counted | None = None
+        self._inverse: Graded | None = None
 
     def __add__(self, other: Any) -> Any:
-        if isinstance(other, Counted):
-            return Counted(_degree_of_sum(self.degree, other.degree))
+        if isinstance(other, Graded):
+            return Graded(_degree_of_sum(self.degree, other.degree))
         if not isinstance(other, (int, Fraction)):
             return NotImplemented
-        return Counted(_degree_of_sum(self.degree, CONSTANT)) if other else self
+        return Graded(_degree_of_sum(self.degree, CONSTANT)) if other else self
 
     __radd__ = __sub__ = __rsub__ = __add__
 
     def __mul__(self, other: Any) -> Any:
-        if isinstance(other, Counted):
-            return Counted(_degree_of_product(self.degree, other.degree))
+        if isinstance(other, Graded):
+            return Graded(_degree_of_product(self.degree, other.degree))
         if not isinstance(other, (int, Fraction)):
             return NotImplemented
         return self if other else Fraction(0)
 
     __rmul__ = __mul__
 
-    def __neg__(self) -> Counted:
+    def __neg__(self) -> Graded:
         return self
 
     __abs__ = __neg__
 
     def __truediv__(self, other: Any) -> Any:
-        if isinstance(other, Counted):
+        if isinstance(other, Graded):
             return self * other.inverse
         return (
             self * (1 / Fraction(other)) if isinstance(other, (int, Fraction)) else NotImplemented
@@ -155,12 +155,12 @@ class Counted:
         return reduce(lambda x, y: x * y, [self if n > 0 else self.inverse] * abs(n), Fraction(1))
 
     @property
-    def inverse(self) -> Counted:
+    def inverse(self) -> Graded:
         """1 over this number, the same object each time."""
         if self._inverse is None:
             powers = {f: -k for f, k in self.degree.den}
             powers[_factor(self.degree.num)] = 1
-            self._inverse = Counted(_degree_of(ZERO_GRADE, powers))
+            self._inverse = Graded(_degree_of(ZERO_GRADE, powers))
         return self._inverse
 
     @staticmethod
@@ -176,7 +176,7 @@ class Counted:
         powers[_factor(Grade(size * top.degree, 0, 0))] = 1
         slots, loops = top.slots + other.slots, top.loops + other.loops
         found = _degree_of(Grade((size - 1) * top.degree + other.degree, slots, loops), powers)
-        return tuple(tuple(Counted(found) for _ in b[0]) for _ in a)
+        return tuple(tuple(Graded(found) for _ in b[0]) for _ in a)
 
 
 def common_degree(entries: Iterable[Any]) -> Degree:
@@ -186,27 +186,27 @@ def common_degree(entries: Iterable[Any]) -> Degree:
 
 def degrees(entries: Iterable[Any]) -> Iterator[Degree]:
     """The degree of each number; a plain one is constant."""
-    return (x.degree if isinstance(x, Counted) else CONSTANT for x in entries)
+    return (x.degree if isinstance(x, Graded) else CONSTANT for x in entries)
 
 
-def indeterminate(slots: int = 2, loops: int = 0) -> Counted:
+def indeterminate(slots: int = 2, loops: int = 0) -> Graded:
     """An indeterminate: an entry of a drawn tensor with ``slots`` indices; with ``loops``, a 1 that
     stands for so many traces of 1."""
-    return Counted(_degree(Grade(int(not loops), slots, loops), ()))
+    return Graded(_degree(Grade(int(not loops), slots, loops), ()))
 
 
 def with_slots(x: Any, slots: int) -> Any:
-    """A counted number as an entry of a tensor with ``slots`` indices; any other as it is."""
-    if not isinstance(x, Counted):
+    """A graded number as an entry of a tensor with ``slots`` indices; any other as it is."""
+    if not isinstance(x, Graded):
         return x
     top = x.degree.num
-    return Counted(_degree(Grade(top.degree, slots, top.loops), x.degree.den))
+    return Graded(_degree(Grade(top.degree, slots, top.loops), x.degree.den))
 
 
 class DegreeSource:
-    """A source of indeterminates in the place of a random one: a model drawn from it is counted."""
+    """A source of indeterminates in the place of a random one: a model drawn from it is graded."""
 
-    def randint(self, low: int, high: int) -> Counted:
+    def randint(self, low: int, high: int) -> Graded:
         """A new entry of a matrix, whatever the range."""
         del low, high
         return indeterminate()

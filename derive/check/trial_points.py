@@ -11,15 +11,15 @@ from ..algebra.groups import Group
 from ..algebra.samplers import Source
 from ..record.record import Equation, RecordError, Step
 from ..record.vocabulary import ANY_GROUP
-from .assumed import Assumed, assumed
-from .counted import DegreeSource, Grade
-from .differ import claim_grade
+from .equation_sides import claim_grade
 from .evaluate import Environment
-from .header import group_of
+from .grades import DegreeSource, Grade
+from .locus import Locus, locus_of
 from .meaning import environment
 from .model import Model
-from .panel import PANELS, groups_with_relations
+from .problem_group import group_of
 from .residue import ResidueSource, random_prime
+from .trial_groups import TRIED, groups_with_relations
 
 SIZE = 2**128
 """The random integers of a point are of at most this absolute value."""
@@ -30,17 +30,17 @@ Place = tuple[Model, Environment]
 def action_of(problem: Mapping[str, Any]) -> str:
     """The action of a record's problem, "linear" or "affine"; ``RecordError`` for anything else."""
     action = problem.get("action")
-    if action not in PANELS:
+    if action not in TRIED:
         raise RecordError("record, problem: key 'action' must be linear or affine")
     return str(action)
 
 
 def model_where(
-    problem: Mapping[str, Any], g: Group, source: Source, at: Assumed, size: int, *, opaque: bool
+    problem: Mapping[str, Any], g: Group, source: Source, at: Locus, size: int, *, generic: bool
 ) -> Model:
     """A random model at which the hypotheses of a step hold."""
     return Model(
-        {} if opaque else problem,
+        {} if generic else problem,
         g,
         source,
         size,
@@ -50,7 +50,7 @@ def model_where(
         contracted=at.contracted,
         coasting=at.coasting,
         still=at.still,
-        opaque=opaque,
+        generic=generic,
     )
 
 
@@ -59,8 +59,8 @@ class TrialPoints:
 
     def __init__(self, problem: Mapping[str, Any], seed: int | str):
         self.problem, self.seed = problem, seed
-        self._places: dict[tuple[str, Assumed, int], Place] = {}
-        self._counted: dict[tuple[str, Assumed], Place] = {}
+        self._places: dict[tuple[str, Locus, int], Place] = {}
+        self._graded_points: dict[tuple[str, Locus], Place] = {}
 
     def groups(self, scope: str, *, driven: bool = False) -> tuple[Group, ...]:
         """The groups on which a step of this scope, with inputs (``driven``) or without, is tried;
@@ -102,44 +102,44 @@ class TrialPoints:
         ``equation``: one that may hold for all accelerations. About any group the numbers are
         residues, unless they are small.
         """
-        at, opaque = assumed(step, equation), step.scope == ANY_GROUP
+        at, generic = locus_of(step, equation), step.scope == ANY_GROUP
         key = g.name + step.scope, at, size
         if key not in self._places:
             random = Random(f"{self.seed} {g.name} {step.scope} {at.as_text} {size}")
-            source = ResidueSource(random, self._prime) if opaque and size == SIZE else random
-            model = model_where(self.problem, g, source, at, size, opaque=opaque)
+            source = ResidueSource(random, self._prime) if generic and size == SIZE else random
+            model = model_where(self.problem, g, source, at, size, generic=generic)
             self._places[key] = model, environment(model)
         return self._places[key]
 
-    def counted(self, g: Group, step: Step, equation: Equation | None = None) -> Place:
+    def graded_point(self, g: Group, step: Step, equation: Equation | None = None) -> Place:
         """A point like :meth:`point` of which the degrees alone are known."""
-        at = assumed(step, equation)
-        opaque = step.scope == ANY_GROUP
-        known, key = _COUNTED if opaque else self._counted, (g.name, at)
+        at = locus_of(step, equation)
+        generic = step.scope == ANY_GROUP
+        known, key = _GRADED_POINTS if generic else self._graded_points, (g.name, at)
         if key not in known:
-            model = model_where(self.problem, g, DegreeSource(), at, SIZE, opaque=opaque)
+            model = model_where(self.problem, g, DegreeSource(), at, SIZE, generic=generic)
             known[key] = model, environment(model)
         return known[key]
 
-    def graded(self, g: Group, step: Step, equation: Equation) -> tuple[int, Grade]:
+    def grade(self, g: Group, step: Step, equation: Equation) -> tuple[int, Grade]:
         """The degree of an equation on a group, and the grade of its numerators."""
-        key = g.name, assumed(step, equation), equation
-        known = _GRADED if step.scope == ANY_GROUP else {}
+        key = g.name, locus_of(step, equation), equation
+        known = _GRADES if step.scope == ANY_GROUP else {}
         if key not in known:
             if len(known) > MOST_GRADES:
                 known.clear()
-            known[key] = claim_grade(equation, self.counted(g, step, equation)[1])
+            known[key] = claim_grade(equation, self.graded_point(g, step, equation)[1])
         return known[key]
 
     @property
     def coincidence(self) -> int:
         """The degree of two different arguments of elementary functions being equal by chance."""
-        largest = max((m.elementary.largest for m, _ in self._counted.values()), default=0)
+        largest = max((m.elementary.largest for m, _ in self._graded_points.values()), default=0)
         distinct = max((len(m.elementary.values) for m, _ in self._places.values()), default=0)
         return distinct**2 * largest
 
 
 MOST_GRADES = 10_000
-_COUNTED: dict[tuple[str, Assumed], Place] = {}
-_GRADED: dict[tuple[str, Assumed, Equation], tuple[int, Grade]] = {}
+_GRADED_POINTS: dict[tuple[str, Locus], Place] = {}
+_GRADES: dict[tuple[str, Locus, Equation], tuple[int, Grade]] = {}
 """Points and degrees for any group, the same for all records."""

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .arithmetic import EvaluationError
-from .counted import Counted
+from .grades import Graded
 from .nilpotent import Nilpotent
 
 Derivatives = tuple[Any, Any, Any]
@@ -32,7 +32,7 @@ ALGEBRAIC: dict[str, Callable[[Any, Any], Derivatives]] = {
 """Function → its first three derivatives at x, in x and in y, the value of the function there."""
 
 ELEMENTARY = frozenset((*PARTNERS, *ALGEBRAIC))
-"""The functions that a record has, and emitted code calls."""
+"""The functions that a record has, and emitted code well_formedness."""
 
 
 class ElementaryValues:
@@ -41,22 +41,22 @@ class ElementaryValues:
     def __init__(self, draw: Callable[[], Any]):
         self.draw = draw
         self.values: dict[tuple[str, Any], Any] = {}
-        self.counted: list[Counted] = []
+        self.graded_arguments: list[Graded] = []
 
     def value(self, name: str, x: Any) -> Any:
-        """The value y of a function at x, the same each time; two counted numbers are different
+        """The value y of a function at x, the same each time; two graded numbers are different
         arguments unless they are one object."""
-        key = (name, id(x) if isinstance(x, Counted) else x)
+        key = (name, id(x) if isinstance(x, Graded) else x)
         if key not in self.values:
             self.values[key] = self.draw()
-            if isinstance(x, Counted):
-                self.counted.append(x)  # kept, so that its id is
+            if isinstance(x, Graded):
+                self.graded_arguments.append(x)  # kept, so that its id is
         return self.values[key]
 
     @property
     def largest(self) -> int:
-        """The largest degree of an argument in counted numbers."""
-        return max((x.degree.total_degree for x in self.counted), default=0)
+        """The largest degree of an argument in graded numbers."""
+        return max((x.degree.total_degree for x in self.graded_arguments), default=0)
 
     def derivatives(self, name: str, x: Any) -> Derivatives:
         """The first three derivatives of a function at x; ``EvaluationError`` if unknown."""

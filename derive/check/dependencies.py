@@ -1,7 +1,7 @@
 """Every step uses the steps from which it has its names.
 
 Of every name but those that all begins with, the first step that has it must say what it is
-(:mod:`derive.check.introduced`); a later one must use a step in which it stands.
+(:mod:`derive.check.definitions`); a later one must use a step in which it stands.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 
 from ..language.tree import Tree
 from ..record.record import Step
-from .introduced import FIRST
+from .definitions import PRIMITIVE
 
 MEMBERS = frozenset(f"{x}_" for x in ("m", "r", "v", "F", "E", "f_u"))
 """The families that the walk starts from: a member m_i is another name than the sum m."""
@@ -31,7 +31,7 @@ def unused(steps: Iterable[Step]) -> Iterator[str]:
 def mentioned(t: Tree) -> Iterator[str]:
     """The names in a tree, without those of the beginning; dϖ counts as ϖ, m_i is ``m_``."""
     if isinstance(t, str):
-        if t not in FIRST:
+        if t not in PRIMITIVE:
             yield t.removeprefix("d") if t == "dϖ" else t
     elif isinstance(t, tuple) and t[0] == "at":
         if f"{t[1]}_" not in MEMBERS:

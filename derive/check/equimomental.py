@@ -22,7 +22,7 @@ from .slices import slice_moments
 Vector = tuple[Any, ...]
 
 
-def realising_points(m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list[Vector]]:
+def equimomental_points(m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fraction], list[Vector]]:
     """Masses and places of points with the moments m, c, J; a mass may be negative.
     ``ZeroDivisionError`` for m = 0 or a missing pivot."""
     if m == 0:
@@ -79,7 +79,7 @@ def moments_of(model: Draws) -> tuple[Fraction, Vector, Matrix]:
     listed = body.get("points", [])
     own = [_value(model, p["mass"]) for p in listed]
     left = remaining_moments(own, [_value(model, p["at"]) for p in listed], m, c, J)
-    if left != solids and not model.counted:
+    if left != solids and not model.graded:
         raise RecordError("body: the given moments are not those of its solids")
     return solids
 

@@ -1,7 +1,7 @@
 """The well-formedness of equations: known heads, arguments of their kinds, letters of indices.
 
 What stands around a head, or beside its arguments, has no value of its own: it is judged here, by
-the tables of :mod:`derive.check.heads`, before anything is evaluated.
+the tables of :mod:`derive.check.function_signatures`, before anything is evaluated.
 """
 
 from __future__ import annotations
@@ -12,11 +12,10 @@ from typing import Any
 from ..language.show import show
 from ..language.tree import Tree
 from ..record.record import Equation
-from .assumed import TIME, Assumed
-from .heads import (
-    COUNTED,
+from .function_signatures import (
     FORMS,
     HEADS,
+    INDEX_SETS,
     INDICES,
     MOVED,
     QUANTIFIED,
@@ -25,6 +24,7 @@ from .heads import (
     TRANSLATION,
     Kind,
 )
+from .locus import TIME, Locus
 
 SHOWN = 40
 """The most letters of a faulty subtree that a message shows."""
@@ -41,7 +41,7 @@ def first_fault(t: Tree, *, affine: bool, inside: str = "") -> str:
     return _operator_fault(t, inside, affine) or next(filter(None, parts), "")
 
 
-def quantifier_fault(equation: Equation, at: Assumed) -> str:
+def quantifier_fault(equation: Equation, at: Locus) -> str:
     """What is wrong with the first quantified name of an equation, in words; "" if none.
 
     A name of ``for_all`` must be a variation or an acceleration that is drawn freely and stands in
@@ -97,7 +97,7 @@ def _operator_fault(t: tuple[Any, ...], inside: str, affine: bool) -> str:
         return "a row is part of a matrix"
     if t[0] == "at" and len(t) != 3:
         return f"a member of {_shortened(t[1])} has one index"
-    if t[0] == "at" and t[1] not in COUNTED:
+    if t[0] == "at" and t[1] not in INDEX_SETS:
         return f"no members of {_shortened(t[1])}, which is no family"
     index = next((x for x in _indices(t) if x not in INDICES), None)
     return "" if index is None else f"{_shortened(index)} is no index: {', '.join(INDICES)} are"
@@ -141,5 +141,5 @@ def _is_of(kind: Kind, x: Tree) -> bool:
 
 def _shortened(t: Tree) -> str:
     """A tree as text, cut to a length that fits a message."""
-    said = show(t)
-    return said if len(said) <= SHOWN else f"{said[:SHOWN]} …"
+    text = show(t)
+    return text if len(text) <= SHOWN else f"{text[:SHOWN]} …"

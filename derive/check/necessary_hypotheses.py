@@ -17,18 +17,18 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.show import show
 from ..language.tree import Tree, names
-from ..record import masses
+from ..record import mass_signs
 from ..record.hypotheses import OF_MASSES, Hypothesis
 from ..record.record import Equation, RecordError, Step
 from ..record.vocabulary import ANY_GROUP
 from .arithmetic import EvaluationError, is_matrix, scalar
-from .assumed import ALONG
-from .differ import index_bindings
+from .equation_sides import index_bindings
 from .evaluate import Environment, evaluate
-from .heads import FORMS
+from .function_signatures import FORMS
+from .locus import ALONG
 from .model import Model
-from .panel import inverted
-from .spatial import axial
+from .rigid_body import axial
+from .trial_groups import inverted
 
 SHOWN = 80
 """The most letters of a hypothesis that a message shows."""
@@ -77,7 +77,7 @@ def needs_moments(step: Step, problem: Mapping[str, Any]) -> bool:
     """Does a step introduce m, c, J as parameters, the moments of some positive masses?"""
     free = problem.get("body", {}).get("kind") == "moments" and step.scope != ANY_GROUP
     introduced = free and any(e.lhs == "J" for e in step.equations)
-    return introduced and not masses.any_sign(problem)
+    return introduced and not mass_signs.any_sign(problem)
 
 
 def missing_mass_hypotheses(steps: Iterable[Step], problem: Mapping[str, Any]) -> Iterator[str]:
@@ -93,7 +93,7 @@ def missing_mass_hypotheses(steps: Iterable[Step], problem: Mapping[str, Any]) -
 def _missing_mass_hypothesis(step: Step, problem: Mapping[str, Any]) -> str:
     """The hypothesis on the masses that a step introducing L̃ lacks, in words; "" if none."""
     with suppress(RecordError):  # its own verdict says so
-        if MASSES not in step.hypotheses and not masses.any_sign(problem):
+        if MASSES not in step.hypotheses and not mass_signs.any_sign(problem):
             return "it introduces L̃, and does not suppose that the masses are positive"
     if not any(x.property == "nondegenerate" for x in step.hypotheses):
         return f"it introduces L̃, and does not suppose that {REGULAR}"
@@ -112,8 +112,8 @@ def false_hypothesis(
 
     ``ordered``: points in rational numbers, at which inequalities are tried.
     """
-    if any(x.property in OF_MASSES for x in step.hypotheses) and masses.any_sign(problem):
-        return masses.SUPPOSED
+    if any(x.property in OF_MASSES for x in step.hypotheses) and mass_signs.any_sign(problem):
+        return mass_signs.SUPPOSED
     for x in step.hypotheses:
         places = ordered if x.property in ORDER else [env]
         if why := next(filter(None, (_failure(x, at, model) for at in places)), ""):

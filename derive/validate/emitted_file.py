@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from .terms import Array, CodeError, Elementary, Function, Literal, run
+from .terms import Array, CodeError, CodeFunction, Elementary, Literal, run
 
 Names = tuple[str, ...] | None
 
@@ -23,7 +23,7 @@ class Module:
     state: Names
     parameters: Names
     inputs: Names
-    functions: Mapping[str, Function]
+    functions: Mapping[str, CodeFunction]
     sizes: Mapping[str, int]
     defaults: Mapping[str, Any] | None = None
     basis: Any = field(default=None)

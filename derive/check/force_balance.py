@@ -17,7 +17,7 @@ from .point_masses import Vector
 Values = dict[str, Any]
 
 
-class Solved:
+class ForceBalance:
     """The balance of forces at one point of the evolution space, about the centre of mass where the
     group is H ⋉ Rⁿ and about the origin elsewhere."""
 
@@ -71,13 +71,13 @@ class Solved:
     @cached_property
     def applied_moment(self) -> Matrix:
         """The moment in the body, about the centre, of all forces, inputs and damping."""
-        forces = zip(self.model.forces, self.model.given_forces, strict=True)
+        forces = zip(self.model.forces, self.model.nonpotential_forces, strict=True)
         total = [tuple(x + y for x, y in zip(f, g, strict=True)) for f, g in forces]
-        read = self.covector_matrix
-        linear = q.plus(self.moment_in_body(total), self.group.linear_part(read))
+        dual = self.covector_matrix
+        linear = q.plus(self.moment_in_body(total), self.group.linear_part(dual))
         if not self.group.affine:
             return linear
-        arm = tuple((read[i][-1],) for i in range(self.model.n))
+        arm = tuple((dual[i][-1],) for i in range(self.model.n))
         return q.minus(linear, q.times(arm, (self.centre,)))
 
     @cached_property
@@ -120,10 +120,10 @@ def centred_values(model: Model) -> Values:
     return {"S": S, "c_c": first, "J_c": second, "Z_c": q.plus(model.Z, q.times(model.Z, S))}
 
 
-def solved_values(model: Model) -> Values:
+def solution_values(model: Model) -> Values:
     """The values of N_c, r_c, w_c, B, M, β, ψ, Λ and θ, as far as the group has them."""
     group, Z, Z_dot = model.group, model.Z, model.acceleration
-    s = Solved(model)
+    s = ForceBalance(model)
     values: Values = {"N_c": s.applied_moment}
     if group.affine:
         m, c, _ = model.moments
@@ -152,8 +152,8 @@ def solved_values(model: Model) -> Values:
 
 def load(model: Model, e: Matrix) -> Fraction:
     """The work of forces and inputs in the displacement g e."""
-    pushed = zip(model.input, model.group.nearest(e), strict=True)
-    return sum((u * x for u, x in pushed), Fraction(0)) - model.work(q.times(model.g, e))
+    powers = zip(model.input, model.group.nearest(e), strict=True)
+    return sum((u * x for u, x in powers), Fraction(0)) - model.work(q.times(model.g, e))
 
 
 def _trace_product(a: Matrix, b: Matrix) -> Any:

@@ -24,10 +24,10 @@ Distance = tuple[Vector, Callable[[Any], Any]]
 """d, and a potential as a function of ‖d‖²."""
 
 
-RATE = 2
+RATE_SLOTS = 2
 """Indices of Ż, which may be anything where any forces act; f = Ż + Z² has twice as many."""
 
-PUSH = 3 * RATE + 1
+FORCE_SLOTS = 3 * RATE_SLOTS + 1
 """Those of F_i = m_i A f r_i and more, of which a force has what Ż needs."""
 
 
@@ -37,20 +37,20 @@ class AnyPotential:
 
     def __init__(self, model: Draws, t: Any, places: Sequence[Vector]):
         self.t, self.places, self.value = t, places, model.draw()
-        self.pushes = [tuple(model.draw(slots=PUSH) for _ in r) for r in places]
+        self.forces = [tuple(model.draw(slots=FORCE_SLOTS) for _ in r) for r in places]
         self.later, *self.weights = (model.draw() for _ in (None, *places))
 
     def energy(self, t: Any, r: Sequence[Vector]) -> Any:
         """U(t, r)."""
         later = t - self.t
         total = self.value + later * self.later
-        for force, weight, x, x0 in zip(self.pushes, self.weights, r, self.places, strict=True):
+        for force, weight, x, x0 in zip(self.forces, self.weights, r, self.places, strict=True):
             y = tuple(a - b for a, b in zip(x, x0, strict=True))
             total = total - _dot(force, y) * (1 + later) + weight * _square(y)
         return total
 
 
-def pushed(energy: Callable[[Sequence[Vector]], Any], r: Sequence[Vector]) -> list[Vector]:
+def minus_gradient(energy: Callable[[Sequence[Vector]], Any], r: Sequence[Vector]) -> list[Vector]:
     """Minus the derivative of a function of the places by each of them."""
     eta = nilpotent(ETA)
     found = []
@@ -64,7 +64,7 @@ def pushed(energy: Callable[[Sequence[Vector]], Any], r: Sequence[Vector]) -> li
     return found
 
 
-class Exerted:
+class AppliedForces:
     """The potentials, inputs and damping of a problem, for points with given blocks."""
 
     def __init__(
@@ -100,7 +100,7 @@ class Exerted:
             return r[i - 1]
         return r[i - 1][self.group.of_block(self.blocks[i - 1])]
 
-    def frame(self, r: Sequence[Vector]) -> tuple[Vector, list[Vector]]:
+    def body_axes(self, r: Sequence[Vector]) -> tuple[Vector, list[Vector]]:
         """Where the origin of the body is, and its axes from there, as columns of A."""
         origin, *ends = r[-self.env.size - 1 :]
         return origin, [tuple(x - y for x, y in zip(e, origin, strict=True)) for e in ends]
@@ -146,11 +146,11 @@ class Exerted:
 
     def forces(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> list[Vector]:
         """−∂U/∂r_i for every point."""
-        return pushed(lambda places: self.potential(t, places, masses), r)
+        return minus_gradient(lambda places: self.potential(t, places, masses), r)
 
     def single_forces(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> list[Vector]:
         """The forces on the points by the potentials that are given point by point."""
-        return pushed(lambda places: self.single_potential(t, places, masses), r)
+        return minus_gradient(lambda places: self.single_potential(t, places, masses), r)
 
     def tension(self, energy: Any) -> Any:
         """−2 dU/dq, from U at q + η."""

@@ -11,14 +11,14 @@ from collections.abc import Iterable, Iterator
 
 from ..language.tree import Tree, names
 from ..record.record import Equation, Step
-from .opaque import ELEMENTARY
+from .elementary_values import ELEMENTARY
 
-_FIRST = """
+_PRIMITIVE = """
     t π i a b e m U v r F A T E z u f_u X δ δ′ α τ α̇ τ̇ Ż ẇ ζ̇ ṗ ℓ̇ Ũ dŨ ∂ₜŨ
     δΠ δ′Π Π̇ δp_b δ′p_b ṗ_b δℓ_b δ′ℓ_b ℓ̇_b
     ∫ d/dt δA δT δt δα δτ δx δy δZ δw δζ δ′A δ′T δ′t δ′α δ′τ δ′x δ′y δ′Z δ′w δ′ζ
     """
-FIRST = frozenset(_FIRST.split()) | ELEMENTARY
+PRIMITIVE = frozenset(_PRIMITIVE.split()) | ELEMENTARY
 """The names that the walk starts from: the element and its parts, variations, rates of known names,
 indices, functions, what the problem gives."""
 
@@ -45,7 +45,7 @@ def introduced(equation: Equation, known: set[str]) -> set[str]:
 
 def unexplained(steps: Iterable[Step]) -> Iterator[str]:
     """For each step a name that it uses and that is not introduced by then; "" if there is none."""
-    known = set(FIRST)
+    known = set(PRIMITIVE)
     for step in steps:
         here = {"λ"} if any("λ" in names(e.rhs) for e in step.given) else set()
         used = dict.fromkeys(x for t in _hypothesis_trees(step) for x in names(t))
@@ -95,7 +95,9 @@ def definitions(steps: Iterable[Step]) -> dict[Usage, tuple[str, tuple[Tree, ...
     What the walk starts from is defined only where it is the left side, alone.
     """
     defined: dict[Usage, tuple[str, tuple[Tree, ...]]] = {}
-    known = {(name, usage) for name in FIRST for usage in ("value", "member", "function", "moved")}
+    known = {
+        (name, usage) for name in PRIMITIVE for usage in ("value", "member", "function", "moved")
+    }
     known -= {(name, "value") for name in SUMS}
     for step in steps:
         for key, equation in zip(step.keys, step.equations, strict=True):
@@ -117,7 +119,7 @@ def definitions(steps: Iterable[Step]) -> dict[Usage, tuple[str, tuple[Tree, ...
 
 
 SUMS = ("m", "F")
-"""Names of FIRST that stand for the members of a family; the plain name is defined as their sum."""
+"""Names of PRIMITIVE that stand for the members of a family; the plain name is their sum."""
 
 
 def _lone_usage(t: Tree) -> list[tuple[Usage, tuple[Tree, ...]]]:

@@ -65,7 +65,7 @@ MOVED: dict[str, tuple[Kind, ...]] = {"r": (TIME,)}
 """The kinds of the arguments of members of families that move, as r_i(t)."""
 
 POINT, AXIS = "points", "axes or elements of a basis"
-COUNTED: dict[str, str] = {
+INDEX_SETS: dict[str, str] = {
     **dict.fromkeys(("m", "r", "v", "F", "Q", "P", "κ"), POINT),
     **dict.fromkeys(("k", "s"), "springs"),
     **dict.fromkeys(("d", "χ", "σ"), "forces along a distance"),

@@ -22,7 +22,7 @@ from ..language import rational as q
 from ..language.show import show
 from ..language.tree import Tree
 from ..record.record import RecordError
-from .counted import Grade
+from .grades import Grade
 
 
 def triangular() -> Group:
@@ -36,7 +36,7 @@ def triangular_affine() -> Group:
     return group_of_basis("B(2) ⋉ R", "affine", basis)
 
 
-PANELS: dict[str, tuple[Callable[[], Group], ...]] = {
+TRIED: dict[str, tuple[Callable[[], Group], ...]] = {
     "linear": (triangular, *(partial(group, x) for x in ("SO(3)", "SL(3)"))),
     "affine": (triangular_affine, partial(group, "SE(2)"), turning_about_a_point),
 }
@@ -53,7 +53,7 @@ serves them all."""
 @cache
 def groups_with_relations(action: str) -> tuple[Group, ...]:
     """The groups with relations on which a claim for an action, "linear" or "affine", is tried."""
-    return tuple(make() for make in PANELS[action])
+    return tuple(make() for make in TRIED[action])
 
 
 @cache

@@ -12,7 +12,7 @@ from .model import Model
 Values = dict[str, Any]
 
 
-def spatial_values(model: Model) -> Values:
+def rigid_body_values(model: Model) -> Values:
     """The values of Ω, ζ, φ, μ, their variations and rates, and of I, I_c, λ for the rotations and
     displacements of space; none for other groups."""
     if not model.group.turns_space:
