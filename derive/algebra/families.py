@@ -6,13 +6,13 @@ parameter of Sp is the size of its matrices; U(n) and SU(n) act on R²ⁿ by [[X
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from ..language import rational as q
+from ..language.near_names import did_you_mean, near_name
 from ..language.rational import Matrix
 from . import samplers as draw
 from .groups import Group
@@ -216,8 +216,7 @@ def group(name: str) -> Group:
     match = re.fullmatch(r"([A-Za-z]+)\(\s*([0-9]{1,3})\s*\)", parts[0])
     if match is None or match[1] not in FAMILIES:
         known = ", ".join(f"{family}(n)" for family in FAMILIES)
-        near = _nearest(name[:40])
-        hint = f"did you mean {near!r}? " if near else ""
+        hint = did_you_mean(_group_meant(name[:40]), after=" ")
         raise ValueError(
             f"unknown group {name[:40]!r}; {hint}known: {known}, with a number for n, and products "
             "such as 'SO(3) x SO(3)'"
@@ -229,16 +228,15 @@ def group(name: str) -> Group:
     return family.make(f"{match[1]}({n})", n)
 
 
-def _nearest(name: str) -> str:
-    """The known name that is meant by one in other letters or without parentheses; "" if none is
-    near."""
+def _group_meant(name: str) -> str:
+    """The group that is meant by a name in other letters or without parentheses; "" if none."""
     families, parts = {x.casefold(): x for x in FAMILIES}, []
     for part in re.split(r"\s*[x×*]\s*", name.strip()):
         match = re.fullmatch(r"([A-Za-z]+)[\s_(\[]*([0-9]{1,3})[\s)\]]*", part)
-        near = difflib.get_close_matches(match[1].casefold() if match else "", families, 1, 0.7)
+        near = near_name(match[1].casefold() if match else "", families, 0.7)
         if not near or not match:
             return ""
-        parts.append(f"{families[near[0]]}({match[2]})")
+        parts.append(f"{families[near]}({match[2]})")
     return " x ".join(parts)
 
 

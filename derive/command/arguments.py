@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from .. import __version__
+from ..language.near_names import did_you_mean, near_name
 from ..views.rendering import FORMATS
 from .guard import one_line
 
@@ -59,8 +59,8 @@ class Parser(argparse.ArgumentParser):
         if left:
             option = next((x for x in left if x.startswith("-")), "")
             what = f"unknown option {option!r}" if option else f"unexpected {left[0]!r}"
-            near = difflib.get_close_matches(option.partition("=")[0], self._known(), 1)
-            self.error(one_line(what + (f"; did you mean {near[0]!r}?" if near else "")))
+            near = near_name(option.partition("=")[0], self._known())
+            self.error(one_line(what + did_you_mean(near, "; ")))
         return found, left
 
     def _known(self) -> list[str]:

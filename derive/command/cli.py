@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import os
 import sys
 from collections.abc import Sequence
@@ -11,6 +10,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..language.near_names import did_you_mean, near_name
 from ..language.refused import Refused
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation, Step
@@ -45,10 +45,10 @@ def load_problem(name: str, **allowances: bool) -> Problem:
     path = Path(name)
     if path.suffix == ".toml" or path.exists():
         return load(path, **allowances)
-    near = difflib.get_close_matches(name.lower(), ready_made(), 1)
+    near = near_name(name.lower(), ready_made())
     if path.with_name(f"{path.name}.toml").is_file():
-        near = [f"{name}.toml"]
-    hint = f"did you mean {near[0][:60]!r}? " if near else ""
+        near = f"{name}.toml"
+    hint = did_you_mean(near[:60], after=" ")
     raise UsageError(
         f"unknown problem {name[:60]!r}; {hint}ready-made: {', '.join(ready_made())}; "
         "or give a .toml file"

@@ -6,12 +6,12 @@ stranger's, and the word of Python.
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields
 from functools import cache
 from typing import Annotated, Any, ClassVar, Protocol, Self, get_args
 
+from ..language.near_names import did_you_mean, near_name
 from ..language.tree import Tree
 
 
@@ -135,8 +135,7 @@ OTHER_WORDS = {
 def nearest(word: str, known: Collection[str]) -> str:
     """``; did you mean 'spring'?``, or nothing."""
     other = OTHER_WORDS.get(word, "")
-    near = [other] if other in known else difflib.get_close_matches(word[:40], sorted(known), 1)
-    return f"; did you mean {near[0]!r}?" if near else ""
+    return did_you_mean(other if other in known else near_name(word, known), "; ")
 
 
 @dataclass(frozen=True, kw_only=True)
