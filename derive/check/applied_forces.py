@@ -13,7 +13,8 @@ from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.tree import Tree
-from ..record.record import RecordError, decode
+from ..record.record import RecordError
+from ..record.tree_data import decode
 from .draws import Draws
 from .evaluate import Environment, evaluate
 from .kinds import accounts

@@ -19,8 +19,9 @@ from typing import Any
 from ..algebra.groups import Group
 from ..language.show import show
 from ..language.tree import Tree
-from ..record.record import Derivation, Equation, RecordError, Step, to_json
-from ..record.vocabulary import ANY_GROUP
+from ..record.contract import ANY_GROUP
+from ..record.json_writer import to_json
+from ..record.record import Derivation, Equation, RecordError, Step
 from . import symbols, well_formedness
 from .arithmetic import EvaluationError
 from .definitions import unexplained

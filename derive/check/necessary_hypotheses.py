@@ -18,9 +18,9 @@ from ..language.rational import Matrix
 from ..language.show import show
 from ..language.tree import Tree, names
 from ..record import mass_signs
+from ..record.contract import ANY_GROUP
 from ..record.hypotheses import OF_MASSES, Hypothesis
 from ..record.record import Equation, RecordError, Step
-from ..record.vocabulary import ANY_GROUP
 from .arithmetic import EvaluationError, is_matrix, scalar
 from .equation_sides import index_bindings
 from .evaluate import Environment, evaluate

@@ -9,9 +9,9 @@ from typing import Any
 from ..algebra.families import group, on_homogeneous
 from ..algebra.groups import Group
 from ..algebra.stated_basis import group_of_basis
+from ..record.contract import ANY_GROUP
 from ..record.record import RecordError
 from ..record.shape import IDENTIFIER
-from ..record.vocabulary import ANY_GROUP
 
 
 def group_of(problem: Mapping[str, Any]) -> Group | None:

@@ -9,8 +9,8 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..algebra.samplers import Source
+from ..record.contract import ANY_GROUP
 from ..record.record import Equation, RecordError, Step
-from ..record.vocabulary import ANY_GROUP
 from .equation_sides import claim_grade
 from .evaluate import Environment
 from .grades import DegreeSource, Grade

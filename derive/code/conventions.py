@@ -12,7 +12,7 @@ from ..algebra.relations import Relations, relations
 from ..language import rational as q
 from ..language.greek import SPELT
 from ..language.show import show
-from ..record.record import decode
+from ..record.tree_data import decode
 from .options import Options
 
 

@@ -164,7 +164,11 @@ class _Block:
 
     def _complex(self, A: Matrix, X: Matrix) -> Matrix:
         """X − (det A − 1 + Tr X)/m with a complex determinant of m × m, as real matrices."""
-        g, P, back = self.graph, self._numbers(self.kept.complex_basis), self._inverse(self.kept.complex_basis)
+        g, P, back = (
+            self.graph,
+            self._numbers(self.kept.complex_basis),
+            self._inverse(self.kept.complex_basis),
+        )
         m = len(P) // 2
 
         def complexes(M: Matrix) -> list[list[_Complex]]:

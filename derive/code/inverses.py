@@ -9,7 +9,7 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.tree import Tree
 from ..record.mass_signs import ANY_SIGN
-from ..record.record import decode
+from ..record.tree_data import decode
 from . import dense
 from .graph import PARAMETER, Node
 from .naming import name_of, suffixed

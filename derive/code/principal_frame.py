@@ -13,7 +13,7 @@ from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..record.record import decode
+from ..record.tree_data import decode
 from . import dense
 from .graph import Node
 from .naming import suffixed

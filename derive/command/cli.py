@@ -185,7 +185,7 @@ def command_check(args: argparse.Namespace) -> int:
     """Re-check every recorded step, independently of the code that derived it."""
     from ..check.checker import fresh_seed
     from ..check.checker import verdicts as check
-    from ..record.record import read
+    from ..record.json_reader import read
 
     failed, seed = 0, fresh_seed() if args.seed is None else args.seed
     for name in args.problem:

@@ -8,7 +8,8 @@ from typing import Any
 
 from ..language import rational as q
 from ..language.values import approximate
-from .record import RecordError, decode
+from .record import RecordError
+from .tree_data import decode
 
 ANY_SIGN = "of any sign"
 """The value of the key ``masses`` of a problem that says its masses may be negative."""

@@ -19,7 +19,7 @@ from ..schema.kinds import kinds
 from ..schema.outside import INPUTS, Damping
 from ..schema.solid_kinds import SOLIDS
 from ..schema.table import Table, nearest
-from .vocabulary import ACTIONS, CONVENTIONS
+from .contract import ACTIONS, CONVENTIONS
 
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
 FRACTION = re.compile(r"-?[0-9]{1,4000}(/0*[1-9][0-9]{0,4000})?")

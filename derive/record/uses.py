@@ -10,8 +10,10 @@ from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from ..language.tree import Tree
+from .contract import ANY_GROUP
+from .name_types import ALGEBRA, SCALAR, SQUARE, VECTOR, Name, Type, Use
 from .record import Equation, Step
-from .vocabulary import ALGEBRA, ANY_GROUP, SCALAR, SQUARE, VECTOR, VOCABULARY, Name, Type, Use
+from .vocabulary import VOCABULARY
 
 Usage = tuple[str, str]
 """A name and the position in which it stands: "value", "member", "function" or "moved"."""

@@ -12,11 +12,13 @@ from .table import Table
 
 
 class Own(NamedTuple):
-    """A letter that the words of a kind have for their own: a scalar, a vector or a matrix."""
+    """A letter that the words of a kind have for their own: a scalar, a vector or a matrix; its
+    meaning in English and in French."""
 
     name: str
     type: str
     meaning: str
+    french: str
     latex: str
 
 

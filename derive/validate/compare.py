@@ -14,7 +14,7 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from ..record.record import to_json
+from ..record.json_writer import to_json
 from .declarations import DiffersError, compare_names
 from .degree_bounds import Measured, MeasuredElementary
 from .emitted_file import Machine, Module

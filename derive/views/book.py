@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 from unicodedata import normalize
 
 from ..language.tree import names
+from ..record.contract import ANY_GROUP
 from ..record.record import Derivation, Step, Symbol
 from ..record.sentence import english, say
-from ..record.vocabulary import ANY_GROUP, VOCABULARY
+from ..record.vocabulary import VOCABULARY
 from .language import ENGLISH, Language
 from .outline import title
 from .system import system

@@ -11,6 +11,7 @@ from importlib import resources
 
 from ..prose import LANGUAGES as LANGUAGES
 from ..prose import entries as steps
+from ..record import rules, vocabulary
 from ..record.sentence import Prose, Sentence, filled, phrase
 
 CATALOGUE = resources.files(__package__) / "catalogue.toml"
@@ -56,10 +57,12 @@ def language(name: str) -> Language:
 
 
 def entries() -> list[dict[str, str]]:
-    """All messages by language: the prose of the steps, then the catalogue; breaks are spaces."""
+    """The prose of the steps, the names and rules of the record, and the catalogue, where a line
+    break is a space."""
+    words = dict.fromkeys((*vocabulary.meanings(), *rules.names()))
     listed = tomllib.loads(CATALOGUE.read_text(encoding="utf-8"))["message"]
     flat = ({k: " ".join(text.split()) for k, text in entry.items()} for entry in listed)
-    return [*steps(), *flat]
+    return [*steps(), *(dict(zip(LANGUAGES, x, strict=True)) for x in words), *flat]
 
 
 def typeset(french: str) -> str:

@@ -7,8 +7,8 @@ from itertools import groupby
 
 from ..language.show import show
 from ..printing.letters import names_of
+from ..record.contract import AMENDED, ANY_GROUP
 from ..record.record import Derivation, Equation, Step
-from ..record.vocabulary import AMENDED, ANY_GROUP
 from .entries import entries
 from .language import ENGLISH, Language
 

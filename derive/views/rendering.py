@@ -48,7 +48,7 @@ def _html(d: Derivation, words: Language, notation: Notation, alone: bool) -> st
 
 
 def _json(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
-    from ..record.record import to_json
+    from ..record.json_writer import to_json
 
     if alone:
         raise RenderError("the JSON is of a whole walk: name no steps")
@@ -162,7 +162,7 @@ def unprinted(records: Sequence[Derivation]) -> str:
 def corrections(records: Sequence[Derivation]) -> list[Finding]:
     """The findings about the numbers that these records have and the paper prints otherwise."""
     from ..paper.findings import amendments
-    from ..record.vocabulary import AMENDED
+    from ..record.contract import AMENDED
 
     numbers = {n for d in records for step in d.steps for n in step.paper} & AMENDED
     return amendments(numbers) if numbers else []

@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 from ..algebra.word_trees import PLAIN, WordNotation, tree_of
 from ..algebra.words import Expr
 from ..language.tree import Tree
+from ..record.contract import ANY_GROUP
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
-from ..record.vocabulary import ANY_GROUP
 from .failure import begin, end
 
 

@@ -8,10 +8,13 @@ from ..algebra.groups import Group
 from ..problem.data import data
 from ..problem.problem import Problem
 from ..record import sentence
-from ..record.record import Step, Symbol, encode
+from ..record.contract import CONVENTIONS
+from ..record.name_types import Name
+from ..record.record import Step, Symbol
 from ..record.sentence import Prose, Sentence, listed
+from ..record.tree_data import encode
 from ..record.uses import of_steps
-from ..record.vocabulary import CONVENTIONS, DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY, Name
+from ..record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
 from ..schema.outside import ForceInput
 from .wording import phrase, say
 

@@ -6,8 +6,10 @@ import re
 import pytest
 
 from derive.check.checker import Checker, check
-from derive.record.record import RecordError, from_json, to_data
-from derive.record.vocabulary import ANY_GROUP
+from derive.record.contract import ANY_GROUP
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_data
+from derive.record.record import RecordError
 from tests.support import record_forgeries
 from tests.support.walks import SEED, record, repeated
 

@@ -14,9 +14,11 @@ from derive.language import rational as q
 from derive.language.tree import names
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
+from derive.record.contract import ANY_GROUP
 from derive.record.hypotheses import Hypothesis
-from derive.record.record import Equation, RecordError, from_json, to_data
-from derive.record.vocabulary import ANY_GROUP
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_data
+from derive.record.record import Equation, RecordError
 from tests.problems import PROBLEMS
 from tests.support import record_suppositions as without
 from tests.support.walks import SEED, record

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from derive.command.cli import main, ready_made
-from derive.record.record import to_data, to_json
+from derive.record.json_writer import to_data, to_json
 from derive.views.rendering import FORMATS
 from tests.support.needs import CC, needs
 from tests.support.walks import record

@@ -21,7 +21,9 @@ from derive.figure.placing import overlap
 from derive.figure.scene import WIDTH, scene
 from derive.pipeline import walk
 from derive.problem.toml import load, problem_of
-from derive.record.record import Derivation, from_json, to_json
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
+from derive.record.record import Derivation
 from tests.support.needs import need
 
 PROBLEMS = sorted((Path(__file__).parents[2] / "derive" / "problems").glob("*.toml"))

@@ -12,7 +12,7 @@ from derive.command.cli import main
 from derive.language.show import show
 from derive.paper import findings as paper
 from derive.paper.printed import PAPER
-from derive.record.vocabulary import AMENDED
+from derive.record.contract import AMENDED
 from derive.views.text import text
 from tests.support.walks import record
 

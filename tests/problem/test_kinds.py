@@ -11,7 +11,9 @@ from derive.problem.principal import frame_of, principal
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.python.api import SE, Moments, Problem, Table
-from derive.record.record import RecordError, from_json, to_data
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_data
+from derive.record.record import RecordError
 from derive.schema.kinds import kinds
 from derive.schema.table import NEEDS
 from derive.views.language import language

@@ -17,7 +17,9 @@ from derive.code.options import Options
 from derive.pipeline import program
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
-from derive.record.record import Equation, RecordError, from_json, to_json
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
+from derive.record.record import Equation, RecordError
 from derive.validate.read_c import read_c
 from derive.validate.terms import CodeError
 from tests.support.walks import SEED, problem, record

@@ -11,9 +11,11 @@ from derive.check.checker import Checker
 from derive.check.definitions import unexplained
 from derive.check.dependencies import unused
 from derive.check.function_signatures import RATES
-from derive.record.record import RecordError, from_json, to_data
+from derive.record.contract import ANY_GROUP, COMMENTARY
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_data
+from derive.record.record import RecordError
 from derive.record.rules import RULES
-from derive.record.vocabulary import ANY_GROUP, COMMENTARY
 from tests.support.walks import SEED, record, repeated
 
 NAMES = ("so3", "sl3")

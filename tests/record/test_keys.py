@@ -10,7 +10,9 @@ import pytest
 
 from derive import derive
 from derive.check.checker import Checker
-from derive.record.record import RecordError, equation_key, from_json, step_of, to_json
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
+from derive.record.record import RecordError, equation_key, step_of
 from derive.views.html import html
 from derive.views.latex import latex
 from tests.support.walks import SEED, SPECIAL, record

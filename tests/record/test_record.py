@@ -11,7 +11,9 @@ from derive.check.checker import SIZE, check
 from derive.language.show import show
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from derive.record.record import RecordError, from_json, to_data, to_json
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_data, to_json
+from derive.record.record import RecordError
 from derive.record.rules import RULES
 from tests.support import steps
 from tests.support.engine_mutations.jobs import BOTH, MIXED

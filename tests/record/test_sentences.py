@@ -9,7 +9,9 @@ from derive.command.cli import ready_made
 from derive.language.limits import SENTENCE
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from derive.record.record import RecordError, from_json, to_data, to_json
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_data, to_json
+from derive.record.record import RecordError
 from derive.record.sentence import english, listed, phrase, say
 from derive.views.language import language
 from derive.views.text import text

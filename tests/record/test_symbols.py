@@ -10,9 +10,12 @@ import pytest
 from derive.check import symbols
 from derive.check.checker import Checker
 from derive.check.function_signatures import HEADS
-from derive.record.record import RecordError, from_json, to_data
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_data
+from derive.record.name_types import ROLES
+from derive.record.record import RecordError
 from derive.record.uses import position_of
-from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROLES, ROTATIONS, VOCABULARY
+from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
 from tests.support.walks import NAMES, OTHERS, SEED, SPECIAL, record, repeated
 
 EVERY = (*NAMES, *OTHERS)

@@ -10,7 +10,7 @@ import sys
 from collections import Counter
 
 from derive.check.checker import Checker
-from derive.record.vocabulary import ANY_GROUP
+from derive.record.contract import ANY_GROUP
 from tests.support import printing_mutations, record_forgeries, record_mutations
 from tests.support.walks import NAMES, OTHERS, SEED, record
 from tests.validate.test_validation import MUTATED, tried

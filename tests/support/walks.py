@@ -6,7 +6,7 @@ import pytest
 
 from derive.check.checker import Checker
 from derive.command.cli import derive, ready_made
-from derive.record.vocabulary import ANY_GROUP
+from derive.record.contract import ANY_GROUP
 
 NAMES = ("linear", "affine", "so3", "se3", "sl3")
 OTHERS = tuple(sorted({*ready_made()} - {*NAMES}))

@@ -18,7 +18,8 @@ from derive.printing.escape import markdown_text, prose, tex_text
 from derive.problem.problem import MomentBody
 from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
-from derive.record.record import from_json, to_json
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
 from derive.record.rules import RULES
 from derive.record.sentence import PLACE, english, phrase, say
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
@@ -181,6 +182,7 @@ def test_every_word_said_is_in_the_catalogue(path):
 
 def test_every_entry_is_used():
     sources = strings("walk/*.py", "walk/kinds/*.py", "record/vocabulary.py", "record/rules.py")
+    sources |= strings("record/contract.py")
     sources |= strings("paper/findings.py", "views/*.py", "figure/*.py", "schema/kinds/*.py")
     sources |= {p.remark for p in PAPER if p.remark}
     used = sources | strings("pipeline.py") | titles_and_meanings()

@@ -13,9 +13,10 @@ from derive.code.emit import emit
 from derive.language.tree import mul, neg
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from derive.record.record import from_json, to_json
+from derive.record.contract import ANY_GROUP
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
 from derive.record.sentence import english
-from derive.record.vocabulary import ANY_GROUP
 from tests.oracles import general, relative_error
 from tests.problems import PROBLEMS
 from tests.support import walks

@@ -17,11 +17,12 @@ from derive.check.checker import check
 from derive.pipeline import general_road, walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
+from derive.record.contract import ANY_GROUP
 from derive.record.hypotheses import OF_MASSES
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
 from derive.record.mass_signs import SUPPOSED
-from derive.record.record import from_json, to_json
 from derive.record.sentence import Sentence
-from derive.record.vocabulary import ANY_GROUP
 from derive.views.language import language
 from derive.views.text import text
 from tests.support.emitted import BUILDS, import_python

@@ -19,9 +19,27 @@ class FarCentre(Potential):
     needs, alone = ("affine of R^3",), True
     unturned = "the gravity of a far centre, an expansion about the origin of the file,"
     letters = (
-        Own("T_b", "vector", "place of the body's origin from the far centre, in the body", "T_b"),
-        Own("W", "scalar", "one over the distance of the body's origin from the far centre", "W"),
-        Own("V", "scalar", "strength of the far centre over that distance", "V"),
+        Own(
+            "T_b",
+            "vector",
+            "place of the body's origin from the far centre, in the body",
+            "position de l’origine du corps vue du centre lointain, dans le repère du corps",
+            "T_b",
+        ),
+        Own(
+            "W",
+            "scalar",
+            "one over the distance of the body's origin from the far centre",
+            "inverse de la distance de l’origine du corps au centre lointain",
+            "W",
+        ),
+        Own(
+            "V",
+            "scalar",
+            "strength of the far centre over that distance",
+            "intensité du centre lointain divisée par cette distance",
+            "V",
+        ),
     )
     strength: Scalar
     centre: Vector = ()

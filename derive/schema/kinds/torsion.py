@@ -16,9 +16,27 @@ class Torsion(Potential):
     needs = ("rotations",)
     unturned = "a torsion spring, which rests at axes of the file,"
     letters = (
-        Own("k_A", "scalar", "stiffness of the torsion springs, the sum of all", "k_A"),
-        Own("N_A", "matrix", "moments of the torsion springs, in the body frame", "N_A"),
-        Own("μ_A", "vector", "moment of the torsion springs, as a vector", r"\mu_A"),
+        Own(
+            "k_A",
+            "scalar",
+            "stiffness of the torsion springs, the sum of all",
+            "raideur des ressorts de torsion, la somme de toutes",
+            "k_A",
+        ),
+        Own(
+            "N_A",
+            "matrix",
+            "moments of the torsion springs, in the body frame",
+            "moments des ressorts de torsion, dans le repère du corps",
+            "N_A",
+        ),
+        Own(
+            "μ_A",
+            "vector",
+            "moment of the torsion springs, as a vector",
+            "moment des ressorts de torsion, en vecteur",
+            r"\mu_A",
+        ),
     )
     stiffness: Stiffness
     rest: Rotation = ()

@@ -54,7 +54,7 @@ def produce(job: Job) -> Output:
     from derive.code.options import Options
     from derive.pipeline import program, walk
     from derive.problem.toml import problem_of
-    from derive.record.record import to_json
+    from derive.record.json_writer import to_json
 
     problem = problem_of(job.data)
     record = walk(problem)
@@ -215,7 +215,7 @@ def serve(mutant: Mutant, graph: dict[str, set[str]], connection: Any) -> None:
 def refuses(job: Job, output: Output, labels: list[str]) -> bool:
     """Does this process refuse one of these steps, or the code, or break on it, or hang?"""
     from derive.check.checker import Checker
-    from derive.record.record import from_json
+    from derive.record.json_reader import from_json
 
     try:
         with limited():
@@ -230,7 +230,7 @@ def refuses(job: Job, output: Output, labels: list[str]) -> bool:
 
 def read_back(job: Job, output: Output) -> list[Any]:
     """What the validator says of emitted code."""
-    from derive.record.record import from_json
+    from derive.record.json_reader import from_json
     from derive.validate.chart import Chart
     from derive.validate.emission import EmittedFiles
 

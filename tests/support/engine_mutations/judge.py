@@ -16,8 +16,9 @@ import numpy as np
 from derive.check.checker import Checker
 from derive.check.definitions import unexplained
 from derive.language.tree import mul
-from derive.record.record import Derivation, RecordError, Step, from_json
-from derive.record.vocabulary import ANY_GROUP
+from derive.record.contract import ANY_GROUP
+from derive.record.json_reader import from_json
+from derive.record.record import Derivation, RecordError, Step
 from tests.code.test_frame import loose
 from tests.oracles import general, relative_error
 from tests.support.engine_mutations.engine import SEED, Output, produce, read_back

@@ -1,0 +1,207 @@
+"""A record from its JSON, which may be a stranger's: what is wrong is said, and where.
+
+What the rest says already (commentary, kind, key) may be absent; if it is there, it must be right.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Set
+from pathlib import Path
+from typing import Any
+
+from ..language.limits import RECORD_BYTES, TREE
+from . import sentence
+from .contract import ACTIONS, ANY_GROUP, COMMENTARY
+from .hypotheses import PROPERTIES, SPACES, Hypothesis
+from .name_types import ROLES, Type, Use
+from .record import Derivation, Equation, RecordError, Step, Symbol, equation_key, step_of
+from .rules import RULES
+from .sentence import Prose, english
+from .shape import ShapeError, deepest, problem_shape
+from .strict_json import loads
+from .tree_data import decode
+from .vocabulary import VOCABULARY
+
+DEEPEST_TYPE = 4
+"""How deep lists may lie in one another in the type of a symbol."""
+
+
+def _field(data: Any, key: str, kind: type, where: str) -> Any:
+    """The value of a key of an object; ``RecordError`` where it is missing or of another kind."""
+    if not isinstance(data, dict):
+        raise RecordError(f"{where}: expected an object")
+    if key not in data:
+        raise RecordError(f"{where}: key {key!r} is missing")
+    if not isinstance(data[key], kind):
+        raise RecordError(f"{where}: key {key!r} must be a {kind.__name__}")
+    return data[key]
+
+
+def _strings(data: Any, key: str, where: str) -> tuple[str, ...]:
+    """The list of strings under a key of an object; ``RecordError`` for anything else."""
+    items = _field(data, key, list, where)
+    if not all(isinstance(x, str) for x in items):
+        raise RecordError(f"{where}: key {key!r} must list strings")
+    return tuple(items)
+
+
+def _prose(data: Any, key: str, where: str) -> Prose:
+    """The sentences of an object, which must say the same in English as the text under ``key``; or
+    that text as one sentence, where there is no key 'sentences'."""
+    words = str(_field(data, key, str, where))
+    if "sentences" not in data:
+        return sentence.say(words)
+    try:
+        prose = sentence.of_data(data["sentences"], where)
+    except ValueError as error:
+        raise RecordError(str(error)) from None
+    if english(prose) != words:
+        raise RecordError(f"{where}: the English of 'sentences' is not {key!r}")
+    return prose
+
+
+def _require_implied(data: dict[str, Any], key: str, right: Any, where: str) -> None:
+    """``RecordError`` where a key that follows from the rest of the record has another value than
+    ``right``; it may be absent."""
+    if key in data and data[key] != right:
+        said = right if isinstance(right, str) else json.dumps(right)
+        raise RecordError(f"{where}: key {key!r} must be {said}")
+
+
+def _symbol(data: Any, where: str) -> Symbol:
+    name, latex = (_field(data, key, str, where) for key in ("name", "latex"))
+    if name not in VOCABULARY or latex != VOCABULARY[name].latex:
+        raise RecordError(f"{where}: {ascii(name)[:40]} is no name of the walk, or not so in LaTeX")
+    where = f"{where} ({name})"
+    uses = [_use(data, where)]
+    if "also" in data:
+        uses += [_use(x, where) for x in _field(data, "also", list, where)]
+    return Symbol(name, _prose(data, "meaning", where), latex, tuple(uses))
+
+
+def _use(data: Any, where: str) -> Use:
+    kind, role = _type(_field(data, "type", object, where), where), _field(data, "role", str, where)
+    if role not in ROLES:
+        raise RecordError(f"{where}: key 'role' must be one of {', '.join(ROLES)}")
+    return Use(kind, role, _field(data, "defined", str, where) if "defined" in data else "")
+
+
+def _type(data: Any, where: str, depth: int = 0) -> Type:
+    """The type of a symbol, names and sizes in nested lists; only its form is read here, the
+    checker judges what it means."""
+    if isinstance(data, str) or type(data) is int:
+        return data  # type: ignore[return-value]
+    if not isinstance(data, list) or not data or depth > DEEPEST_TYPE:
+        raise RecordError(f"{where}: key 'type' must be a name, or lists of names and sizes")
+    return tuple(_type(x, where, depth + 1) for x in data)
+
+
+def _step(data: Any, where: str, earlier: Set[str], group: str) -> Step:
+    """A step from its data; ``earlier``: the labels of the steps before it. Its scope follows from
+    its label: ``group``, or any group."""
+    label = _field(data, "label", str, where)
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_.]{0,99}", label):
+        raise RecordError(f"{where}: key 'label' must be letters, digits, _ and dots")
+    if step_of(label) and label.rpartition(".")[2].isdecimal():
+        raise RecordError(f"{where}: {label!r} would be the key of an equation, not of a step")
+    where = f"{where} ({label})"
+    rule = _field(data, "rule", str, where)
+    if rule not in RULES:
+        raise RecordError(f"{where}: unknown rule {rule[:40]!r}")
+    _require_implied(data, "kind", RULES[rule].kind, where)
+    uses = _strings(data, "uses", where)
+    missing = [u for u in uses if u not in earlier]
+    if missing:
+        raise RecordError(f"{where}: uses {missing[0][:40]!r}, which is no earlier step")
+    equations = _equations(data, "equations", where)
+    if not equations:
+        raise RecordError(f"{where}: no equation")
+    for k, item in enumerate(data["equations"], 1):
+        _require_implied(item, "key", equation_key(label, k), f"{where}, equation {k}")
+    paper = tuple(x for x in _field(data, "paper", list, where) if isinstance(x, int))
+    scope = ANY_GROUP if label.partition(".")[0] in ACTIONS else group
+    _require_implied(data, "scope", scope, where)
+    prose = _prose(data, "prose", where)
+    given = _equations(data, "given", where, quantified=False) if "given" in data else ()
+    driven = bool(_field(data, "driven", bool, where)) if "driven" in data else False
+    supposed = _hypotheses(data, where) if "hypotheses" in data else ()
+    return Step(label, rule, uses, equations, prose, paper, scope, given, driven, supposed)
+
+
+def _equations(data: Any, key: str, where: str, *, quantified: bool = True) -> tuple[Equation, ...]:
+    """The equations under a key; ``quantified``: may they have quantifiers?"""
+    found = []
+    for k, item in enumerate(_field(data, key, list, where), 1):
+        place = f"{where}, {'equation' if quantified else key} {k}"
+        lhs, rhs = (decode(_field(item, side, object, place), place) for side in ("lhs", "rhs"))
+        names = (_strings(item, x, place) if x in item else () for x in ("for_all", "exists"))
+        found.append(Equation(lhs, rhs, *names))
+        if not quantified and (found[-1].for_all or found[-1].exists):
+            raise RecordError(f"{place}: what is given has no quantifiers")
+    return tuple(found)
+
+
+def _hypotheses(data: Any, where: str) -> tuple[Hypothesis, ...]:
+    found = []
+    for k, item in enumerate(_field(data, "hypotheses", list, where), 1):
+        place = f"{where}, hypothesis {k}"
+        what = _field(item, "is", str, place)
+        if what not in PROPERTIES:
+            raise RecordError(f"{place}: key 'is' must be one of {', '.join(PROPERTIES)}")
+        space = _field(item, "on", str, place) if "on" in item else ""
+        if (space in SPACES) != (what == "nondegenerate") or (space and space not in SPACES):
+            raise RecordError(f"{place}: key 'on' is of a form: one of {', '.join(SPACES)}")
+        found.append(Hypothesis(what, decode(_field(item, "of", object, place), place), space))
+    return tuple(found)
+
+
+def from_json(text: str) -> Derivation:
+    """A record from JSON text; :class:`RecordError` says what is wrong and where."""
+    try:
+        data = loads(text)
+    except ValueError as error:
+        raise RecordError(f"not JSON that can be read: {error}") from None
+    problem = _field(data, "problem", dict, "record")
+    _require_implied(data, "commentary", [*COMMENTARY], "record")
+    if deepest(problem) > TREE:
+        raise RecordError(f"record, problem: nested deeper than {TREE}")
+    try:
+        problem_shape(problem, decode)
+    except ShapeError as error:
+        raise RecordError(f"record, problem: {error}") from None
+    listed = _field(data, "symbols", list, "record")
+    symbols = [_symbol(item, f"symbol {k}") for k, item in enumerate(listed, 1)]
+    prefixes, steps = (problem["name"], *ACTIONS), dict[str, Step]()
+    for k, item in enumerate(_field(data, "steps", list, "record"), 1):
+        step = _step(item, f"step {k}", steps.keys(), problem["group"])
+        if step.label.partition(".")[0] not in prefixes:
+            raise RecordError(
+                f"step {k} ({step.label}): key 'label' must begin with the problem's name"
+            )
+        if step.label in steps:
+            raise RecordError(f"step {k}: label {step.label[:40]!r} stands twice")
+        steps[step.label] = step
+    if not steps:
+        raise RecordError("record: no step")
+    found = Derivation(problem, tuple(symbols), tuple(steps.values()))
+    for k, (item, label) in enumerate(zip(data["steps"], steps, strict=True), 1):
+        _require_implied(item, "remark", label in found.remarks, f"step {k} ({label})")
+    return found
+
+
+def read(path: Path) -> Derivation:
+    """The record in a JSON file; :class:`RecordError` names the file and what is wrong."""
+    try:
+        with path.open("rb") as file:
+            raw = file.read(RECORD_BYTES + 1)
+        if len(raw) > RECORD_BYTES:
+            raise RecordError(f"larger than {RECORD_BYTES} bytes")
+        return from_json(raw.decode("utf-8"))
+    except OSError as error:
+        raise RecordError(f"{path}: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise RecordError(f"{path}: not UTF-8 text") from None
+    except RecordError as error:
+        raise RecordError(f"{path}: {error}") from None

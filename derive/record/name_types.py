@@ -1,0 +1,81 @@
+"""The types of names: what sort of value a name has, and in which role the equations use it."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+Type = str | tuple[Any, ...]
+"""``scalar``, ``(matrix, rows, columns)``, ``(vector, n)``; ``(algebra,)``, a matrix among the
+linear parts of 𝔤; ``(function, types of the arguments …, type of the value)``; ``(family, what its
+index counts, type of a member)``; a variation of the point y, with the time or without."""
+
+SCALAR, VARIATION, AT_ONE_TIME = "scalar", "variation", "variation at one time"
+SQUARE, VECTOR, COORDINATES = ("matrix", "n", "n"), ("vector", "n"), ("vector", "d")
+ALGEBRA, PLACE = ("algebra",), ("vector", "block")
+"""Sizes in types: n is the dimension of the space, d that of the linear parts of 𝔤, dim that of 𝔤,
+block that of the space of a factor, where a product has several of any of them."""
+
+ROLES = ("letter", "definition", "value on X", "unknown", "function")
+"""What a name is: chosen freely; defined by an equation; a rate along the motion, or the value of a
+variation on X; what exists by a theorem; a function."""
+
+
+class Use(NamedTuple):
+    """One of the ways in which a name is used: m is a number, and m_i a family of numbers.
+
+    ``defined``: in a record, the key of the equation that defines it, or says what it is first.
+    """
+
+    type: Type
+    role: str
+    defined: str = ""
+
+
+class Name(NamedTuple):
+    """What a name means, in English and in French, how LaTeX writes it, and in which ways it is
+    used in equations."""
+
+    meaning: str
+    french: str
+    latex: str
+    uses: tuple[Use, ...]
+
+
+def name(meaning: str, french: str, latex: str, *uses: Use) -> Name:
+    """The :class:`Name` of a meaning, with its uses; without any it occurs in sentences alone."""
+    return Name(meaning, french, latex, uses)
+
+
+def letter(type: Type) -> Use:
+    """The use of a name that the walk starts from; a step may say later what it is, as for U."""
+    return Use(type, "letter")
+
+
+def defined(type: Type) -> Use:
+    """The use of a name that an equation defines."""
+    return Use(type, "definition")
+
+
+def rate(type: Type) -> Use:
+    """The use of a name whose value is a rate along the motion."""
+    return Use(type, "value on X")
+
+
+def unknown(type: Type) -> Use:
+    """The use of a name that exists by a theorem: a multiplier."""
+    return Use(type, "unknown")
+
+
+def function(*types: Type) -> Use:
+    """The use of a name as a function: the types of its arguments, then that of its value."""
+    return Use(("function", *types), "function")
+
+
+def of_X(type: Type) -> Use:
+    """The use of a name as the value of a variation on X."""
+    return Use(("function", VARIATION, type), "value on X")
+
+
+def family(index: str, type: Type) -> Type:
+    """The type of a family of members of a type, and what their index counts."""
+    return ("family", index, type)
