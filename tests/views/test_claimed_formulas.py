@@ -1,0 +1,134 @@
+"""The two languages of a sentence have the same formulas, numbers and places, in the same order."""
+
+import re
+import unicodedata
+from collections.abc import Iterator
+from itertools import pairwise
+
+import pytest
+
+from derive.views.language import entries
+
+ENTRIES = [(x["en"], x["fr"]) for x in entries()]
+
+MARKS = r"[\u0300-\u036f]"
+LETTER = rf"(?:[A-Za-zÀ-ÖØ-öø-ÿœŒ](?!{MARKS}))"
+WORD = re.compile(rf"{LETTER}+(?:[-–’']{LETTER}+)*")
+ELISION = re.compile(r"\b(?:[dlnscjmt]|(?:jusqu|lorsqu|puisqu|qu))[’'](?=\S)", re.I)
+ARTICLES = ("a", "y", "à", "À")
+"""Words of one letter; each other letter is a formula, but for A where a sentence begins."""
+NAMES = ("Tr", "det", "dm")
+PUNCTUATION = "«»“”‘’\"'$.,;:!?"
+ZERO = r"\bzero\b"
+NUL = r"\b(?<!est )nul\b|(?:(?<=trace )|(?<=vide ))nulle\b"
+"""How English and French say 0 in words."""
+
+REORDERED = {
+    "An element g = A of the group G moves the body": (3, 0, 1, 2),
+    "An element g = (A, T) of the group G moves the body": (4, 0, 1, 2, 3),
+    "The Lagrangian $L$ of the points is pulled back": (1, 0, 2, 3),
+    "Between two elements of the Lie algebra C drops out: A keeps": (0,),
+}
+"""Beginning of a sentence → the places in English of the formulas of the French."""
+
+NUMBERS = {
+    **{"two": "deux", "three": "trois", "four": "quatre", "fourth": "quatre"},
+    **{"six": "six", "seven": "sept", "eight": "huit", "nine": "neuf", "ten": "dix"},
+}
+BOTH = r"\b(?:tous|toutes|aux) deux\b"
+
+
+def formulas(text: str) -> Iterator[str]:
+    """What is no word between spaces, without the punctuation of the sentence."""
+    whole = re.sub(r"(?:^|(?<=\. ))A ", "", unicodedata.normalize("NFC", text))
+    for piece in ELISION.sub("", whole).split():
+        x = piece.strip(PUNCTUATION)
+        for left, right in ("()", "[]"):
+            if x.count(left) > x.count(right):
+                x = x.removeprefix(left)
+            if x.count(right) > x.count(left):
+                x = x.removesuffix(right)
+        x = x.strip(PUNCTUATION)
+        x = inner[1] if (inner := re.fullmatch(r"\((\{\w+\}|[^()]{3,})\)", x)) else x
+        alone = x in NAMES or (len(x) == 1 and x not in ARTICLES) or re.search("[a-z][A-Z]", x)
+        if alone or (x and not WORD.fullmatch(x)):
+            yield x
+
+
+def in_order(english: str) -> list[str]:
+    """The formulas of an English sentence in the order of the French."""
+    found = [*formulas(re.sub(ZERO, "0", english))]
+    for beginning, order in REORDERED.items():
+        if english.startswith(beginning):
+            return [found[i] for i in order]
+    return found
+
+
+def numbers(words: str, table: dict[str, str]) -> list[str]:
+    """The numbers that a sentence says in words, in French and in order."""
+    return [table[x] for x in re.findall(r"\w+", words.lower()) if x in table]
+
+
+def wrong(english: str, french: str) -> list[str]:
+    """What one language states and the other does not."""
+    same = in_order(english) == [*formulas(re.sub(NUL, "0", french))]
+    said = numbers(re.sub(BOTH, "", french), {x: x for x in NUMBERS.values()})
+    return ["formulas"] * (not same) + ["numbers"] * (numbers(english, NUMBERS) != said)
+
+
+@pytest.mark.parametrize(("english", "french"), ENTRIES, ids=lambda x: x[:40])
+def test_both_languages_have_the_same_formulas(english, french):
+    assert wrong(english, french) == []
+
+
+def test_what_stands_in_another_order_is_listed():
+    assert all(any(e.startswith(x) for e, _ in ENTRIES) for x in REORDERED)
+
+
+# -- what is changed in one language is noticed ---------------------------------------------------
+
+GREEK = "αβγδζηθκλμνξπσςτφχψωϖΓΔΛΠΣΦΨΩ"
+SIGNS = {"−": "+", "+": "−", "=": "≠", "∧": "·", "⟨": "‖", "Σ": "∫"}
+NUMBER = r"(?<![\w{])\d|\d(?=[\w)])|[⁰¹²³⁴-⁹₀-₉]"
+OTHERS = {x: "trois" if x == "deux" else "deux" for x in NUMBERS.values()}
+SYMBOL = rf"[{GREEK}−+=∧⟨⟩‖Σ∫′{{}}⁻¹²³_]"
+
+
+def replaced(text: str, pattern: str, new: dict[str, str] | str) -> Iterator[str]:
+    """A text with one match of a pattern after the other replaced by what stands for it."""
+    for m in re.finditer(pattern, text):
+        yield text[: m.start()] + (new if isinstance(new, str) else new[m[0]]) + text[m.end() :]
+
+
+def swapped(text: str) -> Iterator[str]:
+    """A text with two neighbours among its pieces with a symbol exchanged."""
+    pieces = [m for m in re.finditer(r"[^\s,;.:()]+", text) if re.search(SYMBOL, m[0])]
+    for a, b in pairwise(pieces):
+        if a[0] != b[0]:
+            yield text[: a.start()] + b[0] + text[a.end() : b.start()] + a[0] + text[b.end() :]
+
+
+def decomposed(text: str) -> str:
+    return unicodedata.normalize("NFD", text)
+
+
+FAULTS = {
+    "a sign": lambda x: replaced(x, "|".join(map(re.escape, SIGNS)), SIGNS),
+    "a Greek letter": lambda x: replaced(
+        x, f"[{GREEK}]", dict(zip(GREEK, GREEK[::-1], strict=True))
+    ),
+    "a prime or a bar": lambda x: replaced(decomposed(x), r"′|⁻|[\u0303\u0304\u0307]", ""),
+    "a digit": lambda x: replaced(x, NUMBER, "5"),
+    "a letter": lambda x: replaced(x, r"(?<![\w’'\-])[B-Z](?![\w’'\-])", "Y"),
+    "a piece left out": lambda x: replaced(x, rf"[^\s,;.:()]*{SYMBOL}[^\s,;.:()]*", ""),
+    "two pieces": swapped,
+    "a place left out": lambda x: replaced(x, r"\{\w+\}", ""),
+    "a number": lambda x: replaced(x, rf"\b(?:{'|'.join(OTHERS)})\b", OTHERS),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_what_is_changed_in_one_language_is_noticed(fault):
+    changed = [(e, x) for e, french in ENTRIES for x in FAULTS[fault](french) if x != french]
+    assert len(changed) > (10 if fault == "a number" else 80)
+    assert [x for x in changed if not wrong(*x)] == []
