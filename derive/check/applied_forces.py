@@ -1,4 +1,4 @@
-"""Potentials and given forces of a problem at the exact points of a model.
+"""The potentials of a problem at the exact points of a model, their forces, and damping.
 
 U is computed from the problem's own data, term by term; its forces come from nilpotent numbers.
 """
@@ -66,7 +66,7 @@ def minus_gradient(energy: Callable[[Sequence[Vector]], Any], r: Sequence[Vector
 
 
 class AppliedForces:
-    """The potentials, inputs and damping of a problem, for points with given blocks."""
+    """The potentials of a problem and their forces, for points in these blocks."""
 
     def __init__(
         self, problem: Mapping[str, Any], group: Group, blocks: Sequence[int], env: Environment
@@ -111,7 +111,7 @@ class AppliedForces:
         return self._energy(self.potentials, t, r, masses)
 
     def single_potential(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
-        """The part of U that is given point by point."""
+        """U_Q, the part of U point by point."""
         return self._energy(self.single, t, r, masses)
 
     def _energy(
@@ -150,7 +150,7 @@ class AppliedForces:
         return minus_gradient(lambda places: self.potential(t, places, masses), r)
 
     def single_forces(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> list[Vector]:
-        """The forces on the points by the potentials that are given point by point."""
+        """−∂U_Q/∂r_i for every point."""
         return minus_gradient(lambda places: self.single_potential(t, places, masses), r)
 
     def tension(self, energy: Any) -> Any:

@@ -17,7 +17,7 @@ PRINCIPAL: Tree = (
 )
 """diag(λ₁, λ₂, λ₃)."""
 
-STILL: dict[str, str] = {
+VANISHING: dict[str, str] = {
     "δ′t": TIME,
     **dict.fromkeys(("δ′A", "ξ′", "Ω′"), LINEAR),
     **dict.fromkeys(("δ′T", "η′"), TRANSLATION),
@@ -37,23 +37,23 @@ class Locus:
     """The points at which an equation is to hold.
 
     ``principal``: those with I = diag(λ₁, λ₂, λ₃). ``contracted``: δt = 1, and X is the vector of
-    δ. ``still``: the parts of δ′ that vanish; ``along``: the parts of the velocity of X that are
-    those of the motion. ``coasting``: the acceleration is any, and that of X. ``driven``: inputs
-    and damping act.
+    δ. ``vanishing``: the parts of δ′ that vanish; ``along``: the parts of the velocity of X that
+    are those of the motion. ``free_acceleration``: the acceleration is any, and that of X.
+    ``driven``: inputs and damping act.
     """
 
     principal: bool = False
     contracted: bool = False
-    still: frozenset[str] = frozenset()
+    vanishing: frozenset[str] = frozenset()
     along: frozenset[str] = frozenset()
-    coasting: bool = False
+    free_acceleration: bool = False
     driven: bool = False
 
     @property
     def as_text(self) -> str:
         """The hypotheses as text, whatever the order of sets: a part of a point's seed."""
-        sets = sorted(self.still), sorted(self.along)
-        return f"{self.principal} {self.contracted} {sets} {self.coasting} {self.driven}"
+        sets = sorted(self.vanishing), sorted(self.along)
+        return f"{self.principal} {self.contracted} {sets} {self.free_acceleration} {self.driven}"
 
 
 def locus_of(step: Step, equation: Equation | None = None) -> Locus:
@@ -62,7 +62,7 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
     ``RecordError`` for a hypothesis that is none of these.
     """
     principal = contracted = False
-    still: set[str] = set()
+    vanishing: set[str] = set()
     along: set[str] = set()
     for e in step.given:
         lhs, rhs = e.lhs, e.rhs
@@ -70,15 +70,15 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
             principal = True
         elif (lhs, rhs) == ("δt", 1):
             contracted = True
-        elif isinstance(lhs, str) and lhs in STILL and rhs == 0:
-            still.add(STILL[lhs])
+        elif isinstance(lhs, str) and lhs in VANISHING and rhs == 0:
+            vanishing.add(VANISHING[lhs])
         elif part := _part_of_velocity(lhs, rhs):
             along.add(part)
         else:
             text = f"{show(lhs)} = {show(rhs)}"
             raise RecordError(f"the hypothesis {text[:80]} is not one that can be tried")
-    coasting = equation is not None and any({*equation.for_all} & {*form} for form in RATES)
-    return Locus(principal, contracted, frozenset(still), frozenset(along), coasting, step.driven)
+    free = equation is not None and any({*equation.for_all} & {*form} for form in RATES)
+    return Locus(principal, contracted, frozenset(vanishing), frozenset(along), free, step.driven)
 
 
 def _part_of_velocity(lhs: Tree, rhs: Tree) -> str:

@@ -39,9 +39,9 @@ class Model(Body):
     ``principal``: the body has a diagonal J; ``driven``: the input does not vanish; ``generic``:
     the potential is any polynomial; ``pi``: its value, else any. ``few``: no more points than are
     needed, and each of them once. ``zero``: the names of parameters that vanish. X is the motion;
-    or, where ``along`` is given, a random vector with δt = 1 whose velocity has these parts from
-    the motion, and is δ itself where ``contracted``. ``coasting``: the acceleration is that of X.
-    ``still``: the parts of δ′ that vanish.
+    or, where there is ``along``, a random vector with δt = 1 whose velocity has these parts from
+    the motion, and is δ itself where ``contracted``. ``free_acceleration``: the acceleration is
+    that of X. ``vanishing``: the parts of δ′ that vanish.
     """
 
     def __init__(
@@ -55,15 +55,15 @@ class Model(Body):
         driven: bool = False,
         along: Collection[str] | None = None,
         contracted: bool = False,
-        coasting: bool = False,
-        still: Collection[str] = (),
+        free_acceleration: bool = False,
+        vanishing: Collection[str] = (),
         generic: bool = False,
         pi: Fraction | None = None,
         few: bool = False,
         zero: Collection[str] = (),
     ):
         super().__init__(problem, group, random, size, generic=generic, pi=pi, few=few, zero=zero)
-        self.driven, self.coasting, self.principal = driven, coasting, principal
+        self.driven, self.free_acceleration, self.principal = driven, free_acceleration, principal
         self.s = group.size
         self.hypothesis_failures: dict[Any, str] = {}
         self._families: dict[tuple[int, int], tuple[Any, tuple[Any, Matrix, Matrix]]] = {}
@@ -78,10 +78,10 @@ class Model(Body):
         self.first, self.second, self.mixed = (
             Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
         )
-        if still:
-            time = Fraction(0) if "time" in still else self.second.time
+        if vanishing:
+            time = Fraction(0) if "time" in vanishing else self.second.time
             self.second = replace(
-                self.second, time=time, xi=self._without_parts(still, self.second.xi)
+                self.second, time=time, xi=self._without_parts(vanishing, self.second.xi)
             )
         self.vector = None if along is None else self._motion_like(along, contracted=contracted)
         if contracted and self.vector is not None:
@@ -149,7 +149,7 @@ class Model(Body):
         return self.momentum(nu, nu) - self.lagrangian(t, g, nu)
 
     def family(self, a: Direction, b: Direction) -> tuple[Any, Matrix, Matrix]:
-        """t, g and Z on a two-parameter family with the given directions, to first order in each.
+        """t, g and Z on a two-parameter family with these directions, to first order in each.
 
         The mixed part is arbitrary: dϖ does not depend on it, but δξ′ and δ′ξ do.
         """
@@ -260,8 +260,8 @@ class Model(Body):
         return self.metric_matrix([q.times(self.g, e) for e in self.group.basis])
 
     def solve_metric(self, covector: list[Fraction]) -> Matrix:
-        """The element of 𝔤, as a matrix, that the kinetic metric at g sends to a covector, given by
-        its values on the basis; ``ZeroDivisionError`` where the metric is singular."""
+        """The element of 𝔤, as a matrix, that the kinetic metric at g sends to a covector, by its
+        values on the basis; ``ZeroDivisionError`` where the metric is singular."""
         solution = q.solve(self.metric, tuple((x,) for x in covector))
         if solution is None:
             raise ZeroDivisionError("the kinetic metric is singular at this point")
@@ -277,7 +277,7 @@ class Model(Body):
     @cached_property
     def acceleration(self) -> Matrix:
         """Ż by d'Alembert: Σ ⟨m_i a_i − F_i, v′_i⟩ = u(ξ′) for every ξ′, with a = g(Ż + Z²)r."""
-        if self.coasting and self.vector is not None:
+        if self.free_acceleration and self.vector is not None:
             return self.vector.velocity
         centripetal = q.times(self.g, q.times(self.Z, self.Z))
         covector = []

@@ -48,8 +48,8 @@ def model_where(
         driven=at.driven,
         along=at.along,
         contracted=at.contracted,
-        coasting=at.coasting,
-        still=at.still,
+        free_acceleration=at.free_acceleration,
+        vanishing=at.vanishing,
         generic=generic,
     )
 

@@ -52,7 +52,7 @@ def quantifier_fault(equation: Equation, at: Locus) -> str:
     if fault := _existence_fault(equation, used):
         return fault
     first, second, rates = ({x for form in forms for x in form} for forms in (*FORMS, RATES))
-    fixed = (second if at.still - {TIME} else set()) | (first if at.contracted else set())
+    fixed = (second if at.vanishing - {TIME} else set()) | (first if at.contracted else set())
     for name in equation.for_all:
         if name not in QUANTIFIED:
             return f"nothing holds for all {_shortened(name)}: it is no variation"

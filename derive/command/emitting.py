@@ -146,9 +146,9 @@ def validated(
     from ..validate.chart import Chart
 
     chart = Chart(e.options.layout, e.options.attitude, e.options.velocity)
-    given = e.options.frame == "given"
+    as_given = e.options.frame == "given"
     reports = emission.EmittedFiles(
-        files, e.prefix, chart, program.numbers(), given, fresh
+        files, e.prefix, chart, program.numbers(), as_given, fresh
     ).reports(d)
     for report in reports:
         print(f"{', '.join(report.files)}: {report.text}", file=sys.stderr)

@@ -66,8 +66,8 @@ def _require_implied(data: dict[str, Any], key: str, right: Any, where: str) -> 
     """``RecordError`` where a key that follows from the rest of the record has another value than
     ``right``; it may be absent."""
     if key in data and data[key] != right:
-        said = right if isinstance(right, str) else json.dumps(right)
-        raise RecordError(f"{where}: key {key!r} must be {said}")
+        text = right if isinstance(right, str) else json.dumps(right)
+        raise RecordError(f"{where}: key {key!r} must be {text}")
 
 
 def _symbol(data: Any, where: str) -> Symbol:

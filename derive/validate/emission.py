@@ -43,7 +43,7 @@ class EmittedFiles:
     """The files of one emission, ``files``: name → text; ``numbers``: what their decimals may be
     roundings of.
 
-    ``given_frame``: is the body in the frame in which it is given, not in its principal frame?
+    ``as_given``: is the body in the frame of the file, not in its principal frame?
     ``fresh``: what is emitted now, if the files are others; the Python that is not read must equal
     it.
     """
@@ -52,7 +52,7 @@ class EmittedFiles:
     prefix: str
     chart: Chart
     numbers: Collection[Fraction] = ()
-    given_frame: bool = True
+    as_given: bool = True
     fresh: Mapping[str, str] | None = None
 
     def reports(self, d: Derivation) -> list[Report]:
@@ -73,7 +73,7 @@ class EmittedFiles:
     def _report(self, names: tuple[str, ...], claims: Claims) -> Report:
         if names[-1] not in (f"{self.prefix}{end}" for end in (".h", ".c", ".py")):
             return Report(names, UNREAD, read=False)
-        if not self.given_frame:
+        if not self.as_given:
             return Report(names, PRINCIPAL, read=False)
         if gone := [name for name in names if not self.files[name]]:
             return Report(names, f"cannot be read back: {gone[0]} is empty or missing", holds=False)
