@@ -16,7 +16,7 @@ import numpy as np
 
 from derive.algebra.groups import Group
 from derive.python.derived import Derived
-from derive.validate.chart import Chart, State
+from derive.validate.chart import Chart, StateChart
 
 from . import draws, terms
 from .equations import Equations
@@ -51,7 +51,7 @@ class Case:
         assert derived.problem.group is not None
         self.derived, self.record, self.chart = derived, derived.record, chart
         self.group: Group = derived.problem.group
-        self.state = State(self.group, chart)
+        self.state = StateChart(self.group, chart)
 
     @cached_property
     def entries(self) -> list[tuple[int, int]]:
