@@ -6,7 +6,7 @@ matrices see it. Its kernel is found exactly, in fractions, at two choices of th
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
 from math import gcd, lcm
 from random import Random
@@ -18,7 +18,9 @@ from ..language.expression import names
 from ..language.rational import Matrix
 from ..language.tree import Tree
 from ..language.values import approximate, value
-from .problem import Body, GivenBody, MomentBody, Parameter, PointBody
+from ..schema.body_kinds import Body, GivenBody, MomentBody, PointBody
+from ..schema.declared import Parameter
+from .problem import points_of
 
 Vector = tuple[Any, ...]
 
@@ -51,7 +53,7 @@ def still_direction(group: Group, body: Body) -> str | None:
 def _empty_block(group: Group, body: PointBody) -> str | None:
     """The first factor of a product that has no point, in words; ``None`` for none such."""
     for block, (_, factor) in enumerate(group.places, 1):
-        if block not in (body.blocks or (1,)):
+        if all(p.block != block for p in body.points):
             return f"block {block}, {factor.name}, which has no [[point]] with block = {block},"
     return None
 
@@ -79,26 +81,22 @@ def _moments(group: Group, body: Body, values: _Values) -> Matrix:
     """The matrix Σ m r r̄ with r as the group's matrices act on it, (r, 1) for an affine one."""
     if isinstance(body, PointBody):
         total = q.scaled(0, q.identity(group.size))
-        blocks = body.blocks or (1,) * len(body.masses)
-        for mass, at, block in zip(body.masses, body.positions, blocks, strict=True):
-            place = group.in_block(block, [values.of(x) for x in at], Fraction(1))
+        for p in body.points:
+            place = group.in_block(p.block, [values.of(x) for x in p.at], Fraction(1))
             column = tuple((x,) for x in (*place, *(Fraction(1),) * group.affine))
-            weight = values.mass(mass)
+            weight = values.mass(p.mass)
             total = q.plus(total, q.scaled(weight, q.times(column, q.transposed(column))))
         return total
     assert isinstance(body, GivenBody)
-    J = tuple(tuple(values.of(x) for x in row) for row in body.second)
+    J = tuple(tuple(values.of(x) for x in row) for row in body.given.J)
     if group.size == len(J) and not group.factors:
         return J
-    c, m = tuple(values.of(x) for x in body.first), values.mass(body.mass)
+    c, m = tuple(values.of(x) for x in body.given.c), values.mass(body.given.m)
     return (*((*row, x) for row, x in zip(J, c, strict=True)), (*c, m))[: len(J) + 1]
 
 
-def _trees(body: Body) -> Iterator[Tree]:
-    if isinstance(body, PointBody):
-        yield from (*body.masses, *(x for r in body.positions for x in r))
-    elif isinstance(body, GivenBody):
-        yield from (body.mass, *body.first, *(x for row in body.second for x in row))
+def _trees(body: PointBody | GivenBody) -> list[Tree]:
+    return (body.given if isinstance(body, GivenBody) else body).trees()
 
 
 class _Values:
@@ -175,14 +173,10 @@ def _listed(x: Vector) -> str:
 
 
 def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str | None:
-    """The key of a mass that is negative at the parameters' defaults; ``None`` for none."""
-    points = body if isinstance(body, PointBody) else None
-    if isinstance(body, GivenBody):
-        points = body.points
-        if is_negative(body.mass, parameters):
-            return "body: the mass"
-    masses = points.masses if points else ()
-    where = (k for k, m in enumerate(masses, 1) if is_negative(m, parameters))
+    """Where a mass is negative, for the defaults of the parameters; ``None`` when nowhere."""
+    if isinstance(body, GivenBody) and is_negative(body.given.m, parameters):
+        return "body: the mass"
+    where = (k for k, p in enumerate(points_of(body), 1) if is_negative(p.mass, parameters))
     return next((f"point {k}: key 'mass'" for k in where), None)
 
 
@@ -197,11 +191,10 @@ def _defaults(parameters: Mapping[str, Parameter]) -> dict[str, float]:
 
 
 def massless(body: Body) -> bool:
-    """Is the total mass the number 0?"""
-    masses = body.masses if isinstance(body, PointBody) else ()
-    masses = (body.mass,) if isinstance(body, GivenBody) else masses
+    """Is the mass the number 0?"""
+    masses = [p.mass for p in body.points] if isinstance(body, PointBody) else [body.moments().m]
     numbers = [Fraction(x) for x in masses if isinstance(x, (int, Fraction))]
-    return bool(masses) and len(numbers) == len(masses) and sum(numbers) == 0
+    return len(numbers) == len(masses) and sum(numbers) == 0
 
 
 def impossible(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
@@ -223,8 +216,8 @@ def impossible(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
     if not all(isinstance(x, (int, Fraction)) for x in _trees(body)):
         return False
     values = _Values({})
-    m, c = values.of(body.mass), [values.of(x) for x in body.first]
-    return _unlike_masses(m, c, [[values.of(x) for x in row] for row in body.second])
+    m, c = values.of(body.given.m), [values.of(x) for x in body.given.c]
+    return _unlike_masses(m, c, [[values.of(x) for x in row] for row in body.given.J])
 
 
 CAD = (
@@ -239,13 +232,13 @@ def of_cad(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
     The first moment is m · centre, and J is about the origin; a program for drawing gives the
     centre itself, and the tensor of inertia about it.
     """
-    if not isinstance(body, GivenBody) or body.solids or len(body.first) != 3:
+    if not isinstance(body, GivenBody) or body.solids or len(body.given.c) != 3:
         return False
     found = [approximate(t, _defaults(parameters)) for t in _trees(body)]
     if any(x is None for x in found):
         return False
     numbers = [Fraction(x) for x in found if x is not None]
-    n = len(body.first)
+    n = len(body.given.c)
     m, c, J = numbers[0], numbers[1 : n + 1], numbers[n + 1 :]
     rows = [J[n * i : n * i + n] for i in range(n)]
     moved = [[x + m * c[i] * c[j] for j, x in enumerate(row)] for i, row in enumerate(rows)]

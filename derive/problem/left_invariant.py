@@ -13,7 +13,8 @@ from ..language.divisors import PRIMES, residue
 from ..language.laurent import OverlongError, vanishes
 from ..language.rational import Matrix
 from ..language.tree import Tree, add, mul
-from .problem import Body, GivenBody, PointBody, Problem
+from ..schema.body_kinds import Body, PointBody
+from .problem import Problem
 
 Bodies = Literal["every body", "this body"]
 EVERY: Bodies = "every body"
@@ -59,10 +60,9 @@ def _moments(problem: Problem, body: Body) -> tuple[tuple[Tree, ...], ...]:
     group = problem.group
     assert group is not None
     if isinstance(body, PointBody):
-        places = [group.in_block(problem.block(i), r, 1) for i, r in enumerate(body.positions, 1)]
-        masses = [*zip(body.masses, places, strict=True)]
+        masses = [(p.mass, group.in_block(p.block, p.at, 1)) for p in body.points]
         span = range(group.n)
         return tuple(
             tuple(add(*(mul(m, r[i], r[j]) for m, r in masses)) for j in span) for i in span
         )
-    return body.second if isinstance(body, GivenBody) else body.second()
+    return body.moments().J

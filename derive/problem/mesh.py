@@ -20,7 +20,8 @@ import numpy as np
 
 from ..language.limits import COORDINATE_BITS, MESH_BYTES, MESH_LINE, MESH_LINES, TRIANGLES
 from ..language.tree import mul
-from .moments import Moments, SolidError
+from ..schema.body_kinds import Moments
+from .moments import SolidError
 
 Mesh = tuple[tuple[tuple[Fraction, ...], ...], tuple[tuple[int, ...], ...]]
 
@@ -71,9 +72,9 @@ def mesh_moments(vertices: Sequence[Sequence[Fraction]], faces: Sequence[Sequenc
     first = [sum(w * v[i] for w, v in zip(at, p, strict=True)) for i in range(3)]
     rows = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
     return Moments(
-        mul(Fraction(sum(at), 18 * scale**3)),
-        tuple(mul(Fraction(x, 24 * scale**4)) for x in first),
-        tuple(tuple(mul(Fraction(x, 120 * scale**5)) for x in row) for row in rows),
+        m=mul(Fraction(sum(at), 18 * scale**3)),
+        c=tuple(mul(Fraction(x, 24 * scale**4)) for x in first),
+        J=tuple(tuple(mul(Fraction(x, 120 * scale**5)) for x in row) for row in rows),
     )
 
 

@@ -21,22 +21,15 @@ from dataclasses import replace
 from typing import Any
 
 from ..algebra.groups import Group
-from ..language.tree import Tree, add, mul
+from ..language.tree import Tree, mul
+from ..schema.body_kinds import GivenBody, Moments, Place, Point
+from ..schema.declared import Parameter
 from ..schema.kind import Potential
 from ..schema.kinds.gravity import Gravity, gravity
 from ..schema.kinds.spring import Spring, quadratic
 from ..schema.outside import Damping, ForceInput, Input
 from ..schema.table import Key
-from .problem import (
-    Body,
-    GivenBody,
-    MomentBody,
-    Parameter,
-    Place,
-    PointBody,
-    Problem,
-    ProblemError,
-)
+from .problem import Problem, ProblemError
 
 Vector = tuple[Tree, ...]
 ROTATION, ROOT = "rotation", "root"
@@ -91,7 +84,7 @@ class _Framing:
         """The problem in the frame; what its new parameters stand for is in ``frame``."""
         unimodular = "unimodular" in self.group.relations
         root = self.kind == ROOT
-        moments = () if root else self._names("moment", "second moment along axis {}")
+        diagonal = () if root else self._names("moment", "second moment along axis {}")
         self.per_unit = (
             self._name("per_unit", "one over the unit of mass") if root and unimodular else ""
         )
@@ -106,11 +99,16 @@ class _Framing:
             if not isinstance(p, Gravity) and p not in inside
         ]
         ends, along = self._along(len(places) + 1, stiffness)
-        mass = self._scaled(_mass(self.problem.body))
+        assert self.problem.body is not None
+        moments = Moments(
+            m=self._scaled(self.problem.body.moments().m),
+            c=_pars(first) or (0,) * self.n,
+            J=self._second(diagonal),
+        )
         frame = {
             "kind": self.kind,
             "turned": bool(falling),
-            "moments": list(moments),
+            "moments": list(diagonal),
             "stiffness": list(stiffness),
             "first": list(first),
             "gravity": falling,
@@ -122,7 +120,7 @@ class _Framing:
             self.problem,
             frame=frame,
             parameters={**self.problem.parameters, **self.new},
-            body=GivenBody(mass, _pars(first) or (0,) * self.n, self._second(moments)),
+            body=GivenBody(given=moments),
             potentials=(*potentials, *self._pull(falling), *along),
             inputs=tuple(_pushed(x, numbers) for x in self.problem.inputs),
             places=(*places, *ends),
@@ -190,16 +188,13 @@ class _Framing:
         return tuple(tuple(diagonal[i] if i == j else 0 for j in span) for i in span)
 
     def _points(self) -> tuple[tuple[Place, ...], dict[int, int]]:
-        """The points as places in the frame, and old number → new.
-
-        Numbers stay if few points are left out.
-        """
-        points = self.problem.points
-        old = (*(points.positions if points else ()), *(p.at for p in self.problem.places))
+        """The points as places, under their old numbers if few are left out, and the numbers."""
+        listed: tuple[Point | Place, ...] = (*self.problem.points, *self.problem.places)
+        old = [p.at for p in listed]
         needed = {*_needed(self.problem, root=self.kind == ROOT)}
         if needed and len(old) <= MANY:
             needed = {*range(1, len(old) + 1)}
-        places = tuple(Place(self._place(old[i - 1], i)) for i in sorted(needed))
+        places = tuple(Place(at=self._place(old[i - 1], i)) for i in sorted(needed))
         return places, {i: k for k, i in enumerate(sorted(needed), 1)}
 
     def _potential(self, p: Potential, numbers: Mapping[int, int]) -> Potential:
@@ -213,9 +208,8 @@ class _Framing:
     def _value(self, value: Any, about: Key, name: str, numbers: Mapping[int, int]) -> Any:
         """The value of a key in the frame: points by new numbers, vectors turned, masses scaled."""
         if about.type == "masses":
-            points = self.problem.points
-            masses = points.masses if points else ()
-            return tuple((numbers[i], self._scaled(m)) for i, m in enumerate(masses, 1) if m != 0)
+            masses = enumerate((p.mass for p in self.problem.points), 1)
+            return tuple((numbers[i], self._scaled(m)) for i, m in masses if m != 0)
         if value is None:
             return None
         if about.type == "vector":
@@ -231,12 +225,12 @@ class _Framing:
         if not stiffness:
             return (), ()
         span = range(self.n)
-        axes = (Place(tuple(int(i == j) for j in span)) for i in span)
+        axes = (Place(at=tuple(int(i == j) for j in span)) for i in span)
         springs = (
             Spring(between=(origin + i, origin), stiffness=("par", k))
             for i, k in enumerate(stiffness, 1)
         )
-        return (Place((0,) * self.n), *axes), tuple(springs)
+        return (Place(at=(0,) * self.n), *axes), tuple(springs)
 
 
 def _inside(problem: Problem) -> tuple[Spring, ...]:
@@ -262,15 +256,6 @@ def _needed(problem: Problem, *, root: bool) -> Iterable[int]:
 def _pars(names: Iterable[str]) -> Vector:
     """The parameters of these names as trees."""
     return tuple(("par", x) for x in names)
-
-
-def _mass(body: Body | None) -> Tree:
-    if isinstance(body, PointBody):
-        return add(*body.masses)
-    if isinstance(body, MomentBody):
-        return body.mass()
-    assert body is not None
-    return body.mass
 
 
 def _pushed(x: Input, numbers: Mapping[int, int]) -> Input:

@@ -6,36 +6,20 @@ The integrals are of monomials over a reference shape, exact; the sizes enter by
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 from math import factorial, gcd, isqrt, lcm, prod
-from pathlib import Path
 from typing import Any
 
 from ..language.expression import LARGEST, SMALLEST
 from ..language.laurent import Laurent, Monomial
 from ..language.limits import EXPONENT
 from ..language.tree import Tree, add, coefficient, mul
-from ..schema.solid_kinds import SOLIDS
-from .moments import Moments, Row, SolidError
+from ..schema.body_kinds import Moments
+from ..schema.solid_kinds import Mesh, Solid, Tetrahedron
+from .moments import Row, SolidError
 
 SPAN, UNIT, TERMS = range(3), ((1, 0, 0), (0, 1, 0), (0, 0, 1)), 3
-
-
-@dataclass(frozen=True)
-class Solid:
-    """A solid: the points R r + s of a kind; ``rotation`` R, 3 × 3, and ``shift`` s, 3 entries.
-
-    ``mesh``: vertices and faces where the file of a mesh was read before.
-    """
-
-    kind: str
-    density: Tree
-    sizes: Mapping[str, Any]
-    rotation: tuple[Row, ...] | None = None
-    shift: Row | None = None
-    mesh: Any = None
 
 
 def together(a: Moments, b: Moments) -> Moments:
@@ -44,26 +28,26 @@ def together(a: Moments, b: Moments) -> Moments:
     def total(x: Tree, y: Tree) -> Tree:
         return _flat(_terms(x) + _terms(y))
 
-    parts = (((x.mass,), x.first, *x.second) for x in (a, b))
+    parts = (((x.m,), x.c, *x.J) for x in (a, b))
     mass, first, *second = (tuple(map(total, *rows)) for rows in zip(*parts, strict=True))
-    return Moments(mass[0], first, tuple(second))
+    return Moments(m=mass[0], c=first, J=tuple(second))
 
 
 def unit_moments(solid: Solid) -> Moments:
-    """The moments of density 1 in the solid's own frame; :class:`SolidError`, ``MeshError``."""
-    kind, sizes = solid.kind, solid.sizes
-    if kind not in SOLIDS or set(sizes) != set(SOLIDS[kind]):
-        known = "; ".join(f"{k}: {', '.join(v)}" for k, v in SOLIDS.items())
-        raise SolidError(f"no solid {kind[:40]!r} with such sizes; there are {known}")
-    if kind == "mesh":
-        from .mesh import mesh_moments, read
+    """The moments of density 1 in the solid's own frame; :class:`SolidError`."""
+    if isinstance(solid, Mesh):
+        from .mesh import mesh_moments
 
-        return mesh_moments(*(solid.mesh or read(Path(sizes["file"]))))
-    integral = _corners(sizes["vertices"]) if kind == "tetrahedron" else _centred(kind, sizes)
+        return mesh_moments(solid.vertices, solid.faces)
+    if isinstance(solid, Tetrahedron):
+        integral = _corners(solid.vertices)
+    else:
+        integral = _centred(solid.kind, solid.sizes)
     mass, first = _tree(integral()), tuple(_tree(integral(i)) for i in SPAN)
     if coefficient(mass)[0] <= 0:
-        raise SolidError(f"the volume of this {kind} is not positive; look at its sizes")
-    return Moments(mass, first, tuple(tuple(_tree(integral(i, j)) for j in SPAN) for i in SPAN))
+        raise SolidError(f"the volume of this {solid.kind} is not positive; look at its sizes")
+    J = tuple(tuple(_tree(integral(i, j)) for j in SPAN) for i in SPAN)
+    return Moments(m=mass, c=first, J=J)
 
 
 def moments(solid: Solid, relations: bool = True) -> Moments:
@@ -75,8 +59,8 @@ def moments(solid: Solid, relations: bool = True) -> Moments:
     own, density = unit_moments(solid), _one(solid.density)
     R = [[_terms(x, TERMS) for x in row] for row in solid.rotation or UNIT]
     s = [_one(x) for x in solid.shift or (0, 0, 0)]
-    V, f = _one(own.mass), [_one(x) for x in own.first]
-    S = [[_one(x) for x in row] for row in own.second]
+    V, f = _one(own.m), [_one(x) for x in own.c]
+    S = [[_one(x) for x in row] for row in own.J]
     Rf = [sum((R[i][k] * f[k] for k in SPAN), Laurent({})) for i in SPAN]
 
     def second(i: int, j: int) -> Tree:
@@ -85,9 +69,9 @@ def moments(solid: Solid, relations: bool = True) -> Moments:
         return _tree(_related(J) if relations else J)
 
     return Moments(
-        _tree(density * V),
-        tuple(_tree(density * (Rf[i] + V * s[i])) for i in SPAN),
-        tuple(tuple(second(min(i, j), max(i, j)) for j in SPAN) for i in SPAN),
+        m=_tree(density * V),
+        c=tuple(_tree(density * (Rf[i] + V * s[i])) for i in SPAN),
+        J=tuple(tuple(second(min(i, j), max(i, j)) for j in SPAN) for i in SPAN),
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,6 @@ from ..language.limits import (
     COMMON_BITS,
     KEY_PARTS,
     LEAVES,
-    MAGNITUDE,
     PARAMETERS,
     PROBLEM_BYTES,
     PULLS,
@@ -24,23 +23,17 @@ from ..language.limits import (
 from ..language.reserved import taken
 from ..language.tree import Tree
 from ..language.weight import weight
-from ..schema.kind import Potential
+from ..schema.body_kinds import GivenBody, MomentBody
+from ..schema.declared import Parameter
 from ..schema.kinds import kinds
-from ..schema.outside import CovectorInput, Input
-from ..schema.table import nearest
+from ..schema.table import Slot, Table, nearest
 from . import inertia
 from .bodies import body
-from .fields import LIKE_A_PLACE, identifier, known, tables, text, unread, used_at
-from .forces import Points, damping, given_input, negative_stiffness_of, potential, trees
+from .fields import LIKE_A_PLACE, unread, used_at
+from .file_reader import FileReader
+from .forces import forces, negative_stiffness_of
 from .group import group_of
-from .problem import (
-    GivenBody,
-    MomentBody,
-    Parameter,
-    PointBody,
-    Problem,
-    ProblemError,
-)
+from .problem import Problem, ProblemError
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
 TOP |= {"damping", "solid"}
@@ -107,12 +100,17 @@ def problem_of(
     negative_mass: bool = False,
     negative_stiffness: bool = False,
 ) -> Problem:
-    """The problem of the plain data of a file in ``folder``, where its meshes are."""
-    known(data, TOP, "file")
-    moved, action = group_of(data)
-    name = _name(data, moved)
-    parameters = _parameters(data.get("parameters", {}))
-    own = body(data, moved, folder)
+    """A problem from the plain data of a file in a folder, where its meshes are.
+
+    ``negative_mass``, ``negative_stiffness`` (damping included): may they be negative numbers?
+    """
+    reader = FileReader(folder)
+    reader.known(data, TOP, "file")
+    moved, action = group_of(data, reader)
+    reader.moves(moved)
+    name = _name(data, moved, reader)
+    parameters = _parameters(data.get("parameters", {}), reader)
+    own = body(data, reader)
     if moved and own is None:
         raise ProblemError("no body: give [[point]] or [[solid]] tables, or a table [body]")
     if isinstance(own, MomentBody):
@@ -120,24 +118,12 @@ def problem_of(
         parameters = {**named, **{k: p for k, p in parameters.items() if k not in named}}
     if not negative_mass:
         _positive(inertia.negative_mass(own, parameters), "mass")
-    listed = own.points if isinstance(own, GivenBody) else own
-    masses = len(listed.masses) if isinstance(listed, PointBody) else 0
-    blocks = listed.blocks if isinstance(listed, PointBody) else ()
-    points = Points(moved, masses, blocks, parameters, heavy=not isinstance(own, PointBody))
-    potentials = tuple(
-        potential(p, f"potential {k}", points) for k, p in enumerate(tables(data, "potential"), 1)
-    )
-    inputs = tuple(
-        given_input(i, f"input {k}", points) for k, i in enumerate(tables(data, "input"), 1)
-    )
-    drags = tuple(
-        damping(d, f"damping {k}", points) for k, d in enumerate(tables(data, "damping"), 1)
-    )
-    _alone(potentials, inputs)
+    reader.carries(own, parameters)
+    potentials, inputs, damping = forces(data, reader)
     if not negative_stiffness:
-        _positive(negative_stiffness_of(potentials, drags, parameters), "stiffness")
+        _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     _distinct([i.name for i in inputs], parameters)
-    title = text(data, "title", "file") if "title" in data else name
+    title = reader.text(Slot(data, "title", "file")) if "title" in data else name
     problem = Problem(
         name,
         moved,
@@ -147,8 +133,8 @@ def problem_of(
         own,
         potentials,
         inputs,
-        tuple(points.places),
-        drags,
+        tuple(reader.places),
+        damping,
         signed=negative_mass,
     )
     _affordable(problem)
@@ -157,18 +143,9 @@ def problem_of(
     return problem
 
 
-def _alone(potentials: Sequence[Potential], inputs: Sequence[Input]) -> None:
-    """``ProblemError`` for a second potential of a kind, or covector, of which there may be one."""
-    for k, p in enumerate(potentials, 1):
-        if p.alone and any(x.kind == p.kind for x in potentials[: k - 1]):
-            raise ProblemError(f"potential {k}: a second {p.kind}; there may be one")
-    if sum(isinstance(i, CovectorInput) for i in inputs) > 1:
-        raise ProblemError("key 'input': one covector holds every component; give one such table")
-
-
-def _name(data: Mapping[str, Any], moved: Group | None) -> str:
+def _name(data: Mapping[str, Any], moved: Group | None, reader: FileReader) -> str:
     """The name of the problem: a prefix of labels that nothing else has."""
-    name = identifier(text(data, "name", "file"), "key 'name'")
+    name = reader.identifier(reader.text(Slot(data, "name", "file")), "key 'name'")
     if moved and name in ("linear", "affine"):
         raise ProblemError(f"key 'name': {name!r} names what is said of any group; choose another")
     return name
@@ -210,7 +187,7 @@ def _massive(problem: Problem, negative_mass: bool) -> None:
         )
 
 
-def _parameters(data: Any) -> dict[str, Parameter]:
+def _parameters(data: Any, reader: FileReader) -> dict[str, Parameter]:
     if not isinstance(data, dict):
         raise ProblemError("key 'parameters' must be a table")
     if len(data) > PARAMETERS:
@@ -218,23 +195,14 @@ def _parameters(data: Any) -> dict[str, Parameter]:
     found = {}
     for name, value in data.items():
         where = f"parameter {name[:40]!r}"
-        identifier(name, where)
+        reader.identifier(name, where)
         if what := taken(name):
             raise ProblemError(f"{where}: this is {what} in an expression; choose another name")
         if isinstance(value, (int, float)) and not isinstance(value, bool):
             value = {"default": value}
         if not isinstance(value, dict):
             raise ProblemError(f"{where}: expected a number or a table")
-        known(value, {"default", "unit", "meaning"}, where)
-        default = value.get("default")
-        if default is not None and (
-            isinstance(default, bool) or not isinstance(default, (int, float))
-        ):
-            raise ProblemError(f"{where}: key 'default' must be a number")
-        texts = {k: text(value, k, where) for k in ("unit", "meaning") if k in value}
-        if default is not None and not abs(default) <= MAGNITUDE:
-            raise ProblemError(f"{where}: key 'default' must be a finite number, at most 1e300")
-        found[name] = Parameter(None if default is None else float(default), **texts)
+        found[name] = reader.whole(Parameter, value, where)
     return found
 
 
@@ -248,8 +216,8 @@ def _distinct(inputs: list[str], parameters: Mapping[str, Parameter]) -> None:
 
 
 def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
-    """``ProblemError`` for a name that is no parameter, or a parameter that is not used."""
-    found = [*trees(problem.points), *trees(problem.body), *_forces(problem)]
+    """Every name that is used is a parameter, and every parameter is used."""
+    found = [*_trees(problem.points), *_moments(problem), *_forces(problem)]
     used = dict.fromkeys(x for t in found for x in names(t))
     for name in used:
         if name not in problem.parameters:
@@ -278,16 +246,23 @@ def known_in(name: str) -> str:
     return " and ".join(f"the {x!r} of a{'n' * (k[0] in 'aeiou')} {k}" for x, k in listed)
 
 
+def _trees(listed: Iterable[Table]) -> list[Tree]:
+    return [t for x in listed for t in x.trees()]
+
+
+def _moments(problem: Problem) -> list[Tree]:
+    """Of a body whose moments are said, or found by integration."""
+    return problem.body.given.trees() if isinstance(problem.body, GivenBody) else []
+
+
 def _forces(problem: Problem) -> list[Tree]:
-    potentials = [t for p in problem.potentials for t in p.trees()]
-    damping = [t for p in problem.damping for t in p.trees()]
-    return potentials + damping + [t for p in problem.places for t in trees(p)]
+    return _trees((*problem.potentials, *problem.damping, *problem.places))
 
 
 def _affordable(problem: Problem) -> None:
     """``ProblemError`` for too many expressions, or numbers too unlike one another."""
     solids = isinstance(problem.body, GivenBody) and problem.body.solids
-    found = [*_forces(problem), *trees(problem.points if solids else problem.body)]
+    found = [*_forces(problem), *_trees(problem.points), *([] if solids else _moments(problem))]
     leaves = sum(weight(t).leaves for t in found)
     if leaves > LEAVES:
         raise ProblemError(f"{leaves} names and numbers in expressions; at most {LEAVES}")

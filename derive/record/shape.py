@@ -6,27 +6,26 @@ and can be drawn.
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, TypeVar
 
 from ..language.derivatives import DERIVATIVES
-from ..language.limits import BASIS, TEXT
-from ..language.reserved import WORDS, taken
-from ..language.tree import OPERATORS, Tree
+from ..language.limits import BASIS
+from ..language.reserved import taken
+from ..language.tree import Tree
+from ..schema.body_kinds import BODIES, Place
+from ..schema.declared import Parameter
 from ..schema.kinds import kinds
 from ..schema.outside import INPUTS, Damping
-from ..schema.solid_kinds import SOLIDS
-from ..schema.table import Table, nearest
-from .contract import ACTIONS, CONVENTIONS
+from ..schema.solid_kinds import SOLIDS, Solid
+from ..schema.table import Rows, Slot, Table
+from ..schema.table_reader import LONGEST, NAME, TableReader
+from .contract import CONVENTIONS
 
-IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
+T = TypeVar("T")
+IDENTIFIER = NAME
 FRACTION = re.compile(r"-?[0-9]{1,4000}(/0*[1-9][0-9]{0,4000})?")
-KINDS = ("points", "given", "moments", "any")
-SIZES = {x: tuple(sizes) for x, sizes in SOLIDS.items()} | {"mesh": ("vertices", "faces")}
-LONGEST = 16
-"""The most entries of a vector, and the most rows of a matrix."""
 
 
 class ShapeError(ValueError):
@@ -36,7 +35,7 @@ class ShapeError(ValueError):
 def problem_shape(data: Mapping[str, Any], tree: Callable[[Any, str], Tree]) -> None:
     """``ShapeError`` where the problem of a record has not the form that is expected; ``tree``
     reads an operator tree."""
-    _Shape(data, tree).problem()
+    _RecordReader(data, tree).problem()
 
 
 def tree_shape(t: tuple[Any, ...]) -> str:
@@ -69,142 +68,61 @@ def deepest(data: Any) -> int:
     return level
 
 
-class _Shape:
+class _RecordReader(TableReader):
+    """Reads a problem in a record; ``last`` counts the places of the body as well."""
+
+    error = ShapeError
+
     def __init__(self, data: Mapping[str, Any], tree: Callable[[Any, str], Tree]):
         self.data, self.read = data, tree
-        self.points = 0
 
     def problem(self) -> None:
         """Check the whole problem, key by key."""
         data = self.data
-        for key in ("title", "group"):
-            self.text(self.at(data, key, str, key), key)
-        self.identifier(self.at(data, "name", str, "name"), "name")
-        self.one_of(self.at(data, "action", str, "action"), ACTIONS, "action")
-        self.at(data, "homogeneous", bool, "homogeneous")
-        n = self.at(data, "n", object, "n")
+        for key in ("title", "group", "name"):
+            self.text(self.top(key))
+        self.identifier(data["name"], "name")
+        self.action(self.top("action"))
+        self.value(self.top("homogeneous"), bool)
+        n = self.value(self.top("n"))
         if n != "any" and not (type(n) is int and 1 <= n <= 2 * LONGEST):
             raise ShapeError("n: key must be the dimension of the space, or 'any'")
         self.blocks = len(data["group"].split(" x "))
-        for name, about in self.at(data, "parameters", dict, "parameters").items():
+        for name, about in self.value(self.top("parameters"), dict).items():
             self.identifier(name, "parameters")
             if taken(name):
                 raise ShapeError(f"parameters: {name!r} is {taken(name)} in an expression")
-            self.parameter(about, f"parameters, {name!r}")
-        self.body(self.at(data, "body", dict, "body"))
-        for k, x in self.each("places"):
-            self.placed(x, f"place {k}")
-        self.points += len(data["places"])
-        for k, x in self.each("potentials"):
-            self.potential(x, f"potential {k}")
-        for k, x in self.each("inputs"):
-            self.input(x, f"input {k}")
-        inputs = [x["name"] for x in data["inputs"]]
-        if len({*inputs, *data["parameters"]}) < len(inputs) + len(data["parameters"]):
+            self.whole(Parameter, about, f"parameters, {name!r}")
+        self.body()
+        self.last += len(self.each("places", lambda x, where: self.whole(Place, x, where)))
+        self.each("potentials", lambda x, where: self.one_of(kinds(), x, where))
+        inputs = self.each("inputs", lambda x, where: self.one_of(INPUTS, x, where))
+        named = [*(x.name for x in inputs), *data["parameters"]]
+        if len({*named}) < len(named):
             raise ShapeError("inputs: two of one name, or one of a parameter's name")
-        for k, x in self.each("damping"):
-            self.table(Damping, x, f"damping {k}")
-        self.basis(self.at(data, "basis", list, "basis"))
-        if self.at(data, "conventions", list, "conventions") != [*CONVENTIONS]:
+        self.each("damping", lambda x, where: self.whole(Damping, x, where))
+        self.matrices(self.value(self.top("basis"), list))
+        if self.value(self.top("conventions"), list) != [*CONVENTIONS]:
             raise ShapeError("conventions: not those by which equations are checked")
 
-    # -- the parts ---------------------------------------------------------------------------
+    def top(self, key: str) -> Slot:
+        """A key of the problem itself."""
+        return Slot(self.data, key, key)
 
-    def parameter(self, about: Any, where: str) -> None:
-        """Check a parameter, an object with default, unit and meaning."""
-        default = self.at(about, "default", object, where)
-        number = isinstance(default, (int, float)) and not isinstance(default, bool)
-        if default is not None and not (number and abs(default) < math.inf):
-            raise ShapeError(f"{where}: key 'default' must be a number or null")
-        for key in ("unit", "meaning"):
-            self.text(self.at(about, key, str, where), where)
+    def each(self, key: str, read: Callable[[Any, str], T]) -> list[T]:
+        """The tables of a list, called by their numbers."""
+        listed = enumerate(self.value(self.top(key), list), 1)
+        return [read(x, f"{key.removesuffix('s')} {k}") for k, x in listed]
 
-    def body(self, body: Any) -> None:
-        """Check the body: its kind, and its points, moments or solids."""
-        kind = self.at(body, "kind", str, "body")
-        self.one_of(kind, KINDS, "body, kind")
-        listed = self.at(body, "points", list, "body") if "points" in body else []
-        for k, x in enumerate(listed, 1):
-            self.scalar(self.at(x, "mass", object, f"point {k}"), f"point {k}, mass")
-            self.placed(x, f"point {k}")
-        self.points = len(listed)
-        if kind == "points" and not listed:
-            raise ShapeError("body: key 'points' must list points")
-        if kind in ("moments", "any") and listed:
-            raise ShapeError(f"body: {kind!r} leaves the points open; it lists none")
-        if kind != "given":
-            return
-        if listed and not body.get("solids"):
-            raise ShapeError("body: given moments are of no listed points; leave these out")
-        given = self.at(body, "given", dict, "body")
-        self.scalar(self.at(given, "m", object, "body, given"), "body, m")
-        size = len(self.vector(self.at(given, "c", list, "body, given"), "body, c"))
-        self.square(self.at(given, "J", list, "body, given"), size, "body, J")
-        for k, x in enumerate(self.at(body, "solids", list, "body"), 1):
-            self.solid(x, f"solid {k}")
+    def body(self) -> None:
+        """Its points are those that are named by numbers."""
+        own = self.value(self.top("body"), dict)
+        if own.get("kind") in ("moments", "any") and own.get("points"):
+            raise ShapeError(f"body: {own['kind']!r} leaves the points open; it lists none")
+        found = self.one_of(BODIES, own, "body")
+        self.count = self.last = len(getattr(found, "points", None) or ())
 
-    def solid(self, data: Any, where: str) -> None:
-        """Check a solid: the sizes of its kind, its density, rotation and shift."""
-        self.one_of(self.at(data, "kind", str, where), tuple(SIZES), f"{where}, kind")
-        self.scalar(self.at(data, "density", object, where), f"{where}, density")
-        if (rotation := self.at(data, "rotation", object, where)) is not None:
-            self.square(rotation, 3, f"{where}, rotation")
-        if (shift := self.at(data, "shift", object, where)) is not None:
-            self.vector(shift, f"{where}, shift", 3)
-        sizes = self.at(data, "sizes", dict, where)
-        if {*sizes} != {*SIZES[data["kind"]]}:
-            raise ShapeError(f"{where}: the sizes must be {', '.join(SIZES[data['kind']])}")
-        for key, value in sizes.items():
-            if key in ("sides", "semi_axes"):
-                self.vector(value, f"{where}, {key}", 3)
-            elif key not in ("vertices", "faces"):
-                self.scalar(value, f"{where}, {key}")
-        if "vertices" in sizes:
-            self.vertices(sizes, f"{where}, vertices")
-
-    def vertices(self, sizes: Mapping[str, Any], where: str) -> None:
-        """Check vertices: four of a tetrahedron; of a mesh any, with faces of three numbers."""
-        listed = self.at(sizes, "vertices", list, where)
-        if "faces" not in sizes and len(listed) != 4:
-            raise ShapeError(f"{where}: expected four points")
-        for x in listed:
-            self.vector(x, where, 3)
-        for face in self.at(sizes, "faces", list, where) if "faces" in sizes else ():
-            three = isinstance(face, list) and len(face) == 3
-            if not three or not all(type(i) is int and 0 <= i < len(listed) for i in face):
-                raise ShapeError(f"{where}: a face must be three numbers of vertices")
-        if "faces" in sizes and not sizes["faces"]:
-            raise ShapeError(f"{where}: no faces")
-
-    def placed(self, data: Any, where: str) -> None:
-        """Check the place of a point, and the block of a product in which it lies."""
-        self.vector(self.at(data, "at", list, where), f"{where}, at")
-        block = self.at(data, "block", int, where)
-        if isinstance(block, bool) or not 1 <= block <= max(self.blocks, 1):
-            raise ShapeError(f"{where}: key 'block' must be one of the factors of the group")
-
-    def potential(self, data: Any, where: str) -> None:
-        """By its kind."""
-        kind = self.at(data, "kind", str, where)
-        self.one_of(kind, tuple(kinds()), f"{where}, kind")
-        self.table(kinds()[kind], data, where)
-
-    def input(self, data: Any, where: str) -> None:
-        """A covector or a force."""
-        kind = self.at(data, "kind", str, where)
-        self.one_of(kind, tuple(INPUTS), f"{where}, kind")
-        self.table(INPUTS[kind], data, where)
-
-    def table(self, own: type[Table], data: Any, where: str) -> None:
-        """Its keys and no others; their types are the methods of :class:`_Keys`."""
-        known = {*own.keys()} | ({"kind"} if own.kind else set())
-        for name in data if isinstance(data, dict) else ():
-            if name not in known:
-                told = f"{ascii(name)[:60]}{nearest(name, known)}"
-                raise ShapeError(f"{where}: unknown key {told}")
-        own.read(data, where, _Keys(self))
-
-    def basis(self, basis: list[Any]) -> None:
+    def matrices(self, basis: list[Any]) -> None:
         """Check a basis: square matrices of fractions as strings."""
         for e in basis:
             rows = e if isinstance(e, list) and len(e) <= LONGEST else []
@@ -215,12 +133,61 @@ class _Shape:
         if len(basis) > 2 * BASIS:
             raise ShapeError(f"basis: more than {2 * BASIS} matrices")
 
-    # -- of what everything is made --------------------------------------------------------------
+    # -- tables ----------------------------------------------------------------------------------
 
-    def scalar(self, data: Any, where: str, *, placed: bool = False, timed: bool = False) -> None:
-        """A tree of a number; ``timed``: of t as well, ``placed``: and of coordinates of points."""
-        if not self.is_scalar(self.read(data, where), placed, timed or placed):
+    def names(self, own: type[Table]) -> tuple[str, ...]:
+        """All keys that are told."""
+        return tuple(x for x, k in own.keys().items() if k.as_type.told)
+
+    def has(self, slot: Slot) -> bool:
+        """All must be there; a list is empty where a file may leave it out."""
+        return not (slot.default == () and slot.table.get(slot.key) == [])
+
+    def meets(self, need: str, kind: str, where: str) -> None:
+        """What the header says of the body and the group."""
+        data = self.data
+        if need == "points alone" and data["body"]["kind"] != "points":
+            raise ShapeError(f"{where}: {kind} is of a body of points alone")
+        if need in ("rotations", "affine of R^3") and self.blocks > 1:
+            raise ShapeError(f"{where}: {kind} is in no product")
+        if need == "affine of R^3" and (data["action"], data["n"]) != ("affine", 3):
+            raise ShapeError(f"{where}: {kind} is of affine maps of R^3")
+
+    def solids(self, slot: Slot) -> tuple[Solid, ...]:
+        """Their sizes are a table of their own."""
+        found = []
+        for k, x in enumerate(self.value(slot, list), 1):
+            where = f"solid {k}"
+            own = SOLIDS[self.choice(Slot(x, "kind", where), tuple(SOLIDS))]
+            self.known(x, ("kind", "density", "sizes", "rotation", "shift"), where)
+            sizes = self.value(Slot(x, "sizes", where), dict)
+            wanted = own.keys().keys() - Solid.keys().keys()
+            if sizes.keys() != wanted:
+                raise ShapeError(f"{where}: the sizes must be {', '.join(sorted(wanted))}")
+            rest = {key: value for key, value in x.items() if key != "sizes"}
+            found.append(self.whole(own, rest | sizes, where))
+        return tuple(found)
+
+    # -- values ----------------------------------------------------------------------------------
+
+    def expression(self, value: Any, where: str) -> Tree:
+        """A tree of parameters."""
+        return self.made_of(value, where)
+
+    def in_time(self, value: Any, where: str) -> Tree:
+        """The same, of t as well."""
+        return self.made_of(value, where, timed=True)
+
+    def energy(self, slot: Slot) -> Tree:
+        """The same, of t and coordinates of points."""
+        return self.made_of(self.value(slot), slot.path, placed=True)
+
+    def made_of(self, value: Any, where: str, placed: bool = False, timed: bool = False) -> Tree:
+        """The tree of a number."""
+        t = self.read(value, where)
+        if not self.is_scalar(t, placed, timed or placed):
             raise ShapeError(f"{where}: expected the expression of a number")
+        return t
 
     def is_scalar(self, t: Tree, placed: bool, timed: bool) -> bool:
         """Is it made of what is known, by what keeps to numbers?"""
@@ -236,168 +203,57 @@ class _Shape:
     def is_place(self, t: Tree) -> bool:
         """Is a tree r_i(t), for a point or a place of the problem?"""
         i = t[1][2] if isinstance(t, tuple) and t[:1] == ("call",) and len(t[1]) == 3 else 0
-        known = isinstance(i, int) and 1 <= i <= self.points
+        known = isinstance(i, int) and 1 <= i <= self.last
         return known and t == ("call", ("at", "r", i), "t")
 
-    def identifier(self, name: str, where: str) -> None:
-        """Check a name: letters, digits and _, and no word that expressions reserve."""
-        if not IDENTIFIER.fullmatch(name):
-            raise ShapeError(f"{where}: {ascii(name)[:60]} is no name of letters, digits and _")
-        if name in WORDS:
-            raise ShapeError(f"{where}: {name!r} is {WORDS[name]}")
+    def dimension(self, _: Slot) -> None:
+        """The sizes of blocks are not known here."""
 
-    def at(self, data: Any, key: str, kind: type, where: str) -> Any:
-        """The value of a key that must be there and of a type; ``ShapeError`` else."""
-        if not isinstance(data, dict):
-            raise ShapeError(f"{where}: expected an object")
-        if key not in data:
-            raise ShapeError(f"{where}: key {key!r} is missing")
-        if not isinstance(data[key], kind):
-            raise ShapeError(f"{where}: key {key!r} must be a {kind.__name__}")
-        return data[key]
+    def space(self, _: Slot) -> int:
+        """The dimension of the space."""
+        n = self.data["n"]
+        return n if isinstance(n, int) else 0
 
-    def each(self, key: str) -> list[tuple[int, Any]]:
-        """The members of the list under a key of the problem, numbered from 1."""
-        return [*enumerate(self.at(self.data, key, list, key), 1)]
+    def turned(self, value: Any, n: int, where: str) -> Rows:
+        """Rows of trees."""
+        return self.rows(value, n, n, where)
 
-    def text(self, words: str, where: str) -> None:
-        """Check that a text is not longer than TEXT letters."""
-        if len(words) > TEXT:
-            raise ShapeError(f"{where}: a text longer than {TEXT} letters")
+    def first(self, slot: Slot) -> tuple[Tree, ...]:
+        """A vector."""
+        return self.vector(slot)
 
-    def one_of(self, value: str, allowed: tuple[str, ...], where: str) -> None:
-        """Check that a word is one of those allowed."""
-        if value not in allowed:
-            raise ShapeError(f"{where}: key must be one of {', '.join(allowed)}")
+    def second(self, slot: Slot) -> Rows:
+        """A matrix."""
+        n = len(slot.found["c"])
+        return self.rows(self.value(slot), n, n, slot.path)
 
-    def vector(
-        self,
-        data: Any,
-        where: str,
-        size: int | None = None,
-        least: int = 1,
-        *,
-        timed: bool = False,
-    ) -> Any:
-        """A list of trees, which is not a tree itself."""
-        most = LONGEST if size is None else size
-        if not isinstance(data, list) or not (size or least) <= len(data) <= most:
-            raise ShapeError(f"{where}: expected a list of {size or 'a few'} expressions")
-        if data and isinstance(data[0], str) and data[0] in OPERATORS:
-            raise ShapeError(f"{where}: expected a list of expressions")
-        for x in data:
-            self.scalar(x, where, timed=timed)
-        return data
+    def vertices(self, slot: Slot) -> Rows:
+        """Any number of points."""
+        listed = self.value(slot, list)
+        return self.rows(listed, len(listed), 3, slot.path, "points")
 
-    def square(self, data: Any, size: int, where: str) -> None:
-        """Check a square matrix: ``size`` rows of as many trees."""
-        if not isinstance(data, list) or len(data) != size:
-            raise ShapeError(f"{where}: expected {size} rows")
-        for row in data:
-            self.vector(row, where, size)
+    def faces(self, slot: Slot) -> tuple[tuple[int, ...], ...]:
+        """Three vertices each."""
+        listed, most = self.value(slot, list), len(slot.found["vertices"])
+        for face in listed:
+            three = isinstance(face, list) and len(face) == 3
+            if not three or not all(type(i) is int and 0 <= i < most for i in face):
+                raise ShapeError(f"{slot.where}: a face must be three numbers of vertices")
+        if not listed:
+            raise ShapeError(f"{slot.where}: no faces")
+        return tuple(map(tuple, listed))
 
-    def point(self, i: Any, where: str) -> Any:
-        """The number of a point or a place."""
-        if type(i) is not int or not 1 <= i <= self.points:
-            raise ShapeError(f"{where}: expected a point from 1 to {self.points}")
-        return i
-
-
-class _Keys:
-    """Reads a potential of a record, as :class:`Reader` has it: what is right comes back."""
-
-    def __init__(self, shape: _Shape):
-        self.shape = shape
-
-    def fail(self, message: str) -> ShapeError:
-        """The error of a record."""
-        return ShapeError(message)
-
-    def has(self, table: Mapping[str, Any], key: str) -> bool:
-        """All must be there; of what is not, the reading says so."""
-        del table, key
-        return True
-
-    def meets(self, need: str, kind: str, where: str) -> None:
-        """What the header says of the body and the group."""
-        data = self.shape.data
-        if need == "points alone" and data["body"]["kind"] != "points":
-            raise ShapeError(f"{where}: {kind} is of a body of points alone")
-        if need in ("rotations", "affine of R^3") and self.shape.blocks > 1:
-            raise ShapeError(f"{where}: {kind} is in no product")
-        if need == "affine of R^3" and (data["action"], data["n"]) != ("affine", 3):
-            raise ShapeError(f"{where}: {kind} is of affine maps of R^3")
-
-    def scalar(self, table: Any, key: str, where: str, _: Any) -> Any:
-        """A tree of parameters."""
-        value = self.shape.at(table, key, object, where)
-        self.shape.scalar(value, f"{where}, {key}")
-        return value
-
-    def energy(self, table: Any, key: str, where: str, _: Any) -> Any:
-        """A tree of places in space and the time as well."""
-        value = self.shape.at(table, key, object, where)
-        self.shape.scalar(value, f"{where}, {key}", placed=True)
-        return value
-
-    def vector(self, table: Any, key: str, where: str, _: Any) -> Any:
-        """A list of trees; empty for the origin, where a file may leave it out."""
-        least = 0 if kinds()[table["kind"]].optional(key) else 1
-        value = self.shape.at(table, key, list, where)
-        return self.shape.vector(value, f"{where}, {key}", least=least)
-
-    def pair(self, table: Any, key: str, where: str, _: Any) -> Any:
-        """Two points."""
-        ends = self.shape.at(table, key, list, where)
-        if len(ends) != 2:
-            raise ShapeError(f"{where}: key {key!r} must be two points")
-        return tuple(self.shape.point(i, where) for i in ends)
-
-    def end(self, table: Any, key: str, where: str, _: Any) -> Any:
+    def end(self, slot: Slot) -> int:
         """A point or a place."""
-        return self.shape.point(self.shape.at(table, key, int, where), where)
+        return self.point(self.value(slot), slot.path)
 
-    def rotation(self, table: Any, key: str, where: str, _: Any) -> Any:
-        """Rows of trees, as many as the space has dimensions; none for 1."""
-        n, rows = self.shape.data["n"], self.shape.at(table, key, list, where)
-        if rows or not kinds()[table["kind"]].optional(key):
-            self.shape.square(rows, n if isinstance(n, int) else 0, f"{where}, {key}")
-        return rows
-
-    def timed(self, table: Any, key: str, where: str, _: Any) -> Any:
-        """A list of trees with the time, but no places."""
-        value = self.shape.at(table, key, list, where)
-        return self.shape.vector(value, f"{where}, {key}", timed=True)
-
-    def charges(self, table: Any, key: str, where: str, _: Any) -> Any:
-        """A tree for each point that has a mass."""
-        count = len(self.shape.data["body"].get("points", []))
-        value = self.shape.at(table, key, list, where)
-        if not count or len(value) != count:
-            raise ShapeError(f"{where}: key {key!r} must have a number for each point")
-        for x in value:
-            self.shape.scalar(x, f"{where}, {key}")
-        return value
-
-    def points(self, table: Any, key: str, where: str, _: Any) -> Any:
+    def points(self, slot: Slot) -> tuple[int, ...]:
         """Points or places."""
-        listed = self.shape.at(table, key, list, where)
-        return tuple(self.shape.point(i, where) for i in listed)
+        return tuple(self.point(i, slot.path) for i in self.value(slot, list))
 
-    def name(self, table: Any, key: str, where: str, _: Any) -> Any:
-        """As the files of problems have them."""
-        name = self.shape.at(table, key, str, where)
-        self.shape.identifier(name, where)
-        return name
-
-    def frame(self, table: Any, key: str, where: str, _: Any) -> Any:
-        """Space or body."""
-        frame = self.shape.at(table, key, str, where)
-        self.shape.one_of(frame, ("space", "body"), f"{where}, {key}")
-        return frame
-
-    def masses(self, table: Any, key: str, where: str, _: Any) -> Any:
+    def masses(self, slot: Slot) -> tuple[()]:
         """Of a problem in its principal frame, which is not read."""
-        if key in table:
-            raise ShapeError(f"{where}: key {key!r} is for a problem in its principal frame")
+        if slot.key in slot.table:
+            told = f"key {slot.key!r} is for a problem in its principal frame"
+            raise ShapeError(f"{slot.where}: {told}")
         return ()

@@ -5,6 +5,7 @@ The kinds are in :mod:`derive.schema.kinds`.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
@@ -32,6 +33,7 @@ class Potential(Table):
     of the kind.  ``letters``: those that its words have for their own.
     """
 
+    section = "potential"
     rank: ClassVar[int] = 100
     phrase: ClassVar[str]
     several: ClassVar[str] = ""
@@ -45,3 +47,9 @@ class Potential(Table):
     def summed(self) -> bool:
         """Is this potential a sum with a term for every point?"""
         return any(about.type == "masses" for about in self.keys().values())
+
+    def points(self) -> Iterator[int]:
+        """The points and places that it names by their numbers."""
+        for _, about, value in self.values():
+            if about.type in ("pair", "end", "points"):
+                yield from (value,) if about.type == "end" else value

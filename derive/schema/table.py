@@ -6,27 +6,50 @@ stranger's, and the word of Python.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields
+from fractions import Fraction
 from functools import cache
-from typing import Annotated, Any, ClassVar, Protocol, Self, get_args
+from typing import Annotated, Any, ClassVar, NamedTuple, Protocol, Self, get_args
 
 from ..language.near_names import did_you_mean, near_name
 from ..language.tree import Tree
+
+Number = int | float | str | Fraction
+"""What a word of Python takes: a number, or an expression in quotes."""
+
+
+class Slot(NamedTuple):
+    """A key of a table that is being read: the table, where it is, what the key is.
+
+    ``default``: what the key is where a file leaves it out, ``MISSING`` where none may;
+    ``found``: what has been read of the table already.
+    """
+
+    table: Mapping[str, Any]
+    key: str
+    where: str
+    about: Any = None
+    default: Any = MISSING
+    found: Mapping[str, Any] = {}
+
+    @property
+    def path(self) -> str:
+        """The place of the value, in messages."""
+        return f"{self.where}, {self.key}"
 
 
 class Reader(Protocol):
     """What reads the values of a table: from a file, or from a record of a stranger.
 
-    Its methods are named by the types of keys.  Each takes the whole table, the key, where it is,
-    and what has been read of it already.
+    It has a method for each type of a key, by its name, which takes the :class:`Slot`.
     """
 
     def fail(self, message: str) -> Exception:
         """The error of a file, or of a record."""
 
-    def has(self, table: Mapping[str, Any], key: str) -> bool:
-        """Has a table a value under a key?"""
+    def has(self, slot: Slot) -> bool:
+        """Does a table say a key that has a default?"""
 
     def meets(self, need: str, kind: str, where: str) -> None:
         """Refuse a kind where the problem is not what it needs."""
@@ -34,49 +57,61 @@ class Reader(Protocol):
 
 @dataclass(frozen=True)
 class Type:
-    """What stands under a key: as a record has it, and the expressions in it.
+    """What stands under a key: one value, a list, or rows (``depth`` 0, 1, 2), of ``trees`` or not.
 
-    ``keys``: the keys of a file that say it, where they are not the one of its name.
+    ``keys``: those of a file that say it, where they are not the one of its name; ``null``: a
+    record says it by null, and a file not at all, where there is none; ``told``: in a record.
     """
 
-    plain: Callable[[Any], Any]
-    trees: Callable[[Any], list[Tree]]
-    keys: tuple[str, ...] = ()
+    depth: int = 0
+    trees: bool = False
+    keys: tuple[str, ...] | None = None
+    null: bool = False
+    told: bool = True
 
 
-def _rows(value: Any) -> list[Any]:
-    return [[*row] for row in value]
-
-
+ATTACHED = ("on", "at", "block")
 TYPES = {
-    "scalar": Type(lambda x: x, lambda x: [x]),
-    "energy": Type(lambda x: x, lambda x: [x]),
-    "vector": Type(list, list),
-    "pair": Type(list, lambda _: []),
-    "end": Type(lambda x: x, lambda _: [], ("on", "at", "block")),
-    "masses": Type(_rows, lambda _: []),
-    "rotation": Type(_rows, lambda rows: [x for row in rows for x in row]),
-    "timed": Type(list, list),
-    "charges": Type(list, list),
-    "points": Type(list, lambda _: [], ("on", "at", "block")),
-    "name": Type(lambda x: x, lambda _: []),
-    "frame": Type(lambda x: x, lambda _: []),
+    **dict.fromkeys(("scalar", "energy", "length"), Type(trees=True)),
+    **dict.fromkeys(("vector", "timed", "charges", "place", "lengths"), Type(1, trees=True)),
+    **dict.fromkeys(("rotation", "corners"), Type(2, trees=True)),
+    "shift": Type(1, trees=True, null=True),
+    "turn": Type(2, trees=True, null=True),
+    "first": Type(1, trees=True, keys=("c", "centre")),
+    "second": Type(2, trees=True, keys=("J", "I", "I_centre")),
+    **dict.fromkeys(("vertices", "faces"), Type(2, keys=("file",))),
+    "end": Type(keys=ATTACHED),
+    "points": Type(1, keys=ATTACHED),
+    "pair": Type(1),
+    "masses": Type(2, keys=()),
+    **dict.fromkeys(("name", "letters", "text", "frame", "action", "block", "table"), Type()),
+    **dict.fromkeys(("tables", "solids"), Type(1)),
+    "basis": Type(2),
+    "number": Type(null=True),
+    "space": Type(keys=(), told=False),
 }
-"""``scalar``: an expression of the parameters; ``energy``: of places and the time as well;
-``vector``: of the space of the points; ``pair``: two points; ``end``: a point or a place of the
-body; ``masses``: points with their masses, of which the principal frame makes a list; ``rotation``:
-rows of a matrix; ``timed``: a vector, of the time as well; ``charges``: a number for each point;
-``points``: some or a place of the body; ``name``: one of code; ``frame``: space or body."""
+"""Expressions of the parameters: ``scalar``; ``length``, positive; ``lengths``, three; ``vector``,
+of the space of the points; ``place``, of the space of a block; ``shift``, of R³; ``corners``, four
+of R³; ``rotation``, of that space, and ``turn``, of R³, rows of a matrix; ``charges``, one for each
+point; ``first`` and ``second`` moments.  Of the time as well: ``timed``, a vector, and ``energy``,
+of places too.  ``pair``: two points; ``end``: a point or a place of the body; ``points``: some or a
+place of the body; ``masses``: points with their masses, of which the principal frame makes a list.
+``block``: of a product; ``space``: its dimension, which the group says; ``name``: one of code;
+``letters``: of any kind; ``text``; ``frame``: space or body; ``action``: linear or affine;
+``number``: one, without an expression; ``basis``: matrices; ``vertices`` and ``faces``: of a mesh,
+which a file names; ``table``, ``tables``, ``solids``: others."""
 
 
 @dataclass(frozen=True)
 class Key:
     """A key: the name of its type; ``mass``: in units of mass; ``positive``: may not be negative
-    but where that is allowed."""
+    but where that is allowed; ``zero``: a length that may be 0; ``own``: what another table is."""
 
     type: str
     mass: bool = False
     positive: bool = False
+    zero: bool = False
+    own: Any = None
 
     @property
     def as_type(self) -> Type:
@@ -84,21 +119,40 @@ class Key:
         return TYPES[self.type]
 
 
+Rows = tuple[tuple[Tree, ...], ...]
 Scalar = Annotated[Tree, Key("scalar")]
 Stiffness = Annotated[Tree, Key("scalar", mass=True, positive=True)]
+Length = Annotated[Tree, Key("length")]
+Inner = Annotated[Tree, Key("length", zero=True)]
+Lengths = Annotated[tuple[Tree, ...], Key("lengths")]
 Energy = Annotated[Tree, Key("energy")]
 Vector = Annotated[tuple[Tree, ...], Key("vector")]
+At = Annotated[tuple[Tree, ...], Key("place")]
+Shift = Annotated[tuple[Tree, ...] | None, Key("shift")]
+Corners = Annotated[Rows, Key("corners")]
 Pair = Annotated[tuple[int, int], Key("pair")]
 End = Annotated[int, Key("end")]
-Rotation = Annotated[tuple[tuple[Tree, ...], ...], Key("rotation")]
+Rotation = Annotated[Rows, Key("rotation")]
+Turn = Annotated[Rows | None, Key("turn")]
 Timed = Annotated[tuple[Tree, ...], Key("timed")]
 Charges = Annotated[tuple[Tree, ...], Key("charges")]
 Points = Annotated[tuple[int, ...], Key("points")]
 Name = Annotated[str, Key("name")]
+Letters = Annotated[str, Key("letters")]
+Text = Annotated[str, Key("text")]
 Frame = Annotated[str, Key("frame")]
+Action = Annotated[str, Key("action")]
+Default = Annotated[float | None, Key("number")]
+Block = Annotated[int, Key("block")]
+Space = Annotated[int, Key("space")]
 Masses = Annotated[tuple[tuple[int, Tree], ...], Key("masses")]
+First = Annotated[tuple[Tree, ...], Key("first")]
+Second = Annotated[Rows, Key("second")]
+Vertices = Annotated[tuple[tuple[Fraction, ...], ...], Key("vertices")]
+Faces = Annotated[tuple[tuple[int, ...], ...], Key("faces")]
+Basis = Annotated[tuple[tuple[tuple[Fraction, ...], ...], ...], Key("basis")]
 """The types of the keys of a kind.  A key without a default must be there; one that is ``None`` if
-its kind chooses it (:meth:`Potential.given`)."""
+its kind chooses it (:meth:`Table.chosen`)."""
 
 
 @cache
@@ -141,10 +195,13 @@ def nearest(word: str, known: Collection[str]) -> str:
 @dataclass(frozen=True, kw_only=True)
 class Table:
     """A table of a problem; ``kind``: its name, where there are several kinds.  ``needs``: what the
-    problem must be."""
+    problem must be.  ``section``: the key of a file under which such tables stand; ``called``: its
+    word in Python."""
 
     kind: ClassVar[str] = ""
     needs: ClassVar[tuple[str, ...]] = ()
+    section: ClassVar[str] = ""
+    called: ClassVar[str] = ""
 
     @classmethod
     def keys(cls) -> dict[str, Key]:
@@ -155,25 +212,28 @@ class Table:
     @classmethod
     def names(cls) -> tuple[str, ...]:
         """The keys that a table of this kind may have in a file."""
-        stated = {name: k for name, k in cls.keys().items() if k.type != "masses"}
-        found = [x for name, k in stated.items() for x in k.as_type.keys or (name,)]
+        listed = {x: k.as_type.keys for x, k in cls.keys().items()}
+        found = [x for name, keys in listed.items() for x in ((name,) if keys is None else keys)]
         return tuple(dict.fromkeys(found))
 
     @classmethod
-    def optional(cls, name: str) -> bool:
-        """May a file leave a key out that it may say?"""
-        return any(x.name == name and x.default not in (MISSING, None) for x in fields(cls))
-
-    @classmethod
-    def given(cls, table: Mapping[str, Any]) -> tuple[str, ...] | str:
+    def chosen(cls, table: Mapping[str, Any]) -> tuple[str, ...] | str:
         """The keys that this table must or may have; or what is wrong with those it has."""
         del table
         return tuple(cls.keys())
 
     @classmethod
+    def word(cls, *given: Any, **named: Any) -> Any:
+        """The table, or the list of tables, that its word of Python makes of arguments."""
+        names = cls.names()
+        if len(given) > len(names):
+            raise TypeError(f"{cls.called or cls.__name__} takes {', '.join(names)}, and no more")
+        return dict(zip(names, given, strict=False)) | named
+
+    @classmethod
     def read(cls, table: Mapping[str, Any], where: str, reader: Reader) -> Self:
         """What a table of this kind says."""
-        chosen = cls.given(table)
+        chosen = cls.chosen(table)
         if isinstance(chosen, str):
             raise reader.fail(f"{where}: {chosen}")
         for need in cls.needs:
@@ -181,31 +241,45 @@ class Table:
         found: dict[str, Any] = {}
         for x in fields(cls):
             about = cls.keys()[x.name]
-            there = any(reader.has(table, name) for name in about.as_type.keys or (x.name,))
-            if x.name not in chosen or (cls.optional(x.name) and not there):
-                continue
-            found[x.name] = getattr(reader, about.type)(table, x.name, where, found)
+            slot = Slot(table, x.name, where, about, x.default, found)
+            needed = x.default is MISSING or (x.default is None and not about.as_type.null)
+            if x.name in chosen and (needed or reader.has(slot)):
+                found[x.name] = getattr(reader, about.type)(slot)
         return cls(**found)
 
     def values(self) -> Iterator[tuple[str, Key, Any]]:
         """Its keys that have a value."""
         for name, about in self.keys().items():
-            value = getattr(self, name)
-            if value is not None and (about.type != "masses" or value):
+            value, own = getattr(self, name), about.as_type
+            if own.told and (own.null or value is not None) and (about.type != "masses" or value):
                 yield name, about, value
-
-    def points(self) -> Iterator[int]:
-        """The points and places that it names by their numbers."""
-        for _, about, value in self.values():
-            if about.type in ("pair", "end", "points"):
-                yield from (value,) if about.type == "end" else value
 
     def plain(self) -> dict[str, Any]:
         """The table as the record has it; trees as they are."""
-        return ({"kind": self.kind} if self.kind else {}) | {
-            x: k.as_type.plain(v) for x, k, v in self.values()
-        }
+        said = {x: _plain(v, k.as_type.depth) for x, k, v in self.values()}
+        return ({"kind": self.kind} if self.kind else {}) | said
 
     def trees(self) -> list[Tree]:
         """The expressions in this table."""
-        return [t for _, k, value in self.values() for t in k.as_type.trees(value)]
+        return [
+            t
+            for _, k, value in self.values()
+            for x in _members(value, k.as_type.depth)
+            for t in (x.trees() if isinstance(x, Table) else [x] if k.as_type.trees else [])
+        ]
+
+
+def _plain(value: Any, depth: int) -> Any:
+    """Tuples as lists, to a depth; other tables as they say themselves."""
+    if depth and value is not None:
+        return [_plain(x, depth - 1) for x in value]
+    return value.plain() if isinstance(value, Table) else value
+
+
+def _members(value: Any, depth: int) -> Iterator[Any]:
+    """What stands in lists of lists."""
+    if depth and value is not None:
+        for x in value:
+            yield from _members(x, depth - 1)
+    elif value is not None:
+        yield value

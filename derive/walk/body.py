@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from ..language.show import in_quotes, show
-from ..language.tree import Tree
-from ..problem.problem import GivenBody, MomentBody, PointBody, Problem
-from ..problem.solids import Solid
+from ..problem.problem import Problem
 from ..record.formulas import stated
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, Sentence, listed
+from ..schema.body_kinds import GivenBody, MomentBody, Moments, PointBody
+from ..schema.solid_kinds import Mesh, Solid
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .continuum import continuum
@@ -47,16 +47,17 @@ def body_step(problem: Problem, points: Lagrangian, a: Alphabet, c: Chapter) -> 
     prose: Prose = ()
     supposed: tuple[Hypothesis, ...] = ()
     if isinstance(body, MomentBody):
-        equations += _moments(body.mass(), body.first(), body.second())
+        equations += _moments(body.moments())
         prose = say_signed("body.symbolic", problem.signed)
         supposed = of_moments(problem.signed)
     elif isinstance(body, GivenBody):
         if body.solids:
             steps += [continuum(points, a, c), _integrals(body.solids, c)]
-        equations += _moments(body.mass, body.first, body.second)
-        prose = say("body.moments" if body.solids else "body.given")
+        equations += _moments(body.given)
+        given = say("body.given")
+        prose = say("body.moments") if body.solids else given
     if problem.points:
-        equations = [*_points(problem, problem.points), *equations]
+        equations = [*_points(problem), *equations]
         prose = say("body.points") + prose
         if problem.group and problem.group.factors:
             prose += say("body.blocks")
@@ -84,36 +85,34 @@ def _massless(low: int, high: int) -> Prose:
     )
 
 
-def _points(problem: Problem, body: PointBody) -> list[Equation]:
+def _points(problem: Problem) -> list[Equation]:
     equations = []
-    for i, (m, r) in enumerate(zip(body.masses, body.positions, strict=True), 1):
+    for i, p in enumerate(problem.points, 1):
         equations += [
-            Equation(("at", "m", i), m),
-            Equation(("at", "r", i), embedded(problem, i, r, 1)),
+            Equation(("at", "m", i), p.mass),
+            Equation(("at", "r", i), embedded(problem, i, p.at, 1)),
         ]
     return equations
 
 
-def _moments(
-    mass: Tree, first: tuple[Tree, ...], second: tuple[tuple[Tree, ...], ...]
-) -> list[Equation]:
-    rows = tuple(("row", *row) for row in second)
+def _moments(own: Moments) -> list[Equation]:
+    rows = tuple(("row", *row) for row in own.J)
     return [
-        Equation("m", mass),
-        Equation("c", column(first)),
+        Equation("m", own.m),
+        Equation("c", column(own.c)),
         Equation("J", ("matrix", *rows)),
     ]
 
 
 def _described(s: Solid) -> Sentence:
-    """The words for a solid: kind, density, sizes, where it is."""
-    sizes = [phrase(f"integrals.{k}", size=_size(x)) for k, x in s.sizes.items() if k in SIZES]
-    if s.mesh is not None:
-        vertices, faces = (str(len(x)) for x in s.mesh)
+    """A solid in words: kind, density, sizes, where it is."""
+    if isinstance(s, Mesh):
         sizes = [
-            phrase("integrals.count_of_vertices", count=vertices),
-            phrase("integrals.count_of_triangles", count=faces),
+            phrase("integrals.count_of_vertices", count=str(len(s.vertices))),
+            phrase("integrals.count_of_triangles", count=str(len(s.faces))),
         ]
+    else:
+        sizes = [phrase(f"integrals.{k}", size=_size(x)) for k, x in s.sizes.items() if k in SIZES]
     solid = phrase(
         "integrals.solid",
         kind=SOLIDS[s.kind],

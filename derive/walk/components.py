@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 
 from ..language import rational as q
 from ..language.laurent import Laurent, OverlongError, grouped, polynomial, written
-from ..language.tree import Tree, add, mul, names, replaced
+from ..language.tree import Tree, names, replaced
 from ..language.values import Value, value
-from ..problem.problem import GivenBody, MomentBody, PointBody, Problem
+from ..problem.problem import Problem
 from ..record.record import Equation, Step
 from ..schema.kinds.gravity import gravity
 from .chapter import Chapter
@@ -163,19 +163,6 @@ def moments_of(problem: Problem) -> tuple[Tree, tuple[Tree, ...], Rows]:
     """m, c (3 entries) and J (3 × 3) of all that the body is made of, as trees in the
     parameters."""
     body = problem.body
-    if isinstance(body, MomentBody):
-        return body.mass(), body.first(), body.second()
-    if isinstance(body, GivenBody):  # its points are counted in
-        return body.mass, body.first, body.second
-    assert isinstance(body, PointBody)
-    m: Tree = 0
-    c: tuple[Tree, ...] = (0, 0, 0)
-    J: Rows = ((0, 0, 0),) * 3
-    for mass, r in zip(body.masses, body.positions, strict=True):
-        m = add(m, mass)
-        c = tuple(add(x, mul(mass, y)) for x, y in zip(c, r, strict=True))
-        J = tuple(
-            tuple(add(x, mul(mass, r[i], r[j])) for j, x in enumerate(row))
-            for i, row in enumerate(J)
-        )
-    return m, c, J
+    assert body is not None
+    own = body.moments()
+    return own.m, own.c, own.J

@@ -169,9 +169,9 @@ def test_moments_as_they_are_given(symbolic, first, second):
     given = {"m": written("m"), first: place, second: tensor}
     problem = Problem("b", SE(3), Moments(**given), parameters=values if symbolic else {})
     body = problem.body
-    found = np.array([[approximate(x, values) for x in row] for row in body.second])
+    found = np.array([[approximate(x, values) for x in row] for row in body.given.J])
     assert np.allclose(found, J, rtol=1e-14, atol=1e-15)
-    assert np.allclose([approximate(x, values) for x in body.first], MASS * S, rtol=1e-15)
+    assert np.allclose([approximate(x, values) for x in body.given.c], MASS * S, rtol=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -196,7 +196,7 @@ def test_numbers_of_a_drawing_program(tmp_path, capsys):
     """Given as c and I they are of no masses: refused in numbers, warned of as defaults."""
     with pytest.raises(ProblemError, match="then write centre and I_centre"):
         Problem("b", SE(3), Moments(m=2, c=FAR, I=I_C))
-    assert Problem("b", SE(3), Moments(m=2, centre=FAR, I_centre=I_C)).body.first[0] == 20
+    assert Problem("b", SE(3), Moments(m=2, centre=FAR, I_centre=I_C)).body.given.c[0] == 20
     path = tmp_path / "part.toml"
     rows = I_C.tolist()
     for key, tensor, warned in (("c", "I", True), ("centre", "I_centre", False)):

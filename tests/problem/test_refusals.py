@@ -164,11 +164,11 @@ SHAPES = [
     (lambda p: p.update(basis=[[["0"]]] * 5000), "more than"),
     (
         lambda p: p["body"].update(kind="given", given=BARE | {"J": []}, solids=[]),
-        "expected 3 rows",
+        "expected a list of 3 rows",
     ),
     (lambda p: p.update(title="long" * 1000), "longer than"),
     (of_solid(BALL), "the sizes must be radius"),
-    (of_solid(TETRAHEDRON), "expected four points"),
+    (of_solid(TETRAHEDRON), "expected a list of 4 points"),
     (of_solid({"kind": "mesh", "density": 1, "sizes": MESH}), "three numbers of vertices"),
     (of_solid({"kind": "mesh", "density": 1, "sizes": MESH | {"faces": []}}), "no faces"),
 ]

@@ -15,7 +15,6 @@ from derive.command.cli import main, ready_made
 from derive.paper.printed import PAPER
 from derive.pipeline import walk
 from derive.printing.escape import markdown_text, prose, tex_text
-from derive.problem.problem import MomentBody
 from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
 from derive.record.json_reader import from_json
@@ -23,6 +22,7 @@ from derive.record.json_writer import to_json
 from derive.record.rules import RULES
 from derive.record.sentence import PLACE, english, phrase, say
 from derive.record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
+from derive.schema.body_kinds import MomentBody
 from derive.schema.kinds import kinds
 from derive.schema.solid_kinds import SOLIDS
 from derive.views import outline
@@ -117,7 +117,7 @@ def titles_and_meanings():
     """The words of the ready-made problems, and of moments that are parameters."""
     problems = [walks.problem(name) for name in ready_made()]
     given = [*(p for x in problems for p in x.parameters.values())]
-    given += MomentBody(3).parameters().values()
+    given += MomentBody(n=3).parameters().values()
     return {x.title for x in problems} | {p.meaning for p in given if p.meaning}
 
 

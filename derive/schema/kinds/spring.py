@@ -21,7 +21,7 @@ class Spring(Potential):
     length: Scalar = 0
 
     @classmethod
-    def given(cls, table: Mapping[str, Any]) -> tuple[str, ...] | str:
+    def chosen(cls, table: Mapping[str, Any]) -> tuple[str, ...] | str:
         """Either ``between``, or an end with an ``anchor``."""
         if "between" in table:
             if any(x in table for x in ("at", "on", "anchor")):

@@ -13,8 +13,7 @@ KIND = Attraction
 
 def pointwise(found: PointPotentials, p: Attraction, problem: Problem) -> None:
     """Add −m_i μ / ‖r_i(t) − centre‖ for each point."""
-    body = problem.points
-    for i, m in p.on or enumerate(body.masses if body else (), 1):
+    for i, m in p.on or enumerate((x.mass for x in problem.points), 1):
         centre = neg(column(p.centre)) if p.centre else 0
         d = found.add_difference(add(place(problem, i), centre))
         distance: Tree = ("fun", "sqrt", ("norm2", d))

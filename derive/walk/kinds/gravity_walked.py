@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from ...algebra.words import Letter, inner, word
 from ...language.tree import neg
-from ...problem.problem import PointBody, Problem
+from ...problem.problem import Problem
 from ...record.record import Equation
+from ...schema.body_kinds import PointBody
 from ...schema.kinds.gravity import Gravity, gravity
 from ..alphabet import Alphabet
 from ..chapter import Chapter

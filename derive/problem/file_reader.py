@@ -1,0 +1,334 @@
+"""The values of a problem file, where they depend on the group and the body: a method for each type
+of a key."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from ..algebra.groups import Group
+from ..language import rational as q
+from ..language.expression import ExpressionError, parse
+from ..language.limits import BASIS, MATRIX, TEXT
+from ..language.reserved import PLACE
+from ..language.tree import Tree, replaced, subtrees
+from ..schema.body_kinds import Body, Place, Point, PointBody
+from ..schema.table import Rows, Slot, Table
+from ..schema.table_reader import NAME, TableReader
+from .fields import LIKE_A_PLACE
+from .moments import SolidError, first_moment, given_by, second_moment
+from .problem import ProblemError, points_of
+from .solids import rotation_about
+
+AXES = "xyz"
+Vector = tuple[Tree, ...]
+
+
+class FileReader(TableReader):
+    """Reads the tables of a file in a folder; ``places``: those that forces have named so far.
+
+    ``heavy``: the body has mass outside its points.
+    """
+
+    error = ProblemError
+    numbered = "[[point]] tables"
+
+    def __init__(self, folder: Path = Path()) -> None:
+        self.folder, self.group = folder, None
+        self.parameters: Mapping[str, Any] = {}
+        self.point_masses: tuple[Point, ...] = ()
+        self.places: list[Place] = []
+        self.heavy = False
+
+    group: Group | None
+
+    def moves(self, group: Group | None) -> None:
+        """From here on the group is known,"""
+        self.group = group
+        self.blocks = len(group.places) if group else 1
+
+    def carries(self, body: Body | None, parameters: Mapping[str, Any]) -> None:
+        """and from here on the body."""
+        self.parameters, self.point_masses = parameters, points_of(body)
+        self.count = self.last = len(self.point_masses)
+        self.heavy = not isinstance(body, PointBody)
+
+    def names(self, own: type[Table]) -> tuple[str, ...]:
+        """The keys of a file."""
+        return own.names()
+
+    def has(self, slot: Slot) -> bool:
+        """Does the table say it?"""
+        keys = slot.about.as_type.keys
+        return any(x in slot.table for x in ((slot.key,) if keys is None else keys))
+
+    def meets(self, need: str, kind: str, where: str) -> None:
+        """``points alone``: nothing else has mass; ``one space``: all blocks are of one dimension,
+        or the points where there are some."""
+        g = self.moving()
+        if need == "points alone" and (not self.point_masses or self.heavy):
+            raise ProblemError(f"{where}: {kind} needs a body of [[point]] tables alone")
+        if need == "one space" and len(self._sizes()) > 1:
+            more = "; use 'expression'" if kind == "gravity" else ""
+            raise ProblemError(f"{where}: {kind} needs blocks of one dimension{more}")
+        if need == "rotations" and ("orthogonal" not in g.relations or g.factors):
+            raise ProblemError(
+                f"{where}: {kind} needs one group whose linear parts are rotations, as SO(3) or "
+                f"SE(3); those of {g.name} are others"
+            )
+        if need == "affine of R^3" and (g.n != 3 or not g.free_translations or g.factors):
+            raise ProblemError(
+                f"{where}: {kind} needs a group with all translations of R^3, as SE(3) or Aff(3)"
+            )
+
+    # -- the group and its spaces --------------------------------------------------------------
+
+    def moving(self) -> Group:
+        """The group, where there must be one."""
+        assert self.group is not None
+        return self.group
+
+    def space(self, _: Slot) -> int:
+        """The dimension of its space."""
+        return self.moving().n
+
+    def _sizes(self) -> set[int]:
+        return {g.n for _, g in self.moving().places}
+
+    def _place(self, i: int) -> tuple[int, int]:
+        """The first row, and how many, of the coordinates of point i in space."""
+        at = (
+            self.point_masses[i - 1]
+            if i <= len(self.point_masses)
+            else self.places[i - len(self.point_masses) - 1]
+        )
+        first, factor = self.moving().places[at.block - 1]
+        return first, factor.n
+
+    def dimension(self, slot: Slot) -> int:
+        """Of the space of the block, or of the end that is given, or of all points."""
+        if slot.about.type == "place":
+            block = self.block(Slot(slot.table, "block", slot.where))
+            return self.moving().places[block - 1][1].n
+        return self._place(slot.found["on"])[1] if slot.found.get("on") else max(self._sizes())
+
+    def block(self, slot: Slot) -> int:
+        """1 where the table does not say it."""
+        value = slot.table.get(slot.key, 1)
+        if self.blocks == 1 and value != 1:
+            name = self.moving().name
+            raise ProblemError(f"{slot.path}: {name} is no product: there is one block")
+        return self.integer(value, 1, self.blocks, slot.path)
+
+    def letters(self, slot: Slot) -> str:
+        """As those of a name, which may be a word of another language."""
+        name = self.text(slot)
+        if not NAME.fullmatch(name):
+            raise ProblemError(f"{slot.where}: key {slot.key!r}: letters, digits and _ only")
+        return name
+
+    def basis(self, slot: Slot) -> tuple[q.Matrix, ...]:
+        """Matrices over Q."""
+        listed = self.value(slot)
+        if not isinstance(listed, list) or len(listed) > BASIS:
+            raise ProblemError(f"{slot.where}: key 'basis' must list at most {BASIS} matrices")
+        where = f"{slot.where}, element {{}} of the basis"
+        return tuple(self._matrix(e, where.format(a)) for a, e in enumerate(listed, 1))
+
+    def _matrix(self, value: Any, where: str) -> q.Matrix:
+        if not isinstance(value, list) or not all(isinstance(row, list) for row in value):
+            raise ProblemError(f"{where}: expected a list of rows")
+        if len(value) > MATRIX or any(len(row) > MATRIX for row in value):
+            raise ProblemError(f"{where}: larger than {MATRIX} × {MATRIX}")
+        rows = tuple(tuple(self.expression(x, where) for x in row) for row in value)
+        if not all(isinstance(x, (int, Fraction)) for row in rows for x in row):
+            raise ProblemError(f"{where}: the entries of a basis must be rational numbers")
+        return tuple(tuple(Fraction(str(x)) for x in row) for row in rows)
+
+    # -- points --------------------------------------------------------------------------------
+
+    def pair(self, slot: Slot) -> tuple[int, int]:
+        """Two points, in spaces of one dimension."""
+        i, j = super().pair(slot)
+        if self._place(i)[1] != self._place(j)[1]:
+            raise ProblemError(
+                f"{slot.where}: the points {i} and {j} are in spaces of two dimensions"
+            )
+        return i, j
+
+    def end(self, slot: Slot) -> int:
+        """The point of ``on``, or a new place at ``at``."""
+        table, where = slot.table, slot.where
+        if "on" in table:
+            if "at" in table:
+                raise ProblemError(f"{where}: give either 'on' or 'at'")
+            if not self.point_masses:
+                raise ProblemError(
+                    f"{where}, on: there are no {self.numbered} to number; give 'at', a place of "
+                    "the body"
+                )
+            listed = _as_list(table["on"])
+            if len(listed) != 1:
+                raise ProblemError(f"{where}: key 'on' must be one point")
+            return self.point(listed[0], f"{where}, on")
+        if "at" not in table:
+            given = "'on' or 'at'" if self.point_masses else "'at', a place of the body,"
+            raise ProblemError(f"{where}: key {given} is missing")
+        self.places.append(Place.read(table, where, self))
+        return len(self.point_masses) + len(self.places)
+
+    def points(self, slot: Slot) -> tuple[int, ...]:
+        """A place of the body; or points, by a number or a list, all without either."""
+        key, where = slot.key, slot.where
+        if "at" in slot.table:
+            return (self.end(slot),)
+        if not self.point_masses:
+            raise ProblemError(f"{where}: give a place of the body under 'at', or [[point]] tables")
+        listed = slot.table.get(key, [*range(1, self.last + 1)])
+        if not listed and isinstance(listed, list):
+            raise ProblemError(f"{where}: key {key!r} must be a point or a list of points")
+        on = tuple(self.point(i, slot.path) for i in _as_list(listed))
+        if len(set(on)) != len(on):
+            raise ProblemError(f"{where}: key {key!r} names a point twice")
+        return on
+
+    def masses(self, *_: Any) -> tuple[()]:
+        """Those of the points."""
+        return ()
+
+    # -- expressions ---------------------------------------------------------------------------
+
+    def expression(self, value: Any, where: str) -> Tree:
+        """A number or a string of the grammar."""
+        if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+            raise ProblemError(f"{where}: expected a number or an expression in quotes")
+        if isinstance(value, float) and not math.isfinite(value):
+            raise ProblemError(f"{where}: {value} is not a finite number")
+        try:
+            return parse(value if isinstance(value, str) else repr(value))
+        except ExpressionError as error:
+            raise ProblemError(f"{where}: {error}") from None
+
+    def in_time(self, value: Any, where: str) -> Tree:
+        """The time, where an expression says t."""
+        return replaced(self.expression(value, where), ("par", "t"), "t")
+
+    def energy(self, slot: Slot) -> Tree:
+        """An expression of places in space, with one at least."""
+        U = self._placed(self.scalar(slot), slot.where)
+        if not any(x[0] == "at" for _, x in subtrees(U) if isinstance(x, tuple)):
+            raise ProblemError(
+                f"{slot.path}: no place of a point, as r1_x, so no force; leave it out"
+            )
+        return U
+
+    def _placed(self, t: Tree, where: str) -> Tree:
+        """r1_x, r1_2, … as entries of the places in space; t as the time."""
+        if not isinstance(t, tuple):
+            return t
+        if t[0] != "par":
+            return (t[0], *(self._placed(x, where) for x in t[1:]))
+        name = t[1]
+        match = PLACE.fullmatch(name)
+        if match is None and name != "t":
+            if LIKE_A_PLACE.fullmatch(name) and name not in self.parameters:
+                raise ProblemError(
+                    f"{where}: {name!r}: a place in space is r1_x, r1_y, r1_z, or r1_1, r1_2, …"
+                )
+            return t
+        if match is None:
+            return "t"
+        i = int(match[1])
+        if not self.point_masses:
+            raise ProblemError(f"{where}: {name!r}: there are no {self.numbered} to number")
+        if not 1 <= i <= self.last:
+            raise ProblemError(f"{where}: {name!r}: the points are r1 … r{self.last}")
+        k = AXES.index(match[2]) + 1 if match[2] else int(match[3])
+        first, n = self._place(i)
+        if not 1 <= k <= n:
+            raise ProblemError(f"{where}: {name!r}: point {i} has {n} coordinates")
+        return ("entry", ("call", ("at", "r", i), "t"), first + k)
+
+    # -- moments, solids, rotations ------------------------------------------------------------
+
+    def first(self, slot: Slot) -> Vector:
+        """c, or m times the centre of mass."""
+        name = given_by(slot.table, ("c", "centre"), slot.where)
+        found = self.listed(slot.table[name], self.moving().n, f"{slot.where}, {name}")
+        return found if name == "c" else first_moment(slot.found["m"], found)
+
+    def second(self, slot: Slot) -> Rows:
+        """J, or in R³ a tensor of inertia, about the origin or the centre of mass."""
+        n, where = self.moving().n, slot.where
+        name = given_by(slot.table, ("J", "I", "I_centre") if n == 3 else ("J",), where)
+        rows = self.rows(slot.table[name], n, n, f"{where}, {name}")
+        return second_moment(name, rows, slot.found["m"], slot.found["c"], where)
+
+    def vertices(self, slot: Slot) -> tuple[tuple[Fraction, ...], ...]:
+        """Those of the mesh in a file, which is read by what needs NumPy."""
+        from .mesh import read
+
+        path = self._file(Slot(slot.table, "file", slot.where))
+        try:
+            vertices, self._faces = read(path)
+        except SolidError as error:
+            raise ProblemError(f"{slot.where}: {error}") from None
+        return vertices
+
+    def faces(self, _: Slot) -> tuple[tuple[int, ...], ...]:
+        """Those of the same."""
+        return self._faces
+
+    def _file(self, slot: Slot) -> Path:
+        """The path of a mesh, inside the folder of the problem file."""
+        value, where = self.value(slot), slot.path
+        if not isinstance(value, str) or not value or not value.isprintable() or len(value) > TEXT:
+            raise ProblemError(f"{where}: expected a file name in quotes, of letters that print")
+        try:
+            path = (self.folder / value).resolve()
+        except (OSError, RuntimeError):  # a link to itself
+            raise ProblemError(f"{where}: {value[:60]!r} leads nowhere") from None
+        if not path.is_relative_to(self.folder.resolve()):
+            raise ProblemError(f"{where}: {value[:60]!r} is outside the folder of the problem file")
+        return path
+
+    def turned(self, value: Any, n: int, where: str) -> Rows:
+        """{ axis, angle } in R³, or a matrix of numbers that is a rotation of Rⁿ."""
+        if isinstance(value, dict) and n == 3:
+            self.known(value, {"axis", "angle"}, where)
+            axis = self.listed(self.value(Slot(value, "axis", where)), 3, f"{where}, axis")
+            angle = self.scalar(Slot(value, "angle", where))
+            try:
+                return rotation_about(axis, angle)
+            except SolidError as error:
+                raise ProblemError(f"{where}: {error}") from None
+        turning, other, exact = (
+            ("{ axis, angle } or ", ", or { axis, angle }", "{ axis, angle } is exact")
+            if n == 3
+            else ("", "", "")
+        )
+        if not isinstance(value, list) or len(value) != n:
+            raise ProblemError(f"{where}: expected {turning}a list of {n} rows")
+        if not all(isinstance(row, list) for row in value):
+            raise ProblemError(f"{where}: expected {n} rows of {n} numbers{other}")
+        rows = self.rows(value, n, n, where)
+        if not all(isinstance(x, (int, Fraction)) for row in rows for x in row):
+            raise ProblemError(
+                f"{where}: the entries must be numbers{other.replace(', or', '; else give')}"
+            )
+        R = tuple(tuple(Fraction(str(x)) for x in row) for row in rows)
+        off = q.minus(q.times(R, q.transposed(R)), q.identity(n))
+        if max(abs(x) for x in q.flatten(off)) > Fraction(1, 10**6):
+            more = f"; {exact}" if exact else ""
+            raise ProblemError(f"{where}: the rows are not orthogonal unit vectors{more}")
+        if q.determinant(R) < 0:
+            raise ProblemError(f"{where}: a reflection; change the sign of one row")
+        return rows
+
+
+def _as_list(value: Any) -> list[Any]:
+    """A number of a point, or a list of them."""
+    return value if isinstance(value, list) else [value]

@@ -1,0 +1,135 @@
+"""The body of a problem: points, or moments that are parameters, or given, or those of solids."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from ..language.tree import Tree, add, mul
+from .declared import Parameter
+from .solid_kinds import Solid
+from .table import At, Block, First, Key, Rows, Scalar, Second, Space, Table
+
+
+@dataclass(frozen=True, kw_only=True)
+class Place(Table):
+    """A place in the body without mass, where a force acts; ``block``: the factor of a product that
+    moves it, counted from 1."""
+
+    at: At
+    block: Block = 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Point(Table):
+    """A point mass."""
+
+    section, called = "point", "Points"
+    mass: Scalar
+    at: At
+    block: Block = 1
+
+    @classmethod
+    def word(cls, *points: tuple[Any, ...]) -> Any:
+        """A body of points: (mass, place) for each, and in a product the block that moves it."""
+        return [dict(zip(("mass", "at", "block"), p, strict=False)) for p in points]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Moments(Table):
+    """m, c = Σ m r (n entries) and J = Σ m r r̄ (n × n); a file may say c and J by others."""
+
+    section, called = "body", "Moments"
+    m: Scalar
+    c: First
+    J: Second
+
+    @classmethod
+    def word(cls, **given: Any) -> Any:
+        """A body by its moments: m, c and J as given, or as parameters when none is given."""
+        return [{"given": given} if given else {"moments": "symbolic"}]
+
+
+Points = Annotated[tuple[Point, ...], Key("tables", own=Point)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointBody(Table):
+    """Point masses alone."""
+
+    kind = "points"
+    points: Points
+
+    @classmethod
+    def chosen(cls, table: Mapping[str, Any]) -> tuple[str, ...] | str:
+        """One at least."""
+        return ("points",) if table.get("points") else "key 'points' must list points"
+
+    def moments(self) -> Moments:
+        """Those of all points, where one group moves them."""
+        span = range(len(self.points[0].at))
+        rows: list[list[Tree]] = [[0 for _ in span] for _ in span]
+        mass: Tree = 0
+        first: list[Tree] = [0 for _ in span]
+        for p in self.points:
+            mass = add(mass, p.mass)
+            first = [add(x, mul(p.mass, y)) for x, y in zip(first, p.at, strict=True)]
+            rows = [[add(rows[i][j], mul(p.mass, p.at[i], p.at[j])) for j in span] for i in span]
+        return Moments(m=mass, c=tuple(first), J=tuple(map(tuple, rows)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class MomentBody(Table):
+    """A body known by its moments, which are parameters m, c_1 …, J_11, J_12, …"""
+
+    kind = "moments"
+    n: Space
+
+    def moments(self) -> Moments:
+        """The upper triangle of J is named row by row."""
+        span = range(1, self.n + 1)
+        J: Rows = tuple(tuple(("par", f"J_{min(i, j)}{max(i, j)}") for j in span) for i in span)
+        return Moments(m=("par", "m"), c=tuple(("par", f"c_{i}") for i in span), J=J)
+
+    def parameters(self) -> dict[str, Parameter]:
+        """All the moments, in the order of the emitted parameters."""
+        span = range(1, self.n + 1)
+        meanings = {"m": "total mass"}
+        meanings |= {f"c_{i}": "first moment, the sum of m r" for i in span}
+        meanings |= {
+            f"J_{i}{j}": "entry of the matrix of moments J (not of the tensor of inertia)"
+            for i in span
+            for j in span[i - 1 :]
+        }
+        return {name: Parameter(meaning=meaning) for name, meaning in meanings.items()}
+
+
+@dataclass(frozen=True, kw_only=True)
+class GivenBody(Table):
+    """A body whose moments are given, or are those of solids and points together."""
+
+    kind = "given"
+    given: Annotated[Moments, Key("table", own=Moments)]
+    solids: Annotated[tuple[Solid, ...], Key("solids")] = ()
+    points: Points | None = None
+
+    @classmethod
+    def chosen(cls, table: Mapping[str, Any]) -> tuple[str, ...] | str:
+        """Points are listed among solids alone."""
+        if table.get("points") and not table.get("solids"):
+            return "given moments are of no listed points; leave these out"
+        return ("given", "solids", *(x for x in table if x == "points"))
+
+    def moments(self) -> Moments:
+        """Those of all that it is made of."""
+        return self.given
+
+
+@dataclass(frozen=True, kw_only=True)
+class AnyBody(Table):
+    """None: the text is about any."""
+
+    kind = "any"
+
+
+Body = PointBody | MomentBody | GivenBody
+BODIES: dict[str, type[Table]] = {x.kind: x for x in (PointBody, GivenBody, MomentBody, AnyBody)}

@@ -1,0 +1,269 @@
+"""The values under keys, as files and records both have them: of the right type, or one line.
+
+Each method that is named by a type of a key (:data:`~derive.schema.table.TYPES`) reads one.
+"""
+
+from __future__ import annotations
+
+import re
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Collection, Mapping
+from typing import Any, ClassVar, TypeVar
+
+from ..language.limits import MAGNITUDE, TEXT
+from ..language.reserved import WORDS
+from ..language.tree import Tree
+from ..language.values import approximate
+from .table import Rows, Slot, Table, nearest
+
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
+LONGEST = 16
+"""The most entries of a vector whose length is not known."""
+T = TypeVar("T", bound=Table)
+
+
+class TableReader(ABC):
+    """What files and records have in common.
+
+    ``last``: points are numbered from 1 to this; ``count``: how many have a mass; ``blocks``: how
+    many blocks the group has.
+    """
+
+    error: ClassVar[type[Exception]]
+    numbered: ClassVar[str] = "points"
+    last: int = 0
+    count: int = 0
+    blocks: int = 1
+
+    @abstractmethod
+    def names(self, own: type[Table]) -> tuple[str, ...]:
+        """The keys that a table may have."""
+
+    @abstractmethod
+    def has(self, slot: Slot) -> bool:
+        """Does a table say a key that has a default?"""
+
+    @abstractmethod
+    def meets(self, need: str, kind: str, where: str) -> None:
+        """Refuse a kind where the problem is not what it needs."""
+
+    # -- whole tables --------------------------------------------------------------------------
+
+    def one_of(self, kinds: Mapping[str, type[T]], table: Any, where: str, key: str = "kind") -> T:
+        """A table of one of several kinds, which it says under a key."""
+        own = kinds[self.choice(Slot(table, key, where), tuple(kinds))]
+        return self.whole(own, {("kind" if x == key else x): v for x, v in table.items()}, where)
+
+    def whole(self, own: type[T], table: Any, where: str) -> T:
+        """A table and no key that has no meaning in it."""
+        if not isinstance(table, dict):
+            raise self.fail(f"{where}: expected a table of {', '.join(self.names(own))}")
+        self.known(table, {*self.names(own), *(["kind"] if own.kind else [])}, where)
+        return own.read(table, where, self)
+
+    def known(self, table: Mapping[str, Any], keys: Collection[str], where: str) -> None:
+        """Refuse a key that has no meaning, with the nearest that has one."""
+        for key in table:
+            if key not in keys:
+                told = f"{nearest(key, keys)} (known: {', '.join(sorted(keys))})"
+                raise self.fail(f"{where}: unknown key {key[:40]!r}{told}")
+
+    def table(self, slot: Slot) -> Any:
+        """Another table."""
+        return self.whole(slot.about.own, self.value(slot), slot.path)
+
+    def tables(self, slot: Slot) -> tuple[Any, ...]:
+        """Others, each called by its number."""
+        listed = enumerate(self.value(slot, list), 1)
+        return tuple(self.whole(slot.about.own, x, f"{slot.key[:-1]} {k}") for k, x in listed)
+
+    # -- what is in them -----------------------------------------------------------------------
+
+    def fail(self, message: str) -> Exception:
+        """The error of a file, or of a record."""
+        return self.error(message)
+
+    def value(self, slot: Slot, kind: type = object) -> Any:
+        """What stands under a key, which must be there, and of a type."""
+        if not isinstance(slot.table, dict):
+            raise self.fail(f"{slot.where}: expected a table")
+        if slot.key not in slot.table:
+            raise self.fail(f"{slot.where}: key {slot.key!r} is missing")
+        value = slot.table[slot.key]
+        if not isinstance(value, kind):
+            known = {str: "a string", list: "a list", dict: "a table", bool: "true or false"}
+            raise self.fail(f"{slot.where}: key {slot.key!r} must be {known[kind]}")
+        return value
+
+    def text(self, slot: Slot) -> str:
+        """A string that is not too long."""
+        value = str(self.value(slot, str))
+        if len(value) > TEXT:
+            raise self.fail(f"{slot.where}: key {slot.key!r} is longer than {TEXT} letters")
+        return value
+
+    def choice(self, slot: Slot, allowed: tuple[str, ...]) -> str:
+        """One of a few strings."""
+        value = self.text(slot)
+        if value not in allowed:
+            told = f"{', '.join(allowed)}{nearest(value, allowed)}"
+            raise self.fail(f"{slot.where}: key {slot.key!r} must be one of {told}")
+        return value
+
+    def frame(self, slot: Slot) -> str:
+        """Space or body."""
+        return self.choice(slot, ("space", "body"))
+
+    def action(self, slot: Slot) -> str:
+        """How a group acts."""
+        return self.choice(slot, ("linear", "affine"))
+
+    def name(self, slot: Slot) -> str:
+        """A name that every emitted language can take."""
+        return self.identifier(self.text(slot), slot.path)
+
+    def identifier(self, name: str, where: str) -> str:
+        """The same of a name itself."""
+        if not NAME.fullmatch(name):
+            raise self.fail(
+                f"{where}: letters, digits and _ only, starting with a letter, at most 64"
+            )
+        if name in WORDS:
+            raise self.fail(f"{where}: {name!r} is {WORDS[name]}; call it {name + '_'!r}, say")
+        return name
+
+    def number(self, slot: Slot) -> float | None:
+        """A number that a double holds, or none."""
+        value = self.value(slot)
+        if value is None:
+            return None
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise self.fail(f"{slot.where}: key {slot.key!r} must be a number")
+        if not abs(value) <= MAGNITUDE:
+            raise self.fail(
+                f"{slot.where}: key {slot.key!r} must be a finite number, at most 1e300"
+            )
+        return float(value)
+
+    def integer(self, value: Any, least: int, most: int, where: str) -> int:
+        """An integer in a range."""
+        if type(value) is not int or not least <= value <= most:
+            raise self.fail(f"{where}: expected an integer from {least} to {most}")
+        return value
+
+    def block(self, slot: Slot) -> int:
+        """The factor of a product, counted from 1; without a product there is one."""
+        return self.integer(self.value(slot), 1, self.blocks, slot.path)
+
+    def point(self, value: Any, where: str) -> int:
+        """A point by its number."""
+        if not self.last:
+            raise self.fail(f"{where}: there are no {self.numbered} to number")
+        return self.integer(value, 1, self.last, where)
+
+    def pair(self, slot: Slot) -> tuple[int, int]:
+        """Two points, in spaces of one dimension."""
+        ends = self.value(slot)
+        if not isinstance(ends, list) or len(ends) != 2:
+            raise self.fail(f"{slot.where}: key {slot.key!r} must be two points")
+        i, j = (self.point(x, slot.path) for x in ends)
+        if i == j:
+            raise self.fail(f"{slot.where}: key {slot.key!r} names one point twice")
+        return i, j
+
+    # -- expressions ---------------------------------------------------------------------------
+
+    @abstractmethod
+    def expression(self, value: Any, where: str) -> Tree:
+        """An expression of the parameters."""
+
+    @abstractmethod
+    def in_time(self, value: Any, where: str) -> Tree:
+        """The same, of the time as well."""
+
+    @abstractmethod
+    def turned(self, value: Any, n: int, where: str) -> Rows:
+        """A rotation of Rⁿ."""
+
+    def scalar(self, slot: Slot) -> Tree:
+        """An expression."""
+        return self.expression(self.value(slot), slot.path)
+
+    def listed(
+        self,
+        value: Any,
+        n: int | None,
+        where: str,
+        one: Callable[[Any, str], Tree] | None = None,
+    ) -> tuple[Tree, ...]:
+        """A list of n expressions, or of a few."""
+        if not isinstance(value, list) or not (n or 1) <= len(value) <= (n or LONGEST):
+            raise self.fail(f"{where}: expected a list of {n or 'a few'} expressions")
+        return tuple((one or self.expression)(x, where) for x in value)
+
+    def rows(self, value: Any, count: int, n: int, where: str, what: str = "rows") -> Rows:
+        """A list of lists."""
+        if not isinstance(value, list) or len(value) != count:
+            raise self.fail(f"{where}: expected a list of {count} {what}")
+        return tuple(
+            self.listed(row, n, f"{where}, {what[:-1]} {k}") for k, row in enumerate(value, 1)
+        )
+
+    @abstractmethod
+    def space(self, slot: Slot) -> int:
+        """The dimension of the space."""
+
+    @abstractmethod
+    def dimension(self, slot: Slot) -> int | None:
+        """Of the space in which the vector under a key is; none where that is not known."""
+
+    def vector(self, slot: Slot) -> tuple[Tree, ...]:
+        """A vector of the space of the points."""
+        return self.listed(self.value(slot), self.dimension(slot), slot.path)
+
+    place = vector
+
+    def timed(self, slot: Slot) -> tuple[Tree, ...]:
+        """The same, of the time as well."""
+        return self.listed(self.value(slot), self.dimension(slot), slot.path, self.in_time)
+
+    def charges(self, slot: Slot) -> tuple[Tree, ...]:
+        """A number for each point."""
+        if not self.count:
+            raise self.fail(
+                f"{slot.where}: key {slot.key!r} is for [[point]] tables, and there are none"
+            )
+        return self.listed(self.value(slot), self.count, slot.path)
+
+    def rotation(self, slot: Slot) -> Rows:
+        """One of the space of the points."""
+        return self.turned(self.value(slot), self.space(slot), slot.path)
+
+    def shift(self, slot: Slot) -> tuple[Tree, ...] | None:
+        """A vector of R³, or none."""
+        value = self.value(slot)
+        return None if value is None else self.listed(value, 3, slot.path)
+
+    def turn(self, slot: Slot) -> Rows | None:
+        """A rotation of R³, or none."""
+        value = self.value(slot)
+        return None if value is None else self.turned(value, 3, slot.path)
+
+    def length(self, slot: Slot) -> Tree:
+        """An expression that is not a number below 0."""
+        return self.positive(self.scalar(slot), slot)
+
+    def lengths(self, slot: Slot) -> tuple[Tree, ...]:
+        """Three of these."""
+        return tuple(self.positive(x, slot) for x in self.listed(self.value(slot), 3, slot.path))
+
+    def positive(self, size: Tree, slot: Slot) -> Tree:
+        """The same size."""
+        value = approximate(size, {})
+        if value is not None and (value < 0 or (value == 0 and not slot.about.zero)):
+            raise self.fail(f"{slot.path}: a length that is not positive")
+        return size
+
+    def corners(self, slot: Slot) -> Rows:
+        """Those of a tetrahedron."""
+        return self.rows(self.value(slot), 4, 3, slot.path, "points")
