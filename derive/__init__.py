@@ -28,6 +28,6 @@ __all__ = [*PLACES]
 def __getattr__(name: str) -> Any:
     if name in PLACES:
         return getattr(import_module(PLACES[name]), name)
-    if name[:1].isupper() and name in import_module("derive.schema.kinds").words():
+    if name[:1].isupper() and name in import_module("derive.schema.python_words").words():
         return getattr(import_module("derive.python.api"), name)
     raise AttributeError(f"module 'derive' has no attribute {name!r}")

@@ -62,7 +62,7 @@ class FileReader(TableReader):
 
     def has(self, slot: Slot) -> bool:
         """Does the table say it?"""
-        keys = slot.about.as_type.keys
+        keys = slot.about.keys
         return any(x in slot.table for x in ((slot.key,) if keys is None else keys))
 
     def meets(self, need: str, kind: str, where: str) -> None:

@@ -16,7 +16,7 @@ from ..language.laurent import Laurent, Monomial
 from ..language.limits import EXPONENT
 from ..language.tree import Tree, add, coefficient, mul
 from ..schema.body_kinds import Moments
-from ..schema.solid_kinds import Mesh, Solid, Tetrahedron
+from ..schema.solid_kinds import Solid
 from .moments import Row, SolidError
 
 SPAN, UNIT, TERMS = range(3), ((1, 0, 0), (0, 1, 0), (0, 0, 1)), 3
@@ -35,17 +35,15 @@ def together(a: Moments, b: Moments) -> Moments:
 
 def unit_moments(solid: Solid) -> Moments:
     """The moments of density 1 in the solid's own frame; :class:`SolidError`."""
-    if isinstance(solid, Mesh):
+    kind, sizes = solid.kind, solid.sizes
+    if kind == "mesh":
         from .mesh import mesh_moments
 
-        return mesh_moments(solid.vertices, solid.faces)
-    if isinstance(solid, Tetrahedron):
-        integral = _corners(solid.vertices)
-    else:
-        integral = _centred(solid.kind, solid.sizes)
+        return mesh_moments(**sizes)
+    integral = _corners(**sizes) if kind == "tetrahedron" else _centred(kind, sizes)
     mass, first = _tree(integral()), tuple(_tree(integral(i)) for i in SPAN)
     if coefficient(mass)[0] <= 0:
-        raise SolidError(f"the volume of this {solid.kind} is not positive; look at its sizes")
+        raise SolidError(f"the volume of this {kind} is not positive; look at its sizes")
     J = tuple(tuple(_tree(integral(i, j)) for j in SPAN) for i in SPAN)
     return Moments(m=mass, c=first, J=J)
 

@@ -11,18 +11,20 @@ Everything is checked as a file is; ``ProblemError`` says in one line what is wr
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from inspect import getmodule
-from typing import Any
+from functools import cache
+from inspect import getmodule, signature
+from typing import Any, TypeVar
 
+from ..algebra.families import FAMILIES
 from ..problem import problem as mechanics
 from ..problem.toml import problem_of
-from ..schema.kinds import words
+from ..schema.python_words import words
+from ..schema.table import Number
 
-Number = int | float | str | Fraction
-"""A number, or an expression in quotes."""
+F = TypeVar("F", bound=Callable[..., Any])
 
 
 @dataclass(frozen=True)
@@ -47,61 +49,6 @@ class Group:
         return {"name": self.name, "action": self.action, "basis": basis}
 
 
-def SO(n: int) -> Group:
-    """The rotations of Rⁿ."""
-    return Group(f"SO({n})")
-
-
-def SE(n: int) -> Group:
-    """The displacements of Rⁿ."""
-    return Group(f"SE({n})")
-
-
-def SL(n: int) -> Group:
-    """The linear maps of Rⁿ that keep the volume."""
-    return Group(f"SL({n})")
-
-
-def Sp(n: int) -> Group:
-    """The symplectic maps of Rⁿ, n even."""
-    return Group(f"Sp({n})")
-
-
-def Sim(n: int) -> Group:
-    """The similarities of Rⁿ."""
-    return Group(f"Sim({n})")
-
-
-def UT(n: int) -> Group:
-    """The upper unitriangular maps of Rⁿ."""
-    return Group(f"UT({n})")
-
-
-def U(n: int) -> Group:
-    """The unitary maps of Cⁿ = R²ⁿ."""
-    return Group(f"U({n})")
-
-
-def SU(n: int) -> Group:
-    """The unitary maps of Cⁿ = R²ⁿ of determinant 1."""
-    return Group(f"SU({n})")
-
-
-def SAff(n: int) -> Group:
-    """The affine maps of Rⁿ that keep the volume."""
-    return Group(f"SAff({n})")
-
-
-def GL(n: int) -> Group:
-    """The invertible linear maps of Rⁿ."""
-    return Group(f"GL({n})")
-
-
-def Aff(n: int) -> Group:
-    """The invertible affine maps of Rⁿ."""
-    return Group(f"Aff({n})")
-
-
 class Table:
     """A table of a problem file: its key and its fields."""
 
@@ -110,78 +57,44 @@ class Table:
         self.fields = {k: _plain(x) for k, x in fields.items() if x is not None}
 
 
-def Points(*points: tuple[Any, ...]) -> list[Table]:
-    """A body of points: (mass, place) for each, and in a product the block that moves it."""
-    return [Table("point", mass=p[0], at=p[1], block=p[2] if len(p) > 2 else None) for p in points]
-
-
-def Moments(**given: Any) -> list[Table]:
-    """A body by its moments: m, c and J as given, or as parameters when none is given."""
-    return [Table("body", given=given) if given else Table("body", moments="symbolic")]
-
-
-def Solid(kind: str, density: Number, **sizes: Any) -> list[Table]:
-    """A solid of uniform density: ``Solid("ball", "rho", radius="a")``; a sum is a mixture."""
-    return [Table("solid", kind=kind, density=density, **sizes)]
-
-
-def Gravity(*g: Number) -> Table:
-    """Uniform gravity, U = −Σ m_i ⟨g, r_i⟩."""
-    return Table("potential", kind="gravity", g=list(g))
-
-
-def Spring(
-    i: int | Sequence[Number], j: int | Sequence[Number], stiffness: Number, length: Number = 0
-) -> Table:
-    """A spring, U = ½ k (‖s‖ − length)², between points i and j; or from point i, or a place i of
-    the body, to an anchor j in space."""
-    if isinstance(j, int):
-        ends: dict[str, Any] = {"between": [i, j]}
-    else:
-        ends = {"on" if isinstance(i, int) else "at": i, "anchor": j}
-    return Table("potential", kind="spring", stiffness=stiffness, length=length, **ends)
-
-
-def Potential(U: str) -> Table:
-    """Any potential, an expression U in r1_x, r2_y, …, t and the parameters."""
-    return Table("potential", kind="expression", U=U)
-
-
 def __getattr__(name: str) -> Any:
-    """The word of any other kind of potential: its keys are the arguments, in their order."""
-    if name not in words():
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    kind = words()[name]
-
-    def potential(*given: Any, **named: Any) -> Table:
-        keys = kind.names()
-        if len(given) > len(keys):
-            raise mechanics.ProblemError(f"{name} takes {', '.join(keys)}, and no more")
-        return Table("potential", kind=kind.kind, **dict(zip(keys, given, strict=False)), **named)
-
-    potential.__name__ = potential.__qualname__ = name
-    potential.__doc__ = (getmodule(kind) or kind).__doc__
-    return potential
+    """The word of a table, and that of a family of groups."""
+    if name in FAMILIES:
+        return _family(name)
+    if name in words():
+        return _word(name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def Covector(name: str) -> Table:
-    """An input: a covector of the Lie algebra, by its values on the basis."""
-    return Table("input", kind="covector", name=name)
+@cache
+def _family(name: str) -> Callable[[int], Group]:
+    def group(n: int) -> Group:
+        return Group(f"{name}({n})")
+
+    return _called(group, name, f"The group {name}(n): {FAMILIES[name].meaning}.")
 
 
-def Force(name: str, on: int | Sequence[Number], frame: str = "space") -> Table:
-    """An input: a force on a point, or at a place of the body; its frame is "space" or "body"."""
-    where = {"on": on} if isinstance(on, int) else {"at": on}
-    return Table("input", kind="force", name=name, frame=frame, **where)
+@cache
+def _word(name: str) -> Callable[..., Table | list[Table]]:
+    """What builds a table from arguments, as its description has it (:meth:`Table.word`)."""
+    own = words()[name]
+    kind = {"kind": own.kind} if own.kind else {}
+
+    def build(*given: Any, **named: Any) -> Table | list[Table]:
+        said = own.word(*given, **named)
+        if isinstance(said, list):
+            return [Table(own.section, **x) for x in said]
+        return Table(own.section, **kind, **said)
+
+    vars(build)["__signature__"] = signature(own.word)
+    stated = "word" in vars(own)
+    return _called(build, name, (own.word if stated else getmodule(own) or own).__doc__)
 
 
-def Damping(
-    coefficient: Number,
-    on: Sequence[int] | None = None,
-    at: Sequence[Number] | None = None,
-) -> Table:
-    """The force −κ v on points (all by default), or on a place of the body, outside dϖ."""
-    return Table("damping", coefficient=coefficient, on=on, at=at)
+def _called(function: F, name: str, doc: str | None) -> F:
+    function.__name__ = function.__qualname__ = name
+    function.__doc__ = doc
+    return function
 
 
 def Problem(

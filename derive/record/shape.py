@@ -137,7 +137,7 @@ class _RecordReader(TableReader):
 
     def names(self, own: type[Table]) -> tuple[str, ...]:
         """All keys that are told."""
-        return tuple(x for x, k in own.keys().items() if k.as_type.told)
+        return tuple(x for x, k in own.keys().items() if k.told)
 
     def has(self, slot: Slot) -> bool:
         """All must be there; a list is empty where a file may leave it out."""

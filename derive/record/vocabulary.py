@@ -7,8 +7,9 @@ French stands beside the English; spaces that it does not break are written as o
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
+from ..schema.kind import Own
 from ..schema.kinds import kinds
 from .name_types import (
     ALGEBRA,
@@ -280,12 +281,17 @@ VOCABULARY: dict[str, Name] = {
 # fmt: on
 
 OWN_TYPES: dict[str, Type] = {"scalar": SCALAR, "vector": VECTOR, "matrix": SQUARE}
-VOCABULARY |= {
-    x.name: name(x.meaning, x.french, x.latex, defined(OWN_TYPES[x.type]))
-    for kind in kinds().values()
-    for x in kind.letters
-}
-"""And the letters that a kind of potential has for its own."""
+
+
+def add_letters(known: dict[str, Name], letters: Iterable[Own]) -> None:
+    """The letters that a kind of potential has for its own; ``ValueError`` for a known one."""
+    for x in letters:
+        if x.name in known:
+            raise ValueError(f"the letter {x.name} has a meaning: {known[x.name].meaning}")
+        known[x.name] = name(x.meaning, x.french, x.latex, defined(OWN_TYPES[x.type]))
+
+
+add_letters(VOCABULARY, (x for kind in kinds().values() for x in kind.letters))
 
 # fmt: off
 ROTATIONS: dict[str, Name] = {

@@ -1,7 +1,6 @@
 """The body of a problem: points, or moments that are parameters, or given, or those of solids."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated, Any
 
 from ..language.tree import Tree, add, mul
@@ -10,7 +9,6 @@ from .solid_kinds import Solid
 from .table import At, Block, First, Key, Rows, Scalar, Second, Space, Table
 
 
-@dataclass(frozen=True, kw_only=True)
 class Place(Table):
     """A place in the body without mass, where a force acts; ``block``: the factor of a product that
     moves it, counted from 1."""
@@ -19,7 +17,6 @@ class Place(Table):
     block: Block = 1
 
 
-@dataclass(frozen=True, kw_only=True)
 class Point(Table):
     """A point mass."""
 
@@ -34,7 +31,6 @@ class Point(Table):
         return [dict(zip(("mass", "at", "block"), p, strict=False)) for p in points]
 
 
-@dataclass(frozen=True, kw_only=True)
 class Moments(Table):
     """m, c = Σ m r (n entries) and J = Σ m r r̄ (n × n); a file may say c and J by others."""
 
@@ -49,10 +45,9 @@ class Moments(Table):
         return [{"given": given} if given else {"moments": "symbolic"}]
 
 
-Points = Annotated[tuple[Point, ...], Key("tables", own=Point)]
+Points = Annotated[tuple[Point, ...], Key("tables", 1, own=Point)]
 
 
-@dataclass(frozen=True, kw_only=True)
 class PointBody(Table):
     """Point masses alone."""
 
@@ -60,7 +55,7 @@ class PointBody(Table):
     points: Points
 
     @classmethod
-    def chosen(cls, table: Mapping[str, Any]) -> tuple[str, ...] | str:
+    def chosen(cls, table: Mapping[str, Any], _: int) -> tuple[str, ...] | str:
         """One at least."""
         return ("points",) if table.get("points") else "key 'points' must list points"
 
@@ -77,7 +72,6 @@ class PointBody(Table):
         return Moments(m=mass, c=tuple(first), J=tuple(map(tuple, rows)))
 
 
-@dataclass(frozen=True, kw_only=True)
 class MomentBody(Table):
     """A body known by its moments, which are parameters m, c_1 …, J_11, J_12, …"""
 
@@ -103,17 +97,16 @@ class MomentBody(Table):
         return {name: Parameter(meaning=meaning) for name, meaning in meanings.items()}
 
 
-@dataclass(frozen=True, kw_only=True)
 class GivenBody(Table):
     """A body whose moments are given, or are those of solids and points together."""
 
     kind = "given"
     given: Annotated[Moments, Key("table", own=Moments)]
-    solids: Annotated[tuple[Solid, ...], Key("solids")] = ()
+    solids: Annotated[tuple[Solid, ...], Key("solids", 1)] = ()
     points: Points | None = None
 
     @classmethod
-    def chosen(cls, table: Mapping[str, Any]) -> tuple[str, ...] | str:
+    def chosen(cls, table: Mapping[str, Any], _: int) -> tuple[str, ...] | str:
         """Points are listed among solids alone."""
         if table.get("points") and not table.get("solids"):
             return "given moments are of no listed points; leave these out"
@@ -124,7 +117,6 @@ class GivenBody(Table):
         return self.given
 
 
-@dataclass(frozen=True, kw_only=True)
 class AnyBody(Table):
     """None: the text is about any."""
 

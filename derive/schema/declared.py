@@ -1,11 +1,8 @@
 """What a problem declares before its body: its parameters, and a group of its own."""
 
-from dataclasses import dataclass
-
 from .table import Action, Basis, Default, Letters, Table, Text
 
 
-@dataclass(frozen=True, kw_only=True)
 class Parameter(Table):
     """A free name, with what a reader of the emitted code wants to know."""
 
@@ -14,7 +11,6 @@ class Parameter(Table):
     meaning: Text = ""
 
 
-@dataclass(frozen=True, kw_only=True)
 class StatedGroup(Table):
     """A group by a ``basis`` of its Lie algebra, matrices over Q; those of an affine one have a
     last row of zeros."""

@@ -6,7 +6,6 @@ The kinds are in :mod:`derive.schema.kinds`.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 from .table import Table
@@ -23,7 +22,6 @@ class Own(NamedTuple):
     latex: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class Potential(Table):
     """One potential of a problem.
 

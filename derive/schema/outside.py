@@ -1,13 +1,11 @@
 """Forces outside dϖ: inputs, given at every call, and damping."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from .table import End, Frame, Name, Number, Points, Stiffness, Table
 
 
-@dataclass(frozen=True, kw_only=True)
 class CovectorInput(Table):
     """A covector of the Lie algebra: power ⟨u, ζ⟩."""
 
@@ -20,7 +18,6 @@ class CovectorInput(Table):
         return {"name": name}
 
 
-@dataclass(frozen=True, kw_only=True)
 class ForceInput(Table):
     """A force on a point or a place; ``frame``: its components are in space or body."""
 
@@ -36,7 +33,6 @@ class ForceInput(Table):
         return {"name": name, "frame": frame} | {"on" if isinstance(on, int) else "at": on}
 
 
-@dataclass(frozen=True, kw_only=True)
 class Damping(Table):
     """−κ v on points: a Rayleigh function ½ κ |v|², no potential."""
 

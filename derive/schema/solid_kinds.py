@@ -1,6 +1,5 @@
 """The kinds of solids and their sizes."""
 
-from dataclasses import dataclass
 from typing import Any
 
 from .table import (
@@ -18,7 +17,6 @@ from .table import (
 )
 
 
-@dataclass(frozen=True, kw_only=True)
 class Solid(Table):
     """The points R r + s of a kind of solid: ``rotation`` R, 3 × 3, and ``shift`` s, 3 entries."""
 
@@ -46,72 +44,18 @@ class Solid(Table):
         return [{"kind": kind, "density": density, **sizes}]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Ball(Solid):
-    """Of a radius."""
-
-    kind = "ball"
-    radius: Length
-
-
-@dataclass(frozen=True, kw_only=True)
-class Box(Solid):
-    """Full lengths; centred."""
-
-    kind = "box"
-    sides: Lengths
-
-
-@dataclass(frozen=True, kw_only=True)
-class Ellipsoid(Solid):
-    """Centred."""
-
-    kind = "ellipsoid"
-    semi_axes: Lengths
-
-
-@dataclass(frozen=True, kw_only=True)
-class Cylinder(Solid):
-    """About z; centred."""
-
-    kind = "cylinder"
-    radius: Length
-    height: Length
-
-
-@dataclass(frozen=True, kw_only=True)
-class Cone(Solid):
-    """About z; base in the plane z = 0, apex at z = height."""
-
-    kind = "cone"
-    radius: Length
-    height: Length
-
-
-@dataclass(frozen=True, kw_only=True)
-class HollowBall(Solid):
-    """Between two spheres."""
-
-    kind = "hollow_ball"
-    outer: Length
-    inner: Inner
-
-
-@dataclass(frozen=True, kw_only=True)
-class Tetrahedron(Solid):
-    """Four points."""
-
-    kind = "tetrahedron"
-    vertices: Corners
-
-
-@dataclass(frozen=True, kw_only=True)
-class Mesh(Solid):
-    """A closed surface of triangles: three coordinates each, three numbers from 0 each."""
-
-    kind = "mesh"
-    vertices: Vertices
-    faces: Faces
-
-
-SOLIDS: dict[str, type[Solid]] = {x.kind: x for x in Solid.__subclasses__()}
+SIZES: dict[str, dict[str, Any]] = {
+    "ball": {"radius": Length},
+    "box": {"sides": Lengths},  # full lengths; centred
+    "ellipsoid": {"semi_axes": Lengths},
+    "cylinder": {"radius": Length, "height": Length},  # about z; centred
+    "cone": {"radius": Length, "height": Length},  # about z; base in z = 0, apex at z = height
+    "hollow_ball": {"outer": Length, "inner": Inner},
+    "tetrahedron": {"vertices": Corners},
+    "mesh": {"vertices": Vertices, "faces": Faces},
+}
+"""Of a mesh three coordinates for each vertex, and three numbers of vertices, from 0, each face."""
+SOLIDS: dict[str, type[Solid]] = {
+    kind: type(kind, (Solid,), {"kind": kind, "__annotations__": sizes, "__doc__": Solid.__doc__})
+    for kind, sizes in SIZES.items()
+}

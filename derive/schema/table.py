@@ -10,7 +10,16 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields
 from fractions import Fraction
 from functools import cache
-from typing import Annotated, Any, ClassVar, NamedTuple, Protocol, Self, get_args
+from typing import (
+    Annotated,
+    Any,
+    ClassVar,
+    NamedTuple,
+    Protocol,
+    Self,
+    dataclass_transform,
+    get_args,
+)
 
 from ..language.near_names import did_you_mean, near_name
 from ..language.tree import Tree
@@ -42,8 +51,10 @@ class Slot(NamedTuple):
 class Reader(Protocol):
     """What reads the values of a table: from a file, or from a record of a stranger.
 
-    It has a method for each type of a key, by its name, which takes the :class:`Slot`.
+    It has a method for each type of a :class:`Key`, by its name, which takes the :class:`Slot`.
     """
+
+    last: int
 
     def fail(self, message: str) -> Exception:
         """The error of a file, or of a record."""
@@ -56,103 +67,78 @@ class Reader(Protocol):
 
 
 @dataclass(frozen=True)
-class Type:
-    """What stands under a key: one value, a list, or rows (``depth`` 0, 1, 2), of ``trees`` or not.
+class Key:
+    """A key: the name of its type, which is one value, a list, or rows (``depth`` 0, 1, 2), of
+    ``trees`` or not.
 
     ``keys``: those of a file that say it, where they are not the one of its name; ``null``: a
     record says it by null, and a file not at all, where there is none; ``told``: in a record.
+    ``mass``: in units of mass; ``positive``: may not be negative but where that is allowed;
+    ``zero``: a length that may be 0; ``own``: what another table is.
     """
 
+    type: str
     depth: int = 0
     trees: bool = False
     keys: tuple[str, ...] | None = None
     null: bool = False
     told: bool = True
-
-
-ATTACHED = ("on", "at", "block")
-TYPES = {
-    **dict.fromkeys(("scalar", "energy", "length"), Type(trees=True)),
-    **dict.fromkeys(("vector", "timed", "charges", "place", "lengths"), Type(1, trees=True)),
-    **dict.fromkeys(("rotation", "corners"), Type(2, trees=True)),
-    "shift": Type(1, trees=True, null=True),
-    "turn": Type(2, trees=True, null=True),
-    "first": Type(1, trees=True, keys=("c", "centre")),
-    "second": Type(2, trees=True, keys=("J", "I", "I_centre")),
-    **dict.fromkeys(("vertices", "faces"), Type(2, keys=("file",))),
-    "end": Type(keys=ATTACHED),
-    "points": Type(1, keys=ATTACHED),
-    "pair": Type(1),
-    "masses": Type(2, keys=()),
-    **dict.fromkeys(("name", "letters", "text", "frame", "action", "block", "table"), Type()),
-    **dict.fromkeys(("tables", "solids"), Type(1)),
-    "basis": Type(2),
-    "number": Type(null=True),
-    "space": Type(keys=(), told=False),
-}
-"""Expressions of the parameters: ``scalar``; ``length``, positive; ``lengths``, three; ``vector``,
-of the space of the points; ``place``, of the space of a block; ``shift``, of R³; ``corners``, four
-of R³; ``rotation``, of that space, and ``turn``, of R³, rows of a matrix; ``charges``, one for each
-point; ``first`` and ``second`` moments.  Of the time as well: ``timed``, a vector, and ``energy``,
-of places too.  ``pair``: two points; ``end``: a point or a place of the body; ``points``: some or a
-place of the body; ``masses``: points with their masses, of which the principal frame makes a list.
-``block``: of a product; ``space``: its dimension, which the group says; ``name``: one of code;
-``letters``: of any kind; ``text``; ``frame``: space or body; ``action``: linear or affine;
-``number``: one, without an expression; ``basis``: matrices; ``vertices`` and ``faces``: of a mesh,
-which a file names; ``table``, ``tables``, ``solids``: others."""
-
-
-@dataclass(frozen=True)
-class Key:
-    """A key: the name of its type; ``mass``: in units of mass; ``positive``: may not be negative
-    but where that is allowed; ``zero``: a length that may be 0; ``own``: what another table is."""
-
-    type: str
     mass: bool = False
     positive: bool = False
     zero: bool = False
     own: Any = None
 
-    @property
-    def as_type(self) -> Type:
-        """The type of this key."""
-        return TYPES[self.type]
 
+Row = tuple[Tree, ...]
+Rows = tuple[Row, ...]
+ATTACHED = ("on", "at", "block")
+Scalar = Annotated[Tree, Key("scalar", trees=True)]
+Stiffness = Annotated[Tree, Key("scalar", trees=True, mass=True, positive=True)]
+Energy = Annotated[Tree, Key("energy", trees=True)]
+Vector = Annotated[Row, Key("vector", 1, trees=True)]
+Timed = Annotated[Row, Key("timed", 1, trees=True)]
+Charges = Annotated[Row, Key("charges", 1, trees=True)]
+Rotation = Annotated[Rows, Key("rotation", 2, trees=True)]
+"""Expressions of the parameters; an energy is of places and the time as well, and ``Timed``, a
+vector, of the time.  A vector and the rows of a rotation are of the space of the points; there is a
+charge for each point."""
 
-Rows = tuple[tuple[Tree, ...], ...]
-Scalar = Annotated[Tree, Key("scalar")]
-Stiffness = Annotated[Tree, Key("scalar", mass=True, positive=True)]
-Length = Annotated[Tree, Key("length")]
-Inner = Annotated[Tree, Key("length", zero=True)]
-Lengths = Annotated[tuple[Tree, ...], Key("lengths")]
-Energy = Annotated[Tree, Key("energy")]
-Vector = Annotated[tuple[Tree, ...], Key("vector")]
-At = Annotated[tuple[Tree, ...], Key("place")]
-Shift = Annotated[tuple[Tree, ...] | None, Key("shift")]
-Corners = Annotated[Rows, Key("corners")]
-Pair = Annotated[tuple[int, int], Key("pair")]
-End = Annotated[int, Key("end")]
-Rotation = Annotated[Rows, Key("rotation")]
-Turn = Annotated[Rows | None, Key("turn")]
-Timed = Annotated[tuple[Tree, ...], Key("timed")]
-Charges = Annotated[tuple[Tree, ...], Key("charges")]
-Points = Annotated[tuple[int, ...], Key("points")]
+Pair = Annotated[tuple[int, int], Key("pair", 1)]
+End = Annotated[int, Key("end", keys=ATTACHED)]
+Points = Annotated[tuple[int, ...], Key("points", 1, keys=ATTACHED)]
+Masses = Annotated[tuple[tuple[int, Tree], ...], Key("masses", 2, keys=())]
+At = Annotated[Row, Key("place", 1, trees=True)]
+Block = Annotated[int, Key("block")]
+Space = Annotated[int, Key("space", keys=(), told=False)]
+"""Two points; a point or a place of the body; points or a place; points with their masses, of which
+the principal frame makes a list.  A place in the space of a block, and the block of a product.  The
+dimension of the space, which the group says."""
+
+First = Annotated[Row, Key("first", 1, trees=True, keys=("c", "centre"))]
+Second = Annotated[Rows, Key("second", 2, trees=True, keys=("J", "I", "I_centre"))]
+Length = Annotated[Tree, Key("length", trees=True)]
+Inner = Annotated[Tree, Key("length", trees=True, zero=True)]
+Lengths = Annotated[Row, Key("lengths", 1, trees=True)]
+Corners = Annotated[Rows, Key("corners", 2, trees=True)]
+Vertices = Annotated[tuple[tuple[Fraction, ...], ...], Key("vertices", 2, keys=("file",))]
+Faces = Annotated[tuple[tuple[int, ...], ...], Key("faces", 2, keys=("file",))]
+Turn = Annotated[Rows | None, Key("turn", 2, trees=True, null=True)]
+Shift = Annotated[Row | None, Key("shift", 1, trees=True, null=True)]
+"""Moments of a body, and of solids in R³ the sizes: lengths, positive, one or three; four corners;
+what the file of a mesh has.  A rotation and a vector of R³, or none."""
+
 Name = Annotated[str, Key("name")]
 Letters = Annotated[str, Key("letters")]
 Text = Annotated[str, Key("text")]
 Frame = Annotated[str, Key("frame")]
 Action = Annotated[str, Key("action")]
-Default = Annotated[float | None, Key("number")]
-Block = Annotated[int, Key("block")]
-Space = Annotated[int, Key("space")]
-Masses = Annotated[tuple[tuple[int, Tree], ...], Key("masses")]
-First = Annotated[tuple[Tree, ...], Key("first")]
-Second = Annotated[Rows, Key("second")]
-Vertices = Annotated[tuple[tuple[Fraction, ...], ...], Key("vertices")]
-Faces = Annotated[tuple[tuple[int, ...], ...], Key("faces")]
-Basis = Annotated[tuple[tuple[tuple[Fraction, ...], ...], ...], Key("basis")]
-"""The types of the keys of a kind.  A key without a default must be there; one that is ``None`` if
-its kind chooses it (:meth:`Table.chosen`)."""
+Default = Annotated[float | None, Key("number", null=True)]
+Basis = Annotated[tuple[tuple[tuple[Fraction, ...], ...], ...], Key("basis", 2)]
+"""A name of code; one of any letters, digits and _; text; space or body; linear or affine; a number
+or none; matrices.
+
+A key without a default must be there; one that is ``None`` if its kind chooses it
+(:meth:`Table.chosen`)."""
 
 
 @cache
@@ -192,16 +178,22 @@ def nearest(word: str, known: Collection[str]) -> str:
     return did_you_mean(other if other in known else near_name(word, known), "; ")
 
 
+@dataclass_transform(frozen_default=True, kw_only_default=True)
 @dataclass(frozen=True, kw_only=True)
 class Table:
-    """A table of a problem; ``kind``: its name, where there are several kinds.  ``needs``: what the
-    problem must be.  ``section``: the key of a file under which such tables stand; ``called``: its
-    word in Python."""
+    """A table of a problem; each class of it is a dataclass.
+
+    ``kind``: its name, where there are several kinds; ``needs``: what the problem must be;
+    ``section``: the key of a file under which such tables stand; ``called``: its word in Python.
+    """
 
     kind: ClassVar[str] = ""
     needs: ClassVar[tuple[str, ...]] = ()
     section: ClassVar[str] = ""
     called: ClassVar[str] = ""
+
+    def __init_subclass__(cls) -> None:
+        dataclass(frozen=True, kw_only=True)(cls)
 
     @classmethod
     def keys(cls) -> dict[str, Key]:
@@ -212,14 +204,17 @@ class Table:
     @classmethod
     def names(cls) -> tuple[str, ...]:
         """The keys that a table of this kind may have in a file."""
-        listed = {x: k.as_type.keys for x, k in cls.keys().items()}
+        listed = {x: k.keys for x, k in cls.keys().items()}
         found = [x for name, keys in listed.items() for x in ((name,) if keys is None else keys)]
         return tuple(dict.fromkeys(found))
 
     @classmethod
-    def chosen(cls, table: Mapping[str, Any]) -> tuple[str, ...] | str:
-        """The keys that this table must or may have; or what is wrong with those it has."""
-        del table
+    def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
+        """The keys that this table must or may have; or what is wrong with those it has.
+
+        ``last``: points are numbered up to this.
+        """
+        del table, last
         return tuple(cls.keys())
 
     @classmethod
@@ -233,7 +228,7 @@ class Table:
     @classmethod
     def read(cls, table: Mapping[str, Any], where: str, reader: Reader) -> Self:
         """What a table of this kind says."""
-        chosen = cls.chosen(table)
+        chosen = cls.chosen(table, reader.last)
         if isinstance(chosen, str):
             raise reader.fail(f"{where}: {chosen}")
         for need in cls.needs:
@@ -242,7 +237,7 @@ class Table:
         for x in fields(cls):
             about = cls.keys()[x.name]
             slot = Slot(table, x.name, where, about, x.default, found)
-            needed = x.default is MISSING or (x.default is None and not about.as_type.null)
+            needed = x.default is MISSING or (x.default is None and not about.null)
             if x.name in chosen and (needed or reader.has(slot)):
                 found[x.name] = getattr(reader, about.type)(slot)
         return cls(**found)
@@ -250,13 +245,14 @@ class Table:
     def values(self) -> Iterator[tuple[str, Key, Any]]:
         """Its keys that have a value."""
         for name, about in self.keys().items():
-            value, own = getattr(self, name), about.as_type
-            if own.told and (own.null or value is not None) and (about.type != "masses" or value):
+            value = getattr(self, name)
+            said = about.null or value is not None
+            if about.told and said and (about.type != "masses" or value):
                 yield name, about, value
 
     def plain(self) -> dict[str, Any]:
         """The table as the record has it; trees as they are."""
-        said = {x: _plain(v, k.as_type.depth) for x, k, v in self.values()}
+        said = {x: _plain(v, k.depth) for x, k, v in self.values()}
         return ({"kind": self.kind} if self.kind else {}) | said
 
     def trees(self) -> list[Tree]:
@@ -264,8 +260,8 @@ class Table:
         return [
             t
             for _, k, value in self.values()
-            for x in _members(value, k.as_type.depth)
-            for t in (x.trees() if isinstance(x, Table) else [x] if k.as_type.trees else [])
+            for x in _members(value, k.depth)
+            for t in (x.trees() if isinstance(x, Table) else [x] if k.trees else [])
         ]
 
 

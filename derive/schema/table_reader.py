@@ -1,6 +1,6 @@
 """The values under keys, as files and records both have them: of the right type, or one line.
 
-Each method that is named by a type of a key (:data:`~derive.schema.table.TYPES`) reads one.
+Each method that is named by a type of a key (:class:`Key`) reads one.
 """
 
 from __future__ import annotations

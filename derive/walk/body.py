@@ -11,7 +11,7 @@ from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
 from ..record.sentence import Prose, Sentence, listed
 from ..schema.body_kinds import GivenBody, MomentBody, Moments, PointBody
-from ..schema.solid_kinds import Mesh, Solid
+from ..schema.solid_kinds import Solid
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .continuum import continuum
@@ -106,10 +106,10 @@ def _moments(own: Moments) -> list[Equation]:
 
 def _described(s: Solid) -> Sentence:
     """A solid in words: kind, density, sizes, where it is."""
-    if isinstance(s, Mesh):
+    if s.kind == "mesh":
         sizes = [
-            phrase("integrals.count_of_vertices", count=str(len(s.vertices))),
-            phrase("integrals.count_of_triangles", count=str(len(s.faces))),
+            phrase("integrals.count_of_vertices", count=str(len(s.sizes["vertices"]))),
+            phrase("integrals.count_of_triangles", count=str(len(s.sizes["faces"]))),
         ]
     else:
         sizes = [phrase(f"integrals.{k}", size=_size(x)) for k, x in s.sizes.items() if k in SIZES]

@@ -267,7 +267,8 @@ def test_a_sphere_is_a_ball(where):
 
 
 def test_without_points_a_place_is_asked_for_alone():
-    for force in (Force("f", on=1), Table("input", **FORCE)):
+    spring = Table("potential", kind="spring", stiffness=1)
+    for force in (Force("f", on=1), Table("input", **FORCE), spring):
         with pytest.raises(ProblemError, match="'at'") as caught:
             Problem("b", "SE(3)", Moments(), [force])
         assert "'on' or" not in str(caught.value)

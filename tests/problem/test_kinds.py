@@ -2,10 +2,12 @@
 
 import json
 import tomllib
+import unicodedata
 
 import pytest
 
 from derive import derive
+from derive.code.naming import ascii_name
 from derive.pipeline import walk
 from derive.problem.principal import frame_of, principal
 from derive.problem.problem import ProblemError
@@ -14,6 +16,14 @@ from derive.python.api import SE, Moments, Problem, Table
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_data
 from derive.record.record import RecordError
+from derive.record.vocabulary import (
+    DISPLACEMENTS,
+    PRODUCTS,
+    ROTATIONS,
+    VOCABULARY,
+    add_letters,
+)
+from derive.schema.kind import Own
 from derive.schema.kinds import kinds
 from derive.schema.table import NEEDS
 from derive.views.language import language
@@ -93,6 +103,33 @@ def test_one_alone(kind):
     assert len(problem.potentials) == 1
     with pytest.raises(ProblemError, match=f"potential 2: a second {kind}"):
         problem_of(tomllib.loads(text + second))
+
+
+LETTERS = [x for kind in kinds().values() for x in kind.letters]
+
+
+def test_no_kind_takes_a_letter_that_has_a_meaning():
+    """Neither one of the paper, nor one of another kind, nor one of a kind of group."""
+    for taken in ("Z", LETTERS[0].name):
+        with pytest.raises(ValueError, match=f"the letter {taken} has a meaning: "):
+            add_letters(dict(VOCABULARY), [Own(taken, "scalar", "another", taken)])
+    twice = [Own("Q_A", "scalar", "one", "Q_A"), Own("Q_A", "vector", "other", "Q_A")]
+    with pytest.raises(ValueError, match="the letter Q_A has a meaning: one"):
+        add_letters(dict(VOCABULARY), twice)
+    assert not {x.name for x in LETTERS} & {*ROTATIONS, *DISPLACEMENTS, *PRODUCTS}
+
+
+@pytest.mark.parametrize("letter", LETTERS, ids=lambda x: x.name)
+def test_a_letter_of_a_kind_has_a_name_in_code(letter):
+    """A sign that has none would be dropped there, and two letters might share a name."""
+    signs = unicodedata.normalize("NFD", letter.name)
+    assert [x for x in signs if not ascii_name(x) and x != "_"] == []
+
+
+def test_the_names_of_letters_in_code_are_different():
+    assert len({ascii_name(x) for x in VOCABULARY if x in {y.name for y in LETTERS}}) == len(
+        LETTERS
+    )
 
 
 def test_what_a_kind_needs_is_known():

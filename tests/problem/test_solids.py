@@ -73,7 +73,7 @@ def random_sizes(kind, random):
     if kind == "tetrahedron":
         return {"vertices": tuple(tuple(size(random) - 2 for _ in "xyz") for _ in range(4))}
     return {
-        name: tuple(size(random) for _ in "xyz") if key.as_type.depth else size(random)
+        name: tuple(size(random) for _ in "xyz") if key.depth else size(random)
         for name, key in SOLIDS[kind].keys().items()
         if name not in PLACED
     }

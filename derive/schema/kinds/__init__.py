@@ -16,8 +16,3 @@ def kinds() -> dict[str, type[Potential]]:
         import_module(f"{__name__}.{module}")
     found = sorted(Potential.__subclasses__(), key=lambda x: (x.rank, x.kind))
     return {x.kind: x for x in found}
-
-
-def words() -> dict[str, type[Potential]]:
-    """Every kind by its word in Python."""
-    return {x.__name__: x for x in kinds().values()}

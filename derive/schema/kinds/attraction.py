@@ -1,12 +1,9 @@
 """U = −Σ m_i μ / ‖r_i − centre‖."""
 
-from dataclasses import dataclass
-
 from ..kind import Potential
 from ..table import Masses, Scalar, Vector
 
 
-@dataclass(frozen=True, kw_only=True)
 class Attraction(Potential):
     """Over the points that have a mass; or over those of ``on`` (counted from 1) with the masses
     there, whatever they weigh in the body."""

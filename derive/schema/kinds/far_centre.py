@@ -1,12 +1,9 @@
 """The gravity of a far centre, U = −GM(m/R − ⟨n, Ac⟩/R² + (3⟨n, AJĀn⟩ − Tr AJĀ)/2R³), n = T/R."""
 
-from dataclasses import dataclass
-
 from ..kind import Own, Potential
 from ..table import Scalar, Vector
 
 
-@dataclass(frozen=True, kw_only=True)
 class FarCentre(Potential):
     """``strength``: GM.  T is seen from the ``centre``, a place in space.
 

@@ -1,12 +1,9 @@
 """U = −Σ q_i ⟨E(t), r_i⟩, a uniform field on charged points."""
 
-from dataclasses import dataclass
-
 from ..kind import Potential
 from ..table import Charges, Timed
 
 
-@dataclass(frozen=True, kw_only=True)
 class Field(Potential):
     """``E``: the field, a vector of space; ``charges``: q_i, one for each point."""
 

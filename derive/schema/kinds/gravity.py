@@ -1,20 +1,24 @@
 """U = −Σ m_i ⟨g, r_i⟩."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from typing import Any
 
 from ...language.tree import Tree, add
 from ..kind import Potential
-from ..table import Vector
+from ..table import Number, Vector
 
 
-@dataclass(frozen=True, kw_only=True)
 class Gravity(Potential):
     """A uniform acceleration g of all masses; several add up."""
 
     kind, rank, phrase, drawn = "gravity", 0, "its weight", True
     needs = ("one space",)
     g: Vector
+
+    @classmethod
+    def word(cls, *g: Number) -> Any:
+        """Uniform gravity, U = −Σ m_i ⟨g, r_i⟩."""
+        return {"g": g}
 
 
 def gravity(potentials: Iterable[Potential]) -> tuple[Tree, ...] | None:

@@ -1,14 +1,12 @@
 """U = ½ k (‖s‖ − ℓ)² between two points, or from one to an anchor in space."""
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from ..kind import Potential
-from ..table import End, Pair, Scalar, Stiffness, Vector
+from ..table import End, Number, Pair, Scalar, Stiffness, Vector
 
 
-@dataclass(frozen=True, kw_only=True)
 class Spring(Potential):
     """``between`` two points, counted from 1; or ``on`` one and from it to an ``anchor``."""
 
@@ -21,15 +19,32 @@ class Spring(Potential):
     length: Scalar = 0
 
     @classmethod
-    def chosen(cls, table: Mapping[str, Any]) -> tuple[str, ...] | str:
+    def chosen(cls, table: Mapping[str, Any], last: int) -> tuple[str, ...] | str:
         """Either ``between``, or an end with an ``anchor``."""
         if "between" in table:
             if any(x in table for x in ("at", "on", "anchor")):
                 return "give either 'between' or an end with an 'anchor'"
             return "between", "stiffness", "length"
         if "anchor" not in table:
-            return "give 'between', or 'on' or 'at' with an 'anchor'"
+            ends = "'between', or 'on' or 'at'" if last else "'at', a place of the body,"
+            return f"give {ends} with an 'anchor'"
         return "on", "anchor", "stiffness", "length"
+
+    @classmethod
+    def word(
+        cls,
+        i: int | Sequence[Number],
+        j: int | Sequence[Number],
+        stiffness: Number,
+        length: Number = 0,
+    ) -> Any:
+        """A spring, U = ½ k (‖s‖ − length)², between points i and j; or from point i, or a place i
+        of the body, to an anchor j in space."""
+        if isinstance(j, int):
+            ends: dict[str, Any] = {"between": [i, j]}
+        else:
+            ends = {"on" if isinstance(i, int) else "at": i, "anchor": j}
+        return {"stiffness": stiffness, "length": length, **ends}
 
     @property
     def ends(self) -> tuple[int, int | None]:

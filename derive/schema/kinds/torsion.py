@@ -1,12 +1,9 @@
 """U = ½ k Tr(1 − R̄A), a spring that turns the body back to the rotation R."""
 
-from dataclasses import dataclass
-
 from ..kind import Own, Potential
 from ..table import Rotation, Stiffness
 
 
-@dataclass(frozen=True, kw_only=True)
 class Torsion(Potential):
     """At rest at A = ``rest``; without that at A = 1.  For an angle θ from there U = k(1 − cos θ)
     in R³."""

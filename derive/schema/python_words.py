@@ -1,0 +1,15 @@
+"""The words of Python: each says a table of a problem file."""
+
+from __future__ import annotations
+
+from .body_kinds import Moments, Point
+from .kinds import kinds
+from .outside import INPUTS, Damping
+from .solid_kinds import Solid
+from .table import Table
+
+
+def words() -> dict[str, type[Table]]:
+    """Every table that has a word, by it."""
+    listed = (*kinds().values(), *INPUTS.values(), Damping, Point, Moments, Solid)
+    return {x.called or x.__name__: x for x in listed}
