@@ -22,8 +22,9 @@ def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
         {f"{key} {k}": x for k, x in enumerate(tables(data, key), 1)}
         for key in ("potential", "input", "damping")
     )
-    if reader.group is None:
-        _outside_any_group(potentials, inputs, damping)
+    acting = [w for w, x in inputs.items() if x.get("kind") == ForceInput.kind]
+    for where in (*potentials, *acting, *damping) if reader.group is None else ():
+        raise ProblemError(f"{where}: a text about any group has no points on which this could act")
     found = tuple(reader.one_of(kinds(), x, where) for where, x in potentials.items())
     given = tuple(reader.one_of(INPUTS, x, where) for where, x in inputs.items())
     for k, p in enumerate(found, 1):
@@ -32,18 +33,6 @@ def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
     if sum(isinstance(i, CovectorInput) for i in given) > 1:
         raise ProblemError("key 'input': one covector holds every component; give one such table")
     return found, given, tuple(reader.whole(Damping, x, w) for w, x in damping.items())
-
-
-def _outside_any_group(*listed: Mapping[str, Mapping[str, object]]) -> None:
-    """A text about any group has a covector alone."""
-    potentials, inputs, damping = listed
-    for where in potentials:
-        raise ProblemError(f"{where}: a text about any group has no potential of its own")
-    for where, x in inputs.items():
-        if x.get("kind") == ForceInput.kind:
-            raise ProblemError(f"{where}: a text about any group has no points to push")
-    for where in damping:
-        raise ProblemError(f"{where}: a text about any group has no points to damp")
 
 
 def negative_stiffness_of(

@@ -15,7 +15,6 @@ from typing import (
     Any,
     ClassVar,
     NamedTuple,
-    Protocol,
     Self,
     dataclass_transform,
     get_args,
@@ -46,24 +45,6 @@ class Slot(NamedTuple):
     def path(self) -> str:
         """The place of the value, in messages."""
         return f"{self.where}, {self.key}"
-
-
-class Reader(Protocol):
-    """What reads the values of a table: from a file, or from a record of a stranger.
-
-    It has a method for each type of a :class:`Key`, by its name, which takes the :class:`Slot`.
-    """
-
-    last: int
-
-    def fail(self, message: str) -> Exception:
-        """The error of a file, or of a record."""
-
-    def has(self, slot: Slot) -> bool:
-        """Does a table say a key that has a default?"""
-
-    def meets(self, need: str, kind: str, where: str) -> None:
-        """Refuse a kind where the problem is not what it needs."""
 
 
 @dataclass(frozen=True)
@@ -226,8 +207,8 @@ class Table:
         return dict(zip(names, given, strict=False)) | named
 
     @classmethod
-    def read(cls, table: Mapping[str, Any], where: str, reader: Reader) -> Self:
-        """What a table of this kind says."""
+    def read(cls, table: Mapping[str, Any], where: str, reader: Any) -> Self:
+        """What a table of this kind says to a :class:`~derive.schema.table_reader.TableReader`."""
         chosen = cls.chosen(table, reader.last)
         if isinstance(chosen, str):
             raise reader.fail(f"{where}: {chosen}")

@@ -67,7 +67,8 @@ class Places(NamedTuple):
     """Points, then massless places; ``masses`` and ``row`` of G are (M,), ``r`` is (M, s).
 
     ``at`` says which of the M coordinates are those of ("point", i), or of a point that realises
-    given moments, ("realised", i), or of ("potential", k), ("input", k).
+    given moments, ("realised", i), or of ("potential", k), ("input", k); of the origin and the ends
+    of the axes of the body, ("frame", 0), ("frame", j), where a potential is one of A and T.
     """
 
     at: dict
@@ -163,6 +164,10 @@ def places(data, p):
         tables = {("point", i): x for i, x in enumerate(data["point"], 1)}
     for kind in ("potential", "input"):
         tables |= {(kind, k): x for k, x in enumerate(data.get(kind, ())) if "at" in x}
+    if {x["kind"] for x in data.get("potential", ())} & {"torsion", "far_centre"}:
+        ((_, n, affine),) = parts
+        axes = [[0] * n] * affine + [*np.eye(n)]
+        tables |= {("frame", j): {"at": r} for j, r in enumerate(axes, 1 - affine)}
     at, entries = {}, []
     for key, table in tables.items():
         first, n, affine = parts[table.get("block", 1) - 1]
@@ -192,6 +197,37 @@ def _norm(q, centre, env):
     return np.sqrt(np.sum(gap * gap, axis=0))
 
 
+def turn(given, n, env):
+    """A rotation (n, n): none, rows, or an axis of any length with an angle."""
+    if not isinstance(given, dict):
+        return np.array([[evaluate(x, env) for x in row] for row in given or np.eye(n).tolist()])
+    axis = _vector(given["axis"], 3, env)[:, 0]
+    e, angle = axis / np.linalg.norm(axis), evaluate(given["angle"], env)
+    across = np.array([[0, -e[2], e[1]], [e[2], 0, -e[0]], [-e[1], e[0], 0]])
+    return np.eye(3) + np.sin(angle) * across + (1 - np.cos(angle)) * across @ across
+
+
+def _torsion(table, env, q):
+    """Half the stiffness times the sum of the squares of A - R, halved: for a rotation A."""
+    n = len(q["frame", 1])
+    rest = turn(table.get("rest"), n, env)
+    gaps = [q["frame", j + 1] - q.get(("frame", 0), 0) - rest[:, [j]] for j in range(n)]
+    return evaluate(table["stiffness"], env) / 4 * sum(np.sum(x * x, 0) for x in gaps)
+
+
+def _far_centre(table, env, mass, q):
+    """-GM sum m / |T + a|, T from the centre, a = A r, up to the second order in a."""
+    T = q["frame", 0] - _vector(table.get("centre", [0, 0, 0]), 3, env)
+    R = np.sqrt(np.sum(T * T, 0))
+    total = 0
+    for key, m in mass.items():
+        a = q[key] - q["frame", 0]
+        small = (2 * np.sum(T * a, 0) + np.sum(a * a, 0)) / R**2  # |T + a|^2 = R^2 (1 + small)
+        along = 2 * np.sum(T * a, 0) / R**2
+        total = total + m / R * (1 - small / 2 + 3 * along**2 / 8)
+    return -evaluate(table["strength"], env) * total
+
+
 def _term(k, table, env, found, q):
     """The k-th [[potential]] (B,) where the places are at the columns of ``q[key]`` (n_k, B)."""
     mass = {key: found.masses[x][0] for key, x in found.at.items() if found.masses[x][0]}
@@ -206,6 +242,14 @@ def _term(k, table, env, found, q):
     if table["kind"] == "attraction":
         away = {x: _norm(q[x], table.get("centre", [0] * len(q[x])), env) for x in found.points()}
         return -evaluate(table["strength"], env) * sum(mass[key] / away[key] for key in mass)
+    if table["kind"] == "torsion":
+        return _torsion(table, env, q)
+    if table["kind"] == "far_centre":
+        return _far_centre(table, env, mass, q)
+    if table["kind"] == "field":
+        E = _vector(table["E"], len(q["point", 1]), env)
+        charged = enumerate(table["charges"], 1)
+        return -sum(evaluate(x, env) * np.sum(E * q["point", i], 0) for i, x in charged)
     names = {}
     for (_, i), rows in ((key, x) for key, x in q.items() if key[0] == "point"):
         for j, row in enumerate(rows):

@@ -41,9 +41,13 @@ def potential(text):
 
 CASES = [
     ("any", ANY + BODY, "has no body of its own"),
-    ("any", ANY + potential('kind = "gravity"\ng = [1, 0, 0]'), "no potential of its own"),
-    ("any", ANY + '[[input]]\nname = "F"\nkind = "force"\non = 1', "no points to push"),
-    ("any", ANY + "[[damping]]\ncoefficient = 1\nat = [1, 0, 0]", "no points to damp"),
+    (
+        "any",
+        ANY + potential('kind = "gravity"\ng = [1, 0, 0]'),
+        "no points on which this could act",
+    ),
+    ("any", ANY + '[[input]]\nname = "F"\nkind = "force"\non = 1', "no points on which"),
+    ("any", ANY + "[[damping]]\ncoefficient = 1\nat = [1, 0, 0]", "no points on which"),
     ("SO(3)", BODY + BOX, "either one table .body. or the tables ..solid.."),
     (PRODUCT, BODY, "a product moves ..point.. tables alone"),
     ("SO(3)", POINTS + BODY, "either ..point.. tables or moments"),

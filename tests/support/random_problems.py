@@ -12,6 +12,10 @@ FAMILIES = {
 PRODUCTS = ("SO(2) x SO(2)", "SE(2) x SO(2)", "SO(3) x SE(3)", "SL(2) x GL(2)", "SE(2) x SE(3)")
 PARAMETERS = {"a": 1.25, "b": 0.5, "k": 2.0, "mu": 0.75, "w": 1.5}
 
+TURNING = ("SO(2)", "SE(2)", "SO(3)", "SE(3)")
+MOVING = ("SE(3)", "SAff(3)", "Aff(3)", "Sim(3)")
+"""Those whose linear parts are rotations, and those with all translations of R³."""
+
 eighths = st.integers(-16, 16).map(lambda k: k / 8)
 positive = st.integers(4, 16).map(lambda k: k / 8)
 coefficient = st.one_of(
@@ -21,6 +25,7 @@ length = st.one_of(positive, st.sampled_from(["a", "b", "a*b", "a + b/2"]))
 coordinate = st.one_of(
     eighths, eighths, st.sampled_from(["a", "-b", "a + 1/2", "b*a", "2 - a", "a^2"])
 )
+timed = st.sampled_from(["sin(w*t)", "a*t", "b*cos(2*t) + 1"])
 
 
 def vectors(n):
@@ -69,6 +74,33 @@ def energies(draw, count, sizes):
     return f"{draw(place)} * ({draw(st.recursive(leaf, grown, max_leaves=6))})/7"
 
 
+def rotations(n):
+    """A rotation of Rⁿ, as a file has it."""
+    if n == 2:
+        return st.sampled_from([[[0.6, -0.8], [0.8, 0.6]], [[0, 1], [-1, 0]]])
+    axis = st.lists(st.integers(-2, 2), min_size=3, max_size=3).filter(any)
+    angle = st.sampled_from(["pi/3", "pi/2", "a", "0.3", "-pi", "w/2"])
+    turned = st.fixed_dictionaries({"axis": axis, "angle": angle})
+    return st.one_of(turned, st.just([[0, 0, 1], [0.6, 0.8, 0], [-0.8, 0.6, 0]]))
+
+
+@st.composite
+def of_the_whole(draw, group, n, count):
+    """Potentials of A and T, and one of charges on all points."""
+    found = []
+    if group in TURNING and draw(st.booleans()):
+        rest = {"rest": draw(rotations(n))} if draw(st.booleans()) else {}
+        found.append({"kind": "torsion", "stiffness": draw(coefficient), **rest})
+    if group in MOVING and draw(st.booleans()):
+        centre = [draw(st.sampled_from([9, "-8 - a"])), *draw(vectors(3))[1:]]
+        found.append({"kind": "far_centre", "strength": draw(coefficient), "centre": centre})
+    if count and draw(st.booleans()):
+        field = draw(st.lists(st.one_of(coordinate, timed), min_size=n, max_size=n))
+        charges = draw(st.lists(coordinate, min_size=count, max_size=count))
+        found.append({"kind": "field", "E": field, "charges": charges})
+    return found
+
+
 @st.composite
 def forces(draw, data, sizes):
     """Potentials, damping and inputs on the points, or on places where there are none."""
@@ -77,6 +109,9 @@ def forces(draw, data, sizes):
     potentials, inputs = [], []
     if len({*sizes}) == 1 and draw(st.booleans()):
         potentials.append({"kind": "gravity", "g": draw(vectors(sizes[0]))})
+
+    if len({*sizes}) == 1:
+        potentials += draw(of_the_whole(data["group"], sizes[0], len(listed)))
 
     def end():
         if listed and draw(st.booleans()):
@@ -163,9 +198,7 @@ def solid(draw):
         "cone": lambda: {"radius": draw(length), "height": draw(length)},
         "hollow_ball": lambda: {"outer": draw(st.sampled_from([3, "3*a"])), "inner": draw(length)},
     }[kind]()
-    axis = st.lists(st.integers(-2, 2), min_size=3, max_size=3).filter(any)
-    angle = st.sampled_from(["pi/3", "pi/2", "a", "0.3", "-pi", "w/2"])
-    placed = {"rotation": {"axis": draw(axis), "angle": draw(angle)}} if draw(st.booleans()) else {}
+    placed = {"rotation": draw(rotations(3))} if draw(st.booleans()) else {}
     placed |= {"shift": draw(vectors(3))} if draw(st.booleans()) else {}
     return {"kind": kind, "density": draw(coefficient), **sizes, **placed}
 
