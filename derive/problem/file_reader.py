@@ -15,6 +15,7 @@ from ..language.expression import ExpressionError, parse
 from ..language.limits import BASIS, MATRIX, TEXT
 from ..language.reserved import PLACE
 from ..language.tree import Tree, replaced, subtrees
+from ..language.values import approximate
 from ..schema.body_kinds import Body, Place, Point, PointBody
 from ..schema.table import Rows, Slot, Table
 from ..schema.table_reader import NAME, TableReader
@@ -266,6 +267,13 @@ class FileReader(TableReader):
         name = given_by(slot.table, ("J", "I", "I_centre") if n == 3 else ("J",), where)
         rows = self.rows(slot.table[name], n, n, f"{where}, {name}")
         return second_moment(name, rows, slot.found["m"], slot.found["c"], where)
+
+    def positive(self, size: Tree, slot: Slot) -> Tree:
+        """No number below 0; nor 0, where a length may not be."""
+        value = approximate(size, {})
+        if value is not None and (value < 0 or (value == 0 and not slot.about.zero)):
+            raise ProblemError(f"{slot.path}: a length that is not positive")
+        return size
 
     def vertices(self, slot: Slot) -> tuple[tuple[Fraction, ...], ...]:
         """Those of the mesh in a file, which is read by what needs NumPy."""

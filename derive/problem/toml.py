@@ -20,7 +20,6 @@ from ..language.limits import (
     PROBLEM_BYTES,
     PULLS,
 )
-from ..language.reserved import taken
 from ..language.tree import Tree
 from ..language.weight import weight
 from ..schema.body_kinds import GivenBody, MomentBody
@@ -122,7 +121,7 @@ def problem_of(
     potentials, inputs, damping = forces(data, reader)
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
-    _distinct([i.name for i in inputs], parameters)
+    reader.distinct(inputs, parameters)
     title = reader.text(Slot(data, "title", "file")) if "title" in data else name
     problem = Problem(
         name,
@@ -194,25 +193,11 @@ def _parameters(data: Any, reader: FileReader) -> dict[str, Parameter]:
         raise ProblemError(f"key 'parameters': more than {PARAMETERS}")
     found = {}
     for name, value in data.items():
-        where = f"parameter {name[:40]!r}"
-        reader.identifier(name, where)
-        if what := taken(name):
-            raise ProblemError(f"{where}: this is {what} in an expression; choose another name")
-        if isinstance(value, (int, float)) and not isinstance(value, bool):
-            value = {"default": value}
-        if not isinstance(value, dict):
-            raise ProblemError(f"{where}: expected a number or a table")
-        found[name] = reader.whole(Parameter, value, where)
+        short = isinstance(value, (int, float)) and not isinstance(value, bool)
+        if not short and not isinstance(value, dict):
+            raise ProblemError(f"parameter {name[:40]!r}: expected a number or a table")
+        found[name] = reader.parameter(name, {"default": value} if short else value)
     return found
-
-
-def _distinct(inputs: list[str], parameters: Mapping[str, Parameter]) -> None:
-    """``ProblemError`` for two inputs of one name, or one with the name of a parameter."""
-    for k, name in enumerate(inputs, 1):
-        if name in inputs[: k - 1]:
-            raise ProblemError(f"input {k}: a second input {name!r}; give each its own name")
-        if name in parameters:
-            raise ProblemError(f"input {k}: {name!r} is a parameter as well; choose another name")
 
 
 def _declared(problem: Problem, data: Mapping[str, Any]) -> None:

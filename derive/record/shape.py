@@ -12,10 +12,8 @@ from typing import Any, TypeVar
 
 from ..language.derivatives import DERIVATIVES
 from ..language.limits import BASIS
-from ..language.reserved import taken
 from ..language.tree import Tree
 from ..schema.body_kinds import BODIES, Place
-from ..schema.declared import Parameter
 from ..schema.kinds import kinds
 from ..schema.outside import INPUTS, Damping
 from ..schema.solid_kinds import SOLIDS, Solid
@@ -89,17 +87,12 @@ class _RecordReader(TableReader):
             raise ShapeError("n: key must be the dimension of the space, or 'any'")
         self.blocks = len(data["group"].split(" x "))
         for name, about in self.value(self.top("parameters"), dict).items():
-            self.identifier(name, "parameters")
-            if taken(name):
-                raise ShapeError(f"parameters: {name!r} is {taken(name)} in an expression")
-            self.whole(Parameter, about, f"parameters, {name!r}")
+            self.parameter(name, about)
         self.body()
         self.last += len(self.each("places", lambda x, where: self.whole(Place, x, where)))
         self.each("potentials", lambda x, where: self.one_of(kinds(), x, where))
         inputs = self.each("inputs", lambda x, where: self.one_of(INPUTS, x, where))
-        named = [*(x.name for x in inputs), *data["parameters"]]
-        if len({*named}) < len(named):
-            raise ShapeError("inputs: two of one name, or one of a parameter's name")
+        self.distinct(inputs, data["parameters"])
         self.each("damping", lambda x, where: self.whole(Damping, x, where))
         self.matrices(self.value(self.top("basis"), list))
         if self.value(self.top("conventions"), list) != [*CONVENTIONS]:

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, ClassVar, TypeVar
 
 from ..language.limits import MAGNITUDE, TEXT
-from ..language.reserved import WORDS
+from ..language.reserved import WORDS, taken
 from ..language.tree import Tree
-from ..language.values import approximate
+from .declared import Parameter
+from .outside import Input
 from .table import Rows, Slot, Table, nearest
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
@@ -67,6 +68,23 @@ class TableReader(ABC):
             if key not in keys:
                 told = f"{nearest(key, keys)} (known: {', '.join(sorted(keys))})"
                 raise self.fail(f"{where}: unknown key {key[:40]!r}{told}")
+
+    def parameter(self, name: str, about: Any) -> Parameter:
+        """A parameter, by a name that means nothing else."""
+        where = f"parameter {name[:40]!r}"
+        self.identifier(name, where)
+        if what := taken(name):
+            raise self.fail(f"{where}: this is {what} in an expression; choose another name")
+        return self.whole(Parameter, about, where)
+
+    def distinct(self, inputs: Sequence[Input], parameters: Collection[str]) -> None:
+        """No two inputs of one name, and none with the name of a parameter."""
+        names = [x.name for x in inputs]
+        for k, name in enumerate(names, 1):
+            if name in names[: k - 1]:
+                raise self.fail(f"input {k}: a second input {name!r}; give each its own name")
+            if name in parameters:
+                raise self.fail(f"input {k}: {name!r} is a parameter as well; choose another name")
 
     def table(self, slot: Slot) -> Any:
         """Another table."""
@@ -250,7 +268,7 @@ class TableReader(ABC):
         return None if value is None else self.turned(value, 3, slot.path)
 
     def length(self, slot: Slot) -> Tree:
-        """An expression that is not a number below 0."""
+        """An expression of what is positive."""
         return self.positive(self.scalar(slot), slot)
 
     def lengths(self, slot: Slot) -> tuple[Tree, ...]:
@@ -258,10 +276,8 @@ class TableReader(ABC):
         return tuple(self.positive(x, slot) for x in self.listed(self.value(slot), 3, slot.path))
 
     def positive(self, size: Tree, slot: Slot) -> Tree:
-        """The same size."""
-        value = approximate(size, {})
-        if value is not None and (value < 0 or (value == 0 and not slot.about.zero)):
-            raise self.fail(f"{slot.path}: a length that is not positive")
+        """The same size, where it may be one."""
+        del slot
         return size
 
     def corners(self, slot: Slot) -> Rows:
