@@ -1,5 +1,6 @@
 """Each kind of potential, by the problems of its page in docs/potentials: walked, checked, read."""
 
+import inspect
 import json
 import tomllib
 import unicodedata
@@ -9,10 +10,13 @@ import pytest
 from derive import derive
 from derive.code.naming import ascii_name
 from derive.pipeline import walk
+from derive.problem.file_reader import FileReader
 from derive.problem.principal import frame_of, principal
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
+from derive.python import api
 from derive.python.api import SE, Moments, Problem, Table
+from derive.record import shape
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_data
 from derive.record.record import RecordError
@@ -25,6 +29,8 @@ from derive.record.vocabulary import (
 )
 from derive.schema.kind import Own
 from derive.schema.kinds import kinds
+from derive.schema.outside import INPUTS, Damping
+from derive.schema.python_words import words
 from derive.schema.table import NEEDS
 from derive.views.language import language
 from derive.views.system import system
@@ -103,6 +109,23 @@ def test_one_alone(kind):
     assert len(problem.potentials) == 1
     with pytest.raises(ProblemError, match=f"potential 2: a second {kind}"):
         problem_of(tomllib.loads(text + second))
+
+
+@pytest.mark.parametrize("word", words())
+def test_a_word_says_what_it_builds(word):
+    """Its docstring and arguments are those of the table."""
+    built = getattr(api, word)
+    assert built.__doc__
+    assert built.__name__ == word
+    assert inspect.signature(built) == inspect.signature(words()[word].word)
+
+
+@pytest.mark.parametrize(
+    "own", [*kinds().values(), *INPUTS.values(), Damping], ids=lambda x: x.__name__
+)
+def test_files_and_records_read_every_type_of_a_key(own):
+    for key in own.keys().values():
+        assert all(callable(getattr(x, key.type)) for x in (FileReader, shape._RecordReader))
 
 
 LETTERS = [x for kind in kinds().values() for x in kind.letters]
