@@ -135,8 +135,8 @@ def test_no_kind_takes_a_letter_that_has_a_meaning():
     """Neither one of the paper, nor one of another kind, nor one of a kind of group."""
     for taken in ("Z", LETTERS[0].name):
         with pytest.raises(ValueError, match=f"the letter {taken} has a meaning: "):
-            add_letters(dict(VOCABULARY), [Own(taken, "scalar", "another", taken)])
-    twice = [Own("Q_A", "scalar", "one", "Q_A"), Own("Q_A", "vector", "other", "Q_A")]
+            add_letters(dict(VOCABULARY), [Own(taken, "scalar", "another", "une autre", taken)])
+    twice = [Own("Q_A", "scalar", x, x, "Q_A") for x in ("one", "other")]
     with pytest.raises(ValueError, match="the letter Q_A has a meaning: one"):
         add_letters(dict(VOCABULARY), twice)
     assert not {x.name for x in LETTERS} & {*ROTATIONS, *DISPLACEMENTS, *PRODUCTS}
