@@ -45,7 +45,7 @@ ANY_GROUP = (
     Stage("cartan", "pullback a c", "Cartan", cartan.cartan),
     Stage("exterior", "cartan a c", "Exterior", exterior.exterior),
     Stage("principle", "lagrangian pullback cartan a c", "Principle", variation.principle),
-    Stage("kernel", "exterior principle a c", "Ambient", kernel.kernel),
+    Stage("kernel", "exterior principle a c", "Kernel", kernel.kernel),
     Stage("motions", "cartan kernel a c", "Step", motions.motions),
     Stage("trivial", "cartan a c", "Cartan", cartan.trivialise),
     Stage("distances", "lagrangian a c", "Distances", orbit.distances),
@@ -81,7 +81,7 @@ MATRICES = (
     Stage("conserved", "problem potentials space solution.motion special.letters c",
           "Steps", conserved.conserved_steps),
 )
-"""One group of matrices: its relations, dϖ and kernel, solved."""
+"""Every group but those of VECTORS: its relations, dϖ and kernel, solved."""
 
 VECTORS = (
     Stage("body", "problem lagrangian a c", "Steps", body.body_step),

@@ -149,7 +149,7 @@ class Family:
     """A family of groups with a parameter n, by a basis and a sampler of their linear parts;
     ``affine``: with all translations.
 
-    ``least``: the smallest n; ``step``: of n from one group to the next; ``doubled``: are the
+    ``least``: the smallest n; ``step``: n is a multiple of it; ``doubled``: are the
     matrices of size 2n?
     """
 

@@ -13,8 +13,9 @@ from .printers import SourcePrinter, decimal
 class TargetLanguage:
     """A language: an entry of the table below, and a folder of templates.
 
-    ``files``: for each form of emission what follows the prefix in the names of the files, which
-    is that of the templates as well unless one is named before a colon.
+    ``files``: for each form of emission, ``source`` and ``header`` both, what follows the prefix in
+    the names of the files: ``.rs`` is made of the template ``problem.rs``, ``.inline.h:.h`` is the
+    file ``.h`` made of ``problem.inline.h``.
     ``declare``: a constant, of ``{real}``, ``{name}`` and ``{text}``; ``load`` reads entry
     ``{index}`` (counted from ``first``) of an array; ``batch`` the same of state s of n.
     ``parenthesised``: a statement of several lines needs parentheses; ``continued``: what ends a

@@ -1,7 +1,7 @@
 """Lowering: the recorded equations become matrices of scalar nodes.
 
 A name is an input (state, parameter) or is looked up in the record, where the last equation with
-that left side defines it; so the code is the record, not a second derivation.  Matrices stay
+that left side defines it; so the motion is the record's, not derived again.  Matrices stay
 matrices: a product is formed whole, in the cheapest order, and its entries are named.
 """
 

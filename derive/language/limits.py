@@ -1,4 +1,5 @@
-"""What a file of a stranger may cost: every limit on input in one place, each with its reason.
+"""What a file of a stranger may cost: the limits on problem files and meshes, and on what is
+made of them, each with its reason; the checker's own are where it counts.
 
 Each is far above what a problem, a mesh or a record of use needs, and so low that a file at the
 limit is read, walked, emitted and set within seconds.  Only checking, which is exact, may take

@@ -1,4 +1,4 @@
-"""Fields of a problem file: one of the right type, or one line that says what is wrong."""
+"""The tables of a problem file as TOML has them, and where in them a name or a mistake stands."""
 
 from __future__ import annotations
 

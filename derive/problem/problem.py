@@ -22,7 +22,7 @@ class ProblemError(Refused, ValueError):
 class Problem:
     """``group`` is ``None`` for the general text: any group with the given ``action``.
 
-    ``frame``: what its parameters stand for, if it is in a principal frame (``frame.py``).
+    ``frame``: what its parameters stand for, if it is in a principal frame (``principal.py``).
     ``signed``: masses may be negative, so that nothing is said of the sign of the metric.
     """
 

@@ -27,8 +27,10 @@ class Potential(Table):
 
     ``rank``: in which order kinds are told.  ``phrase``, ``several``: what acts, in words.
     ``drawn``: is it in the figure?  ``legend``: what the figure says of it.  ``unturned``: what
-    ``--frame principal`` cannot carry into its frame; empty where it can.  ``alone``: there is one
-    of the kind.  ``letters``: those that its words have for their own.
+    ``--frame principal`` cannot carry into its frame; empty where its vectors may be turned with
+    space, its points put to new places, and one factor of each term of U is a key with ``mass``,
+    which is scaled.  ``alone``: there is one of the kind.  ``letters``: those that its words have
+    for their own.
     """
 
     section = "potential"
@@ -37,7 +39,7 @@ class Potential(Table):
     several: ClassVar[str] = ""
     legend: ClassVar[str] = ""
     drawn: ClassVar[bool] = False
-    unturned: ClassVar[str] = ""
+    unturned: ClassVar[str] = "a potential of this kind"
     alone: ClassVar[bool] = False
     letters: ClassVar[tuple[Own, ...]] = ()
 

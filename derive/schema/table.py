@@ -54,8 +54,9 @@ class Key:
 
     ``keys``: those of a file that say it, where they are not the one of its name; ``null``: a
     record says it by null, and a file not at all, where there is none; ``told``: in a record.
-    ``mass``: in units of mass; ``positive``: may not be negative but where that is allowed;
-    ``zero``: a length that may be 0; ``own``: what another table is.
+    ``mass``: in units of mass, by which the principal frame scales it; ``positive``: may not be
+    negative but where that is allowed; ``zero``: a length that may be 0; ``own``: what another
+    table is.
     """
 
     type: str

@@ -1,4 +1,4 @@
-"""Step 3.  Momentum p̃ = ∂L̃/∂ν, energy, and the Cartan form ϖ (15)–(23), trivialised in (27)–(28).
+"""Step 3.  Momentum p̃ = ∂L̃/∂ν, energy, Cartan form ϖ (15), (16), (20), (23), carried to 𝔤.
 
 h̃ = p̃(α) − L̃,  ϖ(δy) = ⟨α, δA⟩_J − h̃ δt
 """

@@ -1,7 +1,8 @@
 """A part of a record, and a step in the making.
 
-What a step uses is not typed: an expression bears the labels of the steps it was made from
-(``Expr.lineage``), and a draft notes those of all that it writes.
+What a step uses is noted, not listed by hand: an expression bears the labels of the steps it was
+made from (``Expr.lineage``; where a function says again what a step said, it marks it with that
+label), and a draft notes those of all that it writes.
 """
 
 from __future__ import annotations

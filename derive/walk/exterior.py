@@ -26,7 +26,7 @@ DOMEGA = read("dϖ(δy, δ′y)")
 
 @dataclass(frozen=True)
 class Exterior:
-    """The exterior derivative: ``form`` = dϖ(δ, δ′) on words; ``images``: the horizontal variations
+    """The exterior derivative: ``form`` = dϖ(δ, δ′) on words; ``images``: the contact variations
     with which it is written."""
 
     form: Expr
@@ -71,7 +71,7 @@ def natural_variations(work: Expr, a: Alphabet) -> tuple[Image, Image]:
     return delta.get, delta_prime.get
 
 
-def horizontal_images(form: Expr, a: Alphabet) -> dict[Letter, Expr]:
+def contact_images(form: Expr, a: Alphabet) -> dict[Letter, Expr]:
     """The letters δx ↦ δx − X δt, where the kernel X of the ambient form can be read off dϖ (and
     for δ′)."""
     images: dict[Letter, Expr] = {}
@@ -137,7 +137,7 @@ def trivial_variations(a: Alphabet, work: Expr) -> tuple[Image, Image]:
 
 
 def trivialised_images(stage: Exterior, a: Alphabet) -> dict[Letter, Expr]:
-    """The horizontal variations carried to the identity: ξ ↦ ξ − Z δt, δZ ↦ δZ + ξZ − f δt."""
+    """The contact variations carried to the identity: ξ ↦ ξ − Z δt, δZ ↦ δZ + ξZ − f δt."""
     carried = trivial_images(a)
     g = a.A.position
     images: dict[Letter, Expr] = {}
@@ -157,7 +157,7 @@ def exterior(stage: Cartan, a: Alphabet, c: Chapter) -> Exterior:
     """dϖ in the variables (t, g, ν), with the steps ``exterior`` and, at constant time,
     ``symplectic``."""
     form = derivative(stage.form, stage.work, a)
-    images = horizontal_images(form, a)
+    images = contact_images(form, a)
     static = at_constant_time(form, a.dt, a.dpt)
     notation = metrics() if a.affine else metrics("J")
     whole = c.draft("exterior", "exterior derivative")

@@ -16,7 +16,7 @@ from .cartan import Cartan, form_equation
 from .chapter import Chapter, Draft
 from .exterior import DOMEGA, primed, primes, shown_brackets
 from .factorisation import factored_tree, solve_for
-from .momentum import MomentumForm, fibre, horizontal
+from .momentum import MomentumForm, contact, fibre
 from .restriction import restrict, restricted_prose
 from .wording import say
 
@@ -85,13 +85,13 @@ def bracketed(d: Draft, domega: Expr, images: Mapping[Letter, Expr], b: Alphabet
 
 
 def resting(b: Alphabet) -> dict[Letter, Expr]:
-    """The horizontal displacements: ξ ↦ ξ − Z δt and η ↦ η − w δt, and the same for δ′."""
-    found = horizontal(zip(b.duals, b.algebra_parts, strict=True), b, {})
+    """The contact displacements: ξ ↦ ξ − Z δt and η ↦ η − w δt, and the same for δ′."""
+    found = contact(zip(b.duals, b.algebra_parts, strict=True), b, {})
     return {x: found[x] for f in b.algebra_parts for x in (f.xi, f.xi_prime)}
 
 
 def _images(domega: Expr, b: Alphabet) -> dict[Letter, Expr]:
-    """The horizontal variations: displacements, and δZ ↦ δZ − f δt where the force has a letter of
+    """The contact variations: displacements, and δZ ↦ δZ − f δt where the force has a letter of
     its own."""
     images = resting(b)
     if not b.affine:

@@ -1,4 +1,5 @@
-"""Step 5.  The kernel of dϖ: the equations of motion (34), for any group (Exercise 1).
+"""Step 5.  The kernel of dϖ: the equations of motion of any group (Exercise 1); here for one of
+linear maps.
 
 Ȧ = α,  ⟨δ′A, α̇ − F̃⟩_J = 0
 
@@ -30,7 +31,7 @@ from .wording import say, say_signed
 
 
 @dataclass(frozen=True)
-class Ambient:
+class Kernel:
     """The kernel in the variables (t, g, ν): ``velocity``: δg(X), part by part;
     ``velocity_equations``: these as equations; ``balance``: what vanishes for every displacement
     δ′g tangent to the group."""
@@ -42,8 +43,10 @@ class Ambient:
 
 
 def on_kernel(stage: Exterior, a: Alphabet) -> tuple[dict[Letter, Expr], Expr]:
-    """X with δt(X) = 1 and dϖ(X, ·) = 0: δg(X), where every horizontal δg − ν δt vanishes; and
-    dϖ(X, δ′y) for δ′t = 0 and δν(X) = ν̇, which does so for every δ′g."""
+    """X with δt(X) = 1 and dϖ(X, ·) = 0: δg(X), where every δg − ν δt vanishes; and
+    dϖ(X, δ′y) for δ′t = 0 and δν(X) = ν̇, which does so for every δ′g.
+
+    That it has no δ′ν left is tested where the steps are made (``Contraction.on_vertical``)."""
     now = {a.dt: number(1)}
     moving = {x: word(x) - stage.images.get(x, word(x)) for x in (p.d_position for p in a.parts)}
     velocity = {x: substitute(e, now) for x, e in moving.items()}
@@ -51,17 +54,17 @@ def on_kernel(stage: Exterior, a: Alphabet) -> tuple[dict[Letter, Expr], Expr]:
     return velocity, without(substitute(stage.form, now | velocity | rates), a.dpt)
 
 
-def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Ambient:
-    """The kernel in the variables (t, g, ν), with its steps: by the ``law`` it is the tangents of
-    the motions."""
+def kernel(stage: Exterior, principle: Principle, a: Alphabet, chapter: Chapter) -> Kernel:
+    """The kernel in the variables (t, g, ν), with its steps: by the ``principle`` it is the
+    tangents of the motions."""
     notation = metrics() if a.affine else metrics("J")
     draft = chapter.draft("kernel", "kernel")
     *others, last_one = (x.name for p in a.parts for x in (p.d_position, p.d_velocity))
     velocity, virtual = on_kernel(stage, a)
-    c, steps = steps_of(
+    contracted, steps = steps_of(
         [
             Contraction(
-                stage.form.of(law.across),
+                stage.form.of(principle.across),
                 at_constant_time(stage.form, a.dt, a.dpt),
                 stage.images,
                 velocity,
@@ -88,8 +91,8 @@ def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Am
         ]
         balance = add(*pairs)
     else:
-        kept = {a.A.acceleration: c.shifts[a.A.acceleration].marked(mark)}
-        balance = factored_tree(draft, virtual, c.remaining_core, kept, notation)
+        kept = {a.A.acceleration: contracted.shifts[a.A.acceleration].marked(mark)}
+        balance = factored_tree(draft, virtual, contracted.remaining_core, kept, notation)
     along = {x: e.marked(mark) for x, e in velocity.items()}
     first_order = tuple(Equation(p.rate, draft.tree(along[p.d_position])) for p in a.parts)
     variations = tuple(p.dp_position.name for p in a.parts)
@@ -103,17 +106,17 @@ def kernel(stage: Exterior, law: Principle, a: Alphabet, chapter: Chapter) -> Am
         )
         + say_signed("kernel.line", a.signed),
     )
-    return Ambient(along, steps[-1].given, draft.mark(virtual), (*steps, last))
+    return Kernel(along, steps[-1].given, draft.mark(virtual), (*steps, last))
 
 
 def kernel_trivialised(
-    stage: Exterior, natural: Ambient, forms: Cartan, a: Alphabet, chapter: Chapter
+    stage: Exterior, natural: Kernel, cartan: Cartan, a: Alphabet, chapter: Chapter
 ) -> tuple[Step, ...]:
     """The steps of the kernel in the variables (t, g, Z): Exercise 1 for every group that moves
     points."""
     variations = [x for f in a.algebra_parts for x in (f.d_velocity, f.dp_velocity)]
     draft = chapter.draft("second_order_trivialised", "trivialisation")
-    c = Contraction(
+    contracted = Contraction(
         stage.form,
         terms_with(without(stage.form, a.dt, a.dpt), *variations),
         stage.images,
@@ -125,20 +128,21 @@ def kernel_trivialised(
     )
     first = draft.step(
         (
-            *velocities(draft, c.velocity, c.velocity),
-            Equation(CONTRACTION, c.remaining(draft), c.rates()),
+            *velocities(draft, contracted.velocity, contracted.velocity),
+            Equation(CONTRACTION, contracted.remaining(draft), contracted.rates()),
         ),
         say("second_order_trivialised.carried"),
         where=natural.velocity_equations,
     )
     images, velocity = (
-        {x: draft.mark(e) for x, e in found.items()} for found in (c.images, c.velocity)
+        {x: draft.mark(e) for x, e in found.items()}
+        for found in (contracted.images, contracted.velocity)
     )
-    found = replace(c, form=draft.mark(c.form), images=images, velocity=velocity)
-    return first, _equations(found, forms.work, a, chapter)
+    found = replace(contracted, form=draft.mark(contracted.form), images=images, velocity=velocity)
+    return first, _equations(found, cartan.work, a, chapter)
 
 
-def carried_velocity(stage: Ambient, a: Alphabet) -> dict[Letter, Expr]:
+def carried_velocity(stage: Kernel, a: Alphabet) -> dict[Letter, Expr]:
     """The values ξ(X) = Z (and η(X) = w), by their letters, from gξ(X) = δg(X)."""
     carried, g = trivial_images(a), a.A.position
     return {

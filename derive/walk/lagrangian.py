@@ -1,4 +1,4 @@
-"""Step 1.  The Lagrangian of the points (3) and the motion that the group gives them (7)–(14).
+"""Step 1.  The Lagrangian of the points (3), the motion that the group gives them (7)–(10), (14).
 
 L = Σᵢ ½ mᵢ ‖vᵢ‖² − U,  rᵢ(t) = A rᵢ + T,  vᵢ = α rᵢ + τ
 """

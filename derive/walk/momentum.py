@@ -106,7 +106,7 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
     twins = primes(a) | {d.d_momentum: d.dp_momentum for d in a.duals}
     derived = forms.exterior(form, twins, *_variations(lagrangian, a, c))
     core = at_constant_time(derived, a.dt, a.dpt)
-    images = horizontal(zip(a.duals, a.algebra_parts, strict=True), a, {})
+    images = contact(zip(a.duals, a.algebra_parts, strict=True), a, {})
     display = dict(zip((a.bracket, a.bracket_w), shown_brackets(a), strict=False))
     shown = replace(notation, display=display)
     derivative = varying.step(
@@ -153,10 +153,10 @@ def _variations(lagrangian: Letter, a: Alphabet, c: Chapter) -> tuple[Image, Ima
     return delta.get, delta_prime.get
 
 
-def horizontal(
+def contact(
     pairs: Iterable[tuple[Dual, AlgebraPart]], a: Alphabet, forces: Mapping[Letter, Expr]
 ) -> dict[Letter, Expr]:
-    """The horizontal variations δP ↦ δP − F δt and ξ ↦ ξ − Z δt, and the same for δ′; F by
+    """The contact variations δP ↦ δP − F δt and ξ ↦ ξ − Z δt, and the same for δ′; F by
     ``forces``, else by its letter."""
     images = {}
     for d, f in pairs:

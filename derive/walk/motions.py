@@ -15,11 +15,11 @@ from .cartan import Cartan
 from .chapter import Chapter
 from .exterior import DOMEGA, natural_variations, primed, primes
 from .factorisation import at_constant_time, factored_tree
-from .kernel import Ambient
+from .kernel import Kernel
 from .wording import say
 
 
-def motions(form: Cartan, law: Ambient, a: Alphabet, c: Chapter) -> Step:
+def motions(form: Cartan, law: Kernel, a: Alphabet, c: Chapter) -> Step:
     """The step that writes dϖ by what crosses the motions: there the forces do the work of the
     acceleration."""
     draft = c.draft("motions", "kernel")
@@ -40,7 +40,7 @@ def motions(form: Cartan, law: Ambient, a: Alphabet, c: Chapter) -> Step:
     )
 
 
-def held(law: Ambient, C: Expr, n: int, c: Chapter) -> Step:
+def held(law: Kernel, C: Expr, n: int, c: Chapter) -> Step:
     """The step about SO(n) in the space of all matrices: what the constraint adds is orthogonal to
     the group."""
     draft, b = c.draft("geodesics", "relation"), Alphabet(n, affine=False, skew=True)

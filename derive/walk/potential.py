@@ -1,7 +1,7 @@
-"""The body and the potentials of a problem on words: Ũ pulled back, and its force.
+"""The potentials of a problem on words: Ũ pulled back, and its force.
 
-Gravity and springs of natural length 0 are sums over points and over springs; they are pulled back
-like L itself.  What else there is enters as U_Q, with the forces Q_i that it exerts on the points.
+A kind that has words (``walk/kinds``) is pulled back like L itself: gravity, springs of natural
+length 0, torsion, a far centre.  The others enter as U_Q, with the forces Q_i on the points.
 """
 
 from __future__ import annotations

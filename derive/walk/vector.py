@@ -45,7 +45,7 @@ from .hat import (
     inertia_of,
 )
 from .isometry import Isometry
-from .momentum import MomentumForm, horizontal
+from .momentum import MomentumForm, contact
 from .restriction import moved
 from .wedge import vector_sum
 from .wording import say, say_signed
@@ -143,7 +143,7 @@ def _by_momenta(
     return Contraction(
         domega,
         at_constant_time(domega, b.dt, b.dpt),
-        horizontal(pairs, b, forces),
+        contact(pairs, b, forces),
         _velocity(pairs),
         {d.d_momentum: d.rate for d, _ in pairs} | {hat(D_SPIN): hat(SPIN_RATE)},
         tuple(x for d, _ in pairs for x in (d.dp_momentum, hat(d.dp_momentum))),

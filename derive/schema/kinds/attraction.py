@@ -9,6 +9,7 @@ class Attraction(Potential):
     there, whatever they weigh in the body."""
 
     kind, rank, phrase, drawn = "attraction", 2, "the attraction of a centre", True
+    unturned = ""
     legend = "Dashed lines lead to the centre of attraction."
     needs = ("points alone", "one space")
     strength: Scalar

@@ -12,6 +12,7 @@ class Gravity(Potential):
     """A uniform acceleration g of all masses; several add up."""
 
     kind, rank, phrase, drawn = "gravity", 0, "its weight", True
+    unturned = ""
     needs = ("one space",)
     g: Vector
 

@@ -11,6 +11,7 @@ class Spring(Potential):
     """``between`` two points, counted from 1; or ``on`` one and from it to an ``anchor``."""
 
     kind, rank, phrase, drawn = "spring", 1, "a spring", True
+    unturned = ""
     several, legend = "{n} springs", "Zigzags are springs."
     between: Pair | None = None
     on: End | None = None
