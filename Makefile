@@ -13,15 +13,15 @@ help:            ## this list
 derive: $(STAMP) ## walk SO(3), SE(3), SL(3): print every equation, regenerate generated/
 	$(BIN)/derive build --print
 
-test: $(STAMP)   ## lint, types and all tests
+test: $(STAMP)   ## lint, types, and the tests that take minutes
 	@{ command -v cc || command -v gcc || command -v clang; } >/dev/null || \
 	  { echo "make test: no C compiler on the path: install gcc or clang" >&2; exit 2; }
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/python -m pytest -n 2
 
-coverage: $(STAMP) ## the tests, and the lines and branches of derive/ that none runs; fails below 95 %
-	$(BIN)/python -m pytest -n 2 --cov --cov-report= --cov-report=json
+coverage: $(STAMP) ## all tests, and the lines and branches of derive/ that none runs; fails below 95 %
+	$(BIN)/python -m pytest --thorough -n 2 --cov --cov-report= --cov-report=json
 	$(BIN)/python -m tests.support.covered 95
 
 mutants: $(STAMP) ## hours: every record, emitted program and rule of the engine made wrong

@@ -5,7 +5,33 @@ import sys
 
 import pytest
 
+from tests.support import thorough
 from tests.support.needs import left_out
+
+ALL = "DERIVE_ALL_TESTS"
+"""Set for the processes of xdist, which cannot see what was typed."""
+
+
+def pytest_addoption(parser):
+    """``--thorough``: all tests, not the quick ones alone."""
+    parser.addoption("--thorough", action="store_true", help="all tests, as make coverage has them")
+
+
+def pytest_configure(config):
+    """Tests that are named on the command line are run whole."""
+    named = config.args_source is not config.ArgsSource.TESTPATHS
+    if not hasattr(config, "workerinput") and (named or config.getoption("--thorough")):
+        os.environ[ALL] = "1"
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(config, items):
+    """Leave out what takes long, where nothing is named."""
+    if os.environ.get(ALL):
+        return
+    items[:], left = thorough.split(items)
+    if left:
+        config.hook.pytest_deselected(items=left)
 
 
 @pytest.hookimpl(wrapper=True, trylast=True)
