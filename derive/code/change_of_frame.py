@@ -41,11 +41,11 @@ class _Map:
     @staticmethod
     def of(frame: PrincipalFrame) -> _Map:
         """The map into the principal frame: r ↦ H(r − s) in the body, S in space."""
-        num, span = frame.graph.num, range(frame.n)
-        S = frame.S or tuple(tuple(num(int(i == j)) for j in span) for i in span)
+        num = frame.graph.num
+        S = frame.S or dense.numbers(frame.graph, q.identity(frame.n))
         if not frame.affine:
             return _Map(S, frame.H, frame.back, frame.quaternions)
-        shift = tuple((-x,) for (x,) in dense.times(frame.graph, frame.H, frame.s))
+        shift = tuple((-x,) for (x,) in q.times(frame.H, frame.s))
         still = ((num(0),),) * frame.n
         whole = [(S, still), (frame.H, shift), (frame.back, frame.s)]
         S, h, back = (_bordered(m, column, (num(0), num(1))) for m, column in whole)
@@ -59,12 +59,11 @@ class _Map:
 
     def image(self, x: StateSpace) -> list[Node]:
         """The numbers of the state in the other frame: S g h⁻¹, then h Z h⁻¹ (or S ġ h⁻¹)."""
-        g = x.graph
-        element = dense.times(g, self.S, dense.times(g, x.element, self.back))
+        element = q.times(self.S, q.times(x.element, self.back))
         if x.tangent:
-            rate = dense.times(g, self.S, dense.times(g, x.rate, self.back))
+            rate = q.times(self.S, q.times(x.rate, self.back))
             return [*x.entries(element), *x.entries(rate)]
-        Z = dense.times(g, dense.times(g, self.h, x.hat(x.coordinates)), self.back)
+        Z = q.times(q.times(self.h, x.hat(x.coordinates)), self.back)
         velocity = [x.read(a, Z) for a in range(x.group.dimension)]
         if not x.quaternion:
             return [*x.entries(element), *velocity]
@@ -92,7 +91,7 @@ def _inputs(frame: PrincipalFrame, there: _Map, scale: Node) -> list[Node]:
         forces += 1
         turn = there.h if entry["frame"] == "body" else there.S
         linear = tuple(row[:n] for row in turn[:n])
-        found += q.flatten(dense.times(g, linear, old.force(forces)))
+        found += q.flatten(q.times(linear, old.force(forces)))
     return [g.product((scale, x)) for x in found]
 
 
@@ -101,6 +100,6 @@ def _coadjoint(x: StateSpace, there: _Map, u: list[Node]) -> list[Node]:
     g = x.graph
     found = []
     for a in range(x.group.dimension):
-        moved = dense.times(g, dense.times(g, there.back, x.member(a)), there.h)
+        moved = q.times(q.times(there.back, x.member(a)), there.h)
         found.append(g.sum(g.product((y, x.read(b, moved))) for b, y in enumerate(u)))
     return found

@@ -9,8 +9,10 @@ from functools import cache
 from itertools import product
 from typing import Any
 
+from ..language import rational as q
 from ..language.rational import Matrix
 from .graph import PARAMETER, Graph, Node
+from .naming import suffixed
 
 Namer = Callable[[Matrix, int, int], Matrix]
 NodeNamer = Callable[[str, Node], Node]
@@ -21,18 +23,18 @@ def stage_of(m: Matrix) -> int:
     return int(max(x.stage for row in m for x in row))
 
 
-def times(g: Graph, a: Matrix, b: Matrix) -> Matrix:
-    """The matrix product a b."""
-    columns = list(zip(*b, strict=True))
-    return tuple(
-        tuple(
-            g.sum(
-                g.product((x, y)) for x, y in zip(r, c, strict=True) if not (x.is_zero or y.is_zero)
-            )
-            for c in columns
-        )
-        for r in a
-    )
+def numbers(g: Graph, m: Matrix) -> Matrix:
+    """A matrix of rational numbers, as nodes."""
+    return tuple(tuple(map(g.num, row)) for row in m)
+
+
+def entrywise(m: Matrix, name: str, made: Callable[[Node, str], Node], column: bool) -> Matrix:
+    """What is made of each entry and its name, which in a column has one index."""
+
+    def entry(x: Node, i: int, j: int) -> Node:
+        return made(x, suffixed(name, i) if column else suffixed(name, i, j))
+
+    return tuple(tuple(entry(x, i, j) for j, x in enumerate(row, 1)) for i, row in enumerate(m, 1))
 
 
 def chain(g: Graph, factors: Sequence[Matrix], named: Namer) -> Matrix:
@@ -59,31 +61,19 @@ def chain(g: Graph, factors: Sequence[Matrix], named: Namer) -> Matrix:
         if i == j:
             return factors[i]
         k = best(i, j)[1]
-        product = times(g, build(i, k), build(k + 1, j))
+        product = q.times(build(i, k), build(k + 1, j))
         return product if (i, j) == (0, len(factors) - 1) else named(product, i, j)
 
     return build(0, len(factors) - 1)
 
 
-def dot(g: Graph, a: Matrix, b: Matrix) -> Node:
+def dot(a: Matrix, b: Matrix) -> Node:
     """The inner product of matrices of one shape, Σ a_ij b_ij."""
-    return g.sum(
-        g.product((x, y)) for r, s in zip(a, b, strict=True) for x, y in zip(r, s, strict=True)
-    )
+    found: Node = q.dot(q.flatten(a), q.flatten(b))
+    return found
 
 
-def determinant(g: Graph, m: Matrix) -> Node:
-    """det m, by expansion along the first row."""
-    if len(m) == 1:
-        only: Node = m[0][0]
-        return only
-    return g.sum(
-        g.linear([((-1) ** j, g.product((m[0][j], determinant(g, minor(m, 0, j)))))])
-        for j in range(len(m))
-    )
-
-
-def expanded(m: Sequence[Sequence[Any]]) -> Any:
+def determinant(m: Sequence[Sequence[Any]]) -> Any:
     """The determinant in any ring, by expansion along the rows, each minor computed once."""
     n = len(m)
 
@@ -113,8 +103,7 @@ def adjugate(g: Graph, m: Matrix) -> Matrix:
     if n == 1:
         return ((g.num(1),),)
     return tuple(
-        tuple(g.linear([((-1) ** (i + j), determinant(g, minor(m, j, i)))]) for j in range(n))
-        for i in range(n)
+        tuple(determinant(minor(m, j, i)) * (-1) ** (i + j) for j in range(n)) for i in range(n)
     )
 
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import partial
 
 from ..algebra.groups import Group
 from ..algebra.relations import Relations, relations
@@ -21,7 +22,6 @@ from ..language.rational import Matrix
 from . import dense
 from .graph import Graph, Node
 from .linearise import Varied
-from .naming import suffixed
 from .quaternion import conjugate, multiplied
 from .state import StateSpace
 
@@ -110,7 +110,7 @@ class _Block:
         if self.kept.determinant:
             X = self._complex(A, X) if self.kept.complex_basis else self._determinant(A)
         if X:
-            moved = zip(placed, q.flatten(dense.times(self.graph, A, X)), strict=False)
+            moved = zip(placed, q.flatten(q.times(A, X)), strict=False)
             placed = [*(a + change for a, change in moved), *placed[n * n :]]
         return _Step(dict(zip(leaves, placed, strict=True)), self.residuals)
 
@@ -133,18 +133,17 @@ class _Block:
         inverse = self._inverse(self.kept.form)
         sign = 1 if self.kept.form == q.transposed(self.kept.form) else -1
         label = _label(self.kept)
-        SA = self._names(dense.times(g, S, A), f"SA{self.mark}", label)
-        pulled_back = self._mirrored(dense.times(g, q.transposed(A), SA), sign)
+        SA = self._names(q.times(S, A), f"SA{self.mark}", label)
+        pulled_back = self._mirrored(q.times(q.transposed(A), SA), sign)
         if self.kept.conformal:
             pulled_back = self._names(pulled_back, f"gram{self.mark}", label)
-            mu = dense.diagonal(g, dense.times(g, inverse, pulled_back)) * Fraction(1, n)
+            mu = dense.diagonal(g, q.times(inverse, pulled_back)) * Fraction(1, n)
             inv_mu = self._named(g.recip(mu), f"inv_mu{self.mark}", label)
-            pulled_back = tuple(tuple(y * inv_mu for y in row) for row in pulled_back)
+            pulled_back = q.scaled(inv_mu, pulled_back)
         R = q.plus(pulled_back, self._numbers(q.scaled(-1, self.kept.form)))
         R = self._mirrored(self._names(R, f"left{self.mark}", label), sign)
         self.residuals += [R[i][j] for i in range(n) for j in range(i, n) if not R[i][j].is_zero]
-        X = dense.times(g, inverse, R)
-        X = tuple(tuple(y * Fraction(-1, 2) for y in row) for row in X)
+        X = q.scaled(Fraction(-1, 2), q.times(inverse, R))
         return self._names(X, f"step{self.mark}", label)
 
     def _mirrored(self, m: Matrix, sign: int) -> Matrix:
@@ -154,30 +153,22 @@ class _Block:
 
     def _determinant(self, A: Matrix) -> Matrix:
         """The matrix X = −(det A − 1)/n that restores det A = 1."""
-        left = self._left(dense.expanded(A) - 1, "left")
+        left = self._left(dense.determinant(A) - 1, "left")
         step = self._named(left * Fraction(-1, len(A)), f"step{self.mark}", "determinant")
-        return self._multiple(step, len(A))
-
-    def _multiple(self, y: Node, n: int) -> Matrix:
-        """y times the n × n identity."""
-        return tuple(tuple(y if i == j else self.graph.num(0) for j in range(n)) for i in range(n))
+        return q.scaled(step, q.identity(len(A)))
 
     def _complex(self, A: Matrix, X: Matrix) -> Matrix:
         """X − (det A − 1 + Tr X)/m with a complex determinant of m × m, as real matrices."""
-        g, P, back = (
-            self.graph,
-            self._numbers(self.kept.complex_basis),
-            self._inverse(self.kept.complex_basis),
-        )
+        P, back = self._numbers(self.kept.complex_basis), self._inverse(self.kept.complex_basis)
         m = len(P) // 2
 
         def complexes(M: Matrix) -> list[list[_Complex]]:
-            inside = dense.times(g, dense.times(g, back, M), P)
+            inside = q.times(q.times(back, M), P)
             top, bottom = inside[:m], inside[m:]
             pairs = (zip(x[:m], y[:m], strict=True) for x, y in zip(top, bottom, strict=True))
             return [[_Complex(*pair) for pair in row] for row in pairs]
 
-        det = dense.expanded(complexes(A))
+        det = dense.determinant(complexes(A))
         total = _Complex(self._left(det.re - 1, "left_re"), self._left(det.im, "left_im"))
         for i, row in enumerate(complexes(X) if X else ()):
             total = total + row[i]
@@ -185,10 +176,10 @@ class _Block:
             self._named(y * Fraction(-1, m), f"{name}{self.mark}", "determinant")
             for name, y in (("step_re", total.re), ("step_im", total.im))
         )
-        diagonal, beside = self._multiple(re, m), self._multiple(im, m)
+        diagonal, beside = q.scaled(re, q.identity(m)), q.scaled(im, q.identity(m))
         rows = [(*a, *(-y for y in b)) for a, b in zip(diagonal, beside, strict=True)]
         rows += [(*b, *a) for a, b in zip(diagonal, beside, strict=True)]
-        change = dense.times(g, dense.times(g, P, tuple(rows)), back)
+        change = q.times(q.times(P, tuple(rows)), back)
         return self._names(q.plus(X, change), f"step{self.mark}", "determinant") if X else change
 
     def _left(self, y: Node, name: str) -> Node:
@@ -203,16 +194,13 @@ class _Block:
         return self._numbers(found)
 
     def _numbers(self, m: Matrix) -> Matrix:
-        return tuple(tuple(self.graph.num(y) for y in row) for row in m)
+        return dense.numbers(self.graph, m)
 
     def _named(self, y: Node, name: str, label: str) -> Node:
         return self.graph.value(y, name, label)
 
     def _names(self, m: Matrix, name: str, label: str) -> Matrix:
-        return tuple(
-            tuple(self._named(y, suffixed(name, i, j), label) for j, y in enumerate(row, 1))
-            for i, row in enumerate(m, 1)
-        )
+        return dense.entrywise(m, name, partial(self.graph.value, label=label), column=False)
 
 
 def _label(kept: Relations) -> str:

@@ -57,6 +57,12 @@ class Node:
     def __pow__(self, n: int) -> Node:
         return self.graph.product([self] * n)
 
+    @staticmethod
+    def dot(a: Iterable[Node], b: Iterable[Node]) -> Node:
+        """Σ a_i b_i, one sum: so products of matrices are those of :mod:`rational`."""
+        pairs = [*zip(a, b, strict=True)]
+        return pairs[0][0].graph.sum(x * y for x, y in pairs if not (x.is_zero or y.is_zero))
+
     @property
     def is_zero(self) -> bool:
         """Is it the number 0?"""
@@ -102,7 +108,7 @@ class Graph:
         stage = PARAMETER if kind in ("parameter", "frame") else STATE
         return self._intern("leaf", (kind, name), (), stage)
 
-    def value(self, node: Node, name: str, label: str, *, recorded: bool = False) -> Node:
+    def value(self, node: Node, name: str, label: str = "", *, recorded: bool = False) -> Node:
         """The node under a name; a name that the record has (``recorded``) replaces one made up."""
         if node.is_atom or (node.op == "add" and node.data == (-1,) and node.args[0].is_atom):
             return node  # −L is no name of its own, so that it cancels L

@@ -42,7 +42,7 @@ class Inverses:
         if t == ("T", "A"):
             return q.transposed(space.inverse)
         if t == "C" and space.tangent:  # the inverse of A is at hand, for Z = A⁻¹Ȧ
-            square = dense.times(g, space.inverse, q.transposed(space.inverse))
+            square = q.times(space.inverse, q.transposed(space.inverse))
             return self.reader.entries(square, "inv_C")
         value, name = self.reader.tree(t), name_of(("inv", t))
         if isinstance(value, Node):
@@ -108,9 +108,9 @@ class Inverses:
         g, J, tests = self.graph, self.reader.vector("J"), []
         if self.group.affine:
             m, c = self.reader.number("m"), self.reader.vector("c")
-            square = dense.times(g, c, q.transposed(c))
+            square = q.times(c, q.transposed(c))
             tests.append(m)
-            J = q.minus(J, tuple(tuple(g.product((g.recip(m), x)) for x in row) for row in square))
+            J = q.minus(J, q.scaled(g.recip(m), square))
         J = self._seen(J)
         slack = g.product(
             (g.num(SLACK[self.reader.options.real]), g.magnitude(dense.diagonal(g, J)))
@@ -129,8 +129,8 @@ class Inverses:
         g = self.graph
         rows = tuple(row for e in self.group.linear_basis for row in e)
         reduced, pivots = q.echelon(rows)
-        R = tuple(tuple(g.num(x) for x in row) for row in reduced[: len(pivots)])
-        return dense.times(g, dense.times(g, R, J), q.transposed(R))
+        R = dense.numbers(g, reduced[: len(pivots)])
+        return q.times(q.times(R, J), q.transposed(R))
 
     def _at_identity(self, m: Matrix) -> Matrix:
         """A matrix that depends on the group element alone, at g = 1."""
@@ -157,8 +157,7 @@ class Inverses:
         if dense.stage_of(value) != PARAMETER:
             self._check_pivots(t, value, [])
         scale = g.value(g.recip(det), f"inv_det_{base}", self.reader.label)
-        inverse = tuple(tuple(g.product((scale, x)) for x in row) for row in adjugate)
-        return self.reader.entries(inverse, name)
+        return self.reader.entries(q.scaled(scale, adjugate), name)
 
     def _sizes(self, t: Tree, m: Matrix) -> list[Node]:
         """The sizes of the terms of the diagonal: in units where it is 1 they are the rounding of a

@@ -128,12 +128,9 @@ class Lowering:
         if op == "div":
             return g.product((a[0], g.recip(a[1])))
         if op == "one":
-            return tuple(
-                tuple(g.num(int(i == j)) for j in range(self.reader.n))
-                for i in range(self.reader.n)
-            )
+            return dense.numbers(g, q.identity(self.reader.n))
         if op == "inner":
-            return g.product(a) if isinstance(a[0], Node) else dense.dot(g, a[0], a[1])
+            return g.product(a) if isinstance(a[0], Node) else dense.dot(a[0], a[1])
         if op in ("wedge", "hat"):
             found: Matrix = wedge(*a) if op == "wedge" else hat(*a)
             return found
@@ -158,19 +155,19 @@ class Lowering:
         Of M = (Tr J) 1 − J all of Tr J is taken: in a slender body the sums J_jj + J_kk differ by
         less than their rounding.
         """
-        g, m = self.graph, self._matrix(metric)
+        m = self._matrix(metric)
         found = self.record.definition(metric)
         inside = untraced(found[1].rhs) if found else None
         light = q.scaled(-1, self._matrix(inside)) if inside else m
         if all(x.is_zero for i, row in enumerate(m) for j, x in enumerate(row) if i != j):
-            return dense.times(g, light, self._matrix(vector))  # (M_j − M_k) x_j x_k, unnamed
+            return q.times(light, self._matrix(vector))  # (M_j − M_k) x_j x_k, unnamed
         rows = tuple(
             tuple(x - light[2][2] if i == j else x for j, x in enumerate(row))
             for i, row in enumerate(light)
         )
         name = name_of(metric)
         lighter = self.reader.entries(rows, f"{name}_0") if dense.stage_of(m) == PARAMETER else m
-        product = dense.times(g, lighter, self._matrix(vector))
+        product = q.times(lighter, self._matrix(vector))
         return self.reader.entries(product, f"{name}_0_{name_of(vector)}")
 
     def _sum(self, t: tuple[Any, ...]) -> Value:
@@ -193,7 +190,7 @@ class Lowering:
             return whole
         if len(whole) == 1 == len(whole[0]):
             return self.graph.product([*scalars, whole[0][0]])
-        return tuple(tuple(self.graph.product([*scalars, x]) for x in row) for row in whole)
+        return q.scaled(self.graph.product(scalars), whole)
 
     def _chain(self, factors: list[tuple[Tree, Matrix]]) -> Matrix:
         """The named product of matrices; the same chain is computed once."""
@@ -234,12 +231,12 @@ class Lowering:
             else:
                 half = len(matrices) // 2
                 left, right = self._chain(matrices[:half]), self._chain(matrices[half:])
-                traced = dense.dot(g, left, q.transposed(right))
+                traced = dense.dot(left, q.transposed(right))
             whole = g.product([*scalars, traced])
             return g.value(whole, name, self.reader.label)
         if isinstance(t, tuple) and t[0] == "pow" and t not in self._products and t[2] == 2:
             base = self._matrix(t[1])
-            return g.value(dense.dot(g, base, q.transposed(base)), name, self.reader.label)
+            return g.value(dense.dot(base, q.transposed(base)), name, self.reader.label)
         # a bare trace has no name: in (Tr J)1 − J its terms must cancel before they are rounded
         return dense.diagonal(g, self._matrix(t))
 
@@ -269,11 +266,11 @@ class Lowering:
         if t[0] == "norm2":
             if len(t) == 2:
                 value = self._matrix(t[1])
-                return dense.dot(self.graph, value, value)
+                return dense.dot(value, value)
             t = ("metric", t[1], t[2], t[2])
         _, metric, a, b = t
         left, right = self._matrix(a), self._matrix(mul(metric, b))
-        return dense.dot(self.graph, left, right)
+        return dense.dot(left, right)
 
 
 SCALARS = {"m", "θ", "t", "h̃", "Ũ", "L̃"}

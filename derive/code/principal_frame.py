@@ -83,16 +83,9 @@ class PrincipalFrame:
 
     def _kept(self, name: str, m: Matrix) -> Matrix:
         """The matrix as leaves ``name_ij`` of the frame, which ``constants`` keeps."""
-        column = len(m[0]) == 1
-        return tuple(
-            tuple(
-                self._number_of(suffixed(name, i) if column else suffixed(name, i, j), x)
-                for j, x in enumerate(row, 1)
-            )
-            for i, row in enumerate(m, 1)
-        )
+        return dense.entrywise(m, name, self._number_of, len(m[0]) == 1)
 
-    def _number_of(self, name: str, x: Node, kind: str = "frame") -> Node:
+    def _number_of(self, x: Node, name: str, kind: str = "frame") -> Node:
         """The leaf for a number x that the frame computes."""
         leaf = self.graph.leaf(name, kind)
         self.numbers[leaf] = x
@@ -106,8 +99,8 @@ class PrincipalFrame:
         if self.affine:
             inverse = g.recip(self.old.number("m"))
             c = self.old.vector("c")
-            s = self._named("centre", tuple((g.product((x, inverse)),) for (x,) in c))
-            shift = dense.times(g, c, q.transposed(s))
+            s = self._named("centre", q.scaled(inverse, c))
+            shift = q.times(c, q.transposed(s))
             J = q.minus(J, shift)
             self.s, self._s = self._kept("centre", s), s
         span = range(n)
@@ -127,8 +120,8 @@ class PrincipalFrame:
             self.back = q.transposed(self.H)
         self.regular: list[tuple[Node, Node | None]] = []
         if self.affine and self.data["per_unit"]:  # without mass, nothing below is a number
-            self.regular.append((self._number_of("mass", self.old.number("m")), None))
-        moments = self._number_of("least_moment", least), self._number_of("size_of_J", scale)
+            self.regular.append((self._number_of(self.old.number("m"), "mass"), None))
+        moments = self._number_of(least, "least_moment"), self._number_of(scale, "size_of_J")
         self.regular.append(moments)
 
     def _root(self, J: Axes) -> tuple[Matrix, Matrix]:
@@ -142,7 +135,7 @@ class PrincipalFrame:
             self.per_unit = g.value(g.recip(mu), "per_unit", FRAME)
             self._set((self.data["per_unit"],), (self.per_unit,))
             self.scale = self.graph.leaf(self.data["per_unit"], "parameter")
-            self.unit = self._number_of("unit_of_mass", mu)
+            self.unit = self._number_of(mu, "unit_of_mass")
         roots = [
             g.value(g.function("sqrt", g.product((mu, g.recip(x)))), suffixed("stretch", i), FRAME)
             for i, x in enumerate(J.values, 1)
@@ -157,11 +150,11 @@ class PrincipalFrame:
         if not self.data["stiffness"]:
             return H, back
         H, back = self._named("root", H), self._named("root_inverse", back)
-        K = dense.times(g, dense.times(g, H, self.old.vector("K")), q.transposed(H))
+        K = q.times(q.times(H, self.old.vector("K")), q.transposed(H))
         along = self._principal(K, "spring", "turn")
         stiffness = [g.product((self.per_unit, x)) for x in along.values]
         self._set(self.data["stiffness"], stiffness)
-        return dense.times(g, along.rows, H), dense.times(g, back, q.transposed(along.rows))
+        return q.times(along.rows, H), q.times(back, q.transposed(along.rows))
 
     def _space(self) -> None:
         """Set S, the rotation that puts gravity along the last axis; empty where space stays."""
@@ -170,7 +163,7 @@ class PrincipalFrame:
             g = self.old.vector("γ")
             found = self._principal(self._upright(g), "pull", "space")
             self.S, self._S = self._kept("space", found.rows), found.rows
-            whole = dense.times(self.graph, (found.rows[-1],), g)
+            whole = q.times((found.rows[-1],), g)
             self._set((self.data["gravity"],), whole[0])
 
     def _upright(self, gamma: Matrix) -> Matrix:
@@ -179,39 +172,30 @@ class PrincipalFrame:
         g, span = self.graph, range(self.n)
         total = g.sum([*(g.magnitude(x) for (x,) in gamma), g.num(SMALL)])
         scale = g.value(g.recip(total), "per_gravity", FRAME)
-        u = self._named("upright", tuple((g.product((scale, x)),) for (x,) in gamma))
-        square = g.value(dense.dot(g, u, u), "upright_2", FRAME)
-        both = dense.times(g, u, q.transposed(u))
-        Q = tuple(tuple((square if i == j else g.num(0)) - both[i][j] for j in span) for i in span)
-        Q = self._named("across", Q)
+        u = self._named("upright", q.scaled(scale, gamma))
+        square = g.value(dense.dot(u, u), "upright_2", FRAME)
+        both = q.times(u, q.transposed(u))
+        Q = self._named("across", q.minus(q.scaled(square, q.identity(self.n)), both))
         spread = tuple(
             tuple(g.product((g.num(Fraction(SPREAD[i], 100)), x)) for x in Q[i]) for i in span
         )
-        along = tuple(tuple(g.product((square, x)) for x in row) for row in both)
-        return q.plus(along, dense.times(g, Q, spread))
+        return q.plus(q.scaled(square, both), q.times(Q, spread))
 
     def _parameters(self) -> None:
         """Set the new places H(r − s), vectors of space S a, and first moment Hc."""
-        g = self.graph
         for names, at in self.data["places"]:
-            place = self._column(at)
-            if self.s:
-                place = q.minus(place, self._s)
-            self._set(names, _entries(dense.times(g, self._H, place)))
+            place = q.minus(self._column(at), self._s) if self.s else self._column(at)
+            self._set(names, _entries(q.times(self._H, place)))
         for names, v in self.data["vectors"]:
-            turned = dense.times(
-                g, self._S, tuple((scalar(self.old.tree(decode(x, "frame"))),) for x in v)
-            )
-            self._set(names, _entries(turned))
+            self._set(names, _entries(q.times(self._S, self._column(v))))
         if self.data["first"]:
-            first = dense.times(g, self._H, self.old.vector("c"))
-            scaled = [g.product((self.per_unit, x)) for x in _entries(first)]
-            self._set(self.data["first"], scaled)
+            first = q.times(self._H, self.old.vector("c"))
+            self._set(self.data["first"], _entries(q.scaled(self.per_unit, first)))
 
     def _set(self, names: Sequence[str], values: Sequence[Node]) -> None:
         """Let new parameters of the framed problem stand for these values."""
         for name, x in zip(names, values, strict=True):
-            self._number_of(name, x, "parameter")
+            self._number_of(x, name, "parameter")
 
     def _quaternions(self) -> tuple[tuple[Node, ...], ...]:
         """The quaternions of S and of H̄, by the axis of the largest eigenvalue (see ``_horn``)."""

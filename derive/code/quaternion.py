@@ -43,7 +43,7 @@ def matrix_of(g: Graph, q: tuple[Node, ...]) -> Matrix:
         column[k] = column[k] - unit + 1
         columns.append(column)
     span = range(3)
-    return tuple(tuple(g.value(columns[j][i], f"A_{i + 1}{j + 1}", "") for j in span) for i in span)
+    return tuple(tuple(g.value(columns[j][i], f"A_{i + 1}{j + 1}") for j in span) for i in span)
 
 
 def halves(column: Matrix) -> list[Node]:

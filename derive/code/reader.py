@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 
 from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.tree import Tree, subtrees
 from ..record.record import Derivation, Equation, Step
+from . import dense
 from .graph import Graph, Node
 from .naming import name_of, suffixed
 from .options import Options
@@ -191,21 +193,14 @@ class RecordReader:
 
     def entries(self, m: Matrix, name: str, *, recorded: bool = False) -> Matrix:
         """The matrix with its entries named; those of a column have one index."""
-        column = len(m[0]) == 1
-
-        def entry(x: Node, i: int, j: int) -> Node:
-            own = suffixed(name, i) if column else suffixed(name, i, j)
-            return self.graph.value(x, own, self.label, recorded=recorded)
-
-        return tuple(
-            tuple(entry(x, i, j) for j, x in enumerate(row, 1)) for i, row in enumerate(m, 1)
-        )
+        value = partial(self.graph.value, label=self.label, recorded=recorded)
+        return dense.entrywise(m, name, value, len(m[0]) == 1)
 
     def member(self, t: Tree) -> Value:
         """The value of a member of a family, as E_2 or r_1, by the equation that defines it."""
         if t not in self.memo and isinstance(t, tuple) and t[1] == "E":
             basis = self.group.linear_part(self.group.basis[t[2] - 1])
-            self.memo[t] = tuple(tuple(self.graph.num(x) for x in row) for row in basis)
+            self.memo[t] = dense.numbers(self.graph, basis)
         if t not in self.memo:
             found = self.record.definition(t)
             if found is None:

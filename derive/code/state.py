@@ -80,7 +80,7 @@ class StateSpace:
         e = self.member(a)
         seeds = self._moved(e)
         if self.tangent:  # δġ = g E_a Z
-            seeds |= self._speeds(dense.times(self.graph, e, self.hat(self.coordinates)))
+            seeds |= self._speeds(q.times(e, self.hat(self.coordinates)))
         return seeds
 
     def faster(self, a: int) -> Seeds:
@@ -91,15 +91,15 @@ class StateSpace:
 
     def member(self, a: int) -> Matrix:
         """E_a as a matrix of nodes; a from 0."""
-        return tuple(tuple(self.graph.num(x) for x in row) for row in self.group.basis[a])
+        return dense.numbers(self.graph, self.group.basis[a])
 
     def _speeds(self, e: Matrix) -> Seeds:
         """The variation δġ = g e, as derivatives of the leaves of ġ."""
-        change = dense.times(self.graph, self.values["A"], self._linear(e))
+        change = q.times(self.values["A"], self._linear(e))
         seeds = self._seeds("α", change)
         if self.group.affine:
             shift = tuple((e[i][self.n],) for i in range(self.n))
-            seeds |= self._seeds("τ", dense.times(self.graph, self.values["A"], shift))
+            seeds |= self._seeds("τ", q.times(self.values["A"], shift))
         return seeds
 
     def _moved(self, e: Matrix) -> Seeds:
@@ -109,10 +109,10 @@ class StateSpace:
             rates = multiplied(self.q, (self.graph.num(0), *half))
             seeds = dict(zip(self.q, rates, strict=True))
         else:
-            seeds = self._seeds("A", dense.times(self.graph, self.values["A"], self._linear(e)))
+            seeds = self._seeds("A", q.times(self.values["A"], self._linear(e)))
         if self.group.affine:
             shift = tuple((e[i][self.n],) for i in range(self.n))
-            seeds |= self._seeds("T", dense.times(self.graph, self.values["A"], shift))
+            seeds |= self._seeds("T", q.times(self.values["A"], shift))
         return seeds
 
     def _linear(self, e: Matrix) -> Matrix:
@@ -140,15 +140,15 @@ class StateSpace:
             return
         placed = self._placed("_dot", self.slots)
         inverse = self.inverse
-        Z = dense.times(self.graph, inverse, placed["A"])
+        Z = q.times(inverse, placed["A"])
         self.values |= {"α": placed["A"], "τ": placed["T"]}
         if self.group.affine:
-            w = dense.times(self.graph, inverse, placed["T"])
-            self.values["w"] = self._named("w", w)
+            w = q.times(inverse, placed["T"])
+            self.values["w"] = self._named("w", w, column=True)
             rows = ((*row, x) for row, (x,) in zip(Z, w, strict=True))
             Z = (*rows, (self.graph.num(0),) * (n + 1))
         turning = tuple((x,) for x in self._by(self.standard, Z)[:turns])
-        self.values["ζ"] = self._named("zeta", turning)
+        self.values["ζ"] = self._named("zeta", turning, column=True)
         found = [*self.values["ζ"], *self.values.get("w", ())]
         self.coordinates = self._restated([x for (x,) in found])
 
@@ -160,7 +160,7 @@ class StateSpace:
         bar = tuple(
             tuple(num(0) if i in corners or j in corners else A[j][i] for j in span) for i in span
         )
-        moved = dense.times(self.graph, bar, A)
+        moved = q.times(bar, A)
         return tuple(
             tuple(
                 num(int(i == j)) if i in corners else -moved[i][j] if j in corners else bar[i][j]
@@ -198,19 +198,14 @@ class StateSpace:
     def _span(count: int) -> range:
         return range(1, count + 1)
 
-    def _named(self, name: str, column: Matrix) -> Matrix:
-        """The column with its entries named."""
-        return tuple(
-            (self.graph.value(x, suffixed(name, i), ""),) for i, (x,) in enumerate(column, 1)
-        )
+    def _named(self, name: str, m: Matrix, *, column: bool = False) -> Matrix:
+        """The matrix, or the column, with its entries named."""
+        return dense.entrywise(m, name, self.graph.value, column)
 
     @cached_property
     def inverse(self) -> Matrix:
         """A⁻¹, its entries named."""
-        return tuple(
-            tuple(self.graph.value(x, suffixed("inv_A", i, j), "") for j, x in enumerate(row, 1))
-            for i, row in enumerate(self._inverse(), 1)
-        )
+        return self._named("inv_A", self._inverse())
 
     def _inverse(self) -> Matrix:
         """A⁻¹: the transpose of a rotation, else the adjugate, or (ĀA)⁻¹Ā for a large A."""
@@ -222,14 +217,13 @@ class StateSpace:
         if self.n > 3:
             bar = q.transposed(A)
             inverse_square, _ = dense.symmetric_inverse(
-                g, dense.times(g, bar, A), lambda name, x: g.value(x, f"gram_{name}", "")
+                g, q.times(bar, A), lambda name, x: g.value(x, f"gram_{name}")
             )
-            return dense.times(g, inverse_square, bar)
+            return q.times(inverse_square, bar)
         adjugate = dense.adjugate(g, A)
         if "unimodular" in self.group.relations:
             return adjugate
-        scale = g.value(g.recip(dense.determinant(g, A)), "inv_det_A", "")
-        return tuple(tuple(g.product((scale, x)) for x in row) for row in adjugate)
+        return q.scaled(g.value(g.recip(dense.determinant(A)), "inv_det_A"), adjugate)
 
     # -- rates and variations ----------------------------------------------------------------
 
@@ -301,14 +295,9 @@ class StateSpace:
 
     def _second(self, rate: list[Node]) -> list[Node]:
         """The numbers of g̈ = g(Ż + Z²), its linear part and its shift; ``rate``: ζ̇ and ẇ."""
-        g, n = self.graph, self.n
-        Z = self.hat(self.coordinates)
-        total = q.plus(self.hat(rate), dense.times(g, Z, Z))
-        named = tuple(
-            tuple(g.value(x, suffixed("Y", i, j), "") for j, x in enumerate(row, 1))
-            for i, row in enumerate(total, 1)
-        )
-        A = self.values["A"]
-        linear = dense.times(g, A, self._linear(named))
-        shift = dense.times(g, A, tuple((row[n],) for row in named[:n])) if n < len(Z) else ()
+        n, Z = self.n, self.hat(self.coordinates)
+        total = q.plus(self.hat(rate), q.times(Z, Z))
+        named, A = self._named("Y", total), self.values["A"]
+        linear = q.times(A, self._linear(named))
+        shift = q.times(A, tuple((row[n],) for row in named[:n])) if n < len(Z) else ()
         return self._entries(linear, shift)
