@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from .printers import SourcePrinter, decimal
@@ -73,43 +73,31 @@ def _julia(real: str) -> SourcePrinter:
     return SourcePrinter(number, none="iszero({})")
 
 
-BLOCK, HASH, SLASH = ("/* ", " * ", " */"), ("# ", "# ", ""), ("// ", "// ", "")
-C_REALS = {"double": "double", "float": "float"}
+HASH, SLASH = ("# ", "# ", ""), ("// ", "// ", "")
+C = TargetLanguage(
+    "c",
+    {"source": (".h", ".c"), "header": (".inline.h:.h",)},
+    _c,
+    "const {real} {name} = {text};",
+    ("/* ", " * ", " */"),
+    {"double": "double", "float": "float"},
+    batch="{array}[{index}*n + s]",
+    framed=True,
+)
 
-LANGUAGES: dict[str, TargetLanguage] = {
-    "c": TargetLanguage(
-        "c",
-        {"source": (".h", ".c"), "header": (".inline.h:.h",)},
-        _c,
-        "const {real} {name} = {text};",
-        BLOCK,
-        C_REALS,
-        batch="{array}[{index}*n + s]",
-        framed=True,
-    ),
-    "cpp": TargetLanguage(
-        "cpp",
-        {"source": (".hpp",), "header": (".hpp",)},
-        _c,
-        "const {real} {name} = {text};",
-        BLOCK,
-        C_REALS,
-        needs="c",
-        framed=True,
-    ),
-    "cvode": TargetLanguage(
-        "cvode",
-        {"source": ("_cvode.h",), "header": ("_cvode.h",)},
-        _c,
-        "const {real} {name} = {text};",
-        BLOCK,
-        C_REALS,
-        needs="c",
-        framed=True,
-    ),
-    "python": TargetLanguage(
+
+def _one_file(ending: str) -> dict[str, tuple[str, ...]]:
+    """The same file in both forms."""
+    return {"source": (ending,), "header": (ending,)}
+
+
+_LANGUAGES = (
+    C,
+    replace(C, name="cpp", files=_one_file(".hpp"), batch="", needs="c"),
+    replace(C, name="cvode", files=_one_file("_cvode.h"), batch="", needs="c"),
+    TargetLanguage(
         "python",
-        {"source": (".py",), "header": (".py",)},
+        _one_file(".py"),
         _plain("xp.{}", "abs", "_is_zero(xp, {})"),
         "{name} = {text}",
         HASH,
@@ -117,17 +105,17 @@ LANGUAGES: dict[str, TargetLanguage] = {
         parenthesised=True,
         framed=True,
     ),
-    "rust": TargetLanguage(
+    TargetLanguage(
         "rust",
-        {"source": (".rs",), "header": (".rs",)},
+        _one_file(".rs"),
         _rust,
         "let {name}: {real} = {text};",
         SLASH,
         {"double": "f64", "float": "f32"},
     ),
-    "julia": TargetLanguage(
+    TargetLanguage(
         "julia",
-        {"source": (".jl",), "header": (".jl",)},
+        _one_file(".jl"),
         _julia,
         "{name} = {text}",
         HASH,
@@ -136,13 +124,14 @@ LANGUAGES: dict[str, TargetLanguage] = {
         parenthesised=True,
         mutates="!",
     ),
-    "javascript": TargetLanguage(
+    TargetLanguage(
         "javascript",
-        {"source": (".mjs",), "header": (".mjs",)},
+        _one_file(".mjs"),
         _plain("Math.{}", "Math.abs", "Number({} === 0)"),
         "const {name} = {text};",
         SLASH,
         {"double": "Float64Array", "float": "Float32Array"},
     ),
-}
+)
+LANGUAGES = {x.name: x for x in _LANGUAGES}
 """Name → language, as ``--lang`` takes them."""

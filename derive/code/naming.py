@@ -73,15 +73,8 @@ def name_of(t: Tree) -> str:
         return f"{t[1]}_{name_of(t[2])}".rstrip("_")
     if t[0] in ("par", "entry"):
         return "_".join(name_of(x) or str(x) for x in t[1:])
-    words = {
-        "inv": "inv",
-        "tr": "tr",
-        "hat": "hat",
-        "inner": "inner",
-        "norm2": "norm2",
-        "metric": "inner",
-    }
-    prefix = [words[t[0]]] if words.get(t[0]) else []
+    op = "inner" if t[0] == "metric" else t[0]
+    prefix = [op] * (op in ("inv", "tr", "hat", "inner", "norm2"))
     suffix = ["T"] if t[0] == "T" else [str(t[2])] if t[0] == "pow" else []
     inside = [name_of(x) for x in t[1:] if not (t[0] == "pow" and x == t[2])]
     sign = ["x"] * (t[0] == "wedge")

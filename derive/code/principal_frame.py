@@ -185,12 +185,12 @@ class PrincipalFrame:
         """Set the new places H(r − s), vectors of space S a, and first moment Hc."""
         for names, at in self.data["places"]:
             place = q.minus(self._column(at), self._s) if self.s else self._column(at)
-            self._set(names, _entries(q.times(self._H, place)))
+            self._set(names, q.flatten(q.times(self._H, place)))
         for names, v in self.data["vectors"]:
-            self._set(names, _entries(q.times(self._S, self._column(v))))
+            self._set(names, q.flatten(q.times(self._S, self._column(v))))
         if self.data["first"]:
             first = q.times(self._H, self.old.vector("c"))
-            self._set(self.data["first"], _entries(q.scaled(self.per_unit, first)))
+            self._set(self.data["first"], q.flatten(q.scaled(self.per_unit, first)))
 
     def _set(self, names: Sequence[str], values: Sequence[Node]) -> None:
         """Let new parameters of the framed problem stand for these values."""
@@ -217,10 +217,6 @@ class PrincipalFrame:
 
     def _named(self, name: str, m: Matrix) -> Matrix:
         return self.old.entries(m, name)
-
-
-def _entries(column: Matrix) -> list[Node]:
-    return [x for (x,) in column]
 
 
 def _horn(R: Matrix) -> Matrix:

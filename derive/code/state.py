@@ -9,6 +9,7 @@ Z = g⁻¹ġ (and w), or the entries of ġ.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from fractions import Fraction
 from functools import cached_property
 
 from ..algebra.groups import Group
@@ -80,47 +81,40 @@ class StateSpace:
         e = self.member(a)
         seeds = self._moved(e)
         if self.tangent:  # δġ = g E_a Z
-            seeds |= self._speeds(q.times(e, self.hat(self.coordinates)))
+            seeds |= self._changed(q.times(e, self.hat(self.coordinates)), "α", "τ")
         return seeds
 
     def faster(self, a: int) -> Seeds:
         """The variation of ζ_a alone; a from 0."""
         if self.tangent:
-            return self._speeds(self.member(a))
+            return self._changed(self.member(a), "α", "τ")
         return {self.coordinates[a]: self.graph.num(1)}
 
     def member(self, a: int) -> Matrix:
         """E_a as a matrix of nodes; a from 0."""
         return dense.numbers(self.graph, self.group.basis[a])
 
-    def _speeds(self, e: Matrix) -> Seeds:
-        """The variation δġ = g e, as derivatives of the leaves of ġ."""
-        change = q.times(self.values["A"], self._linear(e))
-        seeds = self._seeds("α", change)
-        if self.group.affine:
-            shift = tuple((e[i][self.n],) for i in range(self.n))
-            seeds |= self._seeds("τ", q.times(self.values["A"], shift))
-        return seeds
-
     def _moved(self, e: Matrix) -> Seeds:
         """The variation δg = g e, as derivatives of the leaves of g."""
-        if self.quaternion:
-            half = halves(((e[2][1],), (e[0][2],), (e[1][0],)))
-            rates = multiplied(self.q, (self.graph.num(0), *half))
-            seeds = dict(zip(self.q, rates, strict=True))
-        else:
-            seeds = self._seeds("A", q.times(self.values["A"], self._linear(e)))
-        if self.group.affine:
-            shift = tuple((e[i][self.n],) for i in range(self.n))
-            seeds |= self._seeds("T", q.times(self.values["A"], shift))
-        return seeds
+        if not self.quaternion:
+            return self._changed(e, "A", "T")
+        half = halves(((e[2][1],), (e[0][2],), (e[1][0],)))
+        rates = multiplied(self.q, (self.graph.num(0), *half))
+        return dict(zip(self.q, rates, strict=True)) | self._changed(e, "", "T")
 
     def _linear(self, e: Matrix) -> Matrix:
         return tuple(row[: self.n] for row in e[: self.n])
 
-    def _seeds(self, letter: str, change: Matrix) -> Seeds:
-        pairs = zip(q.flatten(self.values[letter]), q.flatten(change), strict=True)
-        return {leaf: x for leaf, x in pairs if leaf.op == "leaf"}
+    def _changed(self, e: Matrix, linear: str, shift: str) -> Seeds:
+        """The leaves of these letters, where they have a value, for a change g e of g or of ġ."""
+        parts = {linear: self._linear(e)} if linear else {}
+        if self.group.affine:
+            parts[shift] = tuple((row[self.n],) for row in e[: self.n])
+        changes = (
+            zip(q.flatten(self.values[x]), q.flatten(q.times(self.values["A"], part)), strict=True)
+            for x, part in parts.items()
+        )
+        return {leaf: x for change in changes for leaf, x in change if leaf.op == "leaf"}
 
     # -- the velocity ------------------------------------------------------------------------
 
@@ -154,20 +148,12 @@ class StateSpace:
 
     def _back(self) -> Matrix:
         """The inverse [[Ā, −ĀT], [0, 1]] of every block, if all factors have skew linear parts."""
-        A, num = self.values["A"], self.graph.num
-        corners = {i for i, _ in fixed_entries(self.group)}
-        span = range(self.n)
-        bar = tuple(
-            tuple(num(0) if i in corners or j in corners else A[j][i] for j in span) for i in span
-        )
-        moved = q.times(bar, A)
-        return tuple(
-            tuple(
-                num(int(i == j)) if i in corners else -moved[i][j] if j in corners else bar[i][j]
-                for j in span
-            )
-            for i in span
-        )
+        A, ones, span = self.values["A"], fixed_entries(self.group), range(self.n)
+        corners = tuple(tuple(Fraction(ones.get((i, j), 0)) for j in span) for i in span)
+        last = dense.numbers(self.graph, corners)
+        linear = dense.numbers(self.graph, q.minus(q.identity(self.n), corners))
+        bar = q.times(q.times(linear, q.transposed(A)), linear)
+        return q.minus(q.plus(bar, last), q.times(bar, q.times(A, last)))
 
     @property
     def _turns(self) -> int:
