@@ -119,8 +119,8 @@ def affine(linear: Sampler, n: int) -> Sampler:
 
     def draw(random: Source, size: int) -> Matrix:
         a = linear(random, size)
-        rows = tuple((*row, integer(random, size)) for row in a)
-        return (*rows, (*(Fraction(0),) * n, Fraction(1)))
+        shift = q.column(integer(random, size) for _ in range(n))
+        return q.bordered(a, shift, Fraction(1))
 
     return draw
 

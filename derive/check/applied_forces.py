@@ -5,13 +5,12 @@ U is computed from the problem's own data, term by term; its forces come from ni
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
 from ..algebra.groups import Group
 from ..language import rational as q
-from ..language.rational import Matrix
 from ..language.tree import Tree
 from ..record.record import RecordError
 from ..record.tree_data import decode
@@ -47,7 +46,7 @@ class AnyPotential:
         total = self.value + later * self.later
         for force, weight, x, x0 in zip(self.forces, self.weights, r, self.places, strict=True):
             y = tuple(a - b for a, b in zip(x, x0, strict=True))
-            total = total - _dot(force, y) * (1 + later) + weight * _square(y)
+            total = total - q.dot(force, y) * (1 + later) + weight * q.dot(y, y)
         return total
 
 
@@ -78,7 +77,8 @@ class AppliedForces:
     def _summed(self, p: Mapping[str, Any]) -> bool:
         """Does the walk sum it up in words?"""
         account = _account(p)
-        return hasattr(account, "summed") and bool(account.summed(self, p))
+        which = getattr(account, "summed", lambda *_: hasattr(account, "values"))
+        return bool(which(self, p))
 
     def members(self) -> Iterator[tuple[Any, list[Mapping[str, Any]]]]:
         """The accounts of kinds of which some are summed up, with these."""
@@ -134,7 +134,7 @@ class AppliedForces:
 
         def point(head: Any, arguments: tuple[Tree, ...], env: Environment) -> Any:
             del arguments, env
-            return tuple((x,) for x in r[head[2] - 1])
+            return q.column(r[head[2] - 1])
 
         env = Environment(
             self.env.size,
@@ -161,7 +161,7 @@ class AppliedForces:
         """d_e and σ_e of the elements that are functions of a distance, in order."""
         eta = nilpotent(ETA)
         return [
-            (d, self.tension(energy(_square(d) + eta)))
+            (d, self.tension(energy(q.dot(d, d) + eta)))
             for p in self.single
             if hasattr(_account(p), "radial")
             for d, energy in _account(p).radial(self, p, r, masses)
@@ -173,19 +173,6 @@ def _account(p: Mapping[str, Any]) -> Any:
     if p["kind"] not in accounts():
         raise RecordError(f"unknown potential {str(p['kind'])[:20]!r}")
     return accounts()[p["kind"]]
-
-
-def column(r: Iterable[Any]) -> Matrix:
-    """A vector as a matrix of one column."""
-    return tuple((x,) for x in r)
-
-
-def _dot(a: Vector, b: Vector) -> Any:
-    return q.dot(a, b)
-
-
-def _square(a: Vector) -> Any:
-    return _dot(a, a)
 
 
 def damping_members(model: Draws) -> dict[int, Fraction]:

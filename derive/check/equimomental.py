@@ -29,8 +29,7 @@ def equimomental_points(m: Fraction, c: Vector, J: Matrix) -> tuple[list[Fractio
     if m == 0:
         raise ZeroDivisionError("a body without mass")
     s = tuple(x / m for x in c)
-    column = tuple((x,) for x in c)
-    central = q.minus(J, q.scaled(1 / m, q.times(column, q.transposed(column))))
+    central = q.minus(J, q.scaled(1 / m, q.times(q.column(c), (c,))))
     masses, points = [], []
     for weight, direction in ldl_terms(central):
         for sign in (1, -1):
@@ -45,8 +44,7 @@ def remaining_moments(
     """The moments m, c, J less those of some point masses."""
     for mass, r in zip(masses, points, strict=True):
         m, c = m - mass, tuple(x - mass * y for x, y in zip(c, r, strict=True))
-        column = tuple((x,) for x in r)
-        J = q.minus(J, q.scaled(mass, q.times(column, q.transposed(column))))
+        J = q.minus(J, q.scaled(mass, q.times(q.column(r), (r,))))
     return m, c, J
 
 
@@ -61,8 +59,7 @@ def ldl_terms(a: Matrix) -> list[tuple[Any, Vector]]:
                 raise ZeroDivisionError("no pivot for the moments of the body")
             continue
         found.append((pivot, tuple(a[i][k] / pivot for i in range(n))))
-        column = tuple((row[k],) for row in a)
-        a = q.minus(a, q.scaled(1 / pivot, q.times(column, (a[k],))))
+        a = q.minus(a, q.scaled(1 / pivot, q.times(q.column(row[k] for row in a), (a[k],))))
     return found
 
 
@@ -116,7 +113,7 @@ def _moments_of_solid(model: Draws, data: Mapping[str, Any]) -> tuple[Fraction, 
     density = value(data["density"])
     R = value(data["rotation"]) if data.get("rotation") else q.identity(3)
     shift = value(data["shift"]) if data.get("shift") else (Fraction(0),) * 3
-    s, turned = tuple((x,) for x in shift), q.times(R, tuple((x,) for x in f))
+    s, turned = q.column(shift), q.times(R, q.column(f))
     mixed = q.times(turned, q.transposed(s))
     second = q.times(q.times(R, S), q.transposed(R))
     second = q.plus(q.plus(second, mixed), q.transposed(mixed))

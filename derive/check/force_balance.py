@@ -12,7 +12,7 @@ from typing import Any
 from ..language import rational as q
 from ..language.rational import Matrix
 from .model import Model
-from .point_masses import Vector
+from .point_masses import Vector, outer_sum, scaled_each
 
 Values = dict[str, Any]
 
@@ -44,29 +44,22 @@ class ForceBalance:
             return [q.times(e, back) for e in self.group.basis]
         if not self.group.free_translations:
             return list(self.group.basis)
-        n = self.model.n
         found = []
         for e in self.group.basis[:count]:
             linear = self.group.linear_part(e)
-            shift = q.times(linear, tuple((x,) for x in self.centre))
-            rows = tuple((*row, -x) for row, (x,) in zip(linear, shift, strict=True))
-            found.append((*rows, (Fraction(0),) * (n + 1)))
+            shift = q.times(linear, q.column(self.centre))
+            found.append(q.bordered(linear, q.scaled(-1, shift), Fraction(0)))
         return found
 
     def moment_in_body(self, vectors: list[Vector]) -> Matrix:
         """Ā Σ v_i ρ̄_i, the moment in the body of vectors v_i in space with the arms ρ_i."""
-        span = range(self.model.n)
-        pairs = list(zip(vectors, self.arms, strict=True))
-        total = tuple(
-            tuple(sum((v[i] * r[j] for v, r in pairs), Fraction(0)) for j in span) for i in span
-        )
-        return q.times(q.transposed(self.group.linear_part(self.model.g)), total)
+        back = q.transposed(self.group.linear_part(self.model.g))
+        return q.times(back, outer_sum(vectors, self.arms))
 
     def moment_of_inertia_forces(self, rate: Matrix) -> Matrix:
         """Ā Σ m_i a_i ρ̄_i, the moment of the accelerations for g⁻¹g̈ = ``rate``."""
         moved = self.model.moved(q.times(self.model.g, rate))
-        weighted = [tuple(m * x for x in v) for m, v in zip(self.model.masses, moved, strict=True)]
-        return self.moment_in_body(weighted)
+        return self.moment_in_body(scaled_each(self.model.masses, moved))
 
     @cached_property
     def applied_moment(self) -> Matrix:
@@ -111,12 +104,9 @@ def centred_values(model: Model) -> Values:
     factors of a product."""
     S = centre_matrix(model)
     back = q.minus(q.identity(model.n), S)
-    columns = [q.times(back, tuple((x,) for x in r)) for r in model.points]
-    weighted_places = [*zip(model.masses, columns, strict=True)]
-    first, second = q.scaled(Fraction(0), columns[0]), q.scaled(Fraction(0), S)
-    for m, r in weighted_places:
-        first = q.plus(first, q.scaled(m, r))
-        second = q.plus(second, q.scaled(m, q.times(r, q.transposed(r))))
+    places = q.times(tuple(model.points), q.transposed(back))
+    weighted = scaled_each(model.masses, places)
+    first, second = outer_sum(weighted, model.units), outer_sum(weighted, places)
     return {"S": S, "c_c": first, "J_c": second, "Z_c": q.plus(model.Z, q.times(model.Z, S))}
 
 
@@ -128,7 +118,7 @@ def solution_values(model: Model) -> Values:
     if group.affine:
         m, c, _ = model.moments
         centre = tuple(x / m for (x,) in c)
-        values["r_c"] = tuple((x,) for x in centre)
+        values["r_c"] = q.column(centre)
         values["w_c"] = q.times(Z, model.homogeneous(centre))[: model.n]
     values["B"] = q.minus(s.applied_moment, s.moment_of_inertia_forces(q.times(Z, Z)))
     tangents = [q.times(model.g, e) for e in s.centred_basis]
@@ -140,7 +130,7 @@ def solution_values(model: Model) -> Values:
     )
     if group.centred:
         rate = q.plus(Z_dot, q.times(Z_dot, centre_matrix(model)))
-        values["ψ"] = tuple((x,) for x in group.nearest(rate))
+        values["ψ"] = q.column(group.nearest(rate))
     normal = group.normal_space_of_linear_parts
     if len(normal) == 1:
         left = q.minus(s.moment_of_inertia_forces(q.plus(Z_dot, q.times(Z, Z))), s.applied_moment)

@@ -8,9 +8,11 @@ from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from .applied_forces import Vector, column, damping_members
+from .applied_forces import Vector, damping_members
 from .force_balance import ForceBalance
 from .model import Model
+from .point_masses import outer_sum, scaled_each
+from .rigid_body import axial
 
 Values = dict[str, Any]
 
@@ -24,7 +26,7 @@ def force_values(model: Model) -> Values:
     values["U_Q"] = ex.single_potential(model.t, places, model.masses)
     forces = ex.single_forces(model.t, places, model.masses)
     values |= _summed(model, forces, "Q")
-    if model.driven:
+    if model.at.driven:
         values |= _summed(model, model.nonpotential_forces, "u")
         values |= _with_covector(model, values)
     return values | _damping(model)
@@ -32,16 +34,9 @@ def force_values(model: Model) -> Values:
 
 def _summed(model: Model, forces: list[Vector], mark: str) -> Values:
     """N = Σ Āf r̄, F = Σ Āf, and in R³ μ = Σ r ∧ Āf."""
-    back = q.transposed(model.group.linear_part(model.g))
-    turned = [q.times(back, column(f)) for f in forces]
-    N = q.scaled(Fraction(0), q.identity(model.n))
-    F = column((Fraction(0),) * model.n)
-    mu = column((Fraction(0),) * 3)
-    for f, r in zip(turned, model.points, strict=True):
-        N, F = q.plus(N, q.times(f, (r,))), q.plus(F, f)
-        if model.n == 3:
-            (x, y, z), (a, b, c) = r, (v for (v,) in f)
-            mu = q.plus(mu, column((y * c - z * b, z * a - x * c, x * b - y * a)))
+    turned = q.times(tuple(forces), model.group.linear_part(model.g))
+    N, F = outer_sum(turned, model.points), outer_sum(turned, model.units)
+    mu = axial(q.minus(N, q.transposed(N))) if model.n == 3 else q.column((Fraction(0),) * 3)
     return {f"N_{mark}": N, f"F_{mark}": F, f"μ_{mark}": mu}
 
 
@@ -53,18 +48,16 @@ def _with_covector(model: Model, values: Values) -> Values:
         arm = tuple((dual[i][-1],) for i in range(model.n))
         found["F_u"] = q.plus(values["F_u"], arm)
     if model.group.turns_space:
-        found["μ_u"] = q.plus(values["μ_u"], column(model.covector[:3]))
+        found["μ_u"] = q.plus(values["μ_u"], q.column(model.covector[:3]))
     return found
 
 
 def _damping(model: Model) -> Values:
-    D = q.scaled(Fraction(0), q.identity(model.n))
-    first, total = column((Fraction(0),) * model.n), Fraction(0)
-    for i, kappa in damping_members(model).items():
-        r = column(model.points[i - 1])
-        D = q.plus(D, q.scaled(kappa, q.times(r, q.transposed(r))))
-        first, total = q.plus(first, q.scaled(kappa, r)), total + kappa
-    values: Values = {"D": D, "D_c": first, "D_m": total}
+    damped = damping_members(model)
+    strengths = [damped.get(i, Fraction(0)) for i in range(1, len(model.points) + 1)]
+    weighted = scaled_each(strengths, model.points)
+    D, first = outer_sum(weighted, model.points), outer_sum(weighted, model.units)
+    values: Values = {"D": D, "D_c": first, "D_m": sum(damped.values(), Fraction(0))}
     if model.n == 3:
         values["I_D"] = q.minus(q.scaled(q.trace(D), q.identity(3)), D)
     return values
@@ -74,7 +67,7 @@ def _in_body(model: Model, vector: Sequence[Any]) -> Matrix:
     """Ā on a vector of space; empty in a product, whose blocks have spaces of their own."""
     if model.group.factors:
         return ()
-    return q.times(q.transposed(model.group.linear_part(model.g)), column(vector))
+    return q.times(q.transposed(model.group.linear_part(model.g)), q.column(vector))
 
 
 def force_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
@@ -85,12 +78,12 @@ def force_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
             families |= account.families(model, members)
     places = model.moved(model.g)
     for e, (d, sigma) in enumerate(model.applied.radial(places, model.masses), 1):
-        families.setdefault("d", {})[e,] = column(d)
+        families.setdefault("d", {})[e,] = q.column(d)
         families.setdefault("χ", {})[e,] = _in_body(model, d)
         families.setdefault("σ", {})[e,] = sigma
     if model.applied.single:
         forces = model.applied.single_forces(model.t, places, model.masses)
-        families["Q"] = {(i,): column(f) for i, f in enumerate(forces, 1)}
+        families["Q"] = {(i,): q.column(f) for i, f in enumerate(forces, 1)}
         families["P"] = {(i,): _in_body(model, f) for i, f in enumerate(forces, 1)}
     if damped := damping_members(model):
         families["κ"] = {(i,): damped.get(i, Fraction(0)) for i in range(1, len(places) + 1)}
@@ -98,5 +91,5 @@ def force_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
         zip(model.input_forces, model.inputs_of("force"), strict=True), 1
     ):
         here = model.group.of_block(model.blocks[data["on"] - 1])
-        families.setdefault("f_u", {})[e,] = column(force[here])
+        families.setdefault("f_u", {})[e,] = q.column(force[here])
     return families

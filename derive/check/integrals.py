@@ -17,13 +17,13 @@ from .model import Model
 
 def place_values(model: Model) -> dict[str, Any]:
     """The values of r, a random place in the body, and of v, its velocity in space (columns)."""
-    r = tuple((model.draw(),) for _ in range(model.n))
+    r = q.column(model.draw() for _ in range(model.n))
     return {"r": r, "v": moved(model, q.times(model.g, model.Z), r)}
 
 
 def moved(model: Model, g: Matrix, r: Matrix) -> Matrix:
     """g(r) as a column, for a group element or a tangent matrix g and a column r."""
-    return q.times(g, model.homogeneous(tuple(x for (x,) in r)))[: model.n]
+    return q.times(g, model.homogeneous(q.flatten(r)))[: model.n]
 
 
 def integral(model: Model, form: Tree, env: Environment) -> Any:
@@ -34,7 +34,7 @@ def integral(model: Model, form: Tree, env: Environment) -> Any:
     nu = q.times(model.g, model.Z)
     terms = []
     for m, at in zip(model.masses, model.points, strict=True):
-        r = tuple((x,) for x in at)
+        r = q.column(at)
         here = {"r": r, "v": moved(model, nu, r)}
         there = replace(env, names=ChainMap(here, env.names))  # type: ignore[arg-type]
         terms.append(times(m, evaluate(form, there)))

@@ -38,21 +38,21 @@ class Locus:
 
     ``principal``: those with I = diag(λ₁, λ₂, λ₃). ``contracted``: δt = 1, and X is the vector of
     δ. ``vanishing``: the parts of δ′ that vanish; ``along``: the parts of the velocity of X that
-    are those of the motion. ``free_acceleration``: the acceleration is any, and that of X.
-    ``driven``: inputs and damping act.
+    are those of the motion, ``None`` where X is the motion. ``free_acceleration``: the
+    acceleration is any, and that of X. ``driven``: inputs and damping act.
     """
 
     principal: bool = False
     contracted: bool = False
     vanishing: frozenset[str] = frozenset()
-    along: frozenset[str] = frozenset()
+    along: frozenset[str] | None = None
     free_acceleration: bool = False
     driven: bool = False
 
     @property
     def as_text(self) -> str:
         """The hypotheses as text, whatever the order of sets: a part of a point's seed."""
-        sets = sorted(self.vanishing), sorted(self.along)
+        sets = sorted(self.vanishing), sorted(self.along or ())
         return f"{self.principal} {self.contracted} {sets} {self.free_acceleration} {self.driven}"
 
 

@@ -21,6 +21,7 @@ from .lifts import ON_TANGENT, action_varied, form_rate
 from .model import Direction, Model
 from .momenta import momentum_values, space_values
 from .nilpotent import EPS, EPS_PRIME, derivative_of, nilpotent, part
+from .point_masses import outer_sum
 from .points import listed_count
 from .rigid_body import axial, moments_about, rigid_body_values
 
@@ -127,10 +128,7 @@ def _group(model: Model) -> Values:
 def _forces(model: Model) -> Values:
     """The potential's forces and their moments: F, N = Σ F r̄ in space, and F_b, N_b in the
     body."""
-    pairs = list(zip(model.forces, model.points, strict=True))
-    span = range(model.n)
-    N = tuple(tuple(sum((f[i] * r[j] for f, r in pairs), Fraction(0)) for j in span) for i in span)
-    F = tuple((sum((f[i] for f, _ in pairs), Fraction(0)),) for i in span)
+    N, F = outer_sum(model.forces, model.points), outer_sum(model.forces, model.units)
     back = q.transposed(_linear(model, model.g))
     values: Values = {"N": N, "F": F, "N_b": q.times(back, N), "F_b": q.times(back, F)}
     return values if model.generic else values | force_values(model)
@@ -162,26 +160,22 @@ def _motion(model: Model) -> Values:
     values |= space_values(model, acceleration)
     d = len(model.group.linear_basis)
     for name, element in (("ζ", Z), ("ζ̇", Z_dot)):
-        values[name] = tuple((x,) for x in model.group.nearest(element)[:d])
+        values[name] = q.column(model.group.nearest(element)[:d])
     if model.group.stated_basis:
-        values["z"] = tuple((x,) for x in model.group.stated.nearest(Z))
-    if model.driven:
-        values["u"] = tuple((x,) for x in model.covector)
+        values["z"] = q.column(model.group.stated.nearest(Z))
+    if model.at.driven:
+        values["u"] = q.column(model.covector)
     return values | ({} if model.generic else solution_values(model))
 
 
 def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     """The members of families by indices; copies of a point share its mass and force."""
     nu = q.times(model.g, model.Z)
-
-    def column(r: Any) -> Matrix:
-        return tuple((x,) for x in r)
-
     families: dict[str, dict[tuple[int, ...], Any]] = {
         "m": {(i,): m for i, m in enumerate(model.masses, 1)},
-        "r": {(i,): column(r) for i, r in enumerate(model.points, 1)},
-        "v": {(i,): column(v) for i, v in enumerate(model.moved(nu), 1)},
-        "F": {(i,): column(f) for i, f in enumerate(model.forces, 1)},
+        "r": {(i,): q.column(r) for i, r in enumerate(model.points, 1)},
+        "v": {(i,): q.column(v) for i, v in enumerate(model.moved(nu), 1)},
+        "F": {(i,): q.column(f) for i, f in enumerate(model.forces, 1)},
     }
     if not model.generic:
         own = model.group.basis[: len(model.group.linear_basis)]
@@ -216,15 +210,14 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         if not model.group.affine:
             return linear
         vector = blocks[1] if is_matrix(blocks[1]) else ((Fraction(0),),) * n
-        rows = tuple((*row, x[0]) for row, x in zip(linear, vector, strict=True))
-        return (*rows, (Fraction(0),) * (n + 1))
+        return q.bordered(linear, vector, Fraction(0))
 
     def momentum(_: Tree, arguments: tuple[Tree, ...], env: Environment) -> Any:
         nu = q.times(model.g, model.Z)
         return part(model.momentum(nu, tangent(arguments, env)), 0)
 
     def point(head: Any, _: tuple[Tree, ...], env: Environment) -> Matrix:
-        return tuple((x,) for x in model.moved(model.g)[point_index(head[2], env) - 1])
+        return q.column(model.moved(model.g)[point_index(head[2], env) - 1])
 
     return {
         "dŨ": lambda _, a, env: model.work(tangent(a, env)),
@@ -259,7 +252,7 @@ def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
         return part(moved(model, g, evaluate("r", env)), mask)
     if isinstance(what, tuple):
         i = point_index(what[1][2], env)
-        return tuple((part(x, mask),) for x in model.varied_places[i - 1])
+        return part(q.column(model.varied_places[i - 1]), mask)
     other = EPS_PRIME if mask == EPS else EPS
     h = model.varied
     back = q.minus(q.identity(model.s), q.scaled(nilpotent(mask), part(h, mask)))

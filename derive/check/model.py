@@ -19,6 +19,7 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from .applied_forces import RATE_SLOTS, AnyPotential, AppliedForces, damping_members
 from .grades import with_slots
+from .locus import LINEAR, TIME, TRANSLATION, Locus
 from .nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, derivative_in, derivative_of, nilpotent, part
 from .point_masses import Body, Vector
 from .points import listed_count
@@ -36,12 +37,9 @@ class Direction:
 class Model(Body):
     """One random point of the evolution space of a problem, with two variations and the motion.
 
-    ``principal``: the body has a diagonal J; ``driven``: the input does not vanish; ``generic``:
-    the potential is any polynomial; ``pi``: its value, else any. ``few``: no more points than are
-    needed, and each of them once. ``zero``: the names of parameters that vanish. X is the motion;
-    or, where there is ``along``, a random vector with δt = 1 whose velocity has these parts from
-    the motion, and is δ itself where ``contracted``. ``free_acceleration``: the acceleration is
-    that of X. ``vanishing``: the parts of δ′ that vanish.
+    ``at``: the hypotheses that hold there. ``generic``: the potential is any polynomial; ``pi``:
+    its value, else any. ``few``: no more points than are needed, and each of them once. ``zero``:
+    the names of parameters that vanish.
     """
 
     def __init__(
@@ -50,24 +48,19 @@ class Model(Body):
         group: Group,
         random: Source,
         size: int,
+        at: Locus,
         *,
-        principal: bool = False,
-        driven: bool = False,
-        along: Collection[str] | None = None,
-        contracted: bool = False,
-        free_acceleration: bool = False,
-        vanishing: Collection[str] = (),
         generic: bool = False,
         pi: Fraction | None = None,
         few: bool = False,
         zero: Collection[str] = (),
     ):
         super().__init__(problem, group, random, size, generic=generic, pi=pi, few=few, zero=zero)
-        self.driven, self.free_acceleration, self.principal = driven, free_acceleration, principal
+        self.at = at
         self.s = group.size
         self.hypothesis_failures: dict[Any, str] = {}
         self._families: dict[tuple[int, int], tuple[Any, tuple[Any, Matrix, Matrix]]] = {}
-        self.embody(principal=principal)
+        self.embody(principal=at.principal)
         self.applied = AppliedForces(
             {} if generic else problem, group, self.blocks, self.expressions
         )
@@ -78,18 +71,18 @@ class Model(Body):
         self.first, self.second, self.mixed = (
             Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
         )
-        if vanishing:
-            time = Fraction(0) if "time" in vanishing else self.second.time
+        if at.vanishing:
+            time = Fraction(0) if TIME in at.vanishing else self.second.time
             self.second = replace(
-                self.second, time=time, xi=self._without_parts(vanishing, self.second.xi)
+                self.second, time=time, xi=self._without_parts(at.vanishing, self.second.xi)
             )
-        self.vector = None if along is None else self._motion_like(along, contracted=contracted)
-        if contracted and self.vector is not None:
+        self.vector = None if at.along is None else self._motion_like(at.along)
+        if at.contracted and self.vector is not None:
             self.first = self.vector
-        turning = driven and bool(self.inputs_of("covector"))
+        turning = at.driven and bool(self.inputs_of("covector"))
         self.covector = [self.draw() if turning else Fraction(0) for _ in group.basis]
         self.input_forces = [
-            tuple(self.draw() if driven else Fraction(0) for _ in range(self.n))
+            tuple(self.draw() if at.driven else Fraction(0) for _ in range(self.n))
             for _ in self.inputs_of("force")
         ]
         once = len(self.points) if few else listed_count(self)
@@ -102,8 +95,8 @@ class Model(Body):
         basis = self.group.basis
         rows = []
         for e in basis:
-            linear = q.flatten(self.group.linear_part(e)) if "linear" in parts else ()
-            moved = self.group.affine and "translation" in parts
+            linear = q.flatten(self.group.linear_part(e)) if LINEAR in parts else ()
+            moved = self.group.affine and TRANSLATION in parts
             rows.append((*linear, *(row[-1] for row in e[:-1] if moved)))
         if not rows[0]:
             return xi
@@ -113,9 +106,9 @@ class Model(Body):
             total = q.plus(total, q.scaled(self.draw(), self.group.hat(weights)))
         return total
 
-    def _motion_like(self, along: Collection[str], *, contracted: bool) -> Direction:
+    def _motion_like(self, along: Collection[str]) -> Direction:
         """X, with δt = 1 and the velocity of the motion in the parts ``along``, any in others."""
-        free = self._without_parts(along, self.first.xi if contracted else self.algebra())
+        free = self._without_parts(along, self.first.xi if self.at.contracted else self.algebra())
         xi = q.plus(self.Z, free) if along else free
         return Direction(Fraction(1), xi, self.algebra())
 
@@ -131,14 +124,7 @@ class Model(Body):
 
     def lagrangian(self, t: Any, g: Matrix, nu: Matrix) -> Any:
         """L̃(t, g, ν) = L at the moved points: equation (3)."""
-        kinetic = sum(
-            (
-                m * Fraction(1, 2) * sum((x * x for x in v), Fraction(0))
-                for m, v in zip(self.masses, self.moved(nu), strict=True)
-            ),
-            Fraction(0),
-        )
-        return kinetic - self.potential(t, self.moved(g))
+        return self.pairing(nu, nu) * Fraction(1, 2) - self.potential(t, self.moved(g))
 
     def momentum(self, nu: Matrix, w: Matrix) -> Any:
         """p̃(w), the derivative of L̃ along the velocity: Σ m_i ⟨v_i, w r_i⟩, as ½ ‖v‖² has it."""
@@ -226,11 +212,11 @@ class Model(Body):
         for u, data in zip(self.input_forces, self.inputs_of("force"), strict=True):
             block = self.blocks[data["on"] - 1]
             here = u[self.group.of_block(block)]
-            inside = tuple((x,) for x in self.group.in_block(block, here))
+            inside = q.column(self.group.in_block(block, here))
             force = q.times(linear, inside) if data["frame"] == "body" else inside
             for k, (x,) in enumerate(force):
                 total[data["on"] - 1][k] += x
-        if self.driven:
+        if self.at.driven:
             velocities = self.moved(q.times(self.g, self.Z))
             for i, kappa in damping_members(self).items():
                 for k, x in enumerate(velocities[i - 1]):
@@ -242,16 +228,8 @@ class Model(Body):
         """The values u(E_a) on the basis of the covector of all inputs and damping."""
         found = []
         for u, e in zip(self.covector, self.group.basis, strict=True):
-            moved = self.moved(q.times(self.g, e))
-            work = sum(
-                (
-                    x * y
-                    for f, v in zip(self.nonpotential_forces, moved, strict=True)
-                    for x, y in zip(f, v, strict=True)
-                ),
-                Fraction(0),
-            )
-            found.append(u + work)
+            pairs = zip(self.nonpotential_forces, self.moved(q.times(self.g, e)), strict=True)
+            found.append(u + sum((q.dot(f, v) for f, v in pairs), Fraction(0)))
         return found
 
     @cached_property
@@ -262,7 +240,7 @@ class Model(Body):
     def solve_metric(self, covector: list[Fraction]) -> Matrix:
         """The element of 𝔤, as a matrix, that the kinetic metric at g sends to a covector, by its
         values on the basis; ``ZeroDivisionError`` where the metric is singular."""
-        solution = q.solve(self.metric, tuple((x,) for x in covector))
+        solution = q.solve(self.metric, q.column(covector))
         if solution is None:
             raise ZeroDivisionError("the kinetic metric is singular at this point")
         return self.group.hat([row[0] for row in solution])
@@ -277,7 +255,7 @@ class Model(Body):
     @cached_property
     def acceleration(self) -> Matrix:
         """Ż by d'Alembert: Σ ⟨m_i a_i − F_i, v′_i⟩ = u(ξ′) for every ξ′, with a = g(Ż + Z²)r."""
-        if self.free_acceleration and self.vector is not None:
+        if self.at.free_acceleration and self.vector is not None:
             return self.vector.velocity
         centripetal = q.times(self.g, q.times(self.Z, self.Z))
         covector = []

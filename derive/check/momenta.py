@@ -7,14 +7,13 @@ space.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
 from .model import Model
 from .nilpotent import EPS, EPS_PRIME, nilpotent, part
-from .point_masses import Vector
+from .point_masses import Vector, outer_sum, scaled_each
 from .rigid_body import axial
 
 NAMES = (("Π", "δΠ", "δ′Π", "Π̇"), ("p_b", "δp_b", "δ′p_b", "ṗ_b"))
@@ -30,9 +29,8 @@ def momentum_values(model: Model) -> dict[str, Any]:
     along = q.plus(model.g, q.scaled(e, q.times(model.g, model.Z)))
     faster = q.plus(model.Z, q.scaled(e, model.acceleration))
     places = ((g, Z, 0), (g, Z, EPS), (g, Z, EPS_PRIME), (along, faster, EPS))
-    units = [(Fraction(1),)] * len(model.points)
     values = {}
-    for names, arms in zip(NAMES, (model.points, units), strict=True):
+    for names, arms in zip(NAMES, (model.points, model.units), strict=True):
         for name, (at, velocity, mask) in zip(names, places, strict=True):
             values[name] = part(
                 _moment_in_body(model, at, _momenta(model, at, velocity), arms), mask
@@ -55,22 +53,15 @@ def _force_on_algebra(model: Model) -> Matrix:
 
 def _momenta(model: Model, g: Matrix, Z: Matrix) -> list[Vector]:
     """The momenta m_i v_i of the points in space, v = g Z r."""
-    moved = model.moved(q.times(g, Z))
-    return [tuple(m * x for x in v) for m, v in zip(model.masses, moved, strict=True)]
+    return scaled_each(model.masses, model.moved(q.times(g, Z)))
 
 
 def _moment_in_body(
     model: Model, g: Matrix, vectors: Sequence[Vector], arms: Sequence[Vector]
 ) -> Matrix:
     """Σ Āv x̄, n × k, over vectors v in space and arms x of k numbers in the body."""
-    n = model.n
-    total = [[Fraction(0)] * len(arms[0]) for _ in range(n)]
-    for v, x in zip(vectors, arms, strict=True):
-        for i in range(n):
-            for j, y in enumerate(x):
-                total[i][j] += v[i] * y
-    back = q.transposed(tuple(row[:n] for row in g[:n]))
-    return q.times(back, q.matrix(total))
+    back = q.transposed(model.group.linear_part(g))
+    return q.times(back, outer_sum(vectors, arms))
 
 
 def space_values(model: Model, acceleration: Matrix) -> dict[str, Any]:
@@ -98,18 +89,11 @@ def space_values(model: Model, acceleration: Matrix) -> dict[str, Any]:
 
 def _angular_momentum(model: Model, places: list[Vector], vectors: list[Vector]) -> Matrix:
     """Σ m (v r̄ − r v̄), or in R³ turned about its axis Σ m r ∧ v."""
-    span = range(model.n)
-    pairs = list(zip(model.masses, places, vectors, strict=True))
-    whole = tuple(
-        tuple(
-            sum((m * (v[i] * r[j] - r[i] * v[j]) for m, r, v in pairs), Fraction(0)) for j in span
-        )
-        for i in span
-    )
+    half = outer_sum(scaled_each(model.masses, vectors), places)
+    whole = q.minus(half, q.transposed(half))
     return axial(whole) if model.group.turns_space else whole
 
 
 def _resultant(model: Model, vectors: list[Vector]) -> Matrix:
     """Σ m v, as a column."""
-    pairs = list(zip(model.masses, vectors, strict=True))
-    return tuple((sum((m * v[i] for m, v in pairs), Fraction(0)),) for i in range(model.n))
+    return outer_sum(scaled_each(model.masses, vectors), model.units)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -13,6 +14,16 @@ from .kinds import uses_body_axes
 from .points import points_of, principal_points
 
 Vector = tuple[Any, ...]
+
+
+def outer_sum(vectors: Sequence[Vector], arms: Sequence[Vector]) -> Matrix:
+    """Σ v_i x̄_i, n × k, over vectors of n numbers and arms of k, one of each for every point."""
+    return q.times(q.transposed(tuple(vectors)), tuple(arms))
+
+
+def scaled_each(weights: Iterable[Any], vectors: Iterable[Vector]) -> list[Vector]:
+    """The vectors m_i v_i."""
+    return [tuple(m * x for x in v) for m, v in zip(weights, vectors, strict=True)]
 
 
 class Body(Draws):
@@ -47,18 +58,18 @@ class Body(Draws):
     @cached_property
     def moments(self) -> tuple[Fraction, Matrix, Matrix]:
         """m, c, J as sums over the points."""
-        total = sum(self.masses, Fraction(0))
-        span = range(self.n)
-        pairs = list(zip(self.masses, self.points, strict=True))
-        first = tuple((sum((m * r[i] for m, r in pairs), Fraction(0)),) for i in span)
-        second = tuple(
-            tuple(sum((m * r[i] * r[j] for m, r in pairs), Fraction(0)) for j in span) for i in span
-        )
-        return total, first, second
+        weighted = scaled_each(self.masses, self.points)
+        first, second = outer_sum(weighted, self.units), outer_sum(weighted, self.points)
+        return sum(self.masses, Fraction(0)), first, second
+
+    @property
+    def units(self) -> list[Vector]:
+        """The number 1 for each point, as a vector."""
+        return [(Fraction(1),)] * len(self.points)
 
     def homogeneous(self, r: Vector) -> Matrix:
         """A place as a column: r, or (r, 1) for an affine action."""
-        return tuple((x,) for x in (*r, *((Fraction(1),) if self.group.affine else ())))
+        return q.column((*r, Fraction(1)) if self.group.affine else r)
 
     def moved(self, g: Matrix) -> list[Vector]:
         """The places in space of the points moved by g; for a tangent matrix their velocities."""
@@ -67,13 +78,8 @@ class Body(Draws):
 
     def pairing(self, a: Matrix, b: Matrix) -> Any:
         """Σ m_i ⟨a r_i, b r_i⟩, the kinetic metric of two tangent matrices at g."""
-        return sum(
-            (
-                m * q.dot(u, v)
-                for m, u, v in zip(self.masses, self.moved(a), self.moved(b), strict=True)
-            ),
-            Fraction(0),
-        )
+        pairs = zip(self.masses, self.moved(a), self.moved(b), strict=True)
+        return sum((m * q.dot(u, v) for m, u, v in pairs), Fraction(0))
 
     def metric_matrix(self, tangents: list[Matrix]) -> Matrix:
         """The matrix of the kinetic metric on tangent matrices at g."""

@@ -8,6 +8,7 @@ from typing import Any
 from ..language import rational as q
 from ..language.rational import Matrix
 from .model import Model
+from .point_masses import outer_sum, scaled_each
 
 Values = dict[str, Any]
 
@@ -31,16 +32,16 @@ def rigid_body_values(model: Model) -> Values:
         named["φ"] = model.gradient
     for name, x in named.items():
         values[name] = axial(x)
-    values["μ"] = tuple((-model.work(q.times(model.g, e)),) for e in basis[:3])
-    if model.driven:
-        values["u"] = tuple((x,) for x in model.covector[:3])
-        values["f_u"] = tuple((x,) for x in model.covector[3:])
+    values["μ"] = q.column(-model.work(q.times(model.g, e)) for e in basis[:3])
+    if model.at.driven:
+        values["u"] = q.column(model.covector[:3])
+        values["f_u"] = q.column(model.covector[3:])
     m, c, _ = model.moments
     centre = tuple(x[0] / m for x in c)
     values["I"] = _inertia_tensor(model, (Fraction(0),) * 3)
     values["I_c"] = _inertia_tensor(model, centre)
-    if model.principal:  # else the diagonal of I is not its eigenvalues
-        values["λ"] = tuple((values["I"][i][i],) for i in range(3))
+    if model.at.principal:  # else the diagonal of I is not its eigenvalues
+        values["λ"] = q.column(values["I"][i][i] for i in range(3))
     return values
 
 
@@ -64,8 +65,5 @@ def _inertia_tensor(model: Model, origin: tuple[Fraction, ...]) -> Matrix:
 
 def moments_about(model: Model, origin: tuple[Fraction, ...]) -> Matrix:
     """Σ m_i (r_i − o)(r_i − o)‾ about an origin o."""
-    total = q.scaled(Fraction(0), q.identity(model.n))
-    for m, point in zip(model.masses, model.points, strict=True):
-        r = tuple((x - o,) for x, o in zip(point, origin, strict=True))
-        total = q.plus(total, q.scaled(m, q.times(r, q.transposed(r))))
-    return total
+    arms = [tuple(x - o for x, o in zip(r, origin, strict=True)) for r in model.points]
+    return outer_sum(scaled_each(model.masses, arms), arms)

@@ -35,25 +35,6 @@ def action_of(problem: Mapping[str, Any]) -> str:
     return str(action)
 
 
-def model_where(
-    problem: Mapping[str, Any], g: Group, source: Source, at: Locus, size: int, *, generic: bool
-) -> Model:
-    """A random model at which the hypotheses of a step hold."""
-    return Model(
-        {} if generic else problem,
-        g,
-        source,
-        size,
-        principal=at.principal,
-        driven=at.driven,
-        along=at.along,
-        contracted=at.contracted,
-        free_acceleration=at.free_acceleration,
-        vanishing=at.vanishing,
-        generic=generic,
-    )
-
-
 class TrialPoints:
     """The points of one record: exact ones, and beside each one in degrees alone."""
 
@@ -107,8 +88,7 @@ class TrialPoints:
         if key not in self._places:
             random = Random(f"{self.seed} {g.name} {step.scope} {at.as_text} {size}")
             source = ResidueSource(random, self._prime) if generic and size == SIZE else random
-            model = model_where(self.problem, g, source, at, size, generic=generic)
-            self._places[key] = model, environment(model)
+            self._places[key] = self._place(g, source, size, at, generic=generic)
         return self._places[key]
 
     def graded_point(self, g: Group, step: Step, equation: Equation | None = None) -> Place:
@@ -117,9 +97,13 @@ class TrialPoints:
         generic = step.scope == ANY_GROUP
         known, key = _GRADED_POINTS if generic else self._graded_points, (g.name, at)
         if key not in known:
-            model = model_where(self.problem, g, DegreeSource(), at, SIZE, generic=generic)
-            known[key] = model, environment(model)
+            known[key] = self._place(g, DegreeSource(), SIZE, at, generic=generic)
         return known[key]
+
+    def _place(self, g: Group, source: Source, size: int, at: Locus, *, generic: bool) -> Place:
+        """A random model at which the hypotheses of a step hold, and its names."""
+        model = Model({} if generic else self.problem, g, source, size, at, generic=generic)
+        return model, environment(model)
 
     def grade(self, g: Group, step: Step, equation: Equation) -> tuple[int, Grade]:
         """The degree of an equation on a group, and the grade of its numerators."""

@@ -48,7 +48,7 @@ class _Map:
         shift = tuple((-x,) for (x,) in q.times(frame.H, frame.s))
         still = ((num(0),),) * frame.n
         whole = [(S, still), (frame.H, shift), (frame.back, frame.s)]
-        S, h, back = (_bordered(m, column, (num(0), num(1))) for m, column in whole)
+        S, h, back = (q.bordered(m, column, num(1)) for m, column in whole)
         return _Map(S, h, back, frame.quaternions)
 
     @property
@@ -70,12 +70,6 @@ class _Map:
         left, right = self.quaternions
         turned = multiplied(multiplied(left, x.q), right)
         return [*turned, *x.entries(element), *velocity]
-
-
-def _bordered(m: Matrix, column: Matrix, corner: tuple[Node, Node]) -> Matrix:
-    """The matrix [[m, column], [0, 1]]; ``corner`` holds 0 and 1 as nodes."""
-    rows = ((*row, x) for row, (x,) in zip(m, column, strict=True))
-    return (*rows, (*(corner[0],) * len(m), corner[1]))
 
 
 def _inputs(frame: PrincipalFrame, there: _Map, scale: Node) -> list[Node]:

@@ -120,7 +120,7 @@ class StateSpace:
 
     def _velocity(self) -> None:
         """Add the numbers of the velocity; set ζ, w, and with ġ in the state α, τ."""
-        n, turns = self.n, self._turns
+        turns = self._turns
         if not self.tangent:
             zeta = [self._leaf(suffixed("zeta", a)) for a in self._span(self._stated_turns)]
             moved = self._span(self.group.dimension - len(zeta))
@@ -139,8 +139,7 @@ class StateSpace:
         if self.group.affine:
             w = q.times(inverse, placed["T"])
             self.values["w"] = self._named("w", w, column=True)
-            rows = ((*row, x) for row, (x,) in zip(Z, w, strict=True))
-            Z = (*rows, (self.graph.num(0),) * (n + 1))
+            Z = q.bordered(Z, w, self.graph.num(0))
         turning = tuple((x,) for x in self._by(self.standard, Z)[:turns])
         self.values["ζ"] = self._named("zeta", turning, column=True)
         found = [*self.values["ζ"], *self.values.get("w", ())]
@@ -257,11 +256,7 @@ class StateSpace:
     def _whole(self, linear: Matrix, shift: Matrix, corner: int) -> Matrix:
         """The matrix [[linear, shift], [0, corner]] of an affine group; ``linear`` of a linear
         one."""
-        if not self.group.affine:
-            return linear
-        num = self.graph.num
-        rows = ((*row, x) for row, (x,) in zip(linear, shift, strict=True))
-        return (*rows, (*(num(0),) * self.n, num(corner)))
+        return q.bordered(linear, shift, self.graph.num(corner)) if self.group.affine else linear
 
     def hat(self, coordinates: Sequence[Node]) -> Matrix:
         """The matrix Σ x_a E_a of coordinates in the stated basis."""

@@ -51,6 +51,11 @@ def matrix(rows: Sequence[Sequence[Any]]) -> Matrix:
     return tuple(tuple(row) for row in rows)
 
 
+def column(vector: Iterable[Any]) -> Matrix:
+    """A vector as a matrix of one column."""
+    return tuple((x,) for x in vector)
+
+
 def identity(n: int) -> Matrix:
     """The n × n identity."""
     return tuple(tuple(Fraction(i == j) for j in range(n)) for i in range(n))
@@ -59,6 +64,12 @@ def identity(n: int) -> Matrix:
 def unit(n: int, i: int, j: int) -> Matrix:
     """The n × n matrix with a single 1, at row i and column j (from 0)."""
     return tuple(tuple(Fraction((r, s) == (i, j)) for s in range(n)) for r in range(n))
+
+
+def bordered(a: Matrix, last: Matrix, corner: Any) -> Matrix:
+    """[[a, last], [0, corner]], for a column ``last``."""
+    rows = ((*row, x) for row, (x,) in zip(a, last, strict=True))
+    return (*rows, (*(corner * 0,) * len(a), corner))
 
 
 def plus(a: Matrix, b: Matrix) -> Matrix:

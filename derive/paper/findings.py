@@ -19,6 +19,7 @@ from typing import Any
 from ..algebra.families import group
 from ..check.equation_sides import difference
 from ..check.evaluate import Environment, evaluate
+from ..check.locus import Locus
 from ..check.meaning import environment
 from ..check.model import Model
 from ..check.trial_points import SIZE
@@ -144,7 +145,7 @@ def situation(
     """A random exact point of the paper's situation, with an arbitrary potential or none."""
     g = group(group_name)
     problem = {"name": "paper", "group": group_name, "action": g.action}
-    model = Model(problem, g, random, size, generic=forces, principal=principal, few=True)
+    model = Model(problem, g, random, size, Locus(principal), generic=forces, few=True)
     env = environment(model)
     numbered = len(model.points)  # a counterexample may name one
     names = ChainMap(_meaningless(model), env.names)  # type: ignore[arg-type]

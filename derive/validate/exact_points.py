@@ -20,6 +20,7 @@ from ..check.arithmetic import EvaluationError
 from ..check.equation_sides import largest_degree
 from ..check.evaluate import Environment, evaluate
 from ..check.grades import Degree, DegreeSource, degrees
+from ..check.locus import Locus
 from ..check.meaning import environment
 from ..check.model import Model
 from ..check.trial_points import TrialPoints
@@ -65,9 +66,10 @@ class Claims:
         self.group, self.state = group, StateChart(group.stated, chart)
 
     @cached_property
-    def driven(self) -> bool:
-        """Do the equations of motion have inputs or damping?"""
-        return any(s.driven for s in self.record.steps if s.label.endswith(".motion"))
+    def at(self) -> Locus:
+        """The motion, driven where its equations have inputs or damping."""
+        motions = (s for s in self.record.steps if s.label.endswith(".motion"))
+        return Locus(driven=any(s.driven for s in motions))
 
     @cached_property
     def inputs(self) -> tuple[str, ...]:
@@ -98,7 +100,7 @@ class Claims:
 
     def _point(self, seed: str, zero: tuple[str, ...]) -> Point:
         random, problem = Random(seed), self.record.problem
-        model = Model(problem, self.group, random, self.size, driven=self.driven, pi=PI, zero=zero)
+        model = Model(problem, self.group, random, self.size, self.at, pi=PI, zero=zero)
         env = environment(model)
         g_dot = self._whole(self._value("Ȧ", env), self._value("Ṫ", env))
         rates = self.state.rates(model.g, model.Z, g_dot, self._acceleration(env))
@@ -154,7 +156,7 @@ class Claims:
     @cached_property
     def _graded_model(self) -> Model:
         """A model of which the degrees alone are known."""
-        return Model(self.record.problem, self.group, DegreeSource(), self.size, driven=self.driven)
+        return Model(self.record.problem, self.group, DegreeSource(), self.size, self.at)
 
     @property
     def entry_degree(self) -> tuple[int, int]:
@@ -191,8 +193,7 @@ class Claims:
         if not self.group.affine:
             return tuple(linear)
         column = shift if isinstance(shift, tuple) else ((Fraction(0),),) * n
-        rows = tuple((*row, x) for row, (x,) in zip(linear, column, strict=True))
-        return (*rows, (Fraction(0),) * (n + 1))
+        return q.bordered(linear, column, Fraction(0))
 
 
 def _largest(found: Iterable[Degree]) -> tuple[int, int]:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from derive import Gravity, Group, Moments, Problem, derive
+from derive.check.locus import Locus
 from derive.check.model import Model
 from derive.code.assemble import assemble
 from derive.code.emit import emit
@@ -69,7 +70,7 @@ def test_code_against_points(name, seed):
     p = CASES[name]
     d, g = walk(p), p.group
     code = module(d, p)
-    model = Model(d.problem, g, Random(seed), 2, driven=bool(p.inputs))
+    model = Model(d.problem, g, Random(seed), 2, Locus(driven=bool(p.inputs)))
     n = g.n
     A = [float(x) for row in model.g[:n] for x in row[:n]]
     zeta = [float(x) for x in g.vee(model.Z)]

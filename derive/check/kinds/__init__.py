@@ -1,8 +1,8 @@
 """The checker's own account of each kind of potential: each module of this folder is one.
 
 Each has ``KIND``, its name, and ``energy(at, p, t, r, masses)``, U from the places of the points.
-Where the walk sums some of a kind up in words, ``summed(at, p)`` says which, and
-``values(model, members)`` what the letters of these are; where it has distances,
+Where the walk sums a kind up in words, ``values(model, members)`` says what its letters are, and
+``summed(at, p)`` which ones these are of, if not of all; where it has distances,
 ``radial(at, p, r, masses)`` gives each of them with U as a function of its square.
 ``OF_BODY_AXES``: it is of the axes of the body, whose ends are then points
 (``AppliedForces.body_axes``).

@@ -7,17 +7,11 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ..applied_forces import AppliedForces, Vector, column
+from ..applied_forces import AppliedForces, Vector
 from ..model import Model
 
 KIND, OF_BODY_AXES = "far_centre", True
 Data = Mapping[str, Any]
-
-
-def summed(at: AppliedForces, p: Data) -> bool:
-    """All of it."""
-    del at, p
-    return True
 
 
 def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
@@ -48,4 +42,4 @@ def values(model: Model, members: Sequence[Data]) -> dict[str, Any]:
     T = _seen(at, p, at.body_axes(model.moved(model.g))[0])
     R = at.root(q.dot(T, T))
     back = q.transposed(model.group.linear_part(model.g))
-    return {"T_b": q.times(back, column(T)), "W": 1 / R, "V": at.number(p["strength"]) / R}
+    return {"T_b": q.times(back, q.column(T)), "W": 1 / R, "V": at.number(p["strength"]) / R}

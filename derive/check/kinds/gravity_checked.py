@@ -7,17 +7,11 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ..applied_forces import AppliedForces, Vector, column
+from ..applied_forces import AppliedForces, Vector
 from ..model import Model
 
 KIND = "gravity"
 Data = Mapping[str, Any]
-
-
-def summed(at: AppliedForces, p: Data) -> bool:
-    """All of it."""
-    del at, p
-    return True
 
 
 def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
@@ -31,7 +25,7 @@ def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequ
 def values(model: Model, members: Sequence[Data]) -> dict[str, Any]:
     """γ, the sum of all."""
     ex = model.applied
-    whole = [column(model.group.in_every_block(ex.vector(p["g"]))) for p in members]
+    whole = [q.column(model.group.in_every_block(ex.vector(p["g"]))) for p in members]
     total = whole[0]
     for x in whole[1:]:
         total = q.plus(total, x)

@@ -7,9 +7,9 @@ from fractions import Fraction
 from typing import Any
 
 from ...language import rational as q
-from ...language.rational import Matrix
-from ..applied_forces import AppliedForces, Distance, Vector, column
+from ..applied_forces import AppliedForces, Distance, Vector
 from ..model import Model
+from ..point_masses import outer_sum, scaled_each
 
 KIND = "spring"
 Data = Mapping[str, Any]
@@ -57,20 +57,18 @@ def _stretch(at: AppliedForces, p: Data, square: Any) -> Any:
 
 def values(model: Model, members: Sequence[Data]) -> dict[str, Any]:
     """K = Σ k_e s_e s̄_e."""
-    K = q.scaled(Fraction(0), q.identity(model.n))
-    for k, s in _ends(model, members):
-        K = q.plus(K, q.scaled(k, q.times(s, q.transposed(s))))
-    return {"K": K}
+    strengths, ends = zip(*_ends(model, members), strict=True)
+    return {"K": outer_sum(scaled_each(strengths, ends), ends)}
 
 
 def families(model: Model, members: Sequence[Data]) -> dict[str, dict[tuple[int, ...], Any]]:
     """k_e and s_e."""
     pairs = [*enumerate(_ends(model, members), 1)]
-    return {"k": {(e,): k for e, (k, _) in pairs}, "s": {(e,): s for e, (_, s) in pairs}}
+    return {"k": {(e,): k for e, (k, _) in pairs}, "s": {(e,): q.column(s) for e, (_, s) in pairs}}
 
 
-def _ends(model: Model, members: Sequence[Data]) -> Iterator[tuple[Fraction, Matrix]]:
+def _ends(model: Model, members: Sequence[Data]) -> Iterator[tuple[Fraction, Vector]]:
     for p in members:
         i, j = p["between"]
         ends = zip(model.points[i - 1], model.points[j - 1], strict=True)
-        yield model.applied.number(p["stiffness"]), column(a - b for a, b in ends)
+        yield model.applied.number(p["stiffness"]), tuple(a - b for a, b in ends)

@@ -10,15 +10,10 @@ from ...language import rational as q
 from ..applied_forces import AppliedForces, Vector
 from ..model import Model
 from ..nilpotent import ETA, Nilpotent, nilpotent
+from ..rigid_body import axial
 
 KIND, OF_BODY_AXES = "torsion", True
 Data = Mapping[str, Any]
-
-
-def summed(at: AppliedForces, p: Data) -> bool:
-    """All of it."""
-    del at, p
-    return True
 
 
 def energy(at: AppliedForces, p: Data, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
@@ -51,6 +46,5 @@ def values(model: Model, members: Sequence[Data]) -> dict[str, Any]:
     N = tuple(tuple(work(i, j) for j in range(n)) for i in range(n))
     found = {"k_A": sum((at.number(p["stiffness"]) for p in members), Fraction(0)), "N_A": N}
     if n == 3:
-        vector = (N[2][1] - N[1][2], N[0][2] - N[2][0], N[1][0] - N[0][1])
-        found["μ_A"] = tuple((x,) for x in vector)
+        found["μ_A"] = axial(q.minus(N, q.transposed(N)))
     return found
