@@ -58,7 +58,7 @@ class Label:
     def latex(self) -> str:
         """The label in LaTeX, without dollars."""
         if self.name:
-            return parameter(shortened(self.base)).replace(r"\text{", r"\mbox{")  # no amsmath
+            return parameter(shortened(self.base)).tex.replace(r"\text{", r"\mbox{")  # no amsmath
         base = SYMBOLS.get(self.base, self.base)
         return f"{base}_{{{self.index}}}" if self.index else base
 

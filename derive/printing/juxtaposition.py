@@ -10,15 +10,13 @@ from ..language.show import ATOM, SUM
 from ..language.tree import Tree
 from .typeset import BEFORE_FACTOR, Formula, fraction, literal
 
-NOTHING, SPACE, THIN = Formula(""), Formula(" "), literal(r"\,")
-BREAK = literal(BEFORE_FACTOR)
-DOT = BREAK + SPACE + literal(r"\cdot") + SPACE
+SPACE, THIN, DOT = literal(" "), literal(r"\,"), literal(rf"{BEFORE_FACTOR} \cdot ")
 
 
 def number(q: int | Fraction) -> tuple[Formula, int]:
     """A number and how tightly it holds together; a small fraction is set small."""
     level = ATOM if q >= 0 else SUM
-    sign = NOTHING if q > 0 else literal("-")
+    sign = literal("" if q > 0 else "-")
     if isinstance(q, int) or q.denominator == 1:
         return literal(str(int(q))), level
     size = "tfrac" if abs(q.numerator) < 100 and q.denominator < 100 else "frac"
@@ -53,4 +51,4 @@ def separator(left: Tree, right: Tree) -> Formula:
     if _simple(left) and _simple(right):
         named = [isinstance(x, tuple) and x[0] == "par" for x in (left, right)]
         return THIN if any(named) else SPACE
-    return BREAK + THIN
+    return literal(BEFORE_FACTOR) + THIN

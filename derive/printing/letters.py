@@ -9,6 +9,7 @@ from ..language.greek import GREEK
 from ..record.record import Symbol
 from ..record.vocabulary import VOCABULARY
 from .escape import tex_text
+from .typeset import Formula, literal, lowered, sans, text
 
 NAMES = {name: x.latex for name, x in VOCABULARY.items()}
 HARMLESS = re.compile(
@@ -27,26 +28,26 @@ def names_of(symbols: Iterable[Symbol], parameters: Collection[str] = ()) -> dic
     own = {s.name: s.latex for s in symbols if HARMLESS.fullmatch(s.latex)}
     ends = {p: re.fullmatch(r"([A-Za-z]+)([0-9]{1,3})", p) for p in parameters}
     alike = [p for p, end in ends.items() if end and f"{end[1]}_{end[2]}" in parameters]
-    return NAMES | own | {f"par {p}": rf"\mathsf{{{p}}}" for p in alike}
+    return NAMES | own | {f"par {p}": p for p in alike}
 
 
-def parameter(name: str, names: Mapping[str, str] = NAMES) -> str:
-    """The LaTeX of a parameter, sans serif; a short end after _, or digits, is an index."""
+def parameter(name: str, names: Mapping[str, str] = NAMES) -> Formula:
+    """The formula of a parameter, sans serif; a short end after _, or digits, is an index."""
     if f"par {name}" in names:
-        return names[f"par {name}"]
+        return sans(name, name)
     match = re.fullmatch(r"([A-Za-z][A-Za-z0-9]*)_([A-Za-z0-9]{1,3})", name) or re.fullmatch(
         r"([A-Za-z]+)([0-9]{1,3})", name
     )
     if match:
-        return rf"{_base(match[1])}_{{\mathsf{{{match[2]}}}}}"
+        return lowered(_base(match[1]), sans(match[2], match[2]))
     if name in GREEK:
         return _base(name)
     if re.fullmatch(r"[A-Za-z0-9_]+", name):
-        return rf"\mathsf{{{name.replace('_', chr(92) + '_')}}}"
-    return rf"\text{{\textsf{{{tex_text(name)}}}}}"
+        return sans(name.replace("_", r"\_"), name)
+    return text(rf"\text{{\textsf{{{tex_text(name)}}}}}", name)
 
 
-def _base(word: str) -> str:
+def _base(word: str) -> Formula:
     """A word sans serif; a Greek letter as itself, where the walk gives it no meaning."""
     free = word in GREEK and GREEK[word] not in VOCABULARY
-    return rf"\{word}" if free else rf"\mathsf{{{word}}}"
+    return literal(rf"\{word}") if free else sans(word, word)

@@ -14,7 +14,6 @@ from .typeset import (
     literal,
     lowered,
     primed,
-    sans,
     upright,
 )
 
@@ -44,10 +43,15 @@ def named(tex: str) -> Formula:
             letter = barred(letter, "", BARS, letter=True)
         else:
             letter = accented(name, letter, "")
-    whole = _lead(found["lead"]) + primed(letter, len(found["primes"]))
-    if found["below"]:
-        whole = lowered(whole, literal(found["below"].strip("_{}")))
-    return Formula(tex, whole.items)
+    return _whole(tex, found["lead"], letter, found["primes"], found["below"])
+
+
+def _whole(tex: str, lead: str, letter: Formula, primes: str, below: str) -> Formula:
+    """What this LaTeX is: a letter with what stands before it, its primes and its index."""
+    found = _lead(lead) + primed(letter, len(primes))
+    if below:
+        found = lowered(found, literal(below.strip("_{}")))
+    return Formula(tex, found.items)
 
 
 def _lead(tex: str) -> Formula:
@@ -59,44 +63,18 @@ def _lead(tex: str) -> Formula:
     return primed(literal(r"\delta"), tex.count("'")) if tex else Formula("")
 
 
-BARRED = re.compile(r"((?:\\delta'?\s*)?)\\(bar|overline)\{(.*?)\}('*)((?:_.+)?)")
-
-
-def bar(tex: str) -> str:
-    """The LaTeX of a transposed name: the bar is over its letter, not over its prime or index."""
-    match = re.fullmatch(r"((?:\\delta'?\s*)?)(\\[a-z]+|[A-Za-z])('*)((?:_.+)?)", tex)
-    if match:
-        return rf"{match[1]}\bar{{{match[2]}}}{match[3]}{match[4]}"
-    match = re.fullmatch(r"(\\delta'?\s*)(\\[a-z]+\s*(?:\\[a-z]+|[A-Za-z]))", tex)
-    prefix, core = (match[1], match[2]) if match else ("", tex)
-    return rf"{prefix}\overline{{{core}}}"
+SINGLE = re.compile(r"(\\delta'?\s*|)(\\[a-z]+|[A-Za-z])('*)(_.+|)")
+ACCENTED = re.compile(r"(\\delta'?\s*|)(\\[a-z]+\s*(?:\\[a-z]+|[A-Za-z]))()()")
 
 
 @lru_cache(1024)
 def transposed(tex: str, notation: Notation) -> Formula:
-    """The formula of the transpose of a name: a bar over its letter."""
-    whole = bar(tex)
-    lead, kind, inside, primes, below = BARRED.fullmatch(whole).groups()  # type: ignore[union-attr]
-    single = kind == "bar" or re.fullmatch(r"\\[A-Za-z]+", inside) is not None
-    letter = barred(named(inside), "", notation, letter=single)
-    found = _lead(lead) + primed(letter, len(primes))
-    if below:
-        found = lowered(found, literal(below.strip("_{}")))
-    return Formula(whole, found.items)
-
-
-def parameter_formula(tex: str) -> Formula:
-    """The formula of a parameter, from its LaTeX."""
-    found = re.fullmatch(r"(\\mathsf\{(.*?)\}|\\[A-Za-z]+)(?:_\{\\mathsf\{(.*?)\}\})?", tex)
-    if found is None:
-        words = re.sub(r"\\[a-z]+\{\}|\\[a-z]+|[\\{}]", "", tex[6:-1])
-        return Formula(tex, (f"<mtext>{words}</mtext>",))
-    base, inside, below = found.groups()
-    shown = literal(base) if inside is None else _sans(inside)
-    if below:
-        shown = lowered(shown, _sans(below))
-    return Formula(tex, shown.items)
-
-
-def _sans(inside: str) -> Formula:
-    return sans(inside, inside.replace(r"\_", "_"))
+    """The formula of a transposed name: a bar over its letter, not over its prime or index."""
+    single = SINGLE.fullmatch(tex)
+    parts = single or ACCENTED.fullmatch(tex)
+    lead, inside, primes, below = parts.groups() if parts else ("", tex, "", "")
+    alone = single is not None or re.fullmatch(r"\\[A-Za-z]+", inside) is not None
+    over = "bar" if single else "overline"
+    letter = barred(named(inside), "", notation, letter=alone)
+    whole = rf"{lead}\{over}{{{inside}}}{primes}{below}"
+    return _whole(whole, lead, letter, primes, below)

@@ -20,7 +20,7 @@ from .juxtaposition import number, outside, separator
 from .letters import NAMES, parameter
 from .line_breaking import Piece, fill
 from .notation import Notation
-from .spelling import named, parameter_formula, transposed
+from .spelling import named, transposed
 from .typeset import (
     AFTER_COMMA,
     BEFORE_FACTOR,
@@ -115,7 +115,7 @@ def joined(parts: list[Formula], between: Formula) -> Formula:
     return reduce(lambda a, b: a + between + b, parts)
 
 
-COMMA_SPACE = literal(f",{AFTER_COMMA}") + Formula(" ")
+COMMA_SPACE = literal(f",{AFTER_COMMA} ")
 
 
 class FormulaPrinter:
@@ -163,11 +163,9 @@ class FormulaPrinter:
         out = Formula("")
         for k, (sign, term) in enumerate(terms):
             f, level = self.product(term)
-            lead = literal("-") if sign == "−" else Formula("")
-            if k:
-                lead = literal(BEFORE_TERM) + Formula(" ") + literal("-" if lead.tex else "+")
-                lead += Formula(" ")
-            out += lead + (paren(f) if level == SUM else f)
+            mark = "-" if sign == "−" else "+"
+            lead = f"{BEFORE_TERM} {mark} " if k else mark.strip("+")
+            out += literal(lead) + (paren(f) if level == SUM else f)
         return out, PRODUCT if len(terms) == 1 and terms[0][0] == "+" else SUM
 
     def product(self, t: Tree) -> Shown:
@@ -238,14 +236,14 @@ class FormulaPrinter:
         """A fraction; one too wide for its line is written with a stroke."""
         above, below = self.bare(a).plain(), self.bare(b).plain()
         if max(measure(above.tex), measure(below.tex)) > ENTRY_WIDTH:
-            stroke = literal(BEFORE_FACTOR) + Formula(" ") + literal("/") + Formula(" ")
+            stroke = literal(f"{BEFORE_FACTOR} / ")
             return self.atom(a) + stroke + self.atom(b), PRODUCT
         return fraction(above, below)
 
     def op_inner(self, a: Tree, b: Tree) -> Formula:
         """The scalar product ⟨a, b⟩."""
-        open_ = literal(r"\langle") + Formula(" ")
-        return open_ + self.bare(a) + COMMA_SPACE + self.bare(b) + literal(r"\rangle")
+        both = self.bare(a) + COMMA_SPACE + self.bare(b)
+        return literal(r"\langle ") + both + literal(r"\rangle")
 
     def op_metric(self, m: Tree, a: Tree, b: Tree) -> Formula:
         """The scalar product ⟨a, b⟩_m of a metric."""
@@ -259,7 +257,7 @@ class FormulaPrinter:
     def norm(self, a: Tree) -> Formula:
         """The norm ‖a‖; where a has such strokes in itself, it is in parentheses."""
         inside = paren(self.bare(a)) if has_norm(a) else self.bare(a)
-        return literal(r"\lVert") + Formula(" ") + inside + literal(r"\rVert")
+        return literal(r"\lVert ") + inside + literal(r"\rVert")
 
     def op_fun(self, name: str, a: Tree) -> Shown | Formula:
         """An elementary function; the root of ‖a‖² is ‖a‖."""
@@ -285,8 +283,7 @@ class FormulaPrinter:
         for x in (a, b):
             f, level = self.show(x)
             sides.append(paren(f) if level == SUM or swallows(x) else f)
-        wedge = literal(BEFORE_WEDGE) + Formula(" ") + literal(r"\wedge") + Formula(" ")
-        return sides[0] + wedge + sides[1], PRODUCT
+        return joined(sides, literal(rf"{BEFORE_WEDGE} \wedge ")), PRODUCT
 
     def op_hat(self, a: Tree) -> Formula:
         """The skew matrix j(a) of a vector."""
@@ -319,7 +316,7 @@ class FormulaPrinter:
         if f == "∫":
             body = Formula("") if arguments[0] == 1 else self.bare(arguments[0])
             end = literal(r"\,") + upright("d") + literal("m")
-            return literal(r"\int") + Formula(" ") + body + end, PRODUCT
+            return literal(r"\int ") + body + end, PRODUCT
         lead = self.atom(f)
         simple = len(arguments) == 1 and self.show(arguments[0])[1] == ATOM
         if f in VARIATIONS and simple:
@@ -328,9 +325,7 @@ class FormulaPrinter:
 
     def op_par(self, name: Tree) -> Formula:
         """A parameter, by its own name."""
-        if isinstance(name, str):
-            return parameter_formula(parameter(name, self.names))
-        return self.bare(name)
+        return parameter(name, self.names) if isinstance(name, str) else self.bare(name)
 
     def op_matrix(self, *rows: Tree) -> Formula:
         """A matrix of rows; a row that is no ``row`` is one entry."""

@@ -178,9 +178,8 @@ def upright(letter: str) -> Formula:
 
 def sans(tex: str, shown: str) -> Formula:
     """A parameter of the user, sans serif."""
-    return Formula(
-        rf"\mathsf{{{tex}}}", (f'<mi mathvariant="normal" class="parameter">{escape(shown)}</mi>',)
-    )
+    markup = f'<mi mathvariant="normal" class="parameter">{escape(shown)}</mi>'
+    return Formula(rf"\mathsf{{{tex}}}", (markup,))
 
 
 IDENTITY = Formula(r"\mathbf{1}", ('<mn class="bold">1</mn>',))
@@ -192,20 +191,18 @@ def group(f: Formula) -> Formula:
     return Formula(f"{{{f.tex}}}", (one(f.row()),))
 
 
-def lowered(f: Formula, index: Formula, tex: str | None = None) -> Formula:
-    """The formula with an index at its last element; ``tex``: the LaTeX of the index."""
-    index = index.plain()
-    last = _last(f)
+def lowered(f: Formula, index: Formula) -> Formula:
+    """The formula with an index at its last element."""
+    index, last = index.plain(), _last(f)
     items = (*f.items[:-1], last._replace(below=last.below + index.row()))
-    return Formula(f.tex + (f"_{{{index.tex}}}" if tex is None else tex), items)
+    return Formula(f"{f.tex}_{{{index.tex}}}", items)
 
 
-def raised(f: Formula, exponent: Formula, tex: str | None = None) -> Formula:
-    """The formula with an exponent at its last element; ``tex``: the LaTeX of the exponent."""
-    exponent = exponent.plain()
-    last = _last(f)
+def raised(f: Formula, exponent: Formula) -> Formula:
+    """The formula with an exponent at its last element."""
+    exponent, last = exponent.plain(), _last(f)
     items = (*f.items[:-1], last._replace(above=last.above + exponent.row()))
-    return Formula(f.tex + (f"^{{{exponent.tex}}}" if tex is None else tex), items)
+    return Formula(f"{f.tex}^{{{exponent.tex}}}", items)
 
 
 def primed(f: Formula, count: int = 1) -> Formula:

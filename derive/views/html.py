@@ -50,7 +50,7 @@ LONG = 0.4 * ROOM
 
 Fields = dict[str, Any]
 """What a template shows, by name."""
-EQUALS = Formula(" ") + literal("=") + Formula(" ")
+EQUALS = literal(" = ")
 CONTINUATION: Fields = {"id": "", "number": "", "long": False, "cells": (), "clause": "", "tex": ""}
 """The fields of a line that belongs to the equation above it."""
 

@@ -263,7 +263,7 @@ def _names(part: BookPart, names: Mapping[str, str], language: Language) -> Iter
         meaning = prose(language.of(symbol.meaning))
         yield rf"\walkname{{{latex_tree(symbol.name, names)}}}{{{meaning}}}"
     for run, meaning, unit in parameters(part.record, language):
-        shown = ", ".join(parameter(x, names) for x in run)
+        shown = ", ".join(parameter(x, names).tex for x in run)
         yield rf"\walkname{{{shown}}}{{{tex_text(meaning)}{f' [{_unit(unit)}]' if unit else ''}}}"
 
 

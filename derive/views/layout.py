@@ -125,14 +125,14 @@ def quantifier(
     """For which names the equation holds: every one, or some; empty where nothing is said."""
 
     def listed(these: Sequence[str]) -> Formula:
-        return joined([formula(x, names, notation) for x in these], literal(",") + Formula(" "))
+        return joined([formula(x, names, notation) for x in these], literal(", "))
 
     clauses = []
     if over := quantified(e):
         shown, space = listed(over), domain(over)
         shown = paren(shown) if len(over) > 1 and space else shown
         if space:
-            shown += Formula(" ") + literal(r"\in") + Formula(" ") + spelt(space)
+            shown += literal(r" \in ") + spelt(space)
         clauses.append(words[0] + shown)
     if e.exists:
         clauses.append(words[1] + listed(e.exists))

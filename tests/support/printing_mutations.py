@@ -35,8 +35,7 @@ MUTATIONS = {
         SHOW, "return base + index.translate(SUBSCRIPTS)",
         "return base + index[:2].translate(SUBSCRIPTS)"),
     "LaTeX: x_123 shown as x_12": (
-        LETTERS, r'{_base(match[1])}_{{\mathsf{{{match[2]}}}}}',
-        r'{_base(match[1])}_{{\mathsf{{{match[2][:2]}}}}}'),
+        LETTERS, "sans(match[2], match[2])", "sans(match[2][:2], match[2])"),
     "text: a sum as a factor without brackets": (
         SHOW, "if level == SUM or inside or (text and _spread(f)) else shown",
         "if inside or (text and _spread(f)) else shown"),
@@ -85,7 +84,7 @@ MUTATIONS = {
         TREES, "return self.atom(a) + stroke + self.atom(b), PRODUCT",
         "return self.atom(b) + stroke + self.atom(a), PRODUCT"),
     "trees: a minus lost": (
-        TREES, 'lead = literal("-") if sign == "−" else Formula("")', 'lead = Formula("")'),
+        TREES, 'mark = "-" if sign == "−" else "+"', 'mark = "+"'),
     "trees: a sum as a factor without brackets": (
         TREES, "if level == SUM or inside or wedge:", "if inside or wedge:"),
     "trees: a trace that takes in the next factor": (
@@ -100,8 +99,7 @@ MUTATIONS = {
         TREES, 'return paren(f) if SCRIPTED.search(outside(f.tex)) or (over and f.tex[0] != "(") '
         "else f", "return f"),
     "trees: ∧ turned round": (
-        TREES, "return sides[0] + wedge + sides[1], PRODUCT",
-        "return sides[1] + wedge + sides[0], PRODUCT"),
+        TREES, "return joined(sides, literal(", "return joined(sides[::-1], literal("),
     "trees: the wrong power of a function": (TREES, "literal(str(n)))", 'literal("2"))'),
     "trees: an entry of a matrix lost": (
         TREES, "return [_stacked(self.bare(x)) for x in row[1:]]",
@@ -114,7 +112,7 @@ MUTATIONS = {
     "LaTeX: a fraction upside down": (
         TYPESET, r"\frac{{{a.tex}}}{{{b.tex}}}", r"\frac{{{b.tex}}}{{{a.tex}}}"),
     "LaTeX: an exponent lost": (
-        TYPESET, 'f"^{{{exponent.tex}}}" if tex is None', '"" if tex is None'),
+        TYPESET, 'f"{f.tex}^{{{exponent.tex}}}"', "f.tex"),
     "LaTeX: a root of nothing": (TYPESET, r"\sqrt{{{f.tex}}}", r"\sqrt{{}}"),
     "MathML: index and exponent exchanged": (
         TYPESET, "{one(self.below)}{one(above)}</msubsup>",
@@ -138,10 +136,10 @@ MUTATIONS = {
     "MathML: rows run together": (
         TYPESET, 'body = "".join(f"<mtr>{x}</mtr>" for x in cells)', 'body = "".join(cells)'),
     "names: the prefix of a variation lost": (
-        NAMES, 'whole = _lead(found["lead"]) + primed(', "whole = primed("),
+        NAMES, 'return _whole(tex, found["lead"], letter', 'return _whole(tex, "", letter'),
     "names: an index lost under a bar": (
-        NAMES, "found = _lead(lead) + primed(letter, len(primes))\n    if below:",
-        "found = _lead(lead) + primed(letter, len(primes))\n    if False:"),
+        NAMES, "return _whole(whole, lead, letter, primes, below)",
+        'return _whole(whole, lead, letter, primes, "")'),
 }  # fmt: skip
 """What is changed → the module, its source, and what stands there instead."""
 

@@ -51,9 +51,9 @@ def test_a_name_is_marked_only_where_it_would_be_read_as_another():
     assert marked == {"ab", "ac", "J", "d_11", "j", "Tr"}
     assert unclear(letters, {"ab", "a", "k"}, symbolic=False) == set()
     names = names_of((), ("x1", "x_1", "y2"))
-    assert parameter("x1", names) == r"\mathsf{x1}"
-    assert parameter("x_1", names) == parameter("x1") == r"\mathsf{x}_{\mathsf{1}}"
-    assert parameter("y2", names) == r"\mathsf{y}_{\mathsf{2}}"
+    assert parameter("x1", names).tex == r"\mathsf{x1}"
+    assert parameter("x_1", names).tex == parameter("x1").tex == r"\mathsf{x}_{\mathsf{1}}"
+    assert parameter("y2", names).tex == r"\mathsf{y}_{\mathsf{2}}"
 
 
 @pytest.fixture(scope="module")

@@ -16,7 +16,8 @@ from derive.pipeline import walk
 from derive.printing.escape import markdown_text, prose, tex_text
 from derive.printing.letters import names_of, parameter
 from derive.printing.line_breaking import Piece, display_width, fill
-from derive.printing.spelling import bar
+from derive.printing.notation import Notation
+from derive.printing.spelling import transposed
 from derive.printing.tex import latex_tree
 from derive.problem.toml import load
 from derive.record.record import Derivation, Equation, Step, Symbol
@@ -206,16 +207,16 @@ def test_prose_has_its_formulas_between_dollars() -> None:
 
 
 def test_parameters_keep_their_own_names() -> None:
-    assert parameter("J_11") == r"\mathsf{J}_{\mathsf{11}}"
-    assert parameter("k12") == r"\mathsf{k}_{\mathsf{12}}"
-    assert parameter("mass_of_rod") == r"\mathsf{mass\_of\_rod}"
+    assert parameter("J_11").tex == r"\mathsf{J}_{\mathsf{11}}"
+    assert parameter("k12").tex == r"\mathsf{k}_{\mathsf{12}}"
+    assert parameter("mass_of_rod").tex == r"\mathsf{mass\_of\_rod}"
 
 
 def test_bars_stand_over_the_letter() -> None:
-    assert bar(r"\xi'") == r"\bar{\xi}'"
-    assert bar(r"\delta' A") == r"\delta' \bar{A}"
-    assert bar("N_b") == r"\bar{N}_b"
-    assert bar(r"\dot\alpha") == r"\overline{\dot\alpha}"
+    assert transposed(r"\xi'", Notation()).tex == r"\bar{\xi}'"
+    assert transposed(r"\delta' A", Notation()).tex == r"\delta' \bar{A}"
+    assert transposed("N_b", Notation()).tex == r"\bar{N}_b"
+    assert transposed(r"\dot\alpha", Notation()).tex == r"\overline{\dot\alpha}"
 
 
 @pytest.mark.parametrize(
