@@ -88,6 +88,10 @@ class Group:
         """The n × n block of a matrix of the group or of its algebra."""
         return tuple(row[: self.n] for row in e[: self.n])
 
+    def translation_part(self, e: Matrix) -> Matrix:
+        """The last column of such a matrix of an affine group, of n rows."""
+        return tuple((row[self.n],) for row in e[: self.n])
+
     @cached_property
     def linear_basis(self) -> tuple[Matrix, ...]:
         """A basis of the linear parts of 𝔤: the linear parts of the basis, without those that

@@ -64,7 +64,7 @@ class _Map:
             rate = q.times(self.S, q.times(x.rate, self.back))
             return [*x.entries(element), *x.entries(rate)]
         Z = q.times(q.times(self.h, x.hat(x.coordinates)), self.back)
-        velocity = [x.read(a, Z) for a in range(x.group.dimension)]
+        velocity = x.read(Z)
         if not x.quaternion:
             return [*x.entries(element), *velocity]
         left, right = self.quaternions
@@ -91,9 +91,5 @@ def _inputs(frame: PrincipalFrame, there: _Map, scale: Node) -> list[Node]:
 
 def _coadjoint(x: StateSpace, there: _Map, u: list[Node]) -> list[Node]:
     """The covector in the other frame: u″_a = Σ u_b (h⁻¹ E_a h)^b."""
-    g = x.graph
-    found = []
-    for a in range(x.group.dimension):
-        moved = q.times(q.times(there.back, x.member(a)), there.h)
-        found.append(g.sum(g.product((y, x.read(b, moved))) for b, y in enumerate(u)))
-    return found
+    moved = (q.times(q.times(there.back, x.member(a)), there.h) for a in range(x.group.dimension))
+    return [q.dot(u, x.read(e)) for e in moved]

@@ -13,6 +13,7 @@ from ..language import rational as q
 from ..language.greek import SPELT
 from ..language.show import show
 from ..record.tree_data import decode
+from .heading import signed_entries
 from .options import Options
 
 
@@ -100,12 +101,7 @@ def _relations(kept: Relations, mark: str) -> Iterator[str]:
         yield f"{A}^T {A} = mu 1" if kept.conformal else f"{A}^T {A} = 1"
     elif kept.form:
         law = f"{A}^T {S} {A} = {'mu ' if kept.conformal else ''}{S}"
-        entries = (
-            f"{'+' if x > 0 else '-'} {'' if abs(x) == 1 else f'{abs(x)} '}e_{i}{j}"
-            for i, row in enumerate(kept.form, 1)
-            for j, x in enumerate(row, 1)
-            if x
-        )
+        entries = map(" ".join, signed_entries(kept.form))
         yield f"{law} with {S} = {' '.join(entries).removeprefix('+ ')}"
     if kept.determinant:
         yield f"det {A} = 1{' over the complex numbers' if kept.complex_basis else ''}"

@@ -78,5 +78,4 @@ def _looked_through(graph: Graph, terms: Sequence[Term]) -> Node:
         inner = x.args[0] if x.op == "value" else x
         opened.append((c, inner if inner.op == "add" else x))
     whole = graph.linear(opened)
-    core = whole.args[0] if whole.op == "add" and len(whole.args) == 1 else whole
-    return whole if core.is_atom else graph.linear(terms)
+    return whole if whole.split[1].is_atom else graph.linear(terms)

@@ -126,7 +126,7 @@ def _numeric(x: Node, parent: Node) -> bool:
 
 def _is_scaled(x: Node) -> bool:
     """Is it a product with a factor of the parameters alone, or a number times one?"""
-    core = x.args[0] if x.op == "add" and len(x.args) == 1 else x
+    _, core = x.split
     return core.op == "mul" and core.args[0].stage == PARAMETER
 
 

@@ -69,6 +69,13 @@ class Node:
         return self.op == "num" and self.data == 0
 
     @property
+    def split(self) -> tuple[Fraction, Node]:
+        """The node as rational · node."""
+        if self.op == "add" and len(self.args) == 1:
+            return self.data[0], self.args[0]
+        return Fraction(1), self
+
+    @property
     def is_atom(self) -> bool:
         """A number or a leaf: nothing to compute."""
         return self.op in ("num", "leaf")
@@ -123,7 +130,7 @@ class Graph:
             raise ZeroDivisionError("1/0 in the equations of this problem")
         if x.op == "num":
             return self.num(1 / x.data)
-        coefficient, core = self._split(x)
+        coefficient, core = x.split
         return self.linear([(1 / coefficient, self._intern("recip", None, (core,), core.stage))])
 
     def function(self, name: str, x: Node) -> Node:
@@ -227,18 +234,12 @@ class Graph:
         args = tuple(x for _, x in parts)
         return self._intern("add", coefficients, args, max(x.stage for x in args))
 
-    def _split(self, x: Node) -> tuple[Fraction, Node]:
-        """A node x as (rational, node) whose product is x."""
-        if x.op == "add" and len(x.args) == 1:
-            return x.data[0], x.args[0]
-        return Fraction(1), x
-
     def product(self, nodes: Iterable[Node]) -> Node:
         """The product of the nodes, flattened; what depends on parameters alone is one factor."""
         coefficient = Fraction(1)
         factors: list[Node] = []
         for x in nodes:
-            k, core = self._split(x)
+            k, core = x.split
             coefficient *= k
             if core.op == "num":
                 coefficient *= core.data

@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Mapping, Sequence
 
+from ..language.rational import Matrix
 from .languages import TargetLanguage
 from .program import Program
 
@@ -49,13 +50,15 @@ def listed(before: str, names: Sequence[str], after: str, width: int) -> list[st
 
 def basis_lines(p: Program) -> list[str]:
     """E_1, E_2, … in one line each: the entries that are not zero, counted from 1."""
-    lines = []
-    for a, e in enumerate(p.basis, 1):
-        entries = [
-            f"{'+' if x > 0 else '-'}{'' if abs(x) == 1 else str(abs(x)) + ' '}e_{i}{j}"
-            for i, row in enumerate(e, 1)
-            for j, x in enumerate(row, 1)
-            if x
-        ]
-        lines.append(f"E_{a} = {' '.join(entries)}")
-    return lines
+    sums = (" ".join(map("".join, signed_entries(e))) for e in p.basis)
+    return [f"E_{a} = {text}" for a, text in enumerate(sums, 1)]
+
+
+def signed_entries(m: Matrix) -> list[tuple[str, str]]:
+    """The sign and the size of each entry that is not zero, as a multiple of e_ij."""
+    return [
+        ("+" if x > 0 else "-", f"{'' if abs(x) == 1 else f'{abs(x)} '}e_{i}{j}")
+        for i, row in enumerate(m, 1)
+        for j, x in enumerate(row, 1)
+        if x
+    ]

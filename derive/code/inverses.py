@@ -152,8 +152,8 @@ class Inverses:
         """
         g, base = self.graph, name_of(t)
         adjugate = self.reader.entries(dense.adjugate(g, value), f"adj_{base}")
-        row = [(x, adjugate[j][0]) for j, x in enumerate(value[0])]
-        det = g.value(g.sum(g.product(pair) for pair in row), f"det_{base}", self.reader.label)
+        det = q.dot(value[0], [row[0] for row in adjugate])
+        det = g.value(det, f"det_{base}", self.reader.label)
         if dense.stage_of(value) != PARAMETER:
             self._check_pivots(t, value, [])
         scale = g.value(g.recip(det), f"inv_det_{base}", self.reader.label)
@@ -180,12 +180,8 @@ class Inverses:
 
     def _unit_determinant(self, t: Tree) -> bool:
         """Is it A or C = ĀA, in a record that says det A = 1?"""
-        unimodular = any(
-            e.lhs == ("det", "A") and e.rhs == 1
-            for s in self.reader.record.steps
-            for e in s.equations
-        )
-        return unimodular and t in ("A", "C")
+        equations = self.reader.equations
+        return t in ("A", "C") and any((e.lhs, e.rhs) == (("det", "A"), 1) for _, e in equations)
 
 
 def _positive(x: object) -> bool:

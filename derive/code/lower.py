@@ -159,7 +159,7 @@ class Lowering:
         found = self.record.definition(metric)
         inside = untraced(found[1].rhs) if found else None
         light = q.scaled(-1, self._matrix(inside)) if inside else m
-        if all(x.is_zero for i, row in enumerate(m) for j, x in enumerate(row) if i != j):
+        if dense.is_diagonal(m):
             return q.times(light, self._matrix(vector))  # (M_j − M_k) x_j x_k, unnamed
         rows = tuple(
             tuple(x - light[2][2] if i == j else x for j, x in enumerate(row))

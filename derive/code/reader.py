@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
+from functools import cached_property, partial
 
 from ..algebra.groups import Group
 from ..language import rational as q
@@ -121,6 +121,11 @@ class RecordReader:
 
     # -- names -------------------------------------------------------------------------------
 
+    @cached_property
+    def equations(self) -> list[tuple[Step, Equation]]:
+        """The equations of the record, in order, each with its step."""
+        return [(step, e) for step in self.record.steps for e in step.equations]
+
     def name(self, name: str) -> Value:
         """The value of a name: of an input, or by the last equation that defines it."""
         if name in self.state:
@@ -137,7 +142,7 @@ class RecordReader:
 
     def _kept(self, C: Matrix) -> Matrix:
         """C with 1 for what it is on the images of 𝔤, where the record has ξ̄CZ = ξ̄Z."""
-        if not any(e == DROPPED for step in self.record.steps for e in step.equations):
+        if not any(e == DROPPED for _, e in self.equations):
             return C
         images = tuple(column for e in self.group.basis for column in q.transposed(e))
         rank, one = q.rank(images), q.identity(self.n)
@@ -152,11 +157,10 @@ class RecordReader:
 
     def _entries(self, name: str) -> Matrix:
         """A vector or matrix that the record defines entry by entry, for any indices."""
-        for step in self.record.steps:
-            for e in step.equations:
-                if isinstance(e.lhs, tuple) and e.lhs[:2] == ("entry", name):
-                    indices = [i for i in e.lhs[2:] if isinstance(i, str)]
-                    if len(indices) == len(e.lhs) - 2:
+        for step, e in self.equations:
+            match e.lhs:
+                case ("entry", head, *indices) if head == name:
+                    if all(isinstance(i, str) for i in indices):
                         return self._table(name_of(name), step, e, indices)
         raise LoweringError(f"the record does not define {name!r}")
 
@@ -235,8 +239,7 @@ class RecordReader:
         }
         found = {
             (e.lhs[1], e.lhs[2])
-            for step in self.record.steps
-            for e in step.equations
+            for _, e in self.equations
             if isinstance(e.lhs, tuple) and e.lhs[0] == "at" and isinstance(e.lhs[2], int)
         }
         listed = [{i for name, i in found if name == family} for family in families]
@@ -249,16 +252,14 @@ class RecordReader:
         """The value of a family's member at the time, as r_i(t), by the equation for any index."""
         _, head, argument = t
         assert isinstance(head, tuple)
-        for step in self.record.steps:
-            for e in step.equations:
-                if isinstance(e.lhs, tuple) and e.lhs[0] == "call" and e.lhs[2] == argument:
-                    pattern = e.lhs[1]
-                    if isinstance(pattern, tuple) and pattern[1] == head[1]:
-                        outer, self.label = self.label, step.key(e)
-                        value = self.tree(bound(e.rhs, {pattern[2]: head[2]}))
-                        value = self.named(value, f"place_{head[2]}")
-                        self.label = outer
-                        return value
+        for step, e in self.equations:
+            match e.lhs:
+                case ("call", ("at", family, index), time) if (family, time) == (head[1], argument):
+                    outer, self.label = self.label, step.key(e)
+                    value = self.tree(bound(e.rhs, {index: head[2]}))
+                    value = self.named(value, f"place_{head[2]}")
+                    self.label = outer
+                    return value
         raise LoweringError(f"the record does not define {head[1]} as a function of the time")
 
 

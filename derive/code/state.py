@@ -102,14 +102,11 @@ class StateSpace:
         rates = multiplied(self.q, (self.graph.num(0), *half))
         return dict(zip(self.q, rates, strict=True)) | self._changed(e, "", "T")
 
-    def _linear(self, e: Matrix) -> Matrix:
-        return tuple(row[: self.n] for row in e[: self.n])
-
     def _changed(self, e: Matrix, linear: str, shift: str) -> Seeds:
         """The leaves of these letters, where they have a value, for a change g e of g or of ġ."""
-        parts = {linear: self._linear(e)} if linear else {}
+        parts = {linear: self.group.linear_part(e)} if linear else {}
         if self.group.affine:
-            parts[shift] = tuple((row[self.n],) for row in e[: self.n])
+            parts[shift] = self.group.translation_part(e)
         changes = (
             zip(q.flatten(self.values[x]), q.flatten(q.times(self.values["A"], part)), strict=True)
             for x, part in parts.items()
@@ -122,12 +119,14 @@ class StateSpace:
         """Add the numbers of the velocity; set ζ, w, and with ġ in the state α, τ."""
         turns = self._turns
         if not self.tangent:
-            zeta = [self._leaf(suffixed("zeta", a)) for a in self._span(self._stated_turns)]
+            # all come before w, unless a stated basis mixes them
+            stated = turns if self.group.free_translations else self.group.dimension
+            zeta = [self._leaf(suffixed("zeta", a)) for a in self._span(stated)]
             moved = self._span(self.group.dimension - len(zeta))
             self.coordinates = [*zeta, *(self._leaf(suffixed("w", i)) for i in moved)]
             values = self.coordinates
             if self.standard is not self.group:
-                values = self._by(self.standard, self.hat(values))
+                values = self.read(self.hat(values), self.standard)
             self.values["ζ"] = tuple((x,) for x in values[:turns])
             if self.group.affine:
                 self.values["w"] = tuple((x,) for x in values[turns:])
@@ -140,7 +139,7 @@ class StateSpace:
             w = q.times(inverse, placed["T"])
             self.values["w"] = self._named("w", w, column=True)
             Z = q.bordered(Z, w, self.graph.num(0))
-        turning = tuple((x,) for x in self._by(self.standard, Z)[:turns])
+        turning = tuple((x,) for x in self.read(Z, self.standard)[:turns])
         self.values["ζ"] = self._named("zeta", turning, column=True)
         found = [*self.values["ζ"], *self.values.get("w", ())]
         self.coordinates = self._restated([x for (x,) in found])
@@ -159,25 +158,17 @@ class StateSpace:
         """The dimension of the linear parts: how many numbers ζ has."""
         return self.group.dimension - (self.n if self.group.affine else 0)
 
-    @property
-    def _stated_turns(self) -> int:
-        """How many of the stated coordinates come before those of w; all, where these are mixed."""
-        return self._turns if self.group.free_translations else self.group.dimension
-
-    def read(self, a: int, z: Matrix, group: Group | None = None) -> Node:
-        """Coordinate a, from 0, of a Lie algebra matrix in the stated basis, or in a group's."""
+    def read(self, z: Matrix, group: Group | None = None) -> list[Node]:
+        """The coordinates of a matrix of 𝔤 in the stated basis, or in that of a group."""
         group = group or self.group
-        return self.graph.linear((c, z[i][j]) for c, i, j in group.coordinate_terms(a))
-
-    def _by(self, group: Group, z: Matrix) -> list[Node]:
-        """The coordinates of a matrix of the Lie algebra in the basis of a group."""
-        return [self.read(a, z, group) for a in range(group.dimension)]
+        places = map(group.coordinate_terms, range(group.dimension))
+        return [self.graph.linear((c, z[i][j]) for c, i, j in place) for place in places]
 
     def _restated(self, coordinates: list[Node]) -> list[Node]:
         """The coordinates ζ and w of the standard basis, in the stated one."""
         if self.standard is self.group:
             return coordinates
-        return self._by(self.group, self._matrix(self.standard, coordinates))
+        return self.read(self._matrix(self.standard, coordinates))
 
     @staticmethod
     def _span(count: int) -> range:
@@ -276,9 +267,9 @@ class StateSpace:
 
     def _second(self, rate: list[Node]) -> list[Node]:
         """The numbers of g̈ = g(Ż + Z²), its linear part and its shift; ``rate``: ζ̇ and ẇ."""
-        n, Z = self.n, self.hat(self.coordinates)
+        Z = self.hat(self.coordinates)
         total = q.plus(self.hat(rate), q.times(Z, Z))
         named, A = self._named("Y", total), self.values["A"]
-        linear = q.times(A, self._linear(named))
-        shift = q.times(A, tuple((row[n],) for row in named[:n])) if n < len(Z) else ()
+        linear = q.times(A, self.group.linear_part(named))
+        shift = q.times(A, self.group.translation_part(named)) if self.group.affine else ()
         return self._entries(linear, shift)
