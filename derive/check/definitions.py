@@ -35,12 +35,9 @@ def lone_name(t: Tree) -> set[str]:
 
 def introduced(equation: Equation, known: set[str]) -> set[str]:
     """The names that an equation introduces when the names ``known`` are."""
-    found, both = {*equation.exists}, (equation.lhs, equation.rhs)
-    for side in both:
-        found |= lone_name(side)
-    unknown = {x for side in both for x in names(side)} - known - found
-    pairing = any(isinstance(x, tuple) and x[0] in ("inner", "metric", "sum") for x in both)
-    return found | unknown if pairing and len(unknown) == 1 else found
+    found = {*equation.exists, *lone_name(equation.lhs), *lone_name(equation.rhs)}
+    unknown = {*names(equation.lhs), *names(equation.rhs)} - known - found
+    return found | unknown if _pairing(equation) and len(unknown) == 1 else found
 
 
 def unexplained(steps: Iterable[Step]) -> Iterator[str]:

@@ -18,7 +18,7 @@ from .model import Model
 def place_values(model: Model) -> dict[str, Any]:
     """The values of r, a random place in the body, and of v, its velocity in space (columns)."""
     r = q.column(model.draw() for _ in range(model.n))
-    return {"r": r, "v": moved(model, q.times(model.g, model.Z), r)}
+    return {"r": r, "v": moved(model, model.nu, r)}
 
 
 def moved(model: Model, g: Matrix, r: Matrix) -> Matrix:
@@ -31,11 +31,10 @@ def integral(model: Model, form: Tree, env: Environment) -> Any:
     exact for forms of degree two; ``EvaluationError`` where the body is none of solids."""
     if model.problem.get("body", {}).get("kind") != "given":
         raise EvaluationError("integrals are over solids")
-    nu = q.times(model.g, model.Z)
     terms = []
     for m, at in zip(model.masses, model.points, strict=True):
         r = q.column(at)
-        here = {"r": r, "v": moved(model, nu, r)}
+        here = {"r": r, "v": moved(model, model.nu, r)}
         there = replace(env, names=ChainMap(here, env.names))  # type: ignore[arg-type]
         terms.append(times(m, evaluate(form, there)))
     return reduce(plus, terms)

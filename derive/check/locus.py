@@ -72,7 +72,7 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
             contracted = True
         elif isinstance(lhs, str) and lhs in VANISHING and rhs == 0:
             vanishing.add(VANISHING[lhs])
-        elif part := _part_of_velocity(lhs, rhs):
+        elif part := part_of_velocity(lhs, rhs):
             along.add(part)
         else:
             text = f"{show(lhs)} = {show(rhs)}"
@@ -81,7 +81,7 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
     return Locus(principal, contracted, frozenset(vanishing), frozenset(along), free, step.driven)
 
 
-def _part_of_velocity(lhs: Tree, rhs: Tree) -> str:
+def part_of_velocity(lhs: Tree, rhs: Tree) -> str:
     """The part of the velocity of X that lhs = rhs fixes, as δA(X) = α; "" for any other."""
     if isinstance(lhs, tuple) and lhs[0] == "call" and lhs[2:] == ("X",):
         return ALONG.get((lhs[1], rhs), "") if isinstance(rhs, str) else ""

@@ -71,21 +71,11 @@ def environment(model: Model) -> Environment:
     )
 
 
-def _linear(model: Model, x: Matrix) -> Matrix:
-    """The n × n block of a matrix of the group's size."""
-    return tuple(row[: model.n] for row in x[: model.n])
-
-
-def _translation(model: Model, x: Matrix) -> Matrix:
-    """The translation part of a matrix of an affine group, a column of n."""
-    return tuple((row[model.n],) for row in x[: model.n])
-
-
-def _parts(model: Model, linear: str, vector: str, x: Matrix) -> Values:
+def parts_of(model: Model, linear: str, vector: str, x: Matrix) -> Values:
     """The linear part of a matrix and, in an affine group, its translation, by these names."""
-    values: Values = {linear: _linear(model, x)}
+    values: Values = {linear: model.group.linear_part(x)}
     if model.group.affine:
-        values[vector] = _translation(model, x)
+        values[vector] = model.group.translation_part(x)
     return values
 
 
@@ -106,21 +96,21 @@ def _group(model: Model) -> Values:
     """The values of g and ν, and of their variations in space and at the identity."""
     _, g, Z = model.family(model.first, model.second)
     nu = q.times(g, Z)
-    values = _parts(model, "A", "T", model.g) | _parts(model, "α", "τ", part(nu, 0))
+    values = parts_of(model, "A", "T", model.g) | parts_of(model, "α", "τ", part(nu, 0))
     for mark, mask, direction in (("δ", EPS, model.first), ("δ′", EPS_PRIME, model.second)):
-        values |= _parts(model, mark + "A", mark + "T", part(g, mask))
-        values |= _parts(model, mark + "α", mark + "τ", part(nu, mask))
+        values |= parts_of(model, mark + "A", mark + "T", part(g, mask))
+        values |= parts_of(model, mark + "α", mark + "τ", part(nu, mask))
         prime = mark[1:]
-        values |= _parts(model, "ξ" + prime, "η" + prime, direction.xi)
-        values |= _parts(model, mark + "Z", mark + "w", direction.velocity)
-    values |= _parts(model, "Z", "w", model.Z)
+        values |= parts_of(model, "ξ" + prime, "η" + prime, direction.xi)
+        values |= parts_of(model, mark + "Z", mark + "w", direction.velocity)
+    values |= parts_of(model, "Z", "w", model.Z)
     A = values["A"]
     values["C"] = q.times(q.transposed(A), A)
     if model.group.affine:
         m, c, _ = model.moments
         for name, linear, shift in (("R", "A", "T"), ("Ṙ", "α", "τ")):
             values[name] = q.plus(values[shift], q.scaled(1 / m, q.times(values[linear], c)))
-    moved = _linear(model, g)
+    moved = model.group.linear_part(g)
     values["δC"] = part(q.times(q.transposed(moved), moved), EPS)
     return values
 
@@ -129,7 +119,7 @@ def _forces(model: Model) -> Values:
     """The potential's forces and their moments: F, N = Σ F r̄ in space, and F_b, N_b in the
     body."""
     N, F = outer_sum(model.forces, model.points), outer_sum(model.forces, model.units)
-    back = q.transposed(_linear(model, model.g))
+    back = q.transposed(model.group.linear_part(model.g))
     values: Values = {"N": N, "F": F, "N_b": q.times(back, N), "F_b": q.times(back, F)}
     return values if model.generic else values | force_values(model)
 
@@ -143,10 +133,9 @@ def _gradients(model: Model) -> Values:
 
 def _energies(model: Model) -> Values:
     """The values of L, U and h̃ at the point."""
-    nu = q.times(model.g, model.Z)
-    value = part(model.lagrangian(model.t, model.g, nu), 0)
+    value = part(model.lagrangian(model.t, model.g, model.nu), 0)
     potential = part(model.potential(model.t, model.moved(model.g)), 0)
-    energy = part(model.energy(model.t, model.g, nu), 0)
+    energy = part(model.energy(model.t, model.g, model.nu), 0)
     return {"L": value, "L̃": value, "U": potential, "Ũ": potential, "h̃": energy}
 
 
@@ -154,9 +143,9 @@ def _motion(model: Model) -> Values:
     """The rates along the motion, the coordinates, the inputs, and the solved equations."""
     Z, Z_dot = model.Z, model.acceleration
     acceleration = q.times(model.g, q.plus(Z_dot, q.times(Z, Z)))
-    values = _parts(model, "Ż", "ẇ", Z_dot)
-    values |= _parts(model, "α̇", "τ̇", acceleration)
-    values |= _parts(model, "Ȧ", "Ṫ", q.times(model.g, Z))
+    values = parts_of(model, "Ż", "ẇ", Z_dot)
+    values |= parts_of(model, "α̇", "τ̇", acceleration)
+    values |= parts_of(model, "Ȧ", "Ṫ", model.nu)
     values |= space_values(model, acceleration)
     d = len(model.group.linear_basis)
     for name, element in (("ζ", Z), ("ζ̇", Z_dot)):
@@ -170,11 +159,10 @@ def _motion(model: Model) -> Values:
 
 def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     """The members of families by indices; copies of a point share its mass and force."""
-    nu = q.times(model.g, model.Z)
     families: dict[str, dict[tuple[int, ...], Any]] = {
         "m": {(i,): m for i, m in enumerate(model.masses, 1)},
         "r": {(i,): q.column(r) for i, r in enumerate(model.points, 1)},
-        "v": {(i,): q.column(v) for i, v in enumerate(model.moved(nu), 1)},
+        "v": {(i,): q.column(v) for i, v in enumerate(model.moved(model.nu), 1)},
         "F": {(i,): q.column(f) for i, f in enumerate(model.forces, 1)},
     }
     if not model.generic:
@@ -213,8 +201,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         return q.bordered(linear, vector, Fraction(0))
 
     def momentum(_: Tree, arguments: tuple[Tree, ...], env: Environment) -> Any:
-        nu = q.times(model.g, model.Z)
-        return part(model.momentum(nu, tangent(arguments, env)), 0)
+        return part(model.momentum(model.nu, tangent(arguments, env)), 0)
 
     def point(head: Any, _: tuple[Tree, ...], env: Environment) -> Matrix:
         return q.column(model.moved(model.g)[point_index(head[2], env) - 1])
@@ -228,10 +215,10 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         "∫": lambda _, a, env: integral(model, a[0], env),
         "g": lambda _, a, env: moved(model, model.g, evaluate(a[0], env)),
         "d/dt": lambda *_: form_rate(model),
-        "δA": lambda _, a, env: _linear(model, q.times(model.g, direction(a[0]).xi)),
-        "δT": lambda _, a, env: _translation(model, q.times(model.g, direction(a[0]).xi)),
-        "ξ": lambda _, a, env: _linear(model, direction(a[0]).xi),
-        "η": lambda _, a, env: _translation(model, direction(a[0]).xi),
+        "δA": lambda _, a, env: model.group.linear_part(q.times(model.g, direction(a[0]).xi)),
+        "δT": lambda _, a, env: model.group.translation_part(q.times(model.g, direction(a[0]).xi)),
+        "ξ": lambda _, a, env: model.group.linear_part(direction(a[0]).xi),
+        "η": lambda _, a, env: model.group.translation_part(direction(a[0]).xi),
         "Ω": lambda _, a, env: _rotation_vector(model, direction(a[0]).xi),
         "δ": lambda _, a, env: _varied(model, a[0], EPS, env),
         "δ′": lambda _, a, env: _varied(model, a[0], EPS_PRIME, env),
@@ -257,7 +244,8 @@ def _varied(model: Model, what: Tree, mask: int, env: Environment) -> Any:
     h = model.varied
     back = q.minus(q.identity(model.s), q.scaled(nilpotent(mask), part(h, mask)))
     value = part(q.times(back, derivative_of(h, other)), mask)
-    return (_linear if what in ("ξ", "ξ′") else _translation)(model, value)
+    group = model.group
+    return (group.linear_part if what in ("ξ", "ξ′") else group.translation_part)(value)
 
 
 def _rotation_vector(model: Model, xi: Matrix) -> Matrix:

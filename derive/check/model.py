@@ -112,6 +112,11 @@ class Model(Body):
         xi = q.plus(self.Z, free) if along else free
         return Direction(Fraction(1), xi, self.algebra())
 
+    @cached_property
+    def nu(self) -> Matrix:
+        """ν = g Z, the velocity of g."""
+        return q.times(self.g, self.Z)
+
     # -- potential ----------------------------------------------------------------------------
 
     def potential(self, t: Any, r: list[Vector]) -> Any:
@@ -172,9 +177,8 @@ class Model(Body):
 
     def cartan(self, a: Direction) -> Any:
         """ϖ(δ) at the point."""
-        nu = q.times(self.g, self.Z)
-        momentum = self.momentum(nu, q.times(self.g, a.xi))
-        return part(momentum - self.energy(self.t, self.g, nu) * a.time, 0)
+        momentum = self.momentum(self.nu, q.times(self.g, a.xi))
+        return part(momentum - self.energy(self.t, self.g, self.nu) * a.time, 0)
 
     def exterior(self, a: Direction, b: Direction) -> Any:
         """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family."""
@@ -217,7 +221,7 @@ class Model(Body):
             for k, (x,) in enumerate(force):
                 total[data["on"] - 1][k] += x
         if self.at.driven:
-            velocities = self.moved(q.times(self.g, self.Z))
+            velocities = self.moved(self.nu)
             for i, kappa in damping_members(self).items():
                 for k, x in enumerate(velocities[i - 1]):
                     total[i - 1][k] -= kappa * x

@@ -26,7 +26,7 @@ def momentum_values(model: Model) -> dict[str, Any]:
     """Π = Σ m Āv r̄ and p_b = Σ m Āv on the families of δ, δ′ and the motion; and Φ."""
     _, g, Z = model.family(model.first, model.second)
     e = nilpotent(EPS)
-    along = q.plus(model.g, q.scaled(e, q.times(model.g, model.Z)))
+    along = q.plus(model.g, q.scaled(e, model.nu))
     faster = q.plus(model.Z, q.scaled(e, model.acceleration))
     places = ((g, Z, 0), (g, Z, EPS), (g, Z, EPS_PRIME), (along, faster, EPS))
     values = {}
@@ -69,15 +69,12 @@ def space_values(model: Model, acceleration: Matrix) -> dict[str, Any]:
 
     ℓ is a vector in R³ turned about, else the matrix Σ m (v r̄ − r v̄).
     """
-    places, speeds = model.moved(model.g), model.moved(q.times(model.g, model.Z))
+    places, speeds = model.moved(model.g), model.moved(model.nu)
     forces = model.moved(acceleration)
-    t, nu = model.t, q.times(model.g, model.Z)
     e = nilpotent(EPS)
-    varied = model.energy(
-        t + e,
-        q.plus(model.g, q.scaled(e, nu)),
-        q.plus(nu, q.scaled(e, acceleration)),
-    )
+    along = q.plus(model.g, q.scaled(e, model.nu))
+    faster = q.plus(model.nu, q.scaled(e, acceleration))
+    varied = model.energy(model.t + e, along, faster)
     return {
         "ℓ": _angular_momentum(model, places, speeds),
         "ℓ̇": _angular_momentum(model, places, forces),

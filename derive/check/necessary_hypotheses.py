@@ -25,7 +25,8 @@ from .arithmetic import EvaluationError, is_matrix, scalar
 from .equation_sides import index_bindings
 from .evaluate import Environment, evaluate
 from .function_signatures import FORMS
-from .locus import ALONG
+from .locus import part_of_velocity
+from .meaning import parts_of
 from .model import Model
 from .rigid_body import axial
 from .trial_groups import inverted
@@ -61,9 +62,7 @@ def _number(t: Tree) -> bool:
 
 def states_velocity(equation: Equation) -> bool:
     """Does the equation say what part of the velocity of X is, as δA(X) = α?"""
-    lhs, rhs = equation.lhs, equation.rhs
-    about = isinstance(lhs, tuple) and lhs[0] == "call" and lhs[2:] == ("X",)
-    return about and isinstance(lhs, tuple) and (lhs[1], rhs) in ALONG
+    return bool(part_of_velocity(equation.lhs, equation.rhs))
 
 
 def needs_metric(step: Step) -> bool:
@@ -219,9 +218,7 @@ def _variation_values(e: Matrix, model: Model, which: int) -> dict[str, Matrix]:
             turned = linear[0] == "Ω"
             if turned and not model.group.turns_space:
                 continue
-            found[linear] = axial(x) if turned else model.group.linear_part(x)
-            if model.group.affine:
-                found[shift] = tuple((row[model.n],) for row in x[: model.n])
+            found |= parts_of(model, linear, shift, x) | ({linear: axial(x)} if turned else {})
     return found
 
 

@@ -12,13 +12,12 @@ LETTERS = GREEK | {
 MATH_ACCENTS = {"\u0304": r"\bar", "\u0303": r"\tilde", "\u0307": r"\dot", "\u0302": r"\hat"}
 NAMED = {"rho", "sigma", "omega", "gamma", "kappa", "theta", "lambda"}
 """Parameters that equations have as Greek letters, and that are words of neither language."""
-SYMBOLS = {letter: rf"\{name}" for name, letter in GREEK.items()} | {
-    "λ": r"\lambda", "Λ": r"\Lambda", "φ": r"\varphi", "ϕ": r"\phi", "ϖ": r"\varpi",
-    "Σ": r"\sum", "∂": r"\partial", "−": "-", "∧": r"\wedge", "⟨": r"\langle", "⟩": r"\rangle",
+SYMBOLS = {letter: rf"\{name}" for name, letter in LETTERS.items()} | {
+    "Σ": r"\sum", "−": "-", "∧": r"\wedge", "⟨": r"\langle", "⟩": r"\rangle",
     "‖": r"\Vert", "≅": r"\cong", "≠": r"\neq", "≤": r"\le", "≥": r"\ge", "∈": r"\in", "→": r"\to",
     "×": r"\times", "𝔤": r"\mathfrak{g}", "′": "'", "½": r"\tfrac12", "⅓": r"\tfrac13",
-    "¼": r"\tfrac14", "⅔": r"\tfrac23", "∇": r"\nabla", "∘": r"\circ", "⊤": r"\top",
-    "ℓ": r"\ell", "𝟏": r"\mathbf{1}", "𝔰": r"\mathfrak{s}", "𝔬": r"\mathfrak{o}",
+    "¼": r"\tfrac14", "⅔": r"\tfrac23", "∘": r"\circ", "⊤": r"\top",
+    "𝟏": r"\mathbf{1}", "𝔰": r"\mathfrak{s}", "𝔬": r"\mathfrak{o}",
 }  # fmt: skip
 RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
 LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ", "0123456789ijet", strict=True))

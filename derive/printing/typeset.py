@@ -18,18 +18,15 @@ from typing import NamedTuple
 from .line_breaking import COMMA, FACTOR, WEDGE
 from .line_breaking import SUM as TERM
 from .notation import Notation
-from .signs import LETTERS
+from .signs import LETTERS, SYMBOLS
 
 BREAKS = {"\x01": COMMA, "\x02": TERM, "\x03": WEDGE, "\x04": FACTOR}
 AFTER_COMMA, BEFORE_TERM, BEFORE_WEDGE, BEFORE_FACTOR = BREAKS
 MARKS = "".join(BREAKS)
 UNMARKED = dict.fromkeys(map(ord, MARKS))
-OPERATORS = {
-    r"\wedge": "∧", r"\cdot": "·", r"\times": "×", r"\to": "→", r"\in": "∈", r"\le": "≤",
-    r"\ge": "≥", r"\cong": "≅", r"\neq": "≠", r"\circ": "∘", r"\int": "∫", r"\top": "⊤",
-    "-": "−",
-} | {c: c for c in "+=,/.:;|"}  # fmt: skip
-FENCES = {r"\langle": "⟨", r"\rangle": "⟩", r"\lVert": "‖", r"\rVert": "‖", r"\Vert": "‖"}
+OPERATORS = {SYMBOLS[c]: c for c in "∧×→∈≤≥≅≠∘⊤−"} | {c: c for c in "+=,/.:;|"}
+OPERATORS |= {r"\cdot": "·", r"\int": "∫"}
+FENCES = {SYMBOLS[c]: c for c in "⟨⟩‖"} | {r"\lVert": "‖", r"\rVert": "‖"}
 FENCES |= {c: c for c in "()[]"}
 SPACES = {r"\quad": "1em", r"\qquad": "2em", r"\,": "0.17em", "\\ ": "0.3em"}
 ACCENTS = {"dot": "˙", "tilde": "~", "hat": "^"}
