@@ -247,10 +247,10 @@ class Comparison:
         """The names of the module's Jacobians, each found equal to exact derivatives of ``rhs``."""
         plain = Machine(self.module, self.point.elementary, self.literal)
         p, k = ([getattr(x, "value", x) for x in arguments[a].values] for a in ("p", "k"))
-        wanted = ExactJacobians(plain, self.claims.state, self.point, p, k).wanted
-        found = [name for name in wanted if name in self.module.functions]
+        columns = ExactJacobians(plain, self.claims.state, self.point, p, k).columns
+        found = [name for name in columns if name in self.module.functions]
         for name in found:
-            D = wanted[name]()
+            D = [x for row in zip(*columns[name], strict=True) for x in row]
             rates = {"dx": len(self.point.rates)} if name == "jacobian" else {}
             values = self._call(name, arguments, **rates, D=len(D))
             if rates:

@@ -5,7 +5,7 @@ A variation is δg = g η and δζ; η̇ = δζ − [Z, η], and δζ̇ is the d
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -32,12 +32,12 @@ class ExactJacobians:
     k: Sequence[Fraction]
 
     @property
-    def wanted(self) -> Mapping[str, Callable[[], list[Fraction]]]:
-        """Name of a Jacobian → a function that computes its matrix D, row by row."""
+    def columns(self) -> Mapping[str, Iterator[list[Fraction]]]:
+        """Name of a Jacobian → the columns of its matrix D, computed one by one."""
         return {
-            "jacobian": lambda: by_rows(self._state()),
-            "jacobian_inputs": lambda: by_rows(self._inputs()),
-            "jacobian_parameters": lambda: by_rows(self._parameters()),
+            "jacobian": self._state(),
+            "jacobian_inputs": self._inputs(),
+            "jacobian_parameters": self._parameters(),
         }
 
     def _state(self) -> Iterator[list[Fraction]]:
@@ -93,8 +93,3 @@ class ExactJacobians:
         size = len(self.point.rates)
         found = self.machine.call("rhs", {"t": self.point.arguments["t"], **arguments}, dx=size)
         return tuple(found["dx"])
-
-
-def by_rows(columns: Iterator[list[Fraction]]) -> list[Fraction]:
-    """The numbers of a matrix row by row, from its columns."""
-    return [x for row in zip(*columns, strict=True) for x in row]

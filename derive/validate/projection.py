@@ -14,6 +14,7 @@ from typing import Any
 from ..algebra.families import group
 from ..algebra.groups import Group
 from ..check.nilpotent import EPS, part
+from ..check.residue import Residue
 from ..language import rational as q
 from .chart import EPSILON, StateChart
 from .declarations import DiffersError
@@ -64,15 +65,5 @@ def _named(g: Group) -> bool:
 
 def rank(rows: Sequence[Sequence[Fraction]]) -> int:
     """The rank of a matrix modulo the prime."""
-    left = [[x.numerator * pow(x.denominator, -1, PRIME) % PRIME for x in row] for row in rows]
-    found = 0
-    while left := [row for row in left if any(row)]:
-        pivot = left.pop()
-        i = next(i for i, x in enumerate(pivot) if x)
-        unit = pow(pivot[i], -1, PRIME)
-        left = [
-            [(x - row[i] * unit * y) % PRIME for x, y in zip(row, pivot, strict=True)]
-            for row in left
-        ]
-        found += 1
-    return found
+    one = Residue(1, PRIME)
+    return q.rank(tuple(tuple(one * x for x in row) for row in rows))

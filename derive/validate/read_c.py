@@ -40,12 +40,8 @@ then."""
 LISTS = ("state", "parameter", "input")
 REFUSALS = ("SINGULAR", "NOT_FINITE")
 """What ``constants`` returns of a body that has no rates; with SIZES these are all enumerators."""
-SIGNS = {"+": "add", "-": "sub", "*": "mul", "/": "div"} | {
-    ">": "gt",
-    "<": "lt",
-    "<=": "le",
-    "==": "eq",
-}
+SIGNS = {"+": "add", "-": "sub", "*": "mul", "/": "div"}
+SIGNS |= {">": "gt", "<": "lt", "<=": "le", "==": "eq"}
 
 
 def read_c(name: str, files: Mapping[str, str], prefix: str) -> Module:

@@ -25,15 +25,10 @@ from .terms import (
     plain_text,
 )
 
+OF_STATE = ("_rhs", "_energy", "_project", "_defect", "_jacobian", "_jacobian_inputs")
 SIGNATURES = {
-    "_constants": ("xp", "p"),
-    "_rhs": ("xp", "t", "x", "k", "u"),
-    "_energy": ("xp", "t", "x", "k", "u"),
-    "_inertia": ("xp", "p"),
-    "_project": ("xp", "t", "x", "k", "u"),
-    "_defect": ("xp", "t", "x", "k", "u"),
-    "_jacobian": ("xp", "t", "x", "k", "u"),
-    "_jacobian_inputs": ("xp", "t", "x", "k", "u"),
+    **dict.fromkeys(("_constants", "_inertia"), ("xp", "p")),
+    **dict.fromkeys(OF_STATE, ("xp", "t", "x", "k", "u")),
     "_jacobian_parameters": ("xp", "t", "x", "p", "u"),
 }
 SIGNS: dict[type, str] = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div"}
