@@ -106,23 +106,12 @@ class AppliedForces:
         origin, *ends = r[-self.env.size - 1 :]
         return origin, [tuple(x - y for x, y in zip(e, origin, strict=True)) for e in ends]
 
-    def potential(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
-        """U(t, r)."""
-        return self._energy(self.potentials, t, r, masses)
-
-    def single_potential(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> Any:
-        """U_Q, the part of U point by point."""
-        return self._energy(self.single, t, r, masses)
-
-    def _energy(
-        self,
-        chosen: Sequence[Mapping[str, Any]],
-        t: Any,
-        r: Sequence[Vector],
-        masses: Sequence[Any],
+    def potential(
+        self, t: Any, r: Sequence[Vector], masses: Sequence[Any], *, single: bool = False
     ) -> Any:
-        terms = (_account(p).energy(self, p, t, r, masses) for p in chosen)
-        return sum(terms, Fraction(0))
+        """U(t, r); ``single``: U_Q, the part of it point by point."""
+        chosen = self.single if single else self.potentials
+        return sum((_account(p).energy(self, p, t, r, masses) for p in chosen), Fraction(0))
 
     def root(self, x: Any) -> Any:
         """√x."""
@@ -145,13 +134,11 @@ class AppliedForces:
         )
         return evaluate(decode(tree, "U"), env)
 
-    def forces(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> list[Vector]:
-        """−∂U/∂r_i for every point."""
-        return minus_gradient(lambda places: self.potential(t, places, masses), r)
-
-    def single_forces(self, t: Any, r: Sequence[Vector], masses: Sequence[Any]) -> list[Vector]:
-        """−∂U_Q/∂r_i for every point."""
-        return minus_gradient(lambda places: self.single_potential(t, places, masses), r)
+    def forces(
+        self, t: Any, r: Sequence[Vector], masses: Sequence[Any], *, single: bool = False
+    ) -> list[Vector]:
+        """−∂U/∂r_i for every point, of all of U or of U_Q."""
+        return minus_gradient(lambda places: self.potential(t, places, masses, single=single), r)
 
     def tension(self, energy: Any) -> Any:
         """−2 dU/dq, from U at q + η."""

@@ -23,8 +23,8 @@ def force_values(model: Model) -> Values:
     values: Values = {}
     for account, members in ex.members():
         values |= account.values(model, members)
-    values["U_Q"] = ex.single_potential(model.t, places, model.masses)
-    forces = ex.single_forces(model.t, places, model.masses)
+    values["U_Q"] = ex.potential(model.t, places, model.masses, single=True)
+    forces = ex.forces(model.t, places, model.masses, single=True)
     values |= _summed(model, forces, "Q")
     if model.at.driven:
         values |= _summed(model, model.nonpotential_forces, "u")
@@ -82,7 +82,7 @@ def force_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
         families.setdefault("χ", {})[e,] = _in_body(model, d)
         families.setdefault("σ", {})[e,] = sigma
     if model.applied.single:
-        forces = model.applied.single_forces(model.t, places, model.masses)
+        forces = model.applied.forces(model.t, places, model.masses, single=True)
         families["Q"] = {(i,): q.column(f) for i, f in enumerate(forces, 1)}
         families["P"] = {(i,): _in_body(model, f) for i, f in enumerate(forces, 1)}
     if damped := damping_members(model):

@@ -109,7 +109,9 @@ def _functions(
     fixed = frontier(x for name in wanted if name != "inertia" for x in wanted[name])
     leaves = [lowering.reader.leaf(x, "parameter") for x in parameters]
     from_p = _leaf_places(names, leaves, "p")
-    numbers = _frame_places(frame, names, [*fixed, *_several(checks)]) if frame else {}
+    read = _leaves([*fixed, *_several(checks)])
+    framed = [x for x in frame.numbers if x in read] if frame else []
+    numbers = _leaf_places(names, framed, "frame")
     functions = {"constants": scheduler.function(fixed, from_p | numbers, checks)}
     constants = [_constant_name(names, x, i) for i, x in enumerate(fixed)]
     moving = _places(lowering.reader, names, state, inputs)
@@ -163,14 +165,6 @@ def _inertia(reader: RecordReader) -> dict[str, list[Node]]:
     """The function ``inertia``, where space is R³, as name → outputs."""
     tensor = inertia(reader)
     return {"inertia": tensor} if tensor else {}
-
-
-def _frame_places(
-    frame: PrincipalFrame, names: ClaimedNames, nodes: list[Node]
-) -> dict[Node, Place]:
-    """The numbers of the frame that some nodes depend on, as entries of ``frame``."""
-    used = _leaves(nodes)
-    return _leaf_places(names, [x for x in frame.numbers if x in used], "frame")
 
 
 def _framing(

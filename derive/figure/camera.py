@@ -8,10 +8,9 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from .drawing import Point, from_segment
-from .drawn_body import Vector, dot, plus, scaled
+from .drawn_body import UNITS, Vector, dot, plus, scaled
 
 Segment = tuple[Vector, Vector]
-UNITS: tuple[Vector, Vector, Vector] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 AZIMUTH, ELEVATION = 30, 21
 """The preferred direction in degrees, from the axis that comes forward."""
 ENOUGH = 0.2

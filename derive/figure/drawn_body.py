@@ -14,6 +14,7 @@ Matrix = tuple[Vector, ...]
 """A matrix by its rows."""
 
 ORIGIN: Vector = (0.0, 0.0, 0.0)
+UNITS: tuple[Vector, Vector, Vector] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 TRANSLATING = ("SE(", "SAff(", "Aff(", "Sim(")
 LARGEST = 1e30
 """The largest number that can be drawn; below its inverse a number is drawn as 0."""
@@ -161,8 +162,7 @@ def _solid(data: Mapping[str, Any], value: Numbers) -> DrawnSolid:
             sizes[key] = abs(value.of(size))
         else:
             sizes[key] = value.length(size)
-    unit = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
-    rotation = tuple(value.vector(row) for row in data["rotation"] or unit)
+    rotation = tuple(value.vector(row) for row in data["rotation"] or UNITS)
     return DrawnSolid(data["kind"], sizes, rotation, value.vector(data["shift"] or (0, 0, 0)))
 
 

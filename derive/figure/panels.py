@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from itertools import combinations
 from typing import Any
 
-from .camera import FLAT, UNITS, Segment, View
+from .camera import FLAT, Segment, View
 from .drawing import Point
-from .drawn_body import ORIGIN, BodyPart, Numbers, Vector, plus, scaled
+from .drawn_body import ORIGIN, UNITS, BodyPart, Numbers, Vector, plus, scaled
 from .meshes import Mesh
 from .shapes import Curve, Shape
 

@@ -11,10 +11,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise, product
 
-from .drawn_body import DrawnSolid, Vector, cross, dot, image, plus, scaled
+from .drawn_body import ORIGIN, UNITS, DrawnSolid, Vector, cross, dot, image, plus, scaled
 
 Wall = Callable[[Vector], float]
-AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 NEAR = 2e-3
 """Crossings nearer than this, in sizes of the figure, count as those of the curve's own surface."""
 ROUND = 64
@@ -93,7 +92,7 @@ class Shape:
 
     def corners(self) -> Iterator[Vector]:
         """Points of the solid that tell about how large it is."""
-        return (self.to_body(scaled(s, e)) for e in AXES for s in (1.0, -1.0))
+        return (self.to_body(scaled(s, e)) for e in UNITS for s in (1.0, -1.0))
 
     def _behind(self, u: Vector) -> bool:
         return any(b - a > NEAR for a, b in self._chords(u, self.sight, NEAR))
@@ -177,19 +176,13 @@ def _affine_map(solid: DrawnSolid) -> tuple[list[Vector], Vector]:
 def _edges(kind: str) -> Iterator[tuple[Vector, Vector]]:
     """The edges of the reference shape of a box or a tetrahedron, as pairs of corners."""
     if kind == "tetrahedron":
-        corners = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
+        corners = [ORIGIN, *UNITS]
         yield from ((a, b) for i, a in enumerate(corners) for b in corners[:i])
         return
-    for i, (x, y) in product(range(3), product((-1.0, 1.0), repeat=2)):
-        a, b = ([x, y], [x, y])
-        a.insert(i, -1.0)
-        b.insert(i, 1.0)
-        yield _triple(iter(a)), _triple(iter(b))
-
-
-def _triple(entries: Iterator[float]) -> Vector:
-    x, y, z = entries
-    return x, y, z
+    for along, (x, y) in product(UNITS, product((-1.0, 1.0), repeat=2)):
+        e, f = (u for u in UNITS if u != along)
+        middle = plus(scaled(x, e), f, y)
+        yield plus(middle, along, -1.0), plus(middle, along)
 
 
 def _circle() -> Iterator[float]:
