@@ -52,11 +52,12 @@ def ranked(
 ) -> list[View]:
     """Views, best first: the farther apart the nearest marks and lines of a body are."""
     axes = upright(gravity)
-    thinned = [(_distinct(marks)[:MOST], lines[:MOST]) for marks, lines in bodies]
+    thinned = [([*dict.fromkeys(marks)][:MOST], lines[:MOST]) for marks, lines in bodies]
 
     def score(angles: tuple[int, int]) -> float:
         view = _view(axes, *angles)
-        clear = min((_clearance(view, *body) for body in thinned), default=1.0) / size
+        nearest = (min(_distances(view, *body), default=math.inf) for body in thinned)
+        clear = min(nearest, default=1.0) / size
         azimuth, elevation = angles
         preference = 0.001 * abs(azimuth - AZIMUTH) + 0.003 * abs(elevation - ELEVATION)
         return min(clear, ENOUGH) - preference
@@ -72,14 +73,6 @@ def _view(axes: tuple[Vector, Vector, Vector], azimuth: float, elevation: float)
     right = plus(scaled(-math.sin(a), ahead), aside, math.cos(a))
     up = plus(scaled(-math.sin(e), level), above, math.cos(e))
     return View(right, up, plus(scaled(math.cos(e), level), above, math.sin(e)))
-
-
-def _distinct(marks: Sequence[Vector]) -> list[Vector]:
-    return list(dict.fromkeys(marks))
-
-
-def _clearance(view: View, marks: Sequence[Vector], lines: Sequence[Segment]) -> float:
-    return min(_distances(view, marks, lines), default=math.inf)
 
 
 def _distances(view: View, marks: Sequence[Vector], lines: Sequence[Segment]) -> Iterator[float]:

@@ -104,14 +104,14 @@ def shortened(name: str) -> str:
     return name if len(name) <= LONGEST else name[: LONGEST - 1] + "…"
 
 
-def arrow(a: Point, b: Point, role: str, pen: str = "line") -> list[Stroke]:
+def arrow(a: Point, b: Point, role: str) -> list[Stroke]:
     """The strokes of an arrow from a to b."""
     length = max(math.dist(a, b), 1e-9)
     x, y = (b[0] - a[0]) / length, (b[1] - a[1]) / length
     neck = (b[0] - HEAD * x, b[1] - HEAD * y)
     wings = [(neck[0] - s * HALF_HEAD * y, neck[1] + s * HALF_HEAD * x) for s in (1, -1)]
     notch = (b[0] - 0.75 * HEAD * x, b[1] - 0.75 * HEAD * y)
-    return [Stroke((a, notch), role, pen), Stroke((b, wings[0], notch, wings[1]), role, "solid")]
+    return [Stroke((a, notch), role), Stroke((b, wings[0], notch, wings[1]), role, "solid")]
 
 
 def zigzag(a: Point, b: Point) -> Iterator[Point]:

@@ -47,14 +47,6 @@ def _without_comment(comment: re.Match[str]) -> str:
     return comment[0] if comment[0][0] == '"' else " " + "\n" * comment[0].count("\n")
 
 
-def preprocessed(name: str, files: Mapping[str, str], prefix: str) -> str:
-    """The text of a file with those that it includes; ``CodeError`` for what is not known here.
-
-    Lines of the form ``# 7 "file"`` say where the next line stands.
-    """
-    return Preprocessor(files, prefix).text(name)
-
-
 class Preprocessor:
     """A preprocessor of emitted C; ``files``: name → text; ``prefix``: of its macros' names."""
 
@@ -65,7 +57,10 @@ class Preprocessor:
         self.guards: set[str] = set()
 
     def text(self, name: str) -> str:
-        """One file, its includes and macros replaced; ``CodeError`` for what is not known."""
+        """One file, its includes and macros replaced; ``CodeError`` for what is not known.
+
+        Lines of the form ``# 7 "file"`` say where the next line stands.
+        """
         if name not in self.files or name in self.seen:
             raise CodeError(f"the file {name!r} is missing, or included twice")
         self.seen.append(name)
@@ -96,7 +91,7 @@ class Preprocessor:
         if not line.startswith("#"):
             if line and not plain and not (line in SKIPPED and branches[-1].cplusplus):
                 raise CodeError(f"code under a condition: {line[:60]!r}")
-            return self._expanded(line) if taken else ""
+            return WORD.sub(lambda m: self.macros.get(m[0], m[0]), line) if taken else ""
         word, _, rest = line[1:].strip().partition(" ")
         rest = rest.strip()
         if word in ("if", "ifdef", "ifndef"):
@@ -150,6 +145,3 @@ class Preprocessor:
             raise CodeError(f"an unknown macro: {text[:60]!r}")
         if taken:
             self.macros[name] = value
-
-    def _expanded(self, line: str) -> str:
-        return WORD.sub(lambda m: self.macros.get(m[0], m[0]), line)

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..check.elementary_values import ELEMENTARY
 from .emitted_file import Module
-from .preprocessor import preprocessed
+from .preprocessor import Preprocessor
 from .terms import (
     DECIMAL,
     Body,
@@ -53,7 +53,7 @@ def read_c(name: str, files: Mapping[str, str], prefix: str) -> Module:
         raise MissingParserError(
             "C is read back by pycparser: install it by  pip install 'derive-mechanics[validate]'"
         ) from None
-    text = "typedef unsigned long size_t;\n" + preprocessed(name, files, prefix)
+    text = "typedef unsigned long size_t;\n" + Preprocessor(files, prefix).text(name)
     try:
         tree = c_parser.CParser().parse(text, name)
     except (c_parser.ParseError, RecursionError) as error:
