@@ -134,7 +134,6 @@ def _fields(
         "parameter_names": [x[0] for x in p.parameters],
         "defaults": [(x[0], repr(x[1])) for x in p.parameters if x[1] is not None],
         "affine": p.translates,
-        "basis": _basis(p),
         "heading": [*generated, "", *heading(p, language, parameters, cost)],
         "functions": known,
         "framing": _framing(p, written, sizes),
@@ -168,12 +167,3 @@ def _parameter(x: tuple[str, float | None, str, str]) -> dict[str, str]:
     words = [comment(meaning), f"[{comment(unit)}]" if unit else ""]
     words.append(f"default {default!r}" if default is not None else "")
     return {"name": name, "text": ", ".join(w for w in words if w)}
-
-
-def _basis(p: Program) -> list[list[list[str]]]:
-    """The entries of E_1, E_2, …, as integers or fractions."""
-
-    def text(x: Fraction) -> str:
-        return str(int(x)) if x.denominator == 1 else f"{x.numerator}/{x.denominator}"
-
-    return [[[text(x) for x in row] for row in e] for e in p.basis]
