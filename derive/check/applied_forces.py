@@ -6,6 +6,7 @@ U is computed from the problem's own data, term by term; its forces come from ni
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -125,13 +126,7 @@ class AppliedForces:
             del arguments, env
             return q.column(r[head[2] - 1])
 
-        env = Environment(
-            self.env.size,
-            {**self.env.names, "t": t},
-            functions={"r": point},
-            parameters=self.env.parameters,
-            elementary=self.env.elementary,
-        )
+        env = replace(self.env, names={**self.env.names, "t": t}, functions={"r": point})
         return evaluate(decode(tree, "U"), env)
 
     def forces(

@@ -70,8 +70,7 @@ class ForceBalance:
         linear = q.plus(self.moment_in_body(total), self.group.linear_part(dual))
         if not self.group.affine:
             return linear
-        arm = tuple((dual[i][-1],) for i in range(self.model.n))
-        return q.minus(linear, q.times(arm, (self.centre,)))
+        return q.minus(linear, q.times(self.group.translation_part(dual), (self.centre,)))
 
     @cached_property
     def covector_matrix(self) -> Matrix:

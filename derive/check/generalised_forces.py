@@ -45,8 +45,7 @@ def _with_covector(model: Model, values: Values) -> Values:
     dual = ForceBalance(model).covector_matrix
     found = {"N_u": q.plus(values["N_u"], model.group.linear_part(dual))}
     if model.group.affine:
-        arm = tuple((dual[i][-1],) for i in range(model.n))
-        found["F_u"] = q.plus(values["F_u"], arm)
+        found["F_u"] = q.plus(values["F_u"], model.group.translation_part(dual))
     if model.group.turns_space:
         found["μ_u"] = q.plus(values["μ_u"], q.column(model.covector[:3]))
     return found
