@@ -16,7 +16,7 @@ from typing import Any
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.show import show
-from ..language.tree import Tree, names
+from ..language.tree import Tree, names, nodes
 from ..record import mass_signs
 from ..record.contract import ANY_GROUP
 from ..record.hypotheses import OF_MASSES, Hypothesis
@@ -45,11 +45,8 @@ INVERTIBLE = ("A", "C", ("T", "A"))
 
 def denominators(t: Tree) -> Iterator[Tree]:
     """What a tree divides by, or inverts, but for numbers and the element of the group."""
-    if not isinstance(t, tuple):
-        return
-    yield from (x for x in inverted(t) if x not in INVERTIBLE and not _number(x))
-    for x in t[1:]:
-        yield from denominators(x)
+    found = (x for at in nodes(t) if isinstance(at, tuple) for x in inverted(at))
+    return (x for x in found if x not in INVERTIBLE and not _number(x))
 
 
 def _number(t: Tree) -> bool:

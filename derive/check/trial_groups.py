@@ -11,7 +11,7 @@ first.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import cache, partial
 from typing import Any
 
@@ -20,7 +20,7 @@ from ..algebra.groups import Group
 from ..algebra.stated_basis import group_of_basis
 from ..language import rational as q
 from ..language.show import show
-from ..language.tree import Tree
+from ..language.tree import Tree, nodes
 from ..record.record import RecordError
 from .grades import Grade
 
@@ -84,18 +84,14 @@ OF_ONE_SPACE = ("det", "hat", "wedge", "matrix", "row", "par", "fun")
 
 def fault_for_any_group(t: Tree) -> str:
     """Why a tree is no word in the letters of any group, for any n, in words; "" if it is one."""
-    return next((f"{show(x)[:80]} is of no group but a given one" for x in _non_words(t)), "")
+    foreign = (x for x in nodes(t) if isinstance(x, tuple) and _foreign(x))
+    return next((f"{show(x)[:80]} is of no group but a given one" for x in foreign), "")
 
 
-def _non_words(t: Tree) -> Iterator[Tree]:
-    """The subtrees of a tree that are no words in the letters of any group."""
-    if not isinstance(t, tuple):
-        return
+def _foreign(t: tuple[Any, ...]) -> bool:
+    """Is the operator of a tree, or what it inverts, not of the letters of any group?"""
     numbered = t[0] == "entry" and any(isinstance(i, int) for i in t[2:])
-    if t[0] in OF_ONE_SPACE or numbered or not all(map(_word, inverted(t))):
-        yield t
-    for x in t[1:]:
-        yield from _non_words(x)
+    return t[0] in OF_ONE_SPACE or numbered or not all(map(_word, inverted(t)))
 
 
 def inverted(t: tuple[Any, ...]) -> tuple[Tree, ...]:

@@ -13,7 +13,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from .program import Assignment, EmittedFunction, Expression, Load, Section, parts
+from ..language.tree import nodes
+from .program import Assignment, EmittedFunction, Expression, Load, Section
 
 
 @dataclass(frozen=True)
@@ -48,7 +49,7 @@ def blocks(f: EmittedFunction) -> list[Block]:
 
 def names(expressions: Iterable[Expression]) -> set[str]:
     """The names that expressions read."""
-    return {x for e in expressions for x in parts(e) if isinstance(x, str)}
+    return {x for e in expressions for x in nodes(e) if isinstance(x, str)}
 
 
 def _placed(f: EmittedFunction) -> list[tuple[Section, list[int]]]:

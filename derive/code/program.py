@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from ..language.refused import Refused
-from ..language.tree import Tree
+from ..language.tree import Tree, nodes
 
 
 class LoweringError(Refused, ValueError):
@@ -39,14 +39,6 @@ def negated(e: Expression) -> Expression:
 def is_negated(e: Expression) -> bool:
     """Is it a product by −1?"""
     return isinstance(e, tuple) and e[:2] == ("mul", -1)
-
-
-def parts(e: Expression) -> Iterator[Expression]:
-    """An expression and all its subexpressions, without names of operators and functions."""
-    yield e
-    if isinstance(e, tuple):
-        for x in e[2 if e[0] == "fun" else 1 :]:
-            yield from parts(x)
 
 
 @dataclass(frozen=True)
@@ -114,14 +106,14 @@ class EmittedFunction:
 
     def calls(self) -> set[str]:
         """The names of the elementary functions that it calls."""
-        inside = (x for e in self.expressions for x in parts(e))
+        inside = (x for e in self.expressions for x in nodes(e))
         return {x[1] for x in inside if isinstance(x, tuple) and x[0] == "fun"}
 
     def operations(self) -> dict[str, int]:
         """Counts of mul, add, div and call in values and outputs."""
         total = dict.fromkeys(OPERATIONS, 0)
         for e in self.computed:
-            for x in parts(e):
+            for x in nodes(e):
                 if isinstance(x, tuple) and not is_negated(x):
                     own = {"fun": "call"}.get(x[0], x[0])
                     if own in total:
@@ -193,4 +185,4 @@ class Program:
 
     def _parts(self) -> Iterator[Expression]:
         """All subexpressions of all functions."""
-        return (x for f in self.all_functions() for e in f.expressions for x in parts(e))
+        return (x for f in self.all_functions() for e in f.expressions for x in nodes(e))
