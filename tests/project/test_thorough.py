@@ -1,4 +1,4 @@
-"""What the quick run leaves out: each entry is a test that there is, and all are run by coverage."""
+"""What the quick run leaves out: each entry is a test that there is; coverage runs all."""
 
 import re
 from pathlib import Path
