@@ -10,7 +10,7 @@ from typing import Any
 __version__ = "0.1.0"
 
 WORDS = (
-    *("Aff", "Covector", "Damping", "Force", "GL", "Gravity", "Group"),
+    *("Aff", "Covector", "Damping", "Force", "GL", "Gravity", "Group", "Inertia", "Lagrangian"),
     *("Moments", "Points", "Potential", "Problem", "SAff", "SE", "SL", "SO", "SU", "Sim", "Solid"),
     *("Sp", "Spring", "U", "UT"),
 )

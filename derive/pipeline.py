@@ -26,6 +26,7 @@ from .walk import (
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
 from .walk.failure import naming_steps
+from .walk.lie import any_lagrangian, expressed
 from .walk.head import problem_data, symbols
 from .walk.inputs import acts
 from .walk.lineage import traced
@@ -113,6 +114,16 @@ VECTORS = (
     Stage("basis", "group isometry.letters c", "Steps", coordinates.stated_basis_step),
 )
 """SO(3) and SE(3), by so(3) ≅ R³: Euler's equations, Kirchhoff's."""
+ANY_LAGRANGIAN = (
+    Stage("lagrangian", "a side c", "AnyLagrangian", any_lagrangian.any_lagrangian),
+)
+"""Exercise 1 for any Lagrangian on any matrix group, trivialised on one side."""
+
+EXPRESSED = (
+    Stage("expressed", "problem group lagrangian a c", "Expressed", expressed.expressed),
+    Stage("balance", "expressed problem group lagrangian c_u", "Steps", expressed.balance),
+)
+"""One Lagrangian in a basis of 𝔤."""
 # fmt: on
 
 
@@ -120,13 +131,17 @@ VECTORS = (
 def walk(problem: Problem) -> Derivation:
     """Derive the equations of motion of a problem; ``WalkError`` names the step that a rule of the
     engine breaks."""
-    values = general_road(affine=problem.affine, signed=problem.signed)
-    steps, group = values["steps"], problem.group
+    group, given = problem.group, problem.lagrangian
+    if given is not None:
+        values = lagrangian_road(given.trivialisation)
+    else:
+        values = general_road(affine=problem.affine, signed=problem.signed)
+    steps = values["steps"]
     if group is not None:
         c = Chapter(problem.name, group.name)
         acting = c.with_input() if acts(problem) else c
         own = {"problem": problem, "group": group, "c": c, "c_u": acting}
-        road = VECTORS if group.turns_space else MATRICES
+        road = EXPRESSED if given else VECTORS if group.turns_space else MATRICES
         kinds = {"affine" if group.affine else "linear", *group.relations}
         kinds |= {"rotations"} if turns_whole(group) and not group.affine else set()
         steps += follow(road, values | own, kinds)["steps"]
@@ -140,6 +155,13 @@ def general_road(*, affine: bool, signed: bool = False) -> Values:
     a = Alphabet("n", affine=affine, signed=signed)
     start = {"a": a, "c": Chapter(a.chapter)}
     return follow(ANY_GROUP, start, {"affine" if affine else "linear"})
+
+
+@cache
+def lagrangian_road(side: str) -> Values:
+    """The road of any Lagrangian, trivialised on the ``left`` or on the ``right``."""
+    start = {"a": Alphabet("n", affine=False), "side": side, "c": Chapter(side)}
+    return follow(ANY_LAGRANGIAN, start, ())
 
 
 def program(problem: Problem, record: Derivation, options: Options | None = None) -> Program:

@@ -34,8 +34,8 @@ from .necessary_hypotheses import (
     missing_hypothesis,
     missing_mass_hypotheses,
 )
-from .trial_groups import LEAST, fault_for_any_group, free, sizes
-from .trial_points import SIZE, TrialPoints, action_of
+from .trial_groups import LEAST, LEAST_BY_MOMENTA, fault_for_any_group, free, sizes
+from .trial_points import SIZE, TrialPoints, action_of, side_of
 
 LARGEST_DEGREE = 2**24
 """The largest Schwartz–Zippel degree of a claim that is tried: its numbers have 128 times as many
@@ -108,8 +108,9 @@ class Checker(TrialPoints):
             if reason := fault_for_any_group(side):
                 raise RecordError(reason)
         action = action_of(self.problem)
-        _, grade = self.grade(free(action, LEAST), step, equation)
-        return (*found, *(free(action, n) for n in sizes(grade)))
+        least = LEAST_BY_MOMENTA if side_of(self.problem) else LEAST
+        _, grade = self.grade(free(action, least), step, equation)
+        return (*found, *(free(action, n) for n in sizes(grade, least)))
 
     def bound(self, step: Step) -> int:
         """The Schwartz–Zippel degree of a step's claims; ``RecordError`` if it is too large."""

@@ -2,6 +2,7 @@
 
 A name is introduced where it stands alone on one side of an equation, as in Z = j(ζ), or is the one
 unknown of a pairing or a sum: Z = Σ ζ_a E_a, Tr N j(Ω′)‾ = ⟨μ, Ω′⟩, Tr j(ζ) J j(Ω)‾ = ⟨ζ, Ω⟩_I;
+or where it is the coefficient of a variation, as δ(L̃) = ⟨Π, δZ⟩ + ⟨Φ, ξ⟩ says what L̃, Π, Φ are;
 where an equation says that there is one; and λ in what is given, there alone, as principal moments.
 """
 
@@ -14,7 +15,7 @@ from ..record.record import Equation, Step
 from .elementary_values import ELEMENTARY
 
 _PRIMITIVE = """
-    t π i a b e m U v r F A T E z u f_u X δ δ′ α τ α̇ τ̇ Ż ẇ ζ̇ ṗ ℓ̇ Ũ dŨ ∂ₜŨ
+    t π i a b e m U v r F A T E z u f_u X δ δ′ α τ α̇ τ̇ Ż ẇ ζ̇ ṗ ℓ̇ Ũ dŨ ∂ₜŨ ∂ₜL̃
     δΠ δ′Π Π̇ δp_b δ′p_b ṗ_b δℓ_b δ′ℓ_b ℓ̇_b
     ∫ d/dt δA δT δt δα δτ δx δy δZ δw δζ δ′A δ′T δ′t δ′α δ′τ δ′x δ′y δ′Z δ′w δ′ζ
     """
@@ -28,16 +29,28 @@ def lone_name(t: Tree) -> set[str]:
     entry or a call; the empty set if there is none."""
     if isinstance(t, str):
         return {t}
+    if t == ("call", "δ", "L̃"):
+        return {"L̃"}
     if isinstance(t, tuple) and t[0] in ("hat", "at", "call", "T", "inv", "entry"):
         return lone_name(t[1])
     return set()
+
+
+def paired(t: Tree) -> set[str]:
+    """The names that a sum pairs each with a variation of its own: they are its coefficients."""
+    found = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
+    pairs = [x[1:] for x in found if isinstance(x, tuple) and x[0] == "inner"]
+    partners = [y for _, y in pairs]
+    return {x for x, y in pairs if isinstance(x, str) and partners.count(y) == 1}
 
 
 def introduced(equation: Equation, known: set[str]) -> set[str]:
     """The names that an equation introduces when the names ``known`` are."""
     found = {*equation.exists, *lone_name(equation.lhs), *lone_name(equation.rhs)}
     unknown = {*names(equation.lhs), *names(equation.rhs)} - known - found
-    return found | unknown if _pairing(equation) and len(unknown) == 1 else found
+    several = any(unknown <= paired(x) for x in (equation.lhs, equation.rhs))
+    alone = _pairing(equation) and len(unknown) == 1
+    return found | unknown if alone or several else found
 
 
 def unexplained(steps: Iterable[Step]) -> Iterator[str]:
@@ -109,7 +122,9 @@ def definitions(steps: Iterable[Step]) -> dict[Usage, tuple[str, tuple[Tree, ...
             known |= {usage for usage, _ in (*left, *right)}
             there |= {usage for usage, _ in occurrences(equation.lhs)}
             unknown = {x for x in there - known if x[1] in ("value", "member") and x[0] != "π"}
-            if len(unknown) == 1 and _pairing(equation):
+            several = {x for x, _ in unknown}
+            told = any(several <= paired(x) for x in (equation.lhs, equation.rhs))
+            if unknown and (told or (len(unknown) == 1 and _pairing(equation))):
                 defined |= dict.fromkeys(unknown, (key, ()))
                 known |= unknown
     return defined

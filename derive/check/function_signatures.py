@@ -32,6 +32,7 @@ TRANSLATION = Kind(
     "a variation or a velocity of T, or 0",
     (0, "τ", "δT", "δ′T", ("mul", "A", "η"), ("mul", "A", "η′"), ("mul", "A", "w")),
 )
+FIRST_FIELD, SECOND_FIELD = Kind("ξ", ("ξ",)), Kind("ξ′ or δ′Z", ("ξ′", "δ′Z"))
 FORM = Kind("ϖ(δy)", (("call", "ϖ", "δy"),))
 MOVED_PLACE: Tree = ("call", "g", "r")
 INTEGRAND = Kind(
@@ -42,7 +43,9 @@ INTEGRAND = Kind(
     ),
 )
 PLACE = Kind("r", ("r",))
-VARIED = Kind("r_i(t), g(r), ξ′, η′ or ϖ(X)", ("ξ′", "η′", MOVED_PLACE, ("call", "ϖ", "X")), "r")
+VARIED = Kind(
+    "r_i(t), g(r), ξ′, η′, L̃ or ϖ(X)", ("ξ′", "η′", "L̃", MOVED_PLACE, ("call", "ϖ", "X")), "r"
+)
 VARIED_PRIME = Kind("r_i(t), ξ or η", ("ξ", "η"), "r")
 
 HEADS: dict[str, tuple[Kind, ...]] = {
@@ -57,6 +60,7 @@ HEADS: dict[str, tuple[Kind, ...]] = {
     **dict.fromkeys(("δA", "δT", "ξ", "η", "Ω"), (MOTION,)),
     "∫": (INTEGRAND,),
     "g": (PLACE,),
+    "M̃": (FIRST_FIELD, SECOND_FIELD),
 }
 """The kinds of the arguments of each function; TRANSLATION is left out for a group that does not
 translate."""
@@ -70,7 +74,7 @@ INDEX_SETS: dict[str, str] = {
     **dict.fromkeys(("k", "s"), "springs"),
     **dict.fromkeys(("d", "χ", "σ"), "forces along a distance"),
     "f_u": "inputs",
-    "E": AXIS,
+    **dict.fromkeys(("E", "Π", "Π̇", "Φ"), AXIS),
 }
 """What the index of each family counts; that of an entry counts axes, or elements of a basis."""
 

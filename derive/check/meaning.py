@@ -12,6 +12,7 @@ from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.tree import Tree
 from .arithmetic import EvaluationError, is_matrix, times
+from .draws import Draws
 from .evaluate import Environment, evaluate, point_index
 from .force_balance import centred_values, solution_values
 from .function_signatures import MOVED_PLACE, SHARED
@@ -71,7 +72,7 @@ def environment(model: Model) -> Environment:
     )
 
 
-def parts_of(model: Model, linear: str, vector: str, x: Matrix) -> Values:
+def parts_of(model: Draws, linear: str, vector: str, x: Matrix) -> Values:
     """The linear part of a matrix and, in an affine group, its translation, by these names."""
     values: Values = {linear: model.group.linear_part(x)}
     if model.group.affine:

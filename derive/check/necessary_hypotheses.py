@@ -25,6 +25,7 @@ from .arithmetic import EvaluationError, is_matrix, scalar
 from .equation_sides import index_bindings
 from .evaluate import Environment, evaluate
 from .function_signatures import FORMS
+from .lagrangian.lagrangian_model import LagrangianModel
 from .locus import part_of_velocity
 from .meaning import parts_of
 from .model import Model
@@ -79,7 +80,7 @@ def needs_moments(step: Step, problem: Mapping[str, Any]) -> bool:
 def missing_mass_hypotheses(steps: Iterable[Step], problem: Mapping[str, Any]) -> Iterator[str]:
     """For each step the hypothesis on the masses that it lacks where the record first introduces
     L̃, in words; "" if none."""
-    known = False
+    known = "lagrangian" in problem  # which says all of L̃, and no masses
     for step in steps:
         here = not known and any(e.lhs == "L̃" for e in step.equations)
         known = known or here
@@ -100,7 +101,7 @@ def false_hypothesis(
     step: Step,
     problem: Mapping[str, Any],
     env: Environment,
-    model: Model,
+    model: Model | LagrangianModel,
     ordered: Iterable[Environment],
 ) -> str:
     """The first hypothesis of a step that does not hold, at a point or of the problem, in words; ""
@@ -118,7 +119,7 @@ def false_hypothesis(
 
 
 def missing_hypothesis(
-    step: Step, problem: Mapping[str, Any], env: Environment, model: Model
+    step: Step, problem: Mapping[str, Any], env: Environment, model: Model | LagrangianModel
 ) -> str:
     """A hypothesis that the equations of a step need and it does not make, in words; "" if none."""
     inverted = {x.of for x in step.hypotheses if x.property in INVERSE}
@@ -144,7 +145,7 @@ def _shortened(t: Tree) -> str:
 # -- at a point ----------------------------------------------------------------------------------
 
 
-def _failure(x: Hypothesis, env: Environment, model: Model) -> str:
+def _failure(x: Hypothesis, env: Environment, model: Model | LagrangianModel) -> str:
     """Why a hypothesis does not hold at a point, in words; "" where it does. Tried once for a
     model: many steps make the same."""
     if x not in model.hypothesis_failures:
@@ -152,7 +153,7 @@ def _failure(x: Hypothesis, env: Environment, model: Model) -> str:
     return model.hypothesis_failures[x]
 
 
-def _find_failure(x: Hypothesis, env: Environment, model: Model) -> str:
+def _find_failure(x: Hypothesis, env: Environment, model: Model | LagrangianModel) -> str:
     """Why a hypothesis does not hold at a point, in words; "" where it does."""
     if x.property == "nondegenerate":
         if not all({*letters} & {*names(x.of)} for letters in _variation_names(x.space)):
@@ -191,7 +192,7 @@ def _variation_names(space: str) -> tuple[tuple[str, ...], ...]:
     return tuple(tuple(x for form in forms[chosen] for x in form) for forms in FORMS)
 
 
-def form_matrix(form: Tree, env: Environment, model: Model) -> Matrix:
+def form_matrix(form: Tree, env: Environment, model: Model | LagrangianModel) -> Matrix:
     """The d × d matrix of a bilinear form in two variations on the basis, ``form``(E_a, E_b);
     ``EvaluationError`` where its values are no numbers."""
     first, second = ([_variation_values(e, model, k) for e in model.group.basis] for k in (0, 1))
@@ -206,7 +207,7 @@ def form_matrix(form: Tree, env: Environment, model: Model) -> Matrix:
     return rows
 
 
-def _variation_values(e: Matrix, model: Model, which: int) -> dict[str, Matrix]:
+def _variation_values(e: Matrix, model: Model | LagrangianModel, which: int) -> dict[str, Matrix]:
     """The values of the names of the first (``which`` 0) or the second variation along e in 𝔤."""
     space, *algebra = FORMS[which]
     found: dict[str, Matrix] = {}
@@ -219,7 +220,7 @@ def _variation_values(e: Matrix, model: Model, which: int) -> dict[str, Matrix]:
     return found
 
 
-def _is_metric(x: Hypothesis, env: Environment, model: Model) -> bool:
+def _is_metric(x: Hypothesis, env: Environment, model: Model | LagrangianModel) -> bool:
     """Does the hypothesis say that the kinetic metric, or its matrix, is not degenerate?"""
     if x.property == "invertible":
         return all(value == model.metric for value in values(x.of, env))

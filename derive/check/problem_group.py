@@ -29,6 +29,8 @@ def group_of(problem: Mapping[str, Any]) -> Group | None:
             raise RecordError(f"key 'n': {ANY_GROUP} moves the points of a space of any dimension")
         return None
     found = _stated(problem, name, basis) if IDENTIFIER.fullmatch(name) else _named(name, basis)
+    if "lagrangian" in problem:
+        found = (on_homogeneous(found) if found.affine else found).stated
     homogeneous = len(found.factors) == 1
     if homogeneous != problem.get("homogeneous"):
         kept = "an affine group kept as a linear one on (r, 1)"

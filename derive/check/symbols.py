@@ -232,7 +232,7 @@ def values(t: Tree, env: Environment) -> list[Any]:
     if isinstance(t, tuple) and t[0] == "at":
         return [*env.families[t[1]].values()]
     first = {i: 1 for i in free_indices(t) if isinstance(i, str)}
-    place = {"r": env.families["r"][1,]}
+    place = {"r": env.families["r"][1,]} if "r" in env.families else {}
     there = replace(env, names=ChainMap(place, env.names), indices=first)  # type: ignore[arg-type]
     return [evaluate(t, there)]
 

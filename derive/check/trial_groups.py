@@ -48,6 +48,8 @@ FREE = {"linear": "GL", "affine": "Aff"}
 LEAST = 6
 """The least n of a free group that is tried, as large as the words of the walk need: one point
 serves them all."""
+LEAST_BY_MOMENTA = 3
+"""The same where the longest word is a momentum paired with a bracket."""
 
 
 @cache
@@ -62,12 +64,12 @@ def free(action: str, n: int) -> Group:
     return group(f"{FREE[action]}({n})")
 
 
-def sizes(grade: Grade) -> range:
-    """As many n as prove a claim of this grade for all n, each large enough; ``RecordError`` where
-    the largest would be too large."""
+def sizes(grade: Grade, least: int = LEAST) -> range:
+    """As many n, from ``least`` on, as prove a claim of this grade for all n, each large enough;
+    ``RecordError`` where the largest would be too large."""
     if not grade.degree:
         raise RecordError("it says nothing of any group, but of n alone")
-    first = max(LEAST, -(-grade.slots // 2))
+    first = max(least, -(-grade.slots // 2))
     if first + grade.loops > LARGEST:
         raise RecordError(
             f"traces of words of degree {-(-grade.slots // 2)}, with {grade.loops} of 1, are not "

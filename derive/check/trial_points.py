@@ -14,6 +14,8 @@ from ..record.record import Equation, RecordError, Step
 from .equation_sides import claim_grade
 from .evaluate import Environment
 from .grades import DegreeSource, Grade
+from .lagrangian import lagrangian_values
+from .lagrangian.lagrangian_model import LagrangianModel
 from .locus import Locus, locus_of
 from .meaning import environment
 from .model import Model
@@ -24,7 +26,8 @@ from .trial_groups import TRIED, groups_with_relations
 SIZE = 2**128
 """The random integers of a point are of at most this absolute value."""
 
-Place = tuple[Model, Environment]
+AnyModel = Model | LagrangianModel
+Place = tuple[AnyModel, Environment]
 
 
 def action_of(problem: Mapping[str, Any]) -> str:
@@ -33,6 +36,27 @@ def action_of(problem: Mapping[str, Any]) -> str:
     if action not in TRIED:
         raise RecordError("record, problem: key 'action' must be linear or affine")
     return str(action)
+
+
+def model_at(
+    problem: Mapping[str, Any], g: Group, source: Source, size: int, at: Locus, **chosen: Any
+) -> AnyModel:
+    """A random model at a locus; ``chosen``: what is drawn otherwise (:class:`Model`)."""
+    if "lagrangian" in problem:
+        return LagrangianModel(problem, g, source, size, at, **chosen)
+    return Model({} if chosen.get("generic") else problem, g, source, size, at, **chosen)
+
+
+def names_at(model: AnyModel) -> Environment:
+    """The environment of the names at a model."""
+    if isinstance(model, LagrangianModel):
+        return lagrangian_values.environment(model)
+    return environment(model)
+
+
+def side_of(problem: Mapping[str, Any]) -> str:
+    """The trivialisation of a Lagrangian that no points give; "" for any other problem."""
+    return str(problem.get("lagrangian", {}).get("trivialisation", ""))
 
 
 class TrialPoints:
@@ -95,19 +119,20 @@ class TrialPoints:
         """A point like :meth:`point` of which the degrees alone are known."""
         at = locus_of(step, equation)
         generic = step.scope == ANY_GROUP
-        known, key = _GRADED_POINTS if generic else self._graded_points, (g.name, at)
+        known = _GRADED_POINTS if generic else self._graded_points
+        key = g.name + side_of(self.problem), at
         if key not in known:
             known[key] = self._place(g, DegreeSource(), SIZE, at, generic=generic)
         return known[key]
 
     def _place(self, g: Group, source: Source, size: int, at: Locus, *, generic: bool) -> Place:
         """A random model at which the hypotheses of a step hold, and its names."""
-        model = Model({} if generic else self.problem, g, source, size, at, generic=generic)
-        return model, environment(model)
+        model = model_at(self.problem, g, source, size, at, generic=generic)
+        return model, names_at(model)
 
     def grade(self, g: Group, step: Step, equation: Equation) -> tuple[int, Grade]:
         """The degree of an equation on a group, and the grade of its numerators."""
-        key = g.name, locus_of(step, equation), equation
+        key = g.name + side_of(self.problem), locus_of(step, equation), equation
         known = _GRADES if step.scope == ANY_GROUP else {}
         if key not in known:
             if len(known) > MOST_GRADES:

@@ -34,6 +34,11 @@ LOCAL = (
     "singular one, dx/dt is without bound.",
 )
 
+UNTESTED = (
+    "M, the second derivative of L in the velocity, depends on the state, so that constants does",
+    "not test it; where it is singular, dx/dt is without bound.",
+)
+
 Check = tuple[Node, Node | None]
 """A node that must be positive, and the scale of its rounding error."""
 
@@ -76,6 +81,7 @@ def assemble(
         (
             *conventions(group, d.problem, chosen, framed.problem["frame"] if framed else None),
             *(LOCAL if lowering.inverses.local else ()),
+            *(UNTESTED if lowering.inverses.untested else ()),
         ),
         tuple(lowering.reader.space.names),
         tuple(_parameter(d, name) for name in parameters),
@@ -146,6 +152,8 @@ def _refused(d: Derivation, group: Group, chosen: Options) -> None:
                 f"{d.name}: --jacobian {by} is a matrix of {rows * width} entries on {group.name}, "
                 f"of dimension {group.dimension}; compilers manage {most}: leave it out"
             )
+    if d.problem.get("lagrangian", {}).get("trivialisation") == "right":
+        _refused_on_the_right(d, chosen)
     if chosen.attitude == "quaternion" and not group.turns_space:
         raise LoweringError(f"{d.name}: a quaternion needs SO(3) or SE(3), not {group.name}")
     if chosen.attitude == "quaternion" and chosen.velocity == "tangent":
@@ -159,6 +167,20 @@ def _refused(d: Derivation, group: Group, chosen: Options) -> None:
             f"{d.name}: the principal frame is not smooth in the parameters; "
             "linearise in them without --frame"
         )
+
+
+def _refused_on_the_right(d: Derivation, chosen: Options) -> None:
+    """What is written for Z = g⁻¹ġ alone."""
+    for on, option in (
+        (chosen.velocity == "tangent", "--velocity tangent"),
+        (chosen.attitude == "quaternion", "--attitude quaternion"),
+        ("state" in chosen.jacobian, "--jacobian state"),
+    ):
+        if on:
+            raise LoweringError(
+                f"{d.name}: {option} is for Z = g^-1 dg/dt, and this Lagrangian is trivialised on "
+                "the right: leave it out"
+            )
 
 
 def _inertia(reader: RecordReader) -> dict[str, list[Node]]:

@@ -33,6 +33,9 @@ def conventions(
             "The names that end in _dot are the entries of the velocity dg/dt; the basis below is"
         )
         lines.append("that of the Lie algebra, in which the linearised equations are written.")
+    elif (side := problem.get("lagrangian", {}).get("trivialisation")) is not None:
+        moved = "g^-1 dg/dt" if side == "left" else "(dg/dt) g^-1"
+        lines.append(f"zeta are the coordinates of Z = {moved} in the basis below.")
     elif group.turns_space and not group.stated_basis:
         lines.append(
             "zeta is the angular velocity in the body frame: dA/dt = A j(zeta), j(x) y = x cross y."

@@ -28,13 +28,15 @@ class Inverses:
     """The inverses and linear solves of one record, and what ``constants`` must test for them.
 
     ``checks``: what must be positive, and the scale of its rounding error; ``local``: do they hold
-    the metric at g = 1 alone?
+    the metric at g = 1 alone?  ``definite``: is M that of masses, or of any Lagrangian?
+    ``untested``: such an M depends on the state.
     """
 
     def __init__(self, reader: RecordReader):
         self.reader, self.graph, self.group = reader, reader.graph, reader.group
         self.checks: list[tuple[Node, Node | None]] = []
-        self.local = False
+        self.local = self.untested = False
+        self.definite = "lagrangian" not in reader.record.problem
 
     def of(self, t: Tree) -> Value:
         """The inverse of the value of a tree, a number or a matrix; its check is noted."""
@@ -70,7 +72,7 @@ class Inverses:
         if any(step.label.endswith(".multiplier") for step in record.steps):
             central = record.definition("N_c") is not None
             self.reader.tree(("inv", "J_c" if central else "J"))
-        if self.group.free_translations:
+        if self.group.free_translations and self.definite:
             self._check([(self.reader.number("m"), None)])
 
     def solved(self, t: Tree, right: Matrix) -> Matrix:
@@ -87,7 +89,10 @@ class Inverses:
     def _check_pivots(self, t: Tree, value: Matrix, pivots: list[Node]) -> None:
         """Note that the pivots of a matrix of the parameters, or of M at g = 1, are positive."""
         if dense.stage_of(value) == PARAMETER:
-            self._check(zip(pivots, self._sizes(t, value), strict=True))
+            tested = pivots if self.definite else map(self.graph.absolute, pivots)
+            self._check(zip(tested, self._sizes(t, value), strict=True))
+        elif not self.definite:
+            self.untested = True
         elif t == "M":
             still = self._at_identity(value)
             factors = dense.factorised(self.graph, still, lambda part, x: x)
@@ -169,7 +174,7 @@ class Inverses:
     def _check_diagonal(self, t: Tree, m: Matrix, inverse: Matrix) -> None:
         """Note that 1/(M⁻¹)_ii is positive: rounding after a small pivot may hide that one is
         not."""
-        for i, scale in enumerate(self._sizes(t, m)):
+        for i, scale in enumerate(self._sizes(t, m) if self.definite else ()):
             x = inverse[i][i]
             pivot = x.op == "value" and x.args[0].op == "recip"
             self._check([] if pivot else [(self.graph.recip(x), scale)])

@@ -15,7 +15,7 @@ MOMENTS = tuple(f"J_{i}{j}" for i in (1, 2, 3) for j in range(i, 4))
 
 def inertia(reader: RecordReader) -> list[Node]:
     """I_11, I_12, I_13, I_22, I_23, I_33 about the body's origin; empty where space is not R³."""
-    if not reader.group.turns_space:
+    if not reader.group.turns_space or reader.record.definition("I") is None:
         return []
     tensor = reader.vector("I")
     return [tensor[i][j] for i in range(3) for j in range(i, 3)]

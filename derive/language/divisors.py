@@ -35,7 +35,7 @@ def residue(tree: Tree, p: int) -> int:
     if isinstance(tree, (int, Fraction)):
         q = Fraction(tree)
         return q.numerator * inverse(q.denominator, p) % p
-    if isinstance(tree, str) or tree[0] == "par":
+    if isinstance(tree, str) or tree[0] in ("par", "entry"):
         return hashed(str(tree), p)
     if tree[0] == "fun":
         inside = residue(tree[2], p)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..schema.body_kinds import AnyBody
+from ..schema.body_kinds import AnyBody, NoBody
+from ..schema.table import Table
 from .problem import Problem
 
 
@@ -17,11 +18,17 @@ def data(problem: Problem) -> dict[str, Any]:
         "action": problem.action,
         "homogeneous": problem.homogeneous,
         "parameters": {k: p.plain() for k, p in problem.parameters.items()},
-        "body": (problem.body or AnyBody()).plain(),
+        "body": _body(problem).plain(),
         "potentials": [p.plain() for p in problem.potentials],
         "inputs": [i.plain() for i in problem.inputs],
         "places": [p.plain() for p in problem.places],
         "damping": [d.plain() for d in problem.damping],
         **({"frame": dict(problem.frame)} if problem.frame else {}),
         **({"masses": "of any sign"} if problem.signed else {}),
+        **({"lagrangian": problem.lagrangian.plain()} if problem.lagrangian else {}),
     }
+
+
+def _body(problem: Problem) -> Table:
+    """The body, or why there is none."""
+    return problem.body or (NoBody() if problem.lagrangian else AnyBody())

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..language.limits import TABLES
+from ..schema.lagrangian_kinds import SECTIONS
 from .problem import ProblemError
 
 LIKE_A_PLACE = re.compile(r"[rv][0-9]+_\w+")
@@ -42,7 +43,7 @@ def unread(raw: bytes, error: ValueError) -> str:
 def used_at(data: Mapping[str, Any], name: str, *but: str) -> str:
     """The first table and key, but some, in which a name stands, as other messages say it."""
     word = re.compile(rf"(?<![A-Za-z0-9_]){re.escape(name)}(?![A-Za-z0-9_])")
-    for kind in (*TABLES, "body"):
+    for kind in (*TABLES, "body", *SECTIONS):
         listed = isinstance(data.get(kind), list)
         for k, table in enumerate(data[kind] if listed else [data.get(kind, {})], 1):
             for key, value in table.items():

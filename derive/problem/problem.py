@@ -11,6 +11,7 @@ from ..language.refused import Refused
 from ..schema.body_kinds import Body, MomentBody, Place, Point
 from ..schema.declared import Parameter
 from ..schema.kind import Potential
+from ..schema.lagrangian_kinds import Lagrangian
 from ..schema.outside import CovectorInput, Damping, ForceInput, Input
 
 
@@ -24,6 +25,7 @@ class Problem:
 
     ``frame``: what its parameters stand for, if it is in a principal frame (``principal.py``).
     ``signed``: masses may be negative, so that nothing is said of the sign of the metric.
+    ``lagrangian``: one that no points give; the group then acts by matrices on (r, 1).
     """
 
     name: str
@@ -38,6 +40,7 @@ class Problem:
     damping: tuple[Damping, ...] = ()
     frame: Mapping[str, Any] | None = None
     signed: bool = False
+    lagrangian: Lagrangian | None = None
 
     @property
     def affine(self) -> bool:

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from ..algebra.families import on_homogeneous
 from ..algebra.groups import Group
 from ..language.expression import names, numbers
 from ..language.limits import (
@@ -25,6 +26,8 @@ from ..language.weight import weight
 from ..schema.body_kinds import GivenBody, MomentBody
 from ..schema.declared import Parameter
 from ..schema.kinds import kinds
+from ..schema.lagrangian_kinds import SECTIONS, SIDES
+from ..schema.outside import ForceInput
 from ..schema.table import Slot, Table, nearest
 from . import inertia
 from .bodies import body
@@ -33,9 +36,10 @@ from .file_reader import FileReader
 from .forces import forces, negative_stiffness_of
 from .group import group_of
 from .problem import Problem, ProblemError
+from .stated_lagrangian import lagrangian
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
-TOP |= {"damping", "solid"}
+TOP |= {"damping", "solid", *SECTIONS}
 DOTTED = re.compile(
     rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
 )
@@ -109,9 +113,13 @@ def problem_of(
     reader.moves(moved)
     name = _name(data, moved, reader)
     parameters = _parameters(data.get("parameters", {}), reader)
+    if any(key in data for key in SECTIONS):
+        return _without_points(data, name, moved, parameters)
     own = body(data, reader)
     if moved and own is None:
-        raise ProblemError("no body: give [[point]] or [[solid]] tables, or a table [body]")
+        raise ProblemError(
+            "no body: give [[point]] or [[solid]] tables, or a table [body]; or a [lagrangian]"
+        )
     if isinstance(own, MomentBody):
         named = {x: parameters.get(x, p) for x, p in own.parameters().items()}
         parameters = {**named, **{k: p for k, p in parameters.items() if k not in named}}
@@ -142,10 +150,44 @@ def problem_of(
     return problem
 
 
+def _without_points(
+    data: Mapping[str, Any],
+    name: str,
+    moved: Group | None,
+    parameters: Mapping[str, Parameter],
+) -> Problem:
+    """A problem that says all of its Lagrangian; its group acts by matrices on (r, 1)."""
+    where = next(key for key in SECTIONS if key in data)
+    if moved is None:
+        raise ProblemError(f"key {where!r}: a text about any group has no Lagrangian of its own")
+    for key in ("point", "solid", "body", "potential", "damping"):
+        if key in data:
+            raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
+    group = (on_homogeneous(moved) if moved.affine else moved).stated
+    reader = FileReader()
+    reader.moves(group)
+    reader.carries(None, parameters)
+    _, inputs, _ = forces(data, reader)
+    if any(isinstance(x, ForceInput) for x in inputs):
+        raise ProblemError(f"key 'input': beside [{where}] an input is a covector: no points")
+    reader.distinct(inputs, parameters)
+    problem = Problem(
+        name,
+        group,
+        title=reader.text(Slot(data, "title", "file")) if "title" in data else name,
+        parameters=parameters,
+        inputs=inputs,
+        lagrangian=lagrangian(data, group, reader),
+    )
+    _affordable(problem)
+    _declared(problem, data)
+    return problem
+
+
 def _name(data: Mapping[str, Any], moved: Group | None, reader: FileReader) -> str:
     """The name of the problem: a prefix of labels that nothing else has."""
     name = reader.identifier(reader.text(Slot(data, "name", "file")), "key 'name'")
-    if moved and name in ("linear", "affine"):
+    if moved and name in ("linear", "affine", *SIDES):
         raise ProblemError(f"key 'name': {name!r} names what is said of any group; choose another")
     return name
 
@@ -241,7 +283,8 @@ def _moments(problem: Problem) -> list[Tree]:
 
 
 def _forces(problem: Problem) -> list[Tree]:
-    return _trees((*problem.potentials, *problem.damping, *problem.places))
+    own = [problem.lagrangian] if problem.lagrangian else []
+    return _trees((*own, *problem.potentials, *problem.damping, *problem.places))
 
 
 def _affordable(problem: Problem) -> None:

@@ -7,6 +7,12 @@ from __future__ import annotations
 
 STEPS: dict[str, dict[str, tuple[str, str]]] = {
     "lagrangian": {
+        "expression": (
+            "The Lagrangian of this problem, an expression in the time, the entries of g and the "
+            "coordinates of Z.",
+            "Le lagrangien de ce problème, une expression du temps, des entrées de g et des "
+            "coordonnées de Z.",
+        ),
         "points": (
             "A body is made of points r_i of mass m_i, which have the velocities v_i in space. "
             "Its Lagrangian is the kinetic energy less the potential.",
@@ -167,6 +173,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
     },
     "energy": {
+        "expression": (
+            "The energy of this problem, Σ Π_a ζ_a − L̃.",
+            "L’énergie de ce problème, Σ Π_a ζ_a − L̃.",
+        ),
         "paired": (
             "The energy is the momentum paired with the velocity, less the Lagrangian.",
             "L’énergie est l’impulsion appliquée à la vitesse, moins le lagrangien.",
@@ -191,6 +201,18 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
     },
     "trivialisation": {
+        "left": (
+            "Tangent vectors are carried to the Lie algebra by g⁻¹ (Maurer–Cartan), from the left: "
+            "ν = gZ.",
+            "On transporte les vecteurs tangents dans l’algèbre de Lie par g⁻¹ (forme de "
+            "Maurer–Cartan), à gauche : ν = gZ.",
+        ),
+        "right": (
+            "Tangent vectors are carried to the Lie algebra by g⁻¹ (Maurer–Cartan), from the "
+            "right: ν = Zg.",
+            "On transporte les vecteurs tangents dans l’algèbre de Lie par g⁻¹ (forme de "
+            "Maurer–Cartan), à droite : ν = Zg.",
+        ),
         "carried": (
             "Tangent vectors are carried to the Lie algebra by g⁻¹ (Maurer–Cartan); the metric "
             "depends on g through C = ĀA only.",
@@ -298,6 +320,14 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
     },
     "second_order": {
+        "any_lagrangian": (
+            "Where the second derivative M̃ of L̃ with respect to Z is not degenerate, variations "
+            "of Z alone give every δ′Π, and this expression vanishes for all of them only if X has "
+            "the velocity of the motion.",
+            "Là où la dérivée seconde M̃ de L̃ par rapport à Z est non dégénérée, les variations de "
+            "Z seul donnent tout δ′Π, et cette expression ne s’annule pour toutes que si X a la "
+            "vitesse du mouvement.",
+        ),
         "velocity": (
             "As {regular}, this expression vanishes for all such variations only if X has the "
             "velocity of the motion, which is inserted; {rates}.",
@@ -407,7 +437,27 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "appartient {acceleration}.",
         ),
     },
+    "algebra": {
+        "brackets": (
+            "The brackets of the basis; those that are not listed vanish.",
+            "Les crochets de la base ; ceux qui ne figurent pas sont nuls.",
+        ),
+    },
     "momenta": {
+        "basis": (
+            "On the basis of the Lie algebra Π_a is the derivative of L̃ with respect to ζ_a, and "
+            "Φ_a the one along E_a.",
+            "Sur la base de l’algèbre de Lie, Π_a est la dérivée de L̃ par rapport à ζ_a, et Φ_a "
+            "celle le long de E_a.",
+        ),
+        "any_lagrangian": (
+            "The Lagrangian is any function of the time, of the element of the group and of the "
+            "velocity Z; the momentum Π of 𝔤* is its derivative with respect to Z, and Φ the one "
+            "along the group, at a fixed Z.",
+            "Le lagrangien est une fonction quelconque du temps, de l’élément du groupe et de la "
+            "vitesse Z ; le moment Π, élément de 𝔤*, est sa dérivée par rapport à Z, et Φ celle le "
+            "long du groupe, à Z fixé.",
+        ),
         "derivatives": (
             "The momentum of 𝔤* is the derivative of L̃ with respect to {velocity}, and {push} "
             "the one along the group, at a fixed velocity; both are told by what they give on 𝔤.",
@@ -440,6 +490,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
     },
     "coadjoint": {
+        "basis": (
+            "The equations of motion on the basis: ξ′ is each E_a, and the coadjoint term is told "
+            "by the brackets.",
+            "Les équations du mouvement sur la base : ξ′ est chacun des E_a, et les crochets "
+            "donnent le terme coadjoint.",
+        ),
         "turning": (
             "The coefficient of Ω′ must vanish.",
             "Le coefficient de Ω′ doit s’annuler.",

@@ -125,6 +125,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
     },
     "mass": {
+        "basis_of_lagrangian": (
+            "Π̇_a is written out: M is the matrix of the second derivatives of L̃ with respect to "
+            "the ζ_a, and β_a what is left without the acceleration, for M ζ̇ = β.",
+            "On développe Π̇_a : M est la matrice des dérivées secondes de L̃ par rapport aux ζ_a, "
+            "et β_a ce qui reste sans l’accélération, pour M ζ̇ = β.",
+        ),
         "centres": (
             "For ξ′ = E_a(𝟏 − S) and Ż = Σ ψ_b E_b(𝟏 − S) the equations of motion are linear in "
             "the ψ_b: M is the mass matrix of these, β_a the load along E_a(𝟏 − S).",
@@ -199,6 +205,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
     },
     "motion": {
+        "lagrangian": (
+            "The equations of motion of this problem, solved for the accelerations: M is "
+            "invertible where the kernel is transverse to the planes t = const.",
+            "Les équations du mouvement de ce problème, résolues par rapport aux accélérations : M "
+            "est inversible là où le noyau est transverse aux plans t = const.",
+        ),
         "rotation": (
             "The equations of motion of this problem, solved for the accelerations: the tensor I "
             "is invertible where the masses are not all on one line through the fixed point.",

@@ -21,6 +21,7 @@ from typing import Any, TypeVar
 from ..algebra.families import FAMILIES
 from ..problem import problem as mechanics
 from ..problem.toml import problem_of
+from ..schema.lagrangian_kinds import SECTIONS
 from ..schema.python_words import words
 from ..schema.table import Number
 
@@ -100,7 +101,7 @@ def _called(function: F, name: str, doc: str | None) -> F:
 def Problem(
     name: str,
     group: Group | str,
-    body: Sequence[Table],
+    body: Sequence[Table] | Table,
     forces: Sequence[Table] | Table = (),
     parameters: Mapping[str, Any] | None = None,
     title: str | None = None,
@@ -108,6 +109,8 @@ def Problem(
     negative_stiffness: bool = False,
 ) -> mechanics.Problem:
     """A problem from its tables; ``ProblemError`` says what is wrong.
+
+    ``body``: points, moments, solids; or a Lagrangian that no points give.
 
     ``negative_mass``, ``negative_stiffness``: may a mass, or the stiffness of a spring and the
     coefficient of a damping, be given as a negative number?
@@ -118,8 +121,8 @@ def Problem(
     if title is not None:
         data["title"] = title
     for table in (*_tables(body), *_tables(forces)):
-        if table.key == "body":
-            data["body"] = table.fields
+        if table.key in ("body", *SECTIONS):
+            data[table.key] = table.fields
         else:
             data.setdefault(table.key, []).append(table.fields)
     return problem_of(data, negative_mass=negative_mass, negative_stiffness=negative_stiffness)

@@ -13,7 +13,7 @@ from typing import Any
 
 from ..language.limits import RECORD_BYTES, TREE
 from . import sentence
-from .contract import ACTIONS, ANY_GROUP, COMMENTARY
+from .contract import ANY_GROUP, CHAPTERS, COMMENTARY
 from .hypotheses import PROPERTIES, SPACES, Hypothesis
 from .name_types import ROLES, Type, Use
 from .record import Derivation, Equation, RecordError, Step, Symbol, equation_key, step_of
@@ -121,7 +121,7 @@ def _step(data: Any, where: str, earlier: Set[str], group: str) -> Step:
     for k, item in enumerate(data["equations"], 1):
         _require_implied(item, "key", equation_key(label, k), f"{where}, equation {k}")
     paper = tuple(x for x in _field(data, "paper", list, where) if isinstance(x, int))
-    scope = ANY_GROUP if label.partition(".")[0] in ACTIONS else group
+    scope = ANY_GROUP if label.partition(".")[0] in CHAPTERS else group
     _require_implied(data, "scope", scope, where)
     prose = _prose(data, "prose", where)
     given = _equations(data, "given", where, quantified=False) if "given" in data else ()
@@ -173,7 +173,7 @@ def from_json(text: str) -> Derivation:
         raise RecordError(f"record, problem: {error}") from None
     listed = _field(data, "symbols", list, "record")
     symbols = [_symbol(item, f"symbol {k}") for k, item in enumerate(listed, 1)]
-    prefixes, steps = (problem["name"], *ACTIONS), dict[str, Step]()
+    prefixes, steps = (problem["name"], *CHAPTERS), dict[str, Step]()
     for k, item in enumerate(_field(data, "steps", list, "record"), 1):
         step = _step(item, f"step {k}", steps.keys(), problem["group"])
         if step.label.partition(".")[0] not in prefixes:

@@ -15,6 +15,7 @@ from ..language.limits import BASIS
 from ..language.tree import Tree
 from ..schema.body_kinds import BODIES, Place
 from ..schema.kinds import kinds
+from ..schema.lagrangian_kinds import Lagrangian
 from ..schema.outside import INPUTS, Damping
 from ..schema.solid_kinds import SOLIDS, Solid
 from ..schema.table import Rows, Slot, Table
@@ -95,6 +96,7 @@ class _RecordReader(TableReader):
         self.distinct(inputs, data["parameters"])
         self.each("damping", lambda x, where: self.whole(Damping, x, where))
         self.matrices(self.value(self.top("basis"), list))
+        self.lagrangian()
         if self.value(self.top("conventions"), list) != [*CONVENTIONS]:
             raise ShapeError("conventions: not those by which equations are checked")
 
@@ -110,10 +112,31 @@ class _RecordReader(TableReader):
     def body(self) -> None:
         """Its points are those that are named by numbers."""
         own = self.value(self.top("body"), dict)
-        if own.get("kind") in ("moments", "any") and own.get("points"):
+        if own.get("kind") in ("moments", "any", "none") and own.get("points"):
             raise ShapeError(f"body: {own['kind']!r} leaves the points open; it lists none")
         found = self.one_of(BODIES, own, "body")
         self.count = self.last = len(getattr(found, "points", None) or ())
+
+    def lagrangian(self) -> None:
+        """A Lagrangian that no points give is beside no body, and all that acts but covectors."""
+        data = self.data
+        if ("lagrangian" in data) != (data["body"]["kind"] == "none"):
+            raise ShapeError("lagrangian: it is of a problem without a body")
+        if "lagrangian" not in data:
+            return
+        for key in ("potentials", "places", "damping"):
+            if data[key]:
+                raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
+        if any(x["kind"] != "covector" for x in data["inputs"]):
+            raise ShapeError("lagrangian: the inputs of its problem are covectors")
+        self.whole(Lagrangian, data["lagrangian"], "lagrangian")
+
+    def lettered(self, slot: Slot) -> Tree:
+        """An expression in the time, the entries of g and ζ."""
+        t = self.read(self.value(slot), slot.path)
+        if not self.is_scalar(t, False, True, len(self.data["basis"])):
+            raise ShapeError(f"{slot.path}: expected the expression of a number")
+        return t
 
     def matrices(self, basis: list[Any]) -> None:
         """Check a basis: square matrices of fractions as strings."""
@@ -182,16 +205,29 @@ class _RecordReader(TableReader):
             raise ShapeError(f"{where}: expected the expression of a number")
         return t
 
-    def is_scalar(self, t: Tree, placed: bool, timed: bool) -> bool:
-        """Is it made of what is known, by what keeps to numbers?"""
+    def is_scalar(self, t: Tree, placed: bool, timed: bool, coordinates: int = 0) -> bool:
+        """Is it made of what is known, by what keeps to numbers?  ``coordinates``: how many entries
+        ζ has, where those of g are known as well."""
         if not isinstance(t, tuple):
             return not isinstance(t, str) or t == "π" or (timed and t == "t")
         if t[0] == "par":
             return t[1] in self.data["parameters"]
         if t[0] == "entry":
+            if coordinates:
+                return self.is_entry(t, coordinates)
             return placed and len(t) == 3 and self.is_place(t[1])
         kept = {"add": t[1:], "mul": t[1:], "div": t[1:], "pow": t[1:2], "fun": t[2:]}
-        return t[0] in kept and all(self.is_scalar(x, placed, timed) for x in kept[t[0]])
+        return t[0] in kept and all(
+            self.is_scalar(x, placed, timed, coordinates) for x in kept[t[0]]
+        )
+
+    def is_entry(self, t: tuple[Any, ...], coordinates: int) -> bool:
+        """Is a tree an entry of g, or of ζ?"""
+        n = self.data["n"]
+        sizes = {"A": (n, n), "ζ": (coordinates,)}.get(t[1] if isinstance(t[1], str) else "", ())
+        return len(t) - 2 == len(sizes) > 0 and all(
+            type(i) is int and 1 <= i <= most for i, most in zip(t[2:], sizes, strict=True)
+        )
 
     def is_place(self, t: Tree) -> bool:
         """Is a tree r_i(t), for a point or a place of the problem?"""

@@ -170,7 +170,7 @@ def definitions(
     listed, of its first member.
 
     A use is defined where it stands alone on the left; or is new and alone on the right, as in Z =
-    j(ζ), or the one new name of a pairing or a sum: Z = Σ ζ_a E_a.
+    j(ζ), or the one new name of a pairing or a sum: Z = Σ ζ_a E_a; or a coefficient of a variation.
     """
     listed = [(x, position_of(y.type), y.role) for x, about in meant.items() for y in about.uses]
     known = {(x, position) for x, position, role in listed if role != "definition"}
@@ -183,12 +183,13 @@ def definitions(
         if right and right.usage not in known:
             found.setdefault(right.usage, (e.key, right))
         known |= {x.usage for x in (left, right) if x}
-        if _is_pairing(e.equation.lhs) or _is_pairing(e.equation.rhs):
-            new = {x.usage for x in (*e.left, *e.right)} & allowed - known
-            if len(new) == 1:
-                (usage,) = new
+        both = (e.equation.lhs, e.equation.rhs)
+        new = {x.usage for x in (*e.left, *e.right)} & allowed - known
+        told = any({x for x, _ in new} <= paired(x) for x in both)
+        if told or (len(new) == 1 and any(map(_is_pairing, both))):
+            for usage in new:
                 found.setdefault(usage, (e.key, Occurrence(usage)))
-                known.add(usage)
+            known |= new
     return found
 
 
@@ -198,6 +199,14 @@ def lone_occurrence(t: Tree) -> Occurrence | None:
         t = t[1]
     alone = isinstance(t, str) or (isinstance(t, tuple) and t[0] in ("at", "call"))
     return occurrences(t)[0] if alone else None
+
+
+def paired(t: Tree) -> set[str]:
+    """The names that a sum pairs each with a variation of its own: they are its coefficients."""
+    summed = t[1:] if isinstance(t, tuple) and t[0] == "add" else (t,)
+    pairs = [x[1:] for x in summed if isinstance(x, tuple) and x[0] == "inner"]
+    partners = [y for _, y in pairs]
+    return {x for x, y in pairs if isinstance(x, str) and partners.count(y) == 1}
 
 
 def _is_pairing(t: Tree) -> bool:

@@ -135,10 +135,12 @@ VOCABULARY: dict[str, Name] = {
     "δC": name("variation of C", "variation de C", r"\delta C", defined(SQUARE)),
     "f": name("A⁻¹F̃, in the Lie algebra", "A⁻¹F̃, dans l’algèbre de Lie", "f", defined(ALGEBRA)),
     "Π": name("momentum of 𝔤*, its linear part: Σ m_i Āv_i r̄_i",
-        "moment de 𝔤*, sa partie linéaire : Σ m_i Āv_i r̄_i", r"\Pi", defined(SQUARE)),
+        "moment de 𝔤*, sa partie linéaire : Σ m_i Āv_i r̄_i",
+        r"\Pi", defined(SQUARE), defined(family("basis", SCALAR))),
     "δΠ": name("variation of Π", "variation de Π", r"\delta\Pi", letter(SQUARE)),
     "δ′Π": name("variation δ′ of Π", "variation δ′ de Π", r"\delta'\Pi", letter(SQUARE)),
-    "Π̇": name("dΠ/dt along the motion", "dΠ/dt le long du mouvement", r"\dot\Pi", rate(SQUARE)),
+    "Π̇": name("dΠ/dt along the motion", "dΠ/dt le long du mouvement",
+        r"\dot\Pi", rate(SQUARE), rate(family("basis", SCALAR))),
     "p_b": name("momentum in the body frame, Σ m_i Āv_i",
         "quantité de mouvement dans le repère du corps, Σ m_i Āv_i", "p_b", defined(VECTOR)),
     "δp_b": name("variation of p_b", "variation de p_b", r"\delta p_b", letter(VECTOR)),
@@ -153,7 +155,8 @@ VOCABULARY: dict[str, Name] = {
     "ℓ̇_b": name("dℓ_b/dt along the motion",
         "dℓ_b/dt le long du mouvement", r"\dot\ell_b", rate(SQUARE)),
     "Φ": name("derivative of L̃ along the group, at a fixed velocity",
-        "dérivée de L̃ le long du groupe, à vitesse fixée", r"\Phi", defined(SQUARE)),
+        "dérivée de L̃ le long du groupe, à vitesse fixée",
+        r"\Phi", defined(SQUARE), defined(family("basis", SCALAR))),
     "ζ": name("coordinates of Z in the basis of the Lie algebra",
         "coordonnées de Z dans la base de l’algèbre de Lie", r"\zeta", defined(COORDINATES)),
     "Ω": name("ξ = j(Ω)", "ξ = j(Ω)", r"\Omega", defined(VECTOR), of_X(VECTOR)),
@@ -275,6 +278,11 @@ VOCABULARY: dict[str, Name] = {
     "ṗ": name("dp/dt along the motion", "dp/dt le long du mouvement", r"\dot p", rate(VECTOR)),
     "ḣ": name("dh̃/dt along the motion",
         "dh̃/dt le long du mouvement", r"\dot{\tilde h}", rate(SCALAR)),
+    "∂ₜL̃": name("partial derivative of L̃ in time",
+        "dérivée partielle de L̃ par rapport au temps", r"\partial_t\tilde L", letter(SCALAR)),
+    "M̃": name("second derivative of L̃ with respect to the velocity",
+        "dérivée seconde de L̃ par rapport à la vitesse",
+        r"\tilde M", function(ALGEBRA, ALGEBRA, SCALAR)),
     "∂ₜŨ": name("partial derivative of Ũ in time",
         "dérivée partielle de Ũ par rapport au temps", r"\partial_t\tilde U", letter(SCALAR)),
 }
@@ -345,6 +353,44 @@ PRODUCTS: dict[str, Name] = {
 }
 """Meanings of names where the group is a product, whose affine factors act on (r, 1)."""
 
+_OF_LAGRANGIANS = {
+    "A": ("element of the group", "élément du groupe"),
+    "α": ("velocity, tangent to the group", "vitesse, tangente au groupe"),
+    "L̃": (
+        "Lagrangian, a function of the time, of g and of Z",
+        "lagrangien, une fonction du temps, de g et de Z",
+    ),
+    "Π": (
+        "momentum of 𝔤*, the derivative of L̃ with respect to Z; Π_a is its value on E_a",
+        "moment de 𝔤*, dérivée de L̃ par rapport à Z ; Π_a est sa valeur sur E_a",
+    ),
+    "Φ": (
+        "derivative of L̃ along the group, at a fixed Z; Φ_a is the one along E_a",
+        "dérivée de L̃ le long du groupe, à Z fixé ; Φ_a est celle le long de E_a",
+    ),
+    "E": ("basis of the Lie algebra", "base de l’algèbre de Lie"),
+}
+_CARRIED = {
+    "left": {
+        "Z": ("A⁻¹α, in the Lie algebra", "A⁻¹α, dans l’algèbre de Lie"),
+        "ξ": ("A⁻¹δA, in the Lie algebra", "A⁻¹δA, dans l’algèbre de Lie"),
+        "ξ′": ("A⁻¹δ′A, in the Lie algebra", "A⁻¹δ′A, dans l’algèbre de Lie"),
+    },
+    "right": {
+        "Z": ("αA⁻¹, in the Lie algebra", "αA⁻¹, dans l’algèbre de Lie"),
+        "ξ": ("δAA⁻¹, in the Lie algebra", "δAA⁻¹, dans l’algèbre de Lie"),
+        "ξ′": ("δ′AA⁻¹, in the Lie algebra", "δ′AA⁻¹, dans l’algèbre de Lie"),
+    },
+}
+LAGRANGIANS: dict[str, dict[str, Name]] = {
+    side: {
+        x: VOCABULARY[x]._replace(meaning=meaning, french=french)
+        for x, (meaning, french) in (_OF_LAGRANGIANS | carried).items()
+    }
+    for side, carried in _CARRIED.items()
+}
+"""Meanings of names where no points give the Lagrangian, by the trivialisation."""
+
 DERIVATIVE_OF = {"dϖ": "ϖ", "ḣ": "h̃", "ℓ̇": "ℓ", "ṗ": "p"}
 DERIVATIVE_OF |= {"δΠ": "Π", "δ′Π": "Π", "Π̇": "Π", "δp_b": "p_b", "δ′p_b": "p_b", "ṗ_b": "p_b"}
 DERIVATIVE_OF |= dict.fromkeys(("δℓ_b", "δ′ℓ_b", "ℓ̇_b"), "ℓ_b")
@@ -353,5 +399,5 @@ DERIVATIVE_OF |= dict.fromkeys(("δℓ_b", "δ′ℓ_b", "ℓ̇_b"), "ℓ_b")
 
 def meanings() -> Iterator[tuple[str, str]]:
     """The meaning of every name, in English and in French."""
-    for table in (VOCABULARY, ROTATIONS, DISPLACEMENTS, PRODUCTS):
+    for table in (VOCABULARY, ROTATIONS, DISPLACEMENTS, PRODUCTS, *LAGRANGIANS.values()):
         yield from ((x.meaning, x.french) for x in table.values())

@@ -123,5 +123,12 @@ class AnyBody(Table):
     kind = "any"
 
 
+class NoBody(Table):
+    """None: the problem says all of its Lagrangian."""
+
+    kind = "none"
+
+
 Body = PointBody | MomentBody | GivenBody
-BODIES: dict[str, type[Table]] = {x.kind: x for x in (PointBody, GivenBody, MomentBody, AnyBody)}
+_ALL: tuple[type[Table], ...] = (PointBody, GivenBody, MomentBody, AnyBody, NoBody)
+BODIES: dict[str, type[Table]] = {x.kind: x for x in _ALL}

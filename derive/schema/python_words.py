@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .body_kinds import Moments, Point
 from .kinds import kinds
+from .lagrangian_kinds import SECTIONS
 from .outside import INPUTS, Damping
 from .solid_kinds import Solid
 from .table import Table
@@ -11,5 +12,13 @@ from .table import Table
 
 def words() -> dict[str, type[Table]]:
     """Every table that has a word, by it."""
-    listed = (*kinds().values(), *INPUTS.values(), Damping, Point, Moments, Solid)
+    listed = (
+        *kinds().values(),
+        *SECTIONS.values(),
+        *INPUTS.values(),
+        Damping,
+        Point,
+        Moments,
+        Solid,
+    )
     return {x.called or x.__name__: x for x in listed}

@@ -14,6 +14,7 @@ from ..language.limits import MAGNITUDE, TEXT
 from ..language.reserved import WORDS, taken
 from ..language.tree import Tree
 from .declared import Parameter
+from .lagrangian_kinds import SIDES
 from .outside import Input
 from .table import Rows, Slot, Table, nearest
 
@@ -135,6 +136,10 @@ class TableReader(ABC):
     def action(self, slot: Slot) -> str:
         """How a group acts."""
         return self.choice(slot, ("linear", "affine"))
+
+    def side(self, slot: Slot) -> str:
+        """The side on which velocities are carried to 𝔤."""
+        return self.choice(slot, SIDES)
 
     def name(self, slot: Slot) -> str:
         """A name that every emitted language can take."""

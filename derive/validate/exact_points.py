@@ -21,9 +21,7 @@ from ..check.equation_sides import largest_degree
 from ..check.evaluate import Environment, evaluate
 from ..check.grades import Degree, DegreeSource, degrees
 from ..check.locus import Locus
-from ..check.meaning import environment
-from ..check.model import Model
-from ..check.trial_points import TrialPoints
+from ..check.trial_points import AnyModel, TrialPoints, model_at, names_at
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..record.record import Derivation, Equation, RecordError
@@ -100,8 +98,8 @@ class Claims:
 
     def _point(self, seed: str, zero: tuple[str, ...]) -> Point:
         random, problem = Random(seed), self.record.problem
-        model = Model(problem, self.group, random, self.size, self.at, pi=PI, zero=zero)
-        env = environment(model)
+        model = model_at(problem, self.group, random, self.size, self.at, pi=PI, zero=zero)
+        env = names_at(model)
         g_dot = self._whole(self._value("Ȧ", env), self._value("Ṫ", env))
         rates = self.state.rates(model.g, model.Z, g_dot, self._acceleration(env))
         tensor = self._value("I", env)
@@ -120,7 +118,7 @@ class Claims:
             model.elementary,
         )
 
-    def _input_values(self, model: Model) -> Numbers:
+    def _input_values(self, model: AnyModel) -> Numbers:
         """The numbers of u, in order: forces in space, covectors on the stated basis."""
         found: list[Any] = []
         forces = iter(model.input_forces)
@@ -148,15 +146,15 @@ class Claims:
     @property
     def degree(self) -> int:
         """A bound on the degree of what the record computes, as a function of the draws."""
-        env = environment(self._graded_model)
+        env = names_at(self._graded_model)
         return (self.group.size + 1) * sum(
             largest_degree(e.rhs, env) for e in self.equations.values()
         )
 
     @cached_property
-    def _graded_model(self) -> Model:
+    def _graded_model(self) -> AnyModel:
         """A model of which the degrees alone are known."""
-        return Model(self.record.problem, self.group, DegreeSource(), self.size, self.at)
+        return model_at(self.record.problem, self.group, DegreeSource(), self.size, self.at)
 
     @property
     def entry_degree(self) -> tuple[int, int]:

@@ -27,6 +27,13 @@ def coordinates_step(group: Group, b: Alphabet, c: Chapter, *, with_rates: bool)
     return c.draft("coordinates", "coordinates").step(equations, prose)
 
 
+def basis_equations(group: Group) -> list[Equation]:
+    """Z = Σ ζ_a E_a, and entry by entry."""
+    span = range(group.n)
+    rows = (("row", *(add(*_terms(group, i, j)) for j in span)) for i in span)
+    return [*stated("Z = Σ_a ζ_a E_a"), Equation("Z", ("matrix", *rows))]
+
+
 def _terms(group: Group, i: int, j: int) -> list[Tree]:
     found = []
     for a, e in enumerate(group.linear_basis, 1):

@@ -14,7 +14,7 @@ from ..record.record import Step, Symbol
 from ..record.sentence import Prose, Sentence, listed
 from ..record.tree_data import encode
 from ..record.uses import of_steps
-from ..record.vocabulary import DISPLACEMENTS, PRODUCTS, ROTATIONS, VOCABULARY
+from ..record.vocabulary import DISPLACEMENTS, LAGRANGIANS, PRODUCTS, ROTATIONS, VOCABULARY
 from ..schema.outside import ForceInput
 from .wording import phrase, say
 
@@ -58,6 +58,8 @@ def _meant(problem: Problem) -> dict[str, Name]:
     """The vocabulary of a problem, name → its meanings there: of all problems, of turning, of
     products."""
     group = problem.group
+    if problem.lagrangian:
+        return VOCABULARY | LAGRANGIANS[problem.lagrangian.trivialisation]
     blocks = PRODUCTS if group and group.factors and not group.affine else {}
     turning = group is not None and group.turns_space
     own = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}

@@ -47,7 +47,10 @@ class MomentumForm:
 def momentum_form(stage: Cartan, a: Alphabet, c: Chapter) -> MomentumForm:
     """P and F of the points, then ϖ, dϖ and its kernel by them: the steps that the module names."""
     values, momenta = _values(stage, a, c)
-    form, balance, steps = _forms(a, c)
+    letters = dict(zip(brackets_of(a), (a.bracket, a.bracket_w), strict=False))
+    structure = {x: word(letters[x]).of(e) for x, e in brackets_of(a).items()}
+    second_order = c.label("second_order_trivialised")
+    form, balance, steps = any_lagrangian_forms(a, c, structure, second_order)
     return MomentumForm(values, form, balance, (momenta, *steps))
 
 
@@ -85,9 +88,14 @@ def fibre(
     return values | {d.force: gradient(whole[1], any_xi[f.xi]) for d, f in pairs}
 
 
-def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
+def any_lagrangian_forms(
+    a: Alphabet, c: Chapter, structure: Mapping[Letter, Expr], second_order: str
+) -> tuple[Expr, Expr, tuple[Step, ...]]:
     """dϖ and the balance in the letters P, F, Z, ξ and the bracket; and the steps of ϖ, dϖ and the
-    kernel."""
+    kernel.
+
+    ``structure``: ξ′ ↦ δξ′ − δ′ξ by the letter [ξ′, ξ]; ``second_order``: the step with ξ(X) = Z.
+    """
     writing = c.draft("cartan_momentum", "Cartan form")
     varying = c.draft("exterior_momentum", "exterior derivative")
     momentum, lagrangian = _paired(a, [f.xi for f in a.algebra_parts], c), Letter("L̃")
@@ -104,7 +112,7 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
     )
     form = writing.mark(momentum - energy * word(a.dt))
     twins = primes(a) | {d.d_momentum: d.dp_momentum for d in a.duals}
-    derived = forms.exterior(form, twins, *_variations(lagrangian, a, c))
+    derived = forms.exterior(form, twins, *_variations(lagrangian, a, c, structure))
     core = at_constant_time(derived, a.dt, a.dpt)
     images = contact(zip(a.duals, a.algebra_parts, strict=True), a, {})
     display = dict(zip((a.bracket, a.bracket_w), shown_brackets(a), strict=False))
@@ -119,7 +127,7 @@ def _forms(a: Alphabet, c: Chapter) -> tuple[Expr, Expr, tuple[Step, ...]]:
         ),
     )
     found = varying.mark(derived)
-    balance, motion = _kernel(found, notation, a, c)
+    balance, motion = _kernel(found, notation, a, c, second_order)
     return found, balance, (written, derivative, motion)
 
 
@@ -130,12 +138,12 @@ def _paired(a: Alphabet, along: Iterable[Letter], c: Chapter) -> Expr:
     return sum(terms, number(0))
 
 
-def _variations(lagrangian: Letter, a: Alphabet, c: Chapter) -> tuple[Image, Image]:
+def _variations(
+    lagrangian: Letter, a: Alphabet, c: Chapter, structure: Mapping[Letter, Expr]
+) -> tuple[Image, Image]:
     """The derivations δ and δ′ by their values on L̃, P, Z and ξ, with the structure equation for
     the second variations."""
     varied = word(Letter("∂ₜL̃")) * word(a.dt)
-    brackets = brackets_of(a)
-    letters = dict(zip(brackets, (a.bracket, a.bracket_w), strict=False))
     delta: dict[Letter, Expr] = {}
     delta_prime: dict[Letter, Expr] = {}
     for d, f in zip(a.duals, a.algebra_parts, strict=True):
@@ -143,8 +151,8 @@ def _variations(lagrangian: Letter, a: Alphabet, c: Chapter) -> tuple[Image, Ima
         varied = varied + inner(word(d.momentum), word(f.d_velocity)) + force
         delta |= {d.momentum: word(d.d_momentum), f.velocity: word(f.d_velocity)}
         delta_prime |= {d.momentum: word(d.dp_momentum), f.velocity: word(f.dp_velocity)}
-        bracket = word(letters[f.xi_prime]).of(brackets[f.xi_prime])
-        delta[f.xi_prime], delta_prime[f.xi] = word(f.second) + bracket, word(f.second)
+        delta[f.xi_prime] = word(f.second) + structure[f.xi_prime]
+        delta_prime[f.xi] = word(f.second)
     delta |= {lagrangian: varied} | {
         f.dp_velocity: word(f.second_velocity) for f in a.algebra_parts
     }
@@ -169,11 +177,13 @@ def contact(
     return images
 
 
-def _kernel(form: Expr, notation: WordNotation, a: Alphabet, c: Chapter) -> tuple[Expr, Step]:
+def _kernel(
+    form: Expr, notation: WordNotation, a: Alphabet, c: Chapter, second_order: str
+) -> tuple[Expr, Step]:
     """The balance ⟨Ṗ − F, ξ′⟩ − ⟨P, [Z, ξ′]⟩, and the step Ṗ = F + ad*_Z P, by X with the velocity
     of the motion."""
-    draft, mark = c.draft("coadjoint", "kernel"), c.label("second_order_trivialised")
-    here = {f.xi: word(f.velocity).marked(mark) for f in a.algebra_parts}
+    draft = c.draft("coadjoint", "kernel")
+    here = {f.xi: word(f.velocity).marked(second_order) for f in a.algebra_parts}
     here |= {d.d_momentum: word(d.rate) for d in a.duals}
     here |= {a.dt: number(1), a.dpt: number(0)}
     turned = {}

@@ -81,12 +81,16 @@ def own_problems(folder):
     ]
 
 
+ON_THE_RIGHT = {"L": "zeta_1^2 + zeta_2^2 + zeta_3^2", "trivialisation": "right"}
+
+
 @pytest.fixture(scope="module")
 def records(tmp_path_factory):
     """The ready-made problems, some with all kinds of forces, and the own ones."""
     found = [walks.record(name) for name in ready_made()]
     found += [walk(problem_of(tomllib.loads(PROBLEMS[name]))) for name in CHOSEN]
     found += [walk(p) for p in examples().values()]
+    found.append(walk(problem_of({"name": "own", "group": "SO(3)", "lagrangian": ON_THE_RIGHT})))
     return found + [walk(p) for p in own_problems(tmp_path_factory.mktemp("mesh"))]
 
 

@@ -1,0 +1,178 @@
+"""The meanings of the names of a record with a Lagrangian of its own, at one exact point."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+from ...language import rational as q
+from ...language.rational import Matrix
+from ...language.tree import Tree
+from ..evaluate import Environment, evaluate
+from ..model import Direction
+from ..nilpotent import EPS, EPS_PRIME, ETA, nilpotent, part
+from .lagrangian_model import PAIRED, LagrangianModel
+
+Values = dict[str, Any]
+
+
+def environment(model: LagrangianModel) -> Environment:
+    """The environment in which the equations of a record are claims."""
+    return Environment(
+        model.n,
+        LagrangianValues(model),
+        _families(model),
+        _functions(model),
+        model.parameters,
+        elementary=model.elementary,
+        unit=model.unit,
+    )
+
+
+class LagrangianValues(Mapping[str, Any]):
+    """The mapping from names to values at a model; groups of them are computed when a name is first
+    asked for that no earlier group has."""
+
+    def __init__(self, model: LagrangianModel):
+        self.model = model
+        self.known: Values = {}
+        self.pending = [_places, _derivatives, _momenta_values, _motion]
+
+    def __getitem__(self, name: str) -> Any:
+        while name not in self.known and self.pending:
+            self._compute_next()
+        return self.known[name]
+
+    def _compute_next(self) -> None:
+        self.known = self.pending.pop(0)(self.model) | self.known
+
+    def __iter__(self) -> Iterator[str]:
+        while self.pending:
+            self._compute_next()
+        return iter(self.known)
+
+    def __len__(self) -> int:
+        return len([*self])
+
+
+def _places(model: LagrangianModel) -> Values:
+    """t, g, Z and their variations; Ȧ."""
+    _, g, *_ = model.varied
+    velocity = model.moved(model.g, model.Z)
+    return {
+        **{"π": model.pi, "t": model.t, "δt": model.first.time, "δ′t": model.second.time},
+        **{"A": model.g, "δA": part(g, EPS), "δ′A": part(g, EPS_PRIME)},
+        **{"α": velocity, "Ȧ": velocity, "Z": model.Z},
+        **{"ξ": model.first.xi, "ξ′": model.second.xi},
+        **{"δZ": model.first.velocity, "δ′Z": model.second.velocity},
+        "ζ": _column(model.group.nearest(model.Z)),
+    } | ({"u": _column(model.covector)} if model.driven else {})
+
+
+def _derivatives(model: LagrangianModel) -> Values:
+    """L̃, its energy and its derivatives but those along the motion."""
+    later = model.t + nilpotent(EPS)
+    return {
+        "L̃": model.indices(part(model.lagrangian(model.t, model.g, model.Z), 0), 0),
+        "h̃": model.indices(part(model.energy(model.t, model.g, model.Z), 0), PAIRED),
+        "∂ₜL̃": model.indices(part(model.lagrangian(later, model.g, model.Z), EPS), 0),
+        "Φ": _covector(model, _forces(model)),
+    }
+
+
+def _momenta_values(model: LagrangianModel) -> Values:
+    """Π and its variations."""
+    t, g, Z, *_ = model.varied
+    whole = _momenta(model, t, g, Z)
+    masks = {"Π": 0, "δΠ": EPS, "δ′Π": EPS_PRIME}
+    return {x: _covector(model, [part(y, mask) for y in whole]) for x, mask in masks.items()}
+
+
+def _motion(model: LagrangianModel) -> Values:
+    """What follows from the acceleration of the motion; M and β."""
+    values = {"Ż": model.acceleration, "ζ̇": _column(model.group.nearest(model.acceleration))}
+    values["Π̇"] = _covector(model, _rates(model))
+    return values | {"M": model.metric, "β": _column(model.load)}
+
+
+def _rates(model: LagrangianModel) -> list[Any]:
+    """d/dt of ∂ℓ/∂Z along the motion, on the basis."""
+    e = nilpotent(EPS)
+    ahead, _ = model.displaced((e, model.Z))
+    faster = q.plus(model.Z, q.scaled(e, model.acceleration))
+    found = _momenta(model, model.t + e, model.moved(model.g, ahead), faster)
+    return [part(x, EPS) for x in found]
+
+
+def _column(entries: Iterable[Any]) -> Matrix:
+    return tuple((x,) for x in entries)
+
+
+def _momenta(model: LagrangianModel, t: Any, g: Matrix, Z: Matrix) -> list[Any]:
+    """∂ℓ/∂Z along each element of the basis."""
+    return [model.momentum(t, g, Z, e) for e in model.group.basis]
+
+
+def _forces(model: LagrangianModel) -> list[Any]:
+    """The derivative of ℓ along gE, or Eg, at a fixed velocity, for each element of the basis."""
+    found = []
+    for e in model.group.basis:
+        aside, _ = model.displaced((nilpotent(ETA), e))
+        found.append(part(model.lagrangian(model.t, model.moved(model.g, aside), model.Z), ETA))
+    return found
+
+
+def _covector(model: LagrangianModel, values: Iterable[Any]) -> Matrix:
+    """The matrix P with Tr P Ē_a = the value at E_a, by the rows that read coordinates."""
+    s = model.group.size
+    total = q.scaled(Fraction(0), q.identity(s))
+    for a, p in enumerate(values):
+        for x, i, j in model.group.coordinate_terms(a):
+            total = q.plus(total, q.scaled(p * x, q.unit(s, i, j)))
+    return model.as_letter(total)
+
+
+def _families(model: LagrangianModel) -> dict[str, dict[tuple[int, ...], Any]]:
+    if model.generic:
+        return {}
+    members = {
+        "E": model.group.basis,
+        "Π": [part(x, 0) for x in _momenta(model, model.t, model.g, model.Z)],
+        "Π̇": _rates(model),
+        "Φ": _forces(model),
+    }
+    return {name: {(a,): x for a, x in enumerate(xs, 1)} for name, xs in members.items()}
+
+
+def _functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
+    first, second = model.first, model.second
+
+    def direction(name: str) -> Direction:
+        if name == "X":
+            return model.motion
+        full = second if "′" in name else first
+        return replace(full, time=Fraction(0)) if "x" in name else full
+
+    def form(head: Tree, arguments: tuple[Tree, ...], env: Environment) -> Any:
+        del head
+        one, two = (evaluate(x, env) for x in arguments)
+        faster = q.plus(model.Z, q.scaled(nilpotent(EPS), one))
+        return model.indices(part(model.momentum(model.t, model.g, faster, two), EPS), PAIRED)
+
+    def varied(what: Tree, mask: int) -> Any:
+        t, g, Z, *_ = model.varied
+        if what == "L̃":
+            return model.indices(part(model.lagrangian(t, g, Z), mask), PAIRED)
+        other = EPS_PRIME if mask == EPS else EPS
+        return part(model.field(model.varied, other), mask)
+
+    return {
+        "ϖ": lambda _, a, env: model.cartan(direction(a[0])),
+        **dict.fromkeys(("dϖ", "ω"), lambda _, a, env: model.exterior(*(direction(x) for x in a))),
+        "M̃": form,
+        "ξ": lambda _, a, env: direction(a[0]).xi,
+        "δ": lambda _, a, env: varied(a[0], EPS),
+        "δ′": lambda _, a, env: varied(a[0], EPS_PRIME),
+    }

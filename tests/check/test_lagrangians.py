@@ -1,0 +1,78 @@
+"""The checker on Lagrangians that no points give: a false sign, side, term or header is refused."""
+
+import json
+
+import pytest
+
+from derive.check.checker import check
+from derive.language.read import read
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
+from derive.record.record import RecordError
+from derive.record.tree_data import encode
+from tests.support.walks import SEED, record
+
+
+def forged(name, change):
+    """The labels of the steps that are refused once the data of a record are changed."""
+    data = json.loads(to_json(record(name)))
+    change(data)
+    return [v.label for v in check(from_json(json.dumps(data)), SEED) if not v.holds]
+
+
+def step(data, label):
+    return next(s for s in data["steps"] if s["label"] == label)
+
+
+def put(data, label, place, text):
+    step(data, label)["equations"][place]["rhs"] = encode(read(text))
+
+
+def test_the_other_sign_of_the_bracket():
+    assert "left.structure" in forged("gyrostat", lambda d: put(d, "left.structure", 0, "−[ξ′, ξ]"))
+
+
+def test_the_other_side():
+    """What is said on the left is not so on the right."""
+
+    def turn(data):
+        data["problem"]["lagrangian"]["trivialisation"] = "right"
+
+    refused = forged("gyrostat", turn)
+    assert {"left.trivialisation", "left.structure", "left.coadjoint"} <= {*refused}
+    assert {"gyrostat.coordinates", "gyrostat.coadjoint", "gyrostat.mass"} <= {*refused}
+
+
+@pytest.mark.parametrize(
+    ("label", "place", "text"),
+    [
+        ("left.exterior_momentum", 0, "⟨δΠ − Φ δt, ξ′ − Z δ′t⟩ − ⟨δ′Π − Φ δ′t, ξ − Z δt⟩"),
+        ("left.coadjoint", 0, "⟨Φ, ξ′⟩ − ⟨Π, [Z, ξ′]⟩"),
+        ("left.energy", 0, "⟨Π, Z⟩ + L̃"),
+        ("left.momenta", 0, "⟨Π, δZ⟩ + ⟨Φ, ξ⟩"),
+        ("charged_body.energy", 0, "L̃"),
+        ("charged_body.coadjoint", 0, "Φ₁ + ζ₂ Π₃ − ζ₃ Π₂"),
+        ("charged_body.momenta", 1, "ζ₁"),
+    ],
+)
+def test_a_term_that_is_false(label, place, text):
+    assert label in forged("charged_body", lambda d: put(d, label, place, text))
+
+
+HEADERS = {
+    "a body beside": lambda p: p["body"].update(kind="any"),
+    "no Lagrangian": lambda p: p.pop("lagrangian"),
+    "another side": lambda p: p["lagrangian"].update(trivialisation="both"),
+    "no tree": lambda p: p["lagrangian"].update(L=["at", "Π", 1]),
+    "an entry outside": lambda p: p["lagrangian"].update(L=["entry", "A", 4, 1]),
+    "a coordinate outside": lambda p: p["lagrangian"].update(L=["entry", "ζ", 4]),
+    "a potential": lambda p: p["potentials"].append({"kind": "gravity", "g": [0, 0, 1]}),
+}
+
+
+@pytest.mark.parametrize("name", HEADERS)
+def test_a_header_that_makes_no_sense(name):
+    data = json.loads(to_json(record("gyrostat")))
+    HEADERS[name](data["problem"])
+    with pytest.raises(RecordError):
+        from_json(json.dumps(data))

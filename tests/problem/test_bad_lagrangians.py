@@ -1,0 +1,76 @@
+"""What is wrong in a Lagrangian of one's own: one line that names the key and the remedy."""
+
+import pytest
+
+from derive.problem.problem import ProblemError
+from derive.problem.toml import problem_of
+
+SQUARE = "zeta_1^2 + zeta_2^2 + zeta_3^2"
+POINT = {"mass": 1, "at": [1, 0, 0]}
+ONE = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+TABLES = {
+    "no text": ({"L": 3}, "no coordinate of the velocity, as zeta_1"),
+    "without Z": ({"L": "A_11"}, "no coordinate of the velocity, as zeta_1"),
+    "no L": ({}, "lagrangian: key 'L' is missing"),
+    "another key": ({"L": SQUARE, "l": 1}, "unknown key 'l' (known: L, trivialisation)"),
+    "side": ({"L": SQUARE, "trivialisation": "lft"}, "did you mean 'left'?"),
+    "a function": ({"L": SQUARE + " + sinn(t)"}, "unknown function 'sinn'"),
+    "still": ({"L": "zeta_1^2 + zeta_2^2"}, "singular: the equations leave zeta_3 open"),
+    "still together": (
+        {"L": "(zeta_1 + zeta_2)^2 + zeta_3^2"},
+        "leave the velocity, in some direction, open",
+    ),
+    "linear": ({"L": "zeta_1*A_11"}, "∂²L/∂Z² is singular"),
+    "another entry": ({"L": SQUARE + " + A_14"}, "'A_14' is not declared"),
+    "another coordinate": ({"L": SQUARE + " + zeta_4"}, "'zeta_4' is not declared"),
+    "a place": ({"L": SQUARE + " + r1_x"}, "r1_x"),
+    "code": ({"L": "__import__('os')"}, "not part of an expression"),
+}
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_lagrangian(name):
+    table, said = TABLES[name]
+    with pytest.raises(ProblemError) as error:
+        problem_of({"name": "test", "group": "SO(3)", "lagrangian": table})
+    assert said in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+OPERATORS = {
+    "no operator": ({}, "inertia: key 'operator' is missing"),
+    "two rows": ({"operator": ONE[:2]}, "operator: expected a list of 3 rows"),
+    "short": ({"operator": [[1, 0], [0, 1], [0, 0]]}, "row 1: expected a list of 3 expressions"),
+    "skew": ({"operator": [[1, 2, 0], [0, 1, 0], [0, 0, 1]]}, "must be symmetric"),
+    "momentum": ({"operator": ONE, "momentum": [1]}, "momentum: expected a list of 3"),
+    "degenerate": ({"operator": [[1, 0, 0], [0, 1, 0], [0, 0, 0]]}, "leave zeta_3 open"),
+}
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_inertia(name):
+    table, said = OPERATORS[name]
+    with pytest.raises(ProblemError) as error:
+        problem_of({"name": "test", "group": "SO(3)", "inertia": table})
+    assert said in str(error.value)
+
+
+OTHERS = {
+    "points": ({"point": [POINT]}, "key 'point': [lagrangian] says all of L"),
+    "potential": ({"potential": [{"kind": "gravity", "g": [0, 0, 1]}]}, "key 'potential'"),
+    "both": ({"inertia": {"operator": ONE}}, "either [lagrangian] or [inertia]"),
+    "any group": ({"group": "any", "action": "linear"}, "a text about any group has no Lagrangian"),
+    "a force": ({"input": [{"name": "F", "kind": "force", "on": 1}]}, "input 1"),
+    "a taken name": ({"parameters": {"A_11": 1}}, "parameter 'A_11': an entry of the state"),
+    "no table": ({"lagrangian": "zeta_1^2"}, "must be a table [lagrangian]"),
+    "a name of the text": ({"name": "left"}, "names what is said of any group"),
+}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_beside(name):
+    more, said = OTHERS[name]
+    data = {"name": "test", "group": "SO(3)", "lagrangian": {"L": SQUARE}} | more
+    with pytest.raises(ProblemError) as error:
+        problem_of(data)
+    assert said in str(error.value)

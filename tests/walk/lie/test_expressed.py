@@ -1,0 +1,110 @@
+"""Lagrangians ℓ(t, g, Z): the emitted code beside Euler and Lagrange, who have no brackets."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from derive.code.assemble import assemble
+from derive.code.emit import emit
+from tests.oracles.euler_lagrange import acceleration
+from tests.support.emitted import import_python
+from tests.support.walks import problem, record
+
+
+def gyrostat(t, g, z):
+    return (
+        (z[0] ** 2 + 1.6 * z[1] ** 2 + 2.2 * z[2] ** 2) / 2
+        + 0.3 * z[0]
+        + 0.8 * z[2]
+        - 1.5 * g[2, 2]
+    )
+
+
+def kirchhoff(t, g, z):
+    turn, move = z[:3], z[3:]
+    own = turn @ (jnp.array([1.0, 1.5, 2.0]) * turn) + move @ (jnp.array([2.0, 2.6, 3.5]) * move)
+    return own / 2 + 0.2 * z[0] * z[3] - 0.1 * z[2] * z[5]
+
+
+def charged_body(t, g, z):
+    field = 0.7 * g.T @ jnp.array([0.0, 0.0, 1.0])
+    return (z @ (jnp.array([1.0, 1.4, 1.9]) * z) + field @ (jnp.array([0.5, 0.2, 0.6]) * z)) / 2
+
+
+def coupled(t, g, z):
+    own = z @ (jnp.array([1.0, 1.0, 0.6, 1.3, 1.3, 0.9]) * z) / 2
+    return own + (g[:3, 2] @ g[3:, 5]) * (0.25 * z[2] * z[5] + 2.0)
+
+
+READY_MADE = {x.__name__: x for x in (gyrostat, kirchhoff, charged_body, coupled)}
+
+
+def states(group, basis, rng, several):
+    """Random elements of a group, and coordinates of velocities."""
+    for _ in range(several):
+        g = np.array(group.sample(Integers(rng), 9), float)
+        yield g, rng.normal(size=len(basis))
+
+
+class Integers:
+    def __init__(self, rng):
+        self.rng = rng
+
+    def randint(self, low, high):
+        return int(self.rng.integers(low, high + 1))
+
+
+def held(found, group, lagrangian, t, g, zeta, u=(), *, right=False):
+    """What a module makes of one state, beside ℓ."""
+    basis = np.array(found.BASIS, float)
+    k = found.constants(found.DEFAULTS)
+    place = [g[x] for x in places(group)]
+    dx = found.rhs(t, np.array([*place, *zeta]), k, np.array(u) if len(u) else None)
+    expected = acceleration(
+        lagrangian, basis, t, g, zeta, np.array(u) if len(u) else 0.0, right=right
+    )
+    scale = max(1, np.abs(expected).max())
+    assert np.abs(dx[len(place) :] - expected).max() < 1e-12 * scale
+    Z = np.tensordot(zeta, basis, 1)
+    moved = Z @ g if right else g @ Z
+    assert np.abs(dx[: len(place)] - [moved[x] for x in places(group)]).max() < 1e-13 * scale
+    with jax.enable_x64(True):
+        point = t, jnp.asarray(g), jnp.asarray(zeta)
+        energy = jax.grad(lagrangian, 2)(*point) @ point[2] - lagrangian(*point)
+    assert found.energy(t, np.array([*place, *zeta]), k) == pytest.approx(float(energy), abs=1e-12)
+
+
+def places(group):
+    """The entries of g that the state has, factor after factor."""
+    for offset, factor in group.places:
+        span = range(offset, offset + factor.n)
+        yield from ((i, j) for i in span for j in span)
+        if factor.affine:
+            yield from ((i, offset + factor.n) for i in span)
+
+
+@pytest.mark.parametrize("name", READY_MADE)
+def test_ready_made(name, tmp_path):
+    p, d = problem(name), record(name)
+    for file, text in emit(assemble(d, p.group), d, ("python",), name).items():
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    found = import_python(name, tmp_path)
+    rng = np.random.default_rng(1)
+    for g, zeta in states(p.group, found.BASIS, rng, 5):
+        held(found, p.group, READY_MADE[name], 0.0, g, zeta)
+
+
+@pytest.mark.parametrize("name", READY_MADE)
+def test_energy_is_kept(name, tmp_path):
+    p, d = problem(name), record(name)
+    for file, text in emit(assemble(d, p.group), d, ("python",), name).items():
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    found = import_python(name, tmp_path)
+    k, rng = found.constants(found.DEFAULTS), np.random.default_rng(2)
+    (g, zeta), *_ = states(p.group, found.BASIS, rng, 1)
+    x = np.array([*(g[x] for x in places(p.group)), *zeta])
+    run = solve_ivp(found.rhs, (0, 10), x, "DOP853", rtol=1e-12, atol=1e-12, args=(k,))
+    energies = [found.energy(0.0, y, k) for y in run.y.T]
+    assert max(energies) - min(energies) < 1e-9 * max(1, max(map(abs, energies)))
