@@ -220,9 +220,9 @@ def test_the_frame_is_principal(name):
     """In the new parameters J is diagonal, c = 0 where there are translations: few numbers."""
     framed = principal(PROBLEMS[name]())
     body = framed.body
-    assert all(x == 0 for i, row in enumerate(body.second) for j, x in enumerate(row) if i != j)
+    assert all(x == 0 for i, row in enumerate(body.given.J) for j, x in enumerate(row) if i != j)
     if framed.affine:
-        assert body.first == (0, 0, 0)
+        assert body.given.c == (0, 0, 0)
 
 
 @pytest.mark.parametrize("name", ["SO(3)", "SL(3)", "SAff(3)", "SE(2)", "comet"])
