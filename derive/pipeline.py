@@ -120,7 +120,7 @@ ANY_LAGRANGIAN = (
 """Exercise 1 for any Lagrangian on any matrix group, trivialised on one side."""
 
 EXPRESSED = (
-    Stage("expressed", "problem group lagrangian a c", "Expressed", expressed.expressed),
+    Stage("expressed", "problem group lagrangian c", "Expressed", expressed.expressed),
     Stage("balance", "expressed problem group lagrangian c_u", "Steps", expressed.balance),
 )
 """One Lagrangian in a basis of 𝔤."""

@@ -103,6 +103,7 @@ def test_indices_and_traces_that_are_not_counted_let_it_through(monkeypatch, for
     ]
     whole = trial_groups.sizes
     monkeypatch.setattr(
-        "derive.check.checker.sizes", lambda grade: whole(grade._replace(**{forgotten: 0}))
+        "derive.check.checker.sizes",
+        lambda grade, least: whole(grade._replace(**{forgotten: 0}), least),
     )
     assert verdict(action, lhs, rhs).holds

@@ -99,7 +99,7 @@ def test_the_reader_knows_what_the_vocabulary_says():
     assert families == FAMILIES
     functions = {x for x in VOCABULARY if "function" in {use.role for use in VOCABULARY[x].uses}}
     assert functions - {"r", "∫"} == FUNCTIONS
-    assert all({"d", "basis"} & {*t} for x in IN_THE_BASIS for t in heads(x))
+    assert all(any({"d", "basis"} & {*t} for t in heads(x)) for x in IN_THE_BASIS)
 
 
 @pytest.mark.parametrize(

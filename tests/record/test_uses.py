@@ -166,12 +166,24 @@ def ancestors(d, label):
     return found
 
 
+ANY_LAGRANGIAN = (
+    *("trivialisation", "momenta", "energy", "structure", "cartan_momentum", "exterior_momentum"),
+    *("contraction", "vertical", "second_order", "coadjoint"),
+)
+"""The road of a Lagrangian that no points give."""
+
+
 @pytest.mark.parametrize("name", [*NAMES[2:], *OTHERS])
 def test_the_road_runs_through(name):
     """L → L̃ → ϖ → dϖ → kernel, of any group and of this one, to the motion."""
     d = record(name)
     general = "affine" if d.problem["action"] == "affine" else "linear"
     below = ancestors(d, f"{name}.motion")
+    if "lagrangian" in d.problem:
+        side = d.problem["lagrangian"]["trivialisation"]
+        assert {f"{side}.{x}" for x in ANY_LAGRANGIAN} <= below
+        assert {f"{name}.{x}" for x in ("lagrangian", "momenta", "coadjoint", "mass")} <= below
+        return
     assert {f"{name}.{x}" for x in ("cartan", "exterior", "kernel")} <= below
     first = ("lagrangian", "action", "velocity", "moments", "pullback", "momentum", "energy")
     assert {f"{general}.{x}" for x in (*first, "cartan_trivialised", "structure")} <= below

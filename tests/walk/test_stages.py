@@ -105,14 +105,19 @@ def test_what_runs_is_what_the_table_says(name, monkeypatch):
         return found
 
     monkeypatch.setattr(Stage, "value", told)
-    pipeline.general_road.cache_clear()
+    roads = (pipeline.general_road, pipeline.lagrangian_road)
+    for road in roads:
+        road.cache_clear()
     pipeline.walk(asked)
-    pipeline.general_road.cache_clear()
+    for road in roads:
+        road.cache_clear()
     group = asked.group
     special = (
         () if group is None else (pipeline.VECTORS if group.turns_space else pipeline.MATRICES)
     )
     order = [*pipeline.ANY_GROUP, *special]
+    if asked.lagrangian:
+        order = [*pipeline.ANY_LAGRANGIAN, *pipeline.EXPRESSED]
     places = [order.index(stage) for stage, _ in ran]
     assert places == sorted(places)
     for stage, found in ran:

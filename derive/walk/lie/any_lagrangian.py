@@ -32,17 +32,16 @@ REGULAR = Hypothesis("nondegenerate", read("M̃(ξ, ξ′)"), "𝔤")
 
 @dataclass(frozen=True)
 class AnyLagrangian:
-    """``balance``: ⟨Π̇ − Φ, ξ′⟩ − ε⟨Π, [Z, ξ′]⟩, which vanishes on the kernel for every ξ′.
-
-    ``momenta``, ``energy``, ``motion``: the steps that say Π and Φ, h̃, and the balance.
-    """
+    """``balance``: ⟨Π̇ − Φ, ξ′⟩ − ε⟨Π, [Z, ξ′]⟩, which vanishes on the kernel for every ξ′;
+    ``epsilon``: the sign of the bracket there."""
 
     balance: Expr
     epsilon: int
-    momenta: Step
-    energy: Step
-    motion: Step
     steps: tuple[Step, ...]
+
+    def __getitem__(self, label: str) -> Step:
+        """A step by its label, without the chapter."""
+        return next(x for x in self.steps if x.label.endswith(f".{label}"))
 
 
 def structure(a: Alphabet, moved: Trivialisation) -> Expr:
@@ -71,7 +70,7 @@ def any_lagrangian(a: Alphabet, side: str, c: Chapter) -> AnyLagrangian:
     momenta, energy = _momenta(c), _energy(c)
     first = (_carried(a, side, c), momenta, energy, _structure(a, crossed, c), written)
     steps = (*first, derived, *_kernel(form, a, c), motion)
-    return AnyLagrangian(balance, sign(crossed), momenta, energy, motion, steps)
+    return AnyLagrangian(balance, sign(crossed), steps)
 
 
 def sign(crossed: Expr) -> int:

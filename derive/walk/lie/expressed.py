@@ -23,7 +23,6 @@ from ...problem.stated_lagrangian import hessian
 from ...record.formulas import stated
 from ...record.record import Equation, Step
 from ...schema.lagrangian_kinds import Lagrangian
-from ..alphabet import Alphabet
 from ..chapter import Chapter
 from ..coordinates import basis_equations
 from ..wording import say
@@ -35,17 +34,15 @@ MOVED = {"left": "Ȧ = AZ", "right": "Ȧ = ZA"}
 
 @dataclass(frozen=True)
 class Expressed:
-    """ℓ in coordinates.  ``momenta``: Π_a, and ``forces``: Φ_a, as trees; ``second``: ∂²ℓ/∂ζ²."""
+    """ℓ in coordinates.  ``momenta``: Π_a, and ``forces``: Φ_a, as trees; ``second``: ∂²ℓ/∂ζ²;
+    ``coordinates``: the step of the basis, and of Ȧ; ``brackets``: that of those of the basis."""
 
     momenta: tuple[Tree, ...]
     forces: tuple[Tree, ...]
     second: tuple[tuple[Tree, ...], ...]
+    coordinates: Step
+    brackets: tuple[Step, ...]
     steps: tuple[Step, ...]
-
-    @property
-    def coordinates(self) -> Step:
-        """The step that says the basis, and Ȧ."""
-        return self.steps[0]
 
 
 def tidied(t: Tree) -> Tree:
@@ -112,9 +109,7 @@ def _plain(x: Fraction) -> Tree:
     return int(x) if x.denominator == 1 else x
 
 
-def expressed(
-    problem: Problem, group: Group, general: AnyLagrangian, b: Alphabet, c: Chapter
-) -> Expressed:
+def expressed(problem: Problem, group: Group, general: AnyLagrangian, c: Chapter) -> Expressed:
     """The basis, L̃, and its derivatives along Z and along the group."""
     given = problem.lagrangian
     assert given is not None
@@ -122,20 +117,18 @@ def expressed(
     momenta = tuple(tidied(derivative(given.L, x)) for x in zeta)
     forces = tuple(tidied(along(given.L, a, group, side)) for a in range(group.dimension))
     second = tuple(tuple(map(tidied, row)) for row in hessian(given.L, zeta))
-    steps = (
-        _coordinates(group, side, b, c),
-        *_brackets(group, c),
-        _lagrangian(given, c),
-        _momenta(momenta, forces, general, c),
-        _energy(given, momenta, zeta, general, c),
-    )
-    return Expressed(momenta, forces, second, steps)
+    place, brackets = _coordinates(group, side, general, c), _brackets(group, c)
+    expression = _lagrangian(given, c)
+    told = _momenta(momenta, forces, (expression, general["momenta"]), c)
+    energy = _energy(given, momenta, zeta, (expression, told, general["energy"]), c)
+    steps = (place, *brackets, expression, told, energy)
+    return Expressed(momenta, forces, second, place, brackets, steps)
 
 
-def _coordinates(group: Group, side: str, b: Alphabet, c: Chapter) -> Step:
+def _coordinates(group: Group, side: str, general: AnyLagrangian, c: Chapter) -> Step:
     """Z = Σ ζ_a E_a, and Ȧ by it."""
     draft = c.draft("coordinates", "coordinates")
-    draft.uses[Chapter(side).label("second_order")] = None
+    draft.depends_on(general["second_order"])
     return draft.step(
         [*basis_equations(group), *stated(MOVED[side])],
         say("coordinates.basis"),
@@ -172,11 +165,11 @@ def _lagrangian(given: Lagrangian, c: Chapter) -> Step:
 
 
 def _momenta(
-    momenta: Sequence[Tree], forces: Sequence[Tree], general: AnyLagrangian, c: Chapter
+    momenta: Sequence[Tree], forces: Sequence[Tree], made_from: tuple[Step, ...], c: Chapter
 ) -> Step:
     """Π_a and Φ_a."""
     draft = c.draft("momenta", "fibre derivative")
-    draft.depends_on(general.momenta)
+    draft.depends_on(*made_from)
     equations = [Equation(read("Π_a"), read("⟨Π, E_a⟩"))]
     equations += [Equation(_member("Π", a), t) for a, t in enumerate(momenta)]
     equations += [Equation(read("Φ_a"), read("⟨Φ, E_a⟩"))]
@@ -191,11 +184,11 @@ def _energy(
     given: Lagrangian,
     momenta: Sequence[Tree],
     zeta: Sequence[Tree],
-    general: AnyLagrangian,
+    made_from: tuple[Step, ...],
     c: Chapter,
 ) -> Step:
     draft = c.draft("energy", "Legendre transform")
-    draft.depends_on(general.energy)
+    draft.depends_on(*made_from)
     paired = add(*(mul(p, z) for p, z in zip(momenta, zeta, strict=True)))
     return draft.step([Equation("h̃", tidied(add(paired, neg(given.L))))], say("energy.expression"))
 
@@ -207,7 +200,7 @@ def balance(
     given = problem.lagrangian
     assert given is not None
     turning, weighing = c.draft("coadjoint", "kernel"), c.draft("mass", "coordinates")
-    turning.depends_on(general.motion)
+    turning.depends_on(general["coadjoint"], *stage.brackets)
     coadjoint = coadjoint_terms(group, general.epsilon)
     driven = [("entry", "u", a + 1) for a in range(group.dimension)] if problem.inputs else []
     forces = [_member("Φ", a) if x else 0 for a, x in enumerate(stage.forces)]
