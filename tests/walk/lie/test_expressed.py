@@ -92,7 +92,7 @@ def test_ready_made(name, tmp_path):
         (tmp_path / file).write_text(text, encoding="utf-8")
     found = import_python(name, tmp_path)
     rng = np.random.default_rng(1)
-    for g, zeta in states(p.group, found.BASIS, rng, 5):
+    for g, zeta in states(p.group, found.BASIS, rng, 2):
         held(found, p.group, READY_MADE[name], 0.0, g, zeta)
 
 
