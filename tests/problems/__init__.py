@@ -279,8 +279,10 @@ PROBLEMS |= {
     "a solid body": flat(FLAT.replace("(b^2 - a^2)", "b^2")),
 }
 
-# solids are no points: the oracle has them with the moments of their integrals, see below
+# solids are no points: the oracle has them with the moments of their integrals, see below; a
+# Lagrangian that no points give has one of its own (tests/walk/lie)
 TEXTS = ("linear", "affine", "ellipsoid", "top", "hammer", "so3", "se3", "sl3")
+TEXTS += ("charged_body", "coupled", "gyrostat", "kirchhoff")
 PROBLEMS |= {
     path.stem: path.read_text(encoding="utf-8")
     for path in sorted(READY.glob("*.toml"))
