@@ -96,11 +96,11 @@ def test_an_unknown_option(words, named, meant, capsys):
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_may_be_stopped(command, tmp_path, capsys, monkeypatch):
     def unhurried(problems):  # a list may be done before the clock of the machine ticks
+        until = process_time() + 0.1
         while process_time() < until:
             pass
         return ""
 
-    until = process_time() + 0.1
     monkeypatch.setattr("derive.command.listing.listing", unhurried)
     needed = {
         "notes": ["so3", "--out", str(tmp_path / "n.html")],
