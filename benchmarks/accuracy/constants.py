@@ -9,7 +9,8 @@ from collections.abc import Collection, Iterator
 
 import numpy as np
 
-from derive.code.naming import name_of, suffixed
+from derive.code.naming import name_of
+from derive.language.suffixed import suffixed
 from derive.pipeline import program
 from derive.python.compiled import Compiled
 

@@ -8,7 +8,7 @@ acts on blocks: its matrices are block diagonal, each affine factor with its own
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -183,6 +183,15 @@ class Group:
         """The terms (coefficient, i, j) of ζᵃ = Σ coefficient · Z_ij, a, i and j counted from 0."""
         s = self.size
         return [(c, k // s, k % s) for k, c in enumerate(self._coordinate_rows[a]) if c]
+
+    def covector_matrix(self, values: Iterable[Any]) -> Matrix:
+        """The matrix N of the group's size with Tr N Ē_a = the a-th value, by the rows of
+        :meth:`coordinate_terms`."""
+        total = q.scaled(Fraction(0), q.identity(self.size))
+        for a, p in enumerate(values):
+            for x, i, j in self.coordinate_terms(a):
+                total = q.plus(total, q.scaled(p * x, q.unit(self.size, i, j)))
+        return total
 
     def nearest(self, z: Matrix) -> tuple[Any, ...]:
         """The d coordinates that :meth:`coordinate_terms` takes of any matrix of the size: those of

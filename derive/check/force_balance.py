@@ -66,22 +66,11 @@ class ForceBalance:
         """The moment in the body, about the centre, of all forces, inputs and damping."""
         forces = zip(self.model.forces, self.model.nonpotential_forces, strict=True)
         total = [tuple(x + y for x, y in zip(f, g, strict=True)) for f, g in forces]
-        dual = self.covector_matrix
+        dual = self.group.covector_matrix(self.model.covector)
         linear = q.plus(self.moment_in_body(total), self.group.linear_part(dual))
         if not self.group.affine:
             return linear
         return q.minus(linear, q.times(self.group.translation_part(dual), (self.centre,)))
-
-    @cached_property
-    def covector_matrix(self) -> Matrix:
-        """A matrix N of the group's size with Tr N ξ̄′ = u(ξ′) for the covector input u, by the
-        rows that read coordinates."""
-        s = self.group.size
-        total = q.scaled(Fraction(0), q.identity(s))
-        for a, u in enumerate(self.model.covector):
-            for x, i, j in self.group.coordinate_terms(a):
-                total = q.plus(total, q.scaled(u * x, q.unit(s, i, j)))
-        return total
 
 
 def centre_matrix(model: Model) -> Matrix:

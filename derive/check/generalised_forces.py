@@ -9,7 +9,6 @@ from typing import Any
 from ..language import rational as q
 from ..language.rational import Matrix
 from .applied_forces import Vector, damping_members
-from .force_balance import ForceBalance
 from .model import Model
 from .point_masses import outer_sum, scaled_each
 from .rigid_body import axial
@@ -42,7 +41,7 @@ def _summed(model: Model, forces: list[Vector], mark: str) -> Values:
 
 def _with_covector(model: Model, values: Values) -> Values:
     """The covector input joins N_u and F_u by the rows that read coordinates, μ_u and F_u in R³."""
-    dual = ForceBalance(model).covector_matrix
+    dual = model.group.covector_matrix(model.covector)
     found = {"N_u": q.plus(values["N_u"], model.group.linear_part(dual))}
     if model.group.affine:
         found["F_u"] = q.plus(values["F_u"], model.group.translation_part(dual))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -21,47 +21,20 @@ from .integrals import integral, moved, place_values
 from .lifts import ON_TANGENT, action_varied, form_rate
 from .model import Direction, Model
 from .momenta import momentum_values, space_values
+from .name_values import NameValues, Values
 from .nilpotent import EPS, EPS_PRIME, derivative_of, nilpotent, part
 from .point_masses import outer_sum
 from .points import listed_count
 from .rigid_body import axial, moments_about, rigid_body_values
 
-Values = dict[str, Any]
-
-
-class NameValues(Mapping[str, Any]):
-    """The mapping from names to values at a model; groups of them are computed when a name is first
-    asked for that no earlier group has."""
-
-    def __init__(self, model: Model):
-        self.model = model
-        self.known: Values = {}
-        self.pending = [_times, _bodies, _group, _forces, _energies, rigid_body_values]
-        self.pending += [_gradients, _motion, momentum_values, place_values]
-
-    def __getitem__(self, name: str) -> Any:
-        while name not in self.known and self.pending:
-            self._compute_next()
-        return self.known[name]
-
-    def _compute_next(self) -> None:
-        self.known = self.pending[0](self.model) | self.known
-        del self.pending[0]
-
-    def __iter__(self) -> Iterator[str]:
-        while self.pending:
-            self._compute_next()
-        return iter(self.known)
-
-    def __len__(self) -> int:
-        return len([*self])
-
 
 def environment(model: Model) -> Environment:
     """The environment in which the equations of a record are claims."""
+    groups = [_times, _bodies, _group, _forces, _energies, rigid_body_values]
+    groups += [_gradients, _motion, momentum_values, place_values]
     return Environment(
         model.n,
-        NameValues(model),
+        NameValues(model, groups),
         _families(model),
         _functions(model),
         model.parameters,

@@ -8,6 +8,7 @@ from dataclasses import replace
 from ..algebra.groups import Group
 from ..language.limits import SLOPES, SLOPES_BY_PARAMETERS
 from ..language.show import show
+from ..language.suffixed import suffixed
 from ..record.record import Derivation
 from .change_of_frame import frame_changes
 from .conventions import conventions
@@ -16,7 +17,7 @@ from .factor import factored
 from .graph import Node
 from .linearise import by_leaves, by_state
 from .lower import Lowering
-from .naming import ClaimedNames, suffixed
+from .naming import ClaimedNames
 from .options import Options
 from .principal_axes import inertia, turning
 from .principal_frame import PrincipalFrame

@@ -11,8 +11,8 @@ from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
+from ..language.suffixed import suffixed
 from .graph import PARAMETER, Graph, Node
-from .naming import suffixed
 
 Namer = Callable[[Matrix, int, int], Matrix]
 NodeNamer = Callable[[str, Node], Node]

@@ -7,12 +7,13 @@ from fractions import Fraction
 
 from ..language import rational as q
 from ..language.rational import Matrix
+from ..language.suffixed import suffixed
 from ..language.tree import Tree
 from ..record.mass_signs import ANY_SIGN
 from ..record.tree_data import decode
 from . import dense
 from .graph import PARAMETER, Node
-from .naming import name_of, suffixed
+from .naming import name_of
 from .reader import RecordReader, Value, matrix
 from .rewrite import replaced
 

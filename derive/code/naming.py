@@ -82,12 +82,6 @@ def name_of(t: Tree) -> str:
     return "_".join(x for x in (*prefix, *body, *suffix) if x)
 
 
-def suffixed(name: str, *index: int) -> str:
-    """The name of an entry: ``I_12``; where an index is above 9, ``I_1_12``."""
-    digits = "".join(map(str, index)) if max(index) < 10 else "_".join(map(str, index))
-    return f"{name}_{digits}"
-
-
 def sum_name(coefficients: Sequence[Fraction], names: Sequence[str]) -> str:
     """``a_plus_b``, ``a_minus_b``, ``a_minus_2_b`` for a sum of two; empty where none is true."""
     terms = sorted(zip(coefficients, names, strict=True), key=lambda term: term[0] != 1)

@@ -13,10 +13,10 @@ from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
+from ..language.suffixed import suffixed
 from ..record.tree_data import decode
 from . import dense
 from .graph import Node
-from .naming import suffixed
 from .quaternion import conjugate
 from .reader import RecordReader, scalar
 

@@ -8,11 +8,12 @@ from functools import cached_property, partial
 from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.rational import Matrix
+from ..language.suffixed import suffixed
 from ..language.tree import Tree, subtrees
 from ..record.record import Derivation, Equation, Step
 from . import dense
 from .graph import Graph, Node
-from .naming import name_of, suffixed
+from .naming import name_of
 from .options import Options
 from .program import LoweringError
 from .state import StateSpace

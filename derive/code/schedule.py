@@ -12,8 +12,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
+from ..language.suffixed import suffixed
 from .graph import PARAMETER, Node
-from .naming import ClaimedNames, is_sum, suffixed, sum_name
+from .naming import ClaimedNames, is_sum, sum_name
 from .program import Assignment, Check, EmittedFunction, Expression, Load, Section, negated
 from .rewrite import reachable
 

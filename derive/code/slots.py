@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..algebra.groups import Group
-from .naming import suffixed
+from ..language.suffixed import suffixed
 
 
 @dataclass(frozen=True)

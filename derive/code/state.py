@@ -16,9 +16,9 @@ from ..algebra.groups import Group
 from ..algebra.invariance import skew
 from ..language import rational as q
 from ..language.rational import Matrix
+from ..language.suffixed import suffixed
 from . import dense
 from .graph import Graph, Node
-from .naming import suffixed
 from .options import Options
 from .quaternion import halves, matrix_of, multiplied
 from .slots import Slot, fixed_entries, layout

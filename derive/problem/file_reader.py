@@ -23,7 +23,7 @@ from .fields import LIKE_A_PLACE
 from .moments import SolidError, first_moment, given_by, second_moment
 from .problem import ProblemError, points_of
 from .solids import rotation_about
-from .state_names import state_names
+from .state_names import meant, state_names
 
 AXES = "xyz"
 Vector = tuple[Tree, ...]
@@ -256,26 +256,20 @@ class FileReader(TableReader):
 
     def lettered(self, slot: Slot) -> Tree:
         """An expression in the names of the state."""
-        return self._stated(self.scalar(slot))
-
-    def _stated(self, t: Tree) -> Tree:
-        """The names of the state as what they stand for."""
-        if not isinstance(t, tuple):
-            return t
-        if t[0] == "par":
-            return state_names(self.moving()).get(t[1], t)
-        return (t[0], *map(self._stated, t[1:]))
+        return meant(self.scalar(slot), state_names(self.moving()))
 
     def coordinates(self, slot: Slot) -> Vector:
         """One for each coordinate of the Lie algebra."""
         found = self.listed(self.value(slot), self.moving().dimension, slot.path)
-        return tuple(map(self._stated, found))
+        names = state_names(self.moving())
+        return tuple(meant(t, names) for t in found)
 
     def operator(self, slot: Slot) -> Rows:
         """A matrix of its size."""
         g = self.moving()
         found = self.rows(self.value(slot), g.dimension, g.dimension, slot.path)
-        return tuple(tuple(map(self._stated, row)) for row in found)
+        names = state_names(g)
+        return tuple(tuple(meant(t, names) for t in row) for row in found)
 
     # -- moments, solids, rotations ------------------------------------------------------------
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from ..algebra.groups import Group
+from ..language.suffixed import suffixed
 from ..language.tree import Tree
 
 
@@ -19,13 +22,17 @@ def state_names(group: Group) -> dict[str, Tree]:
         mark, span = str(k) if several else "", range(1, factor.n + 1)
         for i in span:
             for j in span:
-                found[_indexed(f"A{mark}", i, j)] = ("entry", "A", offset + i, offset + j)
+                found[suffixed(f"A{mark}", i, j)] = ("entry", "A", offset + i, offset + j)
             if factor.affine:
                 place = ("entry", "A", offset + i, offset + factor.n + 1)
-                found[_indexed(f"T{mark}", i)] = place
-    return found | {_indexed("zeta", a): t for a, t in enumerate(coordinates(group), 1)}
+                found[suffixed(f"T{mark}", i)] = place
+    return found | {suffixed("zeta", a): t for a, t in enumerate(coordinates(group), 1)}
 
 
-def _indexed(name: str, *index: int) -> str:
-    digits = "".join(map(str, index)) if max(index) < 10 else "_".join(map(str, index))
-    return f"{name}_{digits}"
+def meant(t: Tree, names: Mapping[str, Tree]) -> Tree:
+    """An expression with its names as what they stand for."""
+    if not isinstance(t, tuple):
+        return t
+    if t[0] == "par":
+        return names.get(t[1], t)
+    return (t[0], *(meant(x, names) for x in t[1:]))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -12,49 +12,22 @@ from ...language.rational import Matrix
 from ...language.tree import Tree
 from ..evaluate import Environment, evaluate
 from ..model import Direction
+from ..name_values import NameValues, Values
 from ..nilpotent import EPS, EPS_PRIME, ETA, nilpotent, part
 from .lagrangian_model import PAIRED, LagrangianModel
-
-Values = dict[str, Any]
 
 
 def environment(model: LagrangianModel) -> Environment:
     """The environment in which the equations of a record are claims."""
     return Environment(
         model.n,
-        LagrangianValues(model),
+        NameValues(model, (_places, _derivatives, _momenta_values, _motion)),
         _families(model),
         _functions(model),
         model.parameters,
         elementary=model.elementary,
         unit=model.unit,
     )
-
-
-class LagrangianValues(Mapping[str, Any]):
-    """The mapping from names to values at a model; groups of them are computed when a name is first
-    asked for that no earlier group has."""
-
-    def __init__(self, model: LagrangianModel):
-        self.model = model
-        self.known: Values = {}
-        self.pending = [_places, _derivatives, _momenta_values, _motion]
-
-    def __getitem__(self, name: str) -> Any:
-        while name not in self.known and self.pending:
-            self._compute_next()
-        return self.known[name]
-
-    def _compute_next(self) -> None:
-        self.known = self.pending.pop(0)(self.model) | self.known
-
-    def __iter__(self) -> Iterator[str]:
-        while self.pending:
-            self._compute_next()
-        return iter(self.known)
-
-    def __len__(self) -> int:
-        return len([*self])
 
 
 def _places(model: LagrangianModel) -> Values:
@@ -125,13 +98,8 @@ def _forces(model: LagrangianModel) -> list[Any]:
 
 
 def _covector(model: LagrangianModel, values: Iterable[Any]) -> Matrix:
-    """The matrix P with Tr P Ē_a = the value at E_a, by the rows that read coordinates."""
-    s = model.group.size
-    total = q.scaled(Fraction(0), q.identity(s))
-    for a, p in enumerate(values):
-        for x, i, j in model.group.coordinate_terms(a):
-            total = q.plus(total, q.scaled(p * x, q.unit(s, i, j)))
-    return model.as_letter(total)
+    """The covector with these values on the basis, as the letter that the walk has."""
+    return model.as_letter(model.group.covector_matrix(values))
 
 
 def _families(model: LagrangianModel) -> dict[str, dict[tuple[int, ...], Any]]:

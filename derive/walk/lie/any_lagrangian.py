@@ -12,10 +12,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ...algebra import forms
+from ...algebra.calculus import substitute
 from ...algebra.forms import Trivialisation
 from ...algebra.word_trees import WordNotation, tree_of
-from ...algebra.words import Expr, Letter, word
+from ...algebra.words import Expr, Letter, inner, number, word
 from ...language.read import read
+from ...language.tree import Tree
 from ...record.formulas import stated
 from ...record.hypotheses import Hypothesis
 from ...record.record import Equation, Step
@@ -32,11 +34,11 @@ REGULAR = Hypothesis("nondegenerate", read("M̃(ξ, ξ′)"), "𝔤")
 
 @dataclass(frozen=True)
 class AnyLagrangian:
-    """``balance``: ⟨Π̇ − Φ, ξ′⟩ − ε⟨Π, [Z, ξ′]⟩, which vanishes on the kernel for every ξ′;
-    ``epsilon``: the sign of the bracket there."""
+    """``epsilon``: the sign in ⟨Π̇ − Φ, ξ′⟩ − ε⟨Π, [Z, ξ′]⟩, which vanishes on the kernel for every
+    ξ′; ``velocity``: Ȧ by Z, as AZ or ZA."""
 
-    balance: Expr
     epsilon: int
+    velocity: Tree
     steps: tuple[Step, ...]
 
     def __getitem__(self, label: str) -> Step:
@@ -53,11 +55,15 @@ def structure(a: Alphabet, moved: Trivialisation) -> Expr:
 def by_bracket(e: Expr, a: Alphabet) -> Expr:
     """An expression in ξ′ξ and ξξ′ by the letter of [ξ′, ξ]; ``ValueError`` if it is none."""
     xi, xi_prime = word(a.Z.xi), word(a.Z.xi_prime)
-    bracket = xi_prime * xi - xi * xi_prime
+    return (sign_of(e, xi_prime * xi - xi * xi_prime) * word(a.bracket)).of(e)
+
+
+def sign_of(e: Expr, unit: Expr) -> int:
+    """ε of an expression ε · unit; ``ValueError`` where it is none."""
     for sign in (1, -1):
-        if e == sign * bracket:
-            return (sign * word(a.bracket)).of(e)
-    raise ValueError("the structure equation has no bracket")
+        if e == sign * unit:
+            return sign
+    raise ValueError("neither the expression nor its opposite")
 
 
 def any_lagrangian(a: Alphabet, side: str, c: Chapter) -> AnyLagrangian:
@@ -70,13 +76,15 @@ def any_lagrangian(a: Alphabet, side: str, c: Chapter) -> AnyLagrangian:
     momenta, energy = _momenta(c), _energy(c)
     first = (_carried(a, side, c), momenta, energy, _structure(a, crossed, c), written)
     steps = (*first, derived, *_kernel(form, a, c), motion)
-    return AnyLagrangian(balance, sign(crossed), steps)
+    velocity = tree_of(moved(word(a.A.position), word(a.Z.velocity)))
+    return AnyLagrangian(_epsilon(balance, a), velocity, steps)
 
 
-def sign(crossed: Expr) -> int:
-    """ε, the sign of the bracket in δξ′ − δ′ξ."""
-    (epsilon,) = crossed.terms.values()
-    return int(epsilon)
+def _epsilon(balance: Expr, a: Alphabet) -> int:
+    """The sign of the bracket in the balance, where Π̇ and Φ are 0."""
+    Z, xi_prime = word(a.Z.velocity), word(a.Z.xi_prime)
+    turning = substitute(balance, dict.fromkeys((a.Pi.rate, a.Pi.force), number(0)))
+    return -sign_of(turning, inner(word(a.Pi.momentum), Z * xi_prime - xi_prime * Z))
 
 
 def _carried(a: Alphabet, side: str, c: Chapter) -> Step:

@@ -28,9 +28,6 @@ from ..coordinates import basis_equations
 from ..wording import say
 from .any_lagrangian import AnyLagrangian
 
-MOVED = {"left": "Ȧ = AZ", "right": "Ȧ = ZA"}
-"""The rate of g, by the velocity of the motion carried back."""
-
 
 @dataclass(frozen=True)
 class Expressed:
@@ -78,19 +75,15 @@ def places(t: Tree) -> list[tuple[Any, ...]]:
 
 def along(t: Tree, a: int, group: Group, side: str) -> Tree:
     """The derivative of an expression along δg = g E_a, or E_a g, at fixed t and Z."""
-    e, span = group.basis[a], range(group.n)
+    span = range(group.n)
+    g = [[_entry(group, i, j) for j in span] for i in span]
+    e = [[_plain(x) for x in row] for row in group.basis[a]]
+    one, two = (g, e) if side == "left" else (e, g)
     terms: list[Tree] = []
     for place in places(t):
-        _, _, i, j = place
-        i, j = i - 1, j - 1
-        pairs = (
-            ((e[k][j], (i, k)) for k in span)
-            if side == "left"
-            else ((e[i][k], (k, j)) for k in span)
-        )
-        moved = [mul(_plain(x), _entry(group, *at)) for x, at in pairs if x]
-        if moved:
-            terms.append(mul(derivative(t, place), add(*moved)))
+        *_, i, j = place
+        moved = add(*(mul(one[i - 1][k], two[k][j - 1]) for k in span))
+        terms.append(mul(derivative(t, place), moved))
     return add(*terms)
 
 
@@ -117,7 +110,7 @@ def expressed(problem: Problem, group: Group, general: AnyLagrangian, c: Chapter
     momenta = tuple(tidied(derivative(given.L, x)) for x in zeta)
     forces = tuple(tidied(along(given.L, a, group, side)) for a in range(group.dimension))
     second = tuple(tuple(map(tidied, row)) for row in hessian(given.L, zeta))
-    place, brackets = _coordinates(group, side, general, c), _brackets(group, c)
+    place, brackets = _coordinates(group, general, c), _brackets(group, c)
     expression = _lagrangian(given, c)
     told = _momenta(momenta, forces, (expression, general["momenta"]), c)
     energy = _energy(given, momenta, zeta, (expression, told, general["energy"]), c)
@@ -125,12 +118,12 @@ def expressed(problem: Problem, group: Group, general: AnyLagrangian, c: Chapter
     return Expressed(momenta, forces, second, place, brackets, steps)
 
 
-def _coordinates(group: Group, side: str, general: AnyLagrangian, c: Chapter) -> Step:
+def _coordinates(group: Group, general: AnyLagrangian, c: Chapter) -> Step:
     """Z = Σ ζ_a E_a, and Ȧ by it."""
     draft = c.draft("coordinates", "coordinates")
     draft.depends_on(general["second_order"])
     return draft.step(
-        [*basis_equations(group), *stated(MOVED[side])],
+        [*basis_equations(group), Equation("Ȧ", general.velocity)],
         say("coordinates.basis"),
     )
 
@@ -197,8 +190,6 @@ def balance(
     stage: Expressed, problem: Problem, group: Group, general: AnyLagrangian, c: Chapter
 ) -> tuple[Step, ...]:
     """Π̇ in the basis, then M, β and the motion."""
-    given = problem.lagrangian
-    assert given is not None
     turning, weighing = c.draft("coadjoint", "kernel"), c.draft("mass", "coordinates")
     turning.depends_on(general["coadjoint"], *stage.brackets)
     coadjoint = coadjoint_terms(group, general.epsilon)
@@ -223,7 +214,7 @@ def balance(
     solving = c.draft("motion", "solution")
     solving.depends_on(mass, stage.coordinates)
     motion = solving.step(
-        [*stated(MOVED[given.trivialisation]), *stated("ζ̇ = M⁻¹β")], say("motion.lagrangian")
+        [Equation("Ȧ", general.velocity), *stated("ζ̇ = M⁻¹β")], say("motion.lagrangian")
     )
     return coadjoint_step, mass, motion
 

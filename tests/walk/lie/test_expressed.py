@@ -85,26 +85,28 @@ def places(group):
             yield from ((i, offset + factor.n) for i in span)
 
 
-@pytest.mark.parametrize("name", READY_MADE)
-def test_ready_made(name, tmp_path):
+def emitted(name, folder):
+    """The Python module of a ready-made problem."""
     p, d = problem(name), record(name)
     for file, text in emit(assemble(d, p.group), d, ("python",), name).items():
-        (tmp_path / file).write_text(text, encoding="utf-8")
-    found = import_python(name, tmp_path)
+        (folder / file).write_text(text, encoding="utf-8")
+    return import_python(name, folder)
+
+
+@pytest.mark.parametrize("name", READY_MADE)
+def test_ready_made(name, tmp_path):
+    group, found = problem(name).group, emitted(name, tmp_path)
     rng = np.random.default_rng(1)
-    for g, zeta in states(p.group, found.BASIS, rng, 2):
-        held(found, p.group, READY_MADE[name], 0.0, g, zeta)
+    for g, zeta in states(group, found.BASIS, rng, 2):
+        held(found, group, READY_MADE[name], 0.0, g, zeta)
 
 
 @pytest.mark.parametrize("name", READY_MADE)
 def test_energy_is_kept(name, tmp_path):
-    p, d = problem(name), record(name)
-    for file, text in emit(assemble(d, p.group), d, ("python",), name).items():
-        (tmp_path / file).write_text(text, encoding="utf-8")
-    found = import_python(name, tmp_path)
+    group, found = problem(name).group, emitted(name, tmp_path)
     k, rng = found.constants(found.DEFAULTS), np.random.default_rng(2)
-    (g, zeta), *_ = states(p.group, found.BASIS, rng, 1)
-    x = np.array([*(g[x] for x in places(p.group)), *zeta])
+    (g, zeta), *_ = states(group, found.BASIS, rng, 1)
+    x = np.array([*(g[x] for x in places(group)), *zeta])
     run = solve_ivp(found.rhs, (0, 10), x, "DOP853", rtol=1e-12, atol=1e-12, args=(k,))
     energies = [found.energy(0.0, y, k) for y in run.y.T]
     assert max(energies) - min(energies) < 1e-9 * max(1, max(map(abs, energies)))
