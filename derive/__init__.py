@@ -10,13 +10,26 @@ from typing import Any
 __version__ = "0.1.0"
 
 WORDS = (
-    *("Aff", "Covector", "Damping", "Force", "GL", "Gravity", "Group", "Inertia", "Lagrangian"),
+    *(
+        "Advected",
+        "Aff",
+        "Algebra",
+        "Covector",
+        "Damping",
+        "Force",
+        "GL",
+        "Gravity",
+        "Group",
+        "Inertia",
+        "Lagrangian",
+    ),
     *("Moments", "Points", "Potential", "Problem", "SAff", "SE", "SL", "SO", "SU", "Sim", "Solid"),
     *("Sp", "Spring", "U", "UT"),
 )
 """And a word for each other kind of potential: ``Attraction`` and so on."""
 PLACES = dict.fromkeys(WORDS, "derive.python.api") | {
     **dict.fromkeys(("Derived", "derive"), "derive.python.derived"),
+    **dict.fromkeys(("FirstIntegrals", "first_integrals"), "derive.python.integrals_found"),
     **dict.fromkeys(("Compiled", "CompileError", "compile"), "derive.python.compiled"),
     "ProblemError": "derive.problem.problem",
 }

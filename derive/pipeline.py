@@ -26,7 +26,7 @@ from .walk import (
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
 from .walk.failure import naming_steps
-from .walk.lie import any_lagrangian, expressed
+from .walk.lie import advected, any_lagrangian, basis, expressed
 from .walk.head import problem_data, symbols
 from .walk.inputs import acts
 from .walk.lineage import traced
@@ -38,6 +38,8 @@ from .walk.stages import Stage, Values, follow
 if TYPE_CHECKING:
     from .code.options import Options
     from .code.program import Program
+    from .integrals.all_integrals import Found
+    from .symmetries.steps import Symmetries
 
 ANY_GROUP = (
     Stage("lagrangian", "a c", "Lagrangian", lagrangian.lagrangian),
@@ -120,10 +122,12 @@ ANY_LAGRANGIAN = (
 """Exercise 1 for any Lagrangian on any matrix group, trivialised on one side."""
 
 EXPRESSED = (
-    Stage("expressed", "problem group lagrangian c", "Expressed", expressed.expressed),
-    Stage("balance", "expressed problem group lagrangian c_u", "Steps", expressed.balance),
+    Stage("basis", "problem group lagrangian c", "Basis", basis.of_element, "element"),
+    Stage("basis", "problem group lagrangian a c", "Basis", advected.reduced, "reduced"),
+    Stage("expressed", "problem group lagrangian basis c", "Expressed", expressed.expressed),
+    Stage("balance", "expressed problem group lagrangian basis c_u", "Steps", expressed.balance),
 )
-"""One Lagrangian in a basis of 𝔤."""
+"""One Lagrangian in a basis of 𝔤, its state with an element of the group, or reduced."""
 # fmt: on
 
 
@@ -143,6 +147,7 @@ def walk(problem: Problem) -> Derivation:
         own = {"problem": problem, "group": group, "c": c, "c_u": acting}
         road = EXPRESSED if given else VECTORS if group.turns_space else MATRICES
         kinds = {"affine" if group.affine else "linear", *group.relations}
+        kinds |= {"element" if problem.advected is None else "reduced"}
         kinds |= {"rotations"} if turns_whole(group) and not group.affine else set()
         steps += follow(road, values | own, kinds)["steps"]
     steps = supposing_all(traced(steps))
@@ -162,6 +167,33 @@ def lagrangian_road(side: str) -> Values:
     """The road of any Lagrangian, trivialised on the ``left`` or on the ``right``."""
     start = {"a": Alphabet("n", affine=False), "side": side, "c": Chapter(side)}
     return follow(ANY_LAGRANGIAN, start, ())
+
+
+def integrals(problem: Problem, degree: int = 4) -> tuple[Found, Derivation]:
+    """The polynomial integrals of the reduced equations of a problem up to a degree, and its record
+    with the steps that tell them."""
+    from .integrals.all_integrals import found
+    from .integrals.reduced import reduced, stated
+    from .integrals.told import told
+
+    problem = stated(problem)
+    whole = found(reduced(problem), degree)
+    assert problem.group is not None
+    record = walk(problem)
+    c = Chapter(problem.name, problem.group.name)
+    steps = supposing_all(traced((*record.steps, *told(whole, record.steps, c))))
+    return whole, Derivation(record.problem, symbols(steps, problem), steps)
+
+
+def symmetries(problem: Problem, record: Derivation) -> Symmetries:
+    """All symmetries of the Lagrangian of a problem, by its record, and a record of them;
+    ``ProblemError`` where there is no Lagrangian of its own."""
+    from .symmetries.found import symmetries_of
+    from .symmetries.steps import Symmetries, record_of
+
+    found = symmetries_of(problem, record)
+    general = lagrangian_road(found.lagrangian.trivialisation)
+    return Symmetries(found, record_of(found, general))
 
 
 def program(problem: Problem, record: Derivation, options: Options | None = None) -> Program:

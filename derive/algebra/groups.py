@@ -16,7 +16,9 @@ from typing import Any, Literal
 
 from ..language import rational as q
 from ..language.rational import Matrix
+from .inner_sampler import inner_sampler
 from .samplers import Sampler, Source
+from .sparse import combined, commutator, sparse
 
 Relation = Literal["orthogonal", "unimodular"]
 
@@ -211,16 +213,19 @@ class Group:
     def structure_constants(self) -> tuple[Matrix, ...]:
         """The coordinates ``c[a][b]`` of [E_a, E_b], d × d × d; ``ValueError`` if 𝔤 is not
         closed."""
-        table = []
-        for a in self.basis:
-            row = []
-            for b in self.basis:
-                coordinates = self.vee(q.bracket(a, b))
-                if coordinates is None:
+        span, listed = range(self.dimension), [sparse(e) for e in self.basis]
+        readers = [self.coordinate_terms(a) for a in span]
+        table = [[(Fraction(0),) * self.dimension for _ in span] for _ in span]
+        for a in span:
+            for b in range(a):
+                found = commutator(listed[b], listed[a])
+                own = [
+                    sum((c * found.get((i, j), 0) for c, i, j in x), Fraction(0)) for x in readers
+                ]
+                if combined(own, listed) != found:
                     raise ValueError(f"{self.name}: the basis is not closed under the bracket")
-                row.append(coordinates)
-            table.append(tuple(row))
-        return tuple(table)
+                table[b][a], table[a][b] = tuple(own), tuple(-x for x in own)
+        return tuple(map(tuple, table))
 
     @cached_property
     def normal_space(self) -> tuple[Matrix, ...]:
@@ -246,3 +251,19 @@ class Group:
     def sample(self, random: Source, size: int = 9) -> Matrix:
         """A random exact rational element of the group, from integers within ±size."""
         return self.sampler(random, size)
+
+    @cached_property
+    def _inner_sampler(self) -> Sampler | None:
+        return inner_sampler(self.basis) if self.larger else self.sampler
+
+    @property
+    def has_inner_samples(self) -> bool:
+        """Are exact elements of the least algebraic group that contains it known?"""
+        return self._inner_sampler is not None
+
+    def sample_inside(self, random: Source, size: int = 9) -> Matrix:
+        """A random exact element of the least algebraic group that contains this one, on which the
+        same polynomials vanish; ``ValueError`` where none are known."""
+        if self._inner_sampler is None:
+            raise ValueError(f"{self.name}: no exact elements are known")
+        return self._inner_sampler(random, size)

@@ -11,11 +11,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from ..language.tree import Tree, names
+from ..record.contract import FIELDS
 from ..record.record import Equation, Step
 from .elementary_values import ELEMENTARY
 
 _PRIMITIVE = """
-    t π i a b e m U v r F A T E z u f_u X δ δ′ α τ α̇ τ̇ Ż ẇ ζ̇ ṗ ℓ̇ Ũ dŨ ∂ₜŨ ∂ₜL̃
+    Γ Γ̇ ρ t π i a b e m U v r F A T E z u f_u X δ δ′ α τ α̇ τ̇ Ż ẇ ζ̇ ṗ ℓ̇ Ũ dŨ ∂ₜŨ ∂ₜL̃
     δΠ δ′Π Π̇ δp_b δ′p_b ṗ_b δℓ_b δ′ℓ_b ℓ̇_b
     ∫ d/dt δA δT δt δα δτ δx δy δZ δw δζ δ′A δ′T δ′t δ′α δ′τ δ′x δ′y δ′Z δ′w δ′ζ
     """
@@ -111,6 +112,8 @@ def definitions(steps: Iterable[Step]) -> dict[Usage, tuple[str, tuple[Tree, ...
     known -= {(name, "value") for name in SUMS}
     for step in steps:
         for key, equation in zip(step.keys, step.equations, strict=True):
+            if equation.lhs in FIELDS and equation in step.given:
+                continue
             left, right = _lone_usage(equation.lhs), _lone_usage(equation.rhs)
             there = {usage for usage, _ in occurrences(equation.rhs)}
             for usage, arguments in left:

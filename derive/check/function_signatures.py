@@ -7,17 +7,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..language.tree import Tree
+from ..language.tree import Tree, names
 
 
 @dataclass(frozen=True)
 class Kind:
     """What an argument of a function may be: one of the trees ``letters``; ``family``: or a member
-    of that family at a time, as r_i(t). ``description``: the same in words, for messages."""
+    of that family at a time, as r_i(t); ``polynomial``: or a polynomial in Π_a and the entries of
+    A or Γ; ``less``: or one of the trees less a function of t and A. ``description``: the same in
+    words, for messages."""
 
     description: str
     letters: tuple[Tree, ...]
     family: str = ""
+    polynomial: bool = False
+    less: bool = False
 
 
 VARIATION = Kind("a variation δy, δ′y or X", ("δy", "δ′y", "X"))
@@ -33,7 +37,13 @@ TRANSLATION = Kind(
     (0, "τ", "δT", "δ′T", ("mul", "A", "η"), ("mul", "A", "η′"), ("mul", "A", "w")),
 )
 FIRST_FIELD, SECOND_FIELD = Kind("ξ", ("ξ",)), Kind("ξ′ or δ′Z", ("ξ′", "δ′Z"))
-FORM = Kind("ϖ(δy)", (("call", "ϖ", "δy"),))
+CARRYING = Kind("ξ or Z", ("ξ", "Z"))
+FORM = Kind(
+    "ϖ(δy), less a function or not, or of a polynomial in Π_a and entries of A or Γ",
+    (("call", "ϖ", "δy"),),
+    polynomial=True,
+    less=True,
+)
 MOVED_PLACE: Tree = ("call", "g", "r")
 INTEGRAND = Kind(
     "1, r, r r̄, ‖v‖² or ⟨v, δ(g(r))⟩",
@@ -61,9 +71,25 @@ HEADS: dict[str, tuple[Kind, ...]] = {
     "∫": (INTEGRAND,),
     "g": (PLACE,),
     "M̃": (FIRST_FIELD, SECOND_FIELD),
+    "ρ": (CARRYING,),
 }
 """The kinds of the arguments of each function; TRANSLATION is left out for a group that does not
 translate."""
+
+
+def is_polynomial(t: Tree) -> bool:
+    """Is a tree a polynomial in members Π_a and entries of A or Γ, its coefficients made of numbers
+    and parameters?"""
+    if not isinstance(t, tuple):
+        return not isinstance(t, str) or t == "π"
+    if t[0] in ("add", "mul"):
+        return all(map(is_polynomial, t[1:]))
+    if t[0] == "pow":
+        return is_polynomial(t[1]) and t[2] > 0
+    if t[0] == "div":
+        return is_polynomial(t[1]) and is_polynomial(t[2]) and not {*names(t[2])} - {"π"}
+    return t[0] == "par" or t[:2] in (("at", "Π"), ("entry", "A"), ("entry", "Γ"))
+
 
 MOVED: dict[str, tuple[Kind, ...]] = {"r": (TIME,)}
 """The kinds of the arguments of members of families that move, as r_i(t)."""

@@ -29,8 +29,10 @@ def action_varied(model: Model) -> Any:
     return part(model.lagrangian(t, g, q.scaled(1 / passing, velocity)) * passing, EPS)
 
 
-def form_rate(model: Model) -> Any:
-    """d/dt [ϖ(δy)] along the motion."""
+def form_rate(model: Model, what: Tree) -> Any:
+    """d/dt [ϖ(δy)] along the motion; ``EvaluationError`` for any other form."""
+    if what != ON_VARIATION:
+        raise EvaluationError("d/dt is of ϖ(δy) alone, where points give the Lagrangian")
     t, g, Z = model.family(model.first, model.motion)
     nu = q.times(g, Z)
     momentum = model.momentum(nu, derivative_of(g, EPS))

@@ -39,7 +39,8 @@ class Locus:
     ``principal``: those with I = diag(λ₁, λ₂, λ₃). ``contracted``: δt = 1, and X is the vector of
     δ. ``vanishing``: the parts of δ′ that vanish; ``along``: the parts of the velocity of X that
     are those of the motion, ``None`` where X is the motion. ``free_acceleration``: the
-    acceleration is any, and that of X. ``driven``: inputs and damping act.
+    acceleration is any, and that of X. ``driven``: inputs and damping act. ``field``: δt and δA
+    where δ is a field, functions of t and A; ``field_prime``: those of δ′.
     """
 
     principal: bool = False
@@ -48,12 +49,16 @@ class Locus:
     along: frozenset[str] | None = None
     free_acceleration: bool = False
     driven: bool = False
+    field: tuple[tuple[str, Tree], ...] = ()
+    field_prime: tuple[tuple[str, Tree], ...] = ()
 
     @property
     def as_text(self) -> str:
         """The hypotheses as text, whatever the order of sets: a part of a point's seed."""
         sets = sorted(self.vanishing), sorted(self.along or ())
-        return f"{self.principal} {self.contracted} {sets} {self.free_acceleration} {self.driven}"
+        fields = f" {self.field} {self.field_prime}" if self.field or self.field_prime else ""
+        flags = f"{self.principal} {self.contracted} {sets} {self.free_acceleration} {self.driven}"
+        return flags + fields
 
 
 def locus_of(step: Step, equation: Equation | None = None) -> Locus:
@@ -64,8 +69,12 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
     principal = contracted = False
     vanishing: set[str] = set()
     along: set[str] = set()
+    fields = [_field(step, names) for names in (("δt", "δA"), ("δ′t", "δ′A"))]
+    known = {name for field in fields for name, _ in field}
     for e in step.given:
         lhs, rhs = e.lhs, e.rhs
+        if lhs in known:
+            continue
         if (lhs, rhs) == ("I", PRINCIPAL):
             principal = True
         elif (lhs, rhs) == ("δt", 1):
@@ -78,7 +87,15 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
             text = f"{show(lhs)} = {show(rhs)}"
             raise RecordError(f"the hypothesis {text[:80]} is not one that can be tried")
     free = equation is not None and any({*equation.for_all} & {*form} for form in RATES)
-    return Locus(principal, contracted, frozenset(vanishing), frozenset(along), free, step.driven)
+    told = frozenset(vanishing), frozenset(along)
+    return Locus(principal, contracted, *told, free, step.driven, *fields)
+
+
+def _field(step: Step, names: tuple[str, str]) -> tuple[tuple[str, Tree], ...]:
+    """The given δt and δA of a field, each once and not both 0; else nothing."""
+    given = tuple((str(e.lhs), e.rhs) for e in step.given if e.lhs in names)
+    whole = tuple(lhs for lhs, _ in given) == names and any(rhs != 0 for _, rhs in given)
+    return given if whole else ()
 
 
 def part_of_velocity(lhs: Tree, rhs: Tree) -> str:

@@ -188,7 +188,7 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
         "r": point,
         "∫": lambda _, a, env: integral(model, a[0], env),
         "g": lambda _, a, env: moved(model, model.g, evaluate(a[0], env)),
-        "d/dt": lambda *_: form_rate(model),
+        "d/dt": lambda _, a, env: form_rate(model, a[0]),
         "δA": lambda _, a, env: model.group.linear_part(q.times(model.g, direction(a[0]).xi)),
         "δT": lambda _, a, env: model.group.translation_part(q.times(model.g, direction(a[0]).xi)),
         "ξ": lambda _, a, env: model.group.linear_part(direction(a[0]).xi),

@@ -6,9 +6,11 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
+from ..algebra.carried import blocks_apart, of_matrices
 from ..algebra.families import group, on_homogeneous
 from ..algebra.groups import Group
 from ..algebra.stated_basis import group_of_basis
+from ..algebra.structure import rank
 from ..record.contract import ANY_GROUP
 from ..record.record import RecordError
 from ..record.shape import IDENTIFIER
@@ -28,6 +30,8 @@ def group_of(problem: Mapping[str, Any]) -> Group | None:
         if problem.get("n") != "any":
             raise RecordError(f"key 'n': {ANY_GROUP} moves the points of a space of any dimension")
         return None
+    if "advected" in problem:
+        return _carrying(problem, name, basis)
     found = _stated(problem, name, basis) if IDENTIFIER.fullmatch(name) else _named(name, basis)
     if "lagrangian" in problem:
         found = (on_homogeneous(found) if found.affine else found).stated
@@ -39,6 +43,27 @@ def group_of(problem: Mapping[str, Any]) -> Group | None:
         raise RecordError(f"key 'n': {name} moves the points of a space of dimension {found.n}")
     if found.action != problem.get("action"):
         raise RecordError(f"key 'action': {name} acts by {found.action} maps")
+    return found
+
+
+def _carrying(problem: Mapping[str, Any], name: str, basis: tuple[Any, ...]) -> Group:
+    """The group of an algebra without an element in the state; ``RecordError`` where its matrices
+    are not independent, not closed or not in blocks, or a known name is that of another algebra."""
+    sizes = [x["size"] for x in problem["advected"]]
+    if not basis or sum(sizes) > len(basis[0]) or rank(basis) < len(basis):
+        raise RecordError("the basis is not one, or too small for what it carries along")
+    found = of_matrices(name, basis)
+    if not blocks_apart(found, sizes):
+        raise RecordError("the basis has no blocks for what it carries along")
+    try:
+        constants = found.structure_constants
+        known = None if IDENTIFIER.fullmatch(name) else group(name).stated.structure_constants
+    except ValueError as error:
+        raise RecordError(str(error)) from None
+    if known not in (None, constants):
+        raise RecordError(f"the brackets are not those of {name}")
+    if (problem.get("n"), problem.get("homogeneous")) != (found.n, False):
+        raise RecordError(f"key 'n': the matrices have {found.n} rows")
     return found
 
 

@@ -24,7 +24,7 @@ from .definitions import Usage, definitions, occurrences
 from .evaluate import Environment, evaluate, free_indices
 from .function_signatures import AT_ONE_TIME, AXIS, HEADS, INDEX_SETS, MOTION, VARIATION
 
-RATES = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "ṗ_b", "ℓ̇_b")
+RATES = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "ṗ_b", "ℓ̇_b", "Γ̇")
 """The names whose value is one on X: rates along the motion."""
 
 MULTIPLIER = "θ"
@@ -180,10 +180,14 @@ class Judge:
             return False
         basis = isinstance(t, tuple) and t[0] == "at" and INDEX_SETS.get(t[1]) == AXIS
         if type_ == ("algebra",):  # of one group alone that may be by chance
-            return general or basis
+            return general or basis or self.known_of_any_group(t)
         proper = [(x, g) for x, g in found if len(g.linear_basis) < g.n**2]
         narrower = proper and all(_in_algebra(x, g) for x, g in proper) and (general or basis)
         return type_[0] != "matrix" or not narrower
+
+    def known_of_any_group(self, t: Tree) -> bool:
+        """Is it a name that the text about any group uses as well?"""
+        return isinstance(t, str) and (t, "value") in self.seen and self.seen[t, "value"].general
 
     def values(self, t: Tree, env: Environment) -> list[Any]:
         """The values of a tree at a point, by :func:`values`, found once."""

@@ -9,6 +9,7 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..algebra.samplers import Source
+from ..language.show import show
 from ..record.contract import ANY_GROUP
 from ..record.record import Equation, RecordError, Step
 from .equation_sides import claim_grade
@@ -44,6 +45,12 @@ def model_at(
     """A random model at a locus; ``chosen``: what is drawn otherwise (:class:`Model`)."""
     if "lagrangian" in problem:
         return LagrangianModel(problem, g, source, size, at, **chosen)
+    for name, value in (*at.field, *at.field_prime):
+        text = f"{show(name)} = {show(value)}"
+        raise RecordError(
+            f"the hypothesis {text[:80]} is not one that can be tried: a field on the group is "
+            "given where no points give the Lagrangian"
+        )
     return Model({} if chosen.get("generic") else problem, g, source, size, at, **chosen)
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Set
 from typing import Any
 
 from ..language.show import show
-from ..language.tree import Tree
+from ..language.tree import Tree, nodes
 from ..record.record import Equation
 from .function_signatures import (
     FORMS,
@@ -23,6 +23,7 @@ from .function_signatures import (
     SOLVED,
     TRANSLATION,
     Kind,
+    is_polynomial,
 )
 from .locus import TIME, Locus
 
@@ -133,10 +134,17 @@ def _kinds_of(head: Tree) -> tuple[Kind, ...] | None:
 
 
 def _is_of(kind: Kind, x: Tree) -> bool:
-    if x in kind.letters:
+    if x in kind.letters or (kind.polynomial and is_polynomial(x)):
         return True
+    if kind.less and isinstance(x, tuple) and x[0] == "add" and x[1] in kind.letters:
+        return {*map(_name, nodes(("add", 0, *x[2:])))} <= {None, "t", "A", "π"}
     called = isinstance(x, tuple) and x[0] == "call" and isinstance(x[1], tuple)
     return bool(kind.family and called and x[1][:2] == ("at", kind.family))  # type: ignore[index]
+
+
+def _name(t: Tree) -> str | None:
+    """A name, or that of a function; ``None`` of any other tree."""
+    return t if isinstance(t, str) else t[0] if isinstance(t, tuple) and t[0] == "call" else None
 
 
 def _shortened(t: Tree) -> str:

@@ -93,6 +93,7 @@ def assemble(
         group.stated.free_translations,
         turning(d.problem, parameters) if "inertia" in wanted and not frame else None,
         framing,
+        "eta g" if lowering.reader.space.right else "g eta",
     )
 
 
@@ -153,6 +154,10 @@ def _refused(d: Derivation, group: Group, chosen: Options) -> None:
                 f"{d.name}: --jacobian {by} is a matrix of {rows * width} entries on {group.name}, "
                 f"of dimension {group.dimension}; compilers manage {most}: leave it out"
             )
+    if "advected" in d.problem:
+        _refused_without_element(d, chosen)
+    if d.problem.get("lagrangian", {}).get("held"):
+        _refused_where_held(d, chosen)
     if d.problem.get("lagrangian", {}).get("trivialisation") == "right":
         _refused_on_the_right(d, chosen)
     if chosen.attitude == "quaternion" and not group.turns_space:
@@ -170,12 +175,39 @@ def _refused(d: Derivation, group: Group, chosen: Options) -> None:
         )
 
 
+def _refused_without_element(d: Derivation, chosen: Options) -> None:
+    """What is written for a state with an element of the group."""
+    for on, option in (
+        (chosen.velocity == "tangent", "--velocity tangent"),
+        (chosen.attitude == "quaternion", "--attitude quaternion"),
+        (chosen.layout == "col", "--layout col"),
+        (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
+    ):
+        if on:
+            raise LoweringError(
+                f"{d.name}: {option} is for a state with an element of the group, and [algebra] "
+                "has none: leave it out"
+            )
+
+
+def _refused_where_held(d: Derivation, chosen: Options) -> None:
+    """What is written for a motion that the whole velocity tells."""
+    for on, option in (
+        (chosen.velocity == "tangent", "--velocity tangent"),
+        (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
+    ):
+        if on:
+            raise LoweringError(
+                f"{d.name}: {option} is for motions on the whole group, and these are on a "
+                "quotient of it: leave it out"
+            )
+
+
 def _refused_on_the_right(d: Derivation, chosen: Options) -> None:
     """What is written for Z = g⁻¹ġ alone."""
     for on, option in (
         (chosen.velocity == "tangent", "--velocity tangent"),
         (chosen.attitude == "quaternion", "--attitude quaternion"),
-        ("state" in chosen.jacobian, "--jacobian state"),
     ):
         if on:
             raise LoweringError(

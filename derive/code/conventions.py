@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import textwrap
 import unicodedata
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from ..algebra.groups import Group
@@ -22,6 +22,8 @@ def conventions(
 ) -> tuple[str, ...]:
     """What a reader of the emitted files must know, one sentence each, in plain ASCII."""
     inputs: Sequence[Mapping[str, Any]] = problem.get("inputs", [])
+    if "advected" in problem:
+        return _reduced(problem, [x["name"] for x in inputs])
     places = _places(problem)
     order = "column by column" if options.layout == "col" else "row by row"
     if options.attitude == "quaternion":
@@ -36,6 +38,7 @@ def conventions(
     elif (side := problem.get("lagrangian", {}).get("trivialisation")) is not None:
         moved = "g^-1 dg/dt" if side == "left" else "(dg/dt) g^-1"
         lines.append(f"zeta are the coordinates of Z = {moved} in the basis below.")
+        lines += _held(problem["lagrangian"].get("held", ()))
     elif group.turns_space and not group.stated_basis:
         lines.append(
             "zeta is the angular velocity in the body frame: dA/dt = A j(zeta), j(x) y = x cross y."
@@ -57,6 +60,42 @@ def conventions(
         *framed,
         *textwrap.wrap(_drift(group, options), 92),
     )
+
+
+def _held(coordinates: Sequence[int]) -> list[str]:
+    """The sentence about a motion on a quotient of the group."""
+    if not coordinates:
+        return []
+    names = ", ".join(f"zeta_{a}" for a in coordinates)
+    text = (
+        f"There is no {names} in the state: it is 0. L has symmetries without kinetic energy, so "
+        "that the motion is one of the quotient of the group by them; which g of a class it takes "
+        "says nothing."
+    )
+    return textwrap.wrap(text, 92)
+
+
+def _reduced(problem: Mapping[str, Any], inputs: Iterable[str]) -> tuple[str, ...]:
+    """The sentences about a state without an element of the group."""
+    left = problem["lagrangian"]["trivialisation"] == "left"
+    moved = "g^-1 dg/dt" if left else "(dg/dt) g^-1"
+    carried = ", ".join(x["name"] for x in problem["advected"])
+    text = (
+        "The state is that of the reduced equations: it has no element g of the group. zeta are "
+        f"the coordinates of Z = {moved} in the basis of the algebra, for which the matrices "
+        f"E_a below stand; who wants an element of their group integrates "
+        f"dg/dt = {'g Z' if left else 'Z g'}."
+    )
+    if carried:
+        text += (
+            f" The algebra carries along, in this order, {carried}: "
+            f"d{carried.split(', ')[0]}/dt = {'-' * left}rho(Z) {carried.split(', ')[0]}, rho its "
+            "representation."
+        )
+    driven = (
+        f"Input {x}: a covector of the Lie algebra; its power is <{x}, zeta>." for x in inputs
+    )
+    return (*textwrap.wrap(text, 92), *driven)
 
 
 def _lengths(problem: Mapping[str, Any]) -> list[str]:

@@ -40,7 +40,7 @@ TEXTS = {
 def drift(x: StateSpace) -> dict[str, list[Node]]:
     """The outputs of ``project`` and ``defect``, by name; empty where G has no relations."""
     g, leaves = x.graph, [x.graph.leaf(name, "state") for name in x.names]
-    steps = [_unit_quaternion(x)] if x.quaternion else _blocks(x)
+    steps = [_unit_quaternion(x)] if x.quaternion else _blocks(x) if x.slots else []
     images = {leaf: image for step in steps for leaf, image in step.images.items()}
     residuals = [y for step in steps for y in step.residuals]
     if not residuals:

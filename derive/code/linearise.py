@@ -4,7 +4,8 @@ A variation of the state is δg = g η, η = Σ η_a E_a, and δζ.  With δ(g�
 
     η̇ = δζ − [Z, η],    δζ̇ = ∂ζ̇/∂η η + ∂ζ̇/∂ζ δζ,
 
-and the same with inputs and parameters in place of η, δζ.
+on the right, with δg = η g, η̇ = δζ + [Z, η]; and the same with inputs and parameters in place of
+η, δζ.
 """
 
 from __future__ import annotations
@@ -68,7 +69,7 @@ def by_state(space: StateSpace, accelerations: list[Node]) -> list[Node]:
     turned = [Varied(g, space.along(a), f"eta_{a + 1}") for a in span]
     sped = [Varied(g, space.faster(a), f"zeta_{a + 1}") for a in span]
     rows = [
-        [*(-x for x in row), *(g.num(int(a == b)) for b in span)]
+        [*(x if space.right else -x for x in row), *(g.num(int(a == b)) for b in span)]
         for a, row in enumerate(_adjoint(space))
     ]
     rows += [[v.of(x) for v in (*turned, *sped)] for x in accelerations]

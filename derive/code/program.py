@@ -167,6 +167,8 @@ class Program:
     translates: bool = False
     turning: Turning | None = None
     framing: Framing | None = None
+    variation: str = "g eta"
+    """What δg is by η, in comments."""
 
     def all_functions(self) -> tuple[EmittedFunction, ...]:
         """The functions of the program, and those that find its frame."""

@@ -16,7 +16,7 @@ from .graph import Graph, Node
 from .naming import name_of
 from .options import Options
 from .program import LoweringError
-from .state import StateSpace
+from .reduced_state import state_of
 
 Value = Node | Matrix
 
@@ -51,7 +51,7 @@ class RecordReader:
     ):
         self.record, self.group, self.n = d, group, group.n
         self.graph, self.options, self.tree = graph, options, tree
-        self.space = StateSpace(self.graph, group, options)
+        self.space = state_of(d.problem, graph, group, options)
         self.label = ""
         self.memo: dict[Tree, Value] = {}
         self._inputs()

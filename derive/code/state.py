@@ -8,7 +8,7 @@ Z = g⁻¹ġ (and w), or the entries of ġ.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from fractions import Fraction
 from functools import cached_property
 
@@ -31,9 +31,22 @@ Component = Callable[[str, int], Node]
 
 
 class StateSpace:
-    """The numbers of a state: ``names`` in order; ``values``: A, T, ζ, w as nodes in them."""
+    """The numbers of a state: ``names`` in order; ``values``: A, T, ζ, w as nodes in them.
 
-    def __init__(self, graph: Graph, group: Group, options: Options):
+    ``right``: is Z = ġg⁻¹, and a variation δg = η g? ``held``: coordinates ζ_a, from 1, that are 0
+    and no numbers of the state.
+    """
+
+    def __init__(
+        self,
+        graph: Graph,
+        group: Group,
+        options: Options,
+        *,
+        right: bool = False,
+        held: Collection[int] = (),
+    ):
+        self.right, self.held = right, held
         self.graph, self.group, self.n = graph, group.stated, group.n
         self.standard = group
         self.slots = layout(group, options.layout == "col")
@@ -77,7 +90,7 @@ class StateSpace:
         }
 
     def along(self, a: int) -> Seeds:
-        """The variation δg = g E_a at constant ζ; a from 0."""
+        """The variation δg = g E_a, or E_a g, at constant ζ; a from 0."""
         e = self.member(a)
         seeds = self._moved(e)
         if self.tangent:  # δġ = g E_a Z
@@ -95,7 +108,11 @@ class StateSpace:
         return dense.numbers(self.graph, self.group.basis[a])
 
     def _moved(self, e: Matrix) -> Seeds:
-        """The variation δg = g e, as derivatives of the leaves of g."""
+        """The variation δg = g e, or e g, as derivatives of the leaves of g."""
+        if self.right:
+            changes = q.times(e, self.values["A"])
+            pairs = zip(q.flatten(self.values["A"]), q.flatten(changes), strict=True)
+            return {leaf: x for leaf, x in pairs if leaf.op == "leaf"}
         if not self.quaternion:
             return self._changed(e, "A", "T")
         half = halves(((e[2][1],), (e[0][2],), (e[1][0],)))
@@ -121,7 +138,10 @@ class StateSpace:
         if not self.tangent:
             # all come before w, unless a stated basis mixes them
             stated = turns if self.group.free_translations else self.group.dimension
-            zeta = [self._leaf(suffixed("zeta", a)) for a in self._span(stated)]
+            zeta = [
+                self.graph.num(0) if a in self.held else self._leaf(suffixed("zeta", a))
+                for a in self._span(stated)
+            ]
             moved = self._span(self.group.dimension - len(zeta))
             self.coordinates = [*zeta, *(self._leaf(suffixed("w", i)) for i in moved)]
             values = self.coordinates
@@ -205,7 +225,7 @@ class StateSpace:
 
     def velocity(self, component: Component) -> list[Node]:
         """The accelerations ζ̇, and ẇ where there is w, in the stated basis."""
-        found = [component("ζ̇", a) for a in self._span(self._turns)]
+        found = [component("ζ̇", a) for a in self._span(self._turns) if a not in self.held]
         found += [component("ẇ", i) for i in self._span(self.n)] if self.group.affine else []
         return self._restated(found)
 

@@ -84,15 +84,18 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
         return made
 
     command("list")
-    walk, made, emit, check = map(command, ("walk", "notes", "emit", "check"))
-    add_reading_options(walk, made)
+    walk, symmetries, searched, made, emit, check = map(
+        command, ("walk", "symmetries", "integrals", "notes", "emit", "check")
+    )
+    add_reading_options((walk, symmetries), searched, made)
+    add_search_options(searched)
     emit.add_argument("problem", help="a ready-made name or a .toml file")
     add_writing_options(emit)
     add_emission_options(emit)
     check.add_argument("problem", nargs="+", help="ready-made names, .toml files or .json records")
     about = "the seed of a run that is to be repeated (default: a new one)"
     check.add_argument("--seed", type=natural, metavar="N", help=about)
-    for one in (walk, emit, check):
+    for one in (walk, emit, check, symmetries):
         for name, what in ALLOWED.items():
             about = f"warn of a negative {what} instead of refusing it"
             one.add_argument(f"--allow-negative-{name}", action="store_true", help=about)
@@ -106,18 +109,41 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     return top
 
 
-def add_reading_options(walk: argparse.ArgumentParser, notes: argparse.ArgumentParser) -> None:
-    """Add the options of ``walk`` and ``notes``: problems, format, language, notations."""
+def degree(words: str) -> int:
+    """A degree from 1 to 40 from its text; ``ValueError`` for any other."""
+    if not 1 <= (number := int(words)) <= 40:
+        raise ValueError(words)
+    return number
+
+
+def add_search_options(searched: argparse.ArgumentParser) -> None:
+    """Add the options of ``integrals``: how far is searched, for which parameters."""
+    about = "the highest degree that is searched, momenta being of degree 1 (default: 4)"
+    searched.add_argument("--degree", type=degree, default=4, metavar="N", help=about)
+    about = "put the default values of parameters in their place (default: they stay letters)"
+    searched.add_argument("--at-defaults", action="store_true", help=about)
+
+
+def add_reading_options(
+    walks: Sequence[argparse.ArgumentParser],
+    searched: argparse.ArgumentParser,
+    notes: argparse.ArgumentParser,
+) -> None:
+    """Add the options of ``walk`` and its like and of ``notes``: problems, format, language,
+    notations."""
     from ..printing.notation import NOTATIONS
     from ..views.language import LANGUAGES
 
-    walk.add_argument("problem", help="a ready-made name or a .toml file")
-    walk.add_argument("step", nargs="*", help="steps to print alone, as kernel or linear.kernel")
-    walk.add_argument("--format", choices=FORMATS, default="text")
-    walk.add_argument("--out", metavar="FILE")
+    for one in (*walks, searched):
+        one.add_argument("problem", help="a ready-made name or a .toml file")
+        one.add_argument("--format", choices=FORMATS, default="text")
+        one.add_argument("--out", metavar="FILE")
+    for one in walks:
+        about = "steps to print alone, as kernel or linear.kernel"
+        one.add_argument("step", nargs="*", help=about)
     notes.add_argument("problem", nargs="*", help="ready-made names or .toml files")
     notes.add_argument("--out", metavar="FILE", required=True, help="FILE.tex, .pdf, .html or .sty")
-    for one in (walk, notes):
+    for one in (*walks, searched, notes):
         one.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
         one.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
         for option, name in (("--notation", "transpose"), ("--hat", "hat")):

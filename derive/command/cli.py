@@ -1,4 +1,5 @@
-"""The command line: ``derive list | walk | notes | emit | check | paper | build``."""
+"""The command line: ``derive list | walk | symmetries | integrals | notes | emit | check | paper |
+build``."""
 
 from __future__ import annotations
 
@@ -101,6 +102,45 @@ def command_walk(args: argparse.Namespace) -> int:
     """Print the walk of a problem."""
     record = derive(args.problem, **allowances(args))[1]
     chosen = {"fragment": args.fragment, "steps": steps_of(record, args.step), **notation(args)}
+    shown = render(record, args.format, args.lang, **chosen)
+    if args.format == "latex":
+        warn_of_letters([record])
+    save(shown, args.out, args.format)
+    return 0
+
+
+def command_integrals(args: argparse.Namespace) -> int:
+    """Find the polynomial first integrals of the reduced equations of a problem."""
+    from ..integrals.reduced import with_defaults
+    from ..pipeline import integrals
+
+    problem = load_problem(args.problem)
+    problem = with_defaults(problem) if args.at_defaults else problem
+    record = integrals(problem, args.degree)[1]
+    # the JSON is a whole record, which can be checked
+    new = () if args.format == "json" else told_steps(record)
+    chosen = {"fragment": args.fragment, "steps": new, **notation(args)}
+    save(render(record, args.format, args.lang, **chosen), args.out, args.format)
+    return 0
+
+
+def told_steps(record: Derivation) -> list[Step]:
+    """The steps of a record that tell integrals."""
+    labels = [step.label for step in record.steps]
+    return [*record.steps[labels.index(f"{record.name}.poisson") :]]
+
+
+def command_symmetries(args: argparse.Namespace) -> int:
+    """All symmetries of a problem's Lagrangian, and what the motion keeps by each."""
+    from ..pipeline import symmetries
+    from ..symmetries.steps import shown as about_symmetries
+
+    problem, walked = derive(args.problem, **allowances(args))
+    record = symmetries(problem, walked).record
+    steps = steps_of(record, args.step)
+    if not steps and args.format != "json":
+        steps = about_symmetries(record)
+    chosen = {"fragment": args.fragment, "steps": steps, **notation(args)}
     shown = render(record, args.format, args.lang, **chosen)
     if args.format == "latex":
         warn_of_letters([record])
@@ -251,6 +291,8 @@ FILES = {"text": "txt", "latex": "tex", "json": "json"}
 COMMANDS = {
     "list": command_list,
     "walk": command_walk,
+    "integrals": command_integrals,
+    "symmetries": command_symmetries,
     "notes": command_notes,
     "emit": command_emit,
     "check": command_check,

@@ -24,6 +24,9 @@ PARAMETERS = 1000
 """Parameters of a problem, each of which may be one of the emitted functions."""
 BASIS, MATRIX = 64, 9
 """Matrices of a basis of one's own, as many as gl(8) has, and their rows."""
+ROWS, CARRIED = 4000, 64
+"""Rows of a table of brackets; and rows of the matrices of an algebra with those of all that it
+carries along: products of such matrices take a second in the checker."""
 TEXT = 1000
 """Letters of a title, a unit, a meaning, which stand in the head of every output."""
 

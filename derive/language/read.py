@@ -28,7 +28,7 @@ FAMILIES = frozenset({*"rmvFQdPχσκEks", "f_u", "Π", "Π̇", "Φ"})
 """Letters of families, whose members an index counts; after any other it tells an entry."""
 IN_THE_BASIS = frozenset({"E", "M", "β", "ζ", "ζ̇", "ψ", "Π", "Π̇", "Φ"})
 """Letters that have the indices a and b; after any other these belong to its name, as in ℓ_b."""
-FUNCTIONS = frozenset({"dŨ", "p̃", "M̃", "ϖ", "dϖ", "ω", "g", "δ", "δ′", "d/dt"})
+FUNCTIONS = frozenset({"dŨ", "p̃", "M̃", "ρ", "ϖ", "dϖ", "ω", "g", "δ", "δ′", "d/dt"})
 """Names that are applied to the brackets after them; others are to t and X alone."""
 
 _LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉½⅓¼⅔ᵢⱼₑₜ]"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from ..schema.body_kinds import AnyBody, NoBody
@@ -19,14 +20,19 @@ def data(problem: Problem) -> dict[str, Any]:
         "homogeneous": problem.homogeneous,
         "parameters": {k: p.plain() for k, p in problem.parameters.items()},
         "body": _body(problem).plain(),
-        "potentials": [p.plain() for p in problem.potentials],
-        "inputs": [i.plain() for i in problem.inputs],
-        "places": [p.plain() for p in problem.places],
-        "damping": [d.plain() for d in problem.damping],
+        "potentials": [*_plain(problem.potentials)],
+        "inputs": [*_plain(problem.inputs)],
+        "places": [*_plain(problem.places)],
+        "damping": [*_plain(problem.damping)],
         **({"frame": dict(problem.frame)} if problem.frame else {}),
         **({"masses": "of any sign"} if problem.signed else {}),
         **({"lagrangian": problem.lagrangian.plain()} if problem.lagrangian else {}),
+        **({} if problem.advected is None else {"advected": [*_plain(problem.advected)]}),
     }
+
+
+def _plain(tables: Iterable[Table]) -> Iterator[dict[str, Any]]:
+    return (x.plain() for x in tables)
 
 
 def _body(problem: Problem) -> Table:

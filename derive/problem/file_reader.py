@@ -16,6 +16,7 @@ from ..language.limits import BASIS, MATRIX, TEXT
 from ..language.reserved import PLACE
 from ..language.tree import Tree, replaced, subtrees
 from ..language.values import approximate
+from ..schema.algebra_kinds import Advected
 from ..schema.body_kinds import Body, Place, Point, PointBody
 from ..schema.table import Rows, Slot, Table
 from ..schema.table_reader import NAME, TableReader
@@ -23,7 +24,7 @@ from .fields import LIKE_A_PLACE
 from .moments import SolidError, first_moment, given_by, second_moment
 from .problem import ProblemError, points_of
 from .solids import rotation_about
-from .state_names import meant, state_names
+from .state_names import meant, reduced_names, state_names
 
 AXES = "xyz"
 Vector = tuple[Tree, ...]
@@ -32,7 +33,8 @@ Vector = tuple[Tree, ...]
 class FileReader(TableReader):
     """Reads the tables of a file in a folder; ``places``: those that forces have named so far.
 
-    ``heavy``: the body has mass outside its points.
+    ``heavy``: the body has mass outside its points; ``advected``: what an algebra without g
+    carries along.
     """
 
     error = ProblemError
@@ -44,6 +46,7 @@ class FileReader(TableReader):
         self.point_masses: tuple[Point, ...] = ()
         self.places: list[Place] = []
         self.heavy = False
+        self.advected: tuple[Advected, ...] | None = None
 
     group: Group | None
 
@@ -92,6 +95,13 @@ class FileReader(TableReader):
         """The group, where there must be one."""
         assert self.group is not None
         return self.group
+
+    @property
+    def state_names(self) -> dict[str, Tree]:
+        """Name → what it stands for in a Lagrangian."""
+        if self.advected is None:
+            return state_names(self.moving())
+        return reduced_names(self.moving(), self.advected)
 
     def space(self, _: Slot) -> int:
         """The dimension of its space."""
@@ -256,13 +266,12 @@ class FileReader(TableReader):
 
     def lettered(self, slot: Slot) -> Tree:
         """An expression in the names of the state."""
-        return meant(self.scalar(slot), state_names(self.moving()))
+        return meant(self.scalar(slot), self.state_names)
 
     def coordinates(self, slot: Slot) -> Vector:
         """One for each coordinate of the Lie algebra."""
         found = self.listed(self.value(slot), self.moving().dimension, slot.path)
-        names = state_names(self.moving())
-        return tuple(meant(t, names) for t in found)
+        return tuple(meant(t, self.state_names) for t in found)
 
     def operator(self, slot: Slot) -> Rows:
         """A matrix of its size."""

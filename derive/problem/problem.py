@@ -8,6 +8,7 @@ from typing import Any
 
 from ..algebra.groups import Group
 from ..language.refused import Refused
+from ..schema.algebra_kinds import Advected
 from ..schema.body_kinds import Body, MomentBody, Place, Point
 from ..schema.declared import Parameter
 from ..schema.kind import Potential
@@ -26,6 +27,8 @@ class Problem:
     ``frame``: what its parameters stand for, if it is in a principal frame (``principal.py``).
     ``signed``: masses may be negative, so that nothing is said of the sign of the metric.
     ``lagrangian``: one that no points give; the group then acts by matrices on (r, 1).
+    ``advected``: what the algebra carries along, where the state has no element of the group; the
+    last blocks of the group's matrices.
     """
 
     name: str
@@ -41,6 +44,7 @@ class Problem:
     frame: Mapping[str, Any] | None = None
     signed: bool = False
     lagrangian: Lagrangian | None = None
+    advected: tuple[Advected, ...] | None = None
 
     @property
     def affine(self) -> bool:

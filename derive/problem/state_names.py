@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from ..algebra.groups import Group
 from ..language.suffixed import suffixed
 from ..language.tree import Tree
+from ..schema.algebra_kinds import Advected
 
 
 def coordinates(group: Group) -> list[Tree]:
     """The coordinates ζ_1 … ζ_d of a velocity, as trees."""
     return [("entry", "ζ", a) for a in range(1, group.dimension + 1)]
+
+
+def reduced_names(group: Group, advected: Sequence[Advected]) -> dict[str, Tree]:
+    """Name → what it stands for, where the state has no g: t, the entries of Γ, all advected
+    quantities in one column, and ζ."""
+    listed = [suffixed(x.name, i) for x in advected for i in range(1, x.size + 1)]
+    found: dict[str, Tree] = {"t": "t"}
+    found |= {name: ("entry", "Γ", i) for i, name in enumerate(listed, 1)}
+    return found | _velocity(group)
 
 
 def state_names(group: Group) -> dict[str, Tree]:
@@ -26,7 +36,11 @@ def state_names(group: Group) -> dict[str, Tree]:
             if factor.affine:
                 place = ("entry", "A", offset + i, offset + factor.n + 1)
                 found[suffixed(f"T{mark}", i)] = place
-    return found | {suffixed("zeta", a): t for a, t in enumerate(coordinates(group), 1)}
+    return found | _velocity(group)
+
+
+def _velocity(group: Group) -> dict[str, Tree]:
+    return {suffixed("zeta", a): t for a, t in enumerate(coordinates(group), 1)}
 
 
 def meant(t: Tree, names: Mapping[str, Tree]) -> Tree:

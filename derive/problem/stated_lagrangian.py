@@ -2,23 +2,26 @@
 
 In an expression t is the time, and the names of the state are what they are in emitted code: A_11
 and so on are the entries of g (A1_11, … in a product), T_1, … its translation, zeta_1, … the
-coordinates of Z in the basis of 𝔤.
+coordinates of Z in the basis of 𝔤; of an algebra without g, those of what it carries along.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 from ..algebra.groups import Group
+from ..algebra.structure import as_text
 from ..language.derivatives import derivative
-from ..language.divisors import PRIMES, residue
 from ..language.tree import Tree, add, mul, neg, nodes
 from ..schema.lagrangian_kinds import SECTIONS, Inertia, Lagrangian
 from .file_reader import FileReader
+from .moved_entries import EntriesOfElement, plain
+from .null_directions import Direction, along, held, hessian, null_directions, vanishes
 from .problem import ProblemError
-from .state_names import coordinates, state_names
+from .state_names import coordinates
 
 
 def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lagrangian:
@@ -28,7 +31,7 @@ def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lag
     if others:
         raise ProblemError("give either [lagrangian] or [inertia]")
     for name in data.get("parameters", {}):
-        if name in state_names(group):
+        if name in reader.state_names:
             raise ProblemError(
                 f"parameter {name!r}: an entry of the state in [{where}]; choose another name"
             )
@@ -38,8 +41,7 @@ def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lag
     found = of_inertia(table, group) if isinstance(table, Inertia) else table
     if not any(t in coordinates(group) for t in nodes(found.L)):
         raise ProblemError(f"{where}: no coordinate of the velocity, as zeta_1, so no motion")
-    _require_regular(found.L, group, where)
-    return found
+    return _with_null_directions(found, group, reader, where)
 
 
 def of_inertia(given: Inertia, group: Group) -> Lagrangian:
@@ -56,38 +58,43 @@ def of_inertia(given: Inertia, group: Group) -> Lagrangian:
     return Lagrangian(L=add(*terms, neg(given.U)), trivialisation=given.trivialisation)
 
 
-# -- ∂²ℓ/∂Z² -------------------------------------------------------------------------------------
+def _with_null_directions(
+    found: Lagrangian, group: Group, reader: FileReader, where: str
+) -> Lagrangian:
+    """The same with the coordinates that are held, where ∂²ℓ/∂Z² is singular in directions that
+    keep ℓ; ``ProblemError`` where it is so in others, or here in some and there in others."""
+    zeta = coordinates(group)
+    null = null_directions(hessian(found.L, zeta))
+    if null is None:
+        raise ProblemError(f"{where}: ∂²L/∂Z² is singular, in directions that are not constant")
+    for direction in null:
+        name = as_text({k: x for k, x in enumerate(direction) if x})
+        if not vanishes(along([derivative(found.L, x) for x in zeta], direction)):
+            raise ProblemError(
+                f"{where}: ∂²L/∂Z² is singular along {name}, and L is linear there, so that no "
+                "equation tells this acceleration; add its kinetic energy"
+            )
+        if reader.advected is not None or not vanishes(varied(found, group, direction)):
+            raise ProblemError(
+                f"{where}: ∂²L/∂Z² is singular along {name}, and that is no symmetry of L: the "
+                "equations leave this velocity open; add its kinetic energy"
+            )
+    return replace(found, held=tuple(k + 1 for k in held(null)))
 
 
-def hessian(tree: Tree, zeta: Sequence[Tree]) -> list[list[Tree]]:
-    """The second derivatives ∂²ℓ/∂ζ_a∂ζ_b, d × d."""
-    slopes = [derivative(tree, x) for x in zeta]
-    return [[derivative(slope, y) for y in zeta] for slope in slopes]
-
-
-def _require_regular(tree: Tree, group: Group, where: str) -> None:
-    """``ProblemError`` where ∂²ℓ/∂Z² is singular whatever the parameters: no velocity is found."""
-    second = hessian(tree, coordinates(group))
-    if all(_determinant(second, p) == 0 for p in PRIMES):
-        still = [a for a, row in enumerate(second, 1) if not any(row)]
-        left = f"zeta_{still[0]}" if still else "the velocity, in some direction,"
-        raise ProblemError(
-            f"{where}: ∂²L/∂Z² is singular: the equations leave {left} open; add its kinetic energy"
-        )
-
-
-def _determinant(rows: Sequence[Sequence[Tree]], p: int) -> int:
-    """The determinant of a matrix of expressions modulo p, names by a hash."""
-    left = [[residue(x, p) for x in row] for row in rows]
-    found = 1
-    for k in range(len(left)):
-        pivot = next((i for i in range(k, len(left)) if left[i][k]), None)
-        if pivot is None:
-            return 0
-        left[k], left[pivot] = left[pivot], left[k]
-        found = found * left[k][k] % p
-        scale = pow(left[k][k], -1, p)
-        for i in range(k + 1, len(left)):
-            factor = left[i][k] * scale
-            left[i] = [(x - factor * y) % p for x, y in zip(left[i], left[k], strict=True)]
-    return found
+def varied(found: Lagrangian, group: Group, direction: Direction) -> Tree:
+    """The derivative of ℓ where g goes on to g exp η, η constant, and Z to exp(−η) Z exp η; on the
+    right to exp η g, and exp η Z exp(−η)."""
+    span, table = range(group.dimension), group.structure_constants
+    moved = EntriesOfElement(group, found.trivialisation)
+    turned = along([moved.along(found.L, a) for a in span], direction)
+    times = 1 if found.trivialisation == "left" else -1
+    zeta = coordinates(group)
+    terms = [
+        mul(plain(times * x * table[b][a][k]), zeta[b], derivative(found.L, zeta[k]))
+        for a, x in enumerate(direction)
+        for b in span
+        for k in span
+        if x and table[b][a][k]
+    ]
+    return add(turned, *terms)

@@ -23,6 +23,7 @@ from ..language.limits import (
 )
 from ..language.tree import Tree
 from ..language.weight import weight
+from ..schema.algebra_kinds import Advected
 from ..schema.body_kinds import GivenBody, MomentBody
 from ..schema.declared import Parameter
 from ..schema.kinds import kinds
@@ -36,10 +37,11 @@ from .file_reader import FileReader
 from .forces import forces, negative_stiffness_of
 from .group import group_of
 from .problem import Problem, ProblemError
+from .stated_algebra import carried_group
 from .stated_lagrangian import lagrangian
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
-TOP |= {"damping", "solid", *SECTIONS}
+TOP |= {"damping", "solid", "algebra", "advected", *SECTIONS}
 DOTTED = re.compile(
     rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
 )
@@ -109,12 +111,16 @@ def problem_of(
     """
     reader = FileReader(folder)
     reader.known(data, TOP, "file")
+    if "algebra" in data:
+        return _without_points(data, *carried_group(data))
+    if "advected" in data:
+        raise ProblemError("key 'advected' goes with [algebra]: a group has its entries A_11, …")
     moved, action = group_of(data, reader)
     reader.moves(moved)
     name = _name(data, moved, reader)
     parameters = _parameters(data.get("parameters", {}), reader)
     if any(key in data for key in SECTIONS):
-        return _without_points(data, name, moved, parameters)
+        return _without_points(data, moved)
     own = body(data, reader)
     if moved and own is None:
         raise ProblemError(
@@ -151,13 +157,13 @@ def problem_of(
 
 
 def _without_points(
-    data: Mapping[str, Any],
-    name: str,
-    moved: Group | None,
-    parameters: Mapping[str, Parameter],
+    data: Mapping[str, Any], moved: Group | None, advected: tuple[Advected, ...] | None = None
 ) -> Problem:
-    """A problem that says all of its Lagrangian; its group acts by matrices on (r, 1)."""
-    where = next(key for key in SECTIONS if key in data)
+    """A problem that says all of its Lagrangian; its group acts by matrices on (r, 1), or, with
+    something ``advected`` or nothing, is known by its algebra alone."""
+    where = next((key for key in SECTIONS if key in data), None)
+    if where is None:
+        raise ProblemError("an algebra moves no points: give a [lagrangian] or an [inertia]")
     if moved is None:
         raise ProblemError(f"key {where!r}: a text about any group has no Lagrangian of its own")
     for key in ("point", "solid", "body", "potential", "damping"):
@@ -166,6 +172,9 @@ def _without_points(
     group = (on_homogeneous(moved) if moved.affine else moved).stated
     reader = FileReader()
     reader.moves(group)
+    reader.advected = advected
+    name = _name(data, moved, reader)
+    parameters = _parameters(data.get("parameters", {}), reader)
     reader.carries(None, parameters)
     _, inputs, _ = forces(data, reader)
     if any(isinstance(x, ForceInput) for x in inputs):
@@ -178,9 +187,15 @@ def _without_points(
         parameters=parameters,
         inputs=inputs,
         lagrangian=lagrangian(data, group, reader),
+        advected=advected,
     )
     _affordable(problem)
     _declared(problem, data)
+    if inputs and problem.lagrangian and problem.lagrangian.held:
+        raise ProblemError(
+            "input 1: L has symmetries without kinetic energy, and what pushes along them has no "
+            "motion to answer; add their kinetic energy, or leave the input out"
+        )
     return problem
 
 

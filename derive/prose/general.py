@@ -443,6 +443,20 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Les crochets de la base ; ceux qui ne figurent pas sont nuls.",
         ),
     },
+    "advected": {
+        "left": (
+            "Γ is what the algebra carries along, by a representation ρ: the group takes it back "
+            "to a constant, so that it varies by −ρ(ξ).",
+            "Γ est ce que l’algèbre transporte, par une représentation ρ : le groupe le ramène à "
+            "une constante, de sorte qu’il varie par −ρ(ξ).",
+        ),
+        "right": (
+            "Γ is what the algebra carries along, by a representation ρ: the group makes it of a "
+            "constant, so that it varies by ρ(ξ).",
+            "Γ est ce que l’algèbre transporte, par une représentation ρ : le groupe le tire d’une "
+            "constante, de sorte qu’il varie par ρ(ξ).",
+        ),
+    },
     "momenta": {
         "basis": (
             "On the basis of the Lie algebra Π_a is the derivative of L̃ with respect to ζ_a, and "

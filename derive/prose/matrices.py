@@ -96,6 +96,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Coordinates of the Lie algebra in the basis of the group.",
             "Coordonnées de l’algèbre de Lie dans la base du groupe.",
         ),
+        "reduced": (
+            "Coordinates in the basis of the Lie algebra. L̃ depends on the element of the group "
+            "only by what the algebra carries along, so that the state has no such element.",
+            "Coordonnées dans la base de l’algèbre de Lie. L̃ ne dépend de l’élément du groupe que "
+            "par ce que l’algèbre transporte : l’état ne contient pas cet élément.",
+        ),
         "linear_parts": (
             "Coordinates of the linear parts of the Lie algebra in the basis of the group.",
             "Coordonnées des parties linéaires de l’algèbre de Lie dans la base du groupe.",
@@ -124,7 +130,23 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "trace nulle : c’est un multiple θ de 𝟏, le multiplicateur du volume.",
         ),
     },
+    "null": {
+        "symmetries": (
+            "Along these directions L̃ has no kinetic energy, and they keep it: the equations say "
+            "nothing there. The kernel of dϖ has dimension {size}, and the motion is one of the "
+            "quotient of the group by these symmetries.",
+            "Le long de ces directions, L̃ n’a pas d’énergie cinétique, et elles le conservent : "
+            "les équations n’en disent rien. Le noyau de dϖ est de dimension {size}, et le "
+            "mouvement est celui du quotient du groupe par ces symétries.",
+        ),
+    },
     "mass": {
+        "held": (
+            "One coordinate for each direction without kinetic energy may move in any way; it is "
+            "held, with 1 in M and 0 in β.",
+            "Une coordonnée par direction sans énergie cinétique peut varier à volonté ; on la "
+            "fixe, avec 1 dans M et 0 dans β.",
+        ),
         "basis_of_lagrangian": (
             "Π̇_a is written out: M is the matrix of the second derivatives of L̃ with respect to "
             "the ζ_a, and β_a what is left without the acceleration, for M ζ̇ = β.",
@@ -362,8 +384,13 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     },
     "conserved": {
         "kept": (
-            "Among what the motion keeps, without inputs and damping: {kept}.",
-            "Parmi ce que le mouvement conserve, sans entrées ni amortissement : {kept}.",
+            "Of the energy and, for a group that is no product, the momenta of rotations and "
+            "translations of space, the motion keeps, without inputs and damping: {kept}. Other "
+            "symmetries are not tried here: derive symmetries finds all of them.",
+            "De l’énergie et, pour un groupe qui n’est pas un produit, des impulsions des "
+            "rotations et translations de l’espace, le mouvement conserve, sans entrées ni "
+            "amortissement : {kept}. D’autres symétries ne sont pas essayées ici : derive "
+            "symmetries les trouve toutes.",
         ),
         "noether": (
             "The Cartan form, on an infinitesimal symmetry of L̃, is constant along the motion "

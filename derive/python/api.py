@@ -6,7 +6,8 @@
     >>> print(derive(p)["motion"].equations[0].lhs)
     Ȧ
 
-Everything is checked as a file is; ``ProblemError`` says in one line what is wrong.
+What stands in quotes may be an expression of SymPy as well, and a parameter its Symbol.  Everything
+is checked as a file is; ``ProblemError`` says in one line what is wrong.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from ..problem.toml import problem_of
 from ..schema.lagrangian_kinds import SECTIONS
 from ..schema.python_words import words
 from ..schema.table import Number
+from . import quoted
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -46,7 +48,7 @@ class Group:
         """The value of ``group`` in a problem file: a name, or a table with a basis."""
         if self.basis is None:
             return self.name
-        basis = [[[_plain(x) for x in row] for row in e] for e in self.basis]
+        basis = _plain(self.basis, "group, basis")
         return {"name": self.name, "action": self.action, "basis": basis}
 
 
@@ -55,7 +57,7 @@ class Table:
 
     def __init__(self, key: str, **fields: Any):
         self.key = key
-        self.fields = {k: _plain(x) for k, x in fields.items() if x is not None}
+        self.fields = {k: _plain(x, f"{key}, {k}") for k, x in fields.items() if x is not None}
 
 
 def __getattr__(name: str) -> Any:
@@ -82,7 +84,12 @@ def _word(name: str) -> Callable[..., Table | list[Table]]:
     kind = {"kind": own.kind} if own.kind else {}
 
     def build(*given: Any, **named: Any) -> Table | list[Table]:
-        said = own.word(*given, **named)
+        keys = _keys(own)
+        where = [f"{name}, {keys[min(k, len(keys) - 1)]}" for k, _ in enumerate(given)]
+        said = own.word(
+            *map(_plain, given, where),
+            **{k: _plain(x, f"{name}, {k}") for k, x in named.items()},
+        )
         if isinstance(said, list):
             return [Table(own.section, **x) for x in said]
         return Table(own.section, **kind, **said)
@@ -90,6 +97,12 @@ def _word(name: str) -> Callable[..., Table | list[Table]]:
     vars(build)["__signature__"] = signature(own.word)
     stated = "word" in vars(own)
     return _called(build, name, (own.word if stated else getmodule(own) or own).__doc__)
+
+
+def _keys(own: type[Any]) -> list[str]:
+    """The arguments of a word by their names, the last of which may be any number of them."""
+    found = [*signature(own.word).parameters]
+    return [*own.names()] if found[0] == "given" else found
 
 
 def _called(function: F, name: str, doc: str | None) -> F:
@@ -100,24 +113,28 @@ def _called(function: F, name: str, doc: str | None) -> F:
 
 def Problem(
     name: str,
-    group: Group | str,
+    group: Group | str | Table,
     body: Sequence[Table] | Table,
     forces: Sequence[Table] | Table = (),
-    parameters: Mapping[str, Any] | None = None,
+    parameters: Mapping[Any, Any] | None = None,
     title: str | None = None,
     negative_mass: bool = False,
     negative_stiffness: bool = False,
 ) -> mechanics.Problem:
     """A problem from its tables; ``ProblemError`` says what is wrong.
 
-    ``body``: points, moments, solids; or a Lagrangian that no points give.
+    ``group``: or an algebra that moves no points. ``body``: points, moments, solids; or a
+    Lagrangian that no points give, with what an algebra carries along.
 
     ``negative_mass``, ``negative_stiffness``: may a mass, or the stiffness of a spring and the
     coefficient of a damping, be given as a negative number?
     """
-    named = Group(group) if isinstance(group, str) else group
-    data: dict[str, Any] = {"name": name, "group": named.table()}
-    data["parameters"] = {k: _plain(x) for k, x in (parameters or {}).items()}
+    data: dict[str, Any] = {"name": name}
+    if isinstance(group, Table):
+        data[group.key] = group.fields
+    else:
+        data["group"] = (Group(group) if isinstance(group, str) else group).table()
+    data["parameters"] = dict(_parameter(k, x) for k, x in (parameters or {}).items())
     if title is not None:
         data["title"] = title
     for table in (*_tables(body), *_tables(forces)):
@@ -137,12 +154,33 @@ def _tables(parts: Any) -> list[Table]:
     return [table for part in parts for table in _tables(part)]
 
 
-def _plain(x: Any) -> Any:
-    """Plain data as a problem file has it: tuples and arrays as lists, fractions as text."""
+def _parameter(key: Any, about: Any) -> tuple[str, Any]:
+    """The name of a parameter, of which SymPy has a Symbol, and what is said of it."""
+    try:
+        name = quoted.name(key) if quoted.is_sympy(key) else str(key)
+        if isinstance(about, Mapping):
+            return name, {k: _number(x) for k, x in about.items()}
+        return name, _number(about)
+    except quoted.NoExpressionError as error:
+        raise mechanics.ProblemError(f"parameter {str(key)[:40]!r}: {error}") from None
+
+
+def _number(x: Any) -> Any:
+    return quoted.value(x) if quoted.is_sympy(x) else _plain(x, "parameters")
+
+
+def _plain(x: Any, where: str) -> Any:
+    """Plain data as a problem file has it: tuples and arrays as lists, fractions and expressions of
+    SymPy as text; ``ProblemError`` says ``where`` one has no meaning."""
+    if quoted.is_sympy(x):
+        try:
+            return quoted.quoted(x)
+        except quoted.NoExpressionError as error:
+            raise mechanics.ProblemError(f"{where}: {error}") from None
     if hasattr(x, "tolist"):
         x = x.tolist()
     if isinstance(x, Fraction):
         return str(x)
     if isinstance(x, (list, tuple)):
-        return [_plain(y) for y in x]
-    return {k: _plain(y) for k, y in x.items()} if isinstance(x, dict) else x
+        return [_plain(y, where) for y in x]
+    return {k: _plain(y, f"{where}, {k}") for k, y in x.items()} if isinstance(x, dict) else x

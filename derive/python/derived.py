@@ -4,83 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..check.checker import Verdict
 from ..problem.problem import Problem
-from ..record.record import Derivation, Equation, Step, Symbol
+from ..record.record import Derivation
+from .shown import Shown
 
 if TYPE_CHECKING:
     from ..figure.drawing import Scene
+    from .as_sympy import Translation
+    from .conserved_quantities import SymmetriesOf
     from .expressions import Expressions
-
-
-@dataclass(frozen=True)
-class ShownEquation:
-    """An equation of a step: a pair of operator trees, shown as a formula in a notebook."""
-
-    equation: Equation
-    symbols: tuple[Symbol, ...]
-
-    def __repr__(self) -> str:
-        return f"<equation {self}>"
-
-    @property
-    def lhs(self) -> Any:
-        """The left side, an operator tree (:mod:`derive.language.tree`)."""
-        return self.equation.lhs
-
-    @property
-    def rhs(self) -> Any:
-        """The right side, an operator tree (:mod:`derive.language.tree`)."""
-        return self.equation.rhs
-
-    def __str__(self) -> str:
-        from ..views.text import equation_text
-
-        return equation_text(self.equation)
-
-    def latex(self, lang: str = "en") -> str:
-        """The formula in standard commands of LaTeX and amsmath, in lines that fit a page."""
-        from ..views.language import language
-        from ..views.markdown import formula
-
-        return formula([self.equation], self.symbols, language=language(lang))
-
-    def _repr_latex_(self) -> str:
-        return f"$${self.latex()}$$"
-
-
-@dataclass(frozen=True)
-class Shown:
-    """A step of a derivation, which prints itself and shows its formulas in a notebook."""
-
-    step: Step
-    symbols: tuple[Symbol, ...]
-
-    def __repr__(self) -> str:
-        return f"<step {self.step.label}: {len(self.step.equations)} equations>"
-
-    @property
-    def equations(self) -> tuple[ShownEquation, ...]:
-        """Its equations, in order."""
-        return tuple(ShownEquation(e, self.symbols) for e in self.step.equations)
-
-    def __str__(self) -> str:
-        from ..views.text import step_text
-
-        return step_text(self.step)
-
-    def markdown(self, lang: str = "en") -> str:
-        """The step in Markdown, its formulas between dollars."""
-        from ..views.language import language
-        from ..views.markdown import step_markdown
-
-        return step_markdown(self.step, self.symbols, language=language(lang))
-
-    def _repr_markdown_(self) -> str:
-        return self.markdown()
+    from .integrals_found import FirstIntegrals
 
 
 @dataclass(frozen=True)
@@ -112,7 +50,7 @@ class Derived:
     def __getitem__(self, label: str) -> Shown:
         """A step by its label, with or without the problem's name: ``d["motion"]``."""
         try:
-            return Shown(self.record[label], self.record.symbols)
+            return Shown(self.record[label], self.record)
         except KeyError:
             known = ", ".join(self.labels)
             raise KeyError(f"no step {label!r:.60}; the steps are {known}") from None
@@ -159,6 +97,33 @@ class Derived:
         from ..check.checker import check
 
         return check(self.record, seed)
+
+    def integrals(self, degree: int = 4, *, at_defaults: bool = False) -> FirstIntegrals:
+        """The polynomial first integrals of the reduced equations up to a degree."""
+        from .integrals_found import first_integrals
+
+        return first_integrals(self.problem, degree, at_defaults=at_defaults)
+
+    def symmetries(self) -> SymmetriesOf:
+        """All symmetries of L̃ of a kind, and what the motion keeps by each; ``ProblemError`` where
+        there is no Lagrangian."""
+        from ..pipeline import symmetries
+        from .conserved_quantities import SymmetriesOf
+
+        found = symmetries(self.problem, self.record)
+        return SymmetriesOf(found.found, found.record)
+
+    @cached_property
+    def translation(self) -> Translation:
+        """From the trees of the record to SymPy."""
+        from .as_sympy import Translation
+
+        return Translation(self.record)
+
+    def sympy(self, formula: str) -> Any:
+        """What a formula is in SymPy, written as the walk prints it: ``d.sympy("ζ")``;
+        ``ValueError`` for any other text."""
+        return self.translation.read(formula)
 
     def expressions(self) -> Expressions:
         """The equations of motion in coordinates, as SymPy expressions."""

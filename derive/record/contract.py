@@ -21,6 +21,8 @@ CONVENTIONS = (
     "the equations of a step hold where those that it lists as given do; X is any vector with "
     "δt(X) = 1 for which they do, and δ itself where δt = 1 is given; α̇, Ż, ζ̇ and their like are "
     "the acceleration of the motion, or of X where the equation holds for all of them",
+    "where δA and δt are given, δ is a field on R × G, δA a function of t and A, and velocities go "
+    "along; likewise δ′; d/dt of ϖ(δy) − F(t, A) is that along the motion",
     "a step that is not driven has neither inputs nor damping",
     "hypotheses: what the equations of a step need; A and with it C have inverses; a form on T_g G "
     "or 𝔤 is one in two variations δg and δ′g there; where masses are not of any sign, they are "
@@ -28,6 +30,9 @@ CONVENTIONS = (
     "where dϖ(X, δ′y) vanishes for every δ′y with δ′t = 0 and δ′g = 0",
 )
 """The conventions of a record that another reader of its JSON must know, listed in every record."""
+
+FIELDS = ("δt", "δA", "δ′t", "δ′A")
+"""What says, where it is given in a step, that δ or δ′ is a field: it defines no name."""
 
 COMMENTARY = ("meaning", "latex", "prose", "sentences", "paper", "title", "unit")
 """The fields of a record that no reader need understand, wherever they stand: words for people."""

@@ -12,8 +12,10 @@ index counts, type of a member)``; a variation of the point y, with the time or 
 SCALAR, VARIATION, AT_ONE_TIME = "scalar", "variation", "variation at one time"
 SQUARE, VECTOR, COORDINATES = ("matrix", "n", "n"), ("vector", "n"), ("vector", "d")
 ALGEBRA, PLACE = ("algebra",), ("vector", "block")
+ADVECTED = ("vector", "carried")
 """Sizes in types: n is the dimension of the space, d that of the linear parts of 𝔤, dim that of 𝔤,
-block that of the space of a factor, where a product has several of any of them."""
+block that of the space of a factor, where a product has several of any of them; carried, how many
+entries what the algebra carries along has."""
 
 ROLES = ("letter", "definition", "value on X", "unknown", "function")
 """What a name is: chosen freely; defined by an equation; a rate along the motion, or the value of a

@@ -74,6 +74,16 @@ RULES: dict[str, Rule] = {
         "The Cartan form is constant on a displacement that leaves it alone.",
         "conservation",
     ),
+    "reduction": Rule(
+        "réduction",
+        "What of the state moves within itself is taken apart from the rest.",
+        "solution",
+    ),
+    "Poisson bracket": Rule(
+        "crochet de Poisson",
+        "A function is constant along the motion where its bracket with the energy vanishes.",
+        "conservation",
+    ),
     "solution": Rule("résolution", "The equations are solved for the accelerations.", "solution"),
 }
 

@@ -11,8 +11,9 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from ..language.derivatives import DERIVATIVES
-from ..language.limits import BASIS
+from ..language.limits import BASIS, CARRIED
 from ..language.tree import Tree
+from ..schema.algebra_kinds import Advected
 from ..schema.body_kinds import BODIES, Place
 from ..schema.kinds import kinds
 from ..schema.lagrangian_kinds import Lagrangian
@@ -84,7 +85,7 @@ class _RecordReader(TableReader):
         self.action(self.top("action"))
         self.value(self.top("homogeneous"), bool)
         n = self.value(self.top("n"))
-        if n != "any" and not (type(n) is int and 1 <= n <= 2 * LONGEST):
+        if n != "any" and not (type(n) is int and 1 <= n <= 2 * self.longest):
             raise ShapeError("n: key must be the dimension of the space, or 'any'")
         self.blocks = len(data["group"].split(" x "))
         for name, about in self.value(self.top("parameters"), dict).items():
@@ -99,6 +100,11 @@ class _RecordReader(TableReader):
         self.lagrangian()
         if self.value(self.top("conventions"), list) != [*CONVENTIONS]:
             raise ShapeError("conventions: not those by which equations are checked")
+
+    @property
+    def longest(self) -> int:
+        """The most rows of a matrix of the basis."""
+        return CARRIED if "advected" in self.data else LONGEST
 
     def top(self, key: str) -> Slot:
         """A key of the problem itself."""
@@ -123,12 +129,16 @@ class _RecordReader(TableReader):
         if ("lagrangian" in data) != (data["body"]["kind"] == "none"):
             raise ShapeError("lagrangian: it is of a problem without a body")
         if "lagrangian" not in data:
+            if "advected" in data:
+                raise ShapeError("advected: it is of a problem with a Lagrangian of its own")
             return
         for key in ("potentials", "places", "damping"):
             if data[key]:
                 raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
         if any(x["kind"] != "covector" for x in data["inputs"]):
             raise ShapeError("lagrangian: the inputs of its problem are covectors")
+        if "advected" in data:
+            self.each("advected", lambda x, where: self.whole(Advected, x, where))
         self.whole(Lagrangian, data["lagrangian"], "lagrangian")
 
     def lettered(self, slot: Slot) -> Tree:
@@ -138,10 +148,22 @@ class _RecordReader(TableReader):
             raise ShapeError(f"{slot.path}: expected the expression of a number")
         return t
 
+    def held(self, slot: Slot) -> tuple[int, ...]:
+        """Numbers of coordinates, in order, or none."""
+        listed = slot.table.get(slot.key, [])
+        most = len(self.data["basis"])
+        if not isinstance(listed, list) or listed != sorted({*listed}):
+            raise ShapeError(f"{slot.path}: expected numbers of coordinates, in order")
+        return tuple(self.integer(x, 1, most, slot.path) for x in listed)
+
+    def elements(self, slot: Slot) -> int:
+        """How many entries."""
+        return self.integer(self.value(slot), 1, CARRIED, slot.path)
+
     def matrices(self, basis: list[Any]) -> None:
         """Check a basis: square matrices of fractions as strings."""
         for e in basis:
-            rows = e if isinstance(e, list) and len(e) <= LONGEST else []
+            rows = e if isinstance(e, list) and len(e) <= self.longest else []
             if not rows or not all(isinstance(row, list) and len(row) == len(e) for row in rows):
                 raise ShapeError("basis: expected square matrices")
             if not all(isinstance(x, str) and FRACTION.fullmatch(x) for row in e for x in row):
@@ -222,11 +244,14 @@ class _RecordReader(TableReader):
         )
 
     def is_entry(self, t: tuple[Any, ...], coordinates: int) -> bool:
-        """Is a tree an entry of g, or of ζ?"""
+        """Is a tree an entry of g, or of Γ where the state has no g, or of ζ?"""
         n = self.data["n"]
-        sizes = {"A": (n, n), "ζ": (coordinates,)}.get(t[1] if isinstance(t[1], str) else "", ())
-        return len(t) - 2 == len(sizes) > 0 and all(
-            type(i) is int and 1 <= i <= most for i, most in zip(t[2:], sizes, strict=True)
+        sizes: dict[str, tuple[int, ...]] = {"A": (n, n), "ζ": (coordinates,)}
+        if "advected" in self.data:
+            sizes = {"Γ": (sum(x["size"] for x in self.data["advected"]),), "ζ": (coordinates,)}
+        most = sizes.get(t[1] if isinstance(t[1], str) else "", ())
+        return len(t) - 2 == len(most) > 0 and all(
+            type(i) is int and 1 <= i <= k for i, k in zip(t[2:], most, strict=True)
         )
 
     def is_place(self, t: Tree) -> bool:

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from ..language.tree import Tree
-from .contract import ANY_GROUP
+from .contract import ANY_GROUP, FIELDS
 from .name_types import ALGEBRA, SCALAR, SQUARE, VECTOR, Name, Type, Use
 from .record import Equation, Step
 from .vocabulary import VOCABULARY
@@ -67,11 +67,15 @@ def position_of(type_: Type) -> str:
 
 
 class ReadEquation(NamedTuple):
-    """An equation of a step with its key, its scope, and the uses on its two sides in order."""
+    """An equation of a step with its key, its scope, and the uses on its two sides in order.
+
+    ``told``: is it given as well?
+    """
 
     scope: str
     key: str
     equation: Equation
+    told: bool
     left: dict[Occurrence, None]
     right: dict[Occurrence, None]
 
@@ -83,7 +87,7 @@ def read_equations(steps: Iterable[Step]) -> list[ReadEquation]:
         return dict.fromkeys(occurrences(t))
 
     return [
-        ReadEquation(step.scope, key, e, side(e.lhs), side(e.rhs))
+        ReadEquation(step.scope, key, e, e in step.given, side(e.lhs), side(e.rhs))
         for step in steps
         for key, e in zip(step.keys, step.equations, strict=True)
     ]
@@ -150,17 +154,28 @@ def type_of(argument: Tree) -> Type:
     """The type of a function's argument: a name, a product with A, r r̄, r_i(t), or a number."""
     if isinstance(argument, str):
         return next(x.type for x in VOCABULARY[argument].uses if position_of(x.type) == "value")
-    if not isinstance(argument, tuple):
+    if not isinstance(argument, tuple) or _is_number(argument):
         return SCALAR
     last = argument[-1]
     if argument[0] == "call":
         return SCALAR if argument[1] == "ϖ" else VECTOR
     if argument[0] in ("inner", "norm2"):
         return SCALAR
+    if argument[0] == "add":
+        return type_of(argument[1])
     if isinstance(last, tuple):
         return SQUARE
     inside = type_of(last)
     return SQUARE if inside == ALGEBRA else inside
+
+
+def _is_number(t: Tree) -> bool:
+    """Is a tree made of numbers, parameters, entries and members Π_a?"""
+    if not isinstance(t, tuple):
+        return not isinstance(t, str) or t == "π"
+    if t[0] in ("add", "mul", "div", "pow"):
+        return all(map(_is_number, t[1:]))
+    return t[0] in ("par", "entry") or t[:2] == ("at", "Π")
 
 
 def definitions(
@@ -177,6 +192,8 @@ def definitions(
     allowed = {(x, position) for x, position, _ in listed}
     found: dict[Usage, tuple[str, Occurrence]] = {}
     for e in equations:
+        if e.told and e.equation.lhs in FIELDS:
+            continue
         left, right = lone_occurrence(e.equation.lhs), lone_occurrence(e.equation.rhs)
         if left and left.usage not in {x.usage for x in e.right}:
             found.setdefault(left.usage, (e.key, left))

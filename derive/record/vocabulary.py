@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from ..schema.kind import Own
 from ..schema.kinds import kinds
 from .name_types import (
+    ADVECTED,
     ALGEBRA,
     AT_ONE_TIME,
     COORDINATES,
@@ -283,6 +284,15 @@ VOCABULARY: dict[str, Name] = {
     "M̃": name("second derivative of L̃ with respect to the velocity",
         "dérivée seconde de L̃ par rapport à la vitesse",
         r"\tilde M", function(ALGEBRA, ALGEBRA, SCALAR)),
+    "Γ": name("what the algebra carries along: advected quantities",
+        "ce que l’algèbre transporte : quantités transportées",
+        r"\Gamma", letter(ADVECTED)),
+    "δΓ": name("variation of Γ", "variation de Γ", r"\delta\Gamma", defined(ADVECTED)),
+    "Γ̇": name("dΓ/dt along the motion",
+        "dΓ/dt le long du mouvement", r"\dot\Gamma", rate(ADVECTED)),
+    "ρ": name("representation of the Lie algebra on what it carries along",
+        "représentation de l’algèbre de Lie sur ce qu’elle transporte",
+        r"\rho", function(ALGEBRA, ("matrix", "carried", "carried"))),
     "∂ₜŨ": name("partial derivative of Ũ in time",
         "dérivée partielle de Ũ par rapport au temps", r"\partial_t\tilde U", letter(SCALAR)),
 }
@@ -392,6 +402,7 @@ LAGRANGIANS: dict[str, dict[str, Name]] = {
 """Meanings of names where no points give the Lagrangian, by the trivialisation."""
 
 DERIVATIVE_OF = {"dϖ": "ϖ", "ḣ": "h̃", "ℓ̇": "ℓ", "ṗ": "p"}
+DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ"}
 DERIVATIVE_OF |= {"δΠ": "Π", "δ′Π": "Π", "Π̇": "Π", "δp_b": "p_b", "δ′p_b": "p_b", "ṗ_b": "p_b"}
 DERIVATIVE_OF |= dict.fromkeys(("δℓ_b", "δ′ℓ_b", "ℓ̇_b"), "ℓ_b")
 """Name → the name of which it is a derivative or a variation."""

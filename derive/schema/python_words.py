@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .algebra_kinds import StatedAdvected, StatedAlgebra
 from .body_kinds import Moments, Point
 from .kinds import kinds
 from .lagrangian_kinds import SECTIONS
@@ -16,6 +17,8 @@ def words() -> dict[str, type[Table]]:
         *kinds().values(),
         *SECTIONS.values(),
         *INPUTS.values(),
+        StatedAlgebra,
+        StatedAdvected,
         Damping,
         Point,
         Moments,

@@ -229,7 +229,7 @@ class Table:
         for name, about in self.keys().items():
             value = getattr(self, name)
             said = about.null or value is not None
-            if about.told and said and (about.type != "masses" or value):
+            if about.told and said and (about.type not in ("masses", "held") or value):
                 yield name, about, value
 
     def plain(self) -> dict[str, Any]:

@@ -37,10 +37,21 @@ class Chart:
 
 @dataclass(frozen=True)
 class StateChart:
-    """The coordinates of the states (g, ġ) of a group in a chart."""
+    """The coordinates of the states (g, ġ) of a group in a chart; ``right``: Z = ġg⁻¹, δg = η g;
+    ``held``: coordinates, from 1, that are 0 and no numbers of the state."""
 
     group: Group
     chart: Chart
+    right: bool = False
+    held: tuple[int, ...] = ()
+
+    def _moving(self, values: Sequence[Any]) -> Numbers:
+        """Those of the coordinates of 𝔤 that the state holds."""
+        return tuple(x for a, x in enumerate(values, 1) if a not in self.held)
+
+    def displaced(self, g: Matrix, eta: Matrix) -> Matrix:
+        """The tangent vector at g that η stands for."""
+        return q.times(eta, g) if self.right else q.times(g, eta)
 
     @cached_property
     def entries(self) -> list[Entry]:
@@ -67,7 +78,7 @@ class StateChart:
         if self.chart.velocity == "tangent":
             return (*place, *(f"{name}_dot" for name in place))
         moved = self.group.n if self.group.free_translations else 0
-        turns = [named("zeta", a) for a in range(self.group.dimension - moved)]
+        turns = self._moving([named("zeta", a) for a in range(self.group.dimension - moved)])
         return (*place, *turns, *(named("w", i) for i in range(moved)))
 
     def _read(self, x: Matrix) -> Numbers:
@@ -81,11 +92,11 @@ class StateChart:
             place = (*quaternion(g), *place)
         if self.chart.velocity == "tangent":
             return (*place, *self._read(q.times(g, Z)))
-        return (*place, *self.group.nearest(Z))
+        return (*place, *self._moving(self.group.nearest(Z)))
 
     def varied(self, g: Matrix, Z: Matrix, eta: Matrix, change: Matrix) -> Numbers:
-        """The numbers of the state at g(1 + εη) with Z + ε δZ, in nilpotent numbers."""
-        moved = q.times(g, q.plus(q.identity(len(eta)), q.scaled(EPSILON, eta)))
+        """The numbers of the state at g + ε δg with Z + ε δZ, in nilpotent numbers."""
+        moved = q.plus(g, q.scaled(EPSILON, self.displaced(g, eta)))
         Z = q.plus(Z, q.scaled(EPSILON, change))
         if self.chart.attitude == "matrix":
             return self.values(moved, Z)
@@ -131,7 +142,7 @@ class StateChart:
             place = (*half_product(quaternion(g), axis(Z)), *place)
         if self.chart.velocity == "tangent":
             return (*place, *self._read(q.plus(q.times(g_dot, Z), q.times(g, Z_dot))))
-        return (*place, *self.group.nearest(Z_dot))
+        return (*place, *self._moving(self.group.nearest(Z_dot)))
 
 
 def named(name: str, *index: int) -> str:

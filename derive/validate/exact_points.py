@@ -25,7 +25,8 @@ from ..check.trial_points import AnyModel, TrialPoints, model_at, names_at
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..record.record import Derivation, Equation, RecordError
-from .chart import Chart, Numbers, StateChart
+from .chart import Chart, Numbers
+from .reduced_chart import ReducedChart, chart_of
 from .terms import CodeError
 
 PI = Fraction(math.pi)
@@ -61,7 +62,7 @@ class Claims:
         (group,) = TrialPoints(d.problem, 0).groups(self.scope)
         if chart.attitude == "quaternion":
             group = replace(group, sampler=rational_quaternions(group))
-        self.group, self.state = group, StateChart(group.stated, chart)
+        self.group, self.state = group, chart_of(group.stated, chart, d.problem)
 
     @cached_property
     def at(self) -> Locus:
@@ -98,18 +99,16 @@ class Claims:
 
     def _point(self, seed: str, zero: tuple[str, ...]) -> Point:
         random, problem = Random(seed), self.record.problem
-        model = model_at(problem, self.group, random, self.size, self.at, pi=PI, zero=zero)
+        chosen = {"horizontal": True} if self.state.held else {}
+        model = model_at(
+            problem, self.group, random, self.size, self.at, pi=PI, zero=zero, **chosen
+        )
         env = names_at(model)
-        g_dot = self._whole(self._value("Ȧ", env), self._value("Ṫ", env))
-        rates = self.state.rates(model.g, model.Z, g_dot, self._acceleration(env))
+        x, rates = self._state_and_rates(model, env)
         tensor = self._value("I", env)
         return Point(
             model.parameters,
-            {
-                "t": model.t,
-                "x": self.state.values(model.g, model.Z),
-                "u": self._input_values(model),
-            },
+            {"t": model.t, "x": x, "u": self._input_values(model)},
             model.g,
             model.Z,
             rates,
@@ -117,6 +116,16 @@ class Claims:
             tuple(tensor[i][j] for i in range(3) for j in range(i, 3)) if tensor else (),
             model.elementary,
         )
+
+    def _state_and_rates(self, model: AnyModel, env: Environment) -> tuple[Numbers, Numbers]:
+        """The numbers of the state, and what the record says of their rates."""
+        acceleration = self._acceleration(env)
+        if isinstance(self.state, ReducedChart):
+            x = self.state.with_carried(model.Z, env.names.get("Γ"))
+            return x, self.state.with_carried(acceleration, self._value("Γ̇", env))
+        g_dot = self._whole(self._value("Ȧ", env), self._value("Ṫ", env))
+        x = self.state.values(model.g, model.Z)
+        return x, self.state.rates(model.g, model.Z, g_dot, acceleration)
 
     def _input_values(self, model: AnyModel) -> Numbers:
         """The numbers of u, in order: forces in space, covectors on the stated basis."""
@@ -139,7 +148,7 @@ class Claims:
     @cached_property
     def equations(self) -> dict[str, Equation]:
         """The recorded equations that the code is to compute, by their left sides."""
-        names = ("Ȧ", "Ṫ", "ζ̇", "Ż", "ẇ", "h̃", "I")
+        names = ("Ȧ", "Ṫ", "ζ̇", "Ż", "ẇ", "Γ̇", "h̃", "I")
         found = {name: self.record.definition(name) for name in names}
         return {name: x[1] for name, x in found.items() if x is not None}
 

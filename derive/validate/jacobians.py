@@ -1,6 +1,7 @@
 """The exact Jacobians, derivatives of what ``rhs`` computes, by nilpotent numbers.
 
-A variation is δg = g η and δζ; η̇ = δζ − [Z, η], and δζ̇ is the derivative of the rates.
+A variation is δg = g η and δζ; η̇ = δζ − [Z, η], and δζ̇ is the derivative of the rates; on the
+right δg = η g and η̇ = δζ + [Z, η].
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ class ExactJacobians:
         group, Z = self.state.group, self.point.Z
         none = q.scaled(ZERO, Z)
         for e in group.basis:
-            turn = group.nearest(q.minus(q.times(e, Z), q.times(Z, e)))
+            turn = group.nearest(q.bracket(Z, e) if self.state.right else q.bracket(e, Z))
             yield [*turn, *self._rates_along(e, none)]
         for a, e in enumerate(group.basis):
             yield [*(Fraction(a == b) for b in range(group.dimension)), *self._rates_along(none, e)]

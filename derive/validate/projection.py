@@ -50,7 +50,7 @@ def compare_drift(run: Run, draw: Callable[[], Fraction], state: StateChart, poi
     for i in range(len(x)):
         beside = [a + EPSILON * Fraction(i == j) for j, a in enumerate(x)]
         slopes.append([part(y, EPS) for y in run("defect", beside)])
-    if rank(slopes) != len(x) - 2 * state.group.dimension:
+    if rank(slopes) != len(x) - 2 * state.group.dimension + len(state.held):
         raise DiffersError("defect: it does not see all that leaves the group")
     return "project, defect"
 

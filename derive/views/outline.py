@@ -7,7 +7,7 @@ from itertools import groupby
 
 from ..language.show import show
 from ..printing.letters import names_of
-from ..record.contract import AMENDED, ANY_GROUP
+from ..record.contract import AMENDED, ANY_GROUP, FIELDS
 from ..record.record import Derivation, Equation, Step
 from .entries import entries
 from .language import ENGLISH, Language
@@ -134,7 +134,8 @@ def _run(run: list[int]) -> str:
 
 def assumed(step: Step, language: Language = ENGLISH) -> list[str]:
     """What a step assumes further: in words where there are some, else as equations."""
-    left = dict.fromkeys(step.given)
+    told = {e for e in step.equations if e.lhs in FIELDS}
+    left = dict.fromkeys(e for e in step.given if e not in told)
     found = [language.word("with input")] if step.driven else []
     for equations, words in ASSUMPTIONS:
         if equations <= left.keys():

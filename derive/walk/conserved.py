@@ -2,7 +2,8 @@
 into itself and leaves L̃ alone, the momentum of that displacement, p̃(Yg); and the energy.
 
 The displacements are the rotations and translations of space, δg = Yg with Y = (Y, b), Y skew: they
-keep the kinetic energy whatever the group, where they belong to it.
+keep the kinetic energy whatever the group, where they belong to it.  All symmetries of a problem
+are found in :mod:`derive.symmetries`.
 """
 
 from __future__ import annotations

@@ -40,6 +40,7 @@ def symbols(steps: tuple[Step, ...], problem: Problem) -> tuple[Symbol, ...]:
     """The names that the steps use, in the order in which they appear."""
     meant, group = _meant(problem), problem.group
     sizes = _sizes(group) if group else {}
+    sizes["carried"] = sum(x.size for x in problem.advected or ())
     meanings = {x: sentence.say(about.meaning) for x, about in meant.items()}
     if problem.force_inputs:
         meanings["f_u"] = _inputs(problem)

@@ -15,12 +15,24 @@ TABLES = {
     "another key": ({"L": SQUARE, "l": 1}, "unknown key 'l' (known: L, trivialisation)"),
     "side": ({"L": SQUARE, "trivialisation": "lft"}, "did you mean 'left'?"),
     "a function": ({"L": SQUARE + " + sinn(t)"}, "unknown function 'sinn'"),
-    "still": ({"L": "zeta_1^2 + zeta_2^2"}, "singular: the equations leave zeta_3 open"),
+    "still": (
+        {"L": "zeta_1^2 + 2*zeta_2^2"},
+        "singular along E_3, and that is no symmetry of L: the equations leave this velocity open",
+    ),
+    "still but for the potential": (
+        {"L": "zeta_1^2 + zeta_2^2 - A_31"},
+        "singular along E_3, and that is no symmetry of L",
+    ),
     "still together": (
         {"L": "(zeta_1 + zeta_2)^2 + zeta_3^2"},
-        "leave the velocity, in some direction, open",
+        "singular along −E_1 + E_2, and that is no symmetry of L",
     ),
-    "linear": ({"L": "zeta_1*A_11"}, "∂²L/∂Z² is singular"),
+    "still here and there": (
+        {"L": "(A_11*zeta_1 + A_12*zeta_2)^2 + zeta_3^2"},
+        "singular, in directions that are not constant",
+    ),
+    "linear": ({"L": "zeta_1*A_11"}, "singular along E_1, and L is linear there"),
+    "linear beside": ({"L": "zeta_1^2 + zeta_2^2 + zeta_3"}, "along E_3, and L is linear there"),
     "another entry": ({"L": SQUARE + " + A_14"}, "'A_14' is not declared"),
     "another coordinate": ({"L": SQUARE + " + zeta_4"}, "'zeta_4' is not declared"),
     "a place": ({"L": SQUARE + " + r1_x"}, "r1_x"),
@@ -43,7 +55,10 @@ OPERATORS = {
     "short": ({"operator": [[1, 0], [0, 1], [0, 0]]}, "row 1: expected a list of 3 expressions"),
     "skew": ({"operator": [[1, 2, 0], [0, 1, 0], [0, 0, 1]]}, "must be symmetric"),
     "momentum": ({"operator": ONE, "momentum": [1]}, "momentum: expected a list of 3"),
-    "degenerate": ({"operator": [[1, 0, 0], [0, 1, 0], [0, 0, 0]]}, "leave zeta_3 open"),
+    "degenerate": (
+        {"operator": [[1, 0, 0], [0, 2, 0], [0, 0, 0]]},
+        "singular along E_3, and that is no symmetry of L",
+    ),
 }
 
 
@@ -63,6 +78,13 @@ OTHERS = {
     "a force": ({"input": [{"name": "F", "kind": "force", "on": 1}]}, "input 1"),
     "a taken name": ({"parameters": {"A_11": 1}}, "parameter 'A_11': an entry of the state"),
     "no table": ({"lagrangian": "zeta_1^2"}, "must be a table [lagrangian]"),
+    "an input that nothing answers": (
+        {
+            "lagrangian": {"L": "zeta_1^2 + zeta_2^2"},
+            "input": [{"name": "u", "kind": "covector"}],
+        },
+        "input 1: L has symmetries without kinetic energy",
+    ),
     "a name of the text": ({"name": "left"}, "names what is said of any group"),
 }
 

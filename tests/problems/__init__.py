@@ -282,7 +282,9 @@ PROBLEMS |= {
 # solids are no points: the oracle has them with the moments of their integrals, see below; a
 # Lagrangian that no points give has one of its own (tests/walk/lie)
 TEXTS = ("linear", "affine", "ellipsoid", "top", "hammer", "so3", "se3", "sl3")
-TEXTS += ("charged_body", "coupled", "gyrostat", "kirchhoff")
+TEXTS += ("charged_body", "coupled", "euler_poisson", "gyrostat", "kirchhoff")
+TEXTS += ("rod", "spherical_pendulum")
+TEXTS += ("euler_top", "lagrange_top", "kovalevskaya_top", "manakov")
 PROBLEMS |= {
     path.stem: path.read_text(encoding="utf-8")
     for path in sorted(READY.glob("*.toml"))

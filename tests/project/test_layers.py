@@ -15,12 +15,16 @@ ALLOWED = {
     "problem": {"problem", "schema", "algebra", "language"},
     "record": {"record", "schema", "language"},
     "walk": {"walk", "prose", "record", "problem", "schema", "algebra", "language"},
+    "integrals": {"integrals", "walk", "record", "problem", "algebra", "language"},
     "check": {"check", "record", "algebra", "language"},
     "paper": {"paper", "check", "record", "algebra", "language"},
     "printing": {"printing", "record", "language"},
     "figure": {"figure", "printing", "record", "schema", "language"},
     "views": {"views", "prose", "figure", "printing", "paper", "record", "schema", "language"},
     "code": {"code", "record", "algebra", "language", "__init__"},
+    "symmetries": {
+        *("symmetries", "code", "walk", "record", "problem", "schema", "algebra", "language"),
+    },
     "validate": {"validate", "check", "record", "algebra", "language"},
 }
 BOTH_SIDES = {"pipeline.py", "python", "command", "__init__.py", "__main__.py"}

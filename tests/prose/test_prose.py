@@ -7,9 +7,11 @@ import pytest
 
 from derive import prose
 from derive.record.sentence import Sentence
+from tests.support.lagrangians import every_case
 from tests.support.walks import NAMES, OTHERS, record
 
-WALK = Path(prose.__file__).parents[1] / "walk"
+ROOT = Path(prose.__file__).parents[1]
+ROOMS = [ROOT / room for room in ("walk", "symmetries", "integrals")]
 SIGNED = "_signed"
 ALSO = {"coadjoint": {"kernel"}}
 """In vectors the kernel is told where the coefficients vanish."""
@@ -20,8 +22,9 @@ def keys():
 
 
 def named():
-    """What stands in the walk where a key may: a name, or one with a part that is chosen there."""
-    for path in WALK.rglob("*.py"):
+    """What stands in these rooms where a key may: a name, or one with a part that is chosen
+    there."""
+    for path in (x for room in ROOMS for x in room.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Constant) and isinstance(node.value, str):
                 yield node.value
@@ -45,11 +48,20 @@ def messages(sentence):
 
 @pytest.mark.parametrize("name", dict.fromkeys((*NAMES, *OTHERS)))
 def test_a_step_says_what_stands_under_its_label(name):
+    says_what_stands_under_its_label(record(name))
+
+
+def test_a_step_of_integrals_says_what_stands_under_its_label():
+    for found in every_case():
+        says_what_stands_under_its_label(found.record)
+
+
+def says_what_stands_under_its_label(found):
     own = {}
     for label, named in prose.STEPS.items():
         for english, _ in named.values():
             own.setdefault(english, set()).add(label)
-    for step in record(name).steps:
+    for step in found.steps:
         said = [m for sentence in step.prose for m in messages(sentence) if m in own]
         short = step.label.split(".", 1)[1]
         under = {short, *ALSO.get(short, ())}
@@ -58,5 +70,6 @@ def test_a_step_says_what_stands_under_its_label(name):
 
 def test_no_label_is_told_in_two_files():
     parts = (prose.GENERAL, prose.ROTATIONS, prose.MATRICES, prose.MATERIAL)
+    parts += (prose.FIRST_INTEGRALS,)
     labels = [label for part in parts for label in part]
     assert sorted({*labels}) == sorted(labels)

@@ -26,6 +26,7 @@ def commands(pdf):
     able = [name for name, x in LANGUAGES.items() if x.framed and name != "cvode"]
     yield "list", ["list"]
     yield "build", ["build", "--print"]
+    yield "symmetries", ["symmetries", "se3", "--format", "json"]
     for name, languages in WALKS.items():
         for form in FORMATS:
             for lang in languages if form != "json" else ("en",):

@@ -13,7 +13,7 @@ import pytest
 from derive import prose as texts
 from derive.command.cli import main, ready_made
 from derive.paper.printed import PAPER
-from derive.pipeline import walk
+from derive.pipeline import symmetries, walk
 from derive.printing.escape import markdown_text, prose, tex_text
 from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
@@ -31,8 +31,9 @@ from derive.views.latex import latex
 from derive.views.markdown import markdown, step_markdown
 from derive.views.text import step_text, text
 from tests.problems import PROBLEMS
-from tests.support import walks
+from tests.support import symmetric, walks
 from tests.support.kinds import examples
+from tests.support.lagrangians import every_case
 from tests.views.test_views import compiled
 
 ROOT = Path(__file__).parents[2] / "derive"
@@ -81,6 +82,8 @@ def own_problems(folder):
     ]
 
 
+REACHING = ("gl3", "heisenberg", "screw")
+"""Problems with symmetries that no other has."""
 ON_THE_RIGHT = {"L": "zeta_1^2 + zeta_2^2 + zeta_3^2", "trivialisation": "right"}
 
 
@@ -90,7 +93,11 @@ def records(tmp_path_factory):
     found = [walks.record(name) for name in ready_made()]
     found += [walk(problem_of(tomllib.loads(PROBLEMS[name]))) for name in CHOSEN]
     found += [walk(p) for p in examples().values()]
-    found.append(walk(problem_of({"name": "own", "group": "SO(3)", "lagrangian": ON_THE_RIGHT})))
+    for moved in ({"group": "SO(3)"}, {"algebra": {"of": "SO(3)"}, "advected": [{"name": "x"}]}):
+        found.append(walk(problem_of({"name": "own", "lagrangian": ON_THE_RIGHT} | moved)))
+    found += [x.record for x in every_case()]
+    found += [symmetric.found(name).record for name in symmetric.FILES]
+    found += [symmetries(walks.problem(x), walks.record(x)).record for x in REACHING]
     return found + [walk(p) for p in own_problems(tmp_path_factory.mktemp("mesh"))]
 
 

@@ -16,12 +16,15 @@ from ...algebra.samplers import Source
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...record.tree_data import decode
+from ..arithmetic import EvaluationError
 from ..draws import Draws
 from ..evaluate import Environment, evaluate
 from ..grades import with_slots
 from ..locus import Locus
 from ..model import Direction
 from ..nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, derivative_in, nilpotent, part
+from .carried_along import CarriedAlong
+from .given_field import GivenField
 
 ENTRY, PAIRED, WITH_BRACKET = 2, 4, 6
 """The indices of an entry of a matrix, of ⟨Π, ξ⟩, of ⟨Π, [ξ′, ξ]⟩: what a claim contracts."""
@@ -35,7 +38,8 @@ class LagrangianModel(Draws):
 
     ``generic``: ℓ is any polynomial, on the problem's side.  X is the motion; or, where the locus
     ``at`` tells some of it, a random vector with δt = 1 that has this.  ``pi``: its value, else
-    any; ``zero``: the names of parameters that vanish.  ``input_forces``: none, without points.
+    any; ``zero``: the names of parameters that vanish; ``horizontal``: coordinates that are held
+    are 0.  ``input_forces``: none, without points.
     """
 
     def __init__(
@@ -49,15 +53,27 @@ class LagrangianModel(Draws):
         generic: bool = False,
         pi: Fraction | None = None,
         zero: Collection[str] = (),
+        horizontal: bool = False,
     ):
         own = {} if generic else problem
         super().__init__(own, group, random, size, generic=generic, pi=pi, zero=zero)
         self.side = str(problem["lagrangian"]["trivialisation"])
+        held = () if generic else problem["lagrangian"].get("held", ())
+        self.held = {a - 1 for a in held}
         self.tree = None if generic else decode(problem["lagrangian"]["L"], "problem, L")
         self.hypothesis_failures: dict[Any, str] = {}
-        self.t, self.g, self.Z = self.draw(), group.sample(random, size), self.algebra()
+        inside = bool(at.field or at.field_prime)
+        g = group.sample_inside(random, size) if inside else group.sample(random, size)
+        self.t, self.g, self.Z = self.draw(), g, self.algebra()
+        self.advected: CarriedAlong | None = None
+        if horizontal:
+            coordinates = enumerate(group.nearest(self.Z))
+            self.Z = group.hat([Fraction(0) if a in self.held else x for a, x in coordinates])
         if generic:
             self._any_polynomial()
+        elif "advected" in problem:
+            self.advected = CarriedAlong(problem, group, self.side)
+            self.advected.start = tuple((self.draw(),) for _ in self.advected.rows)
         self.first, self.second, self.mixed = (
             Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
         )
@@ -68,6 +84,14 @@ class LagrangianModel(Draws):
                 nothing if "linear" in at.vanishing else self.second.xi,
                 self.second.velocity,
             )
+        self.given = [
+            GivenField(*(x for _, x in field)) if field else None
+            for field in (at.field, at.field_prime)
+        ]
+        if self.given[0]:
+            self.first = self.given[0].direction(self)
+        if self.given[1]:
+            self.second = self.given[1].direction(self)
         self.vector = None
         if at.contracted or at.along or at.free_acceleration:
             velocity = self.Z if at.along else self.algebra()
@@ -98,7 +122,8 @@ class LagrangianModel(Draws):
         """ℓ(t, g, Z)."""
         if self.tree is not None:
             zeta = tuple((x,) for x in self.group.nearest(Z))
-            names = {**self.expressions.names, "t": t, "A": g, "ζ": zeta}
+            place = {"Γ": self.advected.at(g)} if self.advected else {"A": g}
+            names = {**self.expressions.names, **place, "t": t, "ζ": zeta}
             env = Environment(self.n, names, parameters=self.parameters, elementary=self.elementary)
             return evaluate(self.tree, env)
         square = q.trace(q.times(q.times(Z, self.quadratic), q.transposed(Z)))
@@ -123,6 +148,15 @@ class LagrangianModel(Draws):
     def moved(self, g: Matrix, xi: Matrix) -> Matrix:
         """The tangent vector at g that xi stands for: gξ on the left, ξg on the right."""
         return q.times(g, xi) if self.side == "left" else q.times(xi, g)
+
+    def along(self, mask: int) -> Matrix:
+        """1 + sZ: the motion is g(1 + sZ), or (1 + sZ)g."""
+        return q.plus(q.identity(self.group.size), q.scaled(nilpotent(mask), self.Z))
+
+    def back_along(self, back: Matrix, mask: int) -> Matrix:
+        """The inverse of the motion: (1 − sZ)g⁻¹, or g⁻¹(1 − sZ)."""
+        undo = q.minus(q.identity(self.group.size), q.scaled(nilpotent(mask), self.Z))
+        return q.times(undo, back) if self.side == "left" else q.times(back, undo)
 
     def carried(self, h: Matrix, back: Matrix, rate: Matrix) -> Matrix:
         """h⁻¹ times a rate of h, or that rate times h⁻¹."""
@@ -191,6 +225,15 @@ class LagrangianModel(Draws):
 
     @cached_property
     def metric(self) -> Matrix:
+        """∂²ℓ/∂Z² on the basis, d × d; 1 for the coordinates that are held."""
+        whole, span = self.second_derivatives, range(len(self.group.basis))
+        return tuple(
+            tuple(Fraction(i == j) if {i, j} & self.held else whole[i][j] for j in span)
+            for i in span
+        )
+
+    @cached_property
+    def second_derivatives(self) -> Matrix:
         """∂²ℓ/∂Z² on the basis, d × d."""
         basis = self.group.basis
         e = nilpotent(EPS)
@@ -213,7 +256,12 @@ class LagrangianModel(Draws):
 
     @cached_property
     def load(self) -> list[Any]:
-        """The right side of M ζ̇ = β, with the covector input."""
+        """The right side of M ζ̇ = β, with the covector input; 0 for what is held."""
+        return [Fraction(0) if a in self.held else x for a, x in enumerate(self.whole_load)]
+
+    @cached_property
+    def whole_load(self) -> list[Any]:
+        """What ζ̇ must give by the second derivatives."""
         return [u + self._load(e) for u, e in zip(self.covector, self.group.basis, strict=True)]
 
     @cached_property
@@ -224,6 +272,9 @@ class LagrangianModel(Draws):
         found = q.solve(self.metric, tuple((x,) for x in self.load))
         if found is None:
             raise ZeroDivisionError("∂²ℓ/∂Z² is singular at this point")
+        wanted = tuple((x,) for x in self.whole_load)
+        if self.held and not self.graded and q.times(self.second_derivatives, found) != wanted:
+            raise EvaluationError("what is held is no symmetry: the equations have no solution")
         return self.as_letter(self.group.hat([row[0] for row in found]))
 
     @property

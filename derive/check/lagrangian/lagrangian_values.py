@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections import ChainMap
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+from ...algebra.carried import block
 from ...language import rational as q
 from ...language.rational import Matrix
-from ...language.tree import Tree
+from ...language.tree import Tree, nodes
+from ..arithmetic import EvaluationError
 from ..evaluate import Environment, evaluate
 from ..model import Direction
 from ..name_values import NameValues, Values
@@ -21,7 +24,7 @@ def environment(model: LagrangianModel) -> Environment:
     """The environment in which the equations of a record are claims."""
     return Environment(
         model.n,
-        NameValues(model, (_places, _derivatives, _momenta_values, _motion)),
+        NameValues(model, (_places, _carried_along, _derivatives, _momenta_values, _motion)),
         _families(model),
         _functions(model),
         model.parameters,
@@ -42,6 +45,19 @@ def _places(model: LagrangianModel) -> Values:
         **{"δZ": model.first.velocity, "δ′Z": model.second.velocity},
         "ζ": _column(model.group.nearest(model.Z)),
     } | ({"u": _column(model.covector)} if model.driven else {})
+
+
+def _carried_along(model: LagrangianModel) -> Values:
+    """Γ, δΓ and Γ̇."""
+    if not model.advected or not model.advected.rows:
+        return {}
+    ahead, _ = model.displaced((nilpotent(EPS), model.Z))
+    _, varied, *_ = model.varied
+    return {
+        "Γ": model.advected.start,
+        "δΓ": part(model.advected.at(varied), EPS),
+        "Γ̇": part(model.advected.at(model.moved(model.g, ahead)), EPS),
+    }
 
 
 def _derivatives(model: LagrangianModel) -> Values:
@@ -77,6 +93,19 @@ def _rates(model: LagrangianModel) -> list[Any]:
     faster = q.plus(model.Z, q.scaled(e, model.acceleration))
     found = _momenta(model, model.t + e, model.moved(model.g, ahead), faster)
     return [part(x, EPS) for x in found]
+
+
+def _rate(model: LagrangianModel, what: Tree, env: Environment) -> Any:
+    """d/dt of a function of Π_a and of g along the motion."""
+    e = nilpotent(EPS)
+    g = model.moved(model.g, model.displaced((e, model.Z))[0])
+    now = (part(x, 0) for x in _momenta(model, model.t, model.g, model.Z))
+    pairs = enumerate(zip(now, _rates(model), strict=True), 1)
+    momenta: dict[tuple[int, ...], Any] = {(a,): p + e * rate for a, (p, rate) in pairs}
+    place = {"Γ": model.advected.at(g)} if model.advected else {"A": g}
+    names: Mapping[str, Any] = ChainMap(place, env.names)  # type: ignore[arg-type]
+    ahead = replace(env, names=names, families={**env.families, "Π": momenta})
+    return part(evaluate(what, ahead), EPS)
 
 
 def _column(entries: Iterable[Any]) -> Matrix:
@@ -129,6 +158,19 @@ def _functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
         faster = q.plus(model.Z, q.scaled(nilpotent(EPS), one))
         return model.indices(part(model.momentum(model.t, model.g, faster, two), EPS), PAIRED)
 
+    def represented(head: Tree, arguments: tuple[Tree, ...], env: Environment) -> Any:
+        del head
+        assert model.advected is not None
+        return block(evaluate(arguments[0], env), model.advected.rows)
+
+    def rate_of(what: Tree, env: Environment) -> Any:
+        if ("call", "ϖ", "δy") not in [*nodes(what)]:
+            return _rate(model, what, env)
+        if model.given[0] is None:
+            raise EvaluationError("d/dt of ϖ(δy) is told where δ is a field")
+        others = what[2:] if isinstance(what, tuple) and what[0] == "add" else ()
+        return model.given[0].rate(model, others)
+
     def varied(what: Tree, mask: int) -> Any:
         t, g, Z, *_ = model.varied
         if what == "L̃":
@@ -139,8 +181,10 @@ def _functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
     return {
         "ϖ": lambda _, a, env: model.cartan(direction(a[0])),
         **dict.fromkeys(("dϖ", "ω"), lambda _, a, env: model.exterior(*(direction(x) for x in a))),
+        **({"ρ": represented} if model.advected else {}),
         "M̃": form,
         "ξ": lambda _, a, env: direction(a[0]).xi,
+        "d/dt": lambda _, a, env: rate_of(a[0], env),
         "δ": lambda _, a, env: varied(a[0], EPS),
         "δ′": lambda _, a, env: varied(a[0], EPS_PRIME),
     }

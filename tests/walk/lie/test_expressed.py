@@ -38,7 +38,26 @@ def coupled(t, g, z):
     return own + (g[:3, 2] @ g[3:, 5]) * (0.25 * z[2] * z[5] + 2.0)
 
 
+def euler_top(t, g, z):
+    return z @ (jnp.array([1.0, 1.6, 2.2]) * z) / 2
+
+
+def lagrange_top(t, g, z):
+    return z @ (jnp.array([1.0, 1.0, 0.4]) * z) / 2 - 1.5 * g[2, 2]
+
+
+def kovalevskaya_top(t, g, z):
+    return z @ (jnp.array([2.0, 2.0, 1.0]) * z) / 2 - 1.5 * g[2, 0]
+
+
+def manakov(t, g, z):
+    """(b_i − b_j)/(a_i − a_j) in the planes 34, 24, 23, 14, 13, 12."""
+    moments = jnp.array([10 / 3, 15 / 5, 5 / 2, 17 / 6, 7 / 3, 2.0])
+    return z @ (moments * z) / 2
+
+
 READY_MADE = {x.__name__: x for x in (gyrostat, kirchhoff, charged_body, coupled)}
+READY_MADE |= {x.__name__: x for x in (euler_top, lagrange_top, kovalevskaya_top, manakov)}
 
 
 def states(group, basis, rng, several):

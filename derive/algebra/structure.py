@@ -1,0 +1,231 @@
+"""A Lie algebra by its structure constants, [E_a, E_b] = Σ c_ab^k E_k, and its representations.
+
+The constants are a sparse table (a, b) → {k: c}, for both orders of a and b, counted from 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations, pairwise
+
+from ..language import rational as q
+from ..language.rational import Matrix
+
+Combination = Mapping[int, Fraction]
+Brackets = Mapping[tuple[int, int], Combination]
+"""Σ x_k E_k as k → x, where x is not 0; and the brackets of pairs, where they are not 0."""
+
+
+@dataclass(frozen=True)
+class Algebra:
+    """A Lie algebra of this ``dimension``; ``standard``: the matrices by which it is given, none
+    where it is by brackets."""
+
+    name: str
+    dimension: int
+    brackets: Brackets
+    standard: Sequence[Matrix] = ()
+
+    def representation(self, name: str) -> tuple[Matrix, ...]:
+        """One by its name: ``standard``, ``adjoint``, or their duals, ``dual`` and ``coadjoint``;
+        ``ValueError`` for the standard one and its dual where there are no matrices."""
+        if name in ("adjoint", "coadjoint"):
+            found = adjoint(self.brackets, self.dimension)
+        elif not self.standard:
+            raise ValueError(f"an algebra by brackets has no {name!r}: list matrices, or 'adjoint'")
+        else:
+            found = tuple(self.standard)
+        return dual(found) if name in ("dual", "coadjoint") else found
+
+
+def brackets_of(rows: Iterable[tuple[int, int, int, Fraction]]) -> Brackets:
+    """The table of rows (a, b, k, c), counted from 1; each says [E_b, E_a] as well.
+
+    ``ValueError`` where two rows say different things, or one a bracket of E_a with itself.
+    """
+    found: dict[tuple[int, int], dict[int, Fraction]] = {}
+    for a, b, k, c in rows:
+        if a == b:
+            if c:
+                raise ValueError(f"not antisymmetric: [E_{a}, E_{a}] must be 0, not {c} E_{k}")
+            continue
+        for pair, x in (((a, b), c), ((b, a), -c)):
+            own = found.setdefault((pair[0] - 1, pair[1] - 1), {})
+            if own.setdefault(k - 1, x) != x:
+                raise ValueError(
+                    f"not antisymmetric: [E_{a}, E_{b}] has {c} E_{k}, and by another row "
+                    f"{own[k - 1] if pair == (a, b) else -own[k - 1]} E_{k}"
+                )
+    kept = {pair: {k: x for k, x in own.items() if x} for pair, own in found.items()}
+    return {pair: own for pair, own in kept.items() if own}
+
+
+def require_jacobi(brackets: Brackets, dimension: int) -> None:
+    """``ValueError`` that names the triple, and what is left, where Jacobi's identity fails."""
+    for triple in combinations(range(dimension), 3):
+        a, b, c = triple
+        left = _sum(
+            _with(brackets, brackets.get(pair, {}), last)
+            for pair, last in (((a, b), c), ((b, c), a), ((c, a), b))
+        )
+        if left:
+            names = ", ".join(f"E_{x + 1}" for x in triple)
+            raise ValueError(
+                f"Jacobi's identity fails for {names}: the sum of [[E_{a + 1}, E_{b + 1}], "
+                f"E_{c + 1}] and its cyclic permutations is {as_text(left)}, not 0"
+            )
+
+
+def _with(brackets: Brackets, x: Combination, b: int) -> Combination:
+    """[x, E_b]."""
+    terms = ((k, c) for k, c in x.items())
+    return _sum({j: c * y for j, y in brackets.get((k, b), {}).items()} for k, c in terms)
+
+
+def _sum(parts: Iterable[Combination]) -> Combination:
+    total: dict[int, Fraction] = {}
+    for part in parts:
+        for k, x in part.items():
+            total[k] = total.get(k, Fraction(0)) + x
+    return {k: x for k, x in total.items() if x}
+
+
+def as_text(x: Combination) -> str:
+    """2 E_1 − E_3, for a message."""
+    terms = [
+        f"{'−' if c < 0 else '+'} {'' if abs(c) == 1 else f'{abs(c)} '}E_{k + 1}"
+        for k, c in sorted(x.items())
+    ]
+    text = " ".join(terms)
+    return text[2:] if text.startswith("+") else text.replace("− ", "−", 1)
+
+
+def table_of(brackets: Brackets, dimension: int) -> tuple[Matrix, ...]:
+    """The coordinates c[a][b] of [E_a, E_b], d × d × d."""
+    span = range(dimension)
+    none: Combination = {}
+    return tuple(
+        tuple(tuple(brackets.get((a, b), none).get(k, Fraction(0)) for k in span) for b in span)
+        for a in span
+    )
+
+
+def adjoint(brackets: Brackets, dimension: int) -> tuple[Matrix, ...]:
+    """ad E_a, x ↦ [E_a, x], for each a."""
+    return tuple(q.transposed(rows) for rows in table_of(brackets, dimension))
+
+
+def dual(matrices: Sequence[Matrix]) -> tuple[Matrix, ...]:
+    """The representation −ρ̄ on the dual space."""
+    return tuple(q.scaled(Fraction(-1), q.transposed(x)) for x in matrices)
+
+
+def require_representation(matrices: Sequence[Matrix], brackets: Brackets) -> None:
+    """``ValueError`` where [ρ(E_a), ρ(E_b)] is not ρ([E_a, E_b])."""
+    for a, b in combinations(range(len(matrices)), 2):
+        wanted = q.scaled(Fraction(0), matrices[0])
+        for k, c in brackets.get((a, b), {}).items():
+            wanted = q.plus(wanted, q.scaled(c, matrices[k]))
+        if q.bracket(matrices[a], matrices[b]) != wanted:
+            raise ValueError(
+                f"no representation: the commutator of the matrices of E_{a + 1} and E_{b + 1} is "
+                f"not that of [E_{a + 1}, E_{b + 1}]"
+            )
+
+
+def faithful(brackets: Brackets, dimension: int) -> tuple[Matrix, ...]:
+    """Matrices that stand for the algebra and are independent; ``ValueError`` where none of these
+    are: the adjoint representation, on 𝔤 with some of 𝔤/[𝔤, 𝔤] and of the derivations of 𝔤."""
+    found = adjoint(brackets, dimension)
+    seen = rank(found)
+    for more in (_translations, _derived):
+        if seen == dimension:
+            break
+        for part in more(brackets, dimension):
+            larger = direct_sum(found, part)
+            if rank(larger) > seen:
+                found, seen = larger, rank(larger)
+    if seen < dimension:
+        raise ValueError(
+            "no matrices were found that stand for this algebra: its centre is seen neither by "
+            "brackets nor by derivations; give it by a basis of matrices"
+        )
+    return found
+
+
+def direct_sum(*several: Sequence[Matrix]) -> tuple[Matrix, ...]:
+    """The block diagonal matrices of representations."""
+    return tuple(_blocks(own) for own in zip(*several, strict=True))
+
+
+def _blocks(parts: Sequence[Matrix]) -> Matrix:
+    total, found, offset = sum(map(len, parts)), [], 0
+    for part in parts:
+        for row in part:
+            after = total - offset - len(part)
+            found.append((*(Fraction(0),) * offset, *row, *(Fraction(0),) * after))
+        offset += len(part)
+    return tuple(found)
+
+
+def rank(matrices: Sequence[Matrix]) -> int:
+    """How many of the matrices are independent; by elimination on the entries that are not 0."""
+    left = [{k: x for k, x in enumerate(q.flatten(m)) if x} for m in matrices]
+    found = 0
+    while left:
+        row = left.pop()
+        if not row:
+            continue
+        found += 1
+        lead = next(iter(row))
+        for other in left:
+            if factor := other.get(lead, Fraction(0)) / row[lead]:
+                for k, x in row.items():
+                    other[k] = other.get(k, Fraction(0)) - factor * x
+                    if not other[k]:
+                        del other[k]
+    return found
+
+
+def _translations(brackets: Brackets, dimension: int) -> Iterator[tuple[Matrix, ...]]:
+    """E_a as a translation of a line, by a number that vanishes on all brackets."""
+    span = range(dimension)
+    rows = [tuple(x.get(k, Fraction(0)) for k in span) for x in brackets.values()]
+    for f in q.nullspace(tuple(rows or [(Fraction(0),) * dimension])):
+        yield tuple(q.matrix([[Fraction(0), f[a]], [Fraction(0)] * 2]) for a in span)
+
+
+def _derived(brackets: Brackets, dimension: int) -> Iterator[tuple[Matrix, ...]]:
+    """E_a on 𝔤 and one derivation D, as they are in an algebra: [E_a, D] = −D E_a."""
+    span, adjoined = range(dimension), adjoint(brackets, dimension)
+    for D in derivations(brackets, dimension):
+        yield tuple(
+            q.matrix(
+                [
+                    *((*adjoined[a][k], -D[k][a]) for k in span),
+                    (Fraction(0),) * (dimension + 1),
+                ]
+            )
+            for a in span
+        )
+
+
+def derivations(brackets: Brackets, dimension: int) -> list[Matrix]:
+    """A basis of the maps D with D[x, y] = [Dx, y] + [x, Dy], d × d."""
+    span, table = range(dimension), table_of(brackets, dimension)
+    rows = []
+    for a, b in combinations(span, 2):
+        for k in span:
+            row = [Fraction(0)] * dimension**2  # the entries D_ij, row after row
+            for i in span:
+                row[k * dimension + i] += table[a][b][i]
+                row[i * dimension + a] -= table[i][b][k]
+                row[i * dimension + b] -= table[a][i][k]
+            if any(row):
+                rows.append(tuple(row))
+    ends, none = range(0, dimension**2 + 1, dimension), (Fraction(0),) * dimension**2
+    return [
+        q.matrix([x[i:j] for i, j in pairwise(ends)]) for x in q.nullspace(tuple(rows or [none]))
+    ]

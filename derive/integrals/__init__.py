@@ -1,0 +1,1 @@
+"""Polynomial first integrals and Casimirs of Lie–Poisson equations, by exact linear algebra."""

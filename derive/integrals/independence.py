@@ -1,0 +1,146 @@
+"""What is proved of some integrals: independence, involution, complete integrability.
+
+Ranks at a point modulo a prime are never larger than the generic ones over Q(parameters): a full
+rank there is a proof.  Brackets are computed in full.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from math import prod
+from random import Random
+from typing import Any
+
+from .degree_search import Point
+from .level import Level
+from .lie_poisson import Algebra, Polynomial
+from .linear_algebra import rank_modulo
+
+
+@dataclass(frozen=True)
+class Integrability:
+    """``rank`` of the Poisson tensor on the reduced space of a ``dimension``, ``proved`` where as
+    many independent Casimirs are known as it leaves; ``involution``: the places of rank/2
+    integrals, 0 for H, independent of each other and of the Casimirs, in involution; () where
+    they are not known."""
+
+    dimension: int
+    rank: int
+    proved: bool
+    involution: tuple[int, ...]
+
+    @property
+    def complete(self) -> bool:
+        """Is complete integrability, Liouville's, proved?"""
+        return self.proved and len(self.involution) == self.rank // 2 > 0
+
+
+def integrability(
+    algebra: Algebra,
+    casimirs: Sequence[Any],
+    integrals: Sequence[Any],
+    at: Point,
+    level: Level | None = None,
+) -> Integrability:
+    """What is proved by these Casimirs and integrals beside H; on a level of a Casimir alone, where
+    one is given."""
+    place = _place(algebra, at, level)
+    over = algebra.over_the_field
+    fixed = _independent(place, map(over, casimirs))
+    energies = [algebra.energy, *map(over, integrals)]
+    rows = [differential for _, differential in fixed]
+    fresh = [k for k, _ in _independent(place, energies, rows)]
+    rank = poisson_rank(algebra, place)
+    chosen = _commuting(algebra, [None, *integrals], fresh, rank // 2, level)
+    return Integrability(algebra.size, rank, algebra.size - len(fixed) == rank, chosen)
+
+
+@dataclass(frozen=True)
+class Place:
+    """A point of the variables, modulo a prime, at a point of the parameters."""
+
+    at: Point
+    x: tuple[int, ...]
+
+    def differential(self, f: Polynomial) -> list[int]:
+        """The differential of a polynomial over the field."""
+        terms = [*self.at.residues(f).items()]
+        return [
+            sum(c * e[i] * self.monomial(_lower(e, i)) for e, c in terms if e[i]) % self.at.p
+            for i in range(len(self.x))
+        ]
+
+    def monomial(self, e: tuple[int, ...]) -> int:
+        """A monomial in x."""
+        return prod(pow(v, k, self.at.p) for v, k in zip(self.x, e, strict=True) if k)
+
+
+def _lower(e: tuple[int, ...], i: int) -> tuple[int, ...]:
+    return (*e[:i], e[i] - 1, *e[i + 1 :])
+
+
+def _place(algebra: Algebra, at: Point, level: Level | None) -> Place:
+    """A point, the same at every run; on the level, where a Casimir vanishes that is linear in its
+    leading variable."""
+    random = Random("independence")
+    x = [random.randrange(1, at.p) for _ in range(algebra.size)]
+    if level is not None:
+        i = level.lead.index(1)
+        without = Place(at, (*x[:i], 0, *x[i + 1 :]))
+        terms = {e: c % at.p for e, c in level.rest.items()}
+        total = sum(c * without.monomial(e) for e, c in terms.items())
+        factor = without.monomial(_lower(level.lead, i))
+        x[i] = total * pow(factor, -1, at.p) % at.p
+    return Place(at, tuple(x))
+
+
+def _independent(
+    place: Place, f: Any, before: Sequence[list[int]] = ()
+) -> list[tuple[int, list[int]]]:
+    """The polynomials whose differentials are independent of those before, by their numbers, with
+    these differentials."""
+    chosen: list[tuple[int, list[int]]] = []
+    for k, y in enumerate(f):
+        row = place.differential(y)
+        rows = [*before, *(x for _, x in chosen), row]
+        if rank_modulo(rows, place.at.p) == len(rows):
+            chosen.append((k, row))
+    return chosen
+
+
+def fresh(algebra: Algebra, known: Sequence[Any], f: Sequence[Any], at: Point) -> list[bool]:
+    """For each polynomial: is it functionally independent of H, the known and those before?"""
+    over, place = algebra.over_the_field, _place(algebra, at, None)
+    start = [row for _, row in _independent(place, [*map(over, known), algebra.energy])]
+    chosen = {k for k, _ in _independent(place, map(over, f), start)}
+    return [k in chosen for k, _ in enumerate(f)]
+
+
+def poisson_rank(algebra: Algebra, place: Place) -> int:
+    """The rank of the Poisson tensor at a point."""
+    n = algebra.size
+    rows = [[0] * n for _ in range(n)]
+    for j in range(n):
+        for i, form in algebra.along(j).items():
+            terms = place.at.residues(form).items()
+            rows[i][j] = sum(c * place.monomial(e) for e, c in terms) % place.at.p
+    return rank_modulo(rows, place.at.p)
+
+
+def _commuting(
+    algebra: Algebra, f: Sequence[Any], among: Sequence[int], several: int, level: Level | None
+) -> tuple[int, ...]:
+    """The first ``several`` places ``among`` those of polynomials that are in involution, each with
+    each; () where there are none.  All are in involution with the first, H."""
+    apart = set()
+    for i, j in combinations(among, 2):
+        if i:
+            bracket = algebra.bracket(f[i], f[j])
+            if bracket != 0 and (level is None or not level.contains(bracket)):
+                apart.add((i, j))
+    for chosen in combinations(among, several):
+        if not any(pair in apart for pair in combinations(chosen, 2)):
+            return chosen
+    return ()

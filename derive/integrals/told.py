@@ -1,0 +1,156 @@
+"""The steps of a record that say what integrals there are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from ..language.tree import Tree, mul
+from ..record.record import Equation, Step
+from ..record.sentence import Prose
+from ..walk.chapter import Chapter
+from ..walk.wording import phrase, say
+from .all_integrals import Found, OnLevel
+from .independence import Integrability
+from .level import Level
+from .lie_poisson import Algebra, Polynomial
+
+
+def told(whole: Found, steps: Sequence[Step], c: Chapter) -> tuple[Step, ...]:
+    """The reduced equations, the Casimirs, the integrals, and those on levels, as steps of a
+    chapter; ``steps``: of the walk of the problem."""
+    by_label = {s.label: s for s in steps}
+    made_from = [by_label[c.label(x)] for x in ("momenta", "energy", "coadjoint", "motion")]
+    reduced = _reduced(whole, made_from, c)
+    found = [reduced]
+    if whole.casimirs:
+        found.append(_casimirs(whole, reduced, c))
+    found.append(_integrals(whole, reduced, c))
+    found += [_on_level(whole, on, reduced, k, c) for k, on in enumerate(whole.levels)]
+    return tuple(found)
+
+
+def _reduced(whole: Found, made_from: Iterable[Step], c: Chapter) -> Step:
+    """h̃ and the rates, as functions of the variables."""
+    algebra, system = whole.system.algebra, whole.system
+    draft = c.draft("poisson", "reduction")
+    draft.depends_on(*made_from)
+    equations = [Equation("h̃", algebra.field_tree(algebra.hamiltonian))]
+    for i, x in enumerate(system.variables):
+        equations.append(Equation(rate(x), algebra.field_tree(algebra.flow.get(i, {}))))
+    only = len(system.variables) == system.momenta
+    dimension = str(len(system.variables))
+    return draft.step(
+        equations, say("poisson.group" if only else "poisson.advected", dimension=dimension)
+    )
+
+
+def rate(x: Tree) -> Tree:
+    """The rate of a variable, Π̇_a, or an entry of Ȧ or Γ̇."""
+    assert isinstance(x, tuple)
+    return (x[0], {"Π": "Π̇", "A": "Ȧ", "Γ": "Γ̇"}[x[1]], *x[2:])
+
+
+def _kept(trees: Iterable[Tree]) -> list[Equation]:
+    """The equations that say that motions keep these polynomials."""
+    return [Equation(("call", "d/dt", t), 0) for t in trees]
+
+
+def _casimirs(whole: Found, reduced: Step, c: Chapter) -> Step:
+    draft = c.draft("casimirs", "Poisson bracket")
+    draft.depends_on(reduced)
+    prose = say("casimirs.kept") + say("casimirs.all", degree=str(whole.degree))
+    return draft.step(
+        _kept(map(whole.system.algebra.tree, whole.casimirs)), prose + _weights(whole)
+    )
+
+
+def _weights(whole: Found) -> Prose:
+    """How degrees count, where not all variables are of degree 1."""
+    momenta, weights = whole.system.momenta, whole.grading.degree
+    entries = {*weights[momenta:]}
+    if entries <= {1}:
+        return ()
+    if len(entries) == 1:
+        return say("casimirs.weighted", weight=str(entries.pop()))
+    return say("casimirs.weights", weights=", ".join(map(str, weights)))
+
+
+def _integrals(whole: Found, reduced: Step, c: Chapter) -> Step:
+    algebra = whole.system.algebra
+    draft = c.draft("first_integrals", "Poisson bracket")
+    draft.depends_on(reduced)
+    trees = [algebra.field_tree(algebra.hamiltonian), *map(algebra.tree, whole.integrals)]
+    return draft.step(_kept(trees), _said(whole))
+
+
+def _said(whole: Found) -> Prose:
+    """What is proved of the integrals."""
+    several = bool(whole.integrals)
+    prose = say("first_integrals.several" if several else "first_integrals.energy")
+    for k, new in enumerate(whole.fresh, 2):
+        prose += () if new else say("first_integrals.dependent", number=str(k))
+    generic = bool(whole.system.parameters)
+    prose += say(
+        "first_integrals.all_generic" if generic else "first_integrals.all",
+        degree=str(whole.degree),
+        these=phrase(THESE[several, bool(whole.casimirs)]),
+    )
+    return prose + _integrability(whole.proved)
+
+
+THESE = {
+    (False, False): "first_integrals.it",
+    (False, True): "first_integrals.it_and_casimirs",
+    (True, False): "first_integrals.these",
+    (True, True): "first_integrals.these_and_casimirs",
+}
+"""What is called so, by whether there are several integrals, and Casimirs."""
+
+
+def _integrability(proved: Integrability) -> Prose:
+    sizes = {"rank": str(proved.rank), "dimension": str(proved.dimension)}
+    if proved.complete and proved.rank == 2 and proved.involution == (0,):
+        return say("first_integrals.complete_by_energy", dimension=sizes["dimension"])
+    half = str(proved.rank // 2)
+    if proved.complete:
+        numbers = ", ".join(str(k + 1) for k in proved.involution)
+        return say("first_integrals.complete", **sizes, half=half, numbers=numbers)
+    if not proved.proved:
+        return say("first_integrals.unknown_rank")
+    return say("first_integrals.undecided", **sizes, half=half)
+
+
+# -- on a level ---------------------------------------------------------------------------------
+
+
+def _on_level(whole: Found, on: OnLevel, reduced: Step, k: int, c: Chapter) -> Step:
+    """The integrals where a Casimir vanishes: their rates are multiples of it."""
+    algebra = whole.system.algebra
+    draft = c.draft("level" if not k else f"level_{k + 1}", "Poisson bracket")
+    draft.depends_on(reduced)
+    casimir = whole.casimirs[on.casimir]
+    level = Level(algebra, casimir)
+    equations = []
+    for f in on.integrals:
+        factor = level.quotient(derivative(algebra, f))
+        right = mul(algebra.field_tree(factor), algebra.tree(casimir))
+        equations.append(Equation(("call", "d/dt", algebra.tree(f)), right))
+    prose = say("level.multiple")
+    if on.proved.complete:
+        rank = on.proved.rank
+        prose += say("level.complete", rank=str(rank), half=str(rank // 2))
+    return draft.step(equations, prose)
+
+
+def derivative(algebra: Algebra, f: Any) -> Polynomial:
+    """{F, H} over the field."""
+    found: Polynomial = {}
+    for e, c in algebra.over_the_field(f).items():
+        for i, image in algebra.flow.items():
+            if e[i]:
+                rest = (*e[:i], e[i] - 1, *e[i + 1 :])
+                for m, y in image.items():
+                    target = tuple(map(int.__add__, rest, m))
+                    found[target] = found.get(target, algebra.field.zero) + c * y * e[i]
+    return {e: c for e, c in found.items() if c}

@@ -1,0 +1,123 @@
+"""What is said of the first integrals of reduced equations.
+
+Label of a step, then a name for the sentence: English, French.
+"""
+
+from __future__ import annotations
+
+STEPS: dict[str, dict[str, tuple[str, str]]] = {
+    "poisson": {
+        "group": (
+            "The energy is a function of the momenta alone, and so are the equations of motion: "
+            "Lie–Poisson equations on 𝔤*, of dimension {dimension}.",
+            "L’énergie est une fonction des seuls moments, et les équations du mouvement aussi : "
+            "équations de Lie–Poisson sur 𝔤*, de dimension {dimension}.",
+        ),
+        "advected": (
+            "The momenta, and what the energy needs beside them, move among themselves: "
+            "Lie–Poisson equations on the dual of a semidirect product, of dimension {dimension}.",
+            "Les moments, et ce dont l’énergie dépend en outre, évoluent entre eux : équations de "
+            "Lie–Poisson sur le dual d’un produit semi-direct, de dimension {dimension}.",
+        ),
+    },
+    "casimirs": {
+        "kept": (
+            "The Poisson brackets of these polynomials with every function vanish: they are "
+            "Casimirs, which motions keep whatever the energy is.",
+            "Les crochets de Poisson de ces polynômes avec toute fonction sont nuls : ce sont des "
+            "Casimirs, que les mouvements conservent quelle que soit l’énergie.",
+        ),
+        "all": (
+            "Every polynomial Casimir of degree at most {degree} is a polynomial in these.",
+            "Tout Casimir polynomial de degré au plus {degree} est un polynôme en ceux-ci.",
+        ),
+        "weighted": (
+            "The other variables than momenta count as of degree {weight}.",
+            "Les variables autres que les moments comptent pour le degré {weight}.",
+        ),
+        "weights": (
+            "The degrees of the variables are, in order, {weights}.",
+            "Les degrés des variables sont, dans l’ordre, {weights}.",
+        ),
+    },
+    "first_integrals": {
+        "energy": (
+            "The energy is an integral.",
+            "L’énergie est une intégrale première.",
+        ),
+        "several": (
+            "The Poisson brackets of these polynomials with the energy, the first of them, vanish: "
+            "they are integrals.",
+            "Les crochets de Poisson de ces polynômes avec l’énergie, le premier d’entre eux, sont "
+            "nuls : ce sont des intégrales premières.",
+        ),
+        "all": (
+            "Every polynomial of degree at most {degree} that is an integral is a polynomial in "
+            "{these}.",
+            "Tout polynôme de degré au plus {degree} qui est une intégrale première est un "
+            "polynôme en {these}.",
+        ),
+        "all_generic": (
+            "For generic values of the parameters, every polynomial of degree at most {degree} "
+            "that is an integral is a polynomial in {these}.",
+            "Pour des valeurs génériques des paramètres, tout polynôme de degré au plus {degree} "
+            "qui est une intégrale première est un polynôme en {these}.",
+        ),
+        "it": ("it", "celle-ci"),
+        "it_and_casimirs": ("it and the Casimirs", "celle-ci et en les Casimirs"),
+        "these": ("these", "celles-ci"),
+        "these_and_casimirs": ("these and the Casimirs", "celles-ci et en les Casimirs"),
+        "dependent": (
+            "The integral of number {number} is a function of those before, though no polynomial "
+            "in them.",
+            "L’intégrale première de numéro {number} est fonction des précédentes, sans être un "
+            "polynôme en elles.",
+        ),
+        "complete": (
+            "The Poisson tensor has rank {rank} in dimension {dimension}, and {half} of these "
+            "integrals, of numbers {numbers}, are in involution, and independent of each other and "
+            "of the Casimirs: the equations are completely integrable, in the sense of Liouville.",
+            "Le tenseur de Poisson est de rang {rank} en dimension {dimension}, et {half} de ces "
+            "intégrales premières, de numéros {numbers}, sont en involution, indépendantes entre "
+            "elles et des Casimirs : les équations sont complètement intégrables au sens de "
+            "Liouville.",
+        ),
+        "complete_by_energy": (
+            "The Poisson tensor has rank 2 in dimension {dimension}, and the energy is independent "
+            "of the Casimirs: the equations are completely integrable, in the sense of Liouville.",
+            "Le tenseur de Poisson est de rang 2 en dimension {dimension}, et l’énergie est "
+            "indépendante des Casimirs : les équations sont complètement intégrables au sens de "
+            "Liouville.",
+        ),
+        "undecided": (
+            "The Poisson tensor has rank {rank} in dimension {dimension}: {half} integrals in "
+            "involution, independent of each other and of the Casimirs, are not found here, and "
+            "complete integrability is left open.",
+            "Le tenseur de Poisson est de rang {rank} en dimension {dimension} : on n’a pas ici "
+            "{half} intégrales premières en involution, indépendantes entre elles et des Casimirs, "
+            "et l’intégrabilité complète reste indécise.",
+        ),
+        "unknown_rank": (
+            "The Casimirs that are found do not prove the rank of the Poisson tensor, and complete "
+            "integrability is left open.",
+            "Les Casimirs trouvés ne prouvent pas le rang du tenseur de Poisson, et "
+            "l’intégrabilité complète reste indécise.",
+        ),
+    },
+    "level": {
+        "multiple": (
+            "The rates of these polynomials are multiples of a Casimir: where it vanishes, they "
+            "are integrals.",
+            "Les dérivées de ces polynômes sont des multiples d’un Casimir : là où il s’annule, ce "
+            "sont des intégrales premières.",
+        ),
+        "complete": (
+            "On this level, too, the Poisson tensor has rank {rank}, and {half} integrals are in "
+            "involution, and independent of each other and of the Casimirs: there the equations "
+            "are completely integrable, in the sense of Liouville.",
+            "Sur ce niveau aussi, le tenseur de Poisson est de rang {rank}, et {half} intégrales "
+            "premières sont en involution, indépendantes entre elles et des Casimirs : là, les "
+            "équations sont complètement intégrables au sens de Liouville.",
+        ),
+    },
+}

@@ -1,0 +1,103 @@
+"""The prose of the symmetries of a Lagrangian, in English and French."""
+
+from __future__ import annotations
+
+STEPS: dict[str, dict[str, tuple[str, str]]] = {
+    "symmetries": {
+        "all": (
+            "All symmetries of L̃, and of L̃ up to dF, among the fields δt = τ, δg = (Y₀ + tY₁)g − "
+            "g(X₀ + tX₁) tangent to the group, with constant τ, Y and X, and F of degree two at "
+            "most in t and the entries of g: {count}, for generic parameters, without inputs.",
+            "Toutes les symétries de L̃, et de L̃ à dF près, parmi les champs δt = τ, δg = (Y₀ + "
+            "tY₁)g − g(X₀ + tX₁) tangents au groupe, avec des constantes τ, Y et X, et F de degré "
+            "deux au plus en t et les entrées de g : {count}, pour des paramètres génériques, sans "
+            "entrées.",
+        ),
+        "open": (
+            "The values of {functions} were taken for any numbers, so that no relation between "
+            "them is used.",
+            "Les valeurs de {functions} sont prises pour des nombres quelconques : aucune relation "
+            "entre elles n’est utilisée.",
+        ),
+        "kernel": (
+            "The motion is in the kernel of dϖ. A field that changes L̃ by dF/dt, put into dϖ "
+            "beside X, leaves the rate of ϖ(δy) − F along the motion: it vanishes.",
+            "Le mouvement est dans le noyau de dϖ. Un champ qui change L̃ de dF/dt, mis dans dϖ à "
+            "côté de X, laisse la dérivée de ϖ(δy) − F le long du mouvement : elle s’annule.",
+        ),
+        "algebra": (
+            "a Lie algebra of dimension {dimension}",
+            "une algèbre de Lie de dimension {dimension}",
+        ),
+        "none": (
+            "a Lie algebra of dimension 0",
+            "une algèbre de Lie de dimension 0",
+        ),
+        "exact": (
+            "By a symmetry of L̃, {kind}.",
+            "Par une symétrie de L̃, {kind}.",
+        ),
+        "up_to": (
+            "By a symmetry of L̃ up to dF, {kind}.",
+            "Par une symétrie de L̃ à dF près, {kind}.",
+        ),
+        "central": (
+            "These commute, {first} and {second}, and dϖ of them is a number, which no choice of "
+            "F takes away.",
+            "Ces champs commutent, {first} et {second}, et leur dϖ est un nombre, qu’aucun choix "
+            "de F n’enlève.",
+        ),
+        "time": (
+            "a translation of time",
+            "une translation du temps",
+        ),
+        "translation_space": (
+            "a translation of space",
+            "une translation de l’espace",
+        ),
+        "rotation_space": (
+            "a rotation of space",
+            "une rotation de l’espace",
+        ),
+        "displacement_space": (
+            "a displacement of space",
+            "un déplacement de l’espace",
+        ),
+        "deformation_space": (
+            "a deformation of space",
+            "une déformation de l’espace",
+        ),
+        "boost": (
+            "a boost, a uniform motion of space",
+            "une poussée, un mouvement uniforme de l’espace",
+        ),
+        "translation_body": (
+            "a translation of the body",
+            "une translation du corps",
+        ),
+        "rotation_body": (
+            "a rotation of the body",
+            "une rotation du corps",
+        ),
+        "displacement_body": (
+            "a displacement of the body",
+            "un déplacement du corps",
+        ),
+        "deformation_body": (
+            "a deformation of the body",
+            "une déformation du corps",
+        ),
+        "rotation_alone": (
+            "a rotation of T alone",
+            "une rotation de T seul",
+        ),
+        "both": (
+            "a field that moves more than one of time, space and body",
+            "un champ qui déplace plus d’une chose parmi le temps, l’espace et le corps",
+        ),
+        "moving": (
+            "a field that depends on the time",
+            "un champ qui dépend du temps",
+        ),
+    },
+}

@@ -1,0 +1,44 @@
+"""A Lie algebra whose group moves no points, and what it carries along: advected quantities."""
+
+from fractions import Fraction
+from typing import Annotated
+
+from .table import Basis, Key, Name, Table, Text
+
+Rows = Annotated[tuple[tuple[int, int, int, Fraction], ...], Key("brackets", 2)]
+Count = Annotated[int, Key("elements")]
+Matrices = Annotated[tuple[tuple[tuple[Fraction, ...], ...], ...], Key("representation", 2)]
+"""Rows [a, b, k, c] of [E_a, E_b] = c E_k + …; how many; the matrices of a representation."""
+
+
+class StatedAlgebra(Table):
+    """Those of a group ``of`` a name; or by a ``basis`` of matrices; or by ``brackets``, rows
+    [a, b, k, c] of [E_a, E_b] = c E_k + …, of so many elements (``dimension``)."""
+
+    section = "algebra"
+    called = "Algebra"
+    of: Text = ""
+    basis: Basis = ()
+    brackets: Rows = ()
+    dimension: Count = 0
+
+
+class StatedAdvected(Table):
+    """Γ = ρ(g)⁻¹Γ₀, on the right ρ(g)Γ₀, by the matrices ρ(E_a) of its ``representation``, or one
+    of those that every algebra has; its entries are NAME_1, NAME_2, … in expressions."""
+
+    section = "advected"
+    called = "Advected"
+    name: Name
+    representation: Matrices
+
+
+class Advected(Table):
+    """The same in a record: of so many entries; ρ is a block of the basis of the group."""
+
+    name: Name
+    size: Count
+
+
+REPRESENTATIONS = ("standard", "dual", "adjoint", "coadjoint")
+"""The representations by name: by the matrices of the algebra, x ↦ [E_a, x], and their duals."""

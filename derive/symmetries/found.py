@@ -1,0 +1,119 @@
+"""The symmetries of a problem, all of the kind that is searched, as data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ..code.graph import Graph
+from ..code.options import Options
+from ..code.state import StateSpace
+from ..language.tree import Tree, coefficient, neg, terms
+from ..problem.null_directions import along, hessian, null_directions
+from ..problem.problem import Problem
+from ..problem.state_names import coordinates
+from ..record.record import Derivation
+from ..schema.lagrangian_kinds import Lagrangian
+from .conditions import Conditions
+from .field_brackets import Brackets, cocycle
+from .scalar_lagrangian import by_state, with_scalar_lagrangian
+from .search import Search
+from .symmetry import Symmetry, of_solution
+
+ORDER: tuple[str, ...] = (
+    *("time", "translation_space", "rotation_space", "displacement_space", "deformation_space"),
+    *("boost", "translation_body", "rotation_body", "displacement_body", "deformation_body"),
+    *("rotation_alone", "both", "moving"),
+)
+"""The kinds of symmetries in the order in which they are listed."""
+
+
+@dataclass(frozen=True)
+class Central:
+    """Two symmetries, by their places, that commute with dϖ(δ, δ′) = ``number``."""
+
+    first: int
+    second: int
+    number: Tree
+
+
+@dataclass(frozen=True)
+class Found:
+    """``problem``: with L̃ as one expression; ``functions``: those in L̃ whose values were taken for
+    any numbers; ``state``: the numbers of the state in the emitted code, by their names, and what
+    they are."""
+
+    problem: Problem
+    symmetries: tuple[Symmetry, ...]
+    functions: tuple[str, ...]
+    central: tuple[Central, ...]
+    state: Mapping[str, Tree]
+
+    @property
+    def lagrangian(self) -> Lagrangian:
+        """L̃ as one expression."""
+        assert self.problem.lagrangian is not None
+        return self.problem.lagrangian
+
+    @property
+    def dimension(self) -> int:
+        """The dimension of their Lie algebra."""
+        return len(self.symmetries)
+
+
+def symmetries_of(problem: Problem, record: Derivation) -> Found:
+    """All symmetries of a problem; ``ProblemError`` where it has no Lagrangian of its own."""
+    scalar = with_scalar_lagrangian(problem, record)
+    system = Conditions(scalar)
+    search, state = Search(system), emitted_state(problem)
+    found = [of_solution(x, system.unknowns, system.group, system.side) for x in search.solutions()]
+    told = [k for k, x in enumerate(found) if not says_nothing(x, scalar)]
+    order = sorted(told, key=lambda k: (ORDER.index(found[k].kind), -k))
+    listed = tuple(found[k] for k in order)
+    if not listed:
+        return Found(scalar, (), system.open_functions, (), state)
+    pairs = [
+        _oriented(order.index(i), order.index(j), number)
+        for i, j in Brackets(search).commuting()
+        if {i, j} <= {*told} and (number := cocycle(found[i], found[j])) != 0
+    ]
+    central = tuple(sorted(pairs, key=lambda x: (x.first, x.second)))
+    return Found(scalar, listed, system.open_functions, central, state)
+
+
+def says_nothing(x: Symmetry, problem: Problem) -> bool:
+    """Is what the motion keeps by it 0 whatever the motion is, along what has no kinetic energy?"""
+    given, group = problem.lagrangian, problem.group
+    assert given is not None
+    assert group is not None
+    if not given.held:
+        return False
+    second = hessian(given.L, coordinates(group))
+    momenta: list[Tree] = [("at", "Π", a) for a in range(1, group.dimension + 1)]
+    for k, direction in zip(given.held, null_directions(second) or (), strict=True):
+        others = [0 if a == k - 1 else y for a, y in enumerate(direction)]
+        momenta[k - 1] = neg(along(momenta, tuple(map(Fraction, others))))
+    return by_state(x.conserved(momenta, "h̃")) == 0
+
+
+def _oriented(i: int, j: int, number: Tree) -> Central:
+    """The pair in the order in which the first term of the number is positive."""
+    if coefficient(terms(number)[0])[0] < 0:
+        return Central(j, i, by_state(neg(number)))
+    return Central(i, j, number)
+
+
+def emitted_state(problem: Problem) -> dict[str, Tree]:
+    """The numbers of the state in the emitted code: A and T of each factor, then ζ."""
+    assert problem.group is not None
+    group = problem.group.stated
+    found: list[Tree] = []
+    for offset, factor in group.places:
+        rows = range(offset + 1, offset + factor.n + 1)
+        found += [("entry", "A", i, j) for i in rows for j in rows]
+        found += [("entry", "A", i, offset + factor.size) for i in rows if factor.affine]
+    held = problem.lagrangian.held if problem.lagrangian else ()
+    names = StateSpace(Graph(), problem.group, Options(), held=held).names
+    zeta = [z for a, z in enumerate(coordinates(group), 1) if a not in held]
+    return dict(zip(names, found + zeta, strict=True))

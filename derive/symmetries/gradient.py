@@ -1,0 +1,211 @@
+"""A scalar expression and its derivatives at many points at once, by reverse accumulation.
+
+Every distinct subtree is one entry of a tape; the derivative by each leaf is its adjoint, found in
+one pass back over the tape.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any, Protocol
+
+import numpy as np
+
+from ..algebra.residue_arrays import Residues, ResidueSource
+from ..language.derivatives import DERIVATIVES
+from ..language.tree import Tree
+
+Number = Any
+"""A residue at each point, or floats."""
+Leaves = Mapping[Tree, Number]
+
+
+class Numbers(Protocol):
+    """A ring of numbers: its constants."""
+
+    def constant(self, x: int | Fraction, /) -> Number:
+        """A rational number in it."""
+
+
+class Values(Protocol):
+    """Values of elementary functions."""
+
+    def value(self, name: str, x: Number, /) -> Number:
+        """The value of a function at x."""
+
+
+class Floats:
+    """Floats, and the elementary functions of NumPy on them."""
+
+    def constant(self, x: int | Fraction) -> Number:
+        """A rational number as a float."""
+        return float(x)
+
+    def value(self, name: str, x: Number) -> Number:
+        """The value of a function, by its name."""
+        return getattr(np, {"atan": "arctan"}.get(name, name))(x)
+
+
+class Tape:
+    """The distinct subtrees of an expression, operands first."""
+
+    def __init__(self, tree: Tree):
+        self.places: dict[Tree, int] = {}
+        self.ops: list[tuple[Any, tuple[int, ...], Any]] = []
+        self.last = self._place(tree)
+
+    def _place(self, t: Tree) -> int:
+        known = self.places.get(t)
+        if known is not None:
+            return known
+        if isinstance(t, (int, Fraction)):
+            entry: tuple[Any, tuple[int, ...], Any] = ("number", (), t)
+        elif isinstance(t, str) or t[0] in ("par", "entry"):
+            entry = ("leaf", (), t)
+        elif t[0] == "pow":
+            entry = ("pow", (self._place(t[1]),), t[2])
+        elif t[0] == "fun":
+            slope = DERIVATIVES[t[1]](t[2])
+            base = self._place(t[2])
+            entry = ("fun", (base,), (t[1], slope))
+        else:
+            entry = (t[0], tuple(map(self._place, t[1:])), None)
+        self.places[t] = len(self.ops)
+        self.ops.append(entry)
+        return self.places[t]
+
+    @property
+    def functions(self) -> set[str]:
+        """The elementary functions that occur."""
+        return {data[0] for op, _, data in self.ops if op == "fun"}
+
+    def at(self, leaves: Leaves, source: Numbers, found: Values) -> Evaluated:
+        """The values of all entries, those of the leaves given."""
+        values: list[Number] = []
+        for op, args, data in self.ops:
+            a = [values[k] for k in args]
+            if op == "number":
+                values.append(source.constant(data))
+            elif op == "leaf":
+                values.append(leaves[data])
+            elif op == "add":
+                values.append(_summed(a))
+            elif op == "mul":
+                values.append(_multiplied(a))
+            elif op == "div":
+                values.append(a[0] / a[1])
+            elif op == "pow":
+                values.append(a[0] ** data)
+            elif op == "fun":
+                values.append(found.value(data[0], a[0]))
+            else:
+                raise ValueError(f"no value of {op!r}")
+        return Evaluated(self, values, source, found)
+
+
+class Functions:
+    """Values of elementary functions at the points: true square roots, where there are any;
+    another function has any number as its value at each argument, and so has a root where not
+    ``true_roots``.
+
+    ``valid``: the points at which all roots are true.
+    """
+
+    def __init__(self, source: ResidueSource, *, true_roots: bool = True):
+        self.source, self.true_roots = source, true_roots
+        self.known: list[tuple[str, Residues, Residues]] = []
+        self.valid = np.ones(source.points, bool)
+
+    def value(self, name: str, x: Residues) -> Residues:
+        """The value of a function at x, the same at the same x."""
+        for other, at, value in self.known:
+            if other == name and at == x:
+                return value
+        if name == "sqrt" and self.true_roots:
+            value = x.root()
+            self.valid &= (value * value).values == x.values
+        else:
+            value = self.source.randint(1, 1)
+        self.known.append((name, x, value))
+        return value
+
+
+class Evaluated:
+    """The values of a tape in a ring of numbers."""
+
+    def __init__(self, tape: Tape, values: list[Number], source: Numbers, found: Values):
+        self.tape, self.values, self.source, self.found = tape, values, source, found
+
+    @property
+    def value(self) -> Number:
+        """The value of the expression."""
+        return self.values[self.tape.last]
+
+    def gradient(self) -> dict[Tree, Number]:
+        """The derivative by each leaf."""
+        adjoint: dict[int, Number] = {self.tape.last: self.source.constant(1)}
+        found: dict[Tree, Number] = {}
+        for k in range(len(self.tape.ops) - 1, -1, -1):
+            if k not in adjoint:
+                continue
+            whole = adjoint.pop(k)
+            op, args, data = self.tape.ops[k]
+            if op == "leaf":
+                found[data] = whole
+            for j, slope in zip(args, self._slopes(op, args, data), strict=True):
+                part = whole if slope is None else whole * slope
+                adjoint[j] = adjoint[j] + part if j in adjoint else part
+        return found
+
+    def _slopes(self, op: str, args: tuple[int, ...], data: Any) -> list[Number | None]:
+        """The derivative of an operation by each operand; ``None`` for 1."""
+        a = [self.values[k] for k in args]
+        if op == "add":
+            return [None] * len(a)
+        if op == "mul":
+            return [_multiplied([*a[:k], *a[k + 1 :]]) for k in range(len(a))]
+        if op == "div":
+            back = 1 / a[1]
+            return [back, -(a[0] * back * back)]
+        if op == "pow":
+            return [a[0] ** (data - 1) * data]
+        if op == "fun":
+            return [self._slope(*data)]
+        return []
+
+    def _slope(self, name: str, slope: Tree) -> Number:
+        """The derivative of a function, an expression in its argument."""
+        del name
+        known = {t: self.values[k] for t, k in self.tape.places.items()}
+
+        def at(t: Tree) -> Number:
+            if t in known:
+                return known[t]
+            if isinstance(t, (int, Fraction)):
+                return self.source.constant(t)
+            assert isinstance(t, tuple)
+            if t[0] == "pow":
+                return at(t[1]) ** int(t[2])
+            if t[0] == "fun":
+                return self.found.value(t[1], at(t[2]))
+            a = [*map(at, t[1:])]
+            if t[0] == "div":
+                return a[0] / a[1]
+            return _summed(a) if t[0] == "add" else _multiplied(a)
+
+        return at(slope)
+
+
+def _summed(a: list[Number]) -> Number:
+    total = a[0]
+    for x in a[1:]:
+        total = total + x
+    return total
+
+
+def _multiplied(a: list[Number]) -> Number:
+    total = a[0]
+    for x in a[1:]:
+        total = total * x
+    return total

@@ -1,0 +1,155 @@
+"""Coefficients as functions of the parameters, from their residues for many values of these.
+
+A coefficient is sought among rational multiples of the quantities of L̃ that depend on parameters
+alone (a mass, a first moment), their quotients, their linear combinations, and rational functions
+of small degree.  What is found has agreed at more values than it has coefficients.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from itertools import combinations_with_replacement
+
+import numpy as np
+
+from ..algebra.exact_kernel import fraction_of, kernel
+from ..algebra.residue_arrays import Array
+from ..language.tree import Tree, add, mul
+from .gradient import Tape
+
+Samples = Array
+"""The residues of a number, one for each of the values of the parameters."""
+
+SPARE = 6
+"""So many values more than there are unknown coefficients."""
+
+LARGEST_DEGREE = 4
+"""Of the polynomials in parameters in a quotient."""
+
+Quotient = tuple[Tree, Tree]
+"""Numerator and denominator."""
+
+
+def quotient_of(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
+    """The expression in known quantities that has these residues; ``None`` where none is found.
+
+    ``known``: the residues of quantities, the simplest first, without the number 1.
+    """
+    for guess in (_constant, _multiple, _ratio, _linear, _rational):
+        found = guess(samples, known, p)
+        if found is not None:
+            return found
+    return None
+
+
+def _constant(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
+    del known
+    if (samples != samples[0]).any():
+        return None
+    x = fraction_of(int(samples[0]), p)
+    return None if x is None else (_whole(x), 1)
+
+
+def _multiple(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
+    """c times a known quantity."""
+    for t, values in known.items():
+        c = _same_ratio(samples, values, p)
+        if c is not None:
+            return mul(_whole(c), t), 1
+    return None
+
+
+def _ratio(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
+    """c times a quotient of known quantities."""
+    for t, values in known.items():
+        if (found := _multiple(samples * values % p, known, p)) is not None:
+            return found[0], t
+    return None
+
+
+def _linear(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
+    """A linear combination of known quantities."""
+    listed = [*known][: max(0, len(samples) - SPARE)]
+    terms = _dependence([known[t] for t in listed], samples, p)
+    return None if terms is None else (_combination(terms, listed), 1)
+
+
+def _rational(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
+    """A quotient of polynomials in the parameters."""
+    names = [t for t in known if isinstance(t, tuple) and t[0] == "par"]
+    for some in (*([x] for x in names), names):
+        for degree in range(1, LARGEST_DEGREE + 1):
+            listed = [*_monomials(some, degree)]
+            if 2 * len(listed) + SPARE > len(samples):
+                break
+            columns = [_product([known[x] for x in m], len(samples), p) for m in listed]
+            below = [-samples * x % p for x in columns]
+            basis, _ = kernel(np.array([*columns, *below]).T, p)
+            numbers = [fraction_of(int(x), p) for x in basis[0]] if len(basis) else [None]
+            if None not in numbers:
+                trees = [mul(1, *m) for m in listed]
+                above, under = numbers[: len(listed)], numbers[len(listed) :]
+                return _combination(above, trees), _combination(under, trees)
+    return None
+
+
+def _monomials(names: Sequence[Tree], degree: int) -> Iterator[tuple[Tree, ...]]:
+    for d in range(degree + 1):
+        yield from combinations_with_replacement(names, d)
+
+
+def _product(factors: Sequence[Samples], count: int, p: int) -> Samples:
+    total = np.ones(count, np.int64)
+    for x in factors:
+        total = total * x % p
+    return total
+
+
+def _same_ratio(a: Samples, b: Samples, p: int) -> Fraction | None:
+    """c with a = c b for all samples; ``None`` where there is none."""
+    if not b[0]:
+        return None
+    c = int(a[0]) * pow(int(b[0]), -1, p) % p
+    return None if (a != b * c % p).any() else fraction_of(c, p)
+
+
+def _dependence(
+    columns: Sequence[Samples], samples: Samples, p: int
+) -> list[Fraction | None] | None:
+    """Numbers x with Σ x_k column_k = samples, as few as elimination leaves."""
+    if not columns:
+        return None
+    basis, free = kernel(np.array([*columns, samples]).T, p)
+    if not free or free[-1] != len(columns):
+        return None
+    numbers = [fraction_of(int(-x % p), p) for x in basis[-1][:-1]]
+    return None if None in numbers else numbers
+
+
+def _combination(numbers: Sequence[Fraction | None], trees: Sequence[Tree]) -> Tree:
+    return add(*(mul(_whole(c), t) for c, t in zip(numbers, trees, strict=True) if c))
+
+
+def _whole(x: Fraction) -> Tree:
+    return int(x) if x.denominator == 1 else x
+
+
+def quantities(tape: Tape, depends_on_parameters: Callable[[Tree], bool]) -> list[Tree]:
+    """The parts of an expression that depend on parameters alone and are factors or terms of what
+    does not; the parameters themselves first."""
+    found: dict[Tree, None] = {}
+    for t in tape.places:
+        if isinstance(t, tuple) and t[0] == "par":
+            found[t] = None
+    for t in tape.places:
+        if not isinstance(t, tuple) or t[0] in ("par", "entry") or depends_on_parameters(t):
+            continue
+        inside = [
+            x for x in t[1:] if not isinstance(x, (int, Fraction)) and depends_on_parameters(x)
+        ]
+        if t[0] == "mul" and inside:
+            found[mul(1, *inside)] = None
+        elif t[0] in ("add", "div"):
+            found |= dict.fromkeys(inside)
+    return [*found]

@@ -1,0 +1,66 @@
+"""The basis of 𝔤 in which a Lagrangian is expressed: coordinates, brackets, and how what it depends
+on moves with the group."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ...algebra.groups import Group
+from ...language.tree import Tree, add, mul
+from ...problem.moved_entries import EntriesOfElement, Moved, plain
+from ...problem.problem import Problem
+from ...record.record import Equation, Step
+from ..chapter import Chapter
+from ..coordinates import basis_equations
+from ..wording import say
+from .any_lagrangian import AnyLagrangian
+
+
+@dataclass(frozen=True)
+class Basis:
+    """``moved``: the entries on which L̃ depends; ``rates``: equations that say how they move with
+    time, which the step ``last`` has found."""
+
+    moved: Moved
+    rates: tuple[Equation, ...]
+    last: Step
+    brackets: tuple[Step, ...]
+    steps: tuple[Step, ...]
+
+
+def of_element(problem: Problem, group: Group, general: AnyLagrangian, c: Chapter) -> Basis:
+    """Z = Σ ζ_a E_a, and Ȧ by it; [E_a, E_b]."""
+    assert problem.lagrangian is not None
+    draft = c.draft("coordinates", "coordinates")
+    draft.depends_on(general["second_order"])
+    rates = (Equation("Ȧ", general.velocity),)
+    place = draft.step([*basis_equations(group), *rates], say("coordinates.basis"))
+    told = brackets(group, c)
+    moved = EntriesOfElement(group, problem.lagrangian.trivialisation)
+    return Basis(moved, rates, place, told, (place, *told))
+
+
+def brackets(group: Group, c: Chapter) -> tuple[Step, ...]:
+    """[E_a, E_b] where it is not 0."""
+    table, span = group.structure_constants, range(group.dimension)
+    equations = [
+        Equation(("bracket", member("E", a), member("E", b)), _combined(table[a][b], "E"))
+        for a in span
+        for b in span
+        if a < b and any(table[a][b])
+    ]
+    if not equations:
+        return ()
+    return (c.draft("algebra", "relation").step(equations, say("algebra.brackets")),)
+
+
+def member(family: str, a: int) -> Tree:
+    """The member of a family for E_a; a from 0."""
+    return ("at", family, a + 1)
+
+
+def _combined(coefficients: Iterable[Fraction], family: str) -> Tree:
+    """Σ x_k Y_k over a family."""
+    return add(*(mul(plain(x), member(family, k)) for k, x in enumerate(coefficients) if x))

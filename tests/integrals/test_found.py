@@ -1,0 +1,193 @@
+"""The integrals that are found: the classical cases of the heavy top, Manakov's, and none more."""
+
+import pytest
+import sympy
+
+from derive import SO, Lagrangian, Problem, ProblemError, derive, first_integrals
+from tests.support.lagrangians import heavy, lagrangian, manakov
+
+PI = sympy.symbols("Pi_1:4", real=True)
+GAMMA = sympy.symbols("A_31 A_32 A_33", real=True)
+
+
+def real(names):
+    return sympy.symbols(names, real=True)
+
+
+def spanned(f, others):
+    """Is a polynomial a combination of others, its coefficients functions of the parameters?"""
+    x = (*PI, *GAMMA)
+    columns = [sympy.Poly(y, *x).as_dict() for y in (*others, f)]
+    monomials = sorted({e for c in columns for e in c})
+    rows = sympy.Matrix([[c.get(e, 0) for c in columns] for e in monomials])
+    return sympy.simplify(rows).rank() == len(others)
+
+
+def test_euler():
+    found = first_integrals("euler_top")
+    assert [x.sympy() for x in found.casimirs] == [sum(x**2 for x in PI)]
+    I1, I2, I3 = real("I1 I2 I3")
+    assert found.energy.sympy() - PI[0] ** 2 / I1 / 2 - PI[1] ** 2 / I2 / 2 == PI[2] ** 2 / I3 / 2
+    assert len(found.integrals) == 1
+    assert found.integrable
+
+
+def test_lagrange():
+    found = first_integrals("lagrange_top")
+    assert [x.sympy() for x in found.integrals[1:]] == [PI[2]]
+    assert found.integrable
+    assert found.rank == 4
+
+
+def test_kovalevskaya():
+    """|(ω₁ + iω₂)² − νγ|², γ = γ₁ + iγ₂, of a solid with moments 2, 2, 1."""
+    found = first_integrals("kovalevskaya_top")
+    assert found.integrable
+    _, fourth = found.integrals
+    moment, mgl = real("I mgl")
+    p, q = (x / (2 * moment) for x in PI[:2])
+    nu = mgl / moment
+    published = (p**2 - q**2 - nu * GAMMA[0]) ** 2 + (2 * p * q - nu * GAMMA[1]) ** 2
+    products = [found.energy.sympy() ** 2, *(c.sympy() for c in found.casimirs)]
+    assert spanned(fourth.sympy(), [published, *products])
+    assert not spanned(fourth.sympy(), products)
+
+
+def test_kovalevskaya_is_not_of_degree_three():
+    found = first_integrals("kovalevskaya_top", 3)
+    assert len(found.integrals) == 1
+    assert not found.integrable
+
+
+def test_goryachev_and_chaplygin():
+    """On the level ⟨Π, Γ⟩ = 0 alone: r(p² + q²) − νpγ₃ for moments 4, 4, 1."""
+    found = first_integrals(heavy(("4*I", "4*I", "I"), "m*A_31", "I m"))
+    assert len(found.integrals) == 1
+    assert not found.integrable
+    ((k, (third,)),) = found.levels.items()
+    assert found.casimirs[k].sympy() == sum(x * y for x, y in zip(PI, GAMMA, strict=True))
+    (level,) = found.found.levels
+    assert level.proved.complete
+    moment, m = real("I m")
+    p, q, r = PI[0] / (4 * moment), PI[1] / (4 * moment), PI[2] / moment
+    published = r * (p**2 + q**2) - m / moment * p * GAMMA[2]
+    assert sympy.expand(third.sympy() - 16 * moment**3 * published) == 0
+
+
+def test_clebsch():
+    """U = ½⟨Γ, IΓ⟩: a second quadratic integral."""
+    moments, parameters = ("I1", "I2", "I3"), "I1 I2 I3 k"
+    U = "k*(I1*A_31^2 + I2*A_32^2 + I3*A_33^2)/2"
+    found = first_integrals(heavy(moments, U, parameters), 2)
+    assert found.integrable
+    I1, I2, I3, k = real("I1 I2 I3 k")
+    published = sum(x**2 for x in PI) / 2 - k / 2 * (
+        I2 * I3 * GAMMA[0] ** 2 + I3 * I1 * GAMMA[1] ** 2 + I1 * I2 * GAMMA[2] ** 2
+    )
+    products = [found.energy.sympy(), *(c.sympy() for c in found.casimirs)]
+    assert spanned(found.integrals[1].sympy(), [published, *products])
+
+
+@pytest.mark.parametrize(("degree", "moments"), [(4, "I1 I2 I3"), (6, "I1 I1 I3")])
+def test_a_heavy_top_has_none_more(degree, moments):
+    parameters = " ".join({**dict.fromkeys(moments.split()), "a": 0, "c": 0})
+    found = first_integrals(heavy(moments.split(), "a*A_31 + c*A_33", parameters), degree)
+    assert len(found.integrals) == 1
+    assert not found.levels
+    assert not found.integrable
+    assert "is a polynomial in it and the Casimirs" in str(found)
+    assert "completely integrable" not in str(found)
+
+
+def test_a_gyrostat():
+    """Zhukovsky's, without weight, is integrable; with weight and all moments distinct it has none
+    more; with weight on its axis it has Lagrange's."""
+    L = "(I1*zeta_1^2 + I2*zeta_2^2 + I3*zeta_3^2)/2 + h1*zeta_1 + h2*zeta_2 + h3*zeta_3"
+    assert first_integrals(lagrangian(L, parameters="I1 I2 I3 h1 h2 h3")).integrable
+    assert len(first_integrals("gyrostat").integrals) == 1
+    L = "(I1*(zeta_1^2 + zeta_2^2) + I3*zeta_3^2)/2 + h*zeta_3 - m*A_33"
+    found = first_integrals(lagrangian(L, parameters="I1 I3 h m"))
+    assert [x.sympy() for x in found.integrals[1:]] == [PI[2]]
+    assert found.integrable
+
+
+def test_manakov_of_four_dimensions():
+    found = first_integrals("manakov", 2)
+    assert found.integrable
+    assert (len(found.casimirs), len(found.integrals), found.rank) == (2, 2, 4)
+
+
+def test_manakov_of_five_dimensions():
+    """Two Casimirs, and four integrals in involution, one of them of degree 4."""
+    found = first_integrals(manakov((1, 2, 5, 7, 11), (3, 7, 20, 33, 41)))
+    degrees = [sympy.Poly(x.sympy(), *found.x).total_degree() for x in found.integrals]
+    assert degrees == [2, 2, 2, 4]
+    assert found.rank == 8
+    assert found.integrable
+    short = first_integrals(manakov((1, 2, 5, 7, 11), (3, 7, 20, 33, 41)), 3)
+    assert not short.integrable
+
+
+def test_another_metric_of_four_dimensions():
+    """No metric (b_i − b_j)/(a_i − a_j): none more up to degree 4."""
+    L = " + ".join(f"{x}*zeta_{a}^2" for a, x in enumerate((3, 5, 7, 11, 13, 17), 1))
+    found = first_integrals(lagrangian(L, "SO(4)"))
+    assert len(found.integrals) == 1
+    assert not found.integrable
+
+
+def test_a_ball():
+    """All momenta are kept, and not all in involution; with the field of weight they are not."""
+    found = first_integrals(lagrangian("zeta_1^2 + zeta_2^2 + zeta_3^2"))
+    assert {x.sympy() for x in found.integrals[1:]} == {*PI}
+    assert found.integrable
+    assert found.found.proved.involution in ((1,), (2,), (3,))
+
+
+def test_the_other_side():
+    """On the right the columns of g move: the first column in place of the third row."""
+    L = "(I1*(zeta_1^2 + zeta_2^2) + I3*zeta_3^2)/2 - m*A_33"
+    found = first_integrals(lagrangian(L, parameters="I1 I3 m", side="right"))
+    assert [str(x) for x in found.x[3:]] == ["A_13", "A_23", "A_33"]
+    assert [x.sympy() for x in found.integrals[1:]] == [PI[2]]
+
+
+def test_an_affine_group():
+    """A disc in the plane that falls: T_2 moves with A_21 and A_22; the heights are kept from the
+    left, and from the right the momentum across."""
+    L = "(zeta_1^2 + zeta_2^2 + zeta_3^2)/2 - g*T_2"
+    left = first_integrals(lagrangian(L, "SE(2)", "g"), 2)
+    assert [str(x) for x in left.x[3:]] == ["A_21", "A_22", "A_23"]
+    right = first_integrals(lagrangian(L, "SE(2)", "g", side="right"), 2)
+    assert all(v.holds for x in (left, right) for v in x.check(1))
+
+
+def test_a_product_of_groups():
+    """Two free solids: two Casimirs, and the energy of each."""
+    L = "(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2 + zeta_4^2 + 3*zeta_5^2 + 4*zeta_6^2)/2"
+    found = first_integrals(lagrangian(L, "SO(3) x SO(3)"), 2)
+    assert (len(found.casimirs), len(found.integrals)) == (2, 2)
+    assert found.integrable
+
+
+def test_a_degree_of_halves():
+    """U of degree 4 in γ: its entries count as of degree ½."""
+    found = first_integrals(heavy(("1", "2", "3"), "A_31^4", ""), 2)
+    assert {*found.found.grading.degree[3:]} == {0.5}
+    assert found.casimirs[0].sympy() == sum(x**2 for x in GAMMA)
+
+
+def test_default_values():
+    found = first_integrals("kovalevskaya_top", at_defaults=True)
+    assert not found.p
+    assert found.integrals[1].sympy().subs(dict.fromkeys(PI, 0)) == -36 * GAMMA[2] ** 2
+    assert all(v.holds for v in found.check(1))
+
+
+def test_from_a_derivation():
+    top = Problem("ball", SO(3), Lagrangian("zeta_1^2 + zeta_2^2 + zeta_3^2/2"))
+    found = derive(top).integrals(2)
+    assert found.integrals[1].sympy() == PI[2]
+    assert repr(found) == "<first integrals of ball: 2>"
+    with pytest.raises(ProblemError):
+        first_integrals(Problem("none", SO(3), Lagrangian("zeta_1^2 + 2*zeta_2^2")))

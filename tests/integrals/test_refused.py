@@ -1,0 +1,67 @@
+"""Problems whose integrals are not searched: one line that says why, and the exit code 2."""
+
+import pytest
+
+from derive.command.cli import main
+from derive.integrals.all_integrals import found
+from derive.integrals.degree_search import TooLargeError
+from derive.integrals.reduced import NotReducedError, reduced
+from derive.problem.toml import problem_of
+from tests.support.lagrangians import lagrangian
+
+SQUARE = "zeta_1^2 + zeta_2^2 + zeta_3^2"
+LAGRANGIANS = {
+    "the time": (SQUARE + " - t*A_33", "depends on the time"),
+    "a metric that changes": ("(2 + A_33)*zeta_1^2 + zeta_2^2 + zeta_3^2", "depends on g"),
+    "a fourth power": (SQUARE + " + zeta_1^4", "is not quadratic"),
+    "a cube": (SQUARE + " + zeta_1^2*zeta_2", "is not quadratic"),
+    "a function": (SQUARE + " - sin(A_33)", "a function, sin"),
+    "a quotient": (SQUARE + " - 1/(2 + A_33)", "is no polynomial"),
+    "a negative power": (SQUARE + " - (2 + A_33)^-2", "is no polynomial"),
+}
+
+
+@pytest.mark.parametrize("name", LAGRANGIANS)
+def test_a_lagrangian(name):
+    L, said = LAGRANGIANS[name]
+    with pytest.raises(NotReducedError, match=said) as error:
+        reduced(lagrangian(L))
+    assert "\n" not in str(error.value)
+
+
+def test_an_input():
+    problem = lagrangian(SQUARE, input=[{"name": "u", "kind": "covector"}])
+    with pytest.raises(NotReducedError, match=r"\[\[input\]\]"):
+        reduced(problem)
+
+
+def test_points_and_no_group(capsys):
+    for name in ("so3", "linear"):
+        assert main(["integrals", name]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert line.startswith(f"derive: {name}: ")
+
+
+def test_a_degree_that_is_too_large(capsys):
+    assert main(["integrals", "gyrostat", "--degree", "40"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "unknowns; at most" in line
+    with pytest.raises(TooLargeError, match="unknowns; at most"):
+        found(reduced(lagrangian(SQUARE, parameters="")), 2000)
+
+
+@pytest.mark.parametrize("words", ["0", "-1", "41", "four", "2.5"])
+def test_what_is_no_degree(words, capsys):
+    with pytest.raises(SystemExit) as error:
+        main(["integrals", "gyrostat", "--degree", words])
+    assert error.value.code == 2
+    assert "--degree" in capsys.readouterr().err
+
+
+def test_a_group_with_too_many_variables():
+    with pytest.raises(NotReducedError, match="variables in the reduced equations; at most"):
+        reduced(problem_of({"name": "x", "group": "GL(7)", "lagrangian": {"L": squares(49)}}))
+
+
+def squares(n):
+    return " + ".join(f"zeta_{a}^2" for a in range(1, n + 1))

@@ -1,0 +1,110 @@
+"""What a record tells of integrals: checked without brackets, refused where it is false, shown in
+every view, and nothing said that is not proved."""
+
+import json
+
+import pytest
+
+from derive import first_integrals
+from derive.check.checker import check
+from derive.command.cli import main
+from derive.language.tree import neg, replaced
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
+from derive.record.tree_data import decode, encode
+from derive.views.rendering import FORMATS, render
+from tests.support.lagrangians import heavy
+from tests.support.walks import SEED, repeated
+
+NAMES = (
+    "euler_top",
+    "lagrange_top",
+    "kovalevskaya_top",
+    "manakov",
+    "gyrostat",
+    "kirchhoff",
+    "euler_poisson",
+)
+LEVEL = heavy(("4", "4", "1"), "m*A_31", "m")
+
+
+def told(found):
+    labels = [s.label for s in found.record.steps]
+    return found.record.steps[labels.index(f"{found.record.name}.poisson") :]
+
+
+@pytest.mark.parametrize("name", repeated(NAMES))
+def test_a_record_holds(name):
+    found = first_integrals(name, 3)
+    assert [v for v in check(found.record, SEED) if not v.holds] == []
+    again = from_json(to_json(found.record))
+    assert again.steps == found.record.steps
+
+
+def refused(found, label, place, change):
+    """The labels that are refused once the argument of d/dt in an equation is changed."""
+    data = json.loads(to_json(found.record))
+    step = next(s for s in data["steps"] if s["label"] == label)
+    side = step["equations"][place]
+    _, head, argument = decode(side["lhs"], "")
+    side["lhs"] = encode(("call", head, change(argument)))
+    return [v.label for v in check(from_json(json.dumps(data)), SEED) if not v.holds]
+
+
+PI_1 = ("at", "Π", 1)
+CHANGES = {
+    "a coefficient": lambda t: ("add", *t[1:-1], neg(t[-1])),
+    "a term": lambda t: ("add", *t[1:], ("pow", PI_1, 4)),
+    "a place": lambda t: replaced(t, PI_1, ("at", "Π", 3)),
+    "an entry": lambda t: replaced(t, ("entry", "A", 3, 1), ("entry", "A", 1, 3)),
+    "a function": lambda t: ("fun", "sin", t),
+    "a variation": lambda t: ("add", t, "δt"),
+    "a division": lambda t: ("div", t, PI_1),
+    "a form": lambda t: ("call", "ϖ", "δy"),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_a_false_integral_is_refused(change):
+    found = first_integrals("kovalevskaya_top")
+    label = "kovalevskaya_top.first_integrals"
+    assert label in refused(found, label, 1, CHANGES[change])
+
+
+def test_a_false_casimir_and_a_false_level_are_refused():
+    found = first_integrals(LEVEL, 3)
+    assert "x.casimirs" in refused(found, "x.casimirs", 0, CHANGES["a coefficient"])
+    assert "x.level" in refused(found, "x.level", 0, CHANGES["a coefficient"])
+
+
+def test_a_false_rate_is_refused():
+    data = json.loads(to_json(first_integrals("lagrange_top", 1).record))
+    step = next(s for s in data["steps"] if s["label"] == "lagrange_top.poisson")
+    rate = step["equations"][1]
+    rate["rhs"] = encode(("mul", 2, decode(rate["rhs"], "")))
+    verdicts = check(from_json(json.dumps(data)), SEED)
+    assert [v.label for v in verdicts if not v.holds] == ["lagrange_top.poisson"]
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_every_view_shows_them(form):
+    found = first_integrals(LEVEL)
+    chosen = () if form == "json" else told(found)
+    shown = render(found.record, form, steps=chosen)
+    assert "completely integrable, in the sense of Liouville" in " ".join(shown.split())
+    if form != "json":
+        french = " ".join(render(found.record, form, "fr", steps=chosen).split())
+        assert "completely" not in french
+
+
+def test_the_command(tmp_path, capsys):
+    assert main(["integrals", "lagrange_top", "--degree", "2"]) == 0
+    shown = capsys.readouterr().out
+    assert "d/dt(Π₃) = 0" in shown
+    assert "lagrange_top.mass" not in shown
+    place = tmp_path / "top.json"
+    assert main(["integrals", "lagrange_top", "--format", "json", "--out", str(place)]) == 0
+    assert main(["check", str(place)]) == 0
+    assert "holds  lagrange_top.first_integrals: 2 equations" in capsys.readouterr().out
+    assert main(["integrals", "lagrange_top", "--at-defaults", "--format", "markdown"]) == 0
+    assert r"\mathsf{I}" not in capsys.readouterr().out

@@ -1,0 +1,198 @@
+"""Every equation of a walk as SymPy's: both sides have the values that the checker gives them.
+
+At an exact random point of the checker, all names, functions of variations and members of families
+are put into the SymPy objects, and what comes out is what the checker's own evaluator finds.
+"""
+
+from fractions import Fraction
+from pathlib import Path
+from random import Random
+
+import numpy as np
+import pytest
+import sympy
+from sympy.core.function import AppliedUndef
+
+import derive
+from derive.check.arithmetic import EvaluationError, is_matrix
+from derive.check.equation_sides import index_bindings
+from derive.check.evaluate import _range, evaluate
+from derive.check.function_signatures import POINT
+from derive.check.locus import locus_of
+from derive.check.problem_group import group_of
+from derive.check.trial_groups import groups_with_relations
+from derive.check.trial_points import model_at, names_at
+from derive.language.derivatives import DERIVATIVES
+from derive.language.expression import parse
+from derive.python.as_sympy import Translation
+from derive.python.sympy_matrices import Applied
+from tests.support.emitted import import_python
+from tests.support.walks import NAMES, OTHERS
+
+ROOT = Path(__file__).parents[2]
+N = sympy.Symbol("N", integer=True, positive=True)
+
+
+class Exact(Translation):
+    """Elementary functions are numbers that the checker draws: symbols here."""
+
+    def function(self, name, x):
+        return sympy.Symbol(f"{name}<{x}>")
+
+
+def exact(v):
+    if is_matrix(v):
+        return sympy.ImmutableMatrix([[exact(x) for x in row] for row in v])
+    return sympy.Rational(Fraction(v).numerator, Fraction(v).denominator)
+
+
+def members(body, index, env):
+    """The values of an index with those that it has in SymPy, where each copy of a point has its
+    own."""
+    counted, found = _range(body, index, env)
+    often = env.copies if counted == POINT else ()
+    return [*enumerate((i for i in found for _ in range(int(often[i - 1]) if often else 1)), 1)]
+
+
+def values(t, env, own, at):
+    """SymPy object → value, for what stands in a tree; ``at``: the indices in SymPy."""
+    if isinstance(t, str) or (isinstance(t, tuple) and t[0] in ("at", "call", "par", "fun")):
+        try:
+            yield own.of(t).subs(at), exact(evaluate(t, env))
+        except ValueError:  # the argument of a function
+            assert t in ("δy", "δ′y", "δx", "δ′x", "X") or t[0] in ("call", "at"), t
+    if not isinstance(t, tuple):
+        return
+    if t[0] == "sum":
+        for j, i in members(t[2], t[1], env):
+            yield from values(t[2], env.with_index(t[1], i), own, at | {own.index(t[1]): j})
+    parts = {"at": (), "par": (), "sum": (), "call": t[2:], "entry": t[1:2], "fun": t[2:]}
+    for x in parts.get(t[0], t[1:2] if t[0] == "pow" else t[1:]):
+        yield from values(x, env, own, at)
+
+
+def compared(side, tree, env, own):
+    try:
+        expected = exact(evaluate(tree, env))
+    except EvaluationError as error:  # what is said of any group, with J⁻¹, of masses on a line
+        if "inverse of a singular matrix" in str(error):
+            return
+        raise
+    at = {own.index(i): k for i, k in env.indices.items()}
+    size = {own.n: env.size, N: sum(map(int, env.copies)) or len(env.families.get("r", ()))}
+    known = {x.subs(size): y for x, y in values(tree, env, own, at)}
+    found = side.subs(at).subs(size).doit().xreplace(known).doit()
+    if getattr(found, "is_Matrix", False):
+        found = sympy.ImmutableMatrix(found.as_explicit())
+    assert found == expected, (tree, side)
+
+
+@pytest.mark.parametrize("name", [*NAMES, *OTHERS])
+def test_values(name):
+    d = derive.derive(name)
+    problem, own, points = d.record.problem, Exact(d.record), {}
+    g = group_of(problem)
+    for step in d.record.steps:
+        for e in step.equations:
+            at = locus_of(step, e)
+            if at not in points:
+                tried = g or groups_with_relations(problem["action"])[0]
+                random = Random(at.as_text)
+                points[at] = names_at(model_at(problem, tried, random, 99, at, generic=g is None))
+            eq = own.equation(e)
+            assert isinstance(eq, sympy.Eq)
+            for env in index_bindings(("add", e.lhs, e.rhs), points[at]):
+                for side, tree in ((eq.lhs, e.lhs), (eq.rhs, e.rhs)):
+                    if tree != 0:
+                        compared(side, tree, env, own)
+
+
+def test_how_many_need_no_function():
+    """The figures of docs/sympy.md: functions are those that SymPy does not know, as ϖ(δy)."""
+    found = [eq for x in (*NAMES, *OTHERS) for eq in equations_of(derive.derive(x))]
+    plain = [eq for eq in found if not eq.atoms(AppliedUndef, Applied)]
+    assert all(isinstance(eq, sympy.Eq) for eq in found)
+    page = (ROOT / "docs" / "sympy.md").read_text(encoding="utf-8")
+    assert f"all {len(found)} equations" in page.replace("\n", " ")
+    assert f"{len(plain)} of them" in page.replace("\n", " ")
+
+
+def equations_of(d):
+    return [eq for label in d.labels for eq in d[label].sympy()]
+
+
+def test_every_equation_is_text_and_latex():
+    for eq in equations_of(derive.derive("top")):
+        assert str(eq).startswith("Eq(")
+        assert sympy.latex(eq)
+        assert sympy.pretty(eq)
+
+
+def test_euler_s_equation_runs_on_as_code_does(tmp_path):
+    """ζ̇ of a free solid, from its step through lambdify, and from the emitted file."""
+    d = derive.derive("so3")
+    d.emit(tmp_path, ["python"])
+    code, rng = import_python("so3", tmp_path), np.random.default_rng(4)
+    p = np.array([code.DEFAULTS.get(x, 1.5) for x in code.PARAMETERS])
+    zeta, own = rng.normal(size=3), dict(zip(code.PARAMETERS, p, strict=True))
+    J = np.array([[own[f"J_{min(i, j)}{max(i, j)}"] for j in (1, 2, 3)] for i in (1, 2, 3)])
+    given = {
+        "A": np.eye(3),
+        "I": np.trace(J) * np.eye(3) - J,
+        "ζ": zeta[:, None],
+        "c": np.array([[own[f"c_{i}"]] for i in (1, 2, 3)]),
+        "γ": np.array([[own[f"g_{i}"]] for i in (1, 2, 3)]),
+        "u": np.zeros((3, 1)),
+    }
+    eq = d["motion"].sympy()[1]
+    names = [d.sympy(x) for x in given]
+    assert eq.lhs == d.sympy("ζ̇")
+    assert eq.rhs.free_symbols <= {*names}
+    found = sympy.lambdify(names, eq.rhs.doit())(*given.values())
+    x = np.concatenate([np.eye(3).ravel(), zeta])
+    expected = code.rhs(0.0, x, code.constants(p), np.zeros(3))[9:]
+    np.testing.assert_allclose(np.ravel(found), expected, rtol=1e-12)
+
+
+def test_a_traces_derivative():
+    """∂/∂Z of ½ Tr ZJZ̄ is ½ Z(J + J̄): Π of a rotating body, where J is symmetric."""
+    d = derive.derive("so3")
+    J, Z = d.sympy("J"), d.sympy("Z")
+    found = d.sympy("½ Tr ZJZ̄").diff(Z)
+    one, other = (sympy.ImmutableMatrix(3, 3, lambda i, j, k=k: k + 3 * i + j**2) for k in (1, 2))
+    values = found.subs({J: one, Z: other}).doit()
+    assert values == other * (one + one.T) / 2
+
+
+@pytest.mark.parametrize("name", DERIVATIVES)
+def test_elementary_functions(name):
+    d = derive.derive("so3")
+    x = sympy.Symbol("g_1", real=True)
+    assert d.translation.of(parse(f"{name}(g_1)")) == getattr(sympy, name)(x)
+
+
+def test_the_names_of_letters_and_parameters_stay_apart():
+    """In ‘screw’ a parameter is called m, as the letter for the mass."""
+    d = derive.derive("screw")
+    assert "m" in d.problem.parameters
+    assert d.translation.of(("par", "m")) in d.expressions().p
+    assert d.sympy("m") == sympy.Symbol("m_", real=True)
+    assert d.sympy("‘m’") == sympy.Symbol("m", real=True)
+    so3 = derive.derive("so3")  # where both are the same
+    assert so3.sympy("m") == sympy.Symbol("m", real=True)
+
+
+def test_members_and_sums():
+    """c = Σ m_i r_i of three listed points, written out."""
+    d = derive.derive("sl3")
+    (eq,) = [x for x in d["linear.moments"].sympy() if x.lhs == d.sympy("c")]
+    m, r = ([d.sympy(f"{x}{i}") for i in "₁₂₃₄"] for x in "mr")
+    terms = [x * y for x, y in zip(m, r, strict=True)]
+    assert eq.rhs.doit() == sympy.MatAdd(*terms).doit()
+    assert d.sympy("r_i").subs(d.translation.index("i"), 2) == sympy.MatrixSymbol("r_2", 3, 1)
+
+
+@pytest.mark.parametrize("text", ["Q_", "+", "ϖ", "nonsense", "", "‘m’", "Tr"])
+def test_no_formula(text):
+    with pytest.raises(ValueError, match=r"\w"):
+        derive.derive("so3").sympy(text)

@@ -1,0 +1,62 @@
+"""Problems whose Lagrangian is an expression, for tests of integrals."""
+
+from derive.algebra.families import group as named
+from derive.problem.toml import problem_of
+from derive.python.integrals_found import first_integrals
+
+
+def lagrangian(L, group="SO(3)", parameters="", side="left", **more):
+    """A problem named x; the names of its parameters stand in one text."""
+    data = {"name": "x", "group": group, "parameters": {p: {} for p in parameters.split()}}
+    return problem_of(data | {"lagrangian": {"L": L, "trivialisation": side}} | more)
+
+
+def heavy(moments, potential, parameters):
+    """A heavy solid with principal moments of inertia, three expressions."""
+    kinetic = " + ".join(f"({x})*zeta_{a}^2" for a, x in enumerate(moments, 1))
+    return lagrangian(f"({kinetic})/2 - ({potential})", parameters=parameters)
+
+
+def planes(n):
+    """The planes i < j of the basis of so(n), in its order."""
+    for e in named(f"SO({n})").basis:
+        (found,) = [(i, j) for i in range(n) for j in range(i + 1, n) if e[i][j]]
+        yield found
+
+
+def manakov(a, b):
+    """The metric (b_i − b_j)/(a_i − a_j) on SO(n), for numbers a and b."""
+    terms = [
+        f"({b[i]} - {b[j]})/({a[i]} - {a[j]})*zeta_{k}^2/2"
+        for k, (i, j) in enumerate(planes(len(a)), 1)
+    ]
+    return lagrangian(" + ".join(terms), f"SO({len(a)})")
+
+
+LINE = {"name": "Line", "basis": [[[1, 0], [0, 0]], [[0, 1], [0, 0]]]}
+"""The affine maps of a line, as matrices of the plane: no Casimirs."""
+
+
+def unit(i, j):
+    return [[int((i, j) == (k, m)) for m in range(4)] for k in range(4)]
+
+
+LINES = {"name": "Lines", "basis": [unit(0, 0), unit(0, 1), unit(2, 2), unit(2, 3)]}
+
+
+def squares(*factors):
+    """A metric that is diagonal in the basis."""
+    return " + ".join(f"{x}*zeta_{a}^2" for a, x in enumerate(factors, 1))
+
+
+def every_case():
+    """First integrals of problems that together reach whatever may be said of them."""
+    return [
+        first_integrals(lagrangian(squares(1, 2), LINE), 2),
+        first_integrals(lagrangian(squares(1, 2, 3, 5), LINES), 2),
+        first_integrals(lagrangian(squares(1, 1, 1)), 2),
+        first_integrals(heavy("123", "A_33 + A_11^2", ""), 2),
+        first_integrals(heavy("441", "m*A_31", "m"), 3),
+        first_integrals(heavy("441", "m*A_31", "m"), 4),
+        *(first_integrals(x) for x in ("gyrostat", "euler_top", "lagrange_top")),
+    ]

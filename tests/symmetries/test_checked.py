@@ -1,0 +1,104 @@
+"""The record of the symmetries: every step holds, and a symmetry that is none is refused."""
+
+from dataclasses import replace
+
+import pytest
+
+from derive.check.checker import Checker, check
+from derive.language.tree import add, mul
+from derive.pipeline import symmetries
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
+from derive.record.record import Equation
+from derive.symmetries.steps import shown
+from derive.views.rendering import FORMATS, render
+from tests.support.record_mutations import tried
+from tests.support.symmetric import FILES, found
+from tests.support.walks import OTHERS, SEED, own_verdicts, problem, record, repeated
+
+SHORT = (
+    "so3",
+    "se3",
+    *(x for x in OTHERS if x not in ("euler_poisson", "jelly", "saff3", "sim3", "sp4", "gl3")),
+)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_every_step_holds(name):
+    assert [v.reason for v in check(found(name).record, SEED) if not v.holds] == []
+
+
+@pytest.mark.parametrize("name", repeated(SHORT, 2))
+def test_every_step_of_ready_made_problems_holds(name):
+    own = symmetries(problem(name), record(name)).record
+    assert [v.reason for v in own_verdicts(own) if not v.holds] == []
+
+
+def test_a_record_is_read_back():
+    own = found("ball").record
+    assert from_json(to_json(own)) == own
+
+
+@pytest.mark.parametrize("form", FORMATS)
+@pytest.mark.parametrize("name", ["free", "planet", "driven"])
+def test_every_view_shows_it(name, form):
+    words = render(found(name).record, form, "en")
+    assert "conserved" in words
+
+
+@pytest.mark.parametrize("name", repeated(["free", "planet", "driven", "landau", "spatial"], 1))
+def test_every_corruption_of_a_symmetry_is_refused(name):
+    own = found(name).record
+    checker = Checker(own.problem, SEED)
+    for step in shown(own):
+        for kind, wrong, verdict in tried(step, checker):
+            assert not verdict.holds, (kind, wrong)
+
+
+def refused(step, **changes):
+    """The verdict on a changed step."""
+    checker = Checker(found("free").record.problem, SEED)
+    assert checker.check(step).holds
+    return checker.check(replace(step, **changes))
+
+
+BOOST = next(
+    f"conserved_{k}" for k, x in enumerate(found("free").found.symmetries, 1) if x.kind == "boost"
+)
+AN_ENTRY = ("entry", "A", 1, 1)
+
+
+def test_another_field_is_refused():
+    step = found("free").record[BOOST]
+    time, moved = step.given
+    other = Equation("δA", mul(2, moved.rhs))
+    assert not refused(step, given=(time, other)).holds
+    skew = Equation("δA", mul("A", "A"))
+    equations = tuple(skew if e == moved else e for e in step.equations)
+    assert "tangent" in refused(step, given=(time, skew), equations=equations).reason
+
+
+@pytest.mark.parametrize("k", range(2, 5))
+def test_another_equation_is_refused(k):
+    step = found("free").record[BOOST]
+    e = step.equations[k]
+    inside = e.lhs[2] if k == 4 else None
+    wrong = replace(e, rhs=add(e.rhs, AN_ENTRY)) if e.rhs != 0 else None
+    if wrong is None:
+        wrong = replace(e, lhs=("call", "d/dt", add(inside, AN_ENTRY)))
+    equations = (*step.equations[:k], wrong, *step.equations[k + 1 :])
+    assert not refused(step, equations=equations).holds
+
+
+def test_the_cocycle_is_refused_where_it_is_another():
+    record = found("free").record
+    step = next(s for s in record.steps if "_and_" in s.label)
+    wrong = replace(step.equations[-1], rhs=mul(2, step.equations[-1].rhs))
+    assert not refused(step, equations=(*step.equations[:-1], wrong)).holds
+
+
+def test_a_field_is_of_t_and_A_alone():
+    step = found("free").record[BOOST]
+    time, _ = step.given
+    other = Equation("δA", mul("A", "Z"))
+    assert "function of t and A" in refused(step, given=(time, other)).reason

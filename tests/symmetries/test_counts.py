@@ -1,0 +1,106 @@
+"""How many symmetries there are: what mechanics says of each problem, and the cocycles."""
+
+from collections import Counter
+
+import pytest
+
+from derive.command.cli import derive, ready_made
+from derive.language.show import show
+from derive.pipeline import symmetries
+from derive.problem.problem import ProblemError
+from tests.support.symmetric import FILES, found
+from tests.support.walks import problem, record
+
+SPACE = {"time": 1, "translation_space": 3, "rotation_space": 3, "boost": 3}
+"""Galilei's group, with the time."""
+
+COUNTS = {
+    "free": SPACE,
+    "cone": SPACE | {"rotation_body": 1},
+    "ball": SPACE | {"rotation_body": 1, "displacement_body": 2},
+    "long_numbers": SPACE,
+    "planet": {"time": 1, "rotation_alone": 3},
+    "spatial": {
+        **{"time": 1, "rotation_space": 3, "translation_body": 3, "rotation_body": 3, "moving": 3},
+    },
+    "driven": {"rotation_body": 1, "both": 1},
+    "none": {},
+    "landau": {"time": 1, "translation_space": 3, "boost": 1, "rotation_alone": 1},
+}
+READY = {
+    "charged_body": {"time": 1, "rotation_space": 1},
+    "comet": {"time": 1, "rotation_space": 3},
+    "coupled": {"time": 1, "rotation_space": 3, "rotation_body": 2},
+    "ellipsoid": {"time": 1, "rotation_space": 1},
+    "euler_top": {"time": 1, "rotation_space": 3},
+    "kovalevskaya_top": {"time": 1, "rotation_space": 1},
+    "lagrange_top": {"time": 1, "rotation_space": 1, "rotation_body": 1},
+    "manakov": {"time": 1, "rotation_space": 6},
+    "rod": SPACE | {"rotation_space": 1},
+    "spherical_pendulum": {"time": 1, "rotation_space": 1},
+    "gl3": {"time": 1, "rotation_space": 3, "deformation_body": 1},
+    "gyrostat": {"time": 1, "rotation_space": 1},
+    "hammer": SPACE | {"rotation_space": 1},
+    "heisenberg": {"time": 1, "deformation_space": 2, "moving": 2},
+    "kirchhoff": {"time": 1, "translation_space": 3, "rotation_space": 3},
+    "saff3": SPACE | {"rotation_space": 1},
+    "screw": {"time": 1, "displacement_space": 1, "moving": 1},
+    "se3": SPACE | {"rotation_space": 1},
+    "sim3": SPACE,
+    "sl3": {"time": 1, "rotation_space": 3},
+    "so3": {"time": 1, "rotation_space": 1},
+    "so4": {"time": 1, "rotation_space": 3},
+    "sp4": {"time": 1, "rotation_space": 4},
+    "su2": {"time": 1, "rotation_space": 3, "rotation_body": 3},
+    "top": {"time": 1, "rotation_space": 1, "rotation_body": 1},
+    "two_tops": {"time": 1, "rotation_space": 3},
+}
+REFUSED = {
+    "euler_poisson": "no element",
+    "jelly": "damping",
+    "linear": "any group",
+    "affine": "any group",
+}
+
+
+def kinds(result):
+    return Counter(x.kind for x in result.found.symmetries)
+
+
+def test_every_ready_made_problem_is_here():
+    assert {*READY, *REFUSED} == {*ready_made()}
+    assert {*COUNTS} == {*FILES}
+
+
+@pytest.mark.parametrize("name", COUNTS)
+def test_counts(name):
+    assert kinds(found(name)) == Counter(COUNTS[name])
+
+
+@pytest.mark.parametrize("name", READY)
+def test_counts_of_ready_made_problems(name):
+    assert kinds(symmetries(problem(name), record(name))) == Counter(READY[name])
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_has_no_lagrangian_is_refused(name):
+    with pytest.raises(ProblemError, match=REFUSED[name]):
+        symmetries(*derive(name))
+
+
+def test_the_mass_is_the_cocycle_of_boosts_and_translations():
+    result = found("free").found
+    central = [(result.symmetries[x.first], result.symmetries[x.second], x) for x in result.central]
+    assert [(a.kind, b.kind, show(x.number)) for a, b, x in central] == [
+        ("boost", "translation_space", "m")
+    ] * 3
+
+
+def test_a_magnetic_field_is_the_cocycle_of_translations():
+    result = found("landau").found
+    pairs = {(x.first, x.second): show(x.number) for x in result.central}
+    kinds = {k: x.kind for k, x in enumerate(result.symmetries)}
+    assert sorted((kinds[i], kinds[j], x) for (i, j), x in pairs.items()) == [
+        ("boost", "translation_space", "m"),
+        ("translation_space", "translation_space", "k"),
+    ]
