@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from .code.options import Options
     from .code.program import Program
     from .integrals.all_integrals import Found
+    from .language.tree import Tree
     from .symmetries.steps import Symmetries
 
 ANY_GROUP = (
@@ -196,6 +197,18 @@ def symmetries(problem: Problem, record: Derivation) -> Symmetries:
     return Symmetries(found, record_of(found, general))
 
 
+def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree]:
+    """Name → what the motion keeps: by each symmetry, else by Casimirs and integrals up to degree
+    4 of the reduced equations; of these what no symmetry gives stands beside symmetries, too."""
+    from .integrals.integral_names import first_integrals
+    from .symmetries.found import symmetries_of
+    from .symmetries.quantity_names import named
+
+    if problem.advected is not None:
+        return first_integrals(problem)
+    return named(symmetries_of(problem, record)) | first_integrals(problem, beside_symmetries=True)
+
+
 def program(problem: Problem, record: Derivation, options: Options | None = None) -> Program:
     """The program of a problem; in its principal frame that is the program of another problem."""
     from .code.assemble import assemble
@@ -206,5 +219,6 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
             "problem with a group and a body"
         )
     if options is None or options.frame == "given":
-        return assemble(record, problem.group, options)
+        kept = conserved_quantities(problem, record) if options and options.conserved else None
+        return assemble(record, problem.group, options, kept=kept)
     return assemble(record, problem.group, options, walk(principal(problem)))

@@ -9,12 +9,14 @@ from ..algebra.groups import Group
 from ..language.limits import SLOPES, SLOPES_BY_PARAMETERS
 from ..language.show import show
 from ..language.suffixed import suffixed
+from ..language.tree import Tree
 from ..record.record import Derivation
 from .change_of_frame import frame_changes
 from .conventions import conventions
 from .drift import TEXTS, drift
 from .factor import factored
 from .graph import Node
+from .kept import Kept
 from .linearise import by_leaves, by_state
 from .lower import Lowering
 from .naming import ClaimedNames
@@ -49,10 +51,12 @@ def assemble(
     group: Group,
     options: Options | None = None,
     framed: Derivation | None = None,
+    kept: Mapping[str, Tree] | None = None,
 ) -> Program:
     """The program of a record; ``LoweringError`` when the record has no solved equations.
 
     ``framed``: the record of the problem in its principal frame, if the code is to be in that.
+    ``kept``: what the motion keeps, by names, as :mod:`derive.code.kept` takes it.
     """
     chosen = options or Options()
     _refused(d, group, chosen)
@@ -67,6 +71,8 @@ def assemble(
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
         wanted |= _inertia(frame.old) | frame_changes(frame, lowering.reader)
+    if kept:
+        wanted["conserved"] = factored(lowering.graph, Kept(lowering).of(kept))
     checks = [(x, size) for x, size in lowering.inverses.checks if x.op != "num" or x.data <= 0]
     checks += frame.regular if frame else []
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
@@ -94,6 +100,7 @@ def assemble(
         turning(d.problem, parameters) if "inertia" in wanted and not frame else None,
         framing,
         "eta g" if lowering.reader.space.right else "g eta",
+        tuple(kept or ()),
     )
 
 
@@ -168,6 +175,10 @@ def _refused(d: Derivation, group: Group, chosen: Options) -> None:
         )
     if chosen.attitude == "quaternion" and chosen.layout == "col":
         raise LoweringError(f"{d.name}: with a quaternion there is no matrix to lay out by columns")
+    if chosen.frame == "principal" and chosen.conserved:
+        raise LoweringError(
+            f"{d.name}: --conserved is written in the frame of the parameters: leave out --frame"
+        )
     if chosen.frame == "principal" and "parameters" in chosen.jacobian:
         raise LoweringError(
             f"{d.name}: the principal frame is not smooth in the parameters; "

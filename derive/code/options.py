@@ -14,13 +14,18 @@ CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
 }
 """Option → its values, the first one the default, and what they choose."""
 
+ADDED: dict[str, str] = {
+    "conserved": "add what the motion keeps, as derive symmetries finds it",
+}
+"""Option that is given or not → what it adds."""
+
 JACOBIANS = ("state", "inputs", "parameters")
 """What the equations may be linearised in, besides nothing."""
 
 
 @dataclass(frozen=True)
 class Options:
-    """The choices of one emission, by CHOICES and JACOBIANS; ``ValueError`` for others."""
+    """The choices of one emission, by CHOICES, JACOBIANS and ADDED; ``ValueError`` for others."""
 
     real: str = "double"
     form: str = "source"
@@ -29,6 +34,7 @@ class Options:
     frame: str = "given"
     velocity: str = "body"
     jacobian: tuple[str, ...] = ()
+    conserved: bool = False
 
     def __post_init__(self) -> None:
         for name, (allowed, _) in CHOICES.items():

@@ -150,7 +150,8 @@ class Program:
     """All that is emitted for one problem, without a word of any language.
 
     ``functions``: constants, rhs, energy; inertia for a body turned in space; and what is asked for
-    of jacobian, jacobian_inputs, jacobian_parameters; into_frame, out_of_frame, inputs_into_frame.
+    of conserved, jacobian, jacobian_inputs, jacobian_parameters; into_frame, out_of_frame,
+    inputs_into_frame.
     """
 
     name: str
@@ -169,6 +170,8 @@ class Program:
     framing: Framing | None = None
     variation: str = "g eta"
     """What δg is by η, in comments."""
+    conserved: tuple[str, ...] = ()
+    """The names of what ``conserved`` gives."""
 
     def all_functions(self) -> tuple[EmittedFunction, ...]:
         """The functions of the program, and those that find its frame."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 import textwrap
 from dataclasses import dataclass, field
+from typing import Any
 
 from .languages import LANGUAGES
-from .options import CHOICES, Options
+from .options import ADDED, CHOICES, Options
 
 _STATED = re.compile(r"; do not edit\.\n[\s*#/]*Options: (\w+)((?:[\s*#/]+--[a-z-]+(?: \w+)?)+)")
 _OPTION = re.compile(r"--([a-z-]+)(?: (\w+))?")
@@ -29,7 +30,8 @@ class EmissionRequest:
         found = [("lang", x) for x in self.languages] + [("prefix", self.prefix)]
         found += [(name, getattr(self.options, name)) for name in CHOICES]
         found += [("jacobian", x) for x in self.options.jacobian]
-        flags = [f"--allow-negative-{x}" for x in self.allowed]
+        flags = [f"--{x}" for x in ADDED if getattr(self.options, x)]
+        flags += [f"--allow-negative-{x}" for x in self.allowed]
         return [f"--{name} {x}" for name, x in found] + flags
 
     @property
@@ -51,7 +53,8 @@ def request_of(text: str) -> EmissionRequest | None:
         found.setdefault(name, []).append(value)
     allowed = tuple(x for x in ("mass", "stiffness") if f"allow-negative-{x}" in found)
     try:
-        one = {name: found[name][0] for name in CHOICES}
+        one: dict[str, Any] = {name: found[name][0] for name in CHOICES}
+        one |= {name: name in found for name in ADDED}
         options = Options(**one, jacobian=tuple(found.get("jacobian", ())))
         prefix, languages = found["prefix"][0], tuple(found["lang"])
     except (KeyError, ValueError):

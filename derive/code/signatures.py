@@ -68,6 +68,12 @@ SIGNATURES = (
     ),
     Signature("energy", (T, X, K), doc="kinetic plus potential energy"),
     Signature(
+        "conserved",
+        (T, X, K),
+        (Argument("out", ("CONSERVED",)),),
+        "what the motion keeps where no input acts, one number for each of its names",
+    ),
+    Signature(
         "project", (X,), (OUT,), "the state x taken back to the group by one Newton step", True
     ),
     Signature(
@@ -105,6 +111,7 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         "CONSTANTS": len(p.constants),
         "PARAMETERS": len(p.parameters),
         "INPUTS": len(p.inputs),
+        "CONSERVED": len(p.conserved),
         "ALGEBRA": p.dimension,
         "2": 2,
         "6": 6,

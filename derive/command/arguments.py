@@ -18,7 +18,7 @@ ALLOWED = {"mass": "mass", "stiffness": "stiffness or damping"}
 def add_emission_options(emit: argparse.ArgumentParser) -> None:
     """Add the options that choose what code is emitted."""
     from ..code.languages import LANGUAGES
-    from ..code.options import CHOICES, JACOBIANS
+    from ..code.options import ADDED, CHOICES, JACOBIANS
 
     lang = f"one of {', '.join(LANGUAGES)}; may be repeated; C and Python when left out"
     emit.add_argument("--lang", action="append", choices=LANGUAGES, metavar="LANG", help=lang)
@@ -27,6 +27,8 @@ def add_emission_options(emit: argparse.ArgumentParser) -> None:
         emit.add_argument(f"--{name}", choices=values, help=about)
     about = "also the linearised equations, in the state, the inputs or the parameters; repeated"
     emit.add_argument("--jacobian", action="append", choices=JACOBIANS, help=about)
+    for name, about in ADDED.items():
+        emit.add_argument(f"--{name}", action="store_true", help=about)
 
 
 def positive(words: str) -> float:

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from ..code.emit import emit, included, planned
 from ..code.languages import LANGUAGES
-from ..code.options import CHOICES, Options
+from ..code.options import ADDED, CHOICES, Options
 from ..code.program import Program
 from ..code.request import EmissionRequest, request_of
 from ..pipeline import program
@@ -38,6 +38,7 @@ def options(args: argparse.Namespace, others: Options | None = None) -> Options:
     given = {name: getattr(args, name) for name in CHOICES if getattr(args, name) is not None}
     if args.jacobian:
         given["jacobian"] = tuple(dict.fromkeys(args.jacobian))
+    given |= {name: True for name in ADDED if getattr(args, name)}
     return replace(others or Options(), **given)
 
 

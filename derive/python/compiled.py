@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..code.emit import emit
-from ..code.options import CHOICES, Options
+from ..code.options import ADDED, CHOICES, Options
 from ..code.program import Program
 from ..pipeline import program
 from ..problem.problem import Problem, ProblemError
@@ -47,6 +47,7 @@ class Names(NamedTuple):
 
     state: tuple[str, ...]
     inputs: tuple[str, ...]
+    conserved: tuple[str, ...]
     defaults: dict[str, float | None]
     constants: int
     algebra: int
@@ -56,7 +57,7 @@ class Names(NamedTuple):
         """The names of a program."""
         defaults = {x[0]: x[1] for x in program.parameters}
         sizes = len(program.constants), program.dimension
-        return cls(program.state, program.inputs, defaults, *sizes)
+        return cls(program.state, program.inputs, program.conserved, defaults, *sizes)
 
 
 class Values(NamedTuple):
@@ -87,14 +88,16 @@ class Buffers:
 class Compiled:
     """The functions of one problem in compiled C, for one body; called, it is dx/dt = f(t, x, u).
 
-    ``STATE``, ``PARAMETERS``, ``INPUTS``: names; ``p`` and ``k``: parameters and constants in use;
-    ``u``: the inputs of calls that are given none, zero at first. These three are not to be written
-    into: :meth:`use` and ``f.u = …`` replace them. Threads may share it, each call has buffers of
-    its own; pickled, it takes its C along, which is compiled where it is loaded.
+    ``STATE``, ``PARAMETERS``, ``INPUTS``, ``CONSERVED``: names; ``p`` and ``k``: parameters and
+    constants in use; ``u``: the inputs of calls that are given none, zero at first. These three are
+    not to be written into: :meth:`use` and ``f.u = …`` replace them. Threads may share it, each
+    call has buffers of its own; pickled, it takes its C along, which is compiled where it is
+    loaded.
     """
 
     def __init__(self, names: Names, source: CSource, values: Values | None = None):
         self.STATE, self.INPUTS, self.PARAMETERS = names.state, names.inputs, tuple(names.defaults)
+        self.CONSERVED = names.conserved
         self._names, self._source, self._library = names, source, loaded(source)
         p, k, u = map(np.zeros, (len(self.PARAMETERS), names.constants, len(self.INPUTS)))
         self._values = values or Values(p, k, u, ready=False)
@@ -192,6 +195,12 @@ class Compiled:
         """The energy at time t in state x: kinetic plus potential."""
         return float(self._call_at("energy", ctypes.c_double, t, x, self._in_use().k))
 
+    def conserved(self, t: float, x: Any) -> Array:
+        """What the motion keeps where no input acts, by the names of ``CONSERVED``."""
+        out = np.zeros(len(self.CONSERVED))
+        self._call_at("conserved", None, t, x, self._in_use().k, out)
+        return out
+
     def jacobian(self, t: float, x: Any, u: Any = None) -> tuple[Array, Array]:
         """dx/dt, and the (2d, 2d) matrix D of the equations linearised in the state."""
         k, dx, D = self._in_use().k, np.zeros(len(self.STATE)), self._zeros()
@@ -262,6 +271,8 @@ class Compiled:
             raise ValueError("not compiled: ask for it by compile(..., frame='principal')")
         if function is None and what in ("project", "defect"):
             raise ValueError(f"nothing keeps the states of {self._source.name}: there is no {what}")
+        if function is None and what in ADDED:
+            raise ValueError(f"not compiled: ask for it by compile(..., {what}=True)")
         if function is None:
             kind = what.removeprefix("jacobian").removeprefix("_") or "state"
             raise ValueError(f"not compiled: ask for it by compile(..., jacobian=[{kind!r}])")
@@ -306,7 +317,7 @@ def compile(
     try:
         options = Options(**choices)
     except TypeError:
-        known = (*CHOICES, "jacobian")
+        known = (*CHOICES, "jacobian", *ADDED)
         wrong = ", ".join(x for x in choices if x not in known)
         raise ProblemError(f"compile: no choice {wrong}; there are {', '.join(known)}") from None
     except ValueError as error:

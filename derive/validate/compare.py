@@ -15,13 +15,15 @@ from random import Random
 from typing import Any
 
 from ..record.json_writer import to_json
+from .conservation import compare_conserved
 from .declarations import DiffersError, compare_names
 from .degree_bounds import Measured, MeasuredElementary
 from .emitted_file import Machine, Module
 from .exact_points import Claims, Point
 from .jacobians import ExactJacobians
 from .literals import Literals
-from .projection import compare_drift
+from .projection import compare_drift, is_named
+from .reduced_chart import ReducedChart
 from .straight_line import require_straight_line, summands, tested_parameters
 from .terms import Array, CodeError, run
 
@@ -32,6 +34,9 @@ BOUND, FEWEST, MOST = 1e-40, 2, 20
 """Points are added until a false pass is less probable than BOUND: at least FEWEST, at most
 MOST."""
 
+
+INSIDE = 2**40
+"""The random integers of elements of a group that is known by its basis alone."""
 
 DERIVATIVE_DEGREE = 16
 """Times the size of the group, this bounds what a derivative and its way to coordinates add to a
@@ -159,6 +164,8 @@ class Comparison:
         if "project" in self.module.functions:
             drift = partial(self._drift_numbers, arguments)
             found.append(compare_drift(drift, self._draw, self.claims.state, point))
+        if "conserved" in self.module.functions:
+            found.append(self._conserved(arguments))
         return (*found, *self._jacobians(arguments))
 
     @property
@@ -242,6 +249,21 @@ class Comparison:
 
     def _draw(self) -> Fraction:
         return Fraction(self.random.randint(1, self.claims.size))
+
+    def _conserved(self, arguments: Mapping[str, Any]) -> str:
+        """Compare what ``conserved`` gives at the point with what it gives a moment later."""
+        count = self.module.sizes.get("CONSERVED", -1)
+        self._call("conserved", arguments, out=count)
+        plain = Machine(self.module, self.point.elementary, self.literal)
+        k = [getattr(x, "value", x) for x in arguments["k"].values]
+        return compare_conserved(plain, self.point, self._inside(), k, self._draw, count)
+
+    def _inside(self) -> Sequence[Any]:
+        """The state of the point; where its g is any matrix, one with an element of the group."""
+        state, point = self.claims.state, self.point
+        if isinstance(state, ReducedChart) or is_named(state.group):
+            return tuple(point.arguments["x"])
+        return state.values(state.group.sample_inside(self.random, INSIDE), point.Z)
 
     def _jacobians(self, arguments: Mapping[str, Any]) -> list[str]:
         """The names of the module's Jacobians, each found equal to exact derivatives of ``rhs``."""

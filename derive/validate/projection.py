@@ -34,7 +34,7 @@ def compare_drift(run: Run, draw: Callable[[], Fraction], state: StateChart, poi
     Of a group that is given by its basis neither random elements nor all relations are known: there
     both are tried at its unit, and no more is asked than that they leave it alone.
     """
-    named = _named(state.group)
+    named = is_named(state.group)
     g = point.g if named else q.identity(state.group.size)
     x = list(state.values(g, point.Z))
     if list(run("project", x)) != x:
@@ -55,7 +55,7 @@ def compare_drift(run: Run, draw: Callable[[], Fraction], state: StateChart, poi
     return "project, defect"
 
 
-def _named(g: Group) -> bool:
+def is_named(g: Group) -> bool:
     """Is the group one of the named ones, all of whose relations are known?"""
     try:
         return group(g.name).basis == g.basis

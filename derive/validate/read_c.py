@@ -25,6 +25,7 @@ SIGNATURES = {
     "rhs": ("void", "t", "const* x", "const* k", "const* u", "* dx"),
     "rhs_batch": ("void", "size_t n", "t", "const* x", "const* k", "const* u", "* dx"),
     "energy": ("real", "t", "const* x", "const* k"),
+    "conserved": ("void", "t", "const* x", "const* k", "* out"),
     "project": ("void", "const* x", "* out"),
     "defect": ("real", "const* x"),
     "jacobian": ("void", "t", "const* x", "const* k", "const* u", "* dx", "* D"),
@@ -34,10 +35,12 @@ SIGNATURES = {
 """Function → what it returns, and what it takes in order: the contract with its callers."""
 
 SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS")
+ADDED = ("CONSERVED",)
+"""Sizes that are there where the functions are that they are of."""
 DECLARED = {"P": "PARAMETERS", "K": "CONSTANTS", "U": "INPUTS"}
 """Macro → the size that it declares: arrays that may be empty, which C does not have: SIZE is 1
 then."""
-LISTS = ("state", "parameter", "input")
+LISTS = ("state", "parameter", "input", "conserved")
 REFUSALS = ("SINGULAR", "NOT_FINITE")
 """What ``constants`` returns of a body that has no rates; with SIZES these are all enumerators."""
 SIGNS = {"+": "add", "-": "sub", "*": "mul", "/": "div"}
@@ -90,8 +93,8 @@ class CReader:
                 raise self._unknown(node)
         if missing := self.declared - set(self.functions):
             raise CodeError(f"the function {min(missing)} is declared and not defined")
-        sizes = {x: self.sizes.get(f"{self.prefix}_N_{x}", -1) for x in SIZES}
-        lists = (self.lists.get(f"{self.prefix}_{x}_names") for x in LISTS)
+        sizes = {x: self.sizes.get(f"{self.prefix}_N_{x}", -1) for x in (*SIZES, *ADDED)}
+        lists = (self.lists.get(f"{self.prefix}_{x}_names") for x in LISTS[:3])
         state, parameters, inputs = lists
         return Module(state, parameters, inputs, self.functions, sizes)
 
@@ -105,7 +108,7 @@ class CReader:
     @property
     def _enumerators(self) -> dict[str, int]:
         """The enumerators → their values, or 0 for those compared with the record."""
-        sizes = dict.fromkeys((f"{self.prefix}_N_{x}" for x in SIZES), 0)
+        sizes = dict.fromkeys((f"{self.prefix}_N_{x}" for x in (*SIZES, *ADDED)), 0)
         counts = {x: self.sizes.get(f"{self.prefix}_N_{n}", 0) for x, n in DECLARED.items()}
         sizes |= {f"{self.prefix}_SIZE_{x}": max(1, n) for x, n in counts.items()}
         return sizes | {f"{self.prefix}_{x}": k for k, x in enumerate(REFUSALS, 1)}

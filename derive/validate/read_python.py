@@ -25,7 +25,7 @@ from .terms import (
     plain_text,
 )
 
-OF_STATE = ("_rhs", "_energy", "_project", "_defect", "_jacobian", "_jacobian_inputs")
+OF_STATE = ("_rhs", "_energy", "_conserved", "_project", "_defect", "_jacobian", "_jacobian_inputs")
 SIGNATURES = {
     **dict.fromkeys(("_constants", "_inertia"), ("xp", "p")),
     **dict.fromkeys(OF_STATE, ("xp", "t", "x", "k", "u")),
@@ -34,7 +34,7 @@ SIGNATURES = {
 SIGNS: dict[type, str] = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div"}
 COOKIE = re.compile(r"[ \t\f]*#.*?coding[:=]")
 LISTS = ("STATE", "PARAMETERS", "INPUTS", "CONSTANTS")
-DATA = (*LISTS, "BASIS", "DEFAULTS")
+DATA = (*LISTS, "BASIS", "DEFAULTS", "CONSERVED")
 
 
 def read_python(name: str, text: str) -> Module:
@@ -84,6 +84,7 @@ class PythonReader:
         state, parameters, inputs, constants = (self._list(x) for x in LISTS)
         sizes = {"CONSTANTS": len(constants), "PARAMETERS": len(parameters)}
         sizes |= {"STATE": len(state), "INPUTS": len(inputs)}
+        sizes["CONSERVED"] = len(self.values.get("CONSERVED", ()))
         basis, defaults = self.values.get("BASIS"), self.values.get("DEFAULTS")
         return Module(state, parameters, inputs, self.functions, sizes, defaults, basis)
 

@@ -45,6 +45,9 @@ PROBLEMS = {
 }
 """Which are linearised in what; three in the state alone, for the sake of time."""
 
+KEPT = ("so3", "saff3")
+"""Those that say what their motion keeps."""
+
 
 @pytest.fixture(scope="module")
 def emitted(tmp_path_factory):
@@ -53,7 +56,9 @@ def emitted(tmp_path_factory):
     folder = tmp_path_factory.mktemp("languages")
     plain = [
         Emitted(name, BARE if name == "bare" else name, folder, (*REFERENCE, *OTHERS), chosen)
-        for name, chosen in ((name, {"jacobian": x}) for name, x in PROBLEMS.items())
+        for name, chosen in (
+            (name, {"jacobian": x, "conserved": name in KEPT}) for name, x in PROBLEMS.items()
+        )
     ]
     framed = {"frame": "principal", "jacobian": ALL[:2]}
     able = tuple(x for x in (*REFERENCE, *OTHERS) if LANGUAGES[x].framed)
@@ -100,7 +105,8 @@ WORDS = (
     "super trait type unsafe use where Some Ok Err begin end function module local quote isa "
     "elseif nothing undef eltype Vector Float64 arguments debugger eval extends instanceof null "
     "package var Math Float64Array Number RangeError char8_t N_STATE N_CONSTANTS ZERO_INPUTS "
-    "Singular DEFAULTS D STATE rhs energy constants jacobian project defect out"
+    "Singular DEFAULTS D STATE rhs energy constants jacobian project defect out "
+    "conserved CONSERVED N_CONSERVED Conserved"
 )
 COMPILED = {
     "cc": (CC, "-std=c99", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", "words.c"),

@@ -44,6 +44,8 @@ class Call:
 def calls(header, prefix, sizes):
     """The calls of a header, but for ``constants``, and for ``rhs_batch`` of many states."""
     real = "float" if re.search(r"\bfloat \*", header) else "double"
+    kept = re.search(r"_N_CONSERVED = (\d+)", header)
+    sizes = sizes | {"CONSERVED": int(kept[1]) if kept else 0}
     for kind, name, listed in re.findall(
         DECLARED.format(real=real, prefix=prefix), header, re.MULTILINE
     ):
@@ -60,6 +62,8 @@ def size(array, function, sizes):
     if array == "D":
         rows = 2 * sizes["ALGEBRA"]
         return rows * (sizes[COLUMNS[function]] if function in COLUMNS else rows)
+    if function == "conserved":
+        return sizes["CONSERVED"]
     if array == "out":
         return sizes["INPUTS" if function.startswith("inputs_") else "STATE"]
     return sizes[SIZES[array]]
@@ -82,7 +86,7 @@ def in_rust(call, name, u):
     arguments = call.given(words, u)
     if not call.writes:
         return f'show("{name}", &[m::{call.name}({", ".join(arguments)})]);'
-    if [*call.writes] == ["out"]:
+    if [*call.writes] == ["out"] and call.name != "conserved":
         return f'show("{name}", &m::{call.name}({", ".join(arguments)}));'
     made = "".join(f"let mut {a} = [0.0; {n}]; " for a, n in call.writes.items())
     arguments += [f"&mut {a}" for a in call.writes]

@@ -1,0 +1,50 @@
+"""The names of Casimirs and first integrals in emitted code, and their expressions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from ..language.tree import Tree
+from ..problem.problem import Problem
+from .all_integrals import Found, found
+from .degree_search import TooLargeError
+from .reduced import NotReducedError, reduced
+
+DEGREE = 4
+"""Up to which integrals are looked for."""
+
+
+def first_integrals(problem: Problem, *, beside_symmetries: bool = False) -> dict[str, Tree]:
+    """Name → the polynomial in Π_a and the entries of Γ or of g: the energy, the Casimirs and the
+    integrals.
+
+    ``beside_symmetries``: only those that no symmetry gives, neither linear in the momenta nor
+    Casimirs; none where the reduced equations are not such as can be searched.
+    """
+    try:
+        whole = found(reduced(problem), DEGREE)
+    except (NotReducedError, TooLargeError):
+        if beside_symmetries:
+            return {}
+        raise
+    algebra = whole.system.algebra
+    if beside_symmetries:
+        own = [f for f in whole.integrals if nonlinear(f, whole)]
+        return _numbered("integral", map(algebra.tree, own))
+    return (
+        {"energy": "h̃"}
+        | _numbered("casimir", map(algebra.tree, whole.casimirs))
+        | _numbered("integral", map(algebra.tree, whole.integrals))
+    )
+
+
+def _numbered(base: str, trees: Iterable[Tree]) -> dict[str, Tree]:
+    """base_1, base_2, …, and the trees in order."""
+    return {f"{base}_{k}": t for k, t in enumerate(trees, 1)}
+
+
+def nonlinear(f: Any, whole: Found) -> bool:
+    """Is a polynomial of degree 2 or more in the momenta?"""
+    momenta = whole.system.momenta
+    return any(sum(m[:momenta]) > 1 for m in f)

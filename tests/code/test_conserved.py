@@ -1,0 +1,163 @@
+"""What ``--conserved`` adds is kept along motions, and is what the search found."""
+
+from types import ModuleType
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from derive.code.emit import emit
+from derive.code.options import Options
+from derive.code.program import LoweringError
+from derive.command.cli import main, ready_made
+from derive.pipeline import program
+from derive.python.derived import derive
+from derive.validate.chart import Chart
+from derive.validate.emission import EmittedFiles
+from tests.support.walks import problem, record, repeated
+from tests.symmetries.test_trajectories import NAMES, SHORT, start
+
+WITHOUT = ("jelly", "linear", "affine")
+"""With damping, or about any group."""
+FORMS = {
+    "plain": {},
+    "by_columns": {"layout": "col"},
+    "quaternion": {"attitude": "quaternion"},
+    "tangent": {"velocity": "tangent"},
+}
+
+
+def module_of(name, **chosen):
+    """The emitted Python of a problem."""
+    module = ModuleType(name)
+    exec(
+        derive(name).emit(languages=("python",), conserved=True, **chosen)[f"{name}.py"],
+        vars(module),
+    )
+    return module
+
+
+class Named:
+    """What ``start`` takes of a derivation."""
+
+    def __init__(self, name):
+        self.problem_data = record(name).problem
+
+
+def at_rest(module):
+    """The inputs where there are none."""
+    return (np.zeros(len(module.INPUTS)),) if module.INPUTS else ()
+
+
+def moved(module, x, last):
+    """Times and states of a motion, at the defaults of the parameters."""
+    k, u = module.constants(module.DEFAULTS), at_rest(module)
+    found = solve_ivp(
+        lambda t, x: module.rhs(t, x, k, *u), (0, last), x, method="DOP853", rtol=1e-12, atol=1e-12
+    )
+    assert found.success
+    return k, found.t, found.y.T
+
+
+def spread(values):
+    """How far numbers move, in units of their size."""
+    return (np.abs(values - values[0]).max(axis=0) / (1 + np.abs(values).max(axis=0))).max()
+
+
+@pytest.mark.parametrize("name", repeated(NAMES, 3))
+def test_every_number_is_kept_and_is_that_of_the_search(name):
+    module = module_of(name)
+    k, t, x = moved(module, start(Named(name), vars(module)), SHORT.get(name, 50.0))
+    kept = module.conserved(t, x, k)
+    assert kept.shape == (len(t), len(module.CONSERVED))
+    assert spread(kept) < 1e-9
+    t, x = t[:5], x[:5]  # on the group as closely as rounding allows
+    wanted = derive(name).symmetries().values(t, x)
+    scale = 1 + np.abs(wanted).max(axis=0)
+    assert (np.abs(kept[:5, : wanted.shape[1]] - wanted).max(axis=0) / scale).max() < 1e-12
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_in_every_form_of_the_state(form):
+    module = module_of("se3", **FORMS[form])
+    x = np.random.default_rng(3).normal(size=len(module.STATE)) / 9
+    x[[0] if form == "quaternion" else [0, 4, 8]] += 1
+    for _ in range(9):
+        x = module.project(x)
+    k, t, x = moved(module, x, 5.0)
+    assert spread(module.conserved(t, x, k)) < 1e-8
+
+
+def test_kovalevskaya_s_own_integral():
+    """(p² − q² + (mgl/I) γ₁)² + (2pq + (mgl/I) γ₂)², with her signs: an oracle by hand."""
+    module = module_of("kovalevskaya_top")
+    rng = np.random.default_rng(2)
+    x = np.concatenate([np.eye(3).ravel(), rng.normal(size=3)])
+    k, t, x = moved(module, x, 20.0)
+    moment, mgl = (module.DEFAULTS[x] for x in ("I", "mgl"))
+    p, q = x[:, 9], x[:, 10]
+    a, b = x[:, 6], x[:, 7]
+    own = (p * p - q * q - mgl / moment * a) ** 2 + (2 * p * q - mgl / moment * b) ** 2
+    assert spread(own[:, None]) < 1e-9
+    found = module.conserved(t, x, k)[:, module.CONSERVED.index("integral_1")]
+    # the same, times (2I)⁴, but for a multiple of the Casimir |γ|² = 1
+    assert np.ptp(found - 16 * moment**4 * own) < 1e-8
+
+
+def test_names():
+    assert module_of("se3").CONSERVED[0] == "energy"
+    assert module_of("manakov").CONSERVED[-1] == "integral_1"
+    assert module_of("euler_poisson").CONSERVED == ("energy", "casimir_1", "casimir_2")
+    free = module_of("kirchhoff").CONSERVED
+    assert {*free} >= {f"momentum_{i}" for i in (1, 2, 3)}
+    assert {*free} >= {f"angular_momentum_{i}" for i in (1, 2, 3)}
+
+
+def test_nothing_else_changes():
+    name = "so3"
+    plain, kept = (derive(name).emit(conserved=x)[f"{name}.c"] for x in (False, True))
+    rhs = plain[plain.index("void so3_rhs") : plain.index("double so3_energy")]
+    assert rhs in kept
+
+
+def test_what_is_refused(capsys):
+    assert main(["emit", "jelly", "--conserved", "--names"]) in (0, 2)
+    capsys.readouterr()
+    assert main(["emit", "jelly", "--conserved", "--out", "nowhere"]) == 2
+    assert "damping" in capsys.readouterr().err
+    with pytest.raises(LoweringError, match="leave out --frame"):
+        derive("se3").emit(conserved=True, frame="principal")
+
+
+def reports(name, change=lambda text: text):
+    """The verdicts of the validator on emitted files, changed."""
+    own = problem(name)
+    options = Options(conserved=True)
+    compiled = program(own, record(name), options)
+    files = emit(compiled, record(name), ("c", "python"), name, options)
+    files = {x: change(text) for x, text in files.items()}
+    return EmittedFiles(files, name, Chart(), compiled.numbers()).reports(record(name))
+
+
+@pytest.mark.parametrize("name", repeated([x for x in ready_made() if x not in WITHOUT], 4))
+def test_proved_by_the_validator(name):
+    for report in reports(name):
+        assert report.holds, report.text
+        assert "conserved" in report.text
+
+
+def test_a_wrong_sign_is_seen():
+    def change(text):
+        at = text.rfind("(g_1*A_12 + g_2*A_22")  # in a header there is none
+        return text[:at] + text[at:].replace("g_1*A_12 +", "g_1*A_12 -", 1)
+
+    assert [x.holds for x in reports("so3", change)] == [False, False]
+    assert all("is not kept" in x.text for x in reports("so3", change))
+
+
+def test_a_number_that_says_nothing_is_seen():
+    def change(text):
+        at = text.rindex("out[0] = h_tilde;") if "out[0] = h_tilde;" in text else 0
+        return text[:at] + text[at:].replace("out[0] = h_tilde;", "out[0] = 1.0;", 1)
+
+    assert "says nothing" in reports("so3", change)[0].text
