@@ -17,6 +17,7 @@ from .factor import factored
 from .graph import Node
 from .linearise import by_leaves, by_state
 from .lower import Lowering
+from .momentum_state import OF_Y, MomentumState, momentum_state, refuse
 from .naming import ClaimedNames
 from .options import Options
 from .principal_axes import inertia, turning
@@ -64,6 +65,10 @@ def assemble(
         old = Lowering(d, group, chosen, lowering.graph).reader
         frame = PrincipalFrame(framed.problem["frame"], old, chosen.attitude == "quaternion")
     wanted = _outputs(lowering, chosen)
+    momenta = momentum_state(lowering, group, chosen) if chosen.momenta else None
+    if momenta:
+        graph = lowering.graph
+        wanted |= {name: factored(graph, nodes) for name, nodes in momenta.wanted.items()}
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
         wanted |= _inertia(frame.old) | frame_changes(frame, lowering.reader)
@@ -73,7 +78,9 @@ def assemble(
     parameters = _used_parameters(d, found)
     if "parameters" in chosen.jacobian and not parameters:
         raise LoweringError(f"{d.name}: there are no parameters to linearise in")
-    functions, constants, framing = _functions(lowering, chosen, wanted, checks, parameters, frame)
+    functions, constants, framing = _functions(
+        lowering, chosen, wanted, checks, parameters, frame, momenta
+    )
     return Program(
         d.name,
         str(d.problem.get("title", "")),
@@ -94,6 +101,8 @@ def assemble(
         turning(d.problem, parameters) if "inertia" in wanted and not frame else None,
         framing,
         "eta g" if lowering.reader.space.right else "g eta",
+        momenta.names if momenta else (),
+        momenta.size if momenta else 0,
     )
 
 
@@ -104,6 +113,7 @@ def _functions(
     checks: Sequence[Check],
     parameters: Sequence[str],
     frame: PrincipalFrame | None,
+    momenta: MomentumState | None,
 ) -> tuple[dict[str, EmittedFunction], list[str], Framing | None]:
     """The program's functions by name, the names of the entries of ``k``, and the functions that
     find the principal frame where there is one."""
@@ -124,8 +134,10 @@ def _functions(
     constants = [_constant_name(names, x, i) for i, x in enumerate(fixed)]
     moving = _places(lowering.reader, names, state, inputs)
     kept = {x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))}
+    by_momenta = momenta.places(moving, names) if momenta else {}
     for name, nodes in wanted.items():
-        places = from_p if name == "inertia" else moving | kept
+        own = by_momenta if name in OF_Y else moving
+        places = from_p if name == "inertia" else {**own, **kept}
         functions[name] = scheduler.function(nodes, places)
     functions["rhs"] = replace(functions["rhs"], titles=titles(lowering.reader))
     if "parameters" in options.jacobian:
@@ -160,6 +172,8 @@ def _refused(d: Derivation, group: Group, chosen: Options) -> None:
         _refused_where_held(d, chosen)
     if d.problem.get("lagrangian", {}).get("trivialisation") == "right":
         _refused_on_the_right(d, chosen)
+    if chosen.momenta:
+        refuse(d, group, chosen)
     if chosen.attitude == "quaternion" and not group.turns_space:
         raise LoweringError(f"{d.name}: a quaternion needs SO(3) or SE(3), not {group.name}")
     if chosen.attitude == "quaternion" and chosen.velocity == "tangent":

@@ -20,7 +20,10 @@ JACOBIANS = ("state", "inputs", "parameters")
 
 @dataclass(frozen=True)
 class Options:
-    """The choices of one emission, by CHOICES and JACOBIANS; ``ValueError`` for others."""
+    """The choices of one emission, by CHOICES and JACOBIANS; ``ValueError`` for others.
+
+    ``momenta``: the motion in momenta as well.
+    """
 
     real: str = "double"
     form: str = "source"
@@ -29,6 +32,7 @@ class Options:
     frame: str = "given"
     velocity: str = "body"
     jacobian: tuple[str, ...] = ()
+    momenta: bool = False
 
     def __post_init__(self) -> None:
         for name, (allowed, _) in CHOICES.items():

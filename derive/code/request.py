@@ -29,7 +29,8 @@ class EmissionRequest:
         found = [("lang", x) for x in self.languages] + [("prefix", self.prefix)]
         found += [(name, getattr(self.options, name)) for name in CHOICES]
         found += [("jacobian", x) for x in self.options.jacobian]
-        flags = [f"--allow-negative-{x}" for x in self.allowed]
+        flags = ["--momenta"] * self.options.momenta
+        flags += [f"--allow-negative-{x}" for x in self.allowed]
         return [f"--{name} {x}" for name, x in found] + flags
 
     @property
@@ -52,7 +53,9 @@ def request_of(text: str) -> EmissionRequest | None:
     allowed = tuple(x for x in ("mass", "stiffness") if f"allow-negative-{x}" in found)
     try:
         one = {name: found[name][0] for name in CHOICES}
-        options = Options(**one, jacobian=tuple(found.get("jacobian", ())))
+        options = Options(
+            **one, jacobian=tuple(found.get("jacobian", ())), momenta="momenta" in found
+        )
         prefix, languages = found["prefix"][0], tuple(found["lang"])
     except (KeyError, ValueError):
         return None

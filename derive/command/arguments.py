@@ -27,6 +27,8 @@ def add_emission_options(emit: argparse.ArgumentParser) -> None:
         emit.add_argument(f"--{name}", choices=values, help=about)
     about = "also the linearised equations, in the state, the inputs or the parameters; repeated"
     emit.add_argument("--jacobian", action="append", choices=JACOBIANS, help=about)
+    about = "also the motion in momenta, of any Lagrangian: to them and back, rates, Poisson tensor"
+    emit.add_argument("--momenta", action="store_true", default=None, help=about)
 
 
 def positive(words: str) -> float:

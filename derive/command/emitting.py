@@ -38,6 +38,8 @@ def options(args: argparse.Namespace, others: Options | None = None) -> Options:
     given = {name: getattr(args, name) for name in CHOICES if getattr(args, name) is not None}
     if args.jacobian:
         given["jacobian"] = tuple(dict.fromkeys(args.jacobian))
+    if args.momenta:
+        given["momenta"] = True
     return replace(others or Options(), **given)
 
 

@@ -2,13 +2,14 @@
 
     ζ = M⁻¹(Π − b),  {Π_a, Π_b} = ε Σ c_ba^k Π_k,  {Γ_i, Π_b} = E_b·Γ_i,  Ḟ = {F, h̃} + Σ Φ_a ∂F/∂Π_a
 
-with [E_b, E_a] = Σ c_ba^k E_k.  These brackets are the entries of 𝕁; at fixed Γ and at fixed Π, ζ is
-∂h̃/∂Π and −∂L̃/∂Γ is ∂h̃/∂Γ.  Where Γ is in place of g, Φ is a part of {Π, h̃}.
+with [E_b, E_a] = Σ c_ba^k E_k.  These brackets are the entries of 𝕁; of h̃, a function of Π and Γ, ζ
+is the derivative by Π, and −∂L̃/∂Γ that by Γ.  Where Γ is in place of g, Φ is a part of {Π, h̃}.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 from functools import reduce
 
 from ...algebra.groups import Group
@@ -62,7 +63,7 @@ def _velocity(stage: Expressed, group: Group, mass: Step, c: Chapter) -> tuple[S
     return (draft.step([Equation("ζ", mul(("inv", "M"), moving))], say("by_momenta.quadratic")),)
 
 
-def _carried(problem: Problem) -> list[Tree]:
+def _carried(problem: Problem) -> list[tuple[Any, ...]]:
     """The entries of Γ."""
     size = sum(x.size for x in problem.advected or ())
     return [("entry", "Γ", i + 1) for i in range(size)]
@@ -87,13 +88,16 @@ def _moving(stage: Expressed, problem: Problem, group: Group) -> Equation:
     """The rates of Π and Γ, by 𝕁 and the derivatives of h̃; by Φ where g is not in Γ, and u."""
     assert problem.lagrangian is not None
     span, carried = range(group.dimension), _carried(problem)
-    rates = [*(member("Π̇", a) for a in span), *(("entry", "Γ̇", *x[2:]) for x in carried)]
+    rates: list[Tree] = [
+        *(member("Π̇", a) for a in span),
+        *(("entry", "Γ̇", *x[2:]) for x in carried),
+    ]
     slopes = [tidied(neg(derivative(problem.lagrangian.L, x))) for x in carried]
     pushed: list[Tree] = [0] * len(rates)
     if problem.advected is None:
         pushed = [member("Φ", a) if x else 0 for a, x in enumerate(stage.forces)]
     if problem.inputs:
-        driven: list[Tree] = [("entry", "u", a + 1) for a in span] + [0] * len(carried)
+        driven: list[Tree] = [*(("entry", "u", a + 1) for a in span), *(0 for _ in carried)]
         pushed = [add(x, y) for x, y in zip(pushed, driven, strict=True)]
     turned = mul("𝕁", _column((*coordinates(group), *slopes)))
     return Equation(_column(rates), add(_column(pushed), turned) if any(pushed) else turned)
