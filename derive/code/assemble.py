@@ -17,7 +17,7 @@ from .factor import factored
 from .graph import Node
 from .linearise import by_leaves, by_state
 from .lower import Lowering
-from .momentum_state import OF_Y, MomentumState, momentum_state, refuse
+from .momentum_state import OF_Y, MomentumState, momentum_state, refuse, sentences
 from .naming import ClaimedNames
 from .options import Options
 from .principal_axes import inertia, turning
@@ -90,6 +90,7 @@ def assemble(
             *conventions(group, d.problem, chosen, framed.problem["frame"] if framed else None),
             *(LOCAL if lowering.inverses.local else ()),
             *(UNTESTED if lowering.inverses.untested else ()),
+            *(sentences(d, momenta) if momenta else ()),
         ),
         tuple(lowering.reader.space.names),
         tuple(_parameter(d, name) for name in parameters),

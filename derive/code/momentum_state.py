@@ -1,12 +1,13 @@
 """The same motion in momenta: the functions of ``--momenta``.
 
-The state y is x with Π_a = ∂L/∂ζ_a in place of ζ_a.  All is read from the record: Π_a, ζ by M⁻¹ where
-it has that, Π̇_a, and the Poisson tensor 𝕁.  Elsewhere ζ is found by Newton's method, of which a step
-is ζ + M⁻¹(Π − ∂L/∂ζ).
+The state y is x with Π_a = ∂L/∂ζ_a in place of ζ_a.  All is read from the record: Π_a, ζ by M⁻¹
+where it has that, Π̇_a, and the Poisson tensor 𝕁.  Elsewhere ζ is found by Newton's method, of which
+a step is ζ + M⁻¹(Π − ∂L/∂ζ).
 """
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -50,6 +51,22 @@ class MomentumState:
             for i, leaf in self.leaves.items()
         }
         return found | own
+
+
+def sentences(d: Derivation, state: MomentumState) -> list[str]:
+    """What a reader of the emitted files must know of them."""
+    carried = [x["name"] for x in d.problem.get("advected", ())]
+    variables = ", then ".join(["of the momenta", *carried])
+    force = "" if "advected" in d.problem else "the derivative of L along g, + "
+    closed = "velocity" in state.wanted
+    back = "velocity takes it back" if closed else "velocity takes it back by Newton's method"
+    text = (
+        "With momenta, y is x with Pi_a = dL/dzeta_a in the place of zeta_a: momentum takes x "
+        f"there, {back}, and momentum_rhs is dy/dt. poisson is the matrix of the Poisson brackets "
+        f"{variables}: their rates are {force}poisson times the derivatives of the energy, "
+        "zeta for Pi."
+    )
+    return textwrap.wrap(text, 92)
 
 
 def refuse(d: Derivation, group: Group, chosen: Options) -> None:

@@ -1,8 +1,8 @@
 """The functions of an emitted program as data: what each takes and writes, and what it gives.
 
 Every language loops over them.  Arrays are x, the state; k, the constants; p, the parameters; u,
-the inputs; y, the state with momenta in place of the velocity; dx and dy, the rates; D, a matrix by rows: 2N × 2N, or with a column for each input or
-parameter, N the dimension of the group; out, of the size of what is taken.
+the inputs; y, the state with momenta in place of the velocity; dx and dy, the rates; D, a matrix by
+rows: 2N × 2N, or with a column for each input or parameter, N the dimension of the group; out, of the size of what is taken.
 """
 
 from __future__ import annotations

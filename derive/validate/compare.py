@@ -21,6 +21,7 @@ from .emitted_file import Machine, Module
 from .exact_points import Claims, Point
 from .jacobians import ExactJacobians
 from .literals import Literals
+from .momentum_functions import MomentumFunctions
 from .projection import compare_drift
 from .straight_line import require_straight_line, summands, tested_parameters
 from .terms import Array, CodeError, run
@@ -159,7 +160,7 @@ class Comparison:
         if "project" in self.module.functions:
             drift = partial(self._drift_numbers, arguments)
             found.append(compare_drift(drift, self._draw, self.claims.state, point))
-        return (*found, *self._jacobians(arguments))
+        return (*found, *self._in_momenta(arguments), *self._jacobians(arguments))
 
     @property
     def _rates(self) -> tuple[str, ...]:
@@ -242,6 +243,14 @@ class Comparison:
 
     def _draw(self) -> Fraction:
         return Fraction(self.random.randint(1, self.claims.size))
+
+    def _in_momenta(self, arguments: Mapping[str, Any]) -> tuple[str, ...]:
+        """The names of the functions in momenta, where there are some, each found right."""
+        if "momentum" not in self.module.functions:
+            return ()
+        plain = Machine(self.module, self.point.elementary, self.literal)
+        own = self._call, plain, self._require_equal, self._draw, self.point, self.claims.state
+        return MomentumFunctions(*own).compare(arguments)
 
     def _jacobians(self, arguments: Mapping[str, Any]) -> list[str]:
         """The names of the module's Jacobians, each found equal to exact derivatives of ``rhs``."""

@@ -30,10 +30,16 @@ SIGNATURES = {
     "jacobian": ("void", "t", "const* x", "const* k", "const* u", "* dx", "* D"),
     "jacobian_inputs": ("void", "t", "const* x", "const* k", "const* u", "* D"),
     "jacobian_parameters": ("void", "t", "const* x", "const* p", "const* u", "* D"),
+    "momentum": ("void", "t", "const* x", "const* k", "* out"),
+    "velocity": ("void", "t", "const* y", "const* k", "* out"),
+    "velocity_step": ("void", "t", "const* x", "const* y", "const* k", "* out"),
+    "momentum_rhs": ("void", "t", "const* y", "const* k", "const* u", "* dy"),
+    "momentum_rates": ("void", "t", "const* x", "const* y", "const* k", "const* u", "* dy"),
+    "poisson": ("void", "t", "const* y", "const* k", "* out"),
 }
 """Function → what it returns, and what it takes in order: the contract with its callers."""
 
-SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS")
+SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS", "REDUCED")
 DECLARED = {"P": "PARAMETERS", "K": "CONSTANTS", "U": "INPUTS"}
 """Macro → the size that it declares: arrays that may be empty, which C does not have: SIZE is 1
 then."""

@@ -9,8 +9,8 @@ is the derivative by Π, and −∂L̃/∂Γ that by Γ.  Where Γ is in place o
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
 from functools import reduce
+from typing import Any
 
 from ...algebra.groups import Group
 from ...language.derivatives import derivative
