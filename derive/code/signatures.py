@@ -2,7 +2,8 @@
 
 Every language loops over them.  Arrays are x, the state; k, the constants; p, the parameters; u,
 the inputs; y, the state with momenta in place of the velocity; dx and dy, the rates; D, a matrix by
-rows: 2N × 2N, or with a column for each input or parameter, N the dimension of the group; out, of the size of what is taken.
+rows: 2N × 2N, or with a column for each input or parameter, N the dimension of the group; out, of
+the size of what is taken, or the Poisson tensor.
 """
 
 from __future__ import annotations
