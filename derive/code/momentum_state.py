@@ -96,8 +96,7 @@ def momentum_state(lowering: Lowering, group: Group, options: Options) -> Moment
     after.reader.memo |= {("at", "Π", a): p for a, p in zip(span, own, strict=True)}
     found = {"momentum": _with(leaves, at, momenta)}
     if closed := _quadratic(reader):
-        velocity = [row[0] for row in matrix(after.tree(closed))]
-        velocity = [graph.value(x, suffixed("velocity", a)) for a, x in enumerate(velocity, 1)]
+        velocity = _named(after, *closed)
         found["velocity"] = _with(y, at, velocity)
         _moving_by(after.reader, velocity)
     else:
@@ -113,12 +112,23 @@ def momentum_state(lowering: Lowering, group: Group, options: Options) -> Moment
     return MomentumState(found, tuple(x.data[1] for x in y), at, len(tensor))
 
 
-def _quadratic(reader: RecordReader) -> Tree | None:
-    """What the record says that ζ is by the momenta; ``None`` where it has no such step."""
+def _quadratic(reader: RecordReader) -> tuple[str, Tree] | None:
+    """What the record says that ζ is by the momenta, with the key of this equation; ``None`` where
+    it has none."""
     for step, e in reader.equations:
         if step.rule == "inversion" and e.lhs == "ζ":
-            return e.rhs
+            return step.key(e), e.rhs
     return None
+
+
+def _named(lowering: Lowering, key: str, t: Tree) -> list[Node]:
+    """The entries of a column, as the velocity."""
+    lowering.reader.label = key
+    found = matrix(lowering.tree(t))
+    return [
+        lowering.graph.value(x, suffixed("velocity", a), key, recorded=True)
+        for a, (x,) in enumerate(found, 1)
+    ]
 
 
 def _with(state: list[Node], at: Mapping[int, Node], values: list[Node]) -> list[Node]:

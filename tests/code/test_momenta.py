@@ -17,21 +17,18 @@ from derive.command.cli import main
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from tests.oracles.euler_lagrange import acceleration
-from tests.support.emitted import compile_c, import_python
+from tests.support.emitted import import_python
 from tests.support.languages import OTHERS, REFERENCE, Emitted, agree, built, command, known
 from tests.support.needs import need
-from tests.support.walks import problem
 
+SQUARE = "zeta_1^2 + zeta_2^2 + zeta_3^2"
 CASES = {  # group, side, ℓ; the last three are found by Newton's method
-    "gyroscopic": ("SO(3)", "left", "zeta_1^2 + 2*zeta_2^2 + zeta_1*zeta_3/3 + zeta_3^2 + zeta_2 - A_33"),
-    "right": ("SO(3)", "right", "zeta_1^2 + 2*zeta_2^2 + zeta_3^2/3 + A_12*zeta_2 - A_33"),
-    "turning": ("SE(2)", "left", "(2 + A_11)*zeta_1^2 + zeta_2^2 + t*zeta_3^2 + T_1*zeta_2"),
-    "slow": ("SO(4)", "right", "zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2 + 4*zeta_4^2 + 5*zeta_5^2 + 6*zeta_6^2"
-        " + A_11*zeta_1*zeta_6"),
-    "quartic": ("SO(3)", "left", "zeta_1^2 + 2*zeta_2^2 + zeta_3^2 + (zeta_1^2 + zeta_2^2 + zeta_3^2)^2/5"
-        " + zeta_1*A_13 - A_33"),
-    "quartic on the right": ("SE(2)", "right", "zeta_1^2 + zeta_2^2 + zeta_3^2 + zeta_1^4/4 + zeta_2*T_1"
-        " + A_11*zeta_3^4/9"),
+    "gyroscopic": ("SO(3)", "left", f"{SQUARE} + zeta_2^2 + zeta_1*zeta_3/3 + zeta_2 - A_33"),
+    "right": ("SO(3)", "right", f"{SQUARE} - zeta_1^2/2 + A_12*zeta_2 - A_33"),
+    "turning": ("SE(2)", "left", f"{SQUARE} + A_11*zeta_1^2/2 + t*zeta_3^2 + T_1*zeta_2"),
+    "many": ("SO(4)", "right", f"{SQUARE} + zeta_4^2 + zeta_5^2 + zeta_6^2 + A_11*zeta_1*zeta_6"),
+    "quartic": ("SO(3)", "left", f"{SQUARE} + zeta_2^2 + ({SQUARE})^2/5 + zeta_1*A_13 - A_33"),
+    "quartic on the right": ("SE(2)", "right", f"{SQUARE} + zeta_1^4 + zeta_2*T_1 + zeta_3^4"),
     "hyperbolic": ("SO(2)", "left", "cosh(zeta_1) + A_11"),
 }  # fmt: skip
 
@@ -161,3 +158,159 @@ def test_momenta_that_no_velocity_has():
         for function in (f.velocity, f.momentum_rhs):
             with pytest.raises(ArithmeticError, match="no velocity"):
                 function(0.0, y)
+
+
+# -- every language ------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def emitted(tmp_path_factory):
+    need("cc")
+    folder = tmp_path_factory.mktemp("momenta")
+    chosen = {"momenta": True}
+    cases = {
+        "kirchhoff": "kirchhoff",
+        "euler_poisson": "euler_poisson",
+        "turning": typed("turning"),
+    }
+    return folder, [
+        Emitted(name, p, folder, (*REFERENCE, *OTHERS), chosen, tolerance=1e-13)
+        for name, p in cases.items()
+    ]
+
+
+@pytest.mark.parametrize("build", built())
+def test_every_language_says_the_same(build, emitted):
+    agree(build, *emitted)
+
+
+NODE = """\
+import * as m from "./test.mjs";
+const y = [1, 0, 0, 1, 0.7], k = m.constants([]);
+let refused = 0;
+try { m.velocity(0, [1, 0, 0, 1, NaN], k); } catch (e) { refused += e instanceof RangeError; }
+console.log(...m.velocity(0, y, k), ...m.momentum_rhs(0, y, k, [0.3]), refused);
+"""
+RUST = """\
+mod test;
+fn main() {
+    let (mut x, mut dy, k) = ([0.0; 5], [0.0; 5], test::constants(&[]).unwrap());
+    let y = [1.0, 0.0, 0.0, 1.0, 0.7];
+    test::velocity(0.0, &y, &k, &mut x).unwrap();
+    test::momentum_rhs(0.0, &y, &k, &[0.3], &mut dy).unwrap();
+    x.iter().chain(&dy).for_each(|v| print!("{v:e} "));
+    let none = test::velocity(0.0, &[1.0, 0.0, 0.0, 1.0, f64::NAN], &k, &mut x);
+    println!("{}", u8::from(none == Err(test::NotConverged)));
+}
+"""
+CPP = """\
+#include "test.hpp"
+#include <cmath>
+#include <cstdio>
+int main()
+{
+    namespace m = derive::test;
+    const auto k = m::constants({}).value();
+    const m::State y{1, 0, 0, 1, 0.7}, bad{1, 0, 0, 1, std::nan("")};
+    const auto x = m::velocity(0, y, k).value(), dy = m::momentum_rhs(0, y, k, {0.3}).value();
+    for (const double v : x) std::printf("%.17g ", v);
+    for (const double v : dy) std::printf("%.17g ", v);
+    std::printf("%d", !m::velocity(0, bad, k) && !m::momentum_rhs(0, bad, k));
+}
+"""
+STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
+
+
+@pytest.mark.parametrize("language", ["javascript", "rust", "cpp", "cpp in one header"])
+@pytest.mark.parametrize("real", ["double", "float"])
+def test_newton_in_every_language(language, real, tmp_path):
+    """Π = sinh ζ, which asinh turns round."""
+    p = typed("hyperbolic")
+    d, form = walk(p), "header" if "header" in language else "source"
+    chosen = Options(real=real, form=form, momenta=True)
+    files = emit(assemble(d, p.group, chosen), d, ("c", language.split()[0]), "test", chosen)
+    for name, text in files.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    if language == "javascript":
+        known("node", ["node"])
+        (tmp_path / "main.mjs").write_text(NODE)
+        out = command("node", "main.mjs", cwd=tmp_path)
+    elif language == "rust":
+        known("rust2021", ["rustc"])
+        name = "f64" if real == "double" else "f32"
+        (tmp_path / "main.rs").write_text(RUST.replace("f64", name))
+        command("rustc", "--edition=2021", "-Dwarnings", "-omain", "main.rs", cwd=tmp_path)
+        out = command("./main", cwd=tmp_path)
+    else:
+        known("g++17", ["g++"])
+        (tmp_path / "main.cpp").write_text(CPP)
+        own = [] if form == "header" else ["test.o"]
+        if own:
+            need("cc")
+            command("cc", "-std=c99", *STRICT, "-c", "test.c", cwd=tmp_path)
+        if real == "float":
+            (tmp_path / "main.cpp").write_text(CPP.replace("0.7", "0.7f").replace("0.3", "0.3f"))
+        command("g++", "-std=c++17", *STRICT, "main.cpp", *own, "-omain", cwd=tmp_path)
+        out = command("./main", cwd=tmp_path)
+    found = [*map(float, out.split())]
+    zeta = np.arcsinh(0.7)
+    expected = [1, 0, 0, 1, zeta, 0, -zeta, zeta, 0, 0.3, 1]
+    assert np.abs(np.array(found) - expected).max() < (1e-14 if real == "double" else 1e-6)
+
+
+# -- held against the record, and refused ---------------------------------------------------------
+
+SPOILED = [
+    ("turning", "out[4] = T_1;", "out[4] = T_2;"),
+    ("turning", "(Pi_2 - T_1)", "(Pi_2 + T_1)"),
+    ("turning", "    dy[4] = ", "    dy[4] = 1 + "),
+    ("quartic", "zeta_2 + M_solve_x_2", "zeta_2 + 2.0*M_solve_x_2"),
+    ("quartic", "    out[2] = Pi_2;", "    out[2] = Pi_1;"),
+    ("quartic", "change <= ", "change < "),
+]
+
+
+def test_validated(tmp_path, capsys):
+    for case in ("turning", "quartic"):
+        group, side, text = CASES[case]
+        path = tmp_path / f"{case}.toml"
+        path.write_text(
+            f'name = "{case}"\ngroup = "{group}"\n[lagrangian]\nL = "{text}"\n'
+            f'trivialisation = "{side}"\n[[input]]\nname = "u"\nkind = "covector"\n'
+        )
+        words = ["emit", str(path), "--momenta", "--out", str(tmp_path)]
+        assert main([*words, "--validate"]) == 0
+        told = "".join(capsys.readouterr())
+        newton = case == "quartic"
+        step = "velocity_step, momentum_rates" if newton else "velocity, momentum_rhs"
+        assert told.count(f"momentum, {step}, poisson equal the record") == 2
+        assert ("for it is a loop: Newton's method" in told) == newton
+        assert main(["emit", str(path), "--check", "--validate", "--out", str(tmp_path)]) == 0
+        whole = (tmp_path / f"{case}.c").read_text(encoding="utf-8")
+        for of, old, new in SPOILED:
+            if of == case:
+                assert old in whole, old
+                (tmp_path / f"{case}.c").write_text(whole.replace(old, new), encoding="utf-8")
+                capsys.readouterr()
+                assert main(["emit", str(path), "--check", "--validate", "--out", str(tmp_path)])
+                assert "DIFFERS" in "".join(capsys.readouterr()), old
+        (tmp_path / f"{case}.c").write_text(whole, encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        ("so3", "this problem has points"),
+        ("rod", "on a quotient"),
+        ("gyrostat --velocity tangent", "--velocity tangent has dg/dt"),
+    ],
+)
+def test_refused(words, why, tmp_path, capsys):
+    assert main(["emit", *words.split(), "--momenta", "--out", str(tmp_path)]) == 2
+    assert why in capsys.readouterr().err
+    assert not [*tmp_path.iterdir()]
+
+
+def test_nothing_without_the_option():
+    with pytest.raises(ValueError, match="momenta=True"):
+        derive.compile("gyrostat").momentum(0.0, np.zeros(12))
