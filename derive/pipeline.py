@@ -26,7 +26,7 @@ from .walk import (
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
 from .walk.failure import naming_steps
-from .walk.lie import advected, any_lagrangian, basis, expressed
+from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side
 from .walk.head import problem_data, symbols
 from .walk.inputs import acts
 from .walk.lineage import traced
@@ -127,6 +127,8 @@ EXPRESSED = (
     Stage("basis", "problem group lagrangian a c", "Basis", advected.reduced, "reduced"),
     Stage("expressed", "problem group lagrangian basis c", "Expressed", expressed.expressed),
     Stage("balance", "expressed problem group lagrangian basis c_u", "Steps", expressed.balance),
+    Stage("by_momenta", "expressed problem group lagrangian basis balance c c_u",
+          "Steps", momentum_side.by_momenta),
 )
 """One Lagrangian in a basis of 𝔤, its state with an element of the group, or reduced."""
 # fmt: on

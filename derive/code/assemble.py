@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from ..algebra.groups import Group
-from ..language.limits import SLOPES, SLOPES_BY_PARAMETERS
 from ..language.show import show
 from ..language.suffixed import suffixed
 from ..language.tree import Tree
@@ -14,11 +13,13 @@ from ..record.record import Derivation
 from .change_of_frame import frame_changes
 from .conventions import conventions
 from .drift import TEXTS, drift
+from .excluded_options import require_written
 from .factor import factored
 from .graph import Node
 from .kept import Kept
 from .linearise import by_leaves, by_state
 from .lower import Lowering
+from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
 from .options import Options
 from .principal_axes import inertia, turning
@@ -59,7 +60,7 @@ def assemble(
     ``kept``: what the motion keeps, by names, as :mod:`derive.code.kept` takes it.
     """
     chosen = options or Options()
-    _refused(d, group, chosen)
+    require_written(d, group, chosen)
     lowering = Lowering(framed or d, group, chosen)
     if "inputs" in chosen.jacobian and not lowering.reader.inputs:
         raise LoweringError(f"{d.name}: there are no inputs to linearise in")
@@ -68,18 +69,20 @@ def assemble(
         old = Lowering(d, group, chosen, lowering.graph).reader
         frame = PrincipalFrame(framed.problem["frame"], old, chosen.attitude == "quaternion")
     wanted = _outputs(lowering, chosen)
+    momenta = momentum_state(lowering, group, chosen) if chosen.momenta else None
+    wanted |= _added(lowering, momenta, kept or {})
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
         wanted |= _inertia(frame.old) | frame_changes(frame, lowering.reader)
-    if kept:
-        wanted["conserved"] = factored(lowering.graph, Kept(lowering).of(kept))
     checks = [(x, size) for x, size in lowering.inverses.checks if x.op != "num" or x.data <= 0]
     checks += frame.regular if frame else []
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
     parameters = _used_parameters(d, found)
     if "parameters" in chosen.jacobian and not parameters:
         raise LoweringError(f"{d.name}: there are no parameters to linearise in")
-    functions, constants, framing = _functions(lowering, chosen, wanted, checks, parameters, frame)
+    functions, constants, framing = _functions(
+        lowering, chosen, wanted, checks, parameters, frame, momenta
+    )
     return Program(
         d.name,
         str(d.problem.get("title", "")),
@@ -87,8 +90,8 @@ def assemble(
         group.dimension,
         (
             *conventions(group, d.problem, chosen, framed.problem["frame"] if framed else None),
-            *(LOCAL if lowering.inverses.local else ()),
-            *(UNTESTED if lowering.inverses.untested else ()),
+            *_not_tested(lowering),
+            *(sentences(d, momenta) if momenta else ()),
         ),
         tuple(lowering.reader.space.names),
         tuple(_parameter(d, name) for name in parameters),
@@ -101,7 +104,25 @@ def assemble(
         framing,
         "eta g" if lowering.reader.space.right else "g eta",
         tuple(kept or ()),
+        momenta.names if momenta else (),
+        momenta.size if momenta else 0,
     )
+
+
+def _added(
+    lowering: Lowering, momenta: MomentumState | None, kept: Mapping[str, Tree]
+) -> dict[str, list[Node]]:
+    """Name → outputs of the functions in momenta and of what is kept."""
+    found = {**momenta.wanted} if momenta else {}
+    if kept:
+        found["conserved"] = Kept(lowering).of(kept)
+    return {name: factored(lowering.graph, nodes) for name, nodes in found.items()}
+
+
+def _not_tested(lowering: Lowering) -> tuple[str, ...]:
+    """What ``constants`` does not see, in sentences."""
+    found = lowering.inverses
+    return (*(LOCAL if found.local else ()), *(UNTESTED if found.untested else ()))
 
 
 def _functions(
@@ -111,6 +132,7 @@ def _functions(
     checks: Sequence[Check],
     parameters: Sequence[str],
     frame: PrincipalFrame | None,
+    momenta: MomentumState | None,
 ) -> tuple[dict[str, EmittedFunction], list[str], Framing | None]:
     """The program's functions by name, the names of the entries of ``k``, and the functions that
     find the principal frame where there is one."""
@@ -131,8 +153,10 @@ def _functions(
     constants = [_constant_name(names, x, i) for i, x in enumerate(fixed)]
     moving = _places(lowering.reader, names, state, inputs)
     kept = {x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))}
+    by_momenta = momenta.places(moving, names) if momenta else {}
     for name, nodes in wanted.items():
-        places = from_p if name == "inertia" else moving | kept
+        own = by_momenta if name in OF_Y else moving
+        places = from_p if name == "inertia" else {**own, **kept}
         functions[name] = scheduler.function(nodes, places)
     functions["rhs"] = replace(functions["rhs"], titles=titles(lowering.reader))
     if "parameters" in options.jacobian:
@@ -145,86 +169,6 @@ def _functions(
     for name, nodes in drift(space).items():
         functions[name] = scheduler.function(nodes, moving)
     return functions, constants, framing
-
-
-def _refused(d: Derivation, group: Group, chosen: Options) -> None:
-    """``LoweringError`` for options that exclude one another or the group, and for a Jacobian of
-    more entries than compilers manage."""
-    rows = 2 * group.dimension
-    columns = {
-        "state": (rows, SLOPES),
-        "parameters": (len(d.problem["parameters"]), SLOPES_BY_PARAMETERS),
-    }
-    for by, (width, most) in columns.items():
-        if by in chosen.jacobian and rows * width > most:
-            raise LoweringError(
-                f"{d.name}: --jacobian {by} is a matrix of {rows * width} entries on {group.name}, "
-                f"of dimension {group.dimension}; compilers manage {most}: leave it out"
-            )
-    if "advected" in d.problem:
-        _refused_without_element(d, chosen)
-    if d.problem.get("lagrangian", {}).get("held"):
-        _refused_where_held(d, chosen)
-    if d.problem.get("lagrangian", {}).get("trivialisation") == "right":
-        _refused_on_the_right(d, chosen)
-    if chosen.attitude == "quaternion" and not group.turns_space:
-        raise LoweringError(f"{d.name}: a quaternion needs SO(3) or SE(3), not {group.name}")
-    if chosen.attitude == "quaternion" and chosen.velocity == "tangent":
-        raise LoweringError(
-            f"{d.name}: a quaternion goes with the velocity of the body, not tangent"
-        )
-    if chosen.attitude == "quaternion" and chosen.layout == "col":
-        raise LoweringError(f"{d.name}: with a quaternion there is no matrix to lay out by columns")
-    if chosen.frame == "principal" and chosen.conserved:
-        raise LoweringError(
-            f"{d.name}: --conserved is written in the frame of the parameters: leave out --frame"
-        )
-    if chosen.frame == "principal" and "parameters" in chosen.jacobian:
-        raise LoweringError(
-            f"{d.name}: the principal frame is not smooth in the parameters; "
-            "linearise in them without --frame"
-        )
-
-
-def _refused_without_element(d: Derivation, chosen: Options) -> None:
-    """What is written for a state with an element of the group."""
-    for on, option in (
-        (chosen.velocity == "tangent", "--velocity tangent"),
-        (chosen.attitude == "quaternion", "--attitude quaternion"),
-        (chosen.layout == "col", "--layout col"),
-        (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
-    ):
-        if on:
-            raise LoweringError(
-                f"{d.name}: {option} is for a state with an element of the group, and [algebra] "
-                "has none: leave it out"
-            )
-
-
-def _refused_where_held(d: Derivation, chosen: Options) -> None:
-    """What is written for a motion that the whole velocity tells."""
-    for on, option in (
-        (chosen.velocity == "tangent", "--velocity tangent"),
-        (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
-    ):
-        if on:
-            raise LoweringError(
-                f"{d.name}: {option} is for motions on the whole group, and these are on a "
-                "quotient of it: leave it out"
-            )
-
-
-def _refused_on_the_right(d: Derivation, chosen: Options) -> None:
-    """What is written for Z = g⁻¹ġ alone."""
-    for on, option in (
-        (chosen.velocity == "tangent", "--velocity tangent"),
-        (chosen.attitude == "quaternion", "--attitude quaternion"),
-    ):
-        if on:
-            raise LoweringError(
-                f"{d.name}: {option} is for Z = g^-1 dg/dt, and this Lagrangian is trivialised on "
-                "the right: leave it out"
-            )
 
 
 def _inertia(reader: RecordReader) -> dict[str, list[Node]]:

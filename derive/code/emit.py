@@ -18,6 +18,7 @@ from .heading import heading
 from .languages import LANGUAGES, TargetLanguage
 from .naming import PREFIXES
 from .options import Options
+from .printers import SourcePrinter
 from .program import TOLERANCE, Program
 from .request import EmissionRequest
 from .signatures import functions
@@ -111,7 +112,7 @@ def _fields(
     prefix, real = asked.prefix, asked.options.real
     printer = language.printer(real)
     sizes = {"x": len(p.state), "k": len(p.constants), "u": len(p.inputs)}
-    sizes["p"] = len(p.parameters)
+    sizes |= {"p": len(p.parameters), "y": len(p.momenta)}
     if p.framing:
         sizes["axes"] = sum(n + n * n for n, _ in p.framing.matrices)
         sizes["frame"] = len(p.framing.numbers.outputs)
@@ -139,8 +140,23 @@ def _fields(
         "framing": _framing(p, written, sizes),
         "asks_for_zero": p.asks_for_zero,
         "calls": sorted({x for f in p.all_functions() for x in f.calls()}),
+        "newton": _newton(p, real, printer),
+        "momentum_range": p.momentum_range,
         "tolerance": printer.number(Fraction(TOLERANCE[real])),
     }
+
+
+NEWTON_STEPS, SMALL_CHANGE = 60, {"double": Fraction(1, 10**10), "float": Fraction(1, 10**4)}
+"""The most steps of Newton's method for the velocity of momenta; and the last of them, by the type
+of numbers: as the error is squared by a step, the next would be below rounding."""
+
+
+def _newton(p: Program, real: str, printer: SourcePrinter) -> dict[str, Any] | None:
+    """The template fields of Newton's method, where momenta do not tell the velocity by a
+    formula."""
+    if "velocity_step" not in p.functions:
+        return None
+    return {"steps": NEWTON_STEPS, "small": printer.number(SMALL_CHANGE[real])}
 
 
 def _framing(p: Program, written: Statements, sizes: Mapping[str, int]) -> dict[str, Any] | None:

@@ -28,6 +28,7 @@ def heading(
         "",
         BASIS,
         *listed("  x = (", p.state, ")", 88),
+        *(listed("  y = (", p.momenta, ")", 88) if p.momenta else ()),
         *(f"  {line}" for line in basis_lines(p)),
         "",
         f"Parameters p:{none}",

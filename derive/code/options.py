@@ -15,6 +15,7 @@ CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
 """Option → its values, the first one the default, and what they choose."""
 
 ADDED: dict[str, str] = {
+    "momenta": "also the motion in momenta: to them and back, rates, Poisson tensor",
     "conserved": "add what the motion keeps, as derive symmetries finds it",
 }
 """Option that is given or not → what it adds."""
@@ -35,6 +36,7 @@ class Options:
     velocity: str = "body"
     jacobian: tuple[str, ...] = ()
     conserved: bool = False
+    momenta: bool = False
 
     def __post_init__(self) -> None:
         for name, (allowed, _) in CHOICES.items():

@@ -150,8 +150,8 @@ class Program:
     """All that is emitted for one problem, without a word of any language.
 
     ``functions``: constants, rhs, energy; inertia for a body turned in space; and what is asked for
-    of conserved, jacobian, jacobian_inputs, jacobian_parameters; into_frame, out_of_frame,
-    inputs_into_frame.
+    of conserved; of jacobian, jacobian_inputs, jacobian_parameters; momentum, velocity,
+    momentum_rhs and poisson; into_frame, out_of_frame, inputs_into_frame.
     """
 
     name: str
@@ -172,6 +172,17 @@ class Program:
     """What δg is by η, in comments."""
     conserved: tuple[str, ...] = ()
     """The names of what ``conserved`` gives."""
+    momenta: tuple[str, ...] = ()
+    """The names of the state with momenta, where there is one."""
+    reduced: int = 0
+    """The variables of the Poisson tensor."""
+
+    @property
+    def momentum_range(self) -> tuple[int, int]:
+        """The index of the first momentum in the state that has them, and that after the last."""
+        pairs = enumerate(zip(self.state, self.momenta, strict=False))
+        other = [i for i, (x, y) in pairs if x != y]
+        return (other[0], other[-1] + 1) if other else (0, 0)
 
     def all_functions(self) -> tuple[EmittedFunction, ...]:
         """The functions of the program, and those that find its frame."""

@@ -229,6 +229,10 @@ class RecordReader:
         """The value of a name that is a number; else ``LoweringError``."""
         return scalar(self.name(name))
 
+    def number_of(self, member: Tree) -> Node:
+        """The value of a member of a family, as Π_2, a number."""
+        return scalar(self.member(member))
+
     def members(self, body: Tree, index: str) -> list[int]:
         """The values of an index of a sum: the members that the record defines, from 1."""
         if any(x[1] == "E" for _, x in subtrees(body) if isinstance(x, tuple) and x[0] == "at"):

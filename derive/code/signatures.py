@@ -1,8 +1,9 @@
 """The functions of an emitted program as data: what each takes and writes, and what it gives.
 
 Every language loops over them.  Arrays are x, the state; k, the constants; p, the parameters; u,
-the inputs; dx, the rates; D, a matrix by rows: 2N × 2N, or with a column for each input or
-parameter, N the dimension of the group; out, of the size of what is taken.
+the inputs; y, the state with momenta in place of the velocity; dx and dy, the rates; D, a matrix by
+rows: 2N × 2N, or with a column for each input or parameter, N the dimension of the group; out, of
+the size of what is taken, or the Poisson tensor.
 """
 
 from __future__ import annotations
@@ -47,10 +48,13 @@ class Signature:
 
 
 T, COUNT, DX = Argument("t"), Argument("n"), Argument("dx", ("STATE",))
-X, K, P, U = (
+X, K, P, U, Y = (
     Argument(name, (size,))
-    for name, size in zip("xkpu", ("STATE", "CONSTANTS", "PARAMETERS", "INPUTS"), strict=True)
+    for name, size in zip(
+        "xkpuy", ("STATE", "CONSTANTS", "PARAMETERS", "INPUTS", "STATE"), strict=True
+    )
 )
+DY, TENSOR = Argument("dy", ("STATE",)), Argument("out", ("REDUCED", "REDUCED"))
 OUT, INPUTS_OUT = Argument("out", ("STATE",)), Argument("out", ("INPUTS",))
 
 
@@ -90,6 +94,26 @@ SIGNATURES = (
     Signature("jacobian_inputs", (T, X, K, U), (_matrix("INPUTS"),), "its derivative by u"),
     Signature("jacobian_parameters", (T, X, P, U), (_matrix("PARAMETERS"),), "that by p"),
     Signature(
+        "momentum", (T, X, K), (OUT,), "the state x with its momenta in place of the velocity"
+    ),
+    Signature(
+        "velocity", (T, Y, K), (OUT,), "the state y with its velocity in place of the momenta"
+    ),
+    Signature(
+        "velocity_step",
+        (T, X, Y, K),
+        (OUT,),
+        "the state y with the velocity that Newton's step from that of x gives for its momenta",
+    ),
+    Signature("momentum_rhs", (T, Y, K, U), (DY,), "dy/dt at time t, y the state with momenta"),
+    Signature(
+        "momentum_rates",
+        (T, X, Y, K, U),
+        (DY,),
+        "dy/dt at time t, y the state with momenta, x with the velocity that they have",
+    ),
+    Signature("poisson", (T, Y, K), (TENSOR,), "the Poisson tensor at y, by rows"),
+    Signature(
         "inertia",
         (P,),
         (Argument("I", ("6",)),),
@@ -113,6 +137,7 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         "INPUTS": len(p.inputs),
         "CONSERVED": len(p.conserved),
         "ALGEBRA": p.dimension,
+        "REDUCED": p.reduced,
         "2": 2,
         "6": 6,
     }

@@ -13,10 +13,19 @@ from .first_integrals import STEPS as FIRST_INTEGRALS
 from .general import STEPS as GENERAL
 from .material import STEPS as MATERIAL
 from .matrices import STEPS as MATRICES
+from .momentum_form import STEPS as MOMENTUM_FORM
 from .rotations import STEPS as ROTATIONS
 from .symmetries import STEPS as SYMMETRIES
 
-STEPS = {**GENERAL, **ROTATIONS, **MATRICES, **MATERIAL, **FIRST_INTEGRALS, **SYMMETRIES}
+STEPS = {
+    **GENERAL,
+    **ROTATIONS,
+    **MATRICES,
+    **MATERIAL,
+    **FIRST_INTEGRALS,
+    **SYMMETRIES,
+    **MOMENTUM_FORM,
+}
 """Label → name → the sentence in each of ``LANGUAGES``."""
 LANGUAGES = ("en", "fr")
 """The languages of the prose, in the order of the texts of a sentence."""

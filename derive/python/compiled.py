@@ -23,6 +23,7 @@ from ..code.program import Program
 from ..pipeline import program
 from ..problem.problem import Problem, ProblemError
 from .derived import Derived, derive
+from .in_momenta import InMomenta
 from .library import FLAGS, CompileError, CSource, loaded
 
 __all__ = ["CompileError", "Compiled", "compile"]
@@ -51,12 +52,13 @@ class Names(NamedTuple):
     defaults: dict[str, float | None]
     constants: int
     algebra: int
+    reduced: int
 
     @classmethod
     def of(cls, program: Program) -> Names:
         """The names of a program."""
         defaults = {x[0]: x[1] for x in program.parameters}
-        sizes = len(program.constants), program.dimension
+        sizes = len(program.constants), program.dimension, program.reduced
         return cls(program.state, program.inputs, program.conserved, defaults, *sizes)
 
 
@@ -85,7 +87,7 @@ class Buffers:
         self.run = partial(run, ctypes.byref(in_c))
 
 
-class Compiled:
+class Compiled(InMomenta):
     """The functions of one problem in compiled C, for one body; called, it is dx/dt = f(t, x, u).
 
     ``STATE``, ``PARAMETERS``, ``INPUTS``, ``CONSERVED``: names; ``p`` and ``k``: parameters and
@@ -97,7 +99,7 @@ class Compiled:
 
     def __init__(self, names: Names, source: CSource, values: Values | None = None):
         self.STATE, self.INPUTS, self.PARAMETERS = names.state, names.inputs, tuple(names.defaults)
-        self.CONSERVED = names.conserved
+        self.CONSERVED, self.REDUCED = names.conserved, names.reduced
         self._names, self._source, self._library = names, source, loaded(source)
         p, k, u = map(np.zeros, (len(self.PARAMETERS), names.constants, len(self.INPUTS)))
         self._values = values or Values(p, k, u, ready=False)
@@ -253,6 +255,15 @@ class Compiled:
         """The inputs u taken back from the principal frame."""
         return self._change_frame("inputs_out_of_frame", u, len(self.INPUTS))
 
+    def _in_momenta(self, what: str, t: float, x: Any, u: Any, out: Array) -> int:
+        by_newton = what in ("velocity", "momentum_rhs") and self._has("velocity_step")
+        driven = [self._inputs(u)] if what == "momentum_rhs" else []
+        result = ctypes.c_int if by_newton else None
+        return self._call_at(what, result, t, x, self._in_use().k, *driven, out) or 0
+
+    def _has(self, what: str) -> bool:
+        return hasattr(self._library, f"{self._source.name}_{what}")
+
     def _change_frame(self, what: str, x: Any, size: int) -> Array:
         """A state or an input taken from one frame to another by the C function ``what``."""
         k, given, out = self._in_use().k, _array(x, size), np.zeros(size)
@@ -269,6 +280,8 @@ class Compiled:
         function = getattr(self._library, f"{self._source.name}_{what}", None)
         if function is None and what.endswith("_frame"):
             raise ValueError("not compiled: ask for it by compile(..., frame='principal')")
+        if function is None and what in ("momentum", "velocity", "momentum_rhs", "poisson"):
+            raise ValueError("not compiled: ask for it by compile(..., momenta=True)")
         if function is None and what in ("project", "defect"):
             raise ValueError(f"nothing keeps the states of {self._source.name}: there is no {what}")
         if function is None and what in ADDED:

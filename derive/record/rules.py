@@ -84,6 +84,14 @@ RULES: dict[str, Rule] = {
         "A function is constant along the motion where its bracket with the energy vanishes.",
         "conservation",
     ),
+    "inversion": Rule(
+        "inversion", "The velocity is found from the momentum, its inverse function.", "identity"
+    ),
+    "Poisson tensor": Rule(
+        "tenseur de Poisson",
+        "The equations are told by brackets of the variables with the energy.",
+        "solution",
+    ),
     "solution": Rule("résolution", "The equations are solved for the accelerations.", "solution"),
 }
 

@@ -22,6 +22,7 @@ from .emitted_file import Machine, Module
 from .exact_points import Claims, Point
 from .jacobians import ExactJacobians
 from .literals import Literals
+from .momentum_functions import MomentumFunctions
 from .projection import compare_drift, is_named
 from .reduced_chart import ReducedChart
 from .straight_line import require_straight_line, summands, tested_parameters
@@ -166,7 +167,7 @@ class Comparison:
             found.append(compare_drift(drift, self._draw, self.claims.state, point))
         if "conserved" in self.module.functions:
             found.append(self._conserved(arguments))
-        return (*found, *self._jacobians(arguments))
+        return (*found, *self._in_momenta(arguments), *self._jacobians(arguments))
 
     @property
     def _rates(self) -> tuple[str, ...]:
@@ -264,6 +265,14 @@ class Comparison:
         if isinstance(state, ReducedChart) or is_named(state.group):
             return tuple(point.arguments["x"])
         return state.values(state.group.sample_inside(self.random, INSIDE), point.Z)
+
+    def _in_momenta(self, arguments: Mapping[str, Any]) -> tuple[str, ...]:
+        """The names of the functions in momenta, where there are some, each found right."""
+        if "momentum" not in self.module.functions:
+            return ()
+        plain = Machine(self.module, self.point.elementary, self.literal)
+        own = self._call, plain, self._require_equal, self._draw, self.point, self.claims.state
+        return MomentumFunctions(*own).compare(arguments)
 
     def _jacobians(self, arguments: Mapping[str, Any]) -> list[str]:
         """The names of the module's Jacobians, each found equal to exact derivatives of ``rhs``."""

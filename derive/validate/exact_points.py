@@ -38,7 +38,7 @@ class Point:
     the record says: the rates of x, the energy and, for a body turned in space, the tensor of
     inertia by its upper rows.
 
-    ``elementary`` gives the values of elementary functions at this point.
+    ``elementary`` gives the values of elementary functions at this point, ``named`` those of names.
     """
 
     parameters: Mapping[str, Fraction]
@@ -49,6 +49,7 @@ class Point:
     energy: Fraction
     inertia: Numbers
     elementary: Any
+    named: Environment
 
 
 class Claims:
@@ -115,6 +116,7 @@ class Claims:
             self._value("h̃", env),
             tuple(tensor[i][j] for i in range(3) for j in range(i, 3)) if tensor else (),
             model.elementary,
+            env,
         )
 
     def _state_and_rates(self, model: AnyModel, env: Environment) -> tuple[Numbers, Numbers]:

@@ -31,12 +31,16 @@ SIGNATURES = {
     "jacobian": ("void", "t", "const* x", "const* k", "const* u", "* dx", "* D"),
     "jacobian_inputs": ("void", "t", "const* x", "const* k", "const* u", "* D"),
     "jacobian_parameters": ("void", "t", "const* x", "const* p", "const* u", "* D"),
+    "momentum": ("void", "t", "const* x", "const* k", "* out"),
+    "velocity": ("void", "t", "const* y", "const* k", "* out"),
+    "velocity_step": ("void", "t", "const* x", "const* y", "const* k", "* out"),
+    "momentum_rhs": ("void", "t", "const* y", "const* k", "const* u", "* dy"),
+    "momentum_rates": ("void", "t", "const* x", "const* y", "const* k", "const* u", "* dy"),
+    "poisson": ("void", "t", "const* y", "const* k", "* out"),
 }
 """Function → what it returns, and what it takes in order: the contract with its callers."""
 
-SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS")
-ADDED = ("CONSERVED",)
-"""Sizes that are there where the functions are that they are of."""
+SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS", "CONSERVED", "REDUCED")
 DECLARED = {"P": "PARAMETERS", "K": "CONSTANTS", "U": "INPUTS"}
 """Macro → the size that it declares: arrays that may be empty, which C does not have: SIZE is 1
 then."""
@@ -93,7 +97,7 @@ class CReader:
                 raise self._unknown(node)
         if missing := self.declared - set(self.functions):
             raise CodeError(f"the function {min(missing)} is declared and not defined")
-        sizes = {x: self.sizes.get(f"{self.prefix}_N_{x}", -1) for x in (*SIZES, *ADDED)}
+        sizes = {x: self.sizes.get(f"{self.prefix}_N_{x}", -1) for x in SIZES}
         lists = (self.lists.get(f"{self.prefix}_{x}_names") for x in LISTS[:3])
         state, parameters, inputs = lists
         return Module(state, parameters, inputs, self.functions, sizes)
@@ -108,7 +112,7 @@ class CReader:
     @property
     def _enumerators(self) -> dict[str, int]:
         """The enumerators → their values, or 0 for those compared with the record."""
-        sizes = dict.fromkeys((f"{self.prefix}_N_{x}" for x in (*SIZES, *ADDED)), 0)
+        sizes = dict.fromkeys((f"{self.prefix}_N_{x}" for x in SIZES), 0)
         counts = {x: self.sizes.get(f"{self.prefix}_N_{n}", 0) for x, n in DECLARED.items()}
         sizes |= {f"{self.prefix}_SIZE_{x}": max(1, n) for x, n in counts.items()}
         return sizes | {f"{self.prefix}_{x}": k for k, x in enumerate(REFUSALS, 1)}

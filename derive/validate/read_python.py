@@ -25,10 +25,16 @@ from .terms import (
     plain_text,
 )
 
-OF_STATE = ("_rhs", "_energy", "_conserved", "_project", "_defect", "_jacobian", "_jacobian_inputs")
+OF_STATE = (
+    *("_rhs", "_energy", "_conserved", "_project", "_defect", "_jacobian", "_jacobian_inputs"),
+    "_momentum",
+)
+OF_Y, OF_BOTH = ("_velocity", "_momentum_rhs", "_poisson"), ("_velocity_step", "_momentum_rates")
 SIGNATURES = {
     **dict.fromkeys(("_constants", "_inertia"), ("xp", "p")),
     **dict.fromkeys(OF_STATE, ("xp", "t", "x", "k", "u")),
+    **dict.fromkeys(OF_Y, ("xp", "t", "y", "k", "u")),
+    **dict.fromkeys(OF_BOTH, ("xp", "t", "x", "y", "k", "u")),
     "_jacobian_parameters": ("xp", "t", "x", "p", "u"),
 }
 SIGNS: dict[type, str] = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div"}

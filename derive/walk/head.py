@@ -41,6 +41,7 @@ def symbols(steps: tuple[Step, ...], problem: Problem) -> tuple[Symbol, ...]:
     meant, group = _meant(problem), problem.group
     sizes = _sizes(group) if group else {}
     sizes["carried"] = sum(x.size for x in problem.advected or ())
+    sizes["reduced"] = sizes["carried"] + sizes.get("dim", 0)
     meanings = {x: sentence.say(about.meaning) for x, about in meant.items()}
     if problem.force_inputs:
         meanings["f_u"] = _inputs(problem)

@@ -53,6 +53,9 @@ def test_the_other_side():
         ("charged_body.energy", 0, "L̃"),
         ("charged_body.coadjoint", 0, "Φ₁ + ζ₂ Π₃ − ζ₃ Π₂"),
         ("charged_body.momenta", 1, "ζ₁"),
+        ("charged_body.by_momenta", 0, "M⁻¹ [Π₁; Π₂; Π₃]"),
+        ("charged_body.poisson_tensor", 0, "[0, Π₃, −Π₂; −Π₃, 0, Π₁; Π₂, −Π₁, 0]"),
+        ("charged_body.poisson_tensor", 1, "[Φ₁; Φ₂; Φ₃] − 𝕁 [ζ₁; ζ₂; ζ₃]"),
     ],
 )
 def test_a_term_that_is_false(label, place, text):

@@ -18,6 +18,7 @@ ARGUMENT = re.compile(
     r"(?P<kept>const )?(?:double|float) (?P<array>\*(?:\w*_RESTRICT )?)?(?P<name>\w+)"
 )
 SIZES = {"x": "STATE", "k": "CONSTANTS", "p": "PARAMETERS", "u": "INPUTS", "dx": "STATE"}
+SIZES |= {"y": "STATE", "dy": "STATE"}
 COLUMNS = {"jacobian_inputs": "INPUTS", "jacobian_parameters": "PARAMETERS"}
 
 
@@ -32,17 +33,24 @@ class Call:
 
     def kinds(self):
         """The name of what is shown → the inputs u that it has."""
-        more = {f"{self.name}_unforced": ""} if {"u", "x"} <= {*self.takes} else {}
+        more = (
+            {f"{self.name}_unforced": ""}
+            if "u" in self.takes and {"x", "y"} & {*self.takes}
+            else {}
+        )
         return {self.name: "u"} | more
 
     def given(self, words, u):
         """The arguments in words of a language, by their letters; ``u``: empty for none."""
+        words = words | {"y": words["x"]}
         inputs = {"u": words["none"]} if "u" in self.takes and not u else {}
         return [x for x in ((words | inputs)[a] for a in self.takes) if x]
 
 
 def calls(header, prefix, sizes):
     """The calls of a header, but for ``constants``, and for ``rhs_batch`` of many states."""
+    reduced = re.search(rf"{prefix}_N_REDUCED = (\d+)", header)
+    sizes = {**sizes, "REDUCED": int(reduced[1]) if reduced else 0}
     real = "float" if re.search(r"\bfloat \*", header) else "double"
     kept = re.search(r"_N_CONSERVED = (\d+)", header)
     sizes = sizes | {"CONSERVED": int(kept[1]) if kept else 0}
@@ -64,13 +72,16 @@ def size(array, function, sizes):
         return rows * (sizes[COLUMNS[function]] if function in COLUMNS else rows)
     if function == "conserved":
         return sizes["CONSERVED"]
+    if function == "poisson":
+        return sizes["REDUCED"] ** 2
     if array == "out":
         return sizes["INPUTS" if function.startswith("inputs_") else "STATE"]
     return sizes[SIZES[array]]
 
 
 def in_c(call, library, prefix, values):
-    """What the compiled C gives; ``values``: the arrays x, k, p, u."""
+    """What the compiled C gives; ``values``: the arrays x, k, p, u; y is x."""
+    values = values | {"y": values["x"]}
     array = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
     function = getattr(library, f"{prefix}_{call.name}")
     function.restype = None if call.writes else ctypes.c_double
@@ -86,7 +97,7 @@ def in_rust(call, name, u):
     arguments = call.given(words, u)
     if not call.writes:
         return f'show("{name}", &[m::{call.name}({", ".join(arguments)})]);'
-    if [*call.writes] == ["out"] and call.name != "conserved":
+    if call.name == "project":
         return f'show("{name}", &m::{call.name}({", ".join(arguments)}));'
     made = "".join(f"let mut {a} = [0.0; {n}]; " for a, n in call.writes.items())
     arguments += [f"&mut {a}" for a in call.writes]
@@ -120,11 +131,13 @@ def in_spans(call, name):
 
 def in_python(call, module, values, u):
     """What a function of a module gives, for one state and as the second of a batch."""
-    takes = [a for a in call.takes if a != "u" or u]
+    takes, values = [a for a in call.takes if a != "u" or u], values | {"y": values["x"]}
     function, given = getattr(module, call.name), [values[a] for a in takes]
     yield flat(function(*given))
-    if "x" in takes:
-        batch = [np.stack([v + 1, v]) if a == "x" else v for a, v in zip(takes, given, strict=True)]
+    if {"x", "y"} & {*takes}:
+        batch = [
+            np.stack([v + 1, v]) if a in "xy" else v for a, v in zip(takes, given, strict=True)
+        ]
         yield flat(function(*batch), 1)
 
 
@@ -137,12 +150,16 @@ def flat(found, *index):
 def in_julia(call, module, values, u):
     """What a function of a module that is read back gives: first what it writes, then x and k or
     p, then t."""
+    values = values | {"y": values["x"]}
     given = [values[a] for a in call.takes if a not in "tu"]
     time = [values["t"]] if "t" in call.takes else []
     if not call.writes:
         return [module.call(call.name, *time, *given)]
     rows = 2 * module.names["N_ALGEBRA"]
-    shapes = ((rows, n // rows) if a == "D" else (n,) for a, n in call.writes.items())
+    if call.name == "poisson":
+        rows = module.names["N_REDUCED"]
+    squares = ("D", "out") if call.name == "poisson" else ("D",)
+    shapes = ((rows, n // rows) if a in squares else (n,) for a, n in call.writes.items())
     outs = [Numbers(*shape) for shape in shapes]
     inputs = {"u": values["u"]} if u and "u" in call.takes else {}
     module.call(f"{call.name}!", *outs, *given, *time, **inputs)

@@ -17,6 +17,7 @@ from ..evaluate import Environment, evaluate
 from ..model import Direction
 from ..name_values import NameValues, Values
 from ..nilpotent import EPS, EPS_PRIME, ETA, nilpotent, part
+from .brackets_by_flow import brackets
 from .lagrangian_model import PAIRED, LagrangianModel
 
 
@@ -83,7 +84,8 @@ def _motion(model: LagrangianModel) -> Values:
     """What follows from the acceleration of the motion; M and β."""
     values = {"Ż": model.acceleration, "ζ̇": _column(model.group.nearest(model.acceleration))}
     values["Π̇"] = _covector(model, _rates(model))
-    return values | {"M": model.metric, "β": _column(model.load)}
+    values |= {"M": model.metric, "β": _column(model.load)}
+    return values if model.generic else values | {"𝕁": brackets(model)}
 
 
 def _rates(model: LagrangianModel) -> list[Any]:

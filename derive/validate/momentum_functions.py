@@ -1,0 +1,102 @@
+"""The functions in momenta against the record: what they mean, at exact points.
+
+The momenta and the Poisson tensor are the checker's; their rates, the derivative of the emitted
+``momentum`` along the emitted ``rhs``, by nilpotent numbers.  A step of Newton's method leaves the
+velocity alone where it is right, and its derivative by the velocity vanishes there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..check.nilpotent import EPS, part
+from .chart import EPSILON
+from .emitted_file import Machine
+from .exact_points import Point
+from .reduced_chart import ReducedChart
+from .terms import Array
+
+Call = Callable[..., dict[str, list[Any]]]
+Require = Callable[[str, Sequence[str], Sequence[Any], Sequence[Any]], None]
+
+
+@dataclass(frozen=True)
+class MomentumFunctions:
+    """The comparison at one point. ``call``: runs a function of the module with arguments;
+    ``plain``: the machine for other numbers; ``require``: refuses numbers that differ; ``draw``: a
+    random number."""
+
+    call: Call
+    plain: Machine
+    require: Require
+    draw: Callable[[], Any]
+    point: Point
+    chart: Any
+
+    def compare(self, arguments: Mapping[str, Any]) -> tuple[str, ...]:
+        """The names of the functions, each found right."""
+        x, size = self.point.arguments["x"], len(self.point.rates)
+        y = self.call("momentum", arguments, out=size)["out"]
+        self._same("momentum", y, self._with(x, self._momenta))
+        there = {**arguments, "y": Array(y, "y")}
+        found, moved = ["momentum"], self._moved(arguments)
+        if "velocity_step" in self.plain.module.functions:
+            step = self.call("velocity_step", there, out=size)["out"]
+            self._same("velocity_step", step, x)
+            self._same("velocity_step", self._beside(arguments), [0] * size)
+            rates = "momentum_rates"
+            found += ["velocity_step"]
+        else:
+            back = self.call("velocity", there, out=size)["out"]
+            self._same("velocity", back, x)
+            rates = "momentum_rhs"
+            found += ["velocity"]
+        self._same(rates, self.call(rates, there, dy=size)["dy"], moved)
+        tensor = [z for row in self.point.named.names["𝕁"] for z in row]
+        self._same("poisson", self.call("poisson", there, out=len(tensor))["out"], tensor)
+        return (*found, rates, "poisson")
+
+    @property
+    def _momenta(self) -> list[Any]:
+        """Π_a by its meaning."""
+        family = self.point.named.families["Π"]
+        return [family[key] for key in sorted(family)]
+
+    @property
+    def _velocity(self) -> range:
+        """Where the velocity is in the state."""
+        d, size = self.chart.group.dimension, len(self.point.rates)
+        return range(d) if isinstance(self.chart, ReducedChart) else range(size - d, size)
+
+    def _with(self, x: Sequence[Any], values: Sequence[Any]) -> list[Any]:
+        new = dict(zip(self._velocity, values, strict=True))
+        return [new.get(i, z) for i, z in enumerate(x)]
+
+    def _moved(self, arguments: Mapping[str, Any]) -> list[Any]:
+        """The derivative of ``momentum`` along ``rhs``, as fractions."""
+        x = [a + EPSILON * b for a, b in self._pairs(self.point.rates)]
+        out = self._plain("momentum", arguments, t=self.point.arguments["t"] + EPSILON, x=x)
+        return [part(z, EPS) for z in out]
+
+    def _beside(self, arguments: Mapping[str, Any]) -> list[Any]:
+        """The derivative of a step of Newton's method by the velocity that it begins with."""
+        y = [part(z, 0) for z in self._plain("momentum", arguments)]
+        change = self._with([0] * len(y), [self.draw() for _ in self._velocity])
+        x = [a + EPSILON * b for a, b in self._pairs(change)]
+        return [part(z, EPS) for z in self._plain("velocity_step", arguments, x=x, y=y)]
+
+    def _pairs(self, change: Sequence[Any]) -> list[tuple[Any, Any]]:
+        return [*zip(self.point.arguments["x"], change, strict=True)]
+
+    def _plain(self, name: str, arguments: Mapping[str, Any], **changed: Any) -> list[Any]:
+        """What a function writes, without counting degrees."""
+        k = [getattr(z, "value", z) for z in arguments["k"].values]
+        given = {**self.point.arguments, "k": k, **changed}
+        arrays = {a: z if a == "t" else Array(z, a) for a, z in given.items()}
+        return self.plain.call(name, arrays, out=len(self.point.rates))["out"]
+
+    def _same(self, name: str, found: Sequence[Any], wanted: Sequence[Any]) -> None:
+        names = [f"number {i}" for i in range(len(wanted))]
+        self.require(name, names, found, wanted)
