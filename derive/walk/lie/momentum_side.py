@@ -9,12 +9,11 @@ is the derivative by Π, and −∂L̃/∂Γ that by Γ.  Where Γ is in place o
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import reduce
 from typing import Any
 
 from ...algebra.groups import Group
 from ...language.derivatives import derivative
-from ...language.tree import Tree, add, mul, neg, nodes, replaced
+from ...language.tree import Tree, add, mul, neg, nodes
 from ...problem.problem import Problem
 from ...problem.state_names import coordinates
 from ...record.record import Equation, Step
@@ -56,11 +55,25 @@ def _velocity(stage: Expressed, group: Group, mass: Step, c: Chapter) -> tuple[S
     zeta = coordinates(group)
     if {*zeta} & {x for row in stage.second for t in row for x in nodes(t)}:
         return ()
-    at_rest = [tidied(reduce(lambda t, x: replaced(t, x, 0), zeta, p)) for p in stage.momenta]
+    at_rest = [tidied(_at_rest(p, zeta)) for p in stage.momenta]
     draft = c.draft("by_momenta", "inversion")
     draft.depends_on(stage.steps[1], mass)
     moving = _column(add(member("Π", a), neg(b)) for a, b in enumerate(at_rest))
     return (draft.step([Equation("ζ", mul(("inv", "M"), moving))], say("by_momenta.quadratic")),)
+
+
+def _at_rest(t: Tree, zeta: Sequence[Tree]) -> Tree:
+    """A tree where ζ = 0, without what vanishes with it."""
+    if t in zeta:
+        return 0
+    if isinstance(t, tuple) and t[0] == "fun":
+        return ("fun", t[1], _at_rest(t[2], zeta))
+    if not isinstance(t, tuple) or t[0] not in ("add", "mul", "div", "pow"):
+        return t
+    op, first, *rest = (t[0], *(_at_rest(x, zeta) for x in t[1:]))
+    if op in ("add", "mul"):
+        return (add if op == "add" else mul)(first, *rest)
+    return 0 if first == 0 else (op, first, *rest)
 
 
 def _carried(problem: Problem) -> list[tuple[Any, ...]]:
