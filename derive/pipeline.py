@@ -9,6 +9,7 @@ and the views read it, too.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -172,19 +173,29 @@ def lagrangian_road(side: str) -> Values:
     return follow(ANY_LAGRANGIAN, start, ())
 
 
-def integrals(problem: Problem, degree: int = 4) -> tuple[Found, Derivation]:
+def integrals(
+    problem: Problem, degree: int = 4, *, at_defaults: bool = False
+) -> tuple[Found, Derivation]:
     """The polynomial integrals of the reduced equations of a problem up to a degree, and its record
-    with the steps that tell them."""
-    from .integrals.all_integrals import found
-    from .integrals.reduced import reduced, stated
-    from .integrals.told import told
+    with the steps that tell them; of points by their Lagrangian as one expression.
 
-    problem = stated(problem)
+    Without the inputs of the problem; ``at_defaults``: with numbers for its parameters.
+    """
+    from .integrals.all_integrals import found
+    from .integrals.reduced import reduced, require_group, with_defaults
+    from .integrals.told import told
+    from .symmetries.scalar_lagrangian import with_scalar_lagrangian
+
+    require_group(problem)
+    driven, problem = bool(problem.inputs), replace(problem, inputs=())
+    if problem.lagrangian is None:
+        problem = with_scalar_lagrangian(problem, walk(problem))
+    problem = with_defaults(problem) if at_defaults else problem
     whole = found(reduced(problem), degree)
     assert problem.group is not None
     record = walk(problem)
     c = Chapter(problem.name, problem.group.name)
-    steps = supposing_all(traced((*record.steps, *told(whole, record.steps, c))))
+    steps = supposing_all(traced((*record.steps, *told(whole, record.steps, c, driven=driven))))
     return whole, Derivation(record.problem, symbols(steps, problem), steps)
 
 
@@ -208,7 +219,8 @@ def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree
 
     if problem.advected is not None:
         return first_integrals(problem)
-    return named(symmetries_of(problem, record)) | first_integrals(problem, beside_symmetries=True)
+    found = symmetries_of(problem, record)
+    return named(found) | first_integrals(found.problem, beside_symmetries=True)
 
 
 def program(problem: Problem, record: Derivation, options: Options | None = None) -> Program:

@@ -111,12 +111,10 @@ def command_walk(args: argparse.Namespace) -> int:
 
 def command_integrals(args: argparse.Namespace) -> int:
     """Find the polynomial first integrals of the reduced equations of a problem."""
-    from ..integrals.reduced import with_defaults
     from ..pipeline import integrals
 
     problem = load_problem(args.problem)
-    problem = with_defaults(problem) if args.at_defaults else problem
-    record = integrals(problem, args.degree)[1]
+    record = integrals(problem, args.degree, at_defaults=args.at_defaults)[1]
     # the JSON is a whole record, which can be checked
     new = () if args.format == "json" else told_steps(record)
     chosen = {"fragment": args.fragment, "steps": new, **notation(args)}

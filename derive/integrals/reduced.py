@@ -29,22 +29,20 @@ VARIABLES = 40
 """The most variables of a reduced system that is searched."""
 
 
+COUPLED, LETTERS = 3, 4
+"""Up to so many velocities that the metric couples, or so many parameters, its inverse is formed in
+letters: in a general body of SE(3), 6 and 10, it has thousands of terms."""
+
+
 class NotReducedError(Refused, ValueError):
     """A problem whose reduced equations are not Lie–Poisson with a polynomial H: the message says
     why."""
 
 
-def stated(problem: Problem) -> Problem:
-    """The problem with its Lagrangian as an expression in t, the entries of g and ζ;
-    ``NotReducedError`` where it states none."""
+def require_group(problem: Problem) -> None:
+    """``NotReducedError`` for a text about any group."""
     if problem.group is None:
         raise NotReducedError(f"{problem.name}: this text is about any group; choose a problem")
-    if problem.lagrangian is None:
-        raise NotReducedError(
-            f"{problem.name}: integrals are searched where the Lagrangian is stated; give it in "
-            "[lagrangian] or [inertia] in place of points and potentials"
-        )
-    return problem
 
 
 def with_defaults(problem: Problem) -> Problem:
@@ -62,20 +60,17 @@ def with_defaults(problem: Problem) -> Problem:
 
 
 def reduced(problem: Problem) -> LiePoisson:
-    """The reduced equations of a problem, its parameters left open.
+    """The reduced equations of a problem whose Lagrangian is an expression, its parameters left
+    open.
 
     ``NotReducedError`` where ℓ depends on the time, is not quadratic in ζ with a constant metric,
     is no polynomial in g, or has functions of parameters.
     """
-    problem = stated(problem)
+    require_group(problem)
     group, given = problem.group, problem.lagrangian
     assert group is not None
     assert given is not None
     L, side = given.L, given.trivialisation
-    if problem.inputs:
-        raise NotReducedError(
-            f"{problem.name}: an [[input]] acts, which no integral survives; leave it out"
-        )
     parameters = _letters(L, problem)
     symbolic = _Symbolic(problem.name, L, group, parameters)
     epsilon = 1 if side == "left" else -1
@@ -226,6 +221,7 @@ class _Symbolic:
         slopes = [kinetic.diff(x) for x in gens[:d]]
         second = [[y.diff(x).get(zero, self.field.zero) for x in gens[:d]] for y in slopes]
         matrix = DomainMatrix(second, (d, d), self.field)
+        self._require_short(second)
         if matrix.rank() < d:
             self.refuse("has a singular metric ∂²L/∂Z²")
         inverse = matrix.inv().to_list()
@@ -237,6 +233,15 @@ class _Symbolic:
                 if inverse[a][b]:
                     total += shifted[a] * shifted[b] * (inverse[a][b] * half)
         return {tuple(m): self.tree(c) for m, c in total.items()}
+
+    def _require_short(self, metric: list[list[Any]]) -> None:
+        """Refuse a metric whose inverse is too long in its letters."""
+        coupled = max(map(len, _blocks(metric)))
+        if coupled > COUPLED and len(self.parameters) > LETTERS:
+            self.refuse(
+                f"couples {coupled} velocities with {len(self.parameters)} parameters: the inverse "
+                "of its metric is too long; give numbers for them, or --at-defaults"
+            )
 
     def polynomial(self, t: Tree, own: Mapping[Any, Any], ring: Any) -> Any:
         """An expression in the ring of polynomials in ζ and the entries of g."""
@@ -277,6 +282,16 @@ class _Symbolic:
             for f in (c.numer, c.denom)
         )
         return above if below == 1 else ("div", above, below)
+
+
+def _blocks(m: list[list[Any]]) -> list[set[int]]:
+    """The indices of the blocks into which a symmetric matrix falls."""
+    found: list[set[int]] = []
+    for i, row in enumerate(m):
+        own = {i, *(j for j, x in enumerate(row) if x)}
+        touched = [b for b in found if b & own]
+        found = [b for b in found if not b & own] + [own.union(*touched)]
+    return found
 
 
 def _place(t: tuple[Any, ...]) -> Place:

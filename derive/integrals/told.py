@@ -16,12 +16,14 @@ from .level import Level
 from .lie_poisson import Algebra, Polynomial
 
 
-def told(whole: Found, steps: Sequence[Step], c: Chapter) -> tuple[Step, ...]:
+def told(
+    whole: Found, steps: Sequence[Step], c: Chapter, *, driven: bool = False
+) -> tuple[Step, ...]:
     """The reduced equations, the Casimirs, the integrals, and those on levels, as steps of a
-    chapter; ``steps``: of the walk of the problem."""
+    chapter; ``steps``: of the walk of the problem, which may be ``driven`` by inputs."""
     by_label = {s.label: s for s in steps}
     made_from = [by_label[c.label(x)] for x in ("momenta", "energy", "coadjoint", "motion")]
-    reduced = _reduced(whole, made_from, c)
+    reduced = _reduced(whole, made_from, c, driven=driven)
     found = [reduced]
     if whole.casimirs:
         found.append(_casimirs(whole, reduced, c))
@@ -30,7 +32,7 @@ def told(whole: Found, steps: Sequence[Step], c: Chapter) -> tuple[Step, ...]:
     return tuple(found)
 
 
-def _reduced(whole: Found, made_from: Iterable[Step], c: Chapter) -> Step:
+def _reduced(whole: Found, made_from: Iterable[Step], c: Chapter, *, driven: bool) -> Step:
     """h̃ and the rates, as functions of the variables."""
     algebra, system = whole.system.algebra, whole.system
     draft = c.draft("poisson", "reduction")
@@ -40,9 +42,8 @@ def _reduced(whole: Found, made_from: Iterable[Step], c: Chapter) -> Step:
         equations.append(Equation(rate(x), algebra.field_tree(algebra.flow.get(i, {}))))
     only = len(system.variables) == system.momenta
     dimension = str(len(system.variables))
-    return draft.step(
-        equations, say("poisson.group" if only else "poisson.advected", dimension=dimension)
-    )
+    prose = say("poisson.group" if only else "poisson.advected", dimension=dimension)
+    return draft.step(equations, prose + (say("poisson.undriven") if driven else ()))
 
 
 def rate(x: Tree) -> Tree:

@@ -19,6 +19,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Les moments, et ce dont l’énergie dépend en outre, évoluent entre eux : équations de "
             "Lie–Poisson sur le dual d’un produit semi-direct, de dimension {dimension}.",
         ),
+        "undriven": (
+            "The inputs are left out: they are 0 here.",
+            "Les entrées sont laissées de côté : elles sont nulles ici.",
+        ),
     },
     "casimirs": {
         "kept": (

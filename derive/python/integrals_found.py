@@ -167,12 +167,11 @@ def first_integrals(
     is for generic values of them.  ``ProblemError``, ``NotReducedError`` say what is wrong.
     """
     from ..command.cli import load_problem
-    from ..integrals.reduced import with_defaults
     from ..pipeline import integrals
 
     if not isinstance(problem, Problem):
         problem = load_problem(str(problem))
-    return FirstIntegrals(*integrals(with_defaults(problem) if at_defaults else problem, degree))
+    return FirstIntegrals(*integrals(problem, degree, at_defaults=at_defaults))
 
 
 def _name(x: Tree) -> str:

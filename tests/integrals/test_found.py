@@ -191,3 +191,26 @@ def test_from_a_derivation():
     assert repr(found) == "<first integrals of ball: 2>"
     with pytest.raises(ProblemError):
         first_integrals(Problem("none", SO(3), Lagrangian("zeta_1^2 + 2*zeta_2^2")))
+
+
+def test_an_input_is_left_out():
+    problem = lagrangian(
+        "zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2", input=[{"name": "u", "kind": "covector"}]
+    )
+    assert "The inputs are left out" in str(first_integrals(problem, 1))
+
+
+def test_points_have_the_integrals_of_their_lagrangian():
+    """A top of solids: those of Lagrange's; points on SU(2), under a spring that does nothing."""
+    top = first_integrals("top")
+    assert (top.integrable, len(top.casimirs), len(top.integrals)) == (True, 2, 2)
+    (spin,) = (x.sympy() for x in top.integrals[1:])
+    assert spin == PI[2]
+    assert [v for v in top.check() if not v.holds] == []
+    assert first_integrals("su2", 2).integrable
+
+
+def test_points_with_numbers():
+    found = first_integrals("se3", 1, at_defaults=True)
+    assert "The inputs are left out" in str(found)
+    assert [v for v in found.check() if not v.holds] == []

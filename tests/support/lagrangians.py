@@ -59,4 +59,5 @@ def every_case():
         first_integrals(heavy("441", "m*A_31", "m"), 3),
         first_integrals(heavy("441", "m*A_31", "m"), 4),
         *(first_integrals(x) for x in ("gyrostat", "euler_top", "lagrange_top")),
+        first_integrals("so3", 1, at_defaults=True),
     ]
