@@ -24,6 +24,7 @@ NAME = re.compile(
     r"(?P<below>(?:_(?:[A-Za-z0-9]|\{[A-Za-z0-9]+\}))?)"
 )
 RATE = r"\frac{\mathrm{d}}{\mathrm{d}t}"
+POISSON = r"\mathbb{J}"
 BARS = Notation()
 
 
@@ -32,6 +33,8 @@ def named(tex: str) -> Formula:
     """The formula of a name, from its LaTeX."""
     if tex == RATE:
         return fraction(upright("d"), upright("d") + literal("t"), RATE)
+    if tex == POISSON:
+        return Formula(tex, ("<mi>𝕁</mi>",))
     found = NAME.fullmatch(tex)
     if found is None:
         return Formula(tex, literal(tex).items)

@@ -117,6 +117,8 @@ class _Lexer:
             return [("par", self.words())]
         if token == r"\unitmatrix" or (token == r"\mathbf" and self.words() == "1"):
             return [("tree", ("one",))]
+        if token == r"\mathbb" and self.words() == "J":
+            return [("name", "𝕁")]
         if token == r"\mathrm" and self.words() == "d":
             return [("word", "d")]
         if token.startswith(r"\begin{pmatrix"):
