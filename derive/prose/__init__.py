@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from .answer import STEPS as ANSWER
 from .first_integrals import STEPS as FIRST_INTEGRALS
 from .general import STEPS as GENERAL
 from .material import STEPS as MATERIAL
@@ -16,7 +17,7 @@ from .matrices import STEPS as MATRICES
 from .rotations import STEPS as ROTATIONS
 from .symmetries import STEPS as SYMMETRIES
 
-STEPS = {**GENERAL, **ROTATIONS, **MATRICES, **MATERIAL, **FIRST_INTEGRALS, **SYMMETRIES}
+STEPS = {**GENERAL, **ROTATIONS, **MATRICES, **MATERIAL, **FIRST_INTEGRALS, **SYMMETRIES, **ANSWER}
 """Label → name → the sentence in each of ``LANGUAGES``."""
 LANGUAGES = ("en", "fr")
 """The languages of the prose, in the order of the texts of a sentence."""

@@ -84,6 +84,9 @@ RULES: dict[str, Rule] = {
         "A function is constant along the motion where its bracket with the energy vanishes.",
         "conservation",
     ),
+    "evaluation": Rule(
+        "évaluation", "The numbers of the problem are put into its equations.", "solution"
+    ),
     "solution": Rule("résolution", "The equations are solved for the accelerations.", "solution"),
 }
 

@@ -62,7 +62,7 @@ class LagrangianModel(Draws):
         self.held = {a - 1 for a in held}
         self.tree = None if generic else decode(problem["lagrangian"]["L"], "problem, L")
         self.hypothesis_failures: dict[Any, str] = {}
-        inside = bool(at.field or at.field_prime)
+        inside = bool(at.field or at.field_prime) or (at.inside and group.has_inner_samples)
         g = group.sample_inside(random, size) if inside else group.sample(random, size)
         self.t, self.g, self.Z = self.draw(), g, self.algebra()
         self.advected: CarriedAlong | None = None

@@ -1,0 +1,46 @@
+"""What is said of the equations of motion with a problem's own numbers."""
+
+from __future__ import annotations
+
+STEPS: dict[str, dict[str, tuple[str, str]]] = {
+    "explicit": {
+        "solved": (
+            "The equations of motion in coordinates, with the numbers and the parameters of this "
+            "problem.",
+            "Les équations du mouvement en coordonnées, avec les nombres et les paramètres de ce "
+            "problème.",
+        ),
+        "balance": (
+            "The equations of motion in coordinates, with the numbers and the parameters of this "
+            "problem; those that share accelerations stay together.",
+            "Les équations du mouvement en coordonnées, avec les nombres et les paramètres de ce "
+            "problème ; celles qui ont des accélérations en commun restent ensemble.",
+        ),
+        "idle": (
+            "The forces of the potential do no work in any displacement by the group, and cannot "
+            "act.",
+            "Les forces du potentiel ne travaillent dans aucun déplacement par le groupe, et ne "
+            "peuvent agir.",
+        ),
+        "left": (
+            "Z is constant: every motion is g₀ exp(tZ), g₀ the element at the time 0.",
+            "Z est constant : tout mouvement est g₀ exp(tZ), où g₀ est l’élément au temps 0.",
+        ),
+        "right": (
+            "Z is constant: every motion is exp(tZ) g₀, g₀ the element at the time 0.",
+            "Z est constant : tout mouvement est exp(tZ) g₀, où g₀ est l’élément au temps 0.",
+        ),
+        "steady": (
+            "Their right sides are constant: the coordinates of Z are affine functions of the "
+            "time.",
+            "Leurs seconds membres sont constants : les coordonnées de Z sont des fonctions "
+            "affines du temps.",
+        ),
+        "linear": (
+            "With the rates of the entries of g in them, these are linear equations with constant "
+            "coefficients.",
+            "Avec les dérivées des entrées de g qui y figurent, ce sont des équations linéaires à "
+            "coefficients constants.",
+        ),
+    },
+}
