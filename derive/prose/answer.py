@@ -37,10 +37,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "affines du temps.",
         ),
         "linear": (
-            "With the rates of the entries of g in them, these are linear equations with constant "
+            "With the rates of the entries of g in them, these equations are linear, with constant "
             "coefficients.",
-            "Avec les dérivées des entrées de g qui y figurent, ce sont des équations linéaires à "
-            "coefficients constants.",
+            "Avec les dérivées des entrées de g qu’elles contiennent, ces équations sont "
+            "linéaires, à coefficients constants.",
         ),
     },
 }
