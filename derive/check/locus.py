@@ -45,6 +45,7 @@ class Locus:
     acceleration is any, and that of X. ``driven``: inputs and damping act. ``field``: δt and δA
     where δ is a field, functions of t and A; ``field_prime``: those of δ′. ``inside``: g is in the
     least algebraic group that has 𝔤, not in a larger one with the same relations.
+    ``still``: δt = 0.
     """
 
     principal: bool = False
@@ -56,6 +57,7 @@ class Locus:
     field: tuple[tuple[str, Tree], ...] = ()
     field_prime: tuple[tuple[str, Tree], ...] = ()
     inside: bool = False
+    still: bool = False
 
     @property
     def as_text(self) -> str:
@@ -63,7 +65,7 @@ class Locus:
         sets = sorted(self.vanishing), sorted(self.along or ())
         fields = f" {self.field} {self.field_prime}" if self.field or self.field_prime else ""
         flags = f"{self.principal} {self.contracted} {sets} {self.free_acceleration} {self.driven}"
-        return flags + fields + " inside" * self.inside
+        return flags + fields + " inside" * self.inside + " still" * self.still
 
 
 def locus_of(step: Step, equation: Equation | None = None) -> Locus:
@@ -71,7 +73,7 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
 
     ``RecordError`` for a hypothesis that is none of these.
     """
-    principal = contracted = False
+    principal = contracted = still = False
     vanishing: set[str] = set()
     along: set[str] = set()
     fields = [_field(step, names) for names in (("δt", "δA"), ("δ′t", "δ′A"))]
@@ -84,6 +86,8 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
             principal = True
         elif (lhs, rhs) == ("δt", 1):
             contracted = True
+        elif (lhs, rhs) == ("δt", 0):
+            still = True
         elif isinstance(lhs, str) and lhs in VANISHING and rhs == 0:
             vanishing.add(VANISHING[lhs])
         elif part := part_of_velocity(lhs, rhs):
@@ -94,7 +98,9 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
     free = equation is not None and any({*equation.for_all} & {*form} for form in RATES)
     told = frozenset(vanishing), frozenset(along)
     found = Locus(principal, contracted, *told, free, step.driven, fields[0], fields[1])
-    return replace(found, inside=True) if step.rule == EVALUATION else found
+    if still and contracted:
+        raise RecordError("the hypotheses δt = 0 and δt = 1 exclude each other")
+    return replace(found, inside=step.rule == EVALUATION, still=still)
 
 
 def _field(step: Step, names: tuple[str, str]) -> tuple[tuple[str, Tree], ...]:

@@ -1,8 +1,19 @@
-"""What is said of the equations of motion with a problem's own numbers."""
+"""What is said of equations with a problem's own numbers, and of the form of the orbits."""
 
 from __future__ import annotations
 
 STEPS: dict[str, dict[str, tuple[str, str]]] = {
+    "kks": {
+        "level": (
+            "The other momentum is Π carried by g to the other side. The second equation has on "
+            "its right the variations of this momentum: on a level of it they vanish, and there "
+            "dϖ at constant time is the form of Kirillov, Kostant and Souriau on the orbit of Π.",
+            "L’autre moment est Π transporté par g de l’autre côté. La seconde équation a pour "
+            "second membre les variations de ce moment : sur un niveau de celui-ci elles "
+            "s’annulent, et dϖ à temps constant est alors la forme de Kirillov, Kostant et "
+            "Souriau sur l’orbite de Π.",
+        ),
+    },
     "explicit": {
         "solved": (
             "The equations of motion in coordinates, with the numbers and the parameters of this "

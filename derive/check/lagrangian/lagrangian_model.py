@@ -7,6 +7,7 @@ acceleration from the variation of the action, d/ds ⟨p, g⁻¹∂ᵥg⟩ = ∂
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -78,6 +79,8 @@ class LagrangianModel(Draws):
             Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
         )
         nothing = q.scaled(Fraction(0), self.Z)
+        if at.still:
+            self.first = replace(self.first, time=Fraction(0))
         if at.vanishing:
             self.second = Direction(
                 Fraction(0) if "time" in at.vanishing else self.second.time,
