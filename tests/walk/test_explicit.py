@@ -9,12 +9,13 @@ import pytest
 
 from derive.algebra.families import group
 from derive.algebra.told_entries import told_entries
-from derive.check.checker import check
+from derive.check.checker import Checker, check
 from derive.language.show import show
 from derive.language.tree import nodes
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
-from tests.support.walks import record
+from tests.support.record_mutations import tried
+from tests.support.walks import SEED, record, repeated
 
 TRANSLATIONS = """
 name = "shifted"
@@ -169,6 +170,19 @@ def test_no_answer_names_what_it_solves_for():
     for name in ("gyrostat", "heisenberg", "rod", "su2"):
         for e in answer(record(name)).equations:
             assert "ζ̇" not in {x for x in nodes(e.rhs) if isinstance(x, str)}
+
+
+MUTATED = ("screw", "su2", "heisenberg", "so4", "gyrostat", "rod", "hammer", "ellipsoid")
+
+
+@pytest.mark.parametrize("name", repeated(MUTATED))
+def test_every_corruption_of_an_answer_is_refused(name):
+    d = record(name)
+    checker = Checker(d.problem, SEED)
+    for step in (s for s in d.steps if s.label.endswith((".explicit", ".kks", ".components"))):
+        found = [*tried(step, checker)]
+        assert found
+        assert [(kind, wrong) for kind, wrong, verdict in found if verdict.holds] == []
 
 
 @pytest.mark.parametrize("name", ["SO(2)", "SE(2)", "UT(3)", "SU(2)", "Sim(2)", "SO(3) x SE(2)"])

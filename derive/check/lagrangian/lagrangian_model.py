@@ -78,15 +78,7 @@ class LagrangianModel(Draws):
         self.first, self.second, self.mixed = (
             Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
         )
-        nothing = q.scaled(Fraction(0), self.Z)
-        if at.still:
-            self.first = replace(self.first, time=Fraction(0))
-        if at.vanishing:
-            self.second = Direction(
-                Fraction(0) if "time" in at.vanishing else self.second.time,
-                nothing if "linear" in at.vanishing else self.second.xi,
-                self.second.velocity,
-            )
+        self._restrict(at)
         self.given = [
             GivenField(*(x for _, x in field)) if field else None
             for field in (at.field, at.field_prime)
@@ -105,6 +97,18 @@ class LagrangianModel(Draws):
         pulled = self.driven and bool(self.inputs_of("covector"))
         self.covector = [self.draw() if pulled else Fraction(0) for _ in group.basis]
         self.input_forces: list[tuple[Any, ...]] = []
+
+    def _restrict(self, at: Locus) -> None:
+        """Set the parts of δ and δ′ to 0 that vanish at a locus."""
+        nothing = q.scaled(Fraction(0), self.Z)
+        if at.still:
+            self.first = replace(self.first, time=Fraction(0))
+        if at.vanishing:
+            self.second = Direction(
+                Fraction(0) if "time" in at.vanishing else self.second.time,
+                nothing if "linear" in at.vanishing else self.second.xi,
+                self.second.velocity,
+            )
 
     # -- the Lagrangian ------------------------------------------------------------------------
 
