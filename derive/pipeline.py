@@ -20,9 +20,10 @@ from .problem.principal import principal
 from .problem.problem import Problem, ProblemError
 from .record.record import Derivation
 from .walk import (
-    alphabet, body, brackets, cartan, components, conserved, coordinates, elimination, exterior,
-    inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit, potential,
-    pullback, rotation, separation, solution, specialisation, translation, variation, vector,
+    alphabet, body, brackets, cartan, components, conserved, coordinates, elimination, explicit,
+    exterior, inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit,
+    potential, pullback, rotation, separation, solution, specialisation, translation, variation,
+    vector,
 )
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
@@ -85,6 +86,8 @@ MATRICES = (
     Stage("space", "cartan.momentum a", "SpaceMomenta", conserved.matrix_momenta),
     Stage("conserved", "problem potentials space solution.motion special.letters c",
           "Steps", conserved.conserved_steps),
+    Stage("explicit", "problem group body potentials special driven external? solution.motion "
+          "pullback.steps c_u", "Steps", explicit.of_matrices),
 )
 """Every group but those of VECTORS: its relations, dϖ and kernel, solved."""
 
@@ -116,6 +119,10 @@ VECTORS = (
     Stage("conserved", "problem potentials space motion isometry.letters c",
           "Steps", conserved.conserved_steps),
     Stage("basis", "group isometry.letters c", "Steps", coordinates.stated_basis_step),
+    Stage("explicit", "problem group body potentials torque pullback.steps axial.inertia "
+          "external? motion tensor c_u", "Steps", explicit.of_vectors, "linear"),
+    Stage("explicit", "problem group body potentials torque pullback.steps centred.inertia "
+          "external? motion tensor c_u", "Steps", explicit.of_vectors, "affine"),
 )
 """SO(3) and SE(3), by so(3) ≅ R³: Euler's equations, Kirchhoff's."""
 ANY_LAGRANGIAN = (
@@ -130,6 +137,8 @@ EXPRESSED = (
     Stage("balance", "expressed problem group lagrangian basis c_u", "Steps", expressed.balance),
     Stage("by_momenta", "expressed problem group lagrangian basis balance c c_u",
           "Steps", momentum_side.by_momenta),
+    Stage("explicit", "problem group basis.steps balance expressed.told c_u",
+          "Steps", explicit.of_lagrangian),
 )
 """One Lagrangian in a basis of 𝔤, its state with an element of the group, or reduced."""
 # fmt: on

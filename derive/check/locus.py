@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..language.show import show
 from ..language.tree import Tree
@@ -10,6 +10,9 @@ from ..record.record import Equation, RecordError, Step
 from .function_signatures import RATES
 
 TIME, LINEAR, TRANSLATION = "time", "linear", "translation"
+
+EVALUATION = "evaluation"
+"""The rule of steps that put the problem's numbers in, and its group's element."""
 
 PRINCIPAL: Tree = (
     "matrix",
@@ -40,7 +43,9 @@ class Locus:
     δ. ``vanishing``: the parts of δ′ that vanish; ``along``: the parts of the velocity of X that
     are those of the motion, ``None`` where X is the motion. ``free_acceleration``: the
     acceleration is any, and that of X. ``driven``: inputs and damping act. ``field``: δt and δA
-    where δ is a field, functions of t and A; ``field_prime``: those of δ′.
+    where δ is a field, functions of t and A; ``field_prime``: those of δ′. ``inside``: g is in the
+    least algebraic group that has 𝔤, not in a larger one with the same relations.
+    ``still``: δt = 0.
     """
 
     principal: bool = False
@@ -51,6 +56,8 @@ class Locus:
     driven: bool = False
     field: tuple[tuple[str, Tree], ...] = ()
     field_prime: tuple[tuple[str, Tree], ...] = ()
+    inside: bool = False
+    still: bool = False
 
     @property
     def as_text(self) -> str:
@@ -58,7 +65,7 @@ class Locus:
         sets = sorted(self.vanishing), sorted(self.along or ())
         fields = f" {self.field} {self.field_prime}" if self.field or self.field_prime else ""
         flags = f"{self.principal} {self.contracted} {sets} {self.free_acceleration} {self.driven}"
-        return flags + fields
+        return flags + fields + " inside" * self.inside + " still" * self.still
 
 
 def locus_of(step: Step, equation: Equation | None = None) -> Locus:
@@ -66,7 +73,7 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
 
     ``RecordError`` for a hypothesis that is none of these.
     """
-    principal = contracted = False
+    principal = contracted = still = False
     vanishing: set[str] = set()
     along: set[str] = set()
     fields = [_field(step, names) for names in (("δt", "δA"), ("δ′t", "δ′A"))]
@@ -79,6 +86,8 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
             principal = True
         elif (lhs, rhs) == ("δt", 1):
             contracted = True
+        elif (lhs, rhs) == ("δt", 0):
+            still = True
         elif isinstance(lhs, str) and lhs in VANISHING and rhs == 0:
             vanishing.add(VANISHING[lhs])
         elif part := part_of_velocity(lhs, rhs):
@@ -88,7 +97,10 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
             raise RecordError(f"the hypothesis {text[:80]} is not one that can be tried")
     free = equation is not None and any({*equation.for_all} & {*form} for form in RATES)
     told = frozenset(vanishing), frozenset(along)
-    return Locus(principal, contracted, *told, free, step.driven, *fields)
+    found = Locus(principal, contracted, *told, free, step.driven, fields[0], fields[1])
+    if still and contracted:
+        raise RecordError("the hypotheses δt = 0 and δt = 1 exclude each other")
+    return replace(found, inside=step.rule == EVALUATION, still=still)
 
 
 def _field(step: Step, names: tuple[str, str]) -> tuple[tuple[str, Tree], ...]:

@@ -65,7 +65,8 @@ class Model(Body):
             {} if generic else problem, group, self.blocks, self.expressions
         )
         self.t = self.draw()
-        self.g = group.sample(random, size)
+        inside = at.inside and group.has_inner_samples
+        self.g = group.sample_inside(random, size) if inside else group.sample(random, size)
         self.any_potential = AnyPotential(self, self.t, self.moved(self.g)) if generic else None
         self.Z = self.algebra()
         self.first, self.second, self.mixed = (

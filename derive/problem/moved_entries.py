@@ -62,10 +62,10 @@ class EntriesOfElement(Moved):
     @property
     def _element(self) -> list[list[Tree]]:
         span = range(self.group.n)
-        return [[_entry(self.group, i, j) for j in span] for i in span]
+        return [[entry_of(self.group, i, j) for j in span] for i in span]
 
 
-def _entry(group: Group, i: int, j: int) -> Tree:
+def entry_of(group: Group, i: int, j: int) -> Tree:
     """An entry of g: a number in the last row of an affine factor, and between blocks."""
     for offset, factor in group.places:
         inside = range(offset, offset + factor.size)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from .answer import STEPS as ANSWER
 from .first_integrals import STEPS as FIRST_INTEGRALS
 from .general import STEPS as GENERAL
 from .material import STEPS as MATERIAL
@@ -25,6 +26,7 @@ STEPS = {
     **FIRST_INTEGRALS,
     **SYMMETRIES,
     **MOMENTUM_FORM,
+    **ANSWER,
 }
 """Label → name → the sentence in each of ``LANGUAGES``."""
 LANGUAGES = ("en", "fr")

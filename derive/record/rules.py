@@ -92,6 +92,9 @@ RULES: dict[str, Rule] = {
         "The equations are told by brackets of the variables with the energy.",
         "solution",
     ),
+    "evaluation": Rule(
+        "évaluation", "The numbers of the problem are put into its equations.", "solution"
+    ),
     "solution": Rule("résolution", "The equations are solved for the accelerations.", "solution"),
 }
 

@@ -64,6 +64,7 @@ STILL = (("δ′A",), ("ξ′",), ("Ω′",), ("δ′A", "δ′T"), ("ξ′", "�
 ASSUMPTIONS: tuple[tuple[frozenset[Equation], str], ...] = (
     (frozenset({Equation("I", ("matrix", *DIAGONAL))}), "in principal axes"),
     (frozenset({Equation("δt", 1)}), "for any X with δt = 1"),
+    (frozenset({Equation("δt", 0), Equation("δ′t", 0)}), "for δt = 0, δ′t = 0"),
     *(
         (frozenset(Equation(x, 0) for x in ("δ′t", *parts)), "for δ′t = 0, δ′g = 0")
         for parts in reversed(STILL)

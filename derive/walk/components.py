@@ -130,10 +130,20 @@ def _numbers(problem: Problem) -> dict[str, Value]:
     found: dict[str, Value] = {}
     if (g := gravity(problem.potentials)) is not None:
         found["γ"] = _column(g)
-    _, first, _ = moments_of(problem)
-    found["c"] = _column(first)
+    mass, first, _ = moments_of(problem)
+    found["c"] = _by_mass(_column(first), polynomial(mass))
     centred = all(not x for (x,) in found["c"])
     return found | {"r_c": found["c"] if centred else letters("r_c")}
+
+
+def _by_mass(c: Value, mass: Laurent) -> Value:
+    """The first moment as m r_c where that is shorter: m a product, and r_c without its letters."""
+    if len(mass.terms) != 1 or not any(len(m) > 1 for m in mass.terms):
+        return c
+    centre = [x / mass for (x,) in c]
+    if any(e < 0 for x in centre for m in x.terms for _, e in m):
+        return c
+    return tuple((Laurent.symbol("m") * x,) for x in centre)
 
 
 def _column(entries: Sequence[Tree]) -> tuple[tuple[Laurent], ...]:

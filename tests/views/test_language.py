@@ -40,6 +40,7 @@ ROOT = Path(__file__).parents[2] / "derive"
 ENTRIES = entries()
 FRENCH = language("fr")
 THREE = Points((1, [1, 0]), (2, [0, 1]), (3, [0, 0]))
+LIFTS = Group("Lifts", [[[0, 0, 0], [0, 0, 1], [0, 0, 0]]], "affine")
 UPPER = Group("Upper", [[[1, 0], [0, 0]], [[0, 1], [0, 0]], [[0, 0], [0, 1]]])
 TURN = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
 CORNERS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
@@ -79,6 +80,7 @@ def own_problems(folder):
         Problem("anchored", Aff(2), THREE, [Spring(1, [0, 1], 1)]),
         Problem("pushed", Aff(2), THREE, [Spring(1, 2, 1), *pushed]),
         Problem("moments", "SE(3)", Moments(), parameters={}),
+        Problem("lifted", LIFTS, Points((1, [0, 0])), [Spring(1, [0, 1], 1)]),
     ]
 
 

@@ -7,6 +7,7 @@ acceleration from the variation of the action, d/ds ⟨p, g⁻¹∂ᵥg⟩ = ∂
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -62,7 +63,7 @@ class LagrangianModel(Draws):
         self.held = {a - 1 for a in held}
         self.tree = None if generic else decode(problem["lagrangian"]["L"], "problem, L")
         self.hypothesis_failures: dict[Any, str] = {}
-        inside = bool(at.field or at.field_prime)
+        inside = bool(at.field or at.field_prime) or (at.inside and group.has_inner_samples)
         g = group.sample_inside(random, size) if inside else group.sample(random, size)
         self.t, self.g, self.Z = self.draw(), g, self.algebra()
         self.advected: CarriedAlong | None = None
@@ -77,13 +78,7 @@ class LagrangianModel(Draws):
         self.first, self.second, self.mixed = (
             Direction(self.draw(), self.algebra(), self.algebra()) for _ in range(3)
         )
-        nothing = q.scaled(Fraction(0), self.Z)
-        if at.vanishing:
-            self.second = Direction(
-                Fraction(0) if "time" in at.vanishing else self.second.time,
-                nothing if "linear" in at.vanishing else self.second.xi,
-                self.second.velocity,
-            )
+        self._restrict(at)
         self.given = [
             GivenField(*(x for _, x in field)) if field else None
             for field in (at.field, at.field_prime)
@@ -102,6 +97,18 @@ class LagrangianModel(Draws):
         pulled = self.driven and bool(self.inputs_of("covector"))
         self.covector = [self.draw() if pulled else Fraction(0) for _ in group.basis]
         self.input_forces: list[tuple[Any, ...]] = []
+
+    def _restrict(self, at: Locus) -> None:
+        """Set the parts of δ and δ′ to 0 that vanish at a locus."""
+        nothing = q.scaled(Fraction(0), self.Z)
+        if at.still:
+            self.first = replace(self.first, time=Fraction(0))
+        if at.vanishing:
+            self.second = Direction(
+                Fraction(0) if "time" in at.vanishing else self.second.time,
+                nothing if "linear" in at.vanishing else self.second.xi,
+                self.second.velocity,
+            )
 
     # -- the Lagrangian ------------------------------------------------------------------------
 

@@ -23,8 +23,9 @@ from ...record.record import Equation
 from ..alphabet import Alphabet
 from ..chapter import Chapter
 from ..wording import say
-from .any_lagrangian import SIDES, AnyLagrangian, sign_of
+from .any_lagrangian import SIDES, AnyLagrangian
 from .basis import Basis, brackets
+from .orbit_form import sign_of
 
 
 @dataclass(frozen=True)

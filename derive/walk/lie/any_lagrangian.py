@@ -27,6 +27,7 @@ from ..contraction import CONTRACTED, CONTRACTION, Contraction
 from ..factorisation import at_constant_time
 from ..momentum import any_lagrangian_forms, contact
 from ..wording import say
+from .orbit_form import orbit_form, sign_of
 
 SIDES: dict[str, Trivialisation] = {"left": forms.left, "right": forms.right}
 REGULAR = Hypothesis("nondegenerate", read("M̃(ξ, ξ′)"), "𝔤")
@@ -58,14 +59,6 @@ def by_bracket(e: Expr, a: Alphabet) -> Expr:
     return (sign_of(e, xi_prime * xi - xi * xi_prime) * word(a.bracket)).of(e)
 
 
-def sign_of(e: Expr, unit: Expr) -> int:
-    """ε of an expression ε · unit; ``ValueError`` where it is none."""
-    for sign in (1, -1):
-        if e == sign * unit:
-            return sign
-    raise ValueError("neither the expression nor its opposite")
-
-
 def any_lagrangian(a: Alphabet, side: str, c: Chapter) -> AnyLagrangian:
     """The forms of any Lagrangian, and its kernel."""
     moved = SIDES[side]
@@ -75,7 +68,8 @@ def any_lagrangian(a: Alphabet, side: str, c: Chapter) -> AnyLagrangian:
     written, derived, motion = told
     momenta, energy = _momenta(c), _energy(c)
     first = (_carried(a, side, c), momenta, energy, _structure(a, crossed, c), written)
-    steps = (*first, derived, *_kernel(form, a, c), motion)
+    orbit = orbit_form(form, a, moved, c)
+    steps = (*first, derived, *_kernel(form, a, c), motion, orbit)
     velocity = tree_of(moved(word(a.A.position), word(a.Z.velocity)))
     return AnyLagrangian(_epsilon(balance, a), velocity, steps)
 

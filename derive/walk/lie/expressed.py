@@ -38,6 +38,11 @@ class Expressed:
     second: tuple[tuple[Tree, ...], ...]
     steps: tuple[Step, ...]
 
+    @property
+    def told(self) -> Step:
+        """The step of Π_a and Φ_a."""
+        return self.steps[1]
+
 
 def tidied(t: Tree) -> Tree:
     """A tree of numbers with its like terms added, where that is not too long; parameters first."""

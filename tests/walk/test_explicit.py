@@ -1,0 +1,202 @@
+"""The answer: equations in coordinates with a problem's own numbers, beside other roads."""
+
+import tomllib
+from fractions import Fraction
+from random import Random
+
+import numpy as np
+import pytest
+
+from derive.algebra.families import group
+from derive.algebra.told_entries import told_entries
+from derive.check.checker import Checker, check
+from derive.language.show import show
+from derive.language.tree import nodes
+from derive.pipeline import walk
+from derive.problem.toml import problem_of
+from tests.support.record_mutations import tried
+from tests.support.walks import SEED, record, repeated
+
+TRANSLATIONS = """
+name = "shifted"
+parameters = { m = 1.0, k = 2.0, g = 9.81 }
+[group]
+name = "R2"
+action = "affine"
+basis = [[[0, 0, 1], [0, 0, 0], [0, 0, 0]], [[0, 0, 0], [0, 0, 1], [0, 0, 0]]]
+[[point]]
+mass = "m"
+at = [0, 0]
+[[potential]]
+kind = "spring"
+on = 1
+anchor = [2, 3]
+stiffness = "k"
+[[potential]]
+kind = "gravity"
+g = [0, "-g"]
+"""
+BALANCED = """
+name = "balanced"
+group = "SO(3)"
+parameters = { m = 1.0, g = 9.81 }
+[[potential]]
+kind = "gravity"
+g = [0, 0, "-g"]
+"""
+FREE = """
+name = "free"
+group = "SO(3)"
+[lagrangian]
+L = "zeta_1^2 + zeta_2^2 + zeta_3^2"
+trivialisation = "SIDE"
+"""
+
+
+def points(*places):
+    return "".join(f'[[point]]\nmass = "m"\nat = {list(x)}\n' for x in places)
+
+
+def answer(d):
+    return d[f"{d.name}.explicit"]
+
+
+def told(d):
+    return [f"{show(e.lhs)} = {show(e.rhs)}" for e in answer(d).equations]
+
+
+def said(d):
+    return " ".join(s.message for s in answer(d).prose)
+
+
+def walked(text):
+    return walk(problem_of(tomllib.loads(text)))
+
+
+def holds(d):
+    return all(v.holds for v in check(d, 1))
+
+
+def test_a_nut_on_a_screw_falls_with_a_constant():
+    """m(1 + h²) ζ̇ = −m g h for h = 1/10."""
+    assert told(record("screw")) == ["ζ̇₁ = −10/101 g"]
+    assert "affine functions of the time" in said(record("screw"))
+
+
+def test_a_spring_that_cannot_act():
+    d = record("su2")
+    assert told(d) == ["dŨ(Aξ′) = 0", "ζ̇₁ = 0", "ζ̇₂ = 0", "ζ̇₃ = 0"]
+    assert "cannot act" in said(d)
+    assert "g₀ exp(tZ)" in said(d)
+
+
+@pytest.mark.parametrize(("side", "motion"), [("left", "g₀ exp(tZ)"), ("right", "exp(tZ) g₀")])
+def test_a_motion_by_a_one_parameter_group(side, motion):
+    d = walked(FREE.replace("SIDE", side))
+    assert told(d) == [f"ζ̇{x} = 0" for x in "₁₂₃"]
+    assert motion in said(d)
+    assert holds(d)
+
+
+def test_springs_on_translations_are_linear():
+    d = walked(TRANSLATIONS)
+    assert told(d) == ["ζ̇₁ = 2k/m − k A₁₃/m", "ζ̇₂ = (3k − gm)/m − k A₂₃/m"]
+    assert "linear" in said(d)
+    assert holds(d)
+
+
+@pytest.mark.parametrize("name", ["gyrostat", "heisenberg", "rod", "hammer", "charged_body"])
+def test_others_are_not_said_to_be(name):
+    assert "linear" not in said(record(name))
+    assert "constant" not in said(record(name))
+
+
+def test_the_top_has_m_g_l():
+    """The centre of a cone on its apex is at three quarters of its height."""
+    d = record("top")
+    shown = [show(e.rhs) for e in d["top.components"].equations]
+    assert shown[0] == "3/4 m A₃₂ gh/I₁₁ + (I₁₁ − I₃₃)/I₁₁ ζ₂ ζ₃"
+    assert shown[2] == "0"
+
+
+def test_a_body_without_a_first_moment_feels_no_gravity():
+    d = walked(BALANCED + points((1, 0, 0), (0, 1, 1), (-1, -1, -1)))
+    assert "cannot act" in said(d)
+    assert holds(d)
+
+
+PLACES = ((1, 0, 0), (0, 1, 1), (1, 0, 1))
+
+
+def test_a_solid_with_products_of_inertia_is_solved():
+    """Beside Euler's equations in floating point, with the tensor from the points."""
+    d = walked(BALANCED + points(*PLACES))
+    assert holds(d)
+    random = np.random.default_rng(3)
+    A, _ = np.linalg.qr(random.normal(size=(3, 3)))
+    zeta, m, g = random.normal(size=3), 1.7, 9.81
+    r = np.array(PLACES)
+    inertia = m * sum((x @ x) * np.eye(3) - np.outer(x, x) for x in r)
+    torque = m * np.cross(r.sum(axis=0), A.T @ [0, 0, -g])
+    expected = np.linalg.solve(inertia, torque + np.cross(inertia @ zeta, zeta))
+    known = {("par", "m"): m, ("par", "g"): g}
+    known |= {("entry", "A", i + 1, j + 1): A[i, j] for i in range(3) for j in range(3)}
+    known |= {("entry", "ζ", i + 1): zeta[i] for i in range(3)}
+    found = [number(e.rhs, known) for e in answer(d).equations]
+    assert np.allclose(found, expected, rtol=1e-12)
+
+
+def number(t, known):
+    """The value of a tree of sums, products, quotients and powers."""
+    if isinstance(t, (int, Fraction)):
+        return float(t)
+    if t in known:
+        return known[t]
+    op, *parts = t
+    if op == "pow":
+        return number(parts[0], known) ** parts[1]
+    values = [number(x, known) for x in parts]
+    if op == "div":
+        return values[0] / values[1]
+    return sum(values) if op == "add" else np.prod(values)
+
+
+def test_what_is_long_is_left_out():
+    labels = {s.label for name in ("coupled", "two_tops", "so3", "se3") for s in record(name).steps}
+    assert not any(x.endswith(".explicit") for x in labels)
+
+
+def test_no_answer_names_what_it_solves_for():
+    for name in ("gyrostat", "heisenberg", "rod", "su2"):
+        for e in answer(record(name)).equations:
+            assert "ζ̇" not in {x for x in nodes(e.rhs) if isinstance(x, str)}
+
+
+MUTATED = ("screw", "su2", "heisenberg", "so4", "gyrostat", "rod", "hammer", "ellipsoid")
+
+
+@pytest.mark.parametrize("name", repeated(MUTATED))
+def test_every_corruption_of_an_answer_is_refused(name):
+    d = record(name)
+    checker = Checker(d.problem, SEED)
+    for step in (s for s in d.steps if s.label.endswith((".explicit", ".kks", ".components"))):
+        found = [*tried(step, checker)]
+        assert found
+        assert [(kind, wrong) for kind, wrong, verdict in found if verdict.holds] == []
+
+
+@pytest.mark.parametrize("name", ["SO(2)", "SE(2)", "UT(3)", "SU(2)", "Sim(2)", "SO(3) x SE(2)"])
+def test_entries_are_told_by_the_free_ones(name):
+    g = group(name)
+    told_by = told_entries(g)
+    random = Random(5)
+    for _ in range(3):
+        A = g.sample(random)
+        for i, row in enumerate(told_by):
+            for j, (constant, weights) in enumerate(row):
+                assert A[i][j] == constant + sum(w * A[k][m] for (k, m), w in weights.items())
+
+
+@pytest.mark.parametrize(("name", "free"), [("SO(2)", 2), ("UT(3)", 3), ("SU(2)", 4), ("SO(3)", 9)])
+def test_as_few_entries_are_free_as_can_be(name, free):
+    assert len({x for row in told_entries(group(name)) for _, w in row for x in w}) == free
