@@ -133,7 +133,7 @@ EXPRESSED = (
     Stage("basis", "problem group lagrangian a c", "Basis", advected.reduced, "reduced"),
     Stage("expressed", "problem group lagrangian basis c", "Expressed", expressed.expressed),
     Stage("balance", "expressed problem group lagrangian basis c_u", "Steps", expressed.balance),
-    Stage("explicit", "problem group basis.steps balance expressed.told c_u",
+    Stage("explicit", "problem group balance expressed.told c_u",
           "Steps", explicit.of_lagrangian),
 )
 """One Lagrangian in a basis of 𝔤, its state with an element of the group, or reduced."""
