@@ -137,7 +137,7 @@ EXPRESSED = (
     Stage("balance", "expressed problem group lagrangian basis c_u", "Steps", expressed.balance),
     Stage("by_momenta", "expressed problem group lagrangian basis balance c c_u",
           "Steps", momentum_side.by_momenta),
-    Stage("explicit", "problem group basis.steps balance expressed.told c_u",
+    Stage("explicit", "problem group balance expressed.told c_u",
           "Steps", explicit.of_lagrangian),
 )
 """One Lagrangian in a basis of 𝔤, its state with an element of the group, or reduced."""

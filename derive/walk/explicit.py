@@ -156,10 +156,10 @@ def _moments(name: str, m: Value) -> Value:
 
 
 def of_lagrangian(
-    problem: Problem, group: Group, moved: Steps, balance: Steps, momenta: Step, c: Chapter
+    problem: Problem, group: Group, balance: Steps, momenta: Step, c: Chapter
 ) -> Steps:
-    """From M and β of a problem with a Lagrangian of its own; ``moved``: the step of Ȧ, or Γ̇;
-    ``momenta``: that of Π_a and Φ_a."""
+    """From M and β of a problem with a Lagrangian of its own; ``momenta``: the step of Π_a and
+    Φ_a."""
     if group.dimension > LARGEST:
         return ()
     *_, mass, motion = balance
