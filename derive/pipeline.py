@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 # fmt: off
 # isort: off
+from .language.refused import Refused
 from .problem import left_invariant
 from .problem.principal import principal
 from .problem.problem import Problem, ProblemError
@@ -38,8 +39,12 @@ from .walk.stages import Stage, Values, follow
 # isort: on
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from fractions import Fraction
+
     from .code.options import Options
     from .code.program import Program
+    from .equilibria.stability import Equilibrium
     from .integrals.all_integrals import Found
     from .language.tree import Tree
     from .symmetries.steps import Symmetries
@@ -206,6 +211,27 @@ def integrals(
     c = Chapter(problem.name, problem.group.name)
     steps = supposing_all(traced((*record.steps, *told(whole, record.steps, c, driven=driven))))
     return whole, Derivation(record.problem, symbols(steps, problem), steps)
+
+
+def equilibria(
+    problem: Problem, values: Mapping[str, Fraction]
+) -> tuple[tuple[Equilibrium, ...], Derivation]:
+    """The relative equilibrium of a problem at a point, or those among some points where no values
+    are given, and the record of its integrals with the steps that tell them; parameters have their
+    defaults."""
+    from .equilibria.stability import equilibria_of
+    from .equilibria.told_points import told
+
+    whole, record = integrals(problem, at_defaults=True)
+    try:
+        found = equilibria_of(whole, values)
+    except Refused as error:
+        raise ProblemError(f"{problem.name}: {error}") from None
+    assert problem.group is not None
+    c = Chapter(problem.name, problem.group.name)
+    steps = told(whole, found, record.steps, c, tried=not values)
+    steps = supposing_all(traced((*record.steps, *steps)))
+    return found, replace(record, steps=steps)
 
 
 def symmetries(problem: Problem, record: Derivation) -> Symmetries:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from typing import Any
 
 from .. import __version__
@@ -86,11 +88,13 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
         return made
 
     command("list")
-    walk, symmetries, searched, made, emit, check = map(
-        command, ("walk", "symmetries", "integrals", "notes", "emit", "check")
+    walk, symmetries, searched, steady, made, emit, check = map(
+        command, ("walk", "symmetries", "integrals", "equilibria", "notes", "emit", "check")
     )
-    add_reading_options((walk, symmetries), searched, made)
+    add_reading_options((walk, symmetries), (searched, steady), made)
     add_search_options(searched)
+    about = "a coordinate of an equilibrium, as Pi_3=2; may be repeated, others are 0"
+    steady.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)
     emit.add_argument("problem", help="a ready-made name or a .toml file")
     add_writing_options(emit)
     add_emission_options(emit)
@@ -111,6 +115,16 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     return top
 
 
+def coordinate(words: str) -> tuple[str, Fraction]:
+    """A name and a number from NAME=NUMBER; ``ValueError`` for any other text."""
+    found = re.fullmatch(
+        r"(\w{1,40})=(-?\d{1,30}(?:\.\d{0,30}|/0*[1-9]\d{0,29})?)", words, re.ASCII
+    )
+    if not found:
+        raise ValueError(words)
+    return found[1], Fraction(found[2])
+
+
 def degree(words: str) -> int:
     """A degree from 1 to 40 from its text; ``ValueError`` for any other."""
     if not 1 <= (number := int(words)) <= 40:
@@ -128,7 +142,7 @@ def add_search_options(searched: argparse.ArgumentParser) -> None:
 
 def add_reading_options(
     walks: Sequence[argparse.ArgumentParser],
-    searched: argparse.ArgumentParser,
+    searched: Sequence[argparse.ArgumentParser],
     notes: argparse.ArgumentParser,
 ) -> None:
     """Add the options of ``walk`` and its like and of ``notes``: problems, format, language,
@@ -136,7 +150,7 @@ def add_reading_options(
     from ..printing.notation import NOTATIONS
     from ..views.language import LANGUAGES
 
-    for one in (*walks, searched):
+    for one in (*walks, *searched):
         one.add_argument("problem", help="a ready-made name or a .toml file")
         one.add_argument("--format", choices=FORMATS, default="text")
         one.add_argument("--out", metavar="FILE")
@@ -145,7 +159,7 @@ def add_reading_options(
         one.add_argument("step", nargs="*", help=about)
     notes.add_argument("problem", nargs="*", help="ready-made names or .toml files")
     notes.add_argument("--out", metavar="FILE", required=True, help="FILE.tex, .pdf, .html or .sty")
-    for one in (*walks, searched, notes):
+    for one in (*walks, *searched, notes):
         one.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
         one.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
         for option, name in (("--notation", "transpose"), ("--hat", "hat")):

@@ -1,5 +1,5 @@
-"""The command line: ``derive list | walk | symmetries | integrals | notes | emit | check | paper |
-build``."""
+"""The command line: ``derive list | walk | symmetries | integrals | equilibria | notes | emit |
+check | paper | build``."""
 
 from __future__ import annotations
 
@@ -122,10 +122,26 @@ def command_integrals(args: argparse.Namespace) -> int:
     return 0
 
 
-def told_steps(record: Derivation) -> list[Step]:
-    """The steps of a record that tell integrals."""
+def command_equilibria(args: argparse.Namespace) -> int:
+    """Find relative equilibria of the reduced equations of a problem, and their stability."""
+    from ..pipeline import equilibria
+
+    found, record = equilibria(load_problem(args.problem), dict(args.at or ()))
+    if not found:
+        raise UsageError(
+            f"{record.name}: no equilibrium among the points with at most one momentum, 1, and at "
+            "most one other coordinate, 1 or -1: give one by --at NAME=NUMBER"
+        )
+    new = () if args.format == "json" else told_steps(record, "equilibrium_1")
+    chosen = {"fragment": args.fragment, "steps": new, **notation(args)}
+    save(render(record, args.format, args.lang, **chosen), args.out, args.format)
+    return 0
+
+
+def told_steps(record: Derivation, first: str = "poisson") -> list[Step]:
+    """The steps of a record from one on: those that tell integrals, or equilibria."""
     labels = [step.label for step in record.steps]
-    return [*record.steps[labels.index(f"{record.name}.poisson") :]]
+    return [*record.steps[labels.index(f"{record.name}.{first}") :]]
 
 
 def command_symmetries(args: argparse.Namespace) -> int:
@@ -290,6 +306,7 @@ COMMANDS = {
     "list": command_list,
     "walk": command_walk,
     "integrals": command_integrals,
+    "equilibria": command_equilibria,
     "symmetries": command_symmetries,
     "notes": command_notes,
     "emit": command_emit,

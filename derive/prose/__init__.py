@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .answer import STEPS as ANSWER
+from .equilibria import STEPS as EQUILIBRIA
 from .first_integrals import STEPS as FIRST_INTEGRALS
 from .general import STEPS as GENERAL
 from .material import STEPS as MATERIAL
@@ -27,6 +28,7 @@ STEPS = {
     **SYMMETRIES,
     **MOMENTUM_FORM,
     **ANSWER,
+    **EQUILIBRIA,
 }
 """Label → name → the sentence in each of ``LANGUAGES``."""
 LANGUAGES = ("en", "fr")

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from ..figure.drawing import Scene
     from .as_sympy import Translation
     from .conserved_quantities import SymmetriesOf
+    from .equilibria_found import Equilibria
     from .expressions import Expressions
     from .integrals_found import FirstIntegrals
 
@@ -103,6 +105,16 @@ class Derived:
         from .integrals_found import first_integrals
 
         return first_integrals(self.problem, degree, at_defaults=at_defaults)
+
+    def equilibria(self, at: Mapping[str, Fraction | int | str] | None = None) -> Equilibria:
+        """The relative equilibrium with these coordinates, the others 0, as ``{"Pi_3": 2}``, or
+        those among some points; parameters have their defaults.  ``ProblemError`` where it is
+        none."""
+        from ..pipeline import equilibria
+        from .equilibria_found import Equilibria
+
+        values = {x: Fraction(v) for x, v in (at or {}).items()}
+        return Equilibria(*equilibria(self.problem, values))
 
     def symmetries(self) -> SymmetriesOf:
         """All symmetries of L̃ of a kind, and what the motion keeps by each; ``ProblemError`` where

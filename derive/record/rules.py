@@ -92,6 +92,11 @@ RULES: dict[str, Rule] = {
         "The equations are told by brackets of the variables with the energy.",
         "solution",
     ),
+    "expansion": Rule(
+        "développement",
+        "Polynomials are written in powers of the distance from a point.",
+        "identity",
+    ),
     "evaluation": Rule(
         "évaluation", "The numbers of the problem are put into its equations.", "solution"
     ),

@@ -1,19 +1,20 @@
 """The prose of the steps: every sentence stands under the label of the step that says it."""
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
 
 from derive import prose
 from derive.record.sentence import Sentence
-from tests.support.lagrangians import every_case
+from tests.support.lagrangians import every_case, every_equilibrium
 from tests.support.walks import NAMES, OTHERS, record
 
 ROOT = Path(prose.__file__).parents[1]
 ROOMS = [ROOT / room for room in ("walk", "symmetries", "integrals")]
 SIGNED = "_signed"
-ALSO = {"coadjoint": {"kernel"}}
+ALSO = {"coadjoint": {"kernel"}, "energy_casimir": {"equilibrium"}}
 """In vectors the kernel is told where the coefficients vanish."""
 
 
@@ -52,7 +53,7 @@ def test_a_step_says_what_stands_under_its_label(name):
 
 
 def test_a_step_of_integrals_says_what_stands_under_its_label():
-    for found in every_case():
+    for found in (*every_case(), *every_equilibrium()):
         says_what_stands_under_its_label(found.record)
 
 
@@ -63,7 +64,7 @@ def says_what_stands_under_its_label(found):
             own.setdefault(english, set()).add(label)
     for step in found.steps:
         said = [m for sentence in step.prose for m in messages(sentence) if m in own]
-        short = step.label.split(".", 1)[1]
+        short = re.sub(r"^(equilibrium|energy_casimir)_\d+$", r"\1", step.label.split(".", 1)[1])
         under = {short, *ALSO.get(short, ())}
         assert [m for m in said if own[m].isdisjoint(under)] == [], step.label
 

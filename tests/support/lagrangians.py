@@ -2,6 +2,7 @@
 
 from derive.algebra.families import group as named
 from derive.problem.toml import problem_of
+from derive.python.derived import derive
 from derive.python.integrals_found import first_integrals
 
 
@@ -60,4 +61,17 @@ def every_case():
         first_integrals(heavy("441", "m*A_31", "m"), 4),
         *(first_integrals(x) for x in ("gyrostat", "euler_top", "lagrange_top")),
         first_integrals("so3", 1, at_defaults=True),
+    ]
+
+
+def every_equilibrium():
+    """Equilibria that together reach whatever may be said of them."""
+    solid = squares(3, 5, 11, 13, 13, 13)
+    return [
+        derive("euler_top").equilibria(),
+        derive("lagrange_top").equilibria({"A_33": -1}),
+        derive("kirchhoff").equilibria({"Pi_1": 1}),
+        derive(lagrangian(solid, "SE(3)", side="right")).equilibria({"Pi_1": 1}),
+        derive(lagrangian(solid, "SE(3)")).equilibria({"Pi_1": 1}),
+        derive(lagrangian(squares(*range(2, 12)), "SO(5)")).equilibria({"Pi_1": 1}),
     ]

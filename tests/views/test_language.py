@@ -33,7 +33,7 @@ from derive.views.text import step_text, text
 from tests.problems import PROBLEMS
 from tests.support import symmetric, walks
 from tests.support.kinds import examples
-from tests.support.lagrangians import every_case
+from tests.support.lagrangians import every_case, every_equilibrium
 from tests.views.test_views import compiled
 
 ROOT = Path(__file__).parents[2] / "derive"
@@ -97,7 +97,7 @@ def records(tmp_path_factory):
     found += [walk(p) for p in examples().values()]
     for moved in ({"group": "SO(3)"}, {"algebra": {"of": "SO(3)"}, "advected": [{"name": "x"}]}):
         found.append(walk(problem_of({"name": "own", "lagrangian": ON_THE_RIGHT} | moved)))
-    found += [x.record for x in every_case()]
+    found += [x.record for x in (*every_case(), *every_equilibrium())]
     found += [symmetric.found(name).record for name in symmetric.FILES]
     found += [symmetries(walks.problem(x), walks.record(x)).record for x in REACHING]
     return found + [walk(p) for p in own_problems(tmp_path_factory.mktemp("mesh"))]

@@ -1,0 +1,1 @@
+"""Relative equilibria of reduced equations, and what is proved of their stability."""

@@ -1,0 +1,151 @@
+"""Points of the reduced space at which nothing moves: Λ dH = 0, given by a user or tried."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import prod
+from typing import Any
+
+from ..integrals.lie_poisson import ONE, Algebra, LiePoisson, Polynomial
+from ..language.refused import Refused
+from ..language.suffixed import suffixed
+from ..language.tree import Tree
+
+Point = tuple[Fraction, ...]
+Matrix = list[list[Fraction]]
+
+
+class NoEquilibriumError(Refused, ValueError):
+    """A point that is none of the problem, or at which something moves: the message says what."""
+
+
+@dataclass(frozen=True)
+class Expansion:
+    """A polynomial about a point: its ``value``, its ``slope``, the matrix Q of ``second``
+    derivatives, and the terms of y above the second, by exponents."""
+
+    value: Fraction
+    slope: list[Fraction]
+    second: Matrix
+    higher: dict[tuple[int, ...], Fraction]
+
+
+@dataclass(frozen=True)
+class About:
+    """The reduced equations about a point: y = x − ``at``."""
+
+    system: LiePoisson
+    at: Point
+
+    @property
+    def algebra(self) -> Algebra:
+        """The ring of the polynomials."""
+        return self.system.algebra
+
+    def expansion(self, f: Polynomial) -> Expansion:
+        """A polynomial with coefficients in Q, in powers of y."""
+        from sympy import QQ, ring
+
+        n = len(self.at)
+        shifted, *y = ring([f"y{i}" for i in range(n)], QQ)
+        x = [v + QQ(c.numerator, c.denominator) for v, c in zip(y, self.at, strict=True)]
+        total = shifted.zero
+        for e, c in f.items():
+            total += shifted(c) * prod((v**k for v, k in zip(x, e, strict=True) if k), start=1)
+        terms = {m: Fraction(int(c.numerator), int(c.denominator)) for m, c in total.items()}
+
+        def of(*places: int) -> Fraction:
+            return terms.get(tuple(places.count(i) for i in range(n)), Fraction(0))
+
+        second = [[of(i, j) * (2 if i == j else 1) for j in range(n)] for i in range(n)]
+        higher = {m: c for m, c in terms.items() if sum(m) > 2}
+        return Expansion(of(), [of(i) for i in range(n)], second, higher)
+
+    @cached_property
+    def rates(self) -> list[Expansion]:
+        """The rates of the variables, ẋ_i."""
+        return [self.expansion(self.algebra.flow.get(i, {})) for i, _ in enumerate(self.at)]
+
+    @cached_property
+    def tensor(self) -> Matrix:
+        """The Poisson tensor Λ at the point."""
+
+        def number(i: int, j: int) -> Fraction:
+            terms = self.system.bracket(i, j).items()
+            return sum((c * (1 if k == ONE else self.at[k]) for k, c in terms), Fraction(0))
+
+        places = range(len(self.at))
+        return [[number(i, j) for j in places] for i in places]
+
+
+def coordinate(x: Tree) -> str:
+    """The name of a variable at the command line: Pi_1, A_31, Gamma_2."""
+    assert isinstance(x, tuple)
+    return suffixed({"Π": "Pi", "Γ": "Gamma"}.get(x[1], str(x[1])), *x[2:])
+
+
+def given(system: LiePoisson, values: Mapping[str, Fraction], fixed: Sequence[Any]) -> About:
+    """The point with these coordinates, the others 0; ``NoEquilibriumError`` where it is none of
+    the problem or no equilibrium.  ``fixed``: the Casimirs."""
+    names = [coordinate(x) for x in system.variables]
+    for name in values:
+        if name not in names:
+            raise NoEquilibriumError(f"{name} is no coordinate; these are {', '.join(names)}")
+    about = About(system, tuple(Fraction(values.get(x, 0)) for x in names))
+    if reason := off_the_group(about, fixed):
+        raise NoEquilibriumError(reason)
+    moving = [
+        f"the rate of {name} is {e.value}"
+        for name, e in zip(names, about.rates, strict=True)
+        if e.value
+    ]
+    if moving:
+        raise NoEquilibriumError(f"no equilibrium: {', '.join(moving)}")
+    return about
+
+
+def off_the_group(about: About, fixed: Sequence[Any]) -> str:
+    """How the entries of g at a point cannot be those of an element: a Casimir of them alone has
+    the value that it has at 1; "" where it has."""
+    system, algebra = about.system, about.algebra
+    if not any(isinstance(x, tuple) and x[1] == "A" for x in system.variables):
+        return ""
+    one = tuple(
+        Fraction(int(x[2] == x[3])) if isinstance(x, tuple) and x[1] == "A" else Fraction(0)
+        for x in system.variables
+    )
+    for casimir in fixed:
+        f = algebra.over_the_field(casimir)
+        if any(any(e[: system.momenta]) for e in f):
+            continue
+        here, there = (About(system, at).expansion(f).value for at in (about.at, one))
+        if here != there:
+            return (
+                f"no element of the group has these entries: of {casimir_text(about, f)} it "
+                f"makes {there}, not {here}"
+            )
+    return ""
+
+
+def casimir_text(about: About, f: Polynomial) -> str:
+    """A polynomial as text."""
+    from ..language.show import show
+
+    return show(about.algebra.field_tree(f))
+
+
+def tried(system: LiePoisson, fixed: Sequence[Any]) -> Iterator[About]:
+    """The equilibria among the points with at most one momentum that is not 0, it being 1, and at
+    most one other coordinate that is not 0, it being 1 or −1; not the origin."""
+    n, momenta = len(system.variables), system.momenta
+    for b, sign in ((None, 0), *((b, s) for b in range(momenta, n) for s in (1, -1))):
+        for a in (None, *range(momenta)):
+            chosen = {a: 1, b: sign}
+            at = tuple(Fraction(chosen.get(i, 0)) for i in range(n))
+            about = About(system, at)
+            moving = any(e.value for e in about.rates)
+            if any(at) and not moving and not off_the_group(about, fixed):
+                yield about

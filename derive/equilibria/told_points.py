@@ -1,0 +1,153 @@
+"""The steps of a record that tell equilibria: the rates about each, and its energy–Casimir form."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+
+from ..integrals.all_integrals import Found
+from ..integrals.told import rate
+from ..language.show import show
+from ..language.tree import Tree, add, mul, neg
+from ..record.record import Equation, Step
+from ..record.sentence import Prose
+from ..walk.chapter import Chapter
+from ..walk.wording import say
+from .energy_casimir import Form, Leaf
+from .equilibrium_points import About, Expansion
+from .stability import Equilibrium
+
+
+def told(
+    whole: Found,
+    found: Sequence[Equilibrium],
+    steps: Sequence[Step],
+    c: Chapter,
+    *,
+    tried: bool,
+) -> tuple[Step, ...]:
+    """Two steps for each equilibrium, one where no multipliers are found; ``steps``: of the record
+    of the integrals; ``tried``: were points tried, none being given?"""
+    by_label = {s.label: s for s in steps}
+    reduced, kept = (by_label.get(c.label(x)) for x in ("poisson", "casimirs"))
+    made_from = [x for x in (reduced, kept, by_label[c.label("first_integrals")]) if x]
+    told_steps: list[Step] = []
+    for k, x in enumerate(found, 1):
+        told_steps.append(_rates(x, f"equilibrium_{k}", made_from[0], c, tried=tried and k == 1))
+        if x.form:
+            told_steps.append(_form(whole, x, x.form, f"energy_casimir_{k}", made_from, c))
+    return tuple(told_steps)
+
+
+def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool) -> Step:
+    """The rates in powers of the distance from the equilibrium: none has a constant term."""
+    draft = c.draft(label, "expansion")
+    draft.depends_on(reduced)
+    variables, away = x.about.system.variables, distances(x.about)
+    equations = [
+        Equation(rate(v), expanded(e, away)) for v, e in zip(variables, x.about.rates, strict=True)
+    ]
+    prose = say("equilibrium.at", point=_place(x.about))
+    prose = (say("equilibrium.tried") if tried else ()) + prose
+    return draft.step(equations, prose + (() if x.form else say("equilibrium.none") + _verdict(x)))
+
+
+def _place(about: About) -> str:
+    """The coordinates of a point that are not 0, as text."""
+    pairs = zip(about.system.variables, about.at, strict=True)
+    return ", ".join(f"{show(v)} = {show(plain(number))}" for v, number in pairs if number)
+
+
+def distances(about: About) -> list[Tree]:
+    """The variables less their values at the point."""
+    return [
+        add(v, neg(plain(number)))
+        for v, number in zip(about.system.variables, about.at, strict=True)
+    ]
+
+
+def plain(x: Fraction) -> Tree:
+    """A rational number as a tree."""
+    return int(x) if x.denominator == 1 else x
+
+
+def linear(row: Sequence[Fraction], away: Sequence[Tree]) -> Tree:
+    """A linear form in the distances."""
+    return add(*(mul(plain(x), y) for x, y in zip(row, away, strict=True) if x))
+
+
+def expanded(e: Expansion, away: Sequence[Tree]) -> Tree:
+    """A polynomial in powers of the distances."""
+    n = len(away)
+    pairs = [(i, j) for i in range(n) for j in range(i, n) if e.second[i][j]]
+    squares = [
+        mul(plain(e.second[i][j] / 2), _power(away[i], 2))
+        if i == j
+        else mul(plain(e.second[i][j]), away[i], away[j])
+        for i, j in pairs
+    ]
+    terms = (plain(e.value), linear(e.slope, away), *squares, *higher(e, away))
+    return add(*(x for x in terms if x != 0))
+
+
+def higher(e: Expansion, away: Sequence[Tree]) -> list[Tree]:
+    """The terms above the second order."""
+    return [
+        mul(plain(c), *(_power(y, k) for y, k in zip(away, m, strict=True) if k))
+        for m, c in e.higher.items()
+    ]
+
+
+def _power(x: Tree, k: int) -> Tree:
+    return x if k == 1 else ("pow", x, k)
+
+
+def _form(
+    whole: Found, x: Equilibrium, form: Form, label: str, made_from: Iterable[Step], c: Chapter
+) -> Step:
+    """The energy with multiples of what is kept: a constant, squares, and what vanishes on the
+    leaf."""
+    draft = c.draft(label, "expansion")
+    draft.depends_on(*made_from)
+    algebra, away = whole.system.algebra, distances(x.about)
+    kept = map(algebra.tree, (*whole.casimirs, *whole.integrals))
+    pairs = zip(form.multipliers, kept, strict=True)
+    left = add("h̃", *(mul(plain(m), f) for m, f in pairs if m))
+    right = [
+        plain(form.expansion.value),
+        *(mul(plain(d), _power(linear(row, away), 2)) for d, row in form.squares),
+        *_beside(x.leaf, form, away),
+        *higher(form.expansion, away),
+    ]
+    positive, negative = form.signature
+    prose = say("equilibrium.form", positive=str(positive), negative=str(negative))
+    equation = Equation(left, add(*(t for t in right if t != 0)))
+    return draft.step([equation], prose + _verdict(x))
+
+
+def _beside(on: Leaf, form: Form, away: Sequence[Tree]) -> list[Tree]:
+    """The products n_j m_j, which vanish on the tangent space of the leaf."""
+    return [_product(n, m, away) for n, m in zip(on.equations, form.mixed, strict=True) if any(m)]
+
+
+def _product(n: Sequence[Fraction], m: Sequence[Fraction], away: Sequence[Tree]) -> Tree:
+    """The product of two linear forms, a square where they are proportional."""
+    first = next(i for i, x in enumerate(n) if x)
+    factor = m[first] / n[first]
+    if all(y == factor * x for x, y in zip(n, m, strict=True)):
+        return mul(plain(factor), _power(linear(n, away), 2))
+    return mul(linear(n, away), linear(m, away))
+
+
+def _verdict(x: Equilibrium) -> Prose:
+    """What is proved of its stability."""
+    if x.verdict == "stable":
+        beyond = x.form is not None and x.form.whole
+        return say("equilibrium.stable_beyond" if beyond else "equilibrium.stable")
+    if x.verdict == "stable on the leaf":
+        return say("equilibrium.on_the_leaf")
+    words = ", ".join(show(plain(c)) for c in x.characteristic)
+    if x.verdict == "unstable":
+        growth = f"{x.growth:.3g}"
+        return say("equilibrium.unstable", coefficients=words, growth=growth)
+    return say("equilibrium.open", coefficients=words)

@@ -1,0 +1,69 @@
+"""The relative equilibria of a problem as Python holds them, and their record."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ..check.checker import Verdict
+from ..equilibria.equilibrium_points import coordinate
+from ..equilibria.stability import Equilibrium
+from ..record.record import Derivation
+
+
+@dataclass(frozen=True)
+class Steady:
+    """A relative equilibrium.  ``found``: all that is known of it."""
+
+    found: Equilibrium
+
+    @property
+    def at(self) -> dict[str, Fraction]:
+        """The coordinates that are not 0, by their names."""
+        about = self.found.about
+        pairs = zip(about.system.variables, about.at, strict=True)
+        return {coordinate(v): x for v, x in pairs if x}
+
+    @property
+    def verdict(self) -> str:
+        """What is proved: "stable", "stable on the leaf", "unstable", or "open" for nothing."""
+        return self.found.verdict
+
+    @property
+    def signature(self) -> tuple[int, int] | None:
+        """How many squares of the energy–Casimir form on the leaf are positive and negative;
+        ``None`` without multipliers."""
+        return self.found.form.signature if self.found.form else None
+
+    @property
+    def growth(self) -> float:
+        """About the largest real part of an eigenvalue of the linearised rates, in 1/s."""
+        return self.found.growth
+
+    def __repr__(self) -> str:
+        place = ", ".join(f"{x} = {v}" for x, v in self.at.items())
+        return f"<{self.verdict}: {place or 'the origin'}>"
+
+
+@dataclass(frozen=True)
+class Equilibria:
+    """Relative equilibria: a sequence of :class:`Steady`; ``record``: their derivation."""
+
+    found: tuple[Equilibrium, ...]
+    record: Derivation
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    def __getitem__(self, k: int) -> Steady:
+        return Steady(self.found[k])
+
+    def __iter__(self) -> Iterator[Steady]:
+        return map(Steady, self.found)
+
+    def check(self, seed: int | None = None) -> list[Verdict]:
+        """The verdicts of the checker on the record."""
+        from ..check.checker import check
+
+        return check(self.record, seed)

@@ -1,0 +1,143 @@
+"""Equilibria and what is said of their stability, beside linearisations by hand."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from derive import ProblemError, derive
+from derive.command.cli import main
+from derive.equilibria.energy_casimir import between_roots, diagonalised
+from derive.equilibria.stability import grows, polynomial
+from tests.support.lagrangians import heavy, lagrangian
+from tests.support.walks import repeated
+
+
+def test_a_free_solid_turns_about_its_axes():
+    """Stable about the least and the largest moment, unstable about the middle one (Euler)."""
+    found = derive("euler_top").equilibria()
+    assert [x.verdict for x in found] == ["stable", "unstable", "stable"]
+    assert [x.signature for x in found] == [(0, 2), (1, 1), (2, 0)]
+    moments = [float(derive("euler_top").problem.parameters[f"I{a}"].default) for a in (1, 2, 3)]
+    a, b, c = moments
+    assert found[1].growth == pytest.approx(np.sqrt((b - a) * (c - b) / (a * c)) / b)
+
+
+def sleeping(spin):
+    """The Lagrange top upright: its verdict at a momentum about the vertical."""
+    (x,) = derive("lagrange_top").equilibria({"Pi_3": spin, "A_33": 1})
+    return x
+
+
+def test_a_sleeping_top_wakes_where_it_spins_slowly():
+    """Stable above Π₃² = 4 I₁ mgl, unstable below."""
+    p = derive("lagrange_top").problem.parameters
+    least = np.sqrt(4 * p["I1"].default * p["mgl"].default)
+    above, below = (Fraction(str(round(least + x, 6))) for x in (0.01, -0.01))
+    assert sleeping(above).verdict == "stable"
+    assert sleeping(below).verdict == "unstable"
+
+
+def rates(x, moments, weight):
+    """Euler–Poisson by hand: weight along the first axis of the body, of the kovalevskaya_top."""
+    pi, gamma = x[:3], x[3:]
+    omega = pi / moments
+    push = np.cross(gamma, [0, 0, 0]) + np.cross([weight, 0, 0], gamma)
+    return np.concatenate([np.cross(pi, omega) - push, np.cross(gamma, omega)])
+
+
+@pytest.mark.parametrize("at", [1, -1])
+def test_a_top_hangs_or_stands(at):
+    p = derive("kovalevskaya_top").problem.parameters
+    moments = np.array([2, 2, 1]) * p["I"].default
+    (found,) = derive("kovalevskaya_top").equilibria({"A_31": at})
+    x = np.array([0, 0, 0, at, 0, 0], float)
+    assert not rates(x, moments, p["mgl"].default).any()
+    step, weight = 1e-6, p["mgl"].default
+    pairs = [[rates(x + s * step * e, moments, weight) for s in (1, -1)] for e in np.eye(6)]
+    slopes = [(up - down) / (2 * step) for up, down in pairs]
+    growth = np.linalg.eigvals(np.array(slopes).T).real.max()
+    assert found.growth == pytest.approx(growth, abs=1e-6)
+    assert found.verdict == ("unstable" if growth > 1e-6 else "stable")
+
+
+RECORDS = ("euler_top", "lagrange_top", "kovalevskaya_top", "euler_poisson", "kirchhoff", "manakov")
+
+
+@pytest.mark.parametrize("name", repeated(RECORDS, 2))
+def test_every_step_is_checked(name):
+    found = derive(name).equilibria()
+    new = [v for v in found.check() if ".equilibrium" in v.label or ".energy_casimir" in v.label]
+    assert len(new) >= len(found) > 0
+    assert [v.reason for v in new if not v.holds] == []
+
+
+def test_points_and_solids_too():
+    (found,) = derive("su2").equilibria({"Pi_1": 1})
+    assert found.at == {"Pi_1": 1}
+
+
+REFUSED = {
+    "Pi_9": ("lagrange_top", "is no coordinate"),
+    "A_33=2": ("lagrange_top", "no element of the group"),
+    "Pi_1=1,A_33=1": ("lagrange_top", "no equilibrium: the rate of"),
+    "": ("gyrostat", "give one by --at"),
+}
+
+
+@pytest.mark.parametrize("words", REFUSED)
+def test_what_is_refused(words, capsys):
+    name, said = REFUSED[words]
+    given = [x if "=" in x else f"{x}=1" for x in words.split(",") if x]
+    assert main(["equilibria", name, *(y for x in given for y in ("--at", x))]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"derive: {name}: ")
+    assert said in line
+
+
+def test_numbers_are_needed():
+    with pytest.raises(ProblemError, match="has no default"):
+        derive(heavy("123", "m*A_31", "m")).equilibria()
+
+
+@pytest.mark.parametrize("words", ["q", "Pi_1=", "Pi_1=x", "Pi_1=1/0"])
+def test_what_is_no_coordinate(words, capsys):
+    with pytest.raises(SystemExit) as error:
+        main(["equilibria", "euler_top", "--at", words])
+    assert error.value.code == 2
+    assert "--at" in capsys.readouterr().err
+
+
+def test_squares_by_lagrange():
+    rng = np.random.default_rng(3)
+    for n in (1, 3, 5):
+        a = rng.integers(-4, 5, size=(n, n))
+        q = [[Fraction(int(x)) for x in row] for row in a + a.T - 2 * np.diag(np.diag(a))]
+        squares = diagonalised(q)
+        whole = sum(
+            (float(d) * np.outer([*map(float, r)], [*map(float, r)]) for d, r in squares),
+            np.zeros((n, n)),
+        )
+        assert whole == pytest.approx(np.array(q, float))
+        positive = sum(np.linalg.eigvalsh(np.array(q, float)) > 1e-9)
+        assert positive == sum(d > 0 for d, _ in squares)
+
+
+def test_roots_and_what_is_between():
+    one, two = ([[Fraction(x), 0], [0, Fraction(y)]] for x, y in ((-1, -4), (1, 1)))
+    low, middle, high = sorted(between_roots(one, two))
+    assert low < 1 < middle < 4 < high
+
+
+@pytest.mark.parametrize(
+    ("matrix", "expected"),
+    [([[0, 1], [-1, 0]], False), ([[0, 1], [1, 0]], True), ([[0, 1], [0, 0]], False)],
+)
+def test_growth(matrix, expected):
+    assert grows(polynomial([[Fraction(x) for x in row] for row in matrix])) is expected
+
+
+def test_a_leaf_of_lower_rank_is_said():
+    """A free top at rest in space but for nothing: on so(3)* the origin is a leaf by itself."""
+    found = derive(lagrangian("zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2")).equilibria({"Pi_1": 2})
+    assert found[0].verdict == "stable"
