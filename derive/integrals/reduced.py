@@ -29,9 +29,9 @@ VARIABLES = 40
 """The most variables of a reduced system that is searched."""
 
 
-COUPLED, LETTERS = 3, 4
-"""Up to so many velocities that the metric couples, or so many parameters, its inverse is formed in
-letters: in a general body of SE(3), 6 and 10, it has thousands of terms."""
+FACTORS = 24
+"""A block of the metric with more letters in the terms of its entries is not inverted in letters:
+for a general body of SE(3), with 27, the inverse has thousands of terms."""
 
 
 class NotReducedError(Refused, ValueError):
@@ -236,12 +236,14 @@ class _Symbolic:
 
     def _require_short(self, metric: list[list[Any]]) -> None:
         """Refuse a metric whose inverse is too long in its letters."""
-        coupled = max(map(len, _blocks(metric)))
-        if coupled > COUPLED and len(self.parameters) > LETTERS:
-            self.refuse(
-                f"couples {coupled} velocities with {len(self.parameters)} parameters: the inverse "
-                "of its metric is too long; give numbers for them, or --at-defaults"
-            )
+        for block in _blocks(metric) if self.parameters else ():
+            entries = [metric[i][j] for i in block for j in block if metric[i][j]]
+            factors = sum(sum(m) for x in entries for m in x.numer)
+            if len(block) > 1 and factors > FACTORS:
+                self.refuse(
+                    f"couples {len(block)} velocities by terms with {factors} letters in all: the "
+                    "inverse of its metric is too long; give numbers, or --at-defaults"
+                )
 
     def polynomial(self, t: Tree, own: Mapping[Any, Any], ring: Any) -> Any:
         """An expression in the ring of polynomials in ζ and the entries of g."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from unicodedata import normalize
 
 from ..language.tree import names
-from ..record.contract import ANY_GROUP
+from ..record.contract import ACTIONS, ANY_GROUP
 from ..record.record import Derivation, Step, Symbol
 from ..record.sentence import english, say
 from ..record.vocabulary import VOCABULARY
@@ -19,7 +19,13 @@ VARIATIONS = ("δ′", "δ")
 RATE = "\u0307"
 MOTION = "Equations of motion"
 REGULAR = "Ẋ is the derivative of X along the motion; δX and δ′X are two variations of X."
-GENERAL = ("For any group of matrices, linear action", "For any group of matrices, affine action")
+GENERAL = {
+    "linear": "For any group of matrices, linear action",
+    "affine": "For any group of matrices, affine action",
+    "left": "For any Lagrangian on a group, Z = g⁻¹ν on the left",
+    "right": "For any Lagrangian on a group, Z = νg⁻¹ on the right",
+}
+"""Headings of what is said of any group, by what the labels begin with."""
 
 
 @dataclass(frozen=True)
@@ -48,8 +54,9 @@ def book(records: Sequence[Derivation], language: Language = ENGLISH) -> list[Bo
         general = tuple(s for s in d.steps if s.scope == ANY_GROUP and s.label not in seen)
         if general:
             kind = general[0].label.partition(".")[0]
-            heading = language.word(GENERAL[kind == "affine"])
-            letters = new_letters([*map(of_any_group, d.symbols)], general, explained)
+            heading = language.word(GENERAL[kind])
+            known = [*map(of_any_group, d.symbols)] if kind in ACTIONS else d.symbols
+            letters = new_letters(known, general, explained)
             parts.append(BookPart(kind, heading, "", general, d, letters))
             seen |= {s.label for s in general}
     for d in records:

@@ -34,7 +34,8 @@ POINTS = {
     "jelly": "damping",
     "sl3": "depends on g",
     "comet": "a function, sqrt",
-    "se3": "couples 6 velocities with 13 parameters",
+    "se3": "couples 6 velocities by",
+    "hammer": "couples 2 velocities by",
 }
 
 
