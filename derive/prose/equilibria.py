@@ -30,7 +30,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "L’énergie, avec des multiples de ce qui est conservé en outre tels que la dérivée "
             "s’annule à l’équilibre : une constante, des carrés, {positive} positifs et {negative} "
             "négatifs, indépendants sur l’espace tangent de la feuille symplectique, des produits "
-            "qui y sont nuls, et des termes d’ordre supérieur.",
+            "nuls sur cet espace, et des termes d’ordre supérieur.",
         ),
         "stable": (
             "On the leaf the squares are of one sign, and the Poisson tensor has its largest rank "
@@ -50,7 +50,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "be the largest there.",
             "Sur la feuille, les carrés sont de même signe : l’équilibre est stable pour les "
             "mouvements sur sa feuille. Des autres on ne dit rien, car il n’est pas prouvé que le "
-            "rang du tenseur de Poisson y soit maximal.",
+            "rang du tenseur de Poisson soit maximal en ce point.",
         ),
         "unstable": (
             "The characteristic polynomial of the linearised rates on the leaf has the "
