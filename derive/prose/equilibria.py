@@ -11,8 +11,8 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "coordonnée, égale à 1 ou −1 ; les autres sont à donner.",
         ),
         "at": (
-            "A relative equilibrium, a steady motion: {point}, all other variables being 0. The "
-            "rates, in powers of the distance from it, have no constant terms.",
+            "A relative equilibrium, a steady motion: {point}, while all other variables vanish. "
+            "The rates, in powers of the distance from it, have no constant terms.",
             "Un équilibre relatif, un mouvement stationnaire : {point}, les autres variables étant "
             "nulles. Les dérivées, en puissances de la distance à ce point, n’ont pas de terme "
             "constant.",

@@ -20,7 +20,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Lie–Poisson sur le dual d’un produit semi-direct, de dimension {dimension}.",
         ),
         "undriven": (
-            "The inputs are left out: they are 0 here.",
+            "The inputs are left out: they vanish here.",
             "Les entrées sont laissées de côté : elles sont nulles ici.",
         ),
     },

@@ -54,7 +54,7 @@ def book(records: Sequence[Derivation], language: Language = ENGLISH) -> list[Bo
         general = tuple(s for s in d.steps if s.scope == ANY_GROUP and s.label not in seen)
         if general:
             kind = general[0].label.partition(".")[0]
-            heading = language.word(GENERAL[kind])
+            heading = language.word(GENERAL.get(kind, GENERAL["linear"]))
             known = [*map(of_any_group, d.symbols)] if kind in ACTIONS else d.symbols
             letters = new_letters(known, general, explained)
             parts.append(BookPart(kind, heading, "", general, d, letters))

@@ -124,18 +124,24 @@ def of_vectors(
             mass = values.names[name] = _moments(name, mass)
         load = values.of(rest)
         work = [values.of(e.rhs) for s in torque.steps for e in s.equations]
-        stage = Balance(mass, tuple(x for (x,) in load), tuple(("entry", "ζ̇", i) for i in AXES))
+        stage = Balance(mass, _entries(load), tuple(("entry", "ζ̇", i) for i in AXES))
         drift = values.of(sides["ẇ"]) if group.affine else ()
     except UNKNOWN:
         return ()
-    idle = bool(problem.potentials) and not any(x for column in work for (x,) in column)
-    rates: list[tuple[Tree, Laurent]] = [(("entry", "ẇ", i), x) for i, (x,) in enumerate(drift, 1)]
+    idle = bool(problem.potentials) and not any(x for column in work for x in _entries(column))
+    shifts = _entries(drift) if group.affine else ()
+    rates: list[tuple[Tree, Laurent]] = [(("entry", "ẇ", i), x) for i, x in enumerate(shifts, 1)]
     found = _told(draft, stage, values, idle, group, after=rates)
     again = lettered and len(tensor) > 1 and found and len(found[0].prose) == 1
     return () if again else found
 
 
 AXES = (1, 2, 3)
+
+
+def _entries(column: Value) -> tuple[Laurent, ...]:
+    """The entries of a vector of R³, or of the number 0 that stands for one."""
+    return tuple(x for (x,) in column) if isinstance(column, tuple) else (column,) * 3
 
 
 def _inverted(t: Tree) -> tuple[str, Tree]:

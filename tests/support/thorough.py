@@ -20,6 +20,8 @@ KEPT = {
     "code/test_c_agrees.py::test_bits_without_contraction": 1,
     "code/test_c_at_run_time.py::test_no_undefined_behaviour": 0,
     "code/test_c_at_run_time.py::test_nothing_to_remark": 1,
+    "code/test_conserved.py::test_every_number_is_kept_and_is_that_of_the_search": 6,
+    "code/test_conserved.py::test_proved_by_the_validator": 6,
     "code/test_drift.py::test_c_does_as_python_and_in_place": 6,
     "code/test_drift.py::test_one_step_squares_the_error": 30,
     "code/test_equal_moments.py::test_one_choice": 20,

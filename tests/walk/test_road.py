@@ -79,6 +79,8 @@ def test_every_step_leads_to_the_motion(name):
         expected = {s.label for s in d.steps} - {
             f"{name}.energy",
             f"{name}.explicit",
+            f"{name}.by_momenta",
+            f"{name}.poisson_tensor",
             f"{general}.kks",
         }
     assert expected <= found
