@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from itertools import chain
+from math import prod
 from typing import Any
 
 from ..algebra.groups import Group
@@ -23,6 +24,8 @@ from ..record.record import Equation
 
 MOST = 200
 """As many terms has a value at most."""
+PAIRS = 200_000
+"""As many products of a term with a term are formed at most, in all."""
 KEPT = ("σ", "P", "Q", "r_c")
 """What keeps its name, or its members theirs, where it is no polynomial or one longer than
 ``SHORT``."""
@@ -60,6 +63,7 @@ class PutIn:
         self.names: dict[str, Value] = {"π": Laurent.symbol("π"), "t": Laurent.symbol("t"), **known}
         self.families: dict[str, dict[int, Value]] = {}
         self.one = q.identity(size)
+        self.pairs = 0
 
     def member(self, family: str, k: int, value: Value) -> None:
         """Give a member of a family its value."""
@@ -109,7 +113,24 @@ class PutIn:
         op, *parts = t
         if op in SPECIAL:
             return SPECIAL[op](self, *parts)
-        return OPERATIONS[op](*map(self.of, operands(t)))
+        found = [*map(self.of, operands(t))]
+        if op == "mul":
+            return self._product(*found)
+        return OPERATIONS[op](*(found if op in APART else self._bounded(op, *found)))
+
+    def _product(self, *factors: Value) -> Value:
+        """The product, factor by factor; ``OverlongError`` before one is too long to be formed."""
+        total, *rest = factors
+        for x in rest:
+            total = OPERATIONS["mul"](*self._bounded("mul", total, x))
+        return total
+
+    def _bounded(self, op: str, *parts: Value) -> Sequence[Value]:
+        """What is to be multiplied; ``OverlongError`` where the products of terms are too many."""
+        self.pairs += prod(map(_length, parts)) * (_length(parts[-1]) if op == "norm2" else 1)
+        if self.pairs > PAIRS:
+            raise OverlongError("too many terms")
+        return parts
 
     def _sum(self, index: str, body: Tree) -> Value:
         """The sum over the members that all families with this index have."""
@@ -135,7 +156,7 @@ class PutIn:
             raise OverlongError("too large a power")
         if n < 0:
             return self._power(("inv", base), -n)
-        return OPERATIONS["mul"](*[x] * n)
+        return self._product(*[x] * n)
 
     def _inverse(self, t: Tree) -> Value:
         x = self.of(t)
@@ -160,8 +181,15 @@ SPECIAL: dict[str, Any] = {
     "pow": PutIn._power,
     "inv": PutIn._inverse,
     "fun": PutIn._fun,
-    "div": lambda known, a, b: OPERATIONS["mul"](known.of(a), known.of(("inv", b))),
+    "div": lambda known, a, b: known._product(known.of(a), known.of(("inv", b))),
 }
+APART = ("add", "row", "T", "tr", "hat")
+"""Operations in which no terms are multiplied."""
+
+
+def _length(x: Value) -> int:
+    """The number of terms of a value, at least 1."""
+    return max(1, sum(len(y.terms) if isinstance(y, Laurent) else bool(y) for y in _entries(x)))
 
 
 def _entries(x: Value) -> Sequence[Any]:

@@ -200,3 +200,14 @@ def test_entries_are_told_by_the_free_ones(name):
 @pytest.mark.parametrize(("name", "free"), [("SO(2)", 2), ("UT(3)", 3), ("SU(2)", 4), ("SO(3)", 9)])
 def test_as_few_entries_are_free_as_can_be(name, free):
     assert len({x for row in told_entries(group(name)) for _, w in row for x in w}) == free
+
+
+@pytest.mark.parametrize(
+    "U", ["(a + r1_x)^60", "a*" + "*".join(f"(r{i}_x + {i})" for i in range(1, 40))]
+)
+def test_what_is_too_long_is_not_multiplied_out(U):
+    """Else there are more terms than memory; left out as any long answer."""
+    points = "".join(f"[[point]]\nmass = {i}\nat = [{i}, 1, {i * i % 9}]\n" for i in range(1, 41))
+    text = f'name = "p"\ngroup = "SO(3)"\nparameters = {{ a = 1.0 }}\n{points}'
+    d = walked(text + f'[[potential]]\nkind = "expression"\nU = "{U}"\n')
+    assert "p.explicit" not in {s.label for s in d.steps}
