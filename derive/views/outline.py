@@ -16,16 +16,17 @@ CONVENTIONS = (
     "Bars are transposes and 1 is the identity. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for "
     "vectors, without index for M = 1; ‖a‖² = ⟨a, a⟩. "
     "[a, b] = ab − ba and j(X)Y = X ∧ Y. Variations commute; dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)]; the "
-    "tangent bundle of the group is trivialised on the left, ξ = g⁻¹δg. The point y = (t, g, ν) is "
-    "a time, an element of the group and a velocity; 𝔤 is the Lie algebra."
+    "tangent bundle of the group is trivialised on the left, ξ = g⁻¹δg, unless a step says "
+    "otherwise. The point y = (t, g, ν) is a time, an element of the group and a velocity; "
+    "𝔤 is the Lie algebra."
 )
 FORMULAS_CONVENTIONS = (
     "For matrices $⟨a, b⟩_M = Tr a M b̄$, for vectors $⟨a, b⟩_M = ā M b$, without index for $M "
     "= 𝟏$; $‖a‖² = ⟨a, a⟩$; $[a, b] = ab − ba$ and $j(X)Y = X ∧ Y$. Variations commute, $dϖ(δ, "
     "δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)]$, and the tangent bundle of the group is trivialised on the "
-    "left, $ξ = g⁻¹δg$. The point $y = (t, g, ν)$ is a time, an element of the group and a "
-    "velocity; $𝔤$ is the Lie algebra. In equations, parameters of the problem are set in "
-    "$‘sans serif’$."
+    "left, $ξ = g⁻¹δg$, unless a step says otherwise. The point $y = (t, g, ν)$ is a time, an "
+    "element of the group and a velocity; $𝔤$ is the Lie algebra. In equations, parameters of the "
+    "problem are set in $‘sans serif’$."
 )
 """CONVENTIONS with formulas between dollars, but for the first sentence."""
 TRANSPOSES = {
