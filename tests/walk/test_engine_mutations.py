@@ -17,7 +17,8 @@ from tests.support.engine_mutations.run import LEFT, MODULES, ROOMS, Survey, cho
 from tests.support.engine_mutations.table import counted, line, table, told, wrong
 
 pytestmark = pytest.mark.no_cover
-SAMPLE, SEED = 30, 7
+SAMPLE, SEED = 15, 7
+WRONG = 8
 FIRST = JOBS[:4]
 """The texts about any group, SL(3) by words and SO(3) by vectors, each with all its forces."""
 
@@ -150,9 +151,14 @@ def test_another_basis_of_the_same_algebra_is_no_fault(survey):
 
 
 def test_a_sample_of_all_rules(survey):
-    found = list(results(chosen(MODULES, SAMPLE, SEED), survey))
+    """Samples are drawn until enough of them are wrong: most change what these four never run."""
+    found, whole = [], 0
+    for seed in range(SEED, SEED + 8):
+        found += results(chosen(MODULES, SAMPLE, seed), survey)
+        caught, whole = map(sum, zip(*map(wrong, counted(found).values()), strict=True))
+        if whole >= WRONG:
+            break
     print(table(counted(found)))
     survived = [(str(m), v.why) for m, v in found if v.outcome == "survived" and not reason(m)]
     assert not survived
-    caught, whole = map(sum, zip(*map(wrong, counted(found).values()), strict=True))
-    assert caught == whole > SAMPLE // 4
+    assert caught == whole >= WRONG
