@@ -187,6 +187,16 @@ def lagrangian_road(side: str) -> Values:
     return follow(ANY_LAGRANGIAN, start, ())
 
 
+def both_trivialisations(record: Derivation) -> Derivation:
+    """A record behind what holds for any Lagrangian, on the left beside the right; to be read."""
+    from .schema.lagrangian_kinds import Lagrangian
+    from .views.both_sides import both_sides
+
+    sides = (Lagrangian(L=0, trivialisation=side) for side in ("left", "right"))
+    left, right = (walk(Problem(x.trivialisation, None, lagrangian=x)) for x in sides)
+    return both_sides(record, left, right)
+
+
 def integrals(
     problem: Problem, degree: int = 4, *, at_defaults: bool = False
 ) -> tuple[Found, Derivation]:

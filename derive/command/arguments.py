@@ -92,6 +92,8 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
         command, ("walk", "symmetries", "integrals", "equilibria", "notes", "emit", "check")
     )
     add_reading_options((walk, symmetries), (searched, steady), made)
+    about = "first what holds for any Lagrangian, on the left beside the right"
+    walk.add_argument("--trivialisation", choices=("both",), help=about)
     add_search_options(searched)
     about = "a coordinate of an equilibrium, as Pi_3=2; may be repeated, others are 0"
     steady.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)

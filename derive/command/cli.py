@@ -100,7 +100,13 @@ def command_list(_: argparse.Namespace) -> int:
 
 def command_walk(args: argparse.Namespace) -> int:
     """Print the walk of a problem."""
+    from ..pipeline import both_trivialisations
+
     record = derive(args.problem, **allowances(args))[1]
+    if args.trivialisation:
+        if args.format == "json":
+            raise UsageError("--trivialisation both is to be read: choose another --format")
+        record = both_trivialisations(record)
     chosen = {"fragment": args.fragment, "steps": steps_of(record, args.step), **notation(args)}
     shown = render(record, args.format, args.lang, **chosen)
     if args.format == "latex":

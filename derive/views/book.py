@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import groupby
 from unicodedata import normalize
 
 from ..language.tree import names
@@ -18,12 +19,14 @@ from .system import system
 VARIATIONS = ("δ′", "δ")
 RATE = "\u0307"
 MOTION = "Equations of motion"
+SIDES = ("left", "right")
 REGULAR = "Ẋ is the derivative of X along the motion; δX and δ′X are two variations of X."
 GENERAL = {
     "linear": "For any group of matrices, linear action",
     "affine": "For any group of matrices, affine action",
     "left": "For any Lagrangian on a group, Z = g⁻¹ν on the left",
     "right": "For any Lagrangian on a group, Z = νg⁻¹ on the right",
+    "both": "For any Lagrangian on a group, on the left beside the right",
 }
 """Headings of what is said of any group, by what the labels begin with."""
 
@@ -51,9 +54,8 @@ def book(records: Sequence[Derivation], language: Language = ENGLISH) -> list[Bo
     seen: set[str] = set()
     explained: dict[str, str] = {}
     for d in records:
-        general = tuple(s for s in d.steps if s.scope == ANY_GROUP and s.label not in seen)
-        if general:
-            kind = general[0].label.partition(".")[0]
+        left = [s for s in d.steps if s.scope == ANY_GROUP and s.label not in seen]
+        for kind, general in _by_kind(left):
             heading = language.word(GENERAL.get(kind, GENERAL["linear"]))
             known = [*map(of_any_group, d.symbols)] if kind in ACTIONS else d.symbols
             letters = new_letters(known, general, explained)
@@ -67,6 +69,19 @@ def book(records: Sequence[Derivation], language: Language = ENGLISH) -> list[Bo
                 BookPart(d.name, title(d, language), system(d, language), own, d, letters, d)
             )
     return parts
+
+
+def _by_kind(steps: Sequence[Step]) -> Iterator[tuple[str, tuple[Step, ...]]]:
+    """Steps of any group by what their labels begin with; both sides are one kind."""
+    chapters = {s.label.partition(".")[0] for s in steps}
+    both = dict.fromkeys(SIDES, "both") if chapters.issuperset(SIDES) else {}
+
+    def kind(step: Step) -> str:
+        chapter = step.label.partition(".")[0]
+        return both.get(chapter, chapter)
+
+    for name, some in groupby(steps, kind):
+        yield name, tuple(some)
 
 
 def new_letters(
