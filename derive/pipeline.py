@@ -198,12 +198,13 @@ def both_trivialisations(record: Derivation) -> Derivation:
 
 
 def integrals(
-    problem: Problem, degree: int = 4, *, at_defaults: bool = False
+    problem: Problem, degree: int = 4, *, at_defaults: bool = False, conditions: bool = False
 ) -> tuple[Found, Derivation]:
     """The polynomial integrals of the reduced equations of a problem up to a degree, and its record
     with the steps that tell them; of points by their Lagrangian as one expression.
 
-    Without the inputs of the problem; ``at_defaults``: with numbers for its parameters.
+    Without the inputs of the problem; ``at_defaults``: with numbers for its parameters;
+    ``conditions``: with those on the parameters under which there are more.
     """
     from .integrals.all_integrals import found
     from .integrals.reduced import reduced, require_group, with_defaults
@@ -216,6 +217,10 @@ def integrals(
         problem = with_scalar_lagrangian(problem, walk(problem))
     problem = with_defaults(problem) if at_defaults else problem
     whole = found(reduced(problem), degree)
+    if conditions:
+        from .integrals.conditions import conditions as conditions_of
+
+        whole = replace(whole, conditions=conditions_of(whole))
     assert problem.group is not None
     record = walk(problem)
     c = Chapter(problem.name, problem.group.name)

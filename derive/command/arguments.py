@@ -140,6 +140,8 @@ def add_search_options(searched: argparse.ArgumentParser) -> None:
     searched.add_argument("--degree", type=degree, default=4, metavar="N", help=about)
     about = "put the default values of parameters in their place (default: they stay letters)"
     searched.add_argument("--at-defaults", action="store_true", help=about)
+    about = "also find the conditions on the parameters under which there are more integrals"
+    searched.add_argument("--conditions", action="store_true", help=about)
 
 
 def add_reading_options(

@@ -120,11 +120,12 @@ def command_integrals(args: argparse.Namespace) -> int:
     from ..pipeline import integrals
 
     problem = load_problem(args.problem)
-    record = integrals(problem, args.degree, at_defaults=args.at_defaults)[1]
+    chosen = {"at_defaults": args.at_defaults, "conditions": args.conditions}
+    record = integrals(problem, args.degree, **chosen)[1]
     # the JSON is a whole record, which can be checked
     new = () if args.format == "json" else told_steps(record)
-    chosen = {"fragment": args.fragment, "steps": new, **notation(args)}
-    save(render(record, args.format, args.lang, **chosen), args.out, args.format)
+    shown = {"fragment": args.fragment, "steps": new, **notation(args)}
+    save(render(record, args.format, args.lang, **shown), args.out, args.format)
     return 0
 
 

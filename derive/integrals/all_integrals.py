@@ -6,13 +6,16 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .degree_search import Point, Search, UnluckyError, blocks, point
 from .independence import Integrability, fresh, integrability
 from .level import Level
 from .lie_poisson import LiePoisson
 from .weights import Grading, grading
+
+if TYPE_CHECKING:
+    from .conditions import Conditions
 
 ATTEMPTS = 6
 
@@ -33,7 +36,8 @@ class Found:
     the parameters), of at most a ``degree`` in the ``grading``.
 
     ``integrals``: those that are no polynomials in H, the Casimirs and those before; ``fresh``: for
-    each, is it functionally independent of these?  ``levels``: what there is on levels alone.
+    each, is it functionally independent of these?  ``levels``: what there is on levels alone;
+    ``conditions``: on the parameters, where they were searched.
     """
 
     system: LiePoisson
@@ -44,6 +48,7 @@ class Found:
     fresh: tuple[bool, ...]
     proved: Integrability
     levels: tuple[OnLevel, ...] = ()
+    conditions: Conditions | None = None
 
 
 def found(system: LiePoisson, degree: int) -> Found:

@@ -100,11 +100,14 @@ class Derived:
 
         return check(self.record, seed)
 
-    def integrals(self, degree: int = 4, *, at_defaults: bool = False) -> FirstIntegrals:
+    def integrals(
+        self, degree: int = 4, *, at_defaults: bool = False, conditions: bool = False
+    ) -> FirstIntegrals:
         """The polynomial first integrals of the reduced equations up to a degree."""
         from .integrals_found import first_integrals
 
-        return first_integrals(self.problem, degree, at_defaults=at_defaults)
+        chosen = {"at_defaults": at_defaults, "conditions": conditions}
+        return first_integrals(self.problem, degree, **chosen)
 
     def equilibria(self, at: Mapping[str, Fraction | int | str] | None = None) -> Equilibria:
         """The relative equilibrium with these coordinates, the others 0, as ``{"Pi_3": 2}``, or

@@ -61,6 +61,15 @@ def every_case():
         first_integrals(heavy("441", "m*A_31", "m"), 4),
         *(first_integrals(x) for x in ("gyrostat", "euler_top", "lagrange_top")),
         first_integrals("so3", 1, at_defaults=True),
+        *(
+            first_integrals(heavy("123", U, parameters), degree, conditions=True)
+            for U, parameters, degree in (
+                ("m*A_31", "m", 4),
+                ("A_31 + k*A_32", "k", 1),
+                ("(k^2 - 2*q^2)*A_31", "k q", 1),
+            )
+        ),
+        first_integrals("lagrange_top", 1, conditions=True),
     ]
 
 
