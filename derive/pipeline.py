@@ -40,12 +40,12 @@ from .walk.stages import Stage, Values, follow
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from fractions import Fraction
 
     from .code.options import Options
     from .code.program import Program
     from .equilibria.stability import Equilibrium
     from .integrals.all_integrals import Found
+    from .language.quadratic import Number
     from .language.tree import Tree
     from .symmetries.steps import Symmetries
 
@@ -229,7 +229,7 @@ def integrals(
 
 
 def equilibria(
-    problem: Problem, values: Mapping[str, Fraction]
+    problem: Problem, values: Mapping[str, Number]
 ) -> tuple[tuple[Equilibrium, ...], Derivation]:
     """The relative equilibrium of a problem at a point, or those among some points where no values
     are given, and the record of its integrals with the steps that tell them; parameters have their

@@ -7,6 +7,8 @@ from fractions import Fraction
 
 from ..integrals.all_integrals import Found
 from ..integrals.told import rate
+from ..language.quadratic import Number, Quadratic, root
+from ..language.quadratic import tree as plain
 from ..language.show import show
 from ..language.tree import Tree, add, mul, neg
 from ..record.record import Equation, Step
@@ -49,7 +51,13 @@ def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool
     ]
     prose = say("equilibrium.at", point=_place(x.about))
     prose = (say("equilibrium.tried") if tried else ()) + prose
-    return draft.step(equations, prose + (() if x.form else say("equilibrium.none") + _verdict(x)))
+    if x.form:
+        return draft.step(equations, prose)
+    positive, negative = map(str, x.signature)
+    prose += say("equilibrium.none")
+    if x.leaf.free:
+        prose += say("equilibrium.orbit", positive=positive, negative=negative)
+    return draft.step(equations, prose + _verdict(x))
 
 
 def _place(about: About) -> str:
@@ -66,12 +74,7 @@ def distances(about: About) -> list[Tree]:
     ]
 
 
-def plain(x: Fraction) -> Tree:
-    """A rational number as a tree."""
-    return int(x) if x.denominator == 1 else x
-
-
-def linear(row: Sequence[Fraction], away: Sequence[Tree]) -> Tree:
+def linear(row: Sequence[Number], away: Sequence[Tree]) -> Tree:
     """A linear form in the distances."""
     return add(*(mul(plain(x), y) for x, y in zip(row, away, strict=True) if x))
 
@@ -130,7 +133,7 @@ def _beside(on: Leaf, form: Form, away: Sequence[Tree]) -> list[Tree]:
     return [_product(n, m, away) for n, m in zip(on.equations, form.mixed, strict=True) if any(m)]
 
 
-def _product(n: Sequence[Fraction], m: Sequence[Fraction], away: Sequence[Tree]) -> Tree:
+def _product(n: Sequence[Number], m: Sequence[Number], away: Sequence[Tree]) -> Tree:
     """The product of two linear forms, a square where they are proportional."""
     first = next(i for i, x in enumerate(n) if x)
     factor = m[first] / n[first]
@@ -143,11 +146,44 @@ def _verdict(x: Equilibrium) -> Prose:
     """What is proved of its stability."""
     if x.verdict == "stable":
         beyond = x.form is not None and x.form.whole
-        return say("equilibrium.stable_beyond" if beyond else "equilibrium.stable")
+        compact = "equilibrium.stable_compact" if x.compact else "equilibrium.stable"
+        return say("equilibrium.stable_beyond" if beyond else compact)
     if x.verdict == "stable on the leaf":
         return say("equilibrium.on_the_leaf")
+    prose = say("equilibrium.indefinite")
     words = ", ".join(show(plain(c)) for c in x.characteristic)
-    if x.verdict == "unstable":
-        growth = f"{x.growth:.3g}"
-        return say("equilibrium.unstable", coefficients=words, growth=growth)
-    return say("equilibrium.open", coefficients=words)
+    prose += say(f"equilibrium.{x.verdict}", coefficients=words)
+    if x.eigenvalues:
+        prose += say("equilibrium.eigenvalues", eigenvalues=_about(x.eigenvalues))
+    squares = exact_squares(x.characteristic)
+    return prose + (say("equilibrium.squares", squares=", ".join(squares)) if squares else ())
+
+
+def _about(values: Iterable[complex]) -> str:
+    """Numbers that come with their opposites and conjugates, rounded, each once."""
+    pairs = {(abs(round(x.real, 9)), abs(round(x.imag, 9))) for x in values}
+
+    def text(real: float, imaginary: float) -> str:
+        parts = [f"{real:.4g}" if real else "", f"{imaginary:.4g}i" if imaginary else ""]
+        return " ".join(f"±{x}" for x in parts if x) or "0"
+
+    return ", ".join(text(*x) for x in sorted(pairs, reverse=True))
+
+
+def exact_squares(characteristic: Sequence[Number]) -> list[str]:
+    """The squares of the eigenvalues as text, where these are of q(λ²), q of degree at most 2 but
+    for powers of λ², and exact by square roots; else nothing."""
+    q = [*characteristic[::2]]
+    zeros = []
+    while len(q) > 1 and q[-1] == 0:
+        q, zeros = q[:-1], ["0"]
+    if len(q) == 2:
+        return [show(plain(-q[1])), *zeros]
+    if len(q) != 3 or any(isinstance(x, Quadratic) for x in q):
+        return []
+    b, c = Fraction(q[1]), Fraction(q[2])  # type: ignore[arg-type]
+    disc = b * b / 4 - c
+    if disc >= 0:
+        return [*dict.fromkeys(show(plain(s * root(disc) - b / 2)) for s in (1, -1)), *zeros]
+    part = show(mul(plain(root(-disc)), "i"))
+    return [f"{show(plain(-b / 2))} ± {part}" if b else f"±{part}", *zeros]

@@ -110,13 +110,14 @@ class Derived:
         return first_integrals(self.problem, degree, **chosen)
 
     def equilibria(self, at: Mapping[str, Fraction | int | str] | None = None) -> Equilibria:
-        """The relative equilibrium with these coordinates, the others 0, as ``{"Pi_3": 2}``, or
-        those among some points; parameters have their defaults.  ``ProblemError`` where it is
-        none."""
+        """The relative equilibrium with these coordinates, the others 0, as ``{"Pi_3": 2}`` or
+        ``{"Pi_1": "sqrt(3)/2"}``, or those among some points; parameters have their defaults.
+        ``ValueError`` where it is none, or for what is no such number."""
+        from ..equilibria.equilibrium_points import number_from
         from ..pipeline import equilibria
         from .equilibria_found import Equilibria
 
-        values = {x: Fraction(v) for x, v in (at or {}).items()}
+        values = {x: number_from(str(v)) for x, v in (at or {}).items()}
         return Equilibria(*equilibria(self.problem, values))
 
     def symmetries(self) -> SymmetriesOf:

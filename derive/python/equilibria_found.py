@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 
 from ..check.checker import Verdict
 from ..equilibria.equilibrium_points import coordinate
 from ..equilibria.stability import Equilibrium
+from ..language.quadratic import Number
 from ..record.record import Derivation
 
 
@@ -19,7 +19,7 @@ class Steady:
     found: Equilibrium
 
     @property
-    def at(self) -> dict[str, Fraction]:
+    def at(self) -> dict[str, Number]:
         """The coordinates that are not 0, by their names."""
         about = self.found.about
         pairs = zip(about.system.variables, about.at, strict=True)
@@ -31,10 +31,14 @@ class Steady:
         return self.found.verdict
 
     @property
-    def signature(self) -> tuple[int, int] | None:
-        """How many squares of the energy–Casimir form on the leaf are positive and negative;
-        ``None`` without multipliers."""
-        return self.found.form.signature if self.found.form else None
+    def signature(self) -> tuple[int, int]:
+        """How many squares of the energy–Casimir form on the leaf are positive and negative."""
+        return self.found.signature
+
+    @property
+    def eigenvalues(self) -> tuple[complex, ...]:
+        """About the eigenvalues of the linearised rates on the leaf, in 1/s."""
+        return self.found.eigenvalues
 
     @property
     def growth(self) -> float:

@@ -83,4 +83,5 @@ def every_equilibrium():
         derive(lagrangian(solid, "SE(3)", side="right")).equilibria({"Pi_1": 1}),
         derive(lagrangian(solid, "SE(3)")).equilibria({"Pi_1": 1}),
         derive(lagrangian(squares(*range(2, 12)), "SO(5)")).equilibria({"Pi_1": 1}),
+        derive(lagrangian(squares(*range(2, 8)), "SO(4)")).equilibria({"Pi_1": 1, "Pi_6": 1}),
     ]
