@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 
     from .code.options import Options
     from .code.program import Program
+    from .equilibria.enclosed_points import Enclosed
     from .equilibria.stability import Equilibrium
     from .integrals.all_integrals import Found
     from .language.quadratic import Number
@@ -218,7 +219,7 @@ def integrals(
     problem = with_defaults(problem) if at_defaults else problem
     whole = found(reduced(problem), degree)
     if conditions:
-        from .integrals.conditions import conditions as conditions_of
+        from .integrals.special_parameters import conditions as conditions_of
 
         whole = replace(whole, conditions=conditions_of(whole))
     assert problem.group is not None
@@ -226,6 +227,25 @@ def integrals(
     c = Chapter(problem.name, problem.group.name)
     steps = supposing_all(traced((*record.steps, *told(whole, record.steps, c, driven=driven))))
     return whole, Derivation(record.problem, symbols(steps, problem), steps)
+
+
+def equilibrium_near(problem: Problem, values: Mapping[str, Number]) -> tuple[Enclosed, Derivation]:
+    """The equilibrium of a problem near a point, enclosed, and the record of its integrals with the
+    steps that tell it; parameters have their defaults."""
+    from .equilibria.enclosed_points import enclosed
+    from .equilibria.stability import require_numbers
+    from .equilibria.told_points import told_enclosed
+
+    whole, record = integrals(problem, at_defaults=True)
+    try:
+        require_numbers(whole)
+        found = enclosed(whole, values)
+    except Refused as error:
+        raise ProblemError(f"{problem.name}: {error}") from None
+    assert problem.group is not None
+    c = Chapter(problem.name, problem.group.name)
+    steps = (*record.steps, *told_enclosed(whole, found, record.steps, c))
+    return found, replace(record, steps=supposing_all(traced(steps)))
 
 
 def equilibria(

@@ -99,6 +99,10 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     add_search_options(searched)
     about = "a coordinate of an equilibrium, as Pi_3=2 or sqrt(3)/2; repeated, others are 0"
     steady.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)
+    about = "a coordinate near that of an equilibrium, which is enclosed; repeated, others are 0"
+    steady.add_argument(
+        "--near", action="append", type=coordinate, metavar="NAME=NUMBER", help=about
+    )
     emit.add_argument("problem", help="a ready-made name or a .toml file")
     add_writing_options(emit)
     add_emission_options(emit)

@@ -131,9 +131,15 @@ def command_integrals(args: argparse.Namespace) -> int:
 
 def command_equilibria(args: argparse.Namespace) -> int:
     """Find relative equilibria of the reduced equations of a problem, and their stability."""
-    from ..pipeline import equilibria
+    from ..pipeline import equilibria, equilibrium_near
 
-    found, record = equilibria(load_problem(args.problem), dict(args.at or ()))
+    if args.near and args.at:
+        raise UsageError("--at is exact and --near is not: give one of them")
+    found: object
+    if args.near:
+        found, record = equilibrium_near(load_problem(args.problem), dict(args.near))
+    else:
+        found, record = equilibria(load_problem(args.problem), dict(args.at or ()))
     if not found:
         raise UsageError(
             f"{record.name}: no equilibrium among the points with at most one momentum, 1, and at "

@@ -134,24 +134,28 @@ def given(system: LiePoisson, values: Mapping[str, Number], fixed: Sequence[Any]
 def off_the_group(about: About, fixed: Sequence[Any]) -> str:
     """How the entries of g at a point cannot be those of an element: a Casimir of them alone has
     the value that it has at 1; "" where it has."""
-    system, algebra = about.system, about.algebra
-    if not any(isinstance(x, tuple) and x[1] == "A" for x in system.variables):
-        return ""
-    one = tuple(
-        Fraction(int(x[2] == x[3])) if isinstance(x, tuple) and x[1] == "A" else Fraction(0)
-        for x in system.variables
-    )
     for casimir in fixed:
-        f = algebra.over_the_field(casimir)
-        if any(any(e[: system.momenta]) for e in f):
-            continue
-        here, there = (About(system, at).expansion(f).value for at in (about.at, one))
+        f = about.algebra.over_the_field(casimir)
+        here = about.expansion(f).value
+        there = group_value(about.system, f, here)
         if here != there:
             return (
                 f"no element of the group has these entries: of {casimir_text(about, f)} it "
                 f"makes {there}, not {here}"
             )
     return ""
+
+
+def group_value(system: LiePoisson, f: Polynomial, else_: Number) -> Number:
+    """The value of a Casimir at the elements of the group, where it is of their entries alone."""
+    entries = any(isinstance(x, tuple) and x[1] == "A" for x in system.variables)
+    if not entries or any(any(e[: system.momenta]) for e in f):
+        return else_
+    one = tuple(
+        Fraction(int(x[2] == x[3])) if isinstance(x, tuple) and x[1] == "A" else Fraction(0)
+        for x in system.variables
+    )
+    return About(system, one).expansion(f).value
 
 
 def casimir_text(about: About, f: Polynomial) -> str:

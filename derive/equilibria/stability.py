@@ -56,12 +56,17 @@ class Equilibrium:
         return max((x.real for x in self.eigenvalues), default=0.0)
 
 
-def equilibria_of(whole: Found, values: Mapping[str, Number]) -> tuple[Equilibrium, ...]:
-    """The equilibrium at a point, or those among the points that are tried where none is given;
-    ``NotReducedError`` where parameters have no numbers."""
+def require_numbers(whole: Found) -> None:
+    """``NotReducedError`` where parameters have no numbers."""
     if whole.system.parameters:
         names = ", ".join(whole.system.parameters)
         raise NotReducedError(f"equilibria are told for numbers, and {names} has no default")
+
+
+def equilibria_of(whole: Found, values: Mapping[str, Number]) -> tuple[Equilibrium, ...]:
+    """The equilibrium at a point, or those among the points that are tried where none is given;
+    ``NotReducedError`` where parameters have no numbers."""
+    require_numbers(whole)
     system, fixed = whole.system, whole.casimirs
     found = [given(system, values, fixed)] if values else tried(system, fixed)
     return tuple(judged(whole, about) for about in found)

@@ -15,6 +15,7 @@ from ..record.record import Equation, Step
 from ..record.sentence import Prose
 from ..walk.chapter import Chapter
 from ..walk.wording import say
+from .enclosed_points import Enclosed, less
 from .energy_casimir import Form, Leaf
 from .equilibrium_points import About, Expansion
 from .stability import Equilibrium
@@ -41,6 +42,73 @@ def told(
     return tuple(told_steps)
 
 
+def told_enclosed(whole: Found, x: Enclosed, steps: Sequence[Step], c: Chapter) -> tuple[Step, ...]:
+    """Two steps: the rates about the decimals, and the energy with multiples of the Casimirs."""
+    by_label = {s.label: s for s in steps}
+    reduced, kept, integrals = (
+        by_label.get(c.label(x)) for x in ("poisson", "casimirs", "first_integrals")
+    )
+    made_from = [y for y in (reduced, kept, integrals) if y]
+    draft = c.draft("equilibrium_1", "expansion")
+    draft.depends_on(made_from[0])
+    away = distances(x.about)
+    variables = x.about.system.variables
+    equations = [
+        Equation(rate(v), expanded(e, away)) for v, e in zip(variables, x.about.rates, strict=True)
+    ]
+    rates = draft.step(equations, say("equilibrium.near", point=_place(x.about, decimals=True)))
+    return rates, _enclosure(whole, x, made_from, c)
+
+
+def _enclosure(whole: Found, x: Enclosed, made_from: Iterable[Step], c: Chapter) -> Step:
+    """The Casimirs less their values on the level, and the energy with multiples of them."""
+    draft = c.draft("enclosure_1", "enclosure")
+    draft.depends_on(*made_from)
+    algebra, away = whole.system.algebra, distances(x.about)
+    kept = [*map(algebra.tree, whole.casimirs)]
+    found = [x.about.expansion(algebra.over_the_field(f)) for f in whole.casimirs]
+    equations = [
+        Equation(add(f, neg(plain(level))), expanded(less(e, level), away))
+        for f, e, level in zip(kept, found, x.level, strict=True)
+    ]
+    energy = x.about.expansion(algebra.hamiltonian)
+    whole_energy = combined(energy, found, x.multipliers)
+    pairs = zip(x.multipliers, kept, strict=True)
+    left = add("h̃", *(mul(plain(m), f) for m, f in pairs if m))
+    equations.append(Equation(left, expanded(whole_energy, away)))
+    positive, negative = map(str, x.signature)
+    prose = say("enclosure.within", radius=_power_above(x.radius))
+    prose += say("enclosure.signs", positive=positive, negative=negative)
+    prose += say(f"enclosure.{x.verdict}")
+    if x.verdict != "stable":
+        prose += say("enclosure.eigenvalues", eigenvalues=_about(x.eigenvalues))
+    return draft.step(equations, prose)
+
+
+def combined(energy: Expansion, kept: Sequence[Expansion], by: Sequence[Fraction]) -> Expansion:
+    """A polynomial plus multiples of others."""
+    pairs, places = [*zip(by, kept, strict=True)], range(len(energy.slope))
+    higher = dict(energy.higher)
+    for y, e in pairs:
+        for m, c in e.higher.items():
+            higher[m] = higher.get(m, Fraction(0)) + y * c
+    slope = [energy.slope[i] + sum(y * e.slope[i] for y, e in pairs) for i in places]
+    second = [
+        [energy.second[i][j] + sum(y * e.second[i][j] for y, e in pairs) for j in places]
+        for i in places
+    ]
+    value = energy.value + sum(y * e.value for y, e in pairs)
+    return Expansion(value, slope, second, {m: c for m, c in higher.items() if c != 0})
+
+
+def _power_above(x: Fraction) -> str:
+    """A power of ten that is larger than a number below 1, as text."""
+    k = 0
+    while Fraction(1, 10 ** (k + 1)) >= x:
+        k += 1
+    return f"1e-{k}"
+
+
 def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool) -> Step:
     """The rates in powers of the distance from the equilibrium: none has a constant term."""
     draft = c.draft(label, "expansion")
@@ -60,10 +128,14 @@ def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool
     return draft.step(equations, prose + _verdict(x))
 
 
-def _place(about: About) -> str:
+def _place(about: About, *, decimals: bool = False) -> str:
     """The coordinates of a point that are not 0, as text."""
     pairs = zip(about.system.variables, about.at, strict=True)
-    return ", ".join(f"{show(v)} = {show(plain(number))}" for v, number in pairs if number)
+    return ", ".join(
+        f"{show(v)} ≈ {float(x):.6g}" if decimals else f"{show(v)} = {show(plain(x))}"
+        for v, x in pairs
+        if x
+    )
 
 
 def distances(about: About) -> list[Tree]:

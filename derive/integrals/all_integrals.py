@@ -6,16 +6,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .degree_search import Point, Search, UnluckyError, blocks, point
 from .independence import Integrability, fresh, integrability
 from .level import Level
 from .lie_poisson import LiePoisson
+from .parameter_cases import Case, Cases
 from .weights import Grading, grading
-
-if TYPE_CHECKING:
-    from .conditions import Conditions
 
 ATTEMPTS = 6
 
@@ -28,6 +26,28 @@ class OnLevel:
     casimir: int
     integrals: tuple[Any, ...]
     proved: Integrability
+
+
+@dataclass(frozen=True)
+class Condition:
+    """A case of the parameters with its system, the ``integrals`` of a ``degree`` that it has
+    beside the generic ones, and what is ``proved`` in it with these, the last."""
+
+    case: Case
+    degree: Fraction
+    system: LiePoisson
+    integrals: tuple[Any, ...]
+    proved: Integrability
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """The ``conditions`` on the parameters, all but those within the ``unsolved``: cases with a
+    polynomial where it vanishes."""
+
+    cases: Cases
+    conditions: tuple[Condition, ...]
+    unsolved: tuple[tuple[Case, Any], ...]
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,7 @@ from ..record.record import Equation, Step
 from ..record.sentence import Prose
 from ..walk.chapter import Chapter
 from ..walk.wording import say
-from .all_integrals import Found
-from .conditions import Condition, Conditions
+from .all_integrals import Condition, Conditions, Found
 from .lie_poisson import Algebra
 from .parameter_cases import Case
 

@@ -99,6 +99,60 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Their squares are exactly {squares}.",
             "Leurs carrés sont exactement {squares}.",
         ),
+        "near": (
+            "Newton’s method leads to an equilibrium, a steady motion, {point}, while all other "
+            "variables nearly vanish. The rates, in powers of the distance from these decimals.",
+            "La méthode de Newton conduit à un équilibre, un mouvement stationnaire, {point}, les "
+            "autres variables étant presque nulles. Les dérivées, en puissances de la distance à "
+            "ces décimales.",
+        ),
+    },
+    "enclosure": {
+        "within": (
+            "The Casimirs, less their values on a level, and the energy with multiples of them, in "
+            "powers of the distance. By these numbers a step of Newton’s method for the critical "
+            "points of the energy on the level is a contraction: within {radius} of the decimals, "
+            "in each variable and multiplier, there is exactly one, an equilibrium (Krawczyk).",
+            "Les Casimirs, moins leurs valeurs sur un niveau, et l’énergie avec des multiples de "
+            "ceux-ci, en puissances de la distance. D’après ces nombres, un pas de la méthode de "
+            "Newton pour les points critiques de l’énergie sur le niveau est une contraction : à "
+            "moins de {radius} des décimales, en chaque variable et chaque multiplicateur, il y en "
+            "a exactement un, un équilibre (Krawczyk).",
+        ),
+        "signs": (
+            "There the second derivative of the energy on the level has {positive} positive and "
+            "{negative} negative squares, which is certified: with the derivatives of the Casimirs "
+            "beside it, its matrix is singular nowhere within this distance.",
+            "Là, la dérivée seconde de l’énergie sur le niveau a {positive} carrés positifs et "
+            "{negative} négatifs, ce qui est certifié : bordée des dérivées des Casimirs, sa "
+            "matrice n’est singulière nulle part à moins de cette distance.",
+        ),
+        "stable": (
+            "It is definite: the equilibrium is stable (energy–Casimir method, Arnold).",
+            "Elle est définie : l’équilibre est stable (méthode énergie–Casimir, Arnold).",
+        ),
+        "unstable": (
+            "It is indefinite, which proves nothing. The characteristic polynomial q(λ²) of the "
+            "linearised rates, enclosed, has a root λ with positive real part, as its coefficients "
+            "have not the signs or do not satisfy Newton’s inequalities of a polynomial with real "
+            "roots that are not positive: the equilibrium is unstable (Lyapunov).",
+            "Elle est indéfinie, ce qui ne prouve rien. Le polynôme caractéristique q(λ²) des "
+            "dérivées linéarisées, encadré, a une racine λ de partie réelle positive, car ses "
+            "coefficients n’ont pas les signes, ou ne vérifient pas les inégalités de Newton, d’un "
+            "polynôme à racines réelles non positives : l’équilibre est instable (Lyapunov).",
+        ),
+        "open": (
+            "It is indefinite, which proves nothing, and that an eigenvalue of the linearised "
+            "rates has a positive real part is not proved. Whether the equilibrium is stable stays "
+            "open.",
+            "Elle est indéfinie, ce qui ne prouve rien, et il n’est pas prouvé qu’une valeur "
+            "propre des dérivées linéarisées soit de partie réelle positive. La stabilité de "
+            "l’équilibre reste ouverte.",
+        ),
+        "eigenvalues": (
+            "The eigenvalues are about {eigenvalues}.",
+            "Les valeurs propres sont environ {eigenvalues}.",
+        ),
     },
 }
 """Step, then name of the sentence."""

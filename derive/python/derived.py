@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..figure.drawing import Scene
     from .as_sympy import Translation
     from .conserved_quantities import SymmetriesOf
-    from .equilibria_found import Equilibria
+    from .equilibria_found import Equilibria, Near
     from .expressions import Expressions
     from .integrals_found import FirstIntegrals
 
@@ -119,6 +119,16 @@ class Derived:
 
         values = {x: number_from(str(v)) for x, v in (at or {}).items()}
         return Equilibria(*equilibria(self.problem, values))
+
+    def equilibrium_near(self, at: Mapping[str, Fraction | int | str]) -> Near:
+        """The relative equilibrium near a point with these coordinates, on its level of the
+        Casimirs, enclosed; ``ValueError`` where none is."""
+        from ..equilibria.equilibrium_points import number_from
+        from ..pipeline import equilibrium_near
+        from .equilibria_found import Near
+
+        values = {x: number_from(str(v)) for x, v in at.items()}
+        return Near(*equilibrium_near(self.problem, values))
 
     def symmetries(self) -> SymmetriesOf:
         """All symmetries of L̃ of a kind, and what the motion keeps by each; ``ProblemError`` where

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ..check.checker import Verdict
+from ..equilibria.enclosed_points import Enclosed
 from ..equilibria.equilibrium_points import coordinate
 from ..equilibria.stability import Equilibrium
 from ..language.quadratic import Number
@@ -48,6 +49,47 @@ class Steady:
     def __repr__(self) -> str:
         place = ", ".join(f"{x} = {v}" for x, v in self.at.items())
         return f"<{self.verdict}: {place or 'the origin'}>"
+
+
+@dataclass(frozen=True)
+class Near:
+    """A relative equilibrium within a ``radius`` of decimals; ``record``: its derivation."""
+
+    found: Enclosed
+    record: Derivation
+
+    @property
+    def at(self) -> dict[str, float]:
+        """The decimals, by the names of the coordinates."""
+        about = self.found.about
+        pairs = zip(about.system.variables, about.at, strict=True)
+        return {coordinate(v): float(x) for v, x in pairs}
+
+    @property
+    def radius(self) -> float:
+        """How far each coordinate of the equilibrium is at most from the decimals."""
+        return float(self.found.radius)
+
+    @property
+    def verdict(self) -> str:
+        """What is proved: "stable", "unstable", or "open" for nothing."""
+        return self.found.verdict
+
+    @property
+    def signature(self) -> tuple[int, int]:
+        """How many squares of the energy–Casimir form on the level are positive and negative."""
+        return self.found.signature
+
+    @property
+    def eigenvalues(self) -> tuple[complex, ...]:
+        """About the eigenvalues of the linearised rates, in 1/s."""
+        return self.found.eigenvalues
+
+    def check(self, seed: int | None = None) -> list[Verdict]:
+        """The verdicts of the checker on the record."""
+        from ..check.checker import check
+
+        return check(self.record, seed)
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,7 @@ from typing import Any
 import sympy
 
 from ..check.checker import Verdict
-from ..integrals.all_integrals import Found
-from ..integrals.conditions import Condition
+from ..integrals.all_integrals import Condition, Found
 from ..language.suffixed import suffixed
 from ..language.tree import Tree
 from ..problem.problem import Problem

@@ -6,7 +6,6 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import sympy
-from scipy.linalg import expm
 
 from derive import derive
 from derive.check.checker import Checker
@@ -21,6 +20,7 @@ from derive.language.tree import add, replaced
 from derive.pipeline import walk
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
+from tests.support.coadjoint_orbits import hat, match, orbit_signature
 from tests.support.emitted import import_python
 from tests.support.lagrangians import heavy, lagrangian, squares
 from tests.support.walks import SEED
@@ -29,7 +29,7 @@ MOMENTS = (1, 3, 2)
 TILTED = {"A_31": "sqrt(3)/2", "A_33": "1/2", "Pi_1": "sqrt(3)/2", "Pi_3": "1"}
 """Of a top with these moments, and weight ½ on its third axis: ω = Γ is in its plane 1, 3, at 60°
 from the axis, for Ω²(I₃ − I₁) cos θ = m g l."""
-WEIGHT = 0.5
+WEIGHT = np.array([0, 0, 0.5])
 
 
 def tilted(moments=MOMENTS):
@@ -63,43 +63,6 @@ def test_the_tilted_top_beside_its_emitted_code(tmp_path):
     expected = np.linalg.eigvals(np.array(slopes).T)
     assert match(expected, [*found.eigenvalues, 0, 0], 1e-3)
     assert np.sort(expected.real)[-1] == pytest.approx(found.growth, abs=1e-3)
-
-
-def match(a, b, tolerance):
-    """Are two collections of numbers the same up to a tolerance?"""
-    left = [*b]
-    for x in a:
-        near = min(left, key=lambda y: abs(x - y))
-        if abs(x - near) > tolerance:
-            return False
-        left.remove(near)
-    return not left
-
-
-def hat(a):
-    return np.array([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
-
-
-def orbit_signature(x, moments, weight):
-    """The signs of second differences of the energy along the coadjoint orbit of SE(3)."""
-
-    def moved(y):
-        turn = expm(hat(y[:3]))
-        gamma = turn @ x[3:]
-        return turn @ x[:3] + np.cross(y[3:], gamma), gamma
-
-    def energy(y):
-        pi, gamma = moved(y)
-        return sum(pi**2 / np.array(moments)) / 2 + weight * gamma[2]
-
-    h = 1e-3
-    hessian = np.zeros((6, 6))
-    for i, e in enumerate(np.eye(6) * h):
-        for j, f in enumerate(np.eye(6) * h):
-            pairs = ((1, 1), (1, -1), (-1, 1), (-1, -1))
-            hessian[i, j] = sum(s * t * energy(s * e + t * f) for s, t in pairs) / (4 * h * h)
-    values = np.linalg.eigvalsh(hessian)
-    return sum(values > 1e-4), sum(values < -1e-4)
 
 
 @pytest.mark.parametrize("moments", [MOMENTS, (1, 4, 2), (1, "3/2", 2)])

@@ -224,7 +224,7 @@ REFUSED = {
 
 @pytest.mark.parametrize("words", repeated(REFUSED, 2))
 def test_what_is_too_large(words, monkeypatch):
-    monkeypatch.setattr("derive.integrals.conditions.WORK", 500)
+    monkeypatch.setattr("derive.integrals.special_parameters.WORK", 500)
     problem, degree = REFUSED[words]
     with pytest.raises(TooLargeError, match=words) as error:
         first_integrals(problem, degree, conditions=True)

@@ -73,10 +73,19 @@ def every_case():
     ]
 
 
+def bent():
+    """A top with weight off its axes, and no equilibrium with simple coordinates."""
+    return derive(heavy("132", "A_31/2 + A_33/3", ""))
+
+
 def every_equilibrium():
     """Equilibria that together reach whatever may be said of them."""
     solid = squares(3, 5, 11, 13, 13, 13)
+    tilted = {"A_31": "0.866", "A_33": "0.5", "Pi_1": "0.866", "Pi_3": 1}
     return [
+        bent().equilibrium_near({"A_31": "0.7", "A_33": "0.5"}),
+        bent().equilibrium_near({"A_31": "-0.7", "A_33": "-0.5"}),
+        derive(heavy("132", "A_33/2", "")).equilibrium_near(tilted),
         derive("euler_top").equilibria(),
         derive("lagrange_top").equilibria({"A_33": -1}),
         derive("kirchhoff").equilibria({"Pi_1": 1}),

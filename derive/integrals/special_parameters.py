@@ -11,14 +11,14 @@ which the search finds over the field of the parameters that are left.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import reduce
 from typing import Any
 
-from .all_integrals import ATTEMPTS, Found, degrees
+from .all_integrals import ATTEMPTS, Condition, Conditions, Found, degrees
 from .degree_search import Search, TooLargeError, UnluckyError, blocks, point, system_rows
-from .independence import Integrability, integrability
+from .independence import integrability
 from .lie_poisson import Exponents, LiePoisson, Polynomial
 from .parameter_cases import Case, Cases
 
@@ -33,28 +33,6 @@ WORK = 40_000
 
 Sparse = dict[int, Any]
 """A row: unknown → polynomial in the parameters."""
-
-
-@dataclass(frozen=True)
-class Condition:
-    """A case of the parameters with its system, the ``integrals`` of a ``degree`` that it has
-    beside the generic ones, and what is ``proved`` in it with these, the last."""
-
-    case: Case
-    degree: Fraction
-    system: LiePoisson
-    integrals: tuple[Any, ...]
-    proved: Integrability
-
-
-@dataclass(frozen=True)
-class Conditions:
-    """The ``conditions`` on the parameters, all but those within the ``unsolved``: cases with a
-    polynomial where it vanishes."""
-
-    cases: Cases
-    conditions: tuple[Condition, ...]
-    unsolved: tuple[tuple[Case, Any], ...]
 
 
 def conditions(whole: Found) -> Conditions:
