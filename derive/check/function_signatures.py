@@ -108,9 +108,9 @@ SHARED = ("m", "F", "Q", "P")
 """The families in which each copy of a point has a share; all copies have one place and one
 velocity."""
 
-MATRIX = "M"
-"""The name of a matrix whose entries have two indices also where it has one row; other matrices of
-one column have entries of one index."""
+MATRICES = ("M", "𝕁")
+"""The names of matrices whose entries have two indices also where they have one row; other matrices
+of one column have entries of one index."""
 
 INDICES = ("a", "b", "e", "i", "j")
 """The letters of indices."""

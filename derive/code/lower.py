@@ -136,6 +136,8 @@ class Lowering:
             return found
         if op == "tr":
             return dense.diagonal(g, a[0])
+        if op == "bracket":
+            return q.minus(q.times(*a), q.times(*reversed(a)))
         if op == "matrix":
             return tuple(tuple(row) for row in a)
         if op == "row":
