@@ -23,8 +23,8 @@ from .record.record import Derivation
 from .walk import (
     alphabet, body, brackets, cartan, components, conserved, coordinates, elimination, explicit,
     exterior, inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit,
-    potential, pullback, rotation, separation, solution, specialisation, translation, variation,
-    vector,
+    potential, pullback, rotation, separation, solution, specialisation, told_by_momenta,
+    translation, variation, vector,
 )
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
@@ -91,6 +91,8 @@ MATRICES = (
     Stage("space", "cartan.momentum a", "SpaceMomenta", conserved.matrix_momenta),
     Stage("conserved", "problem potentials space solution.motion special.letters c",
           "Steps", conserved.conserved_steps),
+    Stage("by_momenta", "general driven centred? group c c_u",
+          "Steps", told_by_momenta.of_matrices),
     Stage("explicit", "problem group body potentials special driven external? solution.motion "
           "pullback.steps c_u", "Steps", explicit.of_matrices),
 )
@@ -123,6 +125,10 @@ VECTORS = (
     Stage("space", "vectors.momenta isometry.letters", "SpaceMomenta", conserved.vector_momenta),
     Stage("conserved", "problem potentials space motion isometry.letters c",
           "Steps", conserved.conserved_steps),
+    Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
+          "Steps", told_by_momenta.of_rotations, "linear"),
+    Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
+          "Steps", told_by_momenta.of_displacements, "affine"),
     Stage("basis", "group isometry.letters c", "Steps", coordinates.stated_basis_step),
     Stage("explicit", "problem group body potentials torque pullback.steps axial.inertia "
           "external? motion tensor c_u", "Steps", explicit.of_vectors, "linear"),

@@ -30,7 +30,7 @@ from .arithmetic import (
     transpose,
     wedge,
 )
-from .function_signatures import AXIS, INDEX_SETS, LATTICE, MATRIX, POINT
+from .function_signatures import AXIS, INDEX_SETS, LATTICE, MATRICES, POINT
 
 LARGEST_NESTING = 3
 
@@ -228,7 +228,7 @@ def _entry(t: tuple[Any, ...], env: Environment) -> Value:
     places = [_index(i, env) for i in t[2:]]
     if min(places) < 1 or not is_matrix(value):
         raise EvaluationError("entries of matrices and vectors are counted from 1")
-    if len(places) != 1 + (len(value[0]) > 1 or t[1] == MATRIX):
+    if len(places) != 1 + (len(value[0]) > 1 or t[1] in MATRICES):
         raise EvaluationError("a vector has entries of one index, a matrix of two")
     return value[places[0] - 1][places[-1] - 1 if len(places) == 2 else 0]
 

@@ -141,6 +141,8 @@ VOCABULARY: dict[str, Name] = {
         r"\Pi", defined(SQUARE), defined(family("basis", SCALAR))),
     "δΠ": name("variation of Π", "variation de Π", r"\delta\Pi", letter(SQUARE)),
     "δ′Π": name("variation δ′ of Π", "variation δ′ de Π", r"\delta'\Pi", letter(SQUARE)),
+    "Π_g": name("a matrix that gives Π_a on E_a, as Π does",
+        "une matrice qui donne Π_a sur E_a, comme Π", r"\Pi_g", defined(SQUARE)),
     "Π̇": name("dΠ/dt along the motion", "dΠ/dt le long du mouvement",
         r"\dot\Pi", rate(SQUARE), rate(family("basis", SCALAR))),
     "p_b": name("momentum in the body frame, Σ m_i Āv_i",
@@ -300,9 +302,9 @@ VOCABULARY: dict[str, Name] = {
     "δΓ": name("variation of Γ", "variation de Γ", r"\delta\Gamma", defined(ADVECTED)),
     "Γ̇": name("dΓ/dt along the motion",
         "dΓ/dt le long du mouvement", r"\dot\Gamma", rate(ADVECTED)),
-    "𝕁": name("Poisson tensor: the brackets of the momenta and of Γ",
-        "tenseur de Poisson : les crochets des moments et de Γ",
-        r"\mathbb{J}", defined(("matrix", "reduced", "reduced"))),
+    "𝕁": name("Poisson tensor: the brackets of the momenta",
+        "tenseur de Poisson : les crochets des moments",
+        r"\mathbb{J}", defined(("matrix", "d", "d"))),
     "ρ": name("representation of the Lie algebra on what it carries along",
         "représentation de l’algèbre de Lie sur ce qu’elle transporte",
         r"\rho", function(ALGEBRA, ("matrix", "carried", "carried"))),
@@ -345,6 +347,7 @@ ROTATIONS: dict[str, Name] = {
 }
 # fmt: on
 DISPLACEMENTS: dict[str, Name] = ROTATIONS | {
+    "𝕁": VOCABULARY["𝕁"]._replace(uses=(defined(("matrix", "dim", "dim")),)),
     "w": VOCABULARY["w"]._replace(
         meaning="velocity of the body's origin in the body frame, A⁻¹τ",
         french="vitesse de l’origine du corps dans le repère du corps, A⁻¹τ",
@@ -409,6 +412,13 @@ LAGRANGIANS: dict[str, dict[str, Name]] = {
     side: {
         x: VOCABULARY[x]._replace(meaning=meaning, french=french)
         for x, (meaning, french) in (_OF_LAGRANGIANS | carried).items()
+    }
+    | {
+        "𝕁": VOCABULARY["𝕁"]._replace(
+            meaning="Poisson tensor: the brackets of the momenta and of Γ",
+            french="tenseur de Poisson : les crochets des moments et de Γ",
+            uses=(defined(("matrix", "reduced", "reduced")),),
+        )
     }
     for side, carried in _CARRIED.items()
 }

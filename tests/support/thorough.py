@@ -31,6 +31,8 @@ KEPT = {
     "code/test_frame.py::test_the_problem_in_the_frame_is_checked_like_any_other": 2,
     "code/test_languages.py::test_every_language_says_the_same": 4,
     "code/test_languages.py::test_floats_agree_to_their_accuracy": 2,
+    "code/test_momenta_of_points.py::test_beside_sums_over_the_points": 6,
+    "code/test_momenta_of_points.py::test_validated": 1,
     "code/test_name_collisions.py::test_in_a_language": 3,
     "code/test_name_collisions.py::test_in_c_and_in_python": 2,
     "code/test_names_true.py::test_no_name_lies": 6,
