@@ -156,6 +156,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "K est la somme sur les ressorts de longueur à vide nulle ; s_e joint les extrémités "
             "de l’un d’eux dans le corps.",
         ),
+        "self_gravity": (
+            "The homogeneous ellipsoid stays one: its energy depends on A by the invariants of "
+            "AK_GĀ alone, and δU_G = ½ Tr B_G δ(ĀA).",
+            "L’ellipsoïde homogène en reste un : son énergie ne dépend de A que par les "
+            "invariants de AK_GĀ, et δU_G = ½ Tr B_G δ(ĀA).",
+        ),
         "far_orders": (
             "Of the gravity of the far centre, the terms of the fourth and higher orders in one "
             "over the distance are dropped.",

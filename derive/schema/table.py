@@ -137,9 +137,13 @@ def _key(hint: Any) -> Key:
     raise TypeError(f"{hint} is no type of a key")
 
 
-NEEDS = ("points alone", "one space", "rotations", "affine of R^3")
+NEEDS = (
+    *("points alone", "one space", "rotations", "affine of R^3"),
+    *("deformations of R^3", "one ellipsoid"),
+)
 """What a kind may need of its problem: nothing has mass but the points; blocks of one dimension;
-linear parts that are rotations; all translations of R³."""
+linear parts that are rotations; all translations of R³; linear parts in R³ that are not rotations;
+a homogeneous ellipsoid about the origin, and nothing else."""
 OTHER_WORDS = {
     **dict.fromkeys(("sphere", "globe"), "ball"),
     **dict.fromkeys(("cube", "cuboid", "brick", "block"), "box"),
