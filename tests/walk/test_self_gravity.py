@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import derive
-from derive import Problem, Solid
+from derive import Problem, Solid, pipeline
 from derive.check.checker import Checker
 from derive.problem.problem import ProblemError
 from tests.oracles import ellipsoids
@@ -282,7 +282,9 @@ def test_bodies_that_are_no_ellipsoid(body):
         Problem("b", "SL(3)", body, [derive.SelfGravity(1)])
 
 
-def test_what_is_not_written():
+def test_what_is_not_written_or_sought():
     d = derive.derive(NAME)
+    with pytest.raises(ProblemError, match="symmetries are not sought where self_gravity acts"):
+        pipeline.symmetries(d.problem, d.record)
     with pytest.raises(ValueError, match="derivatives of the integrals of self_gravity"):
         d.emit(jacobian=("state",))

@@ -3,12 +3,13 @@
 from ..kind import Own, Potential
 from ..table import Scalar
 
-_OF_INVARIANTS = (
-    ("Ψ", "∫₀^∞ du / √P(u), with P(u) = u³ + I₁u² + I₂u + I₃", r"\Psi"),
-    ("Ψ_0", "∫₀^∞ du / P(u)^(3/2), with P(u) = u³ + I₁u² + I₂u + I₃", r"\Psi_0"),
-    ("Ψ_1", "∫₀^∞ u du / P(u)^(3/2), with P(u) = u³ + I₁u² + I₂u + I₃", r"\Psi_1"),
-    ("Ψ_2", "∫₀^∞ u² du / P(u)^(3/2), with P(u) = u³ + I₁u² + I₂u + I₃", r"\Psi_2"),
-)
+_OF_INVARIANTS = {
+    "Ψ": ("∫₀^∞ du / √P(u)", r"\Psi"),
+    "Ψ_0": ("∫₀^∞ du / P(u)^(3/2)", r"\Psi_0"),
+    "Ψ_1": ("∫₀^∞ u du / P(u)^(3/2)", r"\Psi_1"),
+    "Ψ_2": ("∫₀^∞ u² du / P(u)^(3/2)", r"\Psi_2"),
+}
+_P = "P(u) = u³ + I₁u² + I₂u + I₃"
 
 
 class SelfGravity(Potential):
@@ -27,9 +28,9 @@ class SelfGravity(Potential):
             "matrice de l’ellipsoïde {⟨r, K_G⁻¹r⟩ ≤ 1} que remplit le corps",
             "K_G",
         ),
-        Own("A_a", "matrix", "adjugate of A", "matrice adjointe de A", r"A_{\mathrm{a}}"),
-        Own("C_a", "matrix", "adjugate of ĀA", "matrice adjointe de ĀA", r"C_{\mathrm{a}}"),
-        Own("K_a", "matrix", "adjugate of K_G", "matrice adjointe de K_G", r"K_{\mathrm{a}}"),
+        Own("A_a", "matrix", "adjugate of A", "matrice adjointe de A", "A_a"),
+        Own("C_a", "matrix", "adjugate of ĀA", "matrice adjointe de ĀA", "C_a"),
+        Own("K_a", "matrix", "adjugate of K_G", "matrice adjointe de K_G", "K_a"),
         *(
             Own(
                 f"I_{k}",
@@ -40,7 +41,10 @@ class SelfGravity(Potential):
             )
             for k in (1, 2, 3)
         ),
-        *(Own(x, "of invariants", text, text, latex) for x, text, latex in _OF_INVARIANTS),
+        *(
+            Own(x, "of invariants", f"{text}, with {_P}", f"{text}, où {_P}", latex)
+            for x, (text, latex) in _OF_INVARIANTS.items()
+        ),
         Own("U_G", "scalar", "energy of self-gravity", "énergie d’autogravitation", "U_G"),
         Own(
             "B_G",
