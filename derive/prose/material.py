@@ -157,9 +157,9 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "de l’un d’eux dans le corps.",
         ),
         "self_gravity": (
-            "The homogeneous ellipsoid stays one: its energy depends on A by the invariants of "
+            "The homogeneous ellipsoid stays one: its energy depends on g by the invariants of "
             "AK_GĀ alone, and δU_G = ½ Tr B_G δ(ĀA).",
-            "L’ellipsoïde homogène en reste un : son énergie ne dépend de A que par les "
+            "L’ellipsoïde homogène en reste un : son énergie ne dépend de g que par les "
             "invariants de AK_GĀ, et δU_G = ½ Tr B_G δ(ĀA).",
         ),
         "far_orders": (

@@ -3,18 +3,13 @@
 from ..kind import Own, Potential
 from ..table import Scalar
 
-_OF_INVARIANTS = {
-    "Ψ": ("∫₀^∞ du / √P(u)", r"\Psi"),
-    "Ψ_0": ("∫₀^∞ du / P(u)^(3/2)", r"\Psi_0"),
-    "Ψ_1": ("∫₀^∞ u du / P(u)^(3/2)", r"\Psi_1"),
-    "Ψ_2": ("∫₀^∞ u² du / P(u)^(3/2)", r"\Psi_2"),
-}
-_P = "P(u) = u³ + I₁u² + I₂u + I₃"
-
 
 class SelfGravity(Potential):
     """``G``: the constant of gravitation.  The ellipsoid {⟨r, K⁻¹r⟩ ≤ 1} of the body is carried to
-    {⟨x, S⁻¹x⟩ ≤ 1}, S = AKĀ."""
+    {⟨x, S⁻¹x⟩ ≤ 1}, S = AKĀ.
+
+    Ψ and Ψ_k, of I_1, I_2 and I_3, are integrals with P(u) = u³ + I₁u² + I₂u + I₃ = det(S + u).
+    """
 
     kind, phrase, alone = "self_gravity", "its own gravity", True
     legend = "The gravity of the body on itself is not drawn."
@@ -28,29 +23,58 @@ class SelfGravity(Potential):
             "matrice de l’ellipsoïde {⟨r, K_G⁻¹r⟩ ≤ 1} que remplit le corps",
             "K_G",
         ),
-        Own("A_a", "matrix", "adjugate of A", "matrice adjointe de A", "A_a"),
-        Own("C_a", "matrix", "adjugate of ĀA", "matrice adjointe de ĀA", "C_a"),
-        Own("K_a", "matrix", "adjugate of K_G", "matrice adjointe de K_G", "K_a"),
-        *(
-            Own(
-                f"I_{k}",
-                "scalar",
-                f"coefficient of u^{3 - k} in det(AK_GĀ + u)",
-                f"coefficient de u^{3 - k} dans det(AK_GĀ + u)",
-                f"I_{k}",
-            )
-            for k in (1, 2, 3)
+        Own("A_a", "matrix", "adjugate matrix of A", "matrice adjointe de A", "A_a"),
+        Own("C_a", "matrix", "adjugate matrix of ĀA", "matrice adjointe de ĀA", "C_a"),
+        Own("K_a", "matrix", "adjugate matrix of K_G", "matrice adjointe de K_G", "K_a"),
+        Own(
+            "I_1",
+            "scalar",
+            "coefficient of u² in det(AK_GĀ + u)",
+            "coefficient de u² dans det(AK_GĀ + u)",
+            "I_1",
         ),
-        *(
-            Own(x, "of invariants", f"{text}, with {_P}", f"{text}, où {_P}", latex)
-            for x, (text, latex) in _OF_INVARIANTS.items()
+        Own(
+            "I_2",
+            "scalar",
+            "coefficient of u in det(AK_GĀ + u)",
+            "coefficient de u dans det(AK_GĀ + u)",
+            "I_2",
+        ),
+        Own("I_3", "scalar", "det(AK_GĀ)", "det(AK_GĀ)", "I_3"),
+        Own(
+            "Ψ",
+            "of invariants",
+            "∫₀^∞ du / √P(u), with P(u) = u³ + I₁u² + I₂u + I₃",
+            "∫₀^∞ du / √P(u), où P(u) = u³ + I₁u² + I₂u + I₃",
+            r"\Psi",
+        ),
+        Own(
+            "Ψ_0",
+            "of invariants",
+            "∫₀^∞ du / P(u)^(3/2), with P(u) = u³ + I₁u² + I₂u + I₃",
+            "∫₀^∞ du / P(u)^(3/2), où P(u) = u³ + I₁u² + I₂u + I₃",
+            r"\Psi_0",
+        ),
+        Own(
+            "Ψ_1",
+            "of invariants",
+            "∫₀^∞ u du / P(u)^(3/2), with P(u) = u³ + I₁u² + I₂u + I₃",
+            "∫₀^∞ u du / P(u)^(3/2), où P(u) = u³ + I₁u² + I₂u + I₃",
+            r"\Psi_1",
+        ),
+        Own(
+            "Ψ_2",
+            "of invariants",
+            "∫₀^∞ u² du / P(u)^(3/2), with P(u) = u³ + I₁u² + I₂u + I₃",
+            "∫₀^∞ u² du / P(u)^(3/2), où P(u) = u³ + I₁u² + I₂u + I₃",
+            r"\Psi_2",
         ),
         Own("U_G", "scalar", "energy of self-gravity", "énergie d’autogravitation", "U_G"),
         Own(
             "B_G",
             "matrix",
-            "twice the derivative of U_G with respect to ĀA",
-            "deux fois la dérivée de U_G par rapport à ĀA",
+            "matrix with δU_G = ½ Tr B_G δ(ĀA)",
+            "matrice telle que δU_G = ½ Tr B_G δ(ĀA)",
             "B_G",
         ),
     )
