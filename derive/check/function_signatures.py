@@ -64,6 +64,7 @@ INTEGRAND = Kind(
     ),
 )
 PLACE = Kind("r", ("r",))
+INVARIANTS = tuple(Kind(x, (x,)) for x in ("I_1", "I_2", "I_3"))
 VARIED = Kind(
     "r_i(t), g(r), ξ′, η′, L̃ or ϖ(X)", ("ξ′", "η′", "L̃", MOVED_PLACE, ("call", "ϖ", "X")), "r"
 )
@@ -83,6 +84,7 @@ HEADS: dict[str, tuple[Kind, ...]] = {
     "g": (PLACE,),
     "M̃": (FIRST_FIELD, SECOND_FIELD),
     "ρ": (CARRYING,),
+    **dict.fromkeys(("Ψ", "Ψ_0", "Ψ_1", "Ψ_2"), INVARIANTS),
     **dict.fromkeys(("T", "ω̂", "ζ"), (SITE,)),
 }
 """The kinds of the arguments of each function; TRANSLATION is left out for a group that does not

@@ -23,7 +23,6 @@ from .name_types import (
     VARIATION,
     VECTOR,
     Name,
-    Type,
     Use,
     defined,
     family,
@@ -313,7 +312,10 @@ VOCABULARY: dict[str, Name] = {
 }
 # fmt: on
 
-OWN_TYPES: dict[str, Type] = {"scalar": SCALAR, "vector": VECTOR, "matrix": SQUARE}
+OWN_USES: dict[str, Use] = {
+    **{x: defined(y) for x, y in (("scalar", SCALAR), ("vector", VECTOR), ("matrix", SQUARE))},
+    "of invariants": function(SCALAR, SCALAR, SCALAR, SCALAR),
+}
 
 
 def add_letters(known: dict[str, Name], letters: Iterable[Own]) -> None:
@@ -321,7 +323,7 @@ def add_letters(known: dict[str, Name], letters: Iterable[Own]) -> None:
     for x in letters:
         if x.name in known:
             raise ValueError(f"the letter {x.name} has a meaning: {known[x.name].meaning}")
-        known[x.name] = name(x.meaning, x.french, x.latex, defined(OWN_TYPES[x.type]))
+        known[x.name] = name(x.meaning, x.french, x.latex, OWN_USES[x.type])
 
 
 add_letters(VOCABULARY, (x for kind in kinds().values() for x in kind.letters))

@@ -138,9 +138,13 @@ def _key(hint: Any) -> Key:
     raise TypeError(f"{hint} is no type of a key")
 
 
-NEEDS = ("points alone", "one space", "rotations", "affine of R^3", "volumes")
+NEEDS = (
+    *("points alone", "one space", "rotations", "affine of R^3", "volumes"),
+    *("deformations of R^3", "one ellipsoid"),
+)
 """What a kind may need of its problem: nothing has mass but the points; blocks of one dimension;
-linear parts that are rotations; all translations of R³; one space, whose volumes change."""
+linear parts that are rotations; all translations of R³; one space, whose volumes change; linear
+parts in R³ that are not rotations; a homogeneous ellipsoid about the origin, and nothing else."""
 DETERMINANT: Tree = ("det", "A")
 """What ``det_A`` is in an energy of the volume."""
 OTHER_WORDS = {
