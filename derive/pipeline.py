@@ -23,13 +23,13 @@ from .record.record import Derivation
 from .walk import (
     alphabet, body, brackets, cartan, components, conserved, coordinates, elimination, explicit,
     exterior, inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit,
-    potential, pullback, rotation, separation, solution, specialisation, translation, variation,
-    vector,
+    potential, pullback, rotation, separation, solution, specialisation, told_by_momenta,
+    translation, variation, vector,
 )
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
 from .walk.failure import naming_steps
-from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side
+from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side, torus
 from .walk.head import problem_data, symbols
 from .walk.inputs import acts
 from .walk.lineage import traced
@@ -92,6 +92,8 @@ MATRICES = (
     Stage("space", "cartan.momentum a", "SpaceMomenta", conserved.matrix_momenta),
     Stage("conserved", "problem potentials space solution.motion special.letters c",
           "Steps", conserved.conserved_steps),
+    Stage("by_momenta", "general driven centred? group c c_u",
+          "Steps", told_by_momenta.of_matrices),
     Stage("explicit", "problem group body potentials special driven external? solution.motion "
           "pullback.steps c_u", "Steps", explicit.of_matrices),
 )
@@ -124,6 +126,10 @@ VECTORS = (
     Stage("space", "vectors.momenta isometry.letters", "SpaceMomenta", conserved.vector_momenta),
     Stage("conserved", "problem potentials space motion isometry.letters c",
           "Steps", conserved.conserved_steps),
+    Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
+          "Steps", told_by_momenta.of_rotations, "linear"),
+    Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
+          "Steps", told_by_momenta.of_displacements, "affine"),
     Stage("basis", "group isometry.letters c", "Steps", coordinates.stated_basis_step),
     Stage("explicit", "problem group body potentials torque pullback.steps axial.inertia "
           "external? motion tensor c_u", "Steps", explicit.of_vectors, "linear"),
@@ -155,7 +161,9 @@ def walk(problem: Problem) -> Derivation:
     """Derive the equations of motion of a problem; ``WalkError`` names the step that a rule of the
     engine breaks."""
     group, given = problem.group, problem.lagrangian
-    if given is not None:
+    if problem.torus:
+        values = lagrangian_road("right")
+    elif given is not None:
         values = lagrangian_road(given.trivialisation)
     else:
         values = general_road(affine=problem.affine, signed=problem.signed)
@@ -169,6 +177,9 @@ def walk(problem: Problem) -> Derivation:
         kinds |= {"element" if problem.advected is None else "reduced"}
         kinds |= {"rotations"} if turns_whole(group) and not group.affine else set()
         steps += follow(road, values | own, kinds)["steps"]
+    if problem.torus:
+        c = Chapter(problem.name, problem.torus.name)
+        steps += torus.torus_steps(problem.torus, values["lagrangian"], values["a"], c)
     steps = supposing_all(traced(steps))
     return Derivation(problem_data(problem), symbols(steps, problem), steps)
 

@@ -17,8 +17,8 @@ from ..language.reserved import PLACE
 from ..language.tree import Tree, replaced, subtrees
 from ..language.values import approximate
 from ..schema.algebra_kinds import Advected
-from ..schema.body_kinds import Body, Place, Point, PointBody
-from ..schema.table import Rows, Slot, Table
+from ..schema.body_kinds import Body, Place, Point, PointBody, is_ellipsoid
+from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import NAME, TableReader
 from .fields import LIKE_A_PLACE
 from .moments import SolidError, first_moment, given_by, second_moment
@@ -33,8 +33,8 @@ Vector = tuple[Tree, ...]
 class FileReader(TableReader):
     """Reads the tables of a file in a folder; ``places``: those that forces have named so far.
 
-    ``heavy``: the body has mass outside its points; ``advected``: what an algebra without g
-    carries along.
+    ``heavy``: the body has mass outside its points; ``fills_ellipsoid``: it is a homogeneous one;
+    ``advected``: what an algebra without g carries along.
     """
 
     error = ProblemError
@@ -45,7 +45,7 @@ class FileReader(TableReader):
         self.parameters: Mapping[str, Any] = {}
         self.point_masses: tuple[Point, ...] = ()
         self.places: list[Place] = []
-        self.heavy = False
+        self.heavy = self.fills_ellipsoid = False
         self.advected: tuple[Advected, ...] | None = None
 
     group: Group | None
@@ -60,6 +60,7 @@ class FileReader(TableReader):
         self.parameters, self.point_masses = parameters, points_of(body)
         self.count = self.last = len(self.point_masses)
         self.heavy = not isinstance(body, PointBody)
+        self.fills_ellipsoid = is_ellipsoid(body)
 
     def names(self, own: type[Table]) -> tuple[str, ...]:
         """The keys of a file."""
@@ -83,6 +84,22 @@ class FileReader(TableReader):
             raise ProblemError(
                 f"{where}: {kind} needs one group whose linear parts are rotations, as SO(3) or "
                 f"SE(3); those of {g.name} are others"
+            )
+        if need == "deformations of R^3" and (g.n != 3 or g.factors or "orthogonal" in g.relations):
+            rigid = "; where linear parts are rotations it is a constant" * (g.n == 3)
+            raise ProblemError(
+                f"{where}: {kind} needs one group that deforms R^3, as SL(3), GL(3) or Aff(3), "
+                f"not {g.name}{rigid}"
+            )
+        if need == "one ellipsoid" and not self.fills_ellipsoid:
+            raise ProblemError(
+                f"{where}: {kind} is of a body that is one homogeneous ellipsoid about the origin; "
+                'give [body] solid = "ellipsoid", without points or shift'
+            )
+        if need == "volumes" and (g.factors or "unimodular" in g.relations):
+            raise ProblemError(
+                f"{where}: {kind} needs one group that changes volumes, as GL(3) or Aff(3); "
+                + (f"{g.name} is a product" if g.factors else f"det A = 1 on {g.name}")
             )
         if need == "affine of R^3" and (g.n != 3 or not g.free_translations or g.factors):
             raise ProblemError(
@@ -236,6 +253,13 @@ class FileReader(TableReader):
                 f"{slot.path}: no place of a point, as r1_x, so no force; leave it out"
             )
         return U
+
+    def of_volume(self, slot: Slot) -> Tree:
+        """An expression of ``det_A``, which must be in it, and the time."""
+        found = replaced(self.in_time(self.value(slot), slot.path), ("par", "det_A"), DETERMINANT)
+        if not any(x == DETERMINANT for _, x in subtrees(found)):
+            raise ProblemError(f"{slot.path}: no det_A, the volume, so no force; leave it out")
+        return found
 
     def _placed(self, t: Tree, where: str) -> Tree:
         """r1_x, r1_2, … as entries of the places in space; t as the time."""
