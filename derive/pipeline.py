@@ -21,8 +21,8 @@ from .problem.principal import principal
 from .problem.problem import Problem, ProblemError
 from .record.record import Derivation
 from .walk import (
-    alphabet, body, brackets, cartan, components, conserved, coordinates, dirichlet, elimination, explicit,
-    exterior, inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit,
+    alphabet, body, brackets, cartan, components, conserved, coordinates, dirichlet, elimination,
+    explicit, exterior, inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit,
     potential, pullback, rotation, separation, solution, specialisation, translation, variation,
     vector,
 )

@@ -86,8 +86,8 @@ class FileReader(TableReader):
             )
         if need == "no turning" and (g.factors or g.turns_space):
             raise ProblemError(
-                f"{where}: {kind} is for one group that is walked in matrices, as SL(3), SAff(3) or "
-                f"SE(2), and not for {g.name}; give springs to the body's points"
+                f"{where}: {kind} is for one group that is walked in matrices, as SL(3), SAff(3) "
+                f"or SE(2), and not for {g.name}; give springs to the body's points"
             )
         if need == "volumes" and (g.factors or "unimodular" in g.relations):
             raise ProblemError(

@@ -11,7 +11,7 @@ from itertools import product
 from math import factorial, gcd, isqrt, lcm, prod
 from typing import Any
 
-from ..language import rational as q
+from ..language import rational
 from ..language.expression import LARGEST, SMALLEST
 from ..language.laurent import Laurent, Monomial
 from ..language.limits import EXPONENT
@@ -128,9 +128,11 @@ def fault_of_quadric(Q: Rows, values: Mapping[str, float]) -> str:
     numbers = [[Fraction(x) for x in row if x is not None] for row in found]
     if any(len(row) < len(Q) for row in numbers):
         return ""
-    if q.definite(q.matrix(numbers)):
+    if rational.definite(rational.matrix(numbers)):
         return ""
-    return "the matrix of an ellipsoid must be positive definite" + " for the defaults" * bool(values)
+    return "the matrix of an ellipsoid must be positive definite" + " for the defaults" * bool(
+        values
+    )
 
 
 def rotation_about(axis: Row, angle: Tree) -> tuple[Row, ...]:

@@ -250,8 +250,8 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "les vitesses sont JS pour des matrices antisymétriques S.",
         ),
     },
-    "rigid": {
-        "none": (
+    "no_rotation": {
+        "free": (
             "In a rigid rotation A = exp(tΩ) is Z = Ω, skew, and Ż = 0. As n is odd, Ω is "
             "singular: so are Ω² and, if no force acts, θJ⁻¹, of which Ω² is the equal where C = "
             "𝟏; then θ = 0, Ω² = 0 and Ω = 0. Without forces nothing rotates rigidly.",

@@ -31,7 +31,8 @@ class Solid(Table):
     @property
     def sizes(self) -> dict[str, Any]:
         """The keys that only this kind has."""
-        own = (x for x in self.keys() if x not in Solid.keys())
+        placed = Solid.keys()
+        own = (x for x in self.keys() if x not in placed)
         return {x: getattr(self, x) for x in own if getattr(self, x) is not None}
 
     def plain(self) -> dict[str, Any]:
@@ -71,7 +72,9 @@ class Ellipsoid(Solid):
         """One of the two."""
         own = [x for x in ("semi_axes", "quadric") if x in table]
         if len(own) != 1:
-            return "an ellipsoid has either 'semi_axes' or a 'quadric', the matrix Q of <r, Q r> <= 1"
+            return (
+                "an ellipsoid has either 'semi_axes' or a 'quadric', the matrix Q of <r, Q r> <= 1"
+            )
         placed = [x for x in ("rotation", "shift") if table.get(x) is not None]
         if own == ["quadric"] and placed:
             return f"key {placed[0]!r} goes with 'semi_axes'; turn the quadric itself"

@@ -144,7 +144,8 @@ def _key(hint: Any) -> Key:
 
 NEEDS = ("points alone", "one space", "rotations", "affine of R^3", "volumes", "no turning")
 """What a kind may need of its problem: nothing has mass but the points; blocks of one dimension;
-linear parts that are rotations; all translations of R³; one space, whose volumes change; not SO(3) or SE(3), nor a product."""
+linear parts that are rotations; all translations of R³; one space, whose volumes change; not SO(3)
+or SE(3), nor a product."""
 DETERMINANT: Tree = ("det", "A")
 """What ``det_A`` is in an energy of the volume."""
 OTHER_WORDS = {

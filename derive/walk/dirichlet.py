@@ -47,7 +47,8 @@ def fluid_steps(
     problem: Problem, group: Group, special: Special, found: Solution, c: Chapter
 ) -> tuple[Step, ...]:
     """The steps ``quadric``, ``pressure``, ``total`` of an ellipsoid, or ``virial`` of another
-    solid, that a group of all maps that keep volumes moves; ``circulation`` and ``rigid``.  Of a
+    solid, that a group of all maps that keep volumes moves; ``circulation`` and
+    ``no_rotation``.  Of a
     gas ``circulation`` alone; none elsewhere."""
     gas = any(isinstance(p, Volume) for p in problem.potentials)
     if group.affine or group.factors or not (_keeps_volumes(group) or (gas and _moves_all(group))):
@@ -63,8 +64,8 @@ def fluid_steps(
     shape = _quadric(solids, group.n) if not problem.points else None
     linear = all(p.linear for p in problem.potentials) and not problem.inputs + problem.damping
     told = fluid.ellipsoid(solids[0], shape) if shape and linear else (fluid.virial(),)
-    rigid = (fluid.rigid(),) if free and group.n % 2 else ()
-    return (*told, fluid.circulation(), *rigid)
+    turned = (fluid.no_rotation(),) if free and group.n % 2 else ()
+    return (*told, fluid.circulation(), *turned)
 
 
 def _keeps_volumes(group: Group) -> bool:
@@ -95,7 +96,7 @@ def _quadric(solids: tuple[Solid, ...], n: int) -> tuple[tuple[Tree, ...], ...] 
 
 @dataclass
 class _Fluid:
-    """What is known of the motion of a body: Āα̇J = ĀN + θ 1, or without θ where all maps move it."""
+    """What is known of the motion of a body: Āα̇J = ĀN + θ 1, or without θ on GL(n)."""
 
     problem: Problem
     special: Special
@@ -271,9 +272,9 @@ class _Fluid:
             + say("circulation.relabelling"),
         )
 
-    def rigid(self) -> Step:
+    def no_rotation(self) -> Step:
         """det(Z − Z̄) = 0 for odd n, and det(Z² + Ż) by θ: no rigid rotation without forces."""
-        draft = self._draft("rigid", "solution")
+        draft = self._draft("no_rotation", "solution")
         b = self.b
         if self.acceleration != word(MULTIPLIER) * word(inverse_letter(b.J)):
             raise ValueError("a force acts")
@@ -286,7 +287,7 @@ class _Fluid:
                     ("div", ("pow", "θ", self.n), ("det", "J")),
                 ),
             ),
-            say("rigid.none"),
+            say("no_rotation.free"),
         )
 
 
@@ -301,4 +302,3 @@ def substitute_trace(e: Expr, old: Expr, new: Expr) -> Expr:
         else:
             total = total + e.like({(found, w): k})
     return total
-
