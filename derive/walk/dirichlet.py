@@ -64,8 +64,9 @@ def fluid_steps(
     shape = _quadric(solids, group.n) if not problem.points else None
     linear = all(p.linear for p in problem.potentials) and not problem.inputs + problem.damping
     told = fluid.ellipsoid(solids[0], shape) if shape and linear else (fluid.virial(),)
-    turned = (fluid.no_rotation(),) if free and group.n % 2 else ()
-    return (*told, fluid.circulation(), *turned)
+    circulation = fluid.circulation()
+    turned = (fluid.no_rotation(circulation),) if free and group.n % 2 else ()
+    return (*told, circulation, *turned)
 
 
 def _keeps_volumes(group: Group) -> bool:
@@ -272,16 +273,18 @@ class _Fluid:
             + say("circulation.relabelling"),
         )
 
-    def no_rotation(self) -> Step:
-        """det(Z − Z̄) = 0 for odd n, and det(Z² + Ż) by θ: no rigid rotation without forces."""
+    def no_rotation(self, circulation: Step) -> Step:
+        """det Υ = 0 for odd n, as of any skew matrix, and det(Z² + Ż) by θ: no rigid rotation
+        without forces."""
         draft = self._draft("no_rotation", "solution")
+        draft.depends_on(circulation)
         b = self.b
         if self.acceleration != word(MULTIPLIER) * word(inverse_letter(b.J)):
             raise ValueError("a force acts")
         Z = word(b.Z.velocity)
         return draft.step(
             (
-                Equation(("det", tree_of(Z - Z.bar)), 0),
+                Equation(("det", "Υ"), 0),
                 Equation(
                     ("det", tree_of(Z * Z + word(b.Z.acceleration))),
                     ("div", ("pow", "θ", self.n), ("det", "J")),
