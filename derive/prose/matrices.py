@@ -252,11 +252,11 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     },
     "no_rotation": {
         "free": (
-            "In a rigid rotation A = exp(tΩ) is Z = Ω, skew, and Ż = 0. As n is odd, every skew "
-            "matrix is singular, as Υ is: so are Ω and Ω². Without forces Ω² = θJ⁻¹, where C = 𝟏; "
-            "then θ = 0, Ω² = 0 and Ω = 0: nothing rotates rigidly.",
-            "Dans une rotation rigide A = exp(tΩ), on a Z = Ω, antisymétrique, et Ż = 0. Comme n "
-            "est impair, toute matrice antisymétrique est singulière, comme l’est Υ : donc Ω et "
+            "In a rigid rotation exp(tΩ) the velocity Z is Ω, skew, and Ż = 0. As n is odd, every "
+            "skew matrix is singular, as Υ is: so are Ω and Ω². Without forces Ω² = θJ⁻¹, where "
+            "C = 𝟏; then θ = 0, Ω² = 0 and Ω = 0: nothing rotates rigidly.",
+            "Dans une rotation rigide exp(tΩ), la vitesse Z est Ω, antisymétrique, et Ż = 0. Comme "
+            "n est impair, toute matrice antisymétrique est singulière, comme l’est Υ : donc Ω et "
             "Ω² le sont. Sans forces Ω² = θJ⁻¹, là où C = 𝟏 ; alors θ = 0, Ω² = 0 et Ω = 0 : rien "
             "ne tourne rigidement.",
         ),
