@@ -40,12 +40,13 @@ from .walk.stages import Stage, Values, follow
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from fractions import Fraction
 
     from .code.options import Options
     from .code.program import Program
+    from .equilibria.enclosed_points import Enclosed
     from .equilibria.stability import Equilibrium
     from .integrals.all_integrals import Found
+    from .language.quadratic import Number
     from .language.tree import Tree
     from .symmetries.steps import Symmetries
 
@@ -209,12 +210,13 @@ def both_trivialisations(record: Derivation) -> Derivation:
 
 
 def integrals(
-    problem: Problem, degree: int = 4, *, at_defaults: bool = False
+    problem: Problem, degree: int = 4, *, at_defaults: bool = False, conditions: bool = False
 ) -> tuple[Found, Derivation]:
     """The polynomial integrals of the reduced equations of a problem up to a degree, and its record
     with the steps that tell them; of points by their Lagrangian as one expression.
 
-    Without the inputs of the problem; ``at_defaults``: with numbers for its parameters.
+    Without the inputs of the problem; ``at_defaults``: with numbers for its parameters;
+    ``conditions``: with those on the parameters under which there are more.
     """
     from .integrals.all_integrals import found
     from .integrals.reduced import reduced, require_group, with_defaults
@@ -227,6 +229,10 @@ def integrals(
         problem = with_scalar_lagrangian(problem, walk(problem))
     problem = with_defaults(problem) if at_defaults else problem
     whole = found(reduced(problem), degree)
+    if conditions:
+        from .integrals.special_parameters import conditions as conditions_of
+
+        whole = replace(whole, conditions=conditions_of(whole))
     assert problem.group is not None
     record = walk(problem)
     c = Chapter(problem.name, problem.group.name)
@@ -234,8 +240,27 @@ def integrals(
     return whole, Derivation(record.problem, symbols(steps, problem), steps)
 
 
+def equilibrium_near(problem: Problem, values: Mapping[str, Number]) -> tuple[Enclosed, Derivation]:
+    """The equilibrium of a problem near a point, enclosed, and the record of its integrals with the
+    steps that tell it; parameters have their defaults."""
+    from .equilibria.enclosed_points import enclosed
+    from .equilibria.stability import require_numbers
+    from .equilibria.told_points import told_enclosed
+
+    whole, record = integrals(problem, at_defaults=True)
+    try:
+        require_numbers(whole)
+        found = enclosed(whole, values)
+    except Refused as error:
+        raise ProblemError(f"{problem.name}: {error}") from None
+    assert problem.group is not None
+    c = Chapter(problem.name, problem.group.name)
+    steps = (*record.steps, *told_enclosed(whole, found, record.steps, c))
+    return found, replace(record, steps=supposing_all(traced(steps)))
+
+
 def equilibria(
-    problem: Problem, values: Mapping[str, Fraction]
+    problem: Problem, values: Mapping[str, Number]
 ) -> tuple[tuple[Equilibrium, ...], Derivation]:
     """The relative equilibrium of a problem at a point, or those among some points where no values
     are given, and the record of its integrals with the steps that tell them; parameters have their

@@ -30,6 +30,7 @@ from .arithmetic import (
     transpose,
     wedge,
 )
+from .elementary_values import ElementaryValues
 from .function_signatures import AXIS, INDEX_SETS, LATTICE, MATRICES, POINT
 
 LARGEST_NESTING = 3
@@ -244,6 +245,8 @@ def _function(t: tuple[Any, ...], env: Environment) -> Value:
     value = evaluate(t[2], env)
     if env.elementary is None or is_matrix(value):
         raise EvaluationError(f"no value of the function {t[1]!r}")
+    if isinstance(t[2], (int, Fraction)) and isinstance(env.elementary, ElementaryValues):
+        return env.elementary.written(t[1], t[2])
     return env.elementary(t[1], value)
 
 
