@@ -277,6 +277,10 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
     """The program of a problem; in its principal frame that is the program of another problem."""
     from .code.assemble import assemble
 
+    if problem.torus:
+        from .code.torus.torus_program import torus_program
+
+        return torus_program(record, problem.torus, options)
     if problem.group is None:
         raise ProblemError(
             f"{problem.name}: this text is about any group, so it has nothing to emit; choose a "

@@ -79,8 +79,8 @@ STEPS = {
             "conjugates: for a fluid, the integral of every power of the vorticity. The second is "
             "the enstrophy.",
             "L’énergie est conservée, ainsi que la trace de chaque puissance de W, que le "
-            "mouvement conjugue : pour un fluide, l’intégrale de chaque puissance du tourbillon. La "
-            "deuxième est l’enstrophie.",
+            "mouvement conjugue : pour un fluide, l’intégrale de chaque puissance du tourbillon. "
+            "La deuxième est l’enstrophie.",
         ),
     },
 }
