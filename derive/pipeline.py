@@ -146,6 +146,9 @@ EXPRESSED = (
           "Steps", explicit.of_lagrangian),
 )
 """One Lagrangian in a basis of 𝔤, its state with an element of the group, or reduced."""
+
+ON_THE_TORUS = (Stage("fluid", "problem lagrangian a c", "Steps", torus.torus_steps),)
+"""The kinetic energy of a fluid on su(N), in the basis of the torus."""
 # fmt: on
 
 
@@ -171,8 +174,8 @@ def walk(problem: Problem) -> Derivation:
         kinds |= {"rotations"} if turns_whole(group) and not group.affine else set()
         steps += follow(road, values | own, kinds)["steps"]
     if problem.torus:
-        c = Chapter(problem.name, problem.torus.name)
-        steps += torus.torus_steps(problem.torus, values["lagrangian"], values["a"], c)
+        own = {"problem": problem, "c": Chapter(problem.name, problem.torus.name)}
+        steps += follow(ON_THE_TORUS, values | own, ())["steps"]
     steps = supposing_all(traced(steps))
     return Derivation(problem_data(problem), symbols(steps, problem), steps)
 

@@ -200,7 +200,7 @@ VOCABULARY: dict[str, Name] = {
         "point du réseau du tore", r"\mathbf n", letter(LATTICE)),
     "𝐦": name("another point of the lattice", "autre point du réseau",
         r"\mathbf m", letter(LATTICE)),
-    "i": name("imaginary unit", "unité imaginaire", r"\mathrm i", letter(SCALAR)),
+    "i": name("imaginary unit", "unité imaginaire", "i", letter(SCALAR)),
     "ω̂": name("coefficients of the vorticity on the basis of the torus",
         "coefficients du tourbillon dans la base du tore",
         r"\hat\omega", function(LATTICE, SCALAR)),
