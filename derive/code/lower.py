@@ -136,6 +136,9 @@ class Lowering:
             return found
         if op == "tr":
             return dense.diagonal(g, a[0])
+        if op == "det":
+            found_det: Node = dense.determinant(a[0])
+            return found_det
         if op == "matrix":
             return tuple(tuple(row) for row in a)
         if op == "row":
@@ -273,7 +276,7 @@ class Lowering:
         return dense.dot(left, right)
 
 
-SCALARS = {"m", "θ", "t", "h̃", "Ũ", "L̃"}
+SCALARS = {"m", "θ", "t", "h̃", "Ũ", "L̃", "V_A", "p_V", "U_V"}
 SCALAR_OPERATORS = {"tr", "inner", "metric", "norm2", "det", "par", "entry", "fun"}
 
 

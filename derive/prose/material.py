@@ -156,6 +156,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "K est la somme sur les ressorts de longueur à vide nulle ; s_e joint les extrémités "
             "de l’un d’eux dans le corps.",
         ),
+        "volume": (
+            "U_V depends on the volume alone: δU_V = −p_V δ(log V_A), and by Jacobi’s formula "
+            "δ(log V_A) = Tr A⁻¹δA.",
+            "U_V ne dépend que du volume : δU_V = −p_V δ(log V_A), et par la formule de Jacobi "
+            "δ(log V_A) = Tr A⁻¹δA.",
+        ),
         "far_orders": (
             "Of the gravity of the far centre, the terms of the fourth and higher orders in one "
             "over the distance are dropped.",

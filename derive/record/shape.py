@@ -12,14 +12,14 @@ from typing import Any, TypeVar
 
 from ..language.derivatives import DERIVATIVES
 from ..language.limits import BASIS, CARRIED, TORUS
-from ..language.tree import Tree
+from ..language.tree import Tree, replaced
 from ..schema.algebra_kinds import Advected, Torus
 from ..schema.body_kinds import BODIES, Place
 from ..schema.kinds import kinds
 from ..schema.lagrangian_kinds import Lagrangian
 from ..schema.outside import INPUTS, Damping
 from ..schema.solid_kinds import SOLIDS, Solid
-from ..schema.table import Rows, Slot, Table
+from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
 from .contract import CONVENTIONS
 
@@ -194,7 +194,7 @@ class _RecordReader(TableReader):
         data = self.data
         if need == "points alone" and data["body"]["kind"] != "points":
             raise ShapeError(f"{where}: {kind} is of a body of points alone")
-        if need in ("rotations", "affine of R^3") and self.blocks > 1:
+        if need in ("rotations", "affine of R^3", "volumes") and self.blocks > 1:
             raise ShapeError(f"{where}: {kind} is in no product")
         if need == "affine of R^3" and (data["action"], data["n"]) != ("affine", 3):
             raise ShapeError(f"{where}: {kind} is of affine maps of R^3")
@@ -227,6 +227,13 @@ class _RecordReader(TableReader):
     def energy(self, slot: Slot) -> Tree:
         """The same, of t and coordinates of points."""
         return self.made_of(self.value(slot), slot.path, placed=True)
+
+    def of_volume(self, slot: Slot) -> Tree:
+        """The same, of t and the volume."""
+        t = self.read(self.value(slot), slot.path)
+        if not self.is_scalar(replaced(t, DETERMINANT, "t"), placed=False, timed=True):
+            raise ShapeError(f"{slot.path}: expected the expression of a number")
+        return t
 
     def made_of(self, value: Any, where: str, placed: bool = False, timed: bool = False) -> Tree:
         """The tree of a number."""
