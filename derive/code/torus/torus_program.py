@@ -101,7 +101,7 @@ def _require_written(d: Derivation, chosen: Options) -> None:
 
 def _scratch(torus: Torus) -> tuple[str, ...]:
     N, h = torus.N, torus.half
-    kilobytes = -(-8 * (4 * N * N + 2 * N * (h + 1) + 8 * (h + 1) ** 2 + 4 * N) // 1024)
+    kilobytes = -(-8 * (4 * N * N + 2 * N * (h + 2) + 8 * (h + 1) ** 2 + 2 * (h + 1)) // 1024)
     return (
         f"The functions have no memory of their own: in C rhs takes {kilobytes} kB of the stack.",
     )
