@@ -11,8 +11,9 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from fractions import Fraction
+from typing import NamedTuple
 
-from ...algebra.torus import Torus
+from ...algebra.torus import Place, Torus
 from ...record.record import Derivation
 from ..factor import factored
 from ..graph import Graph, Node
@@ -20,26 +21,40 @@ from ..naming import ClaimedNames
 from ..options import Options
 from ..program import EmittedFunction, Load, LoweringError, Program
 from ..schedule import Scheduler, frontier
-from .lattice_state import described, names
+from .lattice_state import described, names, position
 from .written_out import WrittenOut
 
 WRITTEN_OUT = 5
 """The largest N that is written out: at 7 the loops take the same time, and 4 % of the text."""
+TABLE = 7
+"""The largest N of which C has a table of terms: at 9 the matrices take less time."""
 POWERS = (2, 3, 4)
 CONSERVED = tuple(f"trace_{k}" for k in POWERS)
 """What ``conserved`` gives: Tr Wᵏ/N, in space the mean of the k-th power of the vorticity."""
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459")
 
 
+class Term(NamedTuple):
+    """One of the terms of dω̂(n)/dt: c times the product of two coefficients, by their places in the
+    state, and −1 for a conjugate."""
+
+    first: int
+    second: int
+    sign: int
+    other: int
+    c: Fraction
+
+
 @dataclass(frozen=True)
 class Loops:
-    """The tables of the loops for one N: cos and sin of 2πk/N, and what the functions with loops,
-    by ``names``, cost."""
+    """The tables of the loops for one N: cos and sin of 2πk/N; for small N the terms of each rate;
+    and what the functions with loops, by ``names``, cost."""
 
     N: int
     names: frozenset[str]
     cosines: tuple[Fraction, ...]
     sines: tuple[Fraction, ...]
+    table: tuple[tuple[Term, ...], ...]
     operations: Mapping[str, str]
 
 
@@ -69,7 +84,7 @@ def torus_program(d: Derivation, torus: Torus, options: Options | None = None) -
             "P = -sum omega(n)/|n|^2 T_n the stream function, in space sums of e^(i n.x);",
             "energy is the sum of |omega(n)|^2/(2 |n|^2), trace_k is Tr W^k/N.",
             *described(torus),
-            *(_scratch(torus) if looped else ()),
+            *(_scratch(torus) if torus.N > TABLE else ()),
         ),
         names(torus),
         (),
@@ -141,17 +156,40 @@ def loops(torus: Torus, looped: Collection[str]) -> Loops:
     N, h = torus.N, torus.half
     turn, product = 4 * h * (h + 1) ** 2, 4 * N**3
     whole = 3 * turn + product
+    table = tuple(_terms(torus, n) for n in torus.half_plane) if N <= TABLE else ()
+    terms = sum(map(len, table))
     return Loops(
         N,
         frozenset(looped) | ({"rhs_batch"} if "rhs" in looped else set()),
         tuple(_cosine(Fraction(k, N)) for k in range(N)),
         tuple(_cosine(Fraction(k, N) - Fraction(1, 4)) for k in range(N)),
+        table,
         {
             "rhs": f"{whole} mul, {whole} add, and {6 * N * N} of less order",
+            "rhs by table": f"{8 * terms} mul, {4 * terms} add",
             "energy": f"{N * N - 1} mul, {N * N - 1} add, {(N * N - 1) // 2} div",
             "conserved": f"{turn + product} mul, {turn + product} add",
         },
     )
+
+
+def _terms(torus: Torus, n: Place) -> tuple[Term, ...]:
+    """The terms of dω̂(n)/dt, m and n − m together: their sines are opposite."""
+    found = []
+    for m in torus.places:
+        other = torus.representative((n[0] - m[0], n[1] - m[1]))
+        weight = Fraction(1, _square(m)) - Fraction(1, _square(other)) if any(other) else 0
+        crossed = (m[0] * n[1] - m[1] * n[0]) % torus.N
+        if m < other and weight and crossed:
+            (i, turned), (j, turned_too) = position(torus, m), position(torus, other)
+            sine = _cosine(Fraction(crossed, torus.N) - Fraction(1, 4))
+            c = -Fraction(float(sine * weight * torus.N / (2 * Fraction(PI))))
+            found.append(Term(i, j, -1 if turned else 1, -1 if turned_too else 1, c))
+    return tuple(found)
+
+
+def _square(n: Place) -> int:
+    return n[0] ** 2 + n[1] ** 2
 
 
 def _cosine(turns: Fraction) -> Fraction:

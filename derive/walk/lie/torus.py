@@ -77,7 +77,9 @@ def _basis(phase: Phase, scale: Tree, general: AnyLagrangian, c: Chapter) -> Ste
             Equation(product, mul(phase.product(), of("T", (1, 1)))),
             Equation("Z", summed(lambda k: mul(scale, of("ζ", k)))),
         ],
-        say("coordinates.torus", order=str(phase.N), half=str(phase.N // 2)),
+        say(
+            "coordinates.torus", order=str(phase.N), half=str(phase.N // 2), most=str(phase.N // 2)
+        ),
     )
 
 
