@@ -153,6 +153,9 @@ EXPRESSED = (
           "Steps", explicit.of_lagrangian),
 )
 """One Lagrangian in a basis of 𝔤, its state with an element of the group, or reduced."""
+
+ON_THE_TORUS = (Stage("fluid", "problem lagrangian a c", "Steps", torus.torus_steps),)
+"""The kinetic energy of a fluid on su(N), in the basis of the torus."""
 # fmt: on
 
 
@@ -178,8 +181,8 @@ def walk(problem: Problem) -> Derivation:
         kinds |= {"rotations"} if turns_whole(group) and not group.affine else set()
         steps += follow(road, values | own, kinds)["steps"]
     if problem.torus:
-        c = Chapter(problem.name, problem.torus.name)
-        steps += torus.torus_steps(problem.torus, values["lagrangian"], values["a"], c)
+        own = {"problem": problem, "c": Chapter(problem.name, problem.torus.name)}
+        steps += follow(ON_THE_TORUS, values | own, ())["steps"]
     steps = supposing_all(traced(steps))
     return Derivation(problem_data(problem), symbols(steps, problem), steps)
 
@@ -308,6 +311,10 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
     """The program of a problem; in its principal frame that is the program of another problem."""
     from .code.assemble import assemble
 
+    if problem.torus:
+        from .code.torus.torus_program import torus_program
+
+        return torus_program(record, problem.torus, options)
     if problem.group is None:
         raise ProblemError(
             f"{problem.name}: this text is about any group, so it has nothing to emit; choose a "

@@ -201,7 +201,7 @@ VOCABULARY: dict[str, Name] = {
         "point du réseau du tore", r"\mathbf n", letter(LATTICE)),
     "𝐦": name("another point of the lattice", "autre point du réseau",
         r"\mathbf m", letter(LATTICE)),
-    "i": name("imaginary unit", "unité imaginaire", r"\mathrm i", letter(SCALAR)),
+    "i": name("imaginary unit", "unité imaginaire", "i", letter(SCALAR)),
     "ω̂": name("coefficients of the vorticity on the basis of the torus",
         "coefficients du tourbillon dans la base du tore",
         r"\hat\omega", function(LATTICE, SCALAR)),
@@ -428,14 +428,14 @@ LAGRANGIANS: dict[str, dict[str, Name]] = {
 
 ON_THE_TORUS: dict[str, Name] = {
     "T": name(
-        "basis of the torus: T(𝐧) = ω^(n₁n₂) g^n₁ h^n₂ for a point 𝐧 of the lattice",
-        "base du tore : T(𝐧) = ω^(n₁n₂) g^n₁ h^n₂ pour un point 𝐧 du réseau",
+        "basis of su(N), products of powers of the clock and of the cyclic shift",
+        "base de su(N), produits de puissances de l’horloge et du décalage cyclique",
         "T",
         function(LATTICE, SQUARE),
     ),
     "ζ": name(
-        "coefficients of Z, N/4πi taken out: the opposite of the stream function",
-        "coefficients de Z, à N/4πi près : l’opposé de la fonction de courant",
+        "coefficients of Z but for a factor: the opposite of the stream function",
+        "coefficients de Z à un facteur près : l’opposé de la fonction de courant",
         r"\zeta",
         function(LATTICE, SCALAR),
     ),
