@@ -21,8 +21,8 @@ from .problem.principal import principal
 from .problem.problem import Problem, ProblemError
 from .record.record import Derivation
 from .walk import (
-    alphabet, body, brackets, cartan, components, conserved, coordinates, elimination, explicit,
-    exterior, inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit,
+    alphabet, body, brackets, cartan, components, conserved, coordinates, dirichlet, elimination,
+    explicit, exterior, inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit,
     potential, pullback, rotation, separation, solution, specialisation, told_by_momenta,
     translation, variation, vector,
 )
@@ -83,6 +83,7 @@ MATRICES = (
     Stage("driven", "special external?", "Special", specialisation.with_external),
     Stage("centred", "driven c_u", "Centred", translation.eliminate_translation, "affine"),
     Stage("solution", "driven centred? group c c_u", "Solution", solution.solution),
+    Stage("fluid", "problem group driven solution c_u", "Steps", dirichlet.fluid_steps),
     Stage("energy", "special.last", "Steps", tuple),
     Stage("rigid", "distances special.C special.letters c",
           "Step", orbit.rigid, "orthogonal"),

@@ -155,7 +155,7 @@ class Program:
     """All that is emitted for one problem, without a word of any language.
 
     ``functions``: constants, rhs, energy; inertia for a body turned in space; and what is asked for
-    of conserved; of jacobian, jacobian_inputs, jacobian_parameters; momentum, velocity,
+    of conserved, multiplier; of jacobian, jacobian_inputs, jacobian_parameters; momentum, velocity,
     momentum_rhs and poisson; into_frame, out_of_frame, inputs_into_frame.
     """
 

@@ -259,6 +259,15 @@ VOCABULARY: dict[str, Name] = {
     "Λ": name("direction normal to the Lie algebra",
         "direction normale à l’algèbre de Lie", r"\Lambda", letter(SQUARE)),
     "θ": name("multiplier of the volume", "multiplicateur du volume", r"\theta", unknown(SCALAR)),
+    "Q_r": name("quadric of the boundary of the body, ⟨r, Q_r r⟩ = 1",
+        "quadrique du bord du corps, ⟨r, Q_r r⟩ = 1", "Q_r", defined(SQUARE)),
+    "p_0": name("pressure in the middle", "pression au centre", "p_0", defined(SCALAR)),
+    "p_r": name("pressure at the place r of the body",
+        "pression à la position r dans le corps", "p_r", defined(SCALAR)),
+    "Υ": name("circulation, a skew matrix: Āα − ᾱA",
+        "circulation, une matrice antisymétrique : Āα − ᾱA", r"\Upsilon", defined(SQUARE)),
+    "Υ̇": name("dΥ/dt along the motion", "dΥ/dt le long du mouvement",
+        r"\dot\Upsilon", rate(SQUARE)),
     "K": name("stiffness matrix of the springs, Σ k_e s_e s̄_e",
         "matrice de raideur des ressorts, Σ k_e s_e s̄_e", "K", defined(SQUARE)),
     "k": name("stiffness of a spring, k_e of spring e",
@@ -447,7 +456,7 @@ ON_THE_TORUS: dict[str, Name] = {
 """Meanings of names on the torus."""
 
 DERIVATIVE_OF = {"dϖ": "ϖ", "ḣ": "h̃", "ℓ̇": "ℓ", "ṗ": "p"}
-DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ", "Ẇ": "W"}
+DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ", "Ẇ": "W", "Υ̇": "Υ"}
 DERIVATIVE_OF |= {"δΠ": "Π", "δ′Π": "Π", "Π̇": "Π", "δp_b": "p_b", "δ′p_b": "p_b", "ṗ_b": "p_b"}
 DERIVATIVE_OF |= dict.fromkeys(("δℓ_b", "δ′ℓ_b", "ℓ̇_b"), "ℓ_b")
 """Name → the name of which it is a derivative or a variation."""
