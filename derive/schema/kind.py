@@ -12,8 +12,8 @@ from .table import Table
 
 
 class Own(NamedTuple):
-    """A letter that the words of a kind have for their own: a scalar, a vector or a matrix; its
-    meaning in English and in French."""
+    """A letter that the words of a kind have for their own: a scalar, a vector, a matrix, or a
+    function "of invariants", three scalars; its meaning in English and in French."""
 
     name: str
     type: str

@@ -142,10 +142,14 @@ def _key(hint: Any) -> Key:
     raise TypeError(f"{hint} is no type of a key")
 
 
-NEEDS = ("points alone", "one space", "rotations", "affine of R^3", "volumes", "no turning")
+NEEDS = (
+    *("points alone", "one space", "rotations", "affine of R^3", "volumes"),
+    *("deformations of R^3", "one ellipsoid", "no turning"),
+)
 """What a kind may need of its problem: nothing has mass but the points; blocks of one dimension;
-linear parts that are rotations; all translations of R³; one space, whose volumes change; not SO(3)
-or SE(3), nor a product."""
+linear parts that are rotations; all translations of R³; one space, whose volumes change; linear
+parts in R³ that are not rotations; a homogeneous ellipsoid about the origin, and nothing else; not
+SO(3) or SE(3), nor a product."""
 DETERMINANT: Tree = ("det", "A")
 """What ``det_A`` is in an energy of the volume."""
 OTHER_WORDS = {
