@@ -15,11 +15,13 @@ from ..language.refused import Refused
 from ..language.templating import environment
 from ..record.record import Derivation
 from .collisions import hollowed, identifiers, without_collisions
+from .ellipsoid import CONVERGED, DUPLICATIONS, SMALL_Y, is_integral, series
+from .ellipsoid import NEWTON_STEPS as NEWTON_EACH
 from .heading import heading
 from .languages import LANGUAGES, TargetLanguage
 from .naming import PREFIXES
 from .options import Options
-from .printers import SourcePrinter
+from .printers import SourcePrinter, wrapped
 from .program import TOLERANCE, Program
 from .request import EmissionRequest
 from .signatures import functions
@@ -118,7 +120,9 @@ def _fields(
     if p.framing:
         sizes["axes"] = sum(n + n * n for n, _ in p.framing.matrices)
         sizes["frame"] = len(p.framing.numbers.outputs)
-    written = Statements(language, real, sizes)
+    written = Statements(language, real, sizes, prefix)
+    called = {x for f in p.all_functions() for x in f.calls()}
+    integrates = any(map(is_integral, called))
     parameters = [_parameter(x) for x in p.parameters]
     known = functions(p, written)
     if p.loops:
@@ -147,12 +151,20 @@ def _fields(
         "functions": known,
         "framing": _framing(p, written, sizes),
         "asks_for_zero": p.asks_for_zero,
-        "calls": sorted({x for f in p.all_functions() for x in f.calls()}),
+        "calls": sorted({"sqrt" if is_integral(x) else x for x in called}),
+        "integrals": _integrals(written.printer) if integrates else None,
         "newton": _newton(p, real, printer),
         "momentum_range": p.momentum_range,
         "tolerance": printer.number(Fraction(TOLERANCE[real])),
         "loops": p.loops and _loops(p.loops, printer),
     }
+
+
+def _integrals(printer: SourcePrinter) -> dict[str, Any]:
+    """The template fields of the integrals over an ellipsoid."""
+    texts = {x: wrapped(printer(e), 88, " " * 8) for x, e in series().items()}
+    limits = {"small": printer.number(-SMALL_Y), "converged": printer.number(CONVERGED)}
+    return {"duplications": DUPLICATIONS, "newton": NEWTON_EACH, **limits, **texts}
 
 
 NEWTON_STEPS, SMALL_CHANGE = 60, {"double": Fraction(1, 10**10), "float": Fraction(1, 10**4)}

@@ -14,7 +14,7 @@ from ..language.derivatives import DERIVATIVES
 from ..language.limits import BASIS, CARRIED, TORUS
 from ..language.tree import Tree, replaced
 from ..schema.algebra_kinds import Advected, Torus
-from ..schema.body_kinds import BODIES, Place
+from ..schema.body_kinds import BODIES, Place, is_ellipsoid
 from ..schema.kinds import kinds
 from ..schema.lagrangian_kinds import Lagrangian
 from ..schema.outside import INPUTS, Damping
@@ -121,7 +121,7 @@ class _RecordReader(TableReader):
         own = self.value(self.top("body"), dict)
         if own.get("kind") in ("moments", "any", "none") and own.get("points"):
             raise ShapeError(f"body: {own['kind']!r} leaves the points open; it lists none")
-        found = self.one_of(BODIES, own, "body")
+        self.filled = found = self.one_of(BODIES, own, "body")
         self.count = self.last = len(getattr(found, "points", None) or ())
 
     def lagrangian(self) -> None:
@@ -192,9 +192,13 @@ class _RecordReader(TableReader):
     def meets(self, need: str, kind: str, where: str) -> None:
         """What the header says of the body and the group."""
         data = self.data
+        if need == "deformations of R^3" and (self.blocks > 1 or data["n"] != 3):
+            raise ShapeError(f"{where}: {kind} is of one group of R^3")
+        if need == "one ellipsoid" and not is_ellipsoid(self.filled):
+            raise ShapeError(f"{where}: {kind} is of one ellipsoid about the origin")
         if need == "points alone" and data["body"]["kind"] != "points":
             raise ShapeError(f"{where}: {kind} is of a body of points alone")
-        if need in ("rotations", "affine of R^3", "volumes") and self.blocks > 1:
+        if need in ("rotations", "affine of R^3", "volumes", "no turning") and self.blocks > 1:
             raise ShapeError(f"{where}: {kind} is in no product")
         if need == "affine of R^3" and (data["action"], data["n"]) != ("affine", 3):
             raise ShapeError(f"{where}: {kind} is of affine maps of R^3")
@@ -207,7 +211,10 @@ class _RecordReader(TableReader):
             own = SOLIDS[self.choice(Slot(x, "kind", where), tuple(SOLIDS))]
             self.known(x, ("kind", "density", "sizes", "rotation", "shift"), where)
             sizes = self.value(Slot(x, "sizes", where), dict)
-            wanted = own.keys().keys() - Solid.keys().keys()
+            chosen = own.chosen(sizes, self.last)
+            if isinstance(chosen, str):
+                raise ShapeError(f"{where}: {chosen}")
+            wanted = {*chosen} - Solid.keys().keys()
             if sizes.keys() != wanted:
                 raise ShapeError(f"{where}: the sizes must be {', '.join(sorted(wanted))}")
             rest = {key: value for key, value in x.items() if key != "sizes"}
@@ -294,6 +301,16 @@ class _RecordReader(TableReader):
     def second(self, slot: Slot) -> Rows:
         """A matrix."""
         n = len(slot.found["c"])
+        return self.rows(self.value(slot), n, n, slot.path)
+
+    def symmetric(self, slot: Slot) -> Rows:
+        """A matrix; of the size of the space where that is known."""
+        value = self.value(slot, list)
+        return self.rows(value, len(value), len(value), slot.path)
+
+    def quadric(self, slot: Slot) -> Rows:
+        """A matrix of the size of the space."""
+        n = self.space(slot)
         return self.rows(self.value(slot), n, n, slot.path)
 
     def vertices(self, slot: Slot) -> Rows:

@@ -23,7 +23,6 @@ from .name_types import (
     VARIATION,
     VECTOR,
     Name,
-    Type,
     Use,
     defined,
     family,
@@ -141,6 +140,8 @@ VOCABULARY: dict[str, Name] = {
         r"\Pi", defined(SQUARE), defined(family("basis", SCALAR))),
     "δΠ": name("variation of Π", "variation de Π", r"\delta\Pi", letter(SQUARE)),
     "δ′Π": name("variation δ′ of Π", "variation δ′ de Π", r"\delta'\Pi", letter(SQUARE)),
+    "Π_g": name("a matrix that gives Π_a on E_a, as Π does",
+        "une matrice qui donne Π_a sur E_a, comme Π", r"\Pi_g", defined(SQUARE)),
     "Π̇": name("dΠ/dt along the motion", "dΠ/dt le long du mouvement",
         r"\dot\Pi", rate(SQUARE), rate(family("basis", SCALAR))),
     "p_b": name("momentum in the body frame, Σ m_i Āv_i",
@@ -258,6 +259,15 @@ VOCABULARY: dict[str, Name] = {
     "Λ": name("direction normal to the Lie algebra",
         "direction normale à l’algèbre de Lie", r"\Lambda", letter(SQUARE)),
     "θ": name("multiplier of the volume", "multiplicateur du volume", r"\theta", unknown(SCALAR)),
+    "Q_r": name("quadric of the boundary of the body, ⟨r, Q_r r⟩ = 1",
+        "quadrique du bord du corps, ⟨r, Q_r r⟩ = 1", "Q_r", defined(SQUARE)),
+    "p_0": name("pressure in the middle", "pression au centre", "p_0", defined(SCALAR)),
+    "p_r": name("pressure at the place r of the body",
+        "pression à la position r dans le corps", "p_r", defined(SCALAR)),
+    "Υ": name("circulation, a skew matrix: Āα − ᾱA",
+        "circulation, une matrice antisymétrique : Āα − ᾱA", r"\Upsilon", defined(SQUARE)),
+    "Υ̇": name("dΥ/dt along the motion", "dΥ/dt le long du mouvement",
+        r"\dot\Upsilon", rate(SQUARE)),
     "K": name("stiffness matrix of the springs, Σ k_e s_e s̄_e",
         "matrice de raideur des ressorts, Σ k_e s_e s̄_e", "K", defined(SQUARE)),
     "k": name("stiffness of a spring, k_e of spring e",
@@ -300,9 +310,9 @@ VOCABULARY: dict[str, Name] = {
     "δΓ": name("variation of Γ", "variation de Γ", r"\delta\Gamma", defined(ADVECTED)),
     "Γ̇": name("dΓ/dt along the motion",
         "dΓ/dt le long du mouvement", r"\dot\Gamma", rate(ADVECTED)),
-    "𝕁": name("Poisson tensor: the brackets of the momenta and of Γ",
-        "tenseur de Poisson : les crochets des moments et de Γ",
-        r"\mathbb{J}", defined(("matrix", "reduced", "reduced"))),
+    "𝕁": name("Poisson tensor: the brackets of the momenta",
+        "tenseur de Poisson : les crochets des moments",
+        r"\mathbb{J}", defined(("matrix", "d", "d"))),
     "ρ": name("representation of the Lie algebra on what it carries along",
         "représentation de l’algèbre de Lie sur ce qu’elle transporte",
         r"\rho", function(ALGEBRA, ("matrix", "carried", "carried"))),
@@ -311,7 +321,10 @@ VOCABULARY: dict[str, Name] = {
 }
 # fmt: on
 
-OWN_TYPES: dict[str, Type] = {"scalar": SCALAR, "vector": VECTOR, "matrix": SQUARE}
+OWN_USES: dict[str, Use] = {
+    **{x: defined(y) for x, y in (("scalar", SCALAR), ("vector", VECTOR), ("matrix", SQUARE))},
+    "of invariants": function(SCALAR, SCALAR, SCALAR, SCALAR),
+}
 
 
 def add_letters(known: dict[str, Name], letters: Iterable[Own]) -> None:
@@ -319,7 +332,7 @@ def add_letters(known: dict[str, Name], letters: Iterable[Own]) -> None:
     for x in letters:
         if x.name in known:
             raise ValueError(f"the letter {x.name} has a meaning: {known[x.name].meaning}")
-        known[x.name] = name(x.meaning, x.french, x.latex, defined(OWN_TYPES[x.type]))
+        known[x.name] = name(x.meaning, x.french, x.latex, OWN_USES[x.type])
 
 
 add_letters(VOCABULARY, (x for kind in kinds().values() for x in kind.letters))
@@ -345,6 +358,7 @@ ROTATIONS: dict[str, Name] = {
 }
 # fmt: on
 DISPLACEMENTS: dict[str, Name] = ROTATIONS | {
+    "𝕁": VOCABULARY["𝕁"]._replace(uses=(defined(("matrix", "dim", "dim")),)),
     "w": VOCABULARY["w"]._replace(
         meaning="velocity of the body's origin in the body frame, A⁻¹τ",
         french="vitesse de l’origine du corps dans le repère du corps, A⁻¹τ",
@@ -410,6 +424,13 @@ LAGRANGIANS: dict[str, dict[str, Name]] = {
         x: VOCABULARY[x]._replace(meaning=meaning, french=french)
         for x, (meaning, french) in (_OF_LAGRANGIANS | carried).items()
     }
+    | {
+        "𝕁": VOCABULARY["𝕁"]._replace(
+            meaning="Poisson tensor: the brackets of the momenta and of Γ",
+            french="tenseur de Poisson : les crochets des moments et de Γ",
+            uses=(defined(("matrix", "reduced", "reduced")),),
+        )
+    }
     for side, carried in _CARRIED.items()
 }
 """Meanings of names where no points give the Lagrangian, by the trivialisation."""
@@ -435,7 +456,7 @@ ON_THE_TORUS: dict[str, Name] = {
 """Meanings of names on the torus."""
 
 DERIVATIVE_OF = {"dϖ": "ϖ", "ḣ": "h̃", "ℓ̇": "ℓ", "ṗ": "p"}
-DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ", "Ẇ": "W"}
+DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ", "Ẇ": "W", "Υ̇": "Υ"}
 DERIVATIVE_OF |= {"δΠ": "Π", "δ′Π": "Π", "Π̇": "Π", "δp_b": "p_b", "δ′p_b": "p_b", "ṗ_b": "p_b"}
 DERIVATIVE_OF |= dict.fromkeys(("δℓ_b", "δ′ℓ_b", "ℓ̇_b"), "ℓ_b")
 """Name → the name of which it is a derivative or a variation."""

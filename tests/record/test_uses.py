@@ -69,6 +69,7 @@ NOMINAL = {
     ("multiplier", "force"): "dŨ is told by the moments of the forces, whose own step has them",
     ("elimination", "force"): "the same",
     ("mass", "force"): "the same",
+    ("poisson_tensor", "force"): "the same",
     ("hat", "relation"): "only a skew matrix is a j(X)",
     ("motion", "relation"): "⟨Λ, Ż⟩ = 0 is what θ is solved from",
     ("coadjoint", "momenta"): "the momenta are told by their names",
