@@ -29,7 +29,7 @@ from .walk import (
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
 from .walk.failure import naming_steps
-from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side
+from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side, torus
 from .walk.head import problem_data, symbols
 from .walk.inputs import acts
 from .walk.lineage import traced
@@ -154,7 +154,9 @@ def walk(problem: Problem) -> Derivation:
     """Derive the equations of motion of a problem; ``WalkError`` names the step that a rule of the
     engine breaks."""
     group, given = problem.group, problem.lagrangian
-    if given is not None:
+    if problem.torus:
+        values = lagrangian_road("right")
+    elif given is not None:
         values = lagrangian_road(given.trivialisation)
     else:
         values = general_road(affine=problem.affine, signed=problem.signed)
@@ -168,6 +170,9 @@ def walk(problem: Problem) -> Derivation:
         kinds |= {"element" if problem.advected is None else "reduced"}
         kinds |= {"rotations"} if turns_whole(group) and not group.affine else set()
         steps += follow(road, values | own, kinds)["steps"]
+    if problem.torus:
+        c = Chapter(problem.name, problem.torus.name)
+        steps += torus.torus_steps(problem.torus, values["lagrangian"], values["a"], c)
     steps = supposing_all(traced(steps))
     return Derivation(problem_data(problem), symbols(steps, problem), steps)
 

@@ -30,7 +30,7 @@ from .arithmetic import (
     transpose,
     wedge,
 )
-from .function_signatures import AXIS, INDEX_SETS, MATRIX, POINT
+from .function_signatures import AXIS, INDEX_SETS, LATTICE, MATRIX, POINT
 
 LARGEST_NESTING = 3
 
@@ -41,7 +41,8 @@ class Environment:
 
     ``functions[name](arguments, environment)`` receives the argument trees.  ``listed``: of the
     points, those that may be named by their numbers.  ``copies``: how often each point is there.
-    ``unit``: the 1 of the identity, and of sums over all axes.
+    ``unit``: the 1 of the identity, and of sums over all axes.  ``lattice``: the points that an
+    index of the lattice counts; ``chosen``: the values of free ones, where not all are tried.
     """
 
     size: int
@@ -54,6 +55,8 @@ class Environment:
     listed: int = 0
     copies: Sequence[Any] = ()
     unit: Any = Fraction(1)
+    lattice: Sequence[tuple[int, int]] = ()
+    chosen: Sequence[tuple[int, ...]] = ()
 
     def with_index(self, name: str, value: int) -> Environment:
         """A copy of the environment with one index bound to a number."""
@@ -63,6 +66,8 @@ class Environment:
 def evaluate(t: Tree, env: Environment) -> Value:
     """The value of a tree; :class:`EvaluationError` when it has none."""
     if isinstance(t, str):
+        if t in LATTICE and t in env.indices:
+            return tuple((Fraction(x),) for x in env.lattice[env.indices[t] - 1])
         try:
             return env.names[t]
         except KeyError:
@@ -156,6 +161,8 @@ def _range(body: Tree, index: str, env: Environment) -> tuple[str, list[int]]:
 
 def _spans(t: Tree, index: str, env: Environment) -> Iterator[tuple[str, set[int]]]:
     """What an index counts, and its values, for each place of a tree in which it stands."""
+    if t == index and index in LATTICE:
+        yield "lattice", {*range(1, len(env.lattice) + 1)}
     if not isinstance(t, tuple):
         return
     if t[0] == "entry" and index in t[2:]:
@@ -176,7 +183,7 @@ def _spans(t: Tree, index: str, env: Environment) -> Iterator[tuple[str, set[int
 def free_indices(t: Tree) -> set[str]:
     """The indices in a tree that no sum binds: an equation holds for each of their values."""
     if not isinstance(t, tuple):
-        return set()
+        return {t} if isinstance(t, str) and t in LATTICE else set()
     if t[0] in ("at", "entry"):
         return {i for i in t[2:] if isinstance(i, str)}
     inside: set[str] = set().union(*(free_indices(x) for x in t[1:]))

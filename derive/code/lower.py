@@ -81,8 +81,6 @@ class Lowering:
             return integral(self.graph, t[1], invariants, self.reader.label)
         if op == "call":
             return self.reader.applied(t)
-        if op == "det":
-            return self._determinant(t[1])
         if op == "add" and (pair := polarised(t)):
             return mixed_adjugate(*map(self._matrix, pair))
         if op == "at":
@@ -144,6 +142,9 @@ class Lowering:
             return found
         if op == "tr":
             return dense.diagonal(g, a[0])
+        if op == "det":
+            found_det: Node = dense.determinant(a[0])
+            return found_det
         if op == "matrix":
             return tuple(tuple(row) for row in a)
         if op == "row":
@@ -177,12 +178,6 @@ class Lowering:
         lighter = self.reader.entries(rows, f"{name}_0") if dense.stage_of(m) == PARAMETER else m
         product = q.times(lighter, self._matrix(vector))
         return self.reader.entries(product, f"{name}_0_{name_of(vector)}")
-
-    def _determinant(self, t: Tree) -> Node:
-        """det of a tree, by expansion along the rows."""
-        return self.graph.value(
-            dense.determinant(self._matrix(t)), name_of(("det", t)), self.reader.label
-        )
 
     def _sum(self, t: tuple[Any, ...]) -> Value:
         """The value of a sum over an index: over the members that the record defines."""
@@ -289,7 +284,7 @@ class Lowering:
         return dense.dot(left, right)
 
 
-SCALARS = {"m", "θ", "t", "h̃", "Ũ", "L̃", "I_1", "I_2", "I_3"}
+SCALARS = {"m", "θ", "t", "h̃", "Ũ", "L̃", "V_A", "p_V", "U_V", "I_1", "I_2", "I_3"}
 SCALAR_OPERATORS = {"tr", "inner", "metric", "norm2", "det", "par", "entry", "fun"}
 
 

@@ -18,7 +18,7 @@ from ..language.tree import Tree, replaced, subtrees
 from ..language.values import approximate
 from ..schema.algebra_kinds import Advected
 from ..schema.body_kinds import Body, Place, Point, PointBody, is_ellipsoid
-from ..schema.table import Rows, Slot, Table
+from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import NAME, TableReader
 from .fields import LIKE_A_PLACE
 from .moments import SolidError, first_moment, given_by, second_moment
@@ -95,6 +95,11 @@ class FileReader(TableReader):
             raise ProblemError(
                 f"{where}: {kind} is of a body that is one homogeneous ellipsoid about the origin; "
                 'give [body] solid = "ellipsoid", without points or shift'
+            )
+        if need == "volumes" and (g.factors or "unimodular" in g.relations):
+            raise ProblemError(
+                f"{where}: {kind} needs one group that changes volumes, as GL(3) or Aff(3); "
+                + (f"{g.name} is a product" if g.factors else f"det A = 1 on {g.name}")
             )
         if need == "affine of R^3" and (g.n != 3 or not g.free_translations or g.factors):
             raise ProblemError(
@@ -248,6 +253,13 @@ class FileReader(TableReader):
                 f"{slot.path}: no place of a point, as r1_x, so no force; leave it out"
             )
         return U
+
+    def of_volume(self, slot: Slot) -> Tree:
+        """An expression of ``det_A``, which must be in it, and the time."""
+        found = replaced(self.in_time(self.value(slot), slot.path), ("par", "det_A"), DETERMINANT)
+        if not any(x == DETERMINANT for _, x in subtrees(found)):
+            raise ProblemError(f"{slot.path}: no det_A, the volume, so no force; leave it out")
+        return found
 
     def _placed(self, t: Tree, where: str) -> Tree:
         """r1_x, r1_2, … as entries of the places in space; t as the time."""

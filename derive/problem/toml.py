@@ -39,6 +39,7 @@ from .group import group_of
 from .problem import Problem, ProblemError
 from .stated_algebra import carried_group
 from .stated_lagrangian import lagrangian
+from .stated_torus import on_torus, torus_problem
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
 TOP |= {"damping", "solid", "algebra", "advected", *SECTIONS}
@@ -111,6 +112,8 @@ def problem_of(
     """
     reader = FileReader(folder)
     reader.known(data, TOP, "file")
+    if on_torus(data):
+        return torus_problem(data, reader)
     if "algebra" in data:
         return _without_points(data, *carried_group(data))
     if "advected" in data:

@@ -162,6 +162,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "L’ellipsoïde homogène en reste un : son énergie ne dépend de g que par les "
             "invariants de AK_GĀ, et δU_G = ½ Tr B_G δ(ĀA).",
         ),
+        "volume": (
+            "U_V depends on the volume alone: δU_V = −p_V δ(log V_A), and by Jacobi’s formula "
+            "δ(log V_A) = Tr A⁻¹δA.",
+            "U_V ne dépend que du volume : δU_V = −p_V δ(log V_A), et par la formule de Jacobi "
+            "δ(log V_A) = Tr A⁻¹δA.",
+        ),
         "far_orders": (
             "Of the gravity of the far centre, the terms of the fourth and higher orders in one "
             "over the distance are dropped.",

@@ -16,6 +16,7 @@ from .name_types import (
     ALGEBRA,
     AT_ONE_TIME,
     COORDINATES,
+    LATTICE,
     PLACE,
     SCALAR,
     SQUARE,
@@ -194,6 +195,15 @@ VOCABULARY: dict[str, Name] = {
         "centre de masse dans l’espace, T + m⁻¹Ac", "R", defined(VECTOR)),
     "Ṙ": name("velocity of the centre of mass, τ + m⁻¹αc",
         "vitesse du centre de masse, τ + m⁻¹αc", r"\dot R", defined(VECTOR)),
+    "𝐧": name("point of the lattice of the torus",
+        "point du réseau du tore", r"\mathbf n", letter(LATTICE)),
+    "𝐦": name("another point of the lattice", "autre point du réseau",
+        r"\mathbf m", letter(LATTICE)),
+    "i": name("imaginary unit", "unité imaginaire", r"\mathrm i", letter(SCALAR)),
+    "ω̂": name("coefficients of the vorticity on the basis of the torus",
+        "coefficients du tourbillon dans la base du tore",
+        r"\hat\omega", function(LATTICE, SCALAR)),
+    "Ẇ": name("dW/dt along the motion", "dW/dt le long du mouvement", r"\dot W", rate(SQUARE)),
     "∫": name("integral over the body with its measure of mass",
         "intégrale sur le corps pour sa mesure de masse",
         r"\int", function(SCALAR, SCALAR), function(VECTOR, VECTOR), function(SQUARE, SQUARE)),
@@ -406,8 +416,28 @@ LAGRANGIANS: dict[str, dict[str, Name]] = {
 }
 """Meanings of names where no points give the Lagrangian, by the trivialisation."""
 
+ON_THE_TORUS: dict[str, Name] = {
+    "T": name(
+        "basis of the torus: T(𝐧) = ω^(n₁n₂) g^n₁ h^n₂ for a point 𝐧 of the lattice",
+        "base du tore : T(𝐧) = ω^(n₁n₂) g^n₁ h^n₂ pour un point 𝐧 du réseau",
+        "T",
+        function(LATTICE, SQUARE),
+    ),
+    "ζ": name(
+        "coefficients of Z, N/4πi taken out: the opposite of the stream function",
+        "coefficients de Z, à N/4πi près : l’opposé de la fonction de courant",
+        r"\zeta",
+        function(LATTICE, SCALAR),
+    ),
+    "W": name("vorticity, a matrix", "tourbillon, une matrice", "W", defined(SQUARE)),
+    "P": name(
+        "stream function, a matrix", "fonction de courant, une matrice", "P", defined(SQUARE)
+    ),
+}
+"""Meanings of names on the torus."""
+
 DERIVATIVE_OF = {"dϖ": "ϖ", "ḣ": "h̃", "ℓ̇": "ℓ", "ṗ": "p"}
-DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ"}
+DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ", "Ẇ": "W"}
 DERIVATIVE_OF |= {"δΠ": "Π", "δ′Π": "Π", "Π̇": "Π", "δp_b": "p_b", "δ′p_b": "p_b", "ṗ_b": "p_b"}
 DERIVATIVE_OF |= dict.fromkeys(("δℓ_b", "δ′ℓ_b", "ℓ̇_b"), "ℓ_b")
 """Name → the name of which it is a derivative or a variation."""
@@ -415,5 +445,12 @@ DERIVATIVE_OF |= dict.fromkeys(("δℓ_b", "δ′ℓ_b", "ℓ̇_b"), "ℓ_b")
 
 def meanings() -> Iterator[tuple[str, str]]:
     """The meaning of every name, in English and in French."""
-    for table in (VOCABULARY, ROTATIONS, DISPLACEMENTS, PRODUCTS, *LAGRANGIANS.values()):
+    for table in (
+        VOCABULARY,
+        ROTATIONS,
+        DISPLACEMENTS,
+        PRODUCTS,
+        ON_THE_TORUS,
+        *LAGRANGIANS.values(),
+    ):
         yield from ((x.meaning, x.french) for x in table.values())

@@ -77,13 +77,14 @@ ATTACHED = ("on", "at", "block")
 Scalar = Annotated[Tree, Key("scalar", trees=True)]
 Stiffness = Annotated[Tree, Key("scalar", trees=True, mass=True, positive=True)]
 Energy = Annotated[Tree, Key("energy", trees=True)]
+OfVolume = Annotated[Tree, Key("of_volume", trees=True)]
 Vector = Annotated[Row, Key("vector", 1, trees=True)]
 Timed = Annotated[Row, Key("timed", 1, trees=True)]
 Charges = Annotated[Row, Key("charges", 1, trees=True)]
 Rotation = Annotated[Rows, Key("rotation", 2, trees=True)]
-"""Expressions of the parameters; an energy is of places and the time as well, and ``Timed``, a
-vector, of the time.  A vector and the rows of a rotation are of the space of the points; there is a
-charge for each point."""
+"""Expressions of the parameters; an energy is of places and the time as well, one of the volume of
+that and the time, and ``Timed``, a vector, of the time. A vector and the rows of a rotation are of
+the space of the points; there is a charge for each point."""
 
 Pair = Annotated[tuple[int, int], Key("pair", 1)]
 End = Annotated[int, Key("end", keys=ATTACHED)]
@@ -138,12 +139,14 @@ def _key(hint: Any) -> Key:
 
 
 NEEDS = (
-    *("points alone", "one space", "rotations", "affine of R^3"),
+    *("points alone", "one space", "rotations", "affine of R^3", "volumes"),
     *("deformations of R^3", "one ellipsoid"),
 )
 """What a kind may need of its problem: nothing has mass but the points; blocks of one dimension;
-linear parts that are rotations; all translations of R³; linear parts in R³ that are not rotations;
-a homogeneous ellipsoid about the origin, and nothing else."""
+linear parts that are rotations; all translations of R³; one space, whose volumes change; linear
+parts in R³ that are not rotations; a homogeneous ellipsoid about the origin, and nothing else."""
+DETERMINANT: Tree = ("det", "A")
+"""What ``det_A`` is in an energy of the volume."""
 OTHER_WORDS = {
     **dict.fromkeys(("sphere", "globe"), "ball"),
     **dict.fromkeys(("cube", "cuboid", "brick", "block"), "box"),
@@ -152,6 +155,7 @@ OTHER_WORDS = {
     **dict.fromkeys(("weight", "uniform_gravity"), "gravity"),
     **dict.fromkeys(("newton", "kepler", "central"), "attraction"),
     **dict.fromkeys(("gravity_gradient", "satellite"), "far_centre"),
+    **dict.fromkeys(("gas", "pressure", "determinant", "det"), "volume"),
     **dict.fromkeys(("torque", "moment"), "covector"),
     **dict.fromkeys(("world", "inertial"), "space"),
 }

@@ -29,6 +29,10 @@ def with_scalar_lagrangian(problem: Problem, record: Derivation) -> Problem:
     which act on (r, 1) where it is affine; without inputs.  ``ProblemError`` where there is none.
     """
     if problem.group is None:
+        if problem.torus:
+            raise ProblemError(
+                f"{problem.name}: on the torus the energy and Tr Wᵏ are kept: derive walk NAME says"
+            )
         raise ProblemError(
             f"{problem.name}: this text is about any group; choose a problem with a group and a "
             "Lagrangian"
