@@ -21,15 +21,15 @@ from .problem.principal import principal
 from .problem.problem import Problem, ProblemError
 from .record.record import Derivation
 from .walk import (
-    alphabet, body, brackets, cartan, components, conserved, coordinates, elimination, explicit,
-    exterior, inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit,
+    alphabet, body, brackets, cartan, components, conserved, coordinates, dirichlet, elimination,
+    explicit, exterior, inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit,
     potential, pullback, rotation, separation, solution, specialisation, told_by_momenta,
     translation, variation, vector,
 )
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
 from .walk.failure import naming_steps
-from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side, torus
+from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side, vorticity
 from .walk.head import problem_data, symbols
 from .walk.inputs import acts
 from .walk.lineage import traced
@@ -83,6 +83,8 @@ MATRICES = (
     Stage("driven", "special external?", "Special", specialisation.with_external),
     Stage("centred", "driven c_u", "Centred", translation.eliminate_translation, "affine"),
     Stage("solution", "driven centred? group c c_u", "Solution", solution.solution),
+    Stage("fluid", "problem group potentials driven solution c_u",
+          "Steps", dirichlet.fluid_steps),
     Stage("energy", "special.last", "Steps", tuple),
     Stage("rigid", "distances special.C special.letters c",
           "Step", orbit.rigid, "orthogonal"),
@@ -153,6 +155,9 @@ EXPRESSED = (
           "Steps", explicit.of_lagrangian),
 )
 """One Lagrangian in a basis of 𝔤, its state with an element of the group, or reduced."""
+
+ON_THE_TORUS = (Stage("fluid", "problem lagrangian a c", "Steps", vorticity.torus_steps),)
+"""The kinetic energy of a fluid on su(N), in the basis of the torus."""
 # fmt: on
 
 
@@ -178,8 +183,8 @@ def walk(problem: Problem) -> Derivation:
         kinds |= {"rotations"} if turns_whole(group) and not group.affine else set()
         steps += follow(road, values | own, kinds)["steps"]
     if problem.torus:
-        c = Chapter(problem.name, problem.torus.name)
-        steps += torus.torus_steps(problem.torus, values["lagrangian"], values["a"], c)
+        own = {"problem": problem, "c": Chapter(problem.name, problem.torus.name)}
+        steps += follow(ON_THE_TORUS, values | own, ())["steps"]
     steps = supposing_all(traced(steps))
     return Derivation(problem_data(problem), symbols(steps, problem), steps)
 
@@ -308,6 +313,10 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
     """The program of a problem; in its principal frame that is the program of another problem."""
     from .code.assemble import assemble
 
+    if problem.torus:
+        from .code.torus.torus_program import torus_program
+
+        return torus_program(record, problem.torus, options)
     if problem.group is None:
         raise ProblemError(
             f"{problem.name}: this text is about any group, so it has nothing to emit; choose a "

@@ -57,9 +57,9 @@ FORM = Kind(
 )
 MOVED_PLACE: Tree = ("call", "g", "r")
 INTEGRAND = Kind(
-    "1, r, r r̄, ‖v‖² or ⟨v, δ(g(r))⟩",
+    "1, r, r r̄, p_r, ‖v‖² or ⟨v, δ(g(r))⟩",
     (
-        *(1, "r", ("mul", "r", ("T", "r"))),
+        *(1, "r", "p_r", ("mul", "r", ("T", "r"))),
         *(("norm2", "v"), ("inner", "v", ("call", "δ", MOVED_PLACE))),
     ),
 )

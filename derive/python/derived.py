@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..check.checker import Verdict
-from ..problem.problem import Problem
+from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
 from .shown import Shown
 
@@ -156,7 +156,13 @@ class Derived:
         from ..pipeline import program
         from .expressions import expressions
 
-        return expressions(program(self.problem, self.record))
+        found = program(self.problem, self.record)
+        if found.loops:
+            raise ProblemError(
+                f"{self.problem.name}: its equations are sums over a lattice, too many to be "
+                "written out; take a smaller N"
+            )
+        return expressions(found)
 
     def emit(
         self,

@@ -201,7 +201,7 @@ VOCABULARY: dict[str, Name] = {
         "point du réseau du tore", r"\mathbf n", letter(LATTICE)),
     "𝐦": name("another point of the lattice", "autre point du réseau",
         r"\mathbf m", letter(LATTICE)),
-    "i": name("imaginary unit", "unité imaginaire", r"\mathrm i", letter(SCALAR)),
+    "i": name("imaginary unit", "unité imaginaire", "i", letter(SCALAR)),
     "ω̂": name("coefficients of the vorticity on the basis of the torus",
         "coefficients du tourbillon dans la base du tore",
         r"\hat\omega", function(LATTICE, SCALAR)),
@@ -259,6 +259,15 @@ VOCABULARY: dict[str, Name] = {
     "Λ": name("direction normal to the Lie algebra",
         "direction normale à l’algèbre de Lie", r"\Lambda", letter(SQUARE)),
     "θ": name("multiplier of the volume", "multiplicateur du volume", r"\theta", unknown(SCALAR)),
+    "Q_r": name("quadric of the boundary of the body, ⟨r, Q_r r⟩ = 1",
+        "quadrique du bord du corps, ⟨r, Q_r r⟩ = 1", "Q_r", defined(SQUARE)),
+    "p_0": name("pressure in the middle", "pression au centre", "p_0", defined(SCALAR)),
+    "p_r": name("pressure at the place r of the body",
+        "pression à la position r dans le corps", "p_r", defined(SCALAR)),
+    "Υ": name("circulation, a skew matrix: Āα − ᾱA",
+        "circulation, une matrice antisymétrique : Āα − ᾱA", r"\Upsilon", defined(SQUARE)),
+    "Υ̇": name("dΥ/dt along the motion", "dΥ/dt le long du mouvement",
+        r"\dot\Upsilon", rate(SQUARE)),
     "K": name("stiffness matrix of the springs, Σ k_e s_e s̄_e",
         "matrice de raideur des ressorts, Σ k_e s_e s̄_e", "K", defined(SQUARE)),
     "k": name("stiffness of a spring, k_e of spring e",
@@ -428,14 +437,14 @@ LAGRANGIANS: dict[str, dict[str, Name]] = {
 
 ON_THE_TORUS: dict[str, Name] = {
     "T": name(
-        "basis of the torus: T(𝐧) = ω^(n₁n₂) g^n₁ h^n₂ for a point 𝐧 of the lattice",
-        "base du tore : T(𝐧) = ω^(n₁n₂) g^n₁ h^n₂ pour un point 𝐧 du réseau",
+        "basis of su(N), products of powers of the clock and of the cyclic shift",
+        "base de su(N), produits de puissances de l’horloge et du décalage cyclique",
         "T",
         function(LATTICE, SQUARE),
     ),
     "ζ": name(
-        "coefficients of Z, N/4πi taken out: the opposite of the stream function",
-        "coefficients de Z, à N/4πi près : l’opposé de la fonction de courant",
+        "coefficients of Z but for a factor: the opposite of the stream function",
+        "coefficients de Z à un facteur près : l’opposé de la fonction de courant",
         r"\zeta",
         function(LATTICE, SCALAR),
     ),
@@ -447,7 +456,7 @@ ON_THE_TORUS: dict[str, Name] = {
 """Meanings of names on the torus."""
 
 DERIVATIVE_OF = {"dϖ": "ϖ", "ḣ": "h̃", "ℓ̇": "ℓ", "ṗ": "p"}
-DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ", "Ẇ": "W"}
+DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ", "Ẇ": "W", "Υ̇": "Υ"}
 DERIVATIVE_OF |= {"δΠ": "Π", "δ′Π": "Π", "Π̇": "Π", "δp_b": "p_b", "δ′p_b": "p_b", "ṗ_b": "p_b"}
 DERIVATIVE_OF |= dict.fromkeys(("δℓ_b", "δ′ℓ_b", "ℓ̇_b"), "ℓ_b")
 """Name → the name of which it is a derivative or a variation."""
