@@ -180,7 +180,9 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
     def point(head: Any, _: tuple[Tree, ...], env: Environment) -> Matrix:
         return q.column(model.moved(model.g)[point_index(head[2], env) - 1])
 
+    own = (x for x, _ in model.applied.members() if hasattr(x, "functions"))
     return {
+        **{name: f for account in own for name, f in account.functions(model).items()},
         "dŨ": lambda _, a, env: model.work(tangent(a, env)),
         "p̃": momentum,
         "ϖ": lambda _, a, env: model.cartan(direction(a[0])),

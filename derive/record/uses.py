@@ -158,7 +158,7 @@ def type_of(argument: Tree) -> Type:
         return SCALAR
     last = argument[-1]
     if argument[0] == "call":
-        return SCALAR if argument[1] == "ϖ" else VECTOR
+        return SCALAR if argument[1] in ("ϖ", "ω̂") else VECTOR
     if argument[0] in ("inner", "norm2"):
         return SCALAR
     if argument[0] == "add":

@@ -256,6 +256,7 @@ def reached(job: Job, files: set[str]) -> dict[str, set[int]]:
     for name in [x for x in sys.modules if x.split(".")[0] == "derive" and not job.refused]:
         del sys.modules[name]
     watch = Coverage(data_file=None, config_file=False, include=[str(ROOT / x) for x in files])
+    watch.set_option("run:disable_warnings", ["no-data-collected"])
     watch.start()
     try:
         attempted(job)
