@@ -137,9 +137,9 @@ def coordinate(words: str) -> tuple[str, Number]:
 
 
 def degree(words: str) -> int:
-    """A degree from 1 to 40 from its text; ``ValueError`` for any other."""
-    if not 1 <= (number := int(words)) <= 40:
-        raise ValueError(words)
+    """A degree from 1 to 40 from its text; ``argparse.ArgumentTypeError`` for any other."""
+    if not words.isdecimal() or not 1 <= (number := int(words)) <= 40:
+        raise argparse.ArgumentTypeError(f"expected an integer from 1 to 40, not {words!r}")
     return number
 
 
