@@ -14,6 +14,7 @@ class SelfGravity(Potential):
     kind, phrase, alone = "self_gravity", "its own gravity", True
     legend = "The gravity of the body on itself is not drawn."
     needs = ("deformations of R^3", "one ellipsoid")
+    linear = True
     unturned = "the gravity of a body on itself"
     letters = (
         Own(
