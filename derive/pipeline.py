@@ -29,7 +29,7 @@ from .walk import (
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
 from .walk.failure import naming_steps
-from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side, torus
+from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side, vorticity
 from .walk.head import problem_data, symbols
 from .walk.inputs import acts
 from .walk.lineage import traced
@@ -83,7 +83,8 @@ MATRICES = (
     Stage("driven", "special external?", "Special", specialisation.with_external),
     Stage("centred", "driven c_u", "Centred", translation.eliminate_translation, "affine"),
     Stage("solution", "driven centred? group c c_u", "Solution", solution.solution),
-    Stage("fluid", "problem group driven solution c_u", "Steps", dirichlet.fluid_steps),
+    Stage("fluid", "problem group potentials driven solution c_u",
+          "Steps", dirichlet.fluid_steps),
     Stage("energy", "special.last", "Steps", tuple),
     Stage("rigid", "distances special.C special.letters c",
           "Step", orbit.rigid, "orthogonal"),
@@ -155,7 +156,7 @@ EXPRESSED = (
 )
 """One Lagrangian in a basis of 𝔤, its state with an element of the group, or reduced."""
 
-ON_THE_TORUS = (Stage("fluid", "problem lagrangian a c", "Steps", torus.torus_steps),)
+ON_THE_TORUS = (Stage("fluid", "problem lagrangian a c", "Steps", vorticity.torus_steps),)
 """The kinetic energy of a fluid on su(N), in the basis of the torus."""
 # fmt: on
 
