@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from math import isqrt
 from typing import Any
 
 from ..language import rational as q
@@ -126,19 +125,13 @@ def _moments_of_solid(model: Draws, data: Mapping[str, Any]) -> tuple[Fraction, 
 
 
 def _moments_of_quadric(model: Draws, data: Mapping[str, Any]) -> tuple[Any, Vector, Matrix]:
-    """The moments of ⟨r, Q r⟩ ≤ 1, with √det Q as a number where Q is one of numbers, and the
-    root is rational."""
+    """The moments of ⟨r, Q r⟩ ≤ 1, with √det Q as the record writes it where Q is one of
+    numbers."""
     told = data["sizes"]["quadric"]
     Q = quadric_matrix(model, told)
-    det = q.determinant(Q)
-    root: Any = None
-    if all(isinstance(decode(x, "body"), (int, Fraction)) for row in told for x in row):
-        top, bottom = Fraction(det).as_integer_ratio()
-        root = Fraction(isqrt(max(top, 0)), isqrt(bottom))
-        root = root if root * root == det else None
-    if root is None:
-        assert model.elementary is not None
-        root = model.elementary("sqrt", det)
+    written = all(isinstance(decode(x, "body"), (int, Fraction)) for row in told for x in row)
+    take = model.elementary.written if written else model.elementary
+    root = take("sqrt", q.determinant(Q))
     V, f, S = quadric_moments(Q, root, model.pi)
     density = _value(model, data["density"])
     return density * V, f, q.scaled(density, S)

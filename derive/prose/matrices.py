@@ -253,9 +253,9 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
         "changed": (
             "The circulation: what the pressure adds to Āα̇ is symmetric, and drops out; what the "
-            "forces add is not.",
+            "forces add may not be.",
             "La circulation : ce que la pression ajoute à Āα̇ est symétrique, et disparaît ; ce "
-            "que les forces ajoutent ne l’est pas.",
+            "que les forces ajoutent ne l’est pas forcément.",
         ),
         "relabelling": (
             "It is the momentum of the relabellings r ↦ hr of the body that keep J, hJh̄ = J, of "

@@ -51,6 +51,7 @@ class Solid(Table):
 SIZES: dict[str, dict[str, Any]] = {
     "ball": {"radius": Length},
     "box": {"sides": Lengths},  # full lengths; centred
+    "ellipsoid": {"semi_axes": Axes, "quadric": Quadric},  # one of the two
     "cylinder": {"radius": Length, "height": Length},  # about z; centred
     "cone": {"radius": Length, "height": Length},  # about z; base in z = 0, apex at z = height
     "hollow_ball": {"outer": Length, "inner": Inner},
@@ -81,7 +82,7 @@ class Ellipsoid(Solid):
         return ("density", "rotation", "shift", *own)
 
 
-SOLIDS: dict[str, type[Solid]] = {"ellipsoid": Ellipsoid} | {
+SOLIDS: dict[str, type[Solid]] = {
     kind: type(kind, (Solid,), {"kind": kind, "__annotations__": sizes, "__doc__": Solid.__doc__})
     for kind, sizes in SIZES.items()
-}
+} | {"ellipsoid": Ellipsoid}

@@ -75,7 +75,7 @@ def random_sizes(kind, random):
     return {
         name: tuple(size(random) for _ in "xyz") if key.depth else size(random)
         for name, key in SOLIDS[kind].keys().items()
-        if name not in PLACED
+        if name not in (*PLACED, "quadric")
     }
 
 

@@ -266,3 +266,19 @@ def test_every_corruption_is_refused(problem):
             for kind, wrong, verdict in tried(step, checker):
                 true = "N" in str(wrong.lhs) and wrong.rhs == 0  # without forces AN = 0, too
                 assert true or not verdict.holds, (kind, wrong)
+
+
+def test_a_star(tmp_path):
+    """Under its own gravity: circulation is kept, and its steps hold; a fluid at rest in a ball."""
+    body = Solid("ellipsoid", "rho", quadric=FULL.tolist())
+    star = Problem("star", "SL(3)", body, [derive.SelfGravity(1)], parameters={"rho": RHO})
+    assert {"pressure", "total"} <= {*labels(star)}
+    m, k = emitted(star, tmp_path)
+    kept = circulations(m, k, 3, [0, 0.3, 0.6])
+    assert np.max(np.abs(kept - kept[0])) < 1e-9
+    ball = Problem("ball", "SL(3)", Solid("ball", "rho", radius=1), [derive.SelfGravity(1)],
+                   parameters={"rho": RHO})  # fmt: skip
+    m, k = emitted(ball, tmp_path)
+    theta = m.multiplier(0.0, state(m, np.eye(3), np.zeros((3, 3))), k)
+    mass = RHO * volume(np.eye(3))  # p(r) = (2π/3) ρ² (1 − r²), of which ∫ is m²/(5 · 1)
+    assert theta == pytest.approx(mass**2 / 5, rel=1e-12)
