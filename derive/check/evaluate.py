@@ -30,7 +30,8 @@ from .arithmetic import (
     transpose,
     wedge,
 )
-from .function_signatures import AXIS, INDEX_SETS, LATTICE, MATRIX, POINT
+from .elementary_values import ElementaryValues
+from .function_signatures import AXIS, INDEX_SETS, LATTICE, MATRICES, POINT
 
 LARGEST_NESTING = 3
 
@@ -228,7 +229,7 @@ def _entry(t: tuple[Any, ...], env: Environment) -> Value:
     places = [_index(i, env) for i in t[2:]]
     if min(places) < 1 or not is_matrix(value):
         raise EvaluationError("entries of matrices and vectors are counted from 1")
-    if len(places) != 1 + (len(value[0]) > 1 or t[1] == MATRIX):
+    if len(places) != 1 + (len(value[0]) > 1 or t[1] in MATRICES):
         raise EvaluationError("a vector has entries of one index, a matrix of two")
     return value[places[0] - 1][places[-1] - 1 if len(places) == 2 else 0]
 
@@ -244,6 +245,8 @@ def _function(t: tuple[Any, ...], env: Environment) -> Value:
     value = evaluate(t[2], env)
     if env.elementary is None or is_matrix(value):
         raise EvaluationError(f"no value of the function {t[1]!r}")
+    if isinstance(t[2], (int, Fraction)) and isinstance(env.elementary, ElementaryValues):
+        return env.elementary.written(t[1], t[2])
     return env.elementary(t[1], value)
 
 

@@ -57,9 +57,9 @@ FORM = Kind(
 )
 MOVED_PLACE: Tree = ("call", "g", "r")
 INTEGRAND = Kind(
-    "1, r, r r̄, ‖v‖² or ⟨v, δ(g(r))⟩",
+    "1, r, r r̄, p_r, ‖v‖² or ⟨v, δ(g(r))⟩",
     (
-        *(1, "r", ("mul", "r", ("T", "r"))),
+        *(1, "r", "p_r", ("mul", "r", ("T", "r"))),
         *(("norm2", "v"), ("inner", "v", ("call", "δ", MOVED_PLACE))),
     ),
 )
@@ -122,9 +122,9 @@ SHARED = ("m", "F", "Q", "P")
 """The families in which each copy of a point has a share; all copies have one place and one
 velocity."""
 
-MATRIX = "M"
-"""The name of a matrix whose entries have two indices also where it has one row; other matrices of
-one column have entries of one index."""
+MATRICES = ("M", "𝕁")
+"""The names of matrices whose entries have two indices also where they have one row; other matrices
+of one column have entries of one index."""
 
 LATTICE = ("𝐦", "𝐧")
 """The letters of points of the lattice of the torus, over which sums go as well."""

@@ -24,7 +24,7 @@ from .definitions import Usage, definitions, occurrences
 from .evaluate import Environment, evaluate, free_indices
 from .function_signatures import AT_ONE_TIME, AXIS, HEADS, INDEX_SETS, MOTION, VARIATION
 
-RATES = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "ṗ_b", "ℓ̇_b", "Γ̇", "Ẇ")
+RATES = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "ṗ_b", "ℓ̇_b", "Γ̇", "Ẇ", "Υ̇")
 """The names whose value is one on X: rates along the motion."""
 
 MULTIPLIER = "θ"

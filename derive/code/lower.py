@@ -145,6 +145,8 @@ class Lowering:
         if op == "det":
             found_det: Node = dense.determinant(a[0])
             return found_det
+        if op == "bracket":
+            return q.minus(q.times(*a), q.times(*reversed(a)))
         if op == "matrix":
             return tuple(tuple(row) for row in a)
         if op == "row":

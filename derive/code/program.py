@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Any
 
 from ..language.refused import Refused
 from ..language.tree import Tree, nodes
@@ -154,7 +155,7 @@ class Program:
     """All that is emitted for one problem, without a word of any language.
 
     ``functions``: constants, rhs, energy; inertia for a body turned in space; and what is asked for
-    of conserved; of jacobian, jacobian_inputs, jacobian_parameters; momentum, velocity,
+    of conserved, multiplier; of jacobian, jacobian_inputs, jacobian_parameters; momentum, velocity,
     momentum_rhs and poisson; into_frame, out_of_frame, inputs_into_frame.
     """
 
@@ -180,6 +181,9 @@ class Program:
     """The names of the state with momenta, where there is one."""
     reduced: int = 0
     """The variables of the Poisson tensor."""
+    loops: Any = None
+    """On the torus the tables of its loops (``torus.torus_program.Loops``), where it has them."""
+    on_torus: bool = False
 
     @property
     def momentum_range(self) -> tuple[int, int]:

@@ -18,6 +18,7 @@ SYMBOLS = {letter: rf"\{name}" for name, letter in LETTERS.items()} | {
     "×": r"\times", "𝔤": r"\mathfrak{g}", "′": "'", "½": r"\tfrac12", "⅓": r"\tfrac13",
     "¼": r"\tfrac14", "⅔": r"\tfrac23", "∘": r"\circ", "⊤": r"\top",
     "𝟏": r"\mathbf{1}", "𝔰": r"\mathfrak{s}", "𝔬": r"\mathfrak{o}", "𝕁": r"\mathbb{J}",
+    "𝐦": r"\mathbf m", "𝐧": r"\mathbf n",
 }  # fmt: skip
 RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
 LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ", "0123456789ijet", strict=True))

@@ -25,6 +25,8 @@ NAME = re.compile(
 )
 RATE = r"\frac{\mathrm{d}}{\mathrm{d}t}"
 POISSON = r"\mathbb{J}"
+BOLD = {r"\mathbf m": "𝐦", r"\mathbf n": "𝐧"}
+"""Points of a lattice: letters that MathML has in bold by themselves."""
 BARS = Notation()
 
 
@@ -35,6 +37,8 @@ def named(tex: str) -> Formula:
         return fraction(upright("d"), upright("d") + literal("t"), RATE)
     if tex == POISSON:
         return Formula(tex, ("<mi>𝕁</mi>",))
+    if tex in BOLD:
+        return Formula(tex, (f"<mi>{BOLD[tex]}</mi>",))
     found = NAME.fullmatch(tex)
     if found is None:
         return Formula(tex, literal(tex).items)

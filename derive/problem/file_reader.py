@@ -23,7 +23,7 @@ from ..schema.table_reader import NAME, TableReader
 from .fields import LIKE_A_PLACE
 from .moments import SolidError, first_moment, given_by, second_moment
 from .problem import ProblemError, points_of
-from .solids import rotation_about
+from .solids import fault_of_quadric, rotation_about
 from .state_names import meant, reduced_names, state_names
 
 AXES = "xyz"
@@ -95,6 +95,11 @@ class FileReader(TableReader):
             raise ProblemError(
                 f"{where}: {kind} is of a body that is one homogeneous ellipsoid about the origin; "
                 'give [body] solid = "ellipsoid", without points or shift'
+            )
+        if need == "no turning" and (g.factors or g.turns_space):
+            raise ProblemError(
+                f"{where}: {kind} is for one group that is walked in matrices, as SL(3), SAff(3) "
+                f"or SE(2), and not for {g.name}; give springs to the body's points"
             )
         if need == "volumes" and (g.factors or "unimodular" in g.relations):
             raise ProblemError(
@@ -325,6 +330,22 @@ class FileReader(TableReader):
         if value is not None and (value < 0 or (value == 0 and not slot.about.zero)):
             raise ProblemError(f"{slot.path}: a length that is not positive")
         return size
+
+    def symmetric(self, slot: Slot) -> Rows:
+        """A matrix of the size of the space."""
+        n, value = self.space(slot), self.value(slot)
+        found = self.rows(value, n, n, slot.path)
+        if any(found[i][j] != found[j][i] for i in range(n) for j in range(i)):
+            raise ProblemError(f"{slot.path}: the matrix must be symmetric")
+        return found
+
+    def quadric(self, slot: Slot) -> Rows:
+        """A symmetric matrix of the size of the space, positive definite where that is known."""
+        n = self.moving().n
+        found = self.rows(self.value(slot), n, n, slot.path)
+        if fault := fault_of_quadric(found, {}):
+            raise ProblemError(f"{slot.path}: {fault}")
+        return found
 
     def vertices(self, slot: Slot) -> tuple[tuple[Fraction, ...], ...]:
         """Those of the mesh in a file, which is read by what needs NumPy."""

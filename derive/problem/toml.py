@@ -222,6 +222,8 @@ def _positive(where: str | None, what: str) -> None:
 def _massive(problem: Problem, negative_mass: bool) -> None:
     """``ProblemError`` for a direction without inertia, and for masses that cannot be."""
     moved, own = problem.group, problem.body
+    if fault := inertia.fault_of_quadrics(own, problem.parameters):
+        raise ProblemError(f"body: {fault}")
     if moved and own and (still := inertia.still_direction(moved, own)):
         raise ProblemError(
             f"{still} has no kinetic energy together with any motion: the metric of these masses, "

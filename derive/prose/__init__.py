@@ -18,7 +18,7 @@ from .matrices import STEPS as MATRICES
 from .momentum_form import STEPS as MOMENTUM_FORM
 from .rotations import STEPS as ROTATIONS
 from .symmetries import STEPS as SYMMETRIES
-from .torus import STEPS as TORUS
+from .zeitlin import STEPS as ZEITLIN
 
 STEPS = {
     **GENERAL,
@@ -31,7 +31,7 @@ STEPS = {
     **ANSWER,
     **EQUILIBRIA,
 }
-STEPS |= {label: STEPS.get(label, {}) | named for label, named in TORUS.items()}
+STEPS |= {label: STEPS.get(label, {}) | named for label, named in ZEITLIN.items()}
 """Label → name → the sentence in each of ``LANGUAGES``."""
 LANGUAGES = ("en", "fr")
 """The languages of the prose, in the order of the texts of a sentence."""

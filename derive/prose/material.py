@@ -120,6 +120,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "semi axes {size}",
             "demi-axes {size}",
         ),
+        "quadric": (
+            "matrix {size}",
+            "matrice {size}",
+        ),
         "height": (
             "height {size}",
             "hauteur {size}",

@@ -198,7 +198,7 @@ class _RecordReader(TableReader):
             raise ShapeError(f"{where}: {kind} is of one ellipsoid about the origin")
         if need == "points alone" and data["body"]["kind"] != "points":
             raise ShapeError(f"{where}: {kind} is of a body of points alone")
-        if need in ("rotations", "affine of R^3", "volumes") and self.blocks > 1:
+        if need in ("rotations", "affine of R^3", "volumes", "no turning") and self.blocks > 1:
             raise ShapeError(f"{where}: {kind} is in no product")
         if need == "affine of R^3" and (data["action"], data["n"]) != ("affine", 3):
             raise ShapeError(f"{where}: {kind} is of affine maps of R^3")
@@ -211,7 +211,10 @@ class _RecordReader(TableReader):
             own = SOLIDS[self.choice(Slot(x, "kind", where), tuple(SOLIDS))]
             self.known(x, ("kind", "density", "sizes", "rotation", "shift"), where)
             sizes = self.value(Slot(x, "sizes", where), dict)
-            wanted = own.keys().keys() - Solid.keys().keys()
+            chosen = own.chosen(sizes, self.last)
+            if isinstance(chosen, str):
+                raise ShapeError(f"{where}: {chosen}")
+            wanted = {*chosen} - Solid.keys().keys()
             if sizes.keys() != wanted:
                 raise ShapeError(f"{where}: the sizes must be {', '.join(sorted(wanted))}")
             rest = {key: value for key, value in x.items() if key != "sizes"}
@@ -298,6 +301,16 @@ class _RecordReader(TableReader):
     def second(self, slot: Slot) -> Rows:
         """A matrix."""
         n = len(slot.found["c"])
+        return self.rows(self.value(slot), n, n, slot.path)
+
+    def symmetric(self, slot: Slot) -> Rows:
+        """A matrix; of the size of the space where that is known."""
+        value = self.value(slot, list)
+        return self.rows(value, len(value), len(value), slot.path)
+
+    def quadric(self, slot: Slot) -> Rows:
+        """A matrix of the size of the space."""
+        n = self.space(slot)
         return self.rows(self.value(slot), n, n, slot.path)
 
     def vertices(self, slot: Slot) -> Rows:

@@ -79,6 +79,7 @@ Stiffness = Annotated[Tree, Key("scalar", trees=True, mass=True, positive=True)]
 Energy = Annotated[Tree, Key("energy", trees=True)]
 OfVolume = Annotated[Tree, Key("of_volume", trees=True)]
 Vector = Annotated[Row, Key("vector", 1, trees=True)]
+Symmetric = Annotated[Rows, Key("symmetric", 2, trees=True)]
 Timed = Annotated[Row, Key("timed", 1, trees=True)]
 Charges = Annotated[Row, Key("charges", 1, trees=True)]
 Rotation = Annotated[Rows, Key("rotation", 2, trees=True)]
@@ -102,12 +103,15 @@ Second = Annotated[Rows, Key("second", 2, trees=True, keys=("J", "I", "I_centre"
 Length = Annotated[Tree, Key("length", trees=True)]
 Inner = Annotated[Tree, Key("length", trees=True, zero=True)]
 Lengths = Annotated[Row, Key("lengths", 1, trees=True)]
+Axes = Annotated[Row | None, Key("lengths", 1, trees=True)]
+Quadric = Annotated[Rows | None, Key("quadric", 2, trees=True)]
 Corners = Annotated[Rows, Key("corners", 2, trees=True)]
 Vertices = Annotated[tuple[tuple[Fraction, ...], ...], Key("vertices", 2, keys=("file",))]
 Faces = Annotated[tuple[tuple[int, ...], ...], Key("faces", 2, keys=("file",))]
 Turn = Annotated[Rows | None, Key("turn", 2, trees=True, null=True)]
 Shift = Annotated[Row | None, Key("shift", 1, trees=True, null=True)]
-"""Moments of a body, and of solids in R³ the sizes: lengths, positive, one or three; four corners;
+"""Moments of a body, and of solids in R³ the sizes: lengths, positive, one or three; a symmetric
+matrix; four corners;
 what the file of a mesh has.  A rotation and a vector of R³, or none."""
 
 Name = Annotated[str, Key("name")]
@@ -140,11 +144,12 @@ def _key(hint: Any) -> Key:
 
 NEEDS = (
     *("points alone", "one space", "rotations", "affine of R^3", "volumes"),
-    *("deformations of R^3", "one ellipsoid"),
+    *("deformations of R^3", "one ellipsoid", "no turning"),
 )
 """What a kind may need of its problem: nothing has mass but the points; blocks of one dimension;
 linear parts that are rotations; all translations of R³; one space, whose volumes change; linear
-parts in R³ that are not rotations; a homogeneous ellipsoid about the origin, and nothing else."""
+parts in R³ that are not rotations; a homogeneous ellipsoid about the origin, and nothing else; not
+SO(3) or SE(3), nor a product."""
 DETERMINANT: Tree = ("det", "A")
 """What ``det_A`` is in an energy of the volume."""
 OTHER_WORDS = {

@@ -168,6 +168,10 @@ class Comparison:
         if "project" in self.module.functions:
             drift = partial(self._drift_numbers, arguments)
             found.append(compare_drift(drift, self._draw, self.claims.state, point))
+        if "multiplier" in self.module.functions:
+            theta = self._call("multiplier", arguments, value=1)["value"]
+            self._require_equal("multiplier", ("theta",), theta, (point.named.names["θ"],))
+            found.append("multiplier")
         if "conserved" in self.module.functions:
             found.append(self._conserved(arguments))
         return (*found, *self._in_momenta(arguments), *self._jacobians(arguments))

@@ -26,6 +26,7 @@ SIGNATURES = {
     "rhs": ("void", "t", "const* x", "const* k", "const* u", "* dx"),
     "rhs_batch": ("void", "size_t n", "t", "const* x", "const* k", "const* u", "* dx"),
     "energy": ("real", "t", "const* x", "const* k"),
+    "multiplier": ("real", "t", "const* x", "const* k", "const* u"),
     "conserved": ("void", "t", "const* x", "const* k", "* out"),
     "project": ("void", "const* x", "* out"),
     "defect": ("real", "const* x"),

@@ -28,7 +28,7 @@ from .terms import (
 
 OF_STATE = (
     *("_rhs", "_energy", "_conserved", "_project", "_defect", "_jacobian", "_jacobian_inputs"),
-    "_momentum",
+    *("_momentum", "_multiplier"),
 )
 OF_Y, OF_BOTH = ("_velocity", "_momentum_rhs", "_poisson"), ("_velocity_step", "_momentum_rates")
 SIGNATURES = {

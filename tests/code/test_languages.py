@@ -48,6 +48,8 @@ PROBLEMS = {
 
 KEPT = ("so3", "saff3")
 """Those that say what their motion keeps."""
+PRESSED = ("sl3", "saff3")
+"""Those that keep a volume, and say its multiplier."""
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +60,8 @@ def emitted(tmp_path_factory):
     plain = [
         Emitted(name, BARE if name == "bare" else name, folder, (*REFERENCE, *OTHERS), chosen)
         for name, chosen in (
-            (name, {"jacobian": x, "conserved": name in KEPT}) for name, x in PROBLEMS.items()
+            (name, {"jacobian": x, "conserved": name in KEPT, "multiplier": name in PRESSED})
+            for name, x in PROBLEMS.items()
         )
     ]
     framed = {"frame": "principal", "jacobian": ALL[:2]}

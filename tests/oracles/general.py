@@ -251,6 +251,10 @@ def _term(k, table, env, found, q):
         return -evaluate(table["strength"], env) * sum(mass[key] / away[key] for key in mass)
     if table["kind"] == "torsion":
         return _torsion(table, env, q)
+    if table["kind"] == "harmonic":
+        W = [[evaluate(x, env) for x in row] for row in table["W"]]
+        pairs = [(m, q[key]) for key, m in mass.items()]
+        return sum(m * np.sum(x * (np.array(W) @ x), 0) for m, x in pairs) / 2
     if table["kind"] == "volume":
         return _volume(table, env, q)
     if table["kind"] == "far_centre":

@@ -6,25 +6,24 @@ STEPS = {
     "coordinates": {
         "torus": (
             "The basis of su(N), N = {order}, is that of the torus: 𝐧 is a point of a square "
-            "lattice modulo N, and T(𝐧) a product of powers of the clock g = diag(ω²ʲ) and of the "
-            "cyclic shift h, T(𝐧) = ω^(n₁n₂) g^n₁ h^n₂ with ω = e^(2πi/N). Sums go over the "
-            "representatives |n₁|, |n₂| ≤ {half} but 0; i is the imaginary unit, and ζ(−𝐧) is the "
-            "conjugate of ζ(𝐧).",
+            "lattice modulo N, and T(𝐧) the power n₁ of the clock, a diagonal matrix of roots of "
+            "unity, times the power n₂ of the cyclic shift, times a root of unity, so that T(−𝐧) "
+            "is its adjoint. Sums go over the points but 0 with coordinates from −{half} to "
+            "{most}; i is the imaginary unit, and ζ(−𝐧) the conjugate of ζ(𝐧).",
             "La base de su(N), N = {order}, est celle du tore : 𝐧 est un point d’un réseau carré "
-            "modulo N, et T(𝐧) un produit de puissances de l’horloge g = diag(ω²ʲ) et du décalage "
-            "cyclique h, T(𝐧) = ω^(n₁n₂) g^n₁ h^n₂ où ω = e^(2πi/N). Les sommes portent sur les "
-            "représentants |n₁|, |n₂| ≤ {half} sauf 0 ; i est l’unité imaginaire, et ζ(−𝐧) est le "
+            "modulo N, et T(𝐧) la puissance n₁ de l’horloge, matrice diagonale de racines de "
+            "l’unité, fois la puissance n₂ du décalage cyclique, fois une racine de l’unité, de "
+            "sorte que T(−𝐧) est son adjointe. Les sommes portent sur les points sauf 0 dont les "
+            "coordonnées vont de −{half} à {most} ; i est l’unité imaginaire, et ζ(−𝐧) le "
             "conjugué de ζ(𝐧).",
         ),
     },
     "algebra": {
         "torus": (
             "In the bracket the even part of the phase drops out, and the odd one is doubled: for "
-            "a large N that is 2/i times 2π/N times 𝐦 ∧ 𝐧, the bracket of the flows that keep the "
-            "area.",
+            "a large N this is, but for a factor, the bracket of the flows that keep the area.",
             "Dans le crochet la partie paire de la phase disparaît et la partie impaire double : "
-            "pour N grand c’est 2/i fois 2π/N fois 𝐦 ∧ 𝐧, le crochet des flots qui conservent "
-            "l’aire.",
+            "pour N grand c’est, à un facteur près, le crochet des flots qui conservent l’aire.",
         ),
     },
     "lagrangian": {
@@ -38,11 +37,11 @@ STEPS = {
     "momenta": {
         "torus": (
             "The momentum is the vorticity: ω̂(𝐧) is the derivative of L̃ with respect to ζ(−𝐧), and "
-            "W the matrix with these coefficients. As Tr T(𝐦)T(𝐧) is N where 𝐦 + 𝐧 = 0 and else 0, "
-            "Π is the transpose of W but for a factor.",
+            "W the matrix with these coefficients. As the trace of T(𝐦)T(𝐧) is N where 𝐦 + 𝐧 = 0, "
+            "and else 0, Π is the transpose of W but for a factor.",
             "Le moment est le tourbillon : ω̂(𝐧) est la dérivée de L̃ par rapport à ζ(−𝐧), et W la "
-            "matrice qui a ces coefficients. Comme Tr T(𝐦)T(𝐧) vaut N si 𝐦 + 𝐧 = 0 et 0 sinon, Π "
-            "est la transposée de W à un facteur près.",
+            "matrice qui a ces coefficients. Comme la trace de T(𝐦)T(𝐧) vaut N si 𝐦 + 𝐧 = 0, et 0 "
+            "sinon, Π est la transposée de W à un facteur près.",
         ),
     },
     "stream": {
@@ -67,10 +66,10 @@ STEPS = {
     },
     "motion": {
         "torus": (
-            "The same on T(𝐧), by the brackets of the basis. For N → ∞ and a fixed 𝐧 this is "
-            "Euler’s equation of the vorticity on the torus.",
-            "La même sur T(𝐧), d’après les crochets de la base. Pour N → ∞ et 𝐧 fixé c’est "
-            "l’équation d’Euler du tourbillon sur le tore.",
+            "The same on T(𝐧), by the brackets of the basis. As N grows, and 𝐧 is kept, this goes "
+            "to Euler’s equation of the vorticity on the torus.",
+            "La même sur T(𝐧), d’après les crochets de la base. Quand N croît, à 𝐧 fixé, elle tend "
+            "vers l’équation d’Euler du tourbillon sur le tore.",
         ),
     },
     "conserved": {

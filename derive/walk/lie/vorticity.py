@@ -13,6 +13,7 @@ from ...algebra.calculus import derivation, gradient, substitute
 from ...algebra.torus import Torus
 from ...algebra.words import Expr, Letter, inner, trace, word
 from ...language.tree import Tree, add, mul, neg
+from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ..alphabet import Alphabet
 from ..chapter import Chapter
@@ -40,8 +41,12 @@ def stream(k: Index) -> Tree:
     return ("div", of("ω̂", k), squared(k))
 
 
-def torus_steps(torus: Torus, general: AnyLagrangian, a: Alphabet, c: Chapter) -> tuple[Step, ...]:
+def torus_steps(
+    problem: Problem, general: AnyLagrangian, a: Alphabet, c: Chapter
+) -> tuple[Step, ...]:
     """From the basis to the motion, and what it keeps."""
+    torus = problem.torus
+    assert torus is not None
     phase, scale = Phase(torus.N), _scale(torus)
     first = _basis(phase, scale, general, c)
     algebra, lagrangian = _algebra(phase, first, c), _lagrangian(general, first, c)
@@ -72,7 +77,9 @@ def _basis(phase: Phase, scale: Tree, general: AnyLagrangian, c: Chapter) -> Ste
             Equation(product, mul(phase.product(), of("T", (1, 1)))),
             Equation("Z", summed(lambda k: mul(scale, of("ζ", k)))),
         ],
-        say("coordinates.torus", order=str(phase.N), half=str(phase.N // 2)),
+        say(
+            "coordinates.torus", order=str(phase.N), half=str(phase.N // 2), most=str(phase.N // 2)
+        ),
     )
 
 
