@@ -221,7 +221,7 @@ def _entry(t: tuple[Any, ...], env: Environment) -> Value:
     places = [_index(i, env) for i in t[2:]]
     if min(places) < 1 or not is_matrix(value):
         raise EvaluationError("entries of matrices and vectors are counted from 1")
-    if len(places) != 1 + (len(value[0]) > 1 or t[1] == MATRIX):
+    if len(places) != 1 + (len(value[0]) > 1 or t[1] in MATRIX):
         raise EvaluationError("a vector has entries of one index, a matrix of two")
     return value[places[0] - 1][places[-1] - 1 if len(places) == 2 else 0]
 

@@ -20,6 +20,12 @@ ACCENTS = {r"\tilde": "~", r"\pulled": "~", r"\dot": "˙", r"\rate": "˙", r"\ha
 SPACES = (r"\,", r"\quad", r"\qquad", r"\ ", r"\;")
 
 
+STYLES = {
+    r"\mathbb": {"J": "𝕁", "I": "𝕀"},
+    r"\mathcal": {"J": "𝒥", "A": "𝒜", "R": "ℛ", "V": "𝒱"},
+}
+
+
 class _Lexer:
     """Commands with their arguments → the tokens of a formula."""
 
@@ -117,8 +123,8 @@ class _Lexer:
             return [("par", self.words())]
         if token == r"\unitmatrix" or (token == r"\mathbf" and self.words() == "1"):
             return [("tree", ("one",))]
-        if token == r"\mathbb" and self.words() == "J":
-            return [("name", "𝕁")]
+        if token in STYLES:
+            return [("name", STYLES[token][self.words()])]
         if token == r"\mathrm" and self.words() == "d":
             return [("word", "d")]
         if token.startswith(r"\begin{pmatrix"):
