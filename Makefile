@@ -57,6 +57,7 @@ bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside
 	$(BIN)/python -m benchmarks.road
 	$(BIN)/python -m benchmarks.sizes
 	$(BIN)/python -m benchmarks.peers
+	$(BIN)/python -m benchmarks.zeitlin
 
 accuracy: $(STAMP) ## worst error of each output against 50 digits, over 100000 states of each problem: an hour
 	$(BIN)/python -m benchmarks.accuracy

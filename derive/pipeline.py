@@ -21,15 +21,15 @@ from .problem.principal import principal
 from .problem.problem import Problem, ProblemError
 from .record.record import Derivation
 from .walk import (
-    alphabet, body, brackets, cartan, components, conserved, coordinates, elimination, explicit,
-    exterior, inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit,
-    potential, pullback, rotation, separation, solution, specialisation, translation, variation,
-    vector,
+    alphabet, body, brackets, cartan, components, conserved, coordinates, dirichlet, elimination,
+    explicit, exterior, inputs, isometry, isomorphism, kernel, lagrangian, momentum, motions, orbit,
+    potential, pullback, rotation, separation, solution, specialisation, told_by_momenta,
+    translation, variation, vector,
 )
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
 from .walk.failure import naming_steps
-from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side
+from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side, vorticity
 from .walk.head import problem_data, symbols
 from .walk.inputs import acts
 from .walk.lineage import traced
@@ -40,12 +40,13 @@ from .walk.stages import Stage, Values, follow
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from fractions import Fraction
 
     from .code.options import Options
     from .code.program import Program
+    from .equilibria.enclosed_points import Enclosed
     from .equilibria.stability import Equilibrium
     from .integrals.all_integrals import Found
+    from .language.quadratic import Number
     from .language.tree import Tree
     from .reduction.reduced_record import Reduction
     from .symmetries.steps import Symmetries
@@ -83,6 +84,7 @@ MATRICES = (
     Stage("driven", "special external?", "Special", specialisation.with_external),
     Stage("centred", "driven c_u", "Centred", translation.eliminate_translation, "affine"),
     Stage("solution", "driven centred? group c c_u", "Solution", solution.solution),
+    Stage("fluid", "problem group driven solution c_u", "Steps", dirichlet.fluid_steps),
     Stage("energy", "special.last", "Steps", tuple),
     Stage("rigid", "distances special.C special.letters c",
           "Step", orbit.rigid, "orthogonal"),
@@ -92,6 +94,8 @@ MATRICES = (
     Stage("space", "cartan.momentum a", "SpaceMomenta", conserved.matrix_momenta),
     Stage("conserved", "problem potentials space solution.motion special.letters c",
           "Steps", conserved.conserved_steps),
+    Stage("by_momenta", "general driven centred? group c c_u",
+          "Steps", told_by_momenta.of_matrices),
     Stage("explicit", "problem group body potentials special driven external? solution.motion "
           "pullback.steps c_u", "Steps", explicit.of_matrices),
 )
@@ -124,6 +128,10 @@ VECTORS = (
     Stage("space", "vectors.momenta isometry.letters", "SpaceMomenta", conserved.vector_momenta),
     Stage("conserved", "problem potentials space motion isometry.letters c",
           "Steps", conserved.conserved_steps),
+    Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
+          "Steps", told_by_momenta.of_rotations, "linear"),
+    Stage("by_momenta", "vectors torque external? isometry.letters c c_u",
+          "Steps", told_by_momenta.of_displacements, "affine"),
     Stage("basis", "group isometry.letters c", "Steps", coordinates.stated_basis_step),
     Stage("explicit", "problem group body potentials torque pullback.steps axial.inertia "
           "external? motion tensor c_u", "Steps", explicit.of_vectors, "linear"),
@@ -147,6 +155,9 @@ EXPRESSED = (
           "Steps", explicit.of_lagrangian),
 )
 """One Lagrangian in a basis of 𝔤, its state with an element of the group, or reduced."""
+
+ON_THE_TORUS = (Stage("fluid", "problem lagrangian a c", "Steps", vorticity.torus_steps),)
+"""The kinetic energy of a fluid on su(N), in the basis of the torus."""
 # fmt: on
 
 
@@ -155,7 +166,9 @@ def walk(problem: Problem) -> Derivation:
     """Derive the equations of motion of a problem; ``WalkError`` names the step that a rule of the
     engine breaks."""
     group, given = problem.group, problem.lagrangian
-    if given is not None:
+    if problem.torus:
+        values = lagrangian_road("right")
+    elif given is not None:
         values = lagrangian_road(given.trivialisation)
     else:
         values = general_road(affine=problem.affine, signed=problem.signed)
@@ -169,6 +182,9 @@ def walk(problem: Problem) -> Derivation:
         kinds |= {"element" if problem.advected is None else "reduced"}
         kinds |= {"rotations"} if turns_whole(group) and not group.affine else set()
         steps += follow(road, values | own, kinds)["steps"]
+    if problem.torus:
+        own = {"problem": problem, "c": Chapter(problem.name, problem.torus.name)}
+        steps += follow(ON_THE_TORUS, values | own, ())["steps"]
     steps = supposing_all(traced(steps))
     return Derivation(problem_data(problem), symbols(steps, problem), steps)
 
@@ -199,12 +215,13 @@ def both_trivialisations(record: Derivation) -> Derivation:
 
 
 def integrals(
-    problem: Problem, degree: int = 4, *, at_defaults: bool = False
+    problem: Problem, degree: int = 4, *, at_defaults: bool = False, conditions: bool = False
 ) -> tuple[Found, Derivation]:
     """The polynomial integrals of the reduced equations of a problem up to a degree, and its record
     with the steps that tell them; of points by their Lagrangian as one expression.
 
-    Without the inputs of the problem; ``at_defaults``: with numbers for its parameters.
+    Without the inputs of the problem; ``at_defaults``: with numbers for its parameters;
+    ``conditions``: with those on the parameters under which there are more.
     """
     from .integrals.all_integrals import found
     from .integrals.reduced import reduced, require_group, with_defaults
@@ -217,6 +234,10 @@ def integrals(
         problem = with_scalar_lagrangian(problem, walk(problem))
     problem = with_defaults(problem) if at_defaults else problem
     whole = found(reduced(problem), degree)
+    if conditions:
+        from .integrals.special_parameters import conditions as conditions_of
+
+        whole = replace(whole, conditions=conditions_of(whole))
     assert problem.group is not None
     record = walk(problem)
     c = Chapter(problem.name, problem.group.name)
@@ -224,8 +245,27 @@ def integrals(
     return whole, Derivation(record.problem, symbols(steps, problem), steps)
 
 
+def equilibrium_near(problem: Problem, values: Mapping[str, Number]) -> tuple[Enclosed, Derivation]:
+    """The equilibrium of a problem near a point, enclosed, and the record of its integrals with the
+    steps that tell it; parameters have their defaults."""
+    from .equilibria.enclosed_points import enclosed
+    from .equilibria.stability import require_numbers
+    from .equilibria.told_points import told_enclosed
+
+    whole, record = integrals(problem, at_defaults=True)
+    try:
+        require_numbers(whole)
+        found = enclosed(whole, values)
+    except Refused as error:
+        raise ProblemError(f"{problem.name}: {error}") from None
+    assert problem.group is not None
+    c = Chapter(problem.name, problem.group.name)
+    steps = (*record.steps, *told_enclosed(whole, found, record.steps, c))
+    return found, replace(record, steps=supposing_all(traced(steps)))
+
+
 def equilibria(
-    problem: Problem, values: Mapping[str, Fraction]
+    problem: Problem, values: Mapping[str, Number]
 ) -> tuple[tuple[Equilibrium, ...], Derivation]:
     """The relative equilibrium of a problem at a point, or those among some points where no values
     are given, and the record of its integrals with the steps that tell them; parameters have their
@@ -283,6 +323,10 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
     """The program of a problem; in its principal frame that is the program of another problem."""
     from .code.assemble import assemble
 
+    if problem.torus:
+        from .code.torus.torus_program import torus_program
+
+        return torus_program(record, problem.torus, options)
     if problem.group is None:
         raise ProblemError(
             f"{problem.name}: this text is about any group, so it has nothing to emit; choose a "

@@ -119,14 +119,14 @@ class AppliedForces:
         assert self.env.elementary is not None
         return self.env.elementary("sqrt", x)
 
-    def value(self, tree: Any, t: Any, r: Sequence[Vector]) -> Any:
-        """The value of an expression of the time and the places."""
+    def value(self, tree: Any, t: Any, r: Sequence[Vector], **names: Any) -> Any:
+        """The value of an expression of the time and the places, and of other ``names``."""
 
         def point(head: Any, arguments: tuple[Tree, ...], env: Environment) -> Any:
             del arguments, env
             return q.column(r[head[2] - 1])
 
-        env = replace(self.env, names={**self.env.names, "t": t}, functions={"r": point})
+        env = replace(self.env, names={**self.env.names, **names, "t": t}, functions={"r": point})
         return evaluate(decode(tree, "U"), env)
 
     def forces(

@@ -110,7 +110,9 @@ def _coordinates(a: Value) -> Any:
 
 
 def wedge(a: Value, b: Value) -> Value:
-    """The vector product a ∧ b of two vectors of R³ (3 × 1 matrices)."""
+    """The vector product a ∧ b of two vectors of R³ (3 × 1 matrices); of two of R² a number."""
+    if shape(a) == shape(b) == (2, 1):
+        return a[0][0] * b[1][0] - a[1][0] * b[0][0]
     (x, y, z), (u, v, w) = _coordinates(a), _coordinates(b)
     return ((y * w - z * v,), (z * u - x * w,), (x * v - y * u,))
 

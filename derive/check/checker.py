@@ -26,6 +26,7 @@ from . import symbols, well_formedness
 from .arithmetic import EvaluationError
 from .definitions import unexplained
 from .dependencies import unused
+from .enclosure import enclosure_fault, kept_claims
 from .equation_sides import difference, largest_degree
 from .locus import Locus, locus_of
 from .necessary_hypotheses import (
@@ -55,6 +56,9 @@ SHOWN = 120
 UNEXPLAINED = "{} is used, and neither this step nor one before it says what it is"
 
 UNUSED = "{} is used, and no step that this one uses speaks of it"
+
+ENCLOSURE = "enclosure"
+"""The rule of steps that claim more than their equations: a critical point nearby."""
 
 IMPOSSIBLE = (
     *(ArithmeticError, AssertionError, LookupError, TypeError, ValueError),
@@ -115,6 +119,8 @@ class Checker(TrialPoints):
     def bound(self, step: Step) -> int:
         """The Schwartz–Zippel degree of a step's claims; ``RecordError`` if it is too large."""
         degrees = [0, *(self.degree(step, e) for e in step.equations)]
+        if step.rule == ENCLOSURE:
+            degrees += (self.degree(step, e) for e in kept_claims(step))
         for g in self.groups(step.scope, driven=step.driven):
             env = self.graded_point(g, step)[1]
             degrees += (largest_degree(x.of, env) for x in step.hypotheses)
@@ -172,8 +178,18 @@ class Checker(TrialPoints):
                 if reason := difference(e, self.environment(g, step, SIZE, e)):
                     reason = self.example(g, step, e) or reason
                     raise RefusedError(refusal(step, e, reason, f" on {g.name}"))
+        if step.rule == ENCLOSURE and (reason := self.enclosure_fault(step)):
+            raise RefusedError(Verdict(step.label, False, reason, 1.0))
         self.refuse_hypotheses(step, groups, self.missing_hypothesis)
         return self.checked_degree(bound + self.coincidence)
+
+    def enclosure_fault(self, step: Step) -> str:
+        """Why a step encloses no critical point on a level of what motions keep; "" if it does."""
+        for e in kept_claims(step):
+            for g in self.groups_for(step, e):
+                if reason := difference(e, self.environment(g, step, SIZE, e)):
+                    return f"motions do not keep the left side of a level: {reason}"
+        return enclosure_fault(step)
 
     def refuse_hypotheses(
         self, step: Step, groups: Iterable[Group], find_fault: Callable[[Group, Step], str]

@@ -13,6 +13,7 @@ from ..language.rational import Matrix
 from .elementary_values import ElementaryValues
 from .evaluate import Environment
 from .grades import DegreeSource, Graded, indeterminate
+from .residue import ResidueSource
 
 SPARE = 2
 """So many points more than are needed, where the problem leaves them open: no equation may hold by
@@ -44,7 +45,8 @@ class Draws:
         self.generic, self.spare, self.n = generic, 0 if few else SPARE, group.n
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
         self.parameters |= dict.fromkeys(zero, Fraction(0))
-        self.elementary = ElementaryValues(lambda: self.draw(positive=True))
+        exact = not isinstance(random, ResidueSource)
+        self.elementary = ElementaryValues(lambda: self.draw(positive=True), exact=exact)
         self.graded = isinstance(random, DegreeSource)
         self.unit = indeterminate(0, 1) if self.graded else Fraction(1)
         self.pi = self.draw(positive=True) if pi is None else pi

@@ -2,14 +2,17 @@
 
 √x, sin x and the rest are no rational numbers. A claim in which they occur is put to the test with
 an independent random value y for each function at each argument, and derivatives by the rules of
-calculus, as (√x)′ = 1/(2y): what holds for every y holds for the true one.
+calculus, as (√x)′ = 1/(2y): what holds for every y holds for the true one. The roots of the numbers
+that a claim writes, if they are of one quadratic field, have their exact values there.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
+from ..language.quadratic import Quadratic, root
 from .arithmetic import EvaluationError
 from .grades import Graded
 from .nilpotent import Nilpotent
@@ -36,10 +39,13 @@ ELEMENTARY = frozenset((*PARTNERS, *ALGEBRAIC))
 
 
 class ElementaryValues:
-    """The elementary functions at one model, f(name, x): y is drawn once for each argument."""
+    """The elementary functions at one model, f(name, x): y is drawn once for each argument.
 
-    def __init__(self, draw: Callable[[], Any]):
-        self.draw = draw
+    ``exact``: are numbers rational, so that they have square roots?
+    """
+
+    def __init__(self, draw: Callable[[], Any], *, exact: bool = False):
+        self.draw, self.exact, self.radicand = draw, exact, 0
         self.values: dict[tuple[str, Any], Any] = {}
         self.graded_arguments: list[Graded] = []
 
@@ -52,6 +58,16 @@ class ElementaryValues:
             if isinstance(x, Graded):
                 self.graded_arguments.append(x)  # kept, so that its id is
         return self.values[key]
+
+    def written(self, name: str, x: int | Fraction) -> Any:
+        """The function of a number that a claim writes: a root of the first quadratic field that
+        is met exactly, else as of any number."""
+        if self.exact and name == "sqrt" and x >= 0:
+            y = root(x)
+            if not isinstance(y, Quadratic) or self.radicand in (0, y.d):
+                self.radicand = y.d if isinstance(y, Quadratic) else self.radicand
+                return y
+        return self(name, Fraction(x))
 
     @property
     def largest(self) -> int:

@@ -12,6 +12,7 @@ from ..language.tree import Tree
 from ..record.record import Equation
 from .arithmetic import EvaluationError, describe_shapes, is_matrix, shape
 from .evaluate import Environment, evaluate, free_indices, index_values
+from .function_signatures import LATTICE
 from .grades import ZERO_GRADE, Degree, Grade, common_degree, degrees
 
 MOST_INDICES = 2
@@ -22,7 +23,9 @@ def index_bindings(t: Tree, env: Environment) -> Iterator[Environment]:
     free = sorted(free_indices(t))
     if len(free) > MOST_INDICES:
         raise EvaluationError("more than two free indices")
-    for numbers in itertools.product(*(index_values(t, index, env) for index in free)):
+    every = itertools.product(*(index_values(t, index, env) for index in free))
+    of_lattice = env.chosen and free and {*free} <= {*LATTICE}
+    for numbers in (x[: len(free)] for x in env.chosen) if of_lattice else every:
         bound = env
         for index, number in zip(free, numbers, strict=True):
             bound = bound.with_index(index, number)
@@ -58,10 +61,8 @@ def _entries(x: Any) -> tuple[Any, ...]:
 def _difference(a: Any, b: Any) -> str:
     """The first entry in which two values differ, in words; "" if they are equal."""
     whole = a if is_matrix(a) else b
-    pairs = [*itertools.product(_entries(a), _entries(b))]
-    if shape(a) == shape(b):
-        pairs = [*zip(_entries(a), _entries(b), strict=True)]
-    for k, (x, y) in enumerate(pairs):
+    alike, both = shape(a) == shape(b), (_entries(a), _entries(b))
+    for k, (x, y) in enumerate(zip(*both, strict=True) if alike else itertools.product(*both)):
         if x != y:
             row, column = divmod(k, len(whole[0])) if is_matrix(whole) else (0, 0)
             where = f" in entry ({row + 1}, {column + 1})" if is_matrix(whole) else ""

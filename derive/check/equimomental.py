@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from math import isqrt
 from typing import Any
 
 from ..language import rational as q
@@ -18,7 +19,7 @@ from ..record.record import RecordError
 from ..record.tree_data import decode
 from .draws import Draws
 from .evaluate import evaluate
-from .slices import slice_moments
+from .slices import quadric_moments, slice_moments
 
 Vector = tuple[Any, ...]
 
@@ -86,8 +87,8 @@ def solid_moments(
     model: Draws, solids: Iterable[Mapping[str, Any]]
 ) -> tuple[Fraction, Vector, Matrix]:
     """The moments m, c, J of solids in the body's frame, each by slices."""
-    m, c = Fraction(0), tuple([Fraction(0)] * 3)
-    J = q.scaled(Fraction(0), q.identity(3))
+    m, c = Fraction(0), tuple([Fraction(0)] * model.group.n)
+    J = q.scaled(Fraction(0), q.identity(model.group.n))
     for solid in solids:
         mass, first, second = _moments_of_solid(model, solid)
         m, J = m + mass, q.plus(J, second)
@@ -108,6 +109,8 @@ def _moments_of_solid(model: Draws, data: Mapping[str, Any]) -> tuple[Fraction, 
     def value(x: Any) -> Any:
         return _value(model, x)
 
+    if "quadric" in data["sizes"]:
+        return _moments_of_quadric(model, data)
     sizes = {k: x if k == "faces" else value(x) for k, x in data["sizes"].items()}
     V, f, S = slice_moments(data["kind"], sizes, model.pi)
     density = value(data["density"])
@@ -120,3 +123,27 @@ def _moments_of_solid(model: Draws, data: Mapping[str, Any]) -> tuple[Fraction, 
     second = q.plus(second, q.scaled(V, q.times(s, q.transposed(s))))
     first = q.plus(turned, q.scaled(V, s))
     return density * V, tuple(density * x for (x,) in first), q.scaled(density, second)
+
+
+def _moments_of_quadric(model: Draws, data: Mapping[str, Any]) -> tuple[Any, Vector, Matrix]:
+    """The moments of ⟨r, Q r⟩ ≤ 1, with √det Q as a number where Q is one of numbers, and the
+    root is rational."""
+    told = data["sizes"]["quadric"]
+    Q = quadric_matrix(model, told)
+    det = q.determinant(Q)
+    root: Any = None
+    if all(isinstance(decode(x, "body"), (int, Fraction)) for row in told for x in row):
+        top, bottom = Fraction(det).as_integer_ratio()
+        root = Fraction(isqrt(max(top, 0)), isqrt(bottom))
+        root = root if root * root == det else None
+    if root is None:
+        assert model.elementary is not None
+        root = model.elementary("sqrt", det)
+    V, f, S = quadric_moments(Q, root, model.pi)
+    density = _value(model, data["density"])
+    return density * V, f, q.scaled(density, S)
+
+
+def quadric_matrix(model: Draws, told: Any) -> Matrix:
+    """The matrix of a quadric, by its expressions."""
+    return tuple(tuple(_value(model, x) for x in row) for row in told)

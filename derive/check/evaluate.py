@@ -30,7 +30,8 @@ from .arithmetic import (
     transpose,
     wedge,
 )
-from .function_signatures import AXIS, INDEX_SETS, MATRIX, POINT
+from .elementary_values import ElementaryValues
+from .function_signatures import AXIS, INDEX_SETS, LATTICE, MATRICES, POINT
 
 LARGEST_NESTING = 3
 
@@ -41,7 +42,8 @@ class Environment:
 
     ``functions[name](arguments, environment)`` receives the argument trees.  ``listed``: of the
     points, those that may be named by their numbers.  ``copies``: how often each point is there.
-    ``unit``: the 1 of the identity, and of sums over all axes.
+    ``unit``: the 1 of the identity, and of sums over all axes.  ``lattice``: the points that an
+    index of the lattice counts; ``chosen``: the values of free ones, where not all are tried.
     """
 
     size: int
@@ -54,6 +56,8 @@ class Environment:
     listed: int = 0
     copies: Sequence[Any] = ()
     unit: Any = Fraction(1)
+    lattice: Sequence[tuple[int, int]] = ()
+    chosen: Sequence[tuple[int, ...]] = ()
 
     def with_index(self, name: str, value: int) -> Environment:
         """A copy of the environment with one index bound to a number."""
@@ -63,6 +67,8 @@ class Environment:
 def evaluate(t: Tree, env: Environment) -> Value:
     """The value of a tree; :class:`EvaluationError` when it has none."""
     if isinstance(t, str):
+        if t in LATTICE and t in env.indices:
+            return tuple((Fraction(x),) for x in env.lattice[env.indices[t] - 1])
         try:
             return env.names[t]
         except KeyError:
@@ -156,6 +162,8 @@ def _range(body: Tree, index: str, env: Environment) -> tuple[str, list[int]]:
 
 def _spans(t: Tree, index: str, env: Environment) -> Iterator[tuple[str, set[int]]]:
     """What an index counts, and its values, for each place of a tree in which it stands."""
+    if t == index and index in LATTICE:
+        yield "lattice", {*range(1, len(env.lattice) + 1)}
     if not isinstance(t, tuple):
         return
     if t[0] == "entry" and index in t[2:]:
@@ -176,7 +184,7 @@ def _spans(t: Tree, index: str, env: Environment) -> Iterator[tuple[str, set[int
 def free_indices(t: Tree) -> set[str]:
     """The indices in a tree that no sum binds: an equation holds for each of their values."""
     if not isinstance(t, tuple):
-        return set()
+        return {t} if isinstance(t, str) and t in LATTICE else set()
     if t[0] in ("at", "entry"):
         return {i for i in t[2:] if isinstance(i, str)}
     inside: set[str] = set().union(*(free_indices(x) for x in t[1:]))
@@ -221,7 +229,7 @@ def _entry(t: tuple[Any, ...], env: Environment) -> Value:
     places = [_index(i, env) for i in t[2:]]
     if min(places) < 1 or not is_matrix(value):
         raise EvaluationError("entries of matrices and vectors are counted from 1")
-    if len(places) != 1 + (len(value[0]) > 1 or t[1] in MATRIX):
+    if len(places) != 1 + (len(value[0]) > 1 or t[1] in MATRICES):
         raise EvaluationError("a vector has entries of one index, a matrix of two")
     return value[places[0] - 1][places[-1] - 1 if len(places) == 2 else 0]
 
@@ -237,6 +245,8 @@ def _function(t: tuple[Any, ...], env: Environment) -> Value:
     value = evaluate(t[2], env)
     if env.elementary is None or is_matrix(value):
         raise EvaluationError(f"no value of the function {t[1]!r}")
+    if isinstance(t[2], (int, Fraction)) and isinstance(env.elementary, ElementaryValues):
+        return env.elementary.written(t[1], t[2])
     return env.elementary(t[1], value)
 
 

@@ -41,21 +41,33 @@ TRANSLATION = Kind(
 )
 FIRST_FIELD, SECOND_FIELD = Kind("ξ", ("ξ",)), Kind("ξ′ or δ′Z", ("ξ′", "δ′Z"))
 CARRYING = Kind("ξ or Z", ("ξ", "Z"))
+SITE = Kind(
+    "a point of the lattice",
+    (
+        *("𝐧", "𝐦", ("mul", -1, "𝐧"), ("add", "𝐦", "𝐧"), ("add", "𝐧", ("mul", -1, "𝐦"))),
+        *(("mul", -1, "𝐦"), ("add", "𝐧", "𝐦"), ("add", "𝐦", ("mul", -1, "𝐧"))),
+    ),
+)
+ON_TORUS: tuple[Tree, ...] = (
+    *("h̃", ("call", "ω̂", "𝐧")),
+    *(("tr", ("mul", *["W"] * k)) for k in (2, 3, 4)),
+)
 FORM = Kind(
     "ϖ(δy), less a function or not, or of a polynomial in Π_a and entries of A or Γ",
-    (("call", "ϖ", "δy"),),
+    (("call", "ϖ", "δy"), *ON_TORUS),
     polynomial=True,
     less=True,
 )
 MOVED_PLACE: Tree = ("call", "g", "r")
 INTEGRAND = Kind(
-    "1, r, r r̄, ‖v‖² or ⟨v, δ(g(r))⟩",
+    "1, r, r r̄, p_r, ‖v‖² or ⟨v, δ(g(r))⟩",
     (
-        *(1, "r", ("mul", "r", ("T", "r"))),
+        *(1, "r", "p_r", ("mul", "r", ("T", "r"))),
         *(("norm2", "v"), ("inner", "v", ("call", "δ", MOVED_PLACE))),
     ),
 )
 PLACE = Kind("r", ("r",))
+INVARIANTS = tuple(Kind(x, (x,)) for x in ("I_1", "I_2", "I_3"))
 VARIED = Kind(
     "r_i(t), g(r), ξ′, η′, L̃, ϖ(X), 𝒥_i or 𝒜_i(ξ′)",
     ("ξ′", "η′", "L̃", MOVED_PLACE, ("call", "ϖ", "X")),
@@ -82,6 +94,8 @@ HEADS: dict[str, tuple[Kind, ...]] = {
     "ρ": (CARRYING,),
     "ϖ_h": (VARIATION,),
     "dϖ_h": (VARIATION, VARIATION),
+    **dict.fromkeys(("Ψ", "Ψ_0", "Ψ_1", "Ψ_2"), INVARIANTS),
+    **dict.fromkeys(("T", "ω̂", "ζ"), (SITE,)),
 }
 """The kinds of the arguments of each function; TRANSLATION is left out for a group that does not
 translate."""
@@ -123,11 +137,14 @@ SHARED = ("m", "F", "Q", "P")
 """The families in which each copy of a point has a share; all copies have one place and one
 velocity."""
 
-MATRIX = ("M", "𝕀")
+MATRICES = ("M", "𝕁", "𝕀")
 """The names of matrices whose entries have two indices also where they have one row; other matrices
 of one column have entries of one index."""
 
-INDICES = ("a", "b", "e", "i", "j")
+LATTICE = ("𝐦", "𝐧")
+"""The letters of points of the lattice of the torus, over which sums go as well."""
+
+INDICES = ("a", "b", "e", "i", "j", *LATTICE)
 """The letters of indices."""
 
 FORMS = ((("δA", "δT"), ("ξ", "η"), ("Ω", "η")), (("δ′A", "δ′T"), ("ξ′", "η′"), ("Ω′", "η′")))

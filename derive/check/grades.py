@@ -13,9 +13,12 @@ from functools import lru_cache, reduce
 from itertools import count
 from typing import Any, NamedTuple
 
+from ..language.quadratic import Quadratic
 from ..language.rational import Matrix, flatten
 
 MEMO = 2**16
+PLAIN = (int, Fraction, Quadratic)
+"""The numbers that are themselves, not of a degree alone."""
 
 
 class Grade(NamedTuple):
@@ -121,7 +124,7 @@ class Graded:
     def __add__(self, other: Any) -> Any:
         if isinstance(other, Graded):
             return Graded(_degree_of_sum(self.degree, other.degree))
-        if not isinstance(other, (int, Fraction)):
+        if not isinstance(other, PLAIN):
             return NotImplemented
         return Graded(_degree_of_sum(self.degree, CONSTANT)) if other else self
 
@@ -130,7 +133,7 @@ class Graded:
     def __mul__(self, other: Any) -> Any:
         if isinstance(other, Graded):
             return Graded(_degree_of_product(self.degree, other.degree))
-        if not isinstance(other, (int, Fraction)):
+        if not isinstance(other, PLAIN):
             return NotImplemented
         return self if other else Fraction(0)
 
@@ -144,9 +147,7 @@ class Graded:
     def __truediv__(self, other: Any) -> Any:
         if isinstance(other, Graded):
             return self * other.inverse
-        return (
-            self * (1 / Fraction(other)) if isinstance(other, (int, Fraction)) else NotImplemented
-        )
+        return self * (Fraction(1) / other) if isinstance(other, PLAIN) else NotImplemented
 
     def __rtruediv__(self, other: Any) -> Any:
         return self.inverse * other

@@ -12,13 +12,15 @@ from ..language.rational import Matrix
 from ..language.tree import Tree
 from .arithmetic import EvaluationError, plus, times
 from .evaluate import Environment, evaluate
+from .fluid_values import fluid_values, pressure_at
 from .model import Model
 
 
 def place_values(model: Model) -> dict[str, Any]:
-    """The values of r, a random place in the body, and of v, its velocity in space (columns)."""
+    """The values of r, a random place in the body, of v, its velocity in space (columns), and of
+    the pressure there."""
     r = q.column(model.draw() for _ in range(model.n))
-    return {"r": r, "v": moved(model, model.nu, r)}
+    return {"r": r, "v": moved(model, model.nu, r)} | fluid_values(model, r)
 
 
 def moved(model: Model, g: Matrix, r: Matrix) -> Matrix:
@@ -31,10 +33,12 @@ def integral(model: Model, form: Tree, env: Environment) -> Any:
     exact for forms of degree two; ``EvaluationError`` where the body is none of solids."""
     if model.problem.get("body", {}).get("kind") != "given":
         raise EvaluationError("integrals are over solids")
-    terms = []
+    terms: list[Any] = []
     for m, at in zip(model.masses, model.points, strict=True):
         r = q.column(at)
         here = {"r": r, "v": moved(model, model.nu, r)}
+        if form == "p_r":
+            here["p_r"] = pressure_at(r, env.names["Q_r"], env.names["p_0"])
         there = replace(env, names=ChainMap(here, env.names))  # type: ignore[arg-type]
         terms.append(times(m, evaluate(form, there)))
     return reduce(plus, terms)

@@ -20,7 +20,7 @@ from .generalised_forces import force_families, force_values
 from .integrals import integral, moved, place_values
 from .lifts import ON_TANGENT, action_varied, form_rate
 from .model import Direction, Model
-from .momenta import momentum_values, space_values
+from .momenta import basis_families, momentum_values, poisson_values, space_values
 from .name_values import NameValues, Values
 from .nilpotent import EPS, EPS_PRIME, derivative_of, nilpotent, part
 from .point_masses import outer_sum
@@ -31,7 +31,7 @@ from .rigid_body import axial, moments_about, rigid_body_values
 def environment(model: Model) -> Environment:
     """The environment in which the equations of a record are claims."""
     groups = [_times, _bodies, _group, _forces, _energies, rigid_body_values]
-    groups += [_gradients, _motion, momentum_values, place_values]
+    groups += [_gradients, _motion, momentum_values, place_values, poisson_values]
     return Environment(
         model.n,
         NameValues(model, groups),
@@ -142,7 +142,7 @@ def _families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
     if not model.generic:
         own = model.group.basis[: len(model.group.linear_basis)]
         families["E"] = {(a,): model.group.linear_part(e) for a, e in enumerate(own, 1)}
-        families |= force_families(model)
+        families |= force_families(model) | basis_families(model)
     for name in {*SHARED} & {*families}:
         whole = families[name].items()
         families[name] = {(i,): times(1 / model.copies[i - 1], x) for (i,), x in whole}
@@ -180,7 +180,9 @@ def _functions(model: Model) -> dict[str, Callable[..., Any]]:
     def point(head: Any, _: tuple[Tree, ...], env: Environment) -> Matrix:
         return q.column(model.moved(model.g)[point_index(head[2], env) - 1])
 
+    own = (x for x, _ in model.applied.members() if hasattr(x, "functions"))
     return {
+        **{name: f for account in own for name, f in account.functions(model).items()},
         "dŨ": lambda _, a, env: model.work(tangent(a, env)),
         "p̃": momentum,
         "ϖ": lambda _, a, env: model.cartan(direction(a[0])),

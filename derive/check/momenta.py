@@ -41,6 +41,49 @@ def momentum_values(model: Model) -> dict[str, Any]:
     return values | {"Φ": _force_on_algebra(model)}
 
 
+def basis_families(model: Model) -> dict[str, dict[tuple[int, ...], Any]]:
+    """Π_a = p̃(gE_a) on the linear parts of the basis, and Π̇_a, its rate along the motion."""
+    e = nilpotent(EPS)
+    along = q.plus(model.g, q.scaled(e, model.nu))
+    faster = q.plus(model.Z, q.scaled(e, model.acceleration))
+    own = model.group.basis[: len(model.group.linear_basis)]
+    moving = [model.momentum(q.times(along, faster), q.times(along, x)) for x in own]
+    return {
+        name: {(a,): part(x, mask) for a, x in enumerate(moving, 1)}
+        for name, mask in (("Π", 0), ("Π̇", EPS))
+    }
+
+
+def poisson_values(model: Model) -> dict[str, Any]:
+    """𝕁, the brackets of the momenta on the linear parts of the basis, and in R³ turned about those
+    of all; Π_g."""
+    if model.generic:
+        return {}
+    whole, group = brackets(model), model.group
+    d = group.dimension if group.turns_space else len(group.linear_basis)
+    shadow = group.covector_matrix(basis_momenta(model))
+    return {"𝕁": tuple(row[:d] for row in whole[:d]), "Π_g": group.linear_part(shadow)}
+
+
+def brackets(model: Model) -> Matrix:
+    """The brackets of the momenta on the basis, by flows: that of Π_b moves g by h = 1 + sE_b, and
+    takes the covector along, so that ⟨p̃, gE_a⟩ becomes ⟨p̃, ghE_ah⁻¹⟩. No structure constant."""
+    one, e = q.identity(model.group.size), nilpotent(EPS)
+
+    def turned(x: Matrix, y: Matrix) -> Any:
+        h, back = q.plus(one, q.scaled(e, y)), q.minus(one, q.scaled(e, y))
+        moved = q.times(model.g, q.times(q.times(h, x), back))
+        return part(model.momentum(model.nu, moved), EPS)
+
+    return tuple(tuple(turned(x, y) for y in model.group.basis) for x in model.group.basis)
+
+
+def basis_momenta(model: Model) -> list[Any]:
+    """p̃(gE_a) on the whole basis."""
+    found = (model.momentum(model.nu, q.times(model.g, x)) for x in model.group.basis)
+    return [part(x, 0) for x in found]
+
+
 def _force_on_algebra(model: Model) -> Matrix:
     """Φ = Σ Ā(m v)(g⁻¹v)‾, the variation of the metric, and CfJ or Σ ĀF r̄, the forces."""
     own = _moment_in_body(model, model.g, _momenta(model, model.g, model.Z), model.moved(model.Z))

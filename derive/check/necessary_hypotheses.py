@@ -24,7 +24,7 @@ from ..record.record import Equation, RecordError, Step
 from .arithmetic import EvaluationError, is_matrix, scalar
 from .equation_sides import index_bindings
 from .evaluate import Environment, evaluate
-from .function_signatures import FORMS
+from .function_signatures import FORMS, LATTICE
 from .lagrangian.lagrangian_model import LagrangianModel
 from .locus import part_of_velocity
 from .meaning import parts_of
@@ -40,8 +40,9 @@ REGULAR = "the metric of the kinetic energy is not degenerate"
 MASSES = Hypothesis("positive", ("at", "m", "i"))
 CENTRAL: Tree = ("add", "J", ("mul", -1, ("inv", "m"), "c", ("T", "c")))
 MOMENTS = (Hypothesis("positive", "m"), Hypothesis("semidefinite", CENTRAL))
-INVERTIBLE = ("A", "C", ("T", "A"))
-"""The element of the group and what is made of it: they need no hypothesis to have inverses."""
+INVERTIBLE = ("A", "C", ("T", "A"), *(("norm2", x) for x in LATTICE))
+"""The element of the group and what is made of it, and the length of points of the lattice, which
+are not 0: they need no hypothesis to have inverses."""
 
 
 def denominators(t: Tree) -> Iterator[Tree]:
@@ -51,11 +52,11 @@ def denominators(t: Tree) -> Iterator[Tree]:
 
 
 def _number(t: Tree) -> bool:
-    """Is the tree an expression in numbers and π alone?"""
+    """Is the tree an expression in numbers, π and i alone?"""
     if isinstance(t, tuple):
         known = t[0] in ("add", "mul", "div", "pow", "fun")
         return known and all(map(_number, t[2:] if t[0] == "fun" else t[1:]))
-    return not isinstance(t, str) or t == "π"
+    return not isinstance(t, str) or t in ("π", "i")
 
 
 def states_velocity(equation: Equation) -> bool:

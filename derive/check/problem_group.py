@@ -14,6 +14,7 @@ from ..algebra.structure import rank
 from ..record.contract import ANY_GROUP
 from ..record.record import RecordError
 from ..record.shape import IDENTIFIER
+from .torus.torus_model import group_of_torus, torus_of
 
 
 def group_of(problem: Mapping[str, Any]) -> Group | None:
@@ -30,6 +31,8 @@ def group_of(problem: Mapping[str, Any]) -> Group | None:
         if problem.get("n") != "any":
             raise RecordError(f"key 'n': {ANY_GROUP} moves the points of a space of any dimension")
         return None
+    if "torus" in problem:
+        return _of_torus(problem, name, basis)
     if "advected" in problem:
         return _carrying(problem, name, basis)
     found = _stated(problem, name, basis) if IDENTIFIER.fullmatch(name) else _named(name, basis)
@@ -44,6 +47,16 @@ def group_of(problem: Mapping[str, Any]) -> Group | None:
     if found.action != problem.get("action"):
         raise RecordError(f"key 'action': {name} acts by {found.action} maps")
     return found
+
+
+def _of_torus(problem: Mapping[str, Any], name: str, basis: tuple[Any, ...]) -> Group:
+    """SU(N) in the basis of the torus, which no table has."""
+    torus = torus_of(problem)
+    if (name, basis) != (torus.name, ()) or problem.get("homogeneous"):
+        raise RecordError(f"the torus of N = {torus.N} is of {torus.name}, and has no basis")
+    if (problem.get("n"), problem.get("action")) != (torus.N, "linear"):
+        raise RecordError(f"key 'n': the matrices of {torus.name} have {torus.N} rows")
+    return group_of_torus(torus)
 
 
 def _carrying(problem: Mapping[str, Any], name: str, basis: tuple[Any, ...]) -> Group:

@@ -76,6 +76,22 @@ def _ellipsoid(axes: Row, pi: Fraction) -> SolidMoments:
     return _ellipses(a, b, (ONE, ZERO, -1 / c**2), (-c, c), pi)
 
 
+def quadric_moments(Q: q.Matrix, root: Any, pi: Fraction) -> SolidMoments:
+    """The moments of ⟨r, Q r⟩ ≤ 1, ``root`` = √det Q, an image of the unit ball.
+
+    Slices of that at z are balls of one dimension less, of volume ωₙ₋₁(1 − z²)^((n − 1)/2): so ωₙ =
+    2π/n ωₙ₋₂, and the mean of z² is 1/(n + 2).
+    """
+    n, back = len(Q), q.inverse(Q)
+    if back is None:
+        raise EvaluationError("a quadric that is singular")
+    ball = Fraction(2 if n % 2 else 1)
+    for k in range(2 + n % 2, n + 1, 2):
+        ball *= 2 * pi / k
+    volume = ball / root
+    return volume, (ZERO,) * n, q.scaled(volume / (n + 2), back)
+
+
 def _cylinder(radius: Fraction, height: Fraction, pi: Fraction) -> SolidMoments:
     return _ellipses(radius, radius, (ONE,), (-height / 2, height / 2), pi)
 

@@ -24,7 +24,7 @@ from .definitions import Usage, definitions, occurrences
 from .evaluate import Environment, evaluate, free_indices
 from .function_signatures import AT_ONE_TIME, AXIS, HEADS, INDEX_SETS, MOTION, VARIATION
 
-RATES = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "ṗ_b", "ℓ̇_b", "Γ̇")
+RATES = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "ṗ_b", "ℓ̇_b", "Γ̇", "Ẇ", "Υ̇")
 """The names whose value is one on X: rates along the motion."""
 
 MULTIPLIER = "θ"
@@ -274,6 +274,8 @@ def _in_algebra(x: Any, g: Group) -> bool:
     """Is a value an n × n matrix among the linear parts of 𝔤?"""
     if not is_matrix(x) or not len(x) == len(x[0]) == g.n:
         return False
+    if not g.basis:  # su(N), without a table
+        return bool(q.trace(x) == 0)
     rows = tuple(q.flatten(e) for e in g.linear_basis)
     return q.rank((*rows, q.flatten(x))) == len(rows)
 

@@ -112,8 +112,10 @@ def assemble(
 def _added(
     lowering: Lowering, momenta: MomentumState | None, kept: Mapping[str, Tree]
 ) -> dict[str, list[Node]]:
-    """Name → outputs of the functions in momenta and of what is kept."""
+    """Name → outputs of the functions in momenta, of θ, and of what is kept."""
     found = {**momenta.wanted} if momenta else {}
+    if lowering.reader.options.multiplier:
+        found["multiplier"] = [lowering.reader.number("θ")]
     if kept:
         found["conserved"] = Kept(lowering).of(kept)
     return {name: factored(lowering.graph, nodes) for name, nodes in found.items()}

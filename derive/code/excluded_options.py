@@ -30,6 +30,15 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
         _refused_where_held(d, chosen)
     if d.problem.get("lagrangian", {}).get("trivialisation") == "right":
         _refused_on_the_right(d, chosen)
+    if chosen.multiplier and d.definition("θ") is None:
+        raise LoweringError(
+            f"{d.name}: --multiplier is for a group with one relation, as SL(n) or SAff(n) that "
+            f"keep volumes; {group.name} has none or several: leave it out"
+        )
+    if chosen.frame == "principal" and chosen.multiplier:
+        raise LoweringError(
+            f"{d.name}: --multiplier is written in the frame of the parameters: leave out --frame"
+        )
     if chosen.momenta:
         refuse(d, group, chosen)
     if chosen.attitude == "quaternion" and not group.turns_space:

@@ -133,9 +133,9 @@ class Graph:
         coefficient, core = x.split
         return self.linear([(1 / coefficient, self._intern("recip", None, (core,), core.stage))])
 
-    def function(self, name: str, x: Node) -> Node:
-        """An elementary function (``name``) of x."""
-        return self._intern("fun", name, (x,), x.stage)
+    def function(self, name: str, *x: Node) -> Node:
+        """An elementary function (``name``) of x, or an integral of several."""
+        return self._intern("fun", name, x, max(y.stage for y in x))
 
     def none(self, x: Node) -> Node:
         """The indicator of x = 0: 1 where x is 0, else 0."""

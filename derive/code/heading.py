@@ -22,6 +22,8 @@ def heading(
 
     ``cost``: function → its operations in words; ``parameters``: name and text of each.
     """
+    if p.on_torus:
+        return [*p.conventions, "", *_costs(language, cost)]
     none = "" if p.parameters else " none, every number is in the code."
     return [
         *p.conventions,
@@ -38,7 +40,14 @@ def heading(
         ),
         *(["", *listed("Input u = (", p.inputs, ").", 84)] if p.inputs else ()),
         "",
-        f"Operations: constants {cost['constants']}{', besides the frame' if p.framing else ''};",
+        *_costs(language, cost, ", besides the frame" if p.framing else ""),
+    ]
+
+
+def _costs(language: TargetLanguage, cost: Mapping[str, str], besides: str = "") -> list[str]:
+    """What the functions cost."""
+    return [
+        f"Operations: constants {cost['constants']}{besides};",
         f"            rhs{language.mutates} {cost['rhs']}; energy {cost['energy']}.",
     ]
 

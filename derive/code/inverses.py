@@ -158,7 +158,10 @@ class Inverses:
         """
         g, base = self.graph, name_of(t)
         adjugate = self.reader.entries(dense.adjugate(g, value), f"adj_{base}")
-        det = q.dot(value[0], [row[0] for row in adjugate])
+        if t == "C" and self.reader.record.definition("V_A"):
+            det = g.product([self.reader.number("V_A")] * 2)  # det A is there
+        else:
+            det = q.dot(value[0], [row[0] for row in adjugate])
         det = g.value(det, f"det_{base}", self.reader.label)
         if dense.stage_of(value) != PARAMETER:
             self._check_pivots(t, value, [])

@@ -16,7 +16,8 @@ class TargetLanguage:
     ``files``: for each form of emission, ``source`` and ``header`` both, what follows the prefix in
     the names of the files: ``.rs`` is made of the template ``problem.rs``, ``.inline.h:.h`` is the
     file ``.h`` made of ``problem.inline.h``.
-    ``declare``: a constant, of ``{real}``, ``{name}`` and ``{text}``; ``load`` reads entry
+    ``declare``: a constant, of ``{real}``, ``{name}`` and ``{text}``; ``bundle``: the integrals
+    over an ellipsoid, where that is otherwise, with ``{prefix}`` as well; ``load`` reads entry
     ``{index}`` (counted from ``first``) of an array; ``batch`` the same of state s of n.
     ``parenthesised``: a statement of several lines needs parentheses; ``continued``: what ends a
     line of it that goes on.
@@ -33,6 +34,7 @@ class TargetLanguage:
     declare: str
     comment: tuple[str, str, str]
     reals: Mapping[str, str]
+    bundle: str = ""
     load: str = "{array}[{index}]"
     batch: str = ""
     first: int = 0
@@ -49,13 +51,20 @@ def _c(real: str) -> SourcePrinter:
     """The printer of C: suffix f for float."""
     suffix = "f" if real == "float" else ""
     return SourcePrinter(
-        lambda q: decimal(q, suffix), "fabs" + suffix, lambda name: f"{name}{suffix}"
+        lambda q: decimal(q, suffix),
+        "fabs" + suffix,
+        lambda name: f"{name}{suffix}",
+        integrals="{prefix}_ellipsoid(",
+        item="{}.v[{}]",
     )
 
 
 def _plain(function: str, absolute: str, none: str) -> Callable[[str], SourcePrinter]:
     """Printers of a language whose numbers have no suffix and whose functions are a pattern."""
-    return lambda real: SourcePrinter(decimal, absolute, lambda name: function.format(name), none)
+    integrals = "_ellipsoid(xp, " if function.startswith("xp.") else "ellipsoid("
+    return lambda real: SourcePrinter(
+        decimal, absolute, lambda name: function.format(name), none, integrals
+    )
 
 
 def _rust(real: str) -> SourcePrinter:
@@ -70,7 +79,7 @@ def _julia(real: str) -> SourcePrinter:
             return text
         return "/".join(x.replace("e", "f") if "e" in x else f"{x}f0" for x in text.split("/"))
 
-    return SourcePrinter(number, none="iszero({})")
+    return SourcePrinter(number, none="iszero({})", first=1)
 
 
 HASH, SLASH = ("# ", "# ", ""), ("// ", "// ", "")
@@ -81,6 +90,7 @@ C = TargetLanguage(
     "const {real} {name} = {text};",
     ("/* ", " * ", " */"),
     {"double": "double", "float": "float"},
+    bundle="const {prefix}_integrals {name} = {text};",
     batch="{array}[{index}*n + s]",
     framed=True,
 )
@@ -112,6 +122,7 @@ _LANGUAGES = (
         "let {name}: {real} = {text};",
         SLASH,
         {"double": "f64", "float": "f32"},
+        bundle="let {name} = {text};",
     ),
     TargetLanguage(
         "julia",

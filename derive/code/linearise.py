@@ -15,7 +15,9 @@ from fractions import Fraction
 
 from ..language.derivatives import DERIVATIVES
 from ..language.values import value
+from .ellipsoid import is_integral
 from .graph import Graph, Node
+from .program import LoweringError
 from .state import StateSpace
 
 
@@ -49,6 +51,11 @@ class Varied:
             return self.zero
         if x.op == "recip":
             return g.linear([(Fraction(-1), g.product((x, x, inner)))])
+        if x.op == "fun" and is_integral(x.data):
+            raise LoweringError(
+                "--jacobian: the derivatives of the integrals of self_gravity are not written; "
+                "leave it out"
+            )
         if x.op == "fun":
             slope = value(DERIVATIVES[x.data]("x"), {"x": x.args[0]}, None, g.function, g.num)
             return g.product((slope, inner))

@@ -19,6 +19,7 @@ from ..language.tree import Tree, mul
 from ..language.values import hat, wedge
 from ..record.record import Derivation, step_of
 from . import dense
+from .ellipsoid import PLACES, integral, mixed_adjugate, polarised
 from .graph import PARAMETER, Graph, Node
 from .inverses import SMALL, Inverses
 from .naming import name_of
@@ -75,8 +76,13 @@ class Lowering:
             return self.graph.value(found, name_of(t), self.reader.label)
         if op == "par":
             return self.graph.leaf(t[1], "parameter")
+        if op == "call" and t[1] in PLACES:
+            invariants = [self._number(x) for x in t[2:]]
+            return integral(self.graph, t[1], invariants, self.reader.label)
         if op == "call":
             return self.reader.applied(t)
+        if op == "add" and (pair := polarised(t)):
+            return mixed_adjugate(*map(self._matrix, pair))
         if op == "at":
             return self.reader.member(t)
         if op == "sum":
@@ -136,6 +142,11 @@ class Lowering:
             return found
         if op == "tr":
             return dense.diagonal(g, a[0])
+        if op == "det":
+            found_det: Node = dense.determinant(a[0])
+            return found_det
+        if op == "bracket":
+            return q.minus(q.times(*a), q.times(*reversed(a)))
         if op == "matrix":
             return tuple(tuple(row) for row in a)
         if op == "row":
@@ -180,6 +191,8 @@ class Lowering:
         """The value of a product of numbers and matrices."""
         if is_solve(t) and (len(M := self._matrix(t[1][1])) > SMALL or dense.is_diagonal(M)):
             return self.inverses.solved(t[1][1], self._matrix(mul(*t[2:])))
+        if len(t) == 3 and is_adjugate(*t[1:]):
+            return dense.adjugate(self.graph, self._matrix(t[1][1]))
         factors = [(x, self.tree(x)) for x in t[1:]]
         scalars = [v for _, v in factors if isinstance(v, Node)]
         matrices = [(x, v) for x, v in factors if not isinstance(v, Node)]
@@ -273,7 +286,7 @@ class Lowering:
         return dense.dot(left, right)
 
 
-SCALARS = {"m", "θ", "t", "h̃", "Ũ", "L̃"}
+SCALARS = {"m", "θ", "t", "h̃", "Ũ", "L̃", "V_A", "p_V", "U_V", "I_1", "I_2", "I_3"}
 SCALAR_OPERATORS = {"tr", "inner", "metric", "norm2", "det", "par", "entry", "fun"}
 
 
@@ -289,6 +302,11 @@ def untraced(t: Tree) -> Tree | None:
 def is_solve(t: tuple[Any, ...]) -> bool:
     """Is a product M⁻¹β, the solution of a linear system in coordinates?"""
     return len(t) == 3 and t[1] == ("inv", "M")
+
+
+def is_adjugate(a: Tree, b: Tree) -> bool:
+    """Is a b = (det x) x⁻¹?"""
+    return isinstance(a, tuple) and a[0] == "det" and b == ("inv", a[1])
 
 
 def is_scalar(t: Tree) -> bool:

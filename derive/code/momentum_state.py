@@ -2,7 +2,7 @@
 
 The state y is x with Π_a = ∂L/∂ζ_a in place of ζ_a.  All is read from the record: Π_a, ζ by M⁻¹
 where it has that, Π̇_a, and the Poisson tensor 𝕁.  Elsewhere ζ is found by Newton's method, of which
-a step is ζ + M⁻¹(Π − ∂L/∂ζ).
+a step is ζ + M⁻¹(Π − ∂L/∂ζ).  For points see :mod:`derive.code.momenta_of_points`.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from ..language.tree import Tree
 from ..record.record import Derivation
 from .graph import Node
 from .lower import Lowering
+from .momenta_of_points import MomentaOfPoints
 from .naming import ClaimedNames
 from .options import Options
 from .program import LoweringError
@@ -59,24 +60,30 @@ def sentences(d: Derivation, state: MomentumState) -> list[str]:
     variables = ", then ".join(["of the momenta", *carried])
     force = "" if "advected" in d.problem else "the derivative of L along g, + "
     closed = "velocity" in state.wanted
+    pushed = any(x.data[1].startswith("p_") for x in state.leaves.values())
+    shift = ", p_i = dL/dw_i in that of w_i" if pushed else ""
     back = "velocity takes it back" if closed else "velocity takes it back by Newton's method"
     text = (
-        "With momenta, y is x with Pi_a = dL/dzeta_a in the place of zeta_a: momentum takes x "
-        f"there, {back}, and momentum_rhs is dy/dt. poisson is the matrix of the Poisson brackets "
-        f"{variables}: their rates are {force}poisson times the derivatives of the energy, "
-        "zeta for Pi."
+        f"With momenta, y is x with Pi_a = dL/dzeta_a in the place of zeta_a{shift}: momentum "
+        f"takes x there, {back}, and momentum_rhs is dy/dt. poisson is the matrix of the Poisson "
+        f"brackets {variables}: their rates are {force}poisson times the derivatives of the "
+        f"energy, zeta for Pi{', w for p' if pushed else ''}."
     )
     return textwrap.wrap(text, 92)
 
 
 def refuse(d: Derivation, group: Group, chosen: Options) -> None:
     """``LoweringError`` where there are no momenta of a Lagrangian's own to tell the motion by."""
-    own = d.problem.get("lagrangian")
+    own = d.problem.get("lagrangian", {})
     for on, reason in (
-        (own is None, "is for [lagrangian] and [inertia], and this problem has points"),
-        (own and own.get("held"), "is for motions on the whole group, and these are on a quotient"),
+        (own.get("held"), "is for motions on the whole group, and these are on a quotient"),
         (chosen.velocity == "tangent", "has Pi in the state, and --velocity tangent has dg/dt"),
+        (chosen.frame != "given", "is for the body as given, and --frame turns it"),
         (group.stated is not group, "is for the standard basis of the group, and this has another"),
+        (
+            not group.linear_basis,
+            "is for groups that do more than translate, unlike this one",
+        ),
     ):
         if on:
             raise LoweringError(f"{d.name}: --momenta {reason}: leave it out")
@@ -84,6 +91,8 @@ def refuse(d: Derivation, group: Group, chosen: Options) -> None:
 
 def momentum_state(lowering: Lowering, group: Group, options: Options) -> MomentumState:
     """The functions in momenta of a record."""
+    if "lagrangian" not in lowering.record.problem:
+        return _of_points(MomentaOfPoints(lowering, group, options))
     reader, graph = lowering.reader, lowering.graph
     coordinates = reader.space.coordinates
     span = range(1, len(coordinates) + 1)
@@ -110,6 +119,22 @@ def momentum_state(lowering: Lowering, group: Group, options: Options) -> Moment
     tensor = after.reader.vector("𝕁")
     found["poisson"] = [x for row in tensor for x in row]
     return MomentumState(found, tuple(x.data[1] for x in y), at, len(tensor))
+
+
+def _of_points(found: MomentaOfPoints) -> MomentumState:
+    """The functions in momenta where points give the Lagrangian."""
+    reader = found.lowering.reader
+    leaves = [reader.leaf(x) for x in reader.space.names]
+    at = {leaves.index(x): p for x, p in zip(reader.space.coordinates, found.own, strict=True)}
+    y = [at.get(i, x) for i, x in enumerate(leaves)]
+    rates = reader.space.rates(found.after.reader.vector, lambda name, a: reader.graph.num(0))
+    wanted = {
+        "momentum": _with(leaves, at, found.momenta),
+        "velocity": _with(y, at, found.velocity),
+        "momentum_rhs": _with(rates, at, found.rates),
+        "poisson": [x for row in found.tensor for x in row],
+    }
+    return MomentumState(wanted, tuple(x.data[1] for x in y), at, len(found.tensor))
 
 
 def _quadratic(reader: RecordReader) -> tuple[str, Tree] | None:

@@ -13,7 +13,7 @@ from ..language.tree import Tree
 
 MEANINGS = {
     "Ω": "omega", "θ": "multiplier", "γ": "gravity", "μ": "moment", "β": "load", "σ": "tension",
-    "χ": "reach", "κ": "damping", "Π": "momentum", "Φ": "force", "𝕁": "poisson",
+    "χ": "reach", "κ": "damping", "Π": "momentum", "Φ": "force", "𝕁": "poisson", "ℓ": "spin",
 }  # fmt: skip
 """What letters of the walk stand for; other Greek letters have their names."""
 WORD_OF = SPELT | MEANINGS | {"\u0307": "_dot", "\u0303": "_tilde", "′": "_prime"}

@@ -16,6 +16,7 @@ CHOICES: dict[str, tuple[tuple[str, ...], str]] = {
 
 ADDED: dict[str, str] = {
     "momenta": "also the motion in momenta: to them and back, rates, Poisson tensor",
+    "multiplier": "add the multiplier of the volume, the integral of the pressure in a fluid",
     "conserved": "add what the motion keeps, as derive symmetries finds it",
 }
 """Option that is given or not → what it adds."""
@@ -37,6 +38,7 @@ class Options:
     jacobian: tuple[str, ...] = ()
     conserved: bool = False
     momenta: bool = False
+    multiplier: bool = False
 
     def __post_init__(self) -> None:
         for name, (allowed, _) in CHOICES.items():

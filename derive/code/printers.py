@@ -17,13 +17,17 @@ SUM, PRODUCT, ATOM = 1, 2, 3
 class SourcePrinter:
     """How a language writes a number, |x|, and 1 where x is 0, else 0.
 
-    The rest is common to all that have + − * /.
+    ``integrals``: how a call of the integrals over an ellipsoid begins; ``item``: one of them,
+    counted from ``first``.  The rest is common to all that have + − * /.
     """
 
     number: Callable[[Fraction], str]
     absolute: str = "abs"
     function: Callable[[str], str] = str
     none: str = "({} == 0)"
+    integrals: str = "ellipsoid("
+    item: str = "{}[{}]"
+    first: int = 0
 
     def __call__(self, e: Expression) -> str:
         """An expression as source text."""
@@ -36,6 +40,11 @@ class SourcePrinter:
         if isinstance(e, str):
             return e, ATOM
         op, *operands = e
+        if op == "fun" and e[1].startswith("ellipsoid_"):
+            return self.item.format(self(e[2]), int(e[1][-1]) + self.first), ATOM
+        if op == "fun" and e[1] == "ellipsoid":
+            given = ", ".join(self(x) for x in e[2:])
+            return f"{self.integrals}{given})", ATOM
         if op == "fun":
             return f"{self.function(e[1])}({self(e[2])})", ATOM
         if op == "abs":

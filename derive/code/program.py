@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Any
 
 from ..language.refused import Refused
 from ..language.tree import Tree, nodes
@@ -28,7 +29,9 @@ OPERATIONS = ("mul", "add", "div", "call")
 
 Expression = Tree
 """A fraction, a name, ("add", e, …), ("mul", e, …), ("mul", −1, e), ("div", e, f),
-("fun", name, e), ("abs", e), and ("none", e): 1 where e is 0, else 0."""
+("fun", name, e), ("abs", e), and ("none", e): 1 where e is 0, else 0.  Of the integrals of
+:mod:`derive.code.ellipsoid`, ("fun", "ellipsoid", e, f, g) is all four and ("fun", "ellipsoid_k",
+name) one of them."""
 
 
 def negated(e: Expression) -> Expression:
@@ -116,6 +119,8 @@ class EmittedFunction:
             for x in nodes(e):
                 if isinstance(x, tuple) and not is_negated(x):
                     own = {"fun": "call"}.get(x[0], x[0])
+                    if x[0] == "fun" and x[1].startswith("ellipsoid_"):
+                        continue
                     if own in total:
                         total[own] += 1 if own in ("div", "call") else len(x) - 2
         return total
@@ -150,7 +155,7 @@ class Program:
     """All that is emitted for one problem, without a word of any language.
 
     ``functions``: constants, rhs, energy; inertia for a body turned in space; and what is asked for
-    of conserved; of jacobian, jacobian_inputs, jacobian_parameters; momentum, velocity,
+    of conserved, multiplier; of jacobian, jacobian_inputs, jacobian_parameters; momentum, velocity,
     momentum_rhs and poisson; into_frame, out_of_frame, inputs_into_frame.
     """
 
@@ -176,6 +181,9 @@ class Program:
     """The names of the state with momenta, where there is one."""
     reduced: int = 0
     """The variables of the Poisson tensor."""
+    loops: Any = None
+    """On the torus the tables of its loops (``torus.torus_program.Loops``), where it has them."""
+    on_torus: bool = False
 
     @property
     def momentum_range(self) -> tuple[int, int]:

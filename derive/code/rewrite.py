@@ -69,7 +69,7 @@ def remade(x: Node, image: Image) -> Node:
     if x.op == "mul":
         return g.product(args)
     if x.op == "fun":
-        return g.function(x.data, args[0])
+        return g.function(x.data, *args)
     return {"recip": g.recip, "none": g.none, "abs": g.magnitude}[x.op](args[0])
 
 

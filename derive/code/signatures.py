@@ -72,6 +72,11 @@ SIGNATURES = (
     ),
     Signature("energy", (T, X, K), doc="kinetic plus potential energy"),
     Signature(
+        "multiplier",
+        (T, X, K, U),
+        doc="the multiplier theta of the volume, in a fluid the integral of the pressure",
+    ),
+    Signature(
         "conserved",
         (T, X, K),
         (Argument("out", ("CONSERVED",)),),

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from .blocks import Block, blocks
+from .ellipsoid import INTEGRALS
 from .languages import TargetLanguage
-from .printers import wrapped
+from .printers import SourcePrinter, wrapped
 from .program import Check, EmittedFunction, Load, Section
 
 TEXT, EQUATION = 96, 92
@@ -23,10 +24,17 @@ class Statements:
     real: str
     sizes: Mapping[str, int]
     """Array → how many numbers it holds."""
+    prefix: str = ""
+
+    @property
+    def printer(self) -> SourcePrinter:
+        """What writes expressions."""
+        own = self.language.printer(self.real)
+        return replace(own, integrals=own.integrals.format(prefix=self.prefix))
 
     def function(self, f: EmittedFunction) -> dict[str, Any]:
         """Name of a template's field → lines of text: loads, sections, outputs, checks."""
-        printer = self.language.printer(self.real)
+        printer = self.printer
         loads = [x for x in f.loads if x.array != "t"]
         return {
             "arrays": sorted({x.array for x in f.loads}),
@@ -99,7 +107,10 @@ class Statements:
         return [*lines[:-1], lines[-1] + last]
 
     def _statement(self, name: str, expression: Any) -> str:
-        text = self.language.printer(self.real)(expression)
+        text = self.printer(expression)
+        if isinstance(expression, tuple) and expression[:2] == ("fun", INTEGRALS):
+            pattern = self.language.bundle or self.language.declare
+            return pattern.format(prefix=self.prefix, name=name, text=text)
         if not self.language.parenthesised:
             return self._declared(name, self._wrapped(text, TEXT - 22 - len(name)))
         if len(text) + len(name) > TEXT - 8:
@@ -107,7 +118,7 @@ class Statements:
         return self._declared(name, text)
 
     def _check(self, c: Check) -> dict[str, str]:
-        printer = self.language.printer(self.real)
+        printer = self.printer
         scale = printer(c.scale) if c.scale is not None else ""
         value = printer(c.value)
         value = f"({value})" if " " in value else value

@@ -5,13 +5,15 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Callable, Mapping, Sequence
-from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .. import __version__
 from ..language.near_names import did_you_mean, near_name
 from ..views.rendering import FORMATS
 from .guard import one_line
+
+if TYPE_CHECKING:
+    from ..language.quadratic import Number
 
 ALLOWED = {"mass": "mass", "stiffness": "stiffness or damping"}
 """What may be negative where a flag allows it: the name in the flag → the quantity in messages."""
@@ -96,8 +98,12 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     about = "first what holds for any Lagrangian, on the left beside the right"
     walk.add_argument("--trivialisation", choices=("both",), help=about)
     add_search_options(searched)
-    about = "a coordinate of an equilibrium, as Pi_3=2; may be repeated, others are 0"
+    about = "a coordinate of an equilibrium, as Pi_3=2 or sqrt(3)/2; repeated, others are 0"
     steady.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)
+    about = "a coordinate near that of an equilibrium, which is enclosed; repeated, others are 0"
+    steady.add_argument(
+        "--near", action="append", type=coordinate, metavar="NAME=NUMBER", help=about
+    )
     emit.add_argument("problem", help="a ready-made name or a .toml file")
     add_writing_options(emit)
     add_emission_options(emit)
@@ -118,14 +124,17 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     return top
 
 
-def coordinate(words: str) -> tuple[str, Fraction]:
-    """A name and a number from NAME=NUMBER; ``ValueError`` for any other text."""
-    found = re.fullmatch(
-        r"(\w{1,40})=(-?\d{1,30}(?:\.\d{0,30}|/0*[1-9]\d{0,29})?)", words, re.ASCII
-    )
-    if not found:
-        raise ValueError(words)
-    return found[1], Fraction(found[2])
+def coordinate(words: str) -> tuple[str, Number]:
+    """A name and an exact number from NAME=NUMBER; ``ArgumentTypeError`` for any other text."""
+    from ..equilibria.equilibrium_points import NoEquilibriumError, number_from
+
+    name, _, text = words.partition("=")
+    if not re.fullmatch(r"\w{1,40}", name, re.ASCII) or not text:
+        raise argparse.ArgumentTypeError(f"{words[:40]!r} is not NAME=NUMBER, as Pi_3=2")
+    try:
+        return name, number_from(text)
+    except NoEquilibriumError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 def degree(words: str) -> int:
@@ -141,6 +150,8 @@ def add_search_options(searched: argparse.ArgumentParser) -> None:
     searched.add_argument("--degree", type=degree, default=4, metavar="N", help=about)
     about = "put the default values of parameters in their place (default: they stay letters)"
     searched.add_argument("--at-defaults", action="store_true", help=about)
+    about = "also find the conditions on the parameters under which there are more integrals"
+    searched.add_argument("--conditions", action="store_true", help=about)
 
 
 def add_reading_options(

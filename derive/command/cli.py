@@ -120,19 +120,26 @@ def command_integrals(args: argparse.Namespace) -> int:
     from ..pipeline import integrals
 
     problem = load_problem(args.problem)
-    record = integrals(problem, args.degree, at_defaults=args.at_defaults)[1]
+    chosen = {"at_defaults": args.at_defaults, "conditions": args.conditions}
+    record = integrals(problem, args.degree, **chosen)[1]
     # the JSON is a whole record, which can be checked
     new = () if args.format == "json" else told_steps(record)
-    chosen = {"fragment": args.fragment, "steps": new, **notation(args)}
-    save(render(record, args.format, args.lang, **chosen), args.out, args.format)
+    shown = {"fragment": args.fragment, "steps": new, **notation(args)}
+    save(render(record, args.format, args.lang, **shown), args.out, args.format)
     return 0
 
 
 def command_equilibria(args: argparse.Namespace) -> int:
     """Find relative equilibria of the reduced equations of a problem, and their stability."""
-    from ..pipeline import equilibria
+    from ..pipeline import equilibria, equilibrium_near
 
-    found, record = equilibria(load_problem(args.problem), dict(args.at or ()))
+    if args.near and args.at:
+        raise UsageError("--at is exact and --near is not: give one of them")
+    found: object
+    if args.near:
+        found, record = equilibrium_near(load_problem(args.problem), dict(args.near))
+    else:
+        found, record = equilibria(load_problem(args.problem), dict(args.at or ()))
     if not found:
         raise UsageError(
             f"{record.name}: no equilibrium among the points with at most one momentum, 1, and at "

@@ -20,7 +20,7 @@ from ..code.program import Program
 from ..code.request import EmissionRequest, request_of
 from ..pipeline import program
 from ..problem.forces import negative_stiffness_of
-from ..problem.problem import Problem
+from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
 from .writing import REMEDY, stale, text_on_disk
 
@@ -145,6 +145,11 @@ def validated(
     """
     from ..validate import emission
     from ..validate.chart import Chart
+
+    if program.on_torus:
+        raise ProblemError(
+            f"{d.name}: --validate reads no sums over the lattice of a torus: leave it out"
+        )
 
     chart = Chart(e.options.layout, e.options.attitude, e.options.velocity)
     as_given = e.options.frame == "given"

@@ -11,16 +11,17 @@ the ℓ_k independent: the signs of the d_k are the signature on T.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
 from ..integrals.lie_poisson import Polynomial
+from ..language.quadratic import Number, Quadratic, number
 from .equilibrium_points import About, Expansion, Matrix
 
-Vector = list[Fraction]
+Vector = list[Number]
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ def leaf(about: About) -> Leaf:
     n = len(about.at)
     rows, pivots = reduced_rows(kernel(about.tensor, n), n)
     free = tuple(i for i in range(n) if i not in pivots)
-    basis = [[Fraction(int(i == j)) for j in free] for i in range(n)]
+    basis: Matrix = [[Fraction(int(i == j)) for j in free] for i in range(n)]
     for p, row in zip(pivots, rows, strict=True):
         basis[p] = [-row[j] for j in free]
     return Leaf(rows, pivots, free, basis)
@@ -50,17 +51,22 @@ class Form:
     """F about an equilibrium.  ``multipliers``: λ; ``squares``: the d_k with the ℓ_k, rows over all
     coordinates; ``mixed``: the m_j, likewise; ``whole``: is Q definite beyond T, too?"""
 
-    multipliers: tuple[Fraction, ...]
+    multipliers: tuple[Number, ...]
     expansion: Expansion
-    squares: list[tuple[Fraction, Vector]]
+    squares: list[tuple[Number, Vector]]
     mixed: Matrix
     whole: bool
 
     @property
     def signature(self) -> tuple[int, int]:
         """How many squares are positive, and how many negative."""
-        positive = sum(d > 0 for d, _ in self.squares)
-        return positive, len(self.squares) - positive
+        return signs(self.squares)
+
+
+def signs(squares: Sequence[tuple[Number, Vector]]) -> tuple[int, int]:
+    """How many squares are positive, and how many negative."""
+    positive = sum(d > 0 for d, _ in squares)
+    return positive, len(squares) - positive
 
 
 def form(about: About, on: Leaf, conserved: Sequence[Polynomial]) -> Form | None:
@@ -102,16 +108,19 @@ def _tried(
 
 def between_roots(a: Matrix, b: Matrix) -> list[Fraction]:
     """Numbers μ, one in each interval between the real roots of det(a + μb)."""
-    from sympy import QQ, Poly, Symbol
+    from sympy import Poly, Symbol
     from sympy.polys.matrices import DomainMatrix
 
     mu, n = Symbol("mu"), len(a)
-    field: Any = QQ[mu]
+    own = field_of([*a, *b])
+    field: Any = own[mu]
     pairs = [
-        [field(_qq(x)) + field.gens[0] * _qq(y) for x, y in zip(*r, strict=True)]
+        [field(element(x, own)) + field.gens[0] * element(y, own) for x, y in zip(*r, strict=True)]
         for r in zip(a, b, strict=True)
     ]
-    determinant = Poly(field.to_sympy(DomainMatrix(pairs, (n, n), field).charpoly()[-1]), mu)
+    terms = DomainMatrix(pairs, (n, n), field).charpoly()[-1].items()
+    determinant = rational_multiple({m: number_of(c, own) for (m,), c in terms})
+    determinant = Poly.from_dict(determinant, mu, domain="QQ")
     if determinant.is_zero or determinant.degree() < 1:
         return []
     ends = [
@@ -175,20 +184,33 @@ def _form(multipliers: Vector, energy: Expansion, kept: Sequence[Expansion], on:
     return Form((*multipliers,), expansion, squares, mixed, whole)
 
 
-def _spread(row: Sequence[Fraction], places: Sequence[int], n: int) -> Vector:
+def along_the_orbit(about: About, on: Leaf) -> Matrix:
+    """The second derivatives of H along the coadjoint orbit, modulo the stabiliser, in the basis P
+    of T: ω(Mv, w) for the linearised rates M, where ω(Λξ, Λη) = ⟨Λξ, η⟩."""
+    image = product([e.slope for e in about.rates], on.basis)  # MP
+    columns = transposed(about.tensor)
+    covectors = []
+    for v in transposed(on.basis):
+        found = solutions(columns, v)
+        assert found  # the image of Λ
+        covectors.append([-x for x in found[0]])
+    return product(covectors, image)
+
+
+def _spread(row: Sequence[Number], places: Sequence[int], n: int) -> Vector:
     """A linear form in some coordinates, as one in all."""
-    found = [Fraction(0)] * n
+    found: Vector = [Fraction(0)] * n
     for i, x in zip(places, row, strict=True):
         found[i] = x
     return found
 
 
-def diagonalised(q: Matrix) -> list[tuple[Fraction, Vector]]:
+def diagonalised(q: Matrix) -> list[tuple[Number, Vector]]:
     """A quadratic form z̄qz as Σ d ℓ(z)², each d not 0, the ℓ independent (Lagrange)."""
     n, left = len(q), [[*row] for row in q]
-    found: list[tuple[Fraction, Vector]] = []
+    found: list[tuple[Number, Vector]] = []
 
-    def take(d: Fraction, row: Vector) -> None:
+    def take(d: Number, row: Vector) -> None:
         found.append((d, row))
         for i in range(n):
             for j in range(n):
@@ -206,7 +228,7 @@ def diagonalised(q: Matrix) -> list[tuple[Fraction, Vector]]:
     return found
 
 
-# -- linear algebra over Q -----------------------------------------------------------------------
+# -- linear algebra over Q or Q(√d) -------------------------------------------------------------
 
 
 def product(a: Matrix, b: Matrix) -> Matrix:
@@ -222,22 +244,57 @@ def transposed(a: Matrix) -> Matrix:
     return [[*column] for column in zip(*a, strict=True)]
 
 
-def _qq(x: Fraction) -> Any:
+def field_of(rows: Matrix) -> Any:
+    """The field of SymPy that some numbers are in: Q, or Q(√d)."""
+    from sympy import QQ, sqrt
+
+    roots = {x.d for row in rows for x in row if isinstance(x, Quadratic)}
+    return QQ.algebraic_field(sqrt(roots.pop())) if roots else QQ
+
+
+def element(x: Number, field: Any) -> Any:
+    """A number in a field of SymPy."""
     from sympy import QQ
 
-    return QQ(x.numerator, x.denominator)
+    if isinstance(x, Quadratic):
+        parts = [QQ(y.numerator, y.denominator) for y in (x.b, x.a)]
+        return field.dtype(parts, field.mod.to_list(), QQ)
+    return field.convert(QQ(x.numerator, x.denominator))
+
+
+def number_of(x: Any, field: Any) -> Number:
+    """The number of an element of a field of SymPy."""
+    if field.is_QQ:
+        return Fraction(int(x.numerator), int(x.denominator))
+    parts = [Fraction(int(y.numerator), int(y.denominator)) for y in x.to_list()]
+    b, a = [Fraction(0)] * (2 - len(parts)) + parts
+    return number(a, b, int(-field.mod.to_list()[-1]))
+
+
+def rational_multiple(terms: Mapping[int, Number]) -> dict[tuple[int], Fraction]:
+    """A polynomial, power → coefficient, times the conjugate one, which has rational
+    coefficients; itself where these are rational."""
+    if not any(isinstance(x, Quadratic) for x in terms.values()):
+        return {(m,): Fraction(x) for m, x in terms.items()}  # type: ignore[arg-type]
+    found: dict[tuple[int], Number] = {}
+    for m, x in terms.items():
+        for k, y in terms.items():
+            other = y.conjugate if isinstance(y, Quadratic) else y
+            found[m + k,] = found.get((m + k,), Fraction(0)) + x * other
+    return {m: Fraction(x) for m, x in found.items() if x != 0}  # type: ignore[arg-type]
 
 
 def domain_matrix(rows: Matrix, columns: int) -> Any:
-    """A matrix of SymPy over Q."""
-    from sympy import QQ
+    """A matrix of SymPy over the field of its entries."""
     from sympy.polys.matrices import DomainMatrix
 
-    return DomainMatrix([[_qq(x) for x in row] for row in rows], (len(rows), columns), QQ)
+    field = field_of(rows)
+    entries = [[element(x, field) for x in row] for row in rows]
+    return DomainMatrix(entries, (len(rows), columns), field)
 
 
 def _plain(a: Any) -> Matrix:
-    return [[Fraction(int(x.numerator), int(x.denominator)) for x in row] for row in a.to_list()]
+    return [[number_of(x, a.domain) for x in row] for row in a.to_list()]
 
 
 def kernel(rows: Matrix, columns: int) -> Matrix:
@@ -260,7 +317,7 @@ def solutions(vectors: Matrix, target: Vector) -> tuple[Vector, Matrix] | None:
     echelon, pivots = reduced_rows(rows, m + 1)
     if m in pivots:
         return None
-    start = [Fraction(0)] * m
+    start: Vector = [Fraction(0)] * m
     for p, row in zip(pivots, echelon, strict=True):
         start[p] = row[m]
     return start, kernel([r[:m] for r in rows], m) if m else []

@@ -6,16 +6,18 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import prod
+from math import comb
 from typing import Any
 
 from ..integrals.lie_poisson import ONE, Algebra, LiePoisson, Polynomial
+from ..language.expression import parse
+from ..language.quadratic import Number, value_of
 from ..language.refused import Refused
 from ..language.suffixed import suffixed
 from ..language.tree import Tree
 
-Point = tuple[Fraction, ...]
-Matrix = list[list[Fraction]]
+Point = tuple[Number, ...]
+Matrix = list[list[Number]]
 
 
 class NoEquilibriumError(Refused, ValueError):
@@ -27,10 +29,10 @@ class Expansion:
     """A polynomial about a point: its ``value``, its ``slope``, the matrix Q of ``second``
     derivatives, and the terms of y above the second, by exponents."""
 
-    value: Fraction
-    slope: list[Fraction]
+    value: Number
+    slope: list[Number]
     second: Matrix
-    higher: dict[tuple[int, ...], Fraction]
+    higher: dict[tuple[int, ...], Number]
 
 
 @dataclass(frozen=True)
@@ -47,22 +49,28 @@ class About:
 
     def expansion(self, f: Polynomial) -> Expansion:
         """A polynomial with coefficients in Q, in powers of y."""
-        from sympy import QQ, ring
-
         n = len(self.at)
-        shifted, *y = ring([f"y{i}" for i in range(n)], QQ)
-        x = [v + QQ(c.numerator, c.denominator) for v, c in zip(y, self.at, strict=True)]
-        total = shifted.zero
+        terms: dict[tuple[int, ...], Number] = {}
         for e, c in f.items():
-            total += shifted(c) * prod((v**k for v, k in zip(x, e, strict=True) if k), start=1)
-        terms = {m: Fraction(int(c.numerator), int(c.denominator)) for m, c in total.items()}
+            for m, x in self._shifted(e).items():
+                factor = Fraction(int(c.numerator), int(c.denominator))
+                terms[m] = terms.get(m, Fraction(0)) + factor * x
+        terms = {m: x for m, x in sorted(terms.items(), key=_order) if x != 0}
 
-        def of(*places: int) -> Fraction:
+        def of(*places: int) -> Number:
             return terms.get(tuple(places.count(i) for i in range(n)), Fraction(0))
 
         second = [[of(i, j) * (2 if i == j else 1) for j in range(n)] for i in range(n)]
         higher = {m: c for m, c in terms.items() if sum(m) > 2}
         return Expansion(of(), [of(i) for i in range(n)], second, higher)
+
+    def _shifted(self, e: tuple[int, ...]) -> dict[tuple[int, ...], Number]:
+        """The monomial Π (at_i + y_i)^e_i in powers of y."""
+        found: dict[tuple[int, ...], Number] = {(): Fraction(1)}
+        for value, k in zip(self.at, e, strict=True):
+            powers = {j: comb(k, j) * value ** (k - j) for j in range(k + 1)}
+            found = {(*m, j): x * y for m, x in found.items() for j, y in powers.items() if y != 0}
+        return found
 
     @cached_property
     def rates(self) -> list[Expansion]:
@@ -73,12 +81,28 @@ class About:
     def tensor(self) -> Matrix:
         """The Poisson tensor Λ at the point."""
 
-        def number(i: int, j: int) -> Fraction:
+        def number(i: int, j: int) -> Number:
             terms = self.system.bracket(i, j).items()
             return sum((c * (1 if k == ONE else self.at[k]) for k, c in terms), Fraction(0))
 
         places = range(len(self.at))
         return [[number(i, j) for j in places] for i in places]
+
+
+def _order(term: tuple[tuple[int, ...], Number]) -> tuple[int, ...]:
+    """Terms as a ring of SymPy orders them, from the last to the first power."""
+    return tuple(-k for k in term[0])
+
+
+def number_from(text: str) -> Number:
+    """The exact number of a text as 1/10, 0.5, sqrt(3)/2; ``NoEquilibriumError`` for any other."""
+    try:
+        return value_of(parse(text))
+    except (ValueError, ZeroDivisionError) as error:
+        reason = str(error).partition(";")[0]
+        raise NoEquilibriumError(
+            f"{text[:40]!r} is no exact number, of fractions and one square root: {reason}"
+        ) from None
 
 
 def coordinate(x: Tree) -> str:
@@ -87,14 +111,14 @@ def coordinate(x: Tree) -> str:
     return suffixed({"Π": "Pi", "Γ": "Gamma"}.get(x[1], str(x[1])), *x[2:])
 
 
-def given(system: LiePoisson, values: Mapping[str, Fraction], fixed: Sequence[Any]) -> About:
+def given(system: LiePoisson, values: Mapping[str, Number], fixed: Sequence[Any]) -> About:
     """The point with these coordinates, the others 0; ``NoEquilibriumError`` where it is none of
     the problem or no equilibrium.  ``fixed``: the Casimirs."""
     names = [coordinate(x) for x in system.variables]
     for name in values:
         if name not in names:
             raise NoEquilibriumError(f"{name} is no coordinate; these are {', '.join(names)}")
-    about = About(system, tuple(Fraction(values.get(x, 0)) for x in names))
+    about = About(system, tuple(values.get(x, Fraction(0)) for x in names))
     if reason := off_the_group(about, fixed):
         raise NoEquilibriumError(reason)
     moving = [
@@ -110,24 +134,28 @@ def given(system: LiePoisson, values: Mapping[str, Fraction], fixed: Sequence[An
 def off_the_group(about: About, fixed: Sequence[Any]) -> str:
     """How the entries of g at a point cannot be those of an element: a Casimir of them alone has
     the value that it has at 1; "" where it has."""
-    system, algebra = about.system, about.algebra
-    if not any(isinstance(x, tuple) and x[1] == "A" for x in system.variables):
-        return ""
-    one = tuple(
-        Fraction(int(x[2] == x[3])) if isinstance(x, tuple) and x[1] == "A" else Fraction(0)
-        for x in system.variables
-    )
     for casimir in fixed:
-        f = algebra.over_the_field(casimir)
-        if any(any(e[: system.momenta]) for e in f):
-            continue
-        here, there = (About(system, at).expansion(f).value for at in (about.at, one))
+        f = about.algebra.over_the_field(casimir)
+        here = about.expansion(f).value
+        there = group_value(about.system, f, here)
         if here != there:
             return (
                 f"no element of the group has these entries: of {casimir_text(about, f)} it "
                 f"makes {there}, not {here}"
             )
     return ""
+
+
+def group_value(system: LiePoisson, f: Polynomial, else_: Number) -> Number:
+    """The value of a Casimir at the elements of the group, where it is of their entries alone."""
+    entries = any(isinstance(x, tuple) and x[1] == "A" for x in system.variables)
+    if not entries or any(any(e[: system.momenta]) for e in f):
+        return else_
+    one = tuple(
+        Fraction(int(x[2] == x[3])) if isinstance(x, tuple) and x[1] == "A" else Fraction(0)
+        for x in system.variables
+    )
+    return About(system, one).expansion(f).value
 
 
 def casimir_text(about: About, f: Polynomial) -> str:

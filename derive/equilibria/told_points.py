@@ -7,12 +7,15 @@ from fractions import Fraction
 
 from ..integrals.all_integrals import Found
 from ..integrals.told import rate
+from ..language.quadratic import Number, Quadratic, root
+from ..language.quadratic import tree as plain
 from ..language.show import show
 from ..language.tree import Tree, add, mul, neg
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
 from ..walk.chapter import Chapter
 from ..walk.wording import say
+from .enclosed_points import Enclosed, less
 from .energy_casimir import Form, Leaf
 from .equilibrium_points import About, Expansion
 from .stability import Equilibrium
@@ -39,6 +42,73 @@ def told(
     return tuple(told_steps)
 
 
+def told_enclosed(whole: Found, x: Enclosed, steps: Sequence[Step], c: Chapter) -> tuple[Step, ...]:
+    """Two steps: the rates about the decimals, and the energy with multiples of the Casimirs."""
+    by_label = {s.label: s for s in steps}
+    reduced, kept, integrals = (
+        by_label.get(c.label(x)) for x in ("poisson", "casimirs", "first_integrals")
+    )
+    made_from = [y for y in (reduced, kept, integrals) if y]
+    draft = c.draft("equilibrium_1", "expansion")
+    draft.depends_on(made_from[0])
+    away = distances(x.about)
+    variables = x.about.system.variables
+    equations = [
+        Equation(rate(v), expanded(e, away)) for v, e in zip(variables, x.about.rates, strict=True)
+    ]
+    rates = draft.step(equations, say("equilibrium.near", point=_place(x.about, decimals=True)))
+    return rates, _enclosure(whole, x, made_from, c)
+
+
+def _enclosure(whole: Found, x: Enclosed, made_from: Iterable[Step], c: Chapter) -> Step:
+    """The Casimirs less their values on the level, and the energy with multiples of them."""
+    draft = c.draft("enclosure_1", "enclosure")
+    draft.depends_on(*made_from)
+    algebra, away = whole.system.algebra, distances(x.about)
+    kept = [*map(algebra.tree, whole.casimirs)]
+    found = [x.about.expansion(algebra.over_the_field(f)) for f in whole.casimirs]
+    equations = [
+        Equation(add(f, neg(plain(level))), expanded(less(e, level), away))
+        for f, e, level in zip(kept, found, x.level, strict=True)
+    ]
+    energy = x.about.expansion(algebra.hamiltonian)
+    whole_energy = combined(energy, found, x.multipliers)
+    pairs = zip(x.multipliers, kept, strict=True)
+    left = add("h̃", *(mul(plain(m), f) for m, f in pairs if m))
+    equations.append(Equation(left, expanded(whole_energy, away)))
+    positive, negative = map(str, x.signature)
+    prose = say("enclosure.within", radius=_power_above(x.radius))
+    prose += say("enclosure.signs", positive=positive, negative=negative)
+    prose += say(f"enclosure.{x.verdict}")
+    if x.verdict != "stable":
+        prose += say("enclosure.eigenvalues", eigenvalues=_about(x.eigenvalues))
+    return draft.step(equations, prose)
+
+
+def combined(energy: Expansion, kept: Sequence[Expansion], by: Sequence[Fraction]) -> Expansion:
+    """A polynomial plus multiples of others."""
+    pairs, places = [*zip(by, kept, strict=True)], range(len(energy.slope))
+    higher = dict(energy.higher)
+    for y, e in pairs:
+        for m, c in e.higher.items():
+            higher[m] = higher.get(m, Fraction(0)) + y * c
+    slope = [energy.slope[i] + sum(y * e.slope[i] for y, e in pairs) for i in places]
+    second = [
+        [energy.second[i][j] + sum(y * e.second[i][j] for y, e in pairs) for j in places]
+        for i in places
+    ]
+    value = energy.value + sum(y * e.value for y, e in pairs)
+    return Expansion(value, slope, second, {m: c for m, c in higher.items() if c != 0})
+
+
+def _power_above(x: Fraction) -> str:
+    """A power of ten that is larger than a number below 1, as text."""
+    k = 0
+    while Fraction(1, 10 ** (k + 1)) >= x:
+        k += 1
+    return f"1e-{k}"
+
+
 def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool) -> Step:
     """The rates in powers of the distance from the equilibrium: none has a constant term."""
     draft = c.draft(label, "expansion")
@@ -49,13 +119,23 @@ def _rates(x: Equilibrium, label: str, reduced: Step, c: Chapter, *, tried: bool
     ]
     prose = say("equilibrium.at", point=_place(x.about))
     prose = (say("equilibrium.tried") if tried else ()) + prose
-    return draft.step(equations, prose + (() if x.form else say("equilibrium.none") + _verdict(x)))
+    if x.form:
+        return draft.step(equations, prose)
+    positive, negative = map(str, x.signature)
+    prose += say("equilibrium.none")
+    if x.leaf.free:
+        prose += say("equilibrium.orbit", positive=positive, negative=negative)
+    return draft.step(equations, prose + _verdict(x))
 
 
-def _place(about: About) -> str:
+def _place(about: About, *, decimals: bool = False) -> str:
     """The coordinates of a point that are not 0, as text."""
     pairs = zip(about.system.variables, about.at, strict=True)
-    return ", ".join(f"{show(v)} = {show(plain(number))}" for v, number in pairs if number)
+    return ", ".join(
+        f"{show(v)} ≈ {float(x):.6g}" if decimals else f"{show(v)} = {show(plain(x))}"
+        for v, x in pairs
+        if x
+    )
 
 
 def distances(about: About) -> list[Tree]:
@@ -66,12 +146,7 @@ def distances(about: About) -> list[Tree]:
     ]
 
 
-def plain(x: Fraction) -> Tree:
-    """A rational number as a tree."""
-    return int(x) if x.denominator == 1 else x
-
-
-def linear(row: Sequence[Fraction], away: Sequence[Tree]) -> Tree:
+def linear(row: Sequence[Number], away: Sequence[Tree]) -> Tree:
     """A linear form in the distances."""
     return add(*(mul(plain(x), y) for x, y in zip(row, away, strict=True) if x))
 
@@ -130,7 +205,7 @@ def _beside(on: Leaf, form: Form, away: Sequence[Tree]) -> list[Tree]:
     return [_product(n, m, away) for n, m in zip(on.equations, form.mixed, strict=True) if any(m)]
 
 
-def _product(n: Sequence[Fraction], m: Sequence[Fraction], away: Sequence[Tree]) -> Tree:
+def _product(n: Sequence[Number], m: Sequence[Number], away: Sequence[Tree]) -> Tree:
     """The product of two linear forms, a square where they are proportional."""
     first = next(i for i, x in enumerate(n) if x)
     factor = m[first] / n[first]
@@ -143,11 +218,44 @@ def _verdict(x: Equilibrium) -> Prose:
     """What is proved of its stability."""
     if x.verdict == "stable":
         beyond = x.form is not None and x.form.whole
-        return say("equilibrium.stable_beyond" if beyond else "equilibrium.stable")
+        compact = "equilibrium.stable_compact" if x.compact else "equilibrium.stable"
+        return say("equilibrium.stable_beyond" if beyond else compact)
     if x.verdict == "stable on the leaf":
         return say("equilibrium.on_the_leaf")
+    prose = say("equilibrium.indefinite")
     words = ", ".join(show(plain(c)) for c in x.characteristic)
-    if x.verdict == "unstable":
-        growth = f"{x.growth:.3g}"
-        return say("equilibrium.unstable", coefficients=words, growth=growth)
-    return say("equilibrium.open", coefficients=words)
+    prose += say(f"equilibrium.{x.verdict}", coefficients=words)
+    if x.eigenvalues:
+        prose += say("equilibrium.eigenvalues", eigenvalues=_about(x.eigenvalues))
+    squares = exact_squares(x.characteristic)
+    return prose + (say("equilibrium.squares", squares=", ".join(squares)) if squares else ())
+
+
+def _about(values: Iterable[complex]) -> str:
+    """Numbers that come with their opposites and conjugates, rounded, each once."""
+    pairs = {(abs(round(x.real, 9)), abs(round(x.imag, 9))) for x in values}
+
+    def text(real: float, imaginary: float) -> str:
+        parts = [f"{real:.4g}" if real else "", f"{imaginary:.4g}i" if imaginary else ""]
+        return " ".join(f"±{x}" for x in parts if x) or "0"
+
+    return ", ".join(text(*x) for x in sorted(pairs, reverse=True))
+
+
+def exact_squares(characteristic: Sequence[Number]) -> list[str]:
+    """The squares of the eigenvalues as text, where these are of q(λ²), q of degree at most 2 but
+    for powers of λ², and exact by square roots; else nothing."""
+    q = [*characteristic[::2]]
+    zeros = []
+    while len(q) > 1 and q[-1] == 0:
+        q, zeros = q[:-1], ["0"]
+    if len(q) == 2:
+        return [show(plain(-q[1])), *zeros]
+    if len(q) != 3 or any(isinstance(x, Quadratic) for x in q):
+        return []
+    b, c = Fraction(q[1]), Fraction(q[2])  # type: ignore[arg-type]
+    disc = b * b / 4 - c
+    if disc >= 0:
+        return [*dict.fromkeys(show(plain(s * root(disc) - b / 2)) for s in (1, -1)), *zeros]
+    part = show(mul(plain(root(-disc)), "i"))
+    return [f"{show(plain(-b / 2))} ± {part}" if b else f"±{part}", *zeros]

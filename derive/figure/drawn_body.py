@@ -158,12 +158,30 @@ def _solid(data: Mapping[str, Any], value: Numbers) -> DrawnSolid:
             sizes[key] = [value.vector(v) for v in size]
         elif key in ("sides", "semi_axes"):
             sizes[key] = [value.length(x) for x in size]
+        elif key == "quadric":
+            sizes["map"] = _image_of_ball([[value.of(x) for x in row[:3]] for row in size[:3]])
         elif key == "inner":
             sizes[key] = abs(value.of(size))
         else:
             sizes[key] = value.length(size)
     rotation = tuple(value.vector(row) for row in data["rotation"] or UNITS)
     return DrawnSolid(data["kind"], sizes, rotation, value.vector(data["shift"] or (0, 0, 0)))
+
+
+def _image_of_ball(Q: list[list[float]]) -> list[Vector]:
+    """The columns of a map of the unit ball to ⟨r, Q r⟩ ≤ 1, L̄⁻¹ for Q = L L̄; 1 for what Q has
+    not of R³."""
+    Q = [[*row, *[0.0] * (3 - len(row))] for row in Q]
+    Q += [[float(i == j) for j in range(3)] for i in range(len(Q), 3)]
+    rows: list[list[float]] = []  # of L⁻¹, each orthogonal to those before it in the metric Q⁻¹
+    L = [[0.0] * 3 for _ in range(3)]
+    for i in range(3):
+        for j in range(i + 1):
+            rest = Q[i][j] - sum(L[i][k] * L[j][k] for k in range(j))
+            L[i][j] = max(rest, 1e-12) ** 0.5 if i == j else rest / L[j][j]
+        before = (sum(L[i][k] * rows[k][c] for k in range(i)) for c in range(3))
+        rows.append([(float(i == c) - x) / L[i][i] for c, x in enumerate(before)])
+    return [(x, y, z) for x, y, z in rows]
 
 
 def dot(a: Sequence[float], b: Sequence[float]) -> float:

@@ -160,6 +160,8 @@ def _affine_map(solid: DrawnSolid) -> tuple[list[Vector], Vector]:
     if k == "tetrahedron":
         first, *others = (plus(image(R, v), shift) for v in s["vertices"])
         return [plus(v, first, -1.0) for v in others], first
+    if "map" in s:
+        return s["map"], shift
     if k == "box":
         stretch = [x / 2 for x in s["sides"]]
     elif k == "ellipsoid":

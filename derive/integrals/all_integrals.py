@@ -12,6 +12,7 @@ from .degree_search import Point, Search, UnluckyError, blocks, point
 from .independence import Integrability, fresh, integrability
 from .level import Level
 from .lie_poisson import LiePoisson
+from .parameter_cases import Case, Cases
 from .weights import Grading, grading
 
 ATTEMPTS = 6
@@ -28,12 +29,35 @@ class OnLevel:
 
 
 @dataclass(frozen=True)
+class Condition:
+    """A case of the parameters with its system, the ``integrals`` of a ``degree`` that it has
+    beside the generic ones, and what is ``proved`` in it with these, the last."""
+
+    case: Case
+    degree: Fraction
+    system: LiePoisson
+    integrals: tuple[Any, ...]
+    proved: Integrability
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """The ``conditions`` on the parameters, all but those within the ``unsolved``: cases with a
+    polynomial where it vanishes."""
+
+    cases: Cases
+    conditions: tuple[Condition, ...]
+    unsolved: tuple[tuple[Case, Any], ...]
+
+
+@dataclass(frozen=True)
 class Found:
     """Casimirs and integrals, polynomials of the ring of the algebra (over Z in the variables and
     the parameters), of at most a ``degree`` in the ``grading``.
 
     ``integrals``: those that are no polynomials in H, the Casimirs and those before; ``fresh``: for
-    each, is it functionally independent of these?  ``levels``: what there is on levels alone.
+    each, is it functionally independent of these?  ``levels``: what there is on levels alone;
+    ``conditions``: on the parameters, where they were searched.
     """
 
     system: LiePoisson
@@ -44,6 +68,7 @@ class Found:
     fresh: tuple[bool, ...]
     proved: Integrability
     levels: tuple[OnLevel, ...] = ()
+    conditions: Conditions | None = None
 
 
 def found(system: LiePoisson, degree: int) -> Found:

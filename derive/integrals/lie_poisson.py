@@ -120,6 +120,18 @@ class Algebra:
                         there[target] = there[target] + c * y if target in there else c * y
         return {i: {e: c for e, c in f.items() if c} for i, f in found.items()}
 
+    def derivative(self, f: Polynomial) -> Polynomial:
+        """{F, H} over the field."""
+        found: Polynomial = {}
+        for e, c in f.items():
+            for i, image in self.flow.items():
+                if e[i]:
+                    rest = (*e[:i], e[i] - 1, *e[i + 1 :])
+                    for m, y in image.items():
+                        target = tuple(map(int.__add__, rest, m))
+                        found[target] = found.get(target, self.field.zero) + c * y * e[i]
+        return {e: c for e, c in found.items() if c}
+
     # -- coefficients --------------------------------------------------------------------------
 
     def number(self, t: Tree) -> Any:

@@ -42,6 +42,10 @@ class NotReducedError(Refused, ValueError):
 def require_group(problem: Problem) -> None:
     """``NotReducedError`` for a text about any group."""
     if problem.group is None:
+        if problem.torus:
+            raise NotReducedError(
+                f"{problem.name}: on the torus the energy and Tr Wᵏ are kept: derive walk NAME says"
+            )
         raise NotReducedError(f"{problem.name}: this text is about any group; choose a problem")
 
 

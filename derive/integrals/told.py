@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 from ..language.tree import Tree, mul
 from ..record.record import Equation, Step
@@ -13,7 +12,7 @@ from ..walk.wording import phrase, say
 from .all_integrals import Found, OnLevel
 from .independence import Integrability
 from .level import Level
-from .lie_poisson import Algebra, Polynomial
+from .told_conditions import all_conditions, told_conditions
 
 
 def told(
@@ -29,6 +28,8 @@ def told(
         found.append(_casimirs(whole, reduced, c))
     found.append(_integrals(whole, reduced, c))
     found += [_on_level(whole, on, reduced, k, c) for k, on in enumerate(whole.levels)]
+    if whole.conditions:
+        found += told_conditions(whole, whole.conditions, reduced, c)
     return tuple(found)
 
 
@@ -82,7 +83,8 @@ def _integrals(whole: Found, reduced: Step, c: Chapter) -> Step:
     draft = c.draft("first_integrals", "Poisson bracket")
     draft.depends_on(reduced)
     trees = [algebra.field_tree(algebra.hamiltonian), *map(algebra.tree, whole.integrals)]
-    return draft.step(_kept(trees), _said(whole))
+    prose = _said(whole) + (all_conditions(whole, whole.conditions) if whole.conditions else ())
+    return draft.step(_kept(trees), prose)
 
 
 def _said(whole: Found) -> Prose:
@@ -134,7 +136,7 @@ def _on_level(whole: Found, on: OnLevel, reduced: Step, k: int, c: Chapter) -> S
     level = Level(algebra, casimir)
     equations = []
     for f in on.integrals:
-        factor = level.quotient(derivative(algebra, f))
+        factor = level.quotient(algebra.derivative(algebra.over_the_field(f)))
         right = mul(algebra.field_tree(factor), algebra.tree(casimir))
         equations.append(Equation(("call", "d/dt", algebra.tree(f)), right))
     prose = say("level.multiple")
@@ -142,16 +144,3 @@ def _on_level(whole: Found, on: OnLevel, reduced: Step, k: int, c: Chapter) -> S
         rank = on.proved.rank
         prose += say("level.complete", rank=str(rank), half=str(rank // 2))
     return draft.step(equations, prose)
-
-
-def derivative(algebra: Algebra, f: Any) -> Polynomial:
-    """{F, H} over the field."""
-    found: Polynomial = {}
-    for e, c in algebra.over_the_field(f).items():
-        for i, image in algebra.flow.items():
-            if e[i]:
-                rest = (*e[:i], e[i] - 1, *e[i + 1 :])
-                for m, y in image.items():
-                    target = tuple(map(int.__add__, rest, m))
-                    found[target] = found.get(target, algebra.field.zero) + c * y * e[i]
-    return {e: c for e, c in found.items() if c}

@@ -27,6 +27,8 @@ BASIS, MATRIX = 64, 9
 ROWS, CARRIED = 4000, 64
 """Rows of a table of brackets; and rows of the matrices of an algebra with those of all that it
 carries along: products of such matrices take a second in the checker."""
+TORUS = 101
+"""The largest N of the algebra of the torus: its equations take N³ products."""
 TEXT = 1000
 """Letters of a title, a unit, a meaning, which stand in the head of every output."""
 

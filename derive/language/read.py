@@ -26,11 +26,13 @@ from .tree import Tree, neg
 
 FAMILIES = frozenset({*"rmvFQdPχσκEks", "f_u", "Π", "Π̇", "Φ", "𝒥", "𝒜", "d𝒜"})
 """Letters of families, whose members an index counts; after any other it tells an entry."""
-IN_THE_BASIS = frozenset({"E", "M", "β", "ζ", "ζ̇", "ψ", "Π", "Π̇", "Φ"})
+IN_THE_BASIS = frozenset({"E", "M", "β", "ζ", "ζ̇", "ψ", "Π", "Π̇", "Φ", "𝕁"})
+"""Letters that have the indices a and b; after any other these belong to its name, as in ℓ_b."""
 OF_FIELDS = ("𝒜", "d𝒜")
 """Families of functions, whose members are applied to the brackets after them."""
-"""Letters that have the indices a and b; after any other these belong to its name, as in ℓ_b."""
-FUNCTIONS = frozenset({"dŨ", "p̃", "M̃", "ρ", "ϖ", "dϖ", "ϖ_h", "dϖ_h", "ω", "g", "δ", "δ′", "d/dt"})
+FUNCTIONS = frozenset(
+    {"dŨ", "p̃", "M̃", "ρ", "ϖ", "dϖ", "ϖ_h", "dϖ_h", "ω", "g", "δ", "δ′", "d/dt", "ω̂"}
+)
 """Names that are applied to the brackets after them; others are to t and X alone."""
 
 _LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉½⅓¼⅔ᵢⱼₑₜ]"
@@ -38,7 +40,7 @@ _VARIED = r"(?:δ′?|∂ₜ|d(?=ϖ|𝒜|U\u0303))?"
 _CALLED = "|".join(("det", "j", *DERIVATIVES))
 TOKEN = (
     r"(?P<quoted>‘[^’]*’)|(?P<opening>(?<= )‖)"
-    rf"|(?P<word>Tr(?=[ (\[])|Σ(?:[ᵢⱼₑ]|_[a-z])|∫|√|(?:{_CALLED})(?=\())"
+    rf"|(?P<word>Tr(?=[ (\[])|Σ(?:[ᵢⱼₑ]|_[a-z𝐦𝐧])|∫|√|(?:{_CALLED})(?=\())"
     rf"|(?P<name>d/dt|(?!dm(?![A-Za-z])){_VARIED}{_LETTER}[\u0300-\u036f]*′?(?:_(?:[abij][abij]|[A-Za-z]))?)"
     r"|(?P<index>[₀-₉ᵢⱼₑ]+(?:,[₀-₉ᵢⱼₑ]+)*)"
     r"|(?P<power>⁻?[⁰¹²³⁴-⁹]+)"
@@ -147,7 +149,9 @@ class _Reader:
         inside = "".join(text for _, text in self.tokens[self.k : self.k + 3])
         name = isinstance(t, str) or (isinstance(t, tuple) and t[0] == "at")
         of_fields = isinstance(t, tuple) and t[0] == "at" and t[1] in OF_FIELDS
-        return t in FUNCTIONS or of_fields or (name and inside in ("(t)", "(X)"))
+        of_place = t in ("T", "ζ") and inside.lstrip("(−")[:1] in ("𝐦", "𝐧")
+        applied = t in FUNCTIONS or of_fields or of_place
+        return applied or (name and inside in ("(t)", "(X)"))
 
     def listed(self, opening: str, closing: str, count: int = 0) -> list[Tree]:
         """The sums between brackets, with commas between them: ``count`` of them, if that is

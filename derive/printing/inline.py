@@ -134,7 +134,7 @@ def symbol(c: str) -> Formula:
         return SUM_SIGN
     if c == "𝟏":
         return IDENTITY
-    if tex.startswith((r"\mathfrak", r"\mathbb")):
+    if tex.startswith((r"\mathfrak", r"\mathbb", r"\mathbf ")):
         return Formula(tex, (f"<mi>{c}</mi>",))
     if tex.startswith(r"\tfrac"):
         return fraction(literal(tex[-2]), literal(tex[-1]), tex)

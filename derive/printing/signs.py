@@ -20,6 +20,7 @@ SYMBOLS = {letter: rf"\{name}" for name, letter in LETTERS.items()} | {
     "𝟏": r"\mathbf{1}", "𝔰": r"\mathfrak{s}", "𝔬": r"\mathfrak{o}", "𝕁": r"\mathbb{J}",
     "𝕀": r"\mathbb{I}", "𝒥": r"\mathcal{J}", "𝒜": r"\mathcal{A}", "ℛ": r"\mathcal{R}",
     "𝒱": r"\mathcal{V}",
+    "𝐦": r"\mathbf m", "𝐧": r"\mathbf n",
 }  # fmt: skip
 STYLED = {x: letter for letter, x in SYMBOLS.items() if x[:7] in (r"\mathbb", r"\mathca")}
 """LaTeX of a letter of another style → the letter."""

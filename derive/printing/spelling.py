@@ -26,6 +26,8 @@ NAME = re.compile(
 )
 RATE = r"\frac{\mathrm{d}}{\mathrm{d}t}"
 DIFFERENTIAL = r"\mathrm{d}"
+BOLD = {r"\mathbf m": "𝐦", r"\mathbf n": "𝐧"}
+"""Points of a lattice: letters that MathML has in bold by themselves."""
 BARS = Notation()
 
 
@@ -34,8 +36,8 @@ def named(tex: str) -> Formula:
     """The formula of a name, from its LaTeX."""
     if tex == RATE:
         return fraction(upright("d"), upright("d") + literal("t"), RATE)
-    if tex in STYLED:
-        return Formula(tex, (f"<mi>{STYLED[tex]}</mi>",))
+    if tex in STYLED | BOLD:
+        return Formula(tex, (f"<mi>{(STYLED | BOLD)[tex]}</mi>",))
     if tex.startswith(DIFFERENTIAL) and tex.removeprefix(DIFFERENTIAL) in STYLED:
         styled = STYLED[tex.removeprefix(DIFFERENTIAL)]
         return Formula(tex, (*upright("d").items, f"<mi>{styled}</mi>"))

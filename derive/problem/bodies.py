@@ -36,8 +36,12 @@ def body(data: Mapping[str, Any], reader: FileReader) -> Body | None:
         if points:
             raise ProblemError("give either [[point]] tables or moments in [body]")
         return _moments(table, reader)
-    if moved.n != 3:
-        raise ProblemError(f"a solid is in R^3, and {moved.name} moves points of R^{moved.n}")
+    listed_solids = solids if table is None else [table]
+    if moved.n != 3 and not all("quadric" in x for x in listed_solids):
+        raise ProblemError(
+            f"a solid is in R^3, and {moved.name} moves points of R^{moved.n}; in R^n there are "
+            "ellipsoids by their 'quadric'"
+        )
     if table is None:
         listed = ((f"solid {k}", x) for k, x in enumerate(solids, 1))
         return _mixture({w: reader.one_of(SOLIDS, x, w) for w, x in listed}, points)

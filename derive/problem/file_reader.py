@@ -17,13 +17,13 @@ from ..language.reserved import PLACE
 from ..language.tree import Tree, replaced, subtrees
 from ..language.values import approximate
 from ..schema.algebra_kinds import Advected
-from ..schema.body_kinds import Body, Place, Point, PointBody
-from ..schema.table import Rows, Slot, Table
+from ..schema.body_kinds import Body, Place, Point, PointBody, is_ellipsoid
+from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import NAME, TableReader
 from .fields import LIKE_A_PLACE
 from .moments import SolidError, first_moment, given_by, second_moment
 from .problem import ProblemError, points_of
-from .solids import rotation_about
+from .solids import fault_of_quadric, rotation_about
 from .state_names import meant, reduced_names, state_names
 
 AXES = "xyz"
@@ -33,8 +33,8 @@ Vector = tuple[Tree, ...]
 class FileReader(TableReader):
     """Reads the tables of a file in a folder; ``places``: those that forces have named so far.
 
-    ``heavy``: the body has mass outside its points; ``advected``: what an algebra without g
-    carries along.
+    ``heavy``: the body has mass outside its points; ``fills_ellipsoid``: it is a homogeneous one;
+    ``advected``: what an algebra without g carries along.
     """
 
     error = ProblemError
@@ -45,7 +45,7 @@ class FileReader(TableReader):
         self.parameters: Mapping[str, Any] = {}
         self.point_masses: tuple[Point, ...] = ()
         self.places: list[Place] = []
-        self.heavy = False
+        self.heavy = self.fills_ellipsoid = False
         self.advected: tuple[Advected, ...] | None = None
 
     group: Group | None
@@ -60,6 +60,7 @@ class FileReader(TableReader):
         self.parameters, self.point_masses = parameters, points_of(body)
         self.count = self.last = len(self.point_masses)
         self.heavy = not isinstance(body, PointBody)
+        self.fills_ellipsoid = is_ellipsoid(body)
 
     def names(self, own: type[Table]) -> tuple[str, ...]:
         """The keys of a file."""
@@ -83,6 +84,27 @@ class FileReader(TableReader):
             raise ProblemError(
                 f"{where}: {kind} needs one group whose linear parts are rotations, as SO(3) or "
                 f"SE(3); those of {g.name} are others"
+            )
+        if need == "deformations of R^3" and (g.n != 3 or g.factors or "orthogonal" in g.relations):
+            rigid = "; where linear parts are rotations it is a constant" * (g.n == 3)
+            raise ProblemError(
+                f"{where}: {kind} needs one group that deforms R^3, as SL(3), GL(3) or Aff(3), "
+                f"not {g.name}{rigid}"
+            )
+        if need == "one ellipsoid" and not self.fills_ellipsoid:
+            raise ProblemError(
+                f"{where}: {kind} is of a body that is one homogeneous ellipsoid about the origin; "
+                'give [body] solid = "ellipsoid", without points or shift'
+            )
+        if need == "no turning" and (g.factors or g.turns_space):
+            raise ProblemError(
+                f"{where}: {kind} is for one group that is walked in matrices, as SL(3), SAff(3) "
+                f"or SE(2), and not for {g.name}; give springs to the body's points"
+            )
+        if need == "volumes" and (g.factors or "unimodular" in g.relations):
+            raise ProblemError(
+                f"{where}: {kind} needs one group that changes volumes, as GL(3) or Aff(3); "
+                + (f"{g.name} is a product" if g.factors else f"det A = 1 on {g.name}")
             )
         if need == "affine of R^3" and (g.n != 3 or not g.free_translations or g.factors):
             raise ProblemError(
@@ -237,6 +259,13 @@ class FileReader(TableReader):
             )
         return U
 
+    def of_volume(self, slot: Slot) -> Tree:
+        """An expression of ``det_A``, which must be in it, and the time."""
+        found = replaced(self.in_time(self.value(slot), slot.path), ("par", "det_A"), DETERMINANT)
+        if not any(x == DETERMINANT for _, x in subtrees(found)):
+            raise ProblemError(f"{slot.path}: no det_A, the volume, so no force; leave it out")
+        return found
+
     def _placed(self, t: Tree, where: str) -> Tree:
         """r1_x, r1_2, … as entries of the places in space; t as the time."""
         if not isinstance(t, tuple):
@@ -301,6 +330,22 @@ class FileReader(TableReader):
         if value is not None and (value < 0 or (value == 0 and not slot.about.zero)):
             raise ProblemError(f"{slot.path}: a length that is not positive")
         return size
+
+    def symmetric(self, slot: Slot) -> Rows:
+        """A matrix of the size of the space."""
+        n, value = self.space(slot), self.value(slot)
+        found = self.rows(value, n, n, slot.path)
+        if any(found[i][j] != found[j][i] for i in range(n) for j in range(i)):
+            raise ProblemError(f"{slot.path}: the matrix must be symmetric")
+        return found
+
+    def quadric(self, slot: Slot) -> Rows:
+        """A symmetric matrix of the size of the space, positive definite where that is known."""
+        n = self.moving().n
+        found = self.rows(self.value(slot), n, n, slot.path)
+        if fault := fault_of_quadric(found, {}):
+            raise ProblemError(f"{slot.path}: {fault}")
+        return found
 
     def vertices(self, slot: Slot) -> tuple[tuple[Fraction, ...], ...]:
         """Those of the mesh in a file, which is read by what needs NumPy."""

@@ -21,6 +21,7 @@ from ..language.values import approximate, value
 from ..schema.body_kinds import Body, GivenBody, MomentBody, PointBody
 from ..schema.declared import Parameter
 from .problem import points_of
+from .solids import fault_of_quadric
 
 Vector = tuple[Any, ...]
 
@@ -197,6 +198,14 @@ def massless(body: Body) -> bool:
     return len(numbers) == len(masses) and sum(numbers) == 0
 
 
+def fault_of_quadrics(body: Body | None, parameters: Mapping[str, Parameter]) -> str:
+    """What is wrong with an ellipsoid of the body for the defaults; "" if nothing is."""
+    solids = body.solids if isinstance(body, GivenBody) else ()
+    quadrics = (x.sizes["quadric"] for x in solids if "quadric" in x.sizes)
+    values = _defaults(parameters)
+    return next(filter(None, (fault_of_quadric(Q, values) for Q in quadrics)), "")
+
+
 def impossible(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
     """Are the moments those of no masses? J − m⁻¹cc̄ must not be negative.
 
@@ -209,10 +218,11 @@ def impossible(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
         if any(x is None for x in found):
             return False
         m, *rest = (Fraction(x) for x in found if x is not None)
-        J = [rest[3 * k : 3 * k + 3] for k in (1, 2, 3)]
-        allowance = sum((abs(J[k][k]) for k in range(3)), Fraction(0)) / ROUNDED
+        n = len(body.given.c)
+        J = [rest[n * k : n * k + n] for k in range(1, n + 1)]
+        allowance = sum((abs(J[k][k]) for k in range(n)), Fraction(0)) / ROUNDED
         J = [[x + allowance * (i == j) for j, x in enumerate(row)] for i, row in enumerate(J)]
-        return _unlike_masses(m, rest[:3], J)
+        return _unlike_masses(m, rest[:n], J)
     if not all(isinstance(x, (int, Fraction)) for x in _trees(body)):
         return False
     values = _Values({})

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..algebra.groups import Group
+from ..algebra.torus import Torus
 from ..language.refused import Refused
 from ..schema.algebra_kinds import Advected
 from ..schema.body_kinds import Body, MomentBody, Place, Point
@@ -29,6 +30,7 @@ class Problem:
     ``lagrangian``: one that no points give; the group then acts by matrices on (r, 1).
     ``advected``: what the algebra carries along, where the state has no element of the group; the
     last blocks of the group's matrices.
+    ``torus``: su(N) in the basis of the torus, where there is no table of the group.
     """
 
     name: str
@@ -45,6 +47,7 @@ class Problem:
     signed: bool = False
     lagrangian: Lagrangian | None = None
     advected: tuple[Advected, ...] | None = None
+    torus: Torus | None = None
 
     @property
     def affine(self) -> bool:

@@ -11,12 +11,15 @@ from itertools import product
 from math import factorial, gcd, isqrt, lcm, prod
 from typing import Any
 
+from ..language import rational
 from ..language.expression import LARGEST, SMALLEST
 from ..language.laurent import Laurent, Monomial
 from ..language.limits import EXPONENT
 from ..language.tree import Tree, add, coefficient, mul
+from ..language.values import approximate
 from ..schema.body_kinds import Moments
 from ..schema.solid_kinds import Solid
+from ..schema.table import Rows
 from .moments import Row, SolidError
 
 SPAN, UNIT, TERMS = range(3), ((1, 0, 0), (0, 1, 0), (0, 0, 1)), 3
@@ -54,6 +57,8 @@ def moments(solid: Solid, relations: bool = True) -> Moments:
     m = ρV, c = ρ(R f + V s), J = ρ(R S R̄ + R f s̄ + s f̄ R̄ + V s s̄). With ``relations``, cos² +
     sin² = 1 and (√q)² = q shorten J; without, it makes no use of them.
     """
+    if "quadric" in solid.sizes:
+        return _of_quadric(solid.sizes["quadric"], _one(solid.density))
     own, density = unit_moments(solid), _one(solid.density)
     R = [[_terms(x, TERMS) for x in row] for row in solid.rotation or UNIT]
     s = [_one(x) for x in solid.shift or (0, 0, 0)]
@@ -70,6 +75,63 @@ def moments(solid: Solid, relations: bool = True) -> Moments:
         m=_tree(density * V),
         c=tuple(_tree(density * (Rf[i] + V * s[i])) for i in SPAN),
         J=tuple(tuple(second(min(i, j), max(i, j)) for j in SPAN) for i in SPAN),
+    )
+
+
+def _of_quadric(Q: Rows, density: Laurent) -> Moments:
+    """The moments of ⟨r, Q r⟩ ≤ 1: m = ρωₙ/√det Q, ωₙ the unit ball, and J = m/(n + 2) Q⁻¹."""
+    n, entries = len(Q), [[_terms(x) for x in row] for row in Q]
+    span = range(n)
+    det = _tree(_determinant(entries))
+    root = exact_root(det) if isinstance(det, (int, Fraction)) else None
+    mass = density * _ball(*(0 for _ in span)) * _one(("div", 1, root or ("fun", "sqrt", det)))
+
+    def second(i: int, j: int) -> Tree:
+        left = [row[:j] + row[j + 1 :] for k, row in enumerate(entries) if k != i]
+        cofactor = _determinant(left)
+        share = _one(("div", _tree(cofactor), det)) * Fraction((-1) ** (i + j), n + 2)
+        return _tree(mass * share) if cofactor.terms else 0
+
+    return Moments(
+        m=_tree(mass),
+        c=(0,) * n,
+        J=tuple(tuple(second(min(i, j), max(i, j)) for j in span) for i in span),
+    )
+
+
+def _determinant(m: Sequence[Sequence[Laurent]]) -> Laurent:
+    """By expansion along the first row; 1 of none."""
+    if not m:
+        return _one(1)
+    terms = (
+        x * (-1) ** k * _determinant([[*row[:k], *row[k + 1 :]] for row in m[1:]])
+        for k, x in enumerate(m[0])
+        if x.terms
+    )
+    return sum(terms, Laurent({}))
+
+
+def exact_root(x: Fraction | int) -> Fraction | None:
+    """√x of a positive number, where that is rational."""
+    top, bottom = Fraction(x).as_integer_ratio()
+    root = Fraction(isqrt(max(top, 0)), isqrt(bottom))
+    return root if root and root * root == x else None
+
+
+def fault_of_quadric(Q: Rows, values: Mapping[str, float]) -> str:
+    """Why ⟨r, Q r⟩ ≤ 1 is no ellipsoid, "" where it may be one: Q is symmetric, and positive
+    definite where the ``values`` of parameters tell it."""
+    span = range(len(Q))
+    if any(Q[i][j] != Q[j][i] for i in span for j in range(i)):
+        return "the matrix of an ellipsoid must be symmetric"
+    found = [[approximate(x, values) for x in row] for row in Q]
+    numbers = [[Fraction(x) for x in row if x is not None] for row in found]
+    if any(len(row) < len(Q) for row in numbers):
+        return ""
+    if rational.definite(rational.matrix(numbers)):
+        return ""
+    return "the matrix of an ellipsoid must be positive definite" + " for the defaults" * bool(
+        values
     )
 
 

@@ -39,6 +39,7 @@ from .group import group_of
 from .problem import Problem, ProblemError
 from .stated_algebra import carried_group
 from .stated_lagrangian import lagrangian
+from .stated_torus import on_torus, torus_problem
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
 TOP |= {"damping", "solid", "algebra", "advected", *SECTIONS}
@@ -111,6 +112,8 @@ def problem_of(
     """
     reader = FileReader(folder)
     reader.known(data, TOP, "file")
+    if on_torus(data):
+        return torus_problem(data, reader)
     if "algebra" in data:
         return _without_points(data, *carried_group(data))
     if "advected" in data:
@@ -219,6 +222,8 @@ def _positive(where: str | None, what: str) -> None:
 def _massive(problem: Problem, negative_mass: bool) -> None:
     """``ProblemError`` for a direction without inertia, and for masses that cannot be."""
     moved, own = problem.group, problem.body
+    if fault := inertia.fault_of_quadrics(own, problem.parameters):
+        raise ProblemError(f"body: {fault}")
     if moved and own and (still := inertia.still_direction(moved, own)):
         raise ProblemError(
             f"{still} has no kinetic energy together with any motion: the metric of these masses, "

@@ -19,6 +19,7 @@ from .momentum_form import STEPS as MOMENTUM_FORM
 from .reduction import STEPS as REDUCTION
 from .rotations import STEPS as ROTATIONS
 from .symmetries import STEPS as SYMMETRIES
+from .zeitlin import STEPS as ZEITLIN
 
 STEPS = {
     **GENERAL,
@@ -32,6 +33,7 @@ STEPS = {
     **EQUILIBRIA,
     **REDUCTION,
 }
+STEPS |= {label: STEPS.get(label, {}) | named for label, named in ZEITLIN.items()}
 """Label → name → the sentence in each of ``LANGUAGES``."""
 LANGUAGES = ("en", "fr")
 """The languages of the prose, in the order of the texts of a sentence."""

@@ -22,6 +22,14 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "there.",
             "Aucun multiple de ce qu’on sait être conservé n’annule là la dérivée de l’énergie.",
         ),
+        "orbit": (
+            "The second derivative of the energy along the symplectic leaf, modulo the stabiliser, "
+            "is ω(Mv, v) for the linearised rates M and the symplectic form ω: {positive} positive "
+            "and {negative} negative squares.",
+            "La dérivée seconde de l’énergie le long de la feuille symplectique, modulo le "
+            "stabilisateur, est ω(Mv, v), avec les dérivées linéarisées M et la forme symplectique "
+            "ω : {positive} carrés positifs et {negative} négatifs.",
+        ),
         "form": (
             "The energy, with multiples of what else is kept such that the derivative vanishes at "
             "the equilibrium: a constant, squares, {positive} positive and {negative} negative, "
@@ -44,32 +52,106 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "La dérivée seconde est définie, et pas seulement sur la feuille : l’équilibre est "
             "stable (méthode énergie–Casimir, Arnold).",
         ),
+        "stable_compact": (
+            "On the leaf the squares are of one sign, and the stabiliser of the equilibrium is "
+            "compact, as the Killing form of the Lie algebra is negative definite: the equilibrium "
+            "is stable, off its leaf too (Montaldi).",
+            "Sur la feuille, les carrés sont de même signe, et le stabilisateur de l’équilibre est "
+            "compact, la forme de Killing de l’algèbre de Lie étant définie négative : l’équilibre "
+            "est stable, hors de sa feuille aussi (Montaldi).",
+        ),
         "on_the_leaf": (
             "On the leaf the squares are of one sign: the equilibrium is stable for motions on its "
-            "leaf. Of others nothing is said, as the rank of the Poisson tensor is not proved to "
-            "be the largest there.",
+            "leaf. Of others nothing is said: neither is the rank of the Poisson tensor proved to "
+            "be the largest there, nor the stabiliser to be compact.",
             "Sur la feuille, les carrés sont de même signe : l’équilibre est stable pour les "
-            "mouvements sur sa feuille. Des autres on ne dit rien, car il n’est pas prouvé que le "
-            "rang du tenseur de Poisson soit maximal en ce point.",
+            "mouvements sur sa feuille. Des autres on ne dit rien : il n’est prouvé ni que le rang "
+            "du tenseur de Poisson soit maximal en ce point, ni que le stabilisateur soit compact.",
+        ),
+        "indefinite": (
+            "The form is not definite on the leaf, which proves nothing.",
+            "La forme n’est pas définie sur la feuille, ce qui ne prouve rien.",
         ),
         "unstable": (
             "The characteristic polynomial of the linearised rates on the leaf has the "
             "coefficients {coefficients}, from the highest power: by Sturm’s count of the roots, "
-            "some eigenvalue has a positive real part, the largest being about {growth}. The "
-            "equilibrium is unstable (Lyapunov).",
+            "some eigenvalue has a positive real part. The equilibrium is unstable (Lyapunov).",
             "Le polynôme caractéristique des dérivées linéarisées sur la feuille a pour "
             "coefficients {coefficients}, depuis la plus haute puissance : selon le décompte des "
-            "racines par Sturm, une valeur propre est de partie réelle positive, la plus grande "
-            "étant {growth} environ. L’équilibre est instable (Lyapunov).",
+            "racines par Sturm, une valeur propre est de partie réelle positive. L’équilibre est "
+            "instable (Lyapunov).",
         ),
         "open": (
             "The characteristic polynomial of the linearised rates on the leaf has the "
-            "coefficients {coefficients}, from the highest power, and that some eigenvalue has a "
-            "positive real part is not proved. Whether the equilibrium is stable stays open.",
+            "coefficients {coefficients}, from the highest power: by Sturm’s count of the roots, "
+            "all eigenvalues are imaginary or 0, which proves nothing. Whether the equilibrium is "
+            "stable stays open.",
             "Le polynôme caractéristique des dérivées linéarisées sur la feuille a pour "
-            "coefficients {coefficients}, depuis la plus haute puissance, et il n’est pas prouvé "
-            "qu’une valeur propre soit de partie réelle positive. La stabilité de l’équilibre "
-            "reste ouverte.",
+            "coefficients {coefficients}, depuis la plus haute puissance : selon le décompte des "
+            "racines par Sturm, toutes les valeurs propres sont imaginaires ou nulles, ce qui ne "
+            "prouve rien. La stabilité de l’équilibre reste ouverte.",
+        ),
+        "eigenvalues": (
+            "The eigenvalues are about {eigenvalues}.",
+            "Les valeurs propres sont environ {eigenvalues}.",
+        ),
+        "squares": (
+            "Their squares are exactly {squares}.",
+            "Leurs carrés sont exactement {squares}.",
+        ),
+        "near": (
+            "Newton’s method leads to an equilibrium, a steady motion, {point}, while all other "
+            "variables nearly vanish. The rates, in powers of the distance from these decimals.",
+            "La méthode de Newton conduit à un équilibre, un mouvement stationnaire, {point}, les "
+            "autres variables étant presque nulles. Les dérivées, en puissances de la distance à "
+            "ces décimales.",
+        ),
+    },
+    "enclosure": {
+        "within": (
+            "The Casimirs, less their values on a level, and the energy with multiples of them, in "
+            "powers of the distance. By these numbers a step of Newton’s method for the critical "
+            "points of the energy on the level is a contraction: within {radius} of the decimals, "
+            "in each variable and multiplier, there is exactly one, an equilibrium (Krawczyk).",
+            "Les Casimirs, moins leurs valeurs sur un niveau, et l’énergie avec des multiples de "
+            "ceux-ci, en puissances de la distance. D’après ces nombres, un pas de la méthode de "
+            "Newton pour les points critiques de l’énergie sur le niveau est une contraction : à "
+            "moins de {radius} des décimales, en chaque variable et chaque multiplicateur, il y en "
+            "a exactement un, un équilibre (Krawczyk).",
+        ),
+        "signs": (
+            "There the second derivative of the energy on the level has {positive} positive and "
+            "{negative} negative squares, which is certified: with the derivatives of the Casimirs "
+            "beside it, its matrix is singular nowhere within this distance.",
+            "Là, la dérivée seconde de l’énergie sur le niveau a {positive} carrés positifs et "
+            "{negative} négatifs, ce qui est certifié : bordée des dérivées des Casimirs, sa "
+            "matrice n’est singulière nulle part à moins de cette distance.",
+        ),
+        "stable": (
+            "It is definite: the equilibrium is stable (energy–Casimir method, Arnold).",
+            "Elle est définie : l’équilibre est stable (méthode énergie–Casimir, Arnold).",
+        ),
+        "unstable": (
+            "It is indefinite, which proves nothing. The characteristic polynomial q(λ²) of the "
+            "linearised rates, enclosed, has a root λ with positive real part, as its coefficients "
+            "have not the signs or do not satisfy Newton’s inequalities of a polynomial with real "
+            "roots that are not positive: the equilibrium is unstable (Lyapunov).",
+            "Elle est indéfinie, ce qui ne prouve rien. Le polynôme caractéristique q(λ²) des "
+            "dérivées linéarisées, encadré, a une racine λ de partie réelle positive, car ses "
+            "coefficients n’ont pas les signes, ou ne vérifient pas les inégalités de Newton, d’un "
+            "polynôme à racines réelles non positives : l’équilibre est instable (Lyapunov).",
+        ),
+        "open": (
+            "It is indefinite, which proves nothing, and that an eigenvalue of the linearised "
+            "rates has a positive real part is not proved. Whether the equilibrium is stable stays "
+            "open.",
+            "Elle est indéfinie, ce qui ne prouve rien, et il n’est pas prouvé qu’une valeur "
+            "propre des dérivées linéarisées soit de partie réelle positive. La stabilité de "
+            "l’équilibre reste ouverte.",
+        ),
+        "eigenvalues": (
+            "The eigenvalues are about {eigenvalues}.",
+            "Les valeurs propres sont environ {eigenvalues}.",
         ),
     },
 }

@@ -107,6 +107,27 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Les Casimirs trouvés ne prouvent pas le rang du tenseur de Poisson, et "
             "l’intégrabilité complète reste indécise.",
         ),
+        "further": (
+            "The parameters being real and the kinetic energy positive, there are further "
+            "polynomials of degree at most {degree} that are integrals exactly where one of these "
+            "conditions holds: {conditions}.",
+            "Les paramètres étant réels et l’énergie cinétique positive, il y a d’autres polynômes "
+            "de degré au plus {degree} qui sont des intégrales premières exactement là où l’une de "
+            "ces conditions est satisfaite : {conditions}.",
+        ),
+        "no_further": (
+            "The parameters being real and the kinetic energy positive, there are no further "
+            "polynomials of degree at most {degree} that are integrals for special values.",
+            "Les paramètres étant réels et l’énergie cinétique positive, il n’y a pas d’autres "
+            "polynômes de degré au plus {degree} qui soient des intégrales premières pour des "
+            "valeurs particulières.",
+        ),
+        "unsolved": (
+            "It is not decided whether there are where {conditions}: no parameter is of first "
+            "order there.",
+            "Il n’est pas décidé s’il y en a là où {conditions} : aucun paramètre n’y est du "
+            "premier ordre.",
+        ),
     },
     "level": {
         "multiple": (
@@ -122,6 +143,29 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Sur ce niveau aussi, le tenseur de Poisson est de rang {rank}, et {half} intégrales "
             "premières sont en involution, indépendantes entre elles et des Casimirs : là, les "
             "équations sont complètement intégrables au sens de Liouville.",
+        ),
+    },
+    "condition": {
+        "one": (
+            "Where {condition}, this polynomial is an integral: its rate is made of multiples of "
+            "what vanishes there.",
+            "Là où {condition}, ce polynôme est une intégrale première : sa dérivée est faite de "
+            "multiples de ce qui s’y annule.",
+        ),
+        "several": (
+            "Where {condition}, these polynomials are integrals: their rates are made of multiples "
+            "of what vanishes there.",
+            "Là où {condition}, ces polynômes sont des intégrales premières : leurs dérivées sont "
+            "faites de multiples de ce qui s’y annule.",
+        ),
+        "complete": (
+            "For generic parameters under this condition, the Poisson tensor has rank {rank}, and "
+            "{half} integrals are in involution, and independent of each other and of the "
+            "Casimirs: the equations are completely integrable, in the sense of Liouville.",
+            "Pour des paramètres génériques sous cette condition, le tenseur de Poisson est de "
+            "rang {rank}, et {half} intégrales premières sont en involution, indépendantes entre "
+            "elles et des Casimirs : les équations sont complètement intégrables au sens de "
+            "Liouville.",
         ),
     },
 }

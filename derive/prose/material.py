@@ -120,6 +120,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "semi axes {size}",
             "demi-axes {size}",
         ),
+        "quadric": (
+            "matrix {size}",
+            "matrice {size}",
+        ),
         "height": (
             "height {size}",
             "hauteur {size}",
@@ -155,6 +159,18 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "in the body.",
             "K est la somme sur les ressorts de longueur à vide nulle ; s_e joint les extrémités "
             "de l’un d’eux dans le corps.",
+        ),
+        "self_gravity": (
+            "The homogeneous ellipsoid stays one: its energy depends on g by the invariants of "
+            "AK_GĀ alone, and δU_G = ½ Tr B_G δ(ĀA).",
+            "L’ellipsoïde homogène en reste un : son énergie ne dépend de g que par les "
+            "invariants de AK_GĀ, et δU_G = ½ Tr B_G δ(ĀA).",
+        ),
+        "volume": (
+            "U_V depends on the volume alone: δU_V = −p_V δ(log V_A), and by Jacobi’s formula "
+            "δ(log V_A) = Tr A⁻¹δA.",
+            "U_V ne dépend que du volume : δU_V = −p_V δ(log V_A), et par la formule de Jacobi "
+            "δ(log V_A) = Tr A⁻¹δA.",
         ),
         "far_orders": (
             "Of the gravity of the far centre, the terms of the fourth and higher orders in one "

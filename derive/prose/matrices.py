@@ -179,6 +179,88 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "A(ẇ + Zw) celle de T.",
         ),
     },
+    "quadric": {
+        "stokes": (
+            "The body is ⟨r, Q_r r⟩ ≤ 1. The field r(1 − ⟨r, Q_r r⟩) vanishes at its boundary, so "
+            "that its derivatives have the integral 0 (divergence theorem), and the trace of that "
+            "gives Tr Q_r J.",
+            "Le corps est ⟨r, Q_r r⟩ ≤ 1. Le champ r(1 − ⟨r, Q_r r⟩) s’annule au bord, si bien que "
+            "ses dérivées ont une intégrale nulle (théorème de la divergence), et la trace de cela "
+            "donne Tr Q_r J.",
+        ),
+    },
+    "pressure": {
+        "balance": (
+            "The pressure p_r, which vanishes at the boundary, is a function of the place r in the "
+            "body; its gradient in space is its derivative there by Ā⁻¹. Euler’s equation of a "
+            "fluid holds at every point: density times acceleration is the force less the gradient "
+            "of the pressure, for the forces per mass are linear in the place.",
+            "La pression p_r, nulle au bord, est une fonction de la position r dans le corps ; son "
+            "gradient dans l’espace est sa dérivée dans le corps, par Ā⁻¹. L’équation d’Euler des "
+            "fluides est vérifiée en chaque point : la masse volumique fois l’accélération est la "
+            "force moins le gradient de la pression, car les forces par unité de masse sont "
+            "linéaires en la position.",
+        ),
+    },
+    "total": {
+        "pressure": (
+            "As dm over the density is the element of volume in space, too, the multiplier is the "
+            "integral of the pressure.",
+            "Comme dm sur la masse volumique est aussi l’élément de volume dans l’espace, le "
+            "multiplicateur est l’intégrale de la pression.",
+        ),
+        "sign": (
+            "As long as θ > 0 the pressure is positive inside: the body may be a fluid, which the "
+            "constraint does not hold together; where θ < 0 it would have to be a jelly.",
+            "Tant que θ > 0, la pression est positive à l’intérieur : le corps peut être un "
+            "fluide, que la liaison ne retient pas ; là où θ < 0, il faudrait que ce soit une "
+            "gelée.",
+        ),
+    },
+    "virial": {
+        "needed": (
+            "The trace of the balance. Of a pressure that vanishes at the boundary and balances "
+            "acceleration and forces at every point θ would be the integral, by the divergence "
+            "theorem: the total pressure that is needed. That there is one is not said here, where "
+            "the body is no centred ellipsoid, or the forces per mass are not linear in the place.",
+            "La trace du bilan. D’une pression nulle au bord qui équilibre l’accélération et les "
+            "forces en chaque point, θ serait l’intégrale, par le théorème de la divergence : la "
+            "pression totale qu’il faut. Qu’il y en ait une n’est pas affirmé ici, où le corps "
+            "n’est pas un ellipsoïde centré, ou bien les forces par unité de masse ne sont pas "
+            "linéaires en la position.",
+        ),
+    },
+    "circulation": {
+        "kept": (
+            "The circulation, whatever J: what the pressure adds to Āα̇ is symmetric, and so is "
+            "what the forces add.",
+            "La circulation, quel que soit J : ce que la pression ajoute à Āα̇ est symétrique, et "
+            "de même ce que les forces ajoutent.",
+        ),
+        "changed": (
+            "The circulation: what the pressure adds to Āα̇ is symmetric, and drops out; what the "
+            "forces add is not.",
+            "La circulation : ce que la pression ajoute à Āα̇ est symétrique, et disparaît ; ce "
+            "que les forces ajoutent ne l’est pas.",
+        ),
+        "relabelling": (
+            "It is the momentum of the relabellings r ↦ hr of the body that keep J, hJh̄ = J, of "
+            "which the velocities are JS for skew matrices S.",
+            "C’est le moment des réétiquetages r ↦ hr du corps qui conservent J, hJh̄ = J, dont "
+            "les vitesses sont JS pour des matrices antisymétriques S.",
+        ),
+    },
+    "no_rotation": {
+        "free": (
+            "In a rigid rotation exp(tΩ) the velocity Z is Ω, skew, and Ż = 0. As n is odd, every "
+            "skew matrix is singular, as Υ is: so are Ω and Ω². Without forces Ω² = θJ⁻¹, where "
+            "C = 𝟏; then θ = 0, Ω² = 0 and Ω = 0: nothing rotates rigidly.",
+            "Dans une rotation rigide exp(tΩ), la vitesse Z est Ω, antisymétrique, et Ż = 0. Comme "
+            "n est impair, toute matrice antisymétrique est singulière, comme l’est Υ : donc Ω et "
+            "Ω² le sont. Sans forces Ω² = θJ⁻¹, là où C = 𝟏 ; alors θ = 0, Ω² = 0 et Ω = 0 : rien "
+            "ne tourne rigidement.",
+        ),
+    },
     "elimination": {
         "mass": (
             "As m > 0, the balance of forces gives ẇ; inserted into the balance of moments, it "

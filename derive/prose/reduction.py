@@ -59,11 +59,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Les coefficients de l’inertie bloquée sont désignés par leur nom.",
         ),
         "isotropy": (
-            "This holds where {pivots} does not vanish: elsewhere a motion along the symmetries "
-            "leaves the configuration as it is, and the locked inertia has no inverse.",
-            "Cela vaut là où {pivots} ne s’annule pas : ailleurs, un mouvement le long des "
-            "symétries laisse la configuration comme elle est, et l’inertie bloquée n’a pas "
-            "d’inverse.",
+            "This holds where {conditions}: elsewhere a motion along the symmetries leaves the "
+            "configuration as it is, and the locked inertia has no inverse.",
+            "Cela vaut là où {conditions} : ailleurs, un mouvement le long des symétries laisse la "
+            "configuration comme elle est, et l’inertie bloquée n’a pas d’inverse.",
         ),
         "curved": (
             "The curvature in coordinates, by the structure equation.",

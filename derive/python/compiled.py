@@ -197,6 +197,11 @@ class Compiled(InMomenta):
         """The energy at time t in state x: kinetic plus potential."""
         return float(self._call_at("energy", ctypes.c_double, t, x, self._in_use().k))
 
+    def multiplier(self, t: float, x: Any, u: Any = None) -> float:
+        """The multiplier θ of the volume; needs ``multiplier=True``."""
+        k = self._in_use().k
+        return float(self._call_at("multiplier", ctypes.c_double, t, x, k, self._inputs(u)))
+
     def conserved(self, t: float, x: Any) -> Array:
         """What the motion keeps where no input acts, by the names of ``CONSERVED``."""
         out = np.zeros(len(self.CONSERVED))

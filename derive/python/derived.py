@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..check.checker import Verdict
-from ..problem.problem import Problem
+from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
 from .shown import Shown
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..figure.drawing import Scene
     from .as_sympy import Translation
     from .conserved_quantities import SymmetriesOf
-    from .equilibria_found import Equilibria
+    from .equilibria_found import Equilibria, Near
     from .expressions import Expressions
     from .integrals_found import FirstIntegrals
     from .reduction_found import Reduced
@@ -101,21 +101,35 @@ class Derived:
 
         return check(self.record, seed)
 
-    def integrals(self, degree: int = 4, *, at_defaults: bool = False) -> FirstIntegrals:
+    def integrals(
+        self, degree: int = 4, *, at_defaults: bool = False, conditions: bool = False
+    ) -> FirstIntegrals:
         """The polynomial first integrals of the reduced equations up to a degree."""
         from .integrals_found import first_integrals
 
-        return first_integrals(self.problem, degree, at_defaults=at_defaults)
+        chosen = {"at_defaults": at_defaults, "conditions": conditions}
+        return first_integrals(self.problem, degree, **chosen)
 
     def equilibria(self, at: Mapping[str, Fraction | int | str] | None = None) -> Equilibria:
-        """The relative equilibrium with these coordinates, the others 0, as ``{"Pi_3": 2}``, or
-        those among some points; parameters have their defaults.  ``ProblemError`` where it is
-        none."""
+        """The relative equilibrium with these coordinates, the others 0, as ``{"Pi_3": 2}`` or
+        ``{"Pi_1": "sqrt(3)/2"}``, or those among some points; parameters have their defaults.
+        ``ValueError`` where it is none, or for what is no such number."""
+        from ..equilibria.equilibrium_points import number_from
         from ..pipeline import equilibria
         from .equilibria_found import Equilibria
 
-        values = {x: Fraction(v) for x, v in (at or {}).items()}
+        values = {x: number_from(str(v)) for x, v in (at or {}).items()}
         return Equilibria(*equilibria(self.problem, values))
+
+    def equilibrium_near(self, at: Mapping[str, Fraction | int | str]) -> Near:
+        """The relative equilibrium near a point with these coordinates, on its level of the
+        Casimirs, enclosed; ``ValueError`` where none is."""
+        from ..equilibria.equilibrium_points import number_from
+        from ..pipeline import equilibrium_near
+        from .equilibria_found import Near
+
+        values = {x: number_from(str(v)) for x, v in at.items()}
+        return Near(*equilibrium_near(self.problem, values))
 
     def symmetries(self) -> SymmetriesOf:
         """All symmetries of L̃ of a kind, and what the motion keeps by each; ``ProblemError`` where
@@ -152,7 +166,13 @@ class Derived:
         from ..pipeline import program
         from .expressions import expressions
 
-        return expressions(program(self.problem, self.record))
+        found = program(self.problem, self.record)
+        if found.loops:
+            raise ProblemError(
+                f"{self.problem.name}: its equations are sums over a lattice, too many to be "
+                "written out; take a smaller N"
+            )
+        return expressions(found)
 
     def emit(
         self,

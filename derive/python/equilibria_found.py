@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 
 from ..check.checker import Verdict
+from ..equilibria.enclosed_points import Enclosed
 from ..equilibria.equilibrium_points import coordinate
 from ..equilibria.stability import Equilibrium
+from ..language.quadratic import Number
 from ..record.record import Derivation
 
 
@@ -19,7 +20,7 @@ class Steady:
     found: Equilibrium
 
     @property
-    def at(self) -> dict[str, Fraction]:
+    def at(self) -> dict[str, Number]:
         """The coordinates that are not 0, by their names."""
         about = self.found.about
         pairs = zip(about.system.variables, about.at, strict=True)
@@ -31,10 +32,14 @@ class Steady:
         return self.found.verdict
 
     @property
-    def signature(self) -> tuple[int, int] | None:
-        """How many squares of the energy–Casimir form on the leaf are positive and negative;
-        ``None`` without multipliers."""
-        return self.found.form.signature if self.found.form else None
+    def signature(self) -> tuple[int, int]:
+        """How many squares of the energy–Casimir form on the leaf are positive and negative."""
+        return self.found.signature
+
+    @property
+    def eigenvalues(self) -> tuple[complex, ...]:
+        """About the eigenvalues of the linearised rates on the leaf, in 1/s."""
+        return self.found.eigenvalues
 
     @property
     def growth(self) -> float:
@@ -44,6 +49,47 @@ class Steady:
     def __repr__(self) -> str:
         place = ", ".join(f"{x} = {v}" for x, v in self.at.items())
         return f"<{self.verdict}: {place or 'the origin'}>"
+
+
+@dataclass(frozen=True)
+class Near:
+    """A relative equilibrium within a ``radius`` of decimals; ``record``: its derivation."""
+
+    found: Enclosed
+    record: Derivation
+
+    @property
+    def at(self) -> dict[str, float]:
+        """The decimals, by the names of the coordinates."""
+        about = self.found.about
+        pairs = zip(about.system.variables, about.at, strict=True)
+        return {coordinate(v): float(x) for v, x in pairs}
+
+    @property
+    def radius(self) -> float:
+        """How far each coordinate of the equilibrium is at most from the decimals."""
+        return float(self.found.radius)
+
+    @property
+    def verdict(self) -> str:
+        """What is proved: "stable", "unstable", or "open" for nothing."""
+        return self.found.verdict
+
+    @property
+    def signature(self) -> tuple[int, int]:
+        """How many squares of the energy–Casimir form on the level are positive and negative."""
+        return self.found.signature
+
+    @property
+    def eigenvalues(self) -> tuple[complex, ...]:
+        """About the eigenvalues of the linearised rates, in 1/s."""
+        return self.found.eigenvalues
+
+    def check(self, seed: int | None = None) -> list[Verdict]:
+        """The verdicts of the checker on the record."""
+        from ..check.checker import check
+
+        return check(self.record, seed)
 
 
 @dataclass(frozen=True)

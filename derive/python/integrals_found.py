@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
 import sympy
 
 from ..check.checker import Verdict
-from ..integrals.all_integrals import Found
+from ..integrals.all_integrals import Condition, Found
 from ..language.suffixed import suffixed
 from ..language.tree import Tree
 from ..problem.problem import Problem
@@ -39,6 +39,16 @@ class Conserved:
 
     def __repr__(self) -> str:
         return f"<conserved {self}>"
+
+
+@dataclass(frozen=True)
+class Special:
+    """What there is for special parameters: ``values``, symbol → expression in the others;
+    ``integrals``, beside the generic ones; ``integrable``: is complete integrability proved?"""
+
+    values: Mapping[sympy.Symbol, sympy.Expr]
+    integrals: tuple[Conserved, ...]
+    integrable: bool
 
 
 @dataclass(frozen=True)
@@ -113,6 +123,19 @@ class FirstIntegrals:
         return {x.casimir: tuple(map(self._conserved, x.integrals)) for x in self.found.levels}
 
     @cached_property
+    def conditions(self) -> tuple[Special, ...]:
+        """The conditions on the parameters under which there are more, where they were searched."""
+        whole = self.found.conditions
+        return tuple(map(self._special, whole.conditions if whole else ()))
+
+    def _special(self, x: Condition) -> Special:
+        algebra = x.system.algebra
+        values = {self.p[j]: y.as_expr(*self.p) for j, y in x.case.solved}
+        own = (*self.x, *map(_symbol, x.system.parameters))
+        kept = (Conserved(algebra.tree(f), partial(f.as_expr, *own)) for f in x.integrals)
+        return Special(values, (*kept,), x.proved.complete)
+
+    @cached_property
     def rates(self) -> tuple[sympy.Expr, ...]:
         """The rates of the variables as SymPy expressions: ẋ_i = {x_i, H}."""
         flow = self.found.system.algebra.flow
@@ -158,20 +181,26 @@ class FirstIntegrals:
 
 
 def first_integrals(
-    problem: Problem | str | Path, degree: int = 4, *, at_defaults: bool = False
+    problem: Problem | str | Path,
+    degree: int = 4,
+    *,
+    at_defaults: bool = False,
+    conditions: bool = False,
 ) -> FirstIntegrals:
     """The polynomial integrals of a problem, of a problem file, or of a ready-made problem, up to
     a degree; momenta are of degree 1.
 
     ``at_defaults``: parameters have their default values; else they stay letters, and what is found
-    is for generic values of them.  ``ProblemError``, ``NotReducedError`` say what is wrong.
+    is for generic values of them; ``conditions``: special values with more are found, too.
+    ``ProblemError``, ``NotReducedError`` say what is wrong.
     """
     from ..command.cli import load_problem
     from ..pipeline import integrals
 
     if not isinstance(problem, Problem):
         problem = load_problem(str(problem))
-    return FirstIntegrals(*integrals(problem, degree, at_defaults=at_defaults))
+    chosen = {"at_defaults": at_defaults, "conditions": conditions}
+    return FirstIntegrals(*integrals(problem, degree, **chosen))
 
 
 def _name(x: Tree) -> str:

@@ -130,10 +130,12 @@ class Derivation:
 
     def definition(self, lhs: Tree) -> tuple[Step, Equation] | None:
         """The last equation with that left side, with its step, among steps without hypotheses in
-        ``given`` that are no evaluation of others; ``None`` if there is none."""
+        ``given`` that are no evaluation of others, and do not invert one; ``None`` if there is
+        none."""
         return self._definitions.get(lhs)
 
     @cached_property
     def _definitions(self) -> dict[Tree, tuple[Step, Equation]]:
-        own = (step for step in self.steps if not step.given and step.rule != "evaluation")
+        told = ("evaluation", "inversion")
+        own = (step for step in self.steps if not step.given and step.rule not in told)
         return {equation.lhs: (step, equation) for step in own for equation in step.equations}

@@ -97,6 +97,11 @@ RULES: dict[str, Rule] = {
         "Polynomials are written in powers of the distance from a point.",
         "identity",
     ),
+    "enclosure": Rule(
+        "encadrement",
+        "A critical point is proved to be near a point, by the terms of the expansion there.",
+        "identity",
+    ),
     "evaluation": Rule(
         "évaluation", "The numbers of the problem are put into its equations.", "solution"
     ),

@@ -11,15 +11,15 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from ..language.derivatives import DERIVATIVES
-from ..language.limits import BASIS, CARRIED
-from ..language.tree import Tree
-from ..schema.algebra_kinds import Advected
-from ..schema.body_kinds import BODIES, Place
+from ..language.limits import BASIS, CARRIED, TORUS
+from ..language.tree import Tree, replaced
+from ..schema.algebra_kinds import Advected, Torus
+from ..schema.body_kinds import BODIES, Place, is_ellipsoid
 from ..schema.kinds import kinds
 from ..schema.lagrangian_kinds import Lagrangian
 from ..schema.outside import INPUTS, Damping
 from ..schema.solid_kinds import SOLIDS, Solid
-from ..schema.table import Rows, Slot, Table
+from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
 from .contract import CONVENTIONS
 
@@ -85,7 +85,8 @@ class _RecordReader(TableReader):
         self.action(self.top("action"))
         self.value(self.top("homogeneous"), bool)
         n = self.value(self.top("n"))
-        if n != "any" and not (type(n) is int and 1 <= n <= 2 * self.longest):
+        most = TORUS if "torus" in data else 2 * self.longest
+        if n != "any" and not (type(n) is int and 1 <= n <= most):
             raise ShapeError("n: key must be the dimension of the space, or 'any'")
         self.blocks = len(data["group"].split(" x "))
         for name, about in self.value(self.top("parameters"), dict).items():
@@ -121,7 +122,7 @@ class _RecordReader(TableReader):
         own = self.value(self.top("body"), dict)
         if own.get("kind") in ("moments", "any", "none") and own.get("points"):
             raise ShapeError(f"body: {own['kind']!r} leaves the points open; it lists none")
-        found = self.one_of(BODIES, own, "body")
+        self.filled = found = self.one_of(BODIES, own, "body")
         self.count = self.last = len(getattr(found, "points", None) or ())
 
     def lagrangian(self) -> None:
@@ -130,8 +131,10 @@ class _RecordReader(TableReader):
         if ("lagrangian" in data) != (data["body"]["kind"] == "none"):
             raise ShapeError("lagrangian: it is of a problem without a body")
         if "lagrangian" not in data:
-            if "advected" in data:
-                raise ShapeError("advected: it is of a problem with a Lagrangian of its own")
+            if "advected" in data or "torus" in data:
+                raise ShapeError(
+                    "advected, torus: they are of a problem with a Lagrangian of its own"
+                )
             return
         for key in ("potentials", "places", "damping"):
             if data[key]:
@@ -140,7 +143,12 @@ class _RecordReader(TableReader):
             raise ShapeError("lagrangian: the inputs of its problem are covectors")
         if "advected" in data:
             self.each("advected", lambda x, where: self.whole(Advected, x, where))
-        self.whole(Lagrangian, data["lagrangian"], "lagrangian")
+        if "torus" not in data:
+            self.whole(Lagrangian, data["lagrangian"], "lagrangian")
+            return
+        self.whole(Torus, data["torus"], "torus")
+        if data["lagrangian"] != {"trivialisation": "right"} or "advected" in data:
+            raise ShapeError("lagrangian: that of the torus is told by its steps, on the right")
 
     def symmetries(self) -> None:
         """The fields δA by which a record reduces, which is of a Lagrangian on a group."""
@@ -197,9 +205,13 @@ class _RecordReader(TableReader):
     def meets(self, need: str, kind: str, where: str) -> None:
         """What the header says of the body and the group."""
         data = self.data
+        if need == "deformations of R^3" and (self.blocks > 1 or data["n"] != 3):
+            raise ShapeError(f"{where}: {kind} is of one group of R^3")
+        if need == "one ellipsoid" and not is_ellipsoid(self.filled):
+            raise ShapeError(f"{where}: {kind} is of one ellipsoid about the origin")
         if need == "points alone" and data["body"]["kind"] != "points":
             raise ShapeError(f"{where}: {kind} is of a body of points alone")
-        if need in ("rotations", "affine of R^3") and self.blocks > 1:
+        if need in ("rotations", "affine of R^3", "volumes", "no turning") and self.blocks > 1:
             raise ShapeError(f"{where}: {kind} is in no product")
         if need == "affine of R^3" and (data["action"], data["n"]) != ("affine", 3):
             raise ShapeError(f"{where}: {kind} is of affine maps of R^3")
@@ -212,7 +224,10 @@ class _RecordReader(TableReader):
             own = SOLIDS[self.choice(Slot(x, "kind", where), tuple(SOLIDS))]
             self.known(x, ("kind", "density", "sizes", "rotation", "shift"), where)
             sizes = self.value(Slot(x, "sizes", where), dict)
-            wanted = own.keys().keys() - Solid.keys().keys()
+            chosen = own.chosen(sizes, self.last)
+            if isinstance(chosen, str):
+                raise ShapeError(f"{where}: {chosen}")
+            wanted = {*chosen} - Solid.keys().keys()
             if sizes.keys() != wanted:
                 raise ShapeError(f"{where}: the sizes must be {', '.join(sorted(wanted))}")
             rest = {key: value for key, value in x.items() if key != "sizes"}
@@ -232,6 +247,13 @@ class _RecordReader(TableReader):
     def energy(self, slot: Slot) -> Tree:
         """The same, of t and coordinates of points."""
         return self.made_of(self.value(slot), slot.path, placed=True)
+
+    def of_volume(self, slot: Slot) -> Tree:
+        """The same, of t and the volume."""
+        t = self.read(self.value(slot), slot.path)
+        if not self.is_scalar(replaced(t, DETERMINANT, "t"), placed=False, timed=True):
+            raise ShapeError(f"{slot.path}: expected the expression of a number")
+        return t
 
     def made_of(self, value: Any, where: str, placed: bool = False, timed: bool = False) -> Tree:
         """The tree of a number."""
@@ -292,6 +314,16 @@ class _RecordReader(TableReader):
     def second(self, slot: Slot) -> Rows:
         """A matrix."""
         n = len(slot.found["c"])
+        return self.rows(self.value(slot), n, n, slot.path)
+
+    def symmetric(self, slot: Slot) -> Rows:
+        """A matrix; of the size of the space where that is known."""
+        value = self.value(slot, list)
+        return self.rows(value, len(value), len(value), slot.path)
+
+    def quadric(self, slot: Slot) -> Rows:
+        """A matrix of the size of the space."""
+        n = self.space(slot)
         return self.rows(self.value(slot), n, n, slot.path)
 
     def vertices(self, slot: Slot) -> Rows:

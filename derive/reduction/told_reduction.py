@@ -245,8 +245,9 @@ def _effective(r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
     prose = say("reduction.effective")
     prose += say("reduction.named") if r.named else ()
     varying = (x.pivot for x in reversed(r.squares) if r.named or r.functions.used(x.pivot.numer))
-    pivots = dict.fromkeys(show(r.functions.tree(r.functions.field(x.numer))) for x in varying)
-    prose += say("reduction.isotropy", pivots=", ".join(pivots)) if pivots else ()
+    pivots = dict.fromkeys(r.functions.tree(r.functions.field(x.numer)) for x in varying)
+    conditions = ", ".join(f"{show(x)} ≠ 0" for x in pivots)
+    prose += say("reduction.isotropy", conditions=conditions) if pivots else ()
     return draft.step(equations, prose)
 
 

@@ -23,6 +23,27 @@ class StatedAlgebra(Table):
     dimension: Count = 0
 
 
+class Torus(Table):
+    """su(N) in the basis T_n of the torus, as a record has it; L = ½ Σ |n|² |ζ_n|²."""
+
+    N: Annotated[int, Key("odd")]
+
+
+class StatedTorus(Torus):
+    """The same in a file."""
+
+    section = "algebra"
+    of: Text
+
+
+class TorusInertia(Table):
+    """The inertia operator of the torus, by name: ``laplacian``, |n|² on T_n."""
+
+    section = "inertia"
+    operator: Text
+    trivialisation: Text = "right"
+
+
 class StatedAdvected(Table):
     """Γ = ρ(g)⁻¹Γ₀, on the right ρ(g)Γ₀, by the matrices ρ(E_a) of its ``representation``, or one
     of those that every algebra has; its entries are NAME_1, NAME_2, … in expressions."""

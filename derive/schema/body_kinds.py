@@ -129,6 +129,14 @@ class NoBody(Table):
     kind = "none"
 
 
+def is_ellipsoid(body: Table | None) -> bool:
+    """Is a body one homogeneous ellipsoid about the origin, and nothing else?"""
+    if not isinstance(body, GivenBody) or len(body.solids) != 1 or body.points:
+        return False
+    (solid,) = body.solids
+    return solid.kind in ("ellipsoid", "ball") and not any(x != 0 for x in solid.shift or ())
+
+
 Body = PointBody | MomentBody | GivenBody
 _ALL: tuple[type[Table], ...] = (PointBody, GivenBody, MomentBody, AnyBody, NoBody)
 BODIES: dict[str, type[Table]] = {x.kind: x for x in _ALL}

@@ -12,8 +12,8 @@ from .table import Table
 
 
 class Own(NamedTuple):
-    """A letter that the words of a kind have for their own: a scalar, a vector or a matrix; its
-    meaning in English and in French."""
+    """A letter that the words of a kind have for their own: a scalar, a vector, a matrix, or a
+    function "of invariants", three scalars; its meaning in English and in French."""
 
     name: str
     type: str
@@ -25,12 +25,12 @@ class Own(NamedTuple):
 class Potential(Table):
     """One potential of a problem.
 
-    ``rank``: in which order kinds are told.  ``phrase``, ``several``: what acts, in words.
-    ``drawn``: is it in the figure?  ``legend``: what the figure says of it.  ``unturned``: what
+    ``rank``: in which order kinds are told. ``phrase``, ``several``: what acts, in words.
+    ``drawn``: is it in the figure? ``legend``: what the figure says of it. ``unturned``: what
     ``--frame principal`` cannot carry into its frame; empty where its vectors may be turned with
     space, its points put to new places, and one factor of each term of U is a key with ``mass``,
-    which is scaled.  ``alone``: there is one of the kind.  ``letters``: those that its words have
-    for their own.
+    which is scaled. ``alone``: there is one of the kind. ``linear``: is the force per mass linear
+    in the place, at each point of a body? ``letters``: those that its words have for their own.
     """
 
     section = "potential"
@@ -41,6 +41,7 @@ class Potential(Table):
     drawn: ClassVar[bool] = False
     unturned: ClassVar[str] = "a potential of this kind"
     alone: ClassVar[bool] = False
+    linear: ClassVar[bool] = False
     letters: ClassVar[tuple[Own, ...]] = ()
 
     @property

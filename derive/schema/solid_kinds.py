@@ -1,14 +1,17 @@
 """The kinds of solids and their sizes."""
 
+from collections.abc import Mapping
 from typing import Any
 
 from .table import (
+    Axes,
     Corners,
     Faces,
     Inner,
     Length,
     Lengths,
     Number,
+    Quadric,
     Scalar,
     Shift,
     Table,
@@ -29,7 +32,8 @@ class Solid(Table):
     def sizes(self) -> dict[str, Any]:
         """The keys that only this kind has."""
         placed = Solid.keys()
-        return {x: getattr(self, x) for x in self.keys() if x not in placed}
+        own = (x for x in self.keys() if x not in placed)
+        return {x: getattr(self, x) for x in own if getattr(self, x) is not None}
 
     def plain(self) -> dict[str, Any]:
         """The sizes are a table of their own."""
@@ -47,7 +51,6 @@ class Solid(Table):
 SIZES: dict[str, dict[str, Any]] = {
     "ball": {"radius": Length},
     "box": {"sides": Lengths},  # full lengths; centred
-    "ellipsoid": {"semi_axes": Lengths},
     "cylinder": {"radius": Length, "height": Length},  # about z; centred
     "cone": {"radius": Length, "height": Length},  # about z; base in z = 0, apex at z = height
     "hollow_ball": {"outer": Length, "inner": Inner},
@@ -55,7 +58,30 @@ SIZES: dict[str, dict[str, Any]] = {
     "mesh": {"vertices": Vertices, "faces": Faces},
 }
 """Of a mesh three coordinates for each vertex, and three numbers of vertices, from 0, each face."""
-SOLIDS: dict[str, type[Solid]] = {
+
+
+class Ellipsoid(Solid):
+    """Semi-axes along those of R³; or ⟨r, Q r⟩ ≤ 1 in Rⁿ, ``quadric`` Q, where it stands."""
+
+    kind = "ellipsoid"
+    semi_axes: Axes = None
+    quadric: Quadric = None
+
+    @classmethod
+    def chosen(cls, table: Mapping[str, Any], _: int) -> tuple[str, ...] | str:
+        """One of the two."""
+        own = [x for x in ("semi_axes", "quadric") if x in table]
+        if len(own) != 1:
+            return (
+                "an ellipsoid has either 'semi_axes' or a 'quadric', the matrix Q of <r, Q r> <= 1"
+            )
+        placed = [x for x in ("rotation", "shift") if table.get(x) is not None]
+        if own == ["quadric"] and placed:
+            return f"key {placed[0]!r} goes with 'semi_axes'; turn the quadric itself"
+        return ("density", "rotation", "shift", *own)
+
+
+SOLIDS: dict[str, type[Solid]] = {"ellipsoid": Ellipsoid} | {
     kind: type(kind, (Solid,), {"kind": kind, "__annotations__": sizes, "__doc__": Solid.__doc__})
     for kind, sizes in SIZES.items()
 }

@@ -77,13 +77,15 @@ ATTACHED = ("on", "at", "block")
 Scalar = Annotated[Tree, Key("scalar", trees=True)]
 Stiffness = Annotated[Tree, Key("scalar", trees=True, mass=True, positive=True)]
 Energy = Annotated[Tree, Key("energy", trees=True)]
+OfVolume = Annotated[Tree, Key("of_volume", trees=True)]
 Vector = Annotated[Row, Key("vector", 1, trees=True)]
+Symmetric = Annotated[Rows, Key("symmetric", 2, trees=True)]
 Timed = Annotated[Row, Key("timed", 1, trees=True)]
 Charges = Annotated[Row, Key("charges", 1, trees=True)]
 Rotation = Annotated[Rows, Key("rotation", 2, trees=True)]
-"""Expressions of the parameters; an energy is of places and the time as well, and ``Timed``, a
-vector, of the time.  A vector and the rows of a rotation are of the space of the points; there is a
-charge for each point."""
+"""Expressions of the parameters; an energy is of places and the time as well, one of the volume of
+that and the time, and ``Timed``, a vector, of the time. A vector and the rows of a rotation are of
+the space of the points; there is a charge for each point."""
 
 Pair = Annotated[tuple[int, int], Key("pair", 1)]
 End = Annotated[int, Key("end", keys=ATTACHED)]
@@ -101,12 +103,15 @@ Second = Annotated[Rows, Key("second", 2, trees=True, keys=("J", "I", "I_centre"
 Length = Annotated[Tree, Key("length", trees=True)]
 Inner = Annotated[Tree, Key("length", trees=True, zero=True)]
 Lengths = Annotated[Row, Key("lengths", 1, trees=True)]
+Axes = Annotated[Row | None, Key("lengths", 1, trees=True)]
+Quadric = Annotated[Rows | None, Key("quadric", 2, trees=True)]
 Corners = Annotated[Rows, Key("corners", 2, trees=True)]
 Vertices = Annotated[tuple[tuple[Fraction, ...], ...], Key("vertices", 2, keys=("file",))]
 Faces = Annotated[tuple[tuple[int, ...], ...], Key("faces", 2, keys=("file",))]
 Turn = Annotated[Rows | None, Key("turn", 2, trees=True, null=True)]
 Shift = Annotated[Row | None, Key("shift", 1, trees=True, null=True)]
-"""Moments of a body, and of solids in R³ the sizes: lengths, positive, one or three; four corners;
+"""Moments of a body, and of solids in R³ the sizes: lengths, positive, one or three; a symmetric
+matrix; four corners;
 what the file of a mesh has.  A rotation and a vector of R³, or none."""
 
 Name = Annotated[str, Key("name")]
@@ -137,9 +142,16 @@ def _key(hint: Any) -> Key:
     raise TypeError(f"{hint} is no type of a key")
 
 
-NEEDS = ("points alone", "one space", "rotations", "affine of R^3")
+NEEDS = (
+    *("points alone", "one space", "rotations", "affine of R^3", "volumes"),
+    *("deformations of R^3", "one ellipsoid", "no turning"),
+)
 """What a kind may need of its problem: nothing has mass but the points; blocks of one dimension;
-linear parts that are rotations; all translations of R³."""
+linear parts that are rotations; all translations of R³; one space, whose volumes change; linear
+parts in R³ that are not rotations; a homogeneous ellipsoid about the origin, and nothing else; not
+SO(3) or SE(3), nor a product."""
+DETERMINANT: Tree = ("det", "A")
+"""What ``det_A`` is in an energy of the volume."""
 OTHER_WORDS = {
     **dict.fromkeys(("sphere", "globe"), "ball"),
     **dict.fromkeys(("cube", "cuboid", "brick", "block"), "box"),
@@ -148,6 +160,7 @@ OTHER_WORDS = {
     **dict.fromkeys(("weight", "uniform_gravity"), "gravity"),
     **dict.fromkeys(("newton", "kepler", "central"), "attraction"),
     **dict.fromkeys(("gravity_gradient", "satellite"), "far_centre"),
+    **dict.fromkeys(("gas", "pressure", "determinant", "det"), "volume"),
     **dict.fromkeys(("torque", "moment"), "covector"),
     **dict.fromkeys(("world", "inertial"), "space"),
 }

@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, ClassVar, TypeVar
 
-from ..language.limits import MAGNITUDE, TEXT
+from ..language.limits import MAGNITUDE, TEXT, TORUS
 from ..language.reserved import WORDS, taken
 from ..language.tree import Tree
 from .declared import Parameter
@@ -173,6 +173,13 @@ class TableReader(ABC):
         if type(value) is not int or not least <= value <= most:
             raise self.fail(f"{where}: expected an integer from {least} to {most}")
         return value
+
+    def odd(self, slot: Slot) -> int:
+        """An odd number, the N of the torus."""
+        found = self.integer(self.value(slot), 3, TORUS, slot.path)
+        if found % 2 == 0:
+            raise self.fail(f"{slot.path}: {found} is even; the basis of the torus has an odd N")
+        return found
 
     def block(self, slot: Slot) -> int:
         """The factor of a product, counted from 1; without a product there is one."""

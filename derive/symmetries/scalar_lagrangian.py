@@ -10,6 +10,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from ..algebra.families import on_homogeneous
+from ..code.ellipsoid import is_integral
 from ..code.graph import Node
 from ..code.lower import Lowering
 from ..code.options import Options
@@ -28,6 +29,10 @@ def with_scalar_lagrangian(problem: Problem, record: Derivation) -> Problem:
     which act on (r, 1) where it is affine; without inputs.  ``ProblemError`` where there is none.
     """
     if problem.group is None:
+        if problem.torus:
+            raise ProblemError(
+                f"{problem.name}: on the torus the energy and Tr Wᵏ are kept: derive walk NAME says"
+            )
         raise ProblemError(
             f"{problem.name}: this text is about any group; choose a problem with a group and a "
             "Lagrangian"
@@ -136,6 +141,11 @@ class _Trees:
             return product(*parts)
         if x.op == "recip":
             return ("div", 1, parts[0])
+        if x.op == "fun" and is_integral(x.data):
+            raise ProblemError(
+                "symmetries are not sought where self_gravity acts: its energy is an integral, no "
+                "expression; the walk says what is kept"
+            )
         if x.op == "fun":
             return ("fun", x.data, parts[0])
         if x.op == "value":

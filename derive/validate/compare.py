@@ -18,6 +18,7 @@ from ..record.json_writer import to_json
 from .conservation import compare_conserved
 from .declarations import DiffersError, compare_names
 from .degree_bounds import Measured, MeasuredElementary
+from .ellipsoid_integrals import WithIntegrals
 from .emitted_file import Machine, Module
 from .exact_points import Claims, Point
 from .jacobians import ExactJacobians
@@ -130,7 +131,9 @@ class Comparison:
         self.random = Random(str(point.energy))
         self.elementary = MeasuredElementary(self.point.elementary)
         values = self.elementary if measured else self.point.elementary
-        self.machine = Machine(module, values, literal)
+        drawn = point.elementary.value if hasattr(point.elementary, "value") else values
+        whole = WithIntegrals(values, drawn, measured)
+        self.machine = Machine(module, whole, literal)
         self.read: set[int] = set()
         self.largest = 0
 
@@ -165,6 +168,10 @@ class Comparison:
         if "project" in self.module.functions:
             drift = partial(self._drift_numbers, arguments)
             found.append(compare_drift(drift, self._draw, self.claims.state, point))
+        if "multiplier" in self.module.functions:
+            theta = self._call("multiplier", arguments, value=1)["value"]
+            self._require_equal("multiplier", ("theta",), theta, (point.named.names["θ"],))
+            found.append("multiplier")
         if "conserved" in self.module.functions:
             found.append(self._conserved(arguments))
         return (*found, *self._in_momenta(arguments), *self._jacobians(arguments))

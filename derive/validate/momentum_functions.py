@@ -11,7 +11,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..check.model import Model
+from ..check.momenta import basis_momenta, brackets
 from ..check.nilpotent import EPS, part
+from ..language.rational import Matrix
 from .chart import EPSILON
 from .emitted_file import Machine
 from .exact_points import Point
@@ -54,15 +57,31 @@ class MomentumFunctions:
             rates = "momentum_rhs"
             found += ["velocity"]
         self._same(rates, self.call(rates, there, dy=size)["dy"], moved)
-        tensor = [z for row in self.point.named.names["𝕁"] for z in row]
+        tensor = [z for row in self._tensor for z in row]
         self._same("poisson", self.call("poisson", there, out=len(tensor))["out"], tensor)
         return (*found, rates, "poisson")
 
     @property
     def _momenta(self) -> list[Any]:
-        """Π_a by its meaning."""
+        """Π_a by its meaning; of points, p_b after it."""
+        if self._points:
+            return basis_momenta(self._points)
         family = self.point.named.families["Π"]
         return [family[key] for key in sorted(family)]
+
+    @property
+    def _points(self) -> Model | None:
+        """The model of points, where they give the Lagrangian."""
+        model = getattr(self.point.named.names, "model", None)
+        return model if isinstance(model, Model) else None
+
+    @property
+    def _tensor(self) -> Matrix:
+        """The brackets of the momenta, and of what is carried along."""
+        if self._points:
+            return brackets(self._points)
+        tensor: Matrix = self.point.named.names["𝕁"]
+        return tensor
 
     @property
     def _velocity(self) -> range:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..check.elementary_values import ELEMENTARY
+from .ellipsoid_integrals import NAME as INTEGRALS
 from .emitted_file import Module
 from .preprocessor import Preprocessor
 from .terms import (
@@ -25,6 +26,7 @@ SIGNATURES = {
     "rhs": ("void", "t", "const* x", "const* k", "const* u", "* dx"),
     "rhs_batch": ("void", "size_t n", "t", "const* x", "const* k", "const* u", "* dx"),
     "energy": ("real", "t", "const* x", "const* k"),
+    "multiplier": ("real", "t", "const* x", "const* k", "const* u"),
     "conserved": ("void", "t", "const* x", "const* k", "* out"),
     "project": ("void", "const* x", "* out"),
     "defect": ("real", "const* x"),
@@ -89,6 +91,8 @@ class CReader:
     def module(self, tree: Any) -> Module:
         """All functions and lists of the file; ``CodeError`` for any other definition."""
         for node in tree.ext[1:]:
+            if self._of_integrals(node):
+                continue
             if isinstance(node, self.c.FuncDef):
                 self._function(node)
             elif isinstance(node, self.c.Decl):
@@ -101,6 +105,13 @@ class CReader:
         lists = (self.lists.get(f"{self.prefix}_{x}_names") for x in LISTS[:3])
         state, parameters, inputs = lists
         return Module(state, parameters, inputs, self.functions, sizes)
+
+    def _of_integrals(self, node: Any) -> bool:
+        """Is a definition that of the integrals over an ellipsoid, or of what holds them?"""
+        if isinstance(node, self.c.Typedef):
+            return bool(node.name == f"{self.prefix}_integrals")
+        own = f"{self.prefix}_{INTEGRALS}"
+        return isinstance(node, self.c.FuncDef) and node.decl.name == own
 
     def _unknown(self, node: Any) -> CodeError:
         kind, at = type(node).__name__, getattr(node, "coord", None)
@@ -198,6 +209,9 @@ class CReader:
         c = self.c
         if isinstance(node, c.Decl) and node.init is not None and node.quals == ["const"]:
             plain = not node.storage and not node.funcspec and node.name not in self.sizes
+            kept = getattr(getattr(node.type, "type", None), "names", None)
+            if plain and kept == [f"{self.prefix}_integrals"]:
+                return ("set", node.name, self._integrals(node.init))
             if self._type(node.type) == "real" and plain:
                 return ("set", node.name, self._expression(node.init))
         elif isinstance(node, c.Assignment) and node.op == "=":
@@ -256,6 +270,11 @@ class CReader:
             return ("int", self.sizes[node.name]) if node.name in self.sizes else ("var", node.name)
         if isinstance(node, c.Constant):
             return self._integer(node) if node.type == "int" else self._decimal(node)
+        if isinstance(node, c.ArrayRef) and isinstance(node.name, c.StructRef):
+            held, (kind, k) = node.name, self._place(node.subscript)
+            if isinstance(held.name, c.ID) and held.field.name == "v" and kind == "int" and k < 4:
+                return ("fun", f"{INTEGRALS}_{k}", ("var", held.name.name))
+            raise self._unknown(node)
         if isinstance(node, c.ArrayRef) and isinstance(node.name, c.ID):
             return ("at", node.name.name, self._place(node.subscript))
         elif isinstance(node, c.UnaryOp) and node.op in "-!":
@@ -281,6 +300,13 @@ class CReader:
         if name not in ELEMENTARY:
             raise CodeError(f"the function {node.name.name} is not known here")
         return ("fun", name, self._expression(argument))
+
+    def _integrals(self, node: Any) -> Expression:
+        """The call of the integrals over an ellipsoid."""
+        c, name = self.c, f"{self.prefix}_{INTEGRALS}"
+        if not isinstance(node, c.FuncCall) or getattr(node.name, "name", "") != name:
+            raise self._unknown(node)
+        return ("fun", INTEGRALS, *map(self._expression, node.args.exprs))
 
     def _place(self, node: Any) -> Expression:
         """An index, or its bound: sums and multiples of the integers, without overflow."""

@@ -14,6 +14,7 @@ from fractions import Fraction
 from typing import Any
 
 from ..check.elementary_values import ELEMENTARY
+from .ellipsoid_integrals import NAME as INTEGRALS
 from .emitted_file import Module
 from .terms import (
     DECIMAL,
@@ -27,7 +28,7 @@ from .terms import (
 
 OF_STATE = (
     *("_rhs", "_energy", "_conserved", "_project", "_defect", "_jacobian", "_jacobian_inputs"),
-    "_momentum",
+    *("_momentum", "_multiplier"),
 )
 OF_Y, OF_BOTH = ("_velocity", "_momentum_rhs", "_poisson"), ("_velocity_step", "_momentum_rates")
 SIGNATURES = {
@@ -189,6 +190,13 @@ class PythonReader:
             return ("list", *map(self._expression, node.elts))
         if isinstance(node, ast.Call) and ast.unparse(node).startswith("_is_zero(xp, "):
             return ("none", *map(self._expression, node.args[1:]))
+        if isinstance(node, ast.Call) and ast.unparse(node).startswith("_ellipsoid(xp, "):
+            return ("fun", INTEGRALS, *map(self._expression, node.args[1:]))
+        if isinstance(node, ast.Subscript) and isinstance(node.value, ast.Name):
+            kind, k = self._expression(node.slice)
+            if kind == "int" and 0 <= k < 4:
+                return ("fun", f"{INTEGRALS}_{k}", ("var", node.value.id))
+            raise self._unknown(node)
         if isinstance(node, ast.Call) and len(node.args) == 1 and not node.keywords:
             return self._call(node.func, self._expression(node.args[0]))
         raise self._unknown(node)

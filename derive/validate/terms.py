@@ -2,8 +2,8 @@
 
 An expression is a tuple: ``("lit", text)`` a decimal, ``("int", n)``, ``("var", name)``, ``("at",
 array, index)``, ``("neg", a)``, ``("add" | "sub" | "mul" | "div", a, b)``, ``("abs", a)``,
-``("fun", name, a)``, ``("gt" | "lt" | "le" | "eq", a, b)``, ``("not", a)``, ``("none", a)`` 1 where
-a is 0, else 0, ``("list", a, …)``.
+``("fun", name, a, …)``, ``("gt" | "lt" | "le" | "eq", a, b)``, ``("not", a)``, ``("none", a)`` 1
+where a is 0, else 0, ``("list", a, …)``.
 
 A statement is a tuple: ``("set", name, a)``, ``("unpack", names, array)``, ``("store", array,
 index, a)``, ``("if", condition, body)``, ``("for", name, bound, body)`` from 0, ``("return", a)``.
@@ -23,7 +23,7 @@ from ..language.refused import Refused
 Expression = tuple[Any, ...]
 Statement = tuple[Any, ...]
 Body = tuple[Statement, ...]
-Elementary = Callable[[str, Any], Any]
+Elementary = Callable[..., Any]
 Literal = Callable[[str], Fraction]
 
 DECIMAL = re.compile(r"[0-9]{1,40}(\.[0-9]{0,40}(e[+-]?[0-9]{1,3})?|e[+-]?[0-9]{1,3})")
@@ -175,7 +175,7 @@ class Run:
         if op == "at":
             return self._array(e[1], names)[self.value(e[2], names)]
         if op == "fun":
-            return self.elementary(e[1], self.value(e[2], names))
+            return self.elementary(e[1], *(self.value(x, names) for x in e[2:]))
         return apply_operation(op, [self.value(x, names) for x in e[1:]])
 
     @staticmethod

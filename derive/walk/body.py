@@ -31,7 +31,7 @@ SOLIDS = {
     "mesh": phrase("integrals.mesh"),
 }
 """The name of each kind of solid."""
-SIZES = ("radius", "outer", "inner", "sides", "semi_axes", "height", "vertices")
+SIZES = ("radius", "outer", "inner", "sides", "semi_axes", "quadric", "height", "vertices")
 """The sizes of a solid that are told in words."""
 
 

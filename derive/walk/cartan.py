@@ -11,7 +11,7 @@ from ..algebra.calculus import derivation, gradient, substitute
 from ..algebra.word_trees import WordNotation, metrics, tree_of
 from ..algebra.words import Expr, word
 from ..language.read import read
-from ..language.tree import add
+from ..language.tree import add, mul
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .chapter import Chapter, Draft
@@ -132,5 +132,5 @@ def form_equation(d: Draft, momentum: Expr, energy: Expr, notation: WordNotation
     """The equation ϖ(δy) = p̃ − (h̃) δt, with the energy written out."""
     return Equation(
         read("ϖ(δy)"),
-        add(d.tree(momentum, notation), ("mul", -1, d.tree(energy, notation), "δt")),
+        add(d.tree(momentum, notation), mul(-1, d.tree(energy, notation), "δt")),
     )

@@ -14,7 +14,14 @@ from ..record.record import Step, Symbol
 from ..record.sentence import Prose, Sentence, listed
 from ..record.tree_data import encode
 from ..record.uses import of_steps
-from ..record.vocabulary import DISPLACEMENTS, LAGRANGIANS, PRODUCTS, ROTATIONS, VOCABULARY
+from ..record.vocabulary import (
+    DISPLACEMENTS,
+    LAGRANGIANS,
+    ON_THE_TORUS,
+    PRODUCTS,
+    ROTATIONS,
+    VOCABULARY,
+)
 from ..schema.outside import ForceInput
 from .wording import phrase, say
 
@@ -31,7 +38,7 @@ def problem_data(problem: Problem) -> dict[str, object]:
 
     basis = problem.group.stated.basis if problem.group else ()
     rows = [[[str(x) for x in row] for row in e] for e in basis]
-    n = problem.group.n if problem.group else "any"
+    n = problem.group.n if problem.group else problem.torus.N if problem.torus else "any"
     found = data(problem) | {"n": n, "basis": rows, "conventions": list(CONVENTIONS)}
     return {k: plain(v) for k, v in found.items()}
 
@@ -40,7 +47,10 @@ def symbols(steps: tuple[Step, ...], problem: Problem, *, fields: int = 0) -> tu
     """The names that the steps use, in the order in which they appear; ``fields``: by how many
     symmetries the problem is reduced."""
     meant, group = _meant(problem), problem.group
-    sizes = (_sizes(group) if group else {}) | {"fields": fields}
+    sizes = _sizes(group) if group else {}
+    if problem.torus:
+        sizes = {"n": problem.torus.N, "lattice": 2}
+    sizes["fields"] = fields
     sizes["carried"] = sum(x.size for x in problem.advected or ())
     sizes["reduced"] = sizes["carried"] + sizes.get("dim", 0)
     meanings = {x: sentence.say(about.meaning) for x, about in meant.items()}
@@ -61,6 +71,8 @@ def _meant(problem: Problem) -> dict[str, Name]:
     """The vocabulary of a problem, name → its meanings there: of all problems, of turning, of
     products."""
     group = problem.group
+    if problem.torus:
+        return VOCABULARY | LAGRANGIANS["right"] | ON_THE_TORUS
     if problem.lagrangian:
         return VOCABULARY | LAGRANGIANS[problem.lagrangian.trivialisation]
     blocks = PRODUCTS if group and group.factors and not group.affine else {}

@@ -41,7 +41,7 @@ def mass_steps(
     seen from the centres of mass; the coordinates ψ are then those of Ż(1 + S).
     """
     weighing, solving = c.draft("mass", "coordinates"), c.draft("motion", "solution")
-    E_a, E_b = _member("a", b), _member("b", b)
+    E_a, E_b = basis_member("a", b), basis_member("b", b)
     notation = WordNotation(display={E_a: read("E_a"), E_b: read("E_b")})
     rate = word(RATE) * word(E_b)
     rate = rate if central else rate.marked(place.label)
@@ -82,7 +82,7 @@ def _whole(d: Draft, b: Alphabet, central: CentralEquations | None) -> list[Equa
     return [Equation("Ż", d.tree(whole, WordNotation(display={rate: read("Σ_a ψ_a E_a")})))]
 
 
-def _member(index: str, b: Alphabet) -> Letter:
+def basis_member(index: str, b: Alphabet) -> Letter:
     """The letter E_a of a basis matrix, skew or traceless where Z is."""
     z = b.Z.velocity
     return Letter(f"E_{index}", b.n, b.n, z.symmetry, z.traceless)

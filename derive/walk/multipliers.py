@@ -40,7 +40,7 @@ def multiplier_steps(
     """The steps ``multiplier``, ``motion`` and ``space``: Ż and θ from  Tr ξ′ (residue − force)‾ =
     0,  with J (or J_c) as ``metric``."""
     residue = gradient(inertial, b.Z.xi_prime)
-    direction, letters, definition = _direction(group, b)
+    direction, letters, definition = direction_of(group, b)
     rule = "multiplier" if direction else "kernel"
     balancing, solving = c.draft("multiplier", rule), c.draft("motion", "solution")
     pressed = word(MULTIPLIER) * direction if direction else force * 0
@@ -116,7 +116,7 @@ def _in_space(
     )
 
 
-def _direction(group: Group, b: Alphabet) -> tuple[Expr | None, list[Letter], list[Equation]]:
+def direction_of(group: Group, b: Alphabet) -> tuple[Expr | None, list[Letter], list[Equation]]:
     """The normal direction as a word, with its letters and their equations: 1, or a letter Λ with
     its value; ``None`` for GL(n)."""
     if not group.normal_space_of_linear_parts:

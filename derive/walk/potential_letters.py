@@ -48,18 +48,23 @@ class PotentialLetter:
 
 
 @dataclass(frozen=True)
-class PowerLetter(PotentialLetter):
-    """A letter x for a power of a scalar q, its ``value``: δx = exponent · x q⁻¹ δq.
+class FunctionLetter(PotentialLetter):
+    """A letter x for a function of a scalar q, its ``value``: δx = slope · δq.
 
-    ``over``: q⁻¹ by letters.
+    ``rules``: what reduces δq.
     """
 
-    exponent: Fraction = field(kw_only=True)
-    over: Expr = field(kw_only=True)
+    slope: Expr = field(kw_only=True)
+    rules: tuple[PairRule, ...] = ()
 
     def varied(self, delta: Callable[[Letter], Expr | None]) -> Expr:
         """The derivative of the letter, by the chain rule."""
-        return self.exponent * word(self.letter) * self.over * derivation(self.value, delta)
+        return self.slope * reduce(derivation(self.value, delta), *self.rules)
+
+
+def power_letter(x: Letter, value: Expr, exponent: Fraction, over: Expr) -> FunctionLetter:
+    """A letter for a power of a scalar; ``over``: the scalar's inverse by letters."""
+    return FunctionLetter(x, value, slope=exponent * word(x) * over)
 
 
 def moved(own: Iterable[PotentialLetter], images: Mapping[Letter, Expr]) -> dict[Letter, Expr]:

@@ -67,7 +67,7 @@ def of_moments(signed: bool) -> tuple[Hypothesis, ...]:
     return Hypothesis("positive", "m"), Hypothesis("semidefinite", read("J − m⁻¹cc̄"))
 
 
-MATRICES = frozenset({"J", "J_c", "I", "I_c", "M"})
+MATRICES = frozenset({"J", "J_c", "I", "I_c", "M", "K_G"})
 """The names that are matrices, among those that are inverted."""
 
 

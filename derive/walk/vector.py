@@ -58,12 +58,13 @@ HATS = tuple({hat(ZETA): word(hat(x))} for x in (TURNING.d_velocity, TURNING.dp_
 class VectorForm:
     """The kernel in vectors: ``balance[v]`` = 0 for each free v of δ′; ``inertia``: I by J.
 
-    ``momenta``: ℓ_b and p_b by their letters.
+    ``momenta``: ℓ_b and p_b by their letters; ``coadjoint``: the same balance in these.
     """
 
     balance: dict[Letter, Expr]
     inertia: Expr
     momenta: dict[Letter, Expr]
+    coadjoint: dict[Letter, Expr]
     steps: tuple[Step, ...]
 
 
@@ -110,6 +111,7 @@ def vector_form(general: MomentumForm, stage: Isometry, hat_map: HatMap, c: Chap
         {v: e.marked(motion.label) for v, e in solved.items()},
         inertia_of(b.J).marked(hat_map.inertia),
         values,
+        balance,
         (naming, written, *steps, moving, motion),
     )
 
@@ -224,7 +226,7 @@ def _coadjoint(
     rates = {d.rate: word(d.rate) - balance[f.xi_prime] for d, f in pairs}
     draft.depends_on(*rates.values())
     step = draft.step(
-        [Equation(x.name, _spun(vector_sum(e))) for x, e in rates.items()],
+        [Equation(x.name, spun(vector_sum(e))) for x, e in rates.items()],
         (say("coadjoint.turning_and_moving") if b.affine else say("coadjoint.turning"))
         + say(
             "coadjoint.energy",
@@ -236,7 +238,7 @@ def _coadjoint(
     return {v: draft.mark(e) for v, e in balance.items()}, step
 
 
-def _spun(t: Tree) -> Tree:
+def spun(t: Tree) -> Tree:
     """The tree of a sum in which ℓ_b ∧ ζ, first, is written for −(ζ ∧ ℓ_b)."""
     against: Tree = ("mul", -1, ("wedge", ZETA.name, SPIN.name))
     if against not in terms(t):

@@ -17,8 +17,8 @@ from derive.validate.emission import EmittedFiles
 from tests.support.walks import problem, record, repeated
 from tests.symmetries.test_trajectories import NAMES, SHORT, start
 
-WITHOUT = ("jelly", "linear", "affine")
-"""With damping, or about any group."""
+WITHOUT = ("jelly", "linear", "affine", "zeitlin")
+"""With damping, or about any group; on the torus see test_torus."""
 FORMS = {
     "plain": {},
     "by_columns": {"layout": "col"},

@@ -300,7 +300,6 @@ def test_validated(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("words", "why"),
     [
-        ("so3", "this problem has points"),
         ("rod", "on a quotient"),
         ("gyrostat --velocity tangent", "--velocity tangent has dg/dt"),
     ],

@@ -88,7 +88,7 @@ def test_clebsch():
     assert spanned(found.integrals[1].sympy(), [published, *products])
 
 
-@pytest.mark.parametrize(("degree", "moments"), [(4, "I1 I2 I3"), (6, "I1 I1 I3")])
+@pytest.mark.parametrize(("degree", "moments"), [(6, "I1 I2 I3"), (6, "I1 I1 I3")])
 def test_a_heavy_top_has_none_more(degree, moments):
     parameters = " ".join({**dict.fromkeys(moments.split()), "a": 0, "c": 0})
     found = first_integrals(heavy(moments.split(), "a*A_31 + c*A_33", parameters), degree)

@@ -164,7 +164,7 @@ def places(data, p):
         tables = {("point", i): x for i, x in enumerate(data["point"], 1)}
     for kind in ("potential", "input"):
         tables |= {(kind, k): x for k, x in enumerate(data.get(kind, ())) if "at" in x}
-    if {x["kind"] for x in data.get("potential", ())} & {"torsion", "far_centre"}:
+    if {x["kind"] for x in data.get("potential", ())} & {"torsion", "far_centre", "volume"}:
         ((_, n, affine),) = parts
         axes = [[0] * n] * affine + [*np.eye(n)]
         tables |= {("frame", j): {"at": r} for j, r in enumerate(axes, 1 - affine)}
@@ -228,6 +228,13 @@ def _far_centre(table, env, mass, q):
     return -evaluate(table["strength"], env) * total
 
 
+def _volume(table, env, q):
+    """U of the determinant of the axes of the body in space."""
+    n = len(q["frame", 1])
+    axes = [q["frame", j + 1] - q.get(("frame", 0), 0) for j in range(n)]
+    return evaluate(table["U"], env | {"det_A": np.linalg.det(np.array(axes).T)})
+
+
 def _term(k, table, env, found, q):
     """The k-th [[potential]] (B,) where the places are at the columns of ``q[key]`` (n_k, B)."""
     mass = {key: found.masses[x][0] for key, x in found.at.items() if found.masses[x][0]}
@@ -244,6 +251,12 @@ def _term(k, table, env, found, q):
         return -evaluate(table["strength"], env) * sum(mass[key] / away[key] for key in mass)
     if table["kind"] == "torsion":
         return _torsion(table, env, q)
+    if table["kind"] == "harmonic":
+        W = [[evaluate(x, env) for x in row] for row in table["W"]]
+        pairs = [(m, q[key]) for key, m in mass.items()]
+        return sum(m * np.sum(x * (np.array(W) @ x), 0) for m, x in pairs) / 2
+    if table["kind"] == "volume":
+        return _volume(table, env, q)
     if table["kind"] == "far_centre":
         return _far_centre(table, env, mass, q)
     if table["kind"] == "field":

@@ -283,7 +283,7 @@ PROBLEMS |= {
 # Lagrangian that no points give has one of its own (tests/walk/lie)
 TEXTS = ("linear", "affine", "ellipsoid", "top", "hammer", "so3", "se3", "sl3")
 TEXTS += ("charged_body", "coupled", "euler_poisson", "gyrostat", "kirchhoff")
-TEXTS += ("rod", "spherical_pendulum")
+TEXTS += ("rod", "spherical_pendulum", "zeitlin")
 TEXTS += ("euler_top", "lagrange_top", "kovalevskaya_top", "manakov")
 PROBLEMS |= {
     path.stem: path.read_text(encoding="utf-8")

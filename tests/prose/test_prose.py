@@ -64,7 +64,11 @@ def says_what_stands_under_its_label(found):
             own.setdefault(english, set()).add(label)
     for step in found.steps:
         said = [m for sentence in step.prose for m in messages(sentence) if m in own]
-        short = re.sub(r"^(equilibrium|energy_casimir)_\d+$", r"\1", step.label.split(".", 1)[1])
+        short = re.sub(
+            r"^(equilibrium|energy_casimir|enclosure|condition)_\d+$",
+            r"\1",
+            step.label.split(".", 1)[1],
+        )
         under = {short, *ALSO.get(short, ())}
         assert [m for m in said if own[m].isdisjoint(under)] == [], step.label
 

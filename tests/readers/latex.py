@@ -121,8 +121,9 @@ class _Lexer:
             return [("word", {"arctan": "atan"}.get(word, word))]
         if token in (r"\mathsf", r"\parameter"):
             return [("par", self.words())]
-        if token == r"\unitmatrix" or (token == r"\mathbf" and self.words() == "1"):
-            return [("tree", ("one",))]
+        if token in (r"\unitmatrix", r"\mathbf"):
+            bold = self.words() if token == r"\mathbf" else "1"
+            return [("tree", ("one",)) if bold == "1" else ("name", {"m": "𝐦", "n": "𝐧"}[bold])]
         if token in STYLES:
             return [("name", STYLES[token][self.words()])]
         if token == r"\mathrm" and self.words() == "d":

@@ -124,7 +124,7 @@ def _lowered(text, at, names, known, found):
                 at = _token(text, at, names, known, inside)
         found.append(("sub", inside))
         return at
-    run = re.compile(r"[A-Za-z0-9,]*[A-Za-z0-9]").match(text, at)
+    run = re.compile(r"[A-Za-z0-9,]*[A-Za-z0-9𝐦𝐧]").match(text, at)
     if not run:
         raise UnreadableError(f"no index in {text[at - 9 : at + 9]!r}")
     found.append(("sub", [("name", run[0])]))

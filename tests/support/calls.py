@@ -153,14 +153,14 @@ def in_julia(call, module, values, u):
     values = values | {"y": values["x"]}
     given = [values[a] for a in call.takes if a not in "tu"]
     time = [values["t"]] if "t" in call.takes else []
+    inputs = {"u": values["u"]} if u and "u" in call.takes else {}
     if not call.writes:
-        return [module.call(call.name, *time, *given)]
+        return [module.call(call.name, *time, *given, **inputs)]
     rows = 2 * module.names["N_ALGEBRA"]
     if call.name == "poisson":
         rows = module.names["N_REDUCED"]
     squares = ("D", "out") if call.name == "poisson" else ("D",)
     shapes = ((rows, n // rows) if a in squares else (n,) for a, n in call.writes.items())
     outs = [Numbers(*shape) for shape in shapes]
-    inputs = {"u": values["u"]} if u and "u" in call.takes else {}
     module.call(f"{call.name}!", *outs, *given, *time, **inputs)
     return [x for out in outs for x in out.whole()]

@@ -61,17 +61,36 @@ def every_case():
         first_integrals(heavy("441", "m*A_31", "m"), 4),
         *(first_integrals(x) for x in ("gyrostat", "euler_top", "lagrange_top")),
         first_integrals("so3", 1, at_defaults=True),
+        *(
+            first_integrals(heavy("123", U, parameters), degree, conditions=True)
+            for U, parameters, degree in (
+                ("m*A_31", "m", 4),
+                ("A_31 + k*A_32", "k", 1),
+                ("(k^2 - 2*q^2)*A_31", "k q", 1),
+            )
+        ),
+        first_integrals("lagrange_top", 1, conditions=True),
     ]
+
+
+def bent():
+    """A top with weight off its axes, and no equilibrium with simple coordinates."""
+    return derive(heavy("132", "A_31/2 + A_33/3", ""))
 
 
 def every_equilibrium():
     """Equilibria that together reach whatever may be said of them."""
     solid = squares(3, 5, 11, 13, 13, 13)
+    tilted = {"A_31": "0.866", "A_33": "0.5", "Pi_1": "0.866", "Pi_3": 1}
     return [
+        bent().equilibrium_near({"A_31": "0.7", "A_33": "0.5"}),
+        bent().equilibrium_near({"A_31": "-0.7", "A_33": "-0.5"}),
+        derive(heavy("132", "A_33/2", "")).equilibrium_near(tilted),
         derive("euler_top").equilibria(),
         derive("lagrange_top").equilibria({"A_33": -1}),
         derive("kirchhoff").equilibria({"Pi_1": 1}),
         derive(lagrangian(solid, "SE(3)", side="right")).equilibria({"Pi_1": 1}),
         derive(lagrangian(solid, "SE(3)")).equilibria({"Pi_1": 1}),
         derive(lagrangian(squares(*range(2, 12)), "SO(5)")).equilibria({"Pi_1": 1}),
+        derive(lagrangian(squares(*range(2, 8)), "SO(4)")).equilibria({"Pi_1": 1, "Pi_6": 1}),
     ]

@@ -57,6 +57,7 @@ READY = {
 }
 REFUSED = {
     "euler_poisson": "no element",
+    "zeitlin": "on the torus",
     "jelly": "damping",
     "linear": "any group",
     "affine": "any group",

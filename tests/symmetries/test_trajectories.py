@@ -9,7 +9,7 @@ from derive.python.derived import derive
 from tests.oracles import general
 from tests.support.walks import repeated
 
-REFUSED = ("euler_poisson", "jelly", "linear", "affine", "rod", "spherical_pendulum")
+REFUSED = ("zeitlin", "euler_poisson", "jelly", "linear", "affine", "rod", "spherical_pendulum")
 """Without symmetries, or with states of other numbers than the oracle has."""
 SHORT = {
     "gl3": 0.2,

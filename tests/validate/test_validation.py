@@ -32,7 +32,7 @@ from tests.support.code_mutations import mutants
 from tests.support.engine_mutations.jobs import FUNCTIONS
 from tests.support.walks import NAMES, OTHERS, problem, record
 
-PROBLEMS = sorted({*NAMES, *OTHERS} - {"linear", "affine"})
+PROBLEMS = sorted({*NAMES, *OTHERS} - {"linear", "affine", "zeitlin"})
 MUTATED = ("so3", "se3", "sl3", "comet", "jelly")
 ALL = "DERIVE_ALL_MUTATIONS" in os.environ
 SAMPLE = {"c": 20, "python": 60}

@@ -81,6 +81,7 @@ def test_every_step_leads_to_the_motion(name):
             f"{name}.explicit",
             f"{name}.by_momenta",
             f"{name}.poisson_tensor",
+            f"{name}.conserved",
             f"{general}.kks",
         }
     assert expected <= found

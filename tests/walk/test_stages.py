@@ -118,6 +118,8 @@ def test_what_runs_is_what_the_table_says(name, monkeypatch):
     order = [*pipeline.ANY_GROUP, *special]
     if asked.lagrangian:
         order = [*pipeline.ANY_LAGRANGIAN, *pipeline.EXPRESSED]
+    if asked.torus:
+        order = [*pipeline.ANY_LAGRANGIAN, *pipeline.ON_THE_TORUS]
     places = [order.index(stage) for stage, _ in ran]
     assert places == sorted(places)
     for stage, found in ran:

@@ -21,7 +21,7 @@ from ..alphabet import Alphabet
 from ..chapter import Chapter
 from ..lagrangian import POINT
 from ..point_potentials import column
-from ..potential_letters import PotentialLetter, PowerLetter, Words
+from ..potential_letters import PotentialLetter, Words, power_letter
 from ..pullback import sum_over
 from ..wording import say
 
@@ -48,8 +48,8 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
     own = (
         *((PotentialLetter(T, word(a.T.position)),) if p.centre else ()),
         body,
-        PowerLetter(W, square, exponent=-HALF, over=over),
-        PowerLetter(V, square, exponent=-HALF, over=over),
+        power_letter(W, square, -HALF, over),
+        power_letter(V, square, -HALF, over),
     )
     return Words(
         _summed(a, x, T, body),

@@ -57,13 +57,22 @@ def produce(job: Job) -> Output:
     from derive.record.json_writer import to_json
 
     problem = problem_of(job.data)
-    record = walk(problem)
-    if job.any_group:
+    record = found(job.sought, problem) if job.sought else walk(problem)
+    if not job.coded:
         return Output(to_json(record))
     options = Options(**job.options)
     compiled = program(problem, record, options)
     files = emit(compiled, record, ("c", "python"), problem.name, options)
     return Output(to_json(record), dict(files), tuple(compiled.numbers()))
+
+
+def found(sought: str, problem: Any) -> Any:
+    """The record of what is found of a problem beside its walk."""
+    from derive.pipeline import equilibria, integrals, symmetries, walk
+
+    if sought == "symmetries":
+        return symmetries(problem, walk(problem)).record
+    return (integrals(problem) if sought == "integrals" else equilibria(problem, {}))[1]
 
 
 class OutOfTimeError(BaseException):
@@ -247,6 +256,7 @@ def reached(job: Job, files: set[str]) -> dict[str, set[int]]:
     for name in [x for x in sys.modules if x.split(".")[0] == "derive" and not job.refused]:
         del sys.modules[name]
     watch = Coverage(data_file=None, config_file=False, include=[str(ROOT / x) for x in files])
+    watch.set_option("run:disable_warnings", ["no-data-collected"])
     watch.start()
     try:
         attempted(job)

@@ -160,6 +160,46 @@ U = "r2_x*atan(r2_y) + exp(r1_x*r2_y) + sqrt(5 + r1_y^2) + r1_x*log(4 + r1_y^2)"
 """
 """Every elementary function."""
 
+ON_THE_RIGHT = """
+name = "test"
+group = "SE(2)"
+[parameters]
+s = 0.1
+[inertia]
+operator = [[1, 0, "s"], [0, "2 + A_11", 0], ["s", 0, 3]]
+momentum = [0, "s", "T_1"]
+U = "T_2^2*t"
+trivialisation = "right"
+"""
+QUARTIC = """
+name = "test"
+group = "SO(3)"
+[parameters]
+a = 0.3
+[lagrangian]
+L = "(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2 + a*zeta_1^4/4 + sin(t)*zeta_2 - A_33*A_12"
+"""
+GORYACHEV = """
+name = "test"
+group = "SO(3)"
+[parameters]
+I = 1.5
+m = 2.0
+[lagrangian]
+L = "I*(4*zeta_1^2 + 4*zeta_2^2 + zeta_3^2)/2 - m*A_31"
+"""
+CARRIED = """
+name = "test"
+[algebra]
+of = "SE(2)"
+[[advected]]
+name = "gamma"
+representation = "dual"
+[lagrangian]
+L = "(2*zeta_1^2 + zeta_2^2 + 3*zeta_3^2)/2 + zeta_1*gamma_2 - gamma_1*gamma_3"
+trivialisation = "right"
+"""
+
 
 class Job(NamedTuple):
     """A problem as the plain data of its file, and the options of its emission."""
@@ -169,6 +209,8 @@ class Job(NamedTuple):
     options: dict[str, Any]
     refused: str = ""
     """What must be said of it, where it is none that can be derived."""
+    sought: str = ""
+    """What is found of it beside its walk, and is the record then: a function of the pipeline."""
 
     @property
     def framed(self) -> bool:
@@ -178,12 +220,18 @@ class Job(NamedTuple):
     @property
     def any_group(self) -> bool:
         """Is it a text about any group, from which no code is made?"""
-        return self.data["group"] == "any"
+        return self.data.get("group") == "any"
 
     @property
     def plain(self) -> bool:
-        """Is the state of its code that of the oracle?"""
-        return not {"attitude", "velocity", "layout"} & {*self.options}
+        """Is the state of its code that of the oracle, which knows bodies of points?"""
+        of_points = not {"lagrangian", "inertia"} & {*self.data}
+        return of_points and not {"attitude", "velocity", "layout"} & {*self.options}
+
+    @property
+    def coded(self) -> bool:
+        """Is code made of it?"""
+        return not (self.any_group or self.sought)
 
     def seen_by_the_oracle(self) -> dict[str, Any]:
         """The oracle knows points and moments: of other bodies it has the moments."""
@@ -191,14 +239,10 @@ class Job(NamedTuple):
         return self.data if known else solids.by_moments(self.data)
 
 
-def ready(name: str) -> str:
-    """The text of a ready-made problem."""
-    return (READY / f"{name}.toml").read_text(encoding="utf-8")
-
-
-TEXTS = PROBLEMS | {name: ready(name) for name in ("linear", "affine", "so3", "se3", "sl3", "top")}
+TEXTS = PROBLEMS | {p.stem: p.read_text(encoding="utf-8") for p in READY.glob("*.toml")}
 TEXTS |= {"solids": SOLIDS, "mixed": MIXED, "both": BOTH, "given": GIVEN, "numbers": NUMBERS}
-TEXTS["functions"] = FUNCTIONS
+TEXTS |= {"functions": FUNCTIONS, "on the right": ON_THE_RIGHT, "quartic": QUARTIC}
+TEXTS |= {"goryachev": GORYACHEV, "carried on the right": CARRIED}
 WHOLE = ("state", "inputs", "parameters")
 CHOSEN = [
     ("linear", {}),
@@ -254,8 +298,34 @@ REFUSED = (
 )  # fmt: skip
 """Mistakes in files, from those that are tested."""
 
+LAGRANGIANS = [
+    ("gyrostat", {"momenta": True, "conserved": True}),
+    ("charged_body", {}),
+    ("kirchhoff", {"momenta": True}),
+    ("coupled", {}),
+    ("euler_poisson", {"momenta": True, "conserved": True}),
+    ("on the right", {"momenta": True}),
+    ("quartic", {"momenta": True}),
+    ("carried on the right", {}),
+    ("spherical_pendulum", {}),
+    ("rod", {}),
+]
+SOUGHT = [
+    ("integrals", "kovalevskaya_top"),
+    ("integrals", "gyrostat"),
+    ("integrals", "goryachev"),
+    ("integrals", "manakov"),
+    ("symmetries", "se3"),
+    ("symmetries", "top"),
+    ("symmetries", "charged_body"),
+    ("symmetries", "screw"),
+    ("equilibria", "euler_top"),
+    ("equilibria", "lagrange_top"),
+]
+
 DATA = {name: tomllib.loads(text) for name, text in TEXTS.items()}
 DATA |= {f"pushed {group}": pushed_data(group, FREE) for group in ("SE(3)", "SAff(3)")}
-JOBS = [Job(name, DATA[name], options) for name, options in CHOSEN]
+JOBS = [Job(name, DATA[name], options) for name, options in (*CHOSEN, *LAGRANGIANS)]
+JOBS += [Job(f"{what} of {name}", DATA[name], {}, sought=what) for what, name in SOUGHT]
 MISTAKES = SINGULAR | {name: FILES[name] for name in REFUSED}
 JOBS += [Job(name, tomllib.loads(text), {}, says) for name, (text, says) in MISTAKES.items()]

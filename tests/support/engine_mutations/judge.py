@@ -90,7 +90,7 @@ def judged(
         found = Verdict("survived", f"the checker has the same fault: {found.why}")
     if found.outcome == "checker":
         return found
-    coded = not job.any_group and (new.files, new.record) != (old.files, old.record)
+    coded = job.coded and (new.files, new.record) != (old.files, old.record)
     wrong = code(job, new, old) if coded else None
     if wrong and wrong.outcome == "validator" and not certain(job, []):
         return Verdict("survived", f"the validator has the same fault: {wrong.why}")

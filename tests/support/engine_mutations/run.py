@@ -20,7 +20,10 @@ from tests.support.engine_mutations.jobs import Job
 from tests.support.engine_mutations.judge import CAUGHT, HARMLESS, LATE, Verdict, judged
 from tests.support.engine_mutations.operators import Mutant, mutants
 
-ROOMS = ("language", "algebra", "problem", "walk", "walk/kinds", "code")
+ROOMS = (
+    *("language", "algebra", "problem", "walk", "walk/kinds", "walk/lie", "code"),
+    *("integrals", "symmetries", "equilibria"),
+)
 LEFT = {
     "language/show.py": "prints trees",
     "algebra/samplers.py": "the checker's alone",

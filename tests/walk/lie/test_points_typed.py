@@ -1,6 +1,10 @@
 """Two entries of one Lagrangian meet: that of the points of a problem, typed as an expression in
 the entries of g and the coordinates of Z, gives the numbers of the problem."""
 
+import re
+import tomllib
+from itertools import permutations
+
 import numpy as np
 import pytest
 
@@ -11,10 +15,12 @@ from derive.pipeline import walk
 from derive.problem.state_names import state_names
 from derive.problem.toml import problem_of
 from tests.oracles import general, relative_error
+from tests.problems import READY
 from tests.support.walks import NAMES, OTHERS, problem, record
 
 TYPED = [x for x in (*NAMES, *OTHERS) if problem(x).body and not problem(x).damping]
-"""What acts on these are weights, springs and attraction."""
+TYPED.remove("riemann_ellipsoid")
+"""What acts on these are weights, springs, attraction and an energy of the volume."""
 
 
 class Words:
@@ -111,6 +117,8 @@ def potential(x, p, words):
             f"-({float(m * mu)!r})/sqrt({square(words.place(r, i) for i in range(n))})"
             for m, r in listed
         )
+    if x.kind == "volume":
+        return of_volume(p, words)
     k, length = words.number(x.stiffness), words.number(x.length)
     if x.between:
         (_, a), (_, b) = (listed[i - 1] for i in x.between)
@@ -125,6 +133,18 @@ def potential(x, p, words):
     if not length:
         return f"({float(k)!r})*({square(rows)})/2"
     return f"({float(k)!r})*(sqrt({square(rows)}) - ({float(length)!r}))^2/2"
+
+
+def of_volume(p, words):
+    """The energy of the volume as the file has it, by the entries of g and the defaults."""
+    data = tomllib.loads((READY / f"{p.name}.toml").read_text(encoding="utf-8"))
+    (U,) = (x["U"] for x in data["potential"] if x["kind"] == "volume")
+    terms = []
+    for order in permutations(range(p.group.n)):
+        sign = round(np.linalg.det(np.eye(p.group.n)[list(order)]))
+        terms.append("*".join([f"({sign})", *(words.element(i, j) for i, j in enumerate(order))]))
+    known = {x: repr(y) for x, y in words.values.items()} | {"det_A": f"({' + '.join(terms)})"}
+    return re.sub(r"[A-Za-z_]\w*", lambda name: known.get(name[0], name[0]), U)
 
 
 def across(words, x, a, b):

@@ -1,0 +1,44 @@
+"""A problem on the torus: [algebra] of = "torus", its N, and its inertia operator by name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ..algebra.torus import Torus
+from ..schema.algebra_kinds import StatedTorus, TorusInertia
+from ..schema.lagrangian_kinds import SIDES
+from ..schema.table import Slot
+from .file_reader import FileReader
+from .problem import Problem, ProblemError
+
+KEYS = ("name", "title", "algebra", "inertia")
+"""The keys of such a file."""
+
+
+def on_torus(data: Mapping[str, Any]) -> bool:
+    """Is the algebra of a file that of the torus?"""
+    given = data.get("algebra")
+    return isinstance(given, dict) and given.get("of") == "torus"
+
+
+def torus_problem(data: Mapping[str, Any], reader: FileReader) -> Problem:
+    """The problem of a file; ``ProblemError`` for what else it says."""
+    for key in data:
+        if key not in KEYS:
+            raise ProblemError(
+                f"key {key!r}: on the torus there are {', '.join(KEYS)} alone; leave it out"
+            )
+    torus = Torus(reader.whole(StatedTorus, data["algebra"], "algebra").N)
+    if "inertia" not in data:
+        raise ProblemError('the torus needs its inertia: give [inertia] operator = "laplacian"')
+    given = reader.whole(TorusInertia, data["inertia"], "inertia")
+    if given.operator != "laplacian":
+        raise ProblemError('inertia, operator: on the torus it is "laplacian", |n|² on T_n')
+    if given.trivialisation != "right":
+        raise ProblemError('inertia, trivialisation: a fluid moves on the "right"; leave it out')
+    name = reader.identifier(reader.text(Slot(data, "name", "file")), "key 'name'")
+    if name in ("linear", "affine", *SIDES):
+        raise ProblemError(f"key 'name': {name!r} names what is said of any group; choose another")
+    title = reader.text(Slot(data, "title", "file")) if "title" in data else name
+    return Problem(name, None, title=title, torus=torus)

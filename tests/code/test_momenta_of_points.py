@@ -1,0 +1,171 @@
+"""The motion of points in momenta, beside Gauss's principle and sums over the points.
+
+Π_a = Σ m ⟨v, gE_a r⟩, its rate by the accelerations of the oracle, the Poisson tensor by the flows.
+"""
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import derive
+from derive.code.assemble import assemble
+from derive.code.emit import emit
+from derive.code.options import Options
+from derive.command.cli import main
+from derive.pipeline import program, walk
+from derive.problem.toml import problem_of
+from tests.oracles import general
+from tests.support.emitted import import_python
+from tests.support.languages import OTHERS, REFERENCE, Emitted, agree, built
+from tests.support.needs import need
+
+ROOT = Path(__file__).parents[2]
+READY = ("so3", "se3", "sl3", "saff3", "so4", "sim3", "heisenberg", "screw", "jelly")
+READY += ("two_tops", "su2", "gl3", "comet", "sp4")
+POINTS = [
+    {"mass": 1.5, "at": [1.0, 0.2, 0.5], "block": 1},
+    {"mass": 0.7, "at": [0.1, 1.0, -0.3], "block": 1},
+    {"mass": 1.2, "at": [-0.4, 0.3, 1.0], "block": 1},
+]
+TWO = {
+    "name": "test",
+    "group": "SE(3) x SE(3)",
+    "point": POINTS + [{**x, "block": 2} for x in POINTS],
+    "potential": [{"kind": "spring", "between": [1, 4], "stiffness": 2, "length": 0.5}],
+    "input": [{"name": "F", "kind": "force", "on": 1, "frame": "space"}],
+}
+FLAT = {
+    "name": "test",
+    "group": "SE(2)",
+    "point": [{"mass": x["mass"], "at": x["at"][:2]} for x in POINTS],
+    "damping": [{"coefficient": 0.3}],
+    "input": [{"name": "u", "kind": "covector"}],
+}
+CASES = {name: name for name in READY} | {"two bodies": TWO, "flat": FLAT}
+
+
+def data_of(case):
+    if isinstance(CASES[case], dict):
+        return CASES[case]
+    return tomllib.loads((ROOT / f"derive/problems/{case}.toml").read_text(encoding="utf-8"))
+
+
+def module_of(data, folder):
+    p = problem_of(data)
+    d = walk(p)
+    code = assemble(d, p.group, Options(momenta=True))
+    for file, text in emit(code, d, ("python",), "test").items():
+        (folder / file).write_text(text, encoding="utf-8")
+    return import_python("test", folder)
+
+
+def by_sums(data, E, p, t, x, u):
+    """Π_a, its rate along the motion, and the brackets {Π_a, Π_b}: of gE_a moved by gE_b."""
+    found, (G, zeta) = general.places(data, p), general.split(data, x, len(E))
+    rates = general.rhs(data, E, p, t, x, u)[-len(E) :]
+    Z, change = np.tensordot(zeta, E, 1), np.tensordot(rates, E, 1)
+    v, a = found.moved(G @ Z), found.moved(G @ (change + Z @ Z))
+
+    def along(X):
+        return found.masses @ (v * found.moved(G @ X))
+
+    momenta = [along(e) for e in E]
+    pushed = [found.masses @ (a * found.moved(G @ e)) + along(Z @ e) for e in E]
+    return momenta, pushed, [[along(f @ e - e @ f) for f in E] for e in E]
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_beside_sums_over_the_points(case, tmp_path):
+    data = data_of(case)
+    m, rng = module_of(data, tmp_path), np.random.default_rng(4)
+    E, p = np.array(m.BASIS, float), general.parameters(data)
+    k = m.constants([p[x] for x in m.PARAMETERS])
+    for _ in range(2):
+        x, u = general.random_state(data, E, rng), rng.normal(size=len(m.INPUTS))
+        momenta, pushed, brackets = by_sums(data, E, p, 0.4, x, u if len(u) else None)
+        y = np.array([*x[: -len(E)], *momenta])
+        scale = max(1, *map(abs, momenta), *map(abs, pushed))
+        assert np.abs(m.momentum(0.4, x, k) - y).max() < 1e-12 * scale
+        assert np.abs(m.velocity(0.4, y, k) - x).max() < 1e-11 * scale
+        dy = m.momentum_rhs(0.4, y, k, u if len(u) else None)
+        assert np.abs(dy[-len(E) :] - pushed).max() < 1e-11 * scale
+        turned = m.rhs(0.4, x, k, u if len(u) else None)[: -len(E)]
+        assert np.abs(dy[: -len(E)] - turned).max() < 1e-11 * scale
+        assert np.abs(m.poisson(0.4, y, k) - brackets).max() < 1e-12 * scale
+
+
+def test_euler_in_momenta_is_as_short_as_by_hand():
+    """I⁻¹ℓ, ℓ ∧ ζ, Āγ, c ∧ Āγ and Aj(ζ): 9 + 6 + 9 + 6 + 18 products."""
+    p = problem_of(data_of("so3"))
+    functions = program(p, walk(p), Options(momenta=True)).functions
+    assert functions["momentum_rhs"].operations()["mul"] == 48
+    assert functions["velocity"].operations()["mul"] == 9
+
+
+def test_what_the_motion_keeps_in_momenta():
+    """The heavy top: energy, and the momentum about the vertical; |ℓ| where there is no gravity."""
+    f = derive.compile("so3", momenta=True)
+    x = np.array([*np.eye(3).reshape(-1), 0.4, -0.3, 2.0])
+    run = solve_ivp(f.momentum_rhs, (0, 10), f.momentum(0.0, x), "DOP853", rtol=1e-12, atol=1e-12)
+    energy = [f.energy(0.0, f.velocity(0.0, y)) for y in run.y.T]
+    vertical = (run.y[6:9] * run.y[9:]).sum(0)
+    for kept in (energy, vertical):
+        assert np.ptp(kept) < 1e-9 * max(1, np.abs(kept).max())
+
+
+@pytest.fixture(scope="module")
+def emitted(tmp_path_factory):
+    need("cc")
+    folder = tmp_path_factory.mktemp("momenta_of_points")
+    cases, chosen = {"se3": "se3", "saff3": "saff3"}, {"momenta": True}
+    return folder, [
+        Emitted(name, p, folder, (*REFERENCE, *OTHERS), chosen, tolerance=1e-12)
+        for name, p in cases.items()
+    ]
+
+
+@pytest.mark.parametrize("build", built())
+def test_every_language_says_the_same(build, emitted):
+    agree(build, *emitted)
+
+
+SPOILED = [
+    ("so3", "Pi_2*velocity_3", "Pi_1*velocity_3"),
+    ("so3", "inv_I_12*Pi_2", "inv_I_13*Pi_2"),
+    ("so3", "    out[1] = -Pi_3;", "    out[1] = Pi_3;"),
+    ("se3", "    out[3] = 0.0;\n    out[4] = -p_3;", "    out[3] = 0.0;\n    out[4] = p_3;"),
+    ("sl3", "momentum_22*Z_21", "Pi_5*Z_21"),
+]
+
+
+@pytest.mark.parametrize("name", ["so3", "se3", "sl3"])
+def test_validated(name, tmp_path, capsys):
+    words = ["--validate", "--out", str(tmp_path)]
+    assert main(["emit", name, "--momenta", *words]) == 0
+    told = "".join(capsys.readouterr())
+    assert told.count("momentum, velocity, momentum_rhs, poisson equal the record") == 2
+    path = tmp_path / f"{name}.c"
+    whole = path.read_text(encoding="utf-8")
+    for of, old, new in SPOILED:
+        if of == name:
+            assert old in whole, old
+            path.write_text(whole.replace(old, new), encoding="utf-8")
+            capsys.readouterr()
+            assert main(["emit", name, "--check", *words])
+            assert "DIFFERS" in "".join(capsys.readouterr()), old
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        ("se3 --frame principal", "for the body as given"),
+        ("so3 --velocity tangent", "--velocity tangent has dg/dt"),
+    ],
+)
+def test_refused(words, why, tmp_path, capsys):
+    assert main(["emit", *words.split(), "--momenta", "--out", str(tmp_path)]) == 2
+    assert why in capsys.readouterr().err
+    assert not [*tmp_path.iterdir()]

@@ -1,0 +1,139 @@
+"""The emitted code of a fluid on the torus: C, Python and plain sums; what is kept; languages."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from derive import derive
+from derive.code.options import Options
+from derive.command.cli import main
+from derive.pipeline import program, walk
+from derive.problem.toml import problem_of
+from tests.oracles import torus
+from tests.support.emitted import compile_c, import_python
+from tests.support.languages import BUILDS, OTHERS, REFERENCE, Emitted, agree
+from tests.support.needs import CC, need
+
+FILE = """
+name = "fluid{N}"
+[algebra]
+of = "torus"
+N = {N}
+[inertia]
+operator = "laplacian"
+"""
+SIZES = (3, 9, 31, 5, 7, 11)
+
+
+@cache
+def fluid(N):
+    algebra, inertia = {"of": "torus", "N": N}, {"operator": "laplacian"}
+    return problem_of({"name": f"fluid{N}", "algebra": algebra, "inertia": inertia})
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("torus")
+
+
+def emitted(N, folder, **options):
+    derive(fluid(N)).emit(folder, REFERENCE, **{"conserved": True, **options})
+    return import_python(f"fluid{N}", folder), compile_c(CC, f"fluid{N}", folder, folder)
+
+
+def close(found, expected):
+    assert np.abs(found - expected).max() <= 1e-12 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("N", SIZES)
+def test_c_python_and_plain_sums_agree(N, folder):
+    need("cc")
+    m, c = emitted(N, folder)
+    x = np.random.default_rng(N).normal(size=N * N - 1)
+    k = m.constants([])
+    status, in_c = c.constants(np.zeros(0))
+    assert status == 0
+    expected = torus.rates(N, x)
+    close(m.rhs(0.0, x, k), expected)
+    close(c.rhs(0.0, x, in_c), expected)
+    close(m.energy(0.0, x, k), torus.energy(N, x))
+    close(c.energy(0.0, x, in_c), torus.energy(N, x))
+    close(m.conserved(0.0, x, k), torus.traces(N, x))
+    both = np.stack([x, 2 * x, x[::-1]], axis=-1)
+    close(c.rhs_batch(0.0, both, in_c, None).T, m.rhs(0.0, both.T, k))
+    assert m.STATE[:4] == (
+        "re_1_0",
+        "im_1_0",
+        *(("re_m1_1", "im_m1_1") if N == 3 else m.STATE[2:4]),
+    )
+
+
+def test_floats(folder):
+    x = np.random.default_rng(0).normal(size=120)
+    derive(fluid(11)).emit(folder, ("python",), "fluid_float", real="float")
+    m = import_python("fluid_float", folder)
+    found = m.rhs(0.0, x.astype(np.float32), m.constants([]).astype(np.float32))
+    assert found.dtype == np.float32
+    assert np.abs(found - torus.rates(11, x)).max() < 1e-4
+
+
+@pytest.mark.parametrize("N", [5, 9, 15])
+def test_energy_and_traces_are_kept(N, folder):
+    need("cc")
+    m, _ = emitted(N, folder)
+    k = m.constants([])
+    x = np.random.default_rng(1).normal(size=N * N - 1) / N
+    path = solve_ivp(m.rhs, (0, 10), x, "DOP853", args=(k,), rtol=1e-12, atol=1e-13)
+    last = path.y[:, -1]
+    assert np.abs(last - x).max() > 1e-2
+    for kept in (m.energy, m.conserved):
+        assert np.abs(kept(0.0, last, k) - kept(0.0, x, k)).max() < 1e-9
+
+
+@pytest.mark.parametrize("build", BUILDS)
+def test_every_language_says_the_same(build, tmp_path):
+    need("cc")
+    others = tuple(x for x in OTHERS if x != "julia")
+    chosen = [Emitted("fluid9", fluid(9), tmp_path, (*REFERENCE, *others), {"conserved": True})]
+    if build == "julia":  # whose reader knows no loops
+        chosen = [Emitted("fluid5", fluid(5), tmp_path, (*REFERENCE, "julia"), {})]
+    agree(build, tmp_path, chosen, tolerance=1e-13)
+
+
+def test_one_header_and_a_prefix(tmp_path):
+    need("cc")
+    derive(fluid(9)).emit(tmp_path, ("c",), "flow", form="header")
+    text = (tmp_path / "flow.h").read_text(encoding="utf-8")
+    assert "flow_FUNCTION void flow_transform(" in text
+    assert not (tmp_path / "flow.c").exists()
+
+
+def test_written_out_up_to_five():
+    found = {N: program(fluid(N), walk(fluid(N))) for N in (3, 5, 7)}
+    assert [bool(p.loops) for p in found.values()] == [False, False, True]
+    assert found[3].functions["rhs"].operations()["mul"] <= 32
+    tables = program(fluid(5), walk(fluid(5)), Options(conserved=True)).loops
+    assert tables.names == {"conserved"}
+
+
+REFUSED = (
+    "--layout col",
+    "--frame principal",
+    "--velocity tangent",
+    "--jacobian state",
+    "--momenta",
+)
+
+
+@pytest.mark.parametrize("option", [*REFUSED, "--validate"])
+def test_what_is_not_written_is_one_line(option, tmp_path, capsys):
+    path = tmp_path / "fluid.toml"
+    path.write_text(FILE.format(N=9), encoding="utf-8")
+    out = tmp_path / "out"
+    assert main(["emit", str(path), *option.split(), "--out", str(out)]) == 2
+    err = capsys.readouterr().err
+    assert len(err.splitlines()) == 1
+    assert option.split()[0] in err
+    assert not out.exists()

@@ -1,0 +1,151 @@
+"""Equilibria that are enclosed near decimals, beside SciPy's and Euler–Poisson by hand."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy.optimize import fsolve
+
+from derive import ProblemError, derive
+from derive.check.checker import Checker
+from derive.check.enclosure import enclosure_fault
+from derive.command.cli import main
+from derive.equilibria.enclosed_points import Ball, characteristic
+from derive.language.tree import add
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
+from tests.support.coadjoint_orbits import hat, match, orbit_signature
+from tests.support.lagrangians import bent, heavy
+from tests.support.walks import SEED, repeated
+
+MOMENTS = np.array([1.0, 3.0, 2.0])
+WEIGHT = np.array([1 / 2, 0, 1 / 3])
+STARTS = {
+    "stands": {"A_31": "0.7", "A_33": "0.5"},
+    "hangs": {"A_31": "-0.7", "A_33": "-0.5"},
+    "turns": {"Pi_1": "0.9", "Pi_3": 1, "A_31": "0.8", "A_33": "0.5"},
+    "swings": {"Pi_1": "0.9", "Pi_2": "0.3", "A_31": "-0.7", "A_33": "-0.7"},
+}
+VERDICTS = {"stands": "unstable", "hangs": "stable", "turns": "unstable", "swings": "stable"}
+
+
+def critical(y, level):
+    """dH + λ dC = 0 on the level, by hand: the eight equations that are solved."""
+    pi, gamma, a, b = y[:3], y[3:6], y[6], y[7]
+    above = [pi @ gamma - level, gamma @ gamma - 1]
+    return [*(pi / MOMENTS + a * gamma), *(WEIGHT + a * pi + 2 * b * gamma), *above]
+
+
+def slopes(x):
+    """The linearised Euler–Poisson equations."""
+    pi, gamma = x[:3], x[3:]
+    turn = np.diag(1 / MOMENTS)
+    top = [hat(pi) @ turn - hat(pi / MOMENTS), -hat(WEIGHT)]
+    return np.block([top, [hat(gamma) @ turn, -hat(pi / MOMENTS)]])
+
+
+@pytest.mark.parametrize("name", repeated(STARTS, 2))
+def test_an_equilibrium_beside_scipy(name):
+    found = bent().equilibrium_near(STARTS[name])
+    x = np.array([*found.at.values()])
+    start = np.array([float(STARTS[name].get(k, 0)) for k in found.at])
+    level = start[:3] @ start[3:]
+    multipliers = [float(y) for y in found.found.multipliers]
+    true = fsolve(critical, [*x, *multipliers], args=(level,), xtol=1e-12)
+    assert np.allclose(critical(true, level), 0, atol=1e-12)
+    assert max(abs(true[:6] - x)) <= found.radius < 1e-5
+    assert match(np.linalg.eigvals(slopes(true[:6])), found.eigenvalues, 1e-4)
+    assert orbit_signature(true[:6], MOMENTS, WEIGHT) == found.signature
+    assert found.verdict == VERDICTS[name]
+
+
+def test_all_imaginary_proves_nothing():
+    top = derive(heavy("132", "A_33/2", ""))
+    near = {"A_31": "0.866", "A_33": "0.5", "Pi_1": "0.866", "Pi_3": 1}
+    found = top.equilibrium_near(near)
+    assert (found.verdict, found.signature) == ("open", (2, 2))
+    assert max(x.real for x in found.eigenvalues) < 1e-5
+    exact = top.equilibria({"A_31": "sqrt(3)/2", "A_33": "1/2", "Pi_1": "sqrt(3)/2", "Pi_3": 1})[0]
+    assert exact.signature == found.signature
+
+
+CHANGES = {
+    "a term": lambda e: replace(e, rhs=add(e.rhs, ("at", "Π", 1))),
+    "another level": lambda e: replace(e, lhs=add(e.lhs, -1), rhs=add(e.rhs, -1)),
+    "what is not kept": lambda e: replace(
+        e, lhs=add(e.lhs, ("at", "Π", 1)), rhs=add(e.rhs, ("at", "Π", 1))
+    ),
+}
+
+
+def test_the_checker_encloses_once_more():
+    record = bent().equilibrium_near(STARTS["turns"]).record
+    assert from_json(to_json(record)).steps == record.steps
+    checker = Checker(record.problem, SEED)
+    rates, step = (record[x] for x in ("equilibrium_1", "enclosure_1"))
+    assert [checker.check(s).reason for s in (rates, step)] == ["", ""]
+    first, *others = step.equations
+    for change in CHANGES.values():
+        false = replace(step, equations=(change(first), *others))
+        assert checker.check(false).reason
+    for equations in (others, step.equations[:-1], (*others, first)):
+        assert checker.check(replace(step, equations=(*equations,))).reason
+
+
+@pytest.mark.parametrize("power", [9, 0])
+def test_a_polynomial_of_too_many_terms_is_none(power):
+    record = bent().equilibrium_near(STARTS["hangs"]).record
+    step = record["enclosure_1"]
+    first, *others = step.equations
+    false = replace(first, rhs=("pow", first.rhs, power))
+    with pytest.raises(ValueError, match="in a polynomial"):
+        enclosure_fault(replace(step, equations=(false, *others)))
+
+
+def test_a_characteristic_polynomial_is_enclosed():
+    rng = np.random.default_rng(2)
+    a = rng.integers(-5, 6, size=(4, 4))
+    balls = characteristic([[Ball(Fraction(int(x)), Fraction(1, 100)) for x in r] for r in a])
+    assert [float(x.mid) for x in balls] == pytest.approx(np.poly(a))
+    for _ in range(20):
+        moved = np.poly(a + rng.uniform(-1, 1, size=(4, 4)) / 100)
+        assert all(abs(x - float(y.mid)) <= y.off for x, y in zip(moved, balls, strict=True))
+
+
+REFUSED = {
+    "kirchhoff Pi_1=1": "the only one on its level",
+    "euler_top Pi_9=1": "is no coordinate",
+}
+
+
+@pytest.mark.parametrize("words", REFUSED)
+def test_what_is_refused(words, capsys):
+    name, *given = words.split()
+    assert main(["equilibria", name, *(y for x in given for y in ("--near", x))]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"derive: {name}: ")
+    assert REFUSED[words] in line
+
+
+def test_a_family_of_equilibria_is_not_enclosed():
+    near = {"A_31": "0.866", "A_33": "0.5", "Pi_1": "0.866", "Pi_3": 1}
+    with pytest.raises(ProblemError, match="the only one on its level"):
+        derive(heavy("112", "A_33/2", "")).equilibrium_near(near)
+
+
+def test_near_and_at_are_two_questions(capsys):
+    assert main(["equilibria", "euler_top", "--near", "Pi_1=1", "--at", "Pi_1=1"]) == 2
+    assert "give one of them" in capsys.readouterr().err
+
+
+def test_numbers_are_needed():
+    with pytest.raises(ProblemError, match="has no default"):
+        derive(heavy("123", "m*A_31", "m")).equilibrium_near({"A_31": 1})
+
+
+@pytest.mark.parametrize("form", ["text", "latex", "html", "markdown", "json"])
+def test_the_command(form, capsys):
+    words = ["--near", "Pi_2=1", "--format", form, "--lang", "en" if form == "json" else "fr"]
+    assert main(["equilibria", "euler_top", *words]) == 0
+    assert "Krawczyk" in capsys.readouterr().out

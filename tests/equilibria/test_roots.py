@@ -1,0 +1,208 @@
+"""Equilibria with square roots, beside finite differences of the emitted code and of the energy."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import sympy
+
+from derive import derive
+from derive.check.checker import Checker
+from derive.code.assemble import assemble
+from derive.code.emit import emit
+from derive.command.cli import main
+from derive.equilibria.energy_casimir import along_the_orbit, kernel, restricted, solutions
+from derive.equilibria.stability import grows, sturm
+from derive.language.expression import parse
+from derive.language.quadratic import Quadratic, RootError, root, value_of
+from derive.language.tree import add, replaced
+from derive.pipeline import walk
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
+from tests.support.coadjoint_orbits import hat, match, orbit_signature
+from tests.support.emitted import import_python
+from tests.support.lagrangians import heavy, lagrangian, squares
+from tests.support.walks import SEED
+
+MOMENTS = (1, 3, 2)
+TILTED = {"A_31": "sqrt(3)/2", "A_33": "1/2", "Pi_1": "sqrt(3)/2", "Pi_3": "1"}
+"""Of a top with these moments, and weight ½ on its third axis: ω = Γ is in its plane 1, 3, at 60°
+from the axis, for Ω²(I₃ − I₁) cos θ = m g l."""
+WEIGHT = np.array([0, 0, 0.5])
+
+
+def tilted(moments=MOMENTS):
+    (found,) = derive(heavy([*map(str, moments)], "A_33/2", "")).equilibria(TILTED)
+    return found
+
+
+def point(found):
+    return np.array([*map(float, found.found.about.at)])
+
+
+def test_the_tilted_top_beside_its_emitted_code(tmp_path):
+    """The eigenvalues of finite differences of the emitted rates of (Π, Γ)."""
+    problem = heavy([*map(str, MOMENTS)], "A_33/2", "")
+    record = walk(problem)
+    for file, text in emit(assemble(record, problem.group), record, ("python",), "top").items():
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    module = import_python("top", tmp_path)
+    k = module.constants({})
+
+    def rates(x):
+        zeta = x[:3] / MOMENTS
+        g = np.vstack([np.zeros((2, 3)), x[3:]])
+        dx = module.rhs(0.0, np.concatenate([g.ravel(), zeta]), k)
+        return np.concatenate([np.multiply(dx[9:], MOMENTS), dx[6:9]])
+
+    found = tilted()
+    x, step = point(found), 1e-6
+    assert rates(x) == pytest.approx(np.zeros(6), abs=1e-12)
+    slopes = [(rates(x + step * e) - rates(x - step * e)) / (2 * step) for e in np.eye(6)]
+    expected = np.linalg.eigvals(np.array(slopes).T)
+    assert match(expected, [*found.eigenvalues, 0, 0], 1e-3)
+    assert np.sort(expected.real)[-1] == pytest.approx(found.growth, abs=1e-3)
+
+
+@pytest.mark.parametrize("moments", [MOMENTS, (1, 4, 2), (1, "3/2", 2)])
+def test_the_signature_modulo_the_stabiliser(moments):
+    found = tilted(moments)
+    numbers = [float(Fraction(x)) for x in moments]
+    assert orbit_signature(point(found), numbers, WEIGHT) == found.signature
+    form = found.found.form
+    assert restricted(form.expansion.second, found.found.leaf) == along_the_orbit(
+        found.found.about, found.found.leaf
+    )
+
+
+def test_a_gyrostat_turns_aslant():
+    """Its momentum is along its velocity: (I₁√2, 0, I₁w) for ω = (√2, 0, w), w = h/(I₁ − I₃)."""
+    L = "(3*zeta_1^2 + 2*zeta_2^2 + zeta_3^2)/2 + 4*zeta_3"
+    (found,) = derive(lagrangian(L)).equilibria({"Pi_1": "3*sqrt(2)", "Pi_3": 6})
+    pi = np.array([3 * np.sqrt(2), 0, 6])
+    metric = np.diag([1 / 3, 1 / 2, 1])
+    omega = metric @ (pi - [0, 0, 4])
+    assert np.cross(pi, omega) == pytest.approx(np.zeros(3))
+    linear = hat(pi) @ metric - hat(omega)
+    assert match(np.linalg.eigvals(linear), [*found.eigenvalues, 0], 1e-9)
+    assert found.verdict == ("unstable" if found.growth > 1e-9 else "stable")
+
+
+def test_a_free_solid_scales_with_its_momentum():
+    for spin in ("sqrt(2)", "3/5*sqrt(5) - 1"):
+        verdicts = [derive("euler_top").equilibria({f"Pi_{a}": spin})[0] for a in (1, 2, 3)]
+        assert [x.verdict for x in verdicts] == ["stable", "unstable", "stable"]
+        one = derive("euler_top").equilibria({"Pi_2": 1})[0].growth
+        assert verdicts[1].growth == pytest.approx(one * abs(float(value_of(parse(spin)))))
+
+
+CHANGES = {
+    "another root": lambda t: replaced(t, ROOT, ("fun", "sqrt", 5)),
+    "its square": lambda t: add(t, ROOT),
+    "no root": lambda t: replaced(t, ROOT, Fraction(1732, 1000)),
+}
+ROOT = ("fun", "sqrt", 3)
+
+
+def test_the_checker_knows_the_root():
+    record = derive(heavy([*map(str, MOMENTS)], "A_33/2", "")).equilibria(TILTED).record
+    checker = Checker(record.problem, SEED)
+    rates, form = (record[x] for x in ("equilibrium_1", "energy_casimir_1"))
+    assert [checker.check(s).reason for s in (rates, form)] == ["", ""]
+    for change in CHANGES.values():
+        (e,) = form.equations
+        assert checker.check(replace(form, equations=(replace(e, rhs=change(e.rhs)),))).reason
+    first, *others = rates.equations
+    wrong = (replace(first, rhs=CHANGES["its square"](first.rhs)), *others)
+    assert checker.check(replace(rates, equations=wrong)).reason
+    assert from_json(to_json(record)).steps == record.steps
+
+
+def test_a_singular_leaf():
+    """Of a solid in a fluid that turns without impulse: Euler's three axes, on a sphere in
+    dimension 6, whose stabiliser is not compact; of so(4)*, points with a compact one."""
+    turning = [*derive("kirchhoff").equilibria()][:3]
+    assert [x.verdict for x in turning] == ["stable on the leaf", "unstable", "stable on the leaf"]
+    assert [x.signature for x in turning] == [(0, 2), (1, 1), (2, 0)]
+    solid = derive(lagrangian(squares(3, 5, 11, 13, 17, 19), "SO(4)"))
+    kept, lost = (
+        solid.equilibria({x: 1, y: 1})[0] for x, y in (("Pi_1", "Pi_6"), ("Pi_2", "Pi_5"))
+    )
+    assert (kept.verdict, kept.signature, len(kept.found.leaf.free)) == ("stable", (0, 2), 2)
+    assert (lost.verdict, lost.signature) == ("unstable", (1, 1))
+
+
+def test_a_solid_at_rest():
+    """The leaf is a point; of a ball that would fall, beyond the leaf."""
+    (rest,) = derive("euler_top").equilibria({"Pi_1": 0})
+    assert (rest.verdict, rest.signature) == ("stable", (0, 0))
+    odd = lagrangian("zeta_1^2 + 2*zeta_2^2 - 3*zeta_3^2")
+    (rest,) = derive(odd).equilibria({"Pi_1": 0})
+    assert rest.verdict == "stable"  # |Π|² is kept
+
+
+@pytest.mark.parametrize(
+    "text", ["sqrt(3)/2", "3/5*sqrt(2) - 1", "(1 + sqrt(5))^3/7", "1/sqrt(12)"]
+)
+def test_numbers(text):
+    own, other = value_of(parse(text)), sympy.sympify(text.replace("^", "**"))
+    assert float(own) == pytest.approx(float(other))
+    assert (own > 1) == bool(other > 1)
+    assert own * own - own / 3 + 1 == value_of(parse(f"({text})^2 - ({text})/3 + 1"))
+    assert (1 - own) / (1 - own) == 1
+
+
+def test_roots_that_are_none():
+    assert root(Fraction(9, 4)) == Fraction(3, 2)
+    for text in ("sqrt(2) + sqrt(3)", "sqrt(1 + sqrt(2))", "sin(1)"):
+        with pytest.raises(RootError):
+            value_of(parse(text))
+    with pytest.raises(RootError):
+        root(-2)
+
+
+def test_linear_algebra_over_a_quadratic_field():
+    two = root(2)
+    ((x, y),) = kernel([[two, Fraction(2)]], 2)
+    assert x / y == -two
+    start, free = solutions([[two], [Fraction(1)]], [Fraction(2)])
+    assert start[0] * two + start[1] == 2
+    assert len(free) == 1
+
+
+@pytest.mark.parametrize("roots", [(-1, -2), (-1, 3), (0, -2), (-1, -1, -4), (2, 5), ()])
+def test_sturm(roots):
+    """Of q(λ²) with roots r√2: some λ has a positive real part where some r is positive."""
+    q = [Fraction(1)]
+    for r in roots:
+        q = [x - r * root(2) * y for x, y in zip([*q, 0], [0, *q], strict=True)]
+    even = [y for x in q for y in (x, Fraction(0))][:-1]
+    assert grows(even) == any(r > 0 for r in roots)
+    assert all(isinstance(x, (int, Fraction, Quadratic)) for p in sturm(q) for x in p)
+
+
+REFUSED = {
+    "sqrt(2)+sqrt(3)": "of different fields",
+    "sin(1)": "sin of a number",
+    "x": "no value",
+    "1/0": "division by zero",
+    "(1": "not closed",
+}
+
+
+@pytest.mark.parametrize("text", REFUSED)
+def test_what_is_no_number(text, capsys):
+    with pytest.raises(SystemExit) as error:
+        main(["equilibria", "euler_top", "--at", f"Pi_1={text}"])
+    assert error.value.code == 2
+    said = capsys.readouterr().err
+    assert REFUSED[text] in said
+    assert "Traceback" not in said
+
+
+def test_the_eigenvalues_are_printed(capsys):
+    assert main(["equilibria", "euler_top", "--at", "Pi_2=sqrt(2)"]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "The eigenvalues are about ±" in shown
+    assert "Their squares are exactly" in shown

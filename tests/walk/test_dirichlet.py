@@ -1,0 +1,268 @@
+"""Dirichlet's ellipsoids: Euler's equation at points, the pressure, published motions, circulation.
+
+u(x) = L x with L = Ȧ A⁻¹ has the acceleration (L̇ + L²)x; nothing of the walk is used.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import derive
+from derive import Harmonic, Problem, Solid, Spring
+from derive.check.checker import Checker
+from derive.problem.problem import ProblemError
+from tests.support.emitted import arrange, import_python
+from tests.support.record_mutations import tried
+from tests.support.walks import SEED
+
+FULL = np.array([[2.0, 0.5, 0.3], [0.5, 3.0, -0.2], [0.3, -0.2, 1.0]])
+WELL = np.array([[2.0, 0.3, 0.1], [0.3, 1.0, 0.0], [0.1, 0.0, 0.5]])
+RHO = 1.7
+
+
+def ellipsoid(n, Q, W=None, name="fluid"):
+    """A problem on SL(n), its density a parameter."""
+    body = Solid("ellipsoid", "rho", quadric=np.asarray(Q).tolist())
+    forces = [] if W is None else [Harmonic(np.asarray(W).tolist())]
+    return Problem(name, f"SL({n})", body, forces, parameters={"rho": RHO})
+
+
+def emitted(problem, folder, **values):
+    """The emitted module with its multiplier, and its constants."""
+    derive.derive(problem).emit(folder, ["python"], multiplier=True)
+    m = import_python(problem.name, folder)
+    return m, m.constants(arrange(m, {"rho": RHO} | values))
+
+
+def coordinates(m, Z):
+    """Those of a matrix of trace 0 in the basis of the module."""
+    basis = np.array([[[float(x) for x in row] for row in e] for e in m.BASIS])
+    return np.linalg.lstsq(basis.reshape(len(basis), -1).T, np.ravel(Z), rcond=None)[0], basis
+
+
+def state(m, A, Z):
+    return np.concatenate([np.ravel(A), coordinates(m, Z)[0]])
+
+
+def flight(m, k, A, Z, times):
+    found = solve_ivp(
+        m.rhs, (0, times[-1]), state(m, A, Z), "DOP853", times, args=(k,), rtol=1e-13, atol=1e-14
+    )
+    return found.y.T
+
+
+def unpacked(m, n, x, dx):
+    """A, Z and the acceleration A(Z' + Z^2)."""
+    basis = coordinates(m, np.zeros((n, n)))[1]
+    A, Z = x[: n * n].reshape(n, n), np.tensordot(x[n * n :], basis, 1)
+    return A, Z, A @ (np.tensordot(dx[n * n :], basis, 1) + Z @ Z)
+
+
+def volume(Q):
+    """That of <r, Q r> <= 1."""
+    n = len(Q)
+    return math.pi ** (n / 2) / math.gamma(n / 2 + 1) / math.sqrt(np.linalg.det(Q))
+
+
+def start(n, rng):
+    A, Z = np.eye(n) + 0.3 * rng.normal(size=(n, n)), rng.normal(size=(n, n))
+    return A / abs(np.linalg.det(A)) ** (1 / n), Z - np.trace(Z) / n * np.eye(n)
+
+
+@pytest.mark.parametrize("n", [2, 3, 4])
+@pytest.mark.parametrize("forced", [False, True])
+def test_eulers_equation_at_points(n, forced, tmp_path):
+    """rho(u_t + u·grad u) = -grad p - rho W x, p by its own differences, along a trajectory."""
+    rng = np.random.default_rng(n)
+    Q = np.eye(n) + 0.2 * np.ones((n, n)) if n == 4 else FULL[:n, :n]
+    W = (np.eye(n) if n == 4 else WELL[:n, :n]) if forced else None
+    m, k = emitted(ellipsoid(n, Q, W), tmp_path)
+    A, Z = start(n, rng)
+    if np.linalg.det(A) < 0:
+        A[0] *= -1
+    for x in flight(m, k, A, Z, [0, 0.2, 0.4]):
+        A, Z, force = unpacked(m, n, x, m.rhs(0.0, x, k))
+        back, theta = np.linalg.inv(A), m.multiplier(0.0, x, k)
+        central = (n + 2) * theta / (2 * volume(Q))
+
+        def pressure(y, back=back, central=central):
+            r = back @ y
+            return central * (1 - r @ Q @ r)
+
+        for _ in range(4):
+            place = A @ rng.normal(size=n)
+            slope = [
+                pressure(place + e) - pressure(place - e) for e in np.eye(n)
+            ]  # exact: quadratic
+            moved = force @ back @ place
+            applied = -W @ place if forced else np.zeros(n)
+            balance = RHO * moved + np.array(slope) / 2 - RHO * applied
+            assert np.max(np.abs(balance)) < 1e-11 * (1 + np.max(np.abs(RHO * moved)))
+        s, w = np.polynomial.legendre.leggauss(8)
+        s, w = (s + 1) / 2, w / 2  # shells of the ball of which the ellipsoid is an image
+        shells = central * volume(Q) * np.sum(w * n * s ** (n - 1) * (1 - s**2))
+        assert shells == pytest.approx(theta, rel=1e-12)
+
+
+def test_dirichlets_spheroid(tmp_path):
+    """A = diag(a, a, 1/a²) of a ball: (1 + 2/a⁶) a'² is constant, a quadrature."""
+    m, k = emitted(ellipsoid(3, np.eye(3)), tmp_path)
+    times, rate = np.linspace(0, 2, 9), 0.7
+    x = flight(m, k, np.eye(3), np.diag([rate, rate, -2 * rate]), times)
+    a = solve_ivp(
+        lambda t, a: rate * np.sqrt(3 / (1 + 2 / a**6)), (0, 2), [1.0], "DOP853", times,
+        rtol=1e-13, atol=1e-14,
+    ).y[0]  # fmt: skip
+    assert x[:, [0, 4, 8]] == pytest.approx(np.array([a, a, a**-2]).T, abs=1e-9)
+    assert np.max(np.abs(x[:, [1, 2, 3, 5, 6, 7]])) < 1e-12
+    moved = rate**2 * 3 / (1 + 2 / a**6)  # a'²; θ = j Tr Z²/Tr C⁻¹, Tr Z² = 6 (a'/a)²
+    wanted = RHO * volume(np.eye(3)) / 5 * 6 * moved / a**2 / (2 / a**2 + a**4)
+    theta = np.array([m.multiplier(0.0, y, k) for y in x])
+    assert theta == pytest.approx(wanted, rel=1e-9)
+
+
+@pytest.mark.parametrize("c", [0.8, 1.0, 1.3])
+@pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
+def test_steady_ellipsoids(c, share, tmp_path):
+    """Riemann's ellipsoids of type S in a harmonic well: A = R(Ωt) diag(a, b, c) R(φt) with
+    Ω² + φ² = w², −2Ωφ = w₃² c³ and the pressure −2Ωφ ab j; Dedekind's of another share."""
+    a = 1.2 + 0.1 * share
+    b, w3 = 1 / (a * c), 0.9
+    turning = 0.6 + share
+    inner = -(w3**2) * c**3 / (2 * turning)
+    w2 = turning**2 + inner**2
+    W = np.diag([w2, w2, w3**2])
+    m, k = emitted(ellipsoid(3, np.eye(3), W), tmp_path)
+
+    def about_z(angle):
+        s, q = math.sin(angle), math.cos(angle)
+        return np.array([[q, -s, 0], [s, q, 0], [0, 0, 1]])
+
+    spin = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 0]])
+    D = np.diag([a, b, c])
+    Z = np.linalg.inv(D) @ (turning * spin @ D + inner * D @ spin)
+    times = np.linspace(0, 3, 7)
+    j = RHO * volume(np.eye(3)) / 5
+    for t, x in zip(times, flight(m, k, D, Z, times), strict=True):
+        wanted = about_z(turning * t) @ D @ about_z(inner * t)
+        assert x[:9].reshape(3, 3) == pytest.approx(wanted, abs=1e-9)
+        assert m.multiplier(t, x, k) == pytest.approx(-2 * turning * inner * a * b * j, rel=1e-9)
+
+
+def test_in_a_plane(tmp_path):
+    """Ellipses in a well, Kirchhoff's among them: Ω² + φ² = w², θ = −2Ωφ j for any axes; and with
+    φ = 0 each point swings by itself, without pressure."""
+    m, k = emitted(ellipsoid(2, np.eye(2), 1.25 * np.eye(2)), tmp_path)
+    spin, D = np.array([[0.0, -1], [1, 0]]), np.diag([1.6, 1 / 1.6])
+    j = RHO * volume(np.eye(2)) / 4
+    for turning, inner in ((1.0, -0.5), (0.5, 1.0), (math.sqrt(1.25), 0.0)):
+        Z = np.linalg.inv(D) @ (turning * spin @ D + inner * D @ spin)
+        for t, x in zip((0, 1, 2), flight(m, k, D, Z, [0, 1, 2]), strict=True):
+            left, right = (
+                np.array([[math.cos(y), -math.sin(y)], [math.sin(y), math.cos(y)]])
+                for y in (turning * t, inner * t)
+            )
+            assert x[:4].reshape(2, 2) == pytest.approx(left @ D @ right, abs=1e-9)
+            assert m.multiplier(t, x, k) == pytest.approx(-2 * turning * inner * j, abs=1e-9)
+
+
+def circulations(m, k, n, times):
+    A, Z = start(n, np.random.default_rng(8))
+    A[0] *= np.sign(np.linalg.det(A))
+    found = []
+    for x in flight(m, k, A, Z, times):
+        A, Z, _ = unpacked(m, n, x, m.rhs(0.0, x, k))
+        C = A.T @ A @ Z
+        found.append(C - C.T)
+    return np.array(found)
+
+
+def test_circulation_is_kept_without_springs(tmp_path):
+    """In a well, too, for it acts on every point; a spring at one place changes it."""
+    m, k = emitted(ellipsoid(3, FULL, WELL), tmp_path)
+    kept = circulations(m, k, 3, [0, 0.5, 1])
+    assert np.max(np.abs(kept - kept[0])) < 1e-9
+    body = Solid("ellipsoid", "rho", quadric=FULL.tolist())
+    spring = Spring([0.3, 0, 0], [1, 0, 0], 5)
+    m, k = emitted(Problem("held", "SL(3)", body, [spring], parameters={"rho": RHO}), tmp_path)
+    changed = circulations(m, k, 3, [0, 0.5, 1])
+    assert np.max(np.abs(changed - changed[0])) > 0.1
+
+
+def labels(problem):
+    record = derive.derive(problem).record
+    return [
+        step.label.split(".")[1] for step in record.steps if step.label.startswith(problem.name)
+    ]
+
+
+def test_what_is_claimed():
+    """Pressure at every point of centred ellipsoids with linear forces; else the total alone."""
+    told = {"quadric", "pressure", "total", "virial", "circulation", "no_rotation"}
+    free, plane = labels(ellipsoid(3, FULL)), labels(ellipsoid(2, FULL[:2, :2]))
+    assert told & {*free} == told - {"virial"}
+    assert told & {*plane} == told - {"virial", "no_rotation"}
+    assert told & {*labels(ellipsoid(3, FULL, WELL))} == told - {"virial", "no_rotation"}
+    for body in (
+        Solid("box", 1, sides=[1, 2, 3]),
+        Solid("ellipsoid", 1, semi_axes=[1, 2, 3], shift=[1, 0, 0]),
+        Solid("ball", 1, radius=1) + Solid("ball", 1, radius=2),
+    ):
+        assert told & {*labels(Problem("b", "SL(3)", body))} == {
+            "virial",
+            "circulation",
+            "no_rotation",
+        }
+    held = Problem("b", "SL(3)", Solid("ball", 1, radius=1), [derive.Gravity(0, 0, -1)])
+    assert told & {*labels(held)} == {"virial", "circulation"}
+    assert not told & {*labels(Problem("b", "GL(3)", Solid("ball", 1, radius=1)))}
+    assert not told & {*labels(derive.derive("sl3").problem)}
+
+
+@pytest.mark.parametrize(
+    ("quadric", "told"),
+    [
+        ([[1, 2, 0], [0, 1, 0], [0, 0, 1]], "solid 1, quadric: .*symmetric"),
+        ([[1, 0, 0], [0, -1, 0], [0, 0, 1]], "solid 1, quadric: .*positive definite$"),
+        ([[1, 1, 0], [1, 1, 0], [0, 0, 1]], "solid 1, quadric: .*positive definite$"),
+        ([["q", 0, 0], [0, 1, 0], [0, 0, 1]], "body: .*positive definite for the defaults"),
+        ([[1, 0], [0, 1]], "solid 1, quadric: expected a list of 3 rows"),
+    ],
+)
+def test_no_ellipsoid(quadric, told):
+    body = Solid("ellipsoid", 1, quadric=quadric)
+    with pytest.raises(ProblemError, match=told):
+        Problem("b", "SL(3)", body, parameters={"q": -2} if "q" in str(quadric) else {})
+
+
+def test_other_keys():
+    with pytest.raises(ProblemError, match="either 'semi_axes' or a 'quadric'"):
+        Problem("b", "SL(3)", Solid("ellipsoid", 1))
+    body = Solid("ellipsoid", 1, quadric=np.eye(3).tolist(), shift=[1, 0, 0])
+    with pytest.raises(ProblemError, match="goes with 'semi_axes'"):
+        Problem("b", "SL(3)", body)
+    with pytest.raises(ProblemError, match="potential 1, W: the matrix must be symmetric"):
+        Problem(
+            "b",
+            "SL(2)",
+            Solid("ellipsoid", 1, quadric=[[1, 0], [0, 1]]),
+            [Harmonic([[1, 1], [0, 1]])],
+        )
+    with pytest.raises(ProblemError, match=r"harmonic is for one group.*not for SO\(3\)"):
+        Problem("b", "SO(3)", Solid("ball", 1, radius=1), [Harmonic(np.eye(3).tolist())])
+    with pytest.raises(ValueError, match="--multiplier is for a group with one relation"):
+        derive.derive("gl3").emit(multiplier=True)
+
+
+@pytest.mark.parametrize("problem", [ellipsoid(3, FULL), ellipsoid(2, FULL[:2, :2], WELL[:2, :2])])
+def test_every_corruption_is_refused(problem):
+    """Each sign, factor, term and bar of the steps of a fluid."""
+    record = derive.derive(problem).record
+    checker, told = Checker(record.problem, SEED), {"quadric", "pressure", "total", "circulation"}
+    for step in record.steps:
+        if step.label.split(".")[1] in told | {"no_rotation", "potential", "force"}:
+            for kind, wrong, verdict in tried(step, checker):
+                true = "N" in str(wrong.lhs) and wrong.rhs == 0  # without forces AN = 0, too
+                assert true or not verdict.holds, (kind, wrong)

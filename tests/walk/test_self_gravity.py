@@ -1,0 +1,290 @@
+"""Self-gravity of an ellipsoid beside plain sums, and beside the known figures of equilibrium."""
+
+import math
+import subprocess
+from functools import cache
+
+import mpmath
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import derive
+from derive import Problem, Solid, pipeline
+from derive.check.checker import Checker
+from derive.problem.problem import ProblemError
+from tests.oracles import ellipsoids
+from tests.support.emitted import arrange, compile_c, import_python
+from tests.support.kinds import agrees
+from tests.support.needs import CC, need
+from tests.support.record_mutations import tried
+from tests.support.walks import SEED, record
+
+NAME = "riemann_ellipsoid"
+BALL = {"rho": 1.0, "a": 1.0, "b": 1.0, "c": 1.0, "G": 1.0}
+RATIOS = [
+    *((1, 1, 1), (1, 1, 1 + 1e-9), (1, 1 - 1e-7, 1 + 1e-8), (1, 0.9, 0.8), (3, 2, 1)),
+    *((1, 1, 1e-4), (1, 1e-4, 1e-4), (1, 1e-2, 1e-4), (1e3, 1, 0.1), (1, 1e-6, 1e-6)),
+]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    found = tmp_path_factory.mktemp("self_gravity")
+    derive.derive(NAME).emit(found, ("c", "python"))
+    return found
+
+
+@cache
+def module(folder):
+    return import_python(NAME, folder)
+
+
+def invariants(axes):
+    x, y, z = (mpmath.mpf(a) ** 2 for a in axes)
+    return [float(t) for t in (x + y + z, x * y + y * z + z * x, x * y * z)]
+
+
+def integrals(I1, I2, I3):
+    """The four integrals to 30 digits, by the trapezoidal rule in log u, of analytic functions."""
+    with mpmath.workdps(40):
+        I1, I2, I3 = map(mpmath.mpf, (I1, I2, I3))
+        h, total = mpmath.mpf(1) / 8, [mpmath.mpf(0)] * 4
+        for k in range(-1400, 1800):
+            u = mpmath.exp(k * h)
+            P = ((u + I1) * u + I2) * u + I3
+            whole = u / mpmath.sqrt(P)
+            parts = (whole, whole / P, whole * u / P, whole * u * u / P)
+            total = [x + h * y for x, y in zip(total, parts, strict=True)]
+        return total
+
+
+def test_the_integrals_to_rounding(folder):
+    """Also where axes are equal, and where they are in ratios of 10^4 and more."""
+    need("cc")
+    source = folder / "integrals.c"
+    source.write_text(
+        f'#include "{NAME}.c"\n#include <stdio.h>\nint main(void)\n{{\n    double a, b, c;\n'
+        '    while (scanf("%lf %lf %lf", &a, &b, &c) == 3) {\n'
+        f"        const {NAME}_integrals r = {NAME}_ellipsoid(a, b, c);\n"
+        '        printf("%.17g %.17g %.17g %.17g\\n", r.v[0], r.v[1], r.v[2], r.v[3]);\n'
+        "    }\n    return 0;\n}\n"
+    )
+    program = folder / "integrals"
+    subprocess.run([CC, "-O2", "-o", program, source, "-lm"], check=True)
+    given = [invariants(x) for x in RATIOS]
+    text = "\n".join(" ".join(map(repr, x)) for x in given)
+    out = subprocess.run([program], input=text, capture_output=True, text=True, check=True).stdout
+    for x, line in zip(given, out.splitlines(), strict=True):
+        wanted = integrals(*x)
+        for found in (map(float, line.split()), module(folder)._ellipsoid(math, *x)):
+            for a, b in zip(found, wanted, strict=True):
+                assert abs(a - b) < 5e-15 * b
+
+
+def test_in_floats_as_well(tmp_path):
+    need("cc")
+    derive.derive(NAME).emit(tmp_path, ("c",), real="float", form="header")
+    source = tmp_path / "m.c"
+    x = invariants((3, 2, 1))
+    source.write_text(
+        f'#include "{NAME}.h"\n#include <stdio.h>\nint main(void)\n{{\n'
+        f"    const {NAME}_integrals r = {NAME}_ellipsoid({x[0]!r}f, {x[1]!r}f, {x[2]!r}f);\n"
+        '    for (int i = 0; i < 4; ++i) {\n        printf("%.9g\\n", (double)r.v[i]);\n    }\n'
+        "    return 0;\n}\n"
+    )
+    program = tmp_path / "m"
+    strict = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-Wno-unused-function"]
+    subprocess.run([CC, *strict, "-Wdouble-promotion", "-o", program, source, "-lm"], check=True)
+    out = subprocess.run([program], capture_output=True, text=True, check=True).stdout
+    for a, b in zip(map(float, out.split()), integrals(*x), strict=True):
+        assert abs(a - b) < 2e-6 * b
+
+
+@pytest.mark.parametrize("axes", [(1, 1, 1), (1.3, 1.3, 0.7), (1.5, 1.1, 0.6)])
+def test_the_energy_is_that_of_newtons_law(axes, folder):
+    by_rays = ellipsoids.energy_by_rays(axes, 2.0, 3.0)
+    assert abs(ellipsoids.energy(np.diag(np.square(axes)), 2.0, 3.0) / by_rays - 1) < 1e-12
+    m = module(folder)
+    density = 2.0 / (4 / 3 * math.pi * np.prod(axes))
+    p = arrange(m, dict(zip("abc", axes, strict=True)) | {"rho": density, "G": 3.0})
+    x = np.concatenate([np.eye(3).ravel(), np.zeros(8)])
+    assert abs(m.energy(0.0, x, m.constants(p)) / by_rays - 1) < 1e-12
+
+
+@pytest.mark.parametrize("group", ["SL(3)", "GL(3)", "SAff(3)", "Aff(3)", "Sim(3)"])
+def test_motion_is_that_of_points_under_gauss_principle(group, tmp_path):
+    """A turned ellipsoid with three unequal axes, by six points of the same moments."""
+    turned = {"axis": [1, 2, 2], "angle": "pi/3"}
+    solid = Solid("ellipsoid", "rho", semi_axes=["a", 1.2, 0.7], rotation=turned)
+    problem = Problem(
+        "free", group, solid, [derive.SelfGravity("G")], parameters={"rho": 0.9, "a": 1.6, "G": 2.0}
+    )
+    axes, mass = np.array([1.6, 1.2, 0.7]), 0.9 * 4 / 3 * math.pi * 1.6 * 1.2 * 0.7
+    e = np.array([1, 2, 2]) / 3
+    across = np.array([[0, -e[2], e[1]], [e[2], 0, -e[0]], [-e[1], e[0], 0]])
+    R = np.eye(3) + math.sin(math.pi / 3) * across + 0.5 * across @ across
+    ends = math.sqrt(3 / 5) * R * axes
+    r, masses = np.concatenate([ends.T, -ends.T]), np.full(6, mass / 6)
+    K = 5 / mass * r.T @ (masses[:, None] * r)
+
+    def U(t, A, T):
+        return ellipsoids.energy(A @ K @ A.T, mass, 2.0)
+
+    agrees(problem, {"rho": 0.9, "a": 1.6, "G": 2.0}, masses, r, U, tmp_path)
+
+
+# -- figures of equilibrium ----------------------------------------------------------------------
+
+
+def hat(x):
+    return np.array([[0, -x[2], x[1]], [x[2], 0, -x[0]], [-x[1], x[0], 0]])
+
+
+def rotation(angle):
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+
+
+def state(m, A, Z):
+    basis = np.array([[[float(x) for x in row] for row in e] for e in m.BASIS])
+    zeta = np.linalg.lstsq(basis.reshape(len(basis), -1).T, Z.ravel(), rcond=None)[0]
+    return np.concatenate([A.ravel(), zeta])
+
+
+def follows(folder, axes, square, moved):
+    """The emitted motion beside ``moved(t)`` = A, where A = D at t = 0, over two turns."""
+    need("cc")
+    m, c = module(folder), compile_c(CC, NAME, folder, folder)
+    D = np.diag(axes / np.cbrt(np.prod(axes)))
+    rate = math.sqrt(square * math.pi)
+    status, k = c.constants(arrange(m, BALL))
+    assert status == 0
+    A, Z = moved(D, rate, 0.0)
+    end = 4 * math.pi / rate
+    at = np.linspace(0, end, 9)
+    found = solve_ivp(
+        lambda t, x: c.rhs(t, x, k, np.zeros(0)),
+        (0, end), state(m, A, Z), method="DOP853", rtol=1e-13, atol=1e-14, t_eval=at,
+    )  # fmt: skip
+    for t, x in zip(at, found.y.T, strict=True):
+        wanted = state(m, *moved(D, rate, t))
+        assert np.max(np.abs(x - wanted)) < 1e-9
+
+
+def rigid(D, rate, t):
+    """Turning as a whole: A = R(Ωt) D."""
+    spin = rate * hat([0, 0, 1])
+    return rotation(rate * t) @ D, np.linalg.inv(D) @ spin @ D
+
+
+def circulating(D, rate, t):
+    """Dedekind's: at rest in space, with the liquid inside turning: A = D R(Ωt)."""
+    return D @ rotation(rate * t), rate * hat([0, 0, 1])
+
+
+@pytest.mark.parametrize("e", [0.2, 0.6, 0.8])
+def test_maclaurins_spheroids(e, folder):
+    axes = np.array([1, 1, math.sqrt(1 - e**2)])
+    follows(folder, axes, ellipsoids.maclaurin(e), rigid)
+
+
+@pytest.mark.parametrize("moved", [rigid, circulating])
+def test_jacobis_ellipsoid_and_dedekinds(moved, folder):
+    follows(folder, *ellipsoids.jacobi(0.7), moved)
+
+
+def test_what_is_kept(folder):
+    """Along a motion of a stretched, spinning and sheared liquid."""
+    need("cc")
+    m, c = module(folder), compile_c(CC, NAME, folder, folder)
+    rng = np.random.default_rng(11)
+    A = np.eye(3) + 0.2 * rng.normal(size=(3, 3))
+    A /= np.cbrt(np.linalg.det(A))
+    Z = 0.4 * rng.normal(size=(3, 3))
+    Z -= np.trace(Z) / 3 * np.eye(3)
+    k = c.constants(arrange(m, BALL))[1]
+    found = solve_ivp(
+        lambda t, x: c.rhs(t, x, k, np.zeros(0)),
+        (0, 6), state(m, A, Z), method="DOP853", rtol=1e-13, atol=1e-14,
+    )  # fmt: skip
+    basis = np.array([[[float(x) for x in row] for row in e] for e in m.BASIS])
+
+    def kept(x):
+        A, Z = x[:9].reshape(3, 3), np.tensordot(x[9:], basis, 1)
+        speed = A @ Z
+        turning, circulation = A @ speed.T, A.T @ speed
+        return np.concatenate(
+            [
+                [c.energy(0.0, x, k), np.linalg.det(A)],
+                (turning - turning.T)[np.triu_indices(3, 1)],
+                (circulation - circulation.T)[np.triu_indices(3, 1)],
+            ]
+        )
+
+    first = kept(found.y[:, 0])
+    assert np.linalg.norm(found.y[:9, -1] - found.y[:9, 0]) > 0.5
+    for x in found.y.T[::20]:
+        assert np.max(np.abs(kept(x) - first)) < 1e-9
+
+
+def test_c_and_python_on_arrays(folder):
+    need("cc")
+    m, c = module(folder), compile_c(CC, NAME, folder, folder)
+    rng = np.random.default_rng(4)
+    p = arrange(m, BALL | {"a": 1.5, "b": 0.6})
+    k = c.constants(p)[1]
+    A = np.eye(3) + 0.3 * rng.normal(size=(40, 3, 3))
+    A /= np.cbrt(np.linalg.det(A))[:, None, None]
+    x = np.concatenate([A.reshape(40, 9), rng.normal(size=(40, 8))], axis=1)
+    batch = m.rhs(0.0, x, m.constants(p))
+    for row, found in zip(x, batch, strict=True):
+        wanted = c.rhs(0.0, row, k, np.zeros(0))
+        assert np.max(np.abs(found - wanted)) < 1e-12 * np.max(np.abs(wanted))
+
+
+# -- the record and what is refused --------------------------------------------------------------
+
+
+def test_every_change_of_its_step_is_refused():
+    checker = Checker(record(NAME).problem, SEED)
+    found = list(tried(record(NAME)[f"{NAME}.potential"], checker))
+    assert len(found) == 40
+    for kind, wrong, verdict in found:
+        assert not verdict.holds, (kind, wrong)
+
+
+def test_the_angular_momentum_is_said_to_be_kept():
+    step = record(NAME)[f"{NAME}.conserved"]
+    assert {"ḣ", "ℓ̇"} <= {e.lhs for e in step.equations}
+
+
+@pytest.mark.parametrize("group", ["SO(3)", "SE(3)", "SL(2)", "SL(4)"])
+def test_groups_that_do_not_deform_space(group):
+    n = int(group[3])
+    body = derive.Points(*((1, at) for at in (*np.eye(n).tolist(), [0] * n)))
+    with pytest.raises(ProblemError, match="self_gravity needs one group that deforms R") as error:
+        Problem("b", group, body, [derive.SelfGravity(1)])
+    assert ("constant" in str(error.value)) == (n == 3)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        Solid("box", 1, sides=[1, 2, 3]),
+        Solid("ellipsoid", 1, semi_axes=[1, 2, 3], shift=[1, 0, 0]),
+        Solid("ball", 1, radius=1) + Solid("ball", 2, radius=2),
+        derive.Moments(),
+    ],
+)
+def test_bodies_that_are_no_ellipsoid(body):
+    with pytest.raises(ProblemError, match="a body that is one homogeneous ellipsoid"):
+        Problem("b", "SL(3)", body, [derive.SelfGravity(1)])
+
+
+def test_what_is_not_written_or_sought():
+    d = derive.derive(NAME)
+    with pytest.raises(ProblemError, match="symmetries are not sought where self_gravity acts"):
+        pipeline.symmetries(d.problem, d.record)
+    with pytest.raises(ValueError, match="derivatives of the integrals of self_gravity"):
+        d.emit(jacobian=("state",))
