@@ -201,6 +201,11 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "force moins le gradient de la pression, car les forces par unité de masse sont "
             "linéaires en la position.",
         ),
+        "gravity": (
+            "The gravity of a homogeneous ellipsoid on its own points is (Newton, Maclaurin).",
+            "L’attraction d’un ellipsoïde homogène sur ses propres points l’est (Newton, "
+            "Maclaurin).",
+        ),
     },
     "total": {
         "pressure": (
@@ -222,12 +227,13 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "The trace of the balance. Of a pressure that vanishes at the boundary and balances "
             "acceleration and forces at every point θ would be the integral, by the divergence "
             "theorem: the total pressure that is needed. That there is one is not said here, where "
-            "the body is no centred ellipsoid, or the forces per mass are not linear in the place.",
+            "the body is not given as one centred ellipsoid in its own axes, or the forces per "
+            "mass are not linear in the place.",
             "La trace du bilan. D’une pression nulle au bord qui équilibre l’accélération et les "
             "forces en chaque point, θ serait l’intégrale, par le théorème de la divergence : la "
             "pression totale qu’il faut. Qu’il y en ait une n’est pas affirmé ici, où le corps "
-            "n’est pas un ellipsoïde centré, ou bien les forces par unité de masse ne sont pas "
-            "linéaires en la position.",
+            "n’est pas donné comme un seul ellipsoïde centré dans ses propres axes, ou bien les "
+            "forces par unité de masse ne sont pas linéaires en la position.",
         ),
     },
     "circulation": {
@@ -236,6 +242,14 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "what the forces add.",
             "La circulation, quel que soit J : ce que la pression ajoute à Āα̇ est symétrique, et "
             "de même ce que les forces ajoutent.",
+        ),
+        "gravity": (
+            "The circulation: what the pressure adds to Āα̇ is symmetric, and so is what the "
+            "gravity of the body on itself adds: −CB_G J⁻¹, as K_G is a multiple of J, and CC_a "
+            "of 𝟏.",
+            "La circulation : ce que la pression ajoute à Āα̇ est symétrique, et de même ce que "
+            "l’attraction du corps sur lui-même ajoute : −CB_G J⁻¹, car K_G est un multiple de J, "
+            "et CC_a de 𝟏.",
         ),
         "changed": (
             "The circulation: what the pressure adds to Āα̇ is symmetric, and drops out; what the "

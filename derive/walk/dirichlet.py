@@ -31,7 +31,9 @@ from ..schema.kinds.volume import Volume
 from ..schema.solid_kinds import Solid
 from .chapter import Chapter, Draft
 from .inverse import cancelling, inverse_letter
+from .kinds.self_gravity_walked import GradientLetter
 from .multipliers import MULTIPLIER
+from .potential import Potentials
 from .pullback import sum_over
 from .solution import Solution
 from .specialisation import Special
@@ -44,7 +46,12 @@ INSIDE: Tree = add(1, neg(("norm2", "Q_r", "r")))
 
 
 def fluid_steps(
-    problem: Problem, group: Group, special: Special, found: Solution, c: Chapter
+    problem: Problem,
+    group: Group,
+    potentials: Potentials,
+    special: Special,
+    found: Solution,
+    c: Chapter,
 ) -> tuple[Step, ...]:
     """The steps ``quadric``, ``pressure``, ``total`` of an ellipsoid, or ``virial`` of another
     solid, that a group of all maps that keep volumes moves; ``circulation`` and
@@ -57,7 +64,7 @@ def fluid_steps(
     solids = body.solids if isinstance(body, GivenBody) else ()
     if not (solids or gas):
         return ()
-    fluid = _Fluid(problem, special, found, c)
+    fluid = _Fluid(problem, potentials, special, found, c)
     if gas:
         return (fluid.circulation(),)
     free = not (problem.potentials or problem.inputs or problem.damping)
@@ -100,6 +107,7 @@ class _Fluid:
     """What is known of the motion of a body: Āα̇J = ĀN + θ 1, or without θ on GL(n)."""
 
     problem: Problem
+    potentials: Potentials
     special: Special
     found: Solution
     c: Chapter
@@ -123,6 +131,11 @@ class _Fluid:
     @property
     def _gas(self) -> bool:
         return any(isinstance(p, Volume) for p in self.problem.potentials)
+
+    @property
+    def _gravity(self) -> list[GradientLetter]:
+        """The energies by C whose force may be central in the body, as that of its own gravity."""
+        return [x for x in self.potentials.own if isinstance(x, GradientLetter)]
 
     def _draft(self, label: str, rule: str) -> Draft:
         draft = self.c.draft(label, rule)
@@ -195,7 +208,9 @@ class _Fluid:
         def rule(x: Factor, y: Factor) -> Expr | None:
             return b.unit if (x, y) == ((left, False), (b.A.position, True)) else None
 
+        A = word(b.A.position)
         applied = word(self.rho) * without(self.acceleration, MULTIPLIER)
+        applied = substitute(applied, {b.C: A.bar * A})
         force = reduce(word(left) * (applied * r - slope), rule, cancelling(b.J))
         shown = WordNotation(
             display={self.rho: density, left: ("inv", ("T", "A"))}
@@ -210,7 +225,7 @@ class _Fluid:
                 Equation("p_r", mul("p_0", INSIDE)),
                 Equation(draft.tree(moved, shown), draft.tree(force, shown)),
             ),
-            say("pressure.balance"),
+            say("pressure.balance") + (say("pressure.gravity") if self._gravity else ()),
         )
 
     def _total(self, density: Tree, quadric: Step, pressure: Step) -> Step:
@@ -255,7 +270,13 @@ class _Fluid:
             return self.acceleration.bar if opposite else None
 
         changed = reduce(derivation(turned, along.get), rule, cancelling(b.J))
+        by_body = {x.gradient: x.slope for x in self._gravity}
+        rules = [x.adjugate for x in self._gravity]
+        own = by_body and not reduce(substitute(changed, by_body), cancelling(b.J), *rules)
+        changed = changed * 0 if own else changed
         draft = self._draft("circulation", "solution" if changed else "conservation")
+        if own:
+            draft.depends_on(*self.potentials.steps)
         J, momentum = word(b.J), word(b.C) * word(b.Z.velocity) * word(b.J)
         image = {b.A.velocity: word(b.A.position) * word(b.Z.velocity)}
         carried = reduce(substitute(J * turned * J, image), body_rule(b, word(b.C)))
@@ -269,7 +290,7 @@ class _Fluid:
                 Equation(("mul", "J", "Υ", "J"), draft.tree(J * Pi - Pi.bar * J)),
                 Equation("Υ̇", draft.tree(changed, notation)),
             ),
-            say("circulation.kept" if not changed else "circulation.changed")
+            say("circulation." + ("changed" if changed else "gravity" if own else "kept"))
             + say("circulation.relabelling"),
         )
 

@@ -288,3 +288,41 @@ def test_what_is_not_written_or_sought():
         pipeline.symmetries(d.problem, d.record)
     with pytest.raises(ValueError, match="derivatives of the integrals of self_gravity"):
         d.emit(jacobian=("state",))
+
+
+# -- the fluid of Dirichlet ------------------------------------------------------------------------
+
+
+def test_eulers_equation_at_points_under_its_own_gravity(tmp_path):
+    """rho (u_t + u·grad u) = -grad p + rho g at points inside, g by quadrature, p by its own
+    differences; and Āα − ᾱA along a flight."""
+    axes, rng = np.array([1.3, 1.0, 0.7]), np.random.default_rng(5)
+    body = Solid("ellipsoid", 1.7, semi_axes=axes.tolist())
+    problem = Problem("drop", "SL(3)", body, derive.SelfGravity(G=1.2))
+    derive.derive(problem).emit(tmp_path, ["python"], multiplier=True)
+    m = import_python("drop", tmp_path)
+    k, basis = m.constants(arrange(m, {})), np.array(m.BASIS, float)
+    A = np.eye(3) + 0.2 * rng.normal(size=(3, 3))
+    x = np.concatenate([np.ravel(A / np.linalg.det(A) ** (1 / 3)), 0.4 * rng.normal(size=8)])
+    flight = solve_ivp(m.rhs, (0, 1), x, "DOP853", [0, 0.5, 1], args=(k,), rtol=1e-13, atol=1e-14)
+    turned = []
+    for x in flight.y.T:
+        A, Z = x[:9].reshape(3, 3), np.tensordot(x[9:], basis, 1)
+        moved = A @ (np.tensordot(m.rhs(0.0, x, k)[9:], basis, 1) + Z @ Z) @ np.linalg.inv(A)
+        squares, R = np.linalg.eigh(A @ np.diag(axes**2) @ A.T)
+        pull = R @ np.diag(ellipsoids.attractions(np.sqrt(squares))) @ R.T * 2 * np.pi * 1.2 * 1.7
+        central = 2.5 * m.multiplier(0.0, x, k) / (4 / 3 * np.pi * np.prod(axes))
+        shape = R @ np.diag(1 / squares) @ R.T  # p = central (1 - <x, shape x>)
+        assert 1.7 * (moved + pull) == pytest.approx(2 * central * shape, abs=1e-10)
+        turned.append(A.T @ A @ Z - Z.T @ A.T @ A)
+    assert turned[1:] == pytest.approx(np.array([turned[0]] * 2), abs=1e-9)
+
+
+def test_the_circulation_is_said_to_be_kept():
+    """Whatever the semi-axes; each change of it, and of the steps of the pressure, is refused."""
+    assert record(NAME)[f"{NAME}.circulation"].equations[-1].rhs == 0
+    checker = Checker(record(NAME).problem, SEED)
+    for label in ("pressure", "total", "circulation"):
+        changes = list(tried(record(NAME)[f"{NAME}.{label}"], checker))
+        assert changes
+        assert [kind for kind, _, verdict in changes if verdict.holds] == []

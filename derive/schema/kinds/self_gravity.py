@@ -12,6 +12,7 @@ class SelfGravity(Potential):
     """
 
     kind, phrase, alone = "self_gravity", "its own gravity", True
+    linear = True  # in the place, inside a homogeneous ellipsoid (Newton, Maclaurin)
     legend = "The gravity of the body on itself is not drawn."
     needs = ("deformations of R^3", "one ellipsoid")
     unturned = "the gravity of a body on itself"

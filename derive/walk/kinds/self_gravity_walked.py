@@ -14,12 +14,13 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from ...algebra.calculus import derivation
-from ...algebra.words import Expr, Letter, trace, word
+from ...algebra.words import Expr, Factor, Letter, one, trace, word
 from ...language.tree import Tree, add, mul, neg
 from ...problem.problem import Problem
 from ...record.record import Equation
 from ...schema.kinds.self_gravity import SelfGravity
 from ..alphabet import Alphabet
+from ..inverse import inverse_letter
 from ..potential_letters import PotentialLetter, Words
 from ..wording import say
 
@@ -33,14 +34,23 @@ INVARIANTS = ("I_1", "I_2", "I_3")
 
 @dataclass(frozen=True)
 class GradientLetter(PotentialLetter):
-    """A scalar letter x, a function of the symmetric ``value``, with δx = ½ Tr B δ(value);
-    ``gradient``: B."""
+    """A scalar letter x, a function of the symmetric ``value``, with δx = ½ Tr B δ(value).
+
+    ``gradient``: B, which stands for ``slope``, in letters of the body and C.
+    """
 
     gradient: Letter = field(kw_only=True)
+    slope: Expr = field(kw_only=True)
 
     def varied(self, delta: Callable[[Letter], Expr | None]) -> Expr:
         """The derivative of the letter, by its gradient."""
         return HALF * trace(word(self.gradient) * derivation(self.value, delta))
+
+    @staticmethod
+    def adjugate(left: Factor, right: Factor) -> Expr | None:
+        """C C_a = C_a C = det C 1."""
+        both = {left[0].name, right[0].name} == {"C", "C_a"}
+        return word(Letter("det_C")) * one(left[0].rows) if both else None
 
 
 def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
@@ -62,7 +72,7 @@ def words(problem: Problem, a: Alphabet, *, vectors: bool) -> Words | None:
         ],
         ["U_G"],
         say("potential.self_gravity"),
-        [GradientLetter(energy, A.bar * A, gradient=B)],
+        [GradientLetter(energy, A.bar * A, gradient=B, slope=_slope(a))],
     )
 
 
@@ -78,6 +88,15 @@ def _invariants(*, unimodular: bool) -> list[Equation]:
         Equation("I_2", ("tr", ("mul", "K_a", "C_a"))),
         Equation("I_3", volume if unimodular else mul(volume, ("pow", ("det", "A"), 2))),
     ]
+
+
+def _slope(a: Alphabet) -> Expr:
+    """B_G as a word: K_G is J but for a factor, and each Ψ_k and invariant is a number."""
+    K, C = 5 * word(inverse_letter(a.m)) * word(a.J), word(a.C)
+    first, last, C_a = word(Letter("I_1")), word(Letter("det_K")), word(Letter("C_a", a.n, a.n, 1))
+    coefficients = (last * C_a, first * K - K * C * K, K)
+    integrals = (word(Letter(f"Ψ_{k}")) for k in range(3))
+    return sum((x * y for x, y in zip(integrals, coefficients, strict=True)), start=K * 0)
 
 
 def _adjugate() -> tuple[Tree, Tree, Tree]:
