@@ -28,7 +28,7 @@ kind = "covector"
 """
 
 
-@pytest.mark.parametrize("name", (*STATED, *OTHER))
+@pytest.mark.parametrize("name", [*STATED, *OTHER])
 def test_a_given_lagrangian_moves_no_body(name):
     d = walks.record(name)
     assert scene(d) is None
