@@ -8,6 +8,7 @@ from derive.command.cli import derive, ready_made
 from derive.language.show import show
 from derive.pipeline import symmetries
 from derive.problem.problem import ProblemError
+from derive.record.sentence import english
 from tests.support.symmetric import FILES, found
 from tests.support.walks import problem, record
 
@@ -105,3 +106,18 @@ def test_a_magnetic_field_is_the_cocycle_of_translations():
         ("boost", "translation_space", "m"),
         ("translation_space", "translation_space", "k"),
     ]
+
+
+@pytest.mark.parametrize("name", ["spherical_pendulum", "lagrange_top"])
+def test_what_is_divided_out_is_told(name):
+    """Along null directions any function times a field is a symmetry, by which 0 is kept."""
+    (step,) = [
+        s
+        for s in symmetries(problem(name), record(name)).record.steps
+        if s.label == f"{name}.symmetries"
+    ]
+    said = english(step.prose)
+    singular = name == "spherical_pendulum"
+    assert ("modulo those along which L̃ has no kinetic energy" in said) == singular
+    assert ("the quantity that they give is 0" in said) == singular
+    assert "X₀" not in said
