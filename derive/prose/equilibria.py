@@ -72,6 +72,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "The form is not definite on the leaf, which proves nothing.",
             "La forme n’est pas définie sur la feuille, ce qui ne prouve rien.",
         ),
+        "point": (
+            "The symplectic leaf of the equilibrium is this point alone, which proves nothing. "
+            "Whether the equilibrium is stable stays open.",
+            "La feuille symplectique de l’équilibre se réduit à ce point, ce qui ne prouve rien. "
+            "La stabilité de l’équilibre reste ouverte.",
+        ),
         "unstable": (
             "The characteristic polynomial of the linearised rates on the leaf has the "
             "coefficients {coefficients}, from the highest power: by Sturm’s count of the roots, "
