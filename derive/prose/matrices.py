@@ -102,6 +102,22 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Coordonnées dans la base de l’algèbre de Lie. L̃ ne dépend de l’élément du groupe que "
             "par ce que l’algèbre transporte : l’état ne contient pas cet élément.",
         ),
+        "column": (
+            "In the names of the problem, T is the last column of A.",
+            "Avec les noms du problème, T est la dernière colonne de A.",
+        ),
+        "blocks": (
+            "In the names of the problem, the blocks of A on the diagonal are {blocks}.",
+            "Avec les noms du problème, les blocs de A, sur la diagonale, sont {blocks}.",
+        ),
+        "block": (
+            "{name} from row {row} on",
+            "{name} à partir de la ligne {row}",
+        ),
+        "block_and_column": (
+            "{name} from row {row} on, with the column {column} beside it",
+            "{name} à partir de la ligne {row}, avec la colonne {column} à côté",
+        ),
         "linear_parts": (
             "Coordinates of the linear parts of the Lie algebra in the basis of the group.",
             "Coordonnées des parties linéaires de l’algèbre de Lie dans la base du groupe.",

@@ -456,14 +456,20 @@ LAGRANGIANS: dict[str, dict[str, Name]] = {
     }
     | {
         "𝕁": VOCABULARY["𝕁"]._replace(
-            meaning="Poisson tensor: the brackets of the momenta and of Γ",
-            french="tenseur de Poisson : les crochets des moments et de Γ",
             uses=(defined(("matrix", "reduced", "reduced")),),
         )
     }
     for side, carried in _CARRIED.items()
 }
 """Meanings of names where no points give the Lagrangian, by the trivialisation."""
+
+CARRYING: dict[str, Name] = {
+    "𝕁": LAGRANGIANS["left"]["𝕁"]._replace(
+        meaning="Poisson tensor: the brackets of the momenta and of Γ",
+        french="tenseur de Poisson : les crochets des moments et de Γ",
+    ),
+}
+"""Meanings of names where an algebra carries something along."""
 
 ON_THE_TORUS: dict[str, Name] = {
     "T": name(
@@ -501,5 +507,6 @@ def meanings() -> Iterator[tuple[str, str]]:
         PRODUCTS,
         ON_THE_TORUS,
         *LAGRANGIANS.values(),
+        CARRYING,
     ):
         yield from ((x.meaning, x.french) for x in table.values())

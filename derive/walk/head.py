@@ -15,6 +15,7 @@ from ..record.sentence import Prose, Sentence, listed
 from ..record.tree_data import encode
 from ..record.uses import of_steps
 from ..record.vocabulary import (
+    CARRYING,
     DISPLACEMENTS,
     LAGRANGIANS,
     ON_THE_TORUS,
@@ -74,11 +75,12 @@ def _meant(problem: Problem) -> dict[str, Name]:
     if problem.torus:
         return VOCABULARY | LAGRANGIANS["right"] | ON_THE_TORUS
     if problem.lagrangian:
-        return VOCABULARY | LAGRANGIANS[problem.lagrangian.trivialisation]
+        own = dict(CARRYING) if problem.advected else {}
+        return VOCABULARY | LAGRANGIANS[problem.lagrangian.trivialisation] | own
     blocks = PRODUCTS if group and group.factors and not group.affine else {}
     turning = group is not None and group.turns_space
-    own = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
-    return VOCABULARY | own | blocks
+    turned = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
+    return VOCABULARY | turned | blocks
 
 
 def _inputs(problem: Problem) -> Prose:

@@ -85,10 +85,11 @@ def own_problems(folder):
     ]
 
 
-REACHING = ("gl3", "heisenberg", "screw")
+REACHING = ("gl3", "heisenberg", "screw", "spherical_pendulum")
 """Problems with symmetries that no other has."""
 TOLD = ("lagrange_top", "charged_body", "flat", "steep", "rod", "so3")
 """Reductions that together have all sentences."""
+TWO = " + ".join(f"zeta_{k}^2" for k in range(1, 7))
 ON_THE_RIGHT = {"L": "zeta_1^2 + zeta_2^2 + zeta_3^2", "trivialisation": "right"}
 
 
@@ -100,6 +101,8 @@ def records(tmp_path_factory):
     found += [walk(p) for p in examples().values()]
     for moved in ({"group": "SO(3)"}, {"algebra": {"of": "SO(3)"}, "advected": [{"name": "x"}]}):
         found.append(walk(problem_of({"name": "own", "lagrangian": ON_THE_RIGHT} | moved)))
+    two = {"name": "two", "group": "SO(3) x SE(2)", "lagrangian": {"L": TWO}}
+    found.append(walk(problem_of(two)))
     found += [x.record for x in (*every_case(), *every_equilibrium())]
     found += [symmetric.found(name).record for name in symmetric.FILES]
     found += [reduced(name).record for name in TOLD]
