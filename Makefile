@@ -56,6 +56,8 @@ lock:            ## the versions that are newest now, and the hashes of their fi
 bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside its peers
 	$(BIN)/python -m benchmarks.road
 	$(BIN)/python -m benchmarks.sizes
+	$(BIN)/python -m benchmarks.symmetries
+	$(BIN)/python -m benchmarks.integrals
 	$(BIN)/python -m benchmarks.peers
 	$(BIN)/python -m benchmarks.zeitlin
 

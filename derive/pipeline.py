@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from .integrals.all_integrals import Found
     from .language.quadratic import Number
     from .language.tree import Tree
+    from .reduction.reduced_record import Reduction
     from .symmetries.steps import Symmetries
 
 ANY_GROUP = (
@@ -294,6 +295,16 @@ def symmetries(problem: Problem, record: Derivation) -> Symmetries:
     found = symmetries_of(problem, record)
     general = lagrangian_road(found.lagrangian.trivialisation)
     return Symmetries(found, record_of(found, general))
+
+
+def reduction(problem: Problem, record: Derivation) -> Reduction:
+    """Routh's reduction of a problem by symmetries that commute, by its record, and a record of it;
+    ``ProblemError`` where there is nothing to reduce by."""
+    from .reduction.reduced_record import record_of
+    from .symmetries.found import symmetries_of
+
+    found = symmetries_of(problem, record)
+    return record_of(found, lagrangian_road(found.lagrangian.trivialisation))
 
 
 def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree]:

@@ -18,7 +18,7 @@ include_patterns = ["*.md", "docs/*.md", "docs/*/*.md"]
 ROOT = Path(__file__).parents[1]
 CONTENTS = {
     "Use": "tutorial commands problem-file potentials/* lagrangian dirichlet symmetries integrals "
-    "equilibria notes code options build python sympy record",
+    "reduction equilibria notes code options build python sympy record",
     "Trust": "trust performance strangers ../SECURITY paper",
     "Inside": "architecture extending reference ../CONTRIBUTING ../CHANGELOG",
 }

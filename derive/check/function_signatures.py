@@ -14,7 +14,8 @@ from ..language.tree import Tree, names
 class Kind:
     """What an argument of a function may be: one of the trees ``letters``; ``family``: or a member
     of that family at a time, as r_i(t); ``polynomial``: or a polynomial in Π_a and the entries of
-    A or Γ; ``less``: or one of the trees less a function of t and A. ``description``: the same in
+    A or Γ; ``less``: or one of the trees less a function of t and A; ``members``: or a member of
+    that family; ``applied``: or one of that family at that argument. ``description``: the same in
     words, for messages."""
 
     description: str
@@ -22,6 +23,8 @@ class Kind:
     family: str = ""
     polynomial: bool = False
     less: bool = False
+    members: str = ""
+    applied: tuple[str, str] = ("", "")
 
 
 VARIATION = Kind("a variation δy, δ′y or X", ("δy", "δ′y", "X"))
@@ -66,9 +69,14 @@ INTEGRAND = Kind(
 PLACE = Kind("r", ("r",))
 INVARIANTS = tuple(Kind(x, (x,)) for x in ("I_1", "I_2", "I_3"))
 VARIED = Kind(
-    "r_i(t), g(r), ξ′, η′, L̃ or ϖ(X)", ("ξ′", "η′", "L̃", MOVED_PLACE, ("call", "ϖ", "X")), "r"
+    "r_i(t), g(r), ξ′, η′, L̃, ϖ(X), 𝒥_i or 𝒜_i(ξ′)",
+    ("ξ′", "η′", "L̃", MOVED_PLACE, ("call", "ϖ", "X")),
+    "r",
+    members="𝒥",
+    applied=("𝒜", "ξ′"),
 )
-VARIED_PRIME = Kind("r_i(t), ξ or η", ("ξ", "η"), "r")
+VARIED_PRIME = Kind("r_i(t), ξ, η, 𝒥_i or 𝒜_i(ξ)", ("ξ", "η"), "r", members="𝒥", applied=("𝒜", "ξ"))
+ALONG_FIELDS = Kind("ξ, ξ′ or Z", ("ξ", "ξ′", "Z"))
 
 HEADS: dict[str, tuple[Kind, ...]] = {
     "ϖ": (VARIATION,),
@@ -84,6 +92,8 @@ HEADS: dict[str, tuple[Kind, ...]] = {
     "g": (PLACE,),
     "M̃": (FIRST_FIELD, SECOND_FIELD),
     "ρ": (CARRYING,),
+    "ϖ_h": (VARIATION,),
+    "dϖ_h": (VARIATION, VARIATION),
     **dict.fromkeys(("Ψ", "Ψ_0", "Ψ_1", "Ψ_2"), INVARIANTS),
     **dict.fromkeys(("T", "ω̂", "ζ"), (SITE,)),
 }
@@ -105,8 +115,12 @@ def is_polynomial(t: Tree) -> bool:
     return t[0] == "par" or t[:2] in (("at", "Π"), ("entry", "A"), ("entry", "Γ"))
 
 
-MOVED: dict[str, tuple[Kind, ...]] = {"r": (TIME,)}
-"""The kinds of the arguments of members of families that move, as r_i(t)."""
+MOVED: dict[str, tuple[Kind, ...]] = {
+    "r": (TIME,),
+    "𝒜": (ALONG_FIELDS,),
+    "d𝒜": (VARIATION, VARIATION),
+}
+"""The kinds of the arguments of members of families that are functions, as r_i(t)."""
 
 POINT, AXIS = "points", "axes or elements of a basis"
 INDEX_SETS: dict[str, str] = {
@@ -115,6 +129,7 @@ INDEX_SETS: dict[str, str] = {
     **dict.fromkeys(("d", "χ", "σ"), "forces along a distance"),
     "f_u": "inputs",
     **dict.fromkeys(("E", "Π", "Π̇", "Φ"), AXIS),
+    **dict.fromkeys(("𝒥", "𝒜", "d𝒜"), "symmetries"),
 }
 """What the index of each family counts; that of an entry counts axes, or elements of a basis."""
 
@@ -122,7 +137,7 @@ SHARED = ("m", "F", "Q", "P")
 """The families in which each copy of a point has a share; all copies have one place and one
 velocity."""
 
-MATRICES = ("M", "𝕁")
+MATRICES = ("M", "𝕁", "𝕀")
 """The names of matrices whose entries have two indices also where they have one row; other matrices
 of one column have entries of one index."""
 

@@ -138,7 +138,11 @@ def _is_of(kind: Kind, x: Tree) -> bool:
         return True
     if kind.less and isinstance(x, tuple) and x[0] == "add" and x[1] in kind.letters:
         return {*map(_name, nodes(("add", 0, *x[2:])))} <= {None, "t", "A", "π"}
+    if kind.members and isinstance(x, tuple) and x[:2] == ("at", kind.members):
+        return True
     called = isinstance(x, tuple) and x[0] == "call" and isinstance(x[1], tuple)
+    if called and (x[1][1], *x[2:]) == kind.applied:  # type: ignore[index]
+        return True
     return bool(kind.family and called and x[1][:2] == ("at", kind.family))  # type: ignore[index]
 
 

@@ -90,10 +90,11 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
         return made
 
     command("list")
-    walk, symmetries, searched, steady, made, emit, check = map(
-        command, ("walk", "symmetries", "integrals", "equilibria", "notes", "emit", "check")
+    walk, symmetries, reduction, searched, steady, made, emit, check = map(
+        command,
+        ("walk", "symmetries", "reduction", "integrals", "equilibria", "notes", "emit", "check"),
     )
-    add_reading_options((walk, symmetries), (searched, steady), made)
+    add_reading_options((walk, symmetries, reduction), (searched, steady), made)
     about = "first what holds for any Lagrangian, on the left beside the right"
     walk.add_argument("--trivialisation", choices=("both",), help=about)
     add_search_options(searched)
@@ -109,7 +110,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     check.add_argument("problem", nargs="+", help="ready-made names, .toml files or .json records")
     about = "the seed of a run that is to be repeated (default: a new one)"
     check.add_argument("--seed", type=natural, metavar="N", help=about)
-    for one in (walk, emit, check, symmetries):
+    for one in (walk, emit, check, symmetries, reduction):
         for name, what in ALLOWED.items():
             about = f"warn of a negative {what} instead of refusing it"
             one.add_argument(f"--allow-negative-{name}", action="store_true", help=about)
@@ -137,9 +138,9 @@ def coordinate(words: str) -> tuple[str, Number]:
 
 
 def degree(words: str) -> int:
-    """A degree from 1 to 40 from its text; ``ValueError`` for any other."""
-    if not 1 <= (number := int(words)) <= 40:
-        raise ValueError(words)
+    """A degree from 1 to 40 from its text; ``argparse.ArgumentTypeError`` for any other."""
+    if not words.isdecimal() or not 1 <= (number := int(words)) <= 40:
+        raise argparse.ArgumentTypeError(f"expected an integer from 1 to 40, not {words!r}")
     return number
 
 

@@ -1,12 +1,12 @@
-"""The command line: ``derive list | walk | symmetries | integrals | equilibria | notes | emit |
-check | paper | build``."""
+"""The command line: ``derive list | walk | symmetries | reduction | integrals | equilibria |
+notes | emit | check | paper | build``."""
 
 from __future__ import annotations
 
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -163,16 +163,32 @@ def command_symmetries(args: argparse.Namespace) -> int:
     from ..symmetries.steps import shown as about_symmetries
 
     problem, walked = derive(args.problem, **allowances(args))
-    record = symmetries(problem, walked).record
+    save_record(symmetries(problem, walked).record, about_symmetries, args)
+    return 0
+
+
+def command_reduction(args: argparse.Namespace) -> int:
+    """Routh's reduction by symmetries that commute: effective potential, what is left to solve."""
+    from ..pipeline import reduction
+    from ..reduction.reduced_record import shown
+
+    problem, walked = derive(args.problem, **allowances(args))
+    save_record(reduction(problem, walked).record, shown, args)
+    return 0
+
+
+def save_record(
+    record: Derivation, own: Callable[[Derivation], list[Step]], args: argparse.Namespace
+) -> None:
+    """Write the steps of a record that are asked for, else its ``own``; in JSON all."""
     steps = steps_of(record, args.step)
     if not steps and args.format != "json":
-        steps = about_symmetries(record)
+        steps = own(record)
     chosen = {"fragment": args.fragment, "steps": steps, **notation(args)}
     shown = render(record, args.format, args.lang, **chosen)
     if args.format == "latex":
         warn_of_letters([record])
     save(shown, args.out, args.format)
-    return 0
 
 
 def steps_of(record: Derivation, labels: Sequence[str]) -> list[Step]:
@@ -321,6 +337,7 @@ COMMANDS = {
     "integrals": command_integrals,
     "equilibria": command_equilibria,
     "symmetries": command_symmetries,
+    "reduction": command_reduction,
     "notes": command_notes,
     "emit": command_emit,
     "check": command_check,

@@ -24,15 +24,19 @@ from .derivatives import DERIVATIVES
 from .show import FRACTIONS, show_name
 from .tree import Tree, neg
 
-FAMILIES = frozenset({*"rmvFQdPχσκEks", "f_u", "Π", "Π̇", "Φ"})
+FAMILIES = frozenset({*"rmvFQdPχσκEks", "f_u", "Π", "Π̇", "Φ", "𝒥", "𝒜", "d𝒜"})
 """Letters of families, whose members an index counts; after any other it tells an entry."""
 IN_THE_BASIS = frozenset({"E", "M", "β", "ζ", "ζ̇", "ψ", "Π", "Π̇", "Φ", "𝕁"})
 """Letters that have the indices a and b; after any other these belong to its name, as in ℓ_b."""
-FUNCTIONS = frozenset({"dŨ", "p̃", "M̃", "ρ", "ϖ", "dϖ", "ω", "g", "δ", "δ′", "d/dt", "ω̂"})
+OF_FIELDS = ("𝒜", "d𝒜")
+"""Families of functions, whose members are applied to the brackets after them."""
+FUNCTIONS = frozenset(
+    {"dŨ", "p̃", "M̃", "ρ", "ϖ", "dϖ", "ϖ_h", "dϖ_h", "ω", "g", "δ", "δ′", "d/dt", "ω̂"}
+)
 """Names that are applied to the brackets after them; others are to t and X alone."""
 
 _LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉½⅓¼⅔ᵢⱼₑₜ]"
-_VARIED = r"(?:δ′?|∂ₜ|d(?=ϖ|U\u0303))?"
+_VARIED = r"(?:δ′?|∂ₜ|d(?=ϖ|𝒜|U\u0303))?"
 _CALLED = "|".join(("det", "j", *DERIVATIVES))
 TOKEN = (
     r"(?P<quoted>‘[^’]*’)|(?P<opening>(?<= )‖)"
@@ -144,8 +148,10 @@ class _Reader:
         """Is a tree a function, or applied to t or X, before the parenthesis that stands here?"""
         inside = "".join(text for _, text in self.tokens[self.k : self.k + 3])
         name = isinstance(t, str) or (isinstance(t, tuple) and t[0] == "at")
+        of_fields = isinstance(t, tuple) and t[0] == "at" and t[1] in OF_FIELDS
         of_place = t in ("T", "ζ") and inside.lstrip("(−")[:1] in ("𝐦", "𝐧")
-        return t in FUNCTIONS or of_place or (name and inside in ("(t)", "(X)"))
+        applied = t in FUNCTIONS or of_fields or of_place
+        return applied or (name and inside in ("(t)", "(X)"))
 
     def listed(self, opening: str, closing: str, count: int = 0) -> list[Tree]:
         """The sums between brackets, with commas between them: ``count`` of them, if that is

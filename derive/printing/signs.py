@@ -18,8 +18,12 @@ SYMBOLS = {letter: rf"\{name}" for name, letter in LETTERS.items()} | {
     "×": r"\times", "𝔤": r"\mathfrak{g}", "′": "'", "½": r"\tfrac12", "⅓": r"\tfrac13",
     "¼": r"\tfrac14", "⅔": r"\tfrac23", "∘": r"\circ", "⊤": r"\top",
     "𝟏": r"\mathbf{1}", "𝔰": r"\mathfrak{s}", "𝔬": r"\mathfrak{o}", "𝕁": r"\mathbb{J}",
+    "𝕀": r"\mathbb{I}", "𝒥": r"\mathcal{J}", "𝒜": r"\mathcal{A}", "ℛ": r"\mathcal{R}",
+    "𝒱": r"\mathcal{V}",
     "𝐦": r"\mathbf m", "𝐧": r"\mathbf n",
 }  # fmt: skip
+STYLED = {x: letter for letter, x in SYMBOLS.items() if x[:7] in (r"\mathbb", r"\mathca")}
+"""LaTeX of a letter of another style → the letter."""
 RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
 LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ", "0123456789ijet", strict=True))
 

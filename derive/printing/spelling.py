@@ -6,6 +6,7 @@ import re
 from functools import lru_cache
 
 from .notation import Notation
+from .signs import STYLED
 from .typeset import (
     Formula,
     accented,
@@ -24,7 +25,7 @@ NAME = re.compile(
     r"(?P<below>(?:_(?:[A-Za-z0-9]|\{[A-Za-z0-9]+\}))?)"
 )
 RATE = r"\frac{\mathrm{d}}{\mathrm{d}t}"
-POISSON = r"\mathbb{J}"
+DIFFERENTIAL = r"\mathrm{d}"
 BOLD = {r"\mathbf m": "𝐦", r"\mathbf n": "𝐧"}
 """Points of a lattice: letters that MathML has in bold by themselves."""
 BARS = Notation()
@@ -35,10 +36,11 @@ def named(tex: str) -> Formula:
     """The formula of a name, from its LaTeX."""
     if tex == RATE:
         return fraction(upright("d"), upright("d") + literal("t"), RATE)
-    if tex == POISSON:
-        return Formula(tex, ("<mi>𝕁</mi>",))
-    if tex in BOLD:
-        return Formula(tex, (f"<mi>{BOLD[tex]}</mi>",))
+    if tex in STYLED | BOLD:
+        return Formula(tex, (f"<mi>{(STYLED | BOLD)[tex]}</mi>",))
+    if tex.startswith(DIFFERENTIAL) and tex.removeprefix(DIFFERENTIAL) in STYLED:
+        styled = STYLED[tex.removeprefix(DIFFERENTIAL)]
+        return Formula(tex, (*upright("d").items, f"<mi>{styled}</mi>"))
     found = NAME.fullmatch(tex)
     if found is None:
         return Formula(tex, literal(tex).items)

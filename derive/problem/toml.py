@@ -28,7 +28,6 @@ from ..schema.body_kinds import GivenBody, MomentBody
 from ..schema.declared import Parameter
 from ..schema.kinds import kinds
 from ..schema.lagrangian_kinds import SECTIONS, SIDES
-from ..schema.outside import ForceInput
 from ..schema.table import Slot, Table, nearest
 from . import inertia
 from .bodies import body
@@ -172,6 +171,9 @@ def _without_points(
     for key in ("point", "solid", "body", "potential", "damping"):
         if key in data:
             raise ProblemError(f"key {key!r}: [{where}] says all of L; leave this out")
+    given = data.get("input", ())
+    if any(isinstance(x, dict) and x.get("kind") == "force" for x in given):
+        raise ProblemError(f"key 'input': beside [{where}] an input is a covector: no points")
     group = (on_homogeneous(moved) if moved.affine else moved).stated
     reader = FileReader()
     reader.moves(group)
@@ -180,8 +182,6 @@ def _without_points(
     parameters = _parameters(data.get("parameters", {}), reader)
     reader.carries(None, parameters)
     _, inputs, _ = forces(data, reader)
-    if any(isinstance(x, ForceInput) for x in inputs):
-        raise ProblemError(f"key 'input': beside [{where}] an input is a covector: no points")
     reader.distinct(inputs, parameters)
     problem = Problem(
         name,
@@ -274,6 +274,8 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
             where, shown = used_at(data, name), name[:40]
             hint = nearest(shown, problem.parameters).removeprefix("; ")
             other = f"{hint} Else " if hint else ""
+            if problem.lagrangian and problem.group and name.startswith("zeta_"):
+                other = f"Z has zeta_1 to zeta_{problem.group.dimension}. Else "
             raise ProblemError(f"{where}: {shown!r} is not declared; {other}add it to [parameters]")
     own = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}
     for name in data.get("parameters", {}):

@@ -16,6 +16,7 @@ from .general import STEPS as GENERAL
 from .material import STEPS as MATERIAL
 from .matrices import STEPS as MATRICES
 from .momentum_form import STEPS as MOMENTUM_FORM
+from .reduction import STEPS as REDUCTION
 from .rotations import STEPS as ROTATIONS
 from .symmetries import STEPS as SYMMETRIES
 from .zeitlin import STEPS as ZEITLIN
@@ -30,6 +31,7 @@ STEPS = {
     **MOMENTUM_FORM,
     **ANSWER,
     **EQUILIBRIA,
+    **REDUCTION,
 }
 STEPS |= {label: STEPS.get(label, {}) | named for label, named in ZEITLIN.items()}
 """Label → name → the sentence in each of ``LANGUAGES``."""

@@ -116,8 +116,8 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Les Casimirs, moins leurs valeurs sur un niveau, et l’énergie avec des multiples de "
             "ceux-ci, en puissances de la distance. D’après ces nombres, un pas de la méthode de "
             "Newton pour les points critiques de l’énergie sur le niveau est une contraction : à "
-            "moins de {radius} des décimales, en chaque variable et chaque multiplicateur, il y en "
-            "a exactement un, un équilibre (Krawczyk).",
+            "moins de {radius} des décimales, en chaque variable et chaque multiplicateur, il en "
+            "existe exactement un, un équilibre (Krawczyk).",
         ),
         "signs": (
             "There the second derivative of the energy on the level has {positive} positive and "
@@ -143,15 +143,15 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
         "open": (
             "It is indefinite, which proves nothing, and that an eigenvalue of the linearised "
-            "rates has a positive real part is not proved. Whether the equilibrium is stable stays "
-            "open.",
+            "rates has a positive real part is not proved. Whether the equilibrium is stable is "
+            "left open.",
             "Elle est indéfinie, ce qui ne prouve rien, et il n’est pas prouvé qu’une valeur "
             "propre des dérivées linéarisées soit de partie réelle positive. La stabilité de "
             "l’équilibre reste ouverte.",
         ),
         "eigenvalues": (
-            "The eigenvalues are about {eigenvalues}.",
-            "Les valeurs propres sont environ {eigenvalues}.",
+            "Its eigenvalues are about {eigenvalues}.",
+            "Ses valeurs propres sont environ {eigenvalues}.",
         ),
     },
 }

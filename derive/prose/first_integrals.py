@@ -111,21 +111,21 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "The parameters being real and the kinetic energy positive, there are further "
             "polynomials of degree at most {degree} that are integrals exactly where one of these "
             "conditions holds: {conditions}.",
-            "Les paramètres étant réels et l’énergie cinétique positive, il y a d’autres polynômes "
-            "de degré au plus {degree} qui sont des intégrales premières exactement là où l’une de "
-            "ces conditions est satisfaite : {conditions}.",
+            "Les paramètres étant réels et l’énergie cinétique positive, d’autres polynômes de "
+            "degré au plus {degree} sont des intégrales premières exactement là où l’une de ces "
+            "conditions est satisfaite : {conditions}.",
         ),
         "no_further": (
             "The parameters being real and the kinetic energy positive, there are no further "
             "polynomials of degree at most {degree} that are integrals for special values.",
-            "Les paramètres étant réels et l’énergie cinétique positive, il n’y a pas d’autres "
+            "Les paramètres étant réels et l’énergie cinétique positive, il n’existe pas d’autres "
             "polynômes de degré au plus {degree} qui soient des intégrales premières pour des "
             "valeurs particulières.",
         ),
         "unsolved": (
             "It is not decided whether there are where {conditions}: no parameter is of first "
             "order there.",
-            "Il n’est pas décidé s’il y en a là où {conditions} : aucun paramètre n’y est du "
+            "Il n’est pas décidé s’il en existe là où {conditions} : aucun paramètre n’est là du "
             "premier ordre.",
         ),
     },
@@ -150,13 +150,13 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Where {condition}, this polynomial is an integral: its rate is made of multiples of "
             "what vanishes there.",
             "Là où {condition}, ce polynôme est une intégrale première : sa dérivée est faite de "
-            "multiples de ce qui s’y annule.",
+            "multiples de ce qui s’annule là.",
         ),
         "several": (
             "Where {condition}, these polynomials are integrals: their rates are made of multiples "
             "of what vanishes there.",
             "Là où {condition}, ces polynômes sont des intégrales premières : leurs dérivées sont "
-            "faites de multiples de ce qui s’y annule.",
+            "faites de multiples de ce qui s’annule là.",
         ),
         "complete": (
             "For generic parameters under this condition, the Poisson tensor has rank {rank}, and "

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .equilibria_found import Equilibria, Near
     from .expressions import Expressions
     from .integrals_found import FirstIntegrals
+    from .reduction_found import Reduced
 
 
 @dataclass(frozen=True)
@@ -138,6 +139,15 @@ class Derived:
 
         found = symmetries(self.problem, self.record)
         return SymmetriesOf(found.found, found.record)
+
+    def reduction(self) -> Reduced:
+        """Routh's reduction by symmetries that commute; ``ProblemError`` where there is nothing to
+        reduce by."""
+        from ..pipeline import reduction
+        from .reduction_found import Reduced
+
+        found = reduction(self.problem, self.record)
+        return Reduced(found.routhian, found.record)
 
     @cached_property
     def translation(self) -> Translation:

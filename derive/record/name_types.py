@@ -16,7 +16,8 @@ LATTICE = ("vector", "lattice")
 ADVECTED = ("vector", "carried")
 """Sizes in types: n is the dimension of the space, d that of the linear parts of 𝔤, dim that of 𝔤,
 block that of the space of a factor, where a product has several of any of them; carried, how many
-entries what the algebra carries along has; lattice, 2; reduced, d and carried together."""
+entries what the algebra carries along has; lattice, 2; reduced, d and carried together; fields, how
+many symmetries a problem is reduced by."""
 
 ROLES = ("letter", "definition", "value on X", "unknown", "function")
 """What a name is: chosen freely; defined by an equation; a rate along the motion, or the value of a

@@ -99,6 +99,7 @@ class _RecordReader(TableReader):
         self.each("damping", lambda x, where: self.whole(Damping, x, where))
         self.matrices(self.value(self.top("basis"), list))
         self.lagrangian()
+        self.symmetries()
         if self.value(self.top("conventions"), list) != [*CONVENTIONS]:
             raise ShapeError("conventions: not those by which equations are checked")
 
@@ -148,6 +149,18 @@ class _RecordReader(TableReader):
         self.whole(Torus, data["torus"], "torus")
         if data["lagrangian"] != {"trivialisation": "right"} or "advected" in data:
             raise ShapeError("lagrangian: that of the torus is told by its steps, on the right")
+
+    def symmetries(self) -> None:
+        """The fields δA by which a record reduces, which is of a Lagrangian on a group."""
+        if "symmetries" not in self.data:
+            return
+        listed = self.value(self.top("symmetries"), list)
+        if "lagrangian" not in self.data or "advected" in self.data:
+            raise ShapeError("symmetries: they are of a Lagrangian on a group")
+        if not 1 <= len(listed) <= len(self.data["basis"]):
+            raise ShapeError("symmetries: expected one at least, as many as the basis at most")
+        for k, x in enumerate(listed, 1):
+            self.read(x, f"symmetries {k}")
 
     def lettered(self, slot: Slot) -> Tree:
         """An expression in the time, the entries of g and ζ."""

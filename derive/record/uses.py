@@ -158,7 +158,7 @@ def type_of(argument: Tree) -> Type:
         return SCALAR
     last = argument[-1]
     if argument[0] == "call":
-        return SCALAR if argument[1] in ("ϖ", "ω̂") else VECTOR
+        return SCALAR if argument[1] in ("ϖ", "ω̂") else _value_of(argument[1])
     if argument[0] in ("inner", "norm2"):
         return SCALAR
     if argument[0] == "add":
@@ -175,7 +175,13 @@ def _is_number(t: Tree) -> bool:
         return not isinstance(t, str) or t == "π"
     if t[0] in ("add", "mul", "div", "pow"):
         return all(map(_is_number, t[1:]))
-    return t[0] in ("par", "entry") or t[:2] == ("at", "Π")
+    return t[0] in ("par", "entry") or t[:2] in (("at", "Π"), ("at", "𝒥"))
+
+
+def _value_of(head: Tree) -> Type:
+    """The type of the values of a family of functions; that of a place for any other function."""
+    uses = VOCABULARY[head[1]].uses if isinstance(head, tuple) else ()
+    return next((x.type[2][-1] for x in uses if position_of(x.type) == "moved"), VECTOR)
 
 
 def definitions(

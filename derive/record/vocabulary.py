@@ -291,7 +291,8 @@ VOCABULARY: dict[str, Name] = {
         r"\frac{\mathrm{d}}{\mathrm{d}t}", function(SCALAR, SCALAR)),
     "δ′": name("another variation, which commutes with δ",
         "autre variation, qui commute avec δ",
-        r"\delta'", function(VECTOR, VECTOR), function(ALGEBRA, ALGEBRA)),
+        r"\delta'", function(VECTOR, VECTOR), function(ALGEBRA, ALGEBRA),
+        function(SCALAR, SCALAR)),
     "ℓ": name("angular momentum in space, a skew matrix",
         "moment cinétique dans l’espace, une matrice antisymétrique", r"\ell", defined(SQUARE)),
     "ℓ̇": name("dℓ/dt along the motion", "dℓ/dt le long du mouvement", r"\dot\ell", rate(SQUARE)),
@@ -316,6 +317,35 @@ VOCABULARY: dict[str, Name] = {
     "ρ": name("representation of the Lie algebra on what it carries along",
         "représentation de l’algèbre de Lie sur ce qu’elle transporte",
         r"\rho", function(ALGEBRA, ("matrix", "carried", "carried"))),
+    "𝒥": name("momenta of symmetries that commute: 𝒥_i is ϖ of the i-th field",
+        "moments de symétries qui commutent : 𝒥_i est ϖ du i-ième champ",
+        r"\mathcal{J}", defined(family("symmetries", SCALAR))),
+    "𝕀": name("locked inertia: the metric of the kinetic energy on the fields of the symmetries",
+        "inertie bloquée : la métrique de l’énergie cinétique sur les champs des symétries",
+        r"\mathbb{I}", defined(("matrix", "fields", "fields"))),
+    "𝒜": name("mechanical connection: 𝒜_i is the velocity along the i-th symmetry",
+        "connexion mécanique : 𝒜_i est la vitesse le long de la i-ième symétrie",
+        r"\mathcal{A}", Use(family("symmetries", ("function", ALGEBRA, SCALAR)), "function")),
+    "d𝒜": name("curvature of the connection, its exterior derivative",
+        "courbure de la connexion, sa dérivée extérieure",
+        r"\mathrm{d}\mathcal{A}",
+        Use(family("symmetries", ("function", VARIATION, VARIATION, SCALAR)), "function")),
+    "ζ_h": name("horizontal part of ζ, orthogonal to the fields of the symmetries",
+        "partie horizontale de ζ, orthogonale aux champs des symétries",
+        r"\zeta_h", defined(COORDINATES)),
+    "ϖ_h": name("Cartan form of the Routhian: momentum at the horizontal velocity, on horizontal "
+        "parts",
+        "forme de Cartan du routhien : impulsion à la vitesse horizontale, sur les parties "
+        "horizontales", r"\varpi_h", function(VARIATION, SCALAR)),
+    "dϖ_h": name("exterior derivative of ϖ_h",
+        "dérivée extérieure de ϖ_h",
+        r"\mathrm{d}\varpi_h", function(VARIATION, VARIATION, SCALAR)),
+    "𝒱": name("effective potential: the energy of the velocity along the symmetries alone",
+        "potentiel effectif : l’énergie de la seule vitesse le long des symétries",
+        r"\mathcal{V}", defined(SCALAR)),
+    "ℛ": name("Routhian: L̃ less the momenta times the velocities along the symmetries",
+        "routhien : L̃ moins les moments multipliés par les vitesses le long des symétries",
+        r"\mathcal{R}", defined(SCALAR)),
     "∂ₜŨ": name("partial derivative of Ũ in time",
         "dérivée partielle de Ũ par rapport au temps", r"\partial_t\tilde U", letter(SCALAR)),
 }
@@ -456,7 +486,7 @@ ON_THE_TORUS: dict[str, Name] = {
 """Meanings of names on the torus."""
 
 DERIVATIVE_OF = {"dϖ": "ϖ", "ḣ": "h̃", "ℓ̇": "ℓ", "ṗ": "p"}
-DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ", "Ẇ": "W", "Υ̇": "Υ"}
+DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ", "Ẇ": "W", "Υ̇": "Υ", "dϖ_h": "ϖ_h", "d𝒜": "𝒜"}
 DERIVATIVE_OF |= {"δΠ": "Π", "δ′Π": "Π", "Π̇": "Π", "δp_b": "p_b", "δ′p_b": "p_b", "ṗ_b": "p_b"}
 DERIVATIVE_OF |= dict.fromkeys(("δℓ_b", "δ′ℓ_b", "ℓ̇_b"), "ℓ_b")
 """Name → the name of which it is a derivative or a variation."""

@@ -42,13 +42,14 @@ class Central:
 class Found:
     """``problem``: with L̃ as one expression; ``functions``: those in L̃ whose values were taken for
     any numbers; ``state``: the numbers of the state in the emitted code, by their names, and what
-    they are."""
+    they are; ``commuting``: the pairs of symmetries, by their places, whose bracket is 0."""
 
     problem: Problem
     symmetries: tuple[Symmetry, ...]
     functions: tuple[str, ...]
     central: tuple[Central, ...]
     state: Mapping[str, Tree]
+    commuting: tuple[frozenset[int], ...] = ()
 
     @property
     def lagrangian(self) -> Lagrangian:
@@ -73,13 +74,15 @@ def symmetries_of(problem: Problem, record: Derivation) -> Found:
     listed = tuple(found[k] for k in order)
     if not listed:
         return Found(scalar, (), system.open_functions, (), state)
+    commuting = [(i, j) for i, j in Brackets(search).commuting() if {i, j} <= {*told}]
     pairs = [
         _oriented(order.index(i), order.index(j), number)
-        for i, j in Brackets(search).commuting()
-        if {i, j} <= {*told} and (number := cocycle(found[i], found[j])) != 0
+        for i, j in commuting
+        if (number := cocycle(found[i], found[j])) != 0
     ]
     central = tuple(sorted(pairs, key=lambda x: (x.first, x.second)))
-    return Found(scalar, listed, system.open_functions, central, state)
+    places = tuple(frozenset((order.index(i), order.index(j))) for i, j in commuting)
+    return Found(scalar, listed, system.open_functions, central, state, places)
 
 
 def says_nothing(x: Symmetry, problem: Problem) -> bool:

@@ -107,11 +107,8 @@ class CReader:
         return Module(state, parameters, inputs, self.functions, sizes)
 
     def _of_integrals(self, node: Any) -> bool:
-        """Is a definition that of the integrals over an ellipsoid, or of what holds them?"""
-        if isinstance(node, self.c.Typedef):
-            return bool(node.name == f"{self.prefix}_integrals")
-        own = f"{self.prefix}_{INTEGRALS}"
-        return isinstance(node, self.c.FuncDef) and node.decl.name == own
+        """Is a definition that of what holds the integrals over an ellipsoid?"""
+        return isinstance(node, self.c.Typedef) and node.name == f"{self.prefix}_integrals"
 
     def _unknown(self, node: Any) -> CodeError:
         kind, at = type(node).__name__, getattr(node, "coord", None)

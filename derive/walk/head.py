@@ -43,12 +43,14 @@ def problem_data(problem: Problem) -> dict[str, object]:
     return {k: plain(v) for k, v in found.items()}
 
 
-def symbols(steps: tuple[Step, ...], problem: Problem) -> tuple[Symbol, ...]:
-    """The names that the steps use, in the order in which they appear."""
+def symbols(steps: tuple[Step, ...], problem: Problem, *, fields: int = 0) -> tuple[Symbol, ...]:
+    """The names that the steps use, in the order in which they appear; ``fields``: by how many
+    symmetries the problem is reduced."""
     meant, group = _meant(problem), problem.group
     sizes = _sizes(group) if group else {}
     if problem.torus:
         sizes = {"n": problem.torus.N, "lattice": 2}
+    sizes["fields"] = fields
     sizes["carried"] = sum(x.size for x in problem.advected or ())
     sizes["reduced"] = sizes["carried"] + sizes.get("dim", 0)
     meanings = {x: sentence.say(about.meaning) for x, about in meant.items()}

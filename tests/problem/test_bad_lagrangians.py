@@ -34,7 +34,10 @@ TABLES = {
     "linear": ({"L": "zeta_1*A_11"}, "singular along E_1, and L is linear there"),
     "linear beside": ({"L": "zeta_1^2 + zeta_2^2 + zeta_3"}, "along E_3, and L is linear there"),
     "another entry": ({"L": SQUARE + " + A_14"}, "'A_14' is not declared"),
-    "another coordinate": ({"L": SQUARE + " + zeta_4"}, "'zeta_4' is not declared"),
+    "another coordinate": (
+        {"L": SQUARE + " + zeta_4"},
+        "not declared; Z has zeta_1 to zeta_3. Else",
+    ),
     "a place": ({"L": SQUARE + " + r1_x"}, "r1_x"),
     "code": ({"L": "__import__('os')"}, "not part of an expression"),
 }
@@ -75,7 +78,7 @@ OTHERS = {
     "potential": ({"potential": [{"kind": "gravity", "g": [0, 0, 1]}]}, "key 'potential'"),
     "both": ({"inertia": {"operator": ONE}}, "either [lagrangian] or [inertia]"),
     "any group": ({"group": "any", "action": "linear"}, "a text about any group has no Lagrangian"),
-    "a force": ({"input": [{"name": "F", "kind": "force", "on": 1}]}, "input 1"),
+    "a force": ({"input": [{"name": "F", "kind": "force", "on": 1}]}, "an input is a covector"),
     "a taken name": ({"parameters": {"A_11": 1}}, "parameter 'A_11': an entry of the state"),
     "no table": ({"lagrangian": "zeta_1^2"}, "must be a table [lagrangian]"),
     "an input that nothing answers": (

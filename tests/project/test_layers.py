@@ -26,6 +26,9 @@ ALLOWED = {
     "symmetries": {
         *("symmetries", "code", "walk", "record", "problem", "schema", "algebra", "language"),
     },
+    "reduction": {
+        *("reduction", "symmetries", "walk", "record", "problem", "algebra", "language"),
+    },
     "validate": {"validate", "check", "record", "algebra", "language"},
 }
 BOTH_SIDES = {"pipeline.py", "python", "command", "__init__.py", "__main__.py"}

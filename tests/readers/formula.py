@@ -21,7 +21,12 @@ FUNCTION = {
     for name, known in VOCABULARY.items()
     if known.uses and all(u.type[0] == "function" for u in known.uses)
 }
-"""Names that are nothing but functions, so that brackets after them hold arguments."""
+FUNCTION |= {
+    name
+    for name, known in VOCABULARY.items()
+    if known.uses and all(u.type[2:] and u.type[2][0] == "function" for u in known.uses)
+}
+"""Names that are nothing but functions, or families of them: brackets after them hold arguments."""
 RATES = {"h̃̇": "ḣ"}
 MARKS = {"~": "\u0303", "˙": "\u0307", "^": "\u0302"}
 SMALL = """alpha beta gamma delta epsilon zeta eta theta iota kappa mu nu xi pi rho sigma tau

@@ -20,6 +20,12 @@ ACCENTS = {r"\tilde": "~", r"\pulled": "~", r"\dot": "˙", r"\rate": "˙", r"\ha
 SPACES = (r"\,", r"\quad", r"\qquad", r"\ ", r"\;")
 
 
+STYLES = {
+    r"\mathbb": {"J": "𝕁", "I": "𝕀"},
+    r"\mathcal": {"J": "𝒥", "A": "𝒜", "R": "ℛ", "V": "𝒱"},
+}
+
+
 class _Lexer:
     """Commands with their arguments → the tokens of a formula."""
 
@@ -118,8 +124,8 @@ class _Lexer:
         if token in (r"\unitmatrix", r"\mathbf"):
             bold = self.words() if token == r"\mathbf" else "1"
             return [("tree", ("one",)) if bold == "1" else ("name", {"m": "𝐦", "n": "𝐧"}[bold])]
-        if token == r"\mathbb" and self.words() == "J":
-            return [("name", "𝕁")]
+        if token in STYLES:
+            return [("name", STYLES[token][self.words()])]
         if token == r"\mathrm" and self.words() == "d":
             return [("word", "d")]
         if token.startswith(r"\begin{pmatrix"):

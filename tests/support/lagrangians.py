@@ -66,7 +66,7 @@ def every_case():
             for U, parameters, degree in (
                 ("m*A_31", "m", 4),
                 ("A_31 + k*A_32", "k", 1),
-                ("(k^2 - 2*q^2)*A_31", "k q", 1),
+                ("(k^2 - 2*q^2)*A_31", "k q", 2),
             )
         ),
         first_integrals("lagrange_top", 1, conditions=True),
@@ -82,11 +82,13 @@ def every_equilibrium():
     """Equilibria that together reach whatever may be said of them."""
     solid = squares(3, 5, 11, 13, 13, 13)
     tilted = {"A_31": "0.866", "A_33": "0.5", "Pi_1": "0.866", "Pi_3": 1}
+    exact = {"A_31": "sqrt(3)/2", "A_33": "1/2", "Pi_1": "sqrt(3)/2", "Pi_3": 1}
     return [
         bent().equilibrium_near({"A_31": "0.7", "A_33": "0.5"}),
         bent().equilibrium_near({"A_31": "-0.7", "A_33": "-0.5"}),
         derive(heavy("132", "A_33/2", "")).equilibrium_near(tilted),
         derive("euler_top").equilibria(),
+        derive(heavy("132", "A_33/2", "")).equilibria(exact),
         derive("lagrange_top").equilibria({"A_33": -1}),
         derive("kirchhoff").equilibria({"Pi_1": 1}),
         derive(lagrangian(solid, "SE(3)", side="right")).equilibria({"Pi_1": 1}),

@@ -34,6 +34,7 @@ from tests.problems import PROBLEMS
 from tests.support import symmetric, walks
 from tests.support.kinds import examples
 from tests.support.lagrangians import every_case, every_equilibrium
+from tests.support.reduced import reduced
 from tests.views.test_views import compiled
 
 ROOT = Path(__file__).parents[2] / "derive"
@@ -86,6 +87,8 @@ def own_problems(folder):
 
 REACHING = ("gl3", "heisenberg", "screw")
 """Problems with symmetries that no other has."""
+TOLD = ("lagrange_top", "charged_body", "flat", "steep", "rod", "so3")
+"""Reductions that together have all sentences."""
 ON_THE_RIGHT = {"L": "zeta_1^2 + zeta_2^2 + zeta_3^2", "trivialisation": "right"}
 
 
@@ -99,6 +102,7 @@ def records(tmp_path_factory):
         found.append(walk(problem_of({"name": "own", "lagrangian": ON_THE_RIGHT} | moved)))
     found += [x.record for x in (*every_case(), *every_equilibrium())]
     found += [symmetric.found(name).record for name in symmetric.FILES]
+    found += [reduced(name).record for name in TOLD]
     found += [symmetries(walks.problem(x), walks.record(x)).record for x in REACHING]
     return found + [walk(p) for p in own_problems(tmp_path_factory.mktemp("mesh"))]
 

@@ -12,13 +12,16 @@ from scipy.integrate import solve_ivp
 import derive
 from derive import Problem, Solid, pipeline
 from derive.check.checker import Checker
+from derive.code.emit import emit
 from derive.problem.problem import ProblemError
+from derive.validate.chart import Chart
+from derive.validate.emission import EmittedFiles
 from tests.oracles import ellipsoids
 from tests.support.emitted import arrange, compile_c, import_python
 from tests.support.kinds import agrees
 from tests.support.needs import CC, need
 from tests.support.record_mutations import tried
-from tests.support.walks import SEED, record
+from tests.support.walks import SEED, problem, record
 
 NAME = "riemann_ellipsoid"
 BALL = {"rho": 1.0, "a": 1.0, "b": 1.0, "c": 1.0, "G": 1.0}
@@ -288,6 +291,33 @@ def test_what_is_not_written_or_sought():
         pipeline.symmetries(d.problem, d.record)
     with pytest.raises(ValueError, match="derivatives of the integrals of self_gravity"):
         d.emit(jacobian=("state",))
+
+
+@pytest.mark.parametrize("end", ["c", "py"])
+def test_emitted_code_is_read_back_and_no_change_of_it_passes(end):
+    compiled = pipeline.program(problem(NAME), record(NAME))
+    files = emit(compiled, record(NAME), ("c", "python"), NAME)
+    # Ψ_0 is no case: on SL(3) the multiplier takes it up
+    item, call = "integrals.v[2]", f"{NAME}_ellipsoid(I_1, I_2, I_3)"
+    if end == "py":
+        item, call = "integrals[2]", "_ellipsoid(xp, I_1, I_2, I_3)"
+    text = files[f"{NAME}.{end}"]
+
+    def report(changed):
+        given = EmittedFiles(
+            files | {f"{NAME}.{end}": changed}, NAME, Chart(), compiled.numbers(), fresh=files
+        )
+        return next(x for x in given.reports(record(NAME)) if f"{NAME}.{end}" in x.files)
+
+    assert report(text).holds
+    assert "not validated, for it is a loop: Carlson's duplication" in report(text).text
+    for old, new in (
+        (item, item.replace("2", "3")),
+        (call, call.replace("I_1, I_2", "I_2, I_1")),
+        ("ratio - 3", "ratio - 4"),
+    ):
+        assert old in text
+        assert not report(text.replace(old, new, 1)).holds, new
 
 
 # -- the fluid of Dirichlet ------------------------------------------------------------------------

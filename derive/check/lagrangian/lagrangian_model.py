@@ -40,7 +40,7 @@ class LagrangianModel(Draws):
     ``generic``: ℓ is any polynomial, on the problem's side.  X is the motion; or, where the locus
     ``at`` tells some of it, a random vector with δt = 1 that has this.  ``pi``: its value, else
     any; ``zero``: the names of parameters that vanish; ``horizontal``: coordinates that are held
-    are 0.  ``input_forces``: none, without points.
+    are 0.  ``input_forces``: none, without points.  ``symmetries``: by which a record reduces.
     """
 
     def __init__(
@@ -63,7 +63,10 @@ class LagrangianModel(Draws):
         self.held = {a - 1 for a in held}
         self.tree = None if generic else decode(problem["lagrangian"]["L"], "problem, L")
         self.hypothesis_failures: dict[Any, str] = {}
-        inside = bool(at.field or at.field_prime) or (at.inside and group.has_inner_samples)
+        told = () if generic else problem.get("symmetries", ())
+        self.symmetries = [GivenField(0, decode(x, "problem, symmetries")) for x in told]
+        inside = bool(at.field or at.field_prime or self.symmetries)
+        inside = inside or (at.inside and group.has_inner_samples)
         g = group.sample_inside(random, size) if inside else group.sample(random, size)
         self.t, self.g, self.Z = self.draw(), g, self.algebra()
         self.advected: CarriedAlong | None = None

@@ -17,6 +17,7 @@ from ..evaluate import Environment, evaluate
 from ..model import Direction
 from ..name_values import NameValues, Values
 from ..nilpotent import EPS, EPS_PRIME, ETA, nilpotent, part
+from . import reduced_by_symmetries
 from .brackets_by_flow import brackets
 from .lagrangian_model import PAIRED, LagrangianModel
 
@@ -25,7 +26,13 @@ def environment(model: LagrangianModel) -> Environment:
     """The environment in which the equations of a record are claims."""
     return Environment(
         model.n,
-        NameValues(model, (_places, _carried_along, _derivatives, _momenta_values, _motion)),
+        NameValues(
+            model,
+            (
+                *(_places, _carried_along, _derivatives, _momenta_values),
+                *(reduced_by_symmetries.values, _motion),
+            ),
+        ),
         _families(model),
         _functions(model),
         model.parameters,
@@ -142,7 +149,10 @@ def _families(model: LagrangianModel) -> dict[str, dict[tuple[int, ...], Any]]:
         "Π̇": _rates(model),
         "Φ": _forces(model),
     }
-    return {name: {(a,): x for a, x in enumerate(xs, 1)} for name, xs in members.items()}
+    found: dict[str, dict[tuple[int, ...], Any]] = {
+        name: {(a,): x for a, x in enumerate(xs, 1)} for name, xs in members.items()
+    }
+    return found | reduced_by_symmetries.families(model)
 
 
 def _functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
@@ -174,6 +184,8 @@ def _functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
         return model.given[0].rate(model, others)
 
     def varied(what: Tree, mask: int) -> Any:
+        if isinstance(what, tuple):
+            return reduced_by_symmetries.varied(model, what, mask)
         t, g, Z, *_ = model.varied
         if what == "L̃":
             return model.indices(part(model.lagrangian(t, g, Z), mask), PAIRED)
@@ -184,6 +196,7 @@ def _functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
         "ϖ": lambda _, a, env: model.cartan(direction(a[0])),
         **dict.fromkeys(("dϖ", "ω"), lambda _, a, env: model.exterior(*(direction(x) for x in a))),
         **({"ρ": represented} if model.advected else {}),
+        **reduced_by_symmetries.functions(model, direction),
         "M̃": form,
         "ξ": lambda _, a, env: direction(a[0]).xi,
         "d/dt": lambda _, a, env: rate_of(a[0], env),

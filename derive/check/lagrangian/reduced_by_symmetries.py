@@ -1,0 +1,179 @@
+"""What a reduction by symmetries speaks of, at an exact point, by the fields that the record has.
+
+Momenta are derivatives of ℓ, 𝕀 and 𝒜 are made of them at the velocities of the fields and at rest,
+energies are taken at the horizontal velocity and at what is left; derivatives come from nilpotent
+numbers on a family in the group.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from ...language import rational as q
+from ...language.rational import Matrix
+from ..arithmetic import EvaluationError
+from ..evaluate import Environment
+from ..model import Direction
+from ..nilpotent import EPS, EPS_PRIME, derivative_in, part
+from .given_field import inverse
+from .lagrangian_model import Family, LagrangianModel
+
+
+@dataclass(frozen=True)
+class Place:
+    """A time, an element, its inverse and a velocity, which may all be nilpotent, and what the
+    fields are there."""
+
+    model: LagrangianModel
+    t: Any
+    g: Matrix
+    back: Matrix
+    Z: Matrix
+
+    @cached_property
+    def fields(self) -> list[Matrix]:
+        """η_i, the fields carried to 𝔤."""
+        m = self.model
+        return [x.carried(m, self.t, self.g, self.back)[1] for x in m.symmetries]
+
+    def pushed(self, Z: Matrix, xi: Matrix) -> Any:
+        """The momentum of a velocity on ξ."""
+        return self.model.momentum(self.t, self.g, Z, xi)
+
+    def metric(self, one: Matrix, two: Matrix) -> Any:
+        """⟨ξ, ξ′⟩: the momentum of ξ, less that at rest, on ξ′."""
+        return self.pushed(one, two) - self.pushed(q.scaled(0, one), two)
+
+    @cached_property
+    def locked(self) -> Matrix:
+        """𝕀."""
+        return tuple(tuple(self.metric(x, y) for y in self.fields) for x in self.fields)
+
+    def momenta(self) -> list[Any]:
+        """𝒥_i."""
+        return [self.pushed(self.Z, x) for x in self.fields]
+
+    @cached_property
+    def _inverse(self) -> Matrix:
+        found = q.inverse(part(self.locked, 0))
+        if found is None:
+            raise EvaluationError("𝕀 has no inverse at this point")
+        return found
+
+    def connection(self, xi: Matrix) -> list[Any]:
+        """𝒜(ξ): 𝕀x = (⟨η_i, ξ⟩), by as many steps as there are nilpotents to a product."""
+        wanted = tuple((self.metric(x, xi),) for x in self.fields)
+        small = q.minus(self.locked, part(self.locked, 0))
+        found = q.times(self._inverse, wanted)
+        for _ in range(2):
+            found = q.times(self._inverse, q.minus(wanted, q.times(small, found)))
+        return [row[0] for row in found]
+
+    def horizontal(self, xi: Matrix) -> Matrix:
+        """ξ − Σ 𝒜_i(ξ) η_i."""
+        for weight, eta in zip(self.connection(xi), self.fields, strict=True):
+            xi = q.minus(xi, q.scaled(weight, eta))
+        return xi
+
+    def routh_form(self, time: Any, xi: Matrix) -> Any:
+        """The momentum of the horizontal velocity on what is horizontal of ξ, less h̃ δt."""
+        pushed = self.pushed(self.horizontal(self.Z), self.horizontal(xi))
+        return pushed - self.model.energy(self.t, self.g, self.Z) * time
+
+
+def here(model: LagrangianModel) -> Place:
+    """The point of a model."""
+    return Place(model, model.t, model.g, inverse(model.g), model.Z)
+
+
+def on_family(model: LagrangianModel, family: Family) -> Place:
+    """The points of a family."""
+    t, g, Z, _, undone = family
+    start = inverse(model.g)
+    back = q.times(undone, start) if model.side == "left" else q.times(start, undone)
+    return Place(model, t, g, back, Z)
+
+
+def values(model: LagrangianModel) -> dict[str, Any]:
+    """The values of names."""
+    if not model.symmetries:
+        return {}
+    at = here(model)
+    Z = at.horizontal(model.Z)
+    spent = sum(
+        (x * y for x, y in zip(at.momenta(), at.connection(model.Z), strict=True)),
+        start=Fraction(0),
+    )
+    return {
+        "𝕀": part(at.locked, 0),
+        "ζ_h": tuple((part(x, 0),) for x in model.group.nearest(Z)),
+        "𝒱": part(model.energy(model.t, model.g, q.minus(model.Z, Z)), 0),
+        "ℛ": part(model.lagrangian(model.t, model.g, model.Z) - spent, 0),
+    }
+
+
+def families(model: LagrangianModel) -> dict[str, dict[tuple[int, ...], Any]]:
+    """𝒥_i."""
+    listed = here(model).momenta() if model.symmetries else []
+    found: dict[tuple[int, ...], Any] = {(i,): part(x, 0) for i, x in enumerate(listed, 1)}
+    return {"𝒥": found} if found else {}
+
+
+def functions(
+    model: LagrangianModel, direction: Callable[[str], Direction]
+) -> dict[str, Callable[..., Any]]:
+    """𝒜, d𝒜, ϖ_h and its derivative."""
+    if not model.symmetries:
+        return {}
+
+    def connection(head: Any, arguments: Any, env: Environment) -> Any:
+        xi = {"ξ": model.first.xi, "ξ′": model.second.xi, "Z": model.Z}[arguments[0]]
+        return part(member(here(model).connection(xi), head, env), 0)
+
+    def curvature(head: Any, arguments: Any, env: Environment) -> Any:
+        one, two = map(direction, arguments)
+        return exterior(model, one, two, lambda at, _, xi: member(at.connection(xi), head, env))
+
+    def form(head: Any, arguments: Any, env: Environment) -> Any:
+        a = direction(arguments[0])
+        return part(here(model).routh_form(a.time, a.xi), 0)
+
+    def derived(head: Any, arguments: Any, env: Environment) -> Any:
+        one, two = map(direction, arguments)
+        return exterior(model, one, two, Place.routh_form)
+
+    return {"𝒜": connection, "d𝒜": curvature, "ϖ_h": form, "dϖ_h": derived}
+
+
+def exterior(
+    model: LagrangianModel, a: Direction, b: Direction, form: Callable[[Place, Any, Matrix], Any]
+) -> Any:
+    """δ[form(δ′)] − δ′[form(δ)] on a family; ``form``: of δt and ξ at its points."""
+    family = model.family(a, b)
+    at = on_family(model, family)
+
+    def on(mask: int) -> Any:
+        return form(at, derivative_in(family[0], mask), model.field(family, mask))
+
+    return part(on(EPS_PRIME), EPS) - part(on(EPS), EPS_PRIME)
+
+
+def varied(model: LagrangianModel, what: Any, mask: int) -> Any:
+    """δ or δ′ of 𝒥_i, or of 𝒜_i of the other field."""
+    at = on_family(model, model.varied)
+    if what[0] == "at":
+        return part(member(at.momenta(), what), mask)
+    other = EPS_PRIME if mask == EPS else EPS
+    return part(member(at.connection(model.field(model.varied, other)), what[1]), mask)
+
+
+def member(found: list[Any], head: Any, env: Environment | None = None) -> Any:
+    """The one of this number, or of what an index is bound to."""
+    i = env.indices.get(head[2], head[2]) if env else head[2]
+    if not isinstance(i, int) or not 1 <= i <= len(found):
+        raise EvaluationError(f"no symmetry {i!r}")
+    return found[i - 1]

@@ -1,0 +1,1 @@
+"""Routh reduction by symmetries that commute: the locked inertia, the effective potential."""

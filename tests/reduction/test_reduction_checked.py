@@ -1,0 +1,102 @@
+"""The record of a reduction: every step holds, and one that is wrong is refused."""
+
+from dataclasses import replace
+
+import pytest
+
+from derive.check.checker import Checker, check
+from derive.language.tree import mul
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
+from derive.record.record import RecordError
+from derive.reduction.reduced_record import shown
+from derive.views.rendering import FORMATS, render
+from tests.readers.read import PAGES, faults
+from tests.support.record_mutations import tried
+from tests.support.reduced import FILES, LONG, reduced
+from tests.support.walks import SEED, own_verdicts, repeated
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_every_step_holds(name):
+    assert [v.reason for v in own_verdicts(reduced(name).record) if not v.holds] == []
+
+
+@pytest.mark.parametrize("name", repeated(LONG))
+def test_every_step_of_longer_ones_holds(name):
+    assert [v.reason for v in check(reduced(name).record, SEED) if not v.holds] == []
+
+
+@pytest.mark.parametrize("name", ["lagrange_top", "charged_body", "rod"])
+def test_a_record_is_read_back(name):
+    own = reduced(name).record
+    assert from_json(to_json(own)) == own
+
+
+@pytest.mark.parametrize("kind", PAGES)
+@pytest.mark.parametrize("name", ["lagrange_top", "charged_body"])
+def test_every_page_says_what_its_record_says(name, kind):
+    assert [*faults(reduced(name).record, kind)] == []
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_every_view_shows_it(form):
+    assert "quadrature" in render(reduced("lagrange_top").record, form, "en")
+
+
+@pytest.mark.parametrize("name", repeated(["lagrange_top", "charged_body", "spatial"]))
+def test_every_corruption_is_refused(name):
+    own = reduced(name).record
+    checker, flat = Checker(own.problem, SEED), not any(reduced(name).routhian.curvature)
+    for step in shown(own):
+        if flat and step.label.endswith(".routh"):
+            continue  # there −d𝒜 is d𝒜, too
+        for kind, wrong, verdict in tried(step, checker):
+            assert not verdict.holds, (step.label, kind, wrong)
+
+
+def test_other_fields_are_refused():
+    own = reduced("lagrange_top").record
+    first, second = own.problem["symmetries"]
+    for fields in ([second, first], [first], [first, first]):
+        wrong = replace(own, problem={**own.problem, "symmetries": fields})
+        assert not all(v.holds for v in check(wrong, SEED))
+
+
+@pytest.mark.parametrize(
+    ("fields", "why"),
+    [
+        ([], "one at least"),
+        ("A", "list"),
+        ([["mul", "A", "Z"]], ""),
+        ([["nothing"]], "symmetries 1"),
+        ([0, 0, 0, 0], "one at least"),
+    ],
+)
+def test_fields_of_another_form_are_refused(fields, why):
+    own = reduced("lagrange_top").record
+    text = to_json(replace(own, problem={**own.problem, "symmetries": fields}))
+    if why:
+        with pytest.raises(RecordError, match=why):
+            from_json(text)
+    else:
+        assert not all(v.holds for v in check(from_json(text), SEED))
+
+
+def test_fields_are_of_a_lagrangian():
+    from derive.pipeline import walk
+    from tests.support.walks import problem
+
+    own = walk(problem("so3"))
+    data = {**own.problem, "symmetries": reduced("lagrange_top").record.problem["symmetries"]}
+    with pytest.raises(RecordError, match="of a Lagrangian"):
+        from_json(to_json(replace(own, problem=data)))
+
+
+def test_a_false_potential_is_refused():
+    own = reduced("gyrostat").record
+    step = own["effective"]
+    wrong = replace(step.equations[0], rhs=mul(2, step.equations[0].rhs))
+    checker = Checker(own.problem, SEED)
+    assert checker.check(step).holds
+    assert not checker.check(replace(step, equations=(wrong, *step.equations[1:]))).holds

@@ -1,0 +1,122 @@
+"""The command: formats, steps, languages, what is refused in one line; the choice of symmetries."""
+
+import subprocess
+import sys
+
+import pytest
+
+from derive.command.cli import main
+from derive.problem.problem import ProblemError
+from derive.problem.toml import problem_of
+from derive.python.derived import derive
+from tests.support.reduced import reduced
+
+
+def said(capsys, *words, code=0):
+    assert main(["reduction", *words]) == code
+    return capsys.readouterr()
+
+
+def test_it_prints_the_reduction_alone(capsys):
+    words = said(capsys, "lagrange_top").out
+    assert words.startswith("lagrange_top.momentum_1")
+    assert "𝒱 = mgl A₃₃ + (𝒥₁ − A₃₃ 𝒥₂)²/(2 I1(1 − A₃₃²)) + 𝒥₂²/(2 I3)" in words
+    assert "degree 3: the integral\n  is elliptic" in words
+
+
+def test_it_speaks_french(capsys):
+    assert "L’inertie bloquée" in said(capsys, "top", "--lang", "fr").out
+
+
+def test_a_step_alone(capsys):
+    words = said(capsys, "top", "locked").out
+    assert words.startswith("top.locked")
+    assert "quadrature" not in words
+    assert "no step" in said(capsys, "top", "nothing", code=2).err
+
+
+@pytest.mark.parametrize("form", ["latex", "markdown", "html", "json"])
+def test_formats(capsys, tmp_path, form):
+    file = tmp_path / "out"
+    said(capsys, "top", "--format", form, "--out", str(file))
+    assert "top.quadrature" in file.read_text(encoding="utf-8")
+
+
+def test_a_record_is_checked(capsys, tmp_path):
+    file = tmp_path / "top.json"
+    said(capsys, "spherical_pendulum", "--format", "json", "--out", str(file))
+    assert main(["check", str(file)]) == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("jelly", "damping"),
+        ("linear", "any group"),
+        ("nothing", "unknown problem"),
+        ("screw", "up to dF"),
+        ("euler_poisson", "no element"),
+        ("sp4", "blocks"),
+    ],
+)
+def test_bad_input_is_one_line(capsys, name, why):
+    shown = said(capsys, name, code=2)
+    assert shown.out == ""
+    assert shown.err.count("\n") == 1
+    assert why in shown.err
+    assert name in shown.err
+
+
+def stated(L, group="SO(3)"):
+    return derive(problem_of({"name": "own", "group": group, "lagrangian": {"L": L}}))
+
+
+@pytest.mark.parametrize(
+    ("L", "why"),
+    [
+        ("zeta_1^2 + zeta_2^2 + zeta_3^2 + zeta_3^4", "not quadratic"),
+        ("zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2 - A_33 - A_12", "no symmetry of L but of the time"),
+        ("zeta_1^2 + zeta_2^2 - zeta_3^2 + A_11*A_22", "no symmetry of L but of the time"),
+    ],
+)
+def test_what_is_not_reduced(L, why):
+    with pytest.raises(ProblemError, match=why):
+        stated(L).reduction()
+
+
+def test_which_symmetries_are_taken():
+    """Of three rotations of space, that about the third axis; of translations all."""
+    found = derive("euler_top").reduction()
+    assert found.kinds == ("rotation_space",)
+    assert "1 of 3" in str(found)
+    assert derive("kirchhoff").reduction().kinds == ("translation_space",) * 3
+    assert reduced("free").routhian.freedom == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "word"),
+    [("flat", "elementary"), ("lagrange_top", "elliptic"), ("steep", "hyperelliptic")],
+)
+def test_what_is_said_of_the_integral(name, word):
+    step = reduced(name).record["quadrature"]
+    assert word in str(step.prose)
+
+
+def test_without_freedom_the_energy_is_the_potential():
+    record = reduced("wheel").record
+    energy = next(e for e in record["effective"].equations if e.lhs == "h̃")
+    assert energy.rhs == "𝒱"
+
+
+def test_every_equation_is_one_of_sympy():
+    found = derive("charged_body").reduction()
+    assert all(found[s.label].sympy() for s in found.record.steps)
+    assert found.quadrature is None
+
+
+def test_the_walk_imports_nothing_of_it():
+    code = (
+        "import sys; from derive.command.cli import main; main(['symmetries', 'so3']); "
+        "sys.exit(any(x.startswith(('sympy', 'derive.reduction')) for x in sys.modules))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True).returncode == 0
