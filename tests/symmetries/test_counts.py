@@ -9,7 +9,7 @@ from derive.language.show import show
 from derive.pipeline import symmetries
 from derive.problem.problem import ProblemError
 from tests.support.symmetric import FILES, found
-from tests.support.walks import problem, record
+from tests.support.walks import FLUIDS, problem, record
 
 SPACE = {"time": 1, "translation_space": 3, "rotation_space": 3, "boost": 3}
 """Galilei's group, with the time."""
@@ -61,6 +61,7 @@ REFUSED = {
     "jelly": "damping",
     "linear": "any group",
     "affine": "any group",
+    **dict.fromkeys(FLUIDS, "no matrices"),
 }
 
 
