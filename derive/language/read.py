@@ -21,7 +21,7 @@ from functools import lru_cache
 from unicodedata import normalize
 
 from .derivatives import DERIVATIVES
-from .show import FRACTIONS, show_name
+from .show import FIELD_OPERATORS, FRACTIONS, show_name
 from .tree import Tree, neg
 
 FAMILIES = frozenset({*"rmvFQdPχσκEks", "f_u", "Π", "Π̇", "Φ", "𝒥", "𝒜", "d𝒜"})
@@ -40,7 +40,8 @@ _VARIED = r"(?:δ′?|∂ₜ|d(?=ϖ|𝒜|U\u0303))?"
 _CALLED = "|".join(("det", "j", *DERIVATIVES))
 TOKEN = (
     r"(?P<quoted>‘[^’]*’)|(?P<opening>(?<= )‖)"
-    rf"|(?P<word>Tr(?=[ (\[])|Σ(?:[ᵢⱼₑ]|_[a-z𝐦𝐧])|∫|√|(?:{_CALLED})(?=\())"
+    rf"|(?P<word>Tr(?=[ (\[])|Σ(?:[ᵢⱼₑ]|_[a-z𝐦𝐧])|∫|√|(?:{_CALLED})(?=\()"
+    r"|(?:grad|div)(?![A-Za-z])|Δ(?![\u0300-\u036f])|∇_|∇|∂ₙ)"
     rf"|(?P<name>d/dt|(?!dm(?![A-Za-z])){_VARIED}{_LETTER}[\u0300-\u036f]*′?(?:_(?:[abij][abij]|[A-Za-z]))?)"
     r"|(?P<index>[₀-₉ᵢⱼₑ]+(?:,[₀-₉ᵢⱼₑ]+)*)"
     r"|(?P<power>⁻?[⁰¹²³⁴-⁹]+)"
@@ -198,6 +199,14 @@ class _Reader:
             found = 1 if self.tokens[self.k][0] == "dm" else self.sum()
             self.take("dm")
             return ("call", "∫", found)
+        if text == "∇_":
+            inside = self.tokens[self.k][0] == "("
+            return ("nabla", *(self.listed("(", ")", 1) if inside else [self.named(self.next())]))
+        if text in FIELD_OPERATORS and self.tokens[self.k][0] not in BEGIN:
+            return text
+        if text in FIELD_OPERATORS:
+            inside = self.tokens[self.k][0] == "("
+            return ("call", text, *(self.listed("(", ")", 1) if inside else [self.factor()]))
         own = {"det": ("det",), "j": ("hat",), "√": ("fun", "sqrt")}.get(text, ("fun", text))
         return (*own, *self.listed("(", ")", 1))
 

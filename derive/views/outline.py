@@ -70,7 +70,7 @@ REFERENCES = (
 DIAGONAL = tuple(
     ("row", *(("entry", "λ", i) if i == j else 0 for j in (1, 2, 3))) for i in (1, 2, 3)
 )
-STILL = (("δ′A",), ("ξ′",), ("Ω′",), ("δ′A", "δ′T"), ("ξ′", "η′"), ("Ω′", "η′"))
+STILL = (("δ′A",), ("ξ′",), ("Ω′",), ("η′",), ("δ′A", "δ′T"), ("ξ′", "η′"), ("Ω′", "η′"))
 ASSUMPTIONS: tuple[tuple[frozenset[Equation], str], ...] = (
     (frozenset({Equation("I", ("matrix", *DIAGONAL))}), "in principal axes"),
     (frozenset({Equation("δt", 1)}), "for any X with δt = 1"),
@@ -81,7 +81,7 @@ ASSUMPTIONS: tuple[tuple[frozenset[Equation], str], ...] = (
     ),
 )
 """Equations that a step assumes, and how that is said in words."""
-ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇_b", "ṗ_b")
+ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇_b", "ṗ_b", "u̇")
 
 
 def latex_names(d: Derivation) -> dict[str, str]:
@@ -181,7 +181,7 @@ def notes(step: Step, language: Language = ENGLISH) -> list[str]:
     return [*paper, *assumed(step, language)]
 
 
-DOMAINS = {"δA": "T_A G", "δ′A": "T_A G", "ξ′": "𝔤", "Ω′": "R³"}
+DOMAINS = {"δA": "T_A G", "δ′A": "T_A G", "ξ′": "𝔤", "η′": "𝔤", "Ω′": "R³"}
 PAIRS = {"δ′A": "T_g G", "ξ′": "𝔤"}
 
 

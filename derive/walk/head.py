@@ -9,6 +9,7 @@ from ..problem.data import data
 from ..problem.problem import Problem
 from ..record import sentence
 from ..record.contract import CONVENTIONS
+from ..record.fluid_names import FLUID
 from ..record.name_types import Name
 from ..record.record import Step, Symbol
 from ..record.sentence import Prose, Sentence, listed
@@ -72,6 +73,8 @@ def _meant(problem: Problem) -> dict[str, Name]:
     """The vocabulary of a problem, name → its meanings there: of all problems, of turning, of
     products."""
     group = problem.group
+    if problem.fluid:
+        return VOCABULARY | FLUID
     if problem.torus:
         return VOCABULARY | LAGRANGIANS["right"] | ON_THE_TORUS
     if problem.lagrangian:

@@ -10,7 +10,7 @@ from derive.pipeline import symmetries
 from derive.problem.problem import ProblemError
 from derive.record.sentence import english
 from tests.support.symmetric import FILES, found
-from tests.support.walks import problem, record
+from tests.support.walks import FLUIDS, problem, record
 
 SPACE = {"time": 1, "translation_space": 3, "rotation_space": 3, "boost": 3}
 """Galilei's group, with the time."""
@@ -62,6 +62,7 @@ REFUSED = {
     "jelly": "damping",
     "linear": "any group",
     "affine": "any group",
+    **dict.fromkeys(FLUIDS, "no matrices"),
 }
 
 

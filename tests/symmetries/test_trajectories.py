@@ -7,9 +7,10 @@ from scipy.integrate import solve_ivp
 from derive.command.cli import ready_made
 from derive.python.derived import derive
 from tests.oracles import general
-from tests.support.walks import repeated
+from tests.support.walks import FLUIDS, repeated
 
 REFUSED = ("zeitlin", "euler_poisson", "jelly", "linear", "affine", "rod", "spherical_pendulum")
+REFUSED += FLUIDS
 """Without symmetries, or with states of other numbers than the oracle has."""
 SHORT = {
     "gl3": 0.2,

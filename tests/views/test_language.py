@@ -201,7 +201,8 @@ def test_every_word_said_is_in_the_catalogue(path):
 
 
 def test_every_entry_is_used():
-    sources = strings("walk/*.py", "walk/kinds/*.py", "record/vocabulary.py", "record/rules.py")
+    sources = strings("walk/*.py", "walk/*/*.py", "record/*_names.py", "record/rules.py")
+    sources |= strings("record/vocabulary.py")
     sources |= strings("record/contract.py")
     sources |= strings("paper/findings.py", "views/*.py", "figure/*.py", "schema/kinds/*.py")
     sources |= {p.remark for p in PAPER if p.remark}
