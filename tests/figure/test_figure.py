@@ -28,7 +28,8 @@ from tests.support.needs import need
 
 PROBLEMS = sorted((Path(__file__).parents[2] / "derive" / "problems").glob("*.toml"))
 GENERAL = ("affine", "linear")
-STATED = [p.stem for p in PROBLEMS if {"lagrangian", "inertia"} & {*tomllib.loads(p.read_text())}]
+BODILESS = {"lagrangian", "inertia", "fluid"}
+STATED = [p.stem for p in PROBLEMS if BODILESS & {*tomllib.loads(p.read_text(encoding="utf-8"))}]
 NAMES = [p.stem for p in PROBLEMS if p.stem not in (*GENERAL, *STATED)]
 OWN = {
     "mixture": """
