@@ -39,6 +39,10 @@ READY = {
     "manakov": {"time": 1, "rotation_space": 6},
     "rod": SPACE | {"rotation_space": 1},
     "spherical_pendulum": {"time": 1, "rotation_space": 1},
+    # of an ellipsoid, the relabellings that keep its moments
+    **dict.fromkeys(
+        ("dirichlet", "gas_cloud"), {"time": 1, "rotation_space": 3, "deformation_body": 3}
+    ),
     "gl3": {"time": 1, "rotation_space": 3, "deformation_body": 1},
     "gyrostat": {"time": 1, "rotation_space": 1},
     "hammer": SPACE | {"rotation_space": 1},
@@ -59,6 +63,7 @@ READY = {
 REFUSED = {
     "euler_poisson": "no element",
     "zeitlin": "on the torus",
+    "riemann_ellipsoid": "self_gravity",
     "jelly": "damping",
     "linear": "any group",
     "affine": "any group",

@@ -60,6 +60,19 @@ kind = "mesh"
 density = 1
 file = "corner.off"
 """
+BOX = """
+name = "box"
+group = "SL(3)"
+[body]
+solid = "box"
+density = 1
+sides = [1, 2, 3]
+[[potential]]
+kind = "spring"
+at = [1, 0, 0]
+anchor = [0, 1, 0]
+stiffness = 1
+"""
 CHOSEN = (
     *("SL(3) forces", "SE(3) forces", "Sim(3) forces", "SO(3) x SO(3)", "SO(3) forces"),
     *("a cylinder", "SL(4)", "Aff(2)", "SAff(2)", "weighted", "screw"),
@@ -77,6 +90,7 @@ def own_problems(folder):
         Problem("given", "SO(3)", GIVEN),
         Problem("solids", "SE(3)", [*ON_TURNED]),
         load(folder / "corner.toml"),
+        problem_of(tomllib.loads(BOX)),
         Problem("tied", Aff(2), THREE, [Spring(1, 2, 1, length=1)]),
         Problem("anchored", Aff(2), THREE, [Spring(1, [0, 1], 1)]),
         Problem("pushed", Aff(2), THREE, [Spring(1, 2, 1), *pushed]),
