@@ -28,6 +28,8 @@ COUNTS = {
     "none": {},
     "landau": {"time": 1, "translation_space": 3, "boost": 1, "rotation_alone": 1},
 }
+RELABELLED = {"time": 1, "rotation_space": 3, "deformation_body": 3}
+"""Of an ellipsoid: the linear maps of its body that keep its moments."""
 READY = {
     "charged_body": {"time": 1, "rotation_space": 1},
     "comet": {"time": 1, "rotation_space": 3},
@@ -39,10 +41,8 @@ READY = {
     "manakov": {"time": 1, "rotation_space": 6},
     "rod": SPACE | {"rotation_space": 1},
     "spherical_pendulum": {"time": 1, "rotation_space": 1},
-    # of an ellipsoid, the relabellings that keep its moments
-    **dict.fromkeys(
-        ("dirichlet", "gas_cloud"), {"time": 1, "rotation_space": 3, "deformation_body": 3}
-    ),
+    "dirichlet": RELABELLED,
+    "gas_cloud": RELABELLED,
     "gl3": {"time": 1, "rotation_space": 3, "deformation_body": 1},
     "gyrostat": {"time": 1, "rotation_space": 1},
     "hammer": SPACE | {"rotation_space": 1},
