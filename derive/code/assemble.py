@@ -106,6 +106,7 @@ def assemble(
         tuple(kept or ()),
         momenta.names if momenta else (),
         momenta.size if momenta else 0,
+        mass_fault=lowering.inverses.mass_fault,
     )
 
 
@@ -230,7 +231,9 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
     except ZeroDivisionError:
         raise LoweringError(
             f"{lowering.record.name}: a division by zero, or a mass matrix that is singular "
-            "whatever the parameters: look at the denominators in the file, and at the masses"
+            "whatever the parameters: look at the denominators in the file"
+            + ", and at the masses"
+            * lowering.inverses.definite
         ) from None
     return found | tensor
 
