@@ -77,9 +77,7 @@ def assemble(
     checks = [(x, size) for x, size in lowering.inverses.checks if x.op != "num" or x.data <= 0]
     checks += frame.regular if frame else []
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
-    parameters = _used_parameters(d, found)
-    if "parameters" in chosen.jacobian and not parameters:
-        raise LoweringError(f"{d.name}: there are no parameters to linearise in")
+    parameters = _used_parameters(d, found, chosen)
     functions, constants, framing = _functions(
         lowering, chosen, wanted, checks, parameters, frame, momenta
     )
@@ -106,6 +104,7 @@ def assemble(
         tuple(kept or ()),
         momenta.names if momenta else (),
         momenta.size if momenta else 0,
+        mass_fault=lowering.inverses.mass_fault,
     )
 
 
@@ -230,7 +229,9 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
     except ZeroDivisionError:
         raise LoweringError(
             f"{lowering.record.name}: a division by zero, or a mass matrix that is singular "
-            "whatever the parameters: look at the denominators in the file, and at the masses"
+            "whatever the parameters: look at the denominators in the file"
+            + ", and at the masses"
+            * lowering.inverses.definite
         ) from None
     return found | tensor
 
@@ -245,9 +246,12 @@ def _places(
     return found | {reader.leaf("t", "time"): ("t", ("t", 0))}
 
 
-def _used_parameters(d: Derivation, nodes: list[Node]) -> list[str]:
-    """The parameters that some nodes depend on, in the order of the problem."""
+def _used_parameters(d: Derivation, nodes: list[Node], options: Options) -> list[str]:
+    """The parameters that some nodes depend on, in the order of the problem; ``LoweringError`` for
+    none where they are to be linearised in."""
     used = {x.data[1] for x in _leaves(nodes) if x.data[0] == "parameter"}
+    if "parameters" in options.jacobian and not used:
+        raise LoweringError(f"{d.name}: there are no parameters to linearise in")
     return [name for name in d.problem["parameters"] if name in used]
 
 

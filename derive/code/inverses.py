@@ -14,6 +14,7 @@ from ..record.tree_data import decode
 from . import dense
 from .graph import PARAMETER, Node
 from .naming import name_of
+from .pivots import Block, Pivots, solve
 from .reader import RecordReader, Value, matrix
 from .rewrite import replaced
 
@@ -30,13 +31,15 @@ class Inverses:
 
     ``checks``: what must be positive, and the scale of its rounding error; ``local``: do they hold
     the metric at g = 1 alone?  ``definite``: is M that of masses, or of any Lagrangian?
-    ``untested``: such an M depends on the state.
+    ``untested``: such an M depends on the state.  ``sure``: is it singular wherever a test of it
+    fails?
     """
 
     def __init__(self, reader: RecordReader):
         self.reader, self.graph, self.group = reader, reader.graph, reader.group
         self.checks: list[tuple[Node, Node | None]] = []
         self.local = self.untested = False
+        self.sure = True
         self.definite = "lagrangian" not in reader.record.problem
 
     def of(self, t: Tree) -> Value:
@@ -57,14 +60,24 @@ class Inverses:
                 return self.reader.entries(dense.adjugate(g, value), name)
         elif len(value) <= SMALL and dense.stage_of(value) != PARAMETER:
             return self._by_adjugate(t, value, name)
-        inverse, pivots = dense.symmetric_inverse(g, value, self._namer(name_of(t)))
+        if t == "M" and (blocks := self._chosen(value)):
+            one = dense.numbers(g, q.identity(len(value)))
+            return self.reader.entries(self._by_blocks(t, value, blocks, one), name, recorded=True)
+        inverse, divided = dense.symmetric_inverse(g, value, self._namer(name_of(t)))
         if len(value) <= SMALL and _alike(value):
             inverse = self._by_adjugate(t, value, name)
         found = self.reader.entries(inverse, name, recorded=True)
-        self._check_pivots(t, value, pivots)
+        self._check_pivots(t, value, divided)
         if dense.stage_of(value) == PARAMETER:
             self._check_diagonal(t, value, found)
         return found
+
+    @property
+    def mass_fault(self) -> str:
+        """What ``constants`` says that the mass matrix is, where a test fails."""
+        if self.definite:
+            return "singular or not positive"
+        return "singular" if self.sure else "singular, or a diagonal block of it"
 
     def require_regular(self) -> None:
         """Note the checks of J and m even if no force asks for their inverses: where a multiplier
@@ -77,11 +90,35 @@ class Inverses:
             self._check([(self.reader.number("m"), None)])
 
     def solved(self, t: Tree, right: Matrix) -> Matrix:
-        """The column x with t x = right, for a positive definite t; its checks are noted."""
+        """The column x with t x = right, for a symmetric t; its checks are noted."""
         value = matrix(self.reader.tree(t))
+        if blocks := self._chosen(value):
+            return self._by_blocks(t, value, blocks, right, "_solve")
         factors = dense.factorised(self.graph, value, self._namer(name_of(t)))
         self._check_pivots(t, value, factors.pivots)
         return dense.solve(self.graph, factors, right, self._namer(f"{name_of(t)}_solve"))
+
+    def _chosen(self, m: Matrix) -> list[Block] | None:
+        """The pivots of an M that may be indefinite; ``None`` where elimination takes row by row,
+        as it does for any that is not."""
+        if self.definite:
+            return None
+        found = Pivots(m)
+        if dense.stage_of(m) == PARAMETER:
+            self.sure = self.sure and found.sure
+        return None if found.as_given else found.blocks
+
+    def _by_blocks(
+        self, t: Tree, value: Matrix, blocks: list[Block], right: Matrix, suffix: str = ""
+    ) -> Matrix:
+        """The x with t x = right by these pivots, which are noted to be tested."""
+        g = self.graph
+        found, pivots = solve(g, value, blocks, right, self._namer(name_of(t) + suffix))
+        if dense.stage_of(value) == PARAMETER:
+            self._check((g.absolute(x), g.magnitude(x)) for x in pivots)
+        else:
+            self.untested = True
+        return found
 
     def _namer(self, name: str) -> dense.NodeNamer:
         """What names the intermediate values of an elimination: ``name_part``."""
@@ -90,8 +127,9 @@ class Inverses:
     def _check_pivots(self, t: Tree, value: Matrix, pivots: list[Node]) -> None:
         """Note that the pivots of a matrix of the parameters, or of M at g = 1, are positive."""
         if dense.stage_of(value) == PARAMETER:
-            tested = pivots if self.definite else map(self.graph.absolute, pivots)
-            self._check(zip(tested, self._sizes(t, value), strict=True))
+            for pivot, size in zip(pivots, self._sizes(t, value), strict=True):
+                tested = pivot if self.definite else self.graph.absolute(pivot)
+                self._check([(tested, self.graph.magnitude(pivot) if size.is_zero else size)])
         elif not self.definite:
             self.untested = True
         elif t == "M":

@@ -184,6 +184,8 @@ class Program:
     loops: Any = None
     """On the torus the tables of its loops (``torus.torus_program.Loops``), where it has them."""
     on_torus: bool = False
+    mass_fault: str = "singular or not positive"
+    """What ``constants`` says that the mass matrix is."""
 
     @property
     def momentum_range(self) -> tuple[int, int]:

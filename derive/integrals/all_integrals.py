@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
-from typing import Any
+from typing import Any, TypeVar
 
 from .degree_search import Point, Search, UnluckyError, blocks, point
 from .independence import Integrability, fresh, integrability
@@ -16,6 +16,8 @@ from .parameter_cases import Case, Cases
 from .weights import Grading, grading
 
 ATTEMPTS = 6
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -76,9 +78,21 @@ def found(system: LiePoisson, degree: int) -> Found:
 
     Each is verified by exact brackets; that there are no more is proved, too.
     """
+    return _lucky(system, lambda at: _found(system, degree, at))
+
+
+def casimirs(system: LiePoisson, degree: int) -> list[Any]:
+    """All Casimirs up to a degree, whatever the energy is."""
+    algebra, by = system.algebra, grading(system)
+    every = [algebra.along(j) for j in range(algebra.size)]
+    return _lucky(system, lambda at: _all(Search(algebra, by, every, at), degree, []))
+
+
+def _lucky(system: LiePoisson, searched: Callable[[Point], T]) -> T:
+    """What is found at the first point of the parameters that is like a generic one."""
     for attempt in range(ATTEMPTS):
         try:
-            return _found(system, degree, point(system.algebra, attempt))
+            return searched(point(system.algebra, attempt))
         except UnluckyError:
             continue
     raise ArithmeticError("no point of the parameters modulo a prime is like a generic one")

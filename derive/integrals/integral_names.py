@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from ..language.tree import Tree
+from ..language.refused import Refused
+from ..language.tree import Tree, nodes
 from ..problem.problem import Problem
-from .all_integrals import Found, found
+from .all_integrals import Found, casimirs, found
 from .degree_search import TooLargeError
-from .reduced import NotReducedError, reduced
+from .reduced import NotReducedError, reduced, without_energy
 
 DEGREE = 4
 """Up to which integrals are looked for."""
@@ -17,17 +18,15 @@ DEGREE = 4
 
 def first_integrals(problem: Problem, *, beside_symmetries: bool = False) -> dict[str, Tree]:
     """Name → the polynomial in Π_a and the entries of Γ or of g: the energy, the Casimirs and the
-    integrals.
+    integrals; the first two alone where the equations are not such as can be searched.
 
     ``beside_symmetries``: only those that no symmetry gives, neither linear in the momenta nor
     Casimirs; none where the reduced equations are not such as can be searched.
     """
     try:
         whole = found(reduced(problem), DEGREE)
-    except (NotReducedError, TooLargeError):
-        if beside_symmetries:
-            return {}
-        raise
+    except (NotReducedError, TooLargeError) as error:
+        return {} if beside_symmetries else _whatever_the_energy(problem, error)
     algebra = whole.system.algebra
     if beside_symmetries:
         own = [f for f in whole.integrals if nonlinear(f, whole)]
@@ -37,6 +36,21 @@ def first_integrals(problem: Problem, *, beside_symmetries: bool = False) -> dic
         | _numbered("casimir", map(algebra.tree, whole.casimirs))
         | _numbered("integral", map(algebra.tree, whole.integrals))
     )
+
+
+def _whatever_the_energy(problem: Problem, error: Refused) -> dict[str, Tree]:
+    """The energy, where ℓ has no t, and the Casimirs; ``Refused`` for none of them, by what is
+    in the way of a search."""
+    timed = problem.lagrangian is None or "t" in nodes(problem.lagrangian.L)
+    kept: dict[str, Tree] = {} if timed else {"energy": "h̃"}
+    try:
+        system = without_energy(problem)
+        kept |= _numbered("casimir", map(system.algebra.tree, casimirs(system, DEGREE)))
+    except (NotReducedError, TooLargeError):
+        pass  # too many variables
+    if kept:
+        return kept
+    raise NotReducedError(f"{error}, and no Casimir of degree 4 or less: leave out --conserved")
 
 
 def _numbered(base: str, trees: Iterable[Tree]) -> dict[str, Tree]:

@@ -74,12 +74,26 @@ def reduced(problem: Problem) -> LiePoisson:
     group, given = problem.group, problem.lagrangian
     assert group is not None
     assert given is not None
-    L, side = given.L, given.trivialisation
+    L = given.L
     parameters = _letters(L, problem)
     symbolic = _Symbolic(problem.name, L, group, parameters)
-    epsilon = 1 if side == "left" else -1
+    system, entries = _without_energy(problem)
+    return replace(system, hamiltonian=symbolic.hamiltonian(entries), parameters=parameters)
+
+
+def without_energy(problem: Problem) -> LiePoisson:
+    """The brackets alone, of any Lagrangian whatever, with H = 0: they have its Casimirs."""
+    return _without_energy(problem)[0]
+
+
+def _without_energy(problem: Problem) -> tuple[LiePoisson, list[Place]]:
+    """The brackets, and the entries of g among the variables."""
+    group, given = problem.group, problem.lagrangian
+    assert group is not None
+    assert given is not None
+    epsilon = 1 if given.trivialisation == "left" else -1
     carried = sum(x.size for x in problem.advected or ())
-    brackets, entries = _brackets(group, epsilon, symbolic.entries, carried)
+    brackets, entries = _brackets(group, epsilon, _entries(given.L), carried)
     size = group.dimension + len(entries)
     if size > VARIABLES:
         raise NotReducedError(
@@ -88,8 +102,13 @@ def reduced(problem: Problem) -> LiePoisson:
     momenta = [("at", "Π", a) for a in range(1, group.dimension + 1)]
     letter = "A" if problem.advected is None else "Γ"
     variables = (*momenta, *(("entry", letter, *(i + 1 for i in x)) for x in entries))
-    hamiltonian = symbolic.hamiltonian(entries)
-    return LiePoisson(variables, brackets, hamiltonian, parameters, group.dimension)
+    return LiePoisson(variables, brackets, {}, (), group.dimension), entries
+
+
+def _entries(L: Tree) -> list[Place]:
+    """The places of the entries of g, or of Γ, in ℓ."""
+    kinds = ("entry", "A"), ("entry", "Γ")
+    return sorted({_place(x) for x in nodes(L) if isinstance(x, tuple) and x[:2] in kinds})
 
 
 def _letters(L: Tree, problem: Problem) -> tuple[str, ...]:
@@ -188,12 +207,6 @@ class _Symbolic:
         names = [f"p{k}" for k, _ in enumerate(parameters)]
         self.field: Any = QQ.frac_field(*names) if names else QQ
         self.letters = dict(zip(parameters, self.field.gens if names else (), strict=True))
-        entries = {
-            x
-            for x in nodes(L)
-            if isinstance(x, tuple) and x[:2] in (("entry", "A"), ("entry", "Γ"))
-        }
-        self.entries = sorted(map(_place, entries))
         if any(x == "t" for x in nodes(L)):
             self.refuse("depends on the time, so that H is no integral")
 

@@ -10,7 +10,9 @@ from derive.code.emit import emit
 from derive.code.options import Options
 from derive.code.program import LoweringError
 from derive.command.cli import main, ready_made
+from derive.language.refused import Refused
 from derive.pipeline import program
+from derive.problem.toml import problem_of
 from derive.python.derived import derive
 from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles
@@ -162,3 +164,45 @@ def test_a_number_that_says_nothing_is_seen():
         return text[:at] + text[at:].replace("out[0] = h_tilde;", "out[0] = 1.0;", 1)
 
     assert "says nothing" in reports("so3", change)[0].text
+
+
+ANY_ENERGY = {  # of so(3), whose one Casimir is |Π|²
+    "quartic": ("(zeta_1^4 + 2*zeta_2^4 + 3*zeta_3^4)/4 + zeta_1^2", ["energy", "casimir_1"]),
+    "in time": ("zeta_1^2 + (2 + t^2)*zeta_2^2 + zeta_3^2", ["casimir_1"]),
+    "root": ("zeta_1^2 + sqrt(2)*zeta_2^2 + zeta_3^2", ["energy", "casimir_1"]),
+}
+
+
+def on_algebra(text, algebra):
+    data = {"name": "test", "algebra": algebra, "lagrangian": {"L": text}}
+    return derive(problem_of(data))
+
+
+@pytest.mark.parametrize("case", ANY_ENERGY)
+def test_casimirs_whatever_the_energy(case):
+    text, names = ANY_ENERGY[case]
+    module = ModuleType("test")
+    files = on_algebra(text, {"of": "SO(3)"}).emit(languages=("python",), conserved=True)
+    exec(files["test.py"], vars(module))
+    assert list(module.CONSERVED) == names
+    k, times, states = moved(module, np.array([0.3, 1.1, -0.7]), 5.0)
+    kept = np.array([module.conserved(t, x, k) for t, x in zip(times, states, strict=True)])
+    assert np.ptp(states, axis=0).max() > 0.1
+    assert np.ptp(kept, axis=0).max() < 1e-9
+    assert np.abs(kept[0]).min() > 0.1
+
+
+def test_a_root_of_a_number_is_validated(tmp_path, capsys):
+    file = tmp_path / "rooted.toml"
+    text = 'name = "rooted"\n[algebra]\nof = "SO(3)"\n[lagrangian]\nL = "{}"\n'
+    file.write_text(text.format(ANY_ENERGY["root"][0]), encoding="utf-8")
+    out = ["--out", str(tmp_path), "--validate", "--conserved"]
+    assert main(["emit", str(file), "--lang", "python", *out]) == 0
+    assert "conserved equal the record" in capsys.readouterr().err
+
+
+def test_nothing_is_kept():
+    """The algebra of the affine group of the line has no Casimir."""
+    timed = on_algebra("zeta_1^2 + (2 + t^2)*zeta_2^2", {"brackets": [[1, 2, 2, 1]]})
+    with pytest.raises(Refused, match=r"on the time.*no Casimir.*: leave out --conserved"):
+        timed.emit(conserved=True)

@@ -27,6 +27,8 @@ CASES = {  # group, side, ℓ; the last three are found by Newton's method
     "right": ("SO(3)", "right", f"{SQUARE} - zeta_1^2/2 + A_12*zeta_2 - A_33"),
     "turning": ("SE(2)", "left", f"{SQUARE} + A_11*zeta_1^2/2 + t*zeta_3^2 + T_1*zeta_2"),
     "many": ("SO(4)", "right", f"{SQUARE} + zeta_4^2 + zeta_5^2 + zeta_6^2 + A_11*zeta_1*zeta_6"),
+    "pairs": ("SO(4)", "left", "zeta_1*zeta_2 + zeta_3*zeta_4 + zeta_5*zeta_6 + A_11*zeta_1^2"),
+    "light-like": ("SE(2)", "right", "zeta_1^2 + zeta_2*zeta_3 + T_1*zeta_1 - A_11"),
     "quartic": ("SO(3)", "left", f"{SQUARE} + zeta_2^2 + ({SQUARE})^2/5 + zeta_1*A_13 - A_33"),
     "quartic on the right": ("SE(2)", "right", f"{SQUARE} + zeta_1^4 + zeta_2*T_1 + zeta_3^4"),
     "hyperbolic": ("SO(2)", "left", "cosh(zeta_1) + A_11"),
