@@ -25,8 +25,9 @@ class Draws:
     expressions in them.
 
     ``size``: integers are drawn within ±size. ``generic``: the potential is left open, and with it
-    inputs and places. ``pi``: the value of π, else any number; ``few``: no spare points; ``zero``:
-    the names of parameters that vanish.
+    inputs and places. ``pi``: the value of π, as in code, where roots of numbers are numbers like
+    others; else any number. ``few``: no spare points; ``zero``: the names of parameters that
+    vanish.
     """
 
     def __init__(
@@ -45,7 +46,7 @@ class Draws:
         self.generic, self.spare, self.n = generic, 0 if few else SPARE, group.n
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
         self.parameters |= dict.fromkeys(zero, Fraction(0))
-        exact = not isinstance(random, ResidueSource)
+        exact = pi is None and not isinstance(random, ResidueSource)
         self.elementary = ElementaryValues(lambda: self.draw(positive=True), exact=exact)
         self.graded = isinstance(random, DegreeSource)
         self.unit = indeterminate(0, 1) if self.graded else Fraction(1)

@@ -104,7 +104,6 @@ class Claims:
         model = model_at(
             problem, self.group, random, self.size, self.at, pi=PI, zero=zero, **chosen
         )
-        model.elementary.exact = False  # as in code, where no root of a number is told from others
         env = names_at(model)
         x, rates = self._state_and_rates(model, env)
         tensor = self._value("I", env)
