@@ -16,6 +16,7 @@ WORDS = (
         "Algebra",
         "Covector",
         "Damping",
+        "Fluid",
         "Force",
         "GL",
         "Gravity",

@@ -29,6 +29,8 @@ from .walk import (
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
 from .walk.failure import naming_steps
+from .walk.fluid import circulation, fluid_kernel, fluid_points, pressure, trivialised
+from .walk.fluid.fluid_letters import FluidAlphabet
 from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side, vorticity
 from .walk.head import problem_data, symbols
 from .walk.inputs import acts
@@ -157,6 +159,18 @@ EXPRESSED = (
 )
 """One Lagrangian in a basis of 𝔤, its state with an element of the group, or reduced."""
 
+FLUID = (
+    Stage("points", "a c", "Points", fluid_points.points),
+    Stage("cartan", "points a c", "Cartan", fluid_points.in_space),
+    Stage("exterior", "cartan a c", "Exterior", fluid_points.exterior_in_space),
+    Stage("relations", "a c", "Steps", trivialised.relations),
+    Stage("trivial", "cartan points a c", "Cartan", trivialised.trivialised),
+    Stage("derivative", "exterior trivial a c", "Exterior", trivialised.exterior_by_fields),
+    Stage("kernel", "derivative a c", "FluidKernel", fluid_kernel.kernel),
+    Stage("pressure", "kernel a c", "Steps", pressure.pressure),
+    Stage("circulation", "kernel a c", "Steps", circulation.circulation),
+)
+"""An incompressible fluid: the road of ANY_GROUP, affine, with composition for matrices."""
 ON_THE_TORUS = (Stage("fluid", "problem lagrangian a c", "Steps", vorticity.torus_steps),)
 """The kinetic energy of a fluid on su(N), in the basis of the torus."""
 # fmt: on
@@ -167,7 +181,10 @@ def walk(problem: Problem) -> Derivation:
     """Derive the equations of motion of a problem; ``WalkError`` names the step that a rule of the
     engine breaks."""
     group, given = problem.group, problem.lagrangian
-    if problem.torus:
+    if problem.fluid:
+        a = FluidAlphabet(problem.name, advected=problem.fluid.density == "advected")
+        values = follow(FLUID, {"a": a, "c": Chapter(problem.name, problem.group_name)}, ())
+    elif problem.torus:
         values = lagrangian_road("right")
     elif given is not None:
         values = lagrangian_road(given.trivialisation)
@@ -330,7 +347,7 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
         return torus_program(record, problem.torus, options)
     if problem.group is None:
         raise ProblemError(
-            f"{problem.name}: this text is about any group, so it has nothing to emit; choose a "
+            f"{problem.name}: {problem.without_matrices}, so it has nothing to emit; choose a "
             "problem with a group and a body"
         )
     if options is None or options.frame == "given":

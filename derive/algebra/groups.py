@@ -98,13 +98,9 @@ class Group:
     def linear_basis(self) -> tuple[Matrix, ...]:
         """A basis of the linear parts of 𝔤: the linear parts of the basis, without those that
         depend on earlier ones."""
-        found: list[Matrix] = []
-        rows: list[tuple[Any, ...]] = []
-        for e in map(self.linear_part, self.basis):
-            if q.rank((*rows, q.flatten(e))) > len(rows):
-                found.append(e)
-                rows.append(q.flatten(e))
-        return tuple(found)
+        parts = [self.linear_part(e) for e in self.basis]
+        entries = dict.fromkeys(zip(*map(q.flatten, parts), strict=True))
+        return tuple(parts[k] for k in q.echelon(tuple(entries))[1])
 
     @cached_property
     def free_translations(self) -> bool:

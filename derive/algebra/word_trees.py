@@ -105,6 +105,8 @@ def _factor(f: Factor, notation: WordNotation) -> Tree:
     shown: Tree = notation.display.get(letter, letter.name)
     if letter.axis is not None and letter not in notation.display:
         shown = ("hat", notation.display.get(letter.axis, letter.axis.name))
+    if letter.along is not None and letter not in notation.display:
+        shown = ("nabla", notation.display.get(letter.along, letter.along.name))
     return ("T", shown) if bar else shown
 
 

@@ -29,7 +29,8 @@ class Letter:
     """A matrix (rows × cols), vector (n × 1) or scalar (1 × 1) symbol.
 
     ``symmetry`` is +1 (``x̄ = x``), −1 (``x̄ = −x``) or 0; ``axis`` is the vector letter ``X`` when
-    this letter is the skew matrix ``j(X)`` of the paper's footnote.
+    this letter is the skew matrix ``j(X)`` of the paper's footnote; ``along`` the vector letter
+    ``c`` when it is the operator ``∇_c``, the derivative of vector fields along c.
     """
 
     name: str
@@ -38,6 +39,7 @@ class Letter:
     symmetry: int = 0
     traceless: bool = False
     axis: Letter | None = None
+    along: Letter | None = None
 
 
 Factor = tuple[Letter, bool]

@@ -12,19 +12,16 @@ import hashlib
 import secrets
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
-from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..algebra.groups import Group
 from ..language.show import show
-from ..language.tree import Tree
 from ..record.contract import ANY_GROUP
 from ..record.json_writer import to_json
 from ..record.record import Derivation, Equation, RecordError, Step
 from . import symbols, well_formedness
 from .arithmetic import EvaluationError
-from .definitions import unexplained
+from .definitions import PRIMITIVE, unexplained
 from .dependencies import unused
 from .enclosure import enclosure_fault, kept_claims
 from .equation_sides import difference, largest_degree
@@ -37,6 +34,10 @@ from .necessary_hypotheses import (
 )
 from .trial_groups import LEAST, LEAST_BY_MOMENTA, fault_for_any_group, free, sizes
 from .trial_points import SIZE, TrialPoints, action_of, side_of
+from .verdict import IMPOSSIBLE, MOST_BITS, RefusedError, Verdict, bit_count, refusal
+
+if TYPE_CHECKING:
+    from .fluid.fluid_checker import FluidChecker
 
 LARGEST_DEGREE = 2**24
 """The largest Schwartz–Zippel degree of a claim that is tried: its numbers have 128 times as many
@@ -50,9 +51,6 @@ ORDERED = range(2**16, 2**16 + 6)
 """The sizes of the points in rational numbers at which inequalities are tried: residues have no
 order."""
 
-SHOWN = 120
-"""The most letters of a failing equation that a message shows."""
-
 UNEXPLAINED = "{} is used, and neither this step nor one before it says what it is"
 
 UNUSED = "{} is used, and no step that this one uses speaks of it"
@@ -60,43 +58,11 @@ UNUSED = "{} is used, and no step that this one uses speaks of it"
 ENCLOSURE = "enclosure"
 """The rule of steps that claim more than their equations: a critical point nearby."""
 
-IMPOSSIBLE = (
-    *(ArithmeticError, AssertionError, LookupError, TypeError, ValueError),
-    *(AttributeError, RecursionError),
-)
-"""The exceptions that evaluating a record raises only if no walk has written it."""
-
-MOST_BITS = 10**6
-"""The most bits of all numbers written in a claim together, its powers multiplied out."""
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """The result of checking one step, or the symbols: ``holds``, else ``reason`` says why not.
-
-    ``bound``: on the probability that a false claim passes. ``tried``: how many claims, and the
-    names of the groups on which they were tried; ``of``: what these claims are, "equation" or
-    "symbol".
-    """
-
-    label: str
-    holds: bool
-    reason: str
-    bound: float
-    tried: tuple[int, tuple[str, ...]] = (0, ())
-    of: str = "equation"
-
-
-class RefusedError(Exception):
-    """Ends the check of a step that does not hold; carries its :class:`Verdict`."""
-
-    def __init__(self, verdict: Verdict):
-        super().__init__(verdict.reason)
-        self.verdict = verdict
-
 
 class Checker(TrialPoints):
     """The checker of one record: exact models of its scopes, made once and shared by its steps."""
+
+    primitive = PRIMITIVE
 
     def __init__(self, problem: Mapping[str, Any], seed: int | str | None = None):
         super().__init__(problem, fresh_seed() if seed is None else seed)
@@ -240,25 +206,6 @@ class Checker(TrialPoints):
         return ""
 
 
-def refusal(step: Step, equation: Equation, reason: str, where: str = "") -> Verdict:
-    """The verdict on a step that fails by one of its equations, which its reason quotes."""
-    text = f"{show(equation.lhs)} = {show(equation.rhs)}"
-    text = text if len(text) <= SHOWN else f"{text[:SHOWN]} …"
-    place = f"{step.key(equation)}{where}, {text}"
-    return Verdict(step.label, False, f"{place}: {reason}", 1.0)
-
-
-def bit_count(t: Tree) -> int:
-    """About how many bits the numbers written in a tree have, its powers multiplied out."""
-    if isinstance(t, (int, Fraction)):
-        return abs(t.numerator).bit_length() + t.denominator.bit_length()
-    if not isinstance(t, tuple):
-        return 0
-    if t[0] == "pow":
-        return bit_count(t[1]) * abs(int(t[2]))
-    return sum(bit_count(x) for x in t[1:])
-
-
 def ill_formed(equation: Equation, at: Locus, *, affine: bool) -> str:
     """What is wrong with a head, argument, index or quantifier of an equation; "" if nothing is."""
     both = (well_formedness.first_fault(x, affine=affine) for x in (equation.lhs, equation.rhs))
@@ -278,6 +225,15 @@ def check(d: Derivation, seed: int | None = None) -> list[Verdict]:
     return list(verdicts(d, seed))
 
 
+def checker_of(problem: Mapping[str, Any], seed: int | str | None = None) -> Checker | FluidChecker:
+    """The checker of a record with this problem."""
+    if "fluid" in problem:
+        from .fluid.fluid_checker import FluidChecker
+
+        return FluidChecker(problem, fresh_seed() if seed is None else seed)
+    return Checker(problem, seed)
+
+
 def verdicts(d: Derivation, seed: int | None = None) -> Iterator[Verdict]:
     """The verdicts of :func:`check`, one after the other.
 
@@ -285,11 +241,11 @@ def verdicts(d: Derivation, seed: int | None = None) -> Iterator[Verdict]:
     cannot aim it at them, even where a seed is agreed upon.
     """
     digest = hashlib.sha256(to_json(d).encode("utf-8", "surrogatepass")).hexdigest()
-    checker = Checker(d.problem, f"{fresh_seed() if seed is None else seed} {digest}")
+    checker = checker_of(d.problem, f"{fresh_seed() if seed is None else seed} {digest}")
     yield checker.symbols(d)
     faults = zip(
-        unexplained(d.steps),
-        unused(d.steps),
+        unexplained(d.steps, checker.primitive),
+        unused(d.steps, checker.primitive),
         missing_mass_hypotheses(d.steps, d.problem),
         strict=True,
     )

@@ -8,7 +8,7 @@ where an equation says that there is one; and λ in what is given, there alone, 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from ..language.tree import Tree, names
 from ..record.contract import FIELDS
@@ -54,9 +54,12 @@ def introduced(equation: Equation, known: set[str]) -> set[str]:
     return found | unknown if alone or several else found
 
 
-def unexplained(steps: Iterable[Step]) -> Iterator[str]:
-    """For each step a name that it uses and that is not introduced by then; "" if there is none."""
-    known = set(PRIMITIVE)
+def unexplained(steps: Iterable[Step], primitive: Collection[str] = PRIMITIVE) -> Iterator[str]:
+    """For each step a name that it uses and that is not introduced by then; "" if there is none.
+
+    ``primitive``: the names that the walk starts from.
+    """
+    known = set(primitive)
     for step in steps:
         here = {"λ"} if any("λ" in names(e.rhs) for e in step.given) else set()
         used = dict.fromkeys(x for t in _hypothesis_trees(step) for x in names(t))
@@ -99,7 +102,9 @@ def occurrences(t: Tree) -> Iterator[tuple[Usage, tuple[Tree, ...]]]:
         yield from occurrences(part)
 
 
-def definitions(steps: Iterable[Step]) -> dict[Usage, tuple[str, tuple[Tree, ...]]]:
+def definitions(
+    steps: Iterable[Step], primitive: Collection[str] = PRIMITIVE
+) -> dict[Usage, tuple[str, tuple[Tree, ...]]]:
     """Use of a name → the key of the equation that defines it, the first that says what it is, and
     the arguments there.
 
@@ -107,7 +112,7 @@ def definitions(steps: Iterable[Step]) -> dict[Usage, tuple[str, tuple[Tree, ...
     """
     defined: dict[Usage, tuple[str, tuple[Tree, ...]]] = {}
     known = {
-        (name, usage) for name in PRIMITIVE for usage in ("value", "member", "function", "moved")
+        (name, usage) for name in primitive for usage in ("value", "member", "function", "moved")
     }
     known -= {(name, "value") for name in SUMS}
     for step in steps:

@@ -81,7 +81,7 @@ def needs_moments(step: Step, problem: Mapping[str, Any]) -> bool:
 def missing_mass_hypotheses(steps: Iterable[Step], problem: Mapping[str, Any]) -> Iterator[str]:
     """For each step the hypothesis on the masses that it lacks where the record first introduces
     L̃, in words; "" if none."""
-    known = "lagrangian" in problem  # which says all of L̃, and no masses
+    known = not {"lagrangian", "fluid"}.isdisjoint(problem)  # which says all of L̃, and no masses
     for step in steps:
         here = not known and any(e.lhs == "L̃" for e in step.equations)
         known = known or here

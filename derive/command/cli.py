@@ -23,7 +23,7 @@ from .guard import StoppedError, one_line, time_limit
 from .progress import with_progress
 
 if TYPE_CHECKING:
-    from ..check.checker import Verdict
+    from ..check.verdict import Verdict
 
 READY = Path(__file__).resolve().parents[1] / "problems"
 

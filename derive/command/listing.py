@@ -16,8 +16,7 @@ def listing(problems: Mapping[str, Problem]) -> str:
         lines.append(f"  {name + '(n)':8} {sizes}  {family.meaning}")
     lines.append('  products of these, "SO(3) x SE(3)", and any group given by a basis')
     lines.append("problems")
-    moved = {name: p.group or p.torus for name, p in problems.items()}
-    groups = {name: g.name if g else "any group" for name, g in moved.items()}
+    groups = {name: p.group_name for name, p in problems.items()}
     widest, wider = (max(map(len, x)) for x in (groups, groups.values()))
     for name, p in problems.items():
         lines.append(f"  {name:{widest}}  {groups[name]:{wider}}  {p.title}")

@@ -222,6 +222,8 @@ def _verdict(x: Equilibrium) -> Prose:
         return say("equilibrium.stable_beyond" if beyond else compact)
     if x.verdict == "stable on the leaf":
         return say("equilibrium.on_the_leaf")
+    if not x.leaf.free:
+        return say("equilibrium.point")
     prose = say("equilibrium.indefinite")
     words = ", ".join(show(plain(c)) for c in x.characteristic)
     prose += say(f"equilibrium.{x.verdict}", coefficients=words)

@@ -101,9 +101,10 @@ def _sample_value(k: int) -> float:
 
 
 def parts(problem: Mapping[str, Any], value: Numbers) -> list[BodyPart]:
-    """The parts of the body, one for each factor of the group; none for a text about any group."""
+    """The parts of the body, one for each factor of the group; none for a text about any group
+    or a given Lagrangian."""
     body = problem["body"]
-    if body["kind"] == "any":
+    if body["kind"] in ("any", "none"):
         return []
     masses = body.get("points", [])
     names = str(problem["group"]).split(" x ") if masses else [str(problem["group"])]

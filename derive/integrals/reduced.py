@@ -40,13 +40,13 @@ class NotReducedError(Refused, ValueError):
 
 
 def require_group(problem: Problem) -> None:
-    """``NotReducedError`` for a text about any group."""
+    """``NotReducedError`` for a text about any group, and for a fluid."""
     if problem.group is None:
         if problem.torus:
             raise NotReducedError(
                 f"{problem.name}: on the torus the energy and Tr Wᵏ are kept: derive walk NAME says"
             )
-        raise NotReducedError(f"{problem.name}: this text is about any group; choose a problem")
+        raise NotReducedError(f"{problem.name}: {problem.without_matrices}; choose a problem")
 
 
 def with_defaults(problem: Problem) -> Problem:

@@ -118,6 +118,9 @@ def _integrability(proved: Integrability) -> Prose:
     half = str(proved.rank // 2)
     if proved.complete:
         numbers = ", ".join(str(k + 1) for k in proved.involution)
+        if proved.rank == 2:
+            one = "first_integrals.complete_by_one"
+            return say(one, dimension=sizes["dimension"], number=numbers)
         return say("first_integrals.complete", **sizes, half=half, numbers=numbers)
     if not proved.proved:
         return say("first_integrals.unknown_rank")

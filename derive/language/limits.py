@@ -24,9 +24,10 @@ PARAMETERS = 1000
 """Parameters of a problem, each of which may be one of the emitted functions."""
 BASIS, MATRIX = 64, 9
 """Matrices of a basis of one's own, as many as gl(8) has, and their rows."""
-ROWS, CARRIED = 4000, 64
-"""Rows of a table of brackets; and rows of the matrices of an algebra with those of all that it
-carries along: products of such matrices take a second in the checker."""
+TABLE, ROWS, CARRIED = 100, 4000, 128
+"""Elements of an algebra by a table of brackets, and its rows: so(14) has 91 and 2184; and rows of
+the matrices of an algebra with those of all that it carries along, of which the checker takes
+products."""
 TORUS = 101
 """The largest N of the algebra of the torus: its equations take N³ products."""
 TEXT = 1000

@@ -21,7 +21,7 @@ from functools import lru_cache
 from unicodedata import normalize
 
 from .derivatives import DERIVATIVES
-from .show import FRACTIONS, show_name
+from .show import FIELD_OPERATORS, FRACTIONS, show_name
 from .tree import Tree, neg
 
 FAMILIES = frozenset({*"rmvFQdPχσκEks", "f_u", "Π", "Π̇", "Φ", "𝒥", "𝒜", "d𝒜"})
@@ -32,16 +32,21 @@ OF_FIELDS = ("𝒜", "d𝒜")
 """Families of functions, whose members are applied to the brackets after them."""
 FUNCTIONS = frozenset(
     {"dŨ", "p̃", "M̃", "ρ", "ϖ", "dϖ", "ϖ_h", "dϖ_h", "ω", "g", "δ", "δ′", "d/dt", "ω̂"}
+    | {"Ψ", "Ψ_0", "Ψ_1", "Ψ_2"}
 )
 """Names that are applied to the brackets after them; others are to t and X alone."""
+
+NUMBERED = frozenset({"p_0", "I_1", "I_2", "I_3", "Ψ_0", "Ψ_1", "Ψ_2"})
+"""Letters whose number belongs to the name; after any other it tells an entry or a member."""
 
 _LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉½⅓¼⅔ᵢⱼₑₜ]"
 _VARIED = r"(?:δ′?|∂ₜ|d(?=ϖ|𝒜|U\u0303))?"
 _CALLED = "|".join(("det", "j", *DERIVATIVES))
 TOKEN = (
     r"(?P<quoted>‘[^’]*’)|(?P<opening>(?<= )‖)"
-    rf"|(?P<word>Tr(?=[ (\[])|Σ(?:[ᵢⱼₑ]|_[a-z𝐦𝐧])|∫|√|(?:{_CALLED})(?=\())"
-    rf"|(?P<name>d/dt|(?!dm(?![A-Za-z])){_VARIED}{_LETTER}[\u0300-\u036f]*′?(?:_(?:[abij][abij]|[A-Za-z]))?)"
+    rf"|(?P<word>Tr(?=[ (\[])|Σ(?:[ᵢⱼₑ]|_[a-z𝐦𝐧])|∫|√|(?:{_CALLED})(?=\()"
+    r"|(?:grad|div)(?![A-Za-z])|Δ(?![\u0300-\u036f])|∇_|∇|∂ₙ)"
+    rf"|(?P<name>d/dt|{'|'.join(sorted(NUMBERED))}|(?!dm(?![A-Za-z])){_VARIED}{_LETTER}[\u0300-\u036f]*′?(?:_(?:[abij][abij]|[A-Za-z]))?)"
     r"|(?P<index>[₀-₉ᵢⱼₑ]+(?:,[₀-₉ᵢⱼₑ]+)*)"
     r"|(?P<power>⁻?[⁰¹²³⁴-⁹]+)"
     r"|(?P<number>\d+(?:/[1-9]\d*)?|[½⅓¼⅔])"
@@ -198,6 +203,14 @@ class _Reader:
             found = 1 if self.tokens[self.k][0] == "dm" else self.sum()
             self.take("dm")
             return ("call", "∫", found)
+        if text == "∇_":
+            inside = self.tokens[self.k][0] == "("
+            return ("nabla", *(self.listed("(", ")", 1) if inside else [self.named(self.next())]))
+        if text in FIELD_OPERATORS and self.tokens[self.k][0] not in BEGIN:
+            return text
+        if text in FIELD_OPERATORS:
+            inside = self.tokens[self.k][0] == "("
+            return ("call", text, *(self.listed("(", ")", 1) if inside else [self.factor()]))
         own = {"det": ("det",), "j": ("hat",), "√": ("fun", "sqrt")}.get(text, ("fun", text))
         return (*own, *self.listed("(", ")", 1))
 
@@ -225,6 +238,8 @@ class _Reader:
             index += self.next()
         if name + index in self.parameters:
             return ("par", self.parameters[name + index])
+        if index and (whole := f"{name}_{index.translate(DIGITS)}") in NUMBERED:
+            name, index = whole, ""
         member = name in FAMILIES and index
         found: Tree = ("at", name, *_numbers(index)) if member else name
         found = ("T", found) if MACRON in text else found

@@ -15,6 +15,8 @@ TAKEN = ("Tr", "det", "dm", "dt", "j")
 """Words of the notation, which are no names of C."""
 WORD = re.compile(rf"(?:{'|'.join((*DERIVATIVES, 'Tr', 'det', 'dm', 'dŨ'))})$")
 SUM, PRODUCT, ATOM = 1, 2, 3
+FIELD_OPERATORS = ("grad", "div", "Δ", "∇", "∂ₙ")
+"""Functions of fields, which are written before one letter without brackets: grad p, Δp."""
 
 
 def show(t: Tree) -> str:
@@ -217,6 +219,9 @@ def _node(t: tuple[object, ...]) -> tuple[str, int]:
     if op == "sum":
         text, level = _show(arguments[1])
         return f"Σ{_index(arguments[0])} " + (f"({text})" if level == SUM else text), PRODUCT
+    if op == "call" and arguments[0] in FIELD_OPERATORS and isinstance(arguments[1], str):
+        head, field = arguments
+        return f"{head}{' ' if head.isascii() else ''}{show(field)}", PRODUCT  # type: ignore[union-attr]
     return _atomic(op, arguments), ATOM
 
 
@@ -273,6 +278,8 @@ def _atomic(op: object, a: tuple[Tree, ...]) -> str:
         return f"[{show(a[0])}, {show(a[1])}]"
     if op == "hat":
         return f"j({show(a[0])})"
+    if op == "nabla":
+        return f"∇_{show(a[0])}" if isinstance(a[0], str) else f"∇_({show(a[0])})"
     if op in ("at", "entry"):
         return _indexed(a[0], a[1:])
     if op == "par":

@@ -30,6 +30,7 @@ OPERATORS: dict[str, tuple[int, int | None]] = {
     "bracket": (2, 2),  # [a, b] = ab − ba
     "wedge": (2, 2),  # a ∧ b in R³
     "hat": (1, 1),  # j(a)
+    "nabla": (1, 1),  # ∇_a, the derivative of fields along the field a
     "sum": (2, 2),  # sum over an index
     "at": (2, 3),  # an indexed family: r_i, k_ij
     "entry": (2, 3),  # entry of a vector or a matrix, counted from 1

@@ -44,7 +44,8 @@ SECOND = {
     "'": f"(?:{ABOVE}(?:{BELOW})?|'{BELOW})$",
 }
 
-
+BELOW_STROKE = re.compile(r"/∂\S+$")
+"""What ends in the denominator of a partial derivative, which a space parts from a factor."""
 SKEW = re.compile(r"(?<![A-Za-z_])j\(([^()]*)\)")
 """The skew matrix of a vector, j(…), as a sentence has it."""
 
@@ -86,6 +87,8 @@ def spelt(formula: str, notation: Notation = BARS) -> Formula:
                 piece = named(KNOWN[known])
             elif letters:
                 piece = _word(letters, rest.lstrip()[:1])
+            elif letter == " " and BELOW_STROKE.search(match.string[: match.start()]):
+                piece = literal(r"\,")
             elif letter:
                 piece = _letter(letter, marks, rest, notation)
             apart = piece.tex[:1].isalpha() and re.search(r"\\[A-Za-z]+$", found.tex)

@@ -6,7 +6,7 @@ from ..language.greek import GREEK
 
 LETTERS = GREEK | {
     "varphi": "φ", "phi": "ϕ", "varpi": "ϖ", "lambda": "λ", "Lambda": "Λ", "partial": "∂",
-    "nabla": "∇", "ell": "ℓ",
+    "nabla": "∇", "ell": "ℓ", "vartheta": "ϑ",
 }  # fmt: skip
 """Command of LaTeX (without its backslash) → letter, for commands that are letters."""
 MATH_ACCENTS = {"\u0304": r"\bar", "\u0303": r"\tilde", "\u0307": r"\dot", "\u0302": r"\hat"}

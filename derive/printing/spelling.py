@@ -14,6 +14,7 @@ from .typeset import (
     fraction,
     literal,
     lowered,
+    operator,
     primed,
     upright,
 )
@@ -26,6 +27,7 @@ NAME = re.compile(
 )
 RATE = r"\frac{\mathrm{d}}{\mathrm{d}t}"
 DIFFERENTIAL = r"\mathrm{d}"
+WORD = re.compile(r"\\operatorname\{([a-z]+)\}")
 BOLD = {r"\mathbf m": "𝐦", r"\mathbf n": "𝐧"}
 """Points of a lattice: letters that MathML has in bold by themselves."""
 BARS = Notation()
@@ -36,6 +38,8 @@ def named(tex: str) -> Formula:
     """The formula of a name, from its LaTeX."""
     if tex == RATE:
         return fraction(upright("d"), upright("d") + literal("t"), RATE)
+    if upright_word := WORD.fullmatch(tex):
+        return operator(upright_word[1], near=True)
     if tex in STYLED | BOLD:
         return Formula(tex, (f"<mi>{(STYLED | BOLD)[tex]}</mi>",))
     if tex.startswith(DIFFERENTIAL) and tex.removeprefix(DIFFERENTIAL) in STYLED:

@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import reduce
 from operator import add
 
-from ..language.show import ATOM, PRODUCT, SUM, has_norm, signed, swallows
+from ..language.show import ATOM, FIELD_OPERATORS, PRODUCT, SUM, has_norm, signed, swallows
 from ..language.tree import Tree
 from .escape import formula_ok, tex_text
 from .inline import spelt
@@ -289,6 +289,10 @@ class FormulaPrinter:
         """The skew matrix j(a) of a vector."""
         return hat(self.bare(a), self.notation)
 
+    def op_nabla(self, a: Tree) -> Formula:
+        """The derivative ∇_a along a field."""
+        return lowered(literal(r"\nabla"), self.bare(a))
+
     def op_sum(self, index: Tree, body: Tree) -> Shown:
         """The sum of ``body`` over an index."""
         f, level = self.show(body)
@@ -319,6 +323,9 @@ class FormulaPrinter:
             return literal(r"\int ") + body + end, PRODUCT
         lead = self.atom(f)
         simple = len(arguments) == 1 and self.show(arguments[0])[1] == ATOM
+        if f in FIELD_OPERATORS and isinstance(arguments[0], str):
+            gap = Formula(" ") if f in ("Δ", "∇") else literal(r"\,")
+            return lead + gap + self.name(arguments[0]), PRODUCT
         if f in VARIATIONS and simple:
             return lead + Formula(" ") + self.bare(arguments[0])
         return lead + paren(joined([*map(self.bare, arguments)], COMMA_SPACE))

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from ..algebra.structure import Algebra
-from ..language.limits import BASIS, ROWS
+from ..language.limits import ROWS, TABLE
 from ..language.rational import Matrix
 from ..schema.algebra_kinds import REPRESENTATIONS
 from ..schema.table import Slot
@@ -23,7 +23,7 @@ class AlgebraReader(FileReader):
 
     def elements(self, slot: Slot) -> int:
         """How many elements."""
-        return self.integer(self.value(slot), 1, BASIS, slot.path)
+        return self.integer(self.value(slot), 1, TABLE, slot.path)
 
     def brackets(self, slot: Slot) -> tuple[tuple[int, int, int, Fraction], ...]:
         """Rows [a, b, k, c], of indices from 1 and a rational number."""
@@ -35,7 +35,7 @@ class AlgebraReader(FileReader):
     def _row(self, row: Any, where: str) -> tuple[int, int, int, Fraction]:
         if not isinstance(row, list) or len(row) != 4:
             raise ProblemError(f"{where}: expected [a, b, k, c], of [E_a, E_b] = c E_k + …")
-        a, b, k = (self.integer(x, 1, BASIS, where) for x in row[:3])
+        a, b, k = (self.integer(x, 1, TABLE, where) for x in row[:3])
         c = self.expression(row[3], where)
         if not isinstance(c, (int, Fraction)):
             raise ProblemError(f"{where}: the coefficient must be a rational number")

@@ -12,11 +12,10 @@ from .problem import Problem
 
 def data(problem: Problem) -> dict[str, Any]:
     """What the record says of the problem; trees as they are."""
-    moved = problem.group or problem.torus
     return {
         "name": problem.name,
         "title": problem.title,
-        "group": moved.name if moved else "any group",
+        "group": problem.group_name,
         "action": problem.action,
         "homogeneous": problem.homogeneous,
         "parameters": {k: p.plain() for k, p in problem.parameters.items()},
@@ -28,6 +27,7 @@ def data(problem: Problem) -> dict[str, Any]:
         **({"frame": dict(problem.frame)} if problem.frame else {}),
         **({"masses": "of any sign"} if problem.signed else {}),
         **({"lagrangian": problem.lagrangian.plain()} if problem.lagrangian else {}),
+        **({"fluid": problem.fluid.plain()} if problem.fluid else {}),
         **({"lagrangian": {"trivialisation": "right"}} if problem.torus else {}),
         **({"torus": {"N": problem.torus.N}} if problem.torus else {}),
         **({} if problem.advected is None else {"advected": [*_plain(problem.advected)]}),
@@ -40,4 +40,5 @@ def _plain(tables: Iterable[Table]) -> Iterator[dict[str, Any]]:
 
 def _body(problem: Problem) -> Table:
     """The body, or why there is none."""
-    return problem.body or (NoBody() if problem.lagrangian or problem.torus else AnyBody())
+    given = problem.lagrangian or problem.torus or problem.fluid
+    return problem.body or (NoBody() if given else AnyBody())

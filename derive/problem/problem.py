@@ -12,6 +12,7 @@ from ..language.refused import Refused
 from ..schema.algebra_kinds import Advected
 from ..schema.body_kinds import Body, MomentBody, Place, Point
 from ..schema.declared import Parameter
+from ..schema.fluid_kinds import GROUP, Fluid
 from ..schema.kind import Potential
 from ..schema.lagrangian_kinds import Lagrangian
 from ..schema.outside import CovectorInput, Damping, ForceInput, Input
@@ -29,7 +30,7 @@ class Problem:
     ``signed``: masses may be negative, so that nothing is said of the sign of the metric.
     ``lagrangian``: one that no points give; the group then acts by matrices on (r, 1).
     ``advected``: what the algebra carries along, where the state has no element of the group; the
-    last blocks of the group's matrices.
+    last blocks of the group's matrices. ``fluid``: of a problem whose group has no matrices.
     ``torus``: su(N) in the basis of the torus, where there is no table of the group.
     """
 
@@ -48,6 +49,22 @@ class Problem:
     lagrangian: Lagrangian | None = None
     advected: tuple[Advected, ...] | None = None
     torus: Torus | None = None
+    fluid: Fluid | None = None
+
+    @property
+    def group_name(self) -> str:
+        """The name of the group, or that it is any."""
+        if self.fluid:
+            return GROUP
+        moved = self.group or self.torus
+        return moved.name if moved else "any group"
+
+    @property
+    def without_matrices(self) -> str:
+        """Why the problem has no group of matrices, for messages."""
+        return (
+            "the group of a fluid has no matrices" if self.fluid else "this text is about any group"
+        )
 
     @property
     def affine(self) -> bool:

@@ -17,7 +17,7 @@ from ..algebra.structure import (
     require_jacobi,
     require_representation,
 )
-from ..language.limits import BASIS, CARRIED
+from ..language.limits import CARRIED, TABLE
 from ..language.rational import Matrix
 from ..schema.algebra_kinds import Advected, StatedAdvected, StatedAlgebra
 from .algebra_reader import AlgebraReader
@@ -78,8 +78,8 @@ def _by_brackets(given: StatedAlgebra) -> Algebra:
     dimension = given.dimension or largest
     if largest > dimension:
         raise ProblemError(f"algebra, brackets: E_{largest}, of {dimension} elements (dimension)")
-    if dimension > BASIS:
-        raise ProblemError(f"algebra: {dimension} elements; at most {BASIS}")
+    if dimension > TABLE:
+        raise ProblemError(f"algebra: {dimension} elements; at most {TABLE}")
     try:
         brackets = brackets_of(given.brackets)
         require_jacobi(brackets, dimension)

@@ -26,6 +26,7 @@ from ..language.weight import weight
 from ..schema.algebra_kinds import Advected
 from ..schema.body_kinds import GivenBody, MomentBody
 from ..schema.declared import Parameter
+from ..schema.fluid_kinds import Fluid
 from ..schema.kinds import kinds
 from ..schema.lagrangian_kinds import SECTIONS, SIDES
 from ..schema.table import Slot, Table, nearest
@@ -42,7 +43,9 @@ from .stated_lagrangian import lagrangian
 from .stated_torus import on_torus, torus_problem
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
-TOP |= {"damping", "solid", "algebra", "advected", *SECTIONS}
+TOP |= {"damping", "solid", "algebra", "advected", "fluid", *SECTIONS}
+CHAPTERS = ("linear", "affine", *SIDES)
+NAMES_A_CHAPTER = "key 'name': {!r} names what is said of any group; choose another"
 DOTTED = re.compile(
     rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
 )
@@ -112,6 +115,8 @@ def problem_of(
     """
     reader = FileReader(folder)
     reader.known(data, TOP, "file")
+    if "fluid" in data:
+        return _fluid(data, reader)
     if on_torus(data):
         return torus_problem(data, reader)
     if "algebra" in data:
@@ -157,6 +162,20 @@ def problem_of(
     _declared(problem, data)
     _massive(problem, negative_mass)
     return problem
+
+
+def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
+    """A fluid, which says all of its problem."""
+    for key in data:
+        if key not in ("name", "title", "fluid") and (key != "parameters" or data[key]):
+            raise ProblemError(f"key {key!r}: [fluid] says all of the problem; leave this out")
+    name = reader.identifier(reader.text(Slot(data, "name", "file")), "key 'name'")
+    if name in CHAPTERS:
+        raise ProblemError(NAMES_A_CHAPTER.format(name))
+    if not isinstance(data["fluid"], dict):
+        raise ProblemError("key 'fluid' must be a table [fluid]")
+    title = reader.text(Slot(data, "title", "file")) if "title" in data else name
+    return Problem(name, None, title=title, fluid=reader.whole(Fluid, data["fluid"], "fluid"))
 
 
 def _without_points(
@@ -206,8 +225,8 @@ def _without_points(
 def _name(data: Mapping[str, Any], moved: Group | None, reader: FileReader) -> str:
     """The name of the problem: a prefix of labels that nothing else has."""
     name = reader.identifier(reader.text(Slot(data, "name", "file")), "key 'name'")
-    if moved and name in ("linear", "affine", *SIDES):
-        raise ProblemError(f"key 'name': {name!r} names what is said of any group; choose another")
+    if moved and name in CHAPTERS:
+        raise ProblemError(NAMES_A_CHAPTER.format(name))
     return name
 
 

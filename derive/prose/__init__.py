@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from .answer import STEPS as ANSWER
 from .equilibria import STEPS as EQUILIBRIA
 from .first_integrals import STEPS as FIRST_INTEGRALS
+from .fluid import STEPS as FLUID
 from .general import STEPS as GENERAL
 from .material import STEPS as MATERIAL
 from .matrices import STEPS as MATRICES
@@ -21,19 +22,14 @@ from .rotations import STEPS as ROTATIONS
 from .symmetries import STEPS as SYMMETRIES
 from .zeitlin import STEPS as ZEITLIN
 
-STEPS = {
-    **GENERAL,
-    **ROTATIONS,
-    **MATRICES,
-    **MATERIAL,
-    **FIRST_INTEGRALS,
-    **SYMMETRIES,
-    **MOMENTUM_FORM,
-    **ANSWER,
-    **EQUILIBRIA,
-    **REDUCTION,
-}
-STEPS |= {label: STEPS.get(label, {}) | named for label, named in ZEITLIN.items()}
+ROADS = (
+    *(GENERAL, ROTATIONS, MATRICES, MATERIAL, FIRST_INTEGRALS, SYMMETRIES, MOMENTUM_FORM),
+    *(ANSWER, EQUILIBRIA, REDUCTION, ZEITLIN, FLUID),
+)
+STEPS: dict[str, dict[str, tuple[str, str]]] = {}
+for road in ROADS:
+    for label, sentences in road.items():
+        STEPS.setdefault(label, {}).update(sentences)
 """Label → name → the sentence in each of ``LANGUAGES``."""
 LANGUAGES = ("en", "fr")
 """The languages of the prose, in the order of the texts of a sentence."""

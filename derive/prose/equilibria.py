@@ -62,15 +62,21 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
         "on_the_leaf": (
             "On the leaf the squares are of one sign: the equilibrium is stable for motions on its "
-            "leaf. Of others nothing is said: neither is the rank of the Poisson tensor proved to "
-            "be the largest there, nor the stabiliser to be compact.",
+            "leaf. Of others nothing is said: it is not proved that the rank of the Poisson tensor "
+            "is the largest there or the stabiliser compact.",
             "Sur la feuille, les carrés sont de même signe : l’équilibre est stable pour les "
-            "mouvements sur sa feuille. Des autres on ne dit rien : il n’est prouvé ni que le rang "
-            "du tenseur de Poisson soit maximal en ce point, ni que le stabilisateur soit compact.",
+            "mouvements sur sa feuille. Des autres on ne dit rien : il n’est pas prouvé que le "
+            "rang du tenseur de Poisson soit maximal en ce point ou le stabilisateur compact.",
         ),
         "indefinite": (
             "The form is not definite on the leaf, which proves nothing.",
             "La forme n’est pas définie sur la feuille, ce qui ne prouve rien.",
+        ),
+        "point": (
+            "The symplectic leaf of the equilibrium is this point alone, which proves nothing. "
+            "Whether the equilibrium is stable stays open.",
+            "La feuille symplectique de l’équilibre se réduit à ce point, ce qui ne prouve rien. "
+            "La stabilité de l’équilibre reste ouverte.",
         ),
         "unstable": (
             "The characteristic polynomial of the linearised rates on the leaf has the "
@@ -88,7 +94,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "stable stays open.",
             "Le polynôme caractéristique des dérivées linéarisées sur la feuille a pour "
             "coefficients {coefficients}, depuis la plus haute puissance : selon le décompte des "
-            "racines par Sturm, toutes les valeurs propres sont imaginaires ou nulles, ce qui ne "
+            "racines par Sturm, toutes les valeurs propres sont imaginaires ou 0, ce qui ne "
             "prouve rien. La stabilité de l’équilibre reste ouverte.",
         ),
         "eigenvalues": (
@@ -114,18 +120,18 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "points of the energy on the level is a contraction: within {radius} of the decimals, "
             "in each variable and multiplier, there is exactly one, an equilibrium (Krawczyk).",
             "Les Casimirs, moins leurs valeurs sur un niveau, et l’énergie avec des multiples de "
-            "ceux-ci, en puissances de la distance. D’après ces nombres, un pas de la méthode de "
-            "Newton pour les points critiques de l’énergie sur le niveau est une contraction : à "
-            "moins de {radius} des décimales, en chaque variable et chaque multiplicateur, il en "
+            "ceux-ci, en puissances de la distance. D’après ces nombres, une étape de la méthode "
+            "de Newton pour les points critiques de l’énergie sur le niveau est une contraction : "
+            "à moins de {radius} des décimales, en chaque variable et chaque multiplicateur, il en "
             "existe exactement un, un équilibre (Krawczyk).",
         ),
         "signs": (
             "There the second derivative of the energy on the level has {positive} positive and "
             "{negative} negative squares, which is certified: with the derivatives of the Casimirs "
-            "beside it, its matrix is singular nowhere within this distance.",
+            "beside it, its matrix is invertible everywhere within this distance.",
             "Là, la dérivée seconde de l’énergie sur le niveau a {positive} carrés positifs et "
             "{negative} négatifs, ce qui est certifié : bordée des dérivées des Casimirs, sa "
-            "matrice n’est singulière nulle part à moins de cette distance.",
+            "matrice est inversible partout à moins de cette distance.",
         ),
         "stable": (
             "It is definite: the equilibrium is stable (energy–Casimir method, Arnold).",

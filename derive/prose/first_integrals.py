@@ -86,6 +86,14 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "elles et des Casimirs : les équations sont complètement intégrables au sens de "
             "Liouville.",
         ),
+        "complete_by_one": (
+            "The Poisson tensor has rank 2 in dimension {dimension}, and the integral of number "
+            "{number} is independent of the Casimirs: the equations are completely integrable, in "
+            "the sense of Liouville.",
+            "Le tenseur de Poisson est de rang 2 en dimension {dimension}, et l’intégrale première "
+            "de numéro {number} est indépendante des Casimirs : les équations sont complètement "
+            "intégrables au sens de Liouville.",
+        ),
         "complete_by_energy": (
             "The Poisson tensor has rank 2 in dimension {dimension}, and the energy is independent "
             "of the Casimirs: the equations are completely integrable, in the sense of Liouville.",

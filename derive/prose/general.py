@@ -13,6 +13,16 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Le lagrangien de ce problème, une expression du temps, des entrées de g et des "
             "coordonnées de Z.",
         ),
+        "carried": (
+            "The Lagrangian of this problem, an expression in the time, the entries of Γ and the "
+            "coordinates of Z.",
+            "Le lagrangien de ce problème, une expression du temps, des entrées de Γ et des "
+            "coordonnées de Z.",
+        ),
+        "alone": (
+            "The Lagrangian of this problem, an expression in the time and the coordinates of Z.",
+            "Le lagrangien de ce problème, une expression du temps et des coordonnées de Z.",
+        ),
         "points": (
             "A body is made of points r_i of mass m_i, which have the velocities v_i in space. "
             "Its Lagrangian is the kinetic energy less the potential.",
@@ -181,6 +191,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "The energy is the momentum paired with the velocity, less the Lagrangian.",
             "L’énergie est l’impulsion appliquée à la vitesse, moins le lagrangien.",
         ),
+        "any_lagrangian": (
+            "The energy is the momentum Π paired with the velocity Z, less the Lagrangian.",
+            "L’énergie est le moment Π appliqué à la vitesse Z, moins le lagrangien.",
+        ),
         "problem": (
             "The energy of this problem.",
             "L’énergie de ce problème.",
@@ -201,6 +215,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
     },
     "trivialisation": {
+        "matrices": (
+            "As matrices, g is A and ν is α.",
+            "En matrices, g est A, et ν est α.",
+        ),
         "left": (
             "Tangent vectors are carried to the Lie algebra by g⁻¹ (Maurer–Cartan), from the left: "
             "ν = gZ.",
@@ -455,6 +473,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "constant, so that it varies by ρ(ξ).",
             "Γ est ce que l’algèbre transporte, par une représentation ρ : le groupe le tire d’une "
             "constante, de sorte qu’il varie par ρ(ξ).",
+        ),
+        "names": (
+            "In the names of the problem its entries are {entries}, in this order.",
+            "Avec les noms du problème, ses coefficients sont {entries}, dans cet ordre.",
         ),
     },
     "momenta": {

@@ -102,6 +102,22 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Coordonnées dans la base de l’algèbre de Lie. L̃ ne dépend de l’élément du groupe que "
             "par ce que l’algèbre transporte : l’état ne contient pas cet élément.",
         ),
+        "column": (
+            "In the names of the problem, T is the last column of A.",
+            "Avec les noms du problème, T est la dernière colonne de A.",
+        ),
+        "blocks": (
+            "In the names of the problem, the blocks of A on the diagonal are {blocks}.",
+            "Avec les noms du problème, les blocs de A, sur la diagonale, sont {blocks}.",
+        ),
+        "block": (
+            "{name} from row {row} on",
+            "{name} à partir de la ligne {row}",
+        ),
+        "block_and_column": (
+            "{name} from row {row} on, with the column {column} beside it",
+            "{name} à partir de la ligne {row}, avec la colonne {column} à côté",
+        ),
         "linear_parts": (
             "Coordinates of the linear parts of the Lie algebra in the basis of the group.",
             "Coordonnées des parties linéaires de l’algèbre de Lie dans la base du groupe.",
@@ -182,10 +198,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     "quadric": {
         "stokes": (
             "The body is ⟨r, Q_r r⟩ ≤ 1. The field r(1 − ⟨r, Q_r r⟩) vanishes at its boundary, so "
-            "that its derivatives have the integral 0 (divergence theorem), and the trace of that "
-            "gives Tr Q_r J.",
+            "that the integral of its derivatives vanishes (divergence theorem), and the trace of "
+            "that gives Tr Q_r J.",
             "Le corps est ⟨r, Q_r r⟩ ≤ 1. Le champ r(1 − ⟨r, Q_r r⟩) s’annule au bord, si bien que "
-            "ses dérivées ont une intégrale nulle (théorème de la divergence), et la trace de cela "
+            "l’intégrale de ses dérivées s’annule (théorème de la divergence), et la trace de cela "
             "donne Tr Q_r J.",
         ),
     },
@@ -195,11 +211,11 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "body; its gradient in space is its derivative there by Ā⁻¹. Euler’s equation of a "
             "fluid holds at every point: density times acceleration is the force less the gradient "
             "of the pressure, for the forces per mass are linear in the place.",
-            "La pression p_r, nulle au bord, est une fonction de la position r dans le corps ; son "
-            "gradient dans l’espace est sa dérivée dans le corps, par Ā⁻¹. L’équation d’Euler des "
-            "fluides est vérifiée en chaque point : la masse volumique fois l’accélération est la "
-            "force moins le gradient de la pression, car les forces par unité de masse sont "
-            "linéaires en la position.",
+            "La pression p_r, qui s’annule au bord, est une fonction de la position r dans le "
+            "corps ; son gradient dans l’espace est sa dérivée dans le corps, par Ā⁻¹. L’équation "
+            "d’Euler des fluides est vérifiée en chaque point : la masse volumique fois "
+            "l’accélération est la force moins le gradient de la pression, car les forces par "
+            "unité de masse sont linéaires en la position.",
         ),
         "gravity": (
             "The gravity of a homogeneous ellipsoid on its own points is (Newton, Maclaurin).",
@@ -229,11 +245,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "theorem: the total pressure that is needed. That there is one is not said here, where "
             "the body is not given as one centred ellipsoid in its own axes, or the forces per "
             "mass are not linear in the place.",
-            "La trace du bilan. D’une pression nulle au bord qui équilibre l’accélération et les "
-            "forces en chaque point, θ serait l’intégrale, par le théorème de la divergence : la "
-            "pression totale qu’il faut. Qu’il y en ait une n’est pas affirmé ici, où le corps "
-            "n’est pas donné comme un seul ellipsoïde centré dans ses propres axes, ou bien les "
-            "forces par unité de masse ne sont pas linéaires en la position.",
+            "La trace du bilan. D’une pression qui s’annule au bord et qui équilibre "
+            "l’accélération et les forces en chaque point, θ serait l’intégrale, par le théorème "
+            "de la divergence : la pression totale qu’il faut. Son existence "
+            "n’est pas affirmée ici, où le corps n’est pas donné comme un seul ellipsoïde centré "
+            "dans ses propres axes, ou bien les forces par unité de masse ne sont pas linéaires en "
+            "la position.",
         ),
     },
     "circulation": {

@@ -31,6 +31,14 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "dérivée de l’énergie par rapport à eux : des équations de Lie–Poisson, avec une force "
             "là où l’énergie dépend de l’élément du groupe.",
         ),
+        "dual": (
+            "The Poisson tensor 𝕁 has the brackets of the momenta as its entries; what it is "
+            "applied to is the derivative of the energy with respect to them: Lie–Poisson "
+            "equations on 𝔤*.",
+            "Le tenseur de Poisson 𝕁 a pour coefficients les crochets des moments ; on l’applique "
+            "à la dérivée de l’énergie par rapport à ceux-ci : des équations de Lie–Poisson sur "
+            "𝔤*.",
+        ),
         "rotations": (
             "The same motion told by its momentum, with the forces of this problem: Lie–Poisson "
             "equations, 𝕁ζ and a torque; 𝕁 has the brackets of the components of ℓ_b as its "

@@ -69,8 +69,8 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "La courbure en coordonnées, par l’équation de structure.",
         ),
         "flat": (
-            "The connection has no curvature: there is no magnetic term.",
-            "La connexion est sans courbure : le terme magnétique est nul.",
+            "The connection has no curvature: the magnetic term vanishes.",
+            "La connexion est sans courbure : le terme magnétique s’annule.",
         ),
         "quadrature": (
             "One degree of freedom is left, with the coordinate {entry}: the energy gives the "

@@ -5,11 +5,11 @@ from __future__ import annotations
 STEPS: dict[str, dict[str, tuple[str, str]]] = {
     "symmetries": {
         "all": (
-            "All symmetries of L̃, and of L̃ up to dF, among the fields δt = τ, δg = (Y₀ + tY₁)g − "
-            "g(X₀ + tX₁) tangent to the group, with constant τ, Y and X, and F of degree two at "
+            "All symmetries of L̃, and of L̃ up to dF, among the fields δt = τ, δg = (S₀ + tS₁)g − "
+            "g(B₀ + tB₁) tangent to the group, with constant τ, S and B, and F of degree two at "
             "most in t and the entries of g: {count}, for generic parameters, without inputs.",
-            "Toutes les symétries de L̃, et de L̃ à dF près, parmi les champs δt = τ, δg = (Y₀ + "
-            "tY₁)g − g(X₀ + tX₁) tangents au groupe, avec des constantes τ, Y et X, et F de degré "
+            "Toutes les symétries de L̃, et de L̃ à dF près, parmi les champs δt = τ, δg = (S₀ + "
+            "tS₁)g − g(B₀ + tB₁) tangents au groupe, avec des constantes τ, S et B, et F de degré "
             "deux au plus en t et les entrées de g : {count}, pour des paramètres génériques, sans "
             "entrées.",
         ),
@@ -28,6 +28,17 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         "algebra": (
             "a Lie algebra of dimension {dimension}",
             "une algèbre de Lie de dimension {dimension}",
+        ),
+        "algebra_modulo": (
+            "a Lie algebra of dimension {dimension} modulo those along which L̃ has no kinetic "
+            "energy",
+            "une algèbre de Lie de dimension {dimension} modulo ceux le long desquels L̃ n’a pas "
+            "d’énergie cinétique",
+        ),
+        "modulo": (
+            "These are symmetries times any function, and the quantity that they give is 0.",
+            "Ces derniers sont des symétries même multipliés par une fonction quelconque, et la "
+            "quantité qu’ils donnent est 0.",
         ),
         "none": (
             "a Lie algebra of dimension 0",

@@ -114,7 +114,7 @@ def _called(function: F, name: str, doc: str | None) -> F:
 def Problem(
     name: str,
     group: Group | str | Table,
-    body: Sequence[Table] | Table,
+    body: Sequence[Table] | Table = (),
     forces: Sequence[Table] | Table = (),
     parameters: Mapping[Any, Any] | None = None,
     title: str | None = None,
@@ -123,8 +123,9 @@ def Problem(
 ) -> mechanics.Problem:
     """A problem from its tables; ``ProblemError`` says what is wrong.
 
-    ``group``: or an algebra that moves no points. ``body``: points, moments, solids; or a
-    Lagrangian that no points give, with what an algebra carries along.
+    ``group``: or an algebra that moves no points, or a fluid, which has nothing else. ``body``:
+    points, moments, solids; or a Lagrangian that no points give, with what an algebra carries
+    along.
 
     ``negative_mass``, ``negative_stiffness``: may a mass, or the stiffness of a spring and the
     coefficient of a damping, be given as a negative number?

@@ -15,12 +15,22 @@ import sympy
 from ..language.read import read
 from ..language.show import show, show_name
 from ..language.tree import Tree, nodes
-from ..record.name_types import ALGEBRA, SCALAR, SQUARE, Type
+from ..record.name_types import (
+    ALGEBRA,
+    FIELD,
+    FUNCTION_ON_SPACE,
+    OPERATOR,
+    SCALAR,
+    SQUARE,
+    TENSOR,
+    Type,
+)
 from ..record.record import Derivation, Equation
 from ..record.vocabulary import VOCABULARY
 from ..views.text import clashing
 from .sympy_matrices import Applied, Hat, MatrixSum, Member, scalar_member
 
+OF_A_FLUID = (FIELD, FUNCTION_ON_SPACE, OPERATOR, TENSOR)
 OF_ITS_ARGUMENT = ("δ", "δ′", "∫", "d/dt")
 """Functions whose value is of the shape of what they are applied to."""
 
@@ -63,6 +73,8 @@ class Translation:
             return sympy.pi if t == "π" else self.letter(t)
         if isinstance(t, (int, Fraction)):
             return sympy.Rational(t.numerator, t.denominator)
+        if t[0] == "nabla":
+            raise ValueError("∇ is an operator of a fluid, which SymPy has not")
         if t[0] in STRUCTURAL:
             return getattr(self, STRUCTURAL[t[0]])(*t[1:])
         return OPERATIONS[t[0]](*map(self.of, t[1:]))
@@ -84,6 +96,8 @@ class Translation:
         return [use.type for use in VOCABULARY[name].uses]
 
     def _symbol(self, name: str, type_: Type) -> Any:
+        if type_ in OF_A_FLUID:
+            raise ValueError(f"{name!r} is a field or an operator of a fluid, which SymPy has not")
         if type_ == SCALAR:
             return sympy.Symbol(self._free(name), real=True)
         if isinstance(type_, str):

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..check.checker import Verdict
+from ..check.verdict import Verdict
 from ..language.show import show
 from ..language.tree import Tree
 from ..language.values import approximate

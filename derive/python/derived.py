@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..check.checker import Verdict
+from ..check.verdict import Verdict
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation
 from .shown import Shown

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ..check.checker import Verdict
+from ..check.verdict import Verdict
 from ..equilibria.enclosed_points import Enclosed
 from ..equilibria.equilibrium_points import coordinate
 from ..equilibria.stability import Equilibrium

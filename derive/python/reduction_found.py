@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..check.checker import Verdict
+from ..check.verdict import Verdict
 from ..language.tree import Tree
 from ..record.record import Derivation
 from ..reduction.routhian import Routhian

@@ -19,6 +19,10 @@ block that of the space of a factor, where a product has several of any of them;
 entries what the algebra carries along has; lattice, 2; reduced, d and carried together; fields, how
 many symmetries a problem is reduced by."""
 
+FIELD, FUNCTION_ON_SPACE, OPERATOR = "vector field", "scalar field", "operator"
+TENSOR = "tensor field"
+"""Of a fluid: a vector, a number or a matrix at each place; a linear map of fields to fields."""
+
 ROLES = ("letter", "definition", "value on X", "unknown", "function")
 """What a name is: chosen freely; defined by an equation; a rate along the motion, or the value of a
 variation on X; what exists by a theorem; a function."""

@@ -15,6 +15,7 @@ from ..language.limits import BASIS, CARRIED, TORUS
 from ..language.tree import Tree, replaced
 from ..schema.algebra_kinds import Advected, Torus
 from ..schema.body_kinds import BODIES, Place, is_ellipsoid
+from ..schema.fluid_kinds import GROUP, Fluid
 from ..schema.kinds import kinds
 from ..schema.lagrangian_kinds import Lagrangian
 from ..schema.outside import INPUTS, Damping
@@ -128,6 +129,11 @@ class _RecordReader(TableReader):
     def lagrangian(self) -> None:
         """A Lagrangian that no points give is beside no body, and all that acts but covectors."""
         data = self.data
+        if "fluid" in data:
+            self.fluid()
+            return
+        if data["group"] == GROUP:
+            raise ShapeError(f"fluid: the problem of {GROUP} has this key")
         if ("lagrangian" in data) != (data["body"]["kind"] == "none"):
             raise ShapeError("lagrangian: it is of a problem without a body")
         if "lagrangian" not in data:
@@ -149,6 +155,21 @@ class _RecordReader(TableReader):
         self.whole(Torus, data["torus"], "torus")
         if data["lagrangian"] != {"trivialisation": "right"} or "advected" in data:
             raise ShapeError("lagrangian: that of the torus is told by its steps, on the right")
+
+    def fluid(self) -> None:
+        """A fluid says all of its problem."""
+        data = self.data
+        self.whole(Fluid, data["fluid"], "fluid")
+        if data["group"] != GROUP or data["body"]["kind"] != "none" or data["n"] != "any":
+            raise ShapeError(f"fluid: its group is {GROUP}, its n any, and it has no body")
+        if "lagrangian" in data or data["homogeneous"] or data["action"] != "linear":
+            raise ShapeError("fluid: nothing else says its Lagrangian or its action")
+        for key in ("advected", "frame", "masses"):
+            if key in data:
+                raise ShapeError(f"fluid: it has no key {key!r}")
+        for key in ("potentials", "places", "damping", "inputs", "parameters", "basis"):
+            if data[key]:
+                raise ShapeError(f"fluid: {key} must be empty")
 
     def symmetries(self) -> None:
         """The fields δA by which a record reduces, which is of a Lagrangian on a group."""

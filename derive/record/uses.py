@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
+from ..language.show import FIELD_OPERATORS
 from ..language.tree import Tree
 from .contract import ANY_GROUP, FIELDS
 from .name_types import ALGEBRA, SCALAR, SQUARE, VECTOR, Name, Type, Use
@@ -114,12 +115,12 @@ def of_steps(
         usage = (name, position_of(kept.type))
         sized = {k: x for k, x in sizes.items() if k != "n" or usage not in general}
         key, occurring = found.get(usage, ("", Occurrence(usage)))
-        key = key if _fits(name, kept, [occurring]) else ""
+        key = key if _fits(name, kept, [occurring], meant) else ""
         role = ("definition" if key else "letter") if kept.role in DECIDED_ROLES else kept.role
         return Use(with_sizes(kept.type, sized), role, key)
 
     return {
-        name: tuple(use(name, x) for x in meant[name].uses if _fits(name, x, occurring))
+        name: tuple(use(name, x) for x in meant[name].uses if _fits(name, x, occurring, meant))
         for name, occurring in seen.items()
     }
 
@@ -136,7 +137,7 @@ def with_sizes(type_: Type, sizes: Mapping[str, int]) -> Type:
     return (type_[0], *inside)
 
 
-def _fits(name: str, use: Use, occurring: Iterable[Occurrence]) -> bool:
+def _fits(name: str, use: Use, occurring: Iterable[Occurrence], meant: Mapping[str, Name]) -> bool:
     """Does a name occur as declared: in its position, and as a function of its arguments' types?"""
     usage = (name, position_of(use.type))
     if usage[1] != "function":
@@ -145,27 +146,32 @@ def _fits(name: str, use: Use, occurring: Iterable[Occurrence]) -> bool:
     taken = (x.arguments for x in occurring if x.usage == usage)
     return any(
         len(xs) == len(kinds)
-        and all(x == 0 or type_of(x) == k for x, k in zip(xs, kinds, strict=True))
+        and all(x == 0 or type_of(x, meant) == k for x, k in zip(xs, kinds, strict=True))
         for xs in taken
     )
 
 
-def type_of(argument: Tree) -> Type:
-    """The type of a function's argument: a name, a product with A, r r̄, r_i(t), or a number."""
+def type_of(argument: Tree, meant: Mapping[str, Name] = VOCABULARY) -> Type:
+    """The type of a function's argument: a name, a product with A, r r̄, r_i(t), or a number; or of
+    what is made of fields."""
     if isinstance(argument, str):
-        return next(x.type for x in VOCABULARY[argument].uses if position_of(x.type) == "value")
+        return next(x.type for x in meant[argument].uses if position_of(x.type) == "value")
     if not isinstance(argument, tuple) or _is_number(argument):
         return SCALAR
     last = argument[-1]
+    if argument[0] == "call" and argument[1] in FIELD_OPERATORS:
+        return meant[argument[1]].uses[0].type[-1]
     if argument[0] == "call":
         return SCALAR if argument[1] in ("ϖ", "ω̂") else _value_of(argument[1])
-    if argument[0] in ("inner", "norm2"):
+    if argument[0] in ("inner", "norm2", "metric"):
         return SCALAR
     if argument[0] == "add":
-        return type_of(argument[1])
+        return type_of(argument[1], meant)
+    if isinstance(last, tuple) and last[:1] == ("call",) and last[1] in FIELD_OPERATORS:
+        return type_of(last, meant)
     if isinstance(last, tuple):
         return SQUARE
-    inside = type_of(last)
+    inside = type_of(last, meant)
     return SQUARE if inside == ALGEBRA else inside
 
 

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from ..schema.kind import Own
 from ..schema.kinds import kinds
+from .fluid_names import FLUID
 from .name_types import (
     ADVECTED,
     ALGEBRA,
@@ -365,6 +366,7 @@ def add_letters(known: dict[str, Name], letters: Iterable[Own]) -> None:
         known[x.name] = name(x.meaning, x.french, x.latex, OWN_USES[x.type])
 
 
+VOCABULARY |= {x: about for x, about in FLUID.items() if x not in VOCABULARY}
 add_letters(VOCABULARY, (x for kind in kinds().values() for x in kind.letters))
 
 # fmt: off
@@ -456,14 +458,20 @@ LAGRANGIANS: dict[str, dict[str, Name]] = {
     }
     | {
         "𝕁": VOCABULARY["𝕁"]._replace(
-            meaning="Poisson tensor: the brackets of the momenta and of Γ",
-            french="tenseur de Poisson : les crochets des moments et de Γ",
             uses=(defined(("matrix", "reduced", "reduced")),),
         )
     }
     for side, carried in _CARRIED.items()
 }
 """Meanings of names where no points give the Lagrangian, by the trivialisation."""
+
+CARRYING: dict[str, Name] = {
+    "𝕁": LAGRANGIANS["left"]["𝕁"]._replace(
+        meaning="Poisson tensor: the brackets of the momenta and of Γ",
+        french="tenseur de Poisson : les crochets des moments et de Γ",
+    ),
+}
+"""Meanings of names where an algebra carries something along."""
 
 ON_THE_TORUS: dict[str, Name] = {
     "T": name(
@@ -486,6 +494,7 @@ ON_THE_TORUS: dict[str, Name] = {
 """Meanings of names on the torus."""
 
 DERIVATIVE_OF = {"dϖ": "ϖ", "ḣ": "h̃", "ℓ̇": "ℓ", "ṗ": "p"}
+DERIVATIVE_OF |= {"ρ̇": "ρ", "ϑ̇": "ϑ"}
 DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ", "Ẇ": "W", "Υ̇": "Υ", "dϖ_h": "ϖ_h", "d𝒜": "𝒜"}
 DERIVATIVE_OF |= {"δΠ": "Π", "δ′Π": "Π", "Π̇": "Π", "δp_b": "p_b", "δ′p_b": "p_b", "ṗ_b": "p_b"}
 DERIVATIVE_OF |= dict.fromkeys(("δℓ_b", "δ′ℓ_b", "ℓ̇_b"), "ℓ_b")
@@ -495,11 +504,8 @@ DERIVATIVE_OF |= dict.fromkeys(("δℓ_b", "δ′ℓ_b", "ℓ̇_b"), "ℓ_b")
 def meanings() -> Iterator[tuple[str, str]]:
     """The meaning of every name, in English and in French."""
     for table in (
-        VOCABULARY,
-        ROTATIONS,
-        DISPLACEMENTS,
-        PRODUCTS,
-        ON_THE_TORUS,
+        *(VOCABULARY, ROTATIONS, DISPLACEMENTS, PRODUCTS, ON_THE_TORUS, FLUID),
         *LAGRANGIANS.values(),
+        CARRYING,
     ):
         yield from ((x.meaning, x.french) for x in table.values())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .algebra_kinds import StatedAdvected, StatedAlgebra
 from .body_kinds import Moments, Point
+from .fluid_kinds import Fluid
 from .kinds import kinds
 from .lagrangian_kinds import SECTIONS
 from .outside import INPUTS, Damping
@@ -20,6 +21,7 @@ def words() -> dict[str, type[Table]]:
         StatedAlgebra,
         StatedAdvected,
         Damping,
+        Fluid,
         Point,
         Moments,
         Solid,

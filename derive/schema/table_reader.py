@@ -14,6 +14,7 @@ from ..language.limits import MAGNITUDE, TEXT, TORUS
 from ..language.reserved import WORDS, taken
 from ..language.tree import Tree
 from .declared import Parameter
+from .fluid_kinds import DENSITIES
 from .lagrangian_kinds import SIDES
 from .outside import Input
 from .table import Rows, Slot, Table, nearest
@@ -140,6 +141,10 @@ class TableReader(ABC):
     def side(self, slot: Slot) -> str:
         """The side on which velocities are carried to 𝔤."""
         return self.choice(slot, SIDES)
+
+    def density(self, slot: Slot) -> str:
+        """That of a fluid."""
+        return self.choice(slot, DENSITIES)
 
     def name(self, slot: Slot) -> str:
         """A name that every emitted language can take."""

@@ -34,7 +34,7 @@ def with_scalar_lagrangian(problem: Problem, record: Derivation) -> Problem:
                 f"{problem.name}: on the torus the energy and Tr Wᵏ are kept: derive walk NAME says"
             )
         raise ProblemError(
-            f"{problem.name}: this text is about any group; choose a problem with a group and a "
+            f"{problem.name}: {problem.without_matrices}; choose a problem with a group and a "
             "Lagrangian"
         )
     if problem.advected is not None:

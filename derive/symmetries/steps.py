@@ -58,7 +58,10 @@ def _summary(found: Found, c: Chapter) -> Step:
     count = phrase("symmetries.algebra", dimension=str(found.dimension))
     if not found.dimension:
         count = phrase("symmetries.none")
-    prose = say("symmetries.all", count=count)
+    modulo = bool(found.lagrangian.held)
+    if modulo:
+        count = phrase("symmetries.algebra_modulo", dimension=str(found.dimension))
+    prose = say("symmetries.all", count=count) + (say("symmetries.modulo") if modulo else ())
     if found.functions:
         prose += say("symmetries.open", functions=", ".join(found.functions))
     draft = c.draft("symmetries", "kernel")

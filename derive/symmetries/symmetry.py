@@ -20,9 +20,9 @@ ON_FORM: Tree = ("call", "ϖ", "δy")
 
 @dataclass(frozen=True)
 class Symmetry:
-    """δt = τ, δg = (Y₀ + tY₁)g − g(X₀ + tX₁) with δL̃ = dF/dt, F by its terms.
+    """δt = τ, δg = (S₀ + tS₁)g − g(B₀ + tB₁) with δL̃ = dF/dt, F by its terms.
 
-    ``still`` and ``moving``: (Y₀, X₀) and (Y₁, X₁).
+    ``still`` and ``moving``: (S₀, B₀) and (S₁, B₁).
     """
 
     group: Group
@@ -128,7 +128,7 @@ class Symmetry:
 
     @property
     def matrices(self) -> tuple[Rows, Rows]:
-        """Y₀ + tY₁ and X₀ + tX₁."""
+        """S₀ + tS₁ and B₀ + tB₁."""
         Y, X = (
             plus(m, tuple(tuple(mul("t", x) for x in row) for row in later))
             for m, later in zip(self.still, self.moving, strict=True)

@@ -32,13 +32,13 @@ from .outline import (
     FORMULAS_CONVENTIONS,
     PAPER,
     REFERENCES,
-    ROAD,
     TRANSPOSES,
     assumed,
     capitalised,
     keys,
     latex_names,
     printed,
+    road,
     subtitle,
     title,
 )
@@ -75,7 +75,7 @@ def html(
         language=language.name,
         title=visible(title(records[0], language)) if len(records) == 1 else word(MOTION),
         about=visible(capitalised(subtitle(records[0], language))) if len(records) == 1 else "",
-        road=words(word(ROAD), chosen, ready=True),
+        road=words(word(road(records)), chosen, ready=True),
         conventions=" ".join(
             words(word(x), chosen, ready=True)
             for x in (TRANSPOSES[chosen.transpose], FORMULAS_CONVENTIONS)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
+from typing import Any
 
 from ..language.show import show
 from ..printing.letters import names_of
@@ -38,7 +39,15 @@ ROAD = (
     "The Lagrangian $L$ of the points is pulled back to the group, $L̃$; it gives the Cartan "
     "form $ϖ$, whose exterior derivative $dϖ$ has a kernel: the equations of motion."
 )
-"""What the walk does, in one sentence."""
+ROAD_GIVEN = (
+    "The Lagrangian $L̃$ is given; it gives the Cartan form $ϖ$, whose exterior derivative $dϖ$ has "
+    "a kernel: the equations of motion."
+)
+ROAD_BOTH = (
+    "The Lagrangian $L̃$ on the group is given, or that of points, $L$, pulled back; it gives the "
+    "Cartan form $ϖ$, whose exterior derivative $dϖ$ has a kernel: the equations of motion."
+)
+"""What the walk does, in one sentence: from points, from a given Lagrangian, from some of each."""
 PAPER = (
     "Numbers in the margin or beside the name of a step are those of the paper, "
     "P. Iglesias-Zemmour, “D’où viennent les équations du mouvement des solides ?”; what is "
@@ -61,7 +70,7 @@ REFERENCES = (
 DIAGONAL = tuple(
     ("row", *(("entry", "λ", i) if i == j else 0 for j in (1, 2, 3))) for i in (1, 2, 3)
 )
-STILL = (("δ′A",), ("ξ′",), ("Ω′",), ("δ′A", "δ′T"), ("ξ′", "η′"), ("Ω′", "η′"))
+STILL = (("δ′A",), ("ξ′",), ("Ω′",), ("η′",), ("δ′A", "δ′T"), ("ξ′", "η′"), ("Ω′", "η′"))
 ASSUMPTIONS: tuple[tuple[frozenset[Equation], str], ...] = (
     (frozenset({Equation("I", ("matrix", *DIAGONAL))}), "in principal axes"),
     (frozenset({Equation("δt", 1)}), "for any X with δt = 1"),
@@ -72,7 +81,7 @@ ASSUMPTIONS: tuple[tuple[frozenset[Equation], str], ...] = (
     ),
 )
 """Equations that a step assumes, and how that is said in words."""
-ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇_b", "ṗ_b")
+ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇_b", "ṗ_b", "u̇")
 
 
 def latex_names(d: Derivation) -> dict[str, str]:
@@ -89,6 +98,17 @@ def title(d: Derivation, language: Language = ENGLISH) -> str:
 def group(d: Derivation) -> str:
     """The name of the group of a record."""
     return product(" ".join(str(d.problem.get("group", ANY_GROUP)).split()))
+
+
+def road(records: Sequence[Derivation]) -> str:
+    """What the walk of some records does: their Lagrangians are those of points, or given."""
+    stated = {given(d.problem) for d in records}
+    return ROAD_BOTH if len(stated) > 1 else ROAD_GIVEN if True in stated else ROAD
+
+
+def given(problem: Mapping[str, Any]) -> bool:
+    """Does a problem say its Lagrangian, and move no body?"""
+    return isinstance(problem.get("lagrangian"), Mapping)
 
 
 def product(name: str) -> str:
@@ -161,7 +181,7 @@ def notes(step: Step, language: Language = ENGLISH) -> list[str]:
     return [*paper, *assumed(step, language)]
 
 
-DOMAINS = {"δA": "T_A G", "δ′A": "T_A G", "ξ′": "𝔤", "Ω′": "R³"}
+DOMAINS = {"δA": "T_A G", "δ′A": "T_A G", "ξ′": "𝔤", "η′": "𝔤", "Ω′": "R³"}
 PAIRS = {"δ′A": "T_g G", "ξ′": "𝔤"}
 
 

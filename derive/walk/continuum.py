@@ -6,6 +6,8 @@ velocity in space, are functions on the body.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from ..algebra.calculus import derivation, substitute
 from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Letter, number, word
@@ -23,9 +25,10 @@ def continuum(points: Lagrangian, a: Alphabet, c: Chapter) -> Step:
     (36)–(38)."""
     draft = c.draft("continuum", "definition")
     varied = Letter("δr", a.n)
-    notation = WordNotation(display={a.r_i: "r", points.v_i: "v", varied: read("δ(g(r))")})
+    shown: dict[Letter, Tree] = {varied: read("δ(g(r))")}
     momentum = derivation(points.kinetic, {points.v_i: word(varied)}.get)
-    kinetic, paired = (_integral(draft, e, a, notation) for e in (points.kinetic, momentum))
+    kinetic, paired = (integral(draft, e, a, points.v_i, shown) for e in (points.kinetic, momentum))
+    notation = _notation(a, points.v_i, shown)
     return draft.step(
         (
             Equation(read("g(r)"), draft.tree(points.position, notation)),
@@ -39,7 +42,15 @@ def continuum(points: Lagrangian, a: Alphabet, c: Chapter) -> Step:
     )
 
 
-def _integral(d: Draft, e: Expr, a: Alphabet, notation: WordNotation) -> Tree:
+def _notation(a: Alphabet, v_i: Letter, shown: Mapping[Letter, Tree]) -> WordNotation:
+    """How the place and the velocity of a point are written without their index."""
+    return WordNotation(display={a.r_i: "r", v_i: "v", **shown})
+
+
+def integral(
+    d: Draft, e: Expr, a: Alphabet, v_i: Letter, shown: Mapping[Letter, Tree] | None = None
+) -> Tree:
     """The tree ∫ … dm for the summand m_i … ."""
+    notation = _notation(a, v_i, shown or {})
     factor, inside = coefficient(d.tree(substitute(e, {a.m_i: number(1)}), notation))
     return mul(factor, ("call", "∫", inside))

@@ -9,12 +9,14 @@ from ..problem.data import data
 from ..problem.problem import Problem
 from ..record import sentence
 from ..record.contract import CONVENTIONS
+from ..record.fluid_names import FLUID
 from ..record.name_types import Name
 from ..record.record import Step, Symbol
 from ..record.sentence import Prose, Sentence, listed
 from ..record.tree_data import encode
 from ..record.uses import of_steps
 from ..record.vocabulary import (
+    CARRYING,
     DISPLACEMENTS,
     LAGRANGIANS,
     ON_THE_TORUS,
@@ -71,14 +73,17 @@ def _meant(problem: Problem) -> dict[str, Name]:
     """The vocabulary of a problem, name → its meanings there: of all problems, of turning, of
     products."""
     group = problem.group
+    if problem.fluid:
+        return VOCABULARY | FLUID
     if problem.torus:
         return VOCABULARY | LAGRANGIANS["right"] | ON_THE_TORUS
     if problem.lagrangian:
-        return VOCABULARY | LAGRANGIANS[problem.lagrangian.trivialisation]
+        own = dict(CARRYING) if problem.advected else {}
+        return VOCABULARY | LAGRANGIANS[problem.lagrangian.trivialisation] | own
     blocks = PRODUCTS if group and group.factors and not group.affine else {}
     turning = group is not None and group.turns_space
-    own = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
-    return VOCABULARY | own | blocks
+    turned = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
+    return VOCABULARY | turned | blocks
 
 
 def _inputs(problem: Problem) -> Prose:

@@ -8,7 +8,7 @@ import pytest
 from derive import pipeline
 from derive.algebra import calculus, forms, words
 from derive.algebra import word_trees as notation
-from derive.check.checker import Checker, check
+from derive.check.checker import Checker, check, checker_of
 from derive.command.cli import load_problem
 from derive.language.tree import mul, neg
 from derive.pipeline import walk
@@ -16,7 +16,7 @@ from derive.record.record import Equation
 from derive.walk import pullback
 from derive.walk.failure import WalkError
 from tests.support.record_mutations import corruptions, tried
-from tests.support.walks import NAMES, SEED, record
+from tests.support.walks import FLUIDS, NAMES, SEED, record
 
 pytestmark = pytest.mark.no_cover
 
@@ -29,10 +29,10 @@ def afresh(monkeypatch):
 
 @cache
 def checker(name):
-    return Checker(record(name).problem, SEED)
+    return checker_of(record(name).problem, SEED)
 
 
-CASES = [(name, k) for name in NAMES for k in range(len(record(name).steps))]
+CASES = [(name, k) for name in (*NAMES, *FLUIDS) for k in range(len(record(name).steps))]
 
 
 @pytest.mark.parametrize(("name", "k"), CASES, ids=lambda x: str(x))

@@ -16,11 +16,12 @@ from derive.problem.toml import problem_of
 from derive.python.derived import derive
 from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles
-from tests.support.walks import problem, record, repeated
+from tests.support.walks import FLUIDS, problem, record, repeated
 from tests.symmetries.test_trajectories import NAMES, SHORT, start
 
-WITHOUT = ("jelly", "linear", "affine", "zeitlin")
-"""With damping, or about any group; on the torus see test_torus."""
+WITHOUT = ("jelly", "linear", "affine", "zeitlin", "riemann_ellipsoid", *FLUIDS)
+"""With damping, about any group, or without matrices; on the torus see test_torus,
+of a body under its own gravity test_self_gravity."""
 FORMS = {
     "plain": {},
     "by_columns": {"layout": "col"},

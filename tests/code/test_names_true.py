@@ -16,11 +16,12 @@ from derive.code.program import LoweringError
 from derive.command.cli import ready_made
 from derive.problem.problem import ProblemError
 from tests.support.forms import FORMS
+from tests.support.walks import FLUIDS
 
 SAYS = re.compile("_(?:plus|minus|times)_")
 ARRAYS = ("p", "u", "axes")
 """The last argument of the functions that compute."""
-WITH_CODE = [name for name in ready_made() if name not in ("linear", "affine")]
+WITH_CODE = [name for name in ready_made() if name not in ("linear", "affine", *FLUIDS)]
 pytestmark = pytest.mark.no_cover
 
 

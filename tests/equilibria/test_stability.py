@@ -9,7 +9,8 @@ from derive import ProblemError, derive
 from derive.command.cli import main
 from derive.equilibria.energy_casimir import between_roots, diagonalised
 from derive.equilibria.stability import grows, polynomial
-from tests.support.lagrangians import heavy, lagrangian
+from derive.record.sentence import english
+from tests.support.lagrangians import heavy, lagrangian, nilpotent
 from tests.support.walks import repeated
 
 
@@ -21,6 +22,15 @@ def test_a_free_solid_turns_about_its_axes():
     moments = [float(derive("euler_top").problem.parameters[f"I{a}"].default) for a in (1, 2, 3)]
     a, b, c = moments
     assert found[1].growth == pytest.approx(np.sqrt((b - a) * (c - b) / (a * c)) / b)
+
+
+def test_a_leaf_that_is_a_point_says_nothing():
+    found = nilpotent().equilibria({"Pi_1": 1})
+    ((x,), step) = found, found.record.steps[-1]
+    assert (x.verdict, x.signature) == ("open", (0, 0))
+    said = english(step.prose)
+    assert "is this point alone" in said
+    assert not any(x in said for x in ("characteristic", "not definite"))
 
 
 def sleeping(spin):

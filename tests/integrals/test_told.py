@@ -11,9 +11,10 @@ from derive.command.cli import main
 from derive.language.tree import neg, replaced
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
+from derive.record.sentence import english
 from derive.record.tree_data import decode, encode
 from derive.views.rendering import FORMATS, render
-from tests.support.lagrangians import heavy
+from tests.support.lagrangians import heavy, lagrangian
 from tests.support.walks import SEED, repeated
 
 NAMES = (
@@ -84,6 +85,14 @@ def test_a_false_rate_is_refused():
     rate["rhs"] = encode(("mul", 2, decode(rate["rhs"], "")))
     verdicts = check(from_json(json.dumps(data)), SEED)
     assert [v.label for v in verdicts if not v.holds] == ["lagrange_top.poisson"]
+
+
+def test_one_integral_is_told_as_one():
+    """Of a ball the energy is the Casimir, and one more integral is enough."""
+    d = first_integrals(lagrangian("zeta_1^2 + zeta_2^2 + zeta_3^2"), 2).record
+    said = " ".join(english(s.prose) for s in d.steps)
+    assert "and the integral of number 2 is independent of the Casimirs" in said
+    assert "of numbers" not in said
 
 
 @pytest.mark.parametrize("form", FORMATS)

@@ -5,8 +5,16 @@ from fractions import Fraction
 
 import pytest
 
-from derive.language.read import FAMILIES, FUNCTIONS, IN_THE_BASIS, OF_FIELDS, FormulaError, read
-from derive.language.show import in_quotes, show
+from derive.language.read import (
+    FAMILIES,
+    FUNCTIONS,
+    IN_THE_BASIS,
+    NUMBERED,
+    OF_FIELDS,
+    FormulaError,
+    read,
+)
+from derive.language.show import FIELD_OPERATORS, in_quotes, show
 from derive.language.tree import add, mul, neg, subtrees
 from derive.record.vocabulary import VOCABULARY
 from tests.support.walks import NAMES, OTHERS, record
@@ -98,7 +106,8 @@ def test_the_reader_knows_what_the_vocabulary_says():
     families = {x for x in VOCABULARY for t in heads(x) if t[0] == "family"}
     assert families == FAMILIES
     functions = {x for x in VOCABULARY if "function" in {use.role for use in VOCABULARY[x].uses}}
-    assert functions - {"r", "∫", *OF_FIELDS} == FUNCTIONS
+    assert functions - {"r", "∫", *FIELD_OPERATORS, *OF_FIELDS} == FUNCTIONS
+    assert {x for x in VOCABULARY if x[-1].isdigit()} == NUMBERED
     assert all(any({"d", "basis"} & {*t} for t in heads(x)) for x in IN_THE_BASIS)
 
 

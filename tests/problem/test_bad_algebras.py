@@ -30,6 +30,7 @@ ALGEBRAS = {
         "Jacobi's identity fails for E_1, E_2, E_3",
     ),
     "too small": (TURNING | {"dimension": 2}, "brackets: E_3, of 2 elements"),
+    "too large": (TURNING | {"dimension": 101}, "from 1 to 100"),
     "no dimension": (TURNING | {"dimension": 0}, "dimension: expected an integer from 1"),
     "a dimension beside": ({"of": "SO(3)", "dimension": 3}, "it goes with 'brackets'"),
     "open": ({"basis": [[[0, 1], [0, 0]], [[0, 0], [1, 0]]]}, "algebra, basis: not a Lie algebra"),

@@ -146,7 +146,7 @@ def test_every_command_may_be_stopped(command, tmp_path, capsys, monkeypatch):
         "build": ["--out", str(tmp_path)],
     }
     needed |= {x: ["so3"] for x in ("walk", "emit", "check", "symmetries")}
-    needed |= {x: ["gyrostat"] for x in ("integrals", "equilibria")}
+    needed |= {x: ["gyrostat"] for x in ("integrals", "equilibria", "reduction")}
     words = needed.get(command, [])
     gc.disable()  # what is raised while it collects is raised again after a second only
     try:

@@ -65,7 +65,7 @@ def test_every_problem_is_one(page):
     for kind, text in blocks(page):
         if kind == "toml":
             found = problem_of(tomllib.loads(text))
-            assert found.group or found.torus
+            assert found.group or found.torus or found.fluid
 
 
 def test_output_is_compared():

@@ -9,7 +9,7 @@ import pytest
 from derive import prose
 from derive.record.sentence import Sentence
 from tests.support.lagrangians import every_case, every_equilibrium
-from tests.support.walks import NAMES, OTHERS, record
+from tests.support.walks import FLUIDS, NAMES, OTHERS, record
 
 ROOT = Path(prose.__file__).parents[1]
 ROOMS = [ROOT / room for room in ("walk", "symmetries", "reduction", "integrals", "equilibria")]
@@ -47,7 +47,7 @@ def messages(sentence):
             yield from messages(x)
 
 
-@pytest.mark.parametrize("name", dict.fromkeys((*NAMES, *OTHERS)))
+@pytest.mark.parametrize("name", dict.fromkeys((*NAMES, *OTHERS, *FLUIDS)))
 def test_a_step_says_what_stands_under_its_label(name):
     says_what_stands_under_its_label(record(name))
 

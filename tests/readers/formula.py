@@ -15,6 +15,8 @@ from fractions import Fraction
 
 from derive.record.vocabulary import VOCABULARY
 
+OF_FIELDS = ("grad", "div", "Δ", "∇", "∂ₙ")
+"""Functions that stand before one letter without brackets."""
 WORDS = ("Tr", "det", "Σ", "∫", "dm", "d", "∂")
 FUNCTION = {
     name
@@ -122,6 +124,9 @@ def joined(tokens, known):
     for kind, value in tokens:
         if kind == "sub" and found and found[-1][0] == "sup" and found[-1][1] != [("op", "⊤")]:
             found.insert(-1, (kind, value))  # one above the other, whichever was written first
+            continue
+        if (kind, value) == ("sub", [("name", "n")]) and found[-1:] == [("word", "∂")]:
+            found[-1] = ("name", "∂ₙ")
             continue
         if kind == "bar":
             inner = joined(value, known)
@@ -313,9 +318,22 @@ class _Reader:
     def of_name(self, name):
         if name in ("δ", "δ′") and self.peek() != ("open", "("):
             return ("call", name, self.factor())
+        if name == "∇" and self.peek()[0] == "sub":
+            return ("nabla", parsed(self.take()[1], self.known))
+        if name in OF_FIELDS and self.peek() != ("open", "("):
+            kind, letter = self.take()
+            if kind != "name":
+                raise UnreadableError(f"{name} before {letter}")
+            return ("call", name, letter)
         if name == "j" and self.peek() == ("open", "("):
             return ("hat", *self.listed(")"))
         return name
+
+    def factor_of(self, name):
+        """A function of fields, with brackets or without."""
+        if self.peek() == ("open", "("):
+            return ("call", name, *self.listed(")"))
+        return self.of_name(name)
 
     def of_barred(self, tree):
         return tree
@@ -340,6 +358,8 @@ class _Reader:
         if word == "det":
             inside = self.listed(")") if self.peek() == ("open", "(") else [self.factor()]
             return ("det", *inside)
+        if word in OF_FIELDS:
+            return self.factor_of(word)
         if word in WORDS:
             raise UnreadableError(f"{word} by itself")
         raised = self.take()[1] if self.peek()[0] == "sup" else None

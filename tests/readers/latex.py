@@ -10,6 +10,7 @@ TOKEN = re.compile(
 )
 LETTERS = {rf"\{x}": letter for x, letter in GREEK.items()} | {
     r"\varphi": "φ", r"\varpi": "ϖ", r"\Cartanform": "ϖ", r"\ell": "ℓ", r"\delta": "δ",
+    r"\nabla": "∇", r"\vartheta": "ϑ",
     r"\variation": "δ",
 }  # fmt: skip
 WORDS = {r"\Tr": "Tr", r"\sum": "Σ", r"\int": "∫", r"\det": "det", r"\dd": "d", r"\partial": "∂"}

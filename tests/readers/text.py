@@ -124,6 +124,11 @@ def _lowered(text, at, names, known, found):
                 at = _token(text, at, names, known, inside)
         found.append(("sub", inside))
         return at
+    if found[-1] == ("name", "∇"):
+        inside = []
+        at = _token(text, at, names, known, inside)
+        found.append(("sub", inside))
+        return at
     run = re.compile(r"[A-Za-z0-9,]*[A-Za-z0-9𝐦𝐧]").match(text, at)
     if not run:
         raise UnreadableError(f"no index in {text[at - 9 : at + 9]!r}")

@@ -73,6 +73,12 @@ def every_case():
     ]
 
 
+def nilpotent():
+    """Heisenberg's algebra alone: some of its coadjoint orbits are points."""
+    data = {"name": "x", "algebra": {"brackets": [[1, 2, 3, 1]]}}
+    return derive(problem_of(data | {"lagrangian": {"L": squares(1, 1, 1)}}))
+
+
 def bent():
     """A top with weight off its axes, and no equilibrium with simple coordinates."""
     return derive(heavy("132", "A_31/2 + A_33/3", ""))
@@ -88,6 +94,7 @@ def every_equilibrium():
         bent().equilibrium_near({"A_31": "-0.7", "A_33": "-0.5"}),
         derive(heavy("132", "A_33/2", "")).equilibrium_near(tilted),
         derive("euler_top").equilibria(),
+        nilpotent().equilibria({"Pi_1": 1}),
         derive(heavy("132", "A_33/2", "")).equilibria(exact),
         derive("lagrange_top").equilibria({"A_33": -1}),
         derive("kirchhoff").equilibria({"Pi_1": 1}),

@@ -9,10 +9,10 @@ import subprocess
 import sys
 from collections import Counter
 
-from derive.check.checker import Checker
+from derive.check.checker import Checker, checker_of
 from derive.record.contract import ANY_GROUP
 from tests.support import printing_mutations, record_forgeries, record_mutations
-from tests.support.walks import NAMES, OTHERS, SEED, record
+from tests.support.walks import FLUIDS, NAMES, OTHERS, SEED, record
 from tests.validate.test_validation import MUTATED, tried
 
 TEXTS = ("linear", "affine")
@@ -30,14 +30,14 @@ def records():
     """
     print("record              steps  refused  true of it  of changes")
     total, fine = Counter(), True
-    for name in dict.fromkeys((*NAMES, *OTHERS)):
+    for name in dict.fromkeys((*NAMES, *OTHERS, *FLUIDS)):
         special = COMMUTES.get(name, 0)
         rows = {name: record(name)}
         if name in record_mutations.TWINS:
             rows[f"{name}, moved"] = record_mutations.twin(name)
         for shown, d in rows.items():
             steps = [s for s in d.steps if name in TEXTS or s.scope != ANY_GROUP]
-            checker = Checker(d.problem, SEED)
+            checker = checker_of(d.problem, SEED)
             holds = [v.holds for s in steps for _, _, v in record_mutations.tried(s, checker)]
             refused, true = holds.count(False), holds.count(True)
             total.update(steps=len(steps), refused=refused, true=true, all=len(holds))

@@ -8,8 +8,9 @@ from derive.command.cli import derive, ready_made
 from derive.language.show import show
 from derive.pipeline import symmetries
 from derive.problem.problem import ProblemError
+from derive.record.sentence import english
 from tests.support.symmetric import FILES, found
-from tests.support.walks import problem, record
+from tests.support.walks import FLUIDS, problem, record
 
 SPACE = {"time": 1, "translation_space": 3, "rotation_space": 3, "boost": 3}
 """Galilei's group, with the time."""
@@ -27,6 +28,8 @@ COUNTS = {
     "none": {},
     "landau": {"time": 1, "translation_space": 3, "boost": 1, "rotation_alone": 1},
 }
+RELABELLED = {"time": 1, "rotation_space": 3, "deformation_body": 3}
+"""Of an ellipsoid: the linear maps of its body that keep its moments."""
 READY = {
     "charged_body": {"time": 1, "rotation_space": 1},
     "comet": {"time": 1, "rotation_space": 3},
@@ -38,6 +41,8 @@ READY = {
     "manakov": {"time": 1, "rotation_space": 6},
     "rod": SPACE | {"rotation_space": 1},
     "spherical_pendulum": {"time": 1, "rotation_space": 1},
+    "dirichlet": RELABELLED,
+    "gas_cloud": RELABELLED,
     "gl3": {"time": 1, "rotation_space": 3, "deformation_body": 1},
     "gyrostat": {"time": 1, "rotation_space": 1},
     "hammer": SPACE | {"rotation_space": 1},
@@ -58,9 +63,11 @@ READY = {
 REFUSED = {
     "euler_poisson": "no element",
     "zeitlin": "on the torus",
+    "riemann_ellipsoid": "self_gravity",
     "jelly": "damping",
     "linear": "any group",
     "affine": "any group",
+    **dict.fromkeys(FLUIDS, "no matrices"),
 }
 
 
@@ -105,3 +112,18 @@ def test_a_magnetic_field_is_the_cocycle_of_translations():
         ("boost", "translation_space", "m"),
         ("translation_space", "translation_space", "k"),
     ]
+
+
+@pytest.mark.parametrize("name", ["spherical_pendulum", "lagrange_top"])
+def test_what_is_divided_out_is_told(name):
+    """Along null directions any function times a field is a symmetry, by which 0 is kept."""
+    (step,) = [
+        s
+        for s in symmetries(problem(name), record(name)).record.steps
+        if s.label == f"{name}.symmetries"
+    ]
+    said = english(step.prose)
+    singular = name == "spherical_pendulum"
+    assert ("modulo those along which L̃ has no kinetic energy" in said) == singular
+    assert ("the quantity that they give is 0" in said) == singular
+    assert "X₀" not in said

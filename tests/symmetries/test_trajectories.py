@@ -7,9 +7,10 @@ from scipy.integrate import solve_ivp
 from derive.command.cli import ready_made
 from derive.python.derived import derive
 from tests.oracles import general
-from tests.support.walks import repeated
+from tests.support.walks import FLUIDS, repeated
 
 REFUSED = ("zeitlin", "euler_poisson", "jelly", "linear", "affine", "rod", "spherical_pendulum")
+REFUSED += ("riemann_ellipsoid", *FLUIDS)
 """Without symmetries, or with states of other numbers than the oracle has."""
 SHORT = {
     "gl3": 0.2,
@@ -21,6 +22,7 @@ SHORT = {
     "sp4": 5.0,
     "saff3": 5.0,
     "sim3": 5.0,
+    "dirichlet": 5.0,
 }
 """Falls and other motions without bounds, and one through a collapse of the body."""
 NAMES = [x for x in ready_made() if x not in REFUSED]

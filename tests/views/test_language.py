@@ -60,6 +60,19 @@ kind = "mesh"
 density = 1
 file = "corner.off"
 """
+BOX = """
+name = "box"
+group = "SL(3)"
+[body]
+solid = "box"
+density = 1
+sides = [1, 2, 3]
+[[potential]]
+kind = "spring"
+at = [1, 0, 0]
+anchor = [0, 1, 0]
+stiffness = 1
+"""
 CHOSEN = (
     *("SL(3) forces", "SE(3) forces", "Sim(3) forces", "SO(3) x SO(3)", "SO(3) forces"),
     *("a cylinder", "SL(4)", "Aff(2)", "SAff(2)", "weighted", "screw"),
@@ -77,6 +90,7 @@ def own_problems(folder):
         Problem("given", "SO(3)", GIVEN),
         Problem("solids", "SE(3)", [*ON_TURNED]),
         load(folder / "corner.toml"),
+        problem_of(tomllib.loads(BOX)),
         Problem("tied", Aff(2), THREE, [Spring(1, 2, 1, length=1)]),
         Problem("anchored", Aff(2), THREE, [Spring(1, [0, 1], 1)]),
         Problem("pushed", Aff(2), THREE, [Spring(1, 2, 1), *pushed]),
@@ -85,10 +99,11 @@ def own_problems(folder):
     ]
 
 
-REACHING = ("gl3", "heisenberg", "screw")
+REACHING = ("gl3", "heisenberg", "screw", "spherical_pendulum")
 """Problems with symmetries that no other has."""
 TOLD = ("lagrange_top", "charged_body", "flat", "steep", "rod", "so3")
 """Reductions that together have all sentences."""
+TWO = " + ".join(f"zeta_{k}^2" for k in range(1, 7))
 ON_THE_RIGHT = {"L": "zeta_1^2 + zeta_2^2 + zeta_3^2", "trivialisation": "right"}
 
 
@@ -100,6 +115,8 @@ def records(tmp_path_factory):
     found += [walk(p) for p in examples().values()]
     for moved in ({"group": "SO(3)"}, {"algebra": {"of": "SO(3)"}, "advected": [{"name": "x"}]}):
         found.append(walk(problem_of({"name": "own", "lagrangian": ON_THE_RIGHT} | moved)))
+    two = {"name": "two", "group": "SO(3) x SE(2)", "lagrangian": {"L": TWO}}
+    found.append(walk(problem_of(two)))
     found += [x.record for x in (*every_case(), *every_equilibrium())]
     found += [symmetric.found(name).record for name in symmetric.FILES]
     found += [reduced(name).record for name in TOLD]
@@ -198,7 +215,8 @@ def test_every_word_said_is_in_the_catalogue(path):
 
 
 def test_every_entry_is_used():
-    sources = strings("walk/*.py", "walk/kinds/*.py", "record/vocabulary.py", "record/rules.py")
+    sources = strings("walk/*.py", "walk/*/*.py", "record/*_names.py", "record/rules.py")
+    sources |= strings("record/vocabulary.py")
     sources |= strings("record/contract.py")
     sources |= strings("paper/findings.py", "views/*.py", "figure/*.py", "schema/kinds/*.py")
     sources |= {p.remark for p in PAPER if p.remark}

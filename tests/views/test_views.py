@@ -312,3 +312,9 @@ def test_what_is_raised_or_divides_is_in_brackets():
     assert show(("div", "m", Fraction(3, 2))) == "m/(3/2)"
     assert show(("norm2", ("add", "m", "J"), "ζ")) == "‖ζ‖²_(m + J)"
     assert show(("metric", ("add", "m", "J"), "ζ", "ζ")) == "⟨ζ, ζ⟩_(m + J)"
+
+
+def test_a_factor_stands_apart_from_a_denominator():
+    """∂L̃/∂t δt is a product, in sentences as well."""
+    assert r"/\partial t\,\delta t" in prose("of ∂L̃/∂t δt; the")
+    assert r"\," not in prose("of δL̃ = ⟨Π, δZ⟩ + ⟨Φ, ξ⟩; the")

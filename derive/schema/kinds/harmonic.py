@@ -8,7 +8,7 @@ class Harmonic(Potential):
     """``W``: symmetric, the squares of the frequencies of a point by itself, along their axes; the
     force of a mass m at r is −m W r, so that with negative numbers it is driven away."""
 
-    kind, rank, phrase, several = "harmonic", 1, "a harmonic force", "{n} harmonic forces"
+    kind, phrase, several = "harmonic", "a harmonic force", "{n} harmonic forces"
     legend = "A harmonic force is not drawn."
     unturned = "a harmonic force, which has axes in space,"
     linear = True

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -15,17 +15,22 @@ from ...algebra.forms import left, strip_left
 from ...algebra.groups import Group
 from ...algebra.words import Letter, word
 from ...language.rational import Matrix
+from ...language.suffixed import suffixed
 from ...language.tree import Tree, add, mul
 from ...problem.moved_entries import Entry, Moved, plain
 from ...problem.problem import Problem
 from ...record.formulas import stated
 from ...record.record import Equation
+from ...schema.algebra_kinds import Advected
 from ..alphabet import Alphabet
 from ..chapter import Chapter
 from ..wording import say
 from .any_lagrangian import SIDES, AnyLagrangian
 from .basis import Basis, brackets
 from .orbit_form import sign_of
+
+NAMED = 6
+"""Of so many entries of one name each is named."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +78,7 @@ def reduced(
         for i in range(size)
     ]
     rates = Equation("Γ̇", _column(_carried(moved, zeta, i) for i in range(1, size + 1)))
-    draft = c.draft("advected", "variation")
+    draft, names = c.draft("advected", "variation"), _names(problem.advected)
     draft.depends_on(place)
     advected = draft.step(
         [
@@ -82,9 +87,17 @@ def reduced(
             Equation("Γ̇", mul(moved.sign, ("call", "ρ", "Z"), "Γ")),
             rates,
         ],
-        say(f"advected.{side}"),
+        say(f"advected.{side}") + say("advected.names", entries=", ".join(names)),
     )
     return Basis(moved, (rates,), advected, told, (place, *told, advected))
+
+
+def _names(advected: Iterable[Advected]) -> Iterator[str]:
+    """What the problem calls the entries of Γ; of many under one name the first two and the
+    last."""
+    for x in advected:
+        listed = [suffixed(x.name, i) for i in range(1, x.size + 1)]
+        yield from listed if x.size <= NAMED else (*listed[:2], "…", listed[-1])
 
 
 def sign(a: Alphabet, side: str) -> int:

@@ -87,8 +87,9 @@ def _carried(a: Alphabet, side: str, c: Chapter) -> Step:
         "left": "Z = A⁻¹α,  ξ = A⁻¹δA,  ξ′ = A⁻¹δ′A",
         "right": "Z = αA⁻¹,  ξ = δAA⁻¹,  ξ′ = δ′AA⁻¹",
     }
+    told = say(f"trivialisation.{side}") + say("trivialisation.matrices")
     return c.draft("trivialisation", "trivialisation").step(
-        stated(definitions[side]), say(f"trivialisation.{side}"), (27,) if side == "left" else ()
+        stated(definitions[side]), told, (27,) if side == "left" else ()
     )
 
 
@@ -102,7 +103,7 @@ def _momenta(c: Chapter) -> Step:
 def _energy(c: Chapter) -> Step:
     """h̃ = ⟨Π, Z⟩ − L̃."""
     draft = c.draft("energy", "Legendre transform")
-    return draft.step(stated("h̃ = ⟨Π, Z⟩ − L̃"), say("energy.paired"), (16,))
+    return draft.step(stated("h̃ = ⟨Π, Z⟩ − L̃"), say("energy.any_lagrangian"), (16,))
 
 
 def _structure(a: Alphabet, crossed: Expr, c: Chapter) -> Step:

@@ -12,9 +12,10 @@ from ...language.tree import Tree, add, mul
 from ...problem.moved_entries import EntriesOfElement, Moved, plain
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
+from ...record.sentence import Prose, listed
 from ..chapter import Chapter
 from ..coordinates import basis_equations
-from ..wording import say
+from ..wording import phrase, say
 from .any_lagrangian import AnyLagrangian
 
 
@@ -36,10 +37,24 @@ def of_element(problem: Problem, group: Group, general: AnyLagrangian, c: Chapte
     draft = c.draft("coordinates", "coordinates")
     draft.depends_on(general["second_order"])
     rates = (Equation("Ȧ", general.velocity),)
-    place = draft.step([*basis_equations(group), *rates], say("coordinates.basis"))
+    place = draft.step([*basis_equations(group), *rates], say("coordinates.basis") + _names(group))
     told = brackets(group, c)
     moved = EntriesOfElement(group, problem.lagrangian.trivialisation)
     return Basis(moved, rates, place, told, (place, *told))
+
+
+def _names(group: Group) -> Prose:
+    """Where in A what the names of the problem stand for is, where that is not A itself."""
+    if len(group.places) < 2:
+        (_, whole), *_ = group.places
+        return say("coordinates.column") if whole.affine else ()
+    blocks = [
+        phrase("coordinates.block_and_column", name=f"A{k}", row=str(at + 1), column=f"T{k}")
+        if factor.affine
+        else phrase("coordinates.block", name=f"A{k}", row=str(at + 1))
+        for k, (at, factor) in enumerate(group.places, 1)
+    ]
+    return say("coordinates.blocks", blocks=listed("{first}; {second}", blocks))
 
 
 def brackets(group: Group, c: Chapter) -> tuple[Step, ...]:

@@ -80,16 +80,13 @@ def expressed(
     momenta = tuple(tidied(derivative(given.L, x)) for x in zeta)
     forces = tuple(tidied(basis.moved.along(given.L, a)) for a in range(group.dimension))
     second = tuple(tuple(map(tidied, row)) for row in hessian(given.L, zeta))
-    expression = _lagrangian(given, c)
+    carried = problem.advected
+    kind = "expression" if carried is None else "carried" if carried else "alone"
+    draft = c.draft("lagrangian", "definition")
+    expression = draft.step([Equation("L̃", given.L)], say(f"lagrangian.{kind}"))
     told = _momenta(momenta, forces, (expression, general["momenta"]), c)
     energy = _energy(given, momenta, zeta, (expression, told, general["energy"]), c)
     return Expressed(momenta, forces, second, (expression, told, energy))
-
-
-def _lagrangian(given: Lagrangian, c: Chapter) -> Step:
-    return c.draft("lagrangian", "definition").step(
-        [Equation("L̃", given.L)], say("lagrangian.expression")
-    )
 
 
 def _momenta(

@@ -45,7 +45,7 @@ def by_momenta(
     draft = c_u.draft("poisson_tensor", "Poisson tensor")
     draft.depends_on(coadjoint, basis.last, *stage.steps[:2])
     tensor = Equation("𝕁", ("matrix", *(("row", *map(tidied, row)) for row in variables)))
-    kind = "group" if problem.advected is None else "reduced"
+    kind = "group" if problem.advected is None else "reduced" if problem.advected else "dual"
     step = draft.step([tensor, moving], say(f"poisson_tensor.{kind}"))
     return (*_velocity(stage, group, mass, c), step)
 

@@ -1,0 +1,283 @@
+"""A random exact point of the evolution space of a fluid, with two variations and the motion.
+
+Displacements are maps (id + φ) ∘ g₀, φ nilpotent, composed by Taylor's formula; velocities are
+fields carried along by them; the acceleration and the pressure are those that leave a field without
+divergence.  No structure equation, no ∇_c and no rule of the walk is used.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from ..nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, nilpotent, part
+from .functions import ORDERS, Function, dot, shifted
+
+Fields = tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Locus:
+    """The points at which a step is to hold. ``contracted``: δt = 1, and X is the vector of δ;
+    ``vertical``: δ′t = 0 and η′ = 0; ``along``: η(X) = u; ``free``: u̇ is any field of the
+    algebra, and that of X; ``level``: ϑ leaves the density alone."""
+
+    contracted: bool = False
+    vertical: bool = False
+    along: bool = False
+    free: bool = False
+    level: bool = False
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A tangent vector: δt, η with δg = η ∘ g, and δu."""
+
+    time: Any
+    displacement: Fields
+    velocity: Fields
+
+
+class FluidModel:
+    """A point on a space; ``draw``: gives new numbers; ``advected``: is the density any series
+    1 + sθ?"""
+
+    def __init__(self, space: Any, draw: Any, at: Locus, *, advected: bool):
+        self.space, self.draw, self.at, self.advected = space, draw, at, advected
+        self.points = space.moved()
+        self.one = Function(space, {(0,) * space.length: Fraction(1)})
+        self.theta = space.level(draw)
+        self.u = self.solenoidal()
+        self.first = Direction(self.number(), self.solenoidal(), self.solenoidal())
+        wide = (self.solenoidal(wide=advected) for _ in range(2))
+        self.second = Direction(self.number(), *wide)
+        self.mixed = Direction(self.number(), self.solenoidal(), self.solenoidal())
+        self.moved_field = self._moved_field()
+        self.any_pressure = space.function(draw)
+        self.free_acceleration = self.solenoidal()
+        self.acceleration = self.free_acceleration if at.free else self.motion[0]
+        if at.along:
+            self.first = Direction(self.one, self.u, self.acceleration)
+        if at.contracted:
+            self.first = replace(self.first, time=self.one)
+        if at.vertical:
+            nothing = tuple(x * 0 for x in self.u)
+            self.second = replace(self.second, time=self.one * 0, displacement=nothing)
+
+    # -- draws ---------------------------------------------------------------------------------
+
+    def number(self) -> Any:
+        """A random number."""
+        return self.one * self.draw()
+
+    def solenoidal(self, *, wide: bool = False) -> Fields:
+        """A random field of the Lie algebra; ``wide``: with more modes, for products of four."""
+        return tuple(self.space.solenoidal(self.draw, wide=wide))
+
+    def _moved_field(self) -> Fields:
+        """ϑ: a field of the algebra; where it is to leave the density alone, one along the level
+        lines of θ, or the curl of a function times grad θ."""
+        if not (self.at.level and self.advected):
+            return self.solenoidal()
+        theta = [self.theta.d(j) for j in range(self.space.dimension)]
+        if self.space.dimension == 2:
+            return -theta[1], theta[0]
+        other = self.space.function(self.draw)
+        a, b = theta, [other.d(j) for j in range(3)]
+        return (
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        )
+
+    # -- the density ---------------------------------------------------------------------------
+
+    @cached_property
+    def density(self) -> Any:
+        """ρ."""
+        if not self.advected:
+            return self.one
+        s = Function(self.space, {(*(0,) * (self.space.length - 1), 1): Fraction(1)})
+        return self.one + s * self.theta
+
+    @cached_property
+    def inverse_density(self) -> Any:
+        """1/ρ, by the geometric series."""
+        small = self.one - self.density
+        found = power = self.one
+        for _ in range(ORDERS - 1):
+            power = power * small
+            found = found + power
+        return found
+
+    @cached_property
+    def mass(self) -> Any:
+        """The density over the points, which displacements keep."""
+        return self.at_points(self.density)
+
+    # -- maps ----------------------------------------------------------------------------------
+
+    def at_points(self, f: Any) -> Any:
+        """f ∘ g₀, also of a nilpotent function."""
+        if isinstance(f, Nilpotent):
+            return Nilpotent({k: self.space.carried(x, self.points) for k, x in f.parts.items()})
+        return self.space.carried(f, self.points)
+
+    @cached_property
+    def displacement(self) -> Fields:
+        """φ of the family (id + εη) ∘ (id + ε′η′) ∘ (id + εε′χ) of displacements that keep the
+        volume, to first order in each parameter."""
+        e, e_prime = nilpotent(EPS), nilpotent(EPS_PRIME)
+        chi = [e * e_prime * x for x in self.mixed.displacement]
+        inner = [x + e_prime * y for x, y in zip(chi, self.second.displacement, strict=True)]
+        outer = [shifted(x, inner) for x in self.first.displacement]
+        return tuple(x + e * y for x, y in zip(inner, outer, strict=True))
+
+    @cached_property
+    def velocities(self) -> Fields:
+        """u on the family."""
+        return tuple(
+            Nilpotent({0: x, EPS: a, EPS_PRIME: b, EPS | EPS_PRIME: c})
+            for x, a, b, c in zip(
+                self.u,
+                self.first.velocity,
+                self.second.velocity,
+                self.mixed.velocity,
+                strict=True,
+            )
+        )
+
+    @cached_property
+    def nu(self) -> Fields:
+        """ν = u ∘ g on the family, over the points."""
+        return self.composed(self.velocities)
+
+    def composed(self, field: Sequence[Any]) -> Fields:
+        """c ∘ g on the family, over the points."""
+        return tuple(self.at_points(shifted(x, self.displacement)) for x in field)
+
+    def eulerian(self, mask: int) -> Fields:
+        """∂g/∂ε ∘ g⁻¹ for ε of ``mask``, to first order in the other parameter, in space."""
+        other = EPS_PRIME if mask == EPS else EPS
+        moved = [_derived(x, mask) for x in self.displacement]
+        back = [nilpotent(other) * -part_of(x, other) for x in self.displacement]
+        return tuple(_linear(shifted(x, back, 1), other) for x in moved)
+
+    # -- forms ---------------------------------------------------------------------------------
+
+    def over_points(self, a: Sequence[Any], b: Sequence[Any]) -> Any:
+        """⟨a, b⟩ of fields over the points: the integral by the mass."""
+        return mean(dot(a, b) * self.mass)
+
+    def lagrangian(self, nu: Sequence[Any]) -> Any:
+        """½ ∫ ‖ν‖² dm."""
+        return self.over_points(nu, nu) * Fraction(1, 2)
+
+    def momentum(self, nu: Sequence[Any], moved: Sequence[Any]) -> Any:
+        """The derivative of L along ``moved``."""
+        faster = [x + nilpotent(ETA) * y for x, y in zip(nu, moved, strict=True)]
+        return _derived(self.lagrangian(faster), ETA)
+
+    def energy(self, nu: Sequence[Any]) -> Any:
+        """⟨p, ν⟩ − L."""
+        return self.momentum(nu, nu) - self.lagrangian(nu)
+
+    def cartan(self, direction: Direction) -> Any:
+        """ϖ of a tangent vector."""
+        moved = [self.at_points(x) for x in direction.displacement]
+        nu = [part_of(x, 0) for x in self.nu]
+        return part_of(
+            self.momentum(nu, moved) - self.energy(nu) * self.on_points(direction.time), 0
+        )
+
+    def on_points(self, number: Any) -> Any:
+        """A number as a function over the points."""
+        return self.at_points(number)
+
+    @cached_property
+    def exterior(self) -> Any:
+        """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family."""
+        found = []
+        for mask, other in ((EPS, EPS_PRIME), (EPS_PRIME, EPS)):
+            varied = self.second if other == EPS_PRIME else self.first
+            moved = [_linear(self.at_points(_derived(x, other)), mask) for x in self.displacement]
+            nu = [_linear(x, mask) for x in self.nu]
+            time = nilpotent(mask) * self.mixed.time + varied.time
+            whole = self.momentum(nu, moved) - self.energy(nu) * self.at_points(time)
+            found.append(part_of(whole, mask))
+        return found[0] - found[1]
+
+    # -- the motion ----------------------------------------------------------------------------
+
+    @cached_property
+    def material(self) -> Fields:
+        """The acceleration of the points where u does not change in time: of u ∘ (id + εu)."""
+        along = [nilpotent(EPS) * x for x in self.u]
+        return tuple(part_of(shifted(x, along, 1), EPS) for x in self.u)
+
+    @cached_property
+    def motion(self) -> tuple[Fields, Any]:
+        """u̇ and p: the acceleration of the points is −grad p/ρ, and u̇ is of the algebra, by
+        d'Alembert's principle; order by order in s."""
+        space, sigma = self.space, self.inverse_density
+        span = range(space.dimension)
+        p = self.one * 0
+        for _ in range(ORDERS if self.advected else 1):
+            rest = tuple(
+                a + (sigma - self.one) * p.d(j) for j, a in zip(span, self.material, strict=True)
+            )
+            p = -space.potential(rest)
+        rate = tuple(-(a + sigma * p.d(j)) for j, a in zip(span, self.material, strict=True))
+        return rate, p
+
+    @cached_property
+    def pressure(self) -> Any:
+        """p of the motion, with any constant."""
+        return self.motion[1] + self.number()
+
+    def rate_of_moved(self) -> Fields:
+        """∂ϑ/∂t: ϑ is moved with the points by id + εu, ϑ ↦ D(id + εu)ϑ ∘ (id − εu)."""
+        e, e_prime = nilpotent(EPS), nilpotent(EPS_PRIME)
+        ahead = [e_prime * x for x in self.moved_field]
+        pushed = [
+            part_of_first(shifted(x, ahead, 1)) * e + y
+            for x, y in zip(self.u, self.moved_field, strict=True)
+        ]
+        back = [-(e * x) for x in self.u]
+        return tuple(part_of(shifted(x, back, 1), EPS) for x in pushed)
+
+    def rate_of_density(self, field: Sequence[Any]) -> Any:
+        """The rate of ρ ∘ (id + εη)⁻¹."""
+        back = [-(nilpotent(EPS) * x) for x in field]
+        return part_of(shifted(self.density, back, 1), EPS)
+
+
+def part_of_first(x: Any) -> Any:
+    """The derivative in ε′."""
+    return part_of(x, EPS_PRIME)
+
+
+def part_of(x: Any, mask: int) -> Any:
+    """The coefficient of ``mask``."""
+    return part(x, mask)
+
+
+def mean(f: Any) -> Any:
+    """The mean of a function, or of each part of a nilpotent one."""
+    if isinstance(f, Nilpotent):
+        parts: dict[int, Any] = f.parts
+        return Nilpotent({mask: x.mean() for mask, x in parts.items()})
+    return f.mean()
+
+
+def _derived(x: Any, mask: int) -> Any:
+    """∂x/∂ε for ε of ``mask``, at ε = 0."""
+    return Nilpotent({k ^ mask: y for k, y in Nilpotent.of(x).parts.items() if k & mask})
+
+
+def _linear(x: Any, mask: int) -> Any:
+    """What depends on the parameter of ``mask`` alone."""
+    return Nilpotent({k: y for k, y in Nilpotent.of(x).parts.items() if not k & ~mask})

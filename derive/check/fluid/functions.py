@@ -1,0 +1,137 @@
+"""Functions on a space as sums of coefficients times monomials, whose products add exponents.
+
+On a torus a monomial is e^{ik·x}, k a sum of three frequencies with the exponents, on the disc it
+is a product of powers of x and y.  The last exponent is that of s, a letter with s³ = 0, for
+densities 1 + sθ.  Numbers are constant functions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from ..arithmetic import EvaluationError
+from ..nilpotent import Nilpotent
+
+Exponents = tuple[int, ...]
+ORDERS = 3
+"""Densities are series in s up to this power: claims are quadratic in them at most."""
+
+
+class Function:
+    """A function on a space: exponents → coefficients, in any ring."""
+
+    __slots__ = ("space", "terms")
+
+    def __init__(self, space: Any, terms: Mapping[Exponents, Any]):
+        self.space, self.terms = space, terms
+
+    def constant(self, x: Any) -> Function:
+        """A number as a function on the same space."""
+        return Function(self.space, {(0,) * self.space.length: x})
+
+    @property
+    def is_constant(self) -> bool:
+        """Is it a number, as far as its exponents tell?"""
+        return not any(any(m[:-1]) for m in self.terms)
+
+    def __add__(self, other: Any) -> Any:
+        if isinstance(other, Nilpotent):
+            return NotImplemented
+        if not isinstance(other, Function):
+            if other == 0:
+                return self
+            other = self.constant(other)
+        here = self._same(other)
+        total = dict(self.terms)
+        for m, x in other.terms.items():
+            total[m] = total[m] + x if m in total else x
+        return Function(here, total)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Function:
+        return Function(self.space, {m: -x for m, x in self.terms.items()})
+
+    def __sub__(self, other: Any) -> Any:
+        return self + (-other)
+
+    def __mul__(self, other: Any) -> Any:
+        if isinstance(other, Nilpotent):
+            return NotImplemented
+        if not isinstance(other, Function):
+            return Function(self.space, {m: x * other for m, x in self.terms.items()})
+        here = self._same(other)
+        total: dict[Exponents, Any] = {}
+        for m, x in self.terms.items():
+            for k, y in other.terms.items():
+                if m[-1] + k[-1] < ORDERS:
+                    e = tuple(map(int.__add__, m, k))
+                    total[e] = total[e] + x * y if e in total else x * y
+        return Function(here, total)
+
+    __rmul__ = __mul__
+
+    def _same(self, other: Function) -> Any:
+        """The common space; that of the other where one is a number."""
+        if self.space is other.space or other.is_constant:
+            return self.space
+        if self.is_constant:
+            return other.space
+        raise EvaluationError("a function over the points and one in space are not combined")
+
+    def d(self, j: int) -> Function:
+        """∂/∂x_j."""
+        found: Function = self.space.derivative(self, j)
+        return found
+
+    def mean(self) -> Function:
+        """The mean over the space, a number."""
+        found: Function = self.space.mean(self)
+        return found
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Function):
+            return bool(other == 0) and not any(x != 0 for x in self.terms.values())
+        try:
+            left = self - other
+        except EvaluationError:
+            return False
+        return bool(left == 0)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+Field = tuple[Any, ...]
+"""A vector field by its components."""
+
+
+def derivative(f: Any, j: int) -> Any:
+    """∂/∂x_j of a function, or of each part of a nilpotent one."""
+    if isinstance(f, Nilpotent):
+        parts: dict[int, Any] = f.parts
+        return Nilpotent({mask: x.d(j) for mask, x in parts.items()})
+    return f.d(j)
+
+
+def shifted(f: Any, by: Sequence[Any], powers: int = 2) -> Any:
+    """f(x + φ(x)) by Taylor's formula, where the products of more than ``powers`` φ vanish."""
+    total, weight = f, Fraction(1)
+    terms: list[tuple[Any, Any]] = [(f, None)]
+    for n in range(1, powers + 1):
+        weight /= n
+        terms = [
+            (derivative(g, j), y if x is None else x * y)
+            for g, x in terms
+            for j, y in enumerate(by)
+        ]
+        for g, x in terms:
+            total = total + g * x * weight
+    return total
+
+
+def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
+    """Σ a_j b_j at each place."""
+    first, *rest = (x * y for x, y in zip(a, b, strict=True))
+    return sum(rest, first)

@@ -1,0 +1,68 @@
+"""Kelvin's circulation: what the motion keeps by the symmetries of the right side.
+
+Displacements of the fluid before g, which keep the volume, leave u alone: g goes to g ∘ h, δu = 0
+and δg = Gϑ, where ϑ is carried along by the motion.  So p̃(Gϑ) = ⟨u, ϑ⟩ is constant.
+"""
+
+from __future__ import annotations
+
+from ...algebra.calculus import derivation, reduce, substitute, terms_with
+from ...algebra.vector_fields import along, with_derivatives
+from ...algebra.words import Expr, Letter, inner, word
+from ...language.tree import Tree
+from ...record.record import Equation, Step
+from ..chapter import Chapter
+from ..exterior import brackets_of
+from ..factorisation import factored_tree
+from ..trivialisation import varied_cauchy_green
+from ..wording import say
+from .fluid_kernel import FluidKernel
+from .fluid_letters import FluidAlphabet
+from .trivialised import trees
+
+
+def circulation(stage: FluidKernel, a: FluidAlphabet, c: Chapter) -> tuple[Step, ...]:
+    """The steps ``relabelling`` and ``circulation``."""
+    moving, keeping = c.draft("relabelling", "variation"), c.draft("circulation", "conservation")
+    w, u = a.w, word(a.w.velocity)
+    carried = word(a.moved_field)
+    # δη′ − δ′η for δ the relabelling and δ′ the motion: δu = 0, and δ′η is the rate of ϑ
+    crossed = brackets_of(a)[w.xi_prime]
+    found = -substitute(crossed, with_derivatives({w.xi: carried, w.xi_prime: u}))
+    told = [Equation(a.moved_rate.name, moving.tree(found))]
+    images = {a.moved_field: moving.mark(found), w.velocity: word(w.acceleration)}
+    given: list[Equation] = []
+    if a.advected:
+        density = varied_cauchy_green(a, along(w.velocity))
+        told.append(Equation("ρ̇", moving.tree(density)))
+        images[a.C] = moving.mark(density)
+        turned, density = word(along(a.moved_field)), word(a.C)
+        given = [Equation(keeping.tree(turned * density), keeping.tree(density * turned))]
+    first = moving.step(told, say("relabelling.field"))
+    momentum = inner(u, a.volume * carried)
+    changed = derivation(momentum, images.get)
+    driven = substitute(stage.balance, {w.xi_prime: carried})
+    left = skew_part(changed - driven, a)
+    if left:
+        raise ValueError("the circulation is not kept")
+    moved = word(w.acceleration) + word(along(w.velocity)) * u
+    pushed = factored_tree(
+        keeping, driven, terms_with(driven, w.acceleration), {w.acceleration: moved}, trees(a)
+    )
+    rated: Tree = ("call", "d/dt", keeping.tree(momentum, trees(a)))
+    second = keeping.step(
+        (
+            Equation(rated, pushed, (w.acceleration.name,)),
+            Equation(rated, 0),
+        ),
+        say(f"circulation.{'advected' if a.advected else 'homogeneous'}"),
+        where=given,
+    )
+    return first, second
+
+
+def skew_part(e: Expr, a: FluidAlphabet) -> Expr:
+    """A scalar in which ρ∇_ϑ = ∇_ϑρ is one letter, skew as ∇_ϑ is."""
+    both = {along(a.moved_field), a.C}
+    product = word(Letter("ρ∇_ϑ", a.n, a.n, symmetry=-1))
+    return reduce(e, lambda x, y: product if {x[0], y[0]} == both else None)

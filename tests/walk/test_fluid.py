@@ -1,0 +1,212 @@
+"""An incompressible fluid: known flows, what a wrong rule or field does, bad input."""
+
+import json
+from dataclasses import replace
+
+import pytest
+import sympy
+
+from derive import Fluid, Problem, ProblemError
+from derive import derive as derived
+from derive.algebra import forms
+from derive.check.checker import check, checker_of
+from derive.check.fluid.flat_torus import Torus
+from derive.command.cli import load_problem, main
+from derive.language.show import show
+from derive.pipeline import walk
+from derive.problem.toml import problem_of
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
+from derive.record.record import RecordError
+from derive.walk.failure import WalkError
+from tests.support.walks import FLUIDS, SEED, record
+
+ELLIPTIC = "pressure_equation"
+x, y = sympy.symbols("x y")
+PLACE = (x, y)
+
+
+def flow(tree, names):
+    """A tree in the fields of a plane flow, by SymPy: no code of derive but its trees."""
+    if isinstance(tree, str):
+        return names[tree]
+    if not isinstance(tree, tuple):
+        return sympy.Rational(tree)
+    op, *parts = tree
+    if op == "mul" and isinstance(parts[-2], tuple) and parts[-2][0] == "nabla":
+        along, field = flow(parts[-2][1], names), flow(parts[-1], names)
+        before = sympy.prod([flow(z, names) for z in parts[:-2]])
+        return before * field.jacobian(PLACE) * along
+    if op == "call":
+        field = flow(parts[1], names)
+        return {
+            "grad": lambda: sympy.Matrix([field.diff(z) for z in PLACE]),
+            "div": lambda: sum(f.diff(z) for f, z in zip(field, PLACE, strict=True)),
+            "Δ": lambda: sum(field.diff(z, 2) for z in PLACE),
+            "∇": lambda: field.jacobian(PLACE),
+            "∂ₙ": lambda: sum(field.diff(z) * n for z, n in zip(PLACE, names["n"], strict=True)),
+        }[parts[0]]()
+    if op in ("pow", "inv"):
+        return flow(parts[0], names) ** (parts[1] if op == "pow" else -1)
+    values = [flow(z, names) for z in parts]
+    if op == "add":
+        return sum(values[1:], values[0])
+    if op == "mul":
+        return sympy.prod(values)
+    return {"tr": lambda a: a.trace(), "inner": lambda a, b: a.dot(b)}[op](*values)
+
+
+def vanishes(found):
+    entries = found if isinstance(found, sympy.MatrixBase) else [found]
+    return all(sympy.simplify(z) == 0 for z in entries)
+
+
+TAYLOR_GREEN = {
+    "u": sympy.Matrix([sympy.sin(x) * sympy.cos(y), -sympy.cos(x) * sympy.sin(y)]),
+    "u̇": sympy.zeros(2, 1),
+    "p": (sympy.cos(2 * x) + sympy.cos(2 * y)) / 4,
+}
+TURNING = {  # as a solid, in a disc of any radius
+    "u": sympy.Matrix([-y, x]),
+    "u̇": sympy.zeros(2, 1),
+    "p": (x**2 + y**2) / 2,
+    "n": sympy.Matrix([x, y]),
+}
+STRATIFIED = {"ρ": 1 + x**2 + y**2, "p": (x**2 + y**2) / 2 + (x**2 + y**2) ** 2 / 4}
+
+
+@pytest.mark.parametrize(
+    ("name", "names", "keys"),
+    [
+        ("ideal_fluid", TAYLOR_GREEN, ["pressure.3", "divergence_along.1", f"{ELLIPTIC}.2"]),
+        (
+            "ideal_fluid",
+            TURNING,
+            ["pressure.3", "divergence_along.1", f"{ELLIPTIC}.2", "boundary.2"],
+        ),
+        (
+            "inhomogeneous_fluid",
+            TURNING | STRATIFIED,
+            ["pressure.3", f"{ELLIPTIC}.1", "boundary.2"],
+        ),
+    ],
+)
+def test_known_steady_flows(name, names, keys):
+    for key in keys:
+        label, k = key.split(".")
+        equation = record(name)[label].equations[int(k) - 1]
+        both = [flow(z, names) for z in (equation.lhs, equation.rhs)]
+        assert vanishes(both[0] - both[1]), key
+
+
+def test_what_it_ends_in():
+    last = [[show(e.lhs), show(e.rhs)] for e in record("ideal_fluid")[ELLIPTIC].equations]
+    assert last[-1] == ["−Δp", "Tr (∇u)²"]
+    density = record("inhomogeneous_fluid")[ELLIPTIC].equations[-1]
+    assert [show(density.lhs), show(density.rhs)] == ["−div(ρ⁻¹ grad p)", "Tr (∇u)²"]
+
+
+@pytest.mark.parametrize("name", FLUIDS)
+def test_every_step_holds_and_is_read_again(name):
+    found = check(record(name), SEED)
+    assert [v for v in found if not v.holds] == []
+    assert max(v.bound for v in found) < 1e-30
+    assert from_json(to_json(record(name))) == record(name)
+
+
+@pytest.mark.parametrize("name", FLUIDS)
+def test_a_wrong_structure_equation_leads_nowhere(name, monkeypatch):
+    right = forms.structure_equation
+    monkeypatch.setattr(forms, "structure_equation", lambda *a: -right(*a))
+    with pytest.raises(WalkError, match="divergence of the acceleration"):
+        walk(load_problem(name))
+
+
+def test_fields_with_a_divergence_break_what_rests_on_it(monkeypatch):
+    """So that each of these steps is tried where it needs its hypothesis."""
+    monkeypatch.setattr(Torus, "solenoidal", lambda self, draw, wide=False: self.any_field(draw))
+    d = record("ideal_fluid")
+    checker = checker_of(d.problem, SEED)
+    broken = {s.label.partition(".")[2] for s in d.steps if not checker.check(s).holds}
+    assert {"skew", "divergence", "kernel", "divergence_along", "pressure_equation"} <= broken
+    assert "structure" not in broken
+    assert "chain" not in broken
+
+
+def test_without_what_is_given_a_step_is_refused():
+    checked = 0
+    for name in FLUIDS:
+        d = record(name)
+        checker = checker_of(d.problem, SEED)
+        for step in d.steps:
+            for k in range(len(step.given)):
+                fewer = replace(step, given=step.given[:k] + step.given[k + 1 :])
+                assert not checker.check(fewer).holds, step.label
+                checked += 1
+            if step.hypotheses:
+                assert not checker.check(replace(step, hypotheses=())).holds
+    assert checked == 11
+
+
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        ("emit ideal_fluid --lang c", "nothing to emit"),
+        ("symmetries ideal_fluid", "no matrices"),
+        ("integrals ideal_fluid", "no matrices"),
+        ("equilibria inhomogeneous_fluid", "no matrices"),
+    ],
+)
+def test_there_is_nothing_to_emit(command, words, capsys):
+    assert main(command.split()) == 2
+    said = capsys.readouterr().err
+    assert words in said
+    assert said.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"fluid": {"density": "homogenous"}}, "did you mean 'homogeneous'"),
+        ({"fluid": 3}, "a table"),
+        ({"fluid": {"viscosity": 1}}, "viscosity"),
+        ({"fluid": {}, "group": "SO(3)"}, "'group'"),
+        ({"fluid": {}, "point": []}, "'point'"),
+        ({"fluid": {}, "name": "left"}, "choose another"),
+        ({"fluid": {}, "name": "a b"}, "'name'"),
+    ],
+)
+def test_bad_input(changed, words):
+    with pytest.raises(ProblemError, match=words):
+        problem_of({"name": "sea", **changed})
+
+
+def test_sympy_has_no_fields():
+    found = derived(Problem("sea", Fluid()))
+    for label in ("kernel", "lagrangian", "pressure"):
+        with pytest.raises(ValueError, match="fluid"):
+            found[label].sympy()
+
+
+def test_in_python_as_in_a_file():
+    assert Problem("sea", Fluid("advected")) == problem_of(
+        {"name": "sea", "fluid": {"density": "advected"}, "parameters": {}}
+    )
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"fluid": {"density": "none"}},
+        {"group": "SO(3)"},
+        {"n": 3},
+        {"parameters": {"k": {}}},
+        {"body": {"kind": "any"}},
+        {"frame": {}},
+    ],
+)
+def test_a_strangers_header(changed):
+    data = json.loads(to_json(record("ideal_fluid")))
+    data["problem"] |= changed
+    with pytest.raises(RecordError):
+        from_json(json.dumps(data))
