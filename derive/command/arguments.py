@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from .. import __version__
 from ..language.near_names import did_you_mean, near_name
@@ -36,17 +36,31 @@ def add_emission_options(emit: argparse.ArgumentParser) -> None:
 
 
 def positive(words: str) -> float:
-    """A number of seconds from its text; ``ValueError`` unless it is positive and below 1e9."""
-    if not 0 < (seconds := float(words)) < 1e9:
-        raise ValueError(words)
+    """A number of seconds from its text; ``ArgumentTypeError`` unless it is positive and below
+    1e9."""
+    try:
+        seconds = float(words)
+    except ValueError:
+        seconds = 0.0
+    if not 0 < seconds < 1e9:
+        raise argparse.ArgumentTypeError(f"expected seconds, above 0, not {words[:40]!r}")
     return seconds
 
 
 def natural(words: str) -> int:
-    """An integer that is not negative, from its text; ``ValueError`` for any other."""
-    if (number := int(words)) < 0:
-        raise ValueError(words)
-    return number
+    """An integer that is not negative, from its text; ``ArgumentTypeError`` for any other."""
+    if not re.fullmatch(r"[0-9]{1,4000}", words):
+        raise argparse.ArgumentTypeError(f"expected an integer, 0 or more, not {words[:40]!r}")
+    return int(words)
+
+
+def both(words: str) -> str:
+    """The word "both"; ``ArgumentTypeError`` for any other."""
+    if words != "both":
+        key = f": trivialisation = {words!r} stands in the file, in [lagrangian] or [inertia]"
+        own = key if words in ("left", "right") else ""
+        raise argparse.ArgumentTypeError(f"expected both, not {words[:40]!r}{own}")
+    return words
 
 
 Command = Callable[[argparse.Namespace], int]
@@ -68,6 +82,10 @@ class Parser(argparse.ArgumentParser):
             near = near_name(option.partition("=")[0], self._known())
             self.error(one_line(what + did_you_mean(near, "; ")))
         return found, left
+
+    def error(self, message: str) -> NoReturn:
+        """What is wrong in one line, and exit 2; --help has the usage."""
+        self.exit(2, f"{self.prog}: error: {one_line(message)}\n")
 
     def _known(self) -> list[str]:
         return [x for action in self._actions for x in action.option_strings]
@@ -96,7 +114,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     )
     add_reading_options((walk, symmetries, reduction), (searched, steady), made)
     about = "first what holds for any Lagrangian, on the left beside the right"
-    walk.add_argument("--trivialisation", choices=("both",), help=about)
+    walk.add_argument("--trivialisation", type=both, metavar="both", help=about)
     add_search_options(searched)
     about = "a coordinate of an equilibrium, as Pi_3=2 or sqrt(3)/2; repeated, others are 0"
     steady.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -135,6 +136,10 @@ def command_equilibria(args: argparse.Namespace) -> int:
 
     if args.near and args.at:
         raise UsageError("--at is exact and --near is not: give one of them")
+    for option, given in (("--at", args.at), ("--near", args.near)):
+        several = Counter(name for name, _ in given or ())
+        if twice := [name for name, count in several.items() if count > 1]:
+            raise UsageError(f"{option} {twice[0]}: given more than once; leave out all but one")
     found: object
     if args.near:
         found, record = equilibrium_near(load_problem(args.problem), dict(args.near))
@@ -270,24 +275,37 @@ def command_check(args: argparse.Namespace) -> int:
     from ..check.checker import verdicts as check
     from ..record.json_reader import read
 
-    failed, seed = 0, fresh_seed() if args.seed is None else args.seed
+    failed, refused, seed = 0, 0, fresh_seed() if args.seed is None else args.seed
     for name in args.problem:
-        stored = name.endswith(".json")
-        record = read(Path(name)) if stored else derive(name, **allowances(args))[1]
-        verdicts = list(with_progress(check(record, seed), 1 + len(record.steps), name))
-        for v in verdicts:
-            words = _trial_text(v) if v.holds else one_line(v.reason)
-            print(f"{'holds' if v.holds else 'FAILS'}  {v.label}: {words}")
-        bad, steps = sum(not v.holds for v in verdicts), [v for v in verdicts if v.of == "equation"]
-        holding, bound = sum(v.holds for v in steps), max(v.bound for v in verdicts)
-        print(
-            f"{one_line(name)}: {holding} of {len(steps)} steps hold exactly"
-            + (", but the symbols are not as declared" if bad + holding > len(steps) else "")
-            + ("" if bad else f"; a false one passes with probability below {bound:.0e}")
-        )
-        failed += bad
+        try:
+            record = (
+                read(Path(name)) if name.endswith(".json") else derive(name, **allowances(args))[1]
+            )
+            verdicts = list(with_progress(check(record, seed), 1 + len(record.steps), name))
+        except Refused as error:
+            if len(args.problem) == 1:
+                raise
+            print(f"derive: {one_line(error)}", file=sys.stderr)
+            refused += 1
+            continue
+        failed += told(name, verdicts)
     print(f"seed {seed} (--seed repeats this run)")
-    return 1 if failed else 0
+    return 2 if refused else 1 if failed else 0
+
+
+def told(name: str, verdicts: Sequence[Verdict]) -> int:
+    """Print the verdicts on the record of a name: how many fail."""
+    for v in verdicts:
+        words = _trial_text(v) if v.holds else one_line(v.reason)
+        print(f"{'holds' if v.holds else 'FAILS'}  {v.label}: {words}")
+    bad, steps = sum(not v.holds for v in verdicts), [v for v in verdicts if v.of == "equation"]
+    holding, bound = sum(v.holds for v in steps), max(v.bound for v in verdicts)
+    print(
+        f"{one_line(name)}: {holding} of {len(steps)} steps hold exactly"
+        + (", but the symbols are not as declared" if bad + holding > len(steps) else "")
+        + ("" if bad else f"; a false one passes with probability below {bound:.0e}")
+    )
+    return bad
 
 
 def _trial_text(v: Verdict) -> str:

@@ -24,7 +24,7 @@ from .fields import LIKE_A_PLACE
 from .moments import SolidError, first_moment, given_by, second_moment
 from .problem import ProblemError, points_of
 from .solids import fault_of_quadric, rotation_about
-from .state_names import meant, reduced_names, state_names
+from .state_names import known_in_lagrangian, meant, state_names
 
 AXES = "xyz"
 Vector = tuple[Tree, ...]
@@ -121,9 +121,7 @@ class FileReader(TableReader):
     @property
     def state_names(self) -> dict[str, Tree]:
         """Name → what it stands for in a Lagrangian."""
-        if self.advected is None:
-            return state_names(self.moving())
-        return reduced_names(self.moving(), self.advected)
+        return known_in_lagrangian(self.moving(), self.advected)
 
     def space(self, _: Slot) -> int:
         """The dimension of its space."""

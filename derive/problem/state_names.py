@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 
 from ..algebra.groups import Group
@@ -9,10 +10,33 @@ from ..language.suffixed import suffixed
 from ..language.tree import Tree
 from ..schema.algebra_kinds import Advected
 
+LIKE_AN_ENTRY = re.compile(r"A[0-9]*_([1-9]{2}|[0-9]+_[0-9]+)|(T|zeta)[0-9]*_[1-9][0-9]*")
+"""What an entry of the state of some group is called."""
+
+
+def no_entry(name: str, group: Group, known: Mapping[str, Tree]) -> str:
+    """That a state with the ``known`` names has none of this name, in words, where it is like that
+    of an entry; "" for any other."""
+    if not LIKE_AN_ENTRY.fullmatch(name):
+        return ""
+    runs: dict[str, list[str]] = {}
+    for x in known:
+        runs.setdefault(x.partition("_")[0], []).append(x)
+    ends = (dict.fromkeys((run[0], run[-1])) for x, run in runs.items() if x != "t")
+    entries = ", ".join(map(" … ".join, ends))
+    on_group = any(isinstance(t, tuple) and t[1] == "A" for t in known.values())
+    whose = group.name if on_group else "the state of this algebra"
+    return f"{whose} has no {name[:40]}; its entries are {entries}"
+
 
 def coordinates(group: Group) -> list[Tree]:
     """The coordinates ζ_1 … ζ_d of a velocity, as trees."""
     return [("entry", "ζ", a) for a in range(1, group.dimension + 1)]
+
+
+def known_in_lagrangian(group: Group, advected: Sequence[Advected] | None) -> dict[str, Tree]:
+    """Name → what it stands for in a Lagrangian."""
+    return state_names(group) if advected is None else reduced_names(group, advected)
 
 
 def reduced_names(group: Group, advected: Sequence[Advected]) -> dict[str, Tree]:

@@ -21,7 +21,7 @@ from .file_reader import FileReader
 from .moved_entries import EntriesOfElement, plain
 from .null_directions import Direction, along, held, hessian, null_directions, vanishes
 from .problem import ProblemError
-from .state_names import coordinates
+from .state_names import coordinates, no_entry
 
 
 def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lagrangian:
@@ -35,6 +35,8 @@ def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lag
             raise ProblemError(
                 f"parameter {name!r}: an entry of the state in [{where}]; choose another name"
             )
+        if fault := no_entry(name, group, reader.state_names):
+            raise ProblemError(f"parameter {name[:40]!r}: {fault}; choose another name")
     if not isinstance(data[where], dict):
         raise ProblemError(f"key {where!r} must be a table [{where}]")
     table = reader.whole(own, data[where], where)

@@ -37,6 +37,7 @@ from .file_reader import FileReader
 from .forces import forces, negative_stiffness_of
 from .group import group_of
 from .problem import Problem, ProblemError
+from .state_names import known_in_lagrangian, no_entry
 from .stated_algebra import carried_group
 from .stated_lagrangian import lagrangian
 from .stated_torus import on_torus, torus_problem
@@ -293,8 +294,10 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
             where, shown = used_at(data, name), name[:40]
             hint = nearest(shown, problem.parameters).removeprefix("; ")
             other = f"{hint} Else " if hint else ""
-            if problem.lagrangian and problem.group and name.startswith("zeta_"):
-                other = f"Z has zeta_1 to zeta_{problem.group.dimension}. Else "
+            if problem.lagrangian and problem.group:
+                known = known_in_lagrangian(problem.group, problem.advected)
+                if fault := no_entry(name, problem.group, known):
+                    raise ProblemError(f"{where}: {fault}")
             raise ProblemError(f"{where}: {shown!r} is not declared; {other}add it to [parameters]")
     own = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}
     for name in data.get("parameters", {}):

@@ -75,7 +75,10 @@ def test_advected(name):
 OTHERS = {
     "a group beside": ({"group": "SO(3)"}, "give either 'group' or [algebra]"),
     "no Lagrangian": ({"lagrangian": None}, "an algebra moves no points: give a [lagrangian]"),
-    "an entry of g": ({"lagrangian": {"L": SQUARE["L"] + " - A_33"}}, "'A_33' is not declared"),
+    "an entry of g": (
+        {"lagrangian": {"L": SQUARE["L"] + " - A_33"}},
+        "the state of this algebra has no A_33; its entries are",
+    ),
     "points": ({"point": [{"mass": 1, "at": [1, 0, 0]}]}, "key 'point'"),
     "a parameter": ({"parameters": {"gamma_1": 1}}, "parameter 'gamma_1': an entry of the state"),
     "an entry outside": ({"lagrangian": {"L": SQUARE["L"] + " - gamma_4"}}, "'gamma_4' is not"),

@@ -33,10 +33,15 @@ TABLES = {
     ),
     "linear": ({"L": "zeta_1*A_11"}, "singular along E_1, and L is linear there"),
     "linear beside": ({"L": "zeta_1^2 + zeta_2^2 + zeta_3"}, "along E_3, and L is linear there"),
-    "another entry": ({"L": SQUARE + " + A_14"}, "'A_14' is not declared"),
+    "another entry": ({"L": SQUARE + " + A_14"}, "SO(3) has no A_14; its entries"),
+    "a translation": (
+        {"L": SQUARE + " + T_1"},
+        "lagrangian, key 'L': SO(3) has no T_1; its entries are A_11 … A_33, zeta_1 … zeta_3",
+    ),
+    "no entry at all": ({"L": SQUARE + " + A_1"}, "'A_1' is not declared"),
     "another coordinate": (
         {"L": SQUARE + " + zeta_4"},
-        "not declared; Z has zeta_1 to zeta_3. Else",
+        "SO(3) has no zeta_4; its entries are A_11 … A_33, zeta_1 … zeta_3",
     ),
     "a place": ({"L": SQUARE + " + r1_x"}, "r1_x"),
     "code": ({"L": "__import__('os')"}, "not part of an expression"),
@@ -80,6 +85,14 @@ OTHERS = {
     "any group": ({"group": "any", "action": "linear"}, "a text about any group has no Lagrangian"),
     "a force": ({"input": [{"name": "F", "kind": "force", "on": 1}]}, "an input is a covector"),
     "a taken name": ({"parameters": {"A_11": 1}}, "parameter 'A_11': an entry of the state"),
+    "a name of another group's": (
+        {"parameters": {"T_1": 1}, "lagrangian": {"L": SQUARE + "*T_1"}},
+        "parameter 'T_1': SO(3) has no T_1; its entries are A_11 … A_33, zeta_1 … zeta_3; choose",
+    ),
+    "in a product": (
+        {"group": "SO(2) x SE(2)", "parameters": {"zeta1_1": 1}},
+        "no zeta1_1; its entries are A1_11 … A1_22, A2_11 … A2_22, T2_1 … T2_2, zeta_1 … zeta_4",
+    ),
     "no table": ({"lagrangian": "zeta_1^2"}, "must be a table [lagrangian]"),
     "an input that nothing answers": (
         {

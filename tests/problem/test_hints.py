@@ -88,9 +88,47 @@ def test_an_unknown_option(words, named, meant, capsys):
         main(words)
     assert ended.value.code == 2
     err = capsys.readouterr().err
-    assert err.startswith(f"usage: derive {words[0]} ")
+    assert err.startswith(f"derive {words[0]}: error: ")
+    assert err.count("\n") == 1
     assert named in err
     assert (f"did you mean {meant}?" in err) == bool(meant)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["integrals", "euler_top", "--degree", "0"], "an integer from 1 to 40, not '0'"),
+        (["equilibria", "euler_top", "--at", "Pi_3=1/0"], "'1/0' is no exact number"),
+        (["walk", "so3", "--trivialisation", "right"], "trivialisation = 'right' stands in the"),
+        (["walk", "so3", "--seconds", "soon"], "expected seconds, above 0, not 'soon'"),
+        (["check", "so3", "--seed", "-1"], "expected an integer, 0 or more, not '-1'"),
+        (["emit", "so3", "--lang", "cobol"], "invalid choice: 'cobol' (choose from 'c', "),
+    ],
+)
+def test_a_wrong_value(words, said, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(words)
+    assert ended.value.code == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert err.startswith(f"derive {words[0]}: error: argument {words[-2]}")
+    assert said in err
+
+
+@pytest.mark.parametrize("option", ["--at", "--near"])
+def test_one_coordinate_twice(option, capsys):
+    assert main(["equilibria", "euler_top", option, "Pi_3=1", option, "Pi_3=2"]) == 2
+    assert f"{option} Pi_3: given more than once" in capsys.readouterr().err
+
+
+def test_check_goes_on_behind_what_it_cannot_read(tmp_path, capsys):
+    bad = tmp_path / "bad.toml"
+    bad.write_text('name = "bad"\n')
+    assert main(["check", str(bad), "missing.json", "euler_top"]) == 2
+    out, err = capsys.readouterr()
+    assert "euler_top: " in out
+    lines = [x for x in err.splitlines() if x.startswith("derive: ")]
+    assert [f"{bad}: " in lines[0], "missing.json: No such file" in lines[1]] == [True, True]
 
 
 @pytest.mark.no_cover  # what is stopped under a tracer may bring the interpreter down
