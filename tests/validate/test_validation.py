@@ -111,6 +111,7 @@ def test_every_ready_made_problem_equals_its_record(name):
     assert python.holds, python.text
     drift = {
         "euler_poisson": "",
+        "gas_cloud": "",
         "gl3": "",
         "jelly": "",
         "screw": ", project, defect (at the unit of the group)",
