@@ -161,7 +161,7 @@ class Translation:
                 return self.count[self.family(x[1])[1]]
             if isinstance(x, tuple) and x[0] == "entry" and index in x[2:]:
                 return self.of(x[1]).shape[x[2:].index(index)]
-        raise ValueError(f"the index {index} counts nothing")
+        raise ValueError(f"a sum over {index}, a place of the lattice, is none of SymPy's")
 
     # -- functions -----------------------------------------------------------------------------
 
@@ -291,7 +291,7 @@ OPERATIONS: dict[str, Callable[..., Any]] = {
     "metric": lambda m, a, b: _inner(a, b, m),
     "norm2": lambda *x: _inner(x[-1], x[-1], *x[:-1]),
     "bracket": _bracket,
-    "wedge": lambda a, b: sympy.MatMul(Hat(a), b),
+    "wedge": lambda a, b: sympy.MatMul(Hat(a), b) if a.rows != 2 else a[0] * b[1] - a[1] * b[0],
     "hat": Hat,
     "row": lambda *x: x,
     "matrix": lambda *rows: sympy.ImmutableMatrix(rows),

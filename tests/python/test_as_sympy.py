@@ -109,7 +109,8 @@ def test_values(name):
 
 def test_how_many_need_no_function():
     """The figures of docs/sympy.md: functions are those that SymPy does not know, as ϖ(δy)."""
-    found = [eq for x in (*NAMES, *OTHERS) for eq in equations_of(derive.derive(x))]
+    names = [x for x in (*NAMES, *OTHERS) if x != "zeitlin"]  # sums over a lattice
+    found = [eq for x in names for eq in equations_of(derive.derive(x))]
     plain = [eq for eq in found if not eq.atoms(AppliedUndef, Applied)]
     assert all(isinstance(eq, sympy.Eq) for eq in found)
     page = (ROOT / "docs" / "sympy.md").read_text(encoding="utf-8")

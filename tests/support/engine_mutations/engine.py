@@ -68,10 +68,10 @@ def produce(job: Job) -> Output:
 
 def found(sought: str, problem: Any) -> Any:
     """The record of what is found of a problem beside its walk."""
-    from derive.pipeline import equilibria, integrals, symmetries, walk
+    from derive.pipeline import equilibria, integrals, reduction, symmetries, walk
 
-    if sought == "symmetries":
-        return symmetries(problem, walk(problem)).record
+    if sought in ("symmetries", "reduction"):
+        return (symmetries if sought == "symmetries" else reduction)(problem, walk(problem)).record
     return (integrals(problem) if sought == "integrals" else equilibria(problem, {}))[1]
 
 

@@ -21,8 +21,8 @@ from tests.support.engine_mutations.judge import CAUGHT, HARMLESS, LATE, Verdict
 from tests.support.engine_mutations.operators import Mutant, mutants
 
 ROOMS = (
-    *("language", "algebra", "problem", "walk", "walk/kinds", "walk/lie", "code"),
-    *("integrals", "symmetries", "equilibria"),
+    *("language", "algebra", "problem", "walk", "walk/kinds", "walk/lie", "walk/fluid", "code"),
+    *("integrals", "symmetries", "equilibria", "reduction"),
 )
 LEFT = {
     "language/show.py": "prints trees",
