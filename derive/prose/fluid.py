@@ -37,11 +37,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     "trivialisation": {
         "fluid": (
             "Velocities and displacements are told at the place where a point is: G is the "
-            "composition with g. As g keeps the volume, u, η and η′ are divergence-free, and "
-            "tangent to the boundary, if there is one.",
+            "composition with g, so that the tangent bundle is trivialised on the right. As g "
+            "keeps the volume, u, η and η′ are divergence-free, and tangent to the boundary, if "
+            "there is one.",
             "Vitesses et déplacements sont dits au lieu où se trouve le point : G est la "
-            "composition avec g. Comme g conserve le volume, u, η et η′ sont solénoïdaux, et "
-            "tangents au bord éventuel.",
+            "composition avec g, si bien que le fibré tangent est trivialisé à droite. Comme g "
+            "conserve le volume, u, η et η′ sont solénoïdaux, et tangents au bord éventuel.",
         ),
     },
     "chain": {
@@ -201,11 +202,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         "advected": (
             "The momentum on ϑ is constant along the motion where ϑ leaves the density alone, "
             "which the fluid carries along as well. For a field ϑ in a thin tube around a closed "
-            "curve in a level surface of ρ it is the circulation of ρu: Kelvin’s theorem.",
+            "curve that moves with the fluid in a level surface of ρ it is the circulation of ρu: "
+            "Kelvin’s theorem.",
             "Le moment sur ϑ est constant le long du mouvement là où ϑ laisse invariante la "
             "densité, que le fluide transporte aussi. Pour un champ ϑ dans un tube mince autour "
-            "d’une courbe fermée dans une surface de niveau de ρ, c’est la circulation de ρu : le "
-            "théorème de Kelvin.",
+            "d’une courbe fermée qui suit le fluide dans une surface de niveau de ρ, c’est la "
+            "circulation de ρu : le théorème de Kelvin.",
         ),
     },
 }

@@ -119,7 +119,8 @@ class Routhian:
         kept = []
         for k in range(self.functions.first_entry, len(self.functions.leaves)):
             rates = self.slopes(self.functions.leaves[k], moved)
-            if all(not _paired(eta, rates) for eta in fields) and any(rates):
+            moves = any(self.functions.simplified(_paired(eta, rates)) for eta in fields)
+            if any(rates) and not moves:
                 kept.append(k)
         return tuple(kept)
 

@@ -143,8 +143,8 @@ class _Trees:
             return ("div", 1, parts[0])
         if x.op == "fun" and is_integral(x.data):
             raise ProblemError(
-                "symmetries are not sought where self_gravity acts: its energy is an integral, no "
-                "expression; the walk says what is kept"
+                "the Lagrangian is no expression where self_gravity acts, whose energy is an "
+                "integral: nothing is sought in it; the walk says what is kept"
             )
         if x.op == "fun":
             return ("fun", x.data, parts[0])

@@ -287,7 +287,7 @@ def test_bodies_that_are_no_ellipsoid(body):
 
 def test_what_is_not_written_or_sought():
     d = derive.derive(NAME)
-    with pytest.raises(ProblemError, match="symmetries are not sought where self_gravity acts"):
+    with pytest.raises(ProblemError, match="nothing is sought in it"):
         pipeline.symmetries(d.problem, d.record)
     with pytest.raises(ValueError, match="derivatives of the integrals of self_gravity"):
         d.emit(jacobian=("state",))

@@ -106,6 +106,7 @@ def _require_written(d: Derivation, chosen: Options) -> None:
         (chosen.velocity != "body", f"--velocity {chosen.velocity}"),
         (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
         (chosen.momenta, "--momenta"),
+        (chosen.multiplier, "--multiplier"),
     ):
         if on:
             raise LoweringError(
