@@ -1,0 +1,76 @@
+"""Statements about a fluid that have no meaning are refused, and it is said why."""
+
+from dataclasses import replace
+
+import pytest
+
+from derive.check.fluid.fluid_checker import FluidChecker
+from derive.record.record import Equation
+from tests.support.walks import SEED, record
+
+D = record("ideal_fluid")
+STEP = D["ideal_fluid.pressure"]
+WITHOUT = {
+    "no name": (("add", "u", "foo"), "u", "no value for 'foo'"),
+    "no operation": (("hat", "u"), "u", "has no meaning for fields"),
+    "two kinds in a sum": (("add", "u", "p"), "u", "a sum of things of two kinds"),
+    "two fields": (("mul", "u", "u"), "u", "these are not multiplied"),
+    "a function as a factor": (("mul", "p", "u"), "u", "a function is no factor"),
+    "no function": (("call", "foo", "u"), "u", "no function 'foo'"),
+    "one argument": (("call", "dϖ", "δy"), 0, "dϖ has 2 arguments, not 1"),
+    "a form of a field": (("call", "dϖ", "u", "δy"), 0, "a form is of a variation"),
+    "X where nothing is given": (("call", "ϖ", "X"), 0, "nothing is given of X"),
+    "the gradient of a field": (("call", "grad", "u"), "u", "a function in space is expected"),
+    "the divergence of a function": (("call", "div", "p"), "p", "a field is expected"),
+    "the divergence over the points": (("call", "div", "ν"), 0, "a field in space is expected"),
+    "the integral of a field": (("call", "∫", "u"), 0, "over the points"),
+    "the variation of u": (("call", "δ", "u"), "u", "δ is of η′, G and ρ"),
+    "the rate of a field": (("call", "d/dt", "u"), "u", "d/dt is of a scalar product"),
+    "the rate of a product": (("call", "d/dt", ("inner", "u", "η")), 0, "the rates of u and ϑ"),
+    "a metric": (("call", "d/dt", ("metric", "D", "u", "ϑ")), 0, "the metric is the density"),
+    "along a function": (("mul", ("nabla", "p"), "u"), "u", "a field is expected"),
+    "along ν": (("mul", ("nabla", "ν"), "u"), "u", "∇ is along a field in space"),
+    "a field transposed": (("T", "u"), "u", "the transpose is of an operator"),
+    "the same": ("u", "u", "it claims nothing"),
+    "another field": ("u", "η", "the sides differ"),
+    "a field and a function": ("u", "p", "two kinds"),
+    "over the points and in space": ("ν", "u", "one side is over the points"),
+}
+
+
+def verdict(step):
+    return FluidChecker(D.problem, SEED).check(step)
+
+
+@pytest.mark.parametrize("case", WITHOUT)
+def test_what_has_no_meaning_is_refused(case):
+    left, right, why = WITHOUT[case]
+    found = verdict(replace(STEP, equations=(Equation(left, right),)))
+    assert not found.holds
+    assert why in found.reason
+
+
+EQUATION = STEP.equations[-1]
+STEPS = {
+    "another scope": (replace(STEP, scope="SO(3)"), "about its group"),
+    "with inputs": (replace(STEP, driven=True), "without inputs"),
+    "given something else": (replace(STEP, given=(Equation("u", 0),)), "what is given"),
+    "for all u": (replace(STEP, equations=(replace(EQUATION, for_all=("u",)),)), "for all u"),
+    "for all that it is": (
+        replace(STEP, equations=(replace(EQUATION, for_all=("u̇",)),)),
+        "the acceleration of the motion",
+    ),
+    "some u": (replace(STEP, equations=(replace(EQUATION, exists=("u",)),)), "is the pressure"),
+    "an inverse": (
+        replace(STEP, equations=(Equation(("mul", ("inv", "D"), "u"), "u"),)),
+        "something else than the density",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", STEPS)
+def test_steps_that_cannot_be_tried(case):
+    step, why = STEPS[case]
+    found = verdict(step)
+    assert not found.holds
+    assert why in found.reason
