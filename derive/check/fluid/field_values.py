@@ -7,12 +7,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from operator import add
 from typing import Any
 
 from ...language.tree import Tree
 from ..arithmetic import EvaluationError
-from ..nilpotent import EPS, EPS_PRIME, nilpotent
-from .fluid_model import Direction, FluidModel, mean, part_of
+from ..nilpotent import EPS, EPS_PRIME, nilpotent, part
+from .fluid_model import Direction, FluidModel, mean
 from .functions import Field, Function, dot, shifted
 from .operators import Operator, Told, applied
 
@@ -146,8 +147,7 @@ class FluidValues:
             if isinstance(b, Matrix):
                 return Matrix(tuple(tuple(x * a for x in row) for row in b.rows))
         if isinstance(a, Matrix) and isinstance(b, Matrix):
-            columns = [*zip(*b.rows, strict=True)]
-            return Matrix(tuple(tuple(dot(row, c) for c in columns) for row in a.rows))
+            return _product(a, b)
         if isinstance(b, Function) and b.is_constant and not isinstance(a, Function):
             return self.times(b, a)
         raise EvaluationError("these are not multiplied")
@@ -165,7 +165,7 @@ class FluidValues:
             return OnBoundary(a.f + b.f)
         if isinstance(a, Matrix):
             rows = zip(a.rows, b.rows, strict=True)
-            return Matrix(tuple(tuple(map(_sum, x, y)) for x, y in rows))
+            return Matrix(tuple(tuple(map(add, x, y)) for x, y in rows))
         return a + b
 
     # -- functions -----------------------------------------------------------------------------
@@ -247,7 +247,7 @@ class FluidValues:
         """δ or δ′ of η′, η, G or ρ on the family."""
         model, other = self.model, EPS_PRIME if mask == EPS else EPS
         if what == ("η′" if mask == EPS else "η"):
-            return tuple(part_of(x, mask) for x in model.eulerian(other))
+            return tuple(part(x, mask) for x in model.eulerian(other))
         moved = (model.first if mask == EPS else model.second).displacement
         if what == "G":
             return Operator.of(lambda c: tuple(self._composed(x, mask) for x in _field(c)))
@@ -258,7 +258,7 @@ class FluidValues:
     def _composed(self, f: Function, mask: int) -> Any:
         """The part of a mask of f ∘ g on the family."""
         model = self.model
-        return model.at_points(part_of(shifted(f, model.displacement), mask))
+        return model.at_points(part(shifted(f, model.displacement), mask))
 
     def product_with(self, f: Function) -> Operator:
         """The product with a function, as an operator."""
@@ -299,10 +299,6 @@ def divergence(field: Field) -> Any:
     return sum(found[1:], found[0])
 
 
-def _sum(x: Any, y: Any) -> Any:
-    return x + y
-
-
 def _field(x: Value) -> Field:
     if not isinstance(x, tuple):
         raise EvaluationError("a field is expected")
@@ -314,7 +310,7 @@ def _nabla(values: FluidValues, field: Value) -> Operator:
     along = [nilpotent(EPS) * x for x in _field(field)]
     if along and field[0].space is not values.model.space:
         raise EvaluationError("∇ is along a field in space")
-    return Operator.of(lambda a: tuple(part_of(shifted(x, along, 1), EPS) for x in _field(a)))
+    return Operator.of(lambda a: tuple(part(shifted(x, along, 1), EPS) for x in _field(a)))
 
 
 def _transposed(_: FluidValues, x: Value) -> Operator:
@@ -332,8 +328,12 @@ def _inverse(values: FluidValues, x: Value) -> Operator:
 def _power(x: Value, n: Any) -> Value:
     if not isinstance(x, Matrix) or n != 2:
         raise EvaluationError("a power is the square of a matrix")
-    columns = [*zip(*x.rows, strict=True)]
-    return Matrix(tuple(tuple(dot(row, c) for c in columns) for row in x.rows))
+    return _product(x, x)
+
+
+def _product(a: Matrix, b: Matrix) -> Matrix:
+    columns = [*zip(*b.rows, strict=True)]
+    return Matrix(tuple(tuple(dot(row, c) for c in columns) for row in a.rows))
 
 
 def _trace(_: FluidValues, x: Value) -> Function:
@@ -389,17 +389,17 @@ def _paired(values: FluidValues, moved: Value) -> Value:
     field = _field(moved)
     if field[0].space is not values.model.points:
         raise EvaluationError("p̃ is of a tangent vector at g")
-    nu = [part_of(x, 0) for x in values.model.nu]
-    return part_of(values.model.momentum(nu, field), 0)
+    nu = [part(x, 0) for x in values.model.nu]
+    return part(values.model.momentum(nu, field), 0)
 
 
 def _points(values: FluidValues, mask: int) -> Field:
-    return tuple(part_of(x, mask) for x in values.model.nu)
+    return tuple(part(x, mask) for x in values.model.nu)
 
 
 def _moved(values: FluidValues, mask: int) -> Field:
     model = values.model
-    return tuple(model.at_points(part_of(x, mask)) for x in model.displacement)
+    return tuple(model.at_points(part(x, mask)) for x in model.displacement)
 
 
 def _lagrangian(values: FluidValues) -> Value:
@@ -424,7 +424,7 @@ NAMES: dict[str, Callable[[FluidValues], Value]] = {
     "δ′g": lambda v: _moved(v, EPS_PRIME),
     "L": _lagrangian,
     "L̃": _lagrangian,
-    "h̃": lambda v: part_of(v.model.energy(_points(v, 0)), 0),
+    "h̃": lambda v: part(v.model.energy(_points(v, 0)), 0),
     "G": lambda v: v.composition,
     "D": lambda v: Operator.of(lambda c: divergence(_field(c))),
     "p": lambda v: v.model.any_pressure if v.model.at.free else v.model.pressure,

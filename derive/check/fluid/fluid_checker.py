@@ -167,7 +167,7 @@ class FluidChecker:
     def kinds_at(self, step: Step, t: Tree) -> str:
         """The kind of the value of a tree where a step is tried."""
         name = "disc" if {*names(t)} & BOUNDARY else "T²"
-        return kind_of(self.place(name, locus_of(step)).values.of(t), t)
+        return kind_of(self.place(name, locus_of(step)).values.of(t))
 
 
 def locus_of(step: Step, equation: Equation | None = None) -> Locus:
@@ -220,17 +220,9 @@ def pairs(equation: Equation, values: FluidValues) -> Iterator[tuple[Any, Any]]:
     """The numbers that must agree, two by two; ``EvaluationError`` for sides of two kinds."""
     left, right = values.of(equation.lhs), values.of(equation.rhs)
     model = values.model
+    written = 0 in (equation.lhs, equation.rhs)  # a 0 of any kind
     for x, y in ((left, right), (right, left)):
-        if (
-            isinstance(x, Function)
-            and x == 0
-            and not isinstance(y, Function)
-            and 0
-            in (
-                equation.lhs,
-                equation.rhs,
-            )
-        ):
+        if written and isinstance(x, Function) and x == 0 and not isinstance(y, Function):
             left, right = y, values.times(Fraction(0), y)
     if isinstance(left, Operator) and isinstance(right, Operator):
         b = model.space.any_field(model.draw)
@@ -259,9 +251,8 @@ def functions(x: Value) -> tuple[Function, ...]:
     return x if isinstance(x, tuple) else (x,)
 
 
-def kind_of(x: Value, t: Tree) -> str:
+def kind_of(x: Value) -> str:
     """The type of a value, as a record has it."""
-    del t
     if isinstance(x, Function):
         return "scalar" if x.is_constant else "scalar field"
     if isinstance(x, OnBoundary):

@@ -14,6 +14,7 @@ from functools import cached_property
 from typing import Any
 
 from ..nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, nilpotent, part
+from .flat_torus import crossed
 from .functions import ORDERS, Function, dot, shifted
 
 Fields = tuple[Any, ...]
@@ -86,12 +87,7 @@ class FluidModel:
         if self.space.dimension == 2:
             return -theta[1], theta[0]
         other = self.space.function(self.draw)
-        a, b = theta, [other.d(j) for j in range(3)]
-        return (
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        )
+        return tuple(crossed(theta, [other.d(j) for j in range(3)]))
 
     # -- the density ---------------------------------------------------------------------------
 
@@ -163,7 +159,7 @@ class FluidModel:
         """∂g/∂ε ∘ g⁻¹ for ε of ``mask``, to first order in the other parameter, in space."""
         other = EPS_PRIME if mask == EPS else EPS
         moved = [_derived(x, mask) for x in self.displacement]
-        back = [nilpotent(other) * -part_of(x, other) for x in self.displacement]
+        back = [nilpotent(other) * -part(x, other) for x in self.displacement]
         return tuple(_linear(shifted(x, back, 1), other) for x in moved)
 
     # -- forms ---------------------------------------------------------------------------------
@@ -188,14 +184,8 @@ class FluidModel:
     def cartan(self, direction: Direction) -> Any:
         """ϖ of a tangent vector."""
         moved = [self.at_points(x) for x in direction.displacement]
-        nu = [part_of(x, 0) for x in self.nu]
-        return part_of(
-            self.momentum(nu, moved) - self.energy(nu) * self.on_points(direction.time), 0
-        )
-
-    def on_points(self, number: Any) -> Any:
-        """A number as a function over the points."""
-        return self.at_points(number)
+        nu = [part(x, 0) for x in self.nu]
+        return part(self.momentum(nu, moved) - self.energy(nu) * self.at_points(direction.time), 0)
 
     @cached_property
     def exterior(self) -> Any:
@@ -207,7 +197,7 @@ class FluidModel:
             nu = [_linear(x, mask) for x in self.nu]
             time = nilpotent(mask) * self.mixed.time + varied.time
             whole = self.momentum(nu, moved) - self.energy(nu) * self.at_points(time)
-            found.append(part_of(whole, mask))
+            found.append(part(whole, mask))
         return found[0] - found[1]
 
     # -- the motion ----------------------------------------------------------------------------
@@ -216,7 +206,7 @@ class FluidModel:
     def material(self) -> Fields:
         """The acceleration of the points where u does not change in time: of u ∘ (id + εu)."""
         along = [nilpotent(EPS) * x for x in self.u]
-        return tuple(part_of(shifted(x, along, 1), EPS) for x in self.u)
+        return tuple(part(shifted(x, along, 1), EPS) for x in self.u)
 
     @cached_property
     def motion(self) -> tuple[Fields, Any]:
@@ -243,26 +233,16 @@ class FluidModel:
         e, e_prime = nilpotent(EPS), nilpotent(EPS_PRIME)
         ahead = [e_prime * x for x in self.moved_field]
         pushed = [
-            part_of_first(shifted(x, ahead, 1)) * e + y
+            part(shifted(x, ahead, 1), EPS_PRIME) * e + y
             for x, y in zip(self.u, self.moved_field, strict=True)
         ]
         back = [-(e * x) for x in self.u]
-        return tuple(part_of(shifted(x, back, 1), EPS) for x in pushed)
+        return tuple(part(shifted(x, back, 1), EPS) for x in pushed)
 
     def rate_of_density(self, field: Sequence[Any]) -> Any:
         """The rate of ρ ∘ (id + εη)⁻¹."""
         back = [-(nilpotent(EPS) * x) for x in field]
-        return part_of(shifted(self.density, back, 1), EPS)
-
-
-def part_of_first(x: Any) -> Any:
-    """The derivative in ε′."""
-    return part_of(x, EPS_PRIME)
-
-
-def part_of(x: Any, mask: int) -> Any:
-    """The coefficient of ``mask``."""
-    return part(x, mask)
+        return part(shifted(self.density, back, 1), EPS)
 
 
 def mean(f: Any) -> Any:
