@@ -30,7 +30,7 @@ from .equilibrium_points import (
     About,
     Expansion,
     NoEquilibriumError,
-    coordinate,
+    coordinates,
     group_value,
 )
 from .stability import eigenvalues
@@ -84,11 +84,7 @@ def enclosed(whole: Found, values: Mapping[str, Number]) -> Enclosed:
 
 def start_of(system: LiePoisson, values: Mapping[str, Number]) -> tuple[Fraction, ...]:
     """The point with these coordinates, the others 0, in decimals."""
-    names = [coordinate(x) for x in system.variables]
-    for name in values:
-        if name not in names:
-            raise NoEquilibriumError(f"{name} is no coordinate; these are {', '.join(names)}")
-    return tuple(_rounded(float(values.get(x, 0))) for x in names)
+    return tuple(_rounded(float(values.get(x, 0))) for x in coordinates(system, values))
 
 
 def _rounded(x: float) -> Fraction:

@@ -111,13 +111,19 @@ def coordinate(x: Tree) -> str:
     return suffixed({"Π": "Pi", "Γ": "Gamma"}.get(x[1], str(x[1])), *x[2:])
 
 
-def given(system: LiePoisson, values: Mapping[str, Number], fixed: Sequence[Any]) -> About:
-    """The point with these coordinates, the others 0; ``NoEquilibriumError`` where it is none of
-    the problem or no equilibrium.  ``fixed``: the Casimirs."""
+def coordinates(system: LiePoisson, values: Mapping[str, Number]) -> list[str]:
+    """The names of the variables; ``NoEquilibriumError`` where a value is of none."""
     names = [coordinate(x) for x in system.variables]
     for name in values:
         if name not in names:
             raise NoEquilibriumError(f"{name} is no coordinate; these are {', '.join(names)}")
+    return names
+
+
+def given(system: LiePoisson, values: Mapping[str, Number], fixed: Sequence[Any]) -> About:
+    """The point with these coordinates, the others 0; ``NoEquilibriumError`` where it is none of
+    the problem or no equilibrium.  ``fixed``: the Casimirs."""
+    names = coordinates(system, values)
     about = About(system, tuple(values.get(x, Fraction(0)) for x in names))
     if reason := off_the_group(about, fixed):
         raise NoEquilibriumError(reason)

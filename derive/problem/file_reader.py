@@ -18,6 +18,7 @@ from ..language.tree import Tree, replaced, subtrees
 from ..language.values import approximate
 from ..schema.algebra_kinds import Advected
 from ..schema.body_kinds import Body, Place, Point, PointBody, is_ellipsoid
+from ..schema.lagrangian_kinds import SIDES
 from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import NAME, TableReader
 from .fields import LIKE_A_PLACE
@@ -27,6 +28,8 @@ from .solids import fault_of_quadric, rotation_about
 from .state_names import known_in_lagrangian, meant, state_names
 
 AXES = "xyz"
+CHAPTERS = ("linear", "affine", *SIDES)
+"""The names of what is said of any group."""
 Vector = tuple[Tree, ...]
 
 
@@ -61,6 +64,20 @@ class FileReader(TableReader):
         self.count = self.last = len(self.point_masses)
         self.heavy = not isinstance(body, PointBody)
         self.fills_ellipsoid = is_ellipsoid(body)
+
+    def name_of(self, data: Mapping[str, Any], *, of_its_own: bool = True) -> str:
+        """The name of a problem: a prefix of labels that nothing else has, if it is ``of_its_own``
+        and no text about any group."""
+        name = self.identifier(self.text(Slot(data, "name", "file")), "key 'name'")
+        if of_its_own and name in CHAPTERS:
+            raise ProblemError(
+                f"key 'name': {name!r} names what is said of any group; choose another"
+            )
+        return name
+
+    def title_of(self, data: Mapping[str, Any], name: str) -> str:
+        """The title of a problem; its name without one."""
+        return self.text(Slot(data, "title", "file")) if "title" in data else name
 
     def names(self, own: type[Table]) -> tuple[str, ...]:
         """The keys of a file."""

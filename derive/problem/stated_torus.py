@@ -7,8 +7,6 @@ from typing import Any
 
 from ..algebra.torus import Torus
 from ..schema.algebra_kinds import StatedTorus, TorusInertia
-from ..schema.lagrangian_kinds import SIDES
-from ..schema.table import Slot
 from .file_reader import FileReader
 from .problem import Problem, ProblemError
 
@@ -37,8 +35,5 @@ def torus_problem(data: Mapping[str, Any], reader: FileReader) -> Problem:
         raise ProblemError('inertia, operator: on the torus it is "laplacian", |n|² on T_n')
     if given.trivialisation != "right":
         raise ProblemError('inertia, trivialisation: a fluid moves on the "right"; leave it out')
-    name = reader.identifier(reader.text(Slot(data, "name", "file")), "key 'name'")
-    if name in ("linear", "affine", *SIDES):
-        raise ProblemError(f"key 'name': {name!r} names what is said of any group; choose another")
-    title = reader.text(Slot(data, "title", "file")) if "title" in data else name
-    return Problem(name, None, title=title, torus=torus)
+    name = reader.name_of(data)
+    return Problem(name, None, title=reader.title_of(data, name), torus=torus)

@@ -28,8 +28,8 @@ from ..schema.body_kinds import GivenBody, MomentBody
 from ..schema.declared import Parameter
 from ..schema.fluid_kinds import Fluid
 from ..schema.kinds import kinds
-from ..schema.lagrangian_kinds import SECTIONS, SIDES
-from ..schema.table import Slot, Table, nearest
+from ..schema.lagrangian_kinds import SECTIONS
+from ..schema.table import Table, nearest
 from . import inertia
 from .bodies import body
 from .fields import LIKE_A_PLACE, unread, used_at
@@ -44,8 +44,6 @@ from .stated_torus import on_torus, torus_problem
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
 TOP |= {"damping", "solid", "algebra", "advected", "fluid", *SECTIONS}
-CHAPTERS = ("linear", "affine", *SIDES)
-NAMES_A_CHAPTER = "key 'name': {!r} names what is said of any group; choose another"
 DOTTED = re.compile(
     rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
 )
@@ -125,7 +123,7 @@ def problem_of(
         raise ProblemError("key 'advected' goes with [algebra]: a group has its entries A_11, …")
     moved, action = group_of(data, reader)
     reader.moves(moved)
-    name = _name(data, moved, reader)
+    name = reader.name_of(data, of_its_own=moved is not None)
     parameters = _parameters(data.get("parameters", {}), reader)
     if any(key in data for key in SECTIONS):
         return _without_points(data, moved)
@@ -144,7 +142,7 @@ def problem_of(
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     reader.distinct(inputs, parameters)
-    title = reader.text(Slot(data, "title", "file")) if "title" in data else name
+    title = reader.title_of(data, name)
     problem = Problem(
         name,
         moved,
@@ -169,13 +167,11 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
     for key in data:
         if key not in ("name", "title", "fluid") and (key != "parameters" or data[key]):
             raise ProblemError(f"key {key!r}: [fluid] says all of the problem; leave this out")
-    name = reader.identifier(reader.text(Slot(data, "name", "file")), "key 'name'")
-    if name in CHAPTERS:
-        raise ProblemError(NAMES_A_CHAPTER.format(name))
+    name = reader.name_of(data)
     if not isinstance(data["fluid"], dict):
         raise ProblemError("key 'fluid' must be a table [fluid]")
-    title = reader.text(Slot(data, "title", "file")) if "title" in data else name
-    return Problem(name, None, title=title, fluid=reader.whole(Fluid, data["fluid"], "fluid"))
+    fluid = reader.whole(Fluid, data["fluid"], "fluid")
+    return Problem(name, None, title=reader.title_of(data, name), fluid=fluid)
 
 
 def _without_points(
@@ -198,7 +194,7 @@ def _without_points(
     reader = FileReader()
     reader.moves(group)
     reader.advected = advected
-    name = _name(data, moved, reader)
+    name = reader.name_of(data, of_its_own=moved is not None)
     parameters = _parameters(data.get("parameters", {}), reader)
     reader.carries(None, parameters)
     _, inputs, _ = forces(data, reader)
@@ -206,7 +202,7 @@ def _without_points(
     problem = Problem(
         name,
         group,
-        title=reader.text(Slot(data, "title", "file")) if "title" in data else name,
+        title=reader.title_of(data, name),
         parameters=parameters,
         inputs=inputs,
         lagrangian=lagrangian(data, group, reader),
@@ -220,14 +216,6 @@ def _without_points(
             "motion to answer; add their kinetic energy, or leave the input out"
         )
     return problem
-
-
-def _name(data: Mapping[str, Any], moved: Group | None, reader: FileReader) -> str:
-    """The name of the problem: a prefix of labels that nothing else has."""
-    name = reader.identifier(reader.text(Slot(data, "name", "file")), "key 'name'")
-    if moved and name in CHAPTERS:
-        raise ProblemError(NAMES_A_CHAPTER.format(name))
-    return name
 
 
 def _positive(where: str | None, what: str) -> None:

@@ -51,7 +51,7 @@ class Reduced:
     @property
     def quadrature(self) -> ShownEquation | None:
         """The square of the rate of the coordinate that is left, by the energy and the momenta;
-        ``None`` where there are more."""
+        ``None`` where more than one is left, or one that is no entry of g."""
         found = self.found.quadrature
         if found is None:
             return None

@@ -267,7 +267,3 @@ def _signed(t: Tree) -> bool:
     """Does a product begin with a minus?"""
     first = t[1] if isinstance(t, tuple) and t[0] == "mul" else t
     return isinstance(first, int) and first < 0
-
-
-def _plain(x: Fraction) -> Tree:
-    return int(x) if x.denominator == 1 else x

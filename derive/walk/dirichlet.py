@@ -54,9 +54,8 @@ def fluid_steps(
     c: Chapter,
 ) -> tuple[Step, ...]:
     """The steps ``quadric``, ``pressure``, ``total`` of an ellipsoid, or ``virial`` of another
-    solid, that a group of all maps that keep volumes moves; ``circulation`` and
-    ``no_rotation``.  Of a
-    gas ``circulation`` alone; none elsewhere."""
+    solid, that a group of all maps that keep volumes moves; ``circulation`` and ``no_rotation``.
+    Of a gas ``circulation`` alone; none elsewhere."""
     gas = any(isinstance(p, Volume) for p in problem.potentials)
     if group.affine or group.factors or not (_keeps_volumes(group) or (gas and _moves_all(group))):
         return ()

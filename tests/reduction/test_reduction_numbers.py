@@ -60,6 +60,10 @@ def test_lagranges_top_in_eulers_angles():
         known = {"p": p, "A": A, "𝒥": (one, two), "h̃": h}
         V, cubic = routh.lagrange_top(u, one, two, *p.values(), h)
         assert value(r.effective_potential.rhs, **known) == pytest.approx(V, rel=1e-11)
+        across, own = p["I1"], p["I3"]  # the vertical has the share u of the axis
+        rows = [[value(x, **known) for x in row[1:]] for row in r.locked_inertia.rhs[1:]]
+        wanted = [[across * (1 - u**2) + own * u**2, own * u], [own * u, own]]
+        assert np.array(rows, float) == pytest.approx(np.array(wanted), rel=1e-12)
         assert value(r.quadrature.rhs, **known) == pytest.approx(cubic, rel=1e-10, abs=1e-11)
 
 
