@@ -60,6 +60,8 @@ bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside
 	$(BIN)/python -m benchmarks.integrals
 	$(BIN)/python -m benchmarks.peers
 	$(BIN)/python -m benchmarks.zeitlin
+	$(BIN)/python -m benchmarks.motion
+	$(BIN)/python -m benchmarks.discrete
 
 accuracy: $(STAMP) ## worst error of each output against 50 digits, over 100000 states of each problem: an hour
 	$(BIN)/python -m benchmarks.accuracy

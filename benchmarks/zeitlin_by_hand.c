@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { H = N / 2, COUNT = (N * N - 1) / 2 };
+/* L, M: rows of N and of H + 1 numbers up to a multiple of four, which compilers take at once */
+enum { H = N / 2, COUNT = (N * N - 1) / 2, L = (N + 3) / 4 * 4, M = (H + 4) / 4 * 4 };
 
 struct term {
     int i, j;
@@ -82,24 +83,24 @@ void by_table(const double *restrict x, double *restrict dx)
 }
 
 /* E(s) = sum over k of (a, b) cos(2 pi k s/N), O(s) = sum of (c, d) sin(2 pi k s/N) */
-static void transform(double in[H + 1][H + 1][4], double out[H + 1][4][H + 1])
+static void transform(double in[H + 1][H + 1][4], double out[H + 1][4][M])
 {
     for (int d = 0; d <= H; ++d) {
-        for (int s = 0; s <= H; ++s) {
+        for (int s = 0; s < M; ++s) {
             out[d][0][s] = in[d][0][0];
             out[d][1][s] = in[d][0][1];
             out[d][2][s] = out[d][3][s] = 0;
         }
     }
     for (int k = 1; k <= H; ++k) {
-        double c[H + 1], b[H + 1];
-        for (int s = 0, j = 0; s <= H; ++s, j = j + k < N ? j + k : j + k - N) {
+        double c[M], b[M];
+        for (int s = 0, j = 0; s < M; ++s, j = j + k < N ? j + k : j + k - N) {
             c[s] = cosine[j];
             b[s] = sine[j];
         }
         for (int d = 0; d <= H; ++d) {
             const double p = in[d][k][0], q = in[d][k][1], u = in[d][k][2], v = in[d][k][3];
-            for (int s = 0; s <= H; ++s) {
+            for (int s = 0; s < M; ++s) {
                 out[d][0][s] += p * c[s];
                 out[d][1][s] += q * c[s];
                 out[d][2][s] += u * b[s];
@@ -109,9 +110,9 @@ static void transform(double in[H + 1][H + 1][4], double out[H + 1][4][H + 1])
     }
 }
 
-static void matrix(const double *x, int stream, double (*re)[N], double (*im)[N])
+static void matrix(const double *x, int stream, double (*re)[L], double (*im)[L])
 {
-    double in[H + 1][H + 1][4], out[H + 1][4][H + 1];
+    double in[H + 1][H + 1][4], out[H + 1][4][M];
     for (int d = 0; d <= H; ++d) {
         for (int k = 0; k <= H; ++k) {
             const double w = stream && d + k ? -1. / (d * d + k * k) : 1;
@@ -146,35 +147,45 @@ static void matrix(const double *x, int stream, double (*re)[N], double (*im)[N]
     }
 }
 
-/* The product with four rows of P at once, which is the best of some variants. */
-void by_matrices(const double *restrict x, double *restrict dx)
+/* [W, P] by n2 and row + column.  A product of complex numbers by three of real ones: from AC, BD and
+ * (A + B)(C + D); with four rows of P at once, which is the best of some variants. */
+static void bracket(double (*wr)[L], double (*wi)[L], double (*pr)[L], double (*pi)[L],
+    double (*sum)[N][2])
 {
-    static double wr[N][N], wi[N][N], pr[N][N], pi[N][N], sum[H + 1][N][2];
-    double in[H + 1][H + 1][4], out[H + 1][4][H + 1];
-    const double scale = 1 / (16 * atan(1));
-    memset(sum, 0, sizeof sum);
-    matrix(x, 0, wr, wi);
-    matrix(x, 1, pr, pi);
+    static double ps[N][L];
+    memset(sum, 0, sizeof(double[H + 1][N][2]));
     for (int a = 0; a < N; ++a) {
-        double mr[N] = {0}, mi[N] = {0};
+        for (int b = 0; b < L; ++b) {
+            ps[a][b] = pr[a][b] + pi[a][b];
+        }
+    }
+    for (int a = 0; a < N; ++a) {
+        double mr[L] = {0}, mi[L] = {0}, ms[L] = {0};
         int c = 0;
         for (; c + 3 < N; c += 4) {
             const double *u = &wr[a][c], *v = &wi[a][c];
-            for (int b = 0; b < N; ++b) {
-                mr[b] += u[0] * pr[c][b] - v[0] * pi[c][b] + u[1] * pr[c + 1][b]
-                    - v[1] * pi[c + 1][b] + u[2] * pr[c + 2][b] - v[2] * pi[c + 2][b]
-                    + u[3] * pr[c + 3][b] - v[3] * pi[c + 3][b];
-                mi[b] += u[0] * pi[c][b] + v[0] * pr[c][b] + u[1] * pi[c + 1][b]
-                    + v[1] * pr[c + 1][b] + u[2] * pi[c + 2][b] + v[2] * pr[c + 2][b]
-                    + u[3] * pi[c + 3][b] + v[3] * pr[c + 3][b];
+            const double w[4] = {u[0] + v[0], u[1] + v[1], u[2] + v[2], u[3] + v[3]};
+            for (int b = 0; b < L; ++b) {
+                mr[b] += u[0] * pr[c][b] + u[1] * pr[c + 1][b] + u[2] * pr[c + 2][b]
+                    + u[3] * pr[c + 3][b];
+                mi[b] += v[0] * pi[c][b] + v[1] * pi[c + 1][b] + v[2] * pi[c + 2][b]
+                    + v[3] * pi[c + 3][b];
+                ms[b] += w[0] * ps[c][b] + w[1] * ps[c + 1][b] + w[2] * ps[c + 2][b]
+                    + w[3] * ps[c + 3][b];
             }
         }
         for (; c < N; ++c) {
             const double u = wr[a][c], v = wi[a][c];
-            for (int b = 0; b < N; ++b) {
-                mr[b] += u * pr[c][b] - v * pi[c][b];
-                mi[b] += u * pi[c][b] + v * pr[c][b];
+            for (int b = 0; b < L; ++b) {
+                mr[b] += u * pr[c][b];
+                mi[b] += v * pi[c][b];
+                ms[b] += (u + v) * ps[c][b];
             }
+        }
+        for (int b = 0; b < L; ++b) {
+            const double x = mr[b], y = mi[b];
+            mr[b] = x - y;
+            mi[b] = ms[b] - x - y;
         }
         for (int b = 0; b < N; ++b) {
             const int d = b >= a ? b - a : b - a + N, s = a + b < N ? a + b : a + b - N;
@@ -188,6 +199,16 @@ void by_matrices(const double *restrict x, double *restrict dx)
             }
         }
     }
+}
+
+void by_matrices(const double *restrict x, double *restrict dx)
+{
+    static double wr[N][L], wi[N][L], pr[N][L], pi[N][L], sum[H + 1][N][2];
+    double in[H + 1][H + 1][4], out[H + 1][4][M];
+    const double scale = 1 / (16 * atan(1));
+    matrix(x, 0, wr, wi);
+    matrix(x, 1, pr, pi);
+    bracket(wr, wi, pr, pi, sum);
     for (int d = 0; d <= H; ++d) {
         for (int s = 0; s <= H; ++s) {
             const double *f = sum[d][s], *g = sum[d][s ? N - s : 0];

@@ -16,6 +16,7 @@ WORDS = (
         "Algebra",
         "Covector",
         "Damping",
+        "Event",
         "Fluid",
         "Force",
         "GL",
@@ -23,15 +24,17 @@ WORDS = (
         "Group",
         "Inertia",
         "Lagrangian",
+        "Laplacian",
     ),
     *("Moments", "Points", "Potential", "Problem", "SAff", "SE", "SL", "SO", "SU", "Sim", "Solid"),
-    *("Sp", "Spring", "U", "UT"),
+    *("Sp", "Spring", "Torus", "U", "UT"),
 )
 """And a word for each other kind of potential: ``Attraction`` and so on."""
 PLACES = dict.fromkeys(WORDS, "derive.python.api") | {
     **dict.fromkeys(("Derived", "derive"), "derive.python.derived"),
     **dict.fromkeys(("FirstIntegrals", "first_integrals"), "derive.python.integrals_found"),
     **dict.fromkeys(("Compiled", "CompileError", "compile"), "derive.python.compiled"),
+    "StepError": "derive.native.motion_in_c",
     "ProblemError": "derive.problem.problem",
 }
 """Where each name is to be had."""

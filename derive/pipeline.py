@@ -28,8 +28,15 @@ from .walk import (
 )
 from .walk.alphabet import Alphabet
 from .walk.chapter import Chapter
+from .walk.discrete import (
+    discrete_blocks, discrete_forces, discrete_group, discrete_momenta, discrete_outside,
+    discrete_road,
+)
+from .walk.discrete.discrete_letters import DiscreteAlphabet
 from .walk.failure import naming_steps
-from .walk.fluid import circulation, fluid_kernel, fluid_points, pressure, trivialised
+from .walk.fluid import (
+    circulation, fluid_kernel, fluid_points, fluid_principle, loops, pressure, trivialised,
+)
 from .walk.fluid.fluid_letters import FluidAlphabet
 from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side, vorticity
 from .walk.head import problem_data, symbols
@@ -50,6 +57,7 @@ if TYPE_CHECKING:
     from .integrals.all_integrals import Found
     from .language.quadratic import Number
     from .language.tree import Tree
+    from .motion.emitted import Emitted, OneDegree
     from .reduction.reduced_record import Reduction
     from .symmetries.steps import Symmetries
 
@@ -163,16 +171,31 @@ FLUID = (
     Stage("points", "a c", "Points", fluid_points.points),
     Stage("cartan", "points a c", "Cartan", fluid_points.in_space),
     Stage("exterior", "cartan a c", "Exterior", fluid_points.exterior_in_space),
+    Stage("principle", "points cartan a c", "Principle", fluid_principle.principle),
     Stage("relations", "a c", "Steps", trivialised.relations),
     Stage("trivial", "cartan points a c", "Cartan", trivialised.trivialised),
     Stage("derivative", "exterior trivial a c", "Exterior", trivialised.exterior_by_fields),
-    Stage("kernel", "derivative a c", "FluidKernel", fluid_kernel.kernel),
-    Stage("pressure", "kernel a c", "Steps", pressure.pressure),
-    Stage("circulation", "kernel a c", "Steps", circulation.circulation),
+    Stage("kernel", "derivative principle a c", "FluidKernel", fluid_kernel.kernel),
+    Stage("pressure", "kernel points a c", "Steps", pressure.pressure),
+    Stage("circulation", "kernel points a c", "Steps", circulation.circulation),
+    Stage("kelvin", "kernel points a c", "Steps", loops.kelvin),
 )
 """An incompressible fluid: the road of ANY_GROUP, affine, with composition for matrices."""
 ON_THE_TORUS = (Stage("fluid", "problem lagrangian a c", "Steps", vorticity.torus_steps),)
 """The kinetic energy of a fluid on su(N), in the basis of the torus."""
+
+DISCRETE = (
+    Stage("lagrangian", "a c", "DiscreteLagrangian", discrete_road.lagrangian),
+    Stage("ends", "lagrangian a c", "OneForms", discrete_road.one_forms),
+    Stage("exterior", "ends a c", "Step", discrete_road.exterior),
+    Stage("motion", "ends a c", "DiscreteMotion", discrete_road.motion),
+    Stage("blocks", "motion a c", "BlockMotion", discrete_blocks.in_blocks, "affine"),
+    Stage("forces", "problem group a plain here", "DiscreteForces", discrete_forces.forces),
+    Stage("outside", "problem motion group forces driven", "Outside", discrete_outside.outside),
+    Stage("own", "motion blocks? group forces outside? driven", "Steps", discrete_group.of_group),
+    Stage("conserved", "ends motion a group forces here", "Steps", discrete_momenta.conserved),
+)
+"""The discrete road: L_d → Θ⁺, Θ⁻ → dΘ⁺ = dΘ⁻ → the motion, then on one group."""
 # fmt: on
 
 
@@ -182,7 +205,11 @@ def walk(problem: Problem) -> Derivation:
     engine breaks."""
     group, given = problem.group, problem.lagrangian
     if problem.fluid:
-        a = FluidAlphabet(problem.name, advected=problem.fluid.density == "advected")
+        a = FluidAlphabet(
+            problem.name,
+            advected=problem.fluid.density == "advected",
+            forced=problem.fluid.forces == "potential",
+        )
         values = follow(FLUID, {"a": a, "c": Chapter(problem.name, problem.group_name)}, ())
     elif problem.torus:
         values = lagrangian_road("right")
@@ -205,6 +232,26 @@ def walk(problem: Problem) -> Derivation:
         steps += follow(ON_THE_TORUS, values | own, ())["steps"]
     steps = supposing_all(traced(steps))
     return Derivation(problem_data(problem), symbols(steps, problem), steps)
+
+
+@naming_steps()
+def discrete(problem: Problem) -> Derivation:
+    """Derive the discrete equations of motion of a problem; ``ProblemError`` where it has
+    none."""
+    discrete_group.require(problem)
+    group = problem.group
+    affine = problem.affine
+    a = DiscreteAlphabet("size" if affine else "n", affine=affine)
+    start = {"a": a, "c": Chapter(a.chapter), "problem": problem}
+    if group:
+        own = {"group": group, "plain": alphabet.of_matrices(group)}
+        here = Chapter(problem.name, group.name)
+        acting = here.with_input() if acts(problem) else here
+        start |= own | {"here": here, "driven": acting}
+    values = follow(DISCRETE, start, {"affine" if affine else "linear"})
+    steps = supposing_all(traced(values["steps"]))
+    data = problem_data(problem) | {"discrete": True}
+    return Derivation(data, symbols(steps, problem, discrete=True), steps)
 
 
 @cache
@@ -309,7 +356,7 @@ def symmetries(problem: Problem, record: Derivation) -> Symmetries:
     from .symmetries.found import symmetries_of
     from .symmetries.steps import Symmetries, record_of
 
-    found = symmetries_of(problem, record)
+    found = symmetries_of(problem, record, of_integrand=True)
     general = lagrangian_road(found.lagrangian.trivialisation)
     return Symmetries(found, record_of(found, general))
 
@@ -333,24 +380,74 @@ def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree
 
     if problem.advected is not None:
         return first_integrals(problem)
-    found = symmetries_of(problem, record)
+    found = symmetries_of(problem, record, of_integrand=True)
+    if found.integrand:
+        return named(found)
     return named(found) | first_integrals(found.problem, beside_symmetries=True)
+
+
+def motion_of(problem: Problem, record: Derivation, step: str = "gauss") -> Emitted:
+    """The emitted code of a problem with a step and all that its motion keeps, for runs."""
+    from .code.options import Options
+    from .code.step.step_numbers import FIXED
+    from .motion.emitted import Emitted
+
+    has, why = record.definition("θ") is not None, ""
+    # a step of its own size would stop at the events, which are looked for here
+    plain = Options(step=(step,) if step in FIXED else ())
+    told = replace(plain, multiplier=has)
+    for chosen in (replace(told, conserved=True), told, plain):
+        try:
+            made = program(problem, record, chosen)
+            break
+        except Refused as error:  # none is found, or none is written for this state
+            why = why or str(error)
+            if chosen == plain:
+                raise
+    return Emitted.of(made, problem, record, step, one_degree(problem, record), why)
+
+
+def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
+    """The effective potential where the symmetries of a problem leave one degree of freedom, an
+    entry of g; else ``None``."""
+    from .motion.emitted import OneDegree
+    from .reduction.one_degree import leaves_one, momenta_of
+    from .reduction.reduced_record import record_of
+    from .symmetries.found import symmetries_of
+
+    try:
+        found = symmetries_of(problem, record)
+        if not leaves_one(found):
+            return None
+        general = lagrangian_road(found.lagrangian.trivialisation)
+        reduced = record_of(found, general)
+    except Refused:
+        return None
+    left = reduced.routhian.quadrature
+    if left is None or not isinstance(left.entry, tuple) or reduced.routhian.named:
+        return None
+    told = reduced.record[f"{problem.name}.effective"].equations
+    V = next(e.rhs for e in told if e.lhs == "𝒱")
+    return OneDegree((left.entry[2], left.entry[3]), V, momenta_of(found))
 
 
 def program(problem: Problem, record: Derivation, options: Options | None = None) -> Program:
     """The program of a problem; in its principal frame that is the program of another problem."""
     from .code.assemble import assemble
+    from .code.events import watched
 
+    on_torus = problem.torus is not None
+    events = watched(problem.name, problem.events, options, on_torus=on_torus) if options else ()
     if problem.torus:
         from .code.torus.torus_program import torus_program
 
         return torus_program(record, problem.torus, options)
     if problem.group is None:
         raise ProblemError(
-            f"{problem.name}: {problem.without_matrices}, so it has nothing to emit; choose a "
-            "problem with a group and a body"
+            f"{problem.name}: {problem.without_matrices}, so it has no numeric code; "
+            f"{problem.with_matrices}"
         )
     if options is None or options.frame == "given":
         kept = conserved_quantities(problem, record) if options and options.conserved else None
-        return assemble(record, problem.group, options, kept=kept)
+        return assemble(record, problem.group, options, kept=kept, events=events)
     return assemble(record, problem.group, options, walk(principal(problem)))

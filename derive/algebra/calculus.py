@@ -118,6 +118,19 @@ def substitute(e: Expr, images: Mapping[Letter, Expr]) -> Expr:
     return map_terms(e, image)
 
 
+def substitute_trace(e: Expr, old: Expr, new: Expr) -> Expr:
+    """An expression with a trace, of one word, replaced by a scalar."""
+    ((traces, _),) = old.terms
+    total = e * 0
+    for (found, w), k in e.terms.items():
+        if traces[0] in found:
+            left = tuple(x for i, x in enumerate(found) if i != found.index(traces[0]))
+            total = total + e.like({(left, w): k}) * new
+        else:
+            total = total + e.like({(found, w): k})
+    return total
+
+
 PairRule = Callable[[Factor, Factor], Expr | None]
 """A relation: what an adjacent pair of factors is equal to, or ``None``."""
 

@@ -39,7 +39,7 @@ from .verdict import IMPOSSIBLE, MOST_BITS, RefusedError, Verdict, bit_count, re
 if TYPE_CHECKING:
     from .fluid.fluid_checker import FluidChecker
 
-LARGEST_DEGREE = 2**24
+LARGEST_DEGREE = 2**25
 """The largest Schwartz–Zippel degree of a claim that is tried: its numbers have 128 times as many
 bits. Over the size 2¹²⁸ it is less than 1e-30, the largest probability of a false pass that is
 allowed."""

@@ -2,8 +2,9 @@
 
 √x, sin x and the rest are no rational numbers. A claim in which they occur is put to the test with
 an independent random value y for each function at each argument, and derivatives by the rules of
-calculus, as (√x)′ = 1/(2y): what holds for every y holds for the true one. The roots of the numbers
-that a claim writes, if they are of one quadratic field, have their exact values there.
+calculus, as (√x)′ = 1/(2y): what holds for every y holds for the true one. sin, cos and tan at one
+argument are those of a point of the circle, sinh, cosh and tanh of one of the hyperbola. The roots
+of the numbers that a claim writes, if they are of one quadratic field, are exact there.
 """
 
 from __future__ import annotations
@@ -37,6 +38,17 @@ ALGEBRAIC: dict[str, Callable[[Any, Any], Derivatives]] = {
 ELEMENTARY = frozenset((*PARTNERS, *ALGEBRAIC))
 """The functions that a record has, and emitted code well_formedness."""
 
+ON_CURVE = (("cos", "sin", "tan"), ("cosh", "sinh", "tanh"))
+"""The functions that have their values from one point of a curve."""
+
+
+def on_curve(names: tuple[str, ...], d: Any) -> dict[str, Any]:
+    """Their values by the triangle of the sides 1 + 2d, 2d(1 + d), 1 + 2d(1 + d), all positive."""
+    a, b = 1 + 2 * d, 2 * d * (1 + d)
+    c = 1 + b
+    values = (a / c, b / c, b / a) if names[0] == "cos" else (c / a, b / a, b / c)
+    return dict(zip(names, values, strict=True))
+
 
 class ElementaryValues:
     """The elementary functions at one model, f(name, x): y is drawn once for each argument.
@@ -50,11 +62,15 @@ class ElementaryValues:
         self.graded_arguments: list[Graded] = []
 
     def value(self, name: str, x: Any) -> Any:
-        """The value y of a function at x, the same each time; two graded numbers are different
+        """The value of a function at x, the same each time; two graded numbers are different
         arguments unless they are one object."""
-        key = (name, id(x) if isinstance(x, Graded) else x)
+        at = id(x) if isinstance(x, Graded) else x
+        key = (name, at)
         if key not in self.values:
-            self.values[key] = self.draw()
+            d = self.draw()
+            curve = next((names for names in ON_CURVE if name in names), ())
+            found = on_curve(curve, d) if curve else {name: d}
+            self.values |= {(other, at): y for other, y in found.items()}
             if isinstance(x, Graded):
                 self.graded_arguments.append(x)  # kept, so that its id is
         return self.values[key]

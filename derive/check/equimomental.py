@@ -18,6 +18,7 @@ from ..record.record import RecordError
 from ..record.tree_data import decode
 from .draws import Draws
 from .evaluate import evaluate
+from .shells import Layers
 from .slices import quadric_moments, slice_moments
 
 Vector = tuple[Any, ...]
@@ -112,16 +113,21 @@ def _moments_of_solid(model: Draws, data: Mapping[str, Any]) -> tuple[Fraction, 
         return _moments_of_quadric(model, data)
     sizes = {k: x if k == "faces" else value(x) for k, x in data["sizes"].items()}
     V, f, S = slice_moments(data["kind"], sizes, model.pi)
-    density = value(data["density"])
+    density, outer = Layers.of(model, data).means
     R = value(data["rotation"]) if data.get("rotation") else q.identity(3)
     shift = value(data["shift"]) if data.get("shift") else (Fraction(0),) * 3
     s, turned = q.column(shift), q.times(R, q.column(f))
     mixed = q.times(turned, q.transposed(s))
     second = q.times(q.times(R, S), q.transposed(R))
-    second = q.plus(q.plus(second, mixed), q.transposed(mixed))
-    second = q.plus(second, q.scaled(V, q.times(s, q.transposed(s))))
+    shifted = q.plus(q.plus(mixed, q.transposed(mixed)), q.scaled(V, q.times(s, q.transposed(s))))
+    second = q.plus(q.scaled(outer, second), q.scaled(density, shifted))
     first = q.plus(turned, q.scaled(V, s))
-    return density * V, tuple(density * x for (x,) in first), q.scaled(density, second)
+    return density * V, tuple(density * x for (x,) in first), second
+
+
+def volume_of(model: Draws, data: Mapping[str, Any]) -> Any:
+    """The volume of a solid: its mass at density 1."""
+    return _moments_of_solid(model, {**data, "density": 1})[0]
 
 
 def _moments_of_quadric(model: Draws, data: Mapping[str, Any]) -> tuple[Any, Vector, Matrix]:
@@ -133,8 +139,8 @@ def _moments_of_quadric(model: Draws, data: Mapping[str, Any]) -> tuple[Any, Vec
     take = model.elementary.written if written else model.elementary
     root = take("sqrt", q.determinant(Q))
     V, f, S = quadric_moments(Q, root, model.pi)
-    density = _value(model, data["density"])
-    return density * V, f, q.scaled(density, S)
+    density, outer = Layers.of(model, data).means
+    return density * V, f, q.scaled(outer, S)
 
 
 def quadric_matrix(model: Draws, told: Any) -> Matrix:

@@ -43,7 +43,8 @@ class Environment:
     ``functions[name](arguments, environment)`` receives the argument trees.  ``listed``: of the
     points, those that may be named by their numbers.  ``copies``: how often each point is there.
     ``unit``: the 1 of the identity, and of sums over all axes.  ``lattice``: the points that an
-    index of the lattice counts; ``chosen``: the values of free ones, where not all are tried.
+    index of the lattice counts; ``chosen``: the values of free ones, where not all are tried;
+    ``at_once``: all the points as one value, the index 0, where sums over them are taken so.
     """
 
     size: int
@@ -58,6 +59,7 @@ class Environment:
     unit: Any = Fraction(1)
     lattice: Sequence[tuple[int, int]] = ()
     chosen: Sequence[tuple[int, ...]] = ()
+    at_once: Value = None
 
     def with_index(self, name: str, value: int) -> Environment:
         """A copy of the environment with one index bound to a number."""
@@ -68,7 +70,8 @@ def evaluate(t: Tree, env: Environment) -> Value:
     """The value of a tree; :class:`EvaluationError` when it has none."""
     if isinstance(t, str):
         if t in LATTICE and t in env.indices:
-            return tuple((Fraction(x),) for x in env.lattice[env.indices[t] - 1])
+            i = env.indices[t]
+            return tuple((Fraction(x),) for x in env.lattice[i - 1]) if i else env.at_once
         try:
             return env.names[t]
         except KeyError:
@@ -139,6 +142,11 @@ def _sum(t: tuple[Any, ...], env: Environment) -> Value:
     counted, members = _range(body, index, env)
     if not members:
         raise EvaluationError(f"the sum over {index!r} has no members")
+    if counted == "lattice" and env.at_once is not None and 0 not in env.indices.values():
+        found = evaluate(body, env.with_index(index, 0))
+        if not hasattr(found, "total"):
+            raise EvaluationError("sums over the lattice are of numbers, and of multiples of T(𝐧)")
+        return found.total()
     often = env.copies if counted == POINT else ()
     terms = (evaluate(body, env.with_index(index, i)) for i in members)
     if counted == AXIS:

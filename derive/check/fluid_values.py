@@ -1,4 +1,4 @@
-"""A body of fluid: the quadric of its boundary, its pressure, its circulation.
+"""A body of fluid: the quadric of its boundary, its layers, its pressure, its circulation.
 
 The pressure in the middle is found along one ray, from Euler's equation there.
 """
@@ -6,20 +6,24 @@ The pressure in the middle is found along one ray, from Euler's equation there.
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import reduce
 from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..record.tree_data import decode
+from .equimomental import volume_of
 from .evaluate import evaluate
 from .model import Model
 from .point_masses import outer_sum
+from .shells import Layers
 
 Values = dict[str, Any]
 
 
 def fluid_values(model: Model, r: Matrix) -> Values:
-    """Υ and its rate along the motion; of one ellipsoid Q_r, p_0 and p_r, too, at the place r."""
+    """Υ and its rate along the motion; of one ellipsoid Q_r, p_0 and p_r, too, at the place r, and
+    what there is in its layers."""
     if model.generic or model.group.affine or "orthogonal" in model.group.relations:
         return {}
     A, nu = model.group.linear_part(model.g), model.group.linear_part(model.nu)
@@ -37,7 +41,7 @@ def _skew(A: Matrix, x: Matrix) -> Matrix:
 
 
 def _quadric(model: Model, solid: Any) -> Matrix | None:
-    """Q of a ball or an ellipsoid, by its equation at the ends of its axes; ``None`` of others."""
+    """Q of a ball or an ellipsoid, by the ends of its axes; ``None`` of others."""
     sizes, n = solid["sizes"], model.n
 
     def value(x: Any) -> Any:
@@ -48,28 +52,47 @@ def _quadric(model: Model, solid: Any) -> Matrix | None:
     if solid["kind"] not in ("ball", "ellipsoid"):
         return None
     axes = sizes["semi_axes"] if "semi_axes" in sizes else [sizes["radius"]] * n
-    return tuple(
-        tuple(1 / value(x) ** 2 if i == j else Fraction(0) for j in range(n))
-        for i, x in enumerate(axes)
-    )
+    told = solid.get("rotation")
+    R = tuple(tuple(map(value, row)) for row in told) if told else q.identity(n)
+    ends = (q.column(value(x) * row[i] for row in R) for i, x in enumerate(axes))
+    squares = (q.times(end, q.transposed(end)) for end in ends)
+    return q.inverse(reduce(q.plus, squares))
 
 
 def _pressures(model: Model, solid: Any, Q: Matrix, rate: Matrix, r: Matrix) -> Values:
-    """p_0 so that ρ⟨r, Ā(α̇ − f)r⟩ = 2 p_0 ⟨r, Q r⟩, f the force per mass, whose moments are those
-    of all forces; and p_r."""
-    density = evaluate(decode(solid["density"], "body"), model.expressions)
+    """p_0 and p_r by what is pushed along the ray of r, ∫ρ ds times the ⟨r, Ā(α̇ − f)r⟩ over
+    2⟨r, Q r⟩ that all its places have, f the force per mass, whose moments are those of all
+    forces; the level, the density, that integral and κ_Q."""
+    layers, level = Layers.of(model, solid), _form(Q, r)
     _, _, J = model.moments
     back = q.inverse(J)
     assert back is not None
     applied = q.times(outer_sum(model.forces, model.points), back)
     left = q.times(q.transposed(model.group.linear_part(model.g)), q.minus(rate, applied))
-    middle = density * _form(left, r) / (2 * _form(Q, r))
-    return {"Q_r": Q, "p_0": middle, "p_r": pressure_at(r, Q, middle)}
+    pushed, above = _form(left, r) / (2 * level), layers.above(level)
+    return {
+        "Q_r": Q,
+        "s_r": level,
+        "ρ_r": layers.density(level),
+        "σ_r": above,
+        "κ_Q": q.trace(q.times(Q, J)) * Fraction(1, model.n),
+        "p_0": pushed * layers.above(Fraction(0)),
+        "p_r": pushed * above,
+    }
 
 
 def pressure_at(r: Matrix, Q: Matrix, middle: Any) -> Any:
-    """p_r, quadratic, and 0 at the boundary."""
+    """p_r of a uniform density, quadratic, and 0 at the boundary."""
     return middle * (1 - _form(Q, r))
+
+
+def over_volume(model: Model, name: str, middle: Any) -> Any:
+    """∫ σ_r dx or ∫ p_r dx of one ellipsoid in layers; p is a multiple of σ, and ``middle`` its
+    value in the middle."""
+    (solid,) = model.problem["body"]["solids"]
+    layers = Layers.of(model, solid)
+    whole = volume_of(model, solid) * layers.mean(layers.above, layers.degree + 1)
+    return whole if name == "σ_r" else whole * middle / layers.above(Fraction(0))
 
 
 def _form(a: Matrix, r: Matrix) -> Any:

@@ -28,6 +28,7 @@ class Kind:
 
 
 VARIATION = Kind("a variation δy, δ′y or X", ("δy", "δ′y", "X"))
+TWO_ELEMENTS = Kind("a variation δy or δ′y", ("δy", "δ′y"))
 AT_ONE_TIME = Kind("a variation δx or δ′x, at constant time", ("δx", "δ′x"))
 MOTION = Kind("X", ("X",))
 TIME = Kind("t", ("t",))
@@ -48,8 +49,12 @@ SITE = Kind(
         *(("mul", -1, "𝐦"), ("add", "𝐧", "𝐦"), ("add", "𝐦", ("mul", -1, "𝐧"))),
     ),
 )
+COORDINATE = Kind("a coordinate of a point of the lattice", (*range(-2, 3),))
+NUMBERED = {"ω̂": (COORDINATE, COORDINATE)}
+"""The functions of the lattice that may be taken at a point by its coordinates, which are small."""
 ON_TORUS: tuple[Tree, ...] = (
     *("h̃", ("call", "ω̂", "𝐧")),
+    *(("call", "ω̂", a, b) for a in COORDINATE.letters for b in COORDINATE.letters),
     *(("tr", ("mul", *["W"] * k)) for k in (2, 3, 4)),
 )
 FORM = Kind(
@@ -59,18 +64,19 @@ FORM = Kind(
     less=True,
 )
 MOVED_PLACE: Tree = ("call", "g", "r")
+PER_DENSITY: tuple[Tree, ...] = (("div", "σ_r", "ρ_r"), ("div", "p_r", "ρ_r"))
 INTEGRAND = Kind(
-    "1, r, r r̄, p_r, ‖v‖² or ⟨v, δ(g(r))⟩",
+    "1, r, r r̄, p_r, σ_r/ρ_r, p_r/ρ_r, ‖v‖² or ⟨v, δ(g(r))⟩",
     (
-        *(1, "r", "p_r", ("mul", "r", ("T", "r"))),
+        *(1, "r", "p_r", ("mul", "r", ("T", "r")), *PER_DENSITY),
         *(("norm2", "v"), ("inner", "v", ("call", "δ", MOVED_PLACE))),
     ),
 )
 PLACE = Kind("r", ("r",))
 INVARIANTS = tuple(Kind(x, (x,)) for x in ("I_1", "I_2", "I_3"))
 VARIED = Kind(
-    "r_i(t), g(r), ξ′, η′, L̃, ϖ(X), 𝒥_i or 𝒜_i(ξ′)",
-    ("ξ′", "η′", "L̃", MOVED_PLACE, ("call", "ϖ", "X")),
+    "r_i(t), g(r), ξ′, η′, L̃, L_d, U_0, U_1, ϖ(X), 𝒥_i or 𝒜_i(ξ′)",
+    ("ξ′", "η′", "L̃", "L_d", "U_0", "U_1", MOVED_PLACE, ("call", "ϖ", "X")),
     "r",
     members="𝒥",
     applied=("𝒜", "ξ′"),
@@ -81,6 +87,8 @@ ALONG_FIELDS = Kind("ξ, ξ′ or Z", ("ξ", "ξ′", "Z"))
 HEADS: dict[str, tuple[Kind, ...]] = {
     "ϖ": (VARIATION,),
     "dϖ": (VARIATION, VARIATION),
+    **dict.fromkeys(("Θ⁺", "Θ⁻"), (TWO_ELEMENTS,)),
+    **dict.fromkeys(("dΘ⁺", "dΘ⁻"), (TWO_ELEMENTS, TWO_ELEMENTS)),
     "ω": (AT_ONE_TIME, AT_ONE_TIME),
     "p̃": (LINEAR, TRANSLATION),
     "dŨ": (LINEAR, TRANSLATION),
@@ -124,7 +132,7 @@ MOVED: dict[str, tuple[Kind, ...]] = {
 
 POINT, AXIS = "points", "axes or elements of a basis"
 INDEX_SETS: dict[str, str] = {
-    **dict.fromkeys(("m", "r", "v", "F", "Q", "P", "κ"), POINT),
+    **dict.fromkeys(("m", "r", "r̂", "v", "F", "Q", "P", "κ"), POINT),
     **dict.fromkeys(("k", "s"), "springs"),
     **dict.fromkeys(("d", "χ", "σ"), "forces along a distance"),
     "f_u": "inputs",
@@ -147,14 +155,24 @@ LATTICE = ("𝐦", "𝐧")
 INDICES = ("a", "b", "e", "i", "j", *LATTICE)
 """The letters of indices."""
 
-FORMS = ((("δA", "δT"), ("ξ", "η"), ("Ω", "η")), (("δ′A", "δ′T"), ("ξ′", "η′"), ("Ω′", "η′")))
+FORMS = (
+    (("δA", "δT"), ("ξ", "η"), ("Ω", "η")),
+    (("δ′A", "δ′T"), ("ξ′", "η′"), ("Ω′", "η′")),
+)
 """The two variations of g, each in three forms, which are tied to one another."""
 
 RATES = (("α̇", "τ̇"), ("Ż", "ẇ"), ("ζ̇", "ẇ"), ("ℓ̇_b", "ṗ_b"))
 """The acceleration of the motion, in the same forms."""
 
-QUANTIFIED = tuple({x: 0 for forms in (*FORMS, RATES) for form in forms for x in form})
+OF_ELEMENTS = ("δg_0", "δg_1", "ξ̂")
+"""The variations of two elements of the discrete motion; ξ is tied to the second, and is ξ̂ for an
+affine map."""
+
+QUANTIFIED = (
+    *{x: 0 for forms in (*FORMS, RATES) for form in forms for x in form},
+    *OF_ELEMENTS,
+)
 """The names of which all values are tried: an equation may be said to hold for all of them."""
 
-SOLVED = ("θ",)
+SOLVED = ("θ", "q_0", "x_0", "q_1", "x_1")
 """The names of which a value is found, by solving: an equation may say that there is one."""

@@ -12,7 +12,8 @@ from ..language.rational import Matrix
 from ..language.tree import Tree
 from .arithmetic import EvaluationError, plus, times
 from .evaluate import Environment, evaluate
-from .fluid_values import fluid_values, pressure_at
+from .fluid_values import fluid_values, over_volume, pressure_at
+from .function_signatures import PER_DENSITY
 from .model import Model
 
 
@@ -30,9 +31,12 @@ def moved(model: Model, g: Matrix, r: Matrix) -> Matrix:
 
 def integral(model: Model, form: Tree, env: Environment) -> Any:
     """∫ of a function of r over the body: a sum over point masses with the same moments, which is
-    exact for forms of degree two; ``EvaluationError`` where the body is none of solids."""
+    exact for forms of degree two, or over shells; ``EvaluationError`` where the body is none of
+    solids."""
     if model.problem.get("body", {}).get("kind") != "given":
         raise EvaluationError("integrals are over solids")
+    if form in PER_DENSITY:
+        return over_volume(model, form[1], env.names["p_0"])  # type: ignore[index]
     terms: list[Any] = []
     for m, at in zip(model.masses, model.points, strict=True):
         r = q.column(at)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ..language.show import show
-from ..language.tree import Tree
+from ..language.tree import Tree, names
 from ..record.record import Equation, RecordError, Step
 from .function_signatures import RATES
 
@@ -45,7 +45,7 @@ class Locus:
     acceleration is any, and that of X. ``driven``: inputs and damping act. ``field``: δt and δA
     where δ is a field, functions of t and A; ``field_prime``: those of δ′. ``inside``: g is in the
     least algebraic group that has 𝔤, not in a larger one with the same relations.
-    ``still``: δt = 0.
+    ``still``: δt = 0. ``stepping``: g₂ is where the discrete motion goes.
     """
 
     principal: bool = False
@@ -58,6 +58,7 @@ class Locus:
     field_prime: tuple[tuple[str, Tree], ...] = ()
     inside: bool = False
     still: bool = False
+    stepping: bool = False
 
     @property
     def as_text(self) -> str:
@@ -65,7 +66,13 @@ class Locus:
         sets = sorted(self.vanishing), sorted(self.along or ())
         fields = f" {self.field} {self.field_prime}" if self.field or self.field_prime else ""
         flags = f"{self.principal} {self.contracted} {sets} {self.free_acceleration} {self.driven}"
-        return flags + fields + " inside" * self.inside + " still" * self.still
+        return (
+            flags
+            + fields
+            + " inside" * self.inside
+            + " still" * self.still
+            + " stepping" * self.stepping
+        )
 
 
 def locus_of(step: Step, equation: Equation | None = None) -> Locus:
@@ -100,7 +107,18 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
     found = Locus(principal, contracted, *told, free, step.driven, fields[0], fields[1])
     if still and contracted:
         raise RecordError("the hypotheses δt = 0 and δt = 1 exclude each other")
-    return replace(found, inside=step.rule == EVALUATION, still=still)
+    return replace(found, inside=step.rule == EVALUATION, still=still, stepping=_steps(step))
+
+
+def _steps(step: Step) -> bool:
+    """Does a step speak of g₂ on the discrete motion?"""
+    sides = (x for e in step.equations for x in (e.lhs, e.rhs))
+    told = {*AFTER} & {x for side in sides for x in names(side)}
+    return step.kind in ("kernel", "solution", "conservation") and bool(told)
+
+
+AFTER = ("g_2", "A_2", "T_2", "R_2", "M_1", "ℓ_1", "p_1", "m_1", "H")
+"""What the discrete motion says of the time after t₁."""
 
 
 def _field(step: Step, names: tuple[str, str]) -> tuple[tuple[str, Tree], ...]:

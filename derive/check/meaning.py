@@ -30,11 +30,9 @@ from .rigid_body import axial, moments_about, rigid_body_values
 
 def environment(model: Model) -> Environment:
     """The environment in which the equations of a record are claims."""
-    groups = [_times, _bodies, _group, _forces, _energies, rigid_body_values]
-    groups += [_gradients, _motion, momentum_values, place_values, poisson_values]
     return Environment(
         model.n,
-        NameValues(model, groups),
+        NameValues(model, GROUPS),
         _families(model),
         _functions(model),
         model.parameters,
@@ -229,3 +227,10 @@ def _rotation_vector(model: Model, xi: Matrix) -> Matrix:
     if not model.group.turns_space:
         raise EvaluationError("Ω is of the rotations of space alone")
     return axial(xi)
+
+
+GROUPS: tuple[Callable[[Model], Values], ...] = (
+    *(_times, _bodies, _group, _forces, _energies, rigid_body_values),
+    *(_gradients, _motion, momentum_values, place_values, poisson_values),
+)
+"""What the names mean, in the order in which it is asked for."""

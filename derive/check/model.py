@@ -90,6 +90,10 @@ class Model(Body):
         self.copies = [
             Fraction(1) if i < once else self.draw(positive=True) for i in range(len(self.points))
         ]
+        self.draw_more()
+
+    def draw_more(self) -> None:
+        """What a kind of model draws beside this: nothing."""
 
     def _without_parts(self, parts: Collection[str], xi: Matrix) -> Matrix:
         """A random element of 𝔤 without these parts; ``xi`` where the group has none of them."""
@@ -210,8 +214,8 @@ class Model(Body):
         return self.applied.forces(self.t, self.moved(self.g), self.masses)
 
     @cached_property
-    def nonpotential_forces(self) -> list[Vector]:
-        """The force on each point, in space, by force inputs and damping together."""
+    def given_forces(self) -> list[Vector]:
+        """The force on each point, in space, by force inputs."""
         total = [[Fraction(0)] * self.n for _ in self.points]
         linear = self.group.linear_part(self.g)
         for u, data in zip(self.input_forces, self.inputs_of("force"), strict=True):
@@ -221,6 +225,12 @@ class Model(Body):
             force = q.times(linear, inside) if data["frame"] == "body" else inside
             for k, (x,) in enumerate(force):
                 total[data["on"] - 1][k] += x
+        return [tuple(f) for f in total]
+
+    @cached_property
+    def nonpotential_forces(self) -> list[Vector]:
+        """The force on each point, in space, by force inputs and damping together."""
+        total = [[*f] for f in self.given_forces]
         if self.at.driven:
             velocities = self.moved(self.nu)
             for i, kappa in damping_members(self).items():

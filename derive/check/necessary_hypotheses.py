@@ -40,7 +40,11 @@ REGULAR = "the metric of the kinetic energy is not degenerate"
 MASSES = Hypothesis("positive", ("at", "m", "i"))
 CENTRAL: Tree = ("add", "J", ("mul", -1, ("inv", "m"), "c", ("T", "c")))
 MOMENTS = (Hypothesis("positive", "m"), Hypothesis("semidefinite", CENTRAL))
-INVERTIBLE = ("A", "C", ("T", "A"), *(("norm2", x) for x in LATTICE))
+_OF_GROUP = ("A", "g_1", "A_1")
+INVERTIBLE = (
+    *("C", *_OF_GROUP, *(("T", x) for x in _OF_GROUP)),
+    *(("norm2", x) for x in LATTICE),
+)
 """The element of the group and what is made of it, and the length of points of the lattice, which
 are not 0: they need no hypothesis to have inverses."""
 

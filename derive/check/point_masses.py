@@ -76,9 +76,11 @@ class Body(Draws):
         ends = q.transposed(tuple(q.flatten(self.homogeneous(r)) for r in self.points))
         return [*q.transposed(q.times(g[: self.n], ends))]
 
-    def pairing(self, a: Matrix, b: Matrix) -> Any:
-        """Σ m_i ⟨a r_i, b r_i⟩, the kinetic metric of two tangent matrices at g."""
-        pairs = zip(self.masses, self.moved(a), self.moved(b), strict=True)
+    def pairing(self, a: Matrix, b: Matrix, weights: Sequence[Any] | None = None) -> Any:
+        """Σ m_i ⟨a r_i, b r_i⟩, the kinetic metric of two tangent matrices at g; ``weights``: those
+        of the points that stand for m_i."""
+        weights = self.masses if weights is None else weights
+        pairs = zip(weights, self.moved(a), self.moved(b), strict=True)
         return sum((m * q.dot(u, v) for m, u, v in pairs), Fraction(0))
 
     def metric_matrix(self, tangents: list[Matrix]) -> Matrix:

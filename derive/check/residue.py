@@ -79,9 +79,14 @@ class Residue:
     @staticmethod
     def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
         """Σ a_i b_i, reduced modulo p once."""
-        p = next(x.p for x in (*a, *b) if isinstance(x, Residue))
-        left, right = ([_residue(x, p) for x in y] for y in (a, b))
-        return Residue(sum(map(mul, left, right)), p)
+        return Residue.product([a], [b])[0][0]
+
+    @staticmethod
+    def product(rows: Sequence[Sequence[Any]], columns: Sequence[Sequence[Any]]) -> Any:
+        """Each row times each column, reduced modulo p once."""
+        p = next(x.p for m in (rows, columns) for y in m for x in y if isinstance(x, Residue))
+        left, right = ([[_residue(x, p) for x in y] for y in m] for m in (rows, columns))
+        return tuple(tuple(Residue(sum(map(mul, x, y)), p) for y in right) for x in left)
 
     def __add__(self, other: Any) -> Any:
         y = other.n if isinstance(other, Residue) else self._other(other)

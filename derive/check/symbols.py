@@ -22,12 +22,11 @@ from . import well_formedness
 from .arithmetic import is_matrix
 from .definitions import Usage, definitions, occurrences
 from .evaluate import Environment, evaluate, free_indices
-from .function_signatures import AT_ONE_TIME, AXIS, HEADS, INDEX_SETS, MOTION, VARIATION
+from .function_signatures import AT_ONE_TIME, AXIS, HEADS, INDEX_SETS, MOTION, SOLVED, VARIATION
 
 RATES = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "ṗ_b", "ℓ̇_b", "Γ̇", "Ẇ", "Υ̇")
 """The names whose value is one on X: rates along the motion."""
 
-MULTIPLIER = "θ"
 
 INDEX = {x: x for x in INDEX_SETS.values()} | {
     "forces along a distance": "distances",
@@ -216,7 +215,7 @@ def _role(usage: Usage, type_: Type, key: str) -> str:
         return "value on X" if HEADS.get(name) == (MOTION,) else "function"
     if name in RATES:
         return "value on X"
-    if name == MULTIPLIER:
+    if name in SOLVED:
         return "unknown"
     return "definition" if key else "letter"
 
@@ -253,7 +252,7 @@ def _is(type_: Type, x: Any, g: Group, general: bool) -> bool:
     def size(k: Any) -> int:
         blocks = {factor.n for _, factor in g.places}
         if general:
-            return g.n if k == "n" else -1
+            return {"n": g.n, "size": g.size}.get(k, -1)
         if k == "block":
             return rows if len(blocks) > 1 and rows in blocks else -1
         return k if type(k) is int else -1

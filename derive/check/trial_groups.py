@@ -78,7 +78,7 @@ def sizes(grade: Grade, least: int = LEAST) -> range:
     return range(first, first + grade.loops + 1)
 
 
-LETTERS = ("A", "C", "J", "J_c", "m", "t", "δt", "δ′t", ("at", "m", "i"))
+LETTERS = ("A", "C", "J", "J_c", "g_1", "h", "m", "t", "δt", "δ′t", ("at", "m", "i"))
 """The names whose inverse is a letter again, or a number; of J and J_c one is free, and only
 one."""
 OF_ONE_SPACE = ("det", "hat", "wedge", "matrix", "row", "par", "fun")

@@ -12,6 +12,8 @@ from ..algebra.samplers import Source
 from ..language.show import show
 from ..record.contract import ANY_GROUP
 from ..record.record import Equation, RecordError, Step
+from . import discrete_model
+from .discrete_model import DiscreteModel
 from .equation_sides import claim_grade
 from .evaluate import Environment
 from .grades import DegreeSource, Grade
@@ -53,6 +55,9 @@ def model_at(
             f"the hypothesis {text[:80]} is not one that can be tried: a field on the group is "
             "given where no points give the Lagrangian"
         )
+    if "discrete" in problem:
+        own = {} if chosen.get("generic") else problem
+        return DiscreteModel(own, g, source, size, at, **chosen)
     return Model({} if chosen.get("generic") else problem, g, source, size, at, **chosen)
 
 
@@ -60,6 +65,8 @@ def names_at(model: AnyModel) -> Environment:
     """The environment of the names at a model."""
     if isinstance(model, LagrangianModel):
         return lagrangian_values.environment(model)
+    if isinstance(model, DiscreteModel):
+        return discrete_model.environment(model)
     return environment(model)
 
 
@@ -91,6 +98,11 @@ class TrialPoints:
     @cached_property
     def _problem_group(self) -> Group | None:
         return group_of(self.problem)
+
+    @cached_property
+    def _kind(self) -> str:
+        """What kind of point is drawn, for those that records share."""
+        return "discrete" if "discrete" in self.problem else side_of(self.problem)
 
     @cached_property
     def _prime(self) -> int:
@@ -129,7 +141,7 @@ class TrialPoints:
         at = locus_of(step, equation)
         generic = step.scope == ANY_GROUP
         known = _GRADED_POINTS if generic else self._graded_points
-        key = g.name + side_of(self.problem), at
+        key = g.name + self._kind, at
         if key not in known:
             known[key] = self._place(g, DegreeSource(), SIZE, at, generic=generic)
         return known[key]
@@ -144,7 +156,7 @@ class TrialPoints:
 
     def grade(self, g: Group, step: Step, equation: Equation) -> tuple[int, Grade]:
         """The degree of an equation on a group, and the grade of its numerators."""
-        key = g.name + side_of(self.problem), locus_of(step, equation), equation
+        key = g.name + self._kind, locus_of(step, equation), equation
         known = _GRADES if step.scope == ANY_GROUP else {}
         if key not in known:
             if len(known) > MOST_GRADES:

@@ -18,6 +18,8 @@ from .function_signatures import (
     INDEX_SETS,
     INDICES,
     MOVED,
+    NUMBERED,
+    OF_ELEMENTS,
     QUANTIFIED,
     RATES,
     SOLVED,
@@ -65,6 +67,10 @@ def quantifier_fault(equation: Equation, at: Locus) -> str:
             return f"nothing holds for all {name}: it is the acceleration of the motion"
         if name in rates and not used & rates <= {*equation.for_all}:
             return f"it is to hold for all {name}, and not for all of the acceleration"
+        if used & {*OF_ELEMENTS} and used & {*first, *second}:
+            return f"it has {name} beside another variation, which are tied to one another"
+        if name in OF_ELEMENTS:
+            continue
         together = used & next(x for x in (first, second, rates) if name in x)
         if not any(together <= {*form} for forms in (*FORMS, RATES) for form in forms):
             return f"it has {', '.join(sorted(together))}, which are tied to one another"
@@ -116,6 +122,8 @@ def _call_fault(head: Tree, arguments: tuple[Tree, ...], affine: bool) -> str:
     if kinds is None:
         return f"no function is called {_shortened(head)}"
     kinds = tuple(x for x in kinds if affine or x is not TRANSLATION)
+    if head in NUMBERED and len(arguments) > 1:
+        kinds = NUMBERED[head]  # type: ignore[index]
     if len(arguments) != len(kinds):
         expected = f"{len(kinds)} argument{'s' * (len(kinds) != 1)}"
         return f"{_shortened(head)} has {expected}, not {len(arguments)}"

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from ..algebra.groups import Group
+from ..language.limits import SLOPES
 from ..language.show import show
 from ..language.suffixed import suffixed
 from ..language.tree import Tree
@@ -13,21 +14,24 @@ from ..record.record import Derivation
 from .change_of_frame import frame_changes
 from .conventions import conventions
 from .drift import TEXTS, drift
+from .events import Event, table, values
 from .excluded_options import require_written
 from .factor import factored
 from .graph import Node
 from .kept import Kept
-from .linearise import by_leaves, by_state
+from .linearise import by_leaves, by_numbers, by_state
 from .lower import Lowering
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
 from .options import Options
 from .principal_axes import inertia, turning
 from .principal_frame import PrincipalFrame
-from .program import EmittedFunction, Framing, LoweringError, Program
+from .program import EmittedFunction, Framing, KeptByGauss, LoweringError, Program
 from .reader import RecordReader
 from .rewrite import reachable
 from .schedule import Scheduler, frontier
+from .step import discrete_step
+from .step.kept_by_gauss import kept_by_gauss
 from .titles import titles
 
 Place = tuple[str, tuple[str, int]]
@@ -53,24 +57,22 @@ def assemble(
     options: Options | None = None,
     framed: Derivation | None = None,
     kept: Mapping[str, Tree] | None = None,
+    events: Sequence[Event] = (),
 ) -> Program:
     """The program of a record; ``LoweringError`` when the record has no solved equations.
 
     ``framed``: the record of the problem in its principal frame, if the code is to be in that.
     ``kept``: what the motion keeps, by names, as :mod:`derive.code.kept` takes it.
+    ``events``: what is watched on a motion.
     """
     chosen = options or Options()
     require_written(d, group, chosen)
     lowering = Lowering(framed or d, group, chosen)
-    if "inputs" in chosen.jacobian and not lowering.reader.inputs:
-        raise LoweringError(f"{d.name}: there are no inputs to linearise in")
     frame = None
     if framed:
         old = Lowering(d, group, chosen, lowering.graph).reader
         frame = PrincipalFrame(framed.problem["frame"], old, chosen.attitude == "quaternion")
-    wanted = _outputs(lowering, chosen)
-    momenta = momentum_state(lowering, group, chosen) if chosen.momenta else None
-    wanted |= _added(lowering, momenta, kept or {})
+    wanted, momenta = _of_state(lowering, chosen, kept or {}, events)
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
         wanted |= _inertia(frame.old) | frame_changes(frame, lowering.reader)
@@ -78,9 +80,8 @@ def assemble(
     checks += frame.regular if frame else []
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
     parameters = _used_parameters(d, found, chosen)
-    functions, constants, framing = _functions(
-        lowering, chosen, wanted, checks, parameters, frame, momenta
-    )
+    given = wanted, checks, parameters, frame, momenta
+    functions, constants, framing = _functions(lowering, chosen, *given)
     return Program(
         d.name,
         str(d.problem.get("title", "")),
@@ -102,22 +103,54 @@ def assemble(
         framing,
         "eta g" if lowering.reader.space.right else "g eta",
         tuple(kept or ()),
+        table(events),
+        _kept_by_gauss(lowering, chosen, functions, len(parameters), tuple(kept or ())),
         momenta.names if momenta else (),
         momenta.size if momenta else 0,
         mass_fault=lowering.inverses.mass_fault,
+        discrete=discrete_step.discrete_step(d, group, chosen),
     )
+
+
+def _of_state(
+    lowering: Lowering, chosen: Options, kept: Mapping[str, Tree], events: Sequence[Event]
+) -> tuple[dict[str, list[Node]], MomentumState | None]:
+    """Name → outputs of the functions of the state, and the state with momenta."""
+    wanted = _outputs(lowering, chosen)
+    group = lowering.reader.group
+    momenta = momentum_state(lowering, group, chosen) if chosen.momenta else None
+    wanted |= _added(lowering, momenta, kept)
+    if events:
+        wanted["events"] = values(lowering, events)
+    return wanted, momenta
 
 
 def _added(
     lowering: Lowering, momenta: MomentumState | None, kept: Mapping[str, Tree]
 ) -> dict[str, list[Node]]:
-    """Name → outputs of the functions in momenta, of θ, and of what is kept."""
+    """Name → outputs of the functions in momenta, of θ, of the discrete step, and of what is
+    kept."""
     found = {**momenta.wanted} if momenta else {}
+    found |= discrete_step.functions(lowering)
     if lowering.reader.options.multiplier:
         found["multiplier"] = [lowering.reader.number("θ")]
     if kept:
         found["conserved"] = Kept(lowering).of(kept)
     return {name: factored(lowering.graph, nodes) for name, nodes in found.items()}
+
+
+def _kept_by_gauss(
+    lowering: Lowering,
+    chosen: Options,
+    functions: Mapping[str, EmittedFunction],
+    parameters: int,
+    conserved: Sequence[str],
+) -> KeptByGauss | None:
+    """What the step keeps of which that is asked for."""
+    if "gauss" not in chosen.step:
+        return None
+    sizes = {"p": parameters, "u": len(lowering.reader.inputs)}
+    return kept_by_gauss(functions, lowering.reader.space, sizes, conserved)
 
 
 def _not_tested(lowering: Lowering) -> tuple[str, ...]:
@@ -219,13 +252,17 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
         energy, tensor = reader.number("h̃"), _inertia(reader)
         *rates, energy = factored(graph, [*rates, energy])
         found = {"rhs": rates, "energy": [energy]}
-        second = space.velocity(reader.component) if options.jacobian else []
+        second = space.velocity(reader.component) if options.varied else []
         if "state" in options.jacobian:
             # after the rates, with which it shares much
             found["jacobian"] = factored(graph, [*rates, *by_state(space, second)])
         if "inputs" in options.jacobian:
+            if not reader.inputs:
+                raise LoweringError(f"{lowering.record.name}: there are no inputs to linearise in")
             leaves = [reader.leaf(x, "input") for x in reader.inputs]
             found["jacobian_inputs"] = factored(graph, by_leaves(space, second, leaves))
+        if "raw" in options.jacobian:
+            found["jacobian_raw"] = _raw(lowering, rates)
     except ZeroDivisionError:
         raise LoweringError(
             f"{lowering.record.name}: a division by zero, or a mass matrix that is singular "
@@ -234,6 +271,17 @@ def _outputs(lowering: Lowering, options: Options) -> dict[str, list[Node]]:
             * lowering.inverses.definite
         ) from None
     return found | tensor
+
+
+def _raw(lowering: Lowering, rates: list[Node]) -> list[Node]:
+    """The derivative of the rates by the numbers of the state; ``LoweringError`` for too many."""
+    leaves = [lowering.reader.leaf(x, "state") for x in lowering.reader.space.names]
+    if len(leaves) ** 2 > SLOPES:
+        raise LoweringError(
+            f"{lowering.record.name}: --jacobian raw is a matrix of {len(leaves) ** 2} entries; "
+            f"compilers manage {SLOPES}: leave it out"
+        )
+    return factored(lowering.graph, by_numbers(lowering.graph, rates, leaves))
 
 
 def _places(

@@ -15,17 +15,20 @@ from ..language.refused import Refused
 from ..language.templating import environment
 from ..record.record import Derivation
 from .collisions import hollowed, identifiers, without_collisions
-from .ellipsoid import CONVERGED, DUPLICATIONS, SMALL_Y, is_integral, series
-from .ellipsoid import NEWTON_STEPS as NEWTON_EACH
+from .duplication import CONVERGED, DUPLICATIONS, SMALL_Y, Duplication
+from .duplication import NEWTON_STEPS as NEWTON_EACH
+from .ellipsoid import BUNDLES, SLOPES, is_integral
 from .heading import heading
 from .languages import LANGUAGES, TargetLanguage
 from .naming import PREFIXES
 from .options import Options
-from .printers import SourcePrinter, wrapped
+from .printers import SourcePrinter
 from .program import TOLERANCE, Program
 from .request import EmissionRequest
 from .signatures import functions
 from .statements import Statements, comment
+from .step.explicit_fields import METHODS
+from .step.step_numbers import IN_FLOAT, steps
 from .torus.torus_program import Loops
 
 
@@ -47,7 +50,9 @@ def emit(
     """
     chosen = options or Options()
     asked = EmissionRequest(d.name, prefix, tuple(languages), chosen, tuple(allowed))
-    places = planned(languages, prefix, chosen.form)
+    places = planned(languages, prefix, chosen)
+    if chosen.ensemble and program.loops:
+        raise EmitError(f"{d.name}: --ensemble is not written for loops on the torus: leave it out")
     plain = [name for name in languages if program.framing and not LANGUAGES[name].framed]
     if plain:
         framed = ", ".join(name for name, x in LANGUAGES.items() if x.framed)
@@ -63,8 +68,10 @@ def emit(
     return files
 
 
-def planned(languages: Sequence[str], prefix: str, form: str) -> dict[str, tuple[str, str]]:
-    """File name → its language and template; ``EmitError`` for a prefix that is no name."""
+def planned(languages: Sequence[str], prefix: str, chosen: Options) -> dict[str, tuple[str, str]]:
+    """File name → its language and template; ``EmitError`` for a prefix that is no name, a form or
+    a step that a language does not have."""
+    form = chosen.form
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,63}", prefix) or prefix in PREFIXES:
         raise EmitError(
             f"the prefix {prefix[:40]!r} cannot be used: give --prefix NAME, letters, digits and "
@@ -76,10 +83,27 @@ def planned(languages: Sequence[str], prefix: str, form: str) -> dict[str, tuple
         raise EmitError(
             f"--form header is one of {', '.join(forms)}: add --lang {next(iter(forms))}"
         )
+    of_double = [f"--step {x}" for x in chosen.step if x not in IN_FLOAT]
+    of_double += ["--ensemble"] * chosen.ensemble
+    if chosen.real == "float" and of_double:
+        raise EmitError(f"{of_double[0]} is of doubles: leave out --real float")
+    if chosen.ensemble and not {"c"} & {x for y in languages for x in (y, LANGUAGES[y].needs)}:
+        raise EmitError("--ensemble is written in C: add --lang c")
+    if chosen.order and "discrete" not in chosen.step:
+        raise EmitError(
+            "--order is that of --step discrete; other steps have one of their own: leave it out"
+        )
+    for step in chosen.step:
+        if without := [name for name in languages if step not in LANGUAGES[name].steps]:
+            known = ", ".join(name for name, x in LANGUAGES.items() if step in x.steps)
+            others = ", ".join(without)
+            remedy = f"; emit {others} apart, without it" if {*without} < {*languages} else ""
+            raise EmitError(f"--step {step} is written for {known}, not for {others}{remedy}")
     needed = (LANGUAGES[name].needs for name in languages)
     places = {}
     for name in dict.fromkeys([*filter(None, needed), *languages]):
-        for file in LANGUAGES[name].files[form]:
+        apart = LANGUAGES[name].step_files if chosen.moves else ()
+        for file in (*LANGUAGES[name].files[form], *apart):
             source, _, suffix = file.rpartition(":")
             places[prefix + suffix] = name, f"problem{source or suffix}.jinja"
     return places
@@ -114,6 +138,7 @@ def _fields(
 ) -> dict[str, Any]:
     """What the templates of a language are filled with, by the names they use."""
     prefix, real = asked.prefix, asked.options.real
+    explicit_alone = {*asked.options.step} <= {*METHODS}  # what devices have
     printer = language.printer(real)
     sizes = {"x": len(p.state), "k": len(p.constants), "u": len(p.inputs)}
     sizes |= {"p": len(p.parameters), "y": len(p.momenta)}
@@ -122,15 +147,15 @@ def _fields(
         sizes["frame"] = len(p.framing.numbers.outputs)
     written = Statements(language, real, sizes, prefix)
     called = {x for f in p.all_functions() for x in f.calls()}
-    integrates = any(map(is_integral, called))
     parameters = [_parameter(x) for x in p.parameters]
     known = functions(p, written)
     if p.loops:
         for name in p.loops.names & {*known}:
-            by_table = p.loops.table and "c" in (language.name, language.needs)
             of = known[name]["of"] or name
-            own = "rhs by table" if by_table and of == "rhs" else of
-            known[name]["operations"] = p.loops.operations[own]
+            if "c" in (language.name, language.needs):
+                by = "by table" if p.loops.table and of == "rhs" else "in C"
+                of = f"{of} {by}" if f"{of} {by}" in p.loops.operations else of
+            known[name]["operations"] = p.loops.operations[of]
     made_of = f"Generated by derive {__version__} from problem {problem_hash(d)}; do not edit."
     generated = [made_of, *asked.stated]
     cost = {name: f["operations"] for name, f in known.items()}
@@ -138,7 +163,8 @@ def _fields(
         **vars(p),
         "prefix": prefix,
         "guard": prefix.upper() + "_H",
-        "header": asked.options.form == "header",
+        "header": (header := asked.options.form == "header"),
+        "inline": f"{prefix}_FUNCTION" if header and explicit_alone else "static inline",
         "real": language.reals[real],
         "fabs": printer.absolute,
         "title": comment(p.title),
@@ -152,19 +178,36 @@ def _fields(
         "framing": _framing(p, written, sizes),
         "asks_for_zero": p.asks_for_zero,
         "calls": sorted({"sqrt" if is_integral(x) else x for x in called}),
-        "integrals": _integrals(written.printer) if integrates else None,
+        "integrals": _integrals(written, [x for x in BUNDLES if x in called]),
         "newton": _newton(p, real, printer),
         "momentum_range": p.momentum_range,
         "tolerance": printer.number(Fraction(TOLERANCE[real])),
         "loops": p.loops and _loops(p.loops, printer),
+        "steps": steps(p, written, asked.options) if asked.options.moves else None,
     }
 
 
-def _integrals(printer: SourcePrinter) -> dict[str, Any]:
-    """The template fields of the integrals over an ellipsoid."""
-    texts = {x: wrapped(printer(e), 88, " " * 8) for x, e in series().items()}
+def _integrals(written: Statements, called: Sequence[str]) -> dict[str, Any] | None:
+    """The template fields of the functions of integrals over an ellipsoid; ``None`` without any."""
+    if not called:
+        return None
+    printer = written.printer
+    found: list[dict[str, Any]] = []
+    for name in called:
+        d = Duplication(second=name == SLOPES)
+        parts = {x: written.part(f) for x, f in d.functions().items()}
+        found.append(
+            {"name": name, "of": BUNDLES[name], "second": d.second, "carried": d.carried, **parts}
+        )
     limits = {"small": printer.number(-SMALL_Y), "converged": printer.number(CONVERGED)}
-    return {"duplications": DUPLICATIONS, "newton": NEWTON_EACH, **limits, **texts}
+    most = max(len(f["whole"]["outputs"]) for f in found)
+    return {
+        "duplications": DUPLICATIONS,
+        "newton": NEWTON_EACH,
+        "most": most,
+        **limits,
+        "functions": found,
+    }
 
 
 NEWTON_STEPS, SMALL_CHANGE = 60, {"double": Fraction(1, 10**10), "float": Fraction(1, 10**4)}

@@ -8,6 +8,7 @@ from ..record.record import Derivation
 from .momentum_state import refuse
 from .options import Options
 from .program import LoweringError
+from .step import discrete_step
 
 
 def require_written(d: Derivation, group: Group, chosen: Options) -> None:
@@ -41,6 +42,8 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
         )
     if chosen.momenta:
         refuse(d, group, chosen)
+    if "discrete" in chosen.step:
+        discrete_step.refuse(d, group, chosen)
     if chosen.attitude == "quaternion" and not group.turns_space:
         raise LoweringError(f"{d.name}: a quaternion needs SO(3) or SE(3), not {group.name}")
     if chosen.attitude == "quaternion" and chosen.velocity == "tangent":
@@ -66,7 +69,7 @@ def _refused_without_element(d: Derivation, chosen: Options) -> None:
         (chosen.velocity == "tangent", "--velocity tangent"),
         (chosen.attitude == "quaternion", "--attitude quaternion"),
         (chosen.layout == "col", "--layout col"),
-        (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
+        (chosen.varied, f"--jacobian {' '.join(chosen.varied)}"),
     ):
         if on:
             raise LoweringError(
@@ -79,7 +82,7 @@ def _refused_where_held(d: Derivation, chosen: Options) -> None:
     """What is written for a motion that the whole velocity tells."""
     for on, option in (
         (chosen.velocity == "tangent", "--velocity tangent"),
-        (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
+        (chosen.varied, f"--jacobian {' '.join(chosen.varied)}"),
     ):
         if on:
             raise LoweringError(

@@ -25,7 +25,8 @@ class TargetLanguage:
     and small letters are the same.
     ``mutates``: how the name of a function ends that writes what it is given.
     ``needs``: a language whose files these ones include.  ``framed``: are there templates of
-    what finds a principal frame?
+    what finds a principal frame?  ``steps``: the steps in time that it has, ``step_files`` those of
+    their files that are apart.
     """
 
     name: str
@@ -45,6 +46,8 @@ class TargetLanguage:
     mutates: str = ""
     needs: str = ""
     framed: bool = False
+    steps: tuple[str, ...] = ()
+    step_files: tuple[str, ...] = ()
 
 
 def _c(real: str) -> SourcePrinter:
@@ -54,14 +57,14 @@ def _c(real: str) -> SourcePrinter:
         lambda q: decimal(q, suffix),
         "fabs" + suffix,
         lambda name: f"{name}{suffix}",
-        integrals="{prefix}_ellipsoid(",
+        integrals="{prefix}_{function}(",
         item="{}.v[{}]",
     )
 
 
 def _plain(function: str, absolute: str, none: str) -> Callable[[str], SourcePrinter]:
     """Printers of a language whose numbers have no suffix and whose functions are a pattern."""
-    integrals = "_ellipsoid(xp, " if function.startswith("xp.") else "ellipsoid("
+    integrals = "_{function}(xp, " if function.startswith("xp.") else "{function}("
     return lambda real: SourcePrinter(
         decimal, absolute, lambda name: function.format(name), none, integrals
     )
@@ -93,6 +96,8 @@ C = TargetLanguage(
     bundle="const {prefix}_integrals {name} = {text};",
     batch="{array}[{index}*n + s]",
     framed=True,
+    steps=("gauss", "rk4", "vern9", "discrete"),
+    step_files=("_steps.h",),
 )
 
 
@@ -103,8 +108,8 @@ def _one_file(ending: str) -> dict[str, tuple[str, ...]]:
 
 _LANGUAGES = (
     C,
-    replace(C, name="cpp", files=_one_file(".hpp"), batch="", needs="c"),
-    replace(C, name="cvode", files=_one_file("_cvode.h"), batch="", needs="c"),
+    replace(C, name="cpp", files=_one_file(".hpp"), batch="", needs="c", step_files=()),
+    replace(C, name="cvode", files=_one_file("_cvode.h"), batch="", needs="c", step_files=()),
     TargetLanguage(
         "python",
         _one_file(".py"),
@@ -114,6 +119,7 @@ _LANGUAGES = (
         {"double": "float64", "float": "float32"},
         parenthesised=True,
         framed=True,
+        steps=("gauss", "rk4", "vern9", "discrete", "gauss_jax"),
     ),
     TargetLanguage(
         "rust",
@@ -123,6 +129,8 @@ _LANGUAGES = (
         SLASH,
         {"double": "f64", "float": "f32"},
         bundle="let {name} = {text};",
+        batch="{array}[{index}][s]",
+        steps=("gauss", "rk4", "vern9"),
     ),
     TargetLanguage(
         "julia",
@@ -142,6 +150,7 @@ _LANGUAGES = (
         "const {name} = {text};",
         SLASH,
         {"double": "Float64Array", "float": "Float32Array"},
+        steps=("gauss", "rk4", "vern9"),
     ),
 )
 LANGUAGES = {x.name: x for x in _LANGUAGES}

@@ -15,9 +15,8 @@ from fractions import Fraction
 
 from ..language.derivatives import DERIVATIVES
 from ..language.values import value
-from .ellipsoid import is_integral
+from .ellipsoid import is_item, slopes
 from .graph import Graph, Node
-from .program import LoweringError
 from .state import StateSpace
 
 
@@ -46,16 +45,13 @@ class Varied:
             return g.linear((c, self.of(y)) for c, y in zip(x.data, x.args, strict=True))
         if x.op == "mul":
             return g.sum(self._factors(x.args))
+        if x.op == "fun" and is_item(x.data):
+            return g.sum(g.product((slope, self.of(y))) for y, slope in slopes(x))
         inner = self.of(x.args[0])
         if inner.is_zero:
             return self.zero
         if x.op == "recip":
             return g.linear([(Fraction(-1), g.product((x, x, inner)))])
-        if x.op == "fun" and is_integral(x.data):
-            raise LoweringError(
-                "--jacobian: the derivatives of the integrals of self_gravity are not written; "
-                "leave it out"
-            )
         if x.op == "fun":
             slope = value(DERIVATIVES[x.data]("x"), {"x": x.args[0]}, None, g.function, g.num)
             return g.product((slope, inner))
@@ -89,6 +85,12 @@ def by_leaves(space: StateSpace, accelerations: list[Node], leaves: Sequence[Nod
     varied = [Varied(g, {x: g.num(1)}, str(x.data[1])) for x in leaves]
     zeros = [g.num(0)] * (d * len(leaves))
     return zeros + [v.of(x) for x in accelerations for v in varied]
+
+
+def by_numbers(graph: Graph, rates: list[Node], state: Sequence[Node]) -> list[Node]:
+    """∂ẋ/∂x by rows, of the numbers of the state as they are stored, on the group and off it."""
+    varied = [Varied(graph, {x: graph.num(1)}, str(x.data[1])) for x in state]
+    return [v.of(x) for x in rates for v in varied]
 
 
 def _adjoint(space: StateSpace) -> list[list[Node]]:

@@ -19,7 +19,7 @@ from ..language.tree import Tree, mul
 from ..language.values import hat, wedge
 from ..record.record import Derivation, step_of
 from . import dense
-from .ellipsoid import PLACES, integral, mixed_adjugate, polarised
+from .ellipsoid import PLACES, integral
 from .graph import PARAMETER, Graph, Node
 from .inverses import SMALL, Inverses
 from .naming import name_of
@@ -81,8 +81,6 @@ class Lowering:
             return integral(self.graph, t[1], invariants, self.reader.label)
         if op == "call":
             return self.reader.applied(t)
-        if op == "add" and (pair := polarised(t)):
-            return mixed_adjugate(*map(self._matrix, pair))
         if op == "at":
             return self.reader.member(t)
         if op == "sum":

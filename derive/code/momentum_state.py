@@ -123,11 +123,12 @@ def momentum_state(lowering: Lowering, group: Group, options: Options) -> Moment
 
 def _of_points(found: MomentaOfPoints) -> MomentumState:
     """The functions in momenta where points give the Lagrangian."""
-    reader = found.lowering.reader
+    reader, moving = found.lowering.reader, found.after.reader
     leaves = [reader.leaf(x) for x in reader.space.names]
     at = {leaves.index(x): p for x, p in zip(reader.space.coordinates, found.own, strict=True)}
     y = [at.get(i, x) for i, x in enumerate(leaves)]
-    rates = reader.space.rates(found.after.reader.vector, lambda name, a: reader.graph.num(0))
+    moving.space.values["ζ"] = matrix(moving.state["ζ"])
+    rates = moving.space.rates(moving.vector, lambda name, a: reader.graph.num(0))
     wanted = {
         "momentum": _with(leaves, at, found.momenta),
         "velocity": _with(y, at, found.velocity),

@@ -18,16 +18,33 @@ ADDED: dict[str, str] = {
     "momenta": "also the motion in momenta: to them and back, rates, Poisson tensor",
     "multiplier": "add the multiplier of the volume, the integral of the pressure in a fluid",
     "conserved": "add what the motion keeps, as derive symmetries finds it",
+    "ensemble": "add many motions at once, in vector lanes and over all cores (C)",
 }
 """Option that is given or not → what it adds."""
 
-JACOBIANS = ("state", "inputs", "parameters")
-"""What the equations may be linearised in, besides nothing."""
+REPEATED: dict[str, tuple[tuple[str, ...], str]] = {
+    "jacobian": (
+        ("state", "inputs", "parameters", "raw"),
+        "also the linearised equations, in the state, the inputs or the parameters, or (raw) the "
+        "derivative of dx/dt by x as it is stored, for implicit integrators; repeated",
+    ),
+    "step": (
+        ("gauss", "rk4", "vern9", "discrete", "gauss_jax"),
+        "also a step in time, and a motion that it moves; gauss_jax is gauss in JAX; repeated",
+    ),
+}
+"""Option of several values, none by default → those that there are, and what they add."""
+
+
+DEPENDENT: dict[str, tuple[tuple[str, ...], str]] = {
+    "order": (("2", "4", "6", "8"), "that of --step discrete (default: 2)"),
+}
+"""Option that another one has → its values, and what they choose; none where it is not given."""
 
 
 @dataclass(frozen=True)
 class Options:
-    """The choices of one emission, by CHOICES, JACOBIANS and ADDED; ``ValueError`` for others."""
+    """The choices of one emission, by the tables above; ``ValueError`` for others."""
 
     real: str = "double"
     form: str = "source"
@@ -36,16 +53,33 @@ class Options:
     frame: str = "given"
     velocity: str = "body"
     jacobian: tuple[str, ...] = ()
+    step: tuple[str, ...] = ()
+    order: str = ""
     conserved: bool = False
     momenta: bool = False
     multiplier: bool = False
+    ensemble: bool = False
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """What the equations are linearised in for variations of an element of the group."""
+        return tuple(x for x in self.jacobian if x != "raw")
+
+    @property
+    def moves(self) -> bool:
+        """Is there code that moves a motion?"""
+        return bool(self.step) or self.ensemble
 
     def __post_init__(self) -> None:
         for name, (allowed, _) in CHOICES.items():
             if getattr(self, name) not in allowed:
                 raise ValueError(f"{name} must be one of {', '.join(allowed)}")
-        if isinstance(self.jacobian, str):
-            object.__setattr__(self, "jacobian", (self.jacobian,))
-        for name in self.jacobian:
-            if name not in JACOBIANS:
-                raise ValueError(f"jacobian must be among {', '.join(JACOBIANS)}")
+        for name, (allowed, _) in REPEATED.items():
+            if isinstance(given := getattr(self, name), str):
+                object.__setattr__(self, name, (given,))
+            if not {*getattr(self, name)} <= {*allowed}:
+                raise ValueError(f"{name} must be among {', '.join(allowed)}")
+        for name, (allowed, _) in DEPENDENT.items():
+            object.__setattr__(self, name, str(getattr(self, name)))
+            if getattr(self, name) not in ("", *allowed):
+                raise ValueError(f"{name} must be one of {', '.join(allowed)}")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from .ellipsoid import BUNDLES, is_item
 from .program import Expression, LoweringError, is_negated
 
 SUM, PRODUCT, ATOM = 1, 2, 3
@@ -17,17 +18,19 @@ SUM, PRODUCT, ATOM = 1, 2, 3
 class SourcePrinter:
     """How a language writes a number, |x|, and 1 where x is 0, else 0.
 
-    ``integrals``: how a call of the integrals over an ellipsoid begins; ``item``: one of them,
-    counted from ``first``.  The rest is common to all that have + − * /.
+    ``integrals``: how a call of a function of integrals over an ellipsoid begins, of ``{prefix}``
+    and ``{function}``; ``item``: one of them, counted from ``first``.  The rest is common to all
+    that have + − * /.
     """
 
     number: Callable[[Fraction], str]
     absolute: str = "abs"
     function: Callable[[str], str] = str
     none: str = "({} == 0)"
-    integrals: str = "ellipsoid("
+    integrals: str = "{function}("
     item: str = "{}[{}]"
     first: int = 0
+    prefix: str = ""
 
     def __call__(self, e: Expression) -> str:
         """An expression as source text."""
@@ -40,11 +43,11 @@ class SourcePrinter:
         if isinstance(e, str):
             return e, ATOM
         op, *operands = e
-        if op == "fun" and e[1].startswith("ellipsoid_"):
+        if op == "fun" and is_item(e[1]):
             return self.item.format(self(e[2]), int(e[1][-1]) + self.first), ATOM
-        if op == "fun" and e[1] == "ellipsoid":
+        if op == "fun" and e[1] in BUNDLES:
             given = ", ".join(self(x) for x in e[2:])
-            return f"{self.integrals}{given})", ATOM
+            return f"{self.integrals.format(prefix=self.prefix, function=e[1])}{given})", ATOM
         if op == "fun":
             return f"{self.function(e[1])}({self(e[2])})", ATOM
         if op == "abs":

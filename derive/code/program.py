@@ -30,8 +30,8 @@ OPERATIONS = ("mul", "add", "div", "call")
 Expression = Tree
 """A fraction, a name, ("add", e, …), ("mul", e, …), ("mul", −1, e), ("div", e, f),
 ("fun", name, e), ("abs", e), and ("none", e): 1 where e is 0, else 0.  Of the integrals of
-:mod:`derive.code.ellipsoid`, ("fun", "ellipsoid", e, f, g) is all four and ("fun", "ellipsoid_k",
-name) one of them."""
+:mod:`derive.code.ellipsoid`, ("fun", "ellipsoid", e, f, g) is all of a bundle and ("fun",
+"ellipsoid_k", name) one of them."""
 
 
 def negated(e: Expression) -> Expression:
@@ -119,11 +119,31 @@ class EmittedFunction:
             for x in nodes(e):
                 if isinstance(x, tuple) and not is_negated(x):
                     own = {"fun": "call"}.get(x[0], x[0])
-                    if x[0] == "fun" and x[1].startswith("ellipsoid_"):
+                    if x[0] == "fun" and x[1].startswith("ellipsoid_") and len(x) == 3:
                         continue
                     if own in total:
                         total[own] += 1 if own in ("div", "call") else len(x) - 2
         return total
+
+
+@dataclass(frozen=True)
+class Watched:
+    """An event: its name; 1 where it is reached from below alone, −1 from above, 0 from either;
+    does it end a motion?"""
+
+    name: str
+    direction: int
+    terminal: bool
+
+
+@dataclass(frozen=True)
+class KeptByGauss:
+    """What ``step.kept_by_gauss`` finds: the names of what is kept to rounding, and of what the
+    motion keeps beside; is the group kept so?"""
+
+    exact: tuple[str, ...]
+    others: tuple[str, ...]
+    group: bool
 
 
 @dataclass(frozen=True)
@@ -155,8 +175,8 @@ class Program:
     """All that is emitted for one problem, without a word of any language.
 
     ``functions``: constants, rhs, energy; inertia for a body turned in space; and what is asked for
-    of conserved, multiplier; of jacobian, jacobian_inputs, jacobian_parameters; momentum, velocity,
-    momentum_rhs and poisson; into_frame, out_of_frame, inputs_into_frame.
+    of conserved, multiplier, events; of jacobian, jacobian_inputs, jacobian_parameters; momentum,
+    velocity, momentum_rhs and poisson; into_frame, out_of_frame, inputs_into_frame.
     """
 
     name: str
@@ -177,6 +197,10 @@ class Program:
     """What δg is by η, in comments."""
     conserved: tuple[str, ...] = ()
     """The names of what ``conserved`` gives."""
+    events: tuple[Watched, ...] = ()
+    """Those that ``events`` gives."""
+    keeps: KeptByGauss | None = None
+    """What Gauss's collocation keeps, where that was asked for and is found."""
     momenta: tuple[str, ...] = ()
     """The names of the state with momenta, where there is one."""
     reduced: int = 0
@@ -186,6 +210,8 @@ class Program:
     on_torus: bool = False
     mass_fault: str = "singular or not positive"
     """What ``constants`` says that the mass matrix is."""
+    discrete: Any = None
+    """What the step of the discrete motion is written by (``step.discrete_step.DiscreteStep``)."""
 
     @property
     def momentum_range(self) -> tuple[int, int]:

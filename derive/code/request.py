@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .languages import LANGUAGES
-from .options import ADDED, CHOICES, Options
+from .options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
 
 _STATED = re.compile(r"; do not edit\.\n[\s*#/]*Options: (\w+)((?:[\s*#/]+--[a-z-]+(?: \w+)?)+)")
 _OPTION = re.compile(r"--([a-z-]+)(?: (\w+))?")
@@ -29,7 +29,8 @@ class EmissionRequest:
         """The options as words of a command line, each with its value."""
         found = [("lang", x) for x in self.languages] + [("prefix", self.prefix)]
         found += [(name, getattr(self.options, name)) for name in CHOICES]
-        found += [("jacobian", x) for x in self.options.jacobian]
+        found += [(name, x) for name in REPEATED for x in getattr(self.options, name)]
+        found += [(name, x) for name in DEPENDENT if (x := getattr(self.options, name))]
         flags = [f"--{x}" for x in ADDED if getattr(self.options, x)]
         flags += [f"--allow-negative-{x}" for x in self.allowed]
         return [f"--{name} {x}" for name, x in found] + flags
@@ -55,7 +56,9 @@ def request_of(text: str) -> EmissionRequest | None:
     try:
         one: dict[str, Any] = {name: found[name][0] for name in CHOICES}
         one |= {name: name in found for name in ADDED}
-        options = Options(**one, jacobian=tuple(found.get("jacobian", ())))
+        one |= {name: tuple(found.get(name, ())) for name in REPEATED}
+        one |= {name: found.get(name, [""])[0] for name in DEPENDENT}
+        options = Options(**one)
         prefix, languages = found["prefix"][0], tuple(found["lang"])
     except (KeyError, ValueError):
         return None

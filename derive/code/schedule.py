@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..language.suffixed import suffixed
-from .ellipsoid import INTEGRALS
+from .ellipsoid import BUNDLES
 from .graph import PARAMETER, Node
 from .naming import ClaimedNames, is_sum, sum_name
 from .program import Assignment, Check, EmittedFunction, Expression, Load, Section, negated
@@ -46,7 +46,9 @@ class Scheduler:
         order = reachable(roots, lambda x: () if x in inputs else x.args)
         uses = Counter(a for x in order if x not in inputs for a in x.args)
         uses.update(roots)
-        uses.update(a for x in order if x.data == INTEGRALS for a in x.args)  # by their names
+        uses.update(
+            a for x in order if x.op == "fun" and x.data in BUNDLES for a in x.args
+        )  # by their names
         builder = _Builder(self, inputs, uses, outputs)
         builder.build(order)
         loads = [Load(name, *place) for x, (name, place) in inputs.items() if x in order]
@@ -100,8 +102,8 @@ class _Builder:
 
     def _stands_alone(self, x: Node) -> bool:
         """Is the value of a node a statement of its own?"""
-        if x.op == "value" and x.args[0].op == "fun" and x.args[0].data == INTEGRALS:
-            return True  # it is four numbers
+        if x.op == "value" and x.args[0].op == "fun" and x.args[0].data in BUNDLES:
+            return True  # it is several numbers
         if x.op == "value":
             written = _weight(x.args[0])
             if x in self.outputs and written <= 6:

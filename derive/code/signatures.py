@@ -83,6 +83,24 @@ SIGNATURES = (
         "what the motion keeps where no input acts, one number for each of its names",
     ),
     Signature(
+        "moments",
+        (K,),
+        (Argument("out", ("MOMENTS",)),),
+        "the moments of the body and, where it is there, of its damping, by rows",
+    ),
+    Signature(
+        "from_rest",
+        (T, X, K, U),
+        (Argument("out", ("ALGEBRA",)),),
+        "the rate of the velocity of the body at rest at x",
+    ),
+    Signature(
+        "events",
+        (T, X, K, U),
+        (Argument("out", ("EVENTS",)),),
+        "what becomes 0 at each event",
+    ),
+    Signature(
         "project", (X,), (OUT,), "the state x taken back to the group by one Newton step", True
     ),
     Signature(
@@ -98,6 +116,12 @@ SIGNATURES = (
     Signature("jacobian", (T, X, K, U), (DX, _matrix("2", "ALGEBRA")), "dx/dt, and D"),
     Signature("jacobian_inputs", (T, X, K, U), (_matrix("INPUTS"),), "its derivative by u"),
     Signature("jacobian_parameters", (T, X, P, U), (_matrix("PARAMETERS"),), "that by p"),
+    Signature(
+        "jacobian_raw",
+        (T, X, K, U),
+        (Argument("D", ("STATE", "STATE")),),
+        "that of dx/dt by x as it is stored, by rows",
+    ),
     Signature(
         "momentum", (T, X, K), (OUT,), "the state x with its momenta in place of the velocity"
     ),
@@ -133,7 +157,8 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
     """Name → signature and statements, of the functions that a program has in a language.
 
     ``reads``: the letters of what it takes; ``counts``: how many numbers each array that is written
-    has; ``stores``: the array, the index (from 0), the text and the title of each number.
+    has; ``rows``: those of D; ``stores``: the array, the index (from 0), the text and the title of
+    each number.
     """
     sizes = {
         "STATE": len(p.state),
@@ -141,24 +166,34 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         "PARAMETERS": len(p.parameters),
         "INPUTS": len(p.inputs),
         "CONSERVED": len(p.conserved),
+        "EVENTS": len(p.events),
         "ALGEBRA": p.dimension,
         "REDUCED": p.reduced,
+        "MOMENTS": len(p.functions["moments"].outputs) if "moments" in p.functions else 0,
         "2": 2,
         "6": 6,
     }
     bodies = {name: written.function(f) for name, f in p.functions.items()}
     found = {s: bodies.get(s.of or s.name) for s in SIGNATURES}
     own = ("", written.language.name)
-    return {s.name: _function(s, f, sizes) for s, f in found.items() if f and s.only in own}
+    told = {"doc": "kinetic energy, its mean over the torus"} if p.on_torus else {}
+    return {
+        s.name: _function(s, f, sizes) | (told if s.name == "energy" else {})
+        for s, f in found.items()
+        if f and s.only in own
+    }
 
 
 def _function(s: Signature, body: Mapping[str, Any], sizes: Mapping[str, int]) -> dict[str, Any]:
     counts = {a.name: prod(sizes[x] for x in a.sizes) for a in s.writes}
     places = [(a, i) for a, count in counts.items() for i in range(count)]
     texts = zip(places, body["outputs"], body["titles"], strict=True) if places else ()
+    D = next((a for a in s.writes if a.name == "D"), None)
+    rows = prod(sizes[x] for x in D.sizes[: 2 if D.sizes[0] == "2" else 1]) if D else 0
     return {
         **vars(s),
         **body,
+        "rows": rows,
         "reads": "".join(a.name for a in s.takes),
         "counts": counts,
         "stores": [{"array": a, "index": i, "text": x, "title": t} for (a, i), x, t in texts],

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from .blocks import Block, blocks
-from .ellipsoid import INTEGRALS
+from .ellipsoid import BUNDLES
 from .languages import TargetLanguage
 from .printers import SourcePrinter, wrapped
 from .program import Check, EmittedFunction, Load, Section
@@ -29,8 +29,7 @@ class Statements:
     @property
     def printer(self) -> SourcePrinter:
         """What writes expressions."""
-        own = self.language.printer(self.real)
-        return replace(own, integrals=own.integrals.format(prefix=self.prefix))
+        return replace(self.language.printer(self.real), prefix=self.prefix)
 
     def function(self, f: EmittedFunction) -> dict[str, Any]:
         """Name of a template's field → lines of text: loads, sections, outputs, checks."""
@@ -49,6 +48,12 @@ class Statements:
             "calls": sorted(f.calls()),
             "operations": operations(f),
         }
+
+    def part(self, f: EmittedFunction) -> dict[str, list[str]]:
+        """Statements and outputs of what is a part of a function."""
+        written = self.function(f)
+        lines = [x for s in written["sections"] for x in s["statements"]]
+        return {"statements": lines, "outputs": written["outputs"]}
 
     def _wrapped(self, text: str, width: int) -> str:
         """An expression on several lines where it is wider than ``width``."""
@@ -108,7 +113,7 @@ class Statements:
 
     def _statement(self, name: str, expression: Any) -> str:
         text = self.printer(expression)
-        if isinstance(expression, tuple) and expression[:2] == ("fun", INTEGRALS):
+        if isinstance(expression, tuple) and expression[0] == "fun" and expression[1] in BUNDLES:
             pattern = self.language.bundle or self.language.declare
             return pattern.format(prefix=self.prefix, name=name, text=text)
         if not self.language.parenthesised:

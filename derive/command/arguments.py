@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from .. import __version__
 from ..language.near_names import did_you_mean, near_name
+from ..plot.pictures import told_kinds
 from ..views.rendering import FORMATS
 from .guard import one_line
 
@@ -22,15 +24,17 @@ ALLOWED = {"mass": "mass", "stiffness": "stiffness or damping"}
 def add_emission_options(emit: argparse.ArgumentParser) -> None:
     """Add the options that choose what code is emitted."""
     from ..code.languages import LANGUAGES
-    from ..code.options import ADDED, CHOICES, JACOBIANS
+    from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED
 
     lang = f"one of {', '.join(LANGUAGES)}; may be repeated; C and Python when left out"
     emit.add_argument("--lang", action="append", choices=LANGUAGES, metavar="LANG", help=lang)
     for name, (values, meaning) in CHOICES.items():
         about = f"{meaning} (default: {values[0]})"
         emit.add_argument(f"--{name}", choices=values, help=about)
-    about = "also the linearised equations, in the state, the inputs or the parameters; repeated"
-    emit.add_argument("--jacobian", action="append", choices=JACOBIANS, help=about)
+    for name, (values, about) in REPEATED.items():
+        emit.add_argument(f"--{name}", action="append", choices=values, help=about)
+    for name, (values, about) in DEPENDENT.items():
+        emit.add_argument(f"--{name}", choices=values, help=about)
     for name, about in ADDED.items():
         emit.add_argument(f"--{name}", action="store_true", help=about)
 
@@ -74,8 +78,8 @@ class Parser(argparse.ArgumentParser):
     ) -> tuple[argparse.Namespace, list[str]]:
         """The parsed arguments; what is left over is an error."""
         found, left = super().parse_known_args(args, namespace)
-        if hasattr(found, "step") and not any(x.startswith("-") for x in left):
-            found.step, left = [*found.step, *left], []  # steps behind an option
+        if hasattr(found, "labels") and not any(x.startswith("-") for x in left):
+            found.labels, left = [*found.labels, *left], []  # steps behind an option
         if left:
             option = next((x for x in left if x.startswith("-")), "")
             what = f"unknown option {option!r}" if option else f"unexpected {left[0]!r}"
@@ -115,6 +119,9 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     add_reading_options((walk, symmetries, reduction), (searched, steady), made)
     about = "first what holds for any Lagrangian, on the left beside the right"
     walk.add_argument("--trivialisation", type=both, metavar="both", help=about)
+    about = "the discrete motion, a time step h apart"
+    for one in (walk, made):
+        one.add_argument("--discrete", action="store_true", help=about)
     add_search_options(searched)
     about = "a coordinate of an equilibrium, as Pi_3=2 or sqrt(3)/2; repeated, others are 0"
     steady.add_argument("--at", action="append", type=coordinate, metavar="NAME=NUMBER", help=about)
@@ -128,10 +135,18 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     check.add_argument("problem", nargs="+", help="ready-made names, .toml files or .json records")
     about = "the seed of a run that is to be repeated (default: a new one)"
     check.add_argument("--seed", type=natural, metavar="N", help=about)
-    for one in (walk, emit, check, symmetries, reduction):
+    simulated = command("simulate")
+    add_motion_options(simulated)
+    for one in (walk, emit, check, symmetries, reduction, simulated):
         for name, what in ALLOWED.items():
             about = f"warn of a negative {what} instead of refusing it"
             one.add_argument(f"--allow-negative-{name}", action="store_true", help=about)
+    plot = command("plot")
+    about = "a run: .npz, .csv or .parquet; for precision several, or a table"
+    plot.add_argument("run_file", metavar="RUN", nargs="+", help=about)
+    plot.add_argument("--kind", default="", help=told_kinds())
+    plot.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
+    plot.add_argument("--out", metavar="FILE", required=True, help="FILE.svg, .pdf or .png")
     paper = command("paper")
     paper.add_argument("--format", choices=("text", "json"), default="text")
     paper.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
@@ -142,13 +157,87 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     return top
 
 
+def add_motion_options(simulated: argparse.ArgumentParser) -> None:
+    """Add the options of ``simulate``: how long, how exact, from where, and what is kept."""
+    from ..views.language import LANGUAGES
+
+    simulated.add_argument("problem", help="a ready-made name or a .toml file")
+    simulated.add_argument("--t", type=real, required=True, metavar="T", help="the time, from 0 on")
+    about = "the error of a short run, relative to the size of the state (default: 1e-9)"
+    simulated.add_argument("--tol", type=real, metavar="TOL", help=about)
+    simulated.add_argument("--dt", type=real, metavar="DT", help="steps of this size instead")
+    about = "how the motion is followed: gauss (the default), vern9, or, with --dt, rk4 or discrete"
+    simulated.add_argument("--step", dest="method", metavar="STEP", help=about)
+    about = "a number of the state, a parameter or an input, as zeta_3=2; repeated"
+    simulated.add_argument("--set", action="append", type=number, metavar="NAME=NUMBER", help=about)
+    about = "such numbers from a .toml file, or the end of a run"
+    simulated.add_argument("--state", metavar="FILE", help=about)
+    about = "start at exp of these coordinates in the basis of the Lie algebra, as 0.3,0,0"
+    simulated.add_argument("--exp", type=reals, metavar="NUMBERS", help=about)
+    about = "take the start to the group by Newton's method"
+    simulated.add_argument("--project", action="store_true", help=about)
+    about = "how many states are kept, about (default: 500; of an ensemble the last one)"
+    simulated.add_argument("--points", type=natural, metavar="N", help=about)
+    about = "many motions, by the emitted C, from what --vary draws for each"
+    simulated.add_argument("--ensemble", type=natural, metavar="N", help=about)
+    about = "a parameter, an input or a number of the start: uniform, or normal:MEAN:SD; repeated"
+    simulated.add_argument("--vary", action="append", type=law, metavar="NAME=LOW:HIGH", help=about)
+    about = "the seed of what is drawn (default: 0)"
+    simulated.add_argument("--seed", type=natural, metavar="N", help=about)
+    simulated.add_argument("--out", metavar="FILE", help="FILE.npz, .csv or .parquet")
+    about = "a page FILE.html in which the body moves, with sliders; alone, instead of a run"
+    simulated.add_argument("--html", metavar="FILE", help=about)
+    about = "English or French, of the page"
+    simulated.add_argument("--lang", choices=LANGUAGES, default="en", help=about)
+
+
+def real(words: str) -> float:
+    """A finite number from its text; ``ArgumentTypeError`` for any other."""
+    try:
+        found = float(words)
+    except ValueError:
+        found = math.nan
+    if not math.isfinite(found):
+        raise argparse.ArgumentTypeError(f"expected a number, not {words[:40]!r}")
+    return found
+
+
+def reals(words: str) -> list[float]:
+    """Numbers with commas between."""
+    return [real(x) for x in words.split(",")]
+
+
+def number(words: str) -> tuple[str, float]:
+    """A name and a number from NAME=NUMBER; ``ArgumentTypeError`` for any other text."""
+    name, text = named(words, "NAME=NUMBER, as zeta_3=2")
+    return name, real(text)
+
+
+def law(words: str) -> tuple[str, float, float, bool]:
+    """A name, two numbers, and whether they are mean and deviation, from NAME=LOW:HIGH or
+    NAME=normal:MEAN:SD; ``ArgumentTypeError`` for any other text."""
+    form = "NAME=LOW:HIGH or NAME=normal:MEAN:SD"
+    name, text = named(words, form)
+    kind, _, rest = text.partition(":")
+    numbers = (rest if kind == "normal" else text).split(":")
+    if len(numbers) != 2 or not all(numbers):
+        raise argparse.ArgumentTypeError(f"{words[:40]!r} is not {form}")
+    return name, real(numbers[0]), real(numbers[1]), kind == "normal"
+
+
+def named(words: str, form: str) -> tuple[str, str]:
+    """The two sides of NAME=TEXT; ``ArgumentTypeError``, with the form, for any other text."""
+    name, _, text = words.partition("=")
+    if not re.fullmatch(r"\w{1,80}", name, re.ASCII) or not text:
+        raise argparse.ArgumentTypeError(f"{words[:40]!r} is not {form}")
+    return name, text
+
+
 def coordinate(words: str) -> tuple[str, Number]:
     """A name and an exact number from NAME=NUMBER; ``ArgumentTypeError`` for any other text."""
     from ..equilibria.equilibrium_points import NoEquilibriumError, number_from
 
-    name, _, text = words.partition("=")
-    if not re.fullmatch(r"\w{1,40}", name, re.ASCII) or not text:
-        raise argparse.ArgumentTypeError(f"{words[:40]!r} is not NAME=NUMBER, as Pi_3=2")
+    name, text = named(words, "NAME=NUMBER, as Pi_3=2")
     try:
         return name, number_from(text)
     except NoEquilibriumError as error:
@@ -188,9 +277,11 @@ def add_reading_options(
         one.add_argument("--out", metavar="FILE")
     for one in walks:
         about = "steps to print alone, as kernel or linear.kernel"
-        one.add_argument("step", nargs="*", help=about)
+        one.add_argument("labels", nargs="*", metavar="step", help=about)
     notes.add_argument("problem", nargs="*", help="ready-made names or .toml files")
     notes.add_argument("--out", metavar="FILE", required=True, help="FILE.tex, .pdf, .html or .sty")
+    about = "beside FILE.html a page for each problem, linked from it, in which the body moves"
+    notes.add_argument("--motion", metavar="T", type=float, help=f"{about} for a time T")
     for one in (*walks, *searched, notes):
         one.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
         one.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")

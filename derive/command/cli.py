@@ -1,5 +1,5 @@
 """The command line: ``derive list | walk | symmetries | reduction | integrals | equilibria |
-notes | emit | check | paper | build``."""
+notes | emit | simulate | plot | check | paper | build``."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..language.near_names import did_you_mean, near_name
 from ..language.refused import Refused
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation, Step
 from ..schema.table import nearest
-from ..views.rendering import NOTES, notes, pdf, render, unprinted
+from ..views.rendering import NOTES, RenderError, notes, pdf, render, unprinted
 from .encoding import as_in_a_file, replacing_unencodable
 from .guard import StoppedError, one_line, time_limit
 from .progress import with_progress
@@ -47,6 +47,8 @@ def load_problem(name: str, **allowances: bool) -> Problem:
     path = Path(name)
     if path.suffix == ".toml" or path.exists():
         return load(path, **allowances)
+    if "\n" in name:
+        raise UsageError("a problem is a name or a .toml file, not its text: write it to a file")
     near = near_name(name.lower(), ready_made())
     if path.with_name(f"{path.name}.toml").is_file():
         near = f"{name}.toml"
@@ -69,6 +71,14 @@ def derive(name: str, **allowances: bool) -> tuple[Problem, Derivation]:
         return problem, walk(problem)
     except ProblemError as error:
         raise UsageError(f"{name}: {error}") from None
+
+
+def discrete_walk(name: str, **allowances: bool) -> tuple[Problem, Derivation]:
+    """A problem and the record of its discrete motion."""
+    from ..pipeline import discrete
+
+    problem = load_problem(name, **allowances)
+    return problem, discrete(problem)
 
 
 def allowances(args: argparse.Namespace) -> dict[str, bool]:
@@ -103,12 +113,19 @@ def command_walk(args: argparse.Namespace) -> int:
     """Print the walk of a problem."""
     from ..pipeline import both_trivialisations
 
-    record = derive(args.problem, **allowances(args))[1]
+    if args.discrete and args.trivialisation:
+        raise UsageError("--discrete and --trivialisation are of two roads: leave out one")
+    walked = discrete_walk if args.discrete else derive
+    problem, record = walked(args.problem, **allowances(args))
     if args.trivialisation:
+        if problem.fluid:
+            raise UsageError(
+                f"{record.name}: a fluid is told on the right alone: leave out --trivialisation"
+            )
         if args.format == "json":
             raise UsageError("--trivialisation both is to be read: choose another --format")
         record = both_trivialisations(record)
-    chosen = {"fragment": args.fragment, "steps": steps_of(record, args.step), **notation(args)}
+    chosen = {"fragment": args.fragment, "steps": steps_of(record, args.labels), **notation(args)}
     shown = render(record, args.format, args.lang, **chosen)
     if args.format == "latex":
         warn_of_letters([record])
@@ -186,7 +203,7 @@ def save_record(
     record: Derivation, own: Callable[[Derivation], list[Step]], args: argparse.Namespace
 ) -> None:
     """Write the steps of a record that are asked for, else its ``own``; in JSON all."""
-    steps = steps_of(record, args.step)
+    steps = steps_of(record, args.labels)
     if not steps and args.format != "json":
         steps = own(record)
     chosen = {"fragment": args.fragment, "steps": steps, **notation(args)}
@@ -217,20 +234,47 @@ def command_notes(args: argparse.Namespace) -> int:
     if out.suffix not in NOTES:
         raise UsageError(f"--out {args.out}: the name must end in {', '.join(NOTES)}")
     names = dict.fromkeys(args.problem)
-    records = list(with_progress((derive(name)[1] for name in names), len(names), "walks"))
-    chosen = {"fragment": args.fragment, **notation(args)}
-    text = notes(records, out.suffix, args.lang, **chosen)
+    walked = discrete_walk if args.discrete else derive
+    walks = list(with_progress((walked(name) for name in names), len(names), "walks"))
+    records = [record for _, record in walks]
+    pages = {} if args.motion is None else pages_of_motions(args, walks)
+    moving = dict(zip((d.name for d in records), pages, strict=False))
+    text = notes(
+        records, out.suffix, args.lang, fragment=args.fragment, moving=moving, **notation(args)
+    )
     if out.suffix in (".tex", ".pdf"):
         warn_of_letters(records)
-    if out.suffix != ".pdf":
-        paths = write({out.name: text}, out.parent, links=True)
-    else:
-        paths = write({out.with_suffix(".tex").name: text}, out.parent)
-        made = list(with_progress(map(pdf, [text]), 1, "LaTeX"))
-        paths += write({out.name: made[0]}, out.parent, links=True)
-    for path in paths:
+    content = pdf_of(text, out) if out.suffix == ".pdf" else text
+    for path in write({out.name: content, **pages}, out.parent, links=True):
         print(path)
     return 0
+
+
+def pdf_of(tex: str, out: Path) -> bytes:
+    """The PDF of LaTeX, to be the file ``out``; where none is made, the LaTeX is written beside
+    it, as OUT.tex: the error says where."""
+    from .writing import write
+
+    try:
+        (made,) = with_progress(map(pdf, [tex]), 1, "LaTeX")
+    except RenderError as error:
+        (source,) = write({f"{out.name}.tex": tex}, out.parent)
+        raise RenderError(f"{error}; the LaTeX is written to {source}") from None
+    return made
+
+
+def pages_of_motions(
+    args: argparse.Namespace, walks: Sequence[tuple[Problem, Derivation]]
+) -> dict[str, str]:
+    """File → the page in which the body of a problem moves, one for each; ``Refused`` where one
+    has no motion."""
+    from ..motion.method import Method
+    from .simulating import moving_page
+
+    if args.discrete or not args.out.endswith(".html"):
+        raise UsageError("--motion: pages are linked from notes FILE.html, without --discrete")
+    chosen: tuple[Any, ...] = args.motion, Method(), args.lang
+    return {f"{x[1].name}_motion.html": moving_page(*x, *chosen, given={}) for x in walks}
 
 
 def warn_of_letters(records: Sequence[Derivation]) -> None:
@@ -255,7 +299,7 @@ def command_emit(args: argparse.Namespace) -> int:
         prefix = args.prefix  # with one, the problem need not be there
         if prefix is None:
             prefix = load_problem(args.problem, **allowances(args)).name
-        print(*planned(languages(args), prefix, options(args).form), sep="\n")
+        print(*planned(languages(args), prefix, options(args)), sep="\n")
         return 0
     if args.check:
         return checked(args, lambda **more: derive(args.problem, **allowances(args) | more))
@@ -265,6 +309,35 @@ def command_emit(args: argparse.Namespace) -> int:
     if args.validate and not validated(files, files, record, compiled, asked):
         return 1  # and nothing is written
     for path in write(files, Path(args.out or ".")):
+        print(path)
+    return 0
+
+
+def command_simulate(args: argparse.Namespace) -> int:
+    """Follow the motion of a problem: its states, its energy, and all that it keeps, as a file."""
+    from .simulating import command_simulate
+
+    return command_simulate(args, lambda name: derive(name, **allowances(args)))
+
+
+def command_plot(args: argparse.Namespace) -> int:
+    """Draw a run of a motion, or several: .svg, .pdf or .png (needs matplotlib)."""
+    from ..motion.run_files import read
+    from ..plot.pictures import PRECISION, plot
+    from ..plot.plot_sheet import ending
+    from ..plot.precision import plot_precision
+    from ..views.language import language
+    from .writing import write
+
+    ending(args.out)
+    out, paths, word = Path(args.out), [Path(x) for x in args.run_file], language(args.lang).word
+    if args.kind == PRECISION:
+        picture = plot_precision(paths, out.name, word)
+    elif len(paths) > 1:
+        raise UsageError(f"several runs are for --kind {PRECISION}: give one")
+    else:
+        picture = plot(read(paths[0]), out.name, args.kind, word)
+    for path in write({out.name: picture}, out.parent, links=True):
         print(path)
     return 0
 
@@ -358,6 +431,8 @@ COMMANDS = {
     "reduction": command_reduction,
     "notes": command_notes,
     "emit": command_emit,
+    "simulate": command_simulate,
+    "plot": command_plot,
     "check": command_check,
     "paper": command_paper,
     "build": command_build,

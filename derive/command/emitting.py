@@ -15,12 +15,12 @@ from pathlib import Path
 
 from ..code.emit import emit, included, planned
 from ..code.languages import LANGUAGES
-from ..code.options import ADDED, CHOICES, Options
+from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
 from ..code.program import Program
 from ..code.request import EmissionRequest, request_of
 from ..pipeline import program
 from ..problem.forces import negative_stiffness_of
-from ..problem.problem import Problem, ProblemError
+from ..problem.problem import Problem
 from ..record.record import Derivation
 from .writing import REMEDY, stale, text_on_disk
 
@@ -35,9 +35,9 @@ def languages(args: argparse.Namespace) -> tuple[str, ...]:
 
 def options(args: argparse.Namespace, others: Options | None = None) -> Options:
     """Those that are given; the rest as in others, or by default."""
-    given = {name: getattr(args, name) for name in CHOICES if getattr(args, name) is not None}
-    if args.jacobian:
-        given["jacobian"] = tuple(dict.fromkeys(args.jacobian))
+    one = (*CHOICES, *DEPENDENT)
+    given = {name: getattr(args, name) for name in one if getattr(args, name) is not None}
+    given |= {x: tuple(dict.fromkeys(ys)) for x in REPEATED if (ys := getattr(args, x))}
     given |= {name: True for name in ADDED if getattr(args, name)}
     return replace(others or Options(), **given)
 
@@ -77,7 +77,7 @@ def checked(args: argparse.Namespace, derive: Callable[..., tuple[Problem, Deriv
     right = True
     for e, now in emissions(args, p, own.values()):
         compiled, files = made(p, record, now)
-        places = planned(now.languages, now.prefix, now.options.form)
+        places = planned(now.languages, now.prefix, now.options)
         chosen = {
             x for x, (name, _) in places.items() if name in covered(args.lang or now.languages)
         }
@@ -145,11 +145,6 @@ def validated(
     """
     from ..validate import emission
     from ..validate.chart import Chart
-
-    if program.on_torus:
-        raise ProblemError(
-            f"{d.name}: --validate reads no sums over the lattice of a torus: leave it out"
-        )
 
     chart = Chart(e.options.layout, e.options.attitude, e.options.velocity)
     as_given = e.options.frame == "given"

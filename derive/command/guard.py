@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from ..language.limits import MESSAGE
@@ -28,17 +28,47 @@ def time_limit(seconds: float | None) -> Iterator[None]:
     if not (main and hasattr(signal, "setitimer")):
         raise StoppedError("--seconds needs the timers of Unix and the main thread")
 
+    over = StoppedError(f"stopped after {seconds:g} s of processor time (--seconds)")
+    rung = False
+
     def stop(*_: object) -> None:
-        raise StoppedError(f"stopped after {seconds:g} s of processor time (--seconds)")
+        nonlocal rung
+        rung = True
+        raise over
 
     before = signal.signal(signal.SIGPROF, stop)
     # and again each second: Python drops what is raised while it collects garbage
     signal.setitimer(signal.ITIMER_PROF, seconds, 1)
     try:
         yield
+    except Exception as error:
+        if rung:  # what is raised within a library of C may come out of it as another error
+            raise over from error
+        raise
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
         signal.signal(signal.SIGPROF, before)
+
+
+@contextmanager
+def heard() -> Iterator[Callable[[], bool]]:
+    """A context in which the first Ctrl-C is noted, to be asked for, and the second one stops."""
+    asked = False
+
+    def note(*_: object) -> None:
+        nonlocal asked
+        if asked:
+            raise KeyboardInterrupt
+        asked = True
+
+    if threading.current_thread() is not threading.main_thread():
+        yield lambda: False
+        return
+    before = signal.signal(signal.SIGINT, note)
+    try:
+        yield lambda: asked
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def one_line(words: object) -> str:

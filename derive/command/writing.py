@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
 from itertools import zip_longest
 from pathlib import Path
+from typing import IO
 
 from ..language.refused import Refused
 
@@ -76,6 +77,30 @@ def write(files: Mapping[str, str | bytes], out: Path, *, links: bool = False) -
             temporary.unlink(missing_ok=True)
 
 
+@contextmanager
+def growing(path: Path) -> Iterator[IO[bytes]]:
+    """A file that is written part by part under a temporary name, and then renamed; ``WriteError``
+    when that fails: then it has not been touched."""
+    temporary = None
+    try:
+        target = _target(path)
+        if target.exists() and not target.is_file():
+            raise WriteError(f"{path}: a pipe or a device; name a file")
+        target.parent.mkdir(parents=True, exist_ok=True)
+        temporary = _temporary(target.parent, ".grows")
+        with temporary.open("w+b") as file:
+            yield file
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, target)
+    except WriteError:
+        raise
+    except OSError as error:
+        raise WriteError(f"{path}: {error.strerror}; choose another --out") from None
+    finally:
+        if temporary:
+            temporary.unlink(missing_ok=True)
+
+
 def inside(path: Path, folder: Path) -> bool:
     """Is a path in a folder, wherever links lead?"""
     try:
@@ -124,9 +149,9 @@ def _target(path: Path) -> Path:
     return path
 
 
-def _temporary(folder: Path) -> Path:
+def _temporary(folder: Path, suffix: str = SUFFIX) -> Path:
     """The path of a new, empty file with a name of its own."""
-    handle, name = tempfile.mkstemp(SUFFIX, PREFIX, folder)
+    handle, name = tempfile.mkstemp(suffix, PREFIX, folder)
     os.close(handle)
     return Path(name)
 

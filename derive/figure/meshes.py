@@ -34,7 +34,7 @@ class Mesh:
     def __init__(self, solid: DrawnSolid, sight: Vector) -> None:
         own = np.array(solid.sizes["vertices"], dtype=float)
         points = own @ np.array(solid.rotation, dtype=float).T + np.array(solid.shift)
-        self.points, self.faces = _simplified(points, np.array(solid.sizes["faces"], dtype=int))
+        self.points, self.faces = simplified(points, np.array(solid.sizes["faces"], dtype=int))
         self.simplified = len(self.faces) < len(solid.sizes["faces"])
         self.sharp = SHARP_WHEN_SIMPLIFIED if self.simplified else SHARP
         self.sight = np.array(sight)
@@ -157,7 +157,7 @@ def _chains(at: Mapping[K, Sequence[K]]) -> Iterator[list[K]]:
             yield chain
 
 
-def _simplified(points: Any, faces: Any) -> tuple[Any, Any]:
+def simplified(points: Any, faces: Any) -> tuple[Any, Any]:
     """The mesh with the vertices in each cell of a grid merged, until its faces are few."""
     low, span = points.min(axis=0), float(np.ptp(points, axis=0).max()) or 1.0
     cells = 40

@@ -210,31 +210,32 @@ def new_vectors(kernel: Sequence[Vector], known: Sequence[Vector], p: int) -> It
 
 
 def products(
-    known: Sequence[tuple[Residues, Fraction]], degree: Fraction, p: int, *, exactly: bool
-) -> Iterator[Residues]:
+    known: Sequence[tuple[Polynomial, Fraction]], degree: Fraction, p: int = 0, *, exactly: bool
+) -> Iterator[Polynomial]:
     """The products of powers of known polynomials, given with their degrees, of a degree; of at
-    most this degree unless ``exactly``."""
+    most this degree unless ``exactly``.  {} counts as 1; modulo p, where that is not 0."""
     if not known:
         if degree == 0 or not exactly:
             yield {}
         return
     (f, w), *others = known
-    power: Residues = {}
+    power: Polynomial = {}
     for k in range(1 + int(degree / w)):
         power = times(power, f, p) if k else power
         for rest in products(others, degree - k * w, p, exactly=exactly):
-            yield times(power, rest, p) if power and rest else power or rest
+            yield times(power, rest, p)
 
 
-def times(f: Residues, g: Residues, p: int) -> Residues:
-    """The product of two polynomials modulo p; {} counts as 1."""
+def times(f: Polynomial, g: Polynomial, p: int) -> Polynomial:
+    """The product of two polynomials, modulo p, where that is not 0; {} counts as 1."""
     if not f or not g:
         return f or g
-    found: Residues = {}
+    found: Polynomial = {}
     for e, x in f.items():
         for m, y in g.items():
             target = tuple(map(int.__add__, e, m))
-            found[target] = (found.get(target, 0) + x * y) % p
+            total = found.get(target, 0) + x * y
+            found[target] = total % p if p else total
     return {e: x for e, x in found.items() if x}
 
 

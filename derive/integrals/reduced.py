@@ -42,11 +42,7 @@ class NotReducedError(Refused, ValueError):
 def require_group(problem: Problem) -> None:
     """``NotReducedError`` for a text about any group, and for a fluid."""
     if problem.group is None:
-        if problem.torus:
-            raise NotReducedError(
-                f"{problem.name}: on the torus the energy and Tr Wᵏ are kept: derive walk NAME says"
-            )
-        raise NotReducedError(f"{problem.name}: {problem.without_matrices}; choose a problem")
+        raise NotReducedError(problem.unsearched)
 
 
 def with_defaults(problem: Problem) -> Problem:
@@ -58,7 +54,7 @@ def with_defaults(problem: Problem) -> Problem:
     L = given.L
     for name, number in numbers.items():
         q = Fraction(str(number))
-        L = replaced(L, ("par", name), int(q) if q.denominator == 1 else q)
+        L = replaced(L, ("par", name), plain(q))
     kept = {x: y for x, y in problem.parameters.items() if x not in numbers}
     return replace(problem, parameters=kept, lagrangian=replace(given, L=L))
 
@@ -274,6 +270,11 @@ class _Symbolic:
                 return ring(self.letters[name])
             if t[0] == "entry":
                 return own[t[1:] if t[1] == "ζ" else _place(t)]
+            if t[0] == "fun" and not any(x[0] == "entry" for x in nodes(t) if isinstance(x, tuple)):
+                self.refuse(
+                    f"has {t[1]} of its parameters, and integrals are sought in fractions of them; "
+                    "give the body by its moments, [body] given, with letters for such numbers"
+                )
             if t[0] == "fun":
                 self.refuse(f"has a function, {t[1]}, of which no polynomial is one")
             if t[0] == "div":

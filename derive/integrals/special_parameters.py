@@ -17,7 +17,7 @@ from functools import reduce
 from typing import Any
 
 from .all_integrals import ATTEMPTS, Condition, Conditions, Found, degrees
-from .degree_search import Search, TooLargeError, UnluckyError, blocks, point, system_rows
+from .degree_search import Search, TooLargeError, UnluckyError, blocks, point, products, system_rows
 from .independence import integrability
 from .lie_poisson import Exponents, LiePoisson, Polynomial
 from .parameter_cases import Case, Cases
@@ -75,31 +75,10 @@ def _products(
 ) -> list[Sparse]:
     """The products of what is known of a degree that are in a block: a row for each monomial."""
     place = {e: j for j, e in enumerate(block)}
-    exactly = whole.grading.homogeneous
-    field = whole.system.algebra.field
-
-    def times(f: Polynomial, g: Polynomial) -> Polynomial:
-        found: Polynomial = {}
-        for e, x in f.items():
-            for m, y in g.items():
-                target = tuple(map(int.__add__, e, m))
-                found[target] = found.get(target, field.zero) + x * y
-        return {e: c for e, c in found.items() if c}
-
-    def powers(left: Sequence[Polynomial], most: Fraction) -> Iterator[Polynomial]:
-        if not left:
-            if most == 0 or not exactly:
-                yield {(0,) * len(block[0]): field.one}
-            return
-        f, *others = left
-        w = whole.grading.largest(f)
-        power = {(0,) * len(block[0]): field.one}
-        for k in range(1 + int(most / w)):
-            power = times(power, f) if k else power
-            for rest in powers(others, most - k * w):
-                yield times(power, rest)
-
-    columns = [x for x in powers(known, degree) if all(e in place for e in x) and any(map(any, x))]
+    grading = whole.grading
+    graded = [(f, grading.largest(f)) for f in known]
+    found = products(graded, degree, exactly=grading.homogeneous)
+    columns = [x for x in found if x and all(e in place for e in x)]
     rows: dict[Exponents, dict[int, Any]] = {}
     for k, x in enumerate(columns):
         for e, c in x.items():

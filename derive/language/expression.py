@@ -12,7 +12,7 @@ from fractions import Fraction
 from .derivatives import DERIVATIVES
 from .divisors import has_zero_divisor
 from .limits import BITS, DEGREE, DEPTH, DIGITS, EXPONENT, EXPRESSION, MAGNITUDE, NESTING, SLOPE
-from .tree import Tree, add, mul, neg, nodes, operands
+from .tree import Tree, add, mul, neg, nodes, operands, plain
 from .values import approximate
 from .weight import depth, weight
 
@@ -186,7 +186,7 @@ def _number(value: Fraction | int) -> Tree:
         raise ExpressionError("a number outside 1e-300 … 1e300")
     if max(q.numerator.bit_length(), q.denominator.bit_length()) > BITS:
         raise ExpressionError("a fraction of too many digits; round its numbers")
-    return int(q) if q.denominator == 1 else q
+    return plain(q)
 
 
 def _quotient(a: Tree, b: Tree) -> Tree:

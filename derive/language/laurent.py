@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 
-from .tree import Tree, add, mul
+from .tree import Tree, add, mul, plain
 
 Monomial = tuple[tuple[Tree, int], ...]
 """(symbol, exponent ≠ 0), sorted by how the symbols are written; a symbol is any tree."""
@@ -223,14 +223,10 @@ def _quotient(terms: dict[Monomial, Fraction], others: Monomial) -> Tree:
     order = sorted(lifted, key=lambda m: (lifted[m] < 0, repr(m)))
     if common and len(order) == 1:
         q = lifted[order[0]]
-        whole = mul(_number(abs(q)), _monomial(order[0]), _monomial(others))
+        whole = mul(plain(abs(q)), _monomial(order[0]), _monomial(others))
         return mul(-1 if q < 0 else 1, ("div", whole, _monomial(common)))
-    above = add(*(mul(_number(lifted[m]), _monomial(m)) for m in order))
+    above = add(*(mul(plain(lifted[m]), _monomial(m)) for m in order))
     return mul(("div", above, _monomial(common)) if common else above, _monomial(others))
-
-
-def _number(q: Fraction) -> Tree:
-    return int(q) if q.denominator == 1 else q
 
 
 def _monomial(m: Monomial) -> Tree:

@@ -14,7 +14,7 @@ PROBLEM_BYTES = 500_000
 """Bytes of a problem file, whose TOML is then parsed within a second."""
 KEY_PARTS = 20
 """Parts of a dotted key: the parser takes the square of their number."""
-TABLES = {"point": 500, "solid": 12, "potential": 100, "input": 60, "damping": 100}
+TABLES = {"point": 500, "solid": 12, "potential": 100, "input": 60, "damping": 100, "event": 50}
 """Tables of each kind in a file. Of more points the moments are better given ([body] given);
 moments of solids have products that grow with the square of their number; each other table is a
 term of every view."""
@@ -53,6 +53,9 @@ MAGNITUDE, BITS = 10**300, 1100
 COMMON_BITS = 1100
 """Bits of the common denominator of all the numbers of a file: sums over the body have that cubed,
 and more than 4300 digits are not written by Python."""
+LAYERS = 16
+"""The degree of a density in the level: its moments have as many terms, or more where it has
+parameters."""
 DEGREE = 1000
 """The degree of an expression, with which the checker's bound on a false pass grows."""
 
@@ -66,6 +69,12 @@ SLOPES = 4000
 SLOPES_BY_PARAMETERS = 2000
 """Entries of the linearised equations by parameters: Aff(5) with symbolic moments has 1260, and
 takes seconds."""
+
+# -- motions ------------------------------------------------------------------------------------
+
+STEPS_OF_A_MOTION = 10**9
+"""Steps of one size of a motion. That many of gauss take the C hours, of rk4 minutes: more are a
+size that was mistyped."""
 
 # -- meshes -------------------------------------------------------------------------------------
 

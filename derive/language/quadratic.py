@@ -10,7 +10,7 @@ from functools import total_ordering
 from math import isqrt, sqrt
 from typing import Any
 
-from .tree import Tree, add, mul
+from .tree import Tree, add, mul, plain
 from .values import value
 
 TRIED = 1_000
@@ -164,9 +164,5 @@ def value_of(t: Tree) -> Number:
 def tree(x: Number) -> Tree:
     """A number as a tree."""
     if isinstance(x, Quadratic):
-        return add(_plain(x.a), mul(_plain(x.b), ("fun", "sqrt", x.d)))
-    return _plain(x)
-
-
-def _plain(x: Fraction) -> Tree:
-    return int(x) if x.denominator == 1 else x
+        return add(plain(x.a), mul(plain(x.b), ("fun", "sqrt", x.d)))
+    return plain(x)

@@ -93,8 +93,13 @@ def transposed(a: Matrix) -> Matrix:
 
 
 def times(a: Matrix, b: Matrix) -> Matrix:
-    """The product a b of matrices."""
+    """The product a b of matrices; numbers that have a way of their own to it, a static method
+    ``product`` of rows and columns, are asked for it."""
     columns = transposed(b)
+    kinds = {type(x) for m in (a, b) for row in m for x in row}
+    own: list[Any] = [k for k in kinds if hasattr(k, "product")]
+    if own and kinds <= EXACT | {own[0]} and {*map(len, a)} <= {len(b)}:
+        return own[0].product(a, columns)  # type: ignore[no-any-return]
     left = [x for row in a if (x := over_one(row))]
     right = [x for col in columns if (x := over_one(col))]
     exact = len(left) == len(a) and len(right) == len(columns)

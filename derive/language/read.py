@@ -22,9 +22,9 @@ from unicodedata import normalize
 
 from .derivatives import DERIVATIVES
 from .show import FIELD_OPERATORS, FRACTIONS, show_name
-from .tree import Tree, neg
+from .tree import Tree, neg, plain
 
-FAMILIES = frozenset({*"rmvFQdPχσκEks", "f_u", "Π", "Π̇", "Φ", "𝒥", "𝒜", "d𝒜"})
+FAMILIES = frozenset({*"rmvFQdPχσκEks", "r̂", "f_u", "Π", "Π̇", "Φ", "𝒥", "𝒜", "d𝒜"})
 """Letters of families, whose members an index counts; after any other it tells an entry."""
 IN_THE_BASIS = frozenset({"E", "M", "β", "ζ", "ζ̇", "ψ", "Π", "Π̇", "Φ", "𝕁"})
 """Letters that have the indices a and b; after any other these belong to its name, as in ℓ_b."""
@@ -32,11 +32,17 @@ OF_FIELDS = ("𝒜", "d𝒜")
 """Families of functions, whose members are applied to the brackets after them."""
 FUNCTIONS = frozenset(
     {"dŨ", "p̃", "M̃", "ρ", "ϖ", "dϖ", "ϖ_h", "dϖ_h", "ω", "g", "δ", "δ′", "d/dt", "ω̂"}
-    | {"Ψ", "Ψ_0", "Ψ_1", "Ψ_2"}
+    | {"Ψ", "Ψ_0", "Ψ_1", "Ψ_2", "Θ⁺", "Θ⁻", "dΘ⁺", "dΘ⁻"}
 )
 """Names that are applied to the brackets after them; others are to t and X alone."""
 
-NUMBERED = frozenset({"p_0", "I_1", "I_2", "I_3", "Ψ_0", "Ψ_1", "Ψ_2"})
+_OF_ELEMENTS = ("g", "δg", "δ′g", "N", "N\u0302", "A", "T", "R")
+_OF_STEPS = ("U", "W", "M", "ℓ", "p", "q", "x")
+NUMBERED = frozenset(
+    {"f_1", "μ_1", "Γ_0", "I_1", "I_2", "I_3", "Ψ_0", "Ψ_1", "Ψ_2"}
+    | {f"{x}_{k}" for x in _OF_ELEMENTS for k in range(3)}
+    | {f"{x}_{k}" for x in _OF_STEPS for k in range(2)}
+)
 """Letters whose number belongs to the name; after any other it tells an entry or a member."""
 
 _LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉½⅓¼⅔ᵢⱼₑₜ]"
@@ -46,7 +52,7 @@ TOKEN = (
     r"(?P<quoted>‘[^’]*’)|(?P<opening>(?<= )‖)"
     rf"|(?P<word>Tr(?=[ (\[])|Σ(?:[ᵢⱼₑ]|_[a-z𝐦𝐧])|∫|√|(?:{_CALLED})(?=\()"
     r"|(?:grad|div)(?![A-Za-z])|Δ(?![\u0300-\u036f])|∇_|∇|∂ₙ)"
-    rf"|(?P<name>d/dt|{'|'.join(sorted(NUMBERED))}|(?!dm(?![A-Za-z])){_VARIED}{_LETTER}[\u0300-\u036f]*′?(?:_(?:[abij][abij]|[A-Za-z]))?)"
+    rf"|(?P<name>d/dt|∂_s|d?Θ[⁺⁻]|{'|'.join(sorted(NUMBERED))}|(?!dm(?![A-Za-z])){_VARIED}{_LETTER}[\u0300-\u036f]*′?(?:_(?:[abij][abij]|[A-Za-z]))?)"
     r"|(?P<index>[₀-₉ᵢⱼₑ]+(?:,[₀-₉ᵢⱼₑ]+)*)"
     r"|(?P<power>⁻?[⁰¹²³⁴-⁹]+)"
     r"|(?P<number>\d+(?:/[1-9]\d*)?|[½⅓¼⅔])"
@@ -175,7 +181,7 @@ class _Reader:
             return self.named(self.next())
         if kind == "number":
             q = SMALL.get(self.next()) or Fraction(text)
-            return ("one",) if text == "𝟏" else int(q) if q.denominator == 1 else q
+            return ("one",) if text == "𝟏" else plain(q)
         if kind in ("parameter", "quoted"):
             return ("par", self.parameters.get(self.next(), text))
         if kind == "word":

@@ -11,8 +11,8 @@ from .tree import Tree, coefficient, mul, neg
 
 SUBSCRIPTS = str.maketrans("0123456789ije", "₀₁₂₃₄₅₆₇₈₉ᵢⱼₑ")
 FRACTIONS = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(1, 4): "¼", Fraction(2, 3): "⅔"}
-TAKEN = ("Tr", "det", "dm", "dt", "j")
-"""Words of the notation, which are no names of C."""
+TAKEN = ("Tr", "det", "dm", "dt", "j", "G")
+"""Words of the notation, which are no names of C, and the group, which is one of no equation."""
 WORD = re.compile(rf"(?:{'|'.join((*DERIVATIVES, 'Tr', 'det', 'dm', 'dŨ'))})$")
 SUM, PRODUCT, ATOM = 1, 2, 3
 FIELD_OPERATORS = ("grad", "div", "Δ", "∇", "∂ₙ")

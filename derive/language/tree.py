@@ -63,12 +63,13 @@ def mul(*factors: Tree) -> Tree:
             numeric *= f
         else:
             rest.append(f)
-    lead: list[Tree] = [] if numeric == 1 and rest else [_plain(numeric)]
+    lead: list[Tree] = [] if numeric == 1 and rest else [plain(numeric)]
     kept = lead + rest
     return kept[0] if len(kept) == 1 else ("mul", *kept)
 
 
-def _plain(q: Fraction) -> Tree:
+def plain(q: Fraction) -> int | Fraction:
+    """A number as a tree: an integer where it is whole."""
     return int(q) if q.denominator == 1 else q
 
 

@@ -6,7 +6,8 @@ import re
 import unicodedata
 from collections.abc import Callable
 
-from .inline import math_text
+from .inline import INDICES, math_text
+from .inline import OPERATORS as NAMES
 from .signs import LOWERED, MATH_ACCENTS, NAMED, RAISED, SYMBOLS, math_char
 
 TEX_SPECIAL = {
@@ -35,8 +36,10 @@ TEXT = {
     "€": r"\texteuro{}", "†": r"\textdagger{}", "‰": r"\textperthousand{}",
 }  # fmt: skip
 """Characters outside formulas → LaTeX; a fraction of mathematics in a title would end TeX."""
-PLAIN = "+=/(),[].:0123456789 "
-OPERATORS = "=+−∧≅≠≤≥∈→×"
+PLAIN = "+=<>/(),[].:0123456789 "
+OPERATORS = "=<>+−∧≅≠≤≥∈→×"
+PAIRED = (("(", ")"), ("⟨", "⟩"))
+"""Brackets, between which a comma ends no formula."""
 NO_BREAK = "\u00a0\u202f"
 WORD = re.compile(rf"[\S{NO_BREAK}]+")
 ELIDED = re.compile("(?:[cdjlmnst]|qu|jusqu|lorsqu|puisqu)’", re.I)
@@ -125,7 +128,7 @@ def _runs(words: list[str]) -> list[tuple[bool, str]]:
         else:
             runs.append((formula, word))
         whole = runs[-1][1]
-        closed = whole[-1] in ",;:." and whole.count("(") <= whole.count(")")
+        closed = whole[-1] in ",;:." and all(whole.count(a) <= whole.count(b) for a, b in PAIRED)
     return runs
 
 
@@ -139,6 +142,8 @@ def _flags(words: list[str]) -> list[bool]:
             words[k] == c and k + 1 < len(words) and _operator(cores[k + 1])
         )
         found.append(_operator(c) or _is_formula(c, first) or (near and _allowed(c)))
+    for k, (c, w) in enumerate(zip(cores[:-1], words, strict=False)):
+        found[k] |= c in NAMES and w.endswith(c) and found[k + 1]
     return found
 
 
@@ -166,11 +171,12 @@ def _allowed(word: str) -> bool:
         (c.isascii() and c.isalpha()) or c in SYMBOLS or c in RAISED or c in LOWERED
         or c in MATH_ACCENTS or c in PLAIN or c == "_"
         for c in unicodedata.normalize("NFD", word)
-    ) and re.search(r"__|_$|_[^A-Za-z0-9]|[A-Za-z]{9}", word) is None  # fmt: skip
+    ) and re.search(rf"_(?![A-Za-z0-9{INDICES}])|[A-Za-z]{{9}}", word) is None  # fmt: skip
 
 
 def _is_formula(word: str, first: bool) -> bool:
-    """Is it a word with a sign of mathematics in it, a quotient of letters, or one letter?
+    """Is it a word with a sign of mathematics in it, a quotient of letters, a function of one, or
+    one letter?
 
     The article “a” is none, nor is a capital that may begin the sentence (``first``); a circumflex
     in a longer word is a letter of French.
@@ -179,7 +185,8 @@ def _is_formula(word: str, first: bool) -> bool:
         return False
     if len(word) == 1 and word.isascii():
         return word.isalpha() and word != "a" and not (first and word in "AEIOY")
-    if re.fullmatch(r"d?[A-Za-z]/d?[a-z]", word) or word in NAMED:
+    called = word.partition("(")[0] in NAMES and "(" in word
+    if called or re.fullmatch(r"d?[A-Za-z]/d?[a-z]|[A-Za-z]\([A-Za-z]\)", word) or word in NAMED:
         return True
     decomposed = unicodedata.normalize("NFD", word)
     if len(word) > 1:

@@ -28,10 +28,15 @@ from .typeset import (
 
 BARS = Notation()
 KNOWN = {unicodedata.normalize("NFC", name): x.latex for name, x in VOCABULARY.items()}
+OPERATORS = {"Tr", "det", "div", "grad", "Ric"}
+"""The names of functions before which nothing stands, as in Tr A."""
+INDICES = "".join(c for c in SYMBOLS if c.isalpha() and c.islower())
+"""Greek letters that may be an index, as in ∇_η′."""
 TOKEN = re.compile(
     "("
     + "|".join(re.escape(name) for name in sorted(KNOWN, key=len, reverse=True) if len(name) > 1)
-    + r")(?![\u0300-\u036f])|_([A-Za-z0-9]+)|([⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)|([₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ]+)"
+    + rf")(?![\u0300-\u036f])|_([A-Za-z0-9]+|[{INDICES}]′*)"
+    r"|([⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻]+)|([₀₁₂₃₄₅₆₇₈₉ᵢⱼₑₜ]+)"
     r"|([A-Za-z]{2,})(?![\u0300-\u036f])|(.)([\u0300-\u036f]*)"
 )
 
@@ -75,25 +80,33 @@ def spelt(formula: str, notation: Notation = BARS) -> Formula:
     for match in TOKEN.finditer(unicodedata.normalize("NFC", tight)):
         known, below, above, under, letters, letter, marks = match.groups()
         if below or under:
-            index = below or "".join(LOWERED[c] for c in under)
-            found = lowered(_open(found, "_"), literal(index))
+            found = lowered(_open(found, "_"), _index(below or "".join(LOWERED[c] for c in under)))
         elif above:
             found = raised(_open(found, "^"), literal("".join(RAISED[c] for c in above)))
         elif letter == "′":
             found = primed(_open(found, "'"))
         else:
             piece, rest = Formula(""), match.string[match.end() :]
-            if known:
+            before = match.string[: match.start()]
+            if known in OPERATORS or letters:
+                piece = _word(known or letters, rest.lstrip()[:1])
+                if (known or letters) in OPERATORS and re.search(r"[^\W\d½]\s$", before):
+                    piece = Formula("", literal(r"\,").items) + piece  # LaTeX has it by itself
+            elif known:
                 piece = named(KNOWN[known])
-            elif letters:
-                piece = _word(letters, rest.lstrip()[:1])
-            elif letter == " " and BELOW_STROKE.search(match.string[: match.start()]):
+            elif letter == " " and BELOW_STROKE.search(before):
                 piece = literal(r"\,")
             elif letter:
                 piece = _letter(letter, marks, rest, notation)
             apart = piece.tex[:1].isalpha() and re.search(r"\\[A-Za-z]+$", found.tex)
             found += Formula(" " if apart else "") + piece
     return found
+
+
+def _index(letters: str) -> Formula:
+    """The formula of an index: letters and figures, or a Greek letter with its primes."""
+    shown = literal("".join(SYMBOLS.get(c, c) for c in letters.rstrip("′")))
+    return primed(shown, letters.count("′"))
 
 
 def _open(f: Formula, mark: str) -> Formula:

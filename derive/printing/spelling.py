@@ -16,6 +16,7 @@ from .typeset import (
     lowered,
     operator,
     primed,
+    raised,
     upright,
 )
 
@@ -23,7 +24,7 @@ NAME = re.compile(
     r"(?P<lead>(?:(?:\\delta|\\partial_t|\\mathrm\{d\})(?![A-Za-z])'?\s*)?)"
     r"(?P<over>(?:\\(?:tilde|dot|hat|bar|mathrm|mathbf)(?![A-Za-z])\s*\{?\s*)*)"
     r"(?P<letter>\\[A-Za-z]+|[A-Za-z])\}*(?P<primes>'*)"
-    r"(?P<below>(?:_(?:[A-Za-z0-9]|\{[A-Za-z0-9]+\}))?)"
+    r"(?P<below>(?:_(?:[A-Za-z0-9]|\{[A-Za-z0-9]+\}))?)(?P<above>(?:\^[+-])?)"
 )
 RATE = r"\frac{\mathrm{d}}{\mathrm{d}t}"
 DIFFERENTIAL = r"\mathrm{d}"
@@ -56,7 +57,10 @@ def named(tex: str) -> Formula:
             letter = barred(letter, "", BARS, letter=True)
         else:
             letter = accented(name, letter, "")
-    return _whole(tex, found["lead"], letter, found["primes"], found["below"])
+    whole = _whole(tex, found["lead"], letter, found["primes"], found["below"])
+    if sign := found["above"].strip("^"):
+        return Formula(tex, raised(whole, literal(sign)).items)
+    return whole
 
 
 def _whole(tex: str, lead: str, letter: Formula, primes: str, below: str) -> Formula:

@@ -265,7 +265,7 @@ class FormulaPrinter:
             return self.norm(a[1])
         if name == "sqrt":
             return root(self.bare(a))
-        return self.function(name, self.bare(a)), PRODUCT
+        return self.function(name, self.bare(a))
 
     def function(self, name: str, a: Formula, power: Formula | None = None) -> Formula:
         """An elementary function by its name; ``power``: its exponent."""

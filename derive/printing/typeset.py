@@ -24,7 +24,7 @@ BREAKS = {"\x01": COMMA, "\x02": TERM, "\x03": WEDGE, "\x04": FACTOR}
 AFTER_COMMA, BEFORE_TERM, BEFORE_WEDGE, BEFORE_FACTOR = BREAKS
 MARKS = "".join(BREAKS)
 UNMARKED = dict.fromkeys(map(ord, MARKS))
-OPERATORS = {SYMBOLS[c]: c for c in "∧×→∈≤≥≅≠∘⊤−"} | {c: c for c in "+=,/.:;|"}
+OPERATORS = {SYMBOLS[c]: c for c in "∧×→∈≤≥≅≠∘⊤−"} | {c: c for c in "+=<>,/.:;|"}
 OPERATORS |= {r"\cdot": "·", r"\int": "∫"}
 FENCES = {SYMBOLS[c]: c for c in "⟨⟩‖"} | {r"\lVert": "‖", r"\rVert": "‖"}
 FENCES |= {c: c for c in "()[]"}
@@ -159,13 +159,18 @@ def word(tex: str, shown: str) -> Formula:
     return Formula(tex, (f"<mi>{escape(shown)}</mi>",))
 
 
+FUNCTIONS = ("arctan", "cos", "cosh", "exp", "log", "sin", "sinh", "tan", "tanh")
+"""The functions that LaTeX has by their names."""
+
+
 def operator(name: str, *, near: bool) -> Formula:
     """The name of a function, as Tr or sin.
 
     ``near``: it is followed by a bracket or a script, and needs no gap.
     """
     gap = () if near else ('<mspace width="0.17em"></mspace>',)
-    return Formula(rf"\operatorname{{{name}}}", (f"<mi>{escape(name)}</mi>", *gap))
+    tex = rf"\{name}" if name in FUNCTIONS else rf"\operatorname{{{name}}}"
+    return Formula(tex, (f"<mi>{escape(name)}</mi>", *gap))
 
 
 def upright(letter: str) -> Formula:

@@ -12,13 +12,16 @@ from typing import Any
 from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.expression import ExpressionError, parse
-from ..language.limits import BASIS, MATRIX, TEXT
+from ..language.layers import LEVEL, WRITTEN, degree_in_level, is_layered
+from ..language.limits import BASIS, LAYERS, MATRIX, TEXT
 from ..language.reserved import PLACE
-from ..language.tree import Tree, replaced, subtrees
+from ..language.tree import Tree, nodes, replaced, subtrees
 from ..language.values import approximate
 from ..schema.algebra_kinds import Advected
-from ..schema.body_kinds import Body, Place, Point, PointBody, is_ellipsoid
+from ..schema.body_kinds import Body, GivenBody, Place, Point, PointBody, is_ellipsoid
+from ..schema.followed import DIRECTIONS
 from ..schema.lagrangian_kinds import SIDES
+from ..schema.solid_kinds import LAYERED
 from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import NAME, TableReader
 from .fields import LIKE_A_PLACE
@@ -28,7 +31,7 @@ from .solids import fault_of_quadric, rotation_about
 from .state_names import known_in_lagrangian, meant, state_names
 
 AXES = "xyz"
-CHAPTERS = ("linear", "affine", *SIDES)
+CHAPTERS = ("linear", "affine", "discrete", "discrete_affine", *SIDES)
 """The names of what is said of any group."""
 Vector = tuple[Tree, ...]
 
@@ -37,6 +40,7 @@ class FileReader(TableReader):
     """Reads the tables of a file in a folder; ``places``: those that forces have named so far.
 
     ``heavy``: the body has mass outside its points; ``fills_ellipsoid``: it is a homogeneous one;
+    ``in_layers``: the density of a solid depends on the level;
     ``advected``: what an algebra without g carries along.
     """
 
@@ -48,7 +52,7 @@ class FileReader(TableReader):
         self.parameters: Mapping[str, Any] = {}
         self.point_masses: tuple[Point, ...] = ()
         self.places: list[Place] = []
-        self.heavy = self.fills_ellipsoid = False
+        self.heavy = self.fills_ellipsoid = self.in_layers = False
         self.advected: tuple[Advected, ...] | None = None
 
     group: Group | None
@@ -64,6 +68,8 @@ class FileReader(TableReader):
         self.count = self.last = len(self.point_masses)
         self.heavy = not isinstance(body, PointBody)
         self.fills_ellipsoid = is_ellipsoid(body)
+        solids = body.solids if isinstance(body, GivenBody) else ()
+        self.in_layers = any(is_layered(x.density) for x in solids)
 
     def name_of(self, data: Mapping[str, Any], *, of_its_own: bool = True) -> str:
         """The name of a problem: a prefix of labels that nothing else has, if it is ``of_its_own``
@@ -107,6 +113,11 @@ class FileReader(TableReader):
             raise ProblemError(
                 f"{where}: {kind} needs one group that deforms R^3, as SL(3), GL(3) or Aff(3), "
                 f"not {g.name}{rigid}"
+            )
+        if need == "one ellipsoid" and self.in_layers:
+            raise ProblemError(
+                f"{where}: {kind} is of a homogeneous ellipsoid, and the density of this body "
+                "depends on the level s; give it one without s"
             )
         if need == "one ellipsoid" and not self.fills_ellipsoid:
             raise ProblemError(
@@ -261,6 +272,31 @@ class FileReader(TableReader):
         except ExpressionError as error:
             raise ProblemError(f"{where}: {error}") from None
 
+    def layered(self, slot: Slot) -> Tree:
+        """A density, where ``s`` may be the level of a place in an ellipsoid or a ball."""
+        found = self.scalar(slot)
+        if WRITTEN not in nodes(found) or (
+            "s" in self.parameters and slot.table["kind"] not in LAYERED
+        ):
+            return found
+        if slot.table["kind"] not in LAYERED:
+            raise ProblemError(
+                f"{slot.path}: 's' is the level <r, Q r> of a place in an ellipsoid or a ball, and "
+                f"no parameter; of a {slot.table['kind']} the density is the same everywhere"
+            )
+        if "s" in self.parameters:
+            raise ProblemError(
+                f"{slot.path}: 's' is the level <r, Q r> of a place here, and a parameter as well; "
+                "give the parameter another name"
+            )
+        found = replaced(found, WRITTEN, LEVEL)
+        degree = degree_in_level(found)
+        if degree is None:
+            raise ProblemError(f"{slot.path}: no polynomial in 's', the level of a place")
+        if degree > LAYERS:
+            raise ProblemError(f"{slot.path}: of degree {degree} in 's'; at most {LAYERS}")
+        return found
+
     def in_time(self, value: Any, where: str) -> Tree:
         """The time, where an expression says t."""
         return replaced(self.expression(value, where), ("par", "t"), "t")
@@ -323,6 +359,18 @@ class FileReader(TableReader):
         found = self.rows(self.value(slot), g.dimension, g.dimension, slot.path)
         names = state_names(g)
         return tuple(tuple(meant(t, names) for t in row) for row in found)
+
+    def watched(self, slot: Slot) -> Tree:
+        """An expression of the state, the parameters and the time."""
+        return self.in_time(self.value(slot), slot.path)
+
+    def direction(self, slot: Slot) -> str:
+        """From where 0 is reached."""
+        return self.choice(slot, DIRECTIONS)
+
+    def flag(self, slot: Slot) -> bool:
+        """True or false."""
+        return bool(self.value(slot, bool))
 
     # -- moments, solids, rotations ------------------------------------------------------------
 

@@ -40,7 +40,8 @@ def negative_stiffness_of(
     damping: Sequence[Damping],
     parameters: Mapping[str, Parameter],
 ) -> str | None:
-    """Where a stiffness or a damping is negative, for the defaults of the parameters."""
+    """Where a stiffness, a damping or a constant of gravitation is negative, for the defaults of
+    the parameters."""
     listed = [
         (f"{told} {k}: key {key!r}", value)
         for told, tables in (("potential", potentials), ("damping", damping))

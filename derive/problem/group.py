@@ -9,6 +9,7 @@ from ..algebra.families import group, on_homogeneous
 from ..algebra.groups import Group
 from ..algebra.stated_basis import group_of_basis
 from ..schema.declared import StatedGroup
+from ..schema.fluid_kinds import GROUP
 from ..schema.table import Slot
 from .file_reader import FileReader
 from .problem import ProblemError
@@ -23,6 +24,8 @@ def group_of(data: Mapping[str, Any], reader: FileReader) -> tuple[Group | None,
             raise ProblemError("key 'action' belongs into the table [group]")
         return moved, moved.action
     which = reader.text(Slot(data, "group", "file"))
+    if which.casefold() == GROUP.casefold():
+        raise ProblemError(f"key 'group': {GROUP} is that of a table [fluid]; leave this out")
     try:
         named = None if which == "any" else group(which)
     except ValueError as error:

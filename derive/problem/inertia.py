@@ -15,6 +15,7 @@ from typing import Any
 from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.expression import names
+from ..language.layers import TRIED, at_levels, is_layered
 from ..language.rational import Matrix
 from ..language.tree import Tree
 from ..language.values import approximate, value
@@ -177,6 +178,11 @@ def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str
     """Where a mass is negative, for the defaults of the parameters; ``None`` when nowhere."""
     if isinstance(body, GivenBody) and is_negative(body.given.m, parameters):
         return "body: the mass"
+    for solid in body.solids if isinstance(body, GivenBody) else ():
+        for level, density in at_levels(solid.density) if is_layered(solid.density) else ():
+            if is_negative(density, parameters):
+                before = f", though not at {level - Fraction(1, TRIED)}," if level else ""
+                return f"body: the density of the {solid.kind} at the level s = {level}{before}"
     where = (k for k, p in enumerate(points_of(body), 1) if is_negative(p.mass, parameters))
     return next((f"point {k}: key 'mass'" for k in where), None)
 

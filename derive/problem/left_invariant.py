@@ -5,14 +5,13 @@ Decided exactly, in polynomials of the parameters.
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import Literal
 
 from ..algebra.invariance import for_every_body, pairings, skew
 from ..language.divisors import PRIMES, residue
 from ..language.laurent import OverlongError, vanishes
 from ..language.rational import Matrix
-from ..language.tree import Tree, add, mul
+from ..language.tree import Tree, add, mul, plain
 from ..schema.body_kinds import Body, PointBody
 from .problem import Problem
 
@@ -43,11 +42,7 @@ def invariant(problem: Problem) -> Bodies | None:
 def _paired(k: Matrix, J: tuple[tuple[Tree, ...], ...]) -> Tree:
     """The tree Σ k_ij J_ij."""
     pairs = zip(k, J, strict=True)
-    return add(*(mul(_number(x), t) for a, b in pairs for x, t in zip(a, b, strict=True) if x))
-
-
-def _number(x: Fraction) -> Tree:
-    return int(x) if x.denominator == 1 else x
+    return add(*(mul(plain(x), t) for a, b in pairs for x, t in zip(a, b, strict=True) if x))
 
 
 def _vanishes(t: Tree) -> bool:

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..language.derivatives import product, quotient
 from ..language.laurent import OverlongError, collected
-from ..language.tree import Tree, add, mul, neg
+from ..language.tree import Tree, add, mul, neg, plain
 from ..schema.table import Rows
 from .problem import ProblemError
 
@@ -87,4 +87,4 @@ def _half(*terms: Tree) -> Tree:
     if len(numbers) < len(terms):
         return collected(mul(Fraction(1, 2), add(*terms)))
     total = Fraction(sum(numbers), 2)
-    return int(total) if total.denominator == 1 else total
+    return plain(total)

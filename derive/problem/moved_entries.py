@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 from ..algebra.groups import Group
 from ..language.derivatives import derivative
-from ..language.tree import Tree, add, mul, nodes
+from ..language.tree import Tree, add, mul, nodes, plain
 
 Entry = tuple[Any, ...]
 """An entry of a letter, as a tree."""
@@ -79,8 +79,3 @@ def entry_of(group: Group, i: int, j: int) -> Tree:
 def rational(rows: Sequence[Sequence[Fraction]]) -> list[list[Tree]]:
     """A matrix of numbers as one of trees: integers where they are."""
     return [[plain(x) for x in row] for row in rows]
-
-
-def plain(x: Fraction) -> Tree:
-    """A number as a tree."""
-    return int(x) if x.denominator == 1 else x

@@ -12,8 +12,7 @@ from fractions import Fraction
 
 from ..language.derivatives import derivative
 from ..language.divisors import PRIMES, residue
-from ..language.tree import Tree, add, mul
-from .moved_entries import plain
+from ..language.tree import Tree, add, mul, plain
 
 Direction = tuple[Fraction, ...]
 """The coordinates of an element of 𝔤."""

@@ -9,10 +9,12 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.torus import Torus
 from ..language.refused import Refused
+from ..language.tree import Tree
 from ..schema.algebra_kinds import Advected
 from ..schema.body_kinds import Body, MomentBody, Place, Point
 from ..schema.declared import Parameter
 from ..schema.fluid_kinds import GROUP, Fluid
+from ..schema.followed import Event
 from ..schema.kind import Potential
 from ..schema.lagrangian_kinds import Lagrangian
 from ..schema.outside import CovectorInput, Damping, ForceInput, Input
@@ -20,6 +22,19 @@ from ..schema.outside import CovectorInput, Damping, ForceInput, Input
 
 class ProblemError(Refused, ValueError):
     """Bad input: the message names the key and the remedy."""
+
+
+@dataclass(frozen=True)
+class Initial:
+    """Where a motion starts: ``numbers`` of the state and inputs by name, expressions of the
+    parameters; the element of the group is exp of ``exp``, coordinates in the basis of 𝔤."""
+
+    numbers: Mapping[str, Tree] = field(default_factory=dict)
+    exp: tuple[Tree, ...] = ()
+
+    def trees(self) -> list[Tree]:
+        """All expressions."""
+        return [*self.numbers.values(), *self.exp]
 
 
 @dataclass(frozen=True)
@@ -32,6 +47,7 @@ class Problem:
     ``advected``: what the algebra carries along, where the state has no element of the group; the
     last blocks of the group's matrices. ``fluid``: of a problem whose group has no matrices.
     ``torus``: su(N) in the basis of the torus, where there is no table of the group.
+    ``initial``, ``events``: of motions that are followed; the record of the equations has neither.
     """
 
     name: str
@@ -50,6 +66,8 @@ class Problem:
     advected: tuple[Advected, ...] | None = None
     torus: Torus | None = None
     fluid: Fluid | None = None
+    initial: Initial = field(default_factory=Initial)
+    events: tuple[Event, ...] = ()
 
     @property
     def group_name(self) -> str:
@@ -65,6 +83,22 @@ class Problem:
         return (
             "the group of a fluid has no matrices" if self.fluid else "this text is about any group"
         )
+
+    @property
+    def with_matrices(self) -> str:
+        """What to choose instead of a problem without, for messages."""
+        finite = "zeitlin (a fluid on a torus) or dirichlet (an ellipsoid of fluid)"
+        return f"choose {finite if self.fluid else 'a problem with a group and a body'}"
+
+    @property
+    def unsearched(self) -> str:
+        """Why nothing is searched for in a problem without a group of matrices, for messages."""
+        if self.torus:
+            return (
+                f"{self.name}: symmetries, integrals, equilibria and reductions are not written "
+                f"for the torus, which keeps the energy and Tr Wᵏ: step {self.name}.conserved"
+            )
+        return f"{self.name}: {self.without_matrices}; {self.with_matrices}"
 
     @property
     def affine(self) -> bool:

@@ -1,6 +1,7 @@
-"""Moments of solids of uniform density: m = ∫ρ dV, c = ∫ρ r dV, J = ∫ρ r r̄ dV, as (36)–(39).
+"""Moments of solids: m = ∫ρ dV, c = ∫ρ r dV, J = ∫ρ r r̄ dV, as (36)–(39).
 
-The integrals are of monomials over a reference shape, exact; the sizes enter by stretching it.
+The integrals are of monomials over a reference shape, exact; the sizes enter by stretching it. The
+density is uniform, or in an ellipsoid a polynomial in the level s = ⟨r, Q r⟩.
 """
 
 from __future__ import annotations
@@ -12,17 +13,21 @@ from math import factorial, gcd, isqrt, lcm, prod
 from typing import Any
 
 from ..language import rational
+from ..language.derivatives import quotient
 from ..language.expression import LARGEST, SMALLEST
 from ..language.laurent import Laurent, Monomial
+from ..language.layers import LEVEL, is_layered
 from ..language.limits import EXPONENT
 from ..language.tree import Tree, add, coefficient, mul
 from ..language.values import approximate
 from ..schema.body_kinds import Moments
-from ..schema.solid_kinds import Solid
+from ..schema.solid_kinds import LAYERED, Solid
 from ..schema.table import Rows
 from .moments import Row, SolidError
 
 SPAN, UNIT, TERMS = range(3), ((1, 0, 0), (0, 1, 0), (0, 0, 1)), 3
+TERMS_OF_DENSITY = 40
+"""A density that is multiplied out has no more."""
 
 
 def together(a: Moments, b: Moments) -> Moments:
@@ -54,12 +59,13 @@ def unit_moments(solid: Solid) -> Moments:
 def moments(solid: Solid, relations: bool = True) -> Moments:
     """The moments of a placed solid, from V, f, S of density 1 in its own frame.
 
-    m = ρV, c = ρ(R f + V s), J = ρ(R S R̄ + R f s̄ + s f̄ R̄ + V s s̄). With ``relations``, cos² +
-    sin² = 1 and (√q)² = q shorten J; without, it makes no use of them.
+    m = ρV, c = ρ(R f + V s), J = R ϱS R̄ + ρ(R f s̄ + s f̄ R̄ + V s s̄), ρ and ϱ the means of the
+    density and of that which r r̄ weighs. With ``relations``, cos² + sin² = 1 and (√q)² = q shorten
+    J; without, it makes no use of them.
     """
     if "quadric" in solid.sizes:
-        return _of_quadric(solid.sizes["quadric"], _one(solid.density))
-    own, density = unit_moments(solid), _one(solid.density)
+        return _of_quadric(solid.sizes["quadric"], solid.density)
+    own, (density, outer) = unit_moments(solid), means(solid.density, 3)
     R = [[_terms(x, TERMS) for x in row] for row in solid.rotation or UNIT]
     s = [_one(x) for x in solid.shift or (0, 0, 0)]
     V, f = _one(own.m), [_one(x) for x in own.c]
@@ -68,7 +74,7 @@ def moments(solid: Solid, relations: bool = True) -> Moments:
 
     def second(i: int, j: int) -> Tree:
         turned = sum((R[i][k] * S[k][h] * R[j][h] for k in SPAN for h in SPAN), Laurent({}))
-        J = density * (turned + Rf[i] * s[j] + s[i] * Rf[j] + V * s[i] * s[j])
+        J = outer * turned + density * (Rf[i] * s[j] + s[i] * Rf[j] + V * s[i] * s[j])
         return _tree(_related(J) if relations else J)
 
     return Moments(
@@ -78,25 +84,103 @@ def moments(solid: Solid, relations: bool = True) -> Moments:
     )
 
 
-def _of_quadric(Q: Rows, density: Laurent) -> Moments:
-    """The moments of ⟨r, Q r⟩ ≤ 1: m = ρωₙ/√det Q, ωₙ the unit ball, and J = m/(n + 2) Q⁻¹."""
+def means(density: Tree, n: int) -> tuple[Laurent, Laurent]:
+    """The means of a density in an ellipsoid of Rⁿ: over its volume, and with the weights r r̄; of a
+    uniform one itself.
+
+    ∫ sᵏ dx = V n/(n + 2k), and ∫ r r̄ sᵏ dx = V Q⁻¹/(n + 2 + 2k).
+    """
+    if not is_layered(density):
+        return _one(density), _one(density)
+
+    def mean(n: int) -> Laurent:
+        powers = ((k, part * Fraction(n, n + 2 * k)) for k, part in by_levels(density).items())
+        return sum((part for _, part in powers), Laurent({}))
+
+    return mean(n), mean(n + 2)
+
+
+def by_levels(density: Tree) -> dict[int, Laurent]:
+    """The coefficients of the powers of the level in a density."""
+    found: dict[int, dict[Monomial, Fraction]] = {}
+    for m, q in _expanded(density).terms.items():
+        rest = tuple(x for x in m if x[0] != LEVEL)
+        found.setdefault(dict(m).get(LEVEL, 0), {})[rest] = q
+    return {k: Laurent(found[k]) for k in sorted(found)}
+
+
+def integral_above(density: Tree, *, middle: bool = False) -> Tree:
+    """∫ of a density from a level to 1, as a polynomial in the level; or from the ``middle``."""
+    total = Laurent({})
+    for k, part in by_levels(density).items():
+        below = Laurent({}) if middle else Laurent.monomial([(LEVEL, k + 1)])
+        total = total + part * (1 - below) * Fraction(1, k + 1)
+    return _tree(total)
+
+
+def _expanded(density: Tree) -> Laurent:
+    """A polynomial in the level, multiplied out; what has no level in it is one factor."""
+    if not isinstance(density, tuple) or not is_layered(density):
+        return _one(density)
+    operator, first, *others = density
+    if operator == "pow":
+        others, operator = [first] * (others[0] - 1), "mul"
+    total = _expanded(first)
+    for x in others:
+        part = _one(("div", 1, x)) if operator == "div" else _expanded(x)
+        total = total + part if operator == "add" else total * part
+        if len(total.terms) > TERMS_OF_DENSITY:
+            raise SolidError("the density has too many terms")
+    return total
+
+
+def _of_quadric(Q: Rows, density: Tree) -> Moments:
+    """The moments of ⟨r, Q r⟩ ≤ 1: m = ρωₙ/√det Q, ωₙ the unit ball, and J = m/(n + 2) Q⁻¹, by the
+    means of the density."""
     n, entries = len(Q), [[_terms(x) for x in row] for row in Q]
-    span = range(n)
+    span, (inner, outer) = range(n), means(density, n)
     det = _tree(_determinant(entries))
     root = exact_root(det) if isinstance(det, (int, Fraction)) else None
-    mass = density * _ball(*(0 for _ in span)) * _one(("div", 1, root or ("fun", "sqrt", det)))
+    volume = _ball(*(0 for _ in span)) * _one(("div", 1, root or ("fun", "sqrt", det)))
+    weighed = outer * volume
 
     def second(i: int, j: int) -> Tree:
         left = [row[:j] + row[j + 1 :] for k, row in enumerate(entries) if k != i]
         cofactor = _determinant(left)
         share = _one(("div", _tree(cofactor), det)) * Fraction((-1) ** (i + j), n + 2)
-        return _tree(mass * share) if cofactor.terms else 0
+        return _tree(weighed * share) if cofactor.terms else 0
 
     return Moments(
-        m=_tree(mass),
+        m=_tree(inner * volume),
         c=(0,) * n,
         J=tuple(tuple(second(min(i, j), max(i, j)) for j in span) for i in span),
     )
+
+
+def quadric_about_origin(solid: Solid, n: int) -> Tree | None:
+    """Q of a solid that is ⟨r, Q r⟩ ≤ 1, of one that is turned (R diag(a²) R̄)⁻¹; ``None`` of
+    another."""
+    if solid.kind not in LAYERED or any(x != 0 for x in solid.shift or ()):
+        return None
+    span = range(n)
+    if "quadric" in solid.sizes:
+        return ("matrix", *(("row", *row) for row in solid.sizes["quadric"]))
+    turned = solid.rotation if solid.kind == "ellipsoid" else None
+    axes = solid.sizes["semi_axes"] if solid.kind == "ellipsoid" else (solid.sizes["radius"],) * n
+    if turned is None:
+        entries = (quotient(1, ("pow", a, 2)) for a in axes)
+        return (
+            "matrix",
+            *(("row", *(0,) * i, x, *(0,) * (n - 1 - i)) for i, x in enumerate(entries)),
+        )
+    R = [[_terms(x, TERMS) for x in row] for row in turned]
+    squares = [_one(("pow", a, 2)) for a in axes]
+
+    def entry(i: int, j: int) -> Tree:
+        return _tree(sum((R[i][k] * R[j][k] * squares[k] for k in span), Laurent({})))
+
+    rows = (("row", *(entry(max(i, j), min(i, j)) for j in span)) for i in span)
+    return ("inv", ("matrix", *rows))
 
 
 def _determinant(m: Sequence[Sequence[Laurent]]) -> Laurent:

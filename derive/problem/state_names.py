@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from ..algebra.groups import Group
-from ..language.suffixed import suffixed
+from ..language.suffixed import by_letter, suffixed
 from ..language.tree import Tree
 from ..schema.algebra_kinds import Advected
 
@@ -19,10 +19,8 @@ def no_entry(name: str, group: Group, known: Mapping[str, Tree]) -> str:
     of an entry; "" for any other."""
     if not LIKE_AN_ENTRY.fullmatch(name):
         return ""
-    runs: dict[str, list[str]] = {}
-    for x in known:
-        runs.setdefault(x.partition("_")[0], []).append(x)
-    ends = (dict.fromkeys((run[0], run[-1])) for x, run in runs.items() if x != "t")
+    runs = by_letter(x for x in known if x != "t").values()
+    ends = (dict.fromkeys((run[0], run[-1])) for run in runs)
     entries = ", ".join(map(" … ".join, ends))
     on_group = any(isinstance(t, tuple) and t[1] == "A" for t in known.values())
     whose = group.name if on_group else "the state of this algebra"

@@ -15,10 +15,10 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.structure import as_text
 from ..language.derivatives import derivative
-from ..language.tree import Tree, add, mul, neg, nodes
+from ..language.tree import Tree, add, mul, neg, nodes, plain
 from ..schema.lagrangian_kinds import SECTIONS, Inertia, Lagrangian
 from .file_reader import FileReader
-from .moved_entries import EntriesOfElement, plain
+from .moved_entries import EntriesOfElement
 from .null_directions import Direction, along, held, hessian, null_directions, vanishes
 from .problem import ProblemError
 from .state_names import coordinates, no_entry

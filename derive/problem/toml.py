@@ -40,10 +40,11 @@ from .problem import Problem, ProblemError
 from .state_names import known_in_lagrangian, no_entry
 from .stated_algebra import carried_group
 from .stated_lagrangian import lagrangian
+from .stated_motion import KEYS, named, stated_motion
 from .stated_torus import on_torus, torus_problem
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
-TOP |= {"damping", "solid", "algebra", "advected", "fluid", *SECTIONS}
+TOP |= {"damping", "solid", "algebra", "advected", "fluid", *SECTIONS, *KEYS}
 DOTTED = re.compile(
     rb"\.(?:[ \t]*(?:[\w-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*\.){%d}" % KEY_PARTS, re.ASCII
 )
@@ -127,6 +128,7 @@ def problem_of(
     parameters = _parameters(data.get("parameters", {}), reader)
     if any(key in data for key in SECTIONS):
         return _without_points(data, moved)
+    reader.parameters = parameters
     own = body(data, reader)
     if moved and own is None:
         raise ProblemError(
@@ -142,12 +144,11 @@ def problem_of(
     if not negative_stiffness:
         _positive(negative_stiffness_of(potentials, damping, parameters), "stiffness")
     reader.distinct(inputs, parameters)
-    title = reader.title_of(data, name)
     problem = Problem(
         name,
         moved,
         action,
-        title,
+        reader.title_of(data, name),
         parameters,
         own,
         potentials,
@@ -155,6 +156,7 @@ def problem_of(
         tuple(reader.places),
         damping,
         signed=negative_mass,
+        **stated_motion(data, reader),
     )
     _affordable(problem)
     _declared(problem, data)
@@ -207,6 +209,7 @@ def _without_points(
         inputs=inputs,
         lagrangian=lagrangian(data, group, reader),
         advected=advected,
+        **stated_motion(data, reader),
     )
     _affordable(problem)
     _declared(problem, data)
@@ -277,7 +280,7 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     for name in used:
         if name not in problem.parameters:
             if name == "t" or LIKE_A_PLACE.fullmatch(name):
-                where = used_at(data, name, *keys_with(name))
+                where = used_at(data, name, *(x for x, _ in keys_with(name)))
                 raise ProblemError(f"{where}: {name!r} is known in {known_in(name)} alone")
             where, shown = used_at(data, name), name[:40]
             hint = nearest(shown, problem.parameters).removeprefix("; ")
@@ -288,21 +291,22 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
                     raise ProblemError(f"{where}: {fault}")
             raise ProblemError(f"{where}: {shown!r} is not declared; {other}add it to [parameters]")
     own = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}
+    elsewhere = {*own, *named(problem)}
     for name in data.get("parameters", {}):
-        if name not in used and name not in own:
+        if name not in used and name not in elsewhere:
             raise ProblemError(f"parameter {name!r} is declared but not used; leave it out")
 
 
-def keys_with(name: str) -> dict[str, str]:
-    """Key → kind of potential, for the keys whose expressions know t, or a place r1_x."""
-    types = ("energy", "timed") if name == "t" else ("energy",)
-    return {x: k for k, own in kinds().items() for x, y in own.keys().items() if y.type in types}
+def keys_with(name: str) -> list[tuple[str, str]]:
+    """Keys with the kind of their potential, whose expressions know t, or a place r1_x."""
+    types = ("energy", "of_volume", "timed") if name == "t" else ("energy",)
+    return [(x, k) for k, own in kinds().items() for x, y in own.keys().items() if y.type in types]
 
 
 def known_in(name: str) -> str:
     """The keys whose expressions know a name, with the kinds of potentials, in words."""
-    listed = keys_with(name).items()
-    return " and ".join(f"the {x!r} of a{'n' * (k[0] in 'aeiou')} {k}" for x, k in listed)
+    *others, last = (f"the {x!r} of a{'n' * (k[0] in 'aeiou')} {k}" for x, k in keys_with(name))
+    return f"{', '.join(others)} and {last}" if others else last
 
 
 def _trees(listed: Iterable[Table]) -> list[Tree]:

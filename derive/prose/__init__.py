@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from .answer import STEPS as ANSWER
+from .discrete import STEPS as DISCRETE
 from .equilibria import STEPS as EQUILIBRIA
 from .first_integrals import STEPS as FIRST_INTEGRALS
 from .fluid import STEPS as FLUID
@@ -24,7 +25,7 @@ from .zeitlin import STEPS as ZEITLIN
 
 ROADS = (
     *(GENERAL, ROTATIONS, MATRICES, MATERIAL, FIRST_INTEGRALS, SYMMETRIES, MOMENTUM_FORM),
-    *(ANSWER, EQUILIBRIA, REDUCTION, ZEITLIN, FLUID),
+    *(ANSWER, DISCRETE, EQUILIBRIA, REDUCTION, ZEITLIN, FLUID),
 )
 STEPS: dict[str, dict[str, tuple[str, str]]] = {}
 for road in ROADS:

@@ -8,39 +8,70 @@ from __future__ import annotations
 STEPS: dict[str, dict[str, tuple[str, str]]] = {
     "lagrangian": {
         "fluid": (
-            "The fluid is a continuous body: its Lagrangian is an integral over its points with "
-            "their measure of mass, half the square of a norm; ⟨a, b⟩ is here the integral of the "
-            "scalar product at each place. The space is flat, and the fluid is without forces.",
-            "Le fluide est un corps continu : son lagrangien est une intégrale sur ses points pour "
-            "leur mesure de masse, la moitié du carré d’une norme ; ⟨a, b⟩ est ici l’intégrale du "
-            "produit scalaire en chaque lieu. L’espace est plat, et le fluide sans forces.",
+            "The fluid is a continuous body that fills a compact and connected domain of the flat "
+            "space, with a smooth boundary, or a flat torus. Its Lagrangian is an integral over "
+            "its points with their measure of mass, half the square of a norm; ⟨a, b⟩ is here the "
+            "integral, with the measure of mass, of the scalar product at each point.",
+            "Le fluide est un corps continu qui remplit un domaine compact et connexe de l’espace "
+            "plat, à bord lisse, ou un tore plat. Son lagrangien est une intégrale sur ses points "
+            "par rapport à leur mesure de masse, la moitié du carré d’une norme ; ⟨a, b⟩ est ici "
+            "l’intégrale, par rapport à la mesure de masse, du produit scalaire en chaque point.",
+        ),
+        "free": (
+            "No force acts on the fluid.",
+            "Le fluide n’est soumis à aucune force.",
+        ),
+        "forced": (
+            "U is the potential of forces that per unit mass depend on the place alone: the "
+            "weight, say.",
+            "U est le potentiel de forces qui, par unité de masse, ne dépendent que du lieu : le "
+            "poids, par exemple.",
         ),
         "homogeneous": (
             "Its density is the same everywhere: 1.",
             "Sa densité est partout la même : 1.",
         ),
         "advected": (
-            "Its density is positive, and another at each place.",
-            "Sa densité est strictement positive, et dépend du lieu.",
+            "Its density is positive, and may vary from place to place.",
+            "Sa densité est strictement positive, et peut varier d’un lieu à l’autre.",
         ),
     },
     "action": {
         "fluid": (
-            "The group is that of the displacements g of the fluid that keep the volume; g moves "
-            "the places r of the body by g ∘ r, and its tangent vector ν is the velocity of all "
-            "points.",
-            "Le groupe est celui des déplacements g du fluide qui conservent le volume ; g déplace "
-            "les positions r du corps par g ∘ r, et son vecteur tangent ν est la vitesse de tous "
-            "les points.",
+            "The group SDiff is that of the smooth diffeomorphisms g of the domain that keep the "
+            "volume; g brings each point r of the body to the place g(r), and its tangent vector ν "
+            "is the velocity of all points.",
+            "Le groupe SDiff est celui des difféomorphismes lisses g du domaine qui conservent le "
+            "volume ; g amène chaque point r du corps au lieu g(r), et son vecteur tangent ν est "
+            "la vitesse de tous les points.",
+        ),
+    },
+    "force": {
+        "potential": (
+            "The potential per unit mass is a function V of the place, taken where each point is; "
+            "G is the composition with g. The force per unit mass is f, the opposite of its "
+            "gradient.",
+            "Le potentiel par unité de masse est une fonction V du lieu, prise là où se trouve "
+            "chaque point ; G est la composition avec g. La force par unité de masse est f, "
+            "l’opposé de son gradient.",
+        ),
+    },
+    "dalembert": {
+        "fluid": (
+            "It is d’Alembert’s principle of virtual work, with ν̇ for the acceleration of the "
+            "points: what keeps the volume does no work in any displacement that keeps it.",
+            "C’est le principe des travaux virtuels de d’Alembert, où ν̇ est l’accélération des "
+            "points : ce qui conserve le volume ne travaille dans aucun déplacement qui le "
+            "conserve.",
         ),
     },
     "trivialisation": {
         "fluid": (
-            "Velocities and displacements are told at the place where a point is: G is the "
+            "Velocities and displacements are referred to the place where the point is: G is the "
             "composition with g, so that the tangent bundle is trivialised on the right. As g "
             "keeps the volume, u, η and η′ are divergence-free, and tangent to the boundary, if "
             "there is one.",
-            "Vitesses et déplacements sont dits au lieu où se trouve le point : G est la "
+            "Vitesses et déplacements sont rapportés au lieu où se trouve le point : G est la "
             "composition avec g, si bien que le fibré tangent est trivialisé à droite. Comme g "
             "conserve le volume, u, η et η′ sont solénoïdaux, et tangents au bord éventuel.",
         ),
@@ -64,10 +95,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         "advected": (
             "The fields over the points have the scalar product of the mass, those in space that "
             "of the volume: what takes the place of C = ĀA is the product with the density ρ, "
-            "which is carried along by g.",
+            "which is carried along by g: ρ is ρ₀ ∘ g⁻¹, with dm = ρ₀ dr over the body.",
             "Les champs sur les points ont le produit scalaire de la masse, ceux dans l’espace "
             "celui du volume : ce qui tient lieu de C = ĀA est le produit par la densité ρ, que g "
-            "transporte.",
+            "transporte : ρ est ρ₀ ∘ g⁻¹, où dm = ρ₀ dr sur le corps.",
         ),
     },
     "skew": {
@@ -95,10 +126,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     "structure": {
         "fields": (
             "The variations commute on the group: δ(Gη′) = δ′(Gη). It is the structure equation of "
-            "the translations of an affine group, with ∇_η and ∇_η′ for ξ and ξ′.",
+            "the translations of an affine group, with ∇_η and ∇_η′ for ξ and ξ′. The right side "
+            "is the bracket of the fields η′ and η; the bracket of 𝔤 is the opposite of it.",
             "Les variations commutent sur le groupe : δ(Gη′) = δ′(Gη). C’est l’équation de "
             "structure des translations d’un groupe affine, où ∇_η et ∇_η′ tiennent lieu de ξ et "
-            "ξ′.",
+            "ξ′. Le second membre est le crochet des champs η′ et η ; le crochet de 𝔤 en est "
+            "l’opposé.",
         ),
     },
     "exterior_trivialised": {
@@ -118,9 +151,18 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     "kernel": {
         "fluid": (
             "X is in the kernel if and only if this expression vanishes for every η′ that is "
-            "divergence-free and tangent to the boundary: Euler’s equation.",
+            "divergence-free and tangent to the boundary: Euler’s equation. For η′ = u it says "
+            "that the energy h̃ is constant along the motion.",
             "X est dans le noyau si et seulement si cette expression s’annule pour tout η′ "
-            "solénoïdal et tangent au bord : l’équation d’Euler.",
+            "solénoïdal et tangent au bord : l’équation d’Euler. Pour η′ = u, elle dit que "
+            "l’énergie h̃ est constante le long du mouvement.",
+        ),
+        "fluid_line": (
+            "With δt = 0 the same two tests leave X = 0: the kernel is at most a line. It is a "
+            "line, as Neumann’s problem for the pressure, below, has a solution, which gives u̇.",
+            "Pour δt = 0, les deux mêmes conditions ne laissent que X = 0 : le noyau est au plus "
+            "une droite. C’est une droite, car le problème de Neumann pour la pression, "
+            "ci-dessous, a une solution, qui donne u̇.",
         ),
     },
     "divergence": {
@@ -133,21 +175,29 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     },
     "pressure": {
         "helmholtz": (
-            "By Helmholtz’ decomposition of smooth fields, on a compact domain with a smooth "
-            "boundary or a torus, what is orthogonal to every η′ with Dη′ = 0 is the transpose of "
-            "D of some function: the multiplier of the volume, the pressure p, up to a constant. "
-            "This transpose, on fields tangent to the boundary, is −grad by Stokes’ theorem.",
-            "Par la décomposition de Helmholtz des champs lisses, sur un domaine compact à bord "
-            "lisse ou un tore, ce qui est orthogonal à tout η′ tel que Dη′ = 0 est l’image d’une "
-            "fonction par la transposée de D : le multiplicateur du volume, la pression p, à une "
-            "constante près. Cette transposée, sur les champs tangents au bord, est −grad par le "
+            "By Helmholtz’ decomposition of smooth fields on the domain, what is orthogonal to "
+            "every η′ with Dη′ = 0 is the transpose of D of some function: the multiplier of the "
+            "volume, the pressure p, up to a constant, as the domain is connected. This transpose, "
+            "on fields tangent to the boundary, is −grad by Stokes’ theorem.",
+            "Par la décomposition de Helmholtz des champs lisses sur le domaine, ce qui est "
+            "orthogonal à tout η′ tel que Dη′ = 0 est l’image d’une fonction par la transposée de "
+            "D : le multiplicateur du volume, la pression p, à une constante près, car le domaine "
+            "est connexe. Cette transposée, sur les champs tangents au bord, est −grad par le "
             "théorème de Stokes.",
         ),
         "curved": (
-            "On a curved manifold the words are the same, with the connection of Levi-Civita, "
-            "which has no torsion.",
-            "Sur une variété courbe, les mots sont les mêmes, avec la connexion de Levi-Civita, "
+            "On a curved manifold the same holds, with the connection of Levi-Civita, which has no "
+            "torsion.",
+            "Sur une variété courbe, l’énoncé est le même, avec la connexion de Levi-Civita, "
             "qui est sans torsion.",
+        ),
+    },
+    "absorbed": {
+        "pressure": (
+            "As f is the opposite of a gradient, it is orthogonal to every η′: where the density "
+            "is the same everywhere, the motion is that without forces, and V joins the pressure.",
+            "Comme f est l’opposé d’un gradient, elle est orthogonale à tout η′ : si la densité "
+            "est partout la même, le mouvement est celui sans forces, et V s’ajoute à la pression.",
         ),
     },
     "divergence_along": {
@@ -162,10 +212,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     },
     "pressure_equation": {
         "homogeneous": (
-            "D is put before the equation of motion, and D u̇ = 0: the velocity alone tells the "
-            "pressure.",
-            "On applique D à l’équation du mouvement, où D u̇ = 0 : la vitesse seule détermine la "
-            "pression.",
+            "D is put before the equation of motion, and D u̇ = 0: with the condition at the "
+            "boundary, below, the velocity alone determines the pressure, up to a constant.",
+            "On applique D à l’équation du mouvement, où D u̇ = 0 : avec la condition au bord, "
+            "ci-dessous, la vitesse seule détermine la pression, à une constante près.",
         ),
         "advected": (
             "The equation of motion is divided by the density, and D is put before it; D u̇ = 0.",
@@ -175,39 +225,105 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     "boundary": {
         "tangent": (
             "At the boundary the equation of motion is paired with the normal n, to which u̇ is "
-            "orthogonal as u is. Without a boundary this says nothing.",
+            "orthogonal as u is; ⟨a, n⟩ is the scalar product at each place there, without an "
+            "integral. Without a boundary this says nothing.",
             "Au bord, on prend le produit de l’équation du mouvement par la normale n, à laquelle "
-            "u̇ est orthogonal comme u. Sans bord, cela ne dit rien.",
+            "u̇ est orthogonal comme u ; ⟨a, n⟩ est là le produit scalaire en chaque lieu, sans "
+            "intégrale. Sans bord, cela ne dit rien.",
         ),
     },
     "relabelling": {
         "field": (
-            "Displacements h of the fluid before g, g ∘ h, leave u alone: δg = Gϑ and δu = 0. "
-            "Along the motion ϑ changes by the structure equation, where the motion is the other "
-            "variation.",
-            "Les déplacements h du fluide avant g, g ∘ h, laissent u invariant : δg = Gϑ et "
-            "δu = 0. Le long du mouvement, ϑ varie par l’équation de structure, où le mouvement "
-            "est l’autre variation.",
+            "Displacements h of the body made before g, g ∘ h, where h is the same at all times, "
+            "leave u alone: δg = Gϑ and δu = 0, with ϑ the image in space of the displacement of "
+            "the body. Along the motion ϑ changes by the structure equation, where the motion is "
+            "the other variation.",
+            "Les déplacements h du corps effectués avant g, g ∘ h, où h est le même à tout "
+            "instant, laissent u invariant : δg = Gϑ et δu = 0, où ϑ est l’image dans l’espace du "
+            "déplacement du corps. Le long du mouvement, ϑ varie par l’équation de structure, où "
+            "le mouvement est l’autre variation.",
+        ),
+        "density": (
+            "So does the density, by its variation along η = u: as a function, "
+            "ρ̇ + ⟨u, grad ρ⟩ = 0 at each place.",
+            "De même la densité, par sa variation le long de η = u : comme fonction, "
+            "ρ̇ + ⟨u, grad ρ⟩ = 0 en chaque lieu.",
         ),
     },
     "circulation": {
+        "potential": (
+            "The force does not change it: ϑ is orthogonal to gradients, and with a density ρϑ is.",
+            "La force ne le change pas : ϑ est orthogonal aux gradients et, avec une densité, ρϑ "
+            "l’est.",
+        ),
         "homogeneous": (
-            "The momentum on ϑ is constant along the motion, by the symmetry on the right. For a "
-            "field ϑ in a thin tube around a closed curve that moves with the fluid it is the "
-            "circulation of u along this curve: Kelvin’s theorem.",
-            "Le moment sur ϑ est constant le long du mouvement, par la symétrie à droite. Pour un "
-            "champ ϑ dans un tube mince autour d’une courbe fermée qui suit le fluide, c’est la "
-            "circulation de u le long de cette courbe : le théorème de Kelvin.",
+            "The momentum on ϑ, p̃(Gϑ), is constant along the motion, by the symmetry on the right.",
+            "L’impulsion sur ϑ, p̃(Gϑ), est constante le long du mouvement, par la symétrie à "
+            "droite.",
         ),
         "advected": (
-            "The momentum on ϑ is constant along the motion where ϑ leaves the density alone, "
-            "which the fluid carries along as well. For a field ϑ in a thin tube around a closed "
-            "curve that moves with the fluid in a level surface of ρ it is the circulation of ρu: "
-            "Kelvin’s theorem.",
-            "Le moment sur ϑ est constant le long du mouvement là où ϑ laisse invariante la "
-            "densité, que le fluide transporte aussi. Pour un champ ϑ dans un tube mince autour "
-            "d’une courbe fermée qui suit le fluide dans une surface de niveau de ρ, c’est la "
-            "circulation de ρu : le théorème de Kelvin.",
+            "The momentum on ϑ, p̃(Gϑ), is constant along the motion where ϑ leaves the density "
+            "alone, which the fluid carries along as well.",
+            "L’impulsion sur ϑ, p̃(Gϑ), est constante le long du mouvement si ϑ laisse invariante "
+            "la densité, que le fluide transporte aussi.",
+        ),
+    },
+    "curve": {
+        "carried": (
+            "A closed curve γ₀ in the body is carried along by the fluid: γ = g ∘ γ₀. Γ₀ and Γ are "
+            "the compositions with γ₀ and γ; their rates are those of g and G.",
+            "Une courbe fermée γ₀ du corps est transportée par le fluide : γ = g ∘ γ₀. Γ₀ et Γ "
+            "sont les compositions avec γ₀ et γ ; leurs dérivées sont celles de g et de G.",
+        ),
+    },
+    "closed_curve": {
+        "skew": (
+            "Between fields along the curve, ⟨a, b⟩ is the integral over its parameter s. The "
+            "integral of a derivative over a closed curve vanishes, so that ∂_s is skew. By the "
+            "chain rule ∂_sΓ gives the derivative of fields in space along γ_s, at each place of "
+            "the curve. So ⟨Γ grad p, γ_s⟩ is the integral of ∂_sΓp, as for any function, and "
+            "⟨Γu, ∂_sΓu⟩ that of half the derivative of ‖Γu‖².",
+            "Entre champs le long de la courbe, ⟨a, b⟩ est l’intégrale sur son paramètre s. "
+            "L’intégrale d’une dérivée sur une courbe fermée s’annule, si bien que ∂_s est "
+            "antisymétrique. Par dérivation des fonctions composées, ∂_sΓ donne la dérivée des "
+            "champs dans l’espace le long de γ_s, en chaque lieu de la courbe. Ainsi "
+            "⟨Γ grad p, γ_s⟩ est l’intégrale de ∂_sΓp, comme pour toute fonction, et ⟨Γu, ∂_sΓu⟩ "
+            "celle de la moitié de la dérivée de ‖Γu‖².",
+        ),
+    },
+    "level_curve": {
+        "kept": (
+            "Where the curve lies in a level surface of the density, ρ has one value κ on it; as "
+            "the fluid carries both along, it stays there.",
+            "Si la courbe est dans une surface de niveau de la densité, ρ a sur elle une seule "
+            "valeur κ ; comme le fluide transporte l’une et l’autre, elle reste dans cette "
+            "surface.",
+        ),
+    },
+    "kelvin": {
+        "homogeneous": (
+            "The circulation of u along γ changes by the acceleration of the points and by the "
+            "change of γ_s, which contributes ⟨Γu, ∂_sΓu⟩ = 0. By the equation of motion the "
+            "acceleration is a gradient: the circulation is constant, Kelvin’s theorem. It is the "
+            "momentum on Γ̄γ_s, a distribution on the curve, divergence-free as γ is closed.",
+            "La circulation de u le long de γ varie par l’accélération des points et par la "
+            "variation de γ_s, dont la contribution est ⟨Γu, ∂_sΓu⟩ = 0. Selon l’équation du "
+            "mouvement, l’accélération est un gradient : la circulation est constante, c’est le "
+            "théorème de Kelvin. Elle est l’impulsion sur Γ̄γ_s, distribution portée par la "
+            "courbe, solénoïdale car γ est fermée.",
+        ),
+        "advected": (
+            "The circulation of u along γ changes by the acceleration of the points and by the "
+            "change of γ_s, which contributes ⟨Γu, ∂_sΓu⟩ = 0. By the equation of motion the "
+            "acceleration is a gradient on the curve, as κ > 0 is one number: the circulation is "
+            "constant, Kelvin’s theorem. Times κ it is the momentum on Γ̄γ_s, a distribution on "
+            "the curve, divergence-free as γ is closed.",
+            "La circulation de u le long de γ varie par l’accélération des points et par la "
+            "variation de γ_s, dont la contribution est ⟨Γu, ∂_sΓu⟩ = 0. Selon l’équation du "
+            "mouvement, l’accélération est un gradient sur la courbe, car κ > 0 est un seul "
+            "nombre : la circulation est constante, c’est le théorème de Kelvin. Multipliée par κ, "
+            "elle est l’impulsion sur Γ̄γ_s, distribution portée par la courbe, solénoïdale car γ "
+            "est fermée.",
         ),
     },
 }

@@ -56,6 +56,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "{kind} of density {density} ({sizes})",
             "{kind} de masse volumique {density} ({sizes})",
         ),
+        "layered": (
+            "{kind} of density {density} at the level s_r, from 0 in its middle to 1 at its "
+            "boundary ({sizes})",
+            "{kind} de masse volumique {density} au niveau s_r, de 0 au centre à 1 au bord "
+            "({sizes})",
+        ),
         "turned": (
             "{solid}, turned by a rotation",
             "{solid}, après une rotation",

@@ -204,8 +204,26 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "l’intégrale de ses dérivées s’annule (théorème de la divergence), et la trace de cela "
             "donne Tr Q_r J.",
         ),
+        "layers": (
+            "The body is ⟨r, Q_r r⟩ ≤ 1, and its density ρ_r depends on the level s_r alone. The "
+            "integral σ_r of ρ_r over the levels from s_r to 1 has by the chain rule −ρ_r times "
+            "the gradient of s_r for its gradient. The field σ_r r vanishes at the boundary, so "
+            "that the integral of its derivatives vanishes (divergence theorem); dm/ρ_r is the "
+            "element of volume.",
+            "Le corps est ⟨r, Q_r r⟩ ≤ 1, et sa masse volumique ρ_r ne dépend que du niveau s_r. "
+            "L’intégrale σ_r de ρ_r sur les niveaux de s_r à 1 a pour gradient, par dérivation des "
+            "fonctions composées, −ρ_r fois le gradient de s_r. Le champ σ_r r s’annule au bord, "
+            "si bien que l’intégrale de ses dérivées s’annule (théorème de la divergence) ; "
+            "dm/ρ_r est l’élément de volume.",
+        ),
     },
     "pressure": {
+        "layers": (
+            "The multiple of σ_r whose gradient balances the acceleration; p_0 is its value in the "
+            "middle.",
+            "Le multiple de σ_r dont le gradient équilibre l’accélération ; p_0 est sa valeur au "
+            "centre.",
+        ),
         "balance": (
             "The pressure p_r, which vanishes at the boundary, is a function of the place r in the "
             "body; its gradient in space is its derivative there by Ā⁻¹. Euler’s equation of a "
@@ -224,6 +242,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
     },
     "total": {
+        "layers": (
+            "As dm/ρ_r is the element of volume in space, too, the multiplier is the integral of "
+            "the pressure.",
+            "Comme dm/ρ_r est aussi l’élément de volume dans l’espace, le multiplicateur est "
+            "l’intégrale de la pression.",
+        ),
         "pressure": (
             "As dm over the density is the element of volume in space, too, the multiplier is the "
             "integral of the pressure.",
@@ -243,14 +267,14 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "The trace of the balance. Of a pressure that vanishes at the boundary and balances "
             "acceleration and forces at every point θ would be the integral, by the divergence "
             "theorem: the total pressure that is needed. That there is one is not said here, where "
-            "the body is not given as one centred ellipsoid in its own axes, or the forces per "
-            "mass are not linear in the place.",
+            "the body is not given as one ellipsoid whose centre is the fixed point, or the forces "
+            "per mass are not linear in the place.",
             "La trace du bilan. D’une pression qui s’annule au bord et qui équilibre "
             "l’accélération et les forces en chaque point, θ serait l’intégrale, par le théorème "
             "de la divergence : la pression totale qu’il faut. Son existence "
-            "n’est pas affirmée ici, où le corps n’est pas donné comme un seul ellipsoïde centré "
-            "dans ses propres axes, ou bien les forces par unité de masse ne sont pas linéaires en "
-            "la position.",
+            "n’est pas affirmée ici, où le corps n’est pas donné comme un seul ellipsoïde dont le "
+            "centre est le point fixe, ou bien les forces par unité de masse ne sont pas linéaires "
+            "en la position.",
         ),
     },
     "circulation": {
@@ -273,6 +297,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "forces add may not be.",
             "La circulation : ce que la pression ajoute à Āα̇ est symétrique, et disparaît ; ce "
             "que les forces ajoutent ne l’est pas forcément.",
+        ),
+        "centred": (
+            "What acts by the first moment adds nothing, for c = 0.",
+            "Ce qui agit par le premier moment n’ajoute rien, car c = 0.",
         ),
         "relabelling": (
             "It is the momentum of the relabellings r ↦ hr of the body that keep J, hJh̄ = J, of "

@@ -64,6 +64,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Cela vaut là où {conditions} : ailleurs, un mouvement le long des symétries laisse la "
             "configuration comme elle est, et l’inertie bloquée n’a pas d’inverse.",
         ),
+        "free": (
+            "No motion along the symmetries leaves a configuration as it is, so that the locked "
+            "inertia has an inverse everywhere where the kinetic energy is positive.",
+            "Aucun mouvement le long des symétries ne laisse une configuration comme elle est : "
+            "l’inertie bloquée a un inverse partout où l’énergie cinétique est positive.",
+        ),
         "curved": (
             "The curvature in coordinates, by the structure equation.",
             "La courbure en coordonnées, par l’équation de structure.",

@@ -13,11 +13,19 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "deux au plus en t et les entrées de g : {count}, pour des paramètres génériques, sans "
             "entrées.",
         ),
+        "integrand": (
+            "For the integral of self-gravity L̃ has its integrand, at any place ({place}) with "
+            "any weight ({weight}): a field that changes it by dF/dt for all of these does so for "
+            "the integral.",
+            "À la place de l’intégrale de l’autogravitation, L̃ a son intégrande, en un point "
+            "({place}) et avec un poids ({weight}) quelconques : un champ qui le change de dF/dt "
+            "pour tous ces points le fait pour l’intégrale.",
+        ),
         "open": (
             "The values of {functions} were taken for any numbers, so that no relation between "
-            "them is used.",
+            "them is used but cos² + sin² = 1 and cosh² − sinh² = 1.",
             "Les valeurs de {functions} sont prises pour des nombres quelconques : aucune relation "
-            "entre elles n’est utilisée.",
+            "entre elles n’est utilisée, sinon cos² + sin² = 1 et cosh² − sinh² = 1.",
         ),
         "kernel": (
             "The motion is in the kernel of dϖ. A field that changes L̃ by dF/dt, put into dϖ "

@@ -5,15 +5,21 @@ from __future__ import annotations
 STEPS = {
     "coordinates": {
         "torus": (
-            "The basis of su(N), N = {order}, is that of the torus: 𝐧 is a point of a square "
-            "lattice modulo N, and T(𝐧) the power n₁ of the clock, a diagonal matrix of roots of "
-            "unity, times the power n₂ of the cyclic shift, times a root of unity, so that T(−𝐧) "
-            "is its adjoint. Sums go over the points but 0 with coordinates from −{half} to "
-            "{most}; i is the imaginary unit, and ζ(−𝐧) the conjugate of ζ(𝐧).",
-            "La base de su(N), N = {order}, est celle du tore : 𝐧 est un point d’un réseau carré "
-            "modulo N, et T(𝐧) la puissance n₁ de l’horloge, matrice diagonale de racines de "
-            "l’unité, fois la puissance n₂ du décalage cyclique, fois une racine de l’unité, de "
-            "sorte que T(−𝐧) est son adjointe. Les sommes portent sur les points sauf 0 dont les "
+            "The basis of su(N), N = {order}, is that of the torus of sides 2π: 𝐧 is a point of a "
+            "square lattice modulo N, and T(𝐧) the power n₁ of the clock, times the power n₂ of "
+            "the cyclic shift, times the power n₁n₂ of the root of unity of angle 2π/N, so that "
+            "T(−𝐧) is its adjoint; in space it is the wave of wave vector 𝐧. The clock is the "
+            "diagonal matrix of the powers of the root of unity of angle 4π/N, the shift takes "
+            "each vector of the standard basis to the one before it, and 𝐦 ∧ 𝐧 = m₁n₂ − m₂n₁. "
+            "Sums go over the points but 0 with coordinates from −{half} to {most}; i is the "
+            "imaginary unit, and ζ(−𝐧) the conjugate of ζ(𝐧).",
+            "La base de su(N), N = {order}, est celle du tore de côtés 2π : 𝐧 est un point d’un "
+            "réseau carré modulo N, et T(𝐧) la puissance n₁ de l’horloge, fois la puissance n₂ du "
+            "décalage cyclique, fois la puissance n₁n₂ de la racine de l’unité d’angle 2π/N, de "
+            "sorte que T(−𝐧) est son adjointe ; dans l’espace c’est l’onde de vecteur d’onde 𝐧. "
+            "L’horloge est la matrice diagonale des puissances de la racine de l’unité d’angle "
+            "4π/N, le décalage envoie chaque vecteur de la base canonique sur celui qui le "
+            "précède, et 𝐦 ∧ 𝐧 = m₁n₂ − m₂n₁. Les sommes portent sur les points sauf 0 dont les "
             "coordonnées vont de −{half} à {most} ; i est l’unité imaginaire, et ζ(−𝐧) le "
             "conjugué de ζ(𝐧).",
         ),
@@ -52,8 +58,10 @@ STEPS = {
     },
     "energy": {
         "torus": (
-            "The energy is the kinetic energy, told by the vorticity.",
-            "L’énergie est l’énergie cinétique, écrite avec le tourbillon.",
+            "The energy is the kinetic energy, told by the vorticity: its mean over the torus, "
+            "half that of the square of the velocity.",
+            "L’énergie est l’énergie cinétique, écrite avec le tourbillon : sa moyenne sur le "
+            "tore, la moitié de celle du carré de la vitesse.",
         ),
     },
     "coadjoint": {
@@ -66,10 +74,22 @@ STEPS = {
     },
     "motion": {
         "torus": (
-            "The same on T(𝐧), by the brackets of the basis. As N grows, and 𝐧 is kept, this goes "
-            "to Euler’s equation of the vorticity on the torus.",
-            "La même sur T(𝐧), d’après les crochets de la base. Quand N croît, à 𝐧 fixé, elle tend "
-            "vers l’équation d’Euler du tourbillon sur le tore.",
+            "The same on T(𝐧), by the brackets of the basis. For a smooth flow, at a fixed time "
+            "and 𝐧, this goes to Euler’s equation of the vorticity on the torus as N grows.",
+            "La même sur T(𝐧), d’après les crochets de la base. Pour un écoulement lisse, à un "
+            "instant et un 𝐧 fixés, elle tend vers l’équation d’Euler du tourbillon sur le tore "
+            "quand N croît.",
+        ),
+    },
+    "modes": {
+        "torus": (
+            "The sums written out, mode by mode, for one of 𝐧 and −𝐧: the rate at −𝐧 is the same "
+            "with every place on the other side of 0. Two points of the lattice whose sum is 𝐧 "
+            "modulo N make one term, as their sines are opposite; those of the same length cancel.",
+            "Les sommes développées, mode par mode, pour l’un de 𝐧 et −𝐧 : la dérivée en −𝐧 est la "
+            "même, chaque point étant pris de l’autre côté de 0. Deux points du réseau de somme 𝐧 "
+            "modulo N font un terme, leurs sinus étant opposés ; ceux de même longueur se "
+            "détruisent.",
         ),
     },
     "conserved": {

@@ -102,7 +102,7 @@ def _word(name: str) -> Callable[..., Table | list[Table]]:
 def _keys(own: type[Any]) -> list[str]:
     """The arguments of a word by their names, the last of which may be any number of them."""
     found = [*signature(own.word).parameters]
-    return [*own.names()] if found[0] == "given" else found
+    return [*own.names()] if found[:1] == ["given"] else found
 
 
 def _called(function: F, name: str, doc: str | None) -> F:
@@ -120,6 +120,7 @@ def Problem(
     title: str | None = None,
     negative_mass: bool = False,
     negative_stiffness: bool = False,
+    initial: Mapping[str, Any] | None = None,
 ) -> mechanics.Problem:
     """A problem from its tables; ``ProblemError`` says what is wrong.
 
@@ -128,7 +129,8 @@ def Problem(
     along.
 
     ``negative_mass``, ``negative_stiffness``: may a mass, or the stiffness of a spring and the
-    coefficient of a damping, be given as a negative number?
+    coefficient of a damping, be given as a negative number?  ``initial``: where motions start, by
+    the names of the state and inputs, and ``exp``; events of motions stand among the ``forces``.
     """
     data: dict[str, Any] = {"name": name}
     if isinstance(group, Table):
@@ -138,6 +140,8 @@ def Problem(
     data["parameters"] = dict(_parameter(k, x) for k, x in (parameters or {}).items())
     if title is not None:
         data["title"] = title
+    if initial is not None:
+        data["initial"] = {k: _plain(x, f"initial, {k}") for k, x in initial.items()}
     for table in (*_tables(body), *_tables(forces)):
         if table.key in ("body", *SECTIONS):
             data[table.key] = table.fields

@@ -15,6 +15,7 @@ import sympy
 from ..language.read import read
 from ..language.show import show, show_name
 from ..language.tree import Tree, nodes
+from ..problem.problem import ProblemError
 from ..record.name_types import (
     ALGEBRA,
     FIELD,
@@ -161,7 +162,7 @@ class Translation:
                 return self.count[self.family(x[1])[1]]
             if isinstance(x, tuple) and x[0] == "entry" and index in x[2:]:
                 return self.of(x[1]).shape[x[2:].index(index)]
-        raise ValueError(f"a sum over {index}, a place of the lattice, is none of SymPy's")
+        raise ProblemError(f"a sum over {index}, a place of the lattice, is none of SymPy's")
 
     # -- functions -----------------------------------------------------------------------------
 

@@ -18,17 +18,20 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..code.emit import emit
-from ..code.options import ADDED, CHOICES, Options
+from ..code.languages import LANGUAGES
+from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
 from ..code.program import Program
+from ..code.step.step_numbers import FIXED
+from ..language.near_names import did_you_mean, near_name
+from ..motion.start import OFF_THE_GROUP
+from ..native.library import FLAGS, CompileError, CSource, loaded, over_cores
+from ..native.motion_in_c import Array, Motion, binding, constants, ensemble, pointer
 from ..pipeline import program
 from ..problem.problem import Problem, ProblemError
 from .derived import Derived, derive
 from .in_momenta import InMomenta
-from .library import FLAGS, CompileError, CSource, loaded
 
 __all__ = ["CompileError", "Compiled", "compile"]
-
-Array = np.ndarray[Any, np.dtype[np.float64]]
 
 BINDING = """\
 #include "{name}.h"
@@ -49,17 +52,26 @@ class Names(NamedTuple):
     state: tuple[str, ...]
     inputs: tuple[str, ...]
     conserved: tuple[str, ...]
+    events: tuple[str, ...]
     defaults: dict[str, float | None]
+    steps: tuple[str, ...]
     constants: int
     algebra: int
     reduced: int
+    unread: tuple[str, ...]
 
     @classmethod
-    def of(cls, program: Program) -> Names:
-        """The names of a program."""
+    def of(
+        cls, program: Program, steps: tuple[str, ...] = (), declared: Sequence[str] = ()
+    ) -> Names:
+        """The names of a program, of the steps that are emitted with it, and of the parameters
+        that a problem has ``declared`` and the program does not read."""
         defaults = {x[0]: x[1] for x in program.parameters}
         sizes = len(program.constants), program.dimension, program.reduced
-        return cls(program.state, program.inputs, program.conserved, defaults, *sizes)
+        events = tuple(x.name for x in program.events)
+        named = program.state, program.inputs, program.conserved, events
+        unread = tuple(x for x in declared if x not in defaults)
+        return cls(*named, defaults, steps, *sizes, unread)
 
 
 class Values(NamedTuple):
@@ -90,16 +102,17 @@ class Buffers:
 class Compiled(InMomenta):
     """The functions of one problem in compiled C, for one body; called, it is dx/dt = f(t, x, u).
 
-    ``STATE``, ``PARAMETERS``, ``INPUTS``, ``CONSERVED``: names; ``p`` and ``k``: parameters and
-    constants in use; ``u``: the inputs of calls that are given none, zero at first. These three are
-    not to be written into: :meth:`use` and ``f.u = …`` replace them. Threads may share it, each
-    call has buffers of its own; pickled, it takes its C along, which is compiled where it is
-    loaded.
+    ``STATE``, ``PARAMETERS``, ``INPUTS``, ``CONSERVED``, ``STEPS``: names; ``p`` and ``k``:
+    parameters and constants in use; ``u``: the inputs of calls that are given none, zero at first.
+    These three are not to be written into: :meth:`use` and ``f.u = …`` replace them. Threads may
+    share it, each call has buffers of its own; pickled, it takes its C along, which is compiled
+    where it is loaded.
     """
 
     def __init__(self, names: Names, source: CSource, values: Values | None = None):
         self.STATE, self.INPUTS, self.PARAMETERS = names.state, names.inputs, tuple(names.defaults)
         self.CONSERVED, self.REDUCED = names.conserved, names.reduced
+        self.STEPS = names.steps
         self._names, self._source, self._library = names, source, loaded(source)
         p, k, u = map(np.zeros, (len(self.PARAMETERS), names.constants, len(self.INPUTS)))
         self._values = values or Values(p, k, u, ready=False)
@@ -176,15 +189,14 @@ class Compiled(InMomenta):
             if len(parameters) not in (0, len(self.PARAMETERS)):
                 raise ValueError(f"expected {len(self.PARAMETERS)} parameters in order, or names")
             named = dict(zip(self.PARAMETERS, parameters, strict=False))
-        unknown = [x for x in named if x not in defaults]
+        self._require_known([x for x in named if x not in defaults])
         values = {**defaults, **named}
         missing = [x for x, value in values.items() if value is None]
-        if unknown or missing:
-            what = "unknown" if unknown else "no value for the"
-            raise ValueError(f"{what} parameters {', '.join(unknown or missing)}")
+        if missing:
+            raise ValueError(f"no value for the parameters {', '.join(missing)}")
         p = np.array([values[x] for x in self.PARAMETERS], dtype=float)
         k = np.zeros(self._names.constants)
-        if self._function("constants", ctypes.c_int)(*map(_pointer, (p, k))):
+        if self._function("constants", ctypes.c_int)(*map(pointer, (p, k))):
             raise ValueError(
                 "no body has these parameters: its mass matrix is not positive, or a number is "
                 "not finite"
@@ -192,6 +204,17 @@ class Compiled(InMomenta):
         with self._replacing:
             self._values = self._values._replace(p=p, k=k, ready=True)
         return self
+
+    def _require_known(self, others: Sequence[str]) -> None:
+        """``ValueError`` for what is no parameter of the equations, with what it may be."""
+        if unread := [x for x in others if x in self._names.unread]:
+            raise ValueError(
+                f"the equations do not have {', '.join(unread)}, which the problem declares for "
+                "other uses, as [initial]: leave it out"
+            )
+        if others:
+            near = did_you_mean(near_name(others[0], self.PARAMETERS), "; ")
+            raise ValueError(f"unknown parameters {', '.join(others)}{near}")
 
     def energy(self, t: float, x: Any) -> float:
         """The energy at time t in state x: kinetic plus potential."""
@@ -207,6 +230,60 @@ class Compiled(InMomenta):
         out = np.zeros(len(self.CONSERVED))
         self._call_at("conserved", None, t, x, self._in_use().k, out)
         return out
+
+    def begin(self, x: Any, t: float = 0.0) -> Motion:
+        """The motion in state x, on the group, at time t; needs ``step="gauss"`` or others."""
+        if not self.STEPS:
+            raise ValueError('not compiled: ask for it by compile(..., step="gauss")')
+        state = np.array(x, dtype=float)
+        if state.shape != (len(self.STATE),):
+            raise ValueError(f"expected a state of {len(self.STATE)} numbers")
+        off = self.defect(state) if self._has("defect") else 0.0
+        if not off <= OFF_THE_GROUP:
+            raise ValueError(
+                f"the state is not on the group, its defect is {off:.3g}: project(x) takes one "
+                "that is near it there"
+            )
+        events = self._names.events
+        return Motion(self._library, self.STEPS, events, lambda: self._in_use()[1:3], state, t)
+
+    def ensemble(
+        self,
+        x: Any,
+        t0: float,
+        t1: float,
+        tol: float = 1e-9,
+        parameters: Any = None,
+        h: Any = None,
+    ) -> tuple[Array, np.ndarray[Any, np.dtype[np.intc]]]:
+        """Many motions at once, from the time t0 to t1; needs ``ensemble=True``.
+
+        ``x`` (n, len(STATE)): where they begin. ``parameters``: for each its own, (n,
+        len(PARAMETERS)), or those in use. ``h``: an array (n,) of first steps, 0 for steps of their
+        own, which becomes that of the next ones. Returns the states at the end, and for each 0, or
+        2 where the equations had no finite value and 3 where the steps became too short, its state
+        being the last good one then.
+        """
+        if not hasattr(self._library, "derive_ensemble"):
+            raise ValueError("not compiled: ask for it by compile(..., ensemble=True)")
+        states = np.array(x, dtype=float, order="C")
+        if states.ndim != 2 or states.shape[1] != len(self.STATE):
+            raise ValueError(f"expected rows of {len(self.STATE)} numbers, the states")
+        values = self._in_use() if parameters is None else self._values
+        k = values.k[None] if parameters is None else self._constants_of(parameters, len(states))
+        steps = np.zeros(len(states)) if h is None else h
+        status = ensemble(self._library, states, k, values.u[None], (t0, t1), tol, steps)
+        return states, status
+
+    def _constants_of(self, parameters: Any, n: int) -> Array:
+        """The constants of n bodies, (n, constants); ``ValueError`` for what is no body."""
+        rows = np.array(parameters, dtype=float)
+        if rows.shape != (n, len(self.PARAMETERS)):
+            raise ValueError(f"expected {n} rows of {len(self.PARAMETERS)} parameters")
+        found, wrong = constants(self._library, rows, self._names.constants)
+        if wrong.any():
+            raise ValueError(f"row {wrong.argmax()} of the parameters: no body has these")
+        return found
 
     def jacobian(self, t: float, x: Any, u: Any = None) -> tuple[Array, Array]:
         """dx/dt, and the (2d, 2d) matrix D of the equations linearised in the state."""
@@ -226,6 +303,14 @@ class Compiled(InMomenta):
         self._call_at("jacobian_parameters", None, t, x, p, self._inputs(u), D)
         return D
 
+    def jacobian_raw(self, t: float, x: Any, u: Any = None) -> Array:
+        """The derivative of dx/dt by x as it is stored, (len(STATE), len(STATE)), for the
+        ``jac`` of ``solve_ivp``."""
+        k, size = self._in_use().k, len(self.STATE)
+        D = np.zeros((size, size))
+        self._call_at("jacobian_raw", None, t, x, k, self._inputs(u), D)
+        return D
+
     def _inputs(self, u: Any) -> Array:
         return self._values.u if u is None else _array(u, len(self.INPUTS))
 
@@ -236,13 +321,13 @@ class Compiled(InMomenta):
     def project(self, x: Any) -> Array:
         """The state x taken back to the group by one Newton step; see the emitted header."""
         given, out = _array(x, len(self.STATE)), np.zeros(len(self.STATE))
-        self._function("project", None)(*map(_pointer, (given, out)))
+        self._function("project", None)(*map(pointer, (given, out)))
         return out
 
     def defect(self, x: Any) -> float:
         """How far the state x is off the group: 0 on it."""
         function = self._function("defect", ctypes.c_double)
-        return float(function(_pointer(_array(x, len(self.STATE)))))
+        return float(function(pointer(_array(x, len(self.STATE)))))
 
     def into_frame(self, x: Any) -> Array:
         """The state x taken to the principal frame; needs ``frame="principal"``."""
@@ -272,13 +357,13 @@ class Compiled(InMomenta):
     def _change_frame(self, what: str, x: Any, size: int) -> Array:
         """A state or an input taken from one frame to another by the C function ``what``."""
         k, given, out = self._in_use().k, _array(x, size), np.zeros(size)
-        self._function(what, None)(*map(_pointer, (given, k, out)))
+        self._function(what, None)(*map(pointer, (given, k, out)))
         return out
 
     def _call_at(self, what: str, result: Any, t: float, x: Any, *arrays: Array) -> Any:
         """The result of a C function of the time, the state and more arrays."""
         state, function = _array(x, len(self.STATE)), self._function(what, result)
-        return function(ctypes.c_double(t), *map(_pointer, (state, *arrays)))
+        return function(ctypes.c_double(t), *map(pointer, (state, *arrays)))
 
     def _function(self, what: str, result: Any) -> Any:
         """A C function of the library; ``ValueError`` says how to have it compiled."""
@@ -312,10 +397,6 @@ def _array(values: Any, size: int) -> Array:
     return made
 
 
-def _pointer(a: Array) -> ctypes.c_void_p:
-    return ctypes.c_void_p(a.ctypes.data)
-
-
 def compile(
     problem: Problem | Derived | str | Path,
     parameters: Mapping[str, float] | Sequence[float] | None = None,
@@ -332,10 +413,13 @@ def compile(
     :class:`derive.code.options.Options`.  :class:`CompileError`, ``ProblemError``.
     """
     derived = problem if isinstance(problem, Derived) else derive(problem)
+    steps, written = choices.get("step", ()), LANGUAGES["c"].steps
+    if not {*((steps,) if isinstance(steps, str) else steps)} <= {*written}:
+        raise ProblemError(f"compile: step must be among {', '.join(written)}")
     try:
         options = Options(**choices)
     except TypeError:
-        known = (*CHOICES, "jacobian", *ADDED)
+        known = (*CHOICES, *REPEATED, *DEPENDENT, *ADDED)
         wrong = ", ".join(x for x in choices if x not in known)
         raise ProblemError(f"compile: no choice {wrong}; there are {', '.join(known)}") from None
     except ValueError as error:
@@ -346,6 +430,14 @@ def compile(
     name = derived.problem.name
     files = emit(made_of, derived.record, ("c",), name, options)
     files["binding.c"] = BINDING.format(name=name)
-    made = Compiled(Names.of(made_of), CSource(name, tuple(files.items()), compiler, tuple(flags)))
+    if options.moves:
+        files["steps.c"] = binding(
+            name, options.step, FIXED, ensemble=options.ensemble, events=bool(made_of.events)
+        )
+    names = Names.of(made_of, options.step, [*derived.problem.parameters])
+    source = CSource(name, tuple(files.items()), compiler, tuple(flags))
+    if options.ensemble and flags is FLAGS:
+        source = over_cores(source)
+    made = Compiled(names, source)
     ready = all(x[1] is not None for x in made_of.parameters)
     return made.use(parameters or ()) if parameters is not None or ready else made

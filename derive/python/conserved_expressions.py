@@ -17,6 +17,7 @@ from ..symmetries.symmetry import Symmetry
 
 def expression(s: Symmetry, found: Found) -> sympy.Expr:
     """⟨Π, η⟩ − τh̃ − F in real symbols with the names of the emitted state; not simplified."""
+    found.require_whole()
     group = s.group
     symbols = {tree: sympy.Symbol(x, real=True) for x, tree in found.state.items()}
     symbols["t"] = sympy.Symbol("t", real=True)

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ..check.verdict import Verdict
 from ..language.show import show
 from ..language.tree import Tree
 from ..language.values import approximate
@@ -19,6 +18,7 @@ from ..record.record import Derivation
 from ..symmetries.found import Found
 from ..symmetries.gradient import Floats, Tape
 from ..symmetries.symmetry import Symmetry
+from .checked import Checked
 from .shown import Shown
 
 
@@ -69,7 +69,7 @@ class Conserved:
 
 
 @dataclass(frozen=True)
-class SymmetriesOf:
+class SymmetriesOf(Checked):
     """All symmetries of a kind: a sequence of :class:`Conserved`; ``record``: their derivation."""
 
     found: Found
@@ -96,12 +96,6 @@ class SymmetriesOf:
 
         return render(self.record, "text", steps=shown(self.record))
 
-    def check(self, seed: int | None = None) -> list[Verdict]:
-        """The verdicts of the checker on the record."""
-        from ..check.checker import check
-
-        return check(self.record, seed)
-
     @property
     def central(self) -> dict[tuple[int, int], Tree]:
         """The pairs of places, from 0, of symmetries that commute with dϖ(δ, δ′) not 0 → that
@@ -115,6 +109,7 @@ class SymmetriesOf:
     def values(self, t: Any, x: Any, parameters: Mapping[str, float] | None = None) -> Any:
         """The conserved quantities, n numbers, at a time and a state of the emitted code, which may
         have leading dimensions; ``parameters`` in the place of defaults."""
+        self.found.require_whole()
         group = self.problem.group
         assert group is not None
         x = np.asarray(x, float)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from ..check.verdict import Verdict
 from ..problem.problem import Problem, ProblemError
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from .expressions import Expressions
     from .integrals_found import FirstIntegrals
     from .reduction_found import Reduced
+    from .simulated import Simulated, SimulatedEnsemble
 
 
 @dataclass(frozen=True)
@@ -149,6 +150,99 @@ class Derived:
         found = reduction(self.problem, self.record)
         return Reduced(found.routhian, found.record)
 
+    @overload
+    def simulate(self, t: float, *, ensemble: None = None, **chosen: Any) -> Simulated: ...
+
+    @overload
+    def simulate(self, t: float, *, ensemble: int, **chosen: Any) -> SimulatedEnsemble: ...
+
+    def simulate(  # type: ignore[misc]  # the choices are those that are listed here
+        self,
+        t: float,
+        *,
+        step: str = "",
+        tol: float = 1e-9,
+        dt: float | None = None,
+        start: Mapping[str, float] | None = None,
+        exp: Sequence[float] = (),
+        points: int | None = None,
+        project: bool = False,
+        compiled: bool | None = None,
+        ensemble: int | None = None,
+        vary: Mapping[str, Any] | None = None,
+        seed: int | None = None,
+    ) -> Simulated | SimulatedEnsemble:
+        """The motion from 0 to t as a table, with what it keeps: by a ``step`` of the emitted code,
+        to a tolerance ``tol``, or in steps of size ``dt``.
+
+        ``start``: numbers of the state, parameters and inputs by name; ``exp``: the element of the
+        group is exp of these coordinates; ``compiled``: by the C or by the Python, else by the C
+        where that pays and there is a compiler.
+
+        ``ensemble``: so many motions, by the C alone, each with numbers of its own for the names of
+        ``vary``, drawn by (low, high) or ("normal", mean, deviation) from a ``seed`` (0); kept is
+        the end, or ``points`` instants.  ``MotionError``, a ``ValueError``, says what is wrong.
+        """
+        from ..motion.ensemble import require_an_ensemble
+        from ..motion.method import STEPS, Method
+        from ..motion.simulate import run
+        from ..pipeline import motion_of
+        from .simulated import Simulated
+
+        begin: dict[str, Any] = {"given": start or {}, "exponent": exp, "project": project}
+        if ensemble is not None:
+            how = {"step": step, "dt": dt, "compiled": compiled}
+            return self._many(ensemble, vary or {}, t, points or 1, tol, seed or 0, begin, how)
+        require_an_ensemble(vary, seed)
+        method = Method(step or STEPS[0], dt, tol)
+        code = motion_of(self.problem, self.record, method.step)
+        kept = 500 if points is None else points
+        return Simulated.of(run(code, self.problem, method, t, kept, **begin, compiled=compiled))
+
+    def _many(
+        self,
+        n: int,
+        vary: Mapping[str, Any],
+        t: float,
+        points: int,
+        tol: float,
+        seed: int,
+        begin: Mapping[str, Any],
+        how: Mapping[str, Any],
+    ) -> SimulatedEnsemble:
+        from ..motion.ensemble import Many, Plan, require_steps_of_an_ensemble
+        from ..motion.varied import laws
+        from ..pipeline import motion_of
+        from .simulated import SimulatedEnsemble
+
+        require_steps_of_an_ensemble(**how)
+        plan = Plan(n, laws(vary), t, points, tol, seed, **begin)
+        many = Many(motion_of(self.problem, self.record), self.problem, plan)
+        return SimulatedEnsemble.of(many.whole([*many.parts()]))
+
+    def motion_page(
+        self,
+        t: float,
+        *,
+        tol: float = 1e-9,
+        start: Mapping[str, float] | None = None,
+        exp: Sequence[float] = (),
+        project: bool = False,
+        language: str = "en",
+    ) -> str:
+        """A page of HTML in which the body moves from 0 to t, from a start as of ``simulate``; in
+        English or in French (``fr``)."""
+        from ..motion.method import Method, instants
+        from ..motion.simulate import beginning
+        from ..page.motion_page import motion_page
+        from ..pipeline import motion_of
+        from ..views.language import language as named
+
+        code = motion_of(self.problem, self.record)
+        begin = beginning(code, self.problem, given=start or {}, exponent=exp, project=project)
+        instants(Method(tol=tol), t, 1)
+        return motion_page(code, self.problem, self.record, begin, t, tol, named(language))
+
     @cached_property
     def translation(self) -> Translation:
         """From the trees of the record to SymPy."""
@@ -199,12 +293,12 @@ class Derived:
         return files
 
 
-def derive(problem: Problem | str | Path) -> Derived:
+def derive(problem: Problem | str | Path, *, discrete: bool = False) -> Derived:
     """The derivation of a problem, of a problem file, or of a ready-made problem; ``ProblemError``
-    says in one line what is wrong."""
+    says in one line what is wrong.  ``discrete``: its motion in steps of time h, without inputs."""
+    from .. import pipeline
     from ..command.cli import load_problem
-    from ..pipeline import walk
 
     if not isinstance(problem, Problem):
         problem = load_problem(str(problem))
-    return Derived(problem, walk(problem))
+    return Derived(problem, pipeline.discrete(problem) if discrete else pipeline.walk(problem))

@@ -5,26 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ..check.verdict import Verdict
 from ..equilibria.enclosed_points import Enclosed
 from ..equilibria.equilibrium_points import coordinate
 from ..equilibria.stability import Equilibrium
 from ..language.quadratic import Number
 from ..record.record import Derivation
+from .checked import Checked
 
 
 @dataclass(frozen=True)
-class Steady:
-    """A relative equilibrium.  ``found``: all that is known of it."""
+class Judged:
+    """What is known of the stability of a relative equilibrium."""
 
-    found: Equilibrium
-
-    @property
-    def at(self) -> dict[str, Number]:
-        """The coordinates that are not 0, by their names."""
-        about = self.found.about
-        pairs = zip(about.system.variables, about.at, strict=True)
-        return {coordinate(v): x for v, x in pairs if x}
+    found: Equilibrium | Enclosed
 
     @property
     def verdict(self) -> str:
@@ -41,6 +34,20 @@ class Steady:
         """About the eigenvalues of the linearised rates on the leaf, in 1/s."""
         return self.found.eigenvalues
 
+
+@dataclass(frozen=True)
+class Steady(Judged):
+    """A relative equilibrium.  ``found``: all that is known of it."""
+
+    found: Equilibrium
+
+    @property
+    def at(self) -> dict[str, Number]:
+        """The coordinates that are not 0, by their names."""
+        about = self.found.about
+        pairs = zip(about.system.variables, about.at, strict=True)
+        return {coordinate(v): x for v, x in pairs if x}
+
     @property
     def growth(self) -> float:
         """About the largest real part of an eigenvalue of the linearised rates, in 1/s."""
@@ -52,7 +59,7 @@ class Steady:
 
 
 @dataclass(frozen=True)
-class Near:
+class Near(Checked, Judged):
     """A relative equilibrium within a ``radius`` of decimals; ``record``: its derivation."""
 
     found: Enclosed
@@ -70,30 +77,9 @@ class Near:
         """How far each coordinate of the equilibrium is at most from the decimals."""
         return float(self.found.radius)
 
-    @property
-    def verdict(self) -> str:
-        """What is proved: "stable", "unstable", or "open" for nothing."""
-        return self.found.verdict
-
-    @property
-    def signature(self) -> tuple[int, int]:
-        """How many squares of the energy–Casimir form on the level are positive and negative."""
-        return self.found.signature
-
-    @property
-    def eigenvalues(self) -> tuple[complex, ...]:
-        """About the eigenvalues of the linearised rates, in 1/s."""
-        return self.found.eigenvalues
-
-    def check(self, seed: int | None = None) -> list[Verdict]:
-        """The verdicts of the checker on the record."""
-        from ..check.checker import check
-
-        return check(self.record, seed)
-
 
 @dataclass(frozen=True)
-class Equilibria:
+class Equilibria(Checked):
     """Relative equilibria: a sequence of :class:`Steady`; ``record``: their derivation."""
 
     found: tuple[Equilibrium, ...]
@@ -107,9 +93,3 @@ class Equilibria:
 
     def __iter__(self) -> Iterator[Steady]:
         return map(Steady, self.found)
-
-    def check(self, seed: int | None = None) -> list[Verdict]:
-        """The verdicts of the checker on the record."""
-        from ..check.checker import check
-
-        return check(self.record, seed)

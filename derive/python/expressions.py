@@ -10,7 +10,7 @@ from typing import Any
 
 import sympy
 
-from ..code.ellipsoid import INTEGRALS, is_integral
+from ..code.ellipsoid import BUNDLES, is_item
 from ..code.program import EmittedFunction, Expression, Program
 
 LARGEST = 10**6
@@ -82,9 +82,9 @@ def _expression(e: Expression, found: Mapping[str, Any]) -> Any:
     operands = [_expression(x, found) for x in e[2 if e[0] == "fun" else 1 :]]
     if e[0] == "div":
         return operands[0] / operands[1]
-    if e[:2] == ("fun", INTEGRALS):
+    if e[0] == "fun" and e[1] in BUNDLES:
         return sympy.Tuple(*operands)
-    if e[0] == "fun" and is_integral(e[1]):
+    if e[0] == "fun" and is_item(e[1]):
         return sympy.Function(e[1])(*operands[0])
     own = {"add": "Add", "mul": "Mul", "abs": "Abs"}
     return getattr(sympy, e[1] if e[0] == "fun" else own[e[0]])(*operands)

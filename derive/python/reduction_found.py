@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..check.verdict import Verdict
 from ..language.tree import Tree
 from ..record.record import Derivation
 from ..reduction.routhian import Routhian
+from .checked import Checked
 from .shown import Shown, ShownEquation
 
 
 @dataclass(frozen=True)
-class Reduced:
+class Reduced(Checked):
     """Routh's reduction by symmetries that commute.  ``found``: all that is known of it;
     ``record``: its derivation."""
 
@@ -63,9 +63,3 @@ class Reduced:
         from ..views.rendering import render
 
         return render(self.record, "text", steps=shown(self.record))
-
-    def check(self, seed: int | None = None) -> list[Verdict]:
-        """The verdicts of the checker on the record."""
-        from ..check.checker import check
-
-        return check(self.record, seed)

@@ -5,9 +5,10 @@ from __future__ import annotations
 ANY_GROUP = "any group"
 ACTIONS = ("linear", "affine")
 """How a group moves points; the text about any group of an action is called by the same word."""
-CHAPTERS = (*ACTIONS, "left", "right")
+CHAPTERS = (*ACTIONS, "left", "right", "discrete", "discrete_affine")
 """What is said of any group, by what the labels begin with: for points that it moves linearly, or
-by affine maps; for any Lagrangian on it, trivialised on the left, or on the right."""
+by affine maps; for any Lagrangian on it, trivialised on the left, or on the
+right; of the discrete motion, for each action."""
 CONVENTIONS = (
     "T is the transpose, a bar in the paper; names are compared letter by letter, as written",
     "inner(a, b) and metric(M, a, b) are Tr a M b̄ for matrices and ā M b for vectors",

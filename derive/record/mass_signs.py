@@ -7,6 +7,8 @@ from fractions import Fraction
 from typing import Any
 
 from ..language import rational as q
+from ..language.layers import at_levels
+from ..language.tree import Tree
 from ..language.values import approximate
 from .record import RecordError
 from .tree_data import decode
@@ -29,8 +31,11 @@ def any_sign(problem: Mapping[str, Any]) -> bool:
         if about["default"] is not None
     }
     masses = [p["mass"] for p in body.get("points", [])]
-    masses += [x["density"] for x in body.get("solids", [])] + [body.get("given", {}).get("m", 1)]
-    negative = any((_default_value(x, defaults) or 0) < 0 for x in masses)
+    masses.append(body.get("given", {}).get("m", 1))
+    trees = [decode(x, "problem") for x in masses]
+    for x in body.get("solids", []):
+        trees += (density for _, density in at_levels(decode(x["density"], "problem")))
+    negative = any((_default_value(t, defaults) or 0) < 0 for t in trees)
     return "masses" in problem or negative or _of_no_positive_masses(body)
 
 
@@ -51,9 +56,9 @@ def _plain_number(x: Any) -> Fraction | None:
     return Fraction(t) if isinstance(t, (int, Fraction)) else None
 
 
-def _default_value(x: Any, defaults: Mapping[str, float]) -> float | None:
+def _default_value(t: Tree, defaults: Mapping[str, float]) -> float | None:
     """The value of an expression at its parameters' defaults; ``None`` if one has none."""
     try:
-        return approximate(decode(x, "problem"), defaults, float)
+        return approximate(t, defaults, float)
     except ValueError:
         return None

@@ -11,7 +11,8 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from ..language.derivatives import DERIVATIVES
-from ..language.limits import BASIS, CARRIED, TORUS
+from ..language.layers import LEVEL, degree_in_level
+from ..language.limits import BASIS, CARRIED, LAYERS, TORUS
 from ..language.tree import Tree, replaced
 from ..schema.algebra_kinds import Advected, Torus
 from ..schema.body_kinds import BODIES, Place, is_ellipsoid
@@ -19,7 +20,7 @@ from ..schema.fluid_kinds import GROUP, Fluid
 from ..schema.kinds import kinds
 from ..schema.lagrangian_kinds import Lagrangian
 from ..schema.outside import INPUTS, Damping
-from ..schema.solid_kinds import SOLIDS, Solid
+from ..schema.solid_kinds import LAYERED, SOLIDS, Solid
 from ..schema.table import DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
 from .contract import CONVENTIONS
@@ -99,6 +100,8 @@ class _RecordReader(TableReader):
         self.distinct(inputs, data["parameters"])
         self.each("damping", lambda x, where: self.whole(Damping, x, where))
         self.matrices(self.value(self.top("basis"), list))
+        if data.get("discrete", True) is not True:
+            raise ShapeError("discrete: expected true, or nothing")
         self.lagrangian()
         self.symmetries()
         if self.value(self.top("conventions"), list) != [*CONVENTIONS]:
@@ -264,6 +267,16 @@ class _RecordReader(TableReader):
     def in_time(self, value: Any, where: str) -> Tree:
         """The same, of t as well."""
         return self.made_of(value, where, timed=True)
+
+    def layered(self, slot: Slot) -> Tree:
+        """The same; of an ellipsoid or a ball a polynomial in the level as well."""
+        t = self.read(self.value(slot), slot.path)
+        degree = degree_in_level(t)
+        if degree is None or degree > (LAYERS if slot.table["kind"] in LAYERED else 0):
+            raise ShapeError(f"{slot.path}: expected a polynomial in the level, or no level")
+        if not self.is_scalar(replaced(t, LEVEL, 1), placed=False, timed=False):
+            raise ShapeError(f"{slot.path}: expected the expression of a number")
+        return t
 
     def energy(self, slot: Slot) -> Tree:
         """The same, of t and coordinates of points."""

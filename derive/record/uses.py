@@ -113,7 +113,7 @@ def of_steps(
 
     def use(name: str, kept: Use) -> Use:
         usage = (name, position_of(kept.type))
-        sized = {k: x for k, x in sizes.items() if k != "n" or usage not in general}
+        sized = {k: x for k, x in sizes.items() if k not in ("n", "size") or usage not in general}
         key, occurring = found.get(usage, ("", Occurrence(usage)))
         key = key if _fits(name, kept, [occurring], meant) else ""
         role = ("definition" if key else "letter") if kept.role in DECIDED_ROLES else kept.role

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from ..schema.kind import Own
 from ..schema.kinds import kinds
+from .discrete_names import DISCRETE
 from .fluid_names import FLUID
 from .name_types import (
     ADVECTED,
@@ -200,12 +201,13 @@ VOCABULARY: dict[str, Name] = {
         "vitesse du centre de masse, τ + m⁻¹αc", r"\dot R", defined(VECTOR)),
     "𝐧": name("point of the lattice of the torus",
         "point du réseau du tore", r"\mathbf n", letter(LATTICE)),
-    "𝐦": name("another point of the lattice", "autre point du réseau",
+    "𝐦": name("another point of the lattice; 𝐦 ∧ 𝐧 = m₁n₂ − m₂n₁",
+        "autre point du réseau ; 𝐦 ∧ 𝐧 = m₁n₂ − m₂n₁",
         r"\mathbf m", letter(LATTICE)),
     "i": name("imaginary unit", "unité imaginaire", "i", letter(SCALAR)),
-    "ω̂": name("coefficients of the vorticity on the basis of the torus",
-        "coefficients du tourbillon dans la base du tore",
-        r"\hat\omega", function(LATTICE, SCALAR)),
+    "ω̂": name("coefficients of the vorticity on the basis of the torus, in space on waves",
+        "coefficients du tourbillon dans la base du tore, dans l’espace sur les ondes",
+        r"\hat\omega", function(LATTICE, SCALAR), function(SCALAR, SCALAR, SCALAR)),
     "Ẇ": name("dW/dt along the motion", "dW/dt le long du mouvement", r"\dot W", rate(SQUARE)),
     "∫": name("integral over the body with its measure of mass",
         "intégrale sur le corps pour sa mesure de masse",
@@ -262,6 +264,16 @@ VOCABULARY: dict[str, Name] = {
     "θ": name("multiplier of the volume", "multiplicateur du volume", r"\theta", unknown(SCALAR)),
     "Q_r": name("quadric of the boundary of the body, ⟨r, Q_r r⟩ = 1",
         "quadrique du bord du corps, ⟨r, Q_r r⟩ = 1", "Q_r", defined(SQUARE)),
+    "s_r": name("level of the place r in the body, ⟨r, Q_r r⟩, 1 at the boundary",
+        "niveau de la position r dans le corps, ⟨r, Q_r r⟩, 1 au bord", "s_r", defined(SCALAR)),
+    "ρ_r": name("density at the place r of the body, a function of s_r",
+        "masse volumique à la position r dans le corps, une fonction de s_r",
+        r"\rho_r", defined(SCALAR)),
+    "σ_r": name("integral of the density over the levels from s_r to 1",
+        "intégrale de la masse volumique sur les niveaux de s_r à 1",
+        r"\sigma_r", defined(SCALAR)),
+    "κ_Q": name("factor of J = κ_Q Q_r⁻¹", "facteur de J = κ_Q Q_r⁻¹",
+        r"\kappa_Q", defined(SCALAR)),
     "p_0": name("pressure in the middle", "pression au centre", "p_0", defined(SCALAR)),
     "p_r": name("pressure at the place r of the body",
         "pression à la position r dans le corps", "p_r", defined(SCALAR)),
@@ -366,8 +378,10 @@ def add_letters(known: dict[str, Name], letters: Iterable[Own]) -> None:
         known[x.name] = name(x.meaning, x.french, x.latex, OWN_USES[x.type])
 
 
-VOCABULARY |= {x: about for x, about in FLUID.items() if x not in VOCABULARY}
 add_letters(VOCABULARY, (x for kind in kinds().values() for x in kind.letters))
+VOCABULARY |= {x: about for x, about in FLUID.items() if x not in VOCABULARY}
+for _action in DISCRETE.values():
+    VOCABULARY |= {x: about for x, about in _action.items() if x not in VOCABULARY}
 
 # fmt: off
 ROTATIONS: dict[str, Name] = {
@@ -494,6 +508,7 @@ ON_THE_TORUS: dict[str, Name] = {
 """Meanings of names on the torus."""
 
 DERIVATIVE_OF = {"dϖ": "ϖ", "ḣ": "h̃", "ℓ̇": "ℓ", "ṗ": "p"}
+DERIVATIVE_OF |= {"dΘ⁺": "Θ⁺", "dΘ⁻": "Θ⁻"}
 DERIVATIVE_OF |= {"ρ̇": "ρ", "ϑ̇": "ϑ"}
 DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ", "Ẇ": "W", "Υ̇": "Υ", "dϖ_h": "ϖ_h", "d𝒜": "𝒜"}
 DERIVATIVE_OF |= {"δΠ": "Π", "δ′Π": "Π", "Π̇": "Π", "δp_b": "p_b", "δ′p_b": "p_b", "ṗ_b": "p_b"}
@@ -506,6 +521,7 @@ def meanings() -> Iterator[tuple[str, str]]:
     for table in (
         *(VOCABULARY, ROTATIONS, DISPLACEMENTS, PRODUCTS, ON_THE_TORUS, FLUID),
         *LAGRANGIANS.values(),
+        *DISCRETE.values(),
         CARRYING,
     ):
         yield from ((x.meaning, x.french) for x in table.values())

@@ -14,13 +14,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from ..language.tree import Tree, add, neg, nodes, terms
-from ..problem.moved_entries import EntriesOfElement, plain
+from ..language.tree import Tree, add, neg, nodes, plain, terms
+from ..problem.moved_entries import EntriesOfElement
 from ..problem.problem import ProblemError
 from ..problem.state_names import coordinates
 from ..symmetries.found import Found
 from ..symmetries.group_entries import element
 from ..symmetries.symmetry import Symmetry
+from ..symmetries.tree_matrices import full
 from .state_functions import Element, StateFunctions
 
 Vector = list[Element]
@@ -145,6 +146,12 @@ class Routhian:
         simplified = self.functions.simplified
         return [[simplified(_paired(eta, p)) for p in pushed] for eta in self.eta]
 
+    @property
+    def leaves_none(self) -> bool:
+        """Do the symmetries all act on one side of g, where no configuration is left as it is?"""
+        sides = zip(*(x.still for x in self.chosen), strict=True)
+        return not self.held and not all(any(map(full, side)) for side in sides)
+
     @cached_property
     def at_rest(self) -> Vector:
         """a_i, what 𝒥_i is at rest."""
@@ -249,17 +256,18 @@ class Routhian:
     def free(self) -> list[int]:
         """The coordinates of ζ_h that are not held, and are not found to be 0."""
         free = [a for a, _ in enumerate(self.zeta) if a not in self.held] if self.freedom else []
-        return [a for a in free if not self._vanishes(a)]
+        return [a for a in free if not self.vanishes(self._unit(a))]
 
-    def _vanishes(self, a: int) -> bool:
-        """Is a coordinate of ζ_h 0 for every velocity?"""
+    def vanishes(self, form: Vector) -> bool:
+        """Is a linear form on ζ_h = ζ − Σ 𝒜_i(ζ) η_i 0 for every velocity?"""
         if self.forms is None:
             return False
-        for b, form in enumerate(self.forms):
-            x = self.functions.field(int(a == b)) - _paired([eta[a] for eta in self.eta], form)
-            if self.functions.simplified(x):
-                return False
-        return True
+        along = [_paired(eta, form) for eta in self.eta]
+        apart = (x - _paired(along, own) for x, own in zip(form, self.forms, strict=True))
+        return not any(map(self.functions.simplified, apart))
+
+    def _unit(self, a: int) -> Vector:
+        return [self.functions.field(int(a == b)) for b, _ in enumerate(self.zeta)]
 
     @cached_property
     def curvature(self) -> list[dict[tuple[int, int], Element]] | None:

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.show import show
-from ..language.tree import Tree, add, mul, neg, terms
-from ..problem.moved_entries import plain
+from ..language.tree import Tree, add, mul, neg, plain, terms
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
 from ..symmetries.symmetry import Symmetry
@@ -247,7 +246,10 @@ def _effective(r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
     varying = (x.pivot for x in reversed(r.squares) if r.named or r.functions.used(x.pivot.numer))
     pivots = dict.fromkeys(r.functions.tree(r.functions.field(x.numer)) for x in varying)
     conditions = ", ".join(f"{show(x)} ≠ 0" for x in pivots)
-    prose += say("reduction.isotropy", conditions=conditions) if pivots else ()
+    if pivots and r.leaves_none:
+        prose += say("reduction.free")
+    elif pivots:
+        prose += say("reduction.isotropy", conditions=conditions)
     return draft.step(equations, prose)
 
 
@@ -270,7 +272,9 @@ def _kinetic(r: Routhian) -> Tree:
 
 
 def _linear(r: Routhian) -> Tree:
-    """⟨b, ζ_h⟩."""
+    """⟨b, ζ_h⟩, which is 0 where b is a combination of the Mη_i."""
+    if r.vanishes(r.linear):
+        return 0
     return add(*(r.tree(r.linear[a], horizontal(a)) for a in r.free))
 
 

@@ -1,7 +1,7 @@
 """A Lie algebra whose group moves no points, and what it carries along: advected quantities."""
 
 from fractions import Fraction
-from typing import Annotated
+from typing import Annotated, Any
 
 from .table import Basis, Key, Name, Table, Text
 
@@ -32,16 +32,26 @@ class Torus(Table):
 class StatedTorus(Torus):
     """The same in a file."""
 
-    section = "algebra"
+    section, called = "algebra", "Torus"
     of: Text
+
+    @classmethod
+    def word(cls, N: int) -> Any:
+        """su(N) in the basis of the torus, N odd: Zeitlin's model, with ``Laplacian()``."""
+        return {"of": "torus", "N": N}
 
 
 class TorusInertia(Table):
     """The inertia operator of the torus, by name: ``laplacian``, |n|² on T_n."""
 
-    section = "inertia"
+    section, called = "inertia", "Laplacian"
     operator: Text
     trivialisation: Text = "right"
+
+    @classmethod
+    def word(cls) -> Any:
+        """The inertia of a fluid on the torus: the square of n on T_n."""
+        return {"operator": "laplacian"}
 
 
 class StatedAdvected(Table):

@@ -3,9 +3,10 @@
 from collections.abc import Mapping
 from typing import Annotated, Any
 
+from ..language.layers import is_layered
 from ..language.tree import Tree, add, mul
 from .declared import Parameter
-from .solid_kinds import Solid
+from .solid_kinds import LAYERED, Solid
 from .table import At, Block, First, Key, Rows, Scalar, Second, Space, Table
 
 
@@ -134,7 +135,8 @@ def is_ellipsoid(body: Table | None) -> bool:
     if not isinstance(body, GivenBody) or len(body.solids) != 1 or body.points:
         return False
     (solid,) = body.solids
-    return solid.kind in ("ellipsoid", "ball") and not any(x != 0 for x in solid.shift or ())
+    shifted = any(x != 0 for x in solid.shift or ())
+    return solid.kind in LAYERED and not shifted and not is_layered(solid.density)
 
 
 Body = PointBody | MomentBody | GivenBody

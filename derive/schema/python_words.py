@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from .algebra_kinds import StatedAdvected, StatedAlgebra
+from .algebra_kinds import StatedAdvected, StatedAlgebra, StatedTorus, TorusInertia
 from .body_kinds import Moments, Point
 from .fluid_kinds import Fluid
+from .followed import Event
 from .kinds import kinds
 from .lagrangian_kinds import SECTIONS
 from .outside import INPUTS, Damping
@@ -20,7 +21,10 @@ def words() -> dict[str, type[Table]]:
         *INPUTS.values(),
         StatedAlgebra,
         StatedAdvected,
+        StatedTorus,
+        TorusInertia,
         Damping,
+        Event,
         Fluid,
         Point,
         Moments,

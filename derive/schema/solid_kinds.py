@@ -6,13 +6,13 @@ from typing import Any
 from .table import (
     Axes,
     Corners,
+    Density,
     Faces,
     Inner,
     Length,
     Lengths,
     Number,
     Quadric,
-    Scalar,
     Shift,
     Table,
     Turn,
@@ -24,7 +24,7 @@ class Solid(Table):
     """The points R r + s of a kind of solid: ``rotation`` R, 3 × 3, and ``shift`` s, 3 entries."""
 
     section, called = "solid", "Solid"
-    density: Scalar
+    density: Density
     rotation: Turn = None
     shift: Shift = None
 
@@ -44,7 +44,7 @@ class Solid(Table):
 
     @classmethod
     def word(cls, kind: str, density: Number, **sizes: Any) -> Any:
-        """A solid of uniform density: ``Solid("ball", "rho", radius="a")``; a sum is a mixture."""
+        """A solid of a density: ``Solid("ball", "rho", radius="a")``; a sum is a mixture."""
         return [{"kind": kind, "density": density, **sizes}]
 
 
@@ -82,6 +82,8 @@ class Ellipsoid(Solid):
         return ("density", "rotation", "shift", *own)
 
 
+LAYERED = ("ball", "ellipsoid")
+"""The kinds that are ⟨r, Q r⟩ ≤ 1, whose density may be a function of the level."""
 SOLIDS: dict[str, type[Solid]] = {
     kind: type(kind, (Solid,), {"kind": kind, "__annotations__": sizes, "__doc__": Solid.__doc__})
     for kind, sizes in SIZES.items()

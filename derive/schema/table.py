@@ -75,6 +75,7 @@ Row = tuple[Tree, ...]
 Rows = tuple[Row, ...]
 ATTACHED = ("on", "at", "block")
 Scalar = Annotated[Tree, Key("scalar", trees=True)]
+Positive = Annotated[Tree, Key("scalar", trees=True, positive=True)]
 Stiffness = Annotated[Tree, Key("scalar", trees=True, mass=True, positive=True)]
 Energy = Annotated[Tree, Key("energy", trees=True)]
 OfVolume = Annotated[Tree, Key("of_volume", trees=True)]
@@ -102,6 +103,7 @@ First = Annotated[Row, Key("first", 1, trees=True, keys=("c", "centre"))]
 Second = Annotated[Rows, Key("second", 2, trees=True, keys=("J", "I", "I_centre"))]
 Length = Annotated[Tree, Key("length", trees=True)]
 Inner = Annotated[Tree, Key("length", trees=True, zero=True)]
+Density = Annotated[Tree, Key("layered", trees=True)]
 Lengths = Annotated[Row, Key("lengths", 1, trees=True)]
 Axes = Annotated[Row | None, Key("lengths", 1, trees=True)]
 Quadric = Annotated[Rows | None, Key("quadric", 2, trees=True)]
@@ -110,8 +112,8 @@ Vertices = Annotated[tuple[tuple[Fraction, ...], ...], Key("vertices", 2, keys=(
 Faces = Annotated[tuple[tuple[int, ...], ...], Key("faces", 2, keys=("file",))]
 Turn = Annotated[Rows | None, Key("turn", 2, trees=True, null=True)]
 Shift = Annotated[Row | None, Key("shift", 1, trees=True, null=True)]
-"""Moments of a body, and of solids in R³ the sizes: lengths, positive, one or three; a symmetric
-matrix; four corners;
+"""Moments of a body, and of solids in R³ the sizes: lengths, positive, one or three; a density, of
+an ellipsoid or a ball a polynomial in the level s of a place; a symmetric matrix; four corners;
 what the file of a mesh has.  A rotation and a vector of R³, or none."""
 
 Name = Annotated[str, Key("name")]

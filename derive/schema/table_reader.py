@@ -14,7 +14,7 @@ from ..language.limits import MAGNITUDE, TEXT, TORUS
 from ..language.reserved import WORDS, taken
 from ..language.tree import Tree
 from .declared import Parameter
-from .fluid_kinds import DENSITIES
+from .fluid_kinds import DENSITIES, FORCES
 from .lagrangian_kinds import SIDES
 from .outside import Input
 from .table import Rows, Slot, Table, nearest
@@ -124,11 +124,12 @@ class TableReader(ABC):
 
     def choice(self, slot: Slot, allowed: tuple[str, ...]) -> str:
         """One of a few strings."""
-        value = self.text(slot)
+        value = self.value(slot)
         if value not in allowed:
-            told = f"{', '.join(allowed)}{nearest(value, allowed)}"
+            near = nearest(self.text(slot), allowed) if isinstance(value, str) else ""
+            told = f"{', '.join(allowed)}{near}"
             raise self.fail(f"{slot.where}: key {slot.key!r} must be one of {told}")
-        return value
+        return str(value)
 
     def frame(self, slot: Slot) -> str:
         """Space or body."""
@@ -145,6 +146,10 @@ class TableReader(ABC):
     def density(self, slot: Slot) -> str:
         """That of a fluid."""
         return self.choice(slot, DENSITIES)
+
+    def field_of_force(self, slot: Slot) -> str:
+        """That on a fluid."""
+        return self.choice(slot, FORCES)
 
     def name(self, slot: Slot) -> str:
         """A name that every emitted language can take."""
@@ -215,6 +220,10 @@ class TableReader(ABC):
     @abstractmethod
     def in_time(self, value: Any, where: str) -> Tree:
         """The same, of the time as well."""
+
+    @abstractmethod
+    def layered(self, slot: Slot) -> Tree:
+        """A density."""
 
     @abstractmethod
     def turned(self, value: Any, n: int, where: str) -> Rows:

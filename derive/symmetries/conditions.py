@@ -19,11 +19,13 @@ from ..algebra.groups import Group
 from ..algebra.residue_arrays import Array, Residues, ResidueSource
 from ..language import rational as q
 from ..language.rational import Matrix
+from ..language.show import show
 from ..language.tree import Tree, nodes
 from ..problem.problem import Problem, ProblemError
 from ..problem.state_names import coordinates
 from .gradient import Functions, Tape
 from .group_entries import entries, varying
+from .parameter_values import ParameterValues, is_root
 from .tangent_fields import EXTRA, TangentField, inverse, tangent_fields
 
 Monomial = tuple[Tree, ...]
@@ -39,8 +41,8 @@ TRIES = 40
 MOST_POINTS = 4000
 """So many points are tried at once, unless one system needs more."""
 
-System = tuple[dict[str, int], Array]
-"""Values of the parameters, and the rows for them."""
+System = tuple[dict[Tree, int], Array]
+"""Values of the parameters and their functions, and the rows for them."""
 
 
 @dataclass(frozen=True)
@@ -77,10 +79,10 @@ class Conditions:
         assert problem.group is not None
         self.problem, self.group = problem, problem.group
         self.side, self.tree = problem.lagrangian.trivialisation, problem.lagrangian.L
-        self.tape, self.unknowns = Tape(self.tree), unknowns(problem.group)
-        kept = (x[1] for x in nodes(self.tree) if isinstance(x, tuple) and x[0] == "par")
-        self.parameters = tuple(dict.fromkeys(kept))
-        roots = {x for x in nodes(self.tree) if isinstance(x, tuple) and x[:2] == ("fun", "sqrt")}
+        self.parameters = ParameterValues(self.tree)
+        self.tape = Tape(self.tree, self.parameters.functions)
+        self.unknowns = unknowns(problem.group)
+        roots = {x for x in nodes(self.tree) if is_root(x)} - {*self.parameters.roots}
         self.true_roots = len(roots) <= TRUE_ROOTS
         self.oversampling = 2 ** len(roots) if self.true_roots else 1
 
@@ -88,7 +90,8 @@ class Conditions:
     def open_functions(self) -> tuple[str, ...]:
         """The functions in L̃ whose values are taken for any numbers."""
         exact = {"sqrt"} if self.true_roots else set()
-        return tuple(sorted(self.tape.functions - exact))
+        own = {x[1] for x in self.parameters.functions if isinstance(x, tuple)} - {"sqrt"}
+        return tuple(sorted((self.tape.functions - exact) | own))
 
     def systems(
         self, count: int, p: int, seed: int, columns: Sequence[int] | None = None
@@ -100,23 +103,23 @@ class Conditions:
         points = (wanted * 5 // 4) * self.oversampling + EXTRA
         for batch in range(TRIES):
             several = min(count - len(found), max(1, MOST_POINTS // points))
-            found += self._batch(
-                several,
-                points,
-                wanted,
-                kept,
-                ResidueSource(p, several * points, TRIES * seed + batch),
-            )
+            found += self._batch(several, points, wanted, kept, p, TRIES * seed + batch)
             if len(found) == count:
                 return found
-        raise ProblemError(f"{self.problem.name}: its square roots have no values to be tried")
+        roots = dict.fromkeys(show(x)[:60] for x in nodes(self.tree) if is_root(x))
+        raise ProblemError(
+            f"{self.problem.name}: no values are found at which {', '.join(roots)} of its "
+            "Lagrangian can be tried: is a root of what is never positive among them?"
+        )
 
     def _batch(
-        self, count: int, points: int, wanted: int, kept: Sequence[int], source: ResidueSource
+        self, count: int, points: int, wanted: int, kept: Sequence[int], p: int, seed: int
     ) -> list[System]:
         """Those of some random values of the parameters that leave enough points."""
-        drawn = {x: source.random.integers(1, source.p, count) for x in ("π", *self.parameters)}
-        values = {x: Residues(np.repeat(v, points), source.p) for x, v in drawn.items()}
+        drawn = self.parameters.drawn(count, p, 2 * seed)
+        count = len(drawn["π"])
+        source = ResidueSource(p, count * points, 2 * seed + 1)
+        values = {x: Residues(np.repeat(v, points), p) for x, v in drawn.items()}
         found = Functions(source, true_roots=self.true_roots)
         point = Point(self, source, values, found)
         rows = np.array([point.column(k).values for k in kept]).T
@@ -128,16 +131,6 @@ class Conditions:
                 systems.append(({x: int(v[k]) for x, v in drawn.items()}, valid[:wanted]))
         return systems
 
-    def value(self, t: Tree, parameters: Mapping[str, int], p: int) -> int:
-        """The residue of an expression in parameters, which stands in L̃ or is made of what does."""
-        source = ResidueSource(p, 1, 0)
-        leaves: dict[Tree, Residues] = {
-            ("par", x): source.constant(v) for x, v in parameters.items()
-        }
-        leaves["π"] = source.constant(parameters["π"])
-        found = Functions(source, true_roots=self.true_roots)
-        return int(Tape(t).at(leaves, source, found).value.values[0])
-
 
 class Point:
     """Random points of a problem: t, g, Z and the derivatives of L̃ there."""
@@ -146,7 +139,7 @@ class Point:
         self,
         system: Conditions,
         source: ResidueSource,
-        parameters: Mapping[str, Residues],
+        parameters: Mapping[Tree, Residues],
         found: Functions,
     ):
         group, self.unknowns, self.side = system.group, system.unknowns, system.side
@@ -158,10 +151,7 @@ class Point:
         zeta = [source.randint(1, 1) for _ in group.basis]
         self.Z: Matrix = tuple(tuple(zero + x for x in row) for row in group.hat(zeta))
         self.places = entries(group)
-        leaves: dict[Tree, Residues] = {"t": self.t}
-        leaves["π"] = parameters["π"]
-        for x, v in parameters.items():
-            leaves["par", x] = v
+        leaves: dict[Tree, Residues] = {"t": self.t, **parameters}
         leaves |= dict(zip(coordinates(group), zeta, strict=True))
         leaves |= {x: self.g[i][j] for x, (i, j) in self.places.items()}
         self.leaves = leaves

@@ -11,13 +11,14 @@ from ..code.options import Options
 from ..code.state import StateSpace
 from ..language.tree import Tree, coefficient, neg, terms
 from ..problem.null_directions import along, hessian, null_directions
-from ..problem.problem import Problem
+from ..problem.problem import Problem, ProblemError
 from ..problem.state_names import coordinates
 from ..record.record import Derivation
+from ..schema.kinds.self_gravity import SelfGravity
 from ..schema.lagrangian_kinds import Lagrangian
 from .conditions import Conditions
 from .field_brackets import Brackets, cocycle
-from .scalar_lagrangian import by_state, with_scalar_lagrangian
+from .scalar_lagrangian import Integrand, by_state, with_scalar_lagrangian
 from .search import Search
 from .symmetry import Symmetry, of_solution
 
@@ -50,6 +51,8 @@ class Found:
     central: tuple[Central, ...]
     state: Mapping[str, Tree]
     commuting: tuple[frozenset[int], ...] = ()
+    integrand: Integrand | None = None
+    """What stands for an integral in L̃, where it has one."""
 
     @property
     def lagrangian(self) -> Lagrangian:
@@ -57,23 +60,38 @@ class Found:
         assert self.problem.lagrangian is not None
         return self.problem.lagrangian
 
+    def require_whole(self) -> None:
+        """``ProblemError`` where the energy is that of an integrand."""
+        if self.integrand:
+            raise ProblemError(
+                f"{self.problem.name}: the energy has an integral, of which L̃ here has the "
+                "integrand; derive emit --conserved writes what is kept"
+            )
+
     @property
     def dimension(self) -> int:
         """The dimension of their Lie algebra."""
         return len(self.symmetries)
 
 
-def symmetries_of(problem: Problem, record: Derivation) -> Found:
-    """All symmetries of a problem; ``ProblemError`` where it has no Lagrangian of its own."""
-    scalar = with_scalar_lagrangian(problem, record)
+def symmetries_of(problem: Problem, record: Derivation, *, of_integrand: bool = False) -> Found:
+    """All symmetries of a problem; ``ProblemError`` where it has no Lagrangian of its own.
+
+    ``of_integrand``: may L̃ have the integrand of an integral in its place?
+    """
+    integral = of_integrand and any(isinstance(p, SelfGravity) for p in problem.potentials)
+    integrand = Integrand.beside(problem.parameters) if integral else None
+    scalar = with_scalar_lagrangian(problem, record, integrand)
     system = Conditions(scalar)
     search, state = Search(system), emitted_state(problem)
     found = [of_solution(x, system.unknowns, system.group, system.side) for x in search.solutions()]
     told = [k for k, x in enumerate(found) if not says_nothing(x, scalar)]
+    if integrand:
+        integrand.require_unused(t for x in found for t in (x.displacement, x.F))
     order = sorted(told, key=lambda k: (ORDER.index(found[k].kind), -k))
     listed = tuple(found[k] for k in order)
     if not listed:
-        return Found(scalar, (), system.open_functions, (), state)
+        return Found(scalar, (), system.open_functions, (), state, (), integrand)
     commuting = [(i, j) for i, j in Brackets(search).commuting() if {i, j} <= {*told}]
     pairs = [
         _oriented(order.index(i), order.index(j), number)
@@ -82,7 +100,7 @@ def symmetries_of(problem: Problem, record: Derivation) -> Found:
     ]
     central = tuple(sorted(pairs, key=lambda x: (x.first, x.second)))
     places = tuple(frozenset((order.index(i), order.index(j))) for i, j in commuting)
-    return Found(scalar, listed, system.open_functions, central, state, places)
+    return Found(scalar, listed, system.open_functions, central, state, places, integrand)
 
 
 def says_nothing(x: Symmetry, problem: Problem) -> bool:

@@ -6,7 +6,7 @@ one pass back over the tape.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from fractions import Fraction
 from typing import Any, Protocol
 
@@ -48,9 +48,11 @@ class Floats:
 
 
 class Tape:
-    """The distinct subtrees of an expression, operands first."""
+    """The distinct subtrees of an expression, operands first; ``given``: those whose values are
+    given, as those of letters are."""
 
-    def __init__(self, tree: Tree):
+    def __init__(self, tree: Tree, given: Collection[Tree] = ()):
+        self.given = frozenset(given)
         self.places: dict[Tree, int] = {}
         self.ops: list[tuple[Any, tuple[int, ...], Any]] = []
         self.last = self._place(tree)
@@ -61,7 +63,7 @@ class Tape:
             return known
         if isinstance(t, (int, Fraction)):
             entry: tuple[Any, tuple[int, ...], Any] = ("number", (), t)
-        elif isinstance(t, str) or t[0] in ("par", "entry"):
+        elif isinstance(t, str) or t[0] in ("par", "entry") or t in self.given:
             entry = ("leaf", (), t)
         elif t[0] == "pow":
             entry = ("pow", (self._place(t[1]),), t[2])
@@ -104,9 +106,13 @@ class Tape:
         return Evaluated(self, values, source, found)
 
 
+CIRCULAR, HYPERBOLIC = ("sin", "cos", "tan"), ("sinh", "cosh", "tanh")
+
+
 class Functions:
-    """Values of elementary functions at the points: true square roots, where there are any;
-    another function has any number as its value at each argument, and so has a root where not
+    """Values of elementary functions at the points: true square roots, where there are any; sin,
+    cos and tan by a point of the circle, sinh, cosh and tanh by one of the hyperbola; another
+    function has any number as its value at each argument, and so has a root where not
     ``true_roots``.
 
     ``valid``: the points at which all roots are true.
@@ -122,6 +128,10 @@ class Functions:
         for other, at, value in self.known:
             if other == name and at == x:
                 return value
+        if name in CIRCULAR:
+            return self._on_curve(CIRCULAR, 1, name, x)
+        if name in HYPERBOLIC:
+            return self._on_curve(HYPERBOLIC, -1, name, x)
         if name == "sqrt" and self.true_roots:
             value = x.root()
             self.valid &= (value * value).values == x.values
@@ -129,6 +139,14 @@ class Functions:
             value = self.source.randint(1, 1)
         self.known.append((name, x, value))
         return value
+
+    def _on_curve(self, names: tuple[str, ...], sign: int, name: str, x: Residues) -> Residues:
+        """A point of c² ± s² = 1 by the tangent u of half its argument, and s/c."""
+        u = self.source.randint(1, 1)
+        above, below = 1 - sign * u * u, 1 + sign * u * u
+        values = (2 * u / below, above / below, 2 * u / above)
+        self.known += [(other, x, y) for other, y in zip(names, values, strict=True)]
+        return values[names.index(name)]
 
 
 class Evaluated:

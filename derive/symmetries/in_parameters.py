@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
-from itertools import combinations_with_replacement
+from itertools import chain, combinations, combinations_with_replacement
 
 import numpy as np
 
-from ..algebra.exact_kernel import fraction_of, kernel
+from ..algebra.exact_kernel import echelon, fraction_of, kernel
 from ..algebra.residue_arrays import Array
-from ..language.tree import Tree, add, mul
+from ..language.tree import Tree, add, mul, plain
 from .gradient import Tape
 
 Samples = Array
@@ -27,20 +27,22 @@ SPARE = 6
 LARGEST_DEGREE = 4
 """Of the polynomials in parameters in a quotient."""
 
+FEW = 3
+"""So many parameters are tried in a quotient, any of them; then all."""
+
 Quotient = tuple[Tree, Tree]
 """Numerator and denominator."""
 
 
-def quotient_of(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
-    """The expression in known quantities that has these residues; ``None`` where none is found.
+def quotients_of(samples: Samples, known: dict[Tree, Samples], p: int) -> Iterator[Quotient]:
+    """The expressions in known quantities that have these residues, the simplest first.
 
     ``known``: the residues of quantities, the simplest first, without the number 1.
     """
     for guess in (_constant, _multiple, _ratio, _linear, _rational):
         found = guess(samples, known, p)
         if found is not None:
-            return found
-    return None
+            yield found
 
 
 def _constant(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
@@ -48,7 +50,7 @@ def _constant(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient 
     if (samples != samples[0]).any():
         return None
     x = fraction_of(int(samples[0]), p)
-    return None if x is None else (_whole(x), 1)
+    return None if x is None else (plain(x), 1)
 
 
 def _multiple(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
@@ -56,7 +58,7 @@ def _multiple(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient 
     for t, values in known.items():
         c = _same_ratio(samples, values, p)
         if c is not None:
-            return mul(_whole(c), t), 1
+            return mul(plain(c), t), 1
     return None
 
 
@@ -77,13 +79,17 @@ def _linear(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | 
 
 def _rational(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
     """A quotient of polynomials in the parameters."""
-    names = [t for t in known if isinstance(t, tuple) and t[0] == "par"]
-    for some in (*([x] for x in names), names):
+    names = [t for t in known if isinstance(t, tuple) and t[0] in ("par", "fun")]
+    few = chain.from_iterable(combinations(names, n) for n in range(1, FEW + 1))
+    for some in (*few, *[names] * (len(names) > FEW)):
         for degree in range(1, LARGEST_DEGREE + 1):
-            listed = [*_monomials(some, degree)]
-            if 2 * len(listed) + SPARE > len(samples):
+            every = [*_monomials(some, degree)]
+            products = [_product([known[x] for x in m], len(samples), p) for m in every]
+            _, independent = echelon(np.array(products).T, p)  # cos² + sin² = 1
+            if 2 * len(independent) + SPARE > len(samples):
                 break
-            columns = [_product([known[x] for x in m], len(samples), p) for m in listed]
+            listed = [every[k] for k in independent]
+            columns = [products[k] for k in independent]
             below = [-samples * x % p for x in columns]
             basis, _ = kernel(np.array([*columns, *below]).T, p)
             numbers = [fraction_of(int(x), p) for x in basis[0]] if len(basis) else [None]
@@ -128,19 +134,15 @@ def _dependence(
 
 
 def _combination(numbers: Sequence[Fraction | None], trees: Sequence[Tree]) -> Tree:
-    return add(*(mul(_whole(c), t) for c, t in zip(numbers, trees, strict=True) if c))
-
-
-def _whole(x: Fraction) -> Tree:
-    return int(x) if x.denominator == 1 else x
+    return add(*(mul(plain(c), t) for c, t in zip(numbers, trees, strict=True) if c))
 
 
 def quantities(tape: Tape, depends_on_parameters: Callable[[Tree], bool]) -> list[Tree]:
     """The parts of an expression that depend on parameters alone and are factors or terms of what
-    does not; the parameters themselves first."""
+    does not; the parameters themselves and functions of them first."""
     found: dict[Tree, None] = {}
     for t in tape.places:
-        if isinstance(t, tuple) and t[0] == "par":
+        if isinstance(t, tuple) and (t[0] == "par" or t in tape.given):
             found[t] = None
     for t in tape.places:
         if not isinstance(t, tuple) or t[0] in ("par", "entry") or depends_on_parameters(t):

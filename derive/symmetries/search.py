@@ -11,12 +11,13 @@ from math import gcd, lcm
 import numpy as np
 
 from ..algebra.exact_kernel import kernel, rational
-from ..algebra.residue_arrays import PRIMES, Array
-from ..language.tree import Tree, coefficient, mul, terms
+from ..algebra.residue_arrays import Array
+from ..language.tree import Tree, coefficient, mul, plain, terms
 from ..problem.problem import ProblemError
 from .conditions import Conditions
-from .in_parameters import Quotient, Samples, quantities, quotient_of
+from .in_parameters import Quotient, Samples, quantities, quotients_of
 from .scalar_lagrangian import by_state, of_parameters
+from .sparse_vectors import Columns, independent, sparse, vector
 
 SAMPLES = 60
 """So many values of the parameters are tried where coefficients depend on them."""
@@ -34,8 +35,10 @@ class Search:
     """The kernel of the conditions of a problem: its support, and its value for any parameters."""
 
     def __init__(self, system: Conditions):
-        self.system, self.p = system, PRIMES[0]
-        self._others: dict[int, tuple[dict[str, int], Array]] = {}
+        self.system, self.primes = system, system.parameters.primes
+        self.p = self.primes[0]
+        self._others: dict[int, tuple[dict[Tree, int], Array]] = {}
+        self.shapes: list[Columns] = []
         ((_, rows),) = system.systems(1, self.p, 1)
         found, free = kernel(rows, self.p)
         first = system.unknowns.first_field
@@ -43,7 +46,7 @@ class Search:
         self.free = [free[k] for k in kept]
         self.support = [int(c) for c in np.flatnonzero(found[kept].any(axis=0))] if kept else []
 
-    def at(self, count: int, seed: int) -> list[tuple[dict[str, int], Array]]:
+    def at(self, count: int, seed: int) -> list[tuple[dict[Tree, int], Array]]:
         """Random parameters, and the kernel there on the columns of its support."""
         found = []
         for values, rows in self.system.systems(count, self.p, seed, self.support):
@@ -53,11 +56,15 @@ class Search:
                     f"{self.system.problem.name}: there are not as many symmetries for all "
                     "parameters; give numbers for them"
                 )
-            found.append((values, basis))
+            found.append((values, self._shaped(basis, self.p)))
         return found
 
+    def _shaped(self, basis: Array, p: int) -> Array:
+        """The kernel by other vectors, where these have been chosen."""
+        return np.array([vector(basis, x, p) for x in self.shapes]) if self.shapes else basis
+
     @cached_property
-    def samples(self) -> tuple[list[dict[str, int]], Array]:
+    def samples(self) -> tuple[list[dict[Tree, int]], Array]:
         """Values of the parameters, and the kernel for each: samples × symmetries × support."""
         found = self.at(2, 2)
         if (found[0][1] != found[1][1]).any():
@@ -71,52 +78,90 @@ class Search:
         values = self.samples[0]
         return {t: np.array([self._value(t, x) for x in values]) for t in trees}
 
-    def _value(self, t: Tree, values: Mapping[str, int]) -> int:
-        return self.system.value(t, values, self.p)
+    def _value(self, t: Tree, values: Mapping[Tree, int]) -> int:
+        return self.system.parameters.at(t, values, self.p)
 
     def solutions(self) -> list[Solution]:
-        """The symmetries, in the order of their last columns."""
-        return [self._solution(k) for k in range(len(self.free))]
+        """The symmetries: in the order of their last columns, or those with many zeros if only
+        these are found as functions of the parameters; ``ProblemError`` if none are."""
+        found = [self._solution(k) for k in range(len(self.free))]
+        if None in found:
+            found = self._sparse_solutions()
+        if len(found) < len(self.free):
+            raise ProblemError(
+                f"{self.system.problem.name}: a coefficient of a symmetry is no simple "
+                "function of the parameters; give numbers for them"
+            )
+        return [x for x in found if x is not None]
 
-    def _solution(self, k: int) -> Solution:
+    def _sparse_solutions(self) -> list[Solution | None]:
+        """Independent ones among vectors with many zeros, as far as they are found."""
+        tried = sparse(self.samples[1][0], self.p)
+        self._choose(tried)
+        rows, found, chosen = self.samples[1][0], list[Solution | None](), list[int]()
+        for k in range(len(tried)):
+            if independent(rows[[*chosen, k]], self.p) and (x := self._solution(k)):
+                found.append(x)
+                chosen.append(k)
+        self._choose([tried[k] for k in chosen])
+        return found
+
+    def _choose(self, shapes: list[Columns]) -> None:
+        """Takes other vectors of the kernel."""
+        self.shapes = shapes
+        del self.samples
+        self._others.clear()
+
+    def _solution(self, k: int) -> Solution | None:
         table = self.samples[1][:, k, :]
         found = {}
         for j, column in enumerate(self.support):
             if table[:, j].any():
-                quotient = self._constant(k, j) or quotient_of(table[:, j], self.known, self.p)
-                if quotient is None or not self._holds(quotient, k, j):
-                    raise ProblemError(
-                        f"{self.system.problem.name}: a coefficient of a symmetry is no simple "
-                        "function of the parameters; give numbers for them"
-                    )
+                guesses = quotients_of(table[:, j], self.known, self.p)
+                quotient = self._constant(k, j) or next(
+                    (x for x in guesses if self._holds(x, k, j)), None
+                )
+                if quotient is None:
+                    return None
                 found[column] = quotient
         return Solution(_without_divisors(found, self.system.unknowns.first_field))
 
     def _constant(self, k: int, j: int) -> Quotient | None:
-        """The number that a coefficient is for all parameters, by as many primes as it needs."""
+        """The number that a coefficient is for all parameters, by as many primes as it needs:
+        rational, or a multiple of a root of a number."""
         column = self.samples[1][:, k, j]
         if (column != column[0]).any():
             return None
-        residues = [int(column[0])]
-        for count, p in enumerate(PRIMES[1:], 2):
-            residues.append(int(self._modulo(p)[1][k, j]))
-            x = rational(residues, PRIMES[:count])
+        for t in (1, *self.system.parameters.roots_of_numbers):
+            x = self._multiple_of(t, k, j)
             if x is not None:
-                return (int(x) if x.denominator == 1 else x), 1
+                return mul(plain(x), t), 1
+        return None
+
+    def _multiple_of(self, t: Tree, k: int, j: int) -> Fraction | None:
+        """A coefficient over a constant, if that is a fraction."""
+        residues: list[int] = []
+        for count, p in enumerate(self.primes, 1):
+            values, basis = self._modulo(p)
+            residues.append(
+                int(basis[k, j]) * pow(self.system.parameters.at(t, values, p), -1, p) % p
+            )
+            if count > 1 and (x := rational(residues, self.primes[:count])) is not None:
+                return x
         return None
 
     def _holds(self, quotient: Quotient, k: int, j: int) -> bool:
         """Is a coefficient what was found, modulo another prime too?"""
-        p = PRIMES[1]
+        p = self.primes[1]
         values, basis = self._modulo(p)
-        above, below = (self.system.value(t, values, p) for t in quotient)
+        above, below = (self.system.parameters.at(t, values, p) for t in quotient)
         return (above - below * int(basis[k, j])) % p == 0
 
-    def _modulo(self, p: int) -> tuple[dict[str, int], Array]:
+    def _modulo(self, p: int) -> tuple[dict[Tree, int], Array]:
         """Random parameters, and the kernel there, modulo another prime."""
         if p not in self._others:
             ((values, rows),) = self.system.systems(1, p, 4, self.support)
-            self._others[p] = values, kernel(rows, p)[0]
+            self._others[p] = values, self._shaped(kernel(rows, p)[0], p)
         return self._others[p]
 
 

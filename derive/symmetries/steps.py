@@ -62,6 +62,8 @@ def _summary(found: Found, c: Chapter) -> Step:
     if modulo:
         count = phrase("symmetries.algebra_modulo", dimension=str(found.dimension))
     prose = say("symmetries.all", count=count) + (say("symmetries.modulo") if modulo else ())
+    if found.integrand:
+        prose += say("symmetries.integrand", **vars(found.integrand))
     if found.functions:
         prose += say("symmetries.open", functions=", ".join(found.functions))
     draft = c.draft("symmetries", "kernel")

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from ..algebra.groups import Group
 from ..language.derivatives import product
-from ..language.tree import Tree, add, coefficient, mul, neg, nodes, terms
+from ..language.tree import Tree, add, coefficient, mul, neg, nodes, plain, terms
 from .conditions import Monomial, Unknowns
 from .group_entries import Rows
 from .scalar_lagrangian import by_state
@@ -162,7 +162,7 @@ class Symmetry:
             return add(("inner", "Π", self.carried), kept)
         group, found = self.group, []
         for a, momentum in enumerate(momenta):
-            coordinate = add(*(mul(_plain(c), eta[i][j]) for c, i, j in group.coordinate_terms(a)))
+            coordinate = add(*(mul(plain(c), eta[i][j]) for c, i, j in group.coordinate_terms(a)))
             found += [mul(x, momentum) for x in terms(by_state(coordinate)) if x != 0]
         return add(*found, kept)
 
@@ -210,7 +210,7 @@ def _combined(size: int, weighted: Iterable[tuple[Tree, Sequence[Sequence[Fracti
         for i, row in enumerate(m):
             for j, x in enumerate(row):
                 if x:
-                    rows[i][j].append(mul(_plain(Fraction(x)), c))
+                    rows[i][j].append(mul(plain(Fraction(x)), c))
     return tuple(tuple(add(*x) for x in row) for row in rows)
 
 
@@ -221,7 +221,3 @@ def _leading_sign(m: Entries) -> int:
     sign = -1 if coefficient(terms(x)[0])[0] < 0 else 1
     skew = j < len(m) and by_state(add(x, m[j][i])) == 0
     return sign * (-1) ** (i + j) if skew else sign
-
-
-def _plain(x: Fraction) -> Tree:
-    return int(x) if x.denominator == 1 else x

@@ -134,6 +134,7 @@ class Comparison:
         drawn = point.elementary.value if hasattr(point.elementary, "value") else values
         whole = WithIntegrals(values, drawn, measured)
         self.machine = Machine(module, whole, literal)
+        self.plain = Machine(module, WithIntegrals(point.elementary, drawn), literal)
         self.read: set[int] = set()
         self.largest = 0
 
@@ -262,9 +263,8 @@ class Comparison:
         """Compare what ``conserved`` gives at the point with what it gives a moment later."""
         count = self.module.sizes.get("CONSERVED", -1)
         self._call("conserved", arguments, out=count)
-        plain = Machine(self.module, self.point.elementary, self.literal)
         k = [getattr(x, "value", x) for x in arguments["k"].values]
-        return compare_conserved(plain, self.point, self._inside(), k, self._draw, count)
+        return compare_conserved(self.plain, self.point, self._inside(), k, self._draw, count)
 
     def _inside(self) -> Sequence[Any]:
         """The state of the point; where its g is any matrix, one with an element of the group."""
@@ -277,15 +277,13 @@ class Comparison:
         """The names of the functions in momenta, where there are some, each found right."""
         if "momentum" not in self.module.functions:
             return ()
-        plain = Machine(self.module, self.point.elementary, self.literal)
-        own = self._call, plain, self._require_equal, self._draw, self.point, self.claims.state
+        own = self._call, self.plain, self._require_equal, self._draw, self.point, self.claims.state
         return MomentumFunctions(*own).compare(arguments)
 
     def _jacobians(self, arguments: Mapping[str, Any]) -> list[str]:
         """The names of the module's Jacobians, each found equal to exact derivatives of ``rhs``."""
-        plain = Machine(self.module, self.point.elementary, self.literal)
         p, k = ([getattr(x, "value", x) for x in arguments[a].values] for a in ("p", "k"))
-        columns = ExactJacobians(plain, self.claims.state, self.point, p, k).columns
+        columns = ExactJacobians(self.plain, self.claims.state, self.point, p, k).columns
         found = [name for name in columns if name in self.module.functions]
         for name in found:
             D = [x for row in zip(*columns[name], strict=True) for x in row]

@@ -57,6 +57,13 @@ class Measured:
     def __rtruediv__(self, other: Any) -> Measured:
         return Measured.of(other) / self
 
+    def __mod__(self, p: int) -> Measured:
+        return Measured(self.value % p, self.num, self.den)
+
+    def inverse(self, p: int) -> Measured:
+        """The inverse modulo a prime p."""
+        return Measured(pow(self.value, -1, p), self.den, self.num)
+
     def __eq__(self, other: object) -> bool:
         return bool(self.value == Measured.of(other).value)
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache, partial
 from itertools import zip_longest
 
 from ..record.record import Derivation
@@ -19,8 +20,12 @@ from .read_c import read_c
 from .read_python import read_python, unread_statements
 from .run_time_text import loops, without_loops
 from .terms import CodeError
+from .torus.torus_files import TorusClaims, compare_c, compare_python
 
+Judge = Callable[[tuple[str, ...]], Agreement]
+"""The verdict on files by their names."""
 UNREAD = "not validated: only C and Python are read back"
+UNSTEPPED = "not validated: steps in time, which are not read back"
 UNPROVED = "; not validated, for it is a loop: Carlson's duplication, which gives the integrals"
 SHOWN = 3
 """The most decimals that a report lists."""
@@ -61,8 +66,13 @@ class EmittedFiles:
     def reports(self, d: Derivation) -> list[Report]:
         """The results, one for each file, or for a header with its source; ``MissingParserError``
         where C cannot be parsed."""
-        claims = Claims(d, self.chart, SIZE)
-        return [self._report(names, claims) for names in self._groups()]
+        whole = "".join(self.files.values())  # all of one emission are tried at the same points
+        if "torus" in d.problem:
+            on_torus = cache(lambda: TorusClaims(d, whole, self.numbers))
+            judge = partial(self._on_torus, on_torus)
+        else:
+            judge = partial(self._compared, Claims(d, self.chart, SIZE), whole)
+        return [self._report(names, judge) for names in self._groups()]
 
     def _groups(self) -> Iterator[tuple[str, ...]]:
         """The names of files read together: a header with its source, others one by one."""
@@ -73,16 +83,17 @@ class EmittedFiles:
             elif name != source or header not in self.files:
                 yield (name,)
 
-    def _report(self, names: tuple[str, ...], claims: Claims) -> Report:
+    def _report(self, names: tuple[str, ...], judge: Judge) -> Report:
+        if names[-1] == f"{self.prefix}_steps.h":
+            return Report(names, UNSTEPPED, read=False)
         if names[-1] not in (f"{self.prefix}{end}" for end in (".h", ".c", ".py")):
             return Report(names, UNREAD, read=False)
         if not self.as_given:
             return Report(names, PRINCIPAL, read=False)
         if gone := [name for name in names if not self.files[name]]:
             return Report(names, f"cannot be read back: {gone[0]} is empty or missing", holds=False)
-        whole = "".join(self.files.values())  # all of one emission are tried at the same points
         try:
-            verdict = compare(self._module(names), claims, self.numbers, whole)
+            verdict = judge(names)
         except DiffersError as error:
             return Report(names, f"DIFFERS: {error}", holds=False)
         except CodeError as error:
@@ -91,7 +102,21 @@ class EmittedFiles:
             return Report(names, "cannot be read back: nested too deeply", holds=False)
         called = (f"{self.prefix}_{INTEGRALS}(", f"def _{INTEGRALS}(")
         loop = any(x in self.files[name] for x in called for name in names)
-        return Report(names, as_text(verdict) + UNPROVED * loop)
+        stepped = "\nclass Motion:" in self.files[names[-1]]
+        text = as_text(verdict) + UNPROVED * loop + f"; {UNSTEPPED}" * stepped
+        return Report(names, text)
+
+    def _compared(self, claims: Claims, whole: str, names: tuple[str, ...]) -> Agreement:
+        return compare(self._module(names), claims, self.numbers, whole)
+
+    def _on_torus(self, claims: Callable[[], TorusClaims], names: tuple[str, ...]) -> Agreement:
+        """The verdict on a file with loops; Python is run, and so must be what is emitted."""
+        name = names[-1]
+        if not name.endswith(".py"):
+            return compare_c(name, self.files, self.prefix, claims())
+        if self.fresh is None or self.files[name] != self.fresh[name]:
+            raise DiffersError("it is not what is emitted, and so it is not run")
+        return compare_python(self.files[name], claims())
 
     def _module(self, names: tuple[str, ...]) -> Module:
         if names[-1].endswith(".py"):
@@ -122,14 +147,21 @@ class EmittedFiles:
 def as_text(v: Agreement) -> str:
     """The verdict as text of a report."""
     text = (
-        f"{', '.join(v.functions)} equal the record at {v.points} exact points; "
+        f"{', '.join(v.functions)} equal the record at {v.points} exact "
+        f"point{'s' * (v.points > 1)}; "
         f"a false pass has probability below 1e{math.ceil(math.log10(v.bound))}"
     )
     if "velocity_step" in v.functions:
         text += "; not validated, for it is a loop: Newton's method, which repeats velocity_step"
     if v.rounded:
         shown = ", ".join(v.rounded[:SHOWN]) + (", …" if len(v.rounded) > SHOWN else "")
-        text += f"; {len(v.rounded)} decimals are read as the numbers that they round: {shown}"
+        one = len(v.rounded) == 1
+        what = (
+            "is read as the number that it rounds"
+            if one
+            else "are read as the numbers that they round"
+        )
+        text += f"; {len(v.rounded)} decimal{'s' * (not one)} {what}: {shown}"
     if v.unread:
         text += f"; not validated, for no function reads them: {', '.join(v.unread)}"
     return text

@@ -39,6 +39,7 @@ class ExactJacobians:
             "jacobian": self._state(),
             "jacobian_inputs": self._inputs(),
             "jacobian_parameters": self._parameters(),
+            "jacobian_raw": self._raw(),
         }
 
     def _state(self) -> Iterator[list[Fraction]]:
@@ -58,6 +59,13 @@ class ExactJacobians:
         Z = q.plus(self.point.Z, q.scaled(EPSILON, change))
         back = q.times(q.minus(q.identity(len(eta)), q.scaled(EPSILON, eta)), self._inverse())
         return [part(y, EPS) for y in self.state.acceleration(Z, back, rates)]
+
+    def _raw(self) -> Iterator[list[Fraction]]:
+        """The columns of the derivative of ``rhs`` by the numbers of the state."""
+        x = self.point.arguments["x"]
+        for j in range(len(x)):
+            rates = self._rates({"x": [y + EPSILON if i == j else y for i, y in enumerate(x)]})
+            yield [part(y, EPS) for y in rates]
 
     def _inputs(self) -> Iterator[list[Fraction]]:
         """The columns of the Jacobian in the inputs u."""

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..check.elementary_values import ELEMENTARY
+from .ellipsoid_integrals import BUNDLES, MOST
 from .ellipsoid_integrals import NAME as INTEGRALS
 from .emitted_file import Module
 from .preprocessor import Preprocessor
@@ -28,10 +29,13 @@ SIGNATURES = {
     "energy": ("real", "t", "const* x", "const* k"),
     "multiplier": ("real", "t", "const* x", "const* k", "const* u"),
     "conserved": ("void", "t", "const* x", "const* k", "* out"),
+    "moments": ("void", "const* k", "* out"),
+    "from_rest": ("void", "t", "const* x", "const* k", "const* u", "* out"),
     "project": ("void", "const* x", "* out"),
     "defect": ("real", "const* x"),
     "jacobian": ("void", "t", "const* x", "const* k", "const* u", "* dx", "* D"),
     "jacobian_inputs": ("void", "t", "const* x", "const* k", "const* u", "* D"),
+    "jacobian_raw": ("void", "t", "const* x", "const* k", "const* u", "* D"),
     "jacobian_parameters": ("void", "t", "const* x", "const* p", "const* u", "* D"),
     "momentum": ("void", "t", "const* x", "const* k", "* out"),
     "velocity": ("void", "t", "const* y", "const* k", "* out"),
@@ -56,6 +60,18 @@ SIGNS |= {">": "gt", "<": "lt", "<=": "le", "==": "eq"}
 def read_c(name: str, files: Mapping[str, str], prefix: str) -> Module:
     """The module in a C file and the header it includes; ``CodeError`` says what cannot be read,
     and in which line."""
+    c_ast, tree = parsed_c(name, files, prefix)
+    found = CReader(c_ast, prefix).module(tree)
+    if found.parameters is None:  # one header of functions names them in a comment
+        named = re.findall(r"^ \*   p\[([0-9]+)\] (\w+)", files[name], re.MULTILINE)
+        if [int(i) for i, _ in named] != list(range(found.sizes["PARAMETERS"])):
+            raise CodeError("the parameters are not listed in order")
+        found = replace(found, parameters=tuple(x for _, x in named))
+    return found
+
+
+def parsed_c(name: str, files: Mapping[str, str], prefix: str) -> tuple[Any, Any]:
+    """The classes of a parser's nodes, and the tree of a C file with what it includes."""
     try:
         from pycparser import c_ast, c_parser
     except ImportError:
@@ -64,16 +80,9 @@ def read_c(name: str, files: Mapping[str, str], prefix: str) -> Module:
         ) from None
     text = "typedef unsigned long size_t;\n" + Preprocessor(files, prefix).text(name)
     try:
-        tree = c_parser.CParser().parse(text, name)
+        return c_ast, c_parser.CParser().parse(text, name)
     except (c_parser.ParseError, RecursionError) as error:
         raise CodeError(f"not C: {error}") from None
-    found = CReader(c_ast, prefix).module(tree)
-    if found.parameters is None:  # one header of functions names them in a comment
-        named = re.findall(r"^ \*   p\[([0-9]+)\] (\w+)", files[name], re.MULTILINE)
-        if [int(i) for i, _ in named] != list(range(found.sizes["PARAMETERS"])):
-            raise CodeError("the parameters are not listed in order")
-        found = replace(found, parameters=tuple(x for _, x in named))
-    return found
 
 
 class CReader:
@@ -269,7 +278,12 @@ class CReader:
             return self._integer(node) if node.type == "int" else self._decimal(node)
         if isinstance(node, c.ArrayRef) and isinstance(node.name, c.StructRef):
             held, (kind, k) = node.name, self._place(node.subscript)
-            if isinstance(held.name, c.ID) and held.field.name == "v" and kind == "int" and k < 4:
+            if (
+                isinstance(held.name, c.ID)
+                and held.field.name == "v"
+                and kind == "int"
+                and k < MOST
+            ):
                 return ("fun", f"{INTEGRALS}_{k}", ("var", held.name.name))
             raise self._unknown(node)
         if isinstance(node, c.ArrayRef) and isinstance(node.name, c.ID):
@@ -299,11 +313,12 @@ class CReader:
         return ("fun", name, self._expression(argument))
 
     def _integrals(self, node: Any) -> Expression:
-        """The call of the integrals over an ellipsoid."""
-        c, name = self.c, f"{self.prefix}_{INTEGRALS}"
-        if not isinstance(node, c.FuncCall) or getattr(node.name, "name", "") != name:
+        """The call of a function of integrals over an ellipsoid."""
+        whole = getattr(node.name, "name", "") if isinstance(node, self.c.FuncCall) else ""
+        name = whole.removeprefix(f"{self.prefix}_")
+        if name == whole or name not in BUNDLES:
             raise self._unknown(node)
-        return ("fun", INTEGRALS, *map(self._expression, node.args.exprs))
+        return ("fun", name, *map(self._expression, node.args.exprs))
 
     def _place(self, node: Any) -> Expression:
         """An index, or its bound: sums and multiples of the integers, without overflow."""

@@ -2,8 +2,8 @@
 
 Read are the functions in plain numbers: ``_constants``, ``_rhs``, ``_energy``, ``_inertia``,
 ``_project``, ``_defect`` and the Jacobians, with the names, the defaults and the basis. The public
-functions, which hand arrays to these, are not: :func:`unread_statements` gives their text, to be
-compared with what is emitted.
+functions, which hand arrays to these, the steps in time and their numbers are not:
+:func:`unread_statements` gives their text, to be compared with what is emitted.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from fractions import Fraction
 from typing import Any
 
 from ..check.elementary_values import ELEMENTARY
+from .ellipsoid_integrals import BUNDLES, MOST
 from .ellipsoid_integrals import NAME as INTEGRALS
 from .emitted_file import Module
 from .terms import (
@@ -28,7 +29,7 @@ from .terms import (
 
 OF_STATE = (
     *("_rhs", "_energy", "_conserved", "_project", "_defect", "_jacobian", "_jacobian_inputs"),
-    *("_momentum", "_multiplier"),
+    *("_momentum", "_multiplier", "_jacobian_raw"),
 )
 OF_Y, OF_BOTH = ("_velocity", "_momentum_rhs", "_poisson"), ("_velocity_step", "_momentum_rates")
 SIGNATURES = {
@@ -38,6 +39,8 @@ SIGNATURES = {
     **dict.fromkeys(OF_BOTH, ("xp", "t", "x", "y", "k", "u")),
     "_jacobian_parameters": ("xp", "t", "x", "p", "u"),
 }
+CALLS = tuple(f"_{name}(xp, " for name in BUNDLES)
+"""How a call of a function of integrals begins."""
 SIGNS: dict[type, str] = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div"}
 COOKIE = re.compile(r"[ \t\f]*#.*?coding[:=]")
 LISTS = ("STATE", "PARAMETERS", "INPUTS", "CONSTANTS")
@@ -109,10 +112,12 @@ class PythonReader:
             return []
         if isinstance(node, ast.Assign) and len(node.targets) == 1:
             (target,) = node.targets
-            if isinstance(target, ast.Name):
-                if target.id != "ZEROS":
+            set_here = target.elts if isinstance(target, ast.Tuple) else [target]
+            if names := [x.id for x in set_here if isinstance(x, ast.Name)]:
+                if isinstance(target, ast.Name) and target.id in DATA:
                     self.values[target.id] = self._data(node.value)
-                return [target.id]
+                if len(names) == len(set_here):
+                    return names
         if isinstance(node, ast.FunctionDef) and not node.decorator_list:
             if node.name in SIGNATURES:
                 self._function(node)
@@ -190,11 +195,12 @@ class PythonReader:
             return ("list", *map(self._expression, node.elts))
         if isinstance(node, ast.Call) and ast.unparse(node).startswith("_is_zero(xp, "):
             return ("none", *map(self._expression, node.args[1:]))
-        if isinstance(node, ast.Call) and ast.unparse(node).startswith("_ellipsoid(xp, "):
-            return ("fun", INTEGRALS, *map(self._expression, node.args[1:]))
+        if isinstance(node, ast.Call) and ast.unparse(node).startswith(CALLS):
+            name = ast.unparse(node.func).removeprefix("_")
+            return ("fun", name, *map(self._expression, node.args[1:]))
         if isinstance(node, ast.Subscript) and isinstance(node.value, ast.Name):
             kind, k = self._expression(node.slice)
-            if kind == "int" and 0 <= k < 4:
+            if kind == "int" and 0 <= k < MOST:
                 return ("fun", f"{INTEGRALS}_{k}", ("var", node.value.id))
             raise self._unknown(node)
         if isinstance(node, ast.Call) and len(node.args) == 1 and not node.keywords:

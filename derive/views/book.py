@@ -26,6 +26,8 @@ GENERAL = {
     "affine": "For any group of matrices, affine action",
     "left": "For any Lagrangian on a group, Z = g⁻¹ν on the left",
     "right": "For any Lagrangian on a group, Z = νg⁻¹ on the right",
+    "discrete": "For any group of matrices, in steps of time",
+    "discrete_affine": "For any group of affine maps, in steps of time",
     "both": "For any Lagrangian on a group, on the left beside the right",
 }
 """Headings of what is said of any group, by what the labels begin with."""

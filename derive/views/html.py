@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
@@ -27,17 +28,17 @@ from .corrections import Passage, corrections
 from .entries import entries
 from .language import ENGLISH, Language
 from .latex import anchor
-from .layout import ROOM, clause, quantifier, quantifiers
+from .layout import ROOM, Quantifiers, clause, quantifier, quantifiers
 from .outline import (
-    FORMULAS_CONVENTIONS,
     PAPER,
-    REFERENCES,
     TRANSPOSES,
     assumed,
     capitalised,
+    conventions,
     keys,
     latex_names,
     printed,
+    references,
     road,
     subtitle,
     title,
@@ -55,6 +56,9 @@ CONTINUATION: Fields = {"id": "", "number": "", "long": False, "cells": (), "cla
 """The fields of a line that belongs to the equation above it."""
 
 SPACES = "\u00a0\u202f"
+MATH = r"<math>(?:(?!</math>).)*</math>"
+BESIDE = re.compile(rf"(?<!\S)[^\s<>]+{MATH}[^\s<>]*|(?<!>){MATH}[^\s<>]+")
+"""A formula with what stands beside it without a space, from which no line is to part it."""
 
 
 def html(
@@ -63,12 +67,16 @@ def html(
     *,
     language: Language = ENGLISH,
     findings: Sequence[Finding] = (),
+    moving: Mapping[str, str] | None = None,
 ) -> str:
-    """The walk of records as a web page: what holds for any group, then a part for each record."""
+    """The walk of records as a web page: what holds for any group, then a part for each record.
+
+    ``moving``: name of a record → the file of a page in which its body moves, which gets a link.
+    """
     chosen, word = notation or Notation(), language.word
     parts = book(records, language)
     numbers, found = numbered(parts), corrections(parts, findings, language)
-    written = [_PartFields(p, chosen, language, numbers, found) for p in parts]
+    written = [_PartFields(p, chosen, language, numbers, found, moving or {}) for p in parts]
     shown = {s.label: [*p.equations(s)] for p in written for s in p.part.steps}
     template = environment("html", autoescape=True).get_template("page.html.jinja")
     return template.render(
@@ -78,7 +86,7 @@ def html(
         road=words(word(road(records)), chosen, ready=True),
         conventions=" ".join(
             words(word(x), chosen, ready=True)
-            for x in (TRANSPOSES[chosen.transpose], FORMULAS_CONVENTIONS)
+            for x in (TRANSPOSES[chosen.transpose], conventions(records))
         ),
         regular=words(word(REGULAR), chosen),
         paper=word(PAPER),
@@ -88,9 +96,10 @@ def html(
             "names": word("Names"),
             "paper": word("paper {numbers}", numbers="").strip(),
             "copy": word("copy the LaTeX"),
+            "moving": word("In motion"),
             "references": word("References"),
         },
-        references=[x[1:] for x in REFERENCES],
+        references=[x[1:] for x in references(records)],
         parts=[p.fields(shown) for p in written],
     )
 
@@ -108,7 +117,8 @@ def numbered(parts: Sequence[BookPart]) -> dict[str, str]:
 def words(text: str, notation: Notation, *, ready: bool = False) -> str:
     """A sentence as markup, its formulas as MathML; ``ready``: they stand between dollars."""
     between = between_dollars if ready else prose
-    return between(text, escaped, lambda x: movable(spelt(x).tex, inline(x, notation)))
+    shown = between(text, escaped, lambda x: movable(spelt(x).tex, inline(x, notation)))
+    return BESIDE.sub(r'<span class="kept">\g<0></span>', shown)
 
 
 def movable(tex: str, shown: Formula, *, follows: bool = False) -> str:
@@ -137,6 +147,7 @@ class _PartFields:
     language: Language
     numbers: Mapping[str, str]
     corrections: Mapping[str, Mapping[int, list[Passage]]]
+    moving: Mapping[str, str]
 
     @cached_property
     def names(self) -> Mapping[str, str]:
@@ -152,6 +163,7 @@ class _PartFields:
             "about": words(self.part.about, self.notation),
             "steps": [self.step(step, shown) for step in self.part.steps],
             "names": [*self.symbols(), *self.parameters()],
+            "moving": self.moving.get(self.part.name, "") if self.part.record else "",
             **self.figure(),
         }
 
@@ -197,6 +209,7 @@ class _PartFields:
 
     def equations(self, step: Step) -> Iterable[Fields]:
         """The fields of each numbered entry of a step, with its anchor and its LaTeX."""
+        every = quantifiers(self.language, step.equations)
         for x in entries(step.equations):
             key = step.keys[x.first]
             first, cells = x.equations[0], x.equations if x.only is None else ()
@@ -207,8 +220,8 @@ class _PartFields:
                 "left": self.cut(first.lhs),
                 "right": self.cut(first.rhs, equals=True),
                 "cells": [self.cell(e) for e in cells],
-                "clause": self.clause(first),
-                "tex": r",\qquad ".join(map(self.source, (*x.equations, *x.where))),
+                "clause": self.clause(first, every),
+                "tex": r",\qquad ".join(self.source(e, every) for e in (*x.equations, *x.where)),
             }
             for e in x.where:
                 yield CONTINUATION | {
@@ -245,15 +258,15 @@ class _PartFields:
         inside = (self.nested(x, follows or k > 0) for k, x in enumerate(groups(parts)))
         return f'<span class="term">{"".join(inside)}</span>'
 
-    def clause(self, e: Equation) -> str:
+    def clause(self, e: Equation, every: Quantifiers) -> str:
         """The markup of "for every …": for which names the equation holds."""
-        over = quantifier(e, self.names, quantifiers(self.language), self.notation)
+        over = quantifier(e, self.names, every, self.notation)
         return over.mathml() if over.tex else ""
 
-    def source(self, e: Equation) -> str:
+    def source(self, e: Equation, every: Quantifiers) -> str:
         """The LaTeX of an equation, in standard commands."""
         shown = standard((self.formula(e.lhs) + EQUALS + self.formula(e.rhs)).plain().tex)
-        over = clause(e, self.names, quantifiers(self.language))
+        over = clause(e, self.names, every)
         return f"{shown} \\quad {plain(over)}" if over else shown
 
     def symbols(self) -> Iterable[dict[str, str]]:

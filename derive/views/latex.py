@@ -25,15 +25,15 @@ from .corrections import Passage, corrections
 from .language import ENGLISH, Language
 from .layout import blocks
 from .outline import (
-    FORMULAS_CONVENTIONS,
     PAPER,
-    REFERENCES,
     TRANSPOSES,
     assumed,
     capitalised,
+    conventions,
     keys,
     latex_names,
     printed,
+    references,
     road,
     subtitle,
     title,
@@ -65,8 +65,8 @@ def latex(
     parts = book(records, language)
     writer = _Writer(parts, language, findings)
     chosen = notation or Notation()
-    stated = (TRANSPOSES[chosen.transpose], FORMULAS_CONVENTIONS)
-    conventions = " ".join(between_dollars(language.word(x)) for x in stated)
+    stated = (TRANSPOSES[chosen.transpose], conventions(records))
+    meant = " ".join(between_dollars(language.word(x)) for x in stated)
     template = environment("latex", **DELIMITERS).get_template("walk.tex.jinja")
     return template.render(
         language=language.name,
@@ -75,13 +75,13 @@ def latex(
         contents="" if one else tex_text(language.word("Contents")),
         macros="\n".join(definitions(chosen)),
         road=styled(between_dollars(language.word(road(records)))).removesuffix("."),
-        conventions=styled(f"{conventions} {tex_text(language.word(PAPER))}"),
+        conventions=styled(f"{meant} {tex_text(language.word(PAPER))}"),
         walk=styled("\n".join(writer.body())),
         drawn=any(writer.drawings.values()),
         regular=styled(prose(language.word(REGULAR))),
         from_these=tex_text(language.word("from")),
         references=tex_text(language.word("References")),
-        bibliography=[[*map(tex_text, x)] for x in REFERENCES],
+        bibliography=[[*map(tex_text, x)] for x in references(records)],
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from itertools import groupby
 
 from ..printing.escape import tex_text
@@ -16,14 +17,24 @@ from ..printing.widths import measure
 from ..record.record import Equation
 from .entries import Entry, entries
 from .language import ENGLISH, Language
-from .outline import domain, quantified
+from .outline import domain, moving, quantified
 
 ROOM = 38.0
 """The width of an equation in em, its number aside."""
 EQUALS, INDENT = 1.4, 1.5
 
 Rows = list[str]
-Quantifiers = tuple[Formula, Formula]
+
+
+@dataclass(frozen=True)
+class Quantifiers:
+    """The words "for every" and "for some" before names, "along the motion", and the equations of
+    the step, which tell where they stand."""
+
+    every: Formula
+    some: Formula
+    motion: Formula
+    equations: Sequence[Equation]
 
 
 def blocks(
@@ -33,7 +44,7 @@ def blocks(
 
     The entries of a step share one alignment unless a long left side forbids it.
     """
-    every = quantifiers(language)
+    every = quantifiers(language, equations)
     numbered = entries(equations)
     leading = [x.equations[0] for x in numbered]
     left = [measure(latex_tree(e.lhs, names)) for e in leading]
@@ -56,11 +67,12 @@ def blocks(
     return found
 
 
-def quantifiers(language: Language) -> Quantifiers:
-    """The words before the names for which an equation holds: "for every", "for some"."""
+def quantifiers(language: Language, equations: Sequence[Equation]) -> Quantifiers:
+    """The words for what the ``equations`` of a step hold for."""
     words = (f"{language.word(x)} " for x in ("for every", "for some"))
-    first, second = (text(rf"\text{{{tex_text(x[:-1])} }} ", x) for x in words)
-    return first, second
+    every, some = (text(rf"\text{{{tex_text(x[:-1])} }} ", x) for x in words)
+    motion = language.word("along the motion")
+    return Quantifiers(every, some, text(rf"\text{{{tex_text(motion)}}}", motion), equations)
 
 
 def rows(x: Entry, names: Mapping[str, str], column: float, every: Quantifiers) -> Rows:
@@ -122,20 +134,23 @@ def clause(e: Equation, names: Mapping[str, str], words: Quantifiers) -> str:
 def quantifier(
     e: Equation, names: Mapping[str, str], words: Quantifiers, notation: Notation | None = None
 ) -> Formula:
-    """For which names the equation holds: every one, or some; empty where nothing is said."""
+    """For which names the equation holds: every one, or some; or along the motion; empty where
+    nothing is said."""
 
     def listed(these: Sequence[str]) -> Formula:
         return joined([formula(x, names, notation) for x in these], literal(", "))
 
     clauses = []
-    if over := quantified(e):
+    if over := quantified(e, words.equations):
         shown, space = listed(over), domain(over)
         shown = paren(shown) if len(over) > 1 and space else shown
         if space:
             shown += literal(r" \in ") + spelt(space)
-        clauses.append(words[0] + shown)
+        clauses.append(words.every + shown)
     if e.exists:
-        clauses.append(words[1] + listed(e.exists))
+        clauses.append(words.some + listed(e.exists))
+    if e in moving(words.equations):
+        clauses.append(words.motion)
     return joined(clauses, literal(r",\ ")) if clauses else Formula("")
 
 

@@ -11,10 +11,10 @@ from ..record.record import Derivation, Equation, Step, Symbol
 from .language import ENGLISH, Language
 from .layout import blocks
 from .outline import (
-    FORMULAS_CONVENTIONS,
     PAPER,
     TRANSPOSES,
     capitalised,
+    conventions,
     latex_names,
     notes,
     sections,
@@ -27,11 +27,11 @@ def markdown(d: Derivation, *, language: Language = ENGLISH) -> str:
     """The walk: headings, prose and display formulas; no raw HTML."""
     names = latex_names(d)
     heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
-    conventions = " ".join(
+    meant = " ".join(
         between_dollars(language.word(x), markdown_text)
-        for x in (TRANSPOSES["bar"], FORMULAS_CONVENTIONS)
+        for x in (TRANSPOSES["bar"], conventions([d]))
     )
-    parts = [f"# {markdown_text(heading)}", f"{conventions} {markdown_text(language.word(PAPER))}"]
+    parts = [f"# {markdown_text(heading)}", f"{meant} {markdown_text(language.word(PAPER))}"]
     for section, steps in sections(d, language):
         parts.append(f"## {markdown_text(section)}")
         for step in steps:

@@ -7,6 +7,7 @@ from itertools import groupby
 from typing import Any
 
 from ..language.show import show
+from ..language.tree import names as names_in
 from ..printing.letters import names_of
 from ..record.contract import AMENDED, ANY_GROUP, FIELDS
 from ..record.record import Derivation, Equation, Step
@@ -35,6 +36,28 @@ TRANSPOSES = {
     "top": "The mark $⊤$ is the transpose and $𝟏$ the identity.",
 }
 """The first sentence of the conventions, in each notation of transposes."""
+DISCRETE_CONVENTIONS = (
+    "Bars are transposes and 1 is the identity. ⟨a, b⟩_M is Tr a M b̄ for matrices and ā M b for "
+    "vectors, without index for M = 1; ‖a‖² = ⟨a, a⟩; j(X)Y = X ∧ Y. Variations commute; dΘ(δ, δ′) "
+    "= δ[Θ(δ′)] − δ′[Θ(δ)]. The point y = (g_0, g_1) is two elements of the group, a time h apart; "
+    "g_2 comes after them by the motion, and 𝔤 is the Lie algebra."
+)
+DISCRETE_FORMULAS_CONVENTIONS = (
+    "For matrices $⟨a, b⟩_M = Tr a M b̄$, for vectors $⟨a, b⟩_M = ā M b$, without index for $M "
+    "= 𝟏$; $‖a‖² = ⟨a, a⟩$ and $j(X)Y = X ∧ Y$. Variations commute, $dΘ(δ, δ′) = δ[Θ(δ′)] − "
+    "δ′[Θ(δ)]$. The point $y = (g_0, g_1)$ is two elements of the group, a time $h$ apart; $g_2$ "
+    "comes after them by the motion, and $𝔤$ is the Lie algebra. In equations, parameters of the "
+    "problem are set in $‘sans serif’$."
+)
+"""The same for the discrete motion."""
+FLUID_CONVENTIONS = (
+    "The transpose of an operator is its adjoint for the scalar product $⟨a, b⟩$ of fields; "
+    "$⟨a, b⟩_ρ = ⟨a, ρb⟩$ and $‖a‖² = ⟨a, a⟩$. Variations commute, $dϖ(δ, δ′) = δ[ϖ(δ′)] − "
+    "δ′[ϖ(δ)]$, and the tangent bundle of the group is trivialised on the right. The point $y = "
+    "(t, g, ν)$ is a time, an element of the group and a velocity; $𝔤$ is the Lie algebra, of the "
+    "fields that are divergence-free and tangent to the boundary."
+)
+"""The same for fluids, whose group has no matrices; without its dollars it is that of the text."""
 ROAD = (
     "The Lagrangian $L$ of the points is pulled back to the group, $L̃$; it gives the Cartan "
     "form $ϖ$, whose exterior derivative $dϖ$ has a kernel: the equations of motion."
@@ -47,7 +70,12 @@ ROAD_BOTH = (
     "The Lagrangian $L̃$ on the group is given, or that of points, $L$, pulled back; it gives the "
     "Cartan form $ϖ$, whose exterior derivative $dϖ$ has a kernel: the equations of motion."
 )
-"""What the walk does, in one sentence: from points, from a given Lagrangian, from some of each."""
+ROAD_DISCRETE = (
+    "The Lagrangian $L_d$ of two elements of the group gives the one-forms $Θ⁺$ and $Θ⁻$; where "
+    "$Θ⁺$ of a step and $Θ⁻$ of the next agree, there is the motion."
+)
+"""What the walk does, in one sentence: from points, from a given Lagrangian, from some of each; in
+steps of time."""
 PAPER = (
     "Numbers in the margin or beside the name of a step are those of the paper, "
     "P. Iglesias-Zemmour, “D’où viennent les équations du mouvement des solides ?”; what is "
@@ -55,6 +83,23 @@ PAPER = (
     "signs; “derive paper” says how."
 )
 
+ON_FLUIDS = (
+    (
+        "Arn",
+        "V. Arnold",
+        "Sur la géométrie différentielle des groupes de Lie de dimension infinie et ses "
+        "applications à l’hydrodynamique des fluides parfaits",
+        "Annales de l’Institut Fourier 16 (1), 1966, 319–361",
+    ),
+    (
+        "EM",
+        "D. G. Ebin, J. Marsden",
+        "Groups of diffeomorphisms and the motion of an incompressible fluid",
+        "Annals of Mathematics 92 (1), 1970, 102–163",
+    ),
+    ("AK", "V. I. Arnold, B. A. Khesin", "Topological Methods in Hydrodynamics", "Springer, 1998"),
+)
+"""Where more is said of fluids."""
 REFERENCES = (
     ("paper", "P. Iglesias-Zemmour", "D’où viennent les équations du mouvement des solides ?", ""),
     ("Aud", "M. Audin", "Spinning Tops", "Cambridge University Press, 1996"),
@@ -81,7 +126,7 @@ ASSUMPTIONS: tuple[tuple[frozenset[Equation], str], ...] = (
     ),
 )
 """Equations that a step assumes, and how that is said in words."""
-ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇_b", "ṗ_b", "u̇")
+ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇_b", "ṗ_b", "u̇", "ν̇")
 
 
 def latex_names(d: Derivation) -> dict[str, str]:
@@ -101,9 +146,43 @@ def group(d: Derivation) -> str:
 
 
 def road(records: Sequence[Derivation]) -> str:
-    """What the walk of some records does: their Lagrangians are those of points, or given."""
+    """What the walk of some records does: their Lagrangians are those of points, or given; or in
+    steps of time."""
+    if all(map(discrete, records)):
+        return ROAD_DISCRETE
     stated = {given(d.problem) for d in records}
     return ROAD_BOTH if len(stated) > 1 else ROAD_GIVEN if True in stated else ROAD
+
+
+def conventions(records: Sequence[Derivation]) -> str:
+    """What formulas mean in all of some records, with formulas between dollars."""
+    if records and all(map(of_fluid, records)):
+        return FLUID_CONVENTIONS
+    whole = records and all(map(discrete, records))
+    return DISCRETE_FORMULAS_CONVENTIONS if whole else FORMULAS_CONVENTIONS
+
+
+def plain_conventions(d: Derivation, language: Language = ENGLISH) -> str:
+    """The conventions of a record as plain text, with that of transposes."""
+    if not of_fluid(d):
+        return language.word(DISCRETE_CONVENTIONS if discrete(d) else CONVENTIONS)
+    both = f"{language.word(TRANSPOSES['bar'])} {language.word(FLUID_CONVENTIONS)}"
+    return both.replace("$", "").replace("𝟏", "1")
+
+
+def references(records: Sequence[Derivation]) -> tuple[tuple[str, str, str, str], ...]:
+    """The works that notes of some records end with."""
+    return REFERENCES + (ON_FLUIDS if any(map(of_fluid, records)) else ())
+
+
+def of_fluid(d: Derivation) -> bool:
+    """Is a record that of a fluid whose group has no matrices?"""
+    return "fluid" in d.problem
+
+
+def discrete(d: Derivation) -> bool:
+    """Is a record that of a discrete motion?"""
+    return "discrete" in d.problem
 
 
 def given(problem: Mapping[str, Any]) -> bool:
@@ -163,10 +242,29 @@ def assumed(step: Step, language: Language = ENGLISH) -> list[str]:
         if equations <= left.keys():
             found.append(language.word(words))
             left = {e: None for e in left if e not in equations}
-    if any(x in ACCELERATIONS for e in step.equations for x in e.for_all):
+    if any(map(_of_accelerations, step.equations)) and not moving(step.equations):
         found.append(language.word("for any acceleration"))
         left = {e: None for e in left if not _velocity(e)}
     return [*found, *(f"{show(e.lhs)} = {show(e.rhs)}" for e in left)]
+
+
+def _of_accelerations(e: Equation) -> bool:
+    """Does an equation hold for every acceleration?"""
+    return any(x in ACCELERATIONS for x in e.for_all)
+
+
+def moving(equations: Sequence[Equation]) -> set[Equation]:
+    """Of the equations of a step, some of which hold for any acceleration, those that hold along
+    the motion alone: they say something of the acceleration, or of what the others say."""
+    free = [e for e in equations if _of_accelerations(e)]
+    rated = {e.lhs for e in free}
+    others = (e for e in equations if free and e not in free)
+    return {e for e in others if e.lhs in rated or _names(e).intersection(ACCELERATIONS)}
+
+
+def _names(e: Equation) -> set[str]:
+    """The names of both sides of an equation."""
+    return {*names_in(e.lhs), *names_in(e.rhs)}
 
 
 def _velocity(e: Equation) -> bool:
@@ -190,9 +288,10 @@ def domain(for_all: tuple[str, ...]) -> str:
     return (DOMAINS if len(for_all) == 1 else PAIRS).get(for_all[0], "")
 
 
-def quantified(e: Equation) -> tuple[str, ...]:
-    """The names of "for every …": accelerations are spoken of beside the step."""
-    return tuple(x for x in e.for_all if x not in ACCELERATIONS)
+def quantified(e: Equation, beside: Sequence[Equation]) -> tuple[str, ...]:
+    """The names of "for every …"; accelerations among them where not all of the equations
+    ``beside`` hold for any: else they are spoken of beside the step."""
+    return e.for_all if moving(beside) else tuple(x for x in e.for_all if x not in ACCELERATIONS)
 
 
 def keys(step: Step) -> list[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -115,11 +115,13 @@ def notes(
     lang: str = "en",
     *,
     fragment: bool = False,
+    moving: Mapping[str, str] | None = None,
     **notation: str,
 ) -> str:
     """Lecture notes of several records as a web page or as LaTeX, with the paper's corrections.
 
     ``fragment``: LaTeX without a preamble, for a document that uses the package ``.sty``.
+    ``moving``: the pages that a web page links to, by the names of the records.
     """
     from ..printing.notation import Notation
     from . import latex
@@ -144,8 +146,9 @@ def notes(
     found = corrections(records)
     if fragment:
         return latex.fragment(records, language=words, findings=found)
-    view = html if ending == ".html" else latex.latex
-    return view(records, chosen, language=words, findings=found)
+    if ending == ".html":
+        return html(records, chosen, language=words, findings=found, moving=moving)
+    return latex.latex(records, chosen, language=words, findings=found)
 
 
 def unprinted(records: Sequence[Derivation]) -> str:
@@ -178,8 +181,7 @@ def pdf(tex: str) -> bytes:
     latexmk, pdflatex = shutil.which("latexmk"), shutil.which("pdflatex")
     if pdflatex is None:
         raise RenderError(
-            "no pdflatex: install TeX (Debian: texlive-latex-extra texlive-pictures lmodern); "
-            "the .tex is written"
+            "no pdflatex: install TeX (Debian: texlive-latex-extra texlive-pictures lmodern)"
         )
     # the same text is the same PDF on any day: TeX has the time from here, if it asks for one
     timeless = {"SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1"} | os.environ
@@ -196,5 +198,5 @@ def pdf(tex: str) -> bytes:
         if done.returncode:
             log = done.stdout.decode(errors="replace").splitlines()
             wrong = next((line for line in log if line.startswith("!")), "! no PDF was made")
-            raise RenderError(f"pdflatex: {wrong[2:]}; the .tex is written")
+            raise RenderError(f"pdflatex: {wrong[2:]}")
         return (Path(folder) / "notes.pdf").read_bytes()

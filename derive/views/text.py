@@ -13,7 +13,17 @@ from ..printing.line_breaking import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, dis
 from ..record.record import Derivation, Equation, Step
 from .entries import TABLE, cell
 from .language import ENGLISH, Language
-from .outline import CONVENTIONS, PAPER, domain, notes, quantified, sections, subtitle, title
+from .outline import (
+    PAPER,
+    domain,
+    moving,
+    notes,
+    plain_conventions,
+    quantified,
+    sections,
+    subtitle,
+    title,
+)
 
 MARGIN, EQUATION, INSIDE = 2, 6, 4
 NAME = 8
@@ -27,7 +37,7 @@ def text(d: Derivation, width: int = 100, *, language: Language = ENGLISH) -> st
     heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
     blocks = [
         [*_underlined(heading, "=", width)],
-        [*_paragraph(f"{language.word(CONVENTIONS)} {language.word(PAPER)}", 0, width)],
+        [*_paragraph(f"{plain_conventions(d, language)} {language.word(PAPER)}", 0, width)],
     ]
     for section, steps in sections(d, language):
         blocks.append([*_underlined(section, "-", width)])
@@ -113,7 +123,7 @@ def _equations(equations: tuple[Equation, ...], room: int, language: Language) -
     widest = max(map(display_width, left))
     column = widest if widest <= room * 2 // 5 else 0
     for lhs, e in zip(left, equations, strict=True):
-        for line in _equation(lhs, e, column, room, language):
+        for line in _equation(lhs, e, column, room, _clause(e, equations, language), language):
             yield " " * EQUATION + line
 
 
@@ -131,7 +141,9 @@ def padded(words: str, width: int) -> str:
     return words + " " * max(width - display_width(words), 0)
 
 
-def _equation(lhs: str, e: Equation, column: int, room: int, language: Language) -> Iterator[str]:
+def _equation(
+    lhs: str, e: Equation, column: int, room: int, clause: str, language: Language
+) -> Iterator[str]:
     """The lines of an equation whose left side has ``column`` columns; 0: its own lines."""
     right = show(e.rhs)
     if isinstance(e.rhs, tuple) and e.rhs[0] == "par" and right == lhs:
@@ -146,7 +158,6 @@ def _equation(lhs: str, e: Equation, column: int, room: int, language: Language)
     indent = display_width(lead) + 3
     first, *others = [*_broken(right, room - indent, indent)]
     lines = [f"{lead} = {first[indent:]}", *others]
-    clause = _clause(e, language)
     if clause and display_width(f"{lines[-1]}  {clause}") <= room:
         lines[-1] += f"  {clause}"
         clause = ""
@@ -155,16 +166,19 @@ def _equation(lhs: str, e: Equation, column: int, room: int, language: Language)
         yield from _paragraph(clause, indent, room)
 
 
-def _clause(e: Equation, language: Language) -> str:
-    """For which names the equation holds: every one, or some; empty where nothing is said."""
+def _clause(e: Equation, beside: tuple[Equation, ...], language: Language) -> str:
+    """For which names an equation holds ``beside`` others: every one, or some; or along the
+    motion; empty where nothing is said."""
     clauses = []
-    if names := quantified(e):
+    if names := quantified(e, beside):
         shown, space = ", ".join(map(show_name, names)), domain(names)
         shown = f"({shown})" if len(names) > 1 and space else shown
         within = f" ∈ {space}" if space else ""
         clauses.append(f"{language.word('for every')} {shown}{within}")
     if e.exists:
         clauses.append(f"{language.word('for some')} {', '.join(map(show_name, e.exists))}")
+    if e in moving(beside):
+        clauses.append(language.word("along the motion"))
     return ", ".join(clauses)
 
 

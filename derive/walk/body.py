@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..language.layers import is_layered
 from ..language.show import in_quotes, show
 from ..problem.problem import Problem
 from ..record.formulas import stated
@@ -35,11 +36,14 @@ SIZES = ("radius", "outer", "inner", "sides", "semi_axes", "quadric", "height", 
 """The sizes of a solid that are told in words."""
 
 
-def body_step(problem: Problem, points: Lagrangian, a: Alphabet, c: Chapter) -> tuple[Step, ...]:
+def body_step(
+    problem: Problem, points: Lagrangian | None, a: Alphabet, c: Chapter
+) -> tuple[Step, ...]:
     """The step that states the numbers of the body, after that of its integrals for solids; none
     where there is no body.
 
-    ``points``: what is said of the points of any body, with the alphabet ``a``.
+    ``points``: what is said of the points of any body, with the alphabet ``a``; ``None``: of these
+    integrals the moments alone are told.
     """
     body = problem.body
     steps: list[Step] = []
@@ -52,7 +56,8 @@ def body_step(problem: Problem, points: Lagrangian, a: Alphabet, c: Chapter) -> 
         supposed = of_moments(problem.signed)
     elif isinstance(body, GivenBody):
         if body.solids:
-            steps += [continuum(points, a, c), _integrals(body.solids, c)]
+            steps += [continuum(points, a, c)] if points else []
+            steps.append(_integrals(body.solids, c))
         equations += _moments(body.given)
         given = say("body.given")
         prose = say("body.moments") if body.solids else given
@@ -114,7 +119,7 @@ def _described(s: Solid) -> Sentence:
     else:
         sizes = [phrase(f"integrals.{k}", size=_size(x)) for k, x in s.sizes.items() if k in SIZES]
     solid = phrase(
-        "integrals.solid",
+        "integrals.layered" if is_layered(s.density) else "integrals.solid",
         kind=SOLIDS[s.kind],
         density=_size(s.density),
         sizes=listed("{first}, {second}", sizes),

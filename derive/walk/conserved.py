@@ -20,7 +20,7 @@ from ..language import rational as q
 from ..language.tree import Tree
 from ..problem.problem import Problem
 from ..record.record import Equation, Step
-from ..record.sentence import listed
+from ..record.sentence import Prose, listed
 from .alphabet import Alphabet
 from .chapter import Chapter
 from .hat import anticommute
@@ -61,17 +61,13 @@ def conserved_steps(
     kept = [Equation("ḣ", 0)] if not v.timed else []
     laws = say("conserved.energy") if kept else ()
     definitions = []
-    if _turned(group) and (rate := _turning(v, b, vectors=vectors)) is not None:
-        draft.depends_on(momenta.turning, v.energy)
-        definitions.append(Equation("ℓ", write(momenta.turning)))
-        kept.append(Equation(rate, 0))
-        whole = rate == "ℓ̇"
-        laws += say("conserved.angular_momentum" if whole else "conserved.along_gravity")
-    if momenta.shifting is not None and (rate := _shifting(problem, v, b)) is not None:
-        draft.depends_on(momenta.shifting, v.energy)
-        definitions.append(Equation("p", write(momenta.shifting)))
-        kept.append(Equation(rate, 0))
-        laws += say("conserved.momentum" if rate == "ṗ" else "conserved.across_gravity")
+    for x in kept_momenta(group, v, b, vectors=vectors):
+        momentum = momenta.turning if x.turning else momenta.shifting
+        assert momentum is not None
+        draft.depends_on(momentum, v.energy)
+        definitions.append(Equation("ℓ" if x.turning else "p", write(momentum)))
+        kept.append(Equation(x.rate, 0))
+        laws += x.law
     if not kept:
         return ()
     prose = say(
@@ -80,6 +76,28 @@ def conserved_steps(
     ) + say("conserved.noether")
     draft.depends_on(motion)
     return (draft.step([*definitions, *kept], prose),)
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A momentum that motions keep, ℓ (``turning``) or p: what vanishes of its rate, and in
+    words."""
+
+    turning: bool
+    rate: Tree
+    law: Prose
+
+
+def kept_momenta(group: Group, v: Potentials, b: Alphabet, *, vectors: bool) -> list[Kept]:
+    """The momenta of rotations and translations of space that are kept; ``vectors``: ℓ is one."""
+    found = []
+    if _turned(group) and (rate := _turning(v, b, vectors=vectors)) is not None:
+        law = "angular_momentum" if rate == "ℓ̇" else "along_gravity"
+        found.append(Kept(True, rate, say(f"conserved.{law}")))
+    if (rate := _shifting(group, v, b)) is not None:
+        law = "momentum" if rate == "ṗ" else "across_gravity"
+        found.append(Kept(False, rate, say(f"conserved.{law}")))
+    return found
 
 
 def matrix_momenta(momentum: Expr, a: Alphabet) -> SpaceMomenta:
@@ -130,11 +148,9 @@ def _turning(v: Potentials, b: Alphabet, *, vectors: bool) -> Tree | None:
     return ("inner", "γ", "ℓ̇") if vectors else ("inner", ("hat", "γ"), "ℓ̇")
 
 
-def _shifting(problem: Problem, v: Potentials, b: Alphabet) -> Tree | None:
+def _shifting(group: Group, v: Potentials, b: Alphabet) -> Tree | None:
     """What vanishes of ṗ: all of it, or γ ∧ ṗ, where the potential is kept by all translations of
     space, or by those across gravity; ``None`` where by neither."""
-    group = problem.group
-    assert group is not None
     if not group.free_translations or not v.pointwise.keeps(turning=False):
         return None
     if not _varied(v, None, word(Letter("b", b.n)), b):

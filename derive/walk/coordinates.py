@@ -39,7 +39,7 @@ def _terms(group: Group, i: int, j: int) -> list[Tree]:
     for a, e in enumerate(group.linear_basis, 1):
         x = e[i][j]
         if x:
-            found.append(mul(int(x) if x.denominator == 1 else x, ("entry", "ζ", a)))
+            found.append(mul(x, ("entry", "ζ", a)))
     return found
 
 
@@ -47,7 +47,7 @@ def _rate(group: Group, a: int) -> Tree:
     terms: list[Tree] = []
     for x, i, j in group.coordinate_terms(a):
         entry: Tree = ("entry", "Ż", i + 1, j + 1)
-        terms.append(mul(int(x) if x.denominator == 1 else x, entry))
+        terms.append(mul(x, entry))
     return add(*terms)
 
 
@@ -61,7 +61,7 @@ def stated_basis_step(group: Group, b: Alphabet, c: Chapter) -> tuple[Step, ...]
 
     def entry(i: int, j: int) -> Tree:
         terms = ((own[a][i][j], ("entry", "z", a + 1)) for a in range(size) if own[a][i][j])
-        return add(*(mul(int(x) if x.denominator == 1 else x, z) for x, z in terms))
+        return add(*(mul(x, z) for x, z in terms))
 
     turned = ("matrix", *(("row", *(entry(i, j) for j in span)) for i in span))
     equations: list[Equation] = [Equation("Z", turned)]

@@ -9,6 +9,7 @@ from ..problem.data import data
 from ..problem.problem import Problem
 from ..record import sentence
 from ..record.contract import CONVENTIONS
+from ..record.discrete_names import DISCRETE
 from ..record.fluid_names import FLUID
 from ..record.name_types import Name
 from ..record.record import Step, Symbol
@@ -45,10 +46,14 @@ def problem_data(problem: Problem) -> dict[str, object]:
     return {k: plain(v) for k, v in found.items()}
 
 
-def symbols(steps: tuple[Step, ...], problem: Problem, *, fields: int = 0) -> tuple[Symbol, ...]:
+def symbols(
+    steps: tuple[Step, ...], problem: Problem, *, fields: int = 0, discrete: bool = False
+) -> tuple[Symbol, ...]:
     """The names that the steps use, in the order in which they appear; ``fields``: by how many
-    symmetries the problem is reduced."""
+    symmetries the problem is reduced; ``discrete``: of the discrete road."""
     meant, group = _meant(problem), problem.group
+    if discrete:
+        meant = VOCABULARY | DISCRETE[problem.action]
     sizes = _sizes(group) if group else {}
     if problem.torus:
         sizes = {"n": problem.torus.N, "lattice": 2}
@@ -57,14 +62,14 @@ def symbols(steps: tuple[Step, ...], problem: Problem, *, fields: int = 0) -> tu
     sizes["reduced"] = sizes["carried"] + sizes.get("dim", 0)
     meanings = {x: sentence.say(about.meaning) for x, about in meant.items()}
     if problem.force_inputs:
-        meanings["f_u"] = _inputs(problem)
+        meanings["f_u"] = _inputs(problem, vectors=not discrete)
     used = of_steps(steps, meant, sizes)
     return tuple(Symbol(x, meanings[x], meant[x].latex, uses) for x, uses in used.items())
 
 
 def _sizes(group: Group) -> dict[str, int]:
     """What n, d and dim are for a group; and ``block``, where all its factors are of one size."""
-    sizes = {"n": group.n, "d": len(group.linear_basis), "dim": group.dimension}
+    sizes = {"n": group.n, "d": len(group.linear_basis), "dim": group.dimension, "size": group.size}
     blocks = {factor.n for _, factor in group.places}
     return sizes | ({"block": blocks.pop()} if len(blocks) == 1 else {})
 
@@ -86,10 +91,11 @@ def _meant(problem: Problem) -> dict[str, Name]:
     return VOCABULARY | turned | blocks
 
 
-def _inputs(problem: Problem) -> Prose:
-    """The meaning of f_u in words: the forces that the user gives, one by one."""
+def _inputs(problem: Problem, *, vectors: bool) -> Prose:
+    """The meaning of f_u in words: the forces that the user gives, one by one; ``vectors``: f_u is
+    also the force of a covector, where there is one."""
     forces, group = [_force(x) for x in problem.force_inputs], problem.group
-    if problem.covector and group and group.turns_space and group.affine:
+    if vectors and problem.covector and group and group.turns_space and group.affine:
         at_origin = "input.covector_force"
         forces.insert(0, phrase(at_origin, name=problem.covector.name))
     return say("input.meaning", forces=listed("{first}; {second}", forces))

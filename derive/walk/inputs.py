@@ -107,8 +107,7 @@ def _covector(group: Group, b: Alphabet) -> tuple[Tree, Tree]:
     entries: list[list[list[Tree]]] = [[[] for _ in range(size)] for _ in range(size)]
     for a in range(group.dimension):
         for x, i, j in group.coordinate_terms(a):
-            number: Tree = int(x) if x.denominator == 1 else x
-            entries[i][j].append(mul(number, ("entry", "u", a + 1)))
+            entries[i][j].append(mul(x, ("entry", "u", a + 1)))
     n = b.n
     assert isinstance(n, int)
     rows = tuple(("row", *(add(*entries[i][j]) for j in range(n))) for i in range(n))
@@ -134,15 +133,19 @@ def _damping(problem: Problem, b: Alphabet) -> tuple[list[Equation], Expr]:
         (kappa,): word(total),
     }
     work = sum_over(-word(kappa) * inner(v, moved), {kappa, b.r_i}, table)
+    equations = damping_coefficients(problem) + stated("D = Σᵢ κᵢ rᵢ r̄ᵢ")
+    if b.affine:
+        equations += stated("D_c = Σᵢ κᵢ rᵢ,  D_m = Σᵢ κᵢ")
+    return equations, work
+
+
+def damping_coefficients(problem: Problem) -> list[Equation]:
+    """The equations of κ_i of the points that are damped."""
     terms: dict[int, list[Tree]] = {}
     for d in problem.damping:
         for i in d.on:
             terms.setdefault(i, []).append(d.coefficient)
-    equations = [Equation(("at", "κ", i), add(*x)) for i, x in sorted(terms.items())]
-    equations += stated("D = Σᵢ κᵢ rᵢ r̄ᵢ")
-    if b.affine:
-        equations += stated("D_c = Σᵢ κᵢ rᵢ,  D_m = Σᵢ κᵢ")
-    return equations, work
+    return [Equation(("at", "κ", i), add(*x)) for i, x in sorted(terms.items())]
 
 
 def external_vectors(

@@ -7,7 +7,6 @@ is the number of constraints on A.  For SL(n) it is spanned by 1, for GL(n) it i
 from __future__ import annotations
 
 from collections.abc import Mapping
-from fractions import Fraction
 
 from ..algebra.calculus import gradient, reduce, substitute, terms_with, without
 from ..algebra.groups import Group
@@ -15,7 +14,7 @@ from ..algebra.word_trees import WordNotation
 from ..algebra.words import Expr, Factor, Letter, inner, number, one, word
 from ..language import rational as q
 from ..language.read import read
-from ..language.tree import Tree, add
+from ..language.tree import Tree, add, plain
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
 from .alphabet import Alphabet
@@ -126,12 +125,8 @@ def direction_of(group: Group, b: Alphabet) -> tuple[Expr | None, list[Letter], 
     if normal == q.identity(n):
         return one(b.n), [], []
     letter = Letter("Λ", n, n)
-    rows = tuple(("row", *(_number(x) for x in row)) for row in normal)
+    rows = tuple(("row", *(plain(x) for x in row)) for row in normal)
     return word(letter), [letter], [Equation("Λ", ("matrix", *rows))]
-
-
-def _number(x: Fraction) -> Tree:
-    return int(x) if x.denominator == 1 else x
 
 
 def _multiplier(solved: Expr, direction: Expr) -> tuple[Expr, Expr]:

@@ -20,7 +20,7 @@ from ..record.hypotheses import Hypothesis
 from ..record.record import Step
 from .alphabet import Alphabet
 
-ALWAYS = ("A", "C", read("Ā"))
+ALWAYS = ("A", "C", read("Ā"), "g_1", ("T", "g_1"), "A_1", ("T", "A_1"))
 """The element of the group and C = ĀA, which have inverses without a hypothesis."""
 
 
@@ -67,7 +67,7 @@ def of_moments(signed: bool) -> tuple[Hypothesis, ...]:
     return Hypothesis("positive", "m"), Hypothesis("semidefinite", read("J − m⁻¹cc̄"))
 
 
-MATRICES = frozenset({"J", "J_c", "I", "I_c", "M", "K_G"})
+MATRICES = frozenset({"J", "J_c", "J_D", "I", "I_c", "M", "K_G"})
 """The names that are matrices, among those that are inverted."""
 
 
@@ -79,7 +79,9 @@ def supposing(step: Step) -> Step:
 
 
 def _matrix(t: Tree) -> bool:
-    return _matrix(t[1]) if isinstance(t, tuple) and t[0] == "add" else t in MATRICES
+    if isinstance(t, tuple):
+        return t[0] == "matrix" or (t[0] == "add" and _matrix(t[1]))
+    return t in MATRICES
 
 
 def supposing_all(steps: Iterable[Step]) -> tuple[Step, ...]:

@@ -250,8 +250,7 @@ def _covector(group: Group) -> Tree:
     entries: dict[tuple[int, int], list[Tree]] = {}
     for a in range(len(group.linear_basis)):
         for x, i, j in group.coordinate_terms(a):
-            number: Tree = int(x) if x.denominator == 1 else x
-            entries.setdefault((i, j), []).append(mul(number, ("at", "Π", a + 1)))
+            entries.setdefault((i, j), []).append(mul(x, ("at", "Π", a + 1)))
     span = range(group.n)
     rows = (("row", *(add(*entries.get((i, j), ())) for j in span)) for i in span)
     return ("matrix", *rows)

@@ -22,7 +22,7 @@ from ..language.tree import Tree, add
 from ..record.record import Equation, Step
 from .alphabet import Alphabet
 from .cartan import Cartan
-from .chapter import Chapter
+from .chapter import Chapter, Draft
 from .exterior import natural_variations, primes
 from .lagrangian import Lagrangian
 from .pullback import Pullback, sum_over
@@ -48,28 +48,9 @@ def principle(
     """The variation of the action by dϖ, and what dϖ is there, d’Alembert's principle: the steps
     ``extremal`` and ``dalembert``."""
     varying, working = c.draft("extremal", "variation"), c.draft("dalembert", "contraction")
-    lift = tuple(Equation(("call", p.d_position.name, "X"), p.velocity.name) for p in a.parts)
     lagrangian = pulled.kinetic - word(a.U)
-    twins, tangent = primes(a), tangent_of_lift(a)
-    onto = {x: tangent[y] for x, y in twins.items() if y in tangent}
-    excess = substitute(form.form, onto) - lagrangian
-    delta, delta_prime = natural_variations(pulled.moment_work, a)
-    exterior = substitute(forms.exterior(form.form, twins, delta, delta_prime), tangent)
-    varied, rate = _varied(lagrangian, pulled, a), _rate(form.form, pulled, a)
-    first = varying.step(
-        (
-            Equation(read("ϖ(X)"), add("L̃", varying.tree(excess))),
-            Equation(
-                read("δ(ϖ(X))"),
-                add(ACROSS, read("d/dt(ϖ(δy))"), varying.tree(varied - exterior - rate)),
-            ),
-        ),
-        say("extremal.action") + say("extremal.lifts"),
-        (5, 11),
-        lift,
-    )
+    first, across = extremal(varying, lagrangian, form.form, pulled.moment_work, a)
     summand, shown = _work(points, a)
-    across = varying.mark(varied) - rate
     balance = sum_over(summand, {a.m_i, a.r_i, a.F_i}, pulled.moments)
     second = working.step(
         (
@@ -81,9 +62,35 @@ def principle(
         ),
         say("dalembert.extremal") + say("dalembert.points"),
         (2, 5),
-        lift,
+        first.given,
     )
     return Principle(working.mark(across), (first, second))
+
+
+def extremal(
+    varying: Draft, lagrangian: Expr, form: Expr, work: Expr, a: Alphabet
+) -> tuple[Step, Expr]:
+    """The step ``extremal`` by L̃ and ϖ, with −dŨ(δg) = ``work``; and dϖ(δy, X) on lifts, as what
+    remains of the variation of L̃."""
+    twins, tangent = primes(a), tangent_of_lift(a)
+    onto = {x: tangent[y] for x, y in twins.items() if y in tangent}
+    excess = substitute(form, onto) - lagrangian
+    delta, delta_prime = natural_variations(work, a)
+    exterior = substitute(forms.exterior(form, twins, delta, delta_prime), tangent)
+    varied, rate = _varied(lagrangian, work, a), _rate(form, work, a)
+    step = varying.step(
+        (
+            Equation(read("ϖ(X)"), add("L̃", varying.tree(excess))),
+            Equation(
+                read("δ(ϖ(X))"),
+                add(ACROSS, read("d/dt(ϖ(δy))"), varying.tree(varied - exterior - rate)),
+            ),
+        ),
+        say("extremal.action") + say("extremal.lifts"),
+        (5, 11),
+        [Equation(("call", p.d_position.name, "X"), p.velocity.name) for p in a.parts],
+    )
+    return step, varying.mark(varied) - rate
 
 
 def tangent_of_lift(a: Alphabet) -> dict[Letter, Expr]:
@@ -94,19 +101,19 @@ def tangent_of_lift(a: Alphabet) -> dict[Letter, Expr]:
     return tangent
 
 
-def _varied(lagrangian: Expr, pulled: Pullback, a: Alphabet) -> Expr:
+def _varied(lagrangian: Expr, work: Expr, a: Alphabet) -> Expr:
     """δ(L̃ dt) / dt through lifts: ν = dg/dt, whose variation is d(δg)/dt − ν d(δt)/dt."""
     later = word(LATER)
-    delta = {a.U: word(a.dU_dt) * word(a.dt) - pulled.moment_work}
+    delta = {a.U: word(a.dU_dt) * word(a.dt) - work}
     for p in a.parts:
         delta[p.position] = word(p.d_position)
         delta[p.velocity] = word(p.second) - word(p.velocity) * later
     return derivation(lagrangian, delta.get) + lagrangian * later
 
 
-def _rate(form: Expr, pulled: Pullback, a: Alphabet) -> Expr:
+def _rate(form: Expr, work: Expr, a: Alphabet) -> Expr:
     """d/dt of ϖ(δy) along a lift."""
-    along = substitute(pulled.moment_work, {p.d_position: word(p.velocity) for p in a.parts})
+    along = substitute(work, {p.d_position: word(p.velocity) for p in a.parts})
     rate = {a.U: word(a.dU_dt) - along, a.dt: word(LATER)}
     for p in a.parts:
         rate |= {p.position: word(p.velocity), p.velocity: word(p.acceleration)}

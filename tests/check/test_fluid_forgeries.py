@@ -26,7 +26,21 @@ WITHOUT = {
     "the integral of a field": (("call", "∫", "u"), 0, "over the points"),
     "the variation of u": (("call", "δ", "u"), "u", "δ is of η′, G and ρ"),
     "the rate of a field": (("call", "d/dt", "u"), "u", "d/dt is of a scalar product"),
-    "the rate of a product": (("call", "d/dt", ("inner", "u", "η")), 0, "the rates of u and ϑ"),
+    "the rate of a product": (
+        ("call", "d/dt", ("inner", "u", "η")),
+        0,
+        "the rates of u and ϑ, of Γu and γ_s",
+    ),
+    "Γ₀ in space": (("mul", "Γ_0", "u"), "u", "Γ₀ is of what is over the points"),
+    "Γ over the points": (("mul", "Γ", "ν"), "u", "Γ of what is in space"),
+    "∂_s in space": (("mul", "∂_s", "u"), "u", "∂_s is of what is along the curve"),
+    "κ without a level": (("mul", "κ", "u"), "u", "which must be given"),
+    "the tangent in space": (
+        ("inner", "u", "γ_s"),
+        0,
+        "a function over the points and one in space",
+    ),
+    "the curve in space": (("mul", "Γ", "u"), "u", "one side is over the points"),
     "a metric": (("call", "d/dt", ("metric", "D", "u", "ϑ")), 0, "the metric is the density"),
     "along a function": (("mul", ("nabla", "p"), "u"), "u", "a field is expected"),
     "along ν": (("mul", ("nabla", "ν"), "u"), "u", "∇ is along a field in space"),
@@ -36,6 +50,15 @@ WITHOUT = {
     "a field and a function": ("u", "p", "two kinds"),
     "over the points and in space": ("ν", "u", "one side is over the points"),
 }
+
+
+def test_densities_are_not_multiplied():
+    """ρ − 1 is small where it is tried, and its cube less than can be seen."""
+    cube = Equation(("mul", NOTHING, NOTHING, NOTHING), 0)
+    forged = replace(DENSE["inhomogeneous_fluid.pressure"], equations=(cube,))
+    found = FluidChecker(DENSE.problem, SEED).check(forged)
+    assert not found.holds
+    assert "more densities" in found.reason
 
 
 def verdict(step):
@@ -51,6 +74,8 @@ def test_what_has_no_meaning_is_refused(case):
 
 
 EQUATION = STEP.equations[-1]
+DENSE = record("inhomogeneous_fluid")
+NOTHING = ("add", "ρ", ("mul", -1, ("one",)))
 STEPS = {
     "another scope": (replace(STEP, scope="SO(3)"), "about its group"),
     "with inputs": (replace(STEP, driven=True), "without inputs"),
@@ -61,6 +86,14 @@ STEPS = {
         "the acceleration of the motion",
     ),
     "some u": (replace(STEP, equations=(replace(EQUATION, exists=("u",)),)), "is the pressure"),
+    "δ′ beside a lift": (
+        replace(D["ideal_fluid.dalembert"], equations=(Equation(("call", "ϖ", "δ′y"), 0),)),
+        "a form is of a variation δy, δ′y or X",
+    ),
+    "X twice": (
+        replace(D["ideal_fluid.dalembert"], equations=(Equation(("call", "dϖ", "X", "X"), 1),)),
+        "the sides differ",
+    ),
     "an inverse": (
         replace(STEP, equations=(Equation(("mul", ("inv", "D"), "u"), "u"),)),
         "something else than the density",

@@ -235,7 +235,8 @@ FALSE = {
 
 WHY = {
     "not principal": "no value for 'λ'",
-    "no point": "δ is of r_i(t), g(r), ξ′, η′, L̃, ϖ(X), 𝒥_i or 𝒜_i(ξ′), not of vᵢ(t)",
+    "no point": "δ is of r_i(t), g(r), ξ′, η′, L̃, L_d, U_0, U_1, ϖ(X), 𝒥_i or 𝒜_i(ξ′), "
+    "not of vᵢ(t)",
     "no time": "ω is of a variation δx or δ′x, at constant time, not of δy",
     "another basis": "the basis is not that of SO(3)",
     "no value of an index": "not that of the same members",

@@ -19,9 +19,8 @@ from derive.validate.emission import EmittedFiles
 from tests.support.walks import FLUIDS, problem, record, repeated
 from tests.symmetries.test_trajectories import NAMES, SHORT, start
 
-WITHOUT = ("jelly", "linear", "affine", "zeitlin", "riemann_ellipsoid", *FLUIDS)
-"""With damping, about any group, or without matrices; on the torus see test_torus,
-of a body under its own gravity test_self_gravity."""
+WITHOUT = ("jelly", "linear", "affine", "zeitlin", *FLUIDS)
+"""With damping, about any group, or without matrices; on the torus see test_torus."""
 FORMS = {
     "plain": {},
     "by_columns": {"layout": "col"},

@@ -24,7 +24,7 @@ from tests.support.languages import (
 from tests.support.needs import CC, need
 from tests.support.read_julia import Module, Numbers
 
-ALL = ("state", "inputs", "parameters")
+ALL = ("state", "inputs", "parameters", "raw")
 RUST_LIBRARY = ("--crate-type=lib", "--emit=metadata", "-Dwarnings")
 BARE = Problem(  # nothing but numbers: no parameter, no constant, no input
     "bare",
@@ -41,7 +41,7 @@ PROBLEMS = {
     "two_tops": (ALL[0], ALL[2]),
     "sl3": ALL[:1],
     "saff3": ALL[:1],
-    "riemann_ellipsoid": (),
+    "riemann_ellipsoid": (ALL[0], *ALL[2:]),
     "bare": ALL[:1],
 }
 """Which are linearised in what; three in the state alone, for the sake of time."""

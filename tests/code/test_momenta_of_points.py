@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 
 import derive
 from derive.code.assemble import assemble
@@ -114,6 +115,24 @@ def test_what_the_motion_keeps_in_momenta():
     vertical = (run.y[6:9] * run.y[9:]).sum(0)
     for kept in (energy, vertical):
         assert np.ptp(kept) < 1e-9 * max(1, np.abs(kept).max())
+
+
+@pytest.mark.parametrize("name", ["so3", "se3"])
+def test_a_quaternion_turns_by_the_velocity_of_the_momenta(name):
+    """q̇ = ½q(0, ζ), the rest as with a matrix."""
+    rng, turned = np.random.default_rng(5), Rotation.from_rotvec([0.3, -1.1, 0.7])
+    shift, velocity = rng.normal(size=3 * (name == "se3")), rng.normal(size=3 + 3 * (name == "se3"))
+    q = turned.as_quat()[[3, 0, 1, 2]]
+    by_matrix = derive.compile(name, momenta=True)
+    f = derive.compile(name, momenta=True, attitude="quaternion")
+    y = f.momentum(0.0, np.concatenate([q, shift, velocity]))
+    whole = np.concatenate([turned.as_matrix().ravel(), shift, velocity])
+    other = by_matrix.momentum_rhs(0.0, by_matrix.momentum(0.0, whole))
+    found = f.momentum_rhs(0.0, y)
+    w, z = q[0], velocity[:3]
+    rate = np.array([-q[1:] @ z, *(w * z + np.cross(q[1:], z))]) / 2
+    assert found[:4] == pytest.approx(rate, abs=1e-14)
+    assert found[4:] == pytest.approx(other[9:], abs=1e-12)
 
 
 @pytest.fixture(scope="module")

@@ -16,8 +16,8 @@ from tests.support.needs import need, needs
 
 GROUPS = ("so3", "se3", "sl3", "saff3", "two_tops", "screw", "jelly", "heisenberg", "so4")
 TURNING = ("so3", "se3")
-ALL = ("state", "inputs", "parameters")
-WITHOUT_INPUTS = ("state", "parameters")
+ALL = ("state", "inputs", "parameters", "raw")
+WITHOUT_INPUTS = ("state", "parameters", "raw")
 
 
 @pytest.fixture(scope="module")
@@ -199,6 +199,19 @@ def test_the_jacobian_is_the_derivative(name, options, emitted):
         slope = plain.rhs(0.3, faster, k, u).imag[-d:] / h
         assert np.allclose(D[d:, d + a], slope, rtol=1e-9, atol=1e-9 * np.abs(D).max())
     assert np.array_equal(D[:d, d:], np.eye(d))
+
+
+@pytest.mark.parametrize(("name", "options"), DERIVED)
+def test_the_raw_jacobian_is_the_derivative_by_the_numbers_of_the_state(name, options, emitted):
+    """Against complex steps of rhs, off the group as well."""
+    p = state(module_of(emitted, name))[0]
+    module = module_of(emitted, name, jacobian=ALL, **options)
+    draw, h = np.random.default_rng(5), 1e-30
+    x, u = draw.normal(size=len(module.STATE)), draw.normal(size=len(module.INPUTS))
+    k = module.constants(p)
+    D = module.jacobian_raw(0.3, x, k, u)
+    slopes = [module.rhs(0.3, x + 1j * h * e, k, u).imag / h for e in np.eye(len(x))]
+    assert np.allclose(D, np.transpose(slopes), rtol=1e-9, atol=1e-9 * np.abs(D).max())
 
 
 @pytest.mark.parametrize("name", GROUPS)

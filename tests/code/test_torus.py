@@ -1,5 +1,7 @@
 """The emitted code of a fluid on the torus: C, Python and plain sums; what is kept; languages."""
 
+import re
+import subprocess
 from functools import cache
 
 import numpy as np
@@ -14,6 +16,7 @@ from derive.problem.toml import problem_of
 from tests.oracles import torus
 from tests.support.emitted import compile_c, import_python
 from tests.support.languages import BUILDS, OTHERS, REFERENCE, Emitted, agree
+from tests.support.motions import LANGUAGES, follow
 from tests.support.needs import CC, need
 
 FILE = """
@@ -110,6 +113,33 @@ def test_one_header_and_a_prefix(tmp_path):
     assert not (tmp_path / "flow.c").exists()
 
 
+def test_the_header_speaks_of_a_fluid(tmp_path):
+    derive(fluid(9)).emit(tmp_path, ("c",), "plain")
+    derive(fluid(9)).emit(tmp_path, ("c",), "traced", conserved=True)
+    plain, traced = ((tmp_path / f"{x}.h").read_text("utf-8") for x in ("plain", "traced"))
+    assert "trace_k" in traced
+    assert "trace_k" not in plain
+    for text in (plain, traced):
+        assert "/* Kinetic energy, its mean over the torus. */" in text
+        assert "h e_j = e_(j-1)" in text
+
+
+def test_the_shift_of_the_header_has_its_bracket():
+    """h e_j = e_(j-1), as the head of a file says, and not the other one."""
+    N = 7
+    w, j = np.exp(2j * np.pi / N), np.arange(N)
+    for step, holds in ((-1, True), (1, False)):
+        g, h = np.diag(w ** (2 * j)), np.eye(N)[:, (j + step) % N]
+        assert np.array_equal(h @ np.eye(N)[2], np.eye(N)[2 + step])
+        T = {
+            (a, b): w ** (a * b) * np.linalg.matrix_power(g, a) @ np.linalg.matrix_power(h, b)
+            for a, b in ((1, 2), (3, 1), (4, 3))
+        }
+        found = T[1, 2] @ T[3, 1] - T[3, 1] @ T[1, 2]
+        expected = -2j * np.sin(2 * np.pi * (1 * 1 - 2 * 3) / N) * T[4, 3]
+        assert np.allclose(found, expected) == holds
+
+
 def test_written_out_up_to_five():
     found = {N: program(fluid(N), walk(fluid(N))) for N in (3, 5, 7)}
     assert [bool(p.loops) for p in found.values()] == [False, False, True]
@@ -127,7 +157,7 @@ REFUSED = (
 )
 
 
-@pytest.mark.parametrize("option", [*REFUSED, "--validate"])
+@pytest.mark.parametrize("option", REFUSED)
 def test_what_is_not_written_is_one_line(option, tmp_path, capsys):
     path = tmp_path / "fluid.toml"
     path.write_text(FILE.format(N=9), encoding="utf-8")
@@ -137,3 +167,54 @@ def test_what_is_not_written_is_one_line(option, tmp_path, capsys):
     assert len(err.splitlines()) == 1
     assert option.split()[0] in err
     assert not out.exists()
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_vorticity_is_measured_as_one(language, tmp_path):
+    """Of a smooth flow, whose least modes are nothing but rounding, a tolerance is kept by steps
+    that its order makes, not by those that rounding would."""
+    N, T = 11, 1.0
+    rng = np.random.default_rng(5)
+    squares = np.array([a * a + b * b for a, b in torus.half_plane(N)]).repeat(2)
+    x = np.exp(-2 * squares) * rng.normal(size=N * N - 1)
+    derive(fluid(N)).emit(tmp_path, (language,), step=("vern9",))
+    commands = [("vern9_to", T, 1e-9), ("begin", 0, 0), ("vern9_to", T, 1e-12)]
+    coarse, _, fine = follow(language, tmp_path, f"fluid{N}", commands, x)
+    path = solve_ivp(lambda t, y: torus.rates(N, y), (0, T), x, "DOP853", rtol=1e-13, atol=1e-15)
+    for end, tol in ((coarse, 1e-9), (fine, 1e-12)):
+        assert end.status == 0
+        assert np.abs(end.x - path.y[:, -1]).max() < 20 * tol * np.abs(x).max()
+    assert 1 <= coarse.h / fine.h < 6  # 1000^(1/9) = 2.2, but for where the last step ends
+
+
+def test_the_header_says_what_memory_a_step_takes(tmp_path):
+    """Without optimisation, in a process that has no more stack than that."""
+    need("cc")
+    derive(fluid(31)).emit(tmp_path, ("c",), step=("gauss", "vern9"))
+    head = (tmp_path / "fluid31_steps.h").read_text(encoding="utf-8")
+    motion, within = map(int, re.findall(r"(\d+) kB", head))
+    rhs = int(re.search(r"(\d+) kB", (tmp_path / "fluid31.h").read_text(encoding="utf-8"))[1])
+    (tmp_path / "main.c").write_text(MEMORY, encoding="utf-8")
+    command = [CC, "-O0", "main.c", "fluid31.c", "-o", "main", "-lm"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    command = f"ulimit -s {within + rhs + 128} && ./main"
+    done = subprocess.run(["sh", "-c", command], cwd=tmp_path, check=True, capture_output=True)
+    assert abs(motion - int(done.stdout) / 1024) < 0.02 * motion
+
+
+MEMORY = """
+#include "fluid31_steps.h"
+#include <stdio.h>
+static fluid31_motion m;
+static double x[fluid31_N_STATE];
+int main(void)
+{
+    double k[fluid31_SIZE_K], nothing[1] = {0};
+    x[0] = x[61] = 1;
+    fluid31_constants(nothing, k);
+    fluid31_begin(&m, 0, x);
+    printf("%d\\n", (int)sizeof m);
+    return fluid31_gauss_to(&m, k, nothing, 0.1, 1e-9)
+        || fluid31_vern9_to(&m, k, nothing, 0.2, 1e-9);
+}
+"""

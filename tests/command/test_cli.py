@@ -108,7 +108,7 @@ def test_bad_prefixes(prefix, capsys, tmp_path):
 
 
 def test_nothing_to_emit(capsys):
-    assert "nothing to emit" in refused(capsys, "emit", "linear")
+    assert "no numeric code" in refused(capsys, "emit", "linear")
 
 
 @needs("cc")

@@ -154,7 +154,7 @@ def small_disk(tmp_path):
     if shutil.which("mount") is None or subprocess.run(command, capture_output=True).returncode:
         pytest.skip("no tmpfs may be mounted here")
     yield disk
-    subprocess.run(["umount", str(disk)], check=True)
+    subprocess.run(["umount", "-l", str(disk)], check=True)
 
 
 def test_a_full_disk(small_disk, refused):
@@ -245,4 +245,4 @@ def test_a_build_on_a_disk_that_fills_up(tmp_path):
         written = [x for x in disk.rglob("*") if x.is_file()]
         assert sorted(map(str, written)) == sorted(lines[:-1])
     finally:
-        subprocess.run(["umount", str(disk)], check=True)
+        subprocess.run(["umount", "-l", str(disk)], check=True)

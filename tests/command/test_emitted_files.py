@@ -7,7 +7,7 @@ import pytest
 
 from derive import SE, Gravity, Points, Problem, derive
 from derive.code.languages import LANGUAGES
-from derive.code.options import CHOICES, JACOBIANS, Options
+from derive.code.options import CHOICES, REPEATED, Options
 from derive.code.request import EmissionRequest, request_of
 from derive.command.cli import main
 
@@ -152,7 +152,7 @@ def test_python_states_the_same(tmp_path):
 
 @pytest.mark.parametrize("values", [*itertools.product(*(x[0] for x in CHOICES.values()))])
 def test_what_is_stated_is_read_back(values):
-    for jacobian in ((), JACOBIANS):
+    for jacobian in ((), REPEATED["jacobian"][0]):
         for allowed in ((), ("mass",), ("mass", "stiffness")):
             options = Options(**dict(zip(CHOICES, values, strict=True)), jacobian=jacobian)
             e = EmissionRequest("boat", "a_long_prefix", (*LANGUAGES,), options, allowed)

@@ -10,6 +10,8 @@ import pytest
 from derive import SE, Damping, Force, Gravity, Moments, Points, Problem, Solid, Spring
 from derive.command.cli import COMMANDS, main
 from derive.language.values import approximate
+from derive.motion.run import Column, Run
+from derive.motion.run_files import written
 from derive.problem.data import data
 from derive.problem.problem import ProblemError
 from derive.problem.toml import load
@@ -144,7 +146,12 @@ def test_every_command_may_be_stopped(command, tmp_path, capsys, monkeypatch):
     needed = {
         "notes": ["so3", "--out", str(tmp_path / "n.html")],
         "build": ["--out", str(tmp_path)],
+        "simulate": ["so3", "--t", "1", "--set", "zeta_1=1"],
+        "plot": [str(tmp_path / "run.csv"), "--out", str(tmp_path / "run.svg")],
     }
+    columns = Column("t", "time"), Column("A_11", "state")
+    run = written(Run(columns, np.zeros((2, 2))), "run.csv")
+    (tmp_path / "run.csv").write_bytes(run)
     needed |= {x: ["so3"] for x in ("walk", "emit", "check", "symmetries")}
     needed |= {x: ["gyrostat"] for x in ("integrals", "equilibria", "reduction")}
     words = needed.get(command, [])
@@ -178,6 +185,40 @@ def test_a_negative_stiffness(where, command, tmp_path, capsys):
     assert f"{where} is negative; correct it, or allow it with --allow-negative-stiffness" in told
     assert main([*words, "--allow-negative-stiffness"]) == 0
     assert f"derive: warning: {path}: {where} is negative\n" in capsys.readouterr().err
+
+
+ELLIPSOID = """
+name = "liquid"
+group = "SL(3)"
+[body]
+solid = "ellipsoid"
+density = "{}"
+semi_axes = [2, 1, 1]
+[[potential]]
+kind = "self_gravity"
+G = {}
+"""
+
+
+def test_a_negative_constant_of_gravitation(tmp_path, capsys):
+    path = tmp_path / "liquid.toml"
+    path.write_text(ELLIPSOID.format(1, -1))
+    assert main(["walk", str(path)]) == 2
+    assert "potential 1: key 'G' is negative; correct it" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("density", "words"),
+    [
+        ("1 - s/2", "the density of this body depends on the level s; give it one without s"),
+        ("1 - 3*s/2", "ellipsoid at the level s = 43/64, though not at 21/32, is negative"),
+    ],
+)
+def test_a_density_in_layers_is_told(density, words, tmp_path, capsys):
+    path = tmp_path / "liquid.toml"
+    path.write_text(ELLIPSOID.format(density, 1))
+    assert main(["walk", str(path)]) == 2
+    assert words in capsys.readouterr().err
 
 
 def test_a_negative_stiffness_from_python():
@@ -280,6 +321,7 @@ def table(key, **fields):
 
 
 FORCE = {"kind": "force", "name": "f"}
+KNOWS_T = "'t' is known in the 'U' of an expression, the 'E' of a field and the 'U' of a volume"
 ALMOST = [
     (("potential", {"kind": "sprng"}), "did you mean 'spring'?"),
     (("potential", {"kind": "spring", "stifness": 1}), "'stifness'; did you mean 'stiffness'?"),
@@ -293,7 +335,7 @@ ALMOST = [
         "damping 1, on: expected an integer from 1",
     ),
     (("damping", {"coefficient": 1, "on": []}), "damping 1: key 'on' must be a point or a list"),
-    (("damping", {"coefficient": "t"}), "'t' is known in the 'U' of an expression and the 'E'"),
+    (("damping", {"coefficient": "t"}), KNOWS_T),
 ]
 
 

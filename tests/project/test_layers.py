@@ -29,6 +29,24 @@ ALLOWED = {
     "reduction": {
         *("reduction", "symmetries", "walk", "record", "problem", "algebra", "language"),
     },
+    "native": {"native"},
+    "motion": {
+        *(
+            "motion",
+            "native",
+            "code",
+            "figure",
+            "problem",
+            "record",
+            "algebra",
+            "schema",
+            "language",
+        ),
+    },
+    "plot": {"plot", "motion", "language"},
+    "page": {
+        *("page", "views", "figure", "motion", "code", "problem", "record", "algebra", "language"),
+    },
     "validate": {"validate", "check", "record", "algebra", "language"},
 }
 BOTH_SIDES = {"pipeline.py", "python", "command", "__init__.py", "__main__.py"}
@@ -112,6 +130,7 @@ NOT_OURS = {
     "cmath",
     "collections",
     "dataclasses",
+    "decimal",
     "fractions",
     "functools",
     "itertools",

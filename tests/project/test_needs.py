@@ -16,8 +16,12 @@ ROOT = Path(__file__).parents[2]
 
 
 def run(path, *tests):
-    """What pytest prints of these tests with that PATH."""
-    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", *tests]
+    """What pytest prints of these tests with that PATH.
+
+    Warnings aside: what other runs left in the folder of temporary files would add some.
+    """
+    without = ["-p", "no:cacheprovider", "-p", "no:warnings"]
+    command = [sys.executable, "-m", "pytest", *without, *tests]
     done = subprocess.run(
         command, cwd=ROOT, env=environment() | {"PATH": str(path)}, capture_output=True, text=True
     )

@@ -53,6 +53,8 @@ def test_other_parameters():
     assert f.use({"c_3": 0.5}).p[2] == 0.5
     with pytest.raises(ValueError, match="unknown parameters zz"):
         f.use({"zz": 1})
+    with pytest.raises(ValueError, match=r"unknown parameters c3; did you mean 'c_3'\?"):
+        f.use({"c3": 1})
     with pytest.raises(ValueError, match="no body"):
         f.use([0.0] * len(f.PARAMETERS))
     group = derive.SO(3)
@@ -60,6 +62,20 @@ def test_other_parameters():
     free = derive.compile(bare)
     with pytest.raises(ValueError, match="no value for the parameters c_1"):
         free.use()
+
+
+def test_a_parameter_of_the_start_alone(tmp_path):
+    """It is declared, and no equation has it."""
+    path = tmp_path / "spin.toml"
+    path.write_text(
+        'name = "spin"\ngroup = "SO(3)"\n[parameters]\nw = 2.0\na = 1.0\n[body]\n'
+        'given = { m = 1, c = [0, 0, 0], J = [["a", 0, 0], [0, 1, 0], [0, 0, 1]] }\n'
+        '[initial]\nzeta_3 = "w"\n'
+    )
+    for f in (derive.compile(path), pickle.loads(pickle.dumps(derive.compile(path)))):
+        with pytest.raises(ValueError, match=r"do not have w, .* as \[initial\]: leave it out"):
+            f.use({"w": 3, "a": 2})
+        assert f.use({"a": 2}).p.tolist() == [2]
 
 
 def test_it_says_what_is_missing(top):
@@ -72,6 +88,9 @@ def test_it_says_what_is_missing(top):
         top.jacobian_inputs(0, START)
     with pytest.raises(derive.ProblemError, match="leave out"):
         derive.compile("so3", form="header")
+    for step in ("rk5", "gauss_jax", ("gauss", "gauss_jax")):
+        with pytest.raises(derive.ProblemError, match=r"among gauss, rk4, vern9, discrete$"):
+            derive.compile("so3", step=step)
     with pytest.raises(derive.ProblemError, match="lang"):
         derive.compile("so3", lang="c")
     with pytest.raises(derive.CompileError, match="'nocc' is not on the path"):

@@ -128,8 +128,10 @@ def joined(tokens, known):
         if (kind, value) == ("sub", [("name", "n")]) and found[-1:] == [("word", "∂")]:
             found[-1] = ("name", "∂ₙ")
             continue
+        if (kind, value) == ("sub", [("name", "s")]) and found[-1:] == [("word", "∂")]:
+            found[-1] = ("name", "∂")  # along a curve
         if kind == "bar":
-            inner = joined(value, known)
+            inner = [("name", "∂")] if value == [("word", "∂")] else joined(value, known)
             alone = len(inner) == 1 and inner[0][0] == "name"
             value = ("T", inner[0][1] if alone else parsed(inner, known, raw=False))
             kind = "barred" if alone else "tree"

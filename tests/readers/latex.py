@@ -14,6 +14,8 @@ LETTERS = {rf"\{x}": letter for x, letter in GREEK.items()} | {
     r"\variation": "δ",
 }  # fmt: skip
 WORDS = {r"\Tr": "Tr", r"\sum": "Σ", r"\int": "∫", r"\det": "det", r"\dd": "d", r"\partial": "∂"}
+WORDS |= {rf"\{x}": x for x in ("cos", "cosh", "exp", "log", "sin", "sinh", "tan", "tanh")}
+WORDS |= {r"\arctan": "atan"}
 OPERATORS = {r"\wedge": "∧", r"\cdot": "·", r"\top": "⊤"}
 OPERATORS |= {c: c for c in "+-=/,;"}
 BRACKETS = {r"\langle": "⟨", r"\rangle": "⟩"} | {c: c for c in "()[]"}

@@ -158,7 +158,8 @@ def page(text, known, labels):
 
 
 SAID = re.compile(
-    r"(?:^|  |, )(?:for every|for some|\(a parameter\)|pour tou|pour un|\(un paramètre\)).*$"
+    r"(?:^|  |, )"
+    r"(?:for every|for some|along the motion|pour tou|pour un|le long du|\((?:a|un) param).*$"
 )
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from derive.check.checker import Checker, check
+from derive.language.show import show
 from derive.language.tree import mul
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
@@ -53,6 +54,13 @@ def test_every_corruption_is_refused(name):
             continue  # there −d𝒜 is d𝒜, too
         for kind, wrong, verdict in tried(step, checker):
             assert not verdict.holds, (step.label, kind, wrong)
+
+
+def test_what_is_0_by_the_choice_of_horizontal_velocities_does_not_stand_in_the_routhian():
+    """b(A₃₁ζ_h₁ + A₃₂ζ_h₂) is 0 where ζ_h is orthogonal to a turn about the vertical."""
+    (own,) = [s for s in shown(reduced("turned").record) if s.label.endswith(".effective")]
+    *_, whole = own.equations
+    assert show(whole.rhs) == "ζ_h₁² + ζ_h₂² − 𝒱"
 
 
 def test_other_fields_are_refused():

@@ -120,3 +120,14 @@ def test_the_walk_imports_nothing_of_it():
         "sys.exit(any(x.startswith(('sympy', 'derive.reduction')) for x in sys.modules))"
     )
     assert subprocess.run([sys.executable, "-c", code], capture_output=True).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "left"),
+    [("top", True), ("spherical_pendulum", True), ("charged_body", False), ("two_tops", False)],
+)
+def test_where_a_configuration_is_left_as_it_is(capsys, name, left):
+    """Upright, by a turn of space and one of the body; by turns of space alone never."""
+    words = " ".join(said(capsys, name, "effective").out.split())
+    assert ("elsewhere a motion along the symmetries leaves" in words) == left
+    assert ("No motion along the symmetries leaves" in words) != left

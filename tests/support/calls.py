@@ -68,7 +68,7 @@ def calls(header, prefix, sizes):
 def size(array, function, sizes):
     """How many numbers an array has that a function writes."""
     if array == "D":
-        rows = 2 * sizes["ALGEBRA"]
+        rows = sizes["STATE"] if function == "jacobian_raw" else 2 * sizes["ALGEBRA"]
         return rows * (sizes[COLUMNS[function]] if function in COLUMNS else rows)
     if function == "conserved":
         return sizes["CONSERVED"]
@@ -156,7 +156,7 @@ def in_julia(call, module, values, u):
     inputs = {"u": values["u"]} if u and "u" in call.takes else {}
     if not call.writes:
         return [module.call(call.name, *time, *given, **inputs)]
-    rows = 2 * module.names["N_ALGEBRA"]
+    rows = module.names["N_STATE"] if call.name == "jacobian_raw" else 2 * module.names["N_ALGEBRA"]
     if call.name == "poisson":
         rows = module.names["N_REDUCED"]
     squares = ("D", "out") if call.name == "poisson" else ("D",)

@@ -57,6 +57,7 @@ ELSEWHERE = {
     for module, project in {
         "array_api_compat": "array-api-compat",
         "array_api_strict": "array-api-strict",
+        "distributed": "distributed",
         "ipykernel": "ipykernel",
         "jax": "jax",
         "nbclient": "nbclient",
@@ -66,6 +67,8 @@ ELSEWHERE = {
         "scipy": "scipy",
         "sksundae": "scikit-sundae",
         "torch": "torch",
+        "matplotlib": "matplotlib",
+        "pyarrow": "pyarrow",
         "trimesh": "trimesh",
     }.items()
 }

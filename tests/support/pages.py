@@ -47,7 +47,13 @@ NEEDED = {
     "meson": ("meson", "ninja", "cc"),
 }
 """What a command needs that Python does not bring."""
-IMPORTED = {"from scipy": "the module scipy", "derive.compile": "cc"}
+IMPORTED = {
+    "from scipy": "the module scipy",
+    "import dask": "the module distributed",
+    "derive.compile": "cc",
+    "import jax": "the module jax",
+    "ensemble=": "cc",
+}
 MARK = "-- the next part --"
 TARGETS = re.findall(r"^([a-z]+):.*##", (ROOT / "Makefile").read_text(encoding="utf-8"), re.M)
 GIVEN = ("pip install ", ". .venv/bin/activate")
@@ -122,7 +128,9 @@ class Reader:
             words = shlex.split(line)
             if line.startswith(GIVEN) or (words[0] == "make" and self.of_the_project(words[1])):
                 continue
-            absent = missing([*NEEDED.get(words[0], ()), *(["pdflatex"] if ".pdf" in line else [])])
+            asked = {"pdflatex": ".pdf", "cc": "--ensemble"}
+            of_options = [need for need, word in asked.items() if word in line]
+            absent = missing([*NEEDED.get(words[0], ()), *of_options])
             self.absent |= {*absent}
             if absent or (self.absent and self.unmade(words[0])):
                 left = True

@@ -136,7 +136,7 @@ MUTATIONS = {
     "MathML: rows run together": (
         TYPESET, 'body = "".join(f"<mtr>{x}</mtr>" for x in cells)', 'body = "".join(cells)'),
     "names: the prefix of a variation lost": (
-        NAMES, 'return _whole(tex, found["lead"], letter', 'return _whole(tex, "", letter'),
+        NAMES, 'whole = _whole(tex, found["lead"], letter', 'whole = _whole(tex, "", letter'),
     "names: an index lost under a bar": (
         NAMES, "return _whole(whole, lead, letter, primes, below)",
         'return _whole(whole, lead, letter, primes, "")'),

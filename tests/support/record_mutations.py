@@ -26,13 +26,13 @@ TWINS = {
 There some changes give other true equations; of a body and forces in general position, none."""
 
 
-def twin(name):
+def twin(name, road=walk):
     """The record of a ready-made problem with its body and forces in general position."""
     text = (READY / f"{name}.toml").read_text(encoding="utf-8")
     for old, new in TWINS[name]:
         assert old in text
         text = text.replace(old, new)
-    return walk(problem_of(tomllib.loads(text)))
+    return road(problem_of(tomllib.loads(text)))
 
 
 def without_term(k):

@@ -23,6 +23,15 @@ OWN = {
             "trivialisation": "right",
         },
     },
+    # charges in a field along the vertical, their mean motion as the momentum of a turn about it
+    "turned": {
+        "group": "SO(3)",
+        "parameters": {"b": {}},
+        "lagrangian": {
+            "L": "zeta_1^2 + zeta_2^2 + 2*zeta_3^2 - A_33"
+            " + b*(A_31*zeta_1 + A_32*zeta_2 + A_33*zeta_3)",
+        },
+    },
     # a wheel: no freedom is left
     "wheel": {"group": AXIS, "parameters": {"I": {}}, "lagrangian": {"L": "I*zeta_1^2/2"}},
     # a potential that is no polynomial, in a field that changes in time

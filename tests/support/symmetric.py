@@ -48,6 +48,28 @@ FILES = {
         "group": "SO(3)",
         "lagrangian": {"L": "zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2 - t*A_11 - t^2*A_22*A_31"},
     },
+    "drop": {  # √det Q = √93/4
+        "group": "SL(3)",
+        "body": {
+            "solid": "ellipsoid",
+            "density": "rho",
+            "quadric": [[1, "1/4", 0], ["1/4", 2, 0], [0, 0, 3]],
+        },
+        "potential": [{"kind": "harmonic", "W": [["w^2", 0, 0], [0, "w^2", 0], [0, 0, 1]]}],
+    },
+    "roots": {
+        "group": "SL(3)",
+        "body": SOLID | {"solid": "ellipsoid", "semi_axes": ["sqrt(2)", 1, "2*sqrt(2)"]},
+    },
+    "turned": {
+        "group": "SL(3)",
+        "body": {
+            "solid": "ellipsoid",
+            "density": "rho*(1 - s/2)",
+            "semi_axes": ["R", 1, 1],
+            "rotation": {"axis": [0, 0, 1], "angle": "pi/4"},
+        },
+    },
     "landau": {
         "group": T3,
         "lagrangian": {"L": "m*(zeta_1^2 + zeta_2^2 + zeta_3^2)/2 + k*T_1*zeta_2"},
@@ -57,6 +79,9 @@ PARAMETERS = {
     "cone": SIZES,
     "ball": SIZES,
     "planet": {"m": 1.0, "k": 2.0},
+    "drop": {"rho": 1.0, "w": 2.0},
+    "roots": {"rho": 1.0},
+    "turned": {"rho": 1.0, "R": 2.0},
     "driven": {"k": 1.0, "w": 0.3},
     "landau": {"m": 1.0, "k": 2.0},
 }

@@ -9,7 +9,7 @@ from derive.command.cli import derive, ready_made
 from derive.record.contract import ANY_GROUP
 
 NAMES = ("linear", "affine", "so3", "se3", "sl3")
-FLUIDS = ("ideal_fluid", "inhomogeneous_fluid")
+FLUIDS = ("ideal_fluid", "inhomogeneous_fluid", "stratified_fluid")
 """Problems whose group has no matrices, and that have nothing to emit."""
 OTHERS = tuple(sorted({*ready_made()} - {*NAMES, *FLUIDS}))
 SPECIAL = ("so3", "se3", "sl3")

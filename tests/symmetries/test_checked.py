@@ -25,7 +25,6 @@ SHORT = (
         if x not in ("zeitlin", "euler_poisson", "jelly", "saff3", "sim3", "sp4", "gl3")
     ),
 )
-SHORT = tuple(x for x in SHORT if x != "riemann_ellipsoid")  # whose energy is an integral
 
 
 @pytest.mark.parametrize("name", FILES)

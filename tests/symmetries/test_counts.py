@@ -5,15 +5,21 @@ from collections import Counter
 import pytest
 
 from derive.command.cli import derive, ready_made
+from derive.language.expression import parse
 from derive.language.show import show
-from derive.pipeline import symmetries
+from derive.pipeline import symmetries, walk
 from derive.problem.problem import ProblemError
+from derive.problem.toml import problem_of
 from derive.record.sentence import english
+from derive.symmetries.parameter_values import ParameterValues
 from tests.support.symmetric import FILES, found
 from tests.support.walks import FLUIDS, problem, record
 
 SPACE = {"time": 1, "translation_space": 3, "rotation_space": 3, "boost": 3}
 """Galilei's group, with the time."""
+
+RELABELLED = {"time": 1, "rotation_space": 3, "deformation_body": 3}
+"""Of an ellipsoid: the linear maps of its body that keep its moments."""
 
 COUNTS = {
     "free": SPACE,
@@ -24,12 +30,13 @@ COUNTS = {
     "spatial": {
         **{"time": 1, "rotation_space": 3, "translation_body": 3, "rotation_body": 3, "moving": 3},
     },
+    "drop": RELABELLED | {"rotation_space": 1},
+    "roots": RELABELLED,
+    "turned": RELABELLED,
     "driven": {"rotation_body": 1, "both": 1},
     "none": {},
     "landau": {"time": 1, "translation_space": 3, "boost": 1, "rotation_alone": 1},
 }
-RELABELLED = {"time": 1, "rotation_space": 3, "deformation_body": 3}
-"""Of an ellipsoid: the linear maps of its body that keep its moments."""
 READY = {
     "charged_body": {"time": 1, "rotation_space": 1},
     "comet": {"time": 1, "rotation_space": 3},
@@ -43,6 +50,7 @@ READY = {
     "spherical_pendulum": {"time": 1, "rotation_space": 1},
     "dirichlet": RELABELLED,
     "gas_cloud": RELABELLED,
+    "riemann_ellipsoid": RELABELLED,
     "gl3": {"time": 1, "rotation_space": 3, "deformation_body": 1},
     "gyrostat": {"time": 1, "rotation_space": 1},
     "hammer": SPACE | {"rotation_space": 1},
@@ -62,8 +70,7 @@ READY = {
 }
 REFUSED = {
     "euler_poisson": "no element",
-    "zeitlin": "on the torus",
-    "riemann_ellipsoid": "self_gravity",
+    "zeitlin": "not written for the torus",
     "jelly": "damping",
     "linear": "any group",
     "affine": "any group",
@@ -127,3 +134,18 @@ def test_what_is_divided_out_is_told(name):
     assert ("modulo those along which L̃ has no kinetic energy" in said) == singular
     assert ("the quantity that they give is 0" in said) == singular
     assert "X₀" not in said
+
+
+def test_a_root_without_values_is_named():
+    given = {"L": "zeta_1^2 + zeta_2^2 + zeta_3^2 + sqrt(-A_11^2)*zeta_1"}
+    unreal = problem_of({"name": "unreal", "group": "SO(3)", "lagrangian": given})
+    with pytest.raises(ProblemError, match=r"at which √\(−A_11²\)|at which √\(−A₁₁²\)"):
+        symmetries(unreal, walk(unreal))
+
+
+def test_products_of_roots_of_numbers_are_kept():
+    """√2·√3 = √6 for the roots that are taken modulo a prime, whatever the signs."""
+    values = ParameterValues(parse("sqrt(2)*sqrt(3) - sqrt(6)"))
+    for p in values.primes:
+        drawn = {x: int(v[0]) for x, v in values.drawn(1, p, 1).items()}
+        assert values.at(parse("sqrt(2)*sqrt(3) - sqrt(6)"), drawn, p) == 0

@@ -12,15 +12,16 @@ from random import Random
 import pytest
 
 from derive.code.emit import emit
-from derive.code.options import Options
+from derive.code.languages import LANGUAGES
+from derive.code.options import REPEATED, Options
 from derive.command import emitting
 from derive.command.cli import main
 from derive.pipeline import program, walk
 from derive.problem.toml import problem_of
 from derive.validate.chart import Chart
-from derive.validate.compare import Comparison
+from derive.validate.compare import Agreement, Comparison
 from derive.validate.declarations import DiffersError
-from derive.validate.emission import EmittedFiles
+from derive.validate.emission import EmittedFiles, as_text
 from derive.validate.emitted_file import Machine
 from derive.validate.exact_points import Claims
 from derive.validate.literals import Literals
@@ -141,8 +142,26 @@ def test_every_form_of_the_state_and_the_jacobians_equal_the_record(name, chosen
         assert report.text.count("jacobian") == len(chosen.get("jacobian", ()))
 
 
+@pytest.mark.parametrize("step", [x for x in REPEATED["step"][0] if x in LANGUAGES["c"].steps])
+@pytest.mark.parametrize("name", ["so3", "dirichlet"])
+def test_python_with_steps_in_time_equals_the_record(name, step):
+    for read_back in reports(name, step=(step,)):
+        if read_back.read:
+            assert read_back.holds, read_back.text
+            assert "; a false pass has probability below" in read_back.text
+        python = read_back.files == (f"{name}.py",)
+        assert ("steps in time, which are not read back" in read_back.text) == (
+            python or read_back.files == (f"{name}_steps.h",)
+        )
+
+
 def test_the_principal_frame_is_said_not_to_be_validated():
     assert all("not validated" in r.text and r.holds for r in reports("so3", frame="principal"))
+
+
+def test_one_decimal_is_told_as_one():
+    told = as_text(Agreement(("rhs",), 1, 1e-30, ("0.5",), ()))
+    assert told.endswith("; 1 decimal is read as the number that it rounds: 0.5")
 
 
 def test_a_rounded_decimal_is_read_as_what_it_rounds_and_no_other_is():
@@ -413,6 +432,11 @@ HIDDEN = {
     "public function": ("return _evaluated(_rhs, ", "return -_evaluated(_rhs, "),
     "default": ("def rhs(t, x, k, u=None)", "def rhs(t, x, k, u=print())"),
     "data": ("ZEROS = (0.0,)", "ZEROS = (1.0,)"),
+    "data of steps": (
+        "OK, NOT_FINITE, NOT_CONVERGED = 0, 2",
+        "OK, NOT_FINITE, NOT_CONVERGED = 0, 1",
+    ),
+    "table of a method": ("_RK4 = _Explicit(\n    4", "_RK4 = _Explicit(\n    5"),
     "annotation": ("def _energy(xp, t, x, k, u):", "def _energy(xp, t, x, k, u: print()):"),
     "encoding": ('"""', '# coding: unicode_escape\n"""'),
     "carriage return": ("import math\n", "import math  #\rk = 1\n"),
@@ -421,13 +445,15 @@ HIDDEN = {
 
 @pytest.mark.parametrize("case", HIDDEN)
 def test_python_that_is_run_and_not_read_must_be_what_is_emitted(case):
-    files, numbers, chart = emitted("so3")
+    files, numbers, chart = emitted("so3", step=("rk4",))
+    files = {"so3.py": files["so3.py"]}
     old, new = HIDDEN[case]
     assert old in files["so3.py"]
     changed = {"so3.py": files["so3.py"].replace(old, new, 1)}
     (found,) = EmittedFiles(changed, "so3", chart, numbers, True, files).reports(record("so3"))
     assert not found.holds
-    assert EmittedFiles(files, "so3", chart, numbers, True, files).reports(record("so3"))[1].holds
+    (found,) = EmittedFiles(files, "so3", chart, numbers, True, files).reports(record("so3"))
+    assert found.holds
 
 
 @pytest.mark.parametrize("old", ["*n + s] =", "s < n"])

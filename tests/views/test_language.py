@@ -13,10 +13,11 @@ import pytest
 from derive import prose as texts
 from derive.command.cli import main, ready_made
 from derive.paper.printed import PAPER
-from derive.pipeline import symmetries, walk
+from derive.pipeline import discrete, symmetries, walk
 from derive.printing.escape import markdown_text, prose, tex_text
 from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
+from derive.record.discrete_names import DISCRETE
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.rules import RULES
@@ -99,7 +100,7 @@ def own_problems(folder):
     ]
 
 
-REACHING = ("gl3", "heisenberg", "screw", "spherical_pendulum")
+REACHING = ("gl3", "heisenberg", "riemann_ellipsoid", "screw", "spherical_pendulum")
 """Problems with symmetries that no other has."""
 TOLD = ("lagrange_top", "charged_body", "flat", "steep", "rod", "so3")
 """Reductions that together have all sentences."""
@@ -120,6 +121,18 @@ def records(tmp_path_factory):
     found += [x.record for x in (*every_case(), *every_equilibrium())]
     found += [symmetric.found(name).record for name in symmetric.FILES]
     found += [reduced(name).record for name in TOLD]
+    weight = {"kind": "gravity", "g": [0, 0, "-9.81"]}
+    whole = {"solid": "ellipsoid", "density": 1, "semi_axes": [3, 2, 1]}
+    for forces in ([weight], [weight, {"kind": "self_gravity", "G": 1}]):
+        own = {"name": "drop", "group": "SL(3)", "body": whole, "potential": forces}
+        found.append(walk(problem_of(own)))
+    layers = {"solid": "ellipsoid", "density": "2 - s", "semi_axes": [3, 2, 1]}
+    found.append(walk(problem_of({"name": "layers", "group": "SL(3)", "body": layers})))
+    small = {"algebra": {"of": "torus", "N": 3}, "inertia": {"operator": "laplacian"}}
+    found.append(walk(problem_of({"name": "small"} | small)))
+    found.append(walk(problem_of({"name": "well", "fluid": {"forces": "potential"}})))
+    in_steps = ("so3", "se3", "sl3", "gl3", "sp4", "jelly")
+    found += [discrete(walks.problem(name)) for name in in_steps]
     found += [symmetries(walks.problem(x), walks.record(x)).record for x in REACHING]
     return found + [walk(p) for p in own_problems(tmp_path_factory.mktemp("mesh"))]
 
@@ -153,6 +166,14 @@ def titles_and_meanings():
     given = [*(p for x in problems for p in x.parameters.values())]
     given += MomentBody(n=3).parameters().values()
     return {x.title for x in problems} | {p.meaning for p in given if p.meaning}
+
+
+def test_no_road_says_the_sentence_of_another():
+    """Label and name of a sentence are those of one road: a second would take its place."""
+    said_by = Counter(
+        (x, name) for road in texts.ROADS for x, named in road.items() for name in named
+    )
+    assert {key for key, count in said_by.items() if count > 1} == set()
 
 
 def test_the_english_of_an_entry_stands_once():
@@ -195,7 +216,7 @@ def test_every_word_of_the_tables_is_in_the_catalogue():
     assert set(SOLIDS) <= strings("walk/body.py")
 
 
-ROOMS = ("views", "figure", "walk", "walk/kinds")
+ROOMS = ("views", "figure", "plot", "page", "walk", "walk/kinds")
 SPEAKING = sorted([*(p for x in ROOMS for p in ROOT.glob(f"{x}/*.py"))])
 
 
@@ -218,9 +239,13 @@ def test_every_entry_is_used():
     sources = strings("walk/*.py", "walk/*/*.py", "record/*_names.py", "record/rules.py")
     sources |= strings("record/vocabulary.py")
     sources |= strings("record/contract.py")
-    sources |= strings("paper/findings.py", "views/*.py", "figure/*.py", "schema/kinds/*.py")
+    sources |= strings(
+        *("paper/findings.py", "views/*.py", "figure/*.py", "schema/kinds/*.py", "plot/*.py"),
+        *("page/*.py", "motion/kept_words.py"),
+    )
     sources |= {p.remark for p in PAPER if p.remark}
     used = sources | strings("pipeline.py") | titles_and_meanings()
+    used |= {x.meaning for table in DISCRETE.values() for x in table.values()}  # made of parts
     used |= {x["en"] for x in texts.entries()}  # tests/prose
     assert [x["en"] for x in ENTRIES if x["en"] not in used] == []
 

@@ -49,7 +49,6 @@ def test_notes_of_three_groups(options, said, tmp_path):
 @needs("pdflatex", "pdftoppm")
 def test_the_pdf_is_not_blank(said, tmp_path):
     said("notes", "so3", "--out", tmp_path / "notes.pdf")
-    assert (tmp_path / "notes.tex").exists()
     subprocess.run(["pdftoppm", "-r", "40", "-gray", "notes.pdf", "page"], cwd=tmp_path, check=True)
     pages = sorted(tmp_path.glob("page*.pgm"))
     assert len(pages) > 5
@@ -60,10 +59,14 @@ def test_the_pdf_is_not_blank(said, tmp_path):
 
 def test_without_tex_the_source_is_written(said, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", "")
+    (tmp_path / "notes.tex").write_text("of my own", encoding="utf-8")
     err = said("notes", "so3", "--out", tmp_path / "notes.pdf", code=2).err
     assert "no pdflatex" in err
     assert err.count("\n") == 1
-    assert [x.name for x in tmp_path.iterdir()] == ["notes.tex"]
+    assert str(tmp_path / "notes.pdf.tex") in err
+    assert sorted(x.name for x in tmp_path.iterdir()) == ["notes.pdf.tex", "notes.tex"]
+    assert (tmp_path / "notes.tex").read_text(encoding="utf-8") == "of my own"
+    assert "\\documentclass" in (tmp_path / "notes.pdf.tex").read_text(encoding="utf-8")
 
 
 def test_other_endings_are_refused(said, tmp_path):

@@ -46,9 +46,9 @@ def test_names_that_look_like_others_are_printed_apart(seed):
 
 def test_a_name_is_marked_only_where_it_would_be_read_as_another():
     letters = {"J", "c", "m", "d", "r"}
-    names = {"a", "b", "ab", "ac", "x_1", "J_12", "J", "m", "m_rod", "d_11", "j", "Tr", "mu"}
+    names = {"a", "b", "ab", "ac", "x_1", "J_12", "J", "m", "m_rod", "d_11", "j", "Tr", "mu", "G"}
     marked = unclear(letters, names, symbolic=True)
-    assert marked == {"ab", "ac", "J", "d_11", "j", "Tr"}
+    assert marked == {"ab", "ac", "J", "d_11", "j", "Tr", "G"}
     assert unclear(letters, {"ab", "a", "k"}, symbolic=False) == set()
     names = names_of((), ("x1", "x_1", "y2"))
     assert parameter("x1", names).tex == r"\mathsf{x1}"

@@ -2,6 +2,7 @@
 
 import math
 import subprocess
+from collections import Counter
 from functools import cache
 
 import mpmath
@@ -14,6 +15,7 @@ from derive import Problem, Solid, pipeline
 from derive.check.checker import Checker
 from derive.code.emit import emit
 from derive.problem.problem import ProblemError
+from derive.symmetries.scalar_lagrangian import Integrand
 from derive.validate.chart import Chart
 from derive.validate.emission import EmittedFiles
 from tests.oracles import ellipsoids
@@ -34,7 +36,7 @@ RATIOS = [
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     found = tmp_path_factory.mktemp("self_gravity")
-    derive.derive(NAME).emit(found, ("c", "python"))
+    derive.derive(NAME).emit(found, ("c", "python"), jacobian=("raw",))
     return found
 
 
@@ -49,29 +51,33 @@ def invariants(axes):
 
 
 def integrals(I1, I2, I3):
-    """The four integrals to 30 digits, by the trapezoidal rule in log u, of analytic functions."""
+    """The nine integrals to 30 digits, by the trapezoidal rule in log u, of analytic functions."""
     with mpmath.workdps(40):
         I1, I2, I3 = map(mpmath.mpf, (I1, I2, I3))
-        h, total = mpmath.mpf(1) / 8, [mpmath.mpf(0)] * 4
+        h, total = mpmath.mpf(1) / 8, [mpmath.mpf(0)] * 9
         for k in range(-1400, 1800):
             u = mpmath.exp(k * h)
             P = ((u + I1) * u + I2) * u + I3
             whole = u / mpmath.sqrt(P)
-            parts = (whole, whole / P, whole * u / P, whole * u * u / P)
+            parts = [whole, *(whole * u**j / P for j in range(3))]
+            parts += (whole * u**j / P**2 for j in range(5))
             total = [x + h * y for x, y in zip(total, parts, strict=True)]
         return total
 
 
 def test_the_integrals_to_rounding(folder):
-    """Also where axes are equal, and where they are in ratios of 10^4 and more."""
+    """Also where axes are equal, and where they are in ratios of 10^4 and more; those of the second
+    derivatives are the last five."""
     need("cc")
     source = folder / "integrals.c"
     source.write_text(
         f'#include "{NAME}.c"\n#include <stdio.h>\nint main(void)\n{{\n    double a, b, c;\n'
         '    while (scanf("%lf %lf %lf", &a, &b, &c) == 3) {\n'
-        f"        const {NAME}_integrals r = {NAME}_ellipsoid(a, b, c);\n"
-        '        printf("%.17g %.17g %.17g %.17g\\n", r.v[0], r.v[1], r.v[2], r.v[3]);\n'
-        "    }\n    return 0;\n}\n"
+        f"        const {NAME}_integrals r = {NAME}_ellipsoid(a, b, c),\n"
+        f"                               s = {NAME}_ellipsoid_slopes(a, b, c);\n"
+        "        for (int i = 0; i < 9; ++i) {\n"
+        '            printf("%.17g ", i < 4 ? r.v[i] : s.v[i - 4]);\n        }\n'
+        '        printf("\\n");\n    }\n    return 0;\n}\n'
     )
     program = folder / "integrals"
     subprocess.run([CC, "-O2", "-o", program, source, "-lm"], check=True)
@@ -80,9 +86,11 @@ def test_the_integrals_to_rounding(folder):
     out = subprocess.run([program], input=text, capture_output=True, text=True, check=True).stdout
     for x, line in zip(given, out.splitlines(), strict=True):
         wanted = integrals(*x)
-        for found in (map(float, line.split()), module(folder)._ellipsoid(math, *x)):
-            for a, b in zip(found, wanted, strict=True):
-                assert abs(a - b) < 5e-15 * b
+        m = module(folder)
+        python = (*m._ellipsoid(math, *x), *m._ellipsoid_slopes(math, *x))
+        for found in (map(float, line.split()), python):
+            for k, (a, b) in enumerate(zip(found, wanted, strict=True)):
+                assert abs(a - b) < (5e-15 if k < 4 else 1e-14) * b
 
 
 def test_in_floats_as_well(tmp_path):
@@ -100,7 +108,7 @@ def test_in_floats_as_well(tmp_path):
     strict = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-Wno-unused-function"]
     subprocess.run([CC, *strict, "-Wdouble-promotion", "-o", program, source, "-lm"], check=True)
     out = subprocess.run([program], capture_output=True, text=True, check=True).stdout
-    for a, b in zip(map(float, out.split()), integrals(*x), strict=True):
+    for a, b in zip(map(float, out.split()), integrals(*x)[:4], strict=True):
         assert abs(a - b) < 2e-6 * b
 
 
@@ -246,13 +254,68 @@ def test_c_and_python_on_arrays(folder):
         assert np.max(np.abs(found - wanted)) < 1e-12 * np.max(np.abs(wanted))
 
 
+@pytest.mark.parametrize("axes", [(1.5, 1.1, 0.6), (1, 1, 1), (1.3, 1.3, 0.7), (1, 1, 1e-3)])
+def test_the_jacobian_is_that_of_complex_steps(axes, folder):
+    """Where axes are equal, too: what is emitted is analytic.  (C says the same as Python.)"""
+    m, step = module(folder), 1e-30
+    k = m.constants(arrange(m, BALL | dict(zip("abc", axes, strict=True)) | {"G": 2.0}))
+    Z = np.random.default_rng(8).normal(size=8)
+    for A in (np.eye(3), np.array([[1.2, 0.3, 0], [0.1, 1, 0.4], [0, -0.2, 0.9]])):
+        x = np.concatenate([(A / np.cbrt(np.linalg.det(A))).ravel(), Z])
+        columns = [np.imag(m.rhs(0.0, x + 1j * step * e, k)) / step for e in np.eye(len(x))]
+        wanted = np.transpose(columns)
+        found = m.jacobian_raw(0.0, x, k)
+        assert np.max(np.abs(found - wanted)) < 1e-12 * np.max(np.abs(wanted))
+
+
+def rate_of_Z(axes, A, Z):
+    """Ż of Euler's equation at each point of an ellipsoid of density 1, G = 1, in mpmath's numbers:
+    the pull of its gravity by Carlson's R_D, the pressure by the trace."""
+    shape = A * mpmath.diag([mpmath.mpf(a) ** 2 for a in axes]) * A.T
+    found, R = mpmath.eigsy(shape)
+    s = [*found]
+    pulls = [mpmath.elliprd(s[i - 2], s[i - 1], s[i]) for i in range(3)]
+    pull = R * mpmath.diag(pulls) * R.T * (4 * mpmath.pi / 3 * mpmath.sqrt(s[0] * s[1] * s[2]))
+    quadric, trace = shape**-1, lambda x: sum(x[i, i] for i in range(3))
+    pressure = (trace(Z * Z) + trace(pull)) / trace(quadric)
+    return A**-1 * (pressure * quadric - pull) * A - Z * Z
+
+
+@pytest.mark.parametrize("axes", [(1.5, 1.1, 0.6), (1, 1, 1), (1, 1, 1e-2)])
+def test_the_jacobian_along_the_group_to_many_digits(axes, folder):
+    """By differences of 50 digits, which share nothing with the emitted code."""
+    m, rng, moved = module(folder), np.random.default_rng(8), mpmath.mpf(10) ** -18
+    A = np.eye(3) + (0 if axes[0] == axes[2] else 0.2) * rng.normal(size=(3, 3))
+    A /= np.cbrt(np.linalg.det(A))
+    basis = np.array(m.BASIS, float)
+    zeta, *along = rng.normal(size=(7, 8))
+    D = m.jacobian_raw(
+        0.0,
+        np.concatenate([A.ravel(), zeta]),
+        m.constants(arrange(m, BALL | dict(zip("abc", axes, strict=True)))),
+    )
+    with mpmath.workdps(50):
+        at, Z, *fields = (
+            mpmath.matrix(x.tolist()) for x in (A, *np.tensordot([zeta, *along], basis, 1))
+        )
+        for eta, speed in zip(fields[::2], fields[1::2], strict=True):
+            ends = [
+                rate_of_Z(axes, at * (mpmath.eye(3) + h * eta), Z + h * speed)
+                for h in (moved, -moved)
+            ]
+            wanted = np.array(((ends[0] - ends[1]) / (2 * moved)).tolist(), float)
+            change = [*(at * eta), *(speed[i // 3, i % 3] for i in range(8))]
+            found = np.tensordot((D @ np.array(change, float))[9:], basis, 1)
+            assert np.max(np.abs(found - wanted)) < 1e-12 * np.max(np.abs(wanted))
+
+
 # -- the record and what is refused --------------------------------------------------------------
 
 
 def test_every_change_of_its_step_is_refused():
     checker = Checker(record(NAME).problem, SEED)
     found = list(tried(record(NAME)[f"{NAME}.potential"], checker))
-    assert len(found) == 40
+    assert len(found) == 42
     for kind, wrong, verdict in found:
         assert not verdict.holds, (kind, wrong)
 
@@ -285,12 +348,43 @@ def test_bodies_that_are_no_ellipsoid(body):
         Problem("b", "SL(3)", body, [derive.SelfGravity(1)])
 
 
-def test_what_is_not_written_or_sought():
+def test_what_is_not_sought():
+    """An integral of the reduced motion of an integrand is none of that of the integral."""
     d = derive.derive(NAME)
-    with pytest.raises(ProblemError, match="nothing is sought in it"):
-        pipeline.symmetries(d.problem, d.record)
-    with pytest.raises(ValueError, match="derivatives of the integrals of self_gravity"):
-        d.emit(jacobian=("state",))
+    for seek in (pipeline.reduction, lambda p, _: pipeline.integrals(p, 2)):
+        with pytest.raises(ProblemError, match="nothing else is sought"):
+            seek(d.problem, d.record)
+    with pytest.raises(ProblemError, match="derive emit --conserved"):
+        d.symmetries().values(0.0, np.ones(17))
+    with pytest.raises(ProblemError, match="derive emit --conserved"):
+        d.symmetries()[0].sympy()
+
+
+@pytest.mark.parametrize(
+    ("group", "axes", "kinds"),
+    [
+        ("GL(3)", ["a", 1.2, 0.7], {"deformation_body": 3}),
+        ("SAff(3)", ["a", 1.2, 0.7], {"deformation_body": 3, "translation_space": 3, "boost": 3}),
+        ("SL(3)", ["a", "a", 0.7], {"rotation_body": 1, "deformation_body": 2}),
+        ("SL(3)", ["a", "a", "a"], {"rotation_body": 3}),
+    ],
+)
+def test_the_circulation_is_found(group, axes, kinds):
+    """By the relabellings of the body; U is the same after them and after rotations of space, at
+    random A, by another integral."""
+    body = Solid("ellipsoid", 1, semi_axes=axes)
+    gravity = derive.SelfGravity("node")
+    problem = Problem("free", group, body, gravity, parameters={"node": 2.0, "a": 1.6})
+    found = derive.derive(problem).symmetries()
+    assert Counter(x.kind for x in found) == Counter({"time": 1, "rotation_space": 3} | kinds)
+    assert {"node_", "weight_"} <= {*found.problem.parameters}
+    assert all(v.holds for v in found.check(SEED))
+
+
+def test_what_depends_on_the_place_of_the_integrand_is_refused():
+    own = Integrand.beside({"G"})
+    with pytest.raises(ProblemError, match="not the same at all places"):
+        own.require_unused([0, ("mul", 2, ("par", "node"))])
 
 
 @pytest.mark.parametrize("end", ["c", "py"])

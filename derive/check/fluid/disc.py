@@ -74,6 +74,10 @@ class Disc:
         found: Function = bump(self) * self.function(draw)
         return found
 
+    def energy(self, draw: Any) -> Function:
+        """A random potential per unit mass, whose force is not the same everywhere."""
+        return self.function(draw, DEGREE + 1)
+
     def any_field(self, draw: Any, like: Field = ()) -> Field:
         """A random field."""
         del like

@@ -6,18 +6,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from operator import add
 from typing import Any
 
 from ...language.tree import Tree
 from ..arithmetic import EvaluationError
 from ..nilpotent import EPS, EPS_PRIME, nilpotent, part
-from .fluid_model import Direction, FluidModel, mean
+from .fluid_model import Direction, FluidModel, gradient, mean
 from .functions import Field, Function, dot, shifted
 from .operators import Operator, Told, applied
 
 Value = Any
+ALONG_CURVE = ("mul", "Γ", "u")
 
 
 @dataclass(frozen=True)
@@ -179,24 +179,24 @@ class FluidValues:
             raise EvaluationError(f"{head} has {count} arguments, not {len(arguments)}")
         return function(self, *arguments)
 
-    def direction(self, t: Tree) -> tuple[str, Direction]:
-        """A variation by its name."""
+    def direction(self, t: Tree) -> tuple[bool, Direction]:
+        """A variation by its name: is it δ′ of the family, and its vector."""
         model = self.model
-        if t == "X" and not (model.at.contracted or model.at.along):
+        at = model.at
+        if t == "X" and not (at.contracted or at.along or at.lift):
             raise EvaluationError("nothing is given of X")
-        listed = {"δy": model.first, "δ′y": model.second, "X": model.first}
-        if t not in listed:
+        second = t == ("X" if at.lift else "δ′y")  # on lifts δ′ is the derivative along X
+        if t not in ("δy", "X") and not second:
             raise EvaluationError("a form is of a variation δy, δ′y or X")
-        return str(t), listed[str(t)]
+        return second, model.second if second else model.first
 
     def exterior(self, a: Tree, b: Tree) -> Value:
         """dϖ of two variations."""
         (first, _), (second, _) = self.direction(a), self.direction(b)
-        sides = ["δ′" in x for x in (first, second)]
-        if sides[0] == sides[1]:
+        if first == second:
             return self.model.one * 0
         found = self.model.exterior
-        return -found if sides[0] else found
+        return -found if first else found
 
     def functional(self, t: Tree) -> Function:
         """A function in space."""
@@ -222,7 +222,7 @@ class FluidValues:
     def gradient(self, t: Tree) -> Field:
         """grad of a function."""
         f = self.functional(t)
-        return tuple(f.d(j) for j in range(self.model.space.dimension))
+        return gradient(f)
 
     def divergence(self, t: Tree) -> Any:
         """div of a field."""
@@ -244,7 +244,9 @@ class FluidValues:
         return OnBoundary(self._normal_part(self.gradient(t)))
 
     def varied(self, what: Tree, mask: int) -> Value:
-        """δ or δ′ of η′, η, G or ρ on the family."""
+        """δ or δ′ of η′, η, G or ρ on the family; δ of ϖ(X) on lifts."""
+        if what == ("call", "ϖ", "X") and mask == EPS and self.model.at.lift:
+            return self.model.action_varied
         model, other = self.model, EPS_PRIME if mask == EPS else EPS
         if what == ("η′" if mask == EPS else "η"):
             return tuple(part(x, mask) for x in model.eulerian(other))
@@ -262,12 +264,15 @@ class FluidValues:
 
     def product_with(self, f: Function) -> Operator:
         """The product with a function, as an operator."""
-        return Operator.of(
-            lambda c: c * f if isinstance(c, Function) else tuple(x * f for x in _field(c))
-        )
+        return componentwise(lambda x: x * f)
 
     def rate(self, t: Tree) -> Value:
-        """d/dt of ⟨a, b⟩ or ⟨a, b⟩_ρ of fields, by the rates of both and of the density."""
+        """d/dt of ⟨a, b⟩ or ⟨a, b⟩_ρ of fields, by the rates of both and of the density; of what is
+        along the curve; on lifts, of ϖ(δy)."""
+        if t == ("call", "ϖ", "δy") and self.model.at.lift:
+            return self.model.cartan_varied(EPS_PRIME)
+        if t in (ALONG_CURVE, "γ_s"):
+            return self._rate(t)
         if not isinstance(t, tuple) or t[0] not in ("inner", "metric"):
             raise EvaluationError("d/dt is of a scalar product")
         *metric, a, b = t[1:]
@@ -282,15 +287,36 @@ class FluidValues:
         return total
 
     def _rate(self, t: Tree) -> Value:
-        """The rate of u or ϑ."""
+        """The rate of u, ϑ, Γu or γ_s."""
+        model = self.model
+        if t == ALONG_CURVE:
+            rest = zip(model.acceleration, model.u, strict=True)
+            return tuple(model.curve.of_space(x) + model.rate_on_curve(y) for x, y in rest)
+        if t == "γ_s":
+            return tuple(x.d(0) for x in model.velocity_of_curve)
         if t not in ("u", "ϑ"):
-            raise EvaluationError("the rates of u and ϑ are known")
+            raise EvaluationError("the rates of u and ϑ, of Γu and γ_s are known")
         return self.named({"u": "u̇", "ϑ": "ϑ̇"}[str(t)])
 
-    @cached_property
-    def composition(self) -> Operator:
-        """G at the point."""
-        return Operator.of(lambda c: tuple(self._composed(x, 0) for x in _field(c)))
+    def of_level(self, f: Function) -> Function:
+        """What is said of κ; ``EvaluationError`` where the curve is not of one level."""
+        if not self.model.at.one_level:
+            raise EvaluationError("κ is the density where Γρ = κΓ, which must be given")
+        return f
+
+    def along_curve(self, f: Function) -> Function:
+        """∂_s of a function along the curve."""
+        if f.space is not self.model.curve:
+            raise EvaluationError("∂_s is of what is along the curve")
+        return f.d(0)
+
+
+def componentwise(change: Callable[[Any], Any], *, on_curve: bool = False) -> Operator:
+    """What changes functions, as an operator on functions and fields."""
+    return Operator.of(
+        lambda c: change(c) if isinstance(c, Function) else tuple(map(change, _field(c))),
+        on_curve=on_curve,
+    )
 
 
 def divergence(field: Field) -> Any:
@@ -307,6 +333,9 @@ def _field(x: Value) -> Field:
 
 def _nabla(values: FluidValues, field: Value) -> Operator:
     """∇_c: the rate of a field from each place to the place where c leads."""
+    if _field(field)[0].space is values.model.curve:  # from the curve to that beside it
+        rate = values.model.curve.rate
+        return Operator.of(lambda a: tuple(rate(x, field) for x in _field(a)))
     along = [nilpotent(EPS) * x for x in _field(field)]
     if along and field[0].space is not values.model.space:
         raise EvaluationError("∇ is along a field in space")
@@ -370,6 +399,7 @@ OPERATIONS: dict[str, Callable[..., Value]] = {
 CALLS: dict[str, tuple[int, Callable[..., Value]]] = {
     "∫": (1, FluidValues.integral),
     "p̃": (1, lambda v, x: _paired(v, v.of(x))),
+    "dŨ": (1, lambda v, x: v.model.work(_over_points(v, v.of(x)))),
     "ϖ": (1, lambda v, x: v.model.cartan(v.direction(x)[1])),
     "dϖ": (2, FluidValues.exterior),
     "δ": (1, lambda v, x: v.varied(x, EPS)),
@@ -386,11 +416,17 @@ CALLS: dict[str, tuple[int, Callable[..., Value]]] = {
 
 def _paired(values: FluidValues, moved: Value) -> Value:
     """p̃ of a tangent vector, over the points: the derivative of L."""
-    field = _field(moved)
-    if field[0].space is not values.model.points:
-        raise EvaluationError("p̃ is of a tangent vector at g")
+    field = _over_points(values, moved)
     nu = [part(x, 0) for x in values.model.nu]
     return part(values.model.momentum(nu, field), 0)
+
+
+def _over_points(values: FluidValues, moved: Value) -> Field:
+    """A tangent vector at g."""
+    field = _field(moved)
+    if field[0].space is not values.model.points:
+        raise EvaluationError("a tangent vector at g is expected")
+    return field
 
 
 def _points(values: FluidValues, mask: int) -> Field:
@@ -403,7 +439,11 @@ def _moved(values: FluidValues, mask: int) -> Field:
 
 
 def _lagrangian(values: FluidValues) -> Value:
-    return values.model.lagrangian(_points(values, 0))
+    return part(values.model.lagrangian(_points(values, 0)), 0)
+
+
+def _potential(values: FluidValues) -> Value:
+    return part(values.model.potential, 0)
 
 
 NAMES: dict[str, Callable[[FluidValues], Value]] = {
@@ -417,15 +457,20 @@ NAMES: dict[str, Callable[[FluidValues], Value]] = {
     "δ′t": lambda v: v.model.second.time,
     "v": lambda v: _points(v, 0),
     "ν": lambda v: _points(v, 0),
+    "ν̇": lambda v: tuple(map(v.model.at_points, v.model.acceleration_of_points)),
     "ġ": lambda v: tuple(v.model.at_points(x) for x in v.model.u),
     "δν": lambda v: _points(v, EPS),
     "δ′ν": lambda v: _points(v, EPS_PRIME),
     "δg": lambda v: _moved(v, EPS),
     "δ′g": lambda v: _moved(v, EPS_PRIME),
+    "U": _potential,
+    "Ũ": _potential,
+    "V": lambda v: v.model.V,
+    "f": lambda v: tuple(-x for x in gradient(v.model.V)),
     "L": _lagrangian,
     "L̃": _lagrangian,
     "h̃": lambda v: part(v.model.energy(_points(v, 0)), 0),
-    "G": lambda v: v.composition,
+    "G": lambda v: componentwise(lambda x: v._composed(x, 0)),
     "D": lambda v: Operator.of(lambda c: divergence(_field(c))),
     "p": lambda v: v.model.any_pressure if v.model.at.free else v.model.pressure,
     "ρ": lambda v: v.product_with(v.model.density),
@@ -433,4 +478,12 @@ NAMES: dict[str, Callable[[FluidValues], Value]] = {
     "ϑ": lambda v: v.model.moved_field,
     "ϑ̇": lambda v: v.model.rate_of_moved(),
     "n": lambda _: Normal(),
+    "Γ": lambda v: componentwise(v.model.curve.of_space),
+    "Γ_0": lambda v: componentwise(v.model.curve.of_points),
+    "Γ̇": lambda v: componentwise(v.model.rate_on_curve),
+    "∂_s": lambda v: componentwise(v.along_curve, on_curve=True),
+    "γ_s": lambda v: v.model.curve.tangent,
+    "γ̇": lambda v: v.model.velocity_of_curve,
+    "κ": lambda v: v.of_level(v.model.curve.of_space(v.model.density)),
+    "κ̇": lambda v: v.of_level(v.model.rate_of_level),
 }

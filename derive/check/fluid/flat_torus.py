@@ -72,6 +72,14 @@ class Torus:
         """A random density."""
         return Function(self, {(*m, 0): draw() for m in LEVELS})
 
+    def layered(self, draw: Any) -> Function:
+        """A random density in plane layers, those of the first frequency."""
+        return Function(self, {(*m, 0): draw() for m in LEVELS[:2]})
+
+    def energy(self, draw: Any) -> Function:
+        """A random potential per unit mass."""
+        return self.function(draw)
+
     def any_field(self, draw: Any, like: Field = ()) -> Field:
         """A random field; with all modes that pair with those of another."""
         modes = {tuple(-x for x in m[:-1]) for f in like for m in f.terms} | {*MODES}

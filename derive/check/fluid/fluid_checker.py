@@ -4,6 +4,7 @@ disc."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
@@ -22,6 +23,7 @@ from ..trial_points import SIZE
 from ..verdict import IMPOSSIBLE, MOST_BITS, RefusedError, Verdict, bit_count, refusal
 from . import fluid_symbols
 from .disc import Disc
+from .edges import Edges
 from .field_values import FluidValues, Matrix, OnBoundary, Value
 from .flat_torus import torus
 from .fluid_model import FluidModel, Locus
@@ -33,15 +35,20 @@ SPACES: dict[str, Callable[[Source, int], Any]] = {
     "T³": lambda source, size: torus(3, source, size),
     "disc": lambda source, size: Disc(),
 }
+TORI = ("T²", "T³")
 BOUNDARY = frozenset({"n", "∂ₙ"})
 LEVEL = Equation(("mul", ("nabla", "ϑ"), "ρ"), ("mul", "ρ", ("nabla", "ϑ")))
+ONE_LEVEL = Equation(("mul", "Γ", "ρ"), ("mul", "κ", "Γ"))
 GIVEN: dict[Equation, str] = {
     Equation("δt", 1): "contracted",
     Equation("δ′t", 0): "δ′t",
     Equation("η′", 0): "η′",
     Equation(("call", "η", "X"), "u"): "along",
+    Equation(("call", "δg", "X"), "ν"): "lift",
     LEVEL: "level",
+    ONE_LEVEL: "one_level",
 }
+ACCELERATIONS = frozenset({"u̇", "ν̇"})
 DENSE = Hypothesis("nonzero", "ρ")
 SMALL = 3
 
@@ -62,6 +69,7 @@ class FluidChecker:
     def __init__(self, problem: Mapping[str, Any], seed: int | str):
         self.problem, self.seed = problem, seed
         self.advected = problem["fluid"]["density"] == "advected"
+        self.forced = problem["fluid"]["forces"] == "potential"
         self._prime: int | None = None
         self._places: dict[tuple[str, Locus, int], Place] = {}
 
@@ -89,14 +97,17 @@ class FluidChecker:
                 found = source.randint(-size, size)
                 return Fraction(found) if isinstance(found, int) else found
 
-            model = FluidModel(SPACES[name](source, size), draw, at, advected=self.advected)
+            space = SPACES[name](source, size)
+            model = FluidModel(space, draw, at, advected=self.advected, forced=self.forced)
             self._places[key] = Place(model, FluidValues(model))
         return self._places[key]
 
-    def spaces(self, equation: Equation) -> tuple[str, ...]:
+    def spaces(self, equation: Equation, at: Locus) -> tuple[str, ...]:
         """The names of the spaces on which an equation is tried: with a boundary, if it is of
-        one."""
+        one; tori, where a level of the density has polygons."""
         used = {*names(equation.lhs), *names(equation.rhs)}
+        if at.one_level:
+            return TORI
         return ("disc",) if used & BOUNDARY else tuple(SPACES)
 
     def degree(self, step: Step, equation: Equation) -> int:
@@ -104,7 +115,7 @@ class FluidChecker:
         at = locus_of(step, equation)
         return max(
             common_degree(pair).total_degree
-            for name in self.spaces(equation)
+            for name in self.spaces(equation, at)
             for pair in pairs(equation, self.place(name, at, 0).values)
         )
 
@@ -119,7 +130,7 @@ class FluidChecker:
         except (EvaluationError, RecordError, *IMPOSSIBLE) as error:
             reason = str(error).splitlines() or [type(error).__name__]
             return Verdict(step.label, False, reason[0] or type(error).__name__, 1.0)
-        tried = dict.fromkeys(x for e in step.equations for x in self.spaces(e))
+        tried = dict.fromkeys(x for e in step.equations for x in self.spaces(e, locus_of(step, e)))
         return Verdict(step.label, True, "", degree / SIZE, (len(step.equations), (*tried,)))
 
     def degree_if_true(self, step: Step) -> int:
@@ -134,7 +145,7 @@ class FluidChecker:
             if reason := ill_formed(e, step):
                 raise RefusedError(refusal(step, e, reason))
             at = locus_of(step, e)
-            for name in self.spaces(e):
+            for name in self.spaces(e, at):
                 if reason := self.difference(e, name, at):
                     raise RefusedError(refusal(step, e, reason, f" on {name}"))
             found = max(found, self.degree(step, e))
@@ -143,12 +154,12 @@ class FluidChecker:
     def difference(self, equation: Equation, name: str, at: Locus) -> str:
         """How the sides of an equation differ on a space; "" if they agree."""
         try:
-            places = (self.place(name, at, size).values for size in (SIZE, SMALL))
-            if all(x == y for x, y in pairs(equation, next(places))):
+            if all(x == y for x, y in pairs(equation, self.place(name, at).values)):
                 return ""
-            for x, y in pairs(equation, next(places)):
-                if x != y:
-                    return f"the sides differ: {as_text(x)} and {as_text(y)}"
+            with suppress(*IMPOSSIBLE):  # a small denominator may be 0
+                for x, y in pairs(equation, self.place(name, at, SMALL).values):
+                    if x != y:
+                        return f"the sides differ: {as_text(x)} and {as_text(y)}"
         except EvaluationError as error:
             return str(error)
         return "the sides differ"
@@ -179,8 +190,15 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
         told.add(GIVEN[e])
     if ("δ′t" in told) != ("η′" in told):
         raise RecordError("δ′t = 0 and η′ = 0 are given together")
-    free = equation is not None and "u̇" in equation.for_all
-    return Locus("contracted" in told, "η′" in told, "along" in told, free, "level" in told)
+    return Locus(
+        contracted="contracted" in told,
+        vertical="η′" in told,
+        along="along" in told,
+        lift="lift" in told,
+        level="level" in told,
+        one_level="one_level" in told,
+        free=equation is not None and not ACCELERATIONS.isdisjoint(equation.for_all),
+    )
 
 
 def ill_formed(equation: Equation, step: Step) -> str:
@@ -191,15 +209,25 @@ def ill_formed(equation: Equation, step: Step) -> str:
         return "numbers that are too large"
     used = {*names(equation.lhs), *names(equation.rhs)}
     for x in equation.for_all:
-        if x not in ("η′", "u̇") or x not in used or equation.for_all.count(x) > 1:
+        if x not in ("η′", *ACCELERATIONS) or x not in used or equation.for_all.count(x) > 1:
             return f"it says nothing for all {x[:20]}"
         if x == "η′" and locus_of(step).vertical:
             return "η′ is fixed by what is given"
-        if x == "u̇" and not used & {"X", "d/dt"}:
-            return "nothing holds for all u̇: it is the acceleration of the motion"
+        if x in ACCELERATIONS and not used & {"X", "d/dt"}:
+            return f"nothing holds for all {x}: it is the acceleration of the motion"
+    if max(densities(equation.lhs), densities(equation.rhs)) > 1:
+        return "a product with more densities than those that are tried can tell"
     if equation.exists and (equation.exists != ("p",) or "p" not in used):
         return "what is said to exist is the pressure"
     return ""
+
+
+def densities(t: Tree) -> int:
+    """The most factors ρ, ρ⁻¹ or κ, or rates of them, in a term of a tree."""
+    if not isinstance(t, tuple):
+        return t in ("ρ", "ρ̇", "κ", "κ̇")
+    found = map(densities, t[1:])
+    return max(found) if t[0] == "add" else sum(found)
 
 
 def hypothesis_fault(step: Step) -> str:
@@ -226,20 +254,36 @@ def pairs(equation: Equation, values: FluidValues) -> Iterator[tuple[Any, Any]]:
             left, right = y, values.times(Fraction(0), y)
     if isinstance(left, Operator) and isinstance(right, Operator):
         b = model.space.any_field(model.draw)
+        on_curve = {x.on_curve for x in (left, right)}
+        if on_curve == {True}:
+            b = tuple(map(model.curve.of_space, b))
         left, right = (values.times(x, b) for x in (left, right))
     if isinstance(left, Told) or isinstance(right, Told):
         like = next((x for x in (left, right) if not isinstance(x, Told)), ())
         if isinstance(like, Function):
             raise EvaluationError("the sides differ: a field and a number")
-        test = model.space.tangent(model.draw, like)
+        if like and like[0].space is model.curve:
+            test = tuple(map(model.curve.of_space, model.space.any_field(model.draw)))
+        else:
+            test = model.space.tangent(model.draw, like)
         left, right = (values.pair(x, test) for x in (left, right))
     if type(left) is not type(right):
         raise EvaluationError("the sides are of two kinds")
     for x, y in zip(functions(left), functions(right), strict=True):
-        if x.space is not y.space and not (x.is_constant and y.is_constant):
+        if x.space is not y.space and not (x.is_constant or y.is_constant):
             raise EvaluationError("one side is over the points, the other in space")
         for m in {**x.terms, **y.terms}:
-            yield x.terms.get(m, Fraction(0)), y.terms.get(m, Fraction(0))
+            yield from entries(x.terms.get(m, Fraction(0)), y.terms.get(m, Fraction(0)))
+
+
+def entries(x: Any, y: Any) -> Iterator[tuple[Any, Any]]:
+    """Two numbers, or those of each edge."""
+    if not isinstance(x, Edges) and not isinstance(y, Edges):
+        yield x, y
+        return
+    size = len(x.each if isinstance(x, Edges) else y.each)
+    each = (z.each if isinstance(z, Edges) else (z,) * size for z in (x, y))
+    yield from zip(*each, strict=True)
 
 
 def functions(x: Value) -> tuple[Function, ...]:

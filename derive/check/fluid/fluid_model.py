@@ -14,6 +14,7 @@ from functools import cached_property
 from typing import Any
 
 from ..nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, nilpotent, part
+from .curves import curve
 from .flat_torus import crossed
 from .functions import ORDERS, Function, dot, shifted
 
@@ -23,14 +24,17 @@ Fields = tuple[Any, ...]
 @dataclass(frozen=True)
 class Locus:
     """The points at which a step is to hold. ``contracted``: δt = 1, and X is the vector of δ;
-    ``vertical``: δ′t = 0 and η′ = 0; ``along``: η(X) = u; ``free``: u̇ is any field of the
-    algebra, and that of X; ``level``: ϑ leaves the density alone."""
+    ``vertical``: δ′t = 0 and η′ = 0; ``along``: η(X) = u; ``lift``: X is the tangent of any lift,
+    and the vector of δ′; ``free``: u̇ is any field of the algebra, and that of X; ``level``: ϑ
+    leaves the density alone; ``one_level``: the curve is one of a level of the density."""
 
     contracted: bool = False
     vertical: bool = False
     along: bool = False
+    lift: bool = False
     free: bool = False
     level: bool = False
+    one_level: bool = False
 
 
 @dataclass(frozen=True)
@@ -44,13 +48,14 @@ class Direction:
 
 class FluidModel:
     """A point on a space; ``draw``: gives new numbers; ``advected``: is the density any series
-    1 + sθ?"""
+    1 + sθ? ``forced``: is there a potential per unit mass, any function?"""
 
-    def __init__(self, space: Any, draw: Any, at: Locus, *, advected: bool):
+    def __init__(self, space: Any, draw: Any, at: Locus, *, advected: bool, forced: bool):
         self.space, self.draw, self.at, self.advected = space, draw, at, advected
         self.points = space.moved()
         self.one = Function(space, {(0,) * space.length: Fraction(1)})
-        self.theta = space.level(draw)
+        self.theta = space.layered(draw) if at.one_level else space.level(draw)
+        self.V = space.energy(draw) if forced else self.one * 0
         self.u = self.solenoidal()
         self.first = Direction(self.number(), self.solenoidal(), self.solenoidal())
         wide = (self.solenoidal(wide=advected) for _ in range(2))
@@ -64,6 +69,8 @@ class FluidModel:
             self.first = Direction(self.one, self.u, self.acceleration)
         if at.contracted:
             self.first = replace(self.first, time=self.one)
+        if at.lift:
+            self.second = Direction(self.one, self.u, self.free_acceleration)
         if at.vertical:
             nothing = tuple(x * 0 for x in self.u)
             self.second = replace(self.second, time=self.one * 0, displacement=nothing)
@@ -88,6 +95,11 @@ class FluidModel:
             return -theta[1], theta[0]
         other = self.space.function(self.draw)
         return tuple(crossed(theta, [other.d(j) for j in range(3)]))
+
+    @cached_property
+    def curve(self) -> Any:
+        """A closed curve."""
+        return curve(self.space, self.points, self.draw, level=self.at.one_level)
 
     # -- the density ---------------------------------------------------------------------------
 
@@ -168,18 +180,28 @@ class FluidModel:
         """⟨a, b⟩ of fields over the points: the integral by the mass."""
         return mean(dot(a, b) * self.mass)
 
-    def lagrangian(self, nu: Sequence[Any]) -> Any:
-        """½ ∫ ‖ν‖² dm."""
-        return self.over_points(nu, nu) * Fraction(1, 2)
+    @cached_property
+    def potential(self) -> Any:
+        """∫ V(g) dm on the family."""
+        return mean(self.at_points(shifted(self.V, self.displacement)) * self.mass)
+
+    def work(self, moved: Sequence[Any]) -> Any:
+        """The derivative of ∫ V(g) dm along a field over the points."""
+        place = [self.at_points(x) for x in gradient(self.V)]
+        return self.over_points(place, moved)
+
+    def lagrangian(self, nu: Sequence[Any], mask: int = 0) -> Any:
+        """½ ∫ ‖ν‖² dm − U, with U on the family in the parameter of ``mask``."""
+        return self.over_points(nu, nu) * Fraction(1, 2) - _linear(self.potential, mask)
 
     def momentum(self, nu: Sequence[Any], moved: Sequence[Any]) -> Any:
         """The derivative of L along ``moved``."""
         faster = [x + nilpotent(ETA) * y for x, y in zip(nu, moved, strict=True)]
         return _derived(self.lagrangian(faster), ETA)
 
-    def energy(self, nu: Sequence[Any]) -> Any:
+    def energy(self, nu: Sequence[Any], mask: int = 0) -> Any:
         """⟨p, ν⟩ − L."""
-        return self.momentum(nu, nu) - self.lagrangian(nu)
+        return self.momentum(nu, nu) - self.lagrangian(nu, mask)
 
     def cartan(self, direction: Direction) -> Any:
         """ϖ of a tangent vector."""
@@ -190,15 +212,26 @@ class FluidModel:
     @cached_property
     def exterior(self) -> Any:
         """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family."""
-        found = []
-        for mask, other in ((EPS, EPS_PRIME), (EPS_PRIME, EPS)):
-            varied = self.second if other == EPS_PRIME else self.first
-            moved = [_linear(self.at_points(_derived(x, other)), mask) for x in self.displacement]
-            nu = [_linear(x, mask) for x in self.nu]
-            time = nilpotent(mask) * self.mixed.time + varied.time
-            whole = self.momentum(nu, moved) - self.energy(nu) * self.at_points(time)
-            found.append(part(whole, mask))
-        return found[0] - found[1]
+        return self.cartan_varied(EPS) - self.cartan_varied(EPS_PRIME)
+
+    def cartan_varied(self, mask: int) -> Any:
+        """δ[ϖ(δ′)] on the family, δ′[ϖ(δ)] for the other ``mask``."""
+        other, varied = (EPS_PRIME, self.second) if mask == EPS else (EPS, self.first)
+        moved = [_linear(self.at_points(_derived(x, other)), mask) for x in self.displacement]
+        nu = [_linear(x, mask) for x in self.nu]
+        time = nilpotent(mask) * self.mixed.time + varied.time
+        whole = self.momentum(nu, moved) - self.energy(nu, mask) * self.at_points(time)
+        return part(whole, mask)
+
+    @cached_property
+    def action_varied(self) -> Any:
+        """δ[L̃ dt(X)] on a family of lifts, by the Lagrangian alone: on each of them the velocity is
+        that along it, and t is no less its function."""
+        later = nilpotent(EPS) * self.at_points(self.mixed.time)
+        moved = [self.at_points(_derived(x, EPS_PRIME)) for x in self.displacement]
+        nu = [_linear(x, EPS) for x in moved]
+        slowed = [x - x * later for x in nu]
+        return part(self.lagrangian(slowed, EPS) * (later + self.at_points(self.one)), EPS)
 
     # -- the motion ----------------------------------------------------------------------------
 
@@ -208,19 +241,24 @@ class FluidModel:
         along = [nilpotent(EPS) * x for x in self.u]
         return tuple(part(shifted(x, along, 1), EPS) for x in self.u)
 
+    @property
+    def acceleration_of_points(self) -> Fields:
+        """That of the point at each place."""
+        return tuple(x + y for x, y in zip(self.material, self.acceleration, strict=True))
+
     @cached_property
     def motion(self) -> tuple[Fields, Any]:
-        """u̇ and p: the acceleration of the points is −grad p/ρ, and u̇ is of the algebra, by
-        d'Alembert's principle; order by order in s."""
+        """u̇ and p: the acceleration of the points is −grad p/ρ − grad V, and u̇ is of the algebra,
+        by d'Alembert's principle; order by order in s."""
         space, sigma = self.space, self.inverse_density
-        span = range(space.dimension)
+        falling = [x + y for x, y in zip(self.material, gradient(self.V), strict=True)]
         p = self.one * 0
         for _ in range(ORDERS if self.advected else 1):
             rest = tuple(
-                a + (sigma - self.one) * p.d(j) for j, a in zip(span, self.material, strict=True)
+                a + (sigma - self.one) * y for a, y in zip(falling, gradient(p), strict=True)
             )
             p = -space.potential(rest)
-        rate = tuple(-(a + sigma * p.d(j)) for j, a in zip(span, self.material, strict=True))
+        rate = tuple(-(a + sigma * y) for a, y in zip(falling, gradient(p), strict=True))
         return rate, p
 
     @cached_property
@@ -239,10 +277,31 @@ class FluidModel:
         back = [-(e * x) for x in self.u]
         return tuple(part(shifted(x, back, 1), EPS) for x in pushed)
 
+    def rate_on_curve(self, f: Any) -> Any:
+        """The rate of a function along the curve, f alone being at rest: its points have the
+        velocity ν of those that are there."""
+        return self.curve.rate(f, self.velocity_of_curve)
+
+    @cached_property
+    def velocity_of_curve(self) -> Fields:
+        """∂γ/∂t, ν along the curve of the points."""
+        return tuple(self.curve.of_points(part(x, 0)) for x in self.nu)
+
+    @property
+    def rate_of_level(self) -> Function:
+        """The rate of the density on the curve, where both are carried along."""
+        found = self.curve.of_space(self.rate_of_density(self.u)) + self.rate_on_curve(self.density)
+        return Function(self.curve, {m: x for m, x in found.terms.items() if x != 0})
+
     def rate_of_density(self, field: Sequence[Any]) -> Any:
         """The rate of ρ ∘ (id + εη)⁻¹."""
         back = [-(nilpotent(EPS) * x) for x in field]
         return part(shifted(self.density, back, 1), EPS)
+
+
+def gradient(f: Function) -> Fields:
+    """grad of a function."""
+    return tuple(f.d(j) for j in range(f.space.dimension))
 
 
 def mean(f: Any) -> Any:

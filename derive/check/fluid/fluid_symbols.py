@@ -10,12 +10,12 @@ from ...record.record import Derivation, Step
 from ..definitions import Usage, definitions, occurrences
 
 _PRIMITIVE = """
-    u v η η′ δu δ′u u̇ ν δg δ′g δν δ′ν ġ G D grad div Δ ∇ ∂ₙ n ρ ρ̇ ϑ ϑ̇
-    δt δ′t δy δ′y X δ δ′ d/dt ∫
+    U V Ũ dŨ u v η η′ δu δ′u u̇ ν ν̇ δg δ′g δν δ′ν ġ G D grad div Δ ∇ ∂ₙ n ρ ρ̇ ϑ ϑ̇
+    δt δ′t δy δ′y X δ δ′ d/dt ∫ Γ_0 Γ̇ γ_s γ̇ ∂_s κ κ̇
     """
 PRIMITIVE = frozenset(_PRIMITIVE.split())
 """The names that the walk of a fluid starts from."""
-RATES = ("u̇", "ġ", "ρ̇", "ϑ̇")
+RATES = ("u̇", "ν̇", "ġ", "ρ̇", "ϑ̇", "Γ̇", "γ̇", "κ̇")
 UNKNOWN = "p"
 """What an equation says to exist, and none defines."""
 VARIATIONS = {"δy": "variation", "δ′y": "variation", "X": "variation"}

@@ -13,10 +13,15 @@ from typing import Any
 
 from ..arithmetic import EvaluationError
 from ..nilpotent import Nilpotent
+from .edges import Edges
 
 Exponents = tuple[int, ...]
 ORDERS = 3
-"""Densities are series in s up to this power: claims are quadratic in them at most."""
+"""Densities are series in s up to this power, which is enough: a term has at most one factor ρ or
+ρ⁻¹, and another by the mass of the points.  Where the motion is put in, −∇_u u − ρ⁻¹ grad p for u̇,
+and ρ⁻¹ stands before grad p alone, ρ times a claim is A(ρ) ∇_u u + B(ρ) grad p = 0, A and B of
+degree 2; its orders 1, s and s² say in turn that their coefficients vanish, as ∇_u u and grad p
+have no relation at s = 0."""
 
 
 class Function:
@@ -34,7 +39,7 @@ class Function:
     @property
     def is_constant(self) -> bool:
         """Is it a number, as far as its exponents tell?"""
-        return not any(any(m[:-1]) for m in self.terms)
+        return not any(any(m[:-1]) or isinstance(x, Edges) for m, x in self.terms.items())
 
     def __add__(self, other: Any) -> Any:
         if isinstance(other, Nilpotent):

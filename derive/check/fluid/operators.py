@@ -18,32 +18,33 @@ Factor = tuple[Apply, bool]
 
 @dataclass(frozen=True)
 class Operator:
-    """A sum of numbers times products of factors."""
+    """A sum of numbers times products of factors; ``on_curve``: of what is along the curve."""
 
     terms: tuple[tuple[Any, tuple[Factor, ...]], ...]
+    on_curve: bool = False
 
     @staticmethod
-    def of(apply: Apply) -> Operator:
+    def of(apply: Apply, *, on_curve: bool = False) -> Operator:
         """A single operator."""
-        return Operator(((1, ((apply, False),)),))
+        return Operator(((1, ((apply, False),)),), on_curve)
 
     @property
     def transposed(self) -> Operator:
         """The transpose."""
         turned = ((c, tuple((f, not t) for f, t in reversed(w))) for c, w in self.terms)
-        return Operator(tuple(turned))
+        return Operator(tuple(turned), self.on_curve)
 
     def __add__(self, other: Operator) -> Operator:
-        return Operator(self.terms + other.terms)
+        return Operator(self.terms + other.terms, self.on_curve)
 
     def scaled(self, x: Any) -> Operator:
         """A number times the operator."""
-        return Operator(tuple((c * x, w) for c, w in self.terms))
+        return Operator(tuple((c * x, w) for c, w in self.terms), self.on_curve)
 
     def then(self, other: Operator) -> Operator:
         """The product, ``other`` first."""
         both = ((a * b, v + w) for a, v in self.terms for b, w in other.terms)
-        return Operator(tuple(both))
+        return Operator(tuple(both), other.on_curve)
 
 
 @dataclass(frozen=True)

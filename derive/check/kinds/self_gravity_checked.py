@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from math import prod
 from typing import Any
 
 from ...language import rational as q
@@ -56,18 +57,24 @@ def nodes(drawn: Callable[[str, int], Any]) -> Iterator[tuple[Any, Any]]:
     return ((drawn("weight", k), drawn("node", k)) for k in range(NODES))
 
 
+def power(x: Any, n: int) -> Any:
+    """xⁿ, a product of n factors."""
+    return prod([x] * n, start=Fraction(1))
+
+
 def at_invariants(
     pairs: Iterable[tuple[Any, Any]],
     invariants: Sequence[Any],
-    which: int,
+    k: int,
+    halves: int,
     root: Callable[[Any], Any],
 ) -> Any:
-    """Ψ for ``which`` = 0, else Ψ_0, Ψ_1, Ψ_2, at I_1, I_2, I_3."""
+    """∫ u^k P^(−s) du for s = ``halves``/2, at I_1, I_2, I_3."""
     first, second, third = invariants
     total: Any = Fraction(0)
     for w, u in pairs:
         y = root(u * u * u + u * u * first + u * second + third)
-        total = total + (w / (y * y * y) * (1, u, u * u)[which - 1] if which else w / y)
+        total = total + w * power(u, k) / power(y, halves)
     return total
 
 
@@ -75,13 +82,14 @@ def functions(model: Model) -> dict[str, Callable[..., Any]]:
     """Ψ and Ψ_k at three numbers."""
     at = model.applied
 
-    def integral(which: int) -> Callable[..., Any]:
+    def integral(k: int, halves: int) -> Callable[..., Any]:
         def of(_: Tree, arguments: tuple[Tree, ...], env: Environment) -> Any:
-            return at_invariants(_nodes(at), [evaluate(x, env) for x in arguments], which, at.root)
+            invariants = [evaluate(x, env) for x in arguments]
+            return at_invariants(_nodes(at), invariants, k, halves, at.root)
 
         return of
 
-    return {x: integral(k) for k, x in enumerate(("Ψ", "Ψ_0", "Ψ_1", "Ψ_2"))}
+    return {"Ψ": integral(0, 1)} | {f"Ψ_{k}": integral(k, 3) for k in range(3)}
 
 
 def values(model: Model, members: Sequence[Data]) -> dict[str, Any]:
@@ -105,6 +113,7 @@ def values(model: Model, members: Sequence[Data]) -> dict[str, Any]:
     return {
         "K_G": K,
         "K_a": _adjugate(K),
+        "X_G": q.times(K, C),
         "A_a": _adjugate(A),
         "C_a": _adjugate(C),
         "I_1": traced,

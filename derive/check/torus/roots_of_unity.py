@@ -7,12 +7,17 @@ any number.
 
 from __future__ import annotations
 
+from fractions import Fraction
+from functools import cached_property
 from random import Random
 from typing import Any
+
+import numpy as np
 
 from ..arithmetic import EvaluationError
 from ..grades import CONSTANT, Graded
 from ..residue import BITS, ROUNDS, Residue, _passes_miller_rabin
+from .residues import Numbers, Residues
 
 
 def prime_with_roots(random: Random, order: int) -> tuple[int, int]:
@@ -62,9 +67,10 @@ class Turns:
 
     def __init__(self, roots: RootsOfUnity, pi: Any, most: int):
         self.roots, self.values = roots, dict[Any, Any]()
-        self.turns = {}
+        self.step, self.turns = Fraction(0), dict[Any, int]()
         if roots.p:
-            self.turns = {2 * pi * k / roots.N: k for k in range(-most, most + 1)}
+            self.step = 2 * pi / roots.N
+            self.turns = {self.step * k: k for k in range(-most, most + 1)}
 
     def __call__(self, name: str, x: Any) -> Any:
         """The value of a function at one of these angles."""
@@ -72,8 +78,23 @@ class Turns:
             raise EvaluationError(f"no value of {name} on the torus")
         if not self.roots.p:
             return Graded(CONSTANT)
+        if isinstance(x, Residues):
+            turns = (x / self.step).integers() % self.roots.N
+            return Residues(self.waves[name][turns], self.roots.p)
         if x not in self.turns:
             raise EvaluationError("an angle on the torus is a multiple of 2π/N")
-        k = self.turns[x]
+        return self.value(name, self.turns[x])
+
+    def value(self, name: str, k: int) -> Any:
+        """cos or sin of 2πk/N."""
         ahead, back = self.roots[k], self.roots[-k]
         return (ahead + back) / 2 if name == "cos" else (ahead - back) / (2 * self.roots.i)
+
+    @cached_property
+    def waves(self) -> dict[str, Numbers]:
+        """cos and sin of 2πk/N for all k, as integers."""
+        span = range(self.roots.N)
+        return {
+            name: np.array([self.value(name, k).n for k in span], dtype=object)
+            for name in ("cos", "sin")
+        }

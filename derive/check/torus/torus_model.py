@@ -13,6 +13,8 @@ from functools import cache
 from random import Random
 from typing import Any
 
+import numpy as np
+
 from ...algebra.groups import Group
 from ...algebra.samplers import Source
 from ...algebra.torus import Place, Torus
@@ -22,6 +24,8 @@ from ...language.tree import Tree
 from ..arithmetic import EvaluationError, is_matrix
 from ..evaluate import Environment, evaluate
 from ..grades import DegreeSource
+from ..residue import Residue, _residue
+from .residues import Numbers, Residues
 from .roots_of_unity import RootsOfUnity, Turns
 
 ALL_PAIRS = 5
@@ -63,10 +67,17 @@ class TorusModel:
         self.zeta = {n: self.draw() for n in torus.places}
         self.vorticity = {n: self.derivative(n) for n in torus.places}
         self.made: dict[Place, Matrix] = {}
+        span = np.arange(torus.N)
+        self.powers = self.array([self.roots[k] for k in range(torus.N)])
+        self.turns = np.outer(span, span) % torus.N
+        self.all_places = tuple(
+            (Residues(x, self.roots.p),) for x in np.transpose(torus.places) if self.roots.p
+        )
+        self.entries = (span[:, None] + span) % torus.N, (span - span[:, None]) % torus.N
         self.hypothesis_failures: dict[Any, str] = {}
         self.scale = torus.N / (4 * self.pi * self.roots.i)
-        self.Z = q.scaled(self.scale, self.matrix(self.zeta))
-        self.W = self.matrix(self.vorticity)
+        self.Z = q.scaled(self.scale, self.matrix(self.grid(self.zeta)))
+        self.W = self.matrix(self.grid(self.vorticity))
         self.P = q.scaled(-1 / self.scale, self.Z)
         self.rate = q.minus(q.times(self.Z, self.W), q.times(self.W, self.Z))
 
@@ -81,22 +92,37 @@ class TorusModel:
         other = (-a, -b)
         return sum((self.zeta[n] * Fraction(x * x + y * y, 2) for x, y in (n, other)), Fraction(0))
 
-    def matrix(self, coefficients: Mapping[Place, Any]) -> Matrix:
-        """Σ a(n) T(n), entry by entry: in row a and column b those with n₂ = b − a."""
-        span, half = range(self.torus.N), self.torus.half
-        first = range(-half, half + 1)
+    def array(self, numbers: Sequence[Any]) -> Numbers:
+        """Numbers of the field as an array, of integers where they are residues."""
+        return np.array([getattr(x, "n", x) for x in numbers], dtype=object)
 
-        @cache
-        def symbol(second: int, s: int) -> Any:
-            terms = (coefficients[k, second] * self.roots[k * s] for k in first if k or second)
-            return sum(terms, Fraction(0))
+    def number(self, x: Any) -> Any:
+        """One of the numbers of an array."""
+        return x if self.graded else Residue(int(x), self.roots.p)
 
-        def difference(a: int, b: int) -> int:
-            return self.torus.representative((0, b - a))[1]
+    def product(self, a: Numbers, b: Numbers) -> Numbers:
+        """That of two arrays as matrices."""
+        return a @ b if self.graded else a @ b % self.roots.p
 
-        return tuple(
-            tuple(symbol(difference(a, b), (a + b) % self.torus.N) for b in span) for a in span
-        )
+    def grid(self, coefficients: Mapping[Place, Any]) -> Numbers:
+        """a(n) as an array over n modulo N, 0 at 0."""
+        found = np.full((self.torus.N, self.torus.N), 0, dtype=object)
+        found[tuple(np.transpose(list(coefficients)))] = self.array([*coefficients.values()])
+        return found
+
+    def matrix(self, grid: Numbers) -> Matrix:
+        """Σ a(n) T(n), entry by entry: in row r and column c those with n₂ = c − r, times
+        e^(2πi n₁(r + c)/N)."""
+        sums = self.product(self.powers[self.turns], grid)[self.entries]
+        return tuple(tuple(self.number(x) for x in row) for row in sums)
+
+    def coefficients(self, m: Matrix) -> Numbers:
+        """a(n) of a matrix Σ a(n) T(n), that is Tr m T(−n)/N, as an array over n modulo N."""
+        sums = np.full_like(self.turns, 0, dtype=object)
+        sums[self.entries] = [self.array(row) for row in m]
+        N, p = self.torus.N, self.roots.p
+        by_N = Fraction(1, N) if self.graded else pow(N, -1, p)
+        return self.product(self.powers[-self.turns % N], sums * by_N)
 
     def basis(self, n: Place) -> Matrix:
         """T(n) = ω^(n₁n₂) g^n₁ h^n₂, by the clock and the shift; each made once."""
@@ -115,12 +141,6 @@ class TorusModel:
             for row in range(N)
         )
 
-    def coefficient(self, m: Matrix, n: Place) -> Any:
-        """That of T(n) in a matrix, Tr m T(−n)/N: in T(−n), row b has its number in column a."""
-        N, (first, second) = self.torus.N, n
-        terms = (m[a][(a + second) % N] * self.roots[-first * (2 * a + second)] for a in range(N))
-        return sum(terms, Fraction(0)) * Fraction(1, N)
-
     def moved(self, s: int) -> Matrix:
         """W + s Ẇ."""
         return q.plus(self.W, q.scaled(Fraction(s), self.rate))
@@ -131,40 +151,84 @@ def environment(model: TorusModel) -> Environment:
     return _environment(model, model.W)
 
 
+def _place(torus: Torus, given: tuple[Tree, ...], env: Environment) -> Place:
+    """A point of the lattice, given as one or by its two coordinates; or all at once, as arrays."""
+    found = [evaluate(x, env) for x in given]
+    if len(found) == 1:
+        if not is_matrix(found[0]) or len(found[0]) != 2:
+            raise EvaluationError("a point of the lattice is expected")
+        found = [row[0] for row in found[0]]
+    whole = (x.integers() if isinstance(x, Residues) else int(x) for x in found)
+    return torus.representative(tuple(whole))  # type: ignore[arg-type]
+
+
+class Elements:
+    """Σ a(n) T(n), a sum that is not yet taken, over the points of the lattice."""
+
+    def __init__(self, model: TorusModel, n: Place, a: Any = 1):
+        self.model, self.n, self.a = model, n, a
+
+    def __mul__(self, other: Any) -> Elements:
+        if isinstance(other, Elements):
+            raise EvaluationError("a product of two T(n) in a sum")
+        return Elements(self.model, self.n, self.a * other)
+
+    __rmul__ = __mul__
+
+    def total(self) -> Matrix:
+        """The matrix."""
+        grid, p = np.full((self.model.torus.N,) * 2, 0, dtype=object), self.model.roots.p
+        a = self.a.whole if isinstance(self.a, Residues) else _residue(self.a, p)
+        np.add.at(grid, self.n, a)
+        return self.model.matrix(grid % p)
+
+
+def _of_grid(model: TorusModel, grid: Callable[[], Numbers]) -> Callable[[Place], Any]:
+    """a(n) at a point, or at all at once, of an array that is made when it is asked for."""
+
+    def value(n: Place) -> Any:
+        found = grid()[n]
+        return Residues(found, model.roots.p) if np.ndim(found) else model.number(found)
+
+    return value
+
+
+def _half_square(torus: Torus, a: Callable[[Place], Any], power: int) -> Any:
+    """½ Σ |n|²ᵖ a(n) a(−n)."""
+    terms = (
+        a(n) * a((-n[0], -n[1])) * (Fraction(n[0] ** 2 + n[1] ** 2) ** power / 2)
+        for n in torus.places
+    )
+    return sum(terms, Fraction(0))
+
+
 def _environment(model: TorusModel, W: Matrix) -> Environment:
     torus, N, zero = model.torus, model.torus.N, Fraction(0)
 
-    def place(t: Tree, env: Environment) -> Place:
-        value = evaluate(t, env)
-        if not is_matrix(value) or len(value) != 2:
-            raise EvaluationError("a point of the lattice is expected")
-        return torus.representative((int(value[0][0]), int(value[1][0])))
-
     def of_place(values: Callable[[Place], Any]) -> Callable[..., Any]:
-        return lambda _, a, env: values(place(a[0], env))
+        return lambda _, a, env: values(_place(torus, a, env))
 
     @cache
-    def vorticity(n: Place) -> Any:
-        return model.coefficient(W, n) if n != (0, 0) else zero
+    def coefficients() -> Numbers:
+        found = model.coefficients(W)
+        found[0, 0] = 0
+        return found
 
-    def energy() -> Any:
-        terms = (
-            vorticity(n) * vorticity((-n[0], -n[1])) * Fraction(1, 2 * (n[0] ** 2 + n[1] ** 2))
-            for n in torus.places
-        )
-        return sum(terms, zero)
+    def basis(n: Place) -> Any:
+        return Elements(model, n) if np.ndim(n[0]) or np.ndim(n[1]) else model.basis(n)
 
-    def lagrangian() -> Any:
-        terms = (
-            model.zeta[n] * model.zeta[-n[0], -n[1]] * Fraction(n[0] ** 2 + n[1] ** 2, 2)
-            for n in torus.places
-        )
-        return sum(terms, zero)
+    vorticity = _of_grid(model, coefficients)
+
+    zeta = _of_grid(model, cache(lambda: model.grid(model.zeta)))
+
+    @cache
+    def moved(s: int) -> Environment:
+        return _environment(model, model.moved(s))
 
     def rate(_: Tree, a: tuple[Tree, ...], env: Environment) -> Any:
         total: Any = zero
         for s, weight in STEPS:
-            there = _environment(model, model.moved(s))
+            there = moved(s)
             total = total + evaluate(a[0], replace(there, indices=env.indices)) * weight
         return total
 
@@ -179,16 +243,23 @@ def _environment(model: TorusModel, W: Matrix) -> Environment:
     }
     return Environment(
         N,
-        _Lazily(names, {"h̃": energy, "L̃": lagrangian}),
+        _Lazily(
+            names,
+            {
+                "h̃": lambda: _half_square(torus, vorticity, -1),
+                "L̃": lambda: _half_square(torus, zeta, 1),
+            },
+        ),
         functions={
-            "T": of_place(model.basis),
+            "T": of_place(basis),
             "ω̂": of_place(vorticity),
-            "ζ": of_place(lambda n: model.zeta.get(n, zero)),
+            "ζ": of_place(zeta),
             "d/dt": rate,
         },
         elementary=model.elementary,
         lattice=torus.places,
         chosen=_chosen(model),
+        at_once=None if model.graded else model.all_places,
     )
 
 

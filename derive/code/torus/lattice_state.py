@@ -20,6 +20,13 @@ def position(torus: Torus, n: Place) -> tuple[int, bool]:
     return 2 * place, turned
 
 
+def turned(name: str) -> str:
+    """The name in the state of what a name like re_m1_0 would be the conjugate of."""
+    part, *n = name.split("_")
+    opposite = (x[1:] if x.startswith("m") else f"m{x}" * (x != "0") or x for x in n)
+    return "_".join((part, *opposite))
+
+
 def described(torus: Torus) -> tuple[str, ...]:
     """The state in words, for the head of a file."""
     h = torus.half

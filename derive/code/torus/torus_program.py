@@ -78,11 +78,12 @@ def torus_program(d: Derivation, torus: Torus, options: Options | None = None) -
         torus.N**2 - 1,
         (
             f"The algebra su({torus.N}) in the basis of the torus: T_n = w^(n1 n2) g^n1 h^n2, with",
-            "w = e^(2 pi i/N), g = diag(w^(2j)), h the cyclic shift, n modulo N, and",
+            "w = e^(2 pi i/N), g = diag(w^(2j)), h e_j = e_(j-1) the shift, n modulo N, and",
             "[T_m, T_n] = -2i sin(2 pi (m1 n2 - m2 n1)/N) T_(m+n).",
             f"dW/dt = N/(4 pi i) [W, P], N = {torus.N}, W = sum omega(n) T_n the vorticity and",
             "P = -sum omega(n)/|n|^2 T_n the stream function, in space sums of e^(i n.x);",
-            "energy is the sum of |omega(n)|^2/(2 |n|^2), trace_k is Tr W^k/N.",
+            "energy is the sum of |omega(n)|^2/(2 |n|^2), the mean of half the squared velocity"
+            + ("; trace_k is Tr W^k/N." if chosen.conserved else "."),
             *described(torus),
             *(_scratch(torus) if torus.N > TABLE else ()),
         ),
@@ -106,6 +107,7 @@ def _require_written(d: Derivation, chosen: Options) -> None:
         (chosen.velocity != "body", f"--velocity {chosen.velocity}"),
         (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
         (chosen.momenta, "--momenta"),
+        ("discrete" in chosen.step, "--step discrete"),
         (chosen.multiplier, "--multiplier"),
     ):
         if on:
@@ -117,7 +119,9 @@ def _require_written(d: Derivation, chosen: Options) -> None:
 
 def _scratch(torus: Torus) -> tuple[str, ...]:
     N, h = torus.N, torus.half
-    kilobytes = -(-8 * (4 * N * N + 2 * N * (h + 2) + 8 * (h + 1) ** 2 + 2 * (h + 1)) // 1024)
+    row, part = -(-N // 4) * 4, -(-(h + 1) // 4) * 4  # in C rows are of a multiple of four numbers
+    numbers = 5 * N * row + 2 * N * (h + 1) + 3 * row + 4 * (h + 1) * (h + 1 + part) + 2 * part
+    kilobytes = -(-8 * numbers // 1024)
     return (
         f"The functions have no memory of their own: in C rhs takes {kilobytes} kB of the stack.",
     )
@@ -156,20 +160,23 @@ def loops(torus: Torus, looped: Collection[str]) -> Loops:
     """The tables for one N."""
     N, h = torus.N, torus.half
     turn, product = 4 * h * (h + 1) ** 2, 4 * N**3
-    whole = 3 * turn + product
+    by_three = 3 * N**3  # products of complex numbers by three real ones
+    whole, in_c = 3 * turn + product, 3 * turn + by_three
     table = tuple(_terms(torus, n) for n in torus.half_plane) if N <= TABLE else ()
     terms = sum(map(len, table))
     return Loops(
         N,
         frozenset(looped) | ({"rhs_batch"} if "rhs" in looped else set()),
-        tuple(_cosine(Fraction(k, N)) for k in range(N)),
-        tuple(_cosine(Fraction(k, N) - Fraction(1, 4)) for k in range(N)),
+        tuple(_rounded(_cosine(Fraction(k, N))) for k in range(N)),
+        tuple(_rounded(_cosine(Fraction(k, N) - Fraction(1, 4))) for k in range(N)),
         table,
         {
             "rhs": f"{whole} mul, {whole} add, and {6 * N * N} of less order",
             "rhs by table": f"{8 * terms} mul, {4 * terms} add",
+            "rhs in C": f"{in_c} mul, {in_c} add, and {9 * N * N} of less order",
             "energy": f"{N * N - 1} mul, {N * N - 1} add, {(N * N - 1) // 2} div",
             "conserved": f"{turn + product} mul, {turn + product} add",
+            "conserved in C": f"{turn + by_three} mul, {turn + by_three} add",
         },
     )
 
@@ -184,7 +191,7 @@ def _terms(torus: Torus, n: Place) -> tuple[Term, ...]:
         if m < other and weight and crossed:
             (i, turned), (j, turned_too) = position(torus, m), position(torus, other)
             sine = _cosine(Fraction(crossed, torus.N) - Fraction(1, 4))
-            c = -Fraction(float(sine * weight * torus.N / (2 * Fraction(PI))))
+            c = -_rounded(sine * weight * torus.N / (2 * Fraction(PI)))
             found.append(Term(i, j, -1 if turned else 1, -1 if turned_too else 1, c))
     return tuple(found)
 
@@ -193,8 +200,13 @@ def _square(n: Place) -> int:
     return n[0] ** 2 + n[1] ** 2
 
 
+def _rounded(x: Fraction) -> Fraction:
+    """The double next to x."""
+    return Fraction(float(x))
+
+
 def _cosine(turns: Fraction) -> Fraction:
-    """cos 2π·turns, rounded to a double: the same on every machine."""
+    """cos 2π·turns to 60 digits: the same on every machine."""
     turns = abs(turns) % 1
     turns = min(turns, 1 - turns)
     if turns == Fraction(1, 4):
@@ -206,7 +218,7 @@ def _cosine(turns: Fraction) -> Fraction:
         for k in range(1, 40):
             term *= -x * x / ((2 * k - 1) * (2 * k))
             total += term
-        return Fraction(float(total))
+        return Fraction(total)
 
 
 def _looped(torus: Torus) -> dict[str, EmittedFunction]:

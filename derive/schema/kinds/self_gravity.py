@@ -1,7 +1,7 @@
 """The gravity of a homogeneous ellipsoid on itself, U = −(3/10) G m² ∫₀^∞ du / √det(S + u)."""
 
 from ..kind import Own, Potential
-from ..table import Scalar
+from ..table import Positive
 
 
 class SelfGravity(Potential):
@@ -24,6 +24,7 @@ class SelfGravity(Potential):
             "matrice de l’ellipsoïde {⟨r, K_G⁻¹r⟩ ≤ 1} que remplit le corps",
             "K_G",
         ),
+        Own("X_G", "matrix", "K_GĀA", "K_GĀA", "X_G"),
         Own("A_a", "matrix", "adjugate matrix of A", "matrice adjointe de A", "A_a"),
         Own("C_a", "matrix", "adjugate matrix of ĀA", "matrice adjointe de ĀA", "C_a"),
         Own("K_a", "matrix", "adjugate matrix of K_G", "matrice adjointe de K_G", "K_a"),
@@ -79,4 +80,4 @@ class SelfGravity(Potential):
             "B_G",
         ),
     )
-    G: Scalar
+    G: Positive

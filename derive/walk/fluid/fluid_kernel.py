@@ -16,6 +16,7 @@ from ..chapter import Chapter
 from ..contraction import CONTRACTED, CONTRACTION, Contraction, velocities
 from ..exterior import Exterior
 from ..factorisation import factored_tree
+from ..variation import Principle
 from ..wording import say
 from .fluid_letters import FluidAlphabet
 from .trivialised import trees
@@ -30,11 +31,12 @@ class FluidKernel:
     steps: tuple[Step, ...]
 
 
-def kernel(stage: Exterior, a: FluidAlphabet, c: Chapter) -> FluidKernel:
-    """The steps ``contraction``, ``vertical``, ``second_order`` and ``kernel``."""
+def kernel(stage: Exterior, principle: Principle, a: FluidAlphabet, c: Chapter) -> FluidKernel:
+    """The steps ``contraction``, ``vertical``, ``second_order`` and ``kernel``: by the
+    ``principle`` of the tangents of the motions."""
     w = a.w
     found = Contraction(
-        stage.form,
+        stage.form.of(principle.across),
         terms_with(without(stage.form, a.dt, a.dpt), w.d_velocity, w.dp_velocity),
         stage.images,
         with_derivatives({w.xi: word(w.velocity)}),
@@ -51,7 +53,7 @@ def kernel(stage: Exterior, a: FluidAlphabet, c: Chapter) -> FluidKernel:
     )
     first = putting.step(
         (Equation(CONTRACTION, found.any_vector(putting)),),
-        say("contraction.unknown", unknown="η, δu"),
+        say("contraction.extremals") + say("contraction.unknown", unknown="η, δu"),
         where=(CONTRACTED,),
     )
     found = found.marked_by(putting)
@@ -72,7 +74,7 @@ def kernel(stage: Exterior, a: FluidAlphabet, c: Chapter) -> FluidKernel:
     shown = factored_tree(draft, balance, found.remaining_core, moving, trees(a))
     last = draft.step(
         (Equation("ġ", draft.tree(word(a.T.velocity))), Equation(shown, 0, (w.xi_prime.name,))),
-        say("kernel.fluid") + say("kernel.line"),
+        say("kernel.fluid") + say("kernel.fluid_line"),
     )
     balance = draft.mark(balance)
     return FluidKernel(balance, gradient(balance, w.xi_prime), (first, second, third, last))

@@ -14,12 +14,12 @@ from ..alphabet import AlgebraPart, Alphabet, SpacePart, members
 
 
 class FluidAlphabet(Alphabet):
-    """The letters of a problem of this name; ``advected``: the density is another at each place,
-    and ḠG is the product with it, else 1."""
+    """The letters of a problem of this name; ``advected``: the density varies from place to place,
+    and ḠG is the product with it, else 1; ``forced``: per unit mass, f = −grad V acts."""
 
-    def __init__(self, name: str, *, advected: bool):
+    def __init__(self, name: str, *, advected: bool, forced: bool):
         super().__init__("n", affine=True)
-        self.name, self.advected = name, advected
+        self.name, self.advected, self.forced = name, advected, forced
         operator = [Letter(x, self.n, self.n) for x in self._part("G", "Ġ")]
         field = [Letter(x, self.n) for x in self._part("g", "ν")]
         self.A, self.T = SpacePart("Ġ", *operator), SpacePart("ġ", *field)
@@ -27,7 +27,8 @@ class FluidAlphabet(Alphabet):
         self.w = AlgebraPart(*(Letter(x, self.n) for x in names))
         self.Z = AlgebraPart(*map(along, self.w_letters))
         self.C = Letter("ρ", self.n, self.n, 1)
-        self.D, self.p = Letter("D", "k", self.n), Letter("p", "k")
+        self.D, self.p, self.V = Letter("D", "k", self.n), Letter("p", "k"), Letter("V", "k")
+        self.force = Letter("f", self.n)
         self.moved_field, self.moved_rate = Letter("ϑ", self.n), Letter("ϑ̇", self.n)
 
     @property

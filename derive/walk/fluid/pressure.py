@@ -1,6 +1,6 @@
 """The pressure: the multiplier of div u = 0, by the letter D and its adjoint.
 
-    u̇ + ∇_u u = D̄p = −grad p,  −Δp = Tr (∇u)²,  ∂ₙp = −⟨∇_u u, n⟩
+    u̇ + ∇_u u − f = D̄p = −grad p,  −Δp = Tr (∇u)²,  ∂ₙp = −⟨∇_u u, n⟩
 
 What is orthogonal to every field η′ with Dη′ = 0 is in the image of D̄ (Helmholtz).  Then D is put
 before this equation; D∇_u u is found at each place, where ∇_u u is (∇u)u, a matrix times a vector.
@@ -8,27 +8,41 @@ before this equation; D∇_u u is found at each place, where ∇_u u is (∇u)u,
 
 from __future__ import annotations
 
-from ...algebra.calculus import PairRule, coefficient_of, derivation, reduce
+from ...algebra.calculus import (
+    PairRule,
+    coefficient_of,
+    derivation,
+    gradient,
+    reduce,
+    substitute,
+    terms_with,
+    without,
+)
 from ...algebra.forms import strip_left
 from ...algebra.word_trees import WordNotation
 from ...algebra.words import Expr, Factor, Letter, inner, one, trace, word, zero
 from ...language.read import read
-from ...language.tree import neg
+from ...language.tree import add, neg
 from ...record.formulas import stated
 from ...record.record import Equation, Step
 from ..chapter import Chapter
+from ..factorisation import factored_tree
 from ..wording import say
 from .fluid_kernel import FluidKernel
 from .fluid_letters import FluidAlphabet
+from .fluid_points import GRADIENT_OF_V, Points
+from .trivialised import trees
 
 GRADIENT = Letter("grad p", "n")
 """−D̄p as one vector."""
-SHOWN = WordNotation(display={GRADIENT: ("call", "grad", "p")})
+SHOWN = WordNotation(
+    display={GRADIENT: ("call", "grad", "p"), GRADIENT_OF_V: ("call", "grad", "V")}
+)
 
 
-def pressure(stage: FluidKernel, a: FluidAlphabet, c: Chapter) -> tuple[Step, ...]:
-    """The steps ``divergence``, ``pressure``, ``divergence_along``, ``pressure_equation`` and
-    ``boundary``."""
+def pressure(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) -> tuple[Step, ...]:
+    """The steps ``divergence``, ``pressure``, ``absorbed`` of a force where the density is the same
+    everywhere, ``divergence_along``, ``pressure_equation`` and ``boundary``."""
     u, rate = (word(x) for x in (a.w.velocity, a.w.acceleration))
     D, pushed = word(a.D), word(a.D).bar * word(a.p)
     dividing, pressing = c.draft("divergence", "definition"), c.draft("pressure", "multiplier")
@@ -40,25 +54,63 @@ def pressure(stage: FluidKernel, a: FluidAlphabet, c: Chapter) -> tuple[Step, ..
         say("divergence.fields"),
     )
     pressing.depends_on(first)
-    force = pressing.tree(stage.force)
+    inert = without(stage.force, a.force)
+    driving = substitute(inert - stage.force, {a.force: points.potential})
     second = pressing.step(
         (
-            Equation(force, pressing.tree(pushed), exists=("p",)),
+            Equation(pressing.tree(stage.force), pressing.tree(pushed), exists=("p",)),
             Equation(pressing.tree(pushed), pressing.tree(by_gradient(pushed, a), SHOWN)),
-            Equation(force, pressing.tree(by_gradient(pushed, a), SHOWN)),
+            Equation(pressing.tree(inert), pressing.tree(by_gradient(pushed, a) + driving, SHOWN)),
         ),
         say("pressure.helmholtz") + (() if a.advected else say("pressure.curved")),
     )
     twice = divergence_along(a, c)
-    return (first, second, twice, _poisson(stage, a, c, first, twice), _boundary(stage, a, c))
+    elliptic = _poisson(stage, points, a, c, first, twice)
+    joined = _absorbed(stage, points, a, c) if a.forced and not a.advected else ()
+    return (first, second, *joined, twice, elliptic, _boundary(stage, points, a, c))
+
+
+def _absorbed(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) -> tuple[Step]:
+    """A force with potential where the density is 1: it is in the image of D̄, as the pressure
+    is."""
+    draft = c.draft("absorbed", "elimination")
+    turned = word(a.D).bar * word(a.V).marked(*points.potential.lineage, c.label("pressure"))
+    if _gradients(turned, a) != points.potential:
+        raise ValueError("the force is not the opposite of the gradient of its potential")
+    still = pair_rule((a.D, False), (a.w.xi_prime, False), zero("k", 1))
+    balance = reduce(substitute(stage.balance, {a.force: turned}), still)
+    moved = {a.w.acceleration: gradient(balance, a.w.xi_prime)}
+    shown = factored_tree(draft, balance, terms_with(balance, a.w.acceleration), moved, trees(a))
+    both = Letter("p + V", "k")
+    image = word(a.D).bar * word(a.p) + turned
+    if image != substitute(word(a.D).bar * word(both), {both: word(a.p) + word(a.V)}):
+        raise ValueError("the force is not in the image of the pressure")
+    return (
+        draft.step(
+            (
+                Equation(draft.tree(word(a.force)), draft.tree(turned)),
+                Equation(shown, 0, (a.w.xi_prime.name,)),
+                Equation(
+                    draft.tree(without(stage.force, a.force)),
+                    neg(("call", "grad", add(a.p.name, a.V.name))),
+                ),
+            ),
+            say("absorbed.pressure"),
+        ),
+    )
+
+
+def _gradients(e: Expr, a: FluidAlphabet) -> Expr:
+    """An expression with −grad V for D̄V."""
+    return reduce(e, pair_rule((a.D, True), (a.V, False), -word(GRADIENT_OF_V)))
 
 
 def by_gradient(e: Expr, a: FluidAlphabet) -> Expr:
     """An expression with −grad p for D̄p."""
-    return reduce(e, _pair((a.D, True), (a.p, False), -word(GRADIENT)))
+    return reduce(e, pair_rule((a.D, True), (a.p, False), -word(GRADIENT)))
 
 
-def _pair(left: Factor, right: Factor, value: Expr) -> PairRule:
+def pair_rule(left: Factor, right: Factor, value: Expr) -> PairRule:
     """The relation that a pair of factors has this value."""
     return lambda x, y: value if (x, y) == (left, right) else None
 
@@ -71,7 +123,7 @@ def divergence_along(a: FluidAlphabet, c: Chapter) -> Step:
     along_e, along_u = Letter("∂_e B", n, n), Letter("∂_u B", n, n, traceless=True)
     varied = derivation(word(B) * word(u), {B: word(along_e), u: word(B) * word(e)}.get)
     # second derivatives commute: (∂_e B)u = (∂_u B)e, whose trace is that of B along u, 0
-    crossed = reduce(varied, _pair((along_e, False), (u, False), word(along_u) * word(e)))
+    crossed = reduce(varied, pair_rule((along_e, False), (u, False), word(along_u) * word(e)))
     found = trace(coefficient_of(crossed, e))
     notation = WordNotation(display={B: ("call", "∇", "u")})
     return draft.step(
@@ -79,38 +131,53 @@ def divergence_along(a: FluidAlphabet, c: Chapter) -> Step:
     )
 
 
-def _poisson(stage: FluidKernel, a: FluidAlphabet, c: Chapter, adjoint: Step, twice: Step) -> Step:
+def _poisson(
+    stage: FluidKernel,
+    points: Points,
+    a: FluidAlphabet,
+    c: Chapter,
+    adjoint: Step,
+    twice: Step,
+) -> Step:
     """D before the equation of motion, solved for the acceleration; D u̇ = 0."""
     draft = c.draft("pressure_equation", "elimination")
     draft.depends_on(adjoint, twice)
     inverse = Letter("ρ⁻¹", a.n, a.n, 1)
     over = word(inverse) if a.advected else one(a.n)
-    cancelled = _pair((inverse, False), (a.C, False), one(a.n))
-    still = _pair((a.D, False), (a.w.acceleration, False), zero("k", 1))
+    cancelled = pair_rule((inverse, False), (a.C, False), one(a.n))
+    still = pair_rule((a.D, False), (a.w.acceleration, False), zero("k", 1))
     ((_, value),) = ((e.lhs, e.rhs) for e in twice.equations)
     along = reduce(word(a.D) * reduce(over * stage.force, cancelled), still)
-    if along != word(a.D) * word(a.Z.velocity) * word(a.w.velocity):
+    spread = substitute(along - without(along, a.force), {a.force: points.potential})
+    if along - terms_with(along, a.force) != word(a.D) * word(a.Z.velocity) * word(a.w.velocity):
         raise ValueError("the divergence of the acceleration is not that of ∇_u u")
     pushed = strip_left(word(a.D) * by_gradient(over * word(a.D).bar * word(a.p), a), a.D)
     notation = WordNotation(display={**SHOWN.display, inverse: ("inv", "ρ")})
     laplacian = ("call", "div", draft.tree(-pushed.of(stage.force), notation))
     left = neg(laplacian if a.advected else read("Δp"))
-    known = () if a.advected else (Equation(read("Δp"), laplacian),)
+    known = [] if a.advected else [Equation(read("Δp"), laplacian)]
+    if a.forced:
+        of_V = strip_left(spread, a.D)
+        known.append(Equation(read("ΔV"), ("call", "div", draft.tree(of_V, SHOWN))))
+        value = add(value, read("ΔV"))
     return draft.step((*known, Equation(left, value)), say(f"pressure_equation.{_kind(a)}"))
 
 
-def _boundary(stage: FluidKernel, a: FluidAlphabet, c: Chapter) -> Step:
+def _boundary(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) -> Step:
     """The equation of motion paired with n, to which u̇ and with it ρu̇ is orthogonal."""
     draft = c.draft("boundary", "restriction")
     n = word(Letter("n", a.n))
     still = a.volume * word(a.w.acceleration)
     push = by_gradient(word(a.D).bar * word(a.p), a)
-    paired = inner(n, push) - inner(n, stage.force - still)  # 0 = ⟨n, D̄p − ρ(u̇ + ∇_u u)⟩
+    inert = without(stage.force, a.force)
+    driving = substitute(stage.force - inert, {a.force: points.potential})
+    paired = inner(n, push) - inner(n, inert - still)  # 0 = ⟨n, D̄p − ρ(u̇ + ∇_u u − f)⟩
     normal = inner(n, word(GRADIENT))
+    against = neg(("inner", draft.tree(driving, SHOWN), "n")) if driving else 0
     return draft.step(
         (
             Equation(read("∂ₙp"), draft.tree(normal, SHOWN)),
-            Equation(read("∂ₙp"), draft.tree(paired + normal, SHOWN)),
+            Equation(read("∂ₙp"), add(draft.tree(paired + normal, SHOWN), against)),
         ),
         say("boundary.tangent"),
     )

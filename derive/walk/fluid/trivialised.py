@@ -104,7 +104,8 @@ def trivialised(natural: Cartan, stage: Points, a: FluidAlphabet, c: Chapter) ->
         ),
     )
     momentum, energy = draft.mark(momentum), draft.mark(energy)
-    return Cartan(momentum, energy, cartan_form(momentum, energy, a), natural.work, steps)
+    work = at_identity(natural.work, a)
+    return Cartan(momentum, energy, cartan_form(momentum, energy, a), work, steps)
 
 
 def exterior_by_fields(natural: Exterior, stage: Cartan, a: FluidAlphabet, c: Chapter) -> Exterior:
@@ -125,6 +126,8 @@ def exterior_by_fields(natural: Exterior, stage: Cartan, a: FluidAlphabet, c: Ch
         images[x] = word(x) + (images[x] - word(x))  # first the variation itself
     core = terms_with(without(form, a.dt, a.dpt), a.w.d_velocity, a.w.dp_velocity)
     contact = {x: y for x, y in images.items() if x in (a.w.xi, a.w.xi_prime)}
+    for x in (a.w.d_velocity, a.w.dp_velocity) if a.forced else ():
+        contact[x] = word(x) + terms_with(images[x], a.dt, a.dpt)
     shown = [factored_tree(draft, form, core, images, trees(a))]
     if not a.advected:  # with a density that moves, the second has terms in its derivative
         shown.append(factored_tree(draft, form, core, contact, trees(a)))

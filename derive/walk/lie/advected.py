@@ -16,8 +16,8 @@ from ...algebra.groups import Group
 from ...algebra.words import Letter, word
 from ...language.rational import Matrix
 from ...language.suffixed import suffixed
-from ...language.tree import Tree, add, mul
-from ...problem.moved_entries import Entry, Moved, plain
+from ...language.tree import Tree, add, mul, plain
+from ...problem.moved_entries import Entry, Moved
 from ...problem.problem import Problem
 from ...record.formulas import stated
 from ...record.record import Equation

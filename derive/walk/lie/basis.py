@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ...algebra.groups import Group
-from ...language.tree import Tree, add, mul
-from ...problem.moved_entries import EntriesOfElement, Moved, plain
+from ...language.tree import Tree, add, mul, plain
+from ...problem.moved_entries import EntriesOfElement, Moved
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ...record.sentence import Prose, listed

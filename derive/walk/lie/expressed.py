@@ -15,8 +15,7 @@ from ...algebra.groups import Group
 from ...language.derivatives import derivative
 from ...language.laurent import OverlongError, collected
 from ...language.read import read
-from ...language.tree import Tree, add, mul, neg
-from ...problem.moved_entries import plain
+from ...language.tree import Tree, add, mul, neg, plain
 from ...problem.null_directions import along, hessian, null_directions
 from ...problem.problem import Problem
 from ...problem.state_names import coordinates

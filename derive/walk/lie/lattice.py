@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ...language.tree import Tree, add, mul, neg
+from ...language.tree import Tree, add, mul
 
 FREE, BOUND = "𝐧", "𝐦"
 """A free index, and one that a sum binds."""
@@ -43,7 +43,7 @@ def crossed(k: Index, other: Index) -> int:
 
 @dataclass(frozen=True)
 class Unit:
-    """q iᵃ πᵇ: the numbers of the torus."""
+    """q iᵃ πᵇ, a = 0 or 1: the numbers of the torus."""
 
     q: Fraction
     i: int = 0
@@ -55,13 +55,33 @@ class Unit:
         turns, i = divmod(self.i + other.i, 2)
         return Unit((-1) ** turns * self.q * other.q, i, self.pi + other.pi)
 
+    def __add__(self, other: Unit) -> Unit:
+        if (self.i, self.pi) != (other.i, other.pi):
+            raise ValueError("a sum of numbers with other powers of i and π")
+        return Unit(self.q + other.q, self.i, self.pi)
+
+    def __sub__(self, other: Unit) -> Unit:
+        return self + other * -1
+
+    @property
+    def inverse(self) -> Unit:
+        """1/x; that of i is −i."""
+        return Unit((-1) ** self.i / self.q, self.i, -self.pi)
+
     def times(self, *factors: Tree) -> Tree:
-        """The tree of a product, i and π above or below one line."""
-        above = ("π",) * (self.pi == 1) + ("i",) * (self.i == 1)
-        top = mul(abs(self.q.numerator), *above)
-        below = mul(self.q.denominator, *("π",) * (self.pi == -1))
-        sign = 1 if self.q > 0 else -1
-        return mul(sign, top if below == 1 else ("div", top, below), *factors)
+        """The tree of a product, i on that side of the line where π is."""
+        if not self.i and not self.pi:
+            return mul(self.q, *factors)
+        q, i = (-self.q if self.pi < 0 and self.i else self.q), ("i",) * self.i
+        above = ("π",) * (self.pi > 0) + i * (self.pi >= 0)
+        below = ("π",) * (self.pi < 0) + i * (self.pi < 0)
+        top, bottom = mul(abs(q.numerator), *above), mul(q.denominator, *below)
+        return mul(1 if q > 0 else -1, top if bottom == 1 else ("div", top, bottom), *factors)
+
+
+ONE = Unit(Fraction(1))
+SINE = Unit(Fraction(-1), 1)
+"""What the sine has in the phase of T(m) T(n), the cosine having 1."""
 
 
 @dataclass(frozen=True)
@@ -74,14 +94,19 @@ class Phase:
         """2π m∧n/N."""
         return ("div", mul(2, "π", ("wedge", BOUND, FREE)), self.N)
 
+    def sine(self, k: int) -> Tree:
+        """sin 2πk/N."""
+        return ("fun", "sin", ("div", mul(2 * k, "π"), self.N))
+
     def product(self) -> Tree:
         """The phase itself."""
         cos, sin = (("fun", name, self.angle()) for name in ("cos", "sin"))
-        return add(cos, neg(mul("i", sin)))
+        return add(cos, SINE.times(sin))
 
     def bracket(self, k: Index, other: Index) -> tuple[Unit, Tree]:
-        """That of [T(k), T(other)], where k ∧ other is ± m ∧ n: twice the odd part."""
-        odd = Unit(Fraction(-2), 1) * crossed(k, other)
+        """That of [T(k), T(other)], where k ∧ other is ± m ∧ n: of the product less the one in the
+        other order the odd part is left, twice."""
+        odd = SINE * crossed(k, other) - SINE * crossed(other, k)
         return odd, ("fun", "sin", self.angle())
 
 

@@ -27,7 +27,7 @@ from tests.support.engine_mutations.operators import Mutant
 SEED = 20
 """Of the checker: the same changes get the same verdicts."""
 
-SECONDS, MEMORY = 20, 4 << 30
+SECONDS, MEMORY = 60, 4 << 30
 """What one job may take of the processor, and one engine of memory."""
 REFUSALS = (
     "derive.",

@@ -1,10 +1,15 @@
 """Zeitlin's model: its steps hold modulo primes, every change of them is refused, and the files."""
 
 from dataclasses import replace
+from fractions import Fraction
 from functools import cache
+from random import Random
 
+import numpy as np
 import pytest
 
+from derive.algebra.torus import Torus
+from derive.algebra.words import Letter, trace, word
 from derive.check.checker import Checker, check
 from derive.command.cli import main
 from derive.language.read import read
@@ -16,6 +21,10 @@ from derive.record.contract import ANY_GROUP
 from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.record import Equation
+from derive.walk.alphabet import Alphabet
+from derive.walk.lie import vorticity
+from derive.walk.lie.lattice import Unit
+from derive.walk.lie.lattice_forms import Coefficient, paired, traced
 from tests.support.record_mutations import tried
 from tests.support.walks import SEED
 
@@ -36,6 +45,57 @@ def checker(N):
     return Checker(record(N).problem, SEED)
 
 
+def rates(N, values):
+    """dω̂/dt by mode, of the step that writes the sums out, in numbers."""
+    found = {}
+    for e in record(N)["modes"].equations:
+        n = e.lhs[2][2:]
+        text = show(e.rhs)
+        assert "∑" not in text
+        found[n] = number(e.rhs, values)
+    return found
+
+
+def number(t, values):
+    """A tree in numbers; ω̂ by its places."""
+    if not isinstance(t, tuple):
+        return {"π": np.pi}.get(t, t) if isinstance(t, str) else float(t)
+    if t[:2] == ("call", "ω̂"):
+        return values[t[2:]]
+    if t[0] == "fun":
+        return getattr(np, t[1])(number(t[2], values))
+    parts = [number(x, values) for x in t[1:]]
+    return {"add": sum, "mul": np.prod, "div": lambda p: p[0] / p[1]}[t[0]](parts)
+
+
+@pytest.mark.parametrize("N", [3, 5])
+def test_the_modes_are_the_double_sum(N):
+    """Against the sum over all pairs, in complex numbers."""
+    span = range(-(N // 2), N // 2 + 1)
+    places = [(x, y) for x in span for y in span if (x, y) != (0, 0)]
+    draw = np.random.default_rng(7)
+    values = {}
+    for n in places:
+        if n not in values:
+            values[n] = complex(*draw.normal(size=2))
+            values[-n[0], -n[1]] = values[n].conjugate()
+    found = rates(N, values)
+    assert len(found) == (N * N - 1) // 2
+    for n, rate in found.items():
+        total = 0
+        for m in places:
+            k = tuple((x - y + N // 2) % N - N // 2 for x, y in zip(n, m, strict=True))
+            if k == (0, 0):
+                continue
+            turn = np.sin(2 * np.pi * (m[0] * k[1] - m[1] * k[0]) / N)
+            total += turn * values[m] * values[k] / (k[0] ** 2 + k[1] ** 2)
+        assert abs(rate - N / (2 * np.pi) * total) < 1e-12 * (1 + abs(total))
+
+
+def test_larger_sums_are_not_written_out():
+    assert "fluid.modes" not in {s.label for s in own(9)}
+
+
 @pytest.mark.parametrize("N", [3, 9, 13])
 def test_every_step_holds(N):
     assert checker(N).symbols(record(N)).holds
@@ -52,13 +112,14 @@ def test_the_whole_record_holds_and_is_read_back():
 
 
 def test_the_equations_are_those_of_any_size():
-    for three, seven in zip(own(3), own(7), strict=True):
+    summed = [s for s in own(3) if s.label != "fluid.modes"]
+    for three, seven in zip(summed, own(7), strict=True):
         assert len(three.equations) == len(seven.equations)
         assert len(show(three.equations[0].rhs)) <= len(show(seven.equations[0].rhs))
 
 
 def test_formulas_are_read_back():
-    for step in own(7):
+    for step in (*own(3), *own(7)):
         for e in step.equations:
             assert [read(show(x)) for x in (e.lhs, e.rhs)] == [e.lhs, e.rhs]
 
@@ -176,3 +237,67 @@ def test_what_else_a_file_says_is_refused(other):
 def test_without_inertia():
     with pytest.raises(ProblemError, match="laplacian"):
         problem_of({"name": "bad", "algebra": {"of": "torus", "N": 5}})
+
+
+def test_coefficients_follow_from_the_inertia_operator(monkeypatch):
+    """With 2|n|² in its place: ω̂ and L̃ twice, P and h̃ by ω̂ half, and the motion half as fast."""
+    a = Alphabet("n", affine=False)
+    one = vorticity.fluid_of(Torus(7), a)
+    monkeypatch.setattr(vorticity, "inertia", lambda x: x.times(2, 1))
+    two = vorticity.fluid_of(Torus(7), a)
+    assert (two.slope, two.stream) == (one.slope.times(2), one.stream.times(Fraction(1, 2)))
+    assert two.lagrangian == one.lagrangian.times(2)
+    assert two.energy == one.energy.times(Fraction(1, 2))
+    assert (two.momentum, two.velocity) == (one.momentum, one.velocity)
+
+
+def test_forms_are_sums_over_the_lattice():
+    """δ, a gradient and a substitution, beside sums of numbers."""
+    random, places = Random(0), Torus(5).places
+    square = {n: n[0] ** 2 + n[1] ** 2 for n in places}
+    values = {x: {n: random.randint(1, 99) for n in places} for x in ("a", "b", "c")}
+
+    def total(form, values):
+        return sum(
+            u.q * square[n] ** p * values[x][n] * values[y][-n[0], -n[1]]
+            for (x, y, p), u in form.terms.items()
+            for n in places
+        )
+
+    a, b, c = map(Coefficient, "abc")
+    form = paired(a.times(3, 1), a) - paired(a, b)
+    ahead, back = (
+        total(form, values | {"a": {n: x + s * values["c"][n] for n, x in values["a"].items()}})
+        for s in (1, -1)
+    )
+    assert total(form.varied("a", "c"), values) == (ahead - back) / 2
+    put = values | {"b": {n: 5 * square[n] * x for n, x in values["c"].items()}}
+    assert total(form.put("b", c.times(5, 1)), values) == total(form, put)
+    slope = paired(b.times(7, -1), c).gradient("c")
+    assert slope.solved_for("b") == Coefficient("b", Unit(Fraction(1, 7)), 1)
+    with pytest.raises(ValueError, match="multiple"):
+        paired(a, b).over(paired(a, c))
+
+
+def test_the_trace_form_is_that_of_matrices():
+    """Tr XY of elements of su(5), as products of the clock and of the shift, with numbers."""
+    N, rng = 5, np.random.default_rng(0)
+    clock, shift = np.diag(np.exp(4j * np.pi * np.arange(N) / N)), np.roll(np.eye(N), 1, axis=1)
+    power = np.linalg.matrix_power
+    values = {x: {n: rng.normal() for n in Torus(N).places} for x in "XY"}
+
+    def element(x):
+        return sum(
+            v
+            * np.exp(2j * np.pi * n[0] * n[1] / N)
+            * power(clock, n[0] % N)
+            @ power(shift, n[1] % N)
+            for n, v in values[x].items()
+        )
+
+    X, Y = (Letter(x, "n", "n") for x in "XY")
+    form = traced(trace(word(X, Y)), {X: Coefficient("X"), Y: Coefficient("Y")}, N)
+    ((x, y, p), u), found = form.only, np.trace(element("X") @ element("Y"))
+    expected = float(u.q) * sum(values[x][n] * values[y][-n[0], -n[1]] for n in Torus(N).places)
+    assert p == 0
+    assert abs(found - expected) < 1e-12 * abs(expected) + 1e-12

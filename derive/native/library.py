@@ -7,11 +7,9 @@ import os
 import shutil
 import subprocess
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-
-from ..command.writing import write
 
 FLAGS = ("-std=c99", "-O3", "-march=native", "-fPIC", "-shared")
 
@@ -35,10 +33,21 @@ def loaded(source: CSource) -> ctypes.CDLL:
     return _built(source, _compiler(source.compiler))
 
 
+def over_cores(source: CSource) -> CSource:
+    """The source with OpenMP, where the compiler has that."""
+    more = replace(source, flags=(*source.flags, "-fopenmp"))
+    try:
+        loaded(more)
+    except CompileError:
+        return source
+    return more
+
+
 @cache
 def _built(source: CSource, compiler: str) -> ctypes.CDLL:
     with tempfile.TemporaryDirectory(prefix="derive-") as folder:
-        write(dict(source.files), Path(folder))
+        for name, text in source.files:
+            (Path(folder) / name).write_text(text, encoding="utf-8")
         target = Path(folder) / f"{source.name}.so"
         sources = map(str, sorted(Path(folder).glob("*.c")))
         command = [compiler, *source.flags, *sources, "-o", str(target), "-lm"]

@@ -1,0 +1,1 @@
+"""Integrators: the numbers of their methods, from the definitions."""

@@ -1,0 +1,196 @@
+"""What the templates of the steps in time are filled with."""
+
+from __future__ import annotations
+
+import textwrap
+from itertools import groupby
+from typing import Any
+
+from ..options import Options
+from ..program import Program
+from ..statements import Statements
+from .collocation import Collocation
+from .discrete_fields import written_step
+from .explicit_fields import GROWTH as EXPLICIT_GROWTH
+from .explicit_fields import SAFETY as EXPLICIT_SAFETY
+from .explicit_fields import explicit, fields_of
+from .kept_by_gauss import sentences
+from .lanes import OF_EACH, in_lanes, part_of
+from .stage_modes import StageModes
+
+
+def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
+    """Name of a step → its numbers; ``parts``: the first index and that after the last of each part
+    of the state; ``split``: where the later half of them begins, or 0; ``lanes``: the right-hand
+    side of several stages at once, in C; ``adaptive``: the steps that choose their size;
+    ``explicit``: what they share; ``watch``: how events are found."""
+    compiled = "c" in (written.language.name, written.language.needs)
+    in_lanes_too = compiled and "gauss" in options.step and not p.loops
+    return {
+        "parts": parts(p),
+        "split": split_of(p),
+        "lanes": in_lanes(p.functions["rhs"], written) if in_lanes_too else None,
+        "turns": turns(p, written) if in_lanes_too else [],
+        "adaptive": {*options.step} - {*FIXED},
+        "explicit": (told := explicit(options.step, written.printer.number)),
+        "discrete": discrete(p, written, options),
+        "held": "discrete" in options.step or "vern9" in options.step,
+        "memory": memory(p, options, told["stages"] if told else 0),
+        "names": options.step,
+        "least": LEAST,
+        "watch": WATCH if p.events else None,
+        "ensemble": ensemble(p, written) if compiled and options.ensemble else None,
+        "gauss": gauss("raw" in options.jacobian) if {*COLLOCATED} & {*options.step} else None,
+        "keeps": textwrap.wrap(sentences(p.keeps, energy_alone=not p.conserved), 92)
+        if p.keeps
+        else [],
+    }
+
+
+def discrete(p: Program, written: Statements, options: Options) -> dict[str, Any] | None:
+    """The sums of the discrete step, where that is asked for."""
+    if p.discrete is None:
+        return None
+    return written_step(p.discrete, written.printer.number, options.step)
+
+
+def memory(p: Program, options: Options, stages: int) -> dict[str, int] | None:
+    """The kilobytes of a motion, and those that a step has on the stack in C besides the rates;
+    ``None`` where the state is not so large that one should know."""
+    implicit, size = "gauss" in options.step, len(p.state) * (4 if options.real == "float" else 8)
+    if len(p.state) <= LARGE:
+        return None
+    motion = 3 + 8 * implicit + 2 * stages
+    within = 38 if implicit else 5  # as measured without optimisation, which takes most
+    return {name: -(-size * x // 1024) for name, x in (("motion", motion), ("stack", within))}
+
+
+LARGE = 200
+"""The largest state of which the memory of a step is not said."""
+
+
+def turns(p: Program, written: Statements) -> list[dict[str, Any]]:
+    """The parts of the state that an iteration takes one after the other, each by what is new of
+    the others: the first index, that after the last, the rates in lanes.
+
+    Places, then velocities: fewer iterations, of which each waits longer, which does not pay where
+    the state is small.
+    """
+    split, f = split_of(p), p.functions["rhs"]
+    if len(p.state) <= SMALL or not split:
+        return [{"start": 0, "end": len(p.state), "lanes": in_lanes(f, written)}]
+    return [
+        {"start": a, "end": b, "lanes": in_lanes(part_of(f, a, b), written)}
+        for a, b in ((0, split), (split, len(p.state)))
+    ]
+
+
+def split_of(p: Program) -> int:
+    """The first number of the later half of the parts of a state, velocities mostly; 0 of one
+    part."""
+    found = parts(p)
+    return found[len(found) // 2][0] if len(found) > 1 else 0
+
+
+SMALL = 12
+"""The largest state whose parts are iterated together."""
+
+
+def ensemble(p: Program, written: Statements) -> dict[str, Any]:
+    """The right-hand side of a motion in each lane, the way back to the group, and the methods."""
+    found = p.functions.get("project")
+    return {
+        "rhs": in_lanes(p.functions["rhs"], written, OF_EACH),
+        "project": in_lanes(found, written, OF_EACH) if found else None,
+        "growth": EXPLICIT_GROWTH,
+        "safety": EXPLICIT_SAFETY,
+        **{name: fields_of(name, written.printer.number) for name in ("rk4", "vern9")},
+    }
+
+
+def parts(p: Program) -> list[tuple[int, int]]:
+    """The range of each part of the state, as A and zeta, or A and its rate: its errors are
+    measured together.  The vorticity on the torus is one: of a smooth flow most of its coefficients
+    are nothing but rounding, which no step makes smaller."""
+    if p.on_torus:
+        return [(0, len(p.state))]
+    found, start = [], 0
+    for _, members in groupby(
+        p.state, lambda name: (name.partition("_")[0], name.endswith("_dot"))
+    ):
+        end = start + len([*members])
+        found.append((start, end))
+        start = end
+    return found
+
+
+def gauss(coarse: bool) -> dict[str, Any]:
+    """The numbers of Gauss's collocation, which round-trip as decimals: see ``Collocation``;
+    ``coarse``: its stages apart, too, for Newton's method where there is a Jacobian."""
+    method = Collocation()
+    return {
+        "nodes": method.c,
+        "weights": method.b,
+        "mu": method.mu,
+        "mu_by_columns": [[*column] for column in zip(*method.mu, strict=True)],
+        "legendre": method.dense,
+        "continued": method.continued,
+        "error": ERROR,
+        "sweeps": SWEEPS,
+        "continues": CONTINUES,
+        "rounding": ROUNDING,
+        "stalled": STALLED,
+        "enough": ENOUGH,
+        "growth": GROWTH,
+        "safety": SAFETY,
+        "kept": KEPT,
+        "many": MANY,
+        "least": LEAST,
+        "modes": StageModes.of(method) if coarse else None,
+        "newton_steps": NEWTON_STEPS,
+        "stalled_newton": STALLED_NEWTON,
+    }
+
+
+SWEEPS = 40
+"""The most iterations of a step; one that needs more is made in halves."""
+
+CONTINUES = 8
+"""A step that is so many times the last one is not begun from the polynomial of that."""
+
+GROWTH, SAFETY, LEAST = 4.0, 0.9, 1e-12
+"""By how much a step may grow, the part taken of what an error suggests, and the least step, as a
+part of the time: shorter ones would not end."""
+
+KEPT = 1.1
+"""A step that may grow by less is kept."""
+
+MANY = 16
+"""The iterations from which on a coarser step costs more of them than it saves steps."""
+
+ERROR = 3.0
+"""The error of a step over the square of the last coefficient of f in Legendre's polynomials, which
+it is like: so chosen that on tops and on SL(3) the error at the end of a hundred turns is about the
+tolerance; on bodies whose parts differ it is less."""
+
+ROUNDING, STALLED = 1e-16, 1e-13
+"""What an iteration may still change, relative; and below which it is rounding that it does no
+more."""
+
+ENOUGH = 1e-3
+"""The part of a tolerance that an iteration may leave, as what it leaves adds up."""
+
+NEWTON_STEPS, STALLED_NEWTON = 20, 1e-10
+"""The most steps of Newton's method for the stages; and below which change it is rounding that it
+does no more, of rates that are large where a problem is stiff."""
+
+COLLOCATED = ("gauss", "gauss_jax")
+"""The steps of Gauss's collocation."""
+
+WATCH = {"parts": 16, "halvings": 40, "newton": 8, "exact": 1e-15}
+"""An event is looked for at the ends of so many parts of a step, on its polynomial; the part is
+halved so often; then so many steps that end there, at most, correct the instant to an exact one,
+relative."""
+
+FIXED, IN_FLOAT = ("rk4", "discrete"), ("rk4",)
+"""The steps that have no size of their own, and those that are written for float, too."""

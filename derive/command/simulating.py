@@ -1,0 +1,180 @@
+"""``derive simulate``: from a problem to a run in one command."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..motion.ensemble import require_an_ensemble
+from ..motion.method import STEPS, Method, instants
+from ..motion.run import Array, Run
+from ..motion.run_files import format_of, written
+from ..motion.simulate import beginning, run
+from ..motion.start import MotionError, state_file
+from ..page.motion_page import motion_page
+from ..pipeline import motion_of
+from ..problem.problem import Problem
+from ..record.record import Derivation
+from ..views.language import language
+from .ensembles import command_ensemble
+from .guard import one_line
+from .progress import with_progress
+from .writing import write
+
+MANY, LARGEST = 60, 8
+"""Of a state of more than so many numbers only so many are told, those that are largest."""
+
+
+def page_of(args: argparse.Namespace, problem: Problem, record: Derivation) -> str:
+    """The page that a command asks for; ``Refused`` where there is none."""
+    if not args.html.endswith(".html"):
+        raise MotionError(f"{args.html}: the name of a page must end in .html")
+    if args.dt is not None or args.method not in (None, STEPS[0]):
+        raise MotionError("--html: the page moves by gauss to a tolerance: leave out --dt, --step")
+    return moving_page(problem, record, args.t, method_of(args), args.lang, **start_of(args))
+
+
+def moving_page(
+    problem: Problem, record: Derivation, t: float, method: Method, lang: str, **start: Any
+) -> str:
+    """The page of a motion from 0 to t, from a start as ``beginning`` takes it; ``Refused``."""
+    code = motion_of(problem, record)
+    begin = beginning(code, problem, **start)
+    instants(method, t, 1)  # refuses a time that is none
+    return motion_page(code, problem, record, begin, t, method.tol, language(lang))
+
+
+def method_of(args: argparse.Namespace) -> Method:
+    """The step, and its size or tolerance."""
+    chosen = {} if args.tol is None else {"tol": args.tol}
+    return Method(args.method or STEPS[0], args.dt, **chosen)
+
+
+def start_of(args: argparse.Namespace) -> dict[str, Any]:
+    """Where the motion starts, as ``beginning`` takes it."""
+    given = state_file(Path(args.state)) if args.state else {}
+    return {
+        "given": given | dict(args.set or ()),
+        "exponent": args.exp or (),
+        "project": args.project,
+    }
+
+
+def run_of(args: argparse.Namespace, problem: Problem, record: Derivation) -> Run:
+    """The run that a command asks for; ``Refused`` where there is none."""
+    if args.out:
+        format_of(args.out)  # refused before the work
+    method = method_of(args)
+    return run(
+        motion_of(problem, record, method.step),
+        problem,
+        method,
+        args.t,
+        500 if args.points is None else args.points,
+        **start_of(args),
+        progress=lambda parts, total: with_progress(parts, total, problem.name),
+    )
+
+
+def command_simulate(
+    args: argparse.Namespace, derived: Callable[[str], tuple[Problem, Derivation]]
+) -> int:
+    """Run ``derive simulate``: its exit code."""
+    if args.dt is not None and args.tol is not None:
+        raise MotionError("--dt is a step of one size, --tol chooses it: give one of them")
+    if args.ensemble is None:
+        require_an_ensemble(args.vary, args.seed)
+    problem, record = derived(args.problem)
+    if args.ensemble is not None:
+        return command_ensemble(args, problem, record, start_of(args))
+    if args.html:
+        out, page = Path(args.html), page_of(args, problem, record)
+        for path in write({out.name: page}, out.parent, links=True):
+            print(path)
+        if not args.out:
+            return 0
+    found = run_of(args, problem, record)
+    for line in summary(found):
+        print(one_line(line))
+    if args.out:
+        out = Path(args.out)
+        for path in write({out.name: written(found, out.name)}, out.parent, links=True):
+            print(path)
+    return _told(found)
+
+
+def summary(run: Run) -> list[str]:
+    """What a run says of itself, in lines."""
+    name, method = run.facts["problem"], run.facts["method"]
+    span, how = f"{len(run.t)} instants, t = 0 … {run.t[-1]:g}", run.facts["language"]
+    lines = [f"{name}: {span}, by {method}, in {how}"]
+    for kind in ("energy", "conserved"):
+        for label, column in run.of_kind(kind).items():
+            change = float(np.abs(column - column[0]).max())
+            lines.append(f"  {label}: {column[0]:.9g} at first, changed by at most {change:.1e}")
+    for label, column in run.of_kind("defect").items():
+        lines.append(f"  {label}: at most {float(column.max()):.1e}")
+    lines += events(run)
+    last = dict(zip(run.names, run.table[-1].tolist(), strict=True))
+    state = [*run.of_kind("state")]
+    largest = sorted(state, key=lambda x: -abs(last[x]))[:LARGEST]
+    shown = state if len(state) <= MANY else [x for x in state if x in largest]
+    told = [f"{x} = {last[x]:.6g}" for x in shown]
+    told += [f"… (the largest of {len(state)})"] * (len(shown) < len(state))
+    return [*lines, f"  at the end: {', '.join(told)}"]
+
+
+def events(run: Run) -> list[str]:
+    """What happened, a line each event: how often, and when, the first three times and the last."""
+    times: dict[str, list[float]] = {}
+    for one in run.events:
+        times.setdefault(one.name, []).append(one.t)
+    lines = []
+    for name, found in times.items():
+        shown = [f"{t:.12g}" for t in found]
+        shown = shown if len(shown) <= 4 else [*shown[:3], "…", shown[-1]]
+        often = "once" if len(found) == 1 else f"{len(found)} times"
+        lines.append(f"  event {name}: {often}, at t = {', '.join(shown)}")
+    return lines
+
+
+def negative(t: Array, column: Array) -> str:
+    """When a column is below 0, its first stretch and at how many instants; empty where never.
+
+    What is 0 to rounding is 0, as the pressure of a fluid that is only sheared.
+    """
+    below = np.flatnonzero(column < -1e-12 * np.abs(column).max())
+    if not len(below):
+        return ""
+    gaps = np.flatnonzero(np.diff(below) > 1)
+    last = below[gaps[0]] if len(gaps) else below[-1]
+    until = f" … {t[last]:.4g}" if last > below[0] else ""
+    more = " and later" if len(gaps) else ""
+    return f"at t = {t[below[0]]:.4g}{until}{more} ({len(below)} of {len(t)} instants)"
+
+
+def _told(run: Run) -> int:
+    """The exit code, and on stderr what is amiss."""
+    name = run.facts["problem"]
+    if why := run.facts.get("unsought"):
+        text = f"of what it keeps the energy alone is told: {why.removeprefix(f'{name}: ')}"
+        print(f"derive: note: {one_line(f'{name}: {text}')}", file=sys.stderr)
+    for label, column in run.of_kind("multiplier").items():
+        if where := negative(run.t, column):
+            text = f"{label} is negative {where}: a fluid would tear there"
+            print(f"derive: warning: {name}: {text}", file=sys.stderr)
+    if not run.ended and not np.any(run.states != run.states[0]):
+        text = "nothing moves: give it a velocity, as --set zeta_1=1"
+        print(f"derive: warning: {name}: {text}", file=sys.stderr)
+    if run.ended == "interrupted":
+        print(f"derive: {name}: interrupted at t = {run.t[-1]:g}", file=sys.stderr)
+        return 130
+    if run.ended and not (run.events and run.events[-1].terminal):
+        print(f"derive: {one_line(f'{name}: {run.ended}')}", file=sys.stderr)
+        return 1
+    return 0

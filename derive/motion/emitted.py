@@ -1,0 +1,192 @@
+"""The emitted code of a problem as a run uses it: the Python, called on all instants at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from ctypes import CDLL
+from dataclasses import dataclass
+from functools import cached_property
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from ..code.emit import emit, problem_hash
+from ..code.options import Options
+from ..code.program import Program
+from ..code.step.step_numbers import FIXED
+from ..language.suffixed import suffixed
+from ..language.tree import Tree, replaced
+from ..language.values import value
+from ..native.library import FLAGS, CSource, loaded, over_cores
+from ..native.motion_in_c import Motion, binding
+from ..problem.problem import Problem
+from ..record.record import Derivation
+from .body_outline import outline
+from .motion_in_python import MotionInPython
+from .run import Array, Column
+from .start import MotionError
+from .trajectory import Moved
+
+
+@dataclass(frozen=True)
+class OneDegree:
+    """What symmetries leave of a problem where it is one degree of freedom: ``V``, the effective
+    potential, a tree in the ``entry`` of g, the momenta 𝒥_1, 𝒥_2, … and the parameters; what the
+    ``momenta`` are called among what the motion keeps."""
+
+    entry: tuple[int, int]
+    V: Tree
+    momenta: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Emitted:
+    """A program, its record, and a step in time that is emitted with it; are the numbers of the
+    problem in SI?
+
+    ``facts``: what a run says of the problem.
+    """
+
+    program: Program
+    record: Derivation
+    step: str
+    facts: Mapping[str, Any]
+    in_si: bool = False
+    left: OneDegree | None = None
+
+    @classmethod
+    def of(
+        cls,
+        program: Program,
+        problem: Problem,
+        record: Derivation,
+        step: str,
+        left: OneDegree | None = None,
+        unsought: str = "",
+    ) -> Emitted:
+        """That of the program of a problem; ``left``: what its symmetries leave, if it is one
+        degree of freedom; ``unsought``: why it has none of what the motion keeps but the energy.
+        """
+        facts = {
+            "problem": problem.name,
+            "title": problem.title,
+            "group": program.group,
+            "hash": problem_hash(record),
+            "unsought": unsought,
+        }
+        units = any(x.unit for x in problem.parameters.values())
+        in_si = units and problem.lagrangian is None
+        return cls(program, record, step, facts, in_si, left)
+
+    @property
+    def name(self) -> str:
+        """The prefix of the emitted functions."""
+        return self.program.name
+
+    @cached_property
+    def python(self) -> ModuleType:
+        """The emitted module of Python."""
+        module, steps = ModuleType(self.name), Options(step=(self.step,))
+        (text,) = emit(self.program, self.record, ("python",), self.name, steps).values()
+        exec(compile(text, f"{self.name}.py", "exec"), module.__dict__)  # our own templates
+        return module
+
+    @cached_property
+    def compiled(self) -> CDLL:
+        """The emitted C as a library, whose iterations end at rounding, as those of the Python;
+        ``CompileError`` where there is no compiler."""
+        name = self.name
+        files = emit(self.program, self.record, ("c",), name, Options(step=(self.step,)))
+        files["steps.c"] = binding(name, (self.step,), FIXED)
+        to_rounding = f"-D{name}_ENOUGH=0"
+        return loaded(CSource(name, tuple(files.items()), None, (*FLAGS, to_rounding)))
+
+    @cached_property
+    def compiled_ensemble(self) -> CDLL:
+        """The emitted C of many motions at once, over all cores where the compiler can; as
+        ``compiled``."""
+        files = emit(self.program, self.record, ("c",), self.name, Options(ensemble=True))
+        files["steps.c"] = binding(self.name, (), ensemble=True)
+        return loaded(over_cores(CSource(self.name, tuple(files.items()), None, FLAGS)))
+
+    def motion(self, k: Array, u: Array, x: Array, *, compiled: bool) -> Moved:
+        """The motion that is in the state x at time 0, in C or in Python."""
+        if compiled:
+            return Motion(self.compiled, (self.step,), (), lambda: (k, u), x, 0.0)
+        return MotionInPython(self.python, self.step, k, u, x)
+
+    def constants(self, p: Array) -> Array:
+        """k of some parameters; ``MotionError`` where no body has them."""
+        try:
+            return np.asarray(self.python.constants(p), dtype=float)
+        except ValueError as error:
+            raise MotionError(str(error)) from None
+
+    def body(self, p: Array) -> dict[str, Any]:
+        """What pictures need of a body: its tensor of inertia, if it is turned in space, and its
+        :func:`outline`."""
+        numbers = dict(zip(self.python.PARAMETERS, p.tolist(), strict=True))
+        stated = self.record.problem
+        found = outline(stated, numbers) if stated else {}
+        if "inertia" in self.program.functions:
+            found["inertia"] = np.asarray(self.python.inertia(p), dtype=float).tolist()
+        return {name: x for name, x in found.items() if x}
+
+    def potential(self, first: Mapping[str, float], numbers: Mapping[str, float]) -> dict[str, Any]:
+        """The effective potential for the momenta of the ``first`` row of a run: V at u, an entry
+        of a rotation."""
+        if self.left is None or not {*self.left.momenta} <= {*first}:
+            return {}
+        i, j = self.left.entry
+        u = np.linspace(-1, 1, 402)[1:-1].round(6)
+        known: dict[Tree, Any] = {("entry", "A", i, j): u}
+        known |= {("at", "𝒥", k): first[x] for k, x in enumerate(self.left.momenta, 1)}
+        tree = self.left.V
+        for k, x in enumerate(known):
+            tree = replaced(tree, x, ("par", f"_{k}"))
+        values = {**numbers, **{f"_{k}": x for k, x in enumerate(known.values())}}
+        try:
+            V = value(tree, {"π": math.pi}, values, None, float)
+        except (ArithmeticError, ValueError):
+            return {}
+        V = np.broadcast_to(V, u.shape)
+        if not np.isfinite(V).all():
+            return {}
+        return {"entry": suffixed("A", i, j), "u": u.tolist(), "V": V.tolist()}
+
+    @property
+    def _kept(self) -> list[int]:
+        """The places of what is conserved beside the energy, which has a column of its own."""
+        return [k for k, name in enumerate(self.program.conserved) if name != "energy"]
+
+    def columns(self) -> tuple[Column, ...]:
+        """The columns of a run: time, state, then what :meth:`table` adds."""
+        has = self.program.functions
+        names = [("t", "time"), *((x, "state") for x in self.program.state), ("energy", "energy")]
+        names += [(self.program.conserved[k], "conserved") for k in self._kept]
+        names += [("defect", "defect")] * ("defect" in has)
+        names += [("multiplier", "multiplier")] * ("multiplier" in has)
+        return tuple(Column(x, kind, self._unit(x, kind)) for x, kind in names)
+
+    def table(self, t: Array, x: Array, k: Array, u: Array) -> Array:
+        """The rows of a run at some times and states, (instants, columns)."""
+        code, has = self.python, self.program.functions
+        parts = [t[:, None], x, code.energy(t, x, k)[:, None]]
+        with np.errstate(all="ignore"):
+            if self._kept:
+                parts.append(code.conserved(t, x, k)[:, self._kept])
+            if "defect" in has:
+                parts.append(code.defect(x)[:, None])
+            if "multiplier" in has:
+                parts.append(code.multiplier(t, x, k, u)[:, None])
+        return np.concatenate(parts, axis=1)
+
+    def _unit(self, name: str, kind: str) -> str:
+        if kind == "time":
+            return "s" if self.in_si else ""
+        if not self.in_si or kind not in ("state", "energy", "multiplier"):
+            return ""
+        by_letter = {"T": "m", "z": "1/s", "w": "m/s"}
+        return by_letter.get(name[0], "") if kind == "state" else "J"

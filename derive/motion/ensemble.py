@@ -1,0 +1,246 @@
+"""Many motions of one problem by the emitted C, from starts and parameters that are drawn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..language.expression import names
+from ..native.library import CompileError
+from ..native.motion_in_c import Integers, constants, ensemble
+from ..problem.problem import Problem
+from .emitted import Emitted
+from .method import TOLERANCE, Method, instants
+from .run import Array
+from .start import OFF_THE_GROUP, MotionError, Start, start
+from .varied import Draws, Varied
+
+STEP = "vern9"
+"""The step of ensembles."""
+
+
+def require_steps_of_an_ensemble(
+    step: str | None, dt: float | None, compiled: bool | None = None
+) -> None:
+    """``MotionError`` for a method that is not that of ensembles."""
+    if step and step != STEP:
+        raise MotionError(f"an ensemble is followed by {STEP}, not by {step[:40]}: leave it out")
+    if dt is not None:
+        raise MotionError("the motions of an ensemble have steps of their own: leave out the size")
+    if compiled is False:
+        raise MotionError("an ensemble is run by the emitted C alone")
+
+
+def require_an_ensemble(vary: Any, seed: int | None) -> None:
+    """``MotionError`` for what one motion has no use for."""
+    if vary or seed is not None:
+        raise MotionError("--vary and --seed are for many motions: give --ensemble N, too")
+
+
+STATUS = {
+    0: "reached the end",
+    1: "have parameters that no body has",
+    2: "met equations without a finite value",
+    3: "needed steps that became too short",
+    -1: "were not followed",
+}
+"""The status of a motion → what it says of some."""
+
+MOTIONS, BYTES = 4096, 64 * 2**20
+"""The most motions that are followed at once, and the most memory that their states may take."""
+
+MOST = 10**12
+"""More motions than this are a mistake."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """Some motions: what is ``varied`` (motions, names), ``status`` (motions,), of STATUS, and
+    ``states`` (motions, instants, state), of which those after an end are no numbers."""
+
+    varied: Array
+    status: Integers
+    states: Array
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """Motions as arrays, like those of :class:`Part`, at the instants ``t``; ``names``: of the
+    state; ``facts``: what it was made of, as JSON has it, with the laws by which it varies."""
+
+    facts: Mapping[str, Any]
+    names: tuple[str, ...]
+    t: Array
+    varied: Array
+    status: Integers
+    states: Array
+
+    @property
+    def varied_names(self) -> tuple[str, ...]:
+        """The names of what is varied."""
+        return tuple(name for name, _ in self.facts["varied"])
+
+    def __getitem__(self, name: str) -> Array:
+        """What is varied by its name, (motions,), or a number of the state, (motions, instants);
+        ``KeyError`` says which there are. A name that is both is that of the state."""
+        if name in self.names:
+            return self.states[..., self.names.index(name)]
+        if name in self.varied_names:
+            return self.varied[:, self.varied_names.index(name)]
+        known = ", ".join(dict.fromkeys((*self.names, *self.varied_names)))
+        raise KeyError(f"no {name!r:.60}; there are {known}")
+
+    def __repr__(self) -> str:
+        name, good = self.facts.get("problem", "?"), int((self.status == 0).sum())
+        return f"<ensemble of {name}: {len(self.status)} motions, {good} to t = {self.t[-1]:g}>"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is asked for: n motions from 0 to ``duration``, kept at ``points`` instants after the
+    start, from a start by ``given``, ``exponent`` and ``project`` as that of a run.
+
+    ``MotionError`` for what is no plan.
+    """
+
+    n: int
+    varied: tuple[Varied, ...]
+    duration: float
+    points: int = 1
+    tol: float = TOLERANCE
+    seed: int = 0
+    given: Mapping[str, float] = field(default_factory=dict)
+    exponent: Sequence[float] = ()
+    project: bool = False
+
+    def __post_init__(self) -> None:
+        if not 1 <= self.n <= MOST:
+            raise MotionError(f"an ensemble has between 1 and {MOST:g} motions, not {self.n}")
+        if not self.varied:
+            raise MotionError("an ensemble needs what differs from motion to motion: --vary NAME=…")
+        twice = [x.name for k, x in enumerate(self.varied) if x.name in self.names[:k]]
+        if twice:
+            raise MotionError(f"{twice[0]} is varied twice: leave one out")
+        Method(STEP, None, self.tol)
+
+    @property
+    def names(self) -> list[str]:
+        """The names of what is varied."""
+        return [x.name for x in self.varied]
+
+    @property
+    def times(self) -> Array:
+        """The instants that are kept."""
+        return instants(Method(STEP), self.duration, self.points)[1:]
+
+
+class Many:
+    """The motions of a plan: ``parts``, in order, each when it is asked for; ``facts``.
+
+    ``MotionError`` where there is no compiler, for names that mean nothing, and for starts that are
+    off the group.
+    """
+
+    def __init__(self, code: Emitted, problem: Problem, plan: Plan):
+        self.code, self.problem, self.plan, self.t = code, problem, plan, plan.times
+        first = dict(zip(plan.names, Draws(plan.varied, plan.seed).next(1)[0], strict=True))
+        self.first = self._start(first)
+        stated = {name for t in problem.initial.trees() for name in names(t)}
+        self.one_by_one = bool(stated & {*plan.names})  # the start is an expression of them
+        try:
+            self.library = code.compiled_ensemble
+        except CompileError as error:
+            raise MotionError(
+                f"{code.name}: an ensemble is run by the emitted C: {error}"
+            ) from None
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """What an ensemble says of itself."""
+        fixed = {x: v for x, v in self.first.parameters.items() if x not in self.plan.names}
+        return {
+            **self.code.facts,
+            "motions": self.plan.n,
+            "parameters": fixed,
+            "varied": [[x.name, str(x)] for x in self.plan.varied],
+            "seed": self.plan.seed,
+            "method": str(Method(STEP, None, self.plan.tol)),
+        }
+
+    @property
+    def size(self) -> int:
+        """The motions of a part, but for the last one."""
+        return max(1, min(MOTIONS, BYTES // (8 * len(self.t) * len(self.first.x))))
+
+    @property
+    def count(self) -> int:
+        """How many parts there are."""
+        return -(-self.plan.n // self.size)
+
+    def parts(self) -> Iterator[Part]:
+        """The motions, ``size`` at a time."""
+        draws = Draws(self.plan.varied, self.plan.seed)
+        for first in range(0, self.plan.n, self.size):
+            yield self._part(first, draws.next(min(self.size, self.plan.n - first)))
+
+    def whole(self, parts: Sequence[Part]) -> Ensemble:
+        """All that is in some parts."""
+        joined = [np.concatenate([getattr(x, y) for x in parts]) for y in vars(parts[0])]
+        return Ensemble(self.facts, self.code.program.state, self.t, *joined)
+
+    def _start(self, numbers: Mapping[str, float]) -> Start:
+        given = {**self.plan.given, **numbers}
+        return start(self.code.program, self.problem, given, self.plan.exponent)
+
+    def _starts(self, draws: Array) -> tuple[Array, Array, Array]:
+        """States, parameters and inputs, a row a motion."""
+        if self.one_by_one:
+            rows = [self._start(dict(zip(self.plan.names, x, strict=True))) for x in draws.tolist()]
+            x, p, u = (np.array([getattr(row, y) for row in rows]) for y in "xpu")
+            return x, p, u
+        program, found = self.code.program, []
+        listed = (program.state, [x[0] for x in program.parameters], program.inputs)
+        for names_of, own in zip(listed, (self.first.x, self.first.p, self.first.u), strict=True):
+            rows_of = np.tile(own, (len(draws), 1))
+            for k, name in enumerate(self.plan.names):
+                if name in names_of:
+                    rows_of[:, [*names_of].index(name)] = draws[:, k]
+            found.append(rows_of)
+        return found[0], found[1], found[2]
+
+    def _on_the_group(self, x: Array, first: int) -> Array:
+        """The states, taken to the group if that is asked for; ``MotionError`` for one off it."""
+        code = self.code
+        if "defect" not in code.program.functions:
+            return x
+        for _ in range(20 if self.plan.project else 0):  # Newton's method
+            x = np.asarray(code.python.project(x), dtype=float)
+        off = np.asarray(code.python.defect(x))
+        if not (off <= OFF_THE_GROUP).all():
+            worst = int(np.flatnonzero(~(off <= OFF_THE_GROUP))[0])
+            remedy = "" if self.plan.project else ": --project takes it there"
+            raise MotionError(
+                f"{code.name}: motion {first + worst} starts off the group, with a defect of "
+                f"{off[worst]:.3g}{remedy}"
+            )
+        return x
+
+    def _part(self, first: int, draws: Array) -> Part:
+        x, p, u = self._starts(draws)
+        x = self._on_the_group(x, first)
+        k, wrong = constants(self.library, p, len(self.code.program.constants))
+        status: Integers = np.where(wrong != 0, 1, 0).astype(np.intc)
+        states, h = np.full((len(x), len(self.t), x.shape[1]), math.nan), np.zeros(len(x))
+        on, before = np.flatnonzero(status == 0), 0.0
+        for j, t in enumerate(self.t.tolist()):
+            # copies of those that go on
+            own, step = x[on], h[on]
+            told = ensemble(self.library, own, k[on], u[on], (before, t), self.plan.tol, step)
+            status[on], h[on], x[on], before = told, step, own, t
+            on = on[told == 0]
+            states[on, j] = x[on]
+        return Part(draws, status, states)

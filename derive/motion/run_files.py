@@ -1,0 +1,143 @@
+"""Runs as files: ``.npz`` of NumPy, ``.csv`` with its facts in a first comment, ``.parquet``.
+
+All three hold the same numbers to the last bit, the columns with their kinds and units, and the
+facts as JSON.  The same run gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..language.refused import Refused
+from .run import KINDS, Column, Run
+
+MARK = "derive run"
+"""What the facts of a file begin with, by which it is known."""
+
+
+class RunFileError(Refused, ValueError):
+    """A file that is no run, or cannot be made: the message says which, and what to do."""
+
+
+def written(run: Run, name: str) -> bytes:
+    """The bytes of a file of this name; ``RunFileError`` for an ending that means no format."""
+    return format_of(name)[0](run)
+
+
+def read(path: Path) -> Run:
+    """The run in a file; ``RunFileError`` where there is none."""
+    reader = format_of(path.name)[1]
+    try:
+        return reader(path.read_bytes())
+    except RunFileError as error:
+        raise RunFileError(f"{path}: {error}") from None
+    except OSError as error:
+        raise RunFileError(f"{path}: {error.strerror}") from None
+    except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile):
+        raise RunFileError(f"{path}: not a run that derive simulate wrote, or damaged") from None
+
+
+def known(name: str) -> bool:
+    """Is there a format for a file of this name?"""
+    return Path(name).suffix in FORMATS
+
+
+def format_of(name: str) -> tuple[Callable[[Run], bytes], Callable[[bytes], Run]]:
+    """What writes and what reads a file of this name; ``RunFileError`` for another ending."""
+    if not known(name):
+        raise RunFileError(f"{name}: the name of a run must end in {', '.join(FORMATS)}")
+    return FORMATS[Path(name).suffix]
+
+
+def _head(run: Run) -> str:
+    """The columns and the facts as one line of JSON."""
+    columns = [[x.name, x.kind, x.unit] for x in run.columns]
+    told = {"file": MARK, "columns": columns, "facts": dict(run.facts)}
+    return json.dumps(told, ensure_ascii=False, sort_keys=True)
+
+
+def _run(head: str, table: Any) -> Run:
+    """A run from its head and numbers; ``ValueError`` where they do not belong together."""
+    told = json.loads(head)
+    if told["file"] != MARK:
+        raise ValueError("no run")
+    columns = tuple(Column(*map(str, x)) for x in told["columns"])
+    table = np.asarray(table, dtype=float).reshape(-1, len(columns))
+    kinds = [x.kind for x in columns]
+    if kinds[:1] != ["time"] or not {*kinds} <= {*KINDS}:
+        raise ValueError("no run")
+    return Run(columns, table, dict(told["facts"]))
+
+
+def _to_npz(run: Run) -> bytes:
+    """As ``numpy.savez``, but with no date in the archive."""
+    arrays = {"head": np.array(_head(run)), "table": np.ascontiguousarray(run.table)}
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, array in arrays.items():
+            own = io.BytesIO()
+            np.lib.format.write_array(own, array, allow_pickle=False)
+            archive.writestr(zipfile.ZipInfo(f"{name}.npy"), own.getvalue(), zipfile.ZIP_DEFLATED)
+    return file.getvalue()
+
+
+def _from_npz(data: bytes) -> Run:
+    with np.load(io.BytesIO(data), allow_pickle=False) as found:
+        return _run(str(found["head"]), found["table"])
+
+
+def _to_csv(run: Run) -> bytes:
+    names = [f"{x.name} [{x.unit}]" if x.unit else x.name for x in run.columns]
+    rows = (",".join(map(repr, row)) for row in run.table.tolist())
+    return "\n".join([f"# {_head(run)}", ",".join(names), *rows, ""]).encode()
+
+
+def _from_csv(data: bytes) -> Run:
+    head, _, *rows = data.decode().splitlines()
+    return _run(head.removeprefix("# "), [[float(x) for x in row.split(",")] for row in rows])
+
+
+def _to_parquet(run: Run) -> bytes:
+    arrow, parquet = pyarrow()
+    columns = {x.name: run.table[:, k] for k, x in enumerate(run.columns)}
+    table = arrow.table(columns).replace_schema_metadata({MARK: _head(run)})
+    file = io.BytesIO()
+    parquet.write_table(table, file)
+    return file.getvalue()
+
+
+def _from_parquet(data: bytes) -> Run:
+    arrow, parquet = pyarrow()
+    try:
+        found = parquet.read_table(io.BytesIO(data))
+    except arrow.ArrowInvalid as error:
+        raise ValueError(str(error)) from None
+    head = (found.schema.metadata or {})[MARK.encode()].decode()
+    return _run(head, np.column_stack([x.to_numpy() for x in found.columns]))
+
+
+def pyarrow() -> tuple[Any, Any]:
+    """pyarrow and its parquet; ``RunFileError`` where it is not installed."""
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise RunFileError(
+            ".parquet needs pyarrow: pip install 'derive-mechanics[parquet]', or take .npz or .csv"
+        ) from None
+    return pyarrow, pyarrow.parquet
+
+
+FORMATS: dict[str, tuple[Callable[[Run], bytes], Callable[[bytes], Run]]] = {
+    ".npz": (_to_npz, _from_npz),
+    ".csv": (_to_csv, _from_csv),
+    ".parquet": (_to_parquet, _from_parquet),
+}
+"""Ending → what makes the bytes of a run, and what reads them."""

@@ -1,0 +1,165 @@
+"""From a start to a run: steps until the last instant, then what the motion keeps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..code.step.step_numbers import parts
+from ..native.library import CompileError
+from ..native.motion_in_c import Motion
+from ..problem.inertia import fault_of_quadrics
+from ..problem.problem import Problem
+from ..schema.declared import Parameter
+from .emitted import Emitted
+from .method import Method, instants
+from .run import Array, Run
+from .start import OFF_THE_GROUP, MotionError, Start, start
+from .trajectory import Trajectory
+from .watch import Watch
+
+LONG, TURN = 500, 2.0
+"""A motion of more steps is compiled, where there is a compiler; in a step for a tolerance no part
+of the state changes by more than about TURN of its size."""
+
+CHUNKS = 200
+"""The parts of a run between which it can be stopped and its progress is shown."""
+
+Progress = Callable[[Iterable[Any], int], Iterator[Any]]
+
+
+def run(
+    code: Emitted,
+    problem: Problem,
+    method: Method,
+    duration: float,
+    points: int,
+    *,
+    given: Mapping[str, float],
+    exponent: Sequence[float] = (),
+    project: bool = False,
+    compiled: bool | None = None,
+    progress: Progress = lambda parts, _: iter(parts),
+) -> Run:
+    """The motion of a problem from 0 to ``duration``, from :func:`start`, as a table; by C or by
+    Python, or, for ``None``, by C where that pays and there is a compiler."""
+    times = instants(method, duration, points)
+    begin = beginning(code, problem, given=given, exponent=exponent, project=project)
+    watch = Watch(problem.events, code.program.state, code.program.inputs, begin)
+    follow = following(code, begin, method, duration, watch, compiled)
+    return simulate(code, begin, method, times, watch, follow, progress)
+
+
+def following(
+    code: Emitted,
+    begin: Start,
+    method: Method,
+    duration: float,
+    watch: Watch,
+    compiled: bool | None = None,
+) -> Trajectory:
+    """The motion at its begin; ``CompileError`` where C is asked for and there is no compiler."""
+    k, u = code.constants(begin.p), begin.u
+    if compiled is not False and (compiled or is_long(code, k, begin, method, duration)):
+        try:
+            motion = code.motion(k, u, begin.x, compiled=True)
+        except CompileError:
+            if compiled:
+                raise
+        else:
+            return Trajectory(motion, method, watch)
+    return Trajectory(code.motion(k, u, begin.x, compiled=False), method, watch)
+
+
+def is_long(code: Emitted, k: Array, begin: Start, method: Method, duration: float) -> bool:
+    """Does the Python take longer for a motion than a compiler for its C?"""
+    if method.dt:
+        return duration / method.dt > LONG
+    dx = np.abs(code.python.rhs(0.0, begin.x, k, begin.u))
+    both = [(np.abs(begin.x[a:b]).max(), dx[a:b].max()) for a, b in parts(code.program)]
+    fastest = max((rate / size for size, rate in both if size), default=0.0)
+    return bool(duration * fastest / TURN > LONG)
+
+
+def beginning(
+    code: Emitted,
+    problem: Problem,
+    *,
+    given: Mapping[str, float],
+    exponent: Sequence[float] = (),
+    project: bool = False,
+) -> Start:
+    """From :func:`start`, on the group, with rates that are finite; ``MotionError`` for no such."""
+    begin = on_the_group(code, start(code.program, problem, given, exponent), project=project)
+    chosen = {x: Parameter(default=value) for x, value in begin.parameters.items()}
+    if fault := fault_of_quadrics(problem.body, chosen):
+        raise MotionError(f"{code.name}: {fault.replace('the defaults', 'these parameters')}")
+    k = code.constants(begin.p)
+    with np.errstate(all="ignore"):
+        rates = code.python.rhs(0.0, begin.x, k, begin.u)
+    if not np.isfinite(rates).all():
+        raise MotionError(
+            f"{code.name}: the equations have no finite value at the start: look at the state, as "
+            "two ends of a spring at one place"
+        )
+    return begin
+
+
+def on_the_group(code: Emitted, begin: Start, *, project: bool) -> Start:
+    """The start, taken to the group where that is asked for; ``MotionError`` where it is off."""
+    if "defect" not in code.program.functions:
+        return begin
+    x = begin.x
+    for _ in range(20 if project else 0):  # Newton's method
+        x = np.asarray(code.python.project(x), dtype=float)
+    off = float(code.python.defect(x))
+    if not off <= OFF_THE_GROUP:
+        told = "not taken to the group" if project else "not on the group: --project takes it there"
+        raise MotionError(f"{code.name}: the start is {told}; its defect is {off:.3g}")
+    return replace(begin, x=x)
+
+
+def simulate(
+    code: Emitted,
+    begin: Start,
+    method: Method,
+    times: Array,
+    watch: Watch,
+    follow: Trajectory,
+    progress: Progress,
+) -> Run:
+    """The run of a problem; one that must stop, or that Ctrl-C or a terminal event stops, keeps
+    what is done, and ``run.ended`` says why."""
+    k = code.constants(begin.p)
+    chunks = np.array_split(times[1:], min(CHUNKS, len(times) - 1))
+    states, ended = [begin.x[None]], ""
+    try:
+        for part in progress(iter(chunks), len(chunks)):
+            found, ended = follow.reach(part)
+            states.append(found)
+            if ended:
+                break
+    except KeyboardInterrupt:
+        ended = "interrupted"
+    x = np.concatenate(states)
+    t = times[: len(x)]
+    if watch.happened and watch.happened[-1].terminal:
+        t, x = np.append(t, follow.t), np.append(x, follow.x[None], axis=0)
+    columns, table = code.columns(), code.table(t, x, k, begin.u)
+    first = dict(zip((c.name for c in columns), table[0].tolist(), strict=True))
+    facts = {
+        **code.facts,
+        "parameters": dict(begin.parameters),
+        "inputs": dict(zip(code.program.inputs, begin.u.tolist(), strict=True)),
+        "method": str(method),
+        "language": "C" if isinstance(follow.motion, Motion) else "Python",
+        "evaluations": follow.motion.evaluations,
+        "ended": ended,
+        "events": [one.plain() for one in watch.happened],
+        "body": code.body(begin.p),
+        "potential": code.potential(first, begin.parameters),
+    }
+    return Run(columns, table, facts)

@@ -1,0 +1,1 @@
+"""Emitted C at work: compiled by the compiler at hand, loaded, called."""

@@ -1,0 +1,310 @@
+"""A motion of compiled C under way: the emitted steps in time, called from Python.
+
+>>> import derive, numpy
+>>> f = derive.compile("so3", step="gauss")
+>>> m = f.begin(numpy.concatenate([numpy.eye(3).ravel(), [0.1, 0, 9]]))
+>>> m.move_to(2.0, tol=1e-12).t
+2.0
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+Integers = np.ndarray[Any, np.dtype[np.intc]]
+
+INCLUDE = '#include "{name}_steps.h"\n'
+HEAD = """\
+size_t derive_motion_size(void);
+size_t derive_motion_size(void)
+{{
+    return sizeof({name}_motion);
+}}
+void derive_begin({name}_motion *m, double t, const double *x);
+void derive_begin({name}_motion *m, double t, const double *x)
+{{
+    {name}_begin(m, t, x);
+}}
+void derive_dense(const {name}_motion *m, double t, double *x);
+void derive_dense(const {name}_motion *m, double t, double *x)
+{{
+    {name}_dense(m, t, x);
+}}
+void derive_now(const {name}_motion *m, double *now, double *x);
+void derive_now(const {name}_motion *m, double *now, double *x)
+{{
+    now[0] = m->t;
+    now[1] = m->t_low;
+    now[2] = m->h;
+    now[3] = (double)m->evaluations;
+    memcpy(x, m->x, sizeof m->x);
+}}
+"""
+EVENT = """\
+int derive_event(const {name}_motion *m);
+int derive_event(const {name}_motion *m)
+{{
+    return m->event;
+}}
+"""
+MOVE = """\
+int derive_{step}({name}_motion *m, const double *k, const double *u, double h, size_t n);
+int derive_{step}({name}_motion *m, const double *k, const double *u, double h, size_t n)
+{{
+    return {name}_{step}(m, k, u, h, n);
+}}
+"""
+MOVE_TO_EVENT = """\
+int derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol);
+int derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol)
+{{
+    return {name}_{step}_to(m, k, u, t1, tol);
+}}
+"""
+MOVE_TO = """\
+int derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
+    size_t n);
+int derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
+    size_t n)
+{{
+    int fault = {name}_{step}(m, k, u, 0, 0); /* dense asks for the numbers of a call */
+    for (; fault == 0 && n > 0 && t1 - m->t - m->t_low != 0; --n) {{
+        fault = {name}_towards({name}_{step}_step, m, k, u, t1, tol);
+    }}
+    return fault;
+}}
+"""
+WATCHED = """\
+size_t derive_{step}_watched({name}_motion *m, const double *k, const double *u, double h, size_t n,
+    size_t parts, double *t, double *x);
+size_t derive_{step}_watched({name}_motion *m, const double *k, const double *u, double h, size_t n,
+    size_t parts, double *t, double *x)
+{{
+    size_t i = 0;
+    for (; i < n && {name}_{step}(m, k, u, h, 1) == 0 && m->h == h; ++i) {{
+        for (size_t j = 1; j < parts; ++j, ++t, x += {name}_N_STATE) {{
+            *t = m->t + ((double)j/(double)parts - 1)*h;
+            {name}_dense(m, *t, x);
+        }}
+        *t++ = m->t;
+        memcpy(x, m->x, sizeof m->x);
+        x += {name}_N_STATE;
+    }}
+    return i;
+}}
+"""
+ENSEMBLE = """\
+size_t derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
+    size_t u_each, double t0, double t1, double tol, double *h, int *status);
+size_t derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
+    size_t u_each, double t0, double t1, double tol, double *h, int *status)
+{{
+    return {name}_ensemble(n, x, k, k_each, u, u_each, t0, t1, tol, h, status);
+}}
+void derive_constants(size_t n, const double *p, double *k, int *wrong);
+void derive_constants(size_t n, const double *p, double *k, int *wrong)
+{{
+    for (size_t i = 0; i < n; ++i) {{
+        wrong[i] = {name}_constants(p + i*{name}_N_PARAMETERS, k + i*{name}_N_CONSTANTS);
+    }}
+}}
+"""
+
+
+def binding(
+    name: str,
+    steps: Sequence[str],
+    fixed: Sequence[str] = (),
+    *,
+    ensemble: bool = False,
+    events: bool = False,
+) -> str:
+    """C that makes functions of a library of the inline functions of a header of steps; those that
+    are ``fixed`` have no size of their own; are there ``events``?"""
+    moves = [text.format(name=name, step=x) for x in steps for text in (MOVE, WATCHED)]
+    to = MOVE_TO_EVENT if events else MOVE_TO
+    moves += [to.format(name=name, step=x) for x in steps if x not in fixed]
+    parts = [INCLUDE, HEAD * bool(steps), EVENT * events, ENSEMBLE * ensemble]
+    return "\n".join([*(x.format(name=name) for x in parts if x), *moves])
+
+
+FAULTS = {
+    2: "the equations have no finite value at t = {:.9g}",
+    5: "there is no discrete step of this size at t = {:.9g}: take a smaller one",
+    3: "the steps become too short at t = {:.9g}: a collision, or a motion without bound",
+}
+"""What a step returns → why there is no next state, at a time."""
+
+AT_EVENT = 4
+"""What a motion up to a time returns at an event before that."""
+
+
+MANY = 100_000
+"""The most steps of one call: Ctrl-C is heard between calls."""
+
+
+class StepError(ArithmeticError):
+    """There is no next state of a motion: the message says when and why."""
+
+
+class Motion:
+    """A motion under way: ``t``, the state ``x``, ``h``, the last step, and ``evaluations``, how
+    often its stages have asked for the rates.
+
+    ``steps``: those of the library, a motion of which this is; ``numbers``: the constants and the
+    inputs of the next move.  Where there is no next state, ``StepError``, and it is as it was after
+    the last good step.  ``event``: the name of that at which it stands, else "".
+    """
+
+    def __init__(
+        self,
+        library: ctypes.CDLL,
+        steps: Sequence[str],
+        events: Sequence[str],
+        numbers: Callable[[], tuple[Array, Array]],
+        x: Array,
+        t: float,
+    ):
+        self._library, self._steps, self._numbers = library, steps, numbers
+        self._events, self.event = events, ""
+        self.t, self.h, self.x = float(t), 0.0, np.array(x, dtype=float)
+        self._t_low, self.evaluations = 0.0, 0
+        self._ask_for_memory()
+        self._function("begin")(self._at, ctypes.c_double(t), pointer(self.x))
+
+    def _ask_for_memory(self) -> None:
+        self._size = self._function("motion_size", ctypes.c_size_t)()
+        self._memory = ctypes.create_string_buffer(self._size + 64)
+        self._at = ctypes.c_void_p((ctypes.addressof(self._memory) + 63) & ~63)
+
+    def __copy__(self) -> Motion:
+        """The motion as it is now, whatever becomes of this one."""
+        other = object.__new__(type(self))
+        other.__dict__ |= self.__dict__ | {"x": self.x.copy()}
+        other._ask_for_memory()
+        ctypes.memmove(other._at, self._at, self._size)
+        return other
+
+    def left(self, t: float) -> float:
+        """The time up to another, in as many digits as the motion has."""
+        return t - self.t - self._t_low
+
+    def move(self, h: float, n: int = 1, step: str = "") -> Motion:
+        """Make n steps of size h, by the first of the emitted steps or the one that is named."""
+        if n < 0 or not math.isfinite(h):
+            raise ValueError(f"expected a number of steps and their size, not n = {n}, h = {h}")
+        for first in range(0, n, MANY):
+            count = ctypes.c_size_t(min(MANY, n - first))
+            self._moved(self._named(step), ctypes.c_double(h), count)
+        return self
+
+    def move_to(
+        self, t: float, tol: float = 1e-9, step: str = "", most: float = math.inf
+    ) -> Motion:
+        """Move up to a time, or to an event before it, in steps of their own size for a tolerance,
+        at most so many where there are no events; the same call again goes on from an event."""
+        require_tolerance(tol)
+        name = self._named(step)
+        if not hasattr(self._library, f"derive_{name}_to"):
+            raise ValueError(f"{name} has steps of a fixed size: call move()")
+        if self._events:
+            return self._moved(f"{name}_to", ctypes.c_double(t), ctypes.c_double(tol))
+        while self.left(t) and most > 0:
+            count = int(min(MANY, most))
+            how = (ctypes.c_double(t), ctypes.c_double(tol), ctypes.c_size_t(count))
+            self._moved(f"{name}_to", *how)
+            most -= count
+        return self
+
+    def watched(self, h: float, n: int, parts: int) -> tuple[Array, Array]:
+        """Make n steps of size h, or those before the first that is not made whole; times (steps
+        parts) and states (steps parts, state) at the ends of so many parts of each.
+
+        Of what is made less the motion is of no more use: take a copy.
+        """
+        t, x = np.empty(n * parts), np.empty((n * parts, len(self.x)))
+        k, u = map(pointer, self._numbers())
+        sizes = (ctypes.c_double(h), ctypes.c_size_t(n), ctypes.c_size_t(parts))
+        function = self._function(f"{self._named('')}_watched", ctypes.c_size_t)
+        done = parts * function(self._at, k, u, *sizes, pointer(t), pointer(x))
+        self._moved(self._named(""), ctypes.c_double(h), ctypes.c_size_t(0))  # where it is now
+        return t[:done], x[:done]
+
+    def dense(self, t: float) -> Array:
+        """The state at a time within the last step, by the polynomial of its method."""
+        out = np.empty_like(self.x)
+        self._function("dense")(self._at, ctypes.c_double(t), pointer(out))
+        return out
+
+    def _named(self, step: str) -> str:
+        steps = self._steps
+        if (step or steps[0]) not in steps:
+            raise ValueError(f"no step {step[:40]!r} was compiled; there is {', '.join(steps)}")
+        return step or steps[0]
+
+    def _moved(self, name: str, *how: Any) -> Motion:
+        now = np.empty(4)
+        k, u = map(pointer, self._numbers())
+        status = self._function(name, ctypes.c_int)(self._at, k, u, *how)
+        self._function("now")(self._at, pointer(now), pointer(self.x))
+        self.t, self._t_low, self.h, evaluations = now.tolist()
+        self.evaluations = int(evaluations)
+        self.event = ""
+        if status == AT_EVENT:
+            self.event = self._events[self._function("event", ctypes.c_int)(self._at)]
+        elif status:
+            raise StepError(FAULTS[status].format(self.t))
+        return self
+
+    def _function(self, name: str, result: Any = None) -> Any:
+        function = getattr(self._library, f"derive_{name}")
+        function.restype = result
+        return function
+
+
+def require_tolerance(tol: float) -> None:
+    """``ValueError`` for what is none."""
+    if not 0 < tol < math.inf:
+        raise ValueError(f"tol must be positive, the error of a step as 1e-9, not {tol}")
+
+
+def pointer(a: np.ndarray[Any, Any]) -> Any:
+    """Where the numbers of an array are."""
+    return ctypes.c_void_p(a.ctypes.data)
+
+
+def constants(library: ctypes.CDLL, p: Array, size: int) -> tuple[Array, Integers]:
+    """The constants (n, size) of n bodies by their parameters, and for each whether there is no
+    such body."""
+    found, wrong = np.zeros((len(p), size)), np.zeros(len(p), dtype=np.intc)
+    library.derive_constants.restype = None
+    library.derive_constants(ctypes.c_size_t(len(p)), pointer(p), pointer(found), pointer(wrong))
+    return found, wrong
+
+
+def ensemble(
+    library: ctypes.CDLL,
+    x: Array,
+    k: Array,
+    u: Array,
+    span: tuple[float, float],
+    tol: float,
+    h: Array,
+) -> Integers:
+    """The status of each of n motions, which are moved from one time to another; x (n, state) and h
+    (n,), their next steps, are written into; k and u, one row for all or for each its own."""
+    require_tolerance(tol)
+    n, status = len(x), np.zeros(len(x), dtype=np.intc)
+    each = [ctypes.c_size_t(a.shape[1] if len(a) == n and n > 1 else 0) for a in (k, u)]
+    times = map(ctypes.c_double, (*span, tol))
+    function = library.derive_ensemble
+    function.restype = ctypes.c_size_t
+    numbers = (pointer(k), each[0], pointer(u), each[1], *times)
+    function(ctypes.c_size_t(n), pointer(x), *numbers, pointer(h), pointer(status))
+    return status

@@ -1,0 +1,1 @@
+"""Pages in which a body moves: the emitted JavaScript, and what draws it."""

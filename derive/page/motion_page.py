@@ -1,0 +1,148 @@
+"""One self-contained page in which a body moves: the emitted JavaScript, run by the reader.
+
+Nothing of a problem is markup or code: its texts are data, which the page shows as text.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterable
+from typing import Any
+
+from ..code.emit import emit
+from ..code.options import Options
+from ..language.greek import GREEK
+from ..language.templating import environment, folder
+from ..motion.emitted import Emitted
+from ..motion.kept_words import in_words
+from ..motion.start import Start
+from ..problem.problem import Problem
+from ..record.record import Derivation
+from ..views.html import visible
+from ..views.language import ENGLISH, Language
+from ..views.outline import capitalised, subtitle, title
+from .moving_body import element, moving_body
+from .shortened import called, shortened
+
+WORDS = {
+    "play": "play",
+    "pause": "pause",
+    "step": "a step on",
+    "back": "a step back",
+    "again": "to the start",
+    "time": "time",
+    "speed": "seconds of the motion in a second",
+    "controls": "the time",
+    "stage": "the body, turned by dragging or by the arrow keys",
+    "polhode": "The angular velocity in the body",
+    "velocities": "The velocity in time",
+    "start": "The velocity at the start",
+    "element": "The element at the start",
+    "turned": "It is multiplied by exp(θ₁E₁ + θ₂E₂ + …), E the basis of the Lie algebra.",
+    "parameters": "Parameters",
+    "inputs": "Inputs, held",
+    "reset": "As it was",
+    "kept": "What is kept",
+    "change": "change",
+    "energy": "energy",
+    "defect": "off the group by",
+    "multiplier": "multiplier",
+    "singular": "No body has these numbers.",
+    "ended": "The motion cannot go on: a collision, or a motion without bound.",
+    "keys": "Space plays, ← and → step. Drag turns, wheel zooms, double click goes back.",
+}
+"""The words of a page, by the names that its script has for them."""
+
+NAMES = ("STATE", "PARAMETERS", "INPUTS", "BASIS", "begin", "gauss_to")
+VELOCITIES = ("ζ", "w")
+FUNCTIONS = ("constants", "rhs", "energy", "conserved", "defect", "multiplier")
+"""What a page takes of the emitted module, the functions where they are there."""
+
+
+def motion_page(
+    code: Emitted,
+    problem: Problem,
+    record: Derivation,
+    begin: Start,
+    duration: float,
+    tol: float,
+    language: Language = ENGLISH,
+) -> str:
+    """The page of a motion from 0 to ``duration``, to a tolerance."""
+    found = data(code, problem, record, begin, language) | {"t": duration, "tol": tol}
+    written = json.dumps(found, ensure_ascii=False, sort_keys=True, separators=(",", ":"))
+    template = environment("html", autoescape=True).get_template("motion.html.jinja")
+    return template.render(
+        language=language.name,
+        title=visible(title(record, language)),
+        about=visible(capitalised(subtitle(record, language))),
+        needs_script=language.word("The motion is computed by a script."),
+        style=style(),
+        data=written.replace("<", "\\u003c"),
+        script=script(code, record).replace("</", "<\\/"),
+    )
+
+
+def style() -> str:
+    """The style sheet, without the spaces that it does not need."""
+    text = (folder("html") / "motion.css").read_text(encoding="utf-8")
+    return re.sub(r"(?<=[;{},:])\s+|\s+(?=[{}])|\s*\n\s*", "", text)
+
+
+def script(code: Emitted, record: Derivation) -> str:
+    """The emitted module, what mounts a motion, and the call of it, in few characters."""
+    (source,) = emit(
+        code.program, record, ("javascript",), code.name, Options(step=("gauss",))
+    ).values()
+    has = [x for x in FUNCTIONS if x in code.program.functions]
+    names = [*NAMES, *has, *(["CONSERVED"] * ("conserved" in has))]
+    module = called(source.replace("\nexport ", "\n"), names)
+    mount = (folder("html") / "motion.js").read_text(encoding="utf-8")
+    given = ", ".join(names)
+    return shortened(
+        f'"use strict";\nconst emitted = (() => {{\n{module}return {{ {given} }};\n}})();\n'
+        f'{mount}\nconst page = JSON.parse(document.getElementById("page").textContent);\n'
+        'const home = document.getElementById("motion");\n'
+        "home.motion = mount(home, { module: emitted, ...page });\n"
+    )
+
+
+def data(
+    code: Emitted, problem: Problem, record: Derivation, begin: Start, language: Language
+) -> dict[str, Any]:
+    """What the script is told of the motion, as JSON has it."""
+    made = code.program
+    group = problem.group if problem.advected is None else None
+    units = {x.name: x.unit for x in code.columns()}
+    return {
+        **{x: getattr(begin, x).tolist() for x in ("x", "p", "u")},
+        "entries": element(group, made.state),
+        "body": moving_body(record.problem, group, made.state),
+        "labels": {
+            **_labels([(x, meaning, unit) for x, _, unit, meaning in made.parameters], language),
+            **_labels([(x, _meaning(x, record, language), units[x]) for x in made.state], language),
+        },
+        "kept": {x: in_words(x, language.word) for x in made.conserved if x != "energy"},
+        "units": {x: units.get(x, "") for x in ("t", "energy")},
+        "words": {x: language.word(message) for x, message in WORDS.items()},
+        "comma": language.name == "fr",
+    }
+
+
+def _meaning(name: str, record: Derivation, language: Language) -> str:
+    """What the letter of a velocity, or of what is advected, means; empty for any other."""
+    letter = GREEK.get(name.partition("_")[0], name.partition("_")[0])
+    told = [language.of(x.meaning) for x in record.symbols if x.name == letter]
+    return told[0] if told and letter in VELOCITIES else ""
+
+
+def _labels(rows: Iterable[tuple[str, str, str]], language: Language) -> dict[str, tuple[str, str]]:
+    """Name → meaning and unit; a meaning that is that of the name before is not said again."""
+    found, before = {}, ""
+    for name, meaning, unit in rows:
+        told = visible(language.word(meaning)) if meaning and meaning != before else ""
+        if told or unit:
+            found[name] = told, visible(unit)
+        before = meaning
+    return found

@@ -1,0 +1,195 @@
+"""The body of a problem as a page draws it: places of the state, and trees of parameters.
+
+A tree is as the record has it, which the page evaluates: so the body follows its parameters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..algebra.groups import Group
+from ..figure.drawn_body import UNITS, Numbers
+from ..figure.meshes import simplified
+from ..problem.state_names import state_names
+
+DIGITS = 4
+"""Of the places of a mesh."""
+
+Data = Any
+"""Numbers and trees, in lists and by names, as JSON has them."""
+
+
+def moving_body(problem: Mapping[str, Any], group: Group | None, state: Sequence[str]) -> Data:
+    """What is drawn of the problem of a record: ``parts``, one for each factor of the group that
+    moves points of the plane or of space, none where one of them does not; ``springs`` between
+    them; ``gravity``; ``polhode``, the places of an angular velocity in the state."""
+    none = {"parts": [], "springs": [], "gravity": [0, 0, 0], "polhode": [], "turns": False}
+    if group is None or any(factor.n not in (2, 3) for _, factor in group.places):
+        return none
+    group = group.stated
+    at = element(group, state)
+    if not at:
+        return none
+    parts = [_part(problem, k, at, group) for k in range(len(group.places))]
+    home = {i: k for k, part in enumerate(parts) for i, *_ in part["points"]}
+    springs = [p["between"] for p in problem["potentials"] if "between" in p]
+    turning = _turning(group, state, {place for _, _, place in at})
+    return {
+        "parts": parts,
+        "springs": [[home[i], i, home[j], j] for i, j in springs if i in home and j in home],
+        "gravity": _gravity(problem),
+        "planar": all(part["n"] == 2 for part in parts),
+        "polhode": turning,
+        "turns": bool(turning) and len(state) - len(at) == 3,
+    }
+
+
+def element(group: Group | None, state: Sequence[str]) -> list[list[int]]:
+    """The entries of the element of the group in the state: row, column, place, from 0."""
+    places = state_names(group) if group else {}
+    found = ((k, places.get(name)) for k, name in enumerate(state))
+    return [[t[2] - 1, t[3] - 1, k] for k, t in found if isinstance(t, tuple) and t[1] == "A"]
+
+
+def _turning(group: Group, state: Sequence[str], at: set[int]) -> list[int]:
+    """The places of the velocity that turns about e_1, e_2, e_3 of the first factor; none where
+    these are not among the basis."""
+    velocity = [k for k in range(len(state)) if k not in at]
+    if len(velocity) != len(group.basis) or group.places[0][1].n != 3:
+        return []
+    o, size = group.places[0][0], len(group.basis[0])
+    found = []
+    for i in range(3):
+        turn = np.zeros((size, size))
+        turn[o + (i + 2) % 3, o + (i + 1) % 3] = 1
+        turn[o + (i + 1) % 3, o + (i + 2) % 3] = -1
+        own = [k for k, E in zip(velocity, group.basis, strict=True) if _same(E, turn)]
+        found += own[:1]
+    return found if len(found) == 3 else []
+
+
+def _same(E: Any, other: Any) -> bool:
+    return bool(np.array_equal(np.array([[float(x) for x in row] for row in E]), other))
+
+
+def _gravity(problem: Mapping[str, Any]) -> Data:
+    """The sum of the accelerations of gravity, in R³."""
+    total: list[list[Any]] = [[], [], []]
+    for p in problem["potentials"]:
+        for i, g in enumerate(p["g"][:3] if p["kind"] == "gravity" else ()):
+            total[i].append(g)
+    return [["add", 0, 0, *x] for x in total]
+
+
+def _part(problem: Mapping[str, Any], k: int, at: Sequence[Sequence[int]], group: Group) -> Data:
+    """What factor k of the group moves; all of the body where it is no product of points."""
+    offset, factor = group.places[k]
+    body, n = problem["body"], factor.n
+    where = {(i - offset, j - offset): place for i, j, place in at}
+    own = [
+        where.get((i, j if j < 3 else n), -1) if i < n else -1 for i in range(3) for j in range(4)
+    ]
+    points = [
+        [i, p["mass"], p["at"]]
+        for i, p in enumerate(body.get("points", []), 1)
+        if p["block"] == k + 1
+    ]
+    before = len(body.get("points", []))
+    points += [
+        [i, 0, p["at"]] for i, p in enumerate(problem["places"], before + 1) if p["block"] == k + 1
+    ]
+    ids = [i for i, *_ in points]
+    potentials = problem["potentials"]
+    attractions = [p for p in potentials if p["kind"] == "attraction"]
+    linear = [[E[offset + i][offset : offset + n] for i in range(n)] for E in group.basis]
+    return {
+        "n": n,
+        "map": [own[4 * i : 4 * i + 4] for i in range(3)],
+        "fixed": not any((i, n) in where for i in range(n)),
+        "deforms": any(A[i][j] + A[j][i] for A in linear for i in range(n) for j in range(n)),
+        "points": points,
+        "solids": [_solid(s, problem) for s in body.get("solids", [])] if k == 0 else [],
+        "moments": _moments(problem) if k == 0 else None,
+        "attractions": [
+            {"centre": p["centre"], "on": [i for i, _ in p["on"]] if "on" in p else ids}
+            for p in attractions
+        ],
+        "anchors": [
+            {"on": p["on"], "at": p["anchor"]}
+            for p in potentials
+            if p.get("on") in ids and "anchor" in p
+        ],
+    }
+
+
+def _moments(problem: Mapping[str, Any]) -> Data:
+    """m, c and J of a body that is more than points, as trees."""
+    body, names = problem["body"], problem["parameters"]
+    if body["kind"] == "given":
+        return body["given"]
+    if body["kind"] != "moments":
+        return None
+    span = range(1, 1 + sum(f"c_{i}" in names for i in range(1, 4)))
+    J = [[["par", f"J_{min(i, j)}{max(i, j)}"] for j in span] for i in span]
+    return {
+        "m": ["par", "m"] if "m" in names else 1,
+        "c": [["par", f"c_{i}"] for i in span],
+        "J": J,
+    }
+
+
+def _solid(solid: Mapping[str, Any], problem: Mapping[str, Any]) -> Data:
+    """A solid as the image of a shape: columns of the map, and a shift; a mesh by its places."""
+    kind, s = solid["kind"], solid["sizes"]
+    R, shift = solid["rotation"] or UNITS, solid["shift"] or [0, 0, 0]
+    if kind == "mesh":
+        return _mesh(solid, Numbers(problem))
+    if "quadric" in s:
+        return {"shape": "ball", "quadric": s["quadric"], "shift": shift}
+    if kind == "tetrahedron":
+        first, *others = (
+            [_sum(x, y) for x, y in zip(_image(R, v), shift, strict=True)] for v in s["vertices"]
+        )
+        columns = [[_sum(x, ["mul", -1, y]) for x, y in zip(v, first, strict=True)] for v in others]
+        return {"shape": kind, "columns": columns, "shift": first}
+    stretch = [*_stretch(kind, s)]
+    columns = [[["mul", r, stretch[j]] for r in (R[0][j], R[1][j], R[2][j])] for j in range(3)]
+    return {"shape": kind if kind in SHAPES else "ball", "columns": columns, "shift": shift}
+
+
+SHAPES = ("box", "cylinder", "cone")
+"""The shapes that are no image of a ball or of a simplex."""
+
+
+def _stretch(kind: str, s: Mapping[str, Any]) -> Iterator[Data]:
+    """By how much a shape is stretched along its axes."""
+    if kind == "box":
+        yield from (["mul", "1/2", x] for x in s["sides"])
+    elif kind == "ellipsoid":
+        yield from s["semi_axes"]
+    elif kind in ("cylinder", "cone"):
+        half = ["mul", "1/2", s["height"]] if kind == "cylinder" else s["height"]
+        yield from (s["radius"], s["radius"], half)
+    else:
+        yield from [s["outer" if kind == "hollow_ball" else "radius"]] * 3
+
+
+def _image(R: Sequence[Sequence[Any]], v: Sequence[Any]) -> list[Data]:
+    return [["add", *(["mul", r, x] for r, x in zip(row, v, strict=True))] for row in R]
+
+
+def _sum(x: Data, y: Data) -> Data:
+    return ["add", x, y]
+
+
+def _mesh(solid: Mapping[str, Any], value: Numbers) -> Data:
+    """A mesh with its places at the defaults, thinned out where it has very many faces."""
+    R = np.array([value.vector(row) for row in solid["rotation"] or UNITS])
+    own = np.array([value.vector(v) for v in solid["sizes"]["vertices"]])
+    own = own @ R.T + np.array(value.vector(solid["shift"] or (0, 0, 0)))
+    points, faces = simplified(own, np.array(solid["sizes"]["faces"], dtype=int))
+    digits = DIGITS - int(np.floor(np.log10(np.abs(points).max() or 1.0)))
+    return {"vertices": np.round(points, digits).tolist(), "faces": faces.tolist()}

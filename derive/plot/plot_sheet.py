@@ -1,0 +1,99 @@
+"""The sheet that pictures are drawn on: matplotlib without a display, the same bytes each time."""
+
+from __future__ import annotations
+
+import io
+import re
+from pathlib import Path
+from typing import Any
+
+from ..language.greek import GREEK
+from ..language.refused import Refused
+from ..language.suffixed import letter_and_suffix
+
+FORMATS: dict[str, dict[str, Any]] = {
+    ".svg": {"metadata": {"Date": None, "Creator": None}},
+    ".pdf": {"metadata": {"CreationDate": None, "ModDate": None, "Creator": None}},
+    ".png": {"metadata": {"Software": None}, "dpi": 150},
+}
+"""Ending → what keeps dates and versions out of the file."""
+
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+"""Colours that the colour-blind tell apart (Okabe and Ito)."""
+
+LOOK: dict[Any, Any] = {
+    "svg.hashsalt": "derive",
+    "svg.fonttype": "path",
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "legend.frameon": False,
+    "legend.fontsize": 8,
+    "lines.linewidth": 1.1,
+}
+
+
+class PlotError(Refused, ValueError):
+    """A picture that cannot be made: the message says why, and what can."""
+
+
+def ending(name: str) -> str:
+    """The ending of the name of a picture; ``PlotError`` for one that means no format."""
+    found = Path(name).suffix
+    if found not in FORMATS:
+        raise PlotError(f"{name}: the name of a picture must end in {', '.join(FORMATS)}")
+    return found
+
+
+def sheet(width: float, height: float) -> Any:
+    """An empty figure, sizes in inches, in the style of :func:`look`."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def look() -> Any:
+    """The style of every sheet, as a context; ``PlotError`` where there is no matplotlib."""
+    try:
+        import matplotlib
+    except ImportError:
+        raise PlotError("pictures need matplotlib: pip install 'derive-mechanics[plot]'") from None
+    # whatever the user's matplotlibrc says; the backend stays: to set it would start a display
+    plain: dict[Any, Any] = {x: y for x, y in matplotlib.rcParamsDefault.items() if x != "backend"}
+    return matplotlib.rc_context(plain | LOOK)
+
+
+def written(figure: Any, name: str) -> bytes:
+    """The bytes of a picture, in the format of the ending of ``name``."""
+    form, file = ending(name), io.BytesIO()
+    settled(figure)
+    figure.savefig(file, format=form[1:], **FORMATS[form])
+    return file.getvalue()
+
+
+def settled(figure: Any) -> None:
+    """Lay a figure out once and for all, places rounded: the solver of the layout does not always
+    find the last digits alike."""
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    for part in figure.subfigs:
+        corners = part.bbox_relative.get_points().round(5)
+        part.bbox_relative.p0, part.bbox_relative.p1 = corners
+    for panel in figure.get_axes():
+        place = panel.get_position(original=True)
+        panel.set_position(place.from_extents(*place.extents.round(5)), which="original")
+
+
+def label(name: str) -> str:
+    """The name of a column as a formula: ``zeta_1`` → ζ with the index 1."""
+    letter, index = letter_and_suffix(name)
+    shown = f"\\{letter}" if letter in GREEK else letter
+    if not re.fullmatch(r"\\?[A-Za-z]+[0-9]*", shown) or not re.fullmatch(r"\w*", index, re.A):
+        return name.replace("$", r"\$")
+    if len(letter) > 2 and letter not in GREEK:
+        return name.replace("_", " ")
+    lower = index.replace("_", ",")
+    return f"${shown}_{{{lower}}}$" if lower else f"${shown}$"

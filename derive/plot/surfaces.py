@@ -1,0 +1,101 @@
+"""Curves on ellipsoids and spheres: hidden parts thin; tips of axes, and the polhode."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..motion.run import Array, Run
+from .plot_sheet import COLOURS, PlotError, label
+
+VIEW = np.array([0.75, 0.5, 0.43]) / np.linalg.norm([0.75, 0.5, 0.43])
+"""From where the pictures are seen, a unit vector."""
+
+
+def projected(points: Array, view: Array = VIEW) -> Array:
+    """Points (…, 3) → (…, 2), along the view, the third axis upwards."""
+    right = np.cross([0.0, 0.0, 1.0], view)
+    right /= np.linalg.norm(right)
+    return np.stack([points @ right, points @ np.cross(view, right)], -1)
+
+
+def curve(panel: Any, points: Array, normals: Array, colour: str, name: str = "") -> None:
+    """A curve on a closed surface, whole and thin, then what is seen of it in front."""
+    x, y = projected(points).T
+    front = normals @ VIEW >= 0
+    panel.plot(x, y, c=colour, lw=0.4, alpha=0.6)
+    panel.plot(np.where(front, x, np.nan), np.where(front, y, np.nan), c=colour, label=name)
+    panel.plot(x[:1], y[:1], "o", c=colour, ms=3)
+
+
+def surface(panel: Any, root: Array) -> None:
+    """The ellipsoid {root u : |u| = 1}, root symmetric: its outline, and its sections by axes."""
+    turn = np.linspace(0, 2 * np.pi, 241)
+    circle = np.stack([np.cos(turn), np.sin(turn)])
+    seen = np.linalg.solve(root, VIEW)  # the outline: normal ⟂ view
+    frame = np.linalg.svd(seen[None])[2][1:]
+    x, y = projected(circle.T @ frame @ root).T
+    panel.fill(x, y, facecolor="#f4f4f4", edgecolor="#555555", lw=0.8, zorder=0)
+    for k in range(3):
+        u = circle.T @ np.delete(np.eye(3), k, axis=0)
+        x, y = projected(u @ root).T
+        front = u @ seen >= 0
+        panel.plot(np.where(front, x, np.nan), np.where(front, y, np.nan), c="#bbbbbb", lw=0.5)
+    panel.set_aspect("equal")
+    panel.set_axis_off()
+
+
+def axes(figure: Any, run: Run, word: Any) -> None:
+    """The tips of the body's axes on the unit sphere of space: precession and nutation."""
+    A = attitude(run)
+    panel = figure.subplots()
+    surface(panel, np.eye(3))
+    for k in range(3):
+        tip = A[:, :, k]
+        curve(panel, tip, tip, COLOURS[k], f"$A e_{k + 1}$")
+    figure.legend(*panel.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+
+
+def polhode(figure: Any, run: Run, word: Any) -> None:
+    """The velocity on the ellipsoid of inertia ⟨ζ, Iζ⟩ = 2T of the first instant, and the momentum
+    M = Iζ on the sphere of its length."""
+    inertia, zeta = _inertia(run), _velocity(run)
+    momentum = zeta @ inertia
+    left, right = figure.subplots(1, 2)
+    values, vectors = np.linalg.eigh(inertia)
+    twice = float(zeta[0] @ momentum[0])
+    surface(left, vectors @ np.diag(np.sqrt(twice / values)) @ vectors.T)
+    curve(left, zeta, momentum, COLOURS[0])
+    left.set_title(f"{label('zeta')}: {word('ellipsoid of inertia')}")
+    surface(right, np.linalg.norm(momentum[0]) * np.eye(3))
+    curve(right, momentum, momentum, COLOURS[1])
+    right.set_title(f"$M$: {word('sphere of angular momentum')}")
+
+
+def attitude(run: Run) -> Array:
+    """A at the instants, (instants, 3, 3)."""
+    return np.stack([run[x] for x in ATTITUDE], -1).reshape(-1, 3, 3)
+
+
+def _velocity(run: Run) -> Array:
+    return np.stack([run[x] for x in VELOCITY], -1)
+
+
+def _inertia(run: Run) -> Array:
+    """The inertia tensor of the facts, which a picture of the polhode needs."""
+    try:
+        found = np.array(run.facts["body"]["inertia"], float)
+        good = found.shape == (3, 3) and np.array_equal(found, found.T)
+        good = good and bool((np.linalg.eigvalsh(found) > 0).all())
+    except (KeyError, TypeError, ValueError):
+        good = False
+    if not good:
+        raise PlotError(
+            "polhode: the facts of this run have no body.inertia, three rows of a positive tensor"
+        )
+    return found
+
+
+ATTITUDE = tuple(f"A_{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3))
+VELOCITY = ("zeta_1", "zeta_2", "zeta_3")

@@ -1,0 +1,69 @@
+"""A run, and an ensemble, in Python, which can be drawn and written."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..motion.ensemble import Ensemble, Part
+from ..motion.run import Run
+
+
+class Simulated(Run):
+    """A run with pictures and files."""
+
+    @classmethod
+    def of(cls, run: Run) -> Simulated:
+        """The same run."""
+        return cls(run.columns, run.table, run.facts)
+
+    @classmethod
+    def read(cls, path: str | Path) -> Simulated:
+        """The run in a file; ``RunFileError`` where there is none."""
+        from ..motion.run_files import read
+
+        return cls.of(read(Path(path)))
+
+    def plot(self, out: str | Path, kind: str = "", lang: str = "en") -> Path:
+        """Draw it to a file, .svg, .pdf or .png, as ``derive plot --kind`` does; ``PlotError``."""
+        from ..plot.pictures import plot
+        from ..views.language import language
+
+        path = Path(out)
+        path.write_bytes(plot(self, path.name, kind, language(lang).word))
+        return path
+
+    def save(self, out: str | Path) -> Path:
+        """Write it to a file, .npz, .csv or .parquet."""
+        from ..motion.run_files import written
+
+        path = Path(out)
+        path.write_bytes(written(self, path.name))
+        return path
+
+
+class SimulatedEnsemble(Ensemble):
+    """An ensemble with files."""
+
+    @classmethod
+    def of(cls, e: Ensemble) -> SimulatedEnsemble:
+        """The same ensemble."""
+        return cls(**vars(e))
+
+    @classmethod
+    def read(cls, path: str | Path) -> SimulatedEnsemble:
+        """The ensemble in a file; of an .npz the states stay on the disk. ``RunFileError`` where
+        there is none."""
+        from ..motion.ensemble_files import read
+
+        return cls.of(read(Path(path)))
+
+    def save(self, out: str | Path) -> Path:
+        """Write it to a file, .npz, .csv or .parquet."""
+        from ..motion.ensemble_files import writer
+        from ..motion.run_files import format_of
+
+        path = Path(out)
+        format_of(path.name)
+        with path.open("wb") as file, writer(file, path.name, self) as made:
+            made.add(Part(self.varied, self.status, self.states))
+        return path

@@ -1,0 +1,234 @@
+"""The functions of an emitted file on the torus against the record, at a random point of a prime
+field.
+
+The record's own sums over the lattice are evaluated there, for every point of the lattice.  C is
+read, loops and all; Python, which must be what is emitted, word for word, is run with exact arrays.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from functools import reduce
+from random import Random
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from ...algebra.torus import Place
+from ...check.arithmetic import EvaluationError
+from ...check.evaluate import evaluate
+from ...check.residue import Residue
+from ...check.torus.torus_model import TorusModel, environment, torus_of
+from ...language import rational as q
+from ...record.json_writer import to_json
+from ...record.record import Derivation
+from ..compare import SIZE, Agreement
+from ..declarations import DiffersError
+from ..degree_bounds import Measured
+from ..read_c import parsed_c
+from ..terms import CodeError
+from .exact_arrays import ExactArray, ExactLibrary
+from .exact_numbers import ExactNumbers
+from .loops_in_c import LoopReader
+
+BOUND = 1e-30
+"""A false pass must be less probable."""
+POWERS = (2, 3, 4)
+"""The k of Tr Wᵏ/N that ``conserved`` gives."""
+DEGREE = 32
+"""A bound on the degree, in what is drawn, of what the record says, and of what is emitted: four
+numbers of the state are multiplied at most, over π.  The degree of C is measured."""
+
+
+class TorusClaims:
+    """What a record says at one point, the state ``x``: ``rates``, ``energy``, ``traces``."""
+
+    def __init__(self, d: Derivation, text: str, given: Iterable[Fraction] = ()):
+        self.torus = torus_of(d.problem)
+        drawn = hashlib.sha256((to_json(d) + text).encode("utf-8", "surrogatepass")).hexdigest()
+        self.model = TorusModel(self.torus, Random(drawn), SIZE)
+        self.p, env = self.model.roots.p, environment(self.model)
+        self.number = ExactNumbers(self.model, tuple(given))
+        vorticity = d["motion"].equations[0]
+        at = {n: i for i, n in enumerate(self.torus.places, 1)}
+        self.x = self.parts({n: self.model.vorticity[n] for n in at})
+        self.rates = self.parts(
+            {n: evaluate(vorticity.rhs, env.with_index("𝐧", i)) for n, i in at.items()}
+        )
+        self.energy = self.whole(evaluate(d["energy"].equations[0].rhs, env))
+        powers = (reduce(q.times, [self.model.W] * k) for k in POWERS)
+        self.traces = [self.whole(q.trace(x) * Fraction(1, self.torus.N)) for x in powers]
+
+    def whole(self, x: Any) -> int:
+        """A number as an integer modulo p."""
+        return int((x - self.model.roots.i * 0).n)
+
+    def parts(self, a: Mapping[Place, Any]) -> list[int]:
+        """Re and Im of a(n), of which that of −n is the conjugate, for one of n and −n."""
+        found = []
+        for n in self.torus.half_plane:
+            here, there = a[n], a[-n[0], -n[1]]
+            found += [(here + there) / 2, (here - there) / (2 * self.model.roots.i)]
+        return [self.whole(x) for x in found]
+
+    def elementary(self, name: str, x: int) -> int:
+        """A function at a residue: sin and cos of angles of the torus, and arctan 1."""
+        if name == "atan" and x == 1:
+            return self.whole(self.model.pi / 4)
+        try:
+            return self.whole(self.model.elementary(name, Residue(x, self.p)))
+        except EvaluationError as error:
+            raise CodeError(str(error)) from None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Those of the state."""
+        places = ["_".join(str(x).replace("-", "m") for x in n) for n in self.torus.half_plane]
+        return tuple(f"{part}_{n}" for n in places for part in ("re", "im"))
+
+
+Call = Callable[[str, Sequence[int]], Sequence[int]]
+"""The numbers that a function of a file gives at a state."""
+
+
+def agreement(claims: TorusClaims, call: Call, has: Callable[[str], bool]) -> Agreement:
+    """The verdict on functions that equal the record; ``DiffersError`` where one does not."""
+    wanted = {"rhs": claims.rates, "energy": [claims.energy], "conserved": claims.traces}
+    names = {
+        "rhs": [f"the rate of {x}" for x in claims.names],
+        "energy": ["the energy"],
+        "conserved": [f"trace_{k}" for k in POWERS],
+    }
+    functions = [x for x in wanted if x != "conserved" or has(x)]
+    for f in functions:
+        found = call(f, claims.x)
+        if len(found) != len(wanted[f]):
+            raise DiffersError(f"{f}: {len(found)} numbers, the record has {len(wanted[f])}")
+        for name, x, y in zip(names[f], found, wanted[f], strict=True):
+            if x != y:
+                raise DiffersError(f"{f}: {name} differs from the record's")
+    rounded = tuple(sorted(claims.number.rounded))
+    return Agreement(("constants", *functions), 1, 2 * DEGREE / SIZE, rounded, ())
+
+
+# -- C -------------------------------------------------------------------------------------------
+
+
+def compare_c(name: str, files: Mapping[str, str], prefix: str, claims: TorusClaims) -> Agreement:
+    """The verdict on C, read with its loops."""
+    c, tree = parsed_c(name, files, prefix)
+    reader = LoopReader(c, prefix, claims.p, claims.number, claims.elementary)
+    module = reader.module(tree)
+    dimension = len(claims.names)
+    _require_lists(module.state, module.sizes, dimension, claims)
+    size = max(module.sizes["CONSTANTS"], 0)
+    k: dict[int, Any] = {}
+    if reader.call("constants", {}, k):
+        raise DiffersError("constants: it refuses what has no parameters")
+    reader.written(k, size, "k")
+    t = Measured(Random(claims.p).randrange(claims.p), 1)
+
+    def call(f: str, x: Sequence[int]) -> Sequence[int]:
+        given, out = measured(x), dict[int, Any]()
+        if f == "energy":
+            return reader.numbers([reader.call(f, t, given, k)])
+        if f == "rhs":
+            reader.call(f, t, given, k, {}, out)
+        else:
+            reader.call(f, t, given, k, out)
+        return reader.written(out, dimension if f == "rhs" else len(POWERS), f)
+
+    found = agreement(claims, call, lambda f: f in module.functions)
+    if "rhs_batch" in module.functions:
+        _compare_batch(reader, claims, t, k)
+        found = replace(found, functions=(*found.functions, "rhs_batch"))
+    if (bound := (DEGREE + reader.largest) / SIZE) > BOUND:
+        raise CodeError("its degree is too large for a proof")
+    return replace(found, bound=bound)
+
+
+def measured(x: Sequence[int]) -> dict[int, Measured]:
+    """Numbers that are drawn, by their places."""
+    return {i: Measured(y, 1) for i, y in enumerate(x)}
+
+
+def _compare_batch(reader: LoopReader, claims: TorusClaims, t: Any, k: Mapping[int, Any]) -> None:
+    """``rhs_batch`` on some states beside ``rhs``: an index is made of n and s by sums and products
+    alone, so that three counts tell two apart.
+
+    Where it calls ``rhs``, a random function stands there in its place, which takes less time.
+    """
+    p, random, size = claims.p, Random(claims.p), len(claims.x)
+    weights = [random.randrange(p) for _ in claims.x]
+
+    def stand_in(t: Any, x: Any, k: Any, u: Any, dx: Any) -> None:
+        for i, w in enumerate(weights):
+            dx[i] = (w * x[i] * x[i] + t) % p
+
+    with reader.replaced("rhs", "rhs_batch", stand_in):
+        for count in (1, 2, 3):
+            states = [[random.randrange(p) for _ in claims.x] for _ in range(count)]
+            both = measured([x for row in zip(*states, strict=True) for x in row])
+            out: dict[int, Any] = {}
+            reader.call("rhs_batch", count, t, both, k, {}, out)
+            rates = reader.written(out, count * size, "rhs_batch")
+            for s, x in enumerate(states):
+                one: dict[int, Any] = {}
+                reader.call("rhs", t, measured(x), k, {}, one)
+                if rates[s::count] != reader.written(one, size, "rhs"):
+                    raise DiffersError("rhs_batch: a state of several has other rates than alone")
+
+
+# -- Python --------------------------------------------------------------------------------------
+
+
+def compare_python(text: str, claims: TorusClaims) -> Agreement:
+    """The verdict on Python, run: the caller has seen that the text is what is emitted."""
+    module = ModuleType("emitted")
+    exec(compile(text, "<emitted Python>", "exec"), module.__dict__)
+    return agreement_of_module(module, claims)
+
+
+def agreement_of_module(module: Any, claims: TorusClaims) -> Agreement:
+    """The verdict on a module that has been run; plain numbers go to the exact functions, too."""
+    module._Functions = lambda library: library
+    library = ExactLibrary(claims.p, claims.number, claims.elementary)
+
+    def array(x: Sequence[Any]) -> ExactArray:
+        values = np.array(x, dtype=object)
+        return ExactArray(values, values * 0, library)
+
+    sizes = {"STATE": len(module.STATE), "INPUTS": len(module.INPUTS)}
+    _require_lists(module.STATE, sizes, len(claims.names), claims)
+    try:
+        k = module.constants(array([]))
+
+        def call(f: str, x: Sequence[int]) -> Sequence[int]:
+            found, several = (getattr(module, f)(0.0, array(y), k) for y in (x, [x[::-1], x]))
+            if found.im.any():
+                raise DiffersError(f"{f}: it is not real")
+            if found.shape != several.shape[1:] or (found.re != several.re[1]).any():
+                raise DiffersError(f"{f}: a state of several gives other numbers than alone")
+            return [int(y) for y in found.re.ravel()]
+
+        return agreement(claims, call, lambda f: hasattr(module, f))
+    except (TypeError, ValueError, IndexError, AttributeError) as error:
+        if isinstance(error, CodeError):
+            raise
+        raise CodeError(f"it does not run with exact arrays: {error}") from None
+
+
+def _require_lists(
+    state: Sequence[str] | None, sizes: Mapping[str, int], dimension: int, claims: TorusClaims
+) -> None:
+    """``DiffersError`` where the names of the state or the sizes are others."""
+    if state is not None and tuple(state) != claims.names:
+        raise DiffersError("the names of the state are not those of the record")
+    wanted = {"STATE": dimension, "ALGEBRA": dimension, "PARAMETERS": 0, "INPUTS": 0}
+    for what, size in wanted.items():
+        if sizes.get(what, size) != size:
+            raise DiffersError(f"the size {what} is {sizes[what]}, not {size}")

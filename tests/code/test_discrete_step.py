@@ -1,0 +1,311 @@
+"""The emitted discrete step: the motion that the record tells, its order, what it keeps, what it
+tells."""
+
+import tomllib
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from math import log2
+
+import mpmath
+import numpy as np
+import pytest
+
+import derive
+from derive.code.program import LoweringError
+from derive.language import rational as q
+from derive.pipeline import discrete
+from derive.problem.toml import problem_of
+from tests.check.test_discrete import DRIVEN
+from tests.support.discrete_maps import DiscreteMap
+from tests.support.emitted import import_python
+from tests.support.motions import follow
+from tests.support.needs import need
+
+BALL = """
+group = "SO(3)"
+[body]
+given = { m = 1, c = [0, 0, 0], J = [["1/2", 0, 0], [0, "1/2", 0], [0, 0, "1/2"]] }
+"""
+PUSHED = DRIVEN.replace('"driven"', '"pushed"').replace("length = 1 ", "length = 0 ")
+SLOW = pytest.mark.dist
+BODY = {"m": 2, "J_11": 1.3, "J_12": 0.1, "J_13": 0, "J_22": 0.9, "J_23": 0.05, "J_33": 0.4}
+BODY |= {"c_1": 0.1, "c_2": 0.2, "c_3": 0.3, "g_1": 0.5, "g_2": 1, "g_3": -2}
+NO_SOLUTION = 5
+
+
+@cache
+def walked(name):
+    """A problem by its name, the ball, or on a group one with inputs and damping."""
+    if name == "ball":
+        text = f'name = "ball"\n{BALL}'
+    elif name == "tied":
+        text = PUSHED.replace("GROUP", "SE(3)").partition("damping")[0]
+    elif "(" in name:
+        text = PUSHED.replace("GROUP", name.removeprefix("free "))
+        lines = text.splitlines()
+        if name.startswith("free "):
+            lines = [x for x in lines if not x.startswith("potential")]
+        text = "\n".join(lines)
+    else:
+        return derive.derive(name)
+    return derive.derive(problem_of(tomllib.loads(text)))
+
+
+@cache
+def compiled(name, order=2, **further):
+    need("cc")
+    f = derive.compile(walked(name), step=("discrete", "gauss"), order=order, **further)
+    known = walked(name).problem.parameters
+    values = {x: 1.0 if known[x].default is None else known[x].default for x in f.PARAMETERS}
+    f.use(values | {x: y for x, y in BODY.items() if x in values and known[x].default is None})
+    f.u = np.linspace(-0.3, 0.5, len(f.INPUTS))
+    return f
+
+
+def start(f, scale=0.5, seed=2):
+    """A state at 1 with a velocity, by the names of its numbers."""
+    x = np.array([float(s[0] == "A" and s[2] == s[-1]) for s in f.STATE])
+    group = sum(s[0] in "AT" for s in f.STATE)
+    x[group:] = scale * np.random.default_rng(seed).normal(size=len(x) - group)
+    return x
+
+
+def element(names, x, size):
+    """The matrix of a state."""
+    g = np.eye(size)
+    for name, value in zip(names, x, strict=True):
+        letter, *place = name.split("_")
+        if letter in "AT":
+            i, j = (*map(int, place[0]), size)[:2]
+            g[i - 1, j - 1] = value
+    return tuple(tuple(map(mpmath.mpf, row)) for row in g)
+
+
+def real(x):
+    """A number of mpmath."""
+    return mpmath.mpf(x.numerator) / x.denominator if isinstance(x, Fraction) else mpmath.mpf(x)
+
+
+# ---------------------------------------------------------------- the record's motion
+
+QUICK = ("so3", "gl3", "heisenberg", "screw", "free SO(3)", "free GL(3)")
+THOROUGH = ("se3", "sl3", "so4", "sp4", "free SL(3)")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [*QUICK, *(pytest.param(x, marks=SLOW) for x in ("se3", "sl3", "so4", "sp4", "free SL(3)"))],
+)
+def test_it_is_the_motion_that_the_record_tells(name):
+    """Two steps between three elements: what the last equations of the record give for the third,
+    with inputs and damping."""
+    f, problem, h = compiled(name), walked(name).problem, 0.1
+    m, states = f.begin(start(f)).move(h), []
+    for _ in range(3):
+        states.append(element(f.STATE, m.x, problem.group.size))
+        m.move(h)
+    values = dict(zip(f.PARAMETERS, f._in_use().p, strict=True))
+    with mpmath.workdps(30):
+        known = DiscreteMap(discrete(problem), problem.group, values, h, real, mpmath.mpf("1e-10"))
+        u = iter(map(real, f.u))
+        for given in problem.inputs:
+            if hasattr(given, "on"):
+                known.given["f_u_1"] = tuple((next(u),) for _ in range(problem.group.n))
+            else:
+                size = range(1, problem.group.dimension + 1)
+                known.given |= {f"u_{i}": next(u) for i in size}
+        found, _ = known.next(*states[:2])
+        off = (abs(x) for row in q.minus(found, states[2]) for x in row)
+        assert max(off) < 1e-14
+
+
+KINDS = ("so3", "se3", "sl3", "saff3", "gl3", "so4", "heisenberg", "screw", "sim3", "sp4")
+
+
+@pytest.mark.parametrize("name", [*KINDS, "SO(3)", "SL(3)", "GL(3)", "SE(3)"])
+def test_python_moves_as_c(name, tmp_path):
+    """Where C solves for few numbers, as well as on any basis; and within a step."""
+    f, own = compiled(name, 4), walked(name).problem.name
+    walked(name).emit(tmp_path, ("python",), own, step="discrete", order=4)
+    code = import_python(own, tmp_path)
+    x = start(f)
+    k, m, c = code.constants(f._in_use().p), code.begin(0.0, x), f.begin(x)
+    for h in (0.02, -0.01):
+        assert code.discrete(m, k, f.u if len(f.u) else None, h, 10) == code.OK
+        c.move(h, 10)
+        size = np.abs(c.x).max()
+        assert np.abs(m.x - c.x).max() < 1e-13 * size
+        assert m.t == c.t
+        for part in (0.3, 1.0):
+            t = m.t - part * h
+            assert np.abs(code.dense(m, t) - c.dense(t)).max() < 1e-13 * size
+
+
+# ---------------------------------------------------------------- order
+
+
+@pytest.mark.parametrize("order", [2, 4, 6, 8])
+@pytest.mark.parametrize("name", ["so3", "sl3", "heisenberg", "se3"])
+def test_it_has_its_order(name, order):
+    """By halving, against Gauss's collocation; and the middle of a step."""
+    f = compiled(name, order)
+    x, T, n = start(f, 0.9), 1.2, {2: 40, 4: 16, 6: 6, 8: 3}[order]
+    errors = []
+    end = f.begin(x).move_to(T, 1e-14, "gauss").x
+    for count in (n, 2 * n):
+        m = f.begin(x).move(T / count, count)
+        errors.append(np.abs(m.x - end).max())
+    assert errors[1] > 3e-15 or order == 8
+    if errors[1] > 1e-13:
+        assert order - 0.35 < log2(errors[0] / errors[1]) < order + 0.8, errors
+    within = f.begin(x).move_to(T - T / count / 3, 1e-14, "gauss").x
+    assert np.abs(m.dense(T - T / count / 3) - within).max() < 4 * errors[1] + 1e-13
+
+
+@pytest.mark.parametrize("name", ["SO(3)", "SL(3)", "GL(3)", "SE(3)"])
+def test_inputs_and_damping_leave_the_order(name):
+    f = compiled(name, 4)
+    x = start(f, 0.3)
+    end = f.begin(x).move_to(0.5, 1e-14, "gauss").x
+    errors = [np.abs(f.begin(x).move(0.5 / n, n).x - end).max() for n in (8, 16)]
+    assert 3.6 < log2(errors[0] / errors[1]) < 4.6, errors
+
+
+@pytest.mark.parametrize("name", ["so3", "se3", "sl3", "so4"])
+def test_back_again(name):
+    """A symmetric step undoes itself."""
+    f = compiled(name, 4)
+    x = start(f)
+    assert np.abs(f.begin(x).move(0.05, 100).move(-0.05, 100).x - x).max() < 1e-12
+
+
+# ---------------------------------------------------------------- what is kept
+
+
+def energies(f, x, h, n, each=100):
+    """The errors of the energy along n steps, relative to the kinetic energy at first."""
+    m, e = f.begin(x), f.energy(0, x)
+    still = np.where([s.startswith(("zeta", "w")) for s in f.STATE], 0, x)
+    found = [f.energy(0, m.move(h, each).x) - e for _ in range(n // each)]
+    return np.abs(found) / (e - f.energy(0, still))
+
+
+@pytest.mark.parametrize("order", [2, 4, pytest.param(6, marks=SLOW)])
+@pytest.mark.parametrize("name", ["so3", "tied", "sl3"])
+def test_the_energy_does_not_drift(name, order):
+    """Over 10^6 steps it errs at most twice as much as over the first 10^4."""
+    f = compiled(name, order)
+    f.u = np.zeros(len(f.INPUTS))
+    x = start(f)
+    found = energies(f, x, {2: 0.02, 4: 0.05, 6: 0.1}[order], 1_000_000)
+    compiled.cache_clear()
+    assert found[:100].max() > 1e-13  # it is no rounding that is measured
+    assert found.max() < 2 * found[:100].max()
+
+
+@pytest.mark.parametrize("order", [2, 6])
+@pytest.mark.parametrize("name", ["top", "sl3", "so4"])
+def test_momenta_are_kept_to_rounding(name, order):
+    """What symmetries keep, in space and of the body."""
+    f = compiled(name, order, conserved=True)
+    x = start(f)
+    m, before = f.begin(x), f.conserved(0, x)
+    momenta = [i for i, s in enumerate(f.CONSERVED) if "momentum" in s]
+    assert momenta
+    for _ in range(10):
+        after = f.conserved(0, m.move(0.02, 1000).x)
+        errors = np.abs(after - before)[momenta]
+        assert errors.max() < 1e-12 * max(np.abs(before).max(), 1)
+
+
+def test_the_group_is_kept():
+    for name in ("so3", "se3", "sl3", "sp4"):
+        f = compiled(name)
+        x = f.begin(start(f)).move(0.02, 10_000).x
+        assert f.defect(x) < 1e-15 * len(x) * np.abs(x).max() ** 2
+
+
+# ---------------------------------------------------------------- what is told
+
+
+@pytest.mark.parametrize("language", ["c", "cpp", "python"])
+def test_a_step_without_solution_is_told(language, tmp_path):
+    """A ball turns by at most 1 rad h |zeta|: a longer step leaves the motion as it was."""
+    walked("ball").emit(tmp_path, ("c", "cpp", "python"), "ball", step="discrete", order=2)
+    x = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0.6, 0, 0.8]
+    commands = [("discrete", 0.99, 1), ("discrete", 1.01, 1), ("discrete", 1e3, 3)]
+    commands += [("discrete", float("nan"), 1), ("discrete", -0.5, 2)]
+    good, *bad, back = follow(language, tmp_path, "ball", commands, x)
+    assert good.status == 0
+    for place in bad:
+        assert place.status == NO_SOLUTION
+        assert (place.t, place.h) == (good.t, good.h)
+        assert np.array_equal(place.x, good.x)
+    assert (back.status, back.h) == (0, -0.5)
+
+
+@pytest.mark.parametrize("name", ["so4", "sl3", "sp4"])
+def test_too_large_a_step_is_told_on_any_group(name):
+    f = compiled(name)
+    x = start(f, 5.0)
+    m = f.begin(x)
+    with pytest.raises(ArithmeticError, match="no discrete step"):
+        m.move(10.0)
+    assert np.array_equal(m.x, x)
+
+
+REFUSED = {
+    "gyrostat": "a Lagrangian of points",
+    "two_tops": "a product of groups",
+    "zeitlin": "on the torus",
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_has_no_discrete_step_is_refused(name, tmp_path):
+    with pytest.raises(LoweringError, match=REFUSED[name]):
+        derive.derive(name).emit(tmp_path, ("c",), step="discrete")
+    assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.parametrize(
+    "choice", [{"attitude": "quaternion"}, {"velocity": "tangent"}, {"frame": "principal"}]
+)
+def test_other_forms_of_the_state_are_refused(choice, tmp_path):
+    with pytest.raises(LoweringError, match="leave it out"):
+        derive.derive("so3").emit(tmp_path, ("c",), step="discrete", **choice)
+
+
+def test_an_order_belongs_to_the_discrete_step(tmp_path):
+    with pytest.raises(ValueError, match="--order is that of --step discrete"):
+        derive.derive("so3").emit(tmp_path, ("c",), step="rk4", order=4)
+
+
+# ---------------------------------------------------------------- builds
+
+
+@pytest.mark.parametrize(
+    "name", ["so3", "gl3", *(pytest.param(x, marks=SLOW) for x in ("SL(3)", "saff3", "SE(3)"))]
+)
+def test_sanitizers_find_nothing(name, tmp_path):
+    need("sanitizers of gcc")
+    own = walked(name).problem.name
+    walked(name).emit(tmp_path, ("c",), own, step="discrete", order=4, layout="col")
+    f = compiled(name)
+    flags = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+    commands = [("dense", 0, 0), ("discrete", 0.05, 5), ("dense", 0.23, 0)]
+    commands += [("discrete", 1e4, 1), ("begin", 0, 0), ("discrete", -0.01, 1), ("dense", 0, 0)]
+    places = follow("c", tmp_path, own, commands, start(f), f._in_use().p, f.u, flags=flags)
+    told = [place.status for place in places]
+    assert all(x == 0 for i, x in enumerate(told) if i != 3)
+
+
+def test_a_problem_with_no_inputs_has_them_nowhere():
+    """The step of a problem is the same where inputs are 0."""
+    given = replace(walked("so3").problem, inputs=())
+    f = derive.compile(given, step="discrete").use(compiled("so3")._in_use().p)
+    x = start(f)
+    held = compiled("so3")
+    held.u = np.zeros(3)
+    assert np.abs(f.begin(x).move(0.1, 10).x - held.begin(x).move(0.1, 10).x).max() < 1e-15

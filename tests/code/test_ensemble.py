@@ -1,0 +1,86 @@
+"""Many motions at once: the same as one by one, each with a step and an end of its own."""
+
+import numpy as np
+import pytest
+
+import derive
+from tests.problems.line import FALLING
+
+AT_ONE = [1.0, 0, 0, 0, 1, 0, 0, 0, 1]
+
+
+def many(f, n, seed=4):
+    """States at the identity, of velocities up to 9."""
+    rng = np.random.default_rng(seed)
+    rest = len(f.STATE) - 9
+    return np.array([[*AT_ONE, *(9 * rng.uniform(-1, 1, rest))] for _ in range(n)])
+
+
+@pytest.mark.parametrize("flags", [(), ("-DWIDTH_LANES=4",), ("-DWIDTH_LANES=1",), ("-O0",)])
+@pytest.mark.parametrize("problem", ["so3", "sl3"])
+def test_each_is_that_of_one_by_one(problem, flags):
+    width = [x.replace("WIDTH", problem) for x in flags]
+    common = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-fPIC", "-shared")
+    f = derive.compile(
+        problem, step="gauss", ensemble=True, flags=(*common, "-O2", "-march=native", *width)
+    )
+    x = many(f, 21) * np.array([1.0] * 9 + [0.1] * (len(f.STATE) - 9))
+    found, status = f.ensemble(x, 0.5, 1.5, 1e-12)
+    assert not status.any()
+    exact = np.array([f.begin(one, t=0.5).move_to(1.5, 1e-14).x for one in x])
+    assert np.abs(found - exact).max() < 1e-10
+    assert max(map(f.defect, found)) < 1e-14
+    back, _ = f.ensemble(found, 1.5, 0.5, 1e-12)
+    assert np.abs(back - x).max() < 1e-9
+
+
+def test_parameters_of_their_own():
+    f = derive.compile("so3", step="gauss", ensemble=True)
+    p = np.tile(f.p, (10, 1)) * np.linspace(0.9, 1.1, 10)[:, None]
+    x, steps = many(f, 10), np.zeros(10)
+    found, _ = f.ensemble(x, 0, 1, 1e-12, parameters=p, h=steps)
+    assert (steps > 0).all()
+    for own, one, end in zip(p, x, found, strict=True):
+        assert np.abs(f.use(own).begin(one).move_to(1, 1e-14).x - end).max() < 1e-10
+    f.use()
+
+
+def test_a_motion_that_ends_leaves_the_others(tmp_path):
+    """Points that fall into a centre from 1 and from 100, one of no number, and more than lanes."""
+    (tmp_path / "line.toml").write_text(FALLING)
+    f = derive.compile(tmp_path / "line.toml", ensemble=True)
+    x = np.zeros((30, len(f.STATE)))
+    x[:, f.STATE.index("A_11")] = x[:, f.STATE.index("A_22")] = 1
+    x[:, f.STATE.index("T_1")] = 100
+    x[::7, f.STATE.index("T_1")] = 1
+    x[3, f.STATE.index("T_1")] = np.nan
+    found, status = f.ensemble(x, 0, 5, 1e-9)
+    assert [*np.flatnonzero(status)] == [0, 3, 7, 14, 21, 28]
+    assert status[3] == 2
+    assert np.isfinite(np.delete(found, 3, axis=0)).all()
+    there = found[status == 0, f.STATE.index("T_1")]
+    assert np.ptp(there) == 0
+    assert abs(there[0] - (100 - 12.5e-4)) < 1e-7  # -t²/2r² at first
+
+
+def test_what_is_refused():
+    f = derive.compile("so3", ensemble=True)
+    with pytest.raises(ValueError, match="rows of 12 numbers"):
+        f.ensemble([1.0], 0, 1)
+    with pytest.raises(ValueError, match="2 rows of 12 parameters"):
+        f.ensemble(many(f, 2), 0, 1, parameters=[[1.0]])
+    with pytest.raises(ValueError, match="row 1 of the parameters: no body"):
+        f.ensemble(many(f, 2), 0, 1, parameters=[f.p, f.p * np.nan])
+    with pytest.raises(ValueError, match="ensemble=True"):
+        derive.compile("so3").ensemble(many(f, 2), 0, 1)
+
+
+def test_a_first_step_that_is_much_too_long():
+    """Of 8 rad, far off the group: what is not taken says nothing of the size of a state."""
+    f = derive.compile("top", step="gauss", ensemble=True)
+    x = np.zeros((9, len(f.STATE)))
+    x[:, [0, 4, 8]], x[:, 9], x[:, 11] = 1, 0.5, np.linspace(80, 120, 9)
+    found, status = f.ensemble(x, 0, 0.5, 1e-9, h=np.full(9, 0.1))
+    assert not status.any()
+    exact = np.array([f.begin(one).move_to(0.5, 1e-13).x for one in x])
+    assert np.abs(found - exact).max() < 1e-5

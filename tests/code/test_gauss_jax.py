@@ -1,0 +1,278 @@
+"""The emitted step of order 16 in JAX: the motion of Python's, under jit and vmap, over devices."""
+
+import importlib
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import derive
+from derive.code.emit import EmitError
+from tests.oracles import free_top
+from tests.problems.line import FALLING
+from tests.support.emitted import import_python
+from tests.support.needs import need
+
+need("the module jax")
+jax = importlib.import_module("jax")
+
+AT_ONE = [1.0, 0, 0, 0, 1, 0, 0, 0, 1]
+PRINCIPAL = (1.25, 2.0, 2.75)
+
+
+@pytest.fixture(autouse=True)
+def _doubles():
+    with jax.enable_x64(True):
+        yield
+
+
+@pytest.fixture(scope="module")
+def emitted(tmp_path_factory):
+    """A function (problem, options) → the module with both steps, and constants."""
+
+    def get(problem, **options):
+        folder = tmp_path_factory.mktemp("jax")
+        made = derive.derive(problem)
+        made.emit(folder, ("python",), step=("gauss", "gauss_jax"), **options)
+        m = import_python(made.record.name, folder)
+        return m, m.constants([m.DEFAULTS.get(x, 0.7) for x in m.PARAMETERS])
+
+    return get
+
+
+@pytest.fixture(scope="module")
+def top(emitted):
+    return emitted("so3")
+
+
+def heavy():
+    """A state of the heavy top."""
+    return np.array([*AT_ONE, 0.1, 0, 9])
+
+
+def begun(m, x, k):
+    """Both motions from a state, Python's and JAX's, and steps of the latter, compiled."""
+    steps = jax.jit(lambda n, h, count: m.gauss_jax(n, k, None, h, count))
+    return m.begin(0.0, x), m.begin_jax(0.0, x), steps
+
+
+def near_the_identity(names, options):
+    """A state of small velocity."""
+    rng = np.random.default_rng(2)
+    if options.get("velocity") == "tangent":
+        return np.array([*AT_ONE, 0.1, 0.2, 0, -0.1, 0.05, 0.1, 0.2, 0, -0.15])
+    one = [name == "q_0" or (name[0] == "A" and name[-1] == name[-2]) for name in names]
+    moves = [not name.startswith(("A", "T", "q_")) for name in names]
+    return one + moves * rng.normal(size=len(names))
+
+
+@pytest.mark.parametrize(
+    ("problem", "options"),
+    [
+        ("so3", {}),
+        ("so3", {"attitude": "quaternion"}),
+        ("se3", {"frame": "principal", "layout": "col"}),
+        ("sl3", {"velocity": "tangent"}),
+        ("two_tops", {}),
+        ("heisenberg", {}),
+        ("zeitlin", {}),
+    ],
+)
+def test_the_steps_are_those_of_python(emitted, problem, options):
+    """In every kind of state: fixed steps, within one, and adaptive ones back."""
+    m, k = emitted(problem, **options)
+    x = near_the_identity(m.STATE, options)
+    own, other, steps = begun(m, x, k)
+    assert m.gauss(own, k, None, 0.05, 10) == m.OK
+    other = steps(other, 0.05, 10)
+    assert (other.status, float(other.t)) == (m.OK, own.t)
+    scale = max(1, np.abs(own.x).max())
+    assert np.abs(other.x - own.x).max() < 1e-13 * scale
+    assert np.abs(m.dense_jax(other, 0.47) - m.dense(own, 0.47)).max() < 1e-13 * scale
+    back = jax.jit(lambda n: m.gauss_jax_to(n, k, None, 0.0, 1e-12))(other)
+    assert (back.status, float(back.t)) == (m.OK, 0)
+    assert np.abs(back.x - x).max() < 1e-10 * scale
+
+
+def test_the_free_top_in_closed_form(emitted):
+    """By a tolerance, over several periods."""
+    m, _ = emitted("so3")
+    I1, I2, I3 = PRINCIPAL
+    J = [(I2 + I3 - I1) / 2, 0, 0, (I1 + I3 - I2) / 2, 0, (I1 + I2 - I3) / 2]
+    k = m.constants([0, 0, 0, *J, 0, 0, 0])
+
+    def exact(t):
+        A, W = free_top.motion(t, PRINCIPAL, 1.0, 2.2)
+        return np.concatenate([A.ravel(), W])
+
+    to = jax.jit(lambda t: m.gauss_jax_to(m.begin_jax(0.0, exact(0.0)), k, None, t, 1e-13))
+    for t in (3.0, -7.0, 40.0):
+        assert np.abs(to(t).x - exact(t)).max() < 1e-11
+
+
+def test_many_are_those_of_one_by_one(top):
+    """Under vmap each has steps, a status and constants of its own; one is no number."""
+    m, _ = top
+    p = np.array([m.DEFAULTS[x] for x in m.PARAMETERS])
+    ks = m.constants(p * np.linspace(0.9, 1.1, 6)[:, None])
+    x = np.tile(heavy(), (6, 1))
+    x[:, 9:] *= np.linspace(0.1, 3, 6)[:, None]
+    x[2, 10] = np.nan
+
+    def moved(x, k, t1):
+        return m.gauss_jax_to(m.begin_jax(0.0, x), k, None, t1, 1e-11)
+
+    ends = 2.0 + np.arange(6)
+    found = jax.jit(jax.vmap(moved))(x, ks, ends)
+    assert [*found.status] == [m.OK, m.OK, m.NOT_FINITE, m.OK, m.OK, m.OK]
+    assert [*found.t] == [2, 3, 0, 5, 6, 7]
+    assert len({*np.asarray(found.evaluations)}) == 6
+    one = jax.jit(moved)
+    for i in range(6):
+        alone = one(x[i], ks[i], ends[i])
+        assert alone.status == found.status[i]
+        assert np.allclose(alone.x, found.x[i], rtol=0, atol=1e-13, equal_nan=True)
+        if i != 2:
+            own = m.begin(0.0, x[i])
+            assert m.gauss_to(own, ks[i], None, ends[i], 1e-11) == m.OK
+            assert np.abs(own.x - alone.x).max() < 1e-9
+
+
+def test_what_is_kept(top):
+    """Energy, the momentum about the vertical and the group, to rounding over 5000 steps."""
+    m, k = top
+    _, n, steps = begun(m, heavy(), k)
+    p = np.array([m.DEFAULTS[x] for x in m.PARAMETERS])
+
+    def vertical(x):
+        return (x[:9].reshape(3, 3) @ m.inertia(p) @ x[9:])[2]
+
+    first = [m.energy(0, heavy(), k), vertical(heavy())]
+    n = steps(n, 0.1, 5000)
+    x = np.asarray(n.x)
+    assert m.defect(x) < 2e-15
+    assert np.abs(np.array([m.energy(0, x, k), vertical(x)]) - first).max() < 1e-12 * abs(first[0])
+    assert float(n.t) == pytest.approx(500, abs=1e-12)
+
+
+def test_a_coarse_step_is_made_in_halves(top):
+    m, k = top
+    own, other, steps = begun(m, heavy(), k)
+    assert m.gauss(own, k, None, 2.0, 2) == m.OK
+    other = steps(other, 2.0, 2)
+    assert abs(float(other.h)) < 2.0
+    assert (other.status, float(other.t), float(other.h)) == (m.OK, own.t, own.h)
+    # an iteration part by part converges for larger steps, so that halves and errors differ
+    assert np.abs(other.x - own.x).max() < 1e-6
+
+
+def test_inputs_held_and_as_a_function(top):
+    """A torque that changes within a step, as Python's."""
+    m, k = top
+    for u in (
+        np.array([0.3, -0.2, 1.0]),
+        lambda t, x: jax.numpy.stack([jax.numpy.cos(3 * t), x[9], t]),
+    ):
+        own = m.begin(0.0, heavy())
+        held = (lambda t, x: np.array([np.cos(3 * t), x[9], t])) if callable(u) else u
+        assert m.gauss(own, k, held, 0.1, 10) == m.OK
+        found = jax.jit(lambda n, u=u: m.gauss_jax(n, k, u, 0.1, 10))(m.begin_jax(0.0, heavy()))
+        assert np.abs(found.x - own.x).max() < 1e-13
+
+
+def test_the_derivative_of_a_motion(top):
+    """Forward, by the state where it begins: as differences."""
+    m, k = top
+
+    def end(x):
+        return m.gauss_jax_to(m.begin_jax(0.0, x), k, None, 1.0, 1e-13).x
+
+    found, h = jax.jit(jax.jacfwd(end))(heavy())[:, 9:], 1e-4
+    sides = [[jax.jit(end)(heavy() + s * h * np.eye(12)[9 + i]) for i in range(3)] for s in (1, -1)]
+    assert np.abs(found - ((np.array(sides[0]) - sides[1]) / (2 * h)).T).max() < 1e-6
+
+
+def test_a_motion_that_ends_leaves_the_others(emitted, tmp_path):
+    """Points that fall into a centre from 1, where they stop before it and stay, and from 100."""
+    (tmp_path / "line.toml").write_text(FALLING)
+    m, k = emitted(tmp_path / "line.toml")
+    x = np.zeros((4, len(m.STATE)))
+    x[:, [m.STATE.index("A_11"), m.STATE.index("A_22")]] = 1
+    x[:, m.STATE.index("T_1")] = [1, 100, 100, 1]
+    to = jax.jit(jax.vmap(lambda n, t1: m.gauss_jax_to(n, k, None, t1), (0, None)))
+    begun = jax.vmap(m.begin_jax, (None, 0))(0.0, x)
+    found = to(begun, 5.0)
+    assert [*np.flatnonzero(found.status)] == [0, 3]
+    assert np.abs(np.asarray(found.t)[[0, 3]] - np.pi / np.sqrt(8)).max() < 1e-6
+    assert np.isfinite(found.x).all()
+    later = to(found, 6.0)
+    assert np.array_equal(later.x[0], found.x[0])
+    assert np.array_equal(later.t, [found.t[0], 6, 6, found.t[3]])
+
+
+def test_no_number_is_no_motion(top):
+    m, k = top
+    own, n, steps = begun(m, [*AT_ONE, np.nan, 0, 0], k)
+    assert m.gauss(own, k, None, 0.1) == steps(n, 0.1, 1).status == m.NOT_FINITE
+    good = m.begin_jax(0.0, heavy())
+    assert m.gauss_jax_to(good, k, None, np.nan).status == m.NOT_FINITE
+    assert np.array_equal(m.dense_jax(good, 0.3), heavy())
+
+
+SHARDED = """
+import sys
+import jax, numpy as np
+jax.config.update("jax_enable_x64", True)
+sys.path.insert(0, sys.argv[1])
+import so3 as m
+k = m.constants(m.DEFAULTS)
+x = np.tile([1.0, 0, 0, 0, 1, 0, 0, 0, 1, 0.1, 0, 9], (8, 1))
+x[:, 9:] *= np.linspace(0.2, 2, 8)[:, None]
+devices = np.array(jax.devices())
+assert len(devices) == 4
+mesh, P = jax.sharding.Mesh(devices, ("motions",)), jax.sharding.PartitionSpec("motions")
+many = jax.vmap(lambda x: m.gauss_jax_to(m.begin_jax(0.0, x), k, None, 3.0, 1e-11))
+alone = jax.jit(many)(x)
+split = jax.device_put(x, jax.sharding.NamedSharding(mesh, P))
+shared = jax.jit(many)(split)
+apart = jax.jit(jax.shard_map(many, mesh=mesh, in_specs=P, out_specs=P, check_vma=False))(split)
+for found in (shared, apart):
+    assert len(found.x.sharding.device_set) == 4
+    assert np.array_equal(found.status, alone.status) and not np.any(found.status)
+    assert np.array_equal(found.evaluations, alone.evaluations)
+    assert np.abs(np.asarray(found.x) - np.asarray(alone.x)).max() < 1e-13
+"""
+
+
+def test_over_devices(tmp_path):
+    """A batch over four devices of the host, together and each at its own pace."""
+    derive.derive("so3").emit(tmp_path, ("python",), step="gauss_jax")
+    flags = {"XLA_FLAGS": "--xla_force_host_platform_device_count=4", "JAX_PLATFORMS": "cpu"}
+    command = [sys.executable, "-c", SHARDED, str(tmp_path)]
+    done = subprocess.run(command, env=os.environ | flags, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[-2000:]
+
+
+def test_what_is_refused(top, tmp_path):
+    m, _ = top
+    with (
+        jax.enable_x64(False),
+        pytest.raises(ValueError, match="so3: no doubles in JAX: "),
+    ):
+        m.begin_jax(0.0, heavy())
+    with pytest.raises(ValueError, match=r"so3: x is not one state: jax\.vmap"):
+        m.begin_jax(0.0, [heavy()])
+    with pytest.raises(ValueError, match="so3: x has 11 numbers, not 12"):
+        m.begin_jax(0.0, heavy()[1:])
+    so3 = derive.derive("so3")
+    with pytest.raises(EmitError, match="--step gauss_jax is written for python, not for c"):
+        so3.emit(tmp_path, ("c", "python"), step="gauss_jax")
+    with pytest.raises(EmitError, match="not for c; emit c apart, without it"):
+        so3.emit(tmp_path, ("c", "python"), step="gauss_jax")
+    with pytest.raises(EmitError, match=r"not for c$"):
+        so3.emit(tmp_path, ("c",), step="gauss_jax")
+    with pytest.raises(EmitError, match="--step gauss_jax is of doubles: leave out --real float"):
+        so3.emit(tmp_path, ("python",), step="gauss_jax", real="float")
+    assert not [*tmp_path.iterdir()]

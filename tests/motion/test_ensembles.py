@@ -1,0 +1,320 @@
+"""Ensembles: each motion is that of a run, files of every kind, what is refused, what is kept."""
+
+import os
+import signal
+import subprocess
+import sys
+import tracemalloc
+
+import numpy as np
+import pytest
+
+import derive
+from derive.command.cli import main
+from derive.command.ensembles import kept
+from derive.motion import ensemble as of_parts
+from derive.motion.varied import Draws, Varied
+from derive.pipeline import motion_of
+from derive.python.simulated import SimulatedEnsemble
+from tests.problems.line import FALLING
+from tests.problems.moving import SPIN
+from tests.support.needs import need, needs
+from tests.support.unmeasured import environment
+
+VARY = {"zeta_1": (0, 1), "J_11": ("normal", 1.0, 0.01)}
+OPTIONS = ["--vary", "zeta_1=0:1", "--vary", "J_11=normal:1:0.01"]
+
+
+@pytest.fixture(scope="module")
+def so3():
+    need("cc")
+    return derive.derive("so3")
+
+
+@pytest.fixture(scope="module")
+def some(so3):
+    return so3.simulate(2.0, ensemble=40, vary=VARY, points=2, tol=1e-12, seed=3)
+
+
+def small(monkeypatch, motions=7):
+    monkeypatch.setattr(of_parts, "MOTIONS", motions)
+
+
+# ---------------------------------------------------------------- the motions
+
+
+def test_each_motion_is_that_of_a_run(so3, some):
+    assert some.t.tolist() == [1, 2]
+    assert not some.status.any()
+    for k in (0, 17, 39):
+        start = dict(zip(some.varied_names, some.varied[k].tolist(), strict=True))
+        run = so3.simulate(2.0, start=start, points=2, tol=1e-13)
+        assert np.abs(run.states[1:] - some.states[k]).max() < 1e-10
+
+
+def test_what_is_drawn_is_by_its_law_whatever_the_parts():
+    laws = (Varied("a", -1.0, 3.0), Varied("b", 2.0, 0.5, normal=True))
+    whole = Draws(laws, 5).next(20000)
+    parts = Draws(laws, 5)
+    assert np.array_equal(whole, np.concatenate([parts.next(n) for n in (1, 4999, 15000)]))
+    a, b = whole.T
+    assert -1 <= a.min() < -0.99
+    assert 2.99 < a.max() <= 3
+    # within five deviations of a mean
+    assert abs(a.mean() - 1) < 5 * 4 / np.sqrt(12 * 20000)
+    assert abs(b.mean() - 2) < 5 * 0.5 / np.sqrt(20000)
+    assert abs(b.std() / 0.5 - 1) < 0.03
+    assert not np.array_equal(whole, Draws(laws, 6).next(20000))
+
+
+def test_an_ensemble_in_parts_is_the_same(so3, some, monkeypatch):
+    small(monkeypatch)
+    again = so3.simulate(2.0, ensemble=40, vary=VARY, points=2, tol=1e-12, seed=3)
+    assert np.array_equal(again.varied, some.varied)
+    # other neighbours in the vector lanes, the same steps
+    assert np.abs(again.states - some.states).max() < 1e-13
+    monkeypatch.setattr(of_parts, "BYTES", 1)
+    again = so3.simulate(2.0, ensemble=3, vary=VARY, points=2, tol=1e-12, seed=3)
+    assert np.abs(again.states - some.states[:3]).max() < 1e-13
+
+
+def test_a_start_that_is_an_expression_follows_its_parameter(tmp_path):
+    need("cc")
+    text = f'{SPIN}[initial]\nzeta_3 = "2*w"\n'
+    (tmp_path / "spin.toml").write_text(text)
+    e = derive.derive(tmp_path / "spin.toml").simulate(1.0, ensemble=5, vary={"w": (1, 3)})
+    assert np.abs(e["zeta_3"][:, 0] - 2 * e["w"]).max() < 1e-12
+    assert np.abs(e["A_11"][:, 0] - np.cos(2 * e["w"])).max() < 1e-8
+
+
+def test_each_has_a_status_of_its_own(so3, tmp_path):
+    """Bodies that there are not; points that fall into a centre."""
+    e = so3.simulate(1.0, ensemble=50, vary={"J_11": (-3, 1)})
+    assert {*e.status.tolist()} == {0, 1}
+    assert np.array_equal(np.isnan(e.states).all(axis=(1, 2)), e.status == 1)
+    (tmp_path / "line.toml").write_text(FALLING)
+    fall = derive.derive(tmp_path / "line.toml")
+    e = fall.simulate(5.0, ensemble=20, vary={"T_1": (1, 60)}, points=5)
+    assert {*e.status.tolist()} == {0, 3}
+    ended = np.isnan(e.states[..., 0])
+    assert np.array_equal(ended[:, -1], e.status == 3)
+    assert not (ended[:, :-1] & ~ended[:, 1:]).any()
+    assert not ended[:, 0].all()
+
+
+def test_starts_are_taken_to_the_group(so3):
+    e = so3.simulate(1e-9, ensemble=5, vary={"A_12": (0, 0.1)}, project=True)
+    A = e.states[:, 0, :9].reshape(5, 3, 3)
+    assert np.abs(A @ A.transpose(0, 2, 1) - np.eye(3)).max() < 1e-14
+    with pytest.raises(ValueError, match=r"motion 0 starts off the group"):
+        so3.simulate(1.0, ensemble=5, vary={"A_12": (0, 0.1)})
+
+
+# ---------------------------------------------------------------- files
+
+
+@pytest.mark.parametrize("ending", [".npz", ".csv", ".parquet"])
+def test_a_file_holds_the_ensemble(so3, some, ending, tmp_path, monkeypatch, capsys):
+    """In several parts by the command, in one by Python."""
+    if ending == ".parquet":
+        need("the module pyarrow")
+    small(monkeypatch, 16)
+    out = tmp_path / f"e{ending}"
+    how = ["--t", "2", "--tol", "1e-12", "--points", "2", "--seed", "3", "--ensemble", "40"]
+    assert main(["simulate", "so3", *how, *OPTIONS, "--out", str(out)]) == 0
+    text, err = capsys.readouterr()
+    assert text.endswith(f"\n{out}\n")
+    assert "40 reached the end" in text
+    assert err == ""
+    first = out.read_bytes()
+    main(["simulate", "so3", *how, *OPTIONS, "--out", str(out)])
+    assert out.read_bytes() == first
+    for found in (SimulatedEnsemble.read(out), SimulatedEnsemble.read(some.save(out))):
+        assert (found.names, found.facts) == (some.names, some.facts)
+        assert np.array_equal(found["J_11"], some.varied[:, 1])
+        for name in ("t", "varied", "status"):
+            assert np.array_equal(getattr(found, name), getattr(some, name))
+        assert np.abs(found.states - some.states).max() < 1e-13
+    assert [x.name for x in tmp_path.iterdir()] == [out.name]
+
+
+def test_no_more_than_a_part_is_in_memory(so3, tmp_path, monkeypatch):
+    """NumPy tells tracemalloc of its arrays."""
+    small(monkeypatch, 256)
+    out = tmp_path / "e.npz"
+    plan = of_parts.Plan(8192, (Varied("zeta_1", 0.0, 1.0),), 1e-3, 40)
+    many = of_parts.Many(motion_of(so3.problem, so3.record), so3.problem, plan)
+    tracemalloc.start()
+    with kept(many, str(out)) as add:
+        for part in many.parts():
+            add(part)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert out.stat().st_size > 8192 * 40 * 12 * 8
+    assert peak < out.stat().st_size / 5
+
+
+def test_numpy_reads_an_npz_and_its_states_are_mapped(some, tmp_path):
+    path = some.save(tmp_path / "e.npz")
+    with np.load(path) as found:
+        assert np.array_equal(found["states"], some.states)
+    assert isinstance(SimulatedEnsemble.read(path).states, np.memmap)
+
+
+def test_the_summary_tells_mean_and_deviation(some, tmp_path, capsys, monkeypatch):
+    small(monkeypatch)
+    how = ["--t", "2", "--tol", "1e-12", "--seed", "3", "--ensemble", "40", *OPTIONS]
+    assert main(["simulate", "so3", *how]) == 0
+    out = capsys.readouterr().out
+    ends = some["zeta_1"][:, -1]
+    assert f"zeta_1 = {ends.mean():.6g} ± {ends.std():.2g}" in out
+    assert (
+        "so3: 40 motions, t = 0 … 2, by vern9, tol 1e-12, in C; seed 3\n  zeta_1 from 0 to 1\n"
+        in out
+    )
+
+
+def test_a_file_that_is_no_ensemble_is_told(some, tmp_path, capsys):
+    run = derive.derive("so3").simulate(0.1, points=1).save(tmp_path / "run.npz")
+    with pytest.raises(ValueError, match="no ensemble that derive simulate wrote"):
+        SimulatedEnsemble.read(run)
+    with pytest.raises(ValueError, match="No such file"):
+        SimulatedEnsemble.read(tmp_path / "missing.npz")
+    with pytest.raises(ValueError, match="must end in"):
+        SimulatedEnsemble.read(tmp_path / "e.txt")
+    with pytest.raises(KeyError, match="there are A_11"):
+        some["x"]
+
+
+# ---------------------------------------------------------------- what goes wrong
+
+
+@needs("cc")
+@pytest.mark.parametrize("ending", [".npz", ".csv"])
+def test_ctrl_c_keeps_what_is_done(ending, tmp_path, capsys, monkeypatch):
+    small(monkeypatch)
+    made, calls = of_parts.Many._part, []
+
+    def interrupted(self, *given):
+        calls.append(given)
+        if len(calls) == 2:
+            os.kill(os.getpid(), signal.SIGINT)
+        return made(self, *given)
+
+    monkeypatch.setattr(of_parts.Many, "_part", interrupted)
+    before = signal.getsignal(signal.SIGINT)
+    out = tmp_path / f"e{ending}"
+    asked = ["--t", "1", "--ensemble", "40", *OPTIONS, "--out", str(out)]
+    assert main(["simulate", "so3", *asked]) == 130
+    assert "interrupted after 14 of 40 motions" in capsys.readouterr().err
+    e = SimulatedEnsemble.read(out)
+    done = e.status == 0
+    assert done.sum() == 14
+    assert done[:14].all()
+    assert np.isfinite(e.states[done]).all()
+    assert {*e.status[~done].tolist()} <= {-1}
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+LIMITED = """\
+import resource, signal, sys
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+from derive.command.cli import main
+from derive.motion import emitted, ensemble
+ensemble.MOTIONS = 512
+library = emitted.Emitted.compiled_ensemble.func
+
+def limited(self):
+    found = library(self)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000,) * 2)
+    return found
+
+emitted.Emitted.compiled_ensemble = property(limited)
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+@needs("cc")
+@pytest.mark.skipif(sys.platform == "win32", reason="files have no limit on their size")
+@pytest.mark.parametrize("ending", [".npz", ".csv"])
+def test_a_full_disk_is_told_and_the_old_file_stays(ending, tmp_path):
+    """As on a full disk, after the compiler has written."""
+    out = tmp_path / f"e{ending}"
+    out.write_text("old")
+    asked = ["simulate", "so3", "--t", "1", "--ensemble", "5000", *OPTIONS, "--out", out]
+    command = [sys.executable, "-B", "-c", LIMITED, *asked]
+    done = subprocess.run(command, capture_output=True, text=True, env=environment())
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == f"derive: {out}: File too large; choose another --out\n"
+    assert [x.name for x in tmp_path.iterdir()] == [out.name]
+    assert out.read_text() == "old"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--ensemble", "0", *OPTIONS], "between 1 and 1e+12 motions, not 0"),
+        (["--ensemble", "-3", *OPTIONS], "expected an integer, 0 or more, not '-3'"),
+        (["--ensemble", "9"], "--vary NAME="),
+        (["--ensemble", "9", "--vary", "zeta_9=0:1"], "did you mean 'zeta_3'?"),
+        (["--ensemble", "9", "--vary", "zeta_1=1:0"], "from 1 to 0, which is less"),
+        (["--ensemble", "9", "--vary", "zeta_1=1"], "is not NAME=LOW:HIGH or NAME=normal:MEAN:SD"),
+        (["--ensemble", "9", "--vary", "zeta_1=0:nan"], "expected a number"),
+        (["--ensemble", "9", "--vary", "zeta_1=normal:0:-1"], "deviation of -1, below 0"),
+        (["--ensemble", "9", *OPTIONS, *OPTIONS], "zeta_1 is varied twice"),
+        (["--ensemble", "9", "--vary", "A_11=2:3"], "motion 0 starts off the group"),
+        (["--ensemble", "9", *OPTIONS, "--html", "so3.html"], "--html shows one motion"),
+        (["--ensemble", "9", *OPTIONS, "--dt", "0.1"], "steps of their own"),
+        (["--ensemble", "9", *OPTIONS, "--step", "gauss"], "followed by vern9, not by gauss"),
+        (["--ensemble", "9", *OPTIONS, "--tol", "1e-16"], "at least 1e-15"),
+        (["--ensemble", "9", *OPTIONS, "--points", "0"], "instants can be kept"),
+        (["--ensemble", "9", *OPTIONS, "--out", "e.txt"], "must end in .npz, .csv, .parquet"),
+        (["--ensemble", "9", *OPTIONS, "--out", "/dev/null/e.npz"], "derive: /dev/null/e.npz: "),
+        (["--vary", "zeta_1"], "'zeta_1' is not NAME=LOW:HIGH or NAME=normal:MEAN:SD"),
+        (["--vary", "zeta_1=0:"], "'zeta_1=0:' is not NAME=LOW:HIGH or NAME=normal:MEAN:SD"),
+        (OPTIONS, "give --ensemble N, too"),
+        (["--seed", "1"], "give --ensemble N, too"),
+    ],
+)
+def test_bad_input_is_one_line(arguments, words, capsys):
+    need("cc")
+    try:
+        code = main(["simulate", "so3", "--t", "1", *arguments])
+    except SystemExit as stop:
+        code = stop.code
+    out, err = capsys.readouterr()
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert words in err
+
+
+def test_an_ensemble_needs_a_compiler(monkeypatch, capsys):
+    monkeypatch.setenv("CC", "no-such-compiler")
+    assert main(["simulate", "so3", "--t", "1", "--ensemble", "9", *OPTIONS]) == 2
+    err = capsys.readouterr().err
+    assert err.count("\n") == 1
+    assert "an ensemble is run by the emitted C: 'no-such-compiler' is not on the path" in err
+
+
+@pytest.mark.parametrize(
+    ("chosen", "words"),
+    [
+        ({"vary": {"zeta_1": 1}}, "is varied by"),
+        ({"vary": {"zeta_1": ("uniform", 0, 1)}}, "is varied by"),
+        ({"vary": VARY, "dt": 0.1}, "steps of their own"),
+        ({"vary": VARY, "ensemble": None}, "for many motions: give --ensemble"),
+        ({"seed": 0, "ensemble": None}, "for many motions: give --ensemble"),
+        ({"vary": VARY, "compiled": False}, "by the emitted C alone"),
+    ],
+)
+def test_what_python_refuses(so3, chosen, words):
+    with pytest.raises(ValueError, match=words):
+        so3.simulate(1.0, **{"ensemble": 3} | chosen)
+
+
+@needs("cc")
+def test_events_are_told_to_be_left_out(tmp_path, capsys):
+    text = 'name = "e"\nwhen = "A_11"\n'
+    (tmp_path / "line.toml").write_text(f"{FALLING}\n[[event]]\n{text}")
+    asked = [str(tmp_path / "line.toml"), "--t", "0.1", "--ensemble", "2", "--vary", "T_1=50:60"]
+    assert main(["simulate", *asked]) == 0
+    assert "events of the file are not looked for" in capsys.readouterr().err

@@ -1,0 +1,220 @@
+"""[[event]] of problem files: at known times, against SciPy, in files, and what is refused."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import derive
+from derive.command.cli import main
+from derive.motion.run_files import FORMATS, read, written
+from derive.problem.problem import ProblemError
+from derive.problem.toml import load
+from tests.oracles import free_top
+from tests.problems import READY, moving
+from tests.support.flows import emitted
+from tests.support.needs import need
+
+SPIN = f'{moving.SPIN}[initial]\nzeta_3 = "w"\n'
+QUARTERS = (
+    SPIN
+    + """
+[[event]]
+name = "quarter"
+when = "A_11"
+[[event]]
+name = "up"
+when = "A_11"
+direction = "rising"
+[[event]]
+name = "down"
+when = "A_11"
+direction = "falling"
+"""
+)
+FALL = f"""
+name = "stone"
+group = "SE(3)"
+[parameters]
+H = {{ default = 3.0, meaning = "height" }}
+{moving.BODY}{moving.WEIGHT}[initial]
+zeta_2 = 2
+w_1 = 1
+T_3 = "H"
+[[event]]
+name = "ground"
+when = "T_3"
+terminal = true
+[[event]]
+name = "half"
+when = "T_3 - H/2"
+[[event]]
+name = "never"
+when = "T_3 - 2*H"
+"""
+
+
+def problem(tmp_path, text):
+    path = tmp_path / "p.toml"
+    path.write_text(text)
+    return path
+
+
+def times(run, name):
+    return np.array([x.t for x in run.events if x.name == name])
+
+
+@pytest.mark.parametrize("chosen", [{}, {"tol": 1e-5}, {"dt": 0.3}, {"points": 1}])
+def test_a_rotation_has_its_quarters(tmp_path, chosen):
+    """About an axis, A_11 = cos ωt."""
+    run = derive.derive(problem(tmp_path, QUARTERS)).simulate(10.0, **chosen)
+    every = np.pi / 4 + np.pi / 2 * np.arange(6)
+    assert times(run, "quarter") == pytest.approx(every, rel=0, abs=1e-12)
+    assert times(run, "down") == pytest.approx(every[::2], rel=0, abs=1e-12)
+    assert times(run, "up") == pytest.approx(every[1::2], rel=0, abs=1e-12)
+    assert [x.t for x in run.events] == sorted(x.t for x in run.events)
+    assert all(abs(x.state[0]) < 1e-14 for x in run.events)
+    assert {x.direction for x in run.events if x.name == "up"} == {"rising"}
+
+
+@pytest.mark.parametrize("height", [0.5, 3.0])
+def test_a_stone_meets_the_ground_and_the_run_ends(tmp_path, height):
+    """The state is of degree 2 in t along T: long steps and short ones, the body turning."""
+    run = derive.derive(problem(tmp_path, FALL)).simulate(10.0, start={"H": height})
+    lands = np.sqrt(2 * height / 9.81)
+    assert times(run, "ground") == pytest.approx([lands], rel=0, abs=1e-12)
+    assert times(run, "half") == pytest.approx([np.sqrt(height / 9.81)], rel=0, abs=1e-12)
+    assert (run.ended, run.t[-1]) == ("event ground", run.events[-1].t)
+    assert np.array_equal(run.states[-1], run.events[-1].state)
+    assert np.all(np.diff(run.t) > 0)
+    assert abs(run["T_3"][-1]) < 1e-12
+    assert "never" not in {x.name for x in run.events}
+
+
+def test_the_instants_are_those_of_other_steps(tmp_path):
+    """Kovalevskaya's top, chaotic, against DOP853 on the emitted code; the events of few long steps
+    are as exact as those of many."""
+    text = (READY / "kovalevskaya_top.toml").read_text(encoding="utf-8")
+    text += '[[event]]\nname = "e"\nwhen = "A_31 - zeta_2/8"\n'
+    d = derive.derive(problem(tmp_path, text))
+    run = d.simulate(12.0, tol=1e-12, points=3)
+    code = emitted("kovalevskaya_top")
+    k = code.constants([code.DEFAULTS[x] for x in code.PARAMETERS])
+    found = solve_ivp(
+        code.rhs, (0, 12), run.states[0], method="DOP853", rtol=1e-13, atol=1e-13, args=(k,),
+        events=lambda t, x, k: x[6] - x[10] / 8,
+    )  # fmt: skip
+    assert len(run.events) > 3
+    assert times(run, "e") == pytest.approx(found.t_events[0], rel=0, abs=1e-10)
+    assert all(abs(x.state[6] - x.state[10] / 8) < 1e-14 for x in run.events)
+
+
+def test_an_event_at_the_start_is_none_and_one_at_an_instant_is_seen_once(tmp_path):
+    text = SPIN + '[[event]]\nname = "e"\nwhen = "t*(t - 1)*(t - 2)"\n'
+    run = derive.derive(problem(tmp_path, text)).simulate(3.0, points=3)
+    assert times(run, "e") == pytest.approx([1, 2], rel=0, abs=1e-13)
+    assert [x.direction for x in run.events] == ["falling", "rising"]
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_a_file_has_the_events(tmp_path, ending):
+    if ending == ".parquet":
+        need("the module pyarrow")
+    run = derive.derive(problem(tmp_path, QUARTERS)).simulate(2.0, points=3)
+    path = tmp_path / f"run{ending}"
+    path.write_bytes(written(run, path.name))
+    found = read(path).events
+    assert [x.plain() for x in found] == [x.plain() for x in run.events]
+    assert len(found) == 2
+
+
+def test_the_command_tells_the_events(tmp_path, capsys):
+    assert main(["simulate", str(problem(tmp_path, QUARTERS)), "--t", "10"]) == 0
+    out, err = capsys.readouterr()
+    assert "  event quarter: 6 times, at t = 0.785398163397, 2.35619449019, 3.926" in out
+    assert ", …, 8.63937979737\n" in out
+    assert err == ""
+    assert main(["simulate", str(problem(tmp_path, FALL)), "--t", "10"]) == 0
+    out, err = capsys.readouterr()
+    assert f"  event ground: once, at t = {np.sqrt(6 / 9.81):.12g}\n" in out
+    assert err == ""
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('name = "e"', "event 1: key 'when' is missing"),
+        ('when = "A_11"', "event 1: key 'name' is missing"),
+        ('name = "e"\nwhen = "A_11"\ndirection = "up"', "must be one of both, rising, falling"),
+        ('name = "e"\nwhen = "A_11"\nterminal = 1', "key 'terminal' must be true or false"),
+        ('name = "e"\nwhen = "A_11"\nends = true', "event 1: unknown key 'ends'"),
+        ('name = "e"\nwhen = "w"', "event 1, when: nothing in it changes on a motion"),
+        ('name = "e"\nwhen = 1', "event 1, when: nothing in it changes on a motion"),
+        ('name = "e"\nwhen = "A_11 +"', "event 1, when: unexpected end"),
+        ('name = "e f"\nwhen = "A_11"', "event 1, name: letters, digits and _ only"),
+        ('name = "e"\nwhen = "A_11"\n[[event]]\nname = "e"\nwhen = "A_12"', "a second event 'e'"),
+    ],
+)
+def test_a_bad_table_is_told(tmp_path, text, words):
+    with pytest.raises(ProblemError) as caught:
+        load(problem(tmp_path, f"{SPIN}[[event]]\n{text}\n"))
+    assert words in str(caught.value)
+
+
+def test_more_than_their_limit_are_refused(tmp_path):
+    listed = "".join(f'[[event]]\nname = "e{k}"\nwhen = "t"\n' for k in range(51))
+    with pytest.raises(ProblemError, match="more than 50 tables"):
+        load(problem(tmp_path, SPIN + listed))
+
+
+@pytest.mark.parametrize(
+    ("when", "words"),
+    [
+        ("A_44 - 1", "event e: no 'A_44' in the state, the parameters or the inputs"),
+        ("zeta_4", "did you mean 'zeta_3'?"),
+        ("A_11/(w - 2)", "event e: no finite value at the start"),
+        ("sqrt(A_12 - 1)", "event e: no finite value at the start"),
+    ],
+)
+def test_what_a_motion_refuses(tmp_path, capsys, when, words):
+    path = problem(tmp_path, f'{SPIN}[[event]]\nname = "e"\nwhen = "{when}"\n')
+    assert main(["simulate", str(path), "--t", "1"]) == 2
+    err = capsys.readouterr().err
+    assert words in err
+    assert err.count("\n") == 1
+
+
+def test_an_event_in_words():
+    from derive import SO, Event, Moments, Problem
+
+    body = Moments(m=1, c=[0, 0, 0], J=[[2, 0, 0], [0, 1, 0], [0, 0, 1]])
+    p = Problem("free", SO(3), body, [Event("e", "A_11", terminal=True)], initial={"zeta_3": 1})
+    run = derive.derive(p).simulate(5.0, points=3)
+    assert run.t[-1] == pytest.approx(np.pi / 2, abs=1e-12)
+
+
+def test_the_polynomial_of_a_step_is_of_order_nine():
+    """Uniformly on the step, against elliptic functions."""
+    from derive.motion.method import Method
+    from derive.motion.simulate import following
+    from derive.motion.start import start
+    from derive.motion.watch import Watch
+    from derive.pipeline import motion_of
+
+    moments = (1.25, 2.0, 2.75)
+    theta, errors = np.linspace(0, 1, 9), []
+    d = derive.derive("euler_top")
+    code = motion_of(d.problem, d.record)
+    given = dict(zip(("I1", "I2", "I3"), moments, strict=True))
+    A, W = free_top.motion(0.0, moments, 1.0, 2.2)
+    given |= dict(zip(code.program.state, [*A.ravel(), *W], strict=True))
+    begin = start(code.program, d.problem, given)
+    for h in (0.8, 0.4):
+        watch = Watch((), code.program.state, (), begin)
+        follow = following(code, begin, Method(dt=h), h, watch)
+        follow.reach(np.array([h]))
+        found = np.array([follow.motion.dense(part * h) for part in theta])
+        exact = [free_top.motion(x, moments, 1.0, 2.2) for x in theta * h]
+        exact = np.array([[*A.ravel(), *W] for A, W in exact])
+        errors.append(np.abs(found - exact).max())
+    assert errors[1] > 1e-13
+    assert np.log2(errors[0] / errors[1]) > 8.8

@@ -1,0 +1,141 @@
+"""[initial] of problem files: what a motion starts from, and what the command line says instead."""
+
+import numpy as np
+import pytest
+
+import derive
+from derive.code.emit import problem_hash
+from derive.command.cli import main, ready_made
+from derive.problem.problem import ProblemError
+from derive.problem.toml import load
+from tests.problems import READY
+
+BODY = """
+name = "swing"
+group = "SO(3)"
+[body]
+given = { m = 1, c = [0, 0, 0], J = [["7/4", 0, 0], [0, 1, 0], [0, 0, "1/4"]] }
+[[input]]
+name = "u"
+kind = "covector"
+"""
+START = (
+    BODY
+    + """
+[parameters]
+w = 2.0
+[initial]
+exp = ["pi/6", 0, 0]
+zeta_3 = "2*w"
+u_1 = 0.5
+"""
+)
+
+
+def problem(tmp_path, text):
+    path = tmp_path / "swing.toml"
+    path.write_text(text)
+    return path
+
+
+def first(path, **given):
+    run = derive.derive(path).simulate(1e-3, points=1, **given)
+    return dict(zip(run.names, run.table[0], strict=True)), run
+
+
+def test_a_motion_starts_where_the_file_says(tmp_path):
+    x, run = first(problem(tmp_path, START))
+    assert x["A_22"] == pytest.approx(np.cos(np.pi / 6), abs=1e-15)
+    assert x["A_32"] == pytest.approx(0.5, abs=1e-15)
+    assert (x["zeta_1"], x["zeta_3"]) == (0, 4)
+    assert run.facts["inputs"]["u_1"] == 0.5
+    assert run.facts["parameters"] == {"w": 2.0}
+
+
+def test_what_is_given_wins(tmp_path):
+    path = problem(tmp_path, START)
+    assert first(path, start={"w": 3})[0]["zeta_3"] == 6
+    assert first(path, start={"w": 3, "zeta_3": 1})[0]["zeta_3"] == 1
+    x, _ = first(path, exp=(0, 0, np.pi / 2))
+    assert x["A_21"] == pytest.approx(1)
+    assert x["zeta_3"] == 4
+    own = problem(tmp_path, BODY + "[initial]\nA_11 = -1\nA_22 = -1\n")
+    assert first(own)[0]["A_11"] == -1
+    assert first(own, exp=(0, 0, 0.5))[0]["A_11"] == pytest.approx(np.cos(0.5))
+
+
+def test_the_record_and_the_code_do_not_know_it(tmp_path):
+    with_it = derive.derive(problem(tmp_path, START.replace("w = 2.0", "").replace("2*w", "4")))
+    without = derive.derive(problem(tmp_path, BODY + "[parameters]\n"))
+    assert problem_hash(with_it.record) == problem_hash(without.record)
+    assert with_it.emit() == without.emit()
+    header = derive.derive(problem(tmp_path, START)).emit()["swing.h"]
+    assert "swing_N_PARAMETERS = 0" in header
+
+
+def test_off_the_group_it_is_refused_and_can_be_projected(tmp_path, capsys):
+    path = problem(tmp_path, BODY + "[initial]\nA_11 = 1.1\nzeta_1 = 1\n")
+    assert main(["simulate", str(path), "--t", "1"]) == 2
+    assert "not on the group: --project takes it there; its defect is 0.21" in (
+        capsys.readouterr().err
+    )
+    assert main(["simulate", str(path), "--t", "1", "--project"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[initial]\nexp = [1, 2]", "initial, exp: expected 3 coordinates in the basis, not 2"),
+        ("[initial]\nexp = 1", "initial, exp: expected a list"),
+        ("[initial]\nzeta_1 = true", "initial, zeta_1: expected a number or an expression"),
+        ("[initial]\nzeta_1 = inf", "initial, zeta_1: inf is not a finite number"),
+        ('[initial]\nzeta_1 = "v"', "initial, zeta_1: 'v' is not declared in [parameters]"),
+        ('[initial]\nzeta_1 = "1+"', "initial, zeta_1: unexpected end"),
+        ('[initial]\n"a b" = 1', "initial, a b: letters, digits and _ only"),
+        ("[parameters]\nw = 1\n[initial]\nw = 1", "initial, w: a parameter has its default"),
+        ("[[initial]]\nw = 1", "key 'initial' must be a table [initial]"),
+    ],
+)
+def test_a_bad_table_is_told(tmp_path, text, words):
+    with pytest.raises(ProblemError) as caught:
+        load(problem(tmp_path, BODY + text))
+    assert words in str(caught.value)
+    assert "swing.toml: " in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("zeta_4 = 1", "swing, [initial], has no 'zeta_4'; did you mean"),
+        ('zeta_1 = "sqrt(w)"', "initial, zeta_1: no finite number for these parameters: w"),
+    ],
+)
+def test_what_a_start_refuses(tmp_path, capsys, text, words):
+    parameter = "[parameters]\nw = -1.0\n" if "w" in text else ""
+    path = problem(tmp_path, f"{BODY}{parameter}[initial]\n{text}\n")
+    assert main(["simulate", str(path), "--t", "1"]) == 2
+    err = capsys.readouterr().err
+    assert words in err
+    assert err.count("\n") == 1
+
+
+def test_a_text_about_any_group_has_no_motion(tmp_path):
+    with pytest.raises(ProblemError, match="a text about any group has no motion to follow"):
+        load(problem(tmp_path, 'name = "x"\ngroup = "any"\naction = "linear"\n[initial]\na = 1\n'))
+
+
+@pytest.mark.parametrize(
+    "name", [x for x in ready_made() if load(READY / f"{x}.toml").initial.trees()]
+)
+def test_the_ready_made_starts_move(name):
+    run = derive.derive(name).simulate(0.1, points=1)
+    assert run.ended == ""
+    assert np.any(run.states[1] != run.states[0])
+
+
+def test_a_start_in_words():
+    from derive import SO, Moments, Problem
+
+    p = Problem("free", SO(3), Moments(m=1, c=[0, 0, 0], J=[[2, 0, 0], [0, 1, 0], [0, 0, 1]]),
+                initial={"zeta_1": "2*w"}, parameters={"w": 0.5})  # fmt: skip
+    assert first(p)[0]["zeta_1"] == 1

@@ -1,0 +1,173 @@
+"""The steps that a run may take, in C and in Python: the same motion, events and faults."""
+
+import numpy as np
+import pytest
+
+import derive
+from derive.command.cli import main
+from derive.native import motion_in_c
+from derive.native.library import CompileError
+from tests.problems.moving import BODY, WEIGHT
+from tests.support.needs import need, needs
+
+METHODS = [
+    {"step": "gauss"},
+    {"step": "gauss", "dt": 0.01},
+    {"step": "vern9", "tol": 1e-11},
+    {"step": "vern9", "dt": 0.01},
+    {"step": "rk4", "dt": 0.003},
+]
+FALL = f"""
+name = "stone"
+group = "SE(3)"
+{BODY}{WEIGHT}[initial]
+zeta_2 = 3
+w_1 = 1
+T_3 = 3
+[[event]]
+name = "ground"
+when = "T_3"
+terminal = true
+[[event]]
+name = "quarter"
+when = "A_11"
+"""
+
+
+def in_both(d, duration, **chosen):
+    need("cc")
+    found = [d.simulate(duration, compiled=x, **chosen) for x in (True, False)]
+    assert [x.facts["language"] for x in found] == ["C", "Python"]
+    return found
+
+
+@pytest.mark.parametrize("method", METHODS, ids=str)
+@pytest.mark.parametrize(("name", "start"), [("so3", {}), ("se3", {"zeta_1": 1.0, "w_1": 1.0})])
+def test_c_and_python_agree(name, start, method):
+    in_c, in_python = in_both(derive.derive(name), 1.0, start=start, points=7, **method)
+    assert in_c.columns == in_python.columns
+    assert np.array_equal(in_c.t, in_python.t)
+    assert np.abs(in_c.table - in_python.table).max() < 1e-12
+    told = [{**x.facts, "language": "", "evaluations": 0} for x in (in_c, in_python)]
+    assert told[0] == told[1]
+
+
+@pytest.mark.parametrize("name", ["vern9", "rk4"])
+def test_explicit_steps_ask_equally_often(name):
+    in_c, in_python = in_both(derive.derive("so3"), 0.5, step=name, dt=0.01, points=1)
+    stages = {"vern9": 16, "rk4": 4}[name]
+    assert in_c.facts["evaluations"] == in_python.facts["evaluations"] == 50 * stages
+
+
+@pytest.mark.parametrize("method", METHODS, ids=str)
+def test_events_are_those_of_both(tmp_path, method):
+    (tmp_path / "stone.toml").write_text(FALL)
+    found = in_both(derive.derive(tmp_path / "stone.toml"), 2.0, points=5, **method)
+    lands, exact = np.sqrt(6 / 9.81), 1e-12 if method["step"] != "rk4" else 1e-9
+    for run in found:
+        assert run.ended == "event ground"
+        assert [x.name for x in run.events] == ["quarter", "ground"]
+        assert run.events[-1].t == pytest.approx(lands, rel=0, abs=exact)
+        assert np.array_equal(run.states[-1], run.events[-1].state)
+    assert found[0].events[0].t == pytest.approx(found[1].events[0].t, rel=0, abs=1e-12)
+
+
+@needs("cc")
+@pytest.mark.parametrize("step", ["gauss", "vern9", "rk4"])
+def test_steps_of_one_size_are_watched_many_at_once(tmp_path, monkeypatch, step):
+    """Few are looked at one by one, and the events are those of the motion in closed form."""
+    from derive.motion.watch import Watch
+
+    ended_by, calls = Watch.ended_by, []
+    monkeypatch.setattr(Watch, "ended_by", lambda *x: calls.append(0) or ended_by(*x))
+    text = FALL.partition("[[event]]")[0] + '[[event]]\nname = "quarter"\nwhen = "A_11"\n'
+    (tmp_path / "stone.toml").write_text(text)
+    run = derive.derive(tmp_path / "stone.toml").simulate(10.0, step=step, dt=1e-3, points=2)
+    quarters = (np.pi / 2 + np.pi * np.arange(10)) / 3
+    assert [x.t for x in run.events] == pytest.approx(quarters[quarters < 10], rel=0, abs=1e-9)
+    assert len(calls) < 100
+
+
+@needs("cc")
+def test_a_step_made_in_parts_hides_no_event(tmp_path):
+    """Gauss's iteration does not converge for a step of several turns: its halves are watched."""
+    text = FALL.replace("zeta_2 = 3", "zeta_2 = 40").partition("[[event]]")[0]
+    text += '[[event]]\nname = "quarter"\nwhen = "A_11"\n'
+    (tmp_path / "stone.toml").write_text(text)
+    d = derive.derive(tmp_path / "stone.toml")
+    for compiled in (True, False):
+        run = d.simulate(0.5, dt=0.2, compiled=compiled)
+        quarters = (np.pi / 2 + np.pi * np.arange(6)) / 40
+        # steps of 4 rad, to 3e-10
+        assert [x.t for x in run.events] == pytest.approx(quarters, rel=0, abs=1e-9)
+
+
+@pytest.mark.parametrize("method", [{"step": "gauss"}, {"step": "vern9"}], ids=str)
+def test_a_collision_is_told_by_both(method):
+    fall = {"T_1": 0.0, "w_2": 0.0, "zeta_3": 0.0}
+    found = in_both(derive.derive("comet"), 1.0, start=fall, points=1000, **method)
+    for run in found:
+        assert "the steps become too short at t = 0.06471" in run.ended
+        assert 0.0638 < run.t[-1] < 0.0648
+    assert np.array_equal(found[0].t, found[1].t)
+
+
+@needs("cc")
+def test_what_is_long_is_compiled():
+    d = derive.derive("so3")
+    assert d.simulate(1.0, points=2).facts["language"] == "Python"
+    assert d.simulate(1.0, points=2, step="rk4", dt=1e-4).facts["language"] == "C"
+
+
+def test_without_a_compiler_it_is_the_python(monkeypatch):
+    monkeypatch.setenv("CC", "no-such-compiler")
+    d = derive.derive("so3")
+    run = d.simulate(0.2, points=2, step="rk4", dt=1e-4)
+    assert run.facts["language"] == "Python"
+    with pytest.raises(CompileError, match="not on the path"):
+        d.simulate(0.2, points=2, compiled=True)
+
+
+@needs("cc")
+def test_calls_of_c_end_so_that_ctrl_c_is_heard(monkeypatch):
+    """A motion in many calls is that in one."""
+    d = derive.derive("so3")
+    for method in METHODS:
+        monkeypatch.undo()
+        whole = d.simulate(1.0, points=1, compiled=True, **method)
+        monkeypatch.setattr(motion_in_c, "MANY", 3)
+        assert np.array_equal(d.simulate(1.0, points=1, compiled=True, **method).table, whole.table)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--step", "rk4"], "rk4 has steps of one size: give --dt"),
+        (["--step", "rk4", "--tol", "1e-6"], "rk4 has steps of one size: give --dt"),
+        (["--step", "vern"], "did you mean 'vern9'? there is gauss, rk4, vern9"),
+        (["--step", "gauss_jax"], "there is gauss, rk4, vern9, discrete\n"),
+        (["--step", "guass_jaxx"], "there is gauss, rk4, vern9, discrete\n"),
+        (["--dt", "1e-9", "--t", "100"], "1e+11 steps of 1e-09 are more than 1e+09: take larger"),
+        (["--dt", "5e-324", "--t", "100"], "inf steps of 4.94066e-324 are more than 1e+09"),
+        (["--step", "vern9", "--html", "so3.html"], "leave out --dt, --step"),
+    ],
+)
+def test_bad_methods_are_one_line(arguments, words, capsys):
+    assert main(["simulate", "so3", "--t", "1", *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert words in err
+
+
+def test_the_discrete_step_is_one_of_them(capsys):
+    in_c, in_python = in_both(derive.derive("so3"), 0.5, step="discrete", dt=0.005, points=5)
+    assert np.abs(in_c.table - in_python.table).max() < 1e-12
+    assert main(["simulate", "so3", "--t", "5", "--step", "discrete"]) == 2
+    assert "discrete has steps of one size: give --dt" in capsys.readouterr().err
+    assert main(["simulate", "so3", "--t", "5", "--step", "discrete", "--dt", "0.5"]) == 1
+    err = capsys.readouterr().err
+    assert "there is no discrete step of this size at t = 0" in err
+    assert err.count("\n") == 1
+    given = ["--t", "5", "--step", "discrete", "--dt", "0.01"]
+    assert main(["simulate", "gyrostat", *given]) == 2
+    assert "is of a Lagrangian of points" in capsys.readouterr().err

@@ -1,0 +1,339 @@
+"""Motions of derive simulate: known solutions, order, what is kept, what is refused."""
+
+import json
+
+import numpy as np
+import pytest
+
+import derive
+from derive.code.step.collocation import Collocation
+from derive.command.cli import main
+from derive.command.simulating import negative
+from derive.motion.method import Method, instants
+from derive.motion.run_files import read
+from derive.motion.start import MotionError, exponential
+from tests.oracles import free_top, lagrange_top
+
+MOMENTS = (1.25, 2.0, 2.75)
+FREE = """
+name = "free"
+group = "SO(3)"
+[body]
+given = { m = 1, c = [0, 0, 0], J = [["7/4", 0, 0], [0, 1, 0], [0, 0, "1/4"]] }
+"""
+
+
+@pytest.fixture(scope="module")
+def free(tmp_path_factory):
+    """A free top with the MOMENTS."""
+    path = tmp_path_factory.mktemp("free") / "free.toml"
+    path.write_text(FREE)
+    return derive.derive(path)
+
+
+def free_state(t):
+    A, W = free_top.motion(t, MOMENTS, 1.0, 2.2)
+    return np.concatenate([A.ravel(), W])
+
+
+def start(d, x):
+    return dict(zip(d.simulate(1e-3, points=1).names[1 : 1 + len(x)], x, strict=True))
+
+
+# ---------------------------------------------------------------- the method
+
+
+def test_the_nodes_are_gauss_and_mu_is_symplectic():
+    method = Collocation()
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    assert np.allclose(method.c, (nodes + 1) / 2, rtol=0, atol=2e-16)
+    assert np.allclose(method.b, weights / 2, rtol=0, atol=5e-16)
+    mu, b, c = np.array(method.mu), np.array(method.b), np.array(method.c)
+    assert np.array_equal(mu + mu.T, np.ones((8, 8)))
+    for k in range(8):  # collocation: exact on polynomials
+        assert np.allclose(mu @ (b * c**k), c ** (k + 1) / (k + 1), atol=1e-15)
+    for k in range(16):
+        assert np.isclose(b @ c**k, 1 / (k + 1), atol=1e-15)
+    later = 1 + 0.7 * c  # the polynomial of a step, continued
+    gaps = later[:, None] - c
+    on = gaps.prod(axis=1, keepdims=True) / gaps * np.array(method.continued) * b
+    assert np.allclose(on @ c**7, later**7, rtol=1e-10)
+    series = np.array(method.dense)
+    legendre = np.polynomial.legendre.legvander(2 * c - 1, 7)
+    assert np.allclose((series * b) @ legendre, np.eye(8), atol=1e-14)
+
+
+def test_the_order_is_sixteen(free):
+    x, exact = start(free, free_state(0)), free_state(12.0)
+    errors = [
+        np.abs(free.simulate(12.0, dt=h, start=x, points=1).states[-1] - exact).max()
+        for h in (3.0, 2.0)
+    ]
+    assert errors[1] > 1e-13
+    assert 14 < np.log(errors[0] / errors[1]) / np.log(3 / 2) < 19
+
+
+# ---------------------------------------------------------------- known solutions
+
+
+def test_a_free_top(free):
+    run = free.simulate(50.0, start=start(free, free_state(0)), points=10)
+    exact = np.array([free_state(t) for t in run.t])
+    assert np.abs(run.states - exact).max() < 1e-9
+    assert np.ptp(run["energy"]) < 1e-14
+    assert run["defect"].max() < 5e-15
+    assert run.ended == ""
+
+
+def test_a_heavy_top():
+    d = derive.derive("lagrange_top")
+    names = d.simulate(1e-3, points=1).facts["parameters"]
+    first, third, weight = (names[x] for x in ("I1", "I3", "mgl"))
+    x = lagrange_top.motion(0, (first, third), weight, 0.5, 0.3, 4.0)
+    run = d.simulate(10.0, start=start(d, x), tol=1e-11, points=4)
+    for t, found in zip(run.t, run.states, strict=True):
+        expected = lagrange_top.motion(t, (first, third), weight, 0.5, 0.3, 4.0)
+        assert np.abs(found - expected).max() < 1e-8
+
+
+@pytest.mark.parametrize("tol", [1e-5, 1e-8, 1e-11])
+@pytest.mark.parametrize(
+    ("name", "numbers", "exponent", "duration"),
+    [
+        ("top", {"zeta_3": 100.0}, (0.3, 0, 0), 1.0),
+        ("se3", {"zeta_1": 1.0, "w_1": 1.0}, (), 2.0),
+        ("sl3", {"zeta_1": 1.0}, (), 5.0),
+        ("ellipsoid", {"T_3": -0.5, "zeta_3": 1.0}, (), 2.0),
+        ("ellipsoid", {"T_3": 0.0, "zeta_1": 1.0}, (), 3.0),
+        ("lagrange_top", {"zeta_3": 15.0}, (0.5, 0, 0), 20.0),
+    ],
+)
+def test_the_tolerance_is_that_of_a_short_run(name, numbers, exponent, duration, tol):
+    d = derive.derive(name)
+    exact, found = (
+        d.simulate(duration, start=numbers, exp=exponent, points=1, tol=x).states[-1]
+        for x in (1e-15, tol)
+    )
+    assert np.abs(found - exact).max() < 20 * tol * np.abs(exact).max()
+
+
+def test_a_long_run_stays_on_the_group_and_keeps_its_energy():
+    run = derive.derive("sl3").simulate(100.0, dt=0.05, start={"zeta_1": 1.0}, points=20)
+    assert run["defect"].max() < 1e-13
+    assert np.ptp(run["energy"]) < 1e-12 * abs(run["energy"][0])
+    assert len(run.t) == 21
+
+
+# ---------------------------------------------------------------- starts, instants
+
+
+def test_the_exponential_is_a_rotation():
+    angle = 40.0
+    turn = exponential(angle * np.array([[0, -1.0], [1, 0]]))
+    expected = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    assert np.allclose(turn, expected, atol=1e-12)
+    assert np.array_equal(exponential(np.zeros((2, 2))), np.eye(2))
+    assert np.allclose(exponential(np.array([[0, 1e-3], [0, 0]])), [[1, 1e-3], [0, 1]])
+
+
+@pytest.mark.parametrize(
+    ("dt", "duration", "points", "last"),
+    [(0.1, 1.0, 5, 0.8), (0.3, 1.0, 100, 0.9), (2.0, 1.0, 5, 0)],
+)
+def test_the_instants_of_fixed_steps_are_ends_of_steps(dt, duration, points, last):
+    times = instants(Method(dt=dt), duration, points)
+    assert times[0] == 0
+    assert times[-1] == duration
+    assert np.allclose(times[-2], last)
+    assert np.allclose(times[:-1] / dt, np.round(times[:-1] / dt))
+
+
+def test_inputs_are_held_and_units_are_told():
+    pushed = derive.derive("se3").simulate(1.0, start={"u_1": 2.0}, points=2)
+    assert pushed.facts["inputs"]["u_1"] == 2.0
+    assert np.any(pushed.states[-1] != pushed.states[0])
+    run = derive.derive("top").simulate(0.1, start={"zeta_3": 1.0}, points=2)
+    units = {x.name: x.unit for x in run.columns}
+    assert (units["t"], units["zeta_1"], units["energy"], units["A_11"]) == ("s", "1/s", "J", "")
+
+
+# ---------------------------------------------------------------- the command
+
+
+def told(capsys, *arguments):
+    code = main(["simulate", *arguments])
+    return code, *capsys.readouterr()
+
+
+def test_a_run_in_one_command(tmp_path, capsys):
+    out = tmp_path / "run.csv"
+    code, text, err = told(
+        capsys, "top", "--t", "0.1", "--set", "zeta_3=100", "--exp", "0.3,0,0", "--out", str(out)
+    )
+    assert (code, err) == (0, "")
+    assert "energy: " in text
+    assert "angular_momentum_3" in text
+    assert text.endswith(f"{out}\n")
+    first = read(out)
+    assert first.facts["problem"] == "top"
+    code, _, _ = told(capsys, "top", "--t", "0.1", "--state", str(out), "--out", str(out))
+    assert code == 0
+    assert np.array_equal(read(out).states[0], first.states[-1])
+    json.dumps(dict(first.facts))
+
+
+def test_a_collision_keeps_what_is_done(tmp_path, capsys):
+    out = tmp_path / "run.npz"
+    fall = [x for name in ("T_1", "w_2", "zeta_3") for x in ("--set", f"{name}=0")]
+    code, _, err = told(capsys, "comet", "--t", "1", *fall, "--out", str(out))
+    assert code == 1
+    assert err.count("\n") == 1
+    assert "the steps become too short at t = 0.06471" in err
+    assert 0 < read(out).t[-1] < 0.0648
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_start_in_a_collision_is_one_line(capsys):
+    code, out, err = told(capsys, "comet", "--t", "1", "--set", "T_1=0.1")  # s: a mass is at 0
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert "the equations have no finite value at the start" in err
+
+
+def test_the_folder_of_a_run_is_made_as_by_other_commands(tmp_path, capsys):
+    out = tmp_path / "new" / "run.csv"
+    assert told(capsys, "so3", "--t", "0.1", "--set", "zeta_1=1", "--out", str(out))[0] == 0
+    assert read(out).facts["problem"] == "so3"
+
+
+def test_what_is_amiss_is_told(capsys):
+    err = told(capsys, "jelly", "--t", "1")[2]
+    assert "nothing moves" in err
+    assert "note: jelly: of what it keeps the energy alone is told: damping is no part" in err
+    turning = [
+        x for name in ("zeta_1=0", "zeta_5=0", "zeta_2=1", "zeta_4=-1") for x in ("--set", name)
+    ]
+    assert "a fluid would tear" in told(capsys, "dirichlet", "--t", "1", *turning)[2]
+
+
+@pytest.mark.parametrize("wrong", ["Q_12=5", "Q_33=-1"])
+def test_a_quadric_that_is_not_positive_is_named(wrong, capsys):
+    code, _, err = told(capsys, "dirichlet", "--t", "1", "--set", wrong)
+    assert code == 2
+    assert "positive definite" in err
+    assert err.count("\n") == 1
+
+
+def test_when_a_multiplier_is_negative():
+    t = np.linspace(0, 5, 501)
+    assert negative(t, t - 0.875) == "at t = 0 … 0.87 (88 of 501 instants)"
+    assert negative(t, np.cos(t)) == "at t = 1.58 … 4.71 (314 of 501 instants)"
+    assert negative(t, -np.sin(3 * t)).startswith("at t = 0.01 … 1.04 and later (")
+    assert negative(t, t) == negative(t, 0 * t) == negative(t, t - 1e-15) == ""
+
+
+def test_a_fluid_that_is_sheared_does_not_tear(capsys):
+    shear = [x for k in range(1, 9) for x in ("--set", f"zeta_{k}={int(k == 2)}")]
+    code, text, err = told(capsys, "dirichlet", "--t", "1", *shear)
+    assert (code, err) == (0, "")
+    assert "multiplier" not in text
+
+
+def test_a_fluid_of_irrational_axes_keeps_its_circulation(tmp_path, capsys):
+    path = tmp_path / "drop.toml"
+    path.write_text(
+        'name = "drop"\ngroup = "SL(3)"\n[body]\nsolid = "ellipsoid"\ndensity = 1\n'
+        'quadric = [[1, "1/4", 0], ["1/4", 2, 0], [0, 0, 3]]\n[initial]\nzeta_2 = 1\n'
+    )
+    code, text, err = told(capsys, str(path), "--t", "1")
+    assert (code, err) == (0, "")
+    assert "deformation_body_3: " in text
+
+
+def test_ctrl_c_keeps_what_is_done(tmp_path, capsys, monkeypatch):
+    from derive.motion.trajectory import Trajectory
+
+    reach, calls = Trajectory.reach, []
+
+    def stopped(self, times):
+        calls.append(times)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return reach(self, times)
+
+    monkeypatch.setattr(Trajectory, "reach", stopped)
+    out = tmp_path / "run.npz"
+    code, _, err = told(
+        capsys, "so3", "--t", "1", "--set", "zeta_1=1", "--points", "200", "--out", str(out)
+    )
+    assert (code, len(read(out).t)) == (130, 3)
+    assert "interrupted at t = 0.01" in err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--t", "-1"], "the time must be above 0"),
+        (["--t", "x"], "expected a number"),
+        (["--t", "nan"], "expected a number"),
+        (["--t", "1", "--dt", "0"], "a size above 0"),
+        (["--t", "1", "--tol", "1e-16"], "at least 1e-15"),
+        (["--t", "1", "--tol", "1e-6", "--dt", "1"], "give one of them"),
+        (["--t", "1", "--points", "0"], "can be kept"),
+        (["--t", "1", "--step", "guass"], "did you mean 'gauss'?"),
+        (["--t", "1", "--set", "zeta_4=1"], "has no 'zeta_4'"),
+        (["--t", "1", "--set", "zeta_1"], "is not NAME=NUMBER"),
+        (["--t", "1", "--set", "zeta_1=inf"], "expected a number"),
+        (["--t", "1", "--set", "A_11=2"], "--project takes it there; its defect is 3"),
+        (["--t", "1", "--set", "A_11=0", "--set", "A_22=0", "--project"], "not taken to the group"),
+        (["--t", "1", "--exp", "1,2"], "takes 3 numbers"),
+        (["--t", "1", "--out", "run.txt"], "must end in .npz, .csv, .parquet"),
+        (["--t", "1", "--state", "missing.toml"], "missing.toml: No such file"),
+        (["--t", "1", "--state", "missing.npz"], "missing.npz: No such file"),
+        (["--t", "1", "--set", "J_11=-9"], "singular or not positive"),
+    ],
+)
+def test_bad_input_is_one_line(arguments, words, capsys):
+    try:
+        code = main(["simulate", "so3", *arguments])
+    except SystemExit as stop:
+        code = stop.code
+    out, err = capsys.readouterr()
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert words in err
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [('zeta_1 = "1"', "must be a number"), ("zeta_1 = ", "Invalid value"), ("x = 1", "has no 'x'")],
+)
+def test_a_bad_file_of_a_start_is_told(text, words, tmp_path, capsys):
+    path = tmp_path / "start.toml"
+    path.write_text(text)
+    assert main(["simulate", "so3", "--t", "1", "--state", str(path)]) == 2
+    assert words in capsys.readouterr().err
+
+
+def test_parameters_without_numbers_are_asked_for(tmp_path, capsys):
+    path = tmp_path / "open.toml"
+    path.write_text('name = "open"\ngroup = "SO(3)"\n[body]\nmoments = "symbolic"\n')
+    assert main(["simulate", str(path), "--t", "1"]) == 2
+    assert "no value for " in capsys.readouterr().err
+
+
+def test_states_without_an_element_have_no_exponential():
+    with pytest.raises(MotionError, match="no element of a group"):
+        derive.derive("euler_poisson").simulate(1.0, exp=(1, 0, 0))
+
+
+def test_motions_of_other_states():
+    """Reduced states, the torus, a quotient."""
+    kept = derive.derive("euler_poisson").simulate(
+        2.0, start={"zeta_1": 1.0, "gamma_1": 1.0, "gamma_2": 0.5}, points=4
+    )
+    for column in kept.of_kind("conserved").values():
+        assert np.ptp(column) < 1e-13
+    waves = {"re_1_0": 1.0, "re_2_1": 0.5, "im_0_1": 0.25}
+    torus = derive.derive("zeitlin").simulate(1.0, start=waves, points=2)
+    assert np.ptp(torus["energy"]) < 1e-13
+    rod = derive.derive("rod").simulate(1.0, start={"zeta_1": 1.0}, points=2)
+    assert np.ptp(rod["energy"]) < 1e-13

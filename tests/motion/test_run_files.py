@@ -1,0 +1,76 @@
+"""A run, written and read: every bit, the same bytes, and what is no run."""
+
+import json
+
+import numpy as np
+import pytest
+
+from derive.motion.run import Column, Run
+from derive.motion.run_files import FORMATS, RunFileError, read, written
+from tests.support.needs import need
+
+COLUMNS = (Column("t", "time", "s"), Column("A_11", "state"), Column("energy", "energy", "J"))
+TABLE = np.array([[0.0, 1.0, 1 / 3], [0.1, -0.0, 5e-324], [0.2, np.inf, np.nan]])
+RUN = Run(COLUMNS, TABLE, {"problem": "so3", "parameters": {"I": 2.0}, "ended": ""})
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_a_run_is_read_back_to_the_bit(tmp_path, ending):
+    if ending == ".parquet":
+        need("the module pyarrow")
+    path = tmp_path / f"run{ending}"
+    path.write_bytes(written(RUN, path.name))
+    found = read(path)
+    assert found.table.tobytes() == TABLE.tobytes()
+    assert (found.columns, found.facts) == (COLUMNS, RUN.facts)
+    assert written(found, path.name) == path.read_bytes()
+
+
+def test_columns_by_name_and_kind():
+    assert RUN["energy"][0] == 1 / 3
+    assert list(RUN.of_kind("state")) == ["A_11"]
+    assert RUN.states.shape == (3, 1)
+    with pytest.raises(KeyError, match="no column 'x'; there are t, A_11, energy"):
+        RUN["x"]
+
+
+@pytest.mark.parametrize(
+    ("name", "data"),
+    [
+        ("a.npz", b"PK"),
+        ("a.npz", b""),
+        ("a.csv", b""),
+        ("a.csv", b"t,x\n0,1\n"),
+        ("a.csv", b"# {}\nt\n0\n"),
+        ("a.csv", b"\xff\xfe"),
+        ("a.csv", b'# {"file": "derive run", "columns": [["t", "time", ""]], "facts": {}}\nt\nx\n'),
+        ("a.csv", b'# {"file": "derive run", "columns": [], "facts": {}}\n\n'),
+        ("a.parquet", b"PAR1"),
+    ],
+)
+def test_a_foreign_file_is_told(tmp_path, name, data):
+    if name.endswith("parquet"):
+        need("the module pyarrow")
+    path = tmp_path / name
+    path.write_bytes(data)
+    with pytest.raises(RunFileError, match="not a run that derive simulate wrote"):
+        read(path)
+
+
+def test_a_pickle_is_not_loaded(tmp_path):
+    path = tmp_path / "evil.npz"
+    np.savez(path, head=np.array([{}], dtype=object), table=TABLE)
+    with pytest.raises(RunFileError, match="not a run"):
+        read(path)
+
+
+def test_files_that_are_not_there_or_have_no_format(tmp_path):
+    with pytest.raises(RunFileError, match=r"x\.npz: No such file"):
+        read(tmp_path / "x.npz")
+    with pytest.raises(RunFileError, match=r"must end in \.npz, \.csv, \.parquet"):
+        written(RUN, "run.txt")
+
+
+def test_the_head_of_a_csv_is_json():
+    head = written(RUN, "a.csv").decode().splitlines()[0].removeprefix("# ")
+    assert json.loads(head)["facts"]["problem"] == "so3"

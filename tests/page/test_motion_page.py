@@ -1,0 +1,402 @@
+"""The page in which a body moves: its bytes, what it escapes, what it refuses; and in a browser
+that it moves, keeps what is kept, and follows its sliders."""
+
+import json
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+import derive
+from derive.code.emit import emit
+from derive.code.options import Options
+from derive.command.cli import main
+from derive.page.moving_body import moving_body
+from derive.page.shortened import called, shortened
+from derive.pipeline import motion_of
+from tests.support.needs import BROWSERS, need
+
+FAST = {"start": {"zeta_3": 300.0}, "exp": (0.3, 0, 0)}
+STARTS = {
+    "top": FAST,
+    "so3": {"start": {"zeta_1": 0.01, "zeta_2": 1.0}},
+    "sl3": {"start": {"zeta_1": 1.0, "zeta_5": 0.5}},
+    "hammer": {"start": {"zeta_1": 6.0, "zeta_3": 1.0, "w_3": 5.0}},
+    "two_tops": {"start": {"zeta_1": 1.0, "zeta_5": 2.0}},
+    "euler_poisson": {"start": {"zeta_1": 1.0, "gamma_1": 1.0, "gamma_2": 0.5}},
+}
+
+
+@pytest.fixture(scope="module")
+def pages():
+    """Name, language → the page of a motion."""
+    kept = {}
+
+    def page(name, language="en"):
+        if (name, language) not in kept:
+            d = derive.derive(name)
+            kept[name, language] = d.motion_page(10.0, language=language, **STARTS[name])
+        return kept[name, language]
+
+    return page
+
+
+def told(page):
+    """The data of a page."""
+    return json.loads(re.search(r'<script id="page" [^>]*>(.*?)</script>', page, re.DOTALL)[1])
+
+
+# ---------------------------------------------------------------- the bytes
+
+
+def test_it_is_small_alone_and_always_the_same(pages):
+    page = pages("top")
+    assert len(page.encode()) <= 40_000
+    assert not re.search(r"https?:|@import|url\(|src=|<link|fetch|XMLHttp|import\(|eval\(", page)
+    assert page == derive.derive("top").motion_page(10.0, **FAST)
+    assert len(pages("sl3").encode()) <= 46_000  # its equations are long
+
+
+def test_both_languages(pages):
+    english, french = (told(pages("top", x)) for x in ("en", "fr"))
+    assert english["words"]["energy"] == "energy"
+    assert french["words"]["energy"] == "énergie"
+    assert french["kept"]["angular_momentum_3"] == "moment cinétique 3"
+    assert french["labels"]["rho"] == ["masse volumique", "kg/m^3"]
+    assert french["labels"]["zeta_1"] == ["vitesse angulaire dans le corps", "1/s"]
+    assert '<html lang="fr">' in pages("top", "fr")
+    assert english["kept"]["body_angular_momentum_3"] == "angular momentum in the body 3"
+    untold = {x for x, y in english["words"].items() if y == french["words"][x]}
+    assert untold == {"pause"}
+
+
+BAD = "</script><script>alert(1)</script><img src=x onerror=alert(1)>`${alert(1)}`"
+HOSTILE = f"""
+name = "hostile"
+title = '{BAD}'
+group = "SO(3)"
+[parameters]
+a = {{ default = 1.0, unit = '{BAD}', meaning = '{BAD}' }}
+[[point]]
+mass = "a"
+at = [1, 0, 0]
+[[point]]
+mass = 2
+at = [0, 1, 0]
+"""
+
+
+@pytest.fixture
+def hostile(tmp_path):
+    path = tmp_path / "hostile.toml"
+    path.write_text(HOSTILE, encoding="utf-8")
+    return derive.derive(path).motion_page(1.0, start={"zeta_1": 1.0})
+
+
+def test_nothing_of_a_stranger_is_markup_or_code(hostile):
+    tags = re.findall(r"<(\w+)", re.sub(r"<script.*?</script>", "<script>", hostile, flags=re.S))
+    assert tags.count("script") == 2
+    assert "img" not in tags
+    assert "alert" not in re.findall(r"<script>(.*?)</script>", hostile, re.DOTALL)[0]
+    assert told(hostile)["labels"]["a"] == [BAD, BAD]
+
+
+# ---------------------------------------------------------------- the script
+
+
+def test_a_shortened_module_does_the_same(tmp_path):
+    need("node")
+    d = derive.derive("sl3")
+    code, names = motion_of(d.problem, d.record), ["begin", "gauss_to", "constants", "conserved"]
+    chosen = Options(step="gauss", conserved=True)
+    (source,) = emit(code.program, d.record, ("javascript",), "sl3", chosen).values()
+    run = d.simulate(1e-3, start={"zeta_1": 1.0}, points=1)
+    p, x = [*run.facts["parameters"].values()], run.states[0].tolist()
+    needed = called(source.replace("\nexport ", "\n"), names)
+    whole = f"""
+        const module = (() => {{ {needed} return {{ {", ".join(names)} }}; }})();
+        const k = module.constants({p}), motion = module.begin(0, {x});
+        module.gauss_to(motion, k, null, 3, 1e-9);
+        console.log(JSON.stringify([...motion.x, ...module.conserved(3, motion.x, k)]));
+    """
+    found = []
+    for text in (whole, shortened(whole)):
+        (tmp_path / "main.js").write_text(text)
+        done = subprocess.run(["node", tmp_path / "main.js"], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        found.append(done.stdout)
+    assert found[0] == found[1]
+    assert len(shortened(whole)) < 0.6 * len(whole)
+    assert "dense" not in needed
+
+
+def test_shortening_by_hand():
+    assert shortened("const first = 1, a = 2; // one\nconst third = a - -first;\n") == (
+        "const b=1,a=2,c=a- -b;"
+    )
+    assert shortened('f({ key: "a  b // c" }, `x ${long(key)}  y`);') == (
+        'f({key:"a  b // c"},`x ${long(key)}  y`);'
+    )
+    assert shortened("const long = 1; x.long = long; ++x.y;") == "const long=1;x.long=long;++x.y;"
+
+
+# ---------------------------------------------------------------- the body
+
+
+def test_what_is_drawn():
+    def body(name):
+        d = derive.derive(name)
+        return moving_body(
+            d.record.problem, d.problem.group, motion_of(d.problem, d.record).program.state
+        )
+
+    top = body("top")
+    assert top["parts"][0]["solids"][0]["shape"] == "cone"
+    assert top["parts"][0]["fixed"]
+    assert top["polhode"] == [9, 10, 11]
+    assert top["turns"]
+    assert [row[3] for row in body("hammer")["parts"][0]["map"]] == [9, 10, 11]
+    assert len(body("two_tops")["parts"]) == 2
+    assert body("two_tops")["springs"] == [[0, 1, 1, 3]]
+    assert body("sl3")["parts"][0]["deforms"]
+    assert body("sl3")["polhode"] == []
+    assert body("so4")["parts"] == body("zeitlin")["parts"] == []
+
+
+def test_a_mesh_is_drawn_as_it_is(tmp_path):
+    corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    lines = [f"v {x} {y} {z}" for x, y, z in corners]
+    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
+    (tmp_path / "wedge.obj").write_text("\n".join(lines))
+    path = tmp_path / "wedge.toml"
+    body = '[body]\nsolid = "mesh"\ndensity = 1\nfile = "wedge.obj"\n'
+    path.write_text(f'name = "wedge"\ngroup = "SO(3)"\n{body}')
+    page = derive.derive(path).motion_page(1.0, start={"zeta_1": 1.0})
+    (solid,) = told(page)["body"]["parts"][0]["solids"]
+    drawn = [[solid["vertices"][i] for i in face] for face in solid["faces"]]
+    expected = [[corners[i] for i in face] for face in faces]
+    assert sorted(map(sorted, drawn)) == sorted(map(sorted, expected))
+
+
+# ---------------------------------------------------------------- the command
+
+
+def test_the_command_writes_it_with_a_run_or_alone(tmp_path, capsys):
+    page, out = tmp_path / "page.html", tmp_path / "run.csv"
+    words = ["simulate", "top", "--t", "0.05", "--set", "zeta_3=100", "--html", str(page)]
+    assert main(words) == 0
+    assert capsys.readouterr().out == f"{page}\n"
+    assert main([*words, "--out", str(out), "--lang", "fr"]) == 0
+    assert out.exists()
+    assert told(page.read_text(encoding="utf-8"))["comma"]
+
+
+def test_notes_link_to_the_page_of_each_problem(tmp_path, capsys):
+    out = tmp_path / "notes.html"
+    assert main(["notes", "so3", "jelly", "--motion", "5", "--lang", "fr", "--out", str(out)]) == 0
+    names = ["so3_motion.html", "jelly_motion.html"]
+    assert capsys.readouterr().out.split() == [str(out), *(str(tmp_path / x) for x in names)]
+    links = re.findall('<a href="([^#"]*)">En mouvement', out.read_text(encoding="utf-8"))
+    assert links == names
+    for name, text in zip(("so3", "jelly"), names, strict=True):
+        page = derive.derive(name).motion_page(5.0, language="fr")
+        assert (tmp_path / text).read_text(encoding="utf-8") == page
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["so3", "--motion", "-1", "--out", "a.html"], "the time must be above 0, not -1"),
+        (["so3", "--motion", "5", "--out", "a.tex"], "--motion: pages are linked from notes"),
+        (["ideal_fluid", "--motion", "5", "--out", "a.html"], "it has no numeric code"),
+    ],
+)
+def test_notes_without_a_motion(arguments, words, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["notes", *arguments]) == 2
+    assert words in capsys.readouterr().err
+    assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--html", "page.txt"], "must end in .html"),
+        (["--html", "p.html", "--dt", "1"], "leave out --dt"),
+        (["--html", "p.html", "--t", "0"], "above 0"),
+        (["--html", "p.html", "--set", "A_11=2"], "not on the group"),
+        (["--html", "p.html", "--set", "J_11=-9"], "singular or not positive"),
+        (["--html", "p.html", "--tol", "2"], "below 1"),
+    ],
+)
+def test_bad_input_is_one_line(arguments, words, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["simulate", "so3", "--t", "1", *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert words in err
+    assert not [*tmp_path.iterdir()]
+
+
+# ---------------------------------------------------------------- in a browser
+
+
+@pytest.fixture(scope="module")
+def browser():
+    need("the module playwright", "chromium")
+    from playwright.sync_api import sync_playwright
+
+    path = next(filter(None, map(shutil.which, BROWSERS)))
+    with sync_playwright() as playwright:
+        arguments = ["--no-sandbox", "--disable-gpu"]
+        running = playwright.chromium.launch(executable_path=path, args=arguments)
+        yield running
+        running.close()
+
+
+@pytest.fixture
+def opened(browser, tmp_path):
+    """A page in the browser; at the end nothing was said on its console."""
+    said = []
+
+    def open_page(text, width=1280, **how):
+        file = tmp_path / "page.html"
+        file.write_text(text, encoding="utf-8")
+        how.setdefault("reduced_motion", "reduce")
+        shown = browser.new_page(viewport={"width": width, "height": 844}, **how)
+        shown.on("console", lambda message: said.append(message.text))
+        shown.on("pageerror", lambda error: said.append(str(error)))
+        shown.on("request", lambda x: x.url.startswith("file:") or said.append(x.url))
+        shown.goto(file.as_uri())
+        return shown
+
+    yield open_page
+    assert not said
+
+
+INK = """() => [...document.querySelectorAll("canvas")].map((c) => {
+    const { data } = c.getContext("2d").getImageData(0, 0, c.width, c.height);
+    return data.filter((v, i) => i % 4 === 3 && v > 0).length/data.length*4;
+})"""
+MOTION = 'document.getElementById("motion").motion'
+CHANGES = """() => [...document.querySelectorAll("tbody td:nth-child(3)")].map(
+    (cell) => Number(cell.textContent.replace("−", "-")))"""
+
+
+def seek(page, t):
+    page.evaluate(f"{MOTION}.seek({t})")
+    page.wait_for_function(f"Math.abs({MOTION}.time - {t}) < 1e-12")
+
+
+@pytest.mark.dist
+@pytest.mark.parametrize("name", STARTS)
+def test_it_moves_and_keeps_what_is_kept(name, pages, opened):
+    page = opened(pages(name))
+    page.wait_for_timeout(200)
+    assert page.evaluate(f"{MOTION}.time") == 0
+    seek(page, 1.0)
+    page.wait_for_timeout(100)
+    ink = page.evaluate(INK)
+    assert min(ink) > 0.002
+    assert ink[0] > 0.03 or name == "euler_poisson"  # the body, not the ground alone
+    assert max(page.evaluate(CHANGES)) < 1e-9
+    page.get_by_role("button", name="play").click()
+    page.wait_for_function(f"{MOTION}.time > 1.001")
+    page.keyboard.press("Escape")
+    page.get_by_role("button", name="pause").click()
+    after = page.evaluate(f"{MOTION}.time")
+    page.wait_for_timeout(200)
+    assert page.evaluate(f"{MOTION}.time") == after
+    seek(page, 10.0)
+    assert max(page.evaluate(CHANGES)) < 1e-9
+
+
+@pytest.mark.dist
+def test_the_state_is_that_of_a_run(pages, opened):
+    page = opened(pages("sl3"))
+    expected = derive.derive("sl3").simulate(10.0, points=1, tol=1e-12, **STARTS["sl3"]).states[-1]
+    seek(page, 10.0)
+    found = page.evaluate(f"[...{MOTION}.state]")
+    assert np.abs(np.array(found) - expected).max() < 1e-7
+
+
+@pytest.mark.dist
+def test_sliders_change_the_motion_and_all_goes_back(pages, opened):
+    page = opened(pages("top"))
+
+    def state(t=1.0):
+        seek(page, t)
+        return np.array(page.evaluate(f"[...{MOTION}.state]"))
+
+    first = state()
+    for name, value in (("g", 5.0), ("zeta_1", 40.0), ("theta_1", 0.4)):
+        row = page.locator(f'[data-name="{name}"]')
+        row.locator("xpath=ancestor::details").evaluate("(e) => { e.open = true; }")
+        row.locator("input[type=range]").fill(str(value))
+        assert page.evaluate(f"{MOTION}.time") == 0
+        assert np.abs(state() - first).max() > 0.01
+        page.get_by_role("button", name="As it was").click()
+        assert np.array_equal(state(), first)
+    page.locator('[data-name="R"] input[type=number]').fill("0")
+    page.keyboard.press("Tab")
+    assert page.get_by_role("status").inner_text() == "No body has these numbers."
+
+
+@pytest.mark.dist
+def test_by_the_keyboard(pages, opened):
+    page = opened(pages("top"))
+    page.wait_for_timeout(100)
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function(f"{MOTION}.time > 0")
+    page.keyboard.press("Home")
+    page.wait_for_function(f"{MOTION}.time === 0")
+    before = page.locator("canvas").first.screenshot()
+    page.locator("canvas").first.focus()
+    page.keyboard.press("ArrowLeft")
+    page.wait_for_timeout(100)
+    assert page.locator("canvas").first.screenshot() != before
+    assert page.evaluate(f"{MOTION}.time") == 0
+    page.keyboard.press("Space")
+    page.wait_for_function(f"{MOTION}.time > 0")
+
+
+@pytest.mark.dist
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_on_a_phone_by_night(scheme, pages, opened):
+    page = opened(pages("top", "fr"), 390, color_scheme=scheme, has_touch=True)
+    page.wait_for_timeout(100)
+    assert page.evaluate("document.documentElement.scrollWidth") == 390
+    assert page.locator("canvas").first.bounding_box()["height"] > 300
+    assert min(page.evaluate(INK)) > 0.002
+    sizes = page.evaluate(
+        '[...document.querySelectorAll(".controls button")].map((b) => b.offsetHeight)'
+    )
+    assert min(sizes) >= 44
+    colour = page.evaluate("getComputedStyle(document.body).backgroundColor")
+    assert (sum(map(int, re.findall(r"\d+", colour))) > 380) == (scheme == "light")
+    assert "t = 0,00" in page.locator(".clock").inner_text()
+
+
+@pytest.mark.dist
+def test_it_plays_by_itself_where_motion_is_welcome(pages, opened):
+    page = opened(pages("two_tops"), reduced_motion="no-preference")
+    page.wait_for_function(f"{MOTION}.time > 0.2")
+
+
+@pytest.mark.dist
+def test_a_collision_is_told(opened):
+    at_rest = dict.fromkeys(("T_1", "w_2", "zeta_3"), 0.0)  # about the centre, to which they fall
+    page = opened(derive.derive("comet").motion_page(1.0, start=at_rest))
+    page.evaluate(f"{MOTION}.seek(1)")
+    page.wait_for_function('document.querySelector(".message").textContent.includes("collision")')
+
+
+@pytest.mark.dist
+def test_texts_of_a_stranger_are_shown_as_text(hostile, opened):
+    page = opened(hostile)
+    assert BAD in page.locator('[data-name="a"]').inner_text()
+    assert page.locator("h1").inner_text() == BAD
+    assert page.locator("img").count() == 0

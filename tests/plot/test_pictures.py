@@ -1,0 +1,328 @@
+"""Pictures of real runs: every kind, the same bytes, and what is refused."""
+
+import importlib
+import json
+from functools import cache
+
+import numpy as np
+import pytest
+
+import derive
+from derive.command.cli import main
+from derive.motion.run import Column, Run
+from derive.motion.run_files import written
+from derive.plot.body_pictures import hull
+from derive.plot.pictures import KINDS, OVERVIEW, PRECISION, plot
+from derive.plot.plot_sheet import FORMATS, PlotError, label, sheet
+from derive.plot.precision import of_runs, table
+from derive.plot.spheroid_pictures import followed, maps, section
+from derive.plot.surfaces import VIEW, projected
+from derive.plot.torus_pictures import vorticity
+from derive.views.language import language
+from tests.support.flows import emitted, flow
+from tests.support.needs import needs
+
+pytestmark = needs("the module matplotlib")
+BODY = {"inertia": [[1.0, 0, 0], [0, 1.6, 0], [0, 0, 2.2]]}
+
+
+@cache
+def run_of(problem, end=30.0, rows=400):
+    """A run of the emitted Python by SciPy."""
+    code, times = emitted(problem), np.linspace(0, end, rows)
+    k = code.constants([code.DEFAULTS[x] for x in code.PARAMETERS])
+    group = "SO(3)" if problem == "euler_top" else "SU(5)"
+    if problem == "euler_top":  # about the middle axis, a little off: it flips
+        x = [*np.eye(3).ravel(), 1e-3, 1.0, 1e-3]
+    else:
+        x = np.random.default_rng(1).normal(size=len(code.STATE))
+    states = flow(code, k, x, times)
+    energy = np.array([code.energy(0.0, x, k) for x in states])
+    columns = (Column("t", "time", "s"), *(Column(x, "state") for x in code.STATE))
+    table = np.column_stack([times, states, energy])
+    facts = {"problem": problem, "group": group, "body": BODY}
+    return Run((*columns, Column("energy", "energy", "J")), table, facts)
+
+
+TORUS = 'name = "torus5"\n[algebra]\nof = "torus"\nN = 5\n[inertia]\noperator = "laplacian"\n'
+
+
+STARTING = {"potential": ("top", 0.5), "spheroid": ("riemann_ellipsoid", 1.0), "body": ("sl3", 2.0)}
+
+
+@cache
+def simulated(problem, end):
+    """A run from where the problem starts."""
+    return derive.derive(problem).simulate(end, points=40)
+
+
+def fitting(kind):
+    if kind in STARTING:
+        return simulated(*STARTING[kind])
+    return run_of(TORUS, 2.0, 5) if kind == "vorticity" else run_of("euler_top")
+
+
+@pytest.mark.parametrize("kind", [*KINDS, OVERVIEW])
+def test_every_kind_has_the_same_bytes_twice(kind):
+    for name in (f"a{x}" for x in FORMATS):
+        first = plot(fitting(kind), name, kind)
+        assert first == plot(fitting(kind), name, kind)
+        assert len(first) > 2000
+    assert b"Date" not in plot(fitting(kind), "a.pdf", kind)
+
+
+def test_the_labels_speak_french():
+    found = [plot(run_of("euler_top"), "a.svg", "energy", language(x).word) for x in ("en", "fr")]
+    assert found[0] != found[1]
+
+
+def words_of(run, kind, word=str):
+    """All words of a picture."""
+    figure = sheet(7.5, 3.4)
+    KINDS[kind].draw(figure, run, word)
+    return "\n".join(x.get_text() for x in figure.findobj(lambda x: hasattr(x, "get_text")))
+
+
+def test_the_quantities_speak_french():
+    found = simulated("riemann_ellipsoid", 1.0)
+    assert "circulation in the body 1" in words_of(found, "energy")
+    told = words_of(found, "energy", language("fr").word)
+    assert all(x in told for x in ("circulation dans le corps 1", "moment cinétique 3"))
+
+
+def test_a_fluid_has_units_where_its_problem_has():
+    told = words_of(derive.derive("dirichlet").simulate(0.5, points=20), "spheroid")
+    for words in ("semi-axes [m]", "integral of the pressure [J]", "section y = 0 (space)", "[m]"):
+        assert words in told
+
+
+def test_what_is_exact_is_not_drawn():
+    still = Run(
+        (Column("t", "time"), Column("energy", "energy"), Column("momentum_1", "conserved")),
+        np.array([[0, 1.0, 0], [1, 1 + 1e-15, 0], [2, 1, 0]]),
+    )
+    figure = sheet(6.5, 3.4)
+    KINDS["energy"].draw(figure, still, str)
+    (panel,) = figure.get_axes()
+    drawn = [x for x in panel.get_lines() if len(x.get_xdata())]
+    assert len(drawn) == 1
+    assert np.isnan(drawn[0].get_ydata()).tolist() == [True, False, True]
+    assert "exact: linear momentum 1" in panel.get_legend_handles_labels()[1]
+
+
+def test_a_component_is_held_against_its_vector():
+    names = ("angular_momentum_1", "angular_momentum_2", "integral_1", "integral_2")
+    kept = Run(
+        (Column("t", "time"), *(Column(x, "conserved") for x in names)),
+        np.array([[0, 3e12, 4e12, 5, 100], [1, 3e12, 4e12 + 1, 5.5, 100.5]]),
+    )
+    figure = sheet(6.5, 3.4)
+    KINDS["energy"].draw(figure, kept, str)
+    ends = [x.get_ydata()[-1] for x in figure.get_axes()[0].get_lines() if len(x.get_xdata())]
+    assert ends == pytest.approx([2e-13, 0.1, 0.005], rel=1e-3)
+
+
+def test_the_view_is_a_projection():
+    square = projected(np.eye(3))
+    assert square.T @ square == pytest.approx(np.eye(2))
+    assert projected(VIEW) == pytest.approx(np.zeros(2))
+    assert (label("zeta_1"), label("energy")) == (r"$\zeta_{1}$", "energy")
+
+
+@pytest.mark.parametrize(
+    ("kind", "says"),
+    [
+        ("polhod", "unknown kind 'polhod'; did you mean 'polhode'"),
+        ("precision", "precision is of several runs, derive plot A B …, or of a table; there are"),
+        (
+            "vorticity",
+            "vorticity needs columns re_1_0.*there are state, energy, axes, polhode",
+        ),
+    ],
+)
+def test_a_kind_that_does_not_fit_is_told(kind, says):
+    with pytest.raises(PlotError, match=says):
+        plot(run_of("euler_top"), "a.svg", kind)
+
+
+def test_a_polhode_needs_the_inertia():
+    run = run_of("euler_top")
+    bare = Run(run.columns, run.table, {**run.facts, "body": {}})
+    with pytest.raises(PlotError, match=r"body\.inertia in the facts"):
+        plot(bare, "a.svg", "polhode")
+
+
+def test_the_command(tmp_path, capsys):
+    path, out = tmp_path / "run.npz", tmp_path / "a.svg"
+    path.write_bytes(written(run_of("euler_top"), path.name))
+    assert main(["plot", str(path), "--out", str(out)]) == 0
+    assert out.read_bytes() == plot(run_of("euler_top"), "a.svg")
+    assert main(["plot", str(path), "--out", str(tmp_path / "a.gif")]) == 2
+    assert "must end in .svg, .pdf, .png" in capsys.readouterr().err
+    (tmp_path / "b.npz").write_bytes(b"PK")
+    assert main(["plot", str(tmp_path / "b.npz"), "--out", str(out)]) == 2
+    assert "not a run" in capsys.readouterr().err
+
+
+def test_without_matplotlib_the_remedy_is_told(monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "matplotlib", None)
+    with pytest.raises(PlotError, match="pip install"):
+        plot(run_of("euler_top"), "a.svg")
+
+
+# ---------------------------------------------------------------- what is drawn
+
+
+@pytest.mark.parametrize(("problem", "end"), [("top", 0.5), ("spherical_pendulum", 3.0)])
+def test_the_effective_potential_is_the_energy_where_the_body_turns_back(problem, end):
+    """E = V(u) + u̇²/(2 slope): V is below E on the whole run, and meets it where u̇ = 0."""
+    run = simulated(problem, end)
+    u, V = (np.array(run.facts["potential"][x]) for x in ("u", "V"))
+    height, energy = run[run.facts["potential"]["entry"]], run["energy"][0]
+    there = np.interp(height, u, V)
+    scale = np.ptp(there)
+    assert there[0] == pytest.approx(energy, abs=0.02 * scale) or problem != "top"  # let go at rest
+    assert np.all(there <= energy + 1e-3 * scale)
+    assert np.any(there < energy - 0.3 * scale)
+
+
+def test_the_potential_of_a_symmetric_top_is_the_known_one():
+    run = simulated("lagrange_top", 1.0)
+    p, told = run.facts["parameters"], run.facts["potential"]
+    u, V = np.array(told["u"]), np.array(told["V"])
+    about_space, about_axis = run["angular_momentum_3"][0], run["body_angular_momentum_3"][0]
+    known = p["mgl"] * u + (about_space - about_axis * u) ** 2 / (2 * p["I1"] * (1 - u**2))
+    assert pytest.approx(known + about_axis**2 / (2 * p["I3"]), rel=1e-12) == V
+
+
+def test_two_degrees_of_freedom_have_no_potential():
+    run = simulated("euler_top", 1.0)
+    assert not run.facts["potential"]
+    with pytest.raises(PlotError, match="potential needs one degree of freedom"):
+        plot(run, "a.svg", "potential")
+
+
+def test_a_spectrum_ends_where_rounding_begins():
+    columns = [f"{part}_{n}_0" for n in (1, 2, 3) for part in ("re", "im")]
+    numbers = np.array([[0.0, 3.0, 4.0, 1e-15, 0.0, 0.0, 1e-18]])
+    run = Run((Column("t", "time"), *(Column(x, "state") for x in columns)), numbers, {})
+    figure = importlib.import_module("matplotlib.figure").Figure()
+    vorticity(figure, run, str)
+    (line,) = figure.axes[1].lines
+    assert line.get_xdata().tolist() == [1, 2]
+    assert np.allclose(line.get_ydata(), [2 * 25, 2e-30], rtol=1e-12)
+
+
+def test_the_body_of_a_run_is_that_of_its_parameters():
+    found = derive.derive("sl3").simulate(0.1, start={"x1": 3.0}, points=1).facts["body"]
+    assert found["points"] == [[3, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]]
+    hammer = simulated("hammer", 0.1).facts["body"]
+    handle, head = hammer["solids"]
+    assert (len(handle), len(head)) == (2, 12)
+    p = simulated("hammer", 0.1).facts["parameters"]
+    assert {round(z, 9) for line in handle for *_, z in line} == {p["l"] / 2, -p["l"] / 2}
+
+
+def test_the_section_and_the_axes_of_a_spheroid():
+    run = simulated("riemann_ellipsoid", 1.0)
+    M = maps(run)
+    assert np.linalg.det(M) == pytest.approx(np.ones(len(M)))
+    x, z = section(M[0])
+    assert (x.max(), z.max()) == pytest.approx((1.3, 1 / 1.69), rel=1e-3)
+    t = np.linspace(0, 1, 50)
+    crossing = np.sort(np.stack([1 + t, 2 - t, 0 * t], axis=1), axis=1)[:, ::-1]
+    curves = followed(crossing)
+    assert np.abs(np.diff(curves, 2, axis=0)).max() < 1e-12
+
+
+def test_a_hull():
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5], [0.5, 0], [0, 0]])
+    assert sorted(map(tuple, hull(square))) == [(0, 0), (0, 1), (1, 0), (1, 1)]
+
+
+# ---------------------------------------------------------------- work and precision
+
+
+def runs_of(tmp_path, **chosen):
+    (name, values), *_ = chosen.items()
+    paths = []
+    for value in values:
+        run = derive.derive("euler_top").simulate(20.0, points=1, **{name: value})
+        paths.append(run.save(tmp_path / f"{value}.npz"))
+    return paths
+
+
+def test_a_diagram_of_runs(tmp_path):
+    paths = runs_of(tmp_path, dt=[2.0, 0.25, 1.0])
+    series = of_runs([derive_read(x) for x in paths])
+    assert list(series) == ["gauss, dt"]
+    (_, coarse), (_, fine) = series["gauss, dt"]
+    assert fine < coarse < 1e-4
+    out = [tmp_path / "a.svg", tmp_path / "b.svg"]
+    for x in out:
+        assert main(["plot", *map(str, paths), "--kind", PRECISION, "--out", str(x)]) == 0
+    assert out[0].read_bytes() == out[1].read_bytes()
+
+
+def derive_read(path):
+    from derive.python.simulated import Simulated
+
+    return Simulated.read(path)
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.json"])
+def test_a_diagram_of_a_table(tmp_path, name):
+    rows = [("gauss", 100, 1e-6), ("gauss", 200, 1e-12), ("rk4", 1000, 1e-5)]
+    path = tmp_path / name
+    if name.endswith("json"):
+        keys = ("method", "work", "error")
+        path.write_text(json.dumps([dict(zip(keys, x, strict=True)) for x in rows]))
+    else:
+        path.write_text("method,work,error\n" + "\n".join(",".join(map(str, x)) for x in rows))
+    assert table(path) == {"gauss": [(100, 1e-6), (200, 1e-12)], "rk4": [(1000, 1e-5)]}
+    out = tmp_path / "a.pdf"
+    assert main(["plot", str(path), "--kind", PRECISION, "--out", str(out)]) == 0
+    assert len(out.read_bytes()) > 2000
+
+
+@pytest.mark.parametrize(
+    ("files", "kind", "words"),
+    [
+        ({"a.csv": "method,work\nx,1\n"}, PRECISION, "a.csv: no table of method, work, error"),
+        ({"a.csv": "method,work,error\nx,1,0\n"}, PRECISION, "the last two above 0"),
+        ({"a.csv": "method,work,error\n"}, PRECISION, "a table without rows"),
+        ({"a.json": "1"}, PRECISION, "a.json: no table"),
+        ({}, PRECISION, "No such file"),
+        ({"a.csv": "", "b.csv": ""}, "state", "several runs are for --kind precision"),
+    ],
+)
+def test_what_a_diagram_refuses(tmp_path, capsys, files, kind, words):
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+    paths = [str(tmp_path / x) for x in files or ["a.csv"]]
+    out = tmp_path / "out.svg"
+    assert main(["plot", *paths, "--kind", kind, "--out", str(out)]) == 2
+    err = capsys.readouterr().err
+    assert words in err
+    assert err.count("\n") == 1
+    assert not out.exists()
+
+
+def test_runs_of_two_motions_are_not_compared(tmp_path):
+    runs = [simulated("euler_top", 1.0), simulated("euler_top", 2.0)]
+    with pytest.raises(PlotError, match="runs of one motion"):
+        of_runs(runs)
+
+
+def test_a_run_draws_and_writes_itself(tmp_path):
+    run = simulated("euler_top", 1.0)
+    assert run.plot(tmp_path / "a.svg", "axes").read_bytes() == plot(run, "a.svg", "axes")
+    assert np.array_equal(derive_read(run.save(tmp_path / "run.csv")).table, run.table)
+
+
+def test_the_help_has_every_kind(capsys):
+    with pytest.raises(SystemExit):
+        main(["plot", "--help"])
+    text = " ".join(capsys.readouterr().out.split())
+    for kind in (*KINDS, OVERVIEW, PRECISION):
+        assert f"{kind}: " in text

@@ -1,0 +1,5 @@
+"""Bodies of given moments, in whose files tests write where they start and what they watch."""
+
+BODY = '[body]\ngiven = { m = 1, c = [0, 0, 0], J = [["7/4", 0, 0], [0, 1, 0], [0, 0, "1/4"]] }\n'
+WEIGHT = '[[potential]]\nkind = "gravity"\ng = [0, 0, "-9.81"]\n'
+SPIN = f'name = "spin"\ngroup = "SO(3)"\n[parameters]\nw = 2.0\n{BODY}'

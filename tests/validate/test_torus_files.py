@@ -1,0 +1,227 @@
+"""Emitted files of a fluid on the torus, with loops: equal to the record; no change passes."""
+
+import ctypes
+import itertools
+import math
+import re
+import shutil
+import subprocess
+from fractions import Fraction
+from functools import cache
+from types import ModuleType
+
+import mpmath
+import numpy as np
+import pytest
+
+from derive.code.emit import emit
+from derive.code.options import Options
+from derive.command.cli import main
+from derive.pipeline import program, walk
+from derive.problem.toml import problem_of
+from derive.validate.chart import Chart
+from derive.validate.emission import EmittedFiles
+from derive.validate.terms import CodeError
+from derive.validate.torus.exact_numbers import cosine
+from derive.validate.torus.torus_files import TorusClaims, agreement_of_module, compare_c
+from tests.support.needs import CC, need
+
+SIZES = (3, 5, 7, 9, 11, 13)
+SOME = {"c": 150, "python": 40}
+"""Changes of each file, spread over all of it."""
+TOKEN = re.compile(
+    r"\*\*|[0-9]+\.[0-9]+(?:e-?[0-9]+)?|[0-9]+|[A-Za-z_]\w*|[<>=!]=|[-+*/]=|\+\+|--|\S"
+)
+OTHER = {"+": "-", "-": "+", "+=": "-=", "-=": "+=", "*": "+", "/": "*", "<": "<=", ">": ">="}
+TURNED = (("re", "im"), ("im", "re"), ("even", "odd"), ("W", "P"), ("cosines", "sines"))
+TURNED += (("COSINES", "SINES"), ("SINES", "COSINES"), ("_SUMS", "_ENTRIES"), ("real", "imag"))
+
+
+@cache
+def emission(N, **chosen):
+    algebra, inertia = {"of": "torus", "N": N}, {"operator": "laplacian"}
+    p = problem_of({"name": "fluid", "algebra": algebra, "inertia": inertia})
+    d, options = walk(p), Options(conserved=True, **chosen)
+    compiled = program(p, d, options)
+    return d, compiled, emit(compiled, d, ("c", "python"), "fluid", options)
+
+
+@cache
+def claims(N):
+    d, compiled, _ = emission(N)
+    return TorusClaims(d, "", compiled.numbers())
+
+
+@pytest.mark.parametrize("N", SIZES)
+@pytest.mark.parametrize("chosen", [{}, {"form": "header", "real": "float"}])
+def test_what_is_emitted_equals_the_record(N, chosen):
+    d, compiled, files = emission(N, **chosen)
+    reports = EmittedFiles(files, "fluid", Chart(), compiled.numbers(), fresh=files).reports(d)
+    assert len(reports) == 2
+    for report in reports:
+        assert report.holds, report.text
+        assert "constants, rhs, energy, conserved" in report.text
+        assert "1 exact point;" in report.text
+    assert "rhs_batch" in reports[0].text
+
+
+def held(N, name, text):
+    """Holds one changed text against the record; ``CodeError`` where it differs."""
+    if name.endswith(".py"):
+        agreement_of_module(run(text), claims(N))
+    else:
+        compare_c(name, emission(N)[2] | {name: text}, "fluid", claims(N))
+
+
+def changes(text, begin, end):
+    """(kind, changed text) for the tokens between two places, comments apart."""
+    blank = re.compile(r'/\*.*?\*/|"""[^"]*"""|^ *#[^\n]*|\(void\)\w+;|"[^"]*"', re.S | re.M)
+    plain = blank.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text)
+    for m in TOKEN.finditer(plain, begin, end):
+        token, (a, b) = m[0], m.span()
+        for new in replaced(token):
+            yield ("number" if "." in token else "other"), text[:a] + new + text[b:]
+
+
+def replaced(token):
+    if token in OTHER:
+        yield OTHER[token]
+    elif "." in token and len(token) > 1:
+        yield repr(math.nextafter(float(token), 9.0)) if float(token) else "0.5"
+    elif token.isdigit():
+        yield str(int(token) + 1)
+    else:
+        for old, new in TURNED:
+            parts = token.split("_")
+            if old in parts or token == old:
+                yield new if token == old else "_".join(new if x == old else x for x in parts)
+                break
+
+
+@pytest.mark.parametrize("N", [5, 7, 11])
+def test_no_change_of_c_passes(N, tmp_path):
+    need("cc")
+    text = emission(N)[2]["fluid.c"]
+    found = [*changes(text, text.index("};", text.index("_state_names")), len(text))]
+    taken = found[:: max(1, len(found) // SOME["c"])]
+    assert {kind for kind, _ in taken} == {"number", "other"}
+    same = 0
+    for i, (_, changed) in enumerate(taken):
+        try:
+            held(N, "fluid.c", changed)
+        except CodeError:
+            continue
+        here, there = (meaning(N, x, tmp_path / f"{i}{k}") for k, x in enumerate((text, changed)))
+        assert np.array_equal(here, there), difference(text, changed)
+        same += 1
+    assert same < len(taken) / 5
+
+
+def test_no_change_of_python_passes():
+    N, same = 9, 0
+    text = emission(N)[2]["fluid.py"]
+    found = [*changes(text, text.index("COSINES"), text.index("def _named("))]
+    taken = found[:: max(1, len(found) // SOME["python"])]
+    x = np.random.default_rng(1).normal(size=(2, N * N - 1))
+
+    def meant(text):
+        m = run(text)
+        k = m.constants([])
+        return [z for f in (m.rhs, m.energy, m.conserved) for z in f(0.0, x, k).ravel()]
+
+    for _, changed in taken:
+        try:
+            held(N, "fluid.py", changed)
+        except (ArithmeticError, LookupError, NameError, SyntaxError, TypeError, ValueError):
+            continue
+        assert np.array_equal(meant(changed), meant(text)), difference(text, changed)
+        same += 1
+    assert same < len(taken) / 5
+
+
+def run(text):
+    module = ModuleType("changed")
+    exec(compile(text, "changed", "exec"), module.__dict__)
+    return module
+
+
+def difference(text, changed):
+    pairs = itertools.zip_longest(text.split("\n"), changed.split("\n"))
+    return next(pair for pair in pairs if pair[0] != pair[1])
+
+
+def meaning(N, text, folder):
+    """The numbers of the functions, compiled."""
+    folder.mkdir()
+    (folder / "fluid.h").write_text(emission(N)[2]["fluid.h"], encoding="utf-8")
+    (folder / "fluid.c").write_text(text, encoding="utf-8")
+    library = folder / "fluid.so"
+    subprocess.run(
+        [CC, "-O1", "-shared", "-fPIC", "-o", library, folder / "fluid.c", "-lm"], check=True
+    )
+    c = ctypes.CDLL(str(library))
+    c.fluid_energy.restype = ctypes.c_double
+    t, x = ctypes.c_double(0), np.random.default_rng(1).normal(size=(N * N - 1))
+    k, dx, out = np.zeros(99), np.zeros_like(x), np.zeros(3)
+    x, k_, dx_, out_ = (y.ctypes.data_as(ctypes.c_void_p) for y in (x, k, dx, out))
+    c.fluid_constants(k_, k_)
+    c.fluid_rhs(t, x, k_, k_, dx_)
+    c.fluid_conserved(t, x, k_, out_)
+    shutil.rmtree(folder)
+    return [*dx, *out, c.fluid_energy(t, x, k_)]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("W_re, W_im);", "W_im, W_re);", "differs from the record's"),
+        ("re[j] = 0;", "", "no value"),
+        ("sums[d][s][0] += row_re", "sums[d][s][2] += row_re", "no value"),
+        ("j < 12; ++j) {\n        re[j]", "j < 13; ++j) {\n        re[j]", "outside of an array"),
+        ("++r", "--r", "not known here"),
+        ("d > 0 ? -5 : 1", "x[0] > 0 ? -5 : 1", "not known here"),
+        ("second/11", "second/12", "trace_2 differs"),
+        ("i*n + s] = rate[i]", "s*n + i] = rate[i]", "rhs_batch"),
+        ("return total;", "return total*t;", "the energy differs"),
+        ("column < r ? column - r + 11", "column < r ? (column - r) % 11", "negative"),
+        ("double total = 0;", "double total;", "not known here"),
+        ("double W_re[11][12], W_im[11]", "double W_re[11][13], W_im[11]", "not known here"),
+    ],
+)
+def test_what_is_wrong_is_said(old, new, said):
+    text = emission(11)[2]["fluid.c"]
+    assert old in text
+    with pytest.raises(CodeError, match=said):
+        held(11, "fluid.c", text.replace(old, new))
+
+
+def test_python_that_is_not_emitted_is_not_run():
+    d, compiled, files = emission(7)
+    changed = files | {"fluid.py": "raise SystemExit\n" + files["fluid.py"]}
+    for fresh in (files, None):
+        found = EmittedFiles(changed, "fluid", Chart(), compiled.numbers(), fresh=fresh).reports(d)
+        assert [r.holds for r in found] == [True, False]
+        assert "it is not what is emitted, and so it is not run" in found[1].text
+
+
+def test_the_command(tmp_path, capsys):
+    path = tmp_path / "fluid.toml"
+    path.write_text(
+        'name = "fluid"\n[algebra]\nof = "torus"\nN = 7\n[inertia]\noperator = "laplacian"\n',
+        encoding="utf-8",
+    )
+    out = ["emit", str(path), "--out", str(tmp_path), "--validate"]
+    assert main(out) == 0
+    assert capsys.readouterr().err.count("equal the record") == 2
+    c = tmp_path / "fluid.c"
+    c.write_text(c.read_text(encoding="utf-8").replace("a*c - b*d", "a*c + b*d"), encoding="utf-8")
+    assert main([*out, "--check"]) == 1
+    assert "DIFFERS: rhs" in capsys.readouterr().err
+
+
+def test_cosines_are_those_of_another_library():
+    with mpmath.workdps(60):
+        for k in range(-7, 15):
+            turns = mpmath.cos(2 * mpmath.pi * k / 11)
+            found = cosine(Fraction(k, 11))
+            assert abs(mpmath.mpf(found.numerator) / found.denominator - turns) < 1e-50

@@ -1,0 +1,91 @@
+"""A fluid in every view: which accelerations its equations hold for, its letters, references."""
+
+import re
+
+import pytest
+
+from derive.printing.escape import markdown_text, prose
+from derive.views.language import entries
+from derive.views.outline import assumed, moving
+from derive.views.rendering import FORMATS, notes, render
+from tests.support.walks import FLUIDS, record
+
+ON_MOTIONS = {"circulation": 1, "kelvin": 2}
+"""Of the equations that say something of the acceleration, how many hold on motions alone."""
+EVERY = {"en": "for every", "fr": "pour tout"}
+ALONG = {"en": "along the motion", "fr": "le long du mouvement"}
+
+CLAUSES = {
+    "text": re.compile(r"(?m)^ {6}.*\S  (\w.*)$"),
+    "latex": re.compile(r"\\text\{([^}]*)\}"),
+    "markdown": re.compile(r"\\text\{([^}]*)\}"),
+    "html": re.compile("<mtext>([^<]*)</mtext>"),
+}
+"""Format → what stands at the end of an equation."""
+
+
+@pytest.mark.parametrize("name", FLUIDS)
+def test_which_equations_hold_along_the_motion_alone(name):
+    for step in record(name).steps:
+        short = step.label.removeprefix(f"{name}.")
+        found = moving(step.equations)
+        assert len(found) == ON_MOTIONS.get(short, 0), step.label
+        assert not any(e.for_all for e in found)
+        free = any("u̇" in e.for_all or "ν̇" in e.for_all for e in step.equations)
+        assert ("for any acceleration" in assumed(step)) == (free and not found), step.label
+
+
+@pytest.mark.parametrize("lang", EVERY)
+@pytest.mark.parametrize("form", [x for x in FORMATS if x != "json"])
+def test_every_view_says_it_beside_the_equation(form, lang):
+    d = record("inhomogeneous_fluid")
+    for short, others in ON_MOTIONS.items():
+        shown = render(d, form, lang, steps=[d[short]])
+        clauses = [x.replace("\u00a0", " ").strip() for x in CLAUSES[form].findall(shown)]
+        free = sum(bool(e.for_all) for e in d[short].equations)
+        assert sum(x.startswith(EVERY[lang]) for x in clauses) == free
+        assert clauses.count(ALONG[lang]) == others
+        assert "any acceleration" not in shown
+        assert "accélération quelconque" not in shown
+
+
+@pytest.mark.parametrize("lang", ["en", "fr"])
+@pytest.mark.parametrize("escape", [None, markdown_text])
+def test_no_index_is_left_outside_a_formula(escape, lang):
+    shown = [prose(x[lang], *filter(None, [escape])) for x in entries() if "$" not in x["en"]]
+    assert [x for x in shown if r"\_" in x] == []
+
+
+@pytest.mark.parametrize(
+    ("words", "shown"),
+    [
+        ("So (G, ∇_η) is", r"So $(G, \nabla_{\eta})$ is"),
+        ("∇_η and ∇_η′ for ξ", r"$\nabla_{\eta}$ and $\nabla_{\eta'}$ for $\xi$"),
+        ("of ⟨a, b⟩ along η", r"of $\langle a, b\rangle$ along $\eta$"),
+        ("of div u, 0", r"of $\operatorname{div} u$, 0"),
+        ("and Ric(u, u) is", r"and $\operatorname{Ric}(u, u)$ is"),
+        ("as κ > 0 is", r"as $\kappa > 0$ is"),
+        ("to g(r), and", r"to $g(r)$, and"),
+        ("the words grad and div.", "the words grad and div."),
+        ("the point(s) of it", "the point(s) of it"),
+    ],
+)
+def test_formulas_of_sentences(words, shown):
+    assert prose(words) == shown
+
+
+def test_a_page_parts_no_formula_from_what_stands_beside_it():
+    page = notes([record("ideal_fluid")], ".html")
+    math = "<math>(?:(?!</math>).)*</math>"
+    sentence = re.search("which contributes (.*?) By the", page)[1]
+    assert re.fullmatch(f'<span class="kept">{math}[.]</span>', sentence)
+
+
+@pytest.mark.parametrize("ending", [".tex", ".html"])
+def test_notes_of_fluids_alone_have_no_matrices(ending):
+    found = notes([record(x) for x in FLUIDS], ending, "fr")
+    assert "Topological Methods in Hydrodynamics" in found
+    assert "pmatrix" not in found
+    assert "F̃" not in found
+    assert r"\xi = g^{-1}" not in found
+    assert "Topological" not in notes([record("so3")], ending)

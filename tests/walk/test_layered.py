@@ -1,0 +1,245 @@
+"""Ellipsoids in layers, and turned ones: moments by quadrature, Euler's equation at points.
+
+The density is a Python function of s = <r, Q r>; its integrals here are Gauss's sums.
+"""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+import derive
+from derive import Harmonic, Problem, Solid
+from derive.check.checker import Checker
+from derive.language.values import approximate
+from derive.problem.problem import ProblemError
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
+from derive.record.record import RecordError
+from derive.record.sentence import english
+from tests.support.emitted import arrange, import_python
+from tests.support.record_mutations import tried
+from tests.support.walks import SEED
+from tests.walk.test_dirichlet import FULL, WELL, flight, labels, start, unpacked, volume
+
+RHO, SLOPE = 1.7, 0.4
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)
+NODES, WEIGHTS = (NODES + 1) / 2, WEIGHTS / 2
+TURN = {"axis": [1, 2, 3], "angle": "phi"}
+
+
+def density(s):
+    return RHO * (1 - SLOPE * s) ** 2 / 2 + s**3
+
+
+TEXT = "rho*(1 - q*s)^2/2 + s^3"
+VALUES = {"rho": RHO, "q": SLOPE}
+
+
+def rotation(axis, angle):
+    x, y, z = np.array(axis) / np.linalg.norm(axis)
+    j = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + math.sin(angle) * j + (1 - math.cos(angle)) * j @ j
+
+
+def above(s):
+    """The integral of the density from s to 1."""
+    return (1 - s) * np.sum(WEIGHTS * density(s + (1 - s) * NODES))
+
+
+def over(f, n, Q):
+    """The integral of f(<x, Q x>) over the ellipsoid, by shells."""
+    return volume(Q) * n * np.sum(WEIGHTS * NODES ** (n - 1) * [f(t * t) for t in NODES])
+
+
+def body(n, Q):
+    return Solid("ellipsoid", TEXT, quadric=np.asarray(Q).tolist())
+
+
+def numbers(problem):
+    """m, c, J at the defaults."""
+    given, names = problem.body.given, {x: p.default for x, p in problem.parameters.items()}
+    c, *J = ([approximate(x, names) for x in row] for row in (given.c, *given.J))
+    return approximate(given.m, names), np.array(c), np.array(J)
+
+
+@pytest.mark.parametrize("n", [2, 3, 4])
+def test_moments_by_shells(n):
+    Q = np.eye(n) + 0.2 * np.ones((n, n))
+    m, c, J = numbers(Problem("b", f"SL({n})", body(n, Q), parameters=VALUES))
+    assert m == pytest.approx(over(density, n, Q), rel=1e-13)
+    wanted = over(lambda s: s * density(s), n, Q) / n * np.linalg.inv(Q)
+    assert np.max(np.abs(c)) == 0
+    assert pytest.approx(wanted, rel=1e-12) == J
+
+
+def test_moments_of_a_turned_and_shifted_one_in_a_mixture():
+    """Beside sums over points in it, on shells and directions."""
+    axes, shift = np.array([1.3, 1.0, 0.7]), np.array([0.2, -0.1, 0.4])
+    solid = Solid("ellipsoid", TEXT, semi_axes=axes.tolist(), rotation=TURN, shift=shift.tolist())
+    whole = solid + Solid("ball", "2*(1 - s)", radius=0.5)
+    values = VALUES | {"phi": 0.6}
+    m, c, J = numbers(Problem("b", "SAff(3)", whole, parameters=values))
+    z, w = np.polynomial.legendre.leggauss(6)
+    around = np.arange(12) * np.pi / 6
+    n = np.array([[math.sqrt(1 - x * x) * math.cos(p), math.sqrt(1 - x * x) * math.sin(p), x]
+                  for x in z for p in around])  # fmt: skip
+    total = np.zeros((4, 4))
+    for turned, size, at, f in (
+        (rotation([1, 2, 3], 0.6), axes, shift, density),
+        (np.eye(3), np.full(3, 0.5), np.zeros(3), lambda s: 2 * (1 - s)),
+    ):
+        for t, wt in zip(NODES, WEIGHTS, strict=True):
+            r = np.hstack([(t * n * size) @ turned.T + at, np.ones((len(n), 1))])
+            share = np.repeat(w, 12) / 24 * 4 * np.pi * t * t * wt * size.prod() * f(t * t)
+            total += (r * share[:, None]).T @ r
+    assert m == pytest.approx(total[3, 3], rel=1e-13)
+    assert c == pytest.approx(total[:3, 3], abs=1e-13)
+    assert pytest.approx(total[:3, :3], abs=1e-13) == J
+
+
+@pytest.mark.parametrize(
+    ("n", "forced", "kind"),
+    [(2, True, "quadric"), (3, False, "quadric"), (3, True, "turned"), (4, True, "quadric")],
+)
+def test_eulers_equation_in_layers(n, forced, kind, tmp_path):
+    """rho(s)(acceleration + W x) = -grad p at places of any layer, along a trajectory, for p =
+    theta/(2 kappa) times the integral of rho from s to 1, and theta the integral of p."""
+    rng = np.random.default_rng(n)
+    Q = np.eye(n) + 0.2 * np.ones((n, n)) if n == 4 else FULL[:n, :n]
+    W = np.eye(n) if n == 4 else WELL[:n, :n]
+    solid, values = body(n, Q), dict(VALUES)
+    if kind == "turned":
+        R = rotation(TURN["axis"], 0.6)
+        Q = R @ np.diag(1 / np.array([1.3, 1.0, 0.7]) ** 2) @ R.T
+        solid = Solid("ellipsoid", TEXT, semi_axes=[1.3, 1.0, 0.7], rotation=TURN)
+        values["phi"] = 0.6
+    problem = Problem("fluid", f"SL({n})", solid, [Harmonic(W.tolist())] * forced,
+                      parameters=values)  # fmt: skip
+    derive.derive(problem).emit(tmp_path, ["python"], multiplier=True)
+    m = import_python("fluid", tmp_path)
+    k = m.constants(arrange(m, values))
+    A, Z = start(n, rng)
+    A[0] *= np.sign(np.linalg.det(A))
+    kappa = over(above, n, Q) / 2
+    for x in flight(m, k, A, Z, [0, 0.2, 0.4]):
+        A, Z, force = unpacked(m, n, x, m.rhs(0.0, x, k))
+        back, theta = np.linalg.inv(A), m.multiplier(0.0, x, k)
+        assert over(lambda s: theta / (2 * kappa) * above(s), n, Q) == pytest.approx(theta)  # noqa: B023
+
+        def pressure(y, back=back, theta=theta):
+            r = back @ y
+            return theta / (2 * kappa) * above(r @ Q @ r)
+
+        for _ in range(4):
+            r = rng.normal(size=n)
+            r *= rng.uniform(0.2, 0.9) / math.sqrt(r @ Q @ r)
+            place, h = A @ r, 1e-3
+            slope = [
+                (8 * (pressure(place + h * e) - pressure(place - h * e))
+                 - pressure(place + 2 * h * e) + pressure(place - 2 * h * e)) / (12 * h)
+                for e in np.eye(n)
+            ]  # fmt: skip
+            moved = density(r @ Q @ r) * (force @ r + forced * W @ place)
+            assert np.max(np.abs(moved + slope)) < 1e-8 * (1 + np.max(np.abs(moved)))
+
+
+def layered(density=TEXT, parameters=VALUES, kind="ball", **sizes):
+    return Problem("b", "SL(3)", Solid(kind, density, **(sizes or {"radius": 1})),
+                   parameters=parameters)  # fmt: skip
+
+
+def test_a_level_that_cancels():
+    """rho(1 + s) - rho s has the moments of rho."""
+    uniform = numbers(layered("rho", {"rho": RHO}))
+    for found, wanted in zip(numbers(layered("rho*(1 + s) - rho*s", {"rho": RHO})), uniform):  # noqa: B905
+        assert np.max(np.abs(found - wanted)) < 1e-14
+
+
+def test_what_is_claimed_of_turned_and_shifted_ones():
+    told = {"quadric", "pressure", "total", "virial"}
+    axes = {"semi_axes": [1, 2, 3], "rotation": {"axis": [1, 2, 2], "angle": 0.7}}
+    for density in (2, "2 - s"):
+        turned = Solid("ellipsoid", density, **axes)
+        assert told & {*labels(Problem("b", "SL(3)", turned))} == told - {"virial"}
+        still = Solid("ellipsoid", density, **axes, shift=[0, 0, 0])
+        assert told & {*labels(Problem("b", "SL(3)", still))} == told - {"virial"}
+        moved = Solid("ellipsoid", density, **axes, shift=[0, 0, 1])
+        record = derive.derive(Problem("b", "SL(3)", moved)).record
+        assert told & {s.label.split(".")[1] for s in record.steps} == {"virial"}
+        (virial,) = (s for s in record.steps if s.label == "b.virial")
+        assert "whose centre is the fixed point" in english(virial.prose)
+
+
+TURNED = Problem("turned", "SL(3)", Solid("ellipsoid", "rho", semi_axes=["a", 1, 2],
+                 rotation={"axis": [0, 0, 1], "angle": "phi"}),
+                 parameters={"rho": 1, "a": 2, "phi": 0.3})  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "problem",
+    [layered(), Problem("plane", "SL(2)", body(2, FULL[:2, :2]), [Harmonic(WELL[:2, :2].tolist())],
+                        parameters=VALUES), TURNED],
+)  # fmt: skip
+def test_every_corruption_is_refused(problem):
+    record = derive.derive(problem).record
+    checker, told = Checker(record.problem, SEED), {"quadric", "pressure", "total"}
+    assert all(checker.check(step).holds for step in record.steps)
+    count = 0
+    for step in record.steps:
+        if step.label.split(".")[1] in told:
+            for kind, wrong, verdict in tried(step, checker):
+                count += 1
+                assert not verdict.holds, (kind, wrong)
+    assert count > 30
+
+
+def test_another_density_in_the_record_is_refused():
+    """The moments and the density are held together."""
+    record = derive.derive(layered("2 - s", {})).record
+    changed = json.loads(to_json(record))
+    density = changed["problem"]["body"]["solids"][0]["density"]
+    assert "s_r" in json.dumps(density)
+    changed["problem"]["body"]["solids"][0]["density"] = 2
+    verdict = Checker(from_json(json.dumps(changed)).problem, SEED).check(record.steps[-1])
+    assert "not those of its solids" in str(verdict)
+
+
+@pytest.mark.parametrize(
+    ("kind", "wrong"),
+    [("box", "s_r"), ("ball", ["fun", "sin", "s_r"]), ("ball", ["div", 1, "s_r"])],
+)
+def test_strangers_densities(kind, wrong):
+    sizes = {"box": {"sides": [1, 2, 3]}, "ball": {"radius": 1}}[kind]
+    data = json.loads(to_json(derive.derive(layered(2, {}, kind, **sizes)).record))
+    data["problem"]["body"]["solids"][0]["density"] = wrong
+    with pytest.raises(RecordError, match="density: expected a polynomial in the level"):
+        from_json(json.dumps(data))
+
+
+@pytest.mark.parametrize(
+    ("density", "parameters", "told"),
+    [
+        ("1 - s", {"s": 1}, "solid 1, density: 's' is the level .* and a parameter as well"),
+        ("-1 - s", {}, "body: the mass is negative; correct it"),
+        ("1 - 2*s", {}, "body: the mass is negative"),
+        ("1 - 3*s/2", {}, "ball at the level s = 43/64, though not at 21/32, is negative"),
+        ("a*s - 1/5", {"a": 1}, "density of the ball at the level s = 0 is negative"),
+        ("sin(s)", {}, "solid 1, density: no polynomial in 's'"),
+        ("1/(1 + s)", {}, "solid 1, density: no polynomial in 's'"),
+        ("s^17", {}, "solid 1, density: of degree 17 in 's'; at most 16"),
+        ("1 - t*s", {}, "'t'"),
+    ],
+)
+def test_bad_densities(density, parameters, told):
+    with pytest.raises(ProblemError, match=told):
+        layered(density, parameters)
+
+
+def test_levels_are_of_ellipsoids():
+    with pytest.raises(ProblemError, match=r"'s' is the level .* of a box the density is the same"):
+        layered("1 - s", {}, "box", sides=[1, 2, 3])
+    assert numbers(layered("s", {"s": 2.0}, "box", sides=[1, 2, 3]))[0] == 12
+    with pytest.raises(ProblemError, match="of a homogeneous ellipsoid"):
+        Problem("b", "SL(3)", Solid("ball", "2 - s", radius=1), [derive.SelfGravity(1)])
