@@ -435,6 +435,7 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
     """The program of a problem; in its principal frame that is the program of another problem."""
     from .code.assemble import assemble
     from .code.events import watched
+    from .code.excluded_options import require_written
 
     on_torus = problem.torus is not None
     events = watched(problem.name, problem.events, options, on_torus=on_torus) if options else ()
@@ -449,5 +450,10 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
         )
     if options is None or options.frame == "given":
         kept = conserved_quantities(problem, record) if options and options.conserved else None
-        return assemble(record, problem.group, options, kept=kept, events=events)
+        stepped = None
+        if options and "discrete" in options.step:
+            require_written(record, problem.group, options)
+            stepped = discrete(problem)
+        own = {"kept": kept, "events": events, "discrete": stepped}
+        return assemble(record, problem.group, options, **own)
     return assemble(record, problem.group, options, walk(principal(problem)))

@@ -30,7 +30,7 @@ from .program import EmittedFunction, Framing, KeptByGauss, LoweringError, Progr
 from .reader import RecordReader
 from .rewrite import reachable
 from .schedule import Scheduler, frontier
-from .step import discrete_step
+from .step.discrete_step import STEPPING, Lowered, lowered
 from .step.kept_by_gauss import kept_by_gauss
 from .titles import titles
 
@@ -58,12 +58,14 @@ def assemble(
     framed: Derivation | None = None,
     kept: Mapping[str, Tree] | None = None,
     events: Sequence[Event] = (),
+    discrete: Derivation | None = None,
 ) -> Program:
     """The program of a record; ``LoweringError`` when the record has no solved equations.
 
     ``framed``: the record of the problem in its principal frame, if the code is to be in that.
     ``kept``: what the motion keeps, by names, as :mod:`derive.code.kept` takes it.
     ``events``: what is watched on a motion.
+    ``discrete``: the record of the discrete motion, where its step is wanted.
     """
     chosen = options or Options()
     require_written(d, group, chosen)
@@ -73,6 +75,9 @@ def assemble(
         old = Lowering(d, group, chosen, lowering.graph).reader
         frame = PrincipalFrame(framed.problem["frame"], old, chosen.attitude == "quaternion")
     wanted, momenta = _of_state(lowering, chosen, kept or {}, events)
+    stepped = lowered(lowering, discrete) if discrete else None
+    if stepped:
+        wanted |= {x: factored(lowering.graph, y) for x, y in stepped.functions.items()}
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
         wanted |= _inertia(frame.old) | frame_changes(frame, lowering.reader)
@@ -80,7 +85,7 @@ def assemble(
     checks += frame.regular if frame else []
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
     parameters = _used_parameters(d, found, chosen)
-    given = wanted, checks, parameters, frame, momenta
+    given = wanted, checks, parameters, frame, momenta, stepped
     functions, constants, framing = _functions(lowering, chosen, *given)
     return Program(
         d.name,
@@ -108,7 +113,7 @@ def assemble(
         momenta.names if momenta else (),
         momenta.size if momenta else 0,
         mass_fault=lowering.inverses.mass_fault,
-        discrete=discrete_step.discrete_step(d, group, chosen),
+        discrete=stepped.step if stepped else None,
     )
 
 
@@ -128,10 +133,8 @@ def _of_state(
 def _added(
     lowering: Lowering, momenta: MomentumState | None, kept: Mapping[str, Tree]
 ) -> dict[str, list[Node]]:
-    """Name → outputs of the functions in momenta, of θ, of the discrete step, and of what is
-    kept."""
+    """Name → outputs of the functions in momenta, of θ, and of what is kept."""
     found = {**momenta.wanted} if momenta else {}
-    found |= discrete_step.functions(lowering)
     if lowering.reader.options.multiplier:
         found["multiplier"] = [lowering.reader.number("θ")]
     if kept:
@@ -167,6 +170,7 @@ def _functions(
     parameters: Sequence[str],
     frame: PrincipalFrame | None,
     momenta: MomentumState | None,
+    stepped: Lowered | None,
 ) -> tuple[dict[str, EmittedFunction], list[str], Framing | None]:
     """The program's functions by name, the names of the entries of ``k``, and the functions that
     find the principal frame where there is one."""
@@ -176,7 +180,8 @@ def _functions(
     for kind, members in (("state", state), ("input", inputs)):
         for name in members:
             names.claim(name, f"{kind} {name}")
-    scheduler = Scheduler(names, _equations(lowering.record) | TEXTS)
+    texts = _equations(lowering.record) | TEXTS
+    scheduler = Scheduler(names, texts | (_equations(stepped.record) if stepped else {}))
     fixed = frontier(x for name in wanted if name != "inertia" for x in wanted[name])
     leaves = [lowering.reader.leaf(x, "parameter") for x in parameters]
     from_p = _leaf_places(names, leaves, "p")
@@ -188,8 +193,12 @@ def _functions(
     moving = _places(lowering.reader, names, state, inputs)
     kept = {x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))}
     by_momenta = momenta.places(moving, names) if momenta else {}
+    of_step = {**moving}
+    for array, numbers in (stepped.leaves if stepped else {}).items():
+        of_step |= _leaf_places(names, numbers, array)
     for name, nodes in wanted.items():
         own = by_momenta if name in OF_Y else moving
+        own = of_step if name.startswith(STEPPING) else own
         places = from_p if name == "inertia" else {**own, **kept}
         functions[name] = scheduler.function(nodes, places)
     functions["rhs"] = replace(functions["rhs"], titles=titles(lowering.reader))

@@ -3,7 +3,8 @@
 Every language loops over them.  Arrays are x, the state; k, the constants; p, the parameters; u,
 the inputs; y, the state with momenta in place of the velocity; dx and dy, the rates; D, a matrix by
 rows: 2N × 2N, or with a column for each input or parameter, N the dimension of the group; out, of
-the size of what is taken, or the Poisson tensor.
+the size of what is taken, or the Poisson tensor; of a discrete step q, h times its momentum, then h,
+z, its unknowns, b, what is computed before these, and s, coordinates of what it turns by.
 """
 
 from __future__ import annotations
@@ -62,6 +63,16 @@ def _matrix(*columns: str) -> Argument:
     return Argument("D", ("2", "ALGEBRA", *columns))
 
 
+ARRAYS = {"q": "LOADED", "b": "BEGUN", "z": "UNKNOWNS", "s": "TURNS"}
+"""The arrays of a discrete step and their sizes."""
+
+Q, B, Z, S = (Argument(name, (size,)) for name, size in ARRAYS.items())
+
+
+def _out(*sizes: str) -> Argument:
+    return Argument("out", sizes)
+
+
 GIVEN, PRINCIPAL = "the frame of the parameters", "the principal frame that k holds"
 THERE, BACK = f"taken from {GIVEN} to {PRINCIPAL}", f"taken from {PRINCIPAL} to {GIVEN}"
 SIGNATURES = (
@@ -81,18 +92,6 @@ SIGNATURES = (
         (T, X, K),
         (Argument("out", ("CONSERVED",)),),
         "what the motion keeps where no input acts, one number for each of its names",
-    ),
-    Signature(
-        "moments",
-        (K,),
-        (Argument("out", ("MOMENTS",)),),
-        "the moments of the body and, where it is there, of its damping, by rows",
-    ),
-    Signature(
-        "from_rest",
-        (T, X, K, U),
-        (Argument("out", ("ALGEBRA",)),),
-        "the rate of the velocity of the body at rest at x",
     ),
     Signature(
         "events",
@@ -143,6 +142,40 @@ SIGNATURES = (
     ),
     Signature("poisson", (T, Y, K), (TENSOR,), "the Poisson tensor at y, by rows"),
     Signature(
+        "step_momentum", (X, K), (_out("MOMENTA"),), "the momentum at x, that a discrete step takes"
+    ),
+    Signature(
+        "step_force", (T, X, K, U), (_out("MOMENTA"),), "what the forces add to it in a unit of time"
+    ),
+    Signature("step_velocity", (X, K, Q), (_out("ALGEBRA"),), "the velocity of a momentum q"),
+    Signature(
+        "step_guess",
+        (X, K, Q),
+        (_out("TURNS"),),
+        "about what a discrete step of h times the momentum, q, turns by",
+    ),
+    Signature(
+        "step_begin", (X, K, Q), (_out("BEGUN"),), "what a discrete step needs of x and q alone"
+    ),
+    Signature(
+        "step_newton",
+        (X, K, B, Q, Z),
+        (_out("CORRECTED"),),
+        "Newton's step for a discrete step z: what is to be taken away, and the determinant",
+    ),
+    Signature(
+        "step_turn", (Z, S), (_out("UNKNOWNS"),), "a discrete step z and a turn by s after it"
+    ),
+    Signature(
+        "step_turn_little", (Z, S), (_out("UNKNOWNS"),), "the same for an s of at most 1e-4"
+    ),
+    Signature(
+        "step_end",
+        (X, K, Q, Z),
+        (_out("MOVED"),),
+        "what a discrete step z adds to the element of x, and h times the momentum after it",
+    ),
+    Signature(
         "inertia",
         (P,),
         (Argument("I", ("6",)),),
@@ -169,7 +202,7 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         "EVENTS": len(p.events),
         "ALGEBRA": p.dimension,
         "REDUCED": p.reduced,
-        "MOMENTS": len(p.functions["moments"].outputs) if "moments" in p.functions else 0,
+        **stepped(p),
         "2": 2,
         "6": 6,
     }
@@ -181,6 +214,22 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         s.name: _function(s, f, sizes) | (told if s.name == "energy" else {})
         for s, f in found.items()
         if f and s.only in own
+    }
+
+
+def stepped(p: Program) -> dict[str, int]:
+    """The sizes of the arrays of a discrete step."""
+    d = p.discrete
+    if d is None:
+        return dict.fromkeys(("MOMENTA", "LOADED", "BEGUN", "UNKNOWNS", "TURNS", "CORRECTED", "MOVED"), 0)
+    return {
+        "MOMENTA": d.momenta,
+        "LOADED": d.momenta + 1,
+        "BEGUN": d.begun,
+        "UNKNOWNS": d.unknowns,
+        "TURNS": d.turns,
+        "CORRECTED": d.turns + 1,
+        "MOVED": d.group + d.momenta,
     }
 
 
