@@ -454,6 +454,5 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
         if options and "discrete" in options.step:
             require_written(record, problem.group, options)
             stepped = discrete(problem)
-        own = {"kept": kept, "events": events, "discrete": stepped}
-        return assemble(record, problem.group, options, **own)
+        return assemble(record, problem.group, options, kept=kept, events=events, discrete=stepped)
     return assemble(record, problem.group, options, walk(principal(problem)))

@@ -194,8 +194,8 @@ def _functions(
     kept = {x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))}
     by_momenta = momenta.places(moving, names) if momenta else {}
     of_step = {**moving}
-    for array, numbers in (stepped.leaves if stepped else {}).items():
-        of_step |= _leaf_places(names, numbers, array)
+    for array, read_by_it in (stepped.leaves if stepped else {}).items():
+        of_step |= _leaf_places(names, read_by_it, array)
     for name, nodes in wanted.items():
         own = by_momenta if name in OF_Y else moving
         own = of_step if name.startswith(STEPPING) else own

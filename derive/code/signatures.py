@@ -3,8 +3,8 @@
 Every language loops over them.  Arrays are x, the state; k, the constants; p, the parameters; u,
 the inputs; y, the state with momenta in place of the velocity; dx and dy, the rates; D, a matrix by
 rows: 2N × 2N, or with a column for each input or parameter, N the dimension of the group; out, of
-the size of what is taken, or the Poisson tensor; of a discrete step q, h times its momentum, then h,
-z, its unknowns, b, what is computed before these, and s, coordinates of what it turns by.
+the size of what is taken, or the Poisson tensor; of a discrete step q, h times its momentum, then
+h, z, its unknowns, b, what is computed before these, and s, coordinates of what it turns by.
 """
 
 from __future__ import annotations
@@ -145,7 +145,10 @@ SIGNATURES = (
         "step_momentum", (X, K), (_out("MOMENTA"),), "the momentum at x, that a discrete step takes"
     ),
     Signature(
-        "step_force", (T, X, K, U), (_out("MOMENTA"),), "what the forces add to it in a unit of time"
+        "step_force",
+        (T, X, K, U),
+        (_out("MOMENTA"),),
+        "what the forces add to it in a unit of time",
     ),
     Signature("step_velocity", (X, K, Q), (_out("ALGEBRA"),), "the velocity of a momentum q"),
     Signature(
@@ -166,9 +169,7 @@ SIGNATURES = (
     Signature(
         "step_turn", (Z, S), (_out("UNKNOWNS"),), "a discrete step z and a turn by s after it"
     ),
-    Signature(
-        "step_turn_little", (Z, S), (_out("UNKNOWNS"),), "the same for an s of at most 1e-4"
-    ),
+    Signature("step_turn_little", (Z, S), (_out("UNKNOWNS"),), "the same for an s of at most 1e-4"),
     Signature(
         "step_end",
         (X, K, Q, Z),
@@ -202,7 +203,7 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         "EVENTS": len(p.events),
         "ALGEBRA": p.dimension,
         "REDUCED": p.reduced,
-        **stepped(p),
+        **(p.discrete.sizes if p.discrete else {}),
         "2": 2,
         "6": 6,
     }
@@ -214,22 +215,6 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         s.name: _function(s, f, sizes) | (told if s.name == "energy" else {})
         for s, f in found.items()
         if f and s.only in own
-    }
-
-
-def stepped(p: Program) -> dict[str, int]:
-    """The sizes of the arrays of a discrete step."""
-    d = p.discrete
-    if d is None:
-        return dict.fromkeys(("MOMENTA", "LOADED", "BEGUN", "UNKNOWNS", "TURNS", "CORRECTED", "MOVED"), 0)
-    return {
-        "MOMENTA": d.momenta,
-        "LOADED": d.momenta + 1,
-        "BEGUN": d.begun,
-        "UNKNOWNS": d.unknowns,
-        "TURNS": d.turns,
-        "CORRECTED": d.turns + 1,
-        "MOVED": d.group + d.momenta,
     }
 
 

@@ -229,10 +229,26 @@ def test_the_group_is_kept():
 # ---------------------------------------------------------------- what is told
 
 
-@pytest.mark.parametrize("language", ["c", "cpp", "python"])
+@pytest.mark.parametrize("language", ["javascript", "rust"])
+@pytest.mark.parametrize("name", [*KINDS, "SO(3)", "SL(3)", "GL(3)", "SE(3)"])
+def test_other_languages_move_as_c(name, language, tmp_path):
+    """Of each kind, there and back, and within a step."""
+    f, own = compiled(name, 4), walked(name).problem.name
+    walked(name).emit(tmp_path, ("c", language), own, step="discrete", order=4)
+    commands = [("discrete", 0.02, 10), ("dense", 0.194, 0), ("discrete", -0.01, 10)]
+    commands += [("dense", 0.11, 0)]
+    given = commands, start(f), f._in_use().p, f.u
+    for x, y in zip(*(follow(z, tmp_path, own, *given) for z in (language, "c")), strict=True):
+        assert (x.status, y.status) == (0, 0)
+        assert (x.t, x.h) == (y.t, y.h)
+        assert np.abs(x.x - y.x).max() < 1e-13 * np.abs(y.x).max()
+
+
+@pytest.mark.parametrize("language", ["c", "cpp", "python", "javascript", "rust"])
 def test_a_step_without_solution_is_told(language, tmp_path):
     """A ball turns by at most 1 rad h |zeta|: a longer step leaves the motion as it was."""
-    walked("ball").emit(tmp_path, ("c", "cpp", "python"), "ball", step="discrete", order=2)
+    languages = {"cpp": ("c", "cpp")}.get(language, (language,))
+    walked("ball").emit(tmp_path, languages, "ball", step="discrete", order=2)
     x = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0.6, 0, 0.8]
     commands = [("discrete", 0.99, 1), ("discrete", 1.01, 1), ("discrete", 1e3, 3)]
     commands += [("discrete", float("nan"), 1), ("discrete", -0.5, 2)]

@@ -213,8 +213,10 @@ def in_rust(folder, name, flags, real):
             for x, last in called(folder / f"{name}.rs", "pub fn ", numbers, "usize")
         ]
         at_event, event = "", "-1"
+        if "NoSolution" in (folder / f"{name}.rs").read_text():
+            at_event = " Err(code::Stopped::NoSolution) => 5,"
         if watched(folder / f"{name}.rs"):
-            at_event, event = " Err(code::Stopped::AtEvent) => 4,", "m.event"
+            at_event, event = f"{at_event} Err(code::Stopped::AtEvent) => 4,", "m.event"
         more = {"at_event": at_event, "event": event}
         source = RUST.format(name=name, real=numbers, calls="\n".join(calls), **more)
         (folder / "drive.rs").write_text(source)

@@ -15,7 +15,6 @@ from ...language.rational import Matrix
 from ...language.tree import Tree, add, mul, replaced, terms
 from .. import dense
 from ..graph import Node
-from ..reader import Value
 from .discrete_ends import Ends, entries_of, has
 from .discrete_newton import change
 
@@ -51,6 +50,7 @@ class OnBasis:
 
     @property
     def span(self) -> range:
+        """The indices of the basis."""
         return range(1, self.e.group.dimension + 1)
 
     @cached_property
@@ -109,7 +109,7 @@ class OnBasis:
             t = replaced(add(*own), ("at", "E", "a"), ("at", "E", a))
         else:
             t = self._on(a, (x for x in self._balance[0] if not has(x, "g_0", "g_2")))
-        return -e.number(t, h=e.one, **self._forces)
+        return -e.number(t, {"h": e.one, **self._forces})
 
     @cached_property
     def _told(self) -> tuple[Tree, ...]:
@@ -119,10 +119,10 @@ class OnBasis:
         return terms(found.lhs) if has(found.lhs, "E") else ()
 
     @cached_property
-    def _forces(self) -> dict[str, Matrix]:
+    def _forces(self) -> dict[Tree, Matrix]:
         """N̂₁, of N₁ and f₁, which may be 0; its last row is not seen."""
         e, values = self.e, self.e.space.values
-        found = {"N_1": self._shaped("N_1", values["A"])}
+        found: dict[Tree, Matrix] = {"N_1": self._shaped("N_1", values["A"])}
         if e.group.affine:
             f = self._shaped("f_1", values["T"])
             found["N̂_1"] = q.bordered(found["N_1"], f, e.graph.num(0))
@@ -130,7 +130,7 @@ class OnBasis:
 
     def _shaped(self, name: str, like: Matrix) -> Matrix:
         """The value of a name, which may be 0."""
-        found = self.e.value(name, {})
+        found = self.e.value(name)
         return self.e.zero(like) if isinstance(found, Node) else found
 
     def _number(self, t: Tree) -> Node:
@@ -141,7 +141,8 @@ class OnBasis:
     def metric(self) -> list[list[Node]]:
         """M: on E_a, of the velocity g E_b, without damping."""
         return [
-            [self._undamped(a, ("mul", "g_1", ("at", "E", b))) for b in self.span] for a in self.span
+            [self._undamped(a, ("mul", "g_1", ("at", "E", b))) for b in self.span]
+            for a in self.span
         ]
 
     def momentum(self) -> list[Node]:
@@ -177,7 +178,9 @@ def basis(
     right = tuple((p,) for p in momentum)
     M = tuple(map(tuple, own.metric()))
     factors = dense.factorised(g, M, lambda part, x: g.value(x, f"metric_{part}"))
-    velocity = entries_of(dense.solve(g, factors, right, lambda part, x: g.value(x, f"told_{part}")))
+    velocity = entries_of(
+        dense.solve(g, factors, right, lambda part, x: g.value(x, f"told_{part}"))
+    )
     return {
         "step_momentum": own.momentum(),
         "step_force": [own.pushed(a) for a in span],
@@ -217,7 +220,7 @@ def pattern(basis: tuple[Matrix, ...], size: int) -> list[tuple[int, int]]:
     span = range(size)
     found = {(i, j) for e in basis for i in span for j in span if e[i][j]}
     while True:
-        more = found | {(i, l) for i, j in found for k, l in found if j == k}
+        more = found | {(i, j) for i, k in found for m, j in found if k == m}
         if more == found:
             return sorted(found)
         found = more
@@ -237,14 +240,11 @@ def _gathered(t: Tree) -> Tree:
     if t[0] == "tr" and isinstance(t[1], tuple) and t[1][0] == "mul":
         factors = mul(*t[1][1:])[1:]  # type: ignore[index]
         first = next(k for k, x in enumerate(factors) if has(x, "E"))
-        turned = [*factors[first:], *factors[:first]]
-        pairs, found = [*zip(turned, turned[1:], strict=False)], list[Tree]()
-        skip = False
-        for k, x in enumerate(turned):
-            if skip:
-                skip = False
-                continue
-            skip = k < len(pairs) and pairs[k] == (("T", "g_1"), "g_1")
-            found.append("C" if skip else x)
+        turned, found = [*factors[first:], *factors[:first]], list[Tree]()
+        for x in turned:
+            if x == "g_1" and found[-1:] == [("T", "g_1")]:
+                found[-1] = "C"
+            else:
+                found.append(x)
         return ("tr", ("mul", *found))
     return (t[0], *(_gathered(x) for x in t[1:]))

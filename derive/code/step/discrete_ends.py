@@ -24,6 +24,11 @@ from ..state import StateSpace
 SHARED = ("J", "c", "m", "J_c", "I", "I_c")
 """What the motion in time has, too."""
 
+Given = Mapping[Tree, Any]
+"""Letters, or other trees, and what they are put to."""
+
+NONE: Given = {}
+
 STEP = "step"
 """The kind of the leaves that a step has beside those of the state."""
 
@@ -68,10 +73,12 @@ class Ends:
 
     @property
     def graph(self) -> Graph:
+        """That of the motion in time."""
         return self.here.graph
 
     @property
     def space(self) -> StateSpace:
+        """The state."""
         return self.here.reader.space
 
     @property
@@ -94,7 +101,8 @@ class Ends:
     def axis(self, step: str, lhs: Tree) -> Tree:
         """The same of an equation that says of a skew matrix what vector it is."""
         found = self.equation(step, lhs)
-        assert isinstance(found, tuple) and found[0] == "hat"
+        assert isinstance(found, tuple)
+        assert found[0] == "hat"
         turned: Tree = found[1]
         return turned
 
@@ -111,25 +119,23 @@ class Ends:
         """Have the inverse of what the motion in time has, too, by its nodes and tests."""
         self.lowering.reader.memo["inv", name] = self.here.tree(("inv", name))
 
-    def value(
-        self, t: Tree, letters: Mapping[str, Any], others: Mapping[Tree, Value] | None = None
-    ) -> Value:
+    def value(self, t: Tree, given: Given = NONE) -> Value:
         """The value of a tree where some letters, or other parts of it, have these values."""
         reader = self.lowering.reader
         state, memo = reader.state, reader.memo
-        reader.state = {**state, **letters}
-        reader.memo = {**memo, **(others or {})}
+        reader.state = {**state, **{x: y for x, y in given.items() if isinstance(x, str)}}
+        reader.memo = {**memo, **{x: y for x, y in given.items() if not isinstance(x, str)}}
         found = self.lowering.tree(t)
         reader.state, reader.memo = state, memo
         return found
 
-    def matrix(self, t: Tree, others: Mapping[Tree, Value] | None = None, **letters: Any) -> Matrix:
+    def matrix(self, t: Tree, given: Given = NONE) -> Matrix:
         """The same of a matrix, or a vector."""
-        return matrix(self.value(t, letters, others))
+        return matrix(self.value(t, given))
 
-    def number(self, t: Tree, others: Mapping[Tree, Value] | None = None, **letters: Any) -> Node:
+    def number(self, t: Tree, given: Given = NONE) -> Node:
         """The same of a number."""
-        return scalar(self.value(t, letters, others))
+        return scalar(self.value(t, given))
 
     def leaves(self, name: str, count: int) -> list[Node]:
         """New leaves, counted from 1."""
@@ -141,6 +147,7 @@ class Ends:
 
     @property
     def one(self) -> Node:
+        """The number 1."""
         return self.graph.num(1)
 
     def named(self, m: Matrix, name: str) -> Matrix:
@@ -168,7 +175,11 @@ class Centre:
     def moved(self, linear: Matrix, shift: Matrix) -> Matrix:
         """The change of R with such changes of A and T."""
         e = self.ends
-        return e.matrix(e.equation("centre", "R_1"), A_1=linear, T_1=shift) if self.size else ()
+        return (
+            e.matrix(e.equation("centre", "R_1"), {"A_1": linear, "T_1": shift})
+            if self.size
+            else ()
+        )
 
     def push(self) -> Matrix:
         """The acceleration of R."""
@@ -176,7 +187,8 @@ class Centre:
         if not self.size:
             return ()
         none: Matrix = tuple((e.graph.num(0),) for _ in range(self.size))
-        return e.matrix(e.equation("translation", "R_2"), R_0=none, R_1=none, h=e.one)
+        given: Given = {"R_0": none, "R_1": none, "h": e.one}
+        return e.matrix(e.equation("translation", "R_2"), given)
 
     def shift(self, moved: Matrix, linear: Matrix) -> Matrix:
         """The change of T with such changes of R and A."""

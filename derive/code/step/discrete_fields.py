@@ -13,11 +13,12 @@ Number = Callable[[Fraction], str]
 
 
 def written_step(d: DiscreteStep, number: Number, steps: Sequence[str]) -> dict[str, Any]:
-    """The counts of a step and its parts as text; ``norm``: no matrix of 𝔤 is larger, by the sums
-    of its rows, than so many times the sum of its coordinates; ``number``: that of the step among
-    those of a motion."""
+    """The counts of a step, its ``counts`` by the names of arrays, and its parts as text; ``norm``:
+    no matrix of 𝔤 is larger, by the sums of its rows, than so many times the sum of its
+    coordinates; ``number``: that of the step among those of a motion."""
     return {
         **vars(d),
+        "counts": [*d.sizes.items()],
         "weights": [number(Fraction(x)) for x in d.weights],
         "norm": number(d.norm),
         "number": 1 + sum(x in METHODS for x in steps),

@@ -10,6 +10,7 @@ from fractions import Fraction
 
 from ...language import rational as q
 from ...language.rational import Matrix
+from ...language.tree import Tree
 from ..graph import Node
 from ..linearise import Varied
 from ..rewrite import replaced
@@ -40,9 +41,8 @@ class Linear:
         the next element."""
         e, none = self.e, self.e.zero(self.A)
         t = e.equation("motion", next_free)
-        whole, still = (
-            e.matrix(t, **{f"{self.letter}_0": none, "h": e.graph.num(h)}) for h in (1, 0)
-        )
+        before = f"{self.letter}_0"
+        whole, still = (e.matrix(t, {before: none, "h": e.graph.num(h)}) for h in (1, 0))
         return entries_of(q.minus(whole, still)) + entries_of(self.centre.push())
 
     def momentum(self) -> list[Node]:
@@ -84,20 +84,19 @@ def volume(
 ) -> dict[str, list[Node]]:
     """The functions of a step on SL(3); ``begun``: leaves of the coefficients of the cubic."""
     own, (theta,), g = Linear(e, momentum), unknowns, e.graph
-    dual = {("inv", ("T", f"{own.letter}_1")): q.transposed(e.space.inverse)}
     onward = e.equation("motion", own.next)
-    along = e.named(e.matrix(onward, dual, H=e.zero(own.A), θ=e.one), "dual")
+    dual: Tree = ("inv", ("T", f"{own.letter}_1"))
+    given = {dual: q.transposed(e.space.inverse), "H": e.zero(own.A), "θ": e.one}
+    along = e.named(e.matrix(onward, given), "dual")
     H = e.named(q.plus(own.A, own.alpha), "H")
-    cubic = _cubic(e, own, H, theta)
+    cubic = _cubic(e, own, H, along, theta)
     coefficients = _coefficients(e, cubic, theta)
     left = g.num(0)
     for c in reversed(begun):
         left = left * theta + c
     slope = Varied(g, {theta: e.one}, "theta").of(left)
     alpha = own.alpha
-    volume = e.equation("relation", ("det", f"{own.letter}_1"))
-    del volume
-    det = ("det", f"{own.letter}_1")
+    det: Tree = ("det", f"{own.letter}_1")
     off, by = (_along(e, det, own.A, m) for m in (alpha, along))
     kept = g.value(off * g.recip(by), "multiple")
     inside = q.minus(alpha, q.scaled(kept, along))
@@ -112,15 +111,15 @@ def volume(
     }
 
 
-def _cubic(e: Ends, own: Linear, H: Matrix, theta: Node) -> Node:
-    """det of the next element less that of this: 0 for the θ that is wanted."""
-    inertia = "J_c" if own.centre.size else "J"
-    lhs = ("mul", ("det", own.next), ("det", inertia))
-    polynomial = e.equation("multiplier", lhs)
-    Y = e.named(e.matrix(e.equation("multiplier", "Y"), H=H), "Y")
-    over = e.graph.value(e.graph.recip(e.number(("det", inertia))), "inv_det")
-    kept = e.number(e.equation("relation", ("det", own.next)))
-    return e.number(polynomial, Y=Y, θ=theta) * over - kept
+def _cubic(e: Ends, own: Linear, H: Matrix, dual: Matrix, theta: Node) -> Node:
+    """det of the next element, less what it is to be: 0 for the θ that is wanted.
+
+    The record has det(g₂)det(J) as well, by the traces of powers of HJḡ₁: of fewer operations, but
+    it loses the condition of J.
+    """
+    t: Tree = ("det", own.next)
+    there = q.plus(H, q.scaled(theta, dual))
+    return e.number(t, {own.next: there}) - e.number(e.equation("relation", t))
 
 
 def _coefficients(e: Ends, p: Node, x: Node) -> list[Node]:
@@ -133,7 +132,7 @@ def _coefficients(e: Ends, p: Node, x: Node) -> list[Node]:
     return found
 
 
-def _along(e: Ends, det: object, at: Matrix, change: Matrix) -> Node:
+def _along(e: Ends, det: Tree, at: Matrix, change: Matrix) -> Node:
     """The derivative of det at an element along a change of it."""
     pairs = zip(entries_of(at), entries_of(change), strict=True)
     seeds = {x: y for x, y in pairs if x.op == "leaf"}

@@ -33,9 +33,9 @@ def change(g: Graph, K: Sequence[Sequence[Node]], left: Sequence[Node]) -> list[
     back = dense.entrywise(dense.adjugate(g, whole), "cofactor", g.value, False)
     det = g.value(g.sum(x * row[0] for x, row in zip(whole[0], back, strict=True)), "det")
     over = g.value(g.recip(det), "over")
-    return [g.product((over, g.sum(x * y for x, y in zip(row, r, strict=True)))) for row in back] + [
-        det
-    ]
+    return [
+        g.product((over, g.sum(x * y for x, y in zip(row, r, strict=True)))) for row in back
+    ] + [det]
 
 
 def _eliminated(g: Graph, K: Sequence[Sequence[Node]], left: Sequence[Node]) -> list[Node]:

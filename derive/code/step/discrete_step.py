@@ -39,9 +39,12 @@ told by it, then the step h; ``z``, the unknowns; ``b``, what is computed before
 
 @dataclass(frozen=True)
 class DiscreteStep:
-    """What templates write the step of a group by: its ``kind``; how many ``momenta``, ``unknowns``,
-    numbers ``begun`` and ``turns``, what Newton's method finds, there are; ``group``: the numbers of
-    the state that tell g; ``order``; ``norm``: the largest sum of a row of an E_a, by size."""
+    """What templates write the step of a group by.
+
+    ``kind``; how many ``momenta``, ``unknowns``, numbers ``begun`` and ``turns``, what Newton's
+    method finds, there are; ``group``: the numbers of the state that tell g; ``order``; ``norm``:
+    the largest sum of a row of an E_a, by size.
+    """
 
     kind: str
     momenta: int
@@ -53,6 +56,19 @@ class DiscreteStep:
     norm: Fraction
 
     @property
+    def sizes(self) -> dict[str, int]:
+        """How many numbers the arrays of its functions have, by their names in a signature."""
+        return {
+            "MOMENTA": self.momenta,
+            "LOADED": self.momenta + 1,
+            "BEGUN": self.begun,
+            "UNKNOWNS": self.unknowns,
+            "TURNS": self.turns,
+            "CORRECTED": self.turns + 1,
+            "MOVED": self.group + self.momenta,
+        }
+
+    @property
     def weights(self) -> list[float]:
         """The parts of a step of which it is composed."""
         return [float(x) for x in weights(self.order)]
@@ -60,8 +76,8 @@ class DiscreteStep:
 
 @dataclass(frozen=True)
 class Lowered:
-    """The record of a step, the step, its functions as name → outputs, and the leaves that they read beside those of
-    others."""
+    """The record of a step, the step, its functions as name → outputs, and the leaves that they
+    read beside those of others."""
 
     record: Derivation
     step: DiscreteStep

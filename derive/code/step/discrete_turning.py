@@ -6,7 +6,6 @@ method finds x, three numbers.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 
 from ...language import rational as q
@@ -16,7 +15,7 @@ from .. import dense
 from ..graph import Node
 from ..linearise import Varied
 from ..rewrite import replaced
-from .discrete_ends import Centre, Ends, column, entries_of
+from .discrete_ends import Centre, Ends, Given, column, entries_of
 from .discrete_newton import newton
 
 HALF = Fraction(1, 2)
@@ -29,8 +28,8 @@ def turning(e: Ends, momentum: list[Node], unknowns: list[Node]) -> dict[str, li
     zeta, drift = e.space.values["ζ"], e.space.values.get("w", ())
     inertia = "I_c" if centre.size else "I"
     e.invert(inertia)
-    spin = e.matrix(("mul", ("inv", inertia), "y"), y=p)
-    spun = e.matrix(("hat", "y"), y=e.named(spin, "spin"))
+    spin = e.matrix(("mul", ("inv", inertia), "y"), {"y": p})
+    spun = e.matrix(("hat", "y"), {"y": e.named(spin, "spin")})
     real = _real(e, x)
     turn = q.minus(_rotation(e, real, x), dense.numbers(e.graph, q.identity(3)))
     moved = q.times(A, e.named(turn, "turn"))
@@ -58,28 +57,21 @@ def turning(e: Ends, momentum: list[Node], unknowns: list[Node]) -> dict[str, li
 
 def _real(e: Ends, x: Matrix) -> Node:
     """q, from q² + |x|² = 1."""
-    (square, rest), one = _relation(e)
-    assert square == ("pow", "q_1", 2)
-    found = e.graph.function("sqrt", e.number(one) - e.number(rest, x_1=x))
+    unit: Tree = ("add", ("pow", "q_1", 2), rest := ("norm2", "x_1"))
+    one = e.equation("quaternion", unit)
+    found = e.graph.function("sqrt", e.number(one) - e.number(rest, {"x_1": x}))
     return e.graph.value(found, "real", e.label)
-
-
-def _relation(e: Ends) -> tuple[Sequence[Tree], Tree]:
-    """The terms of the relation of the quaternion of the later step, and their sum."""
-    own = e.record["quaternion"]
-    found = [x for x in own.equations if isinstance(x.lhs, tuple)][-1]
-    e.label = own.key(found)
-    return found.lhs[1:], found.rhs
 
 
 def _rotation(e: Ends, real: Node, x: Matrix) -> Matrix:
     """W in (q, x)."""
-    return e.matrix(e.equation("quaternion", "W_1"), q_1=real, x_1=x)
+    return e.matrix(e.equation("quaternion", "W_1"), {"q_1": real, "x_1": x})
 
 
 def _momentum(e: Ends, real: Node, x: Matrix) -> Matrix:
     """The axis of hM in (q, x)."""
-    return e.matrix(e.axis("quaternion", "M_1"), q_1=real, x_1=x, h=e.one)
+    given: Given = {"q_1": real, "x_1": x, "h": e.one}
+    return e.matrix(e.axis("quaternion", "M_1"), given)
 
 
 def _at_rest(e: Ends, zeta: Matrix) -> Matrix:
