@@ -38,6 +38,15 @@ SIGNATURES = {
     **dict.fromkeys(OF_Y, ("xp", "t", "y", "k", "u")),
     **dict.fromkeys(OF_BOTH, ("xp", "t", "x", "y", "k", "u")),
     "_jacobian_parameters": ("xp", "t", "x", "p", "u"),
+    "_step_momentum": ("xp", "x", "k"),
+    "_step_force": ("xp", "t", "x", "k", "u"),
+    "_step_velocity": ("xp", "x", "k", "q"),
+    "_step_guess": ("xp", "x", "k", "q"),
+    "_step_begin": ("xp", "x", "k", "q"),
+    "_step_newton": ("xp", "x", "k", "b", "q", "z"),
+    "_step_turn": ("xp", "z", "s"),
+    "_step_turn_little": ("xp", "z", "s"),
+    "_step_end": ("xp", "x", "k", "q", "z"),
 }
 CALLS = tuple(f"_{name}(xp, " for name in BUNDLES)
 """How a call of a function of integrals begins."""
