@@ -10,7 +10,7 @@ are those of ``rhs`` on a body at rest.  No word of the discrete record is used.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -67,9 +67,9 @@ class DiscreteFunctions:
             given = self._loaded(arguments, momentum, 0)
             self._same("step_guess", self._run("step_guess", given, len(guessed)), guessed)
             names.append("step_guess")
-        for name, order in ORDER.items():
-            if self._on_basis:
-                self._turn(name, order)
+        for name in ORDER:
+            if self._has(name):
+                self._turn(name)
                 names.append(name)
         return (*names, *self._step(arguments))
 
@@ -143,15 +143,22 @@ class DiscreteFunctions:
         self._same("step_end", self._run("step_end", given, len(wanted)), wanted)
         return ("step_end",)
 
-    def _turn(self, name: str, order: int) -> None:
-        """1 + V before a turn, times the exponential up to a power."""
+    def _turn(self, name: str) -> None:
+        """1 + V before a turn, times the exponential up to a power, or Cayley's transform where
+        there is nothing for little turns."""
         group = self.chart.group
         z, s = ([self.draw() for _ in range(n)] for n in (len(self.places), group.dimension))
         X, one = group.hat(s), q.identity(group.size)
-        power = total = one
-        for k in range(1, order + 1):
-            power = q.scaled(Fraction(1, k), q.times(power, X))
-            total = q.plus(total, power)
+        if self._has("step_turn_little"):
+            power = total = one
+            for k in range(1, ORDER[name] + 1):
+                power = q.scaled(Fraction(1, k), q.times(power, X))
+                total = q.plus(total, power)
+        else:
+            half = q.scaled(HALF, X)
+            back = q.inverse(q.minus(one, half))
+            assert back is not None
+            total = q.times(back, q.plus(one, half))
         after = q.minus(q.times(self._turned(z), total), one)
         given = {"z": self.measured(z, "z"), "s": self.measured(s, "s")}
         wanted = [after[i][j] for i, j in self.places]
@@ -365,8 +372,3 @@ def hat(x: Sequence[Any]) -> Matrix:
     """The matrix that turns about the axis x."""
     a, b, c = x
     return ((a * 0, -c, b), (c, a * 0, -a), (-b, a, a * 0))
-
-
-def steps_of(functions: Mapping[str, Any]) -> Iterator[str]:
-    """The names of the functions of a discrete step that a file has."""
-    return (x for x in functions if x.startswith("step_"))

@@ -1,13 +1,12 @@
 """A discrete step on any group: dim 𝔤 equations, those of the balance on a basis E_a.
 
-The step is V = g₀⁻¹g₁ − 1, found as 1 + V ← (1 + V) exp X by Newton's method.  In the balance what
+The step is V = g₀⁻¹g₁ − 1, found by Newton's method with turns 1 + V ← (1 + V)W.  In the balance what
 has g₂ is Θ⁻ of the step after g₁, and what has g₀, Θ⁺ of that before: both are linear in the step.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from fractions import Fraction
 from functools import cached_property
 
 from ...language import rational as q
@@ -17,6 +16,7 @@ from .. import dense
 from ..graph import Node
 from .discrete_ends import Ends, entries_of, has
 from .discrete_newton import change
+from .discrete_turns import pattern, turned
 
 BEND: Tree = ("add", "g_2", ("mul", -2, "g_1"), "g_0")
 OF_STEP: Tree = ("mul", "g_1", "V")
@@ -186,44 +186,10 @@ def basis(
         "step_force": [own.pushed(a) for a in span],
         "step_guess": velocity,
         "step_newton": change(g, own.slopes(), left),
-        "step_turn": _turned(e, own, turns, 12),
-        "step_turn_little": _turned(e, own, turns, 3),
+        **turned(e, own.V, own.U, own.places, turns),
         "step_end": [*e.space.entries(moved), *(own.after(a) for a in span)],
         "step_velocity": velocity,
     }
-
-
-def _turned(e: Ends, own: OnBasis, turns: list[Node], order: int) -> list[Node]:
-    """V after 1 + V ← (1 + V) exp X, by the series up to a power of X that 3 divides: X of
-    coordinates ``turns``."""
-    X = e.named(e.space.hat(turns), "X")
-    square = e.named(q.times(X, X), "square")
-    cube = e.named(q.times(square, X), "cube")
-    powers, total = (X, square, cube), None
-    factorial = [Fraction(1)]
-    for k in range(1, order + 1):
-        factorial.append(factorial[-1] / k)
-    for first in range(order - 2, 0, -3):
-        three = e.zero(X)
-        for k, power in enumerate(powers):
-            three = q.plus(three, q.scaled(factorial[first + k], power))
-        if total is not None:
-            three = q.plus(three, q.times(cube, total))
-        total = e.named(three, f"series_{first}")
-    assert total is not None
-    found = q.plus(own.V, q.times(own.U, total))
-    return [found[i][j] for i, j in own.places]
-
-
-def pattern(basis: tuple[Matrix, ...], size: int) -> list[tuple[int, int]]:
-    """The places where a product of some E_a may have an entry that is not 0, by rows."""
-    span = range(size)
-    found = {(i, j) for e in basis for i in span for j in span if e[i][j]}
-    while True:
-        more = found | {(i, j) for i, k in found for m, j in found if k == m}
-        if more == found:
-            return sorted(found)
-        found = more
 
 
 def _times_h(term: Tree) -> Tree:
