@@ -169,7 +169,7 @@ SIGNATURES = (
     Signature(
         "step_turn", (Z, S), (_out("UNKNOWNS"),), "a discrete step z and a turn by s after it"
     ),
-    Signature("step_turn_little", (Z, S), (_out("UNKNOWNS"),), "the same for an s of at most 1e-4"),
+    Signature("step_turn_little", (Z, S), (_out("UNKNOWNS"),), "the same for an s of at most 1e-8"),
     Signature(
         "step_end",
         (X, K, Q, Z),

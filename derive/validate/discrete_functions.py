@@ -2,8 +2,8 @@
 
 The momentum of a change of g is what the masses have on the basis of 𝔤; on rotations of space about
 the centre of mass; or, of groups of all matrices or those of trace 0, the change itself, modulo
-what keeps the volume.  A step is any matrix here, the equations being polynomials in it: h times the
-momentum before it is that of the change from g, after it that of the change seen from its end.
+what keeps the volume.  A step is any matrix here, as the equations are polynomials in it: h times
+the momentum before it is that of the change from g, after it that of the change seen from its end.
 Newton's step must be 0 there, and along a change of the step that change, to first order.  Forces
 are those of ``rhs`` on a body at rest.  No word of the discrete record is used.
 """
@@ -28,8 +28,8 @@ from .terms import Array
 
 Call = Callable[..., dict[str, list[Any]]]
 Require = Callable[[str, Sequence[str], Sequence[Any], Sequence[Any]], None]
-ORDER = {"step_turn": 12, "step_turn_little": 3}
-"""The powers of X in the exponential of each turn."""
+ORDER = 12
+"""The powers of X in the exponential of a turn."""
 HALF = Fraction(1, 2)
 
 
@@ -67,10 +67,9 @@ class DiscreteFunctions:
             given = self._loaded(arguments, momentum, 0)
             self._same("step_guess", self._run("step_guess", given, len(guessed)), guessed)
             names.append("step_guess")
-        for name in ORDER:
-            if self._has(name):
-                self._turn(name)
-                names.append(name)
+        for name in ("step_turn", "step_turn_little") if self._on_basis else ():
+            self._turn(name)
+            names.append(name)
         return (*names, *self._step(arguments))
 
     # -- what is compared ------------------------------------------------------------------------
@@ -144,14 +143,17 @@ class DiscreteFunctions:
         return ("step_end",)
 
     def _turn(self, name: str) -> None:
-        """1 + V before a turn, times the exponential up to a power, or Cayley's transform where
-        there is nothing for little turns."""
+        """1 + V before a turn, times 1 + X; or the exponential up to a power, or Cayley's transform
+        where X³ is in 𝔤 and has no trace, so that this is in the group."""
         group = self.chart.group
         z, s = ([self.draw() for _ in range(n)] for n in (len(self.places), group.dimension))
         X, one = group.hat(s), q.identity(group.size)
-        if self._has("step_turn_little"):
+        cube = q.times(X, q.times(X, X))
+        if name == "step_turn_little":
+            total = q.plus(one, X)
+        elif group.vee(cube) is None or q.trace(X):
             power = total = one
-            for k in range(1, ORDER[name] + 1):
+            for k in range(1, ORDER + 1):
                 power = q.scaled(Fraction(1, k), q.times(power, X))
                 total = q.plus(total, power)
         else:
@@ -168,7 +170,7 @@ class DiscreteFunctions:
 
     @property
     def _model(self) -> Model:
-        found = self.point.named.names.model
+        found = getattr(self.point.named.names, "model", None)
         assert isinstance(found, Model)
         return found
 

@@ -1,7 +1,8 @@
 """A discrete step on any group: dim 𝔤 equations, those of the balance on a basis E_a.
 
-The step is V = g₀⁻¹g₁ − 1, found by Newton's method with turns 1 + V ← (1 + V)W.  In the balance what
-has g₂ is Θ⁻ of the step after g₁, and what has g₀, Θ⁺ of that before: both are linear in the step.
+The step is V = g₀⁻¹g₁ − 1, found by Newton's method with turns 1 + V ← (1 + V)W.  In the balance
+what has g₂ is Θ⁻ of the step after g₁, and what has g₀, Θ⁺ of that before: both are linear in the
+step.
 """
 
 from __future__ import annotations

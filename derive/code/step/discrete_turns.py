@@ -15,8 +15,9 @@ from .. import dense
 from ..graph import Node
 from .discrete_ends import Ends
 
-LITTLE, MOST = 3, 12
-"""The powers of X that the exponential has for turns of at most 1e-4, and of at most 0.3."""
+MOST = 12
+"""The powers of X that the exponential has, for turns of at most 0.3.  Of those of 1e-8 and less,
+1 + X is exact to rounding."""
 
 Places = list[tuple[int, int]]
 
@@ -26,10 +27,8 @@ def turned(
 ) -> dict[str, list[Node]]:
     """The functions that give V after 1 + V = U ← UW, X of coordinates ``turns``."""
     X = e.named(e.space.hat(turns), "X")
-    if has_cubes(e.group):
-        ways = {"step_turn": cayley(e, X)}
-    else:
-        ways = {"step_turn": exponential(e, X, MOST), "step_turn_little": exponential(e, X, LITTLE)}
+    whole = cayley(e, X) if has_cubes(e.group) else exponential(e, X, MOST)
+    ways = {"step_turn": whole, "step_turn_little": X}
     ends = {name: q.plus(V, q.times(U, W)) for name, W in ways.items()}
     return {name: [m[i][j] for i, j in places] for name, m in ends.items()}
 
