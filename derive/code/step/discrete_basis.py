@@ -186,7 +186,7 @@ def basis(
         "step_momentum": own.momentum(),
         "step_force": [own.pushed(a) for a in span],
         "step_guess": velocity,
-        "step_newton": change(g, own.slopes(), left),
+        "step_newton": change(g, own.slopes(), left, e.label),
         **turned(e, own.V, own.U, own.places, turns),
         "step_end": [*e.space.entries(moved), *(own.after(a) for a in span)],
         "step_velocity": velocity,

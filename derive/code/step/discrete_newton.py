@@ -15,18 +15,20 @@ SMALL = 3
 """Up to this size by the adjugate."""
 
 
-def newton(g: Graph, left: Sequence[Node], unknowns: Sequence[Node]) -> list[Node]:
+def newton(g: Graph, left: Sequence[Node], unknowns: Sequence[Node], label: str) -> list[Node]:
     """By what the unknowns of equations ``left`` = 0 are too large, and the determinant of the
-    derivative, after that."""
+    derivative, after that; ``label``: the key of what is solved."""
     varied = [Varied(g, {x: g.num(1)}, str(x.data[1])) for x in unknowns]
-    return change(g, [[v.of(y) for v in varied] for y in left], left)
+    return change(g, [[v.of(y) for v in varied] for y in left], left, label)
 
 
-def change(g: Graph, K: Sequence[Sequence[Node]], left: Sequence[Node]) -> list[Node]:
+def change(g: Graph, K: Sequence[Sequence[Node]], left: Sequence[Node], label: str) -> list[Node]:
     """K⁻¹ left, and det K."""
     n = len(left)
-    named = [[g.value(y, f"K_{i}{j}") for j, y in enumerate(row, 1)] for i, row in enumerate(K, 1)]
-    r = [g.value(y, f"left_{i}") for i, y in enumerate(left, 1)]
+    named = [
+        [g.value(y, f"K_{i}{j}", label) for j, y in enumerate(row, 1)] for i, row in enumerate(K, 1)
+    ]
+    r = [g.value(y, f"left_{i}", label) for i, y in enumerate(left, 1)]
     if n > SMALL:
         return _eliminated(g, named, r)
     whole = tuple(map(tuple, named))

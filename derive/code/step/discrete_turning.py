@@ -34,6 +34,7 @@ def turning(e: Ends, momentum: list[Node], unknowns: list[Node]) -> dict[str, li
     turn = q.minus(_rotation(e, real, x), dense.numbers(e.graph, q.identity(3)))
     moved = q.times(A, e.named(turn, "turn"))
     left = q.minus(_momentum(e, real, x), p)
+    solved = e.label
     after = _momentum(e, real, q.scaled(-1, x))
     rate = centre.shift(drawn, q.times(A, spun))
     return {
@@ -43,7 +44,7 @@ def turning(e: Ends, momentum: list[Node], unknowns: list[Node]) -> dict[str, li
         ],
         "step_force": [*entries_of(_torque(e)), *entries_of(centre.push())],
         "step_guess": [y * HALF for y in entries_of(spin)],
-        "step_newton": newton(e.graph, entries_of(left), unknowns),
+        "step_newton": newton(e.graph, entries_of(left), unknowns, solved),
         "step_end": [
             *e.entries(moved, centre.shift(drawn, moved)),
             *(-y for y in entries_of(after)),
