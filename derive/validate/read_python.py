@@ -1,8 +1,9 @@
 """Emitted Python read into terms, by its syntax tree; nothing of the text is ever run.
 
 Read are the functions in plain numbers: ``_constants``, ``_rhs``, ``_energy``, ``_inertia``,
-``_project``, ``_defect``, the Jacobians and those of a discrete step, with the names, the defaults and the basis. The public
-functions, which hand arrays to these, the steps in time and their numbers are not:
+``_project``, ``_defect``, the Jacobians and those of a discrete step, with the names, the defaults
+and the basis. The public functions, which hand arrays to these, the steps in time and their numbers
+are not:
 :func:`unread_statements` gives their text, to be compared with what is emitted.
 """
 

@@ -204,6 +204,14 @@ def test_the_energy_does_not_drift(name, order):
     assert found.max() < 2 * found[:100].max()
 
 
+def test_a_step_that_begins_on_the_last_ones_ends_where_it_should():
+    """Long steps of a chaotic motion, which a polynomial through the last ones may lead far off:
+    each ends at the solution that is near, not at another one."""
+    f = compiled("so4", 6)
+    found = energies(f, start(f), 0.06, 8000, 20)
+    assert 1e-8 < found.max() < 1e-3
+
+
 @pytest.mark.parametrize("order", [2, 6])
 @pytest.mark.parametrize("name", ["top", "sl3", "so4"])
 def test_momenta_are_kept_to_rounding(name, order):
