@@ -64,8 +64,7 @@ def assemble(
 
     ``framed``: the record of the problem in its principal frame, if the code is to be in that.
     ``kept``: what the motion keeps, by names, as :mod:`derive.code.kept` takes it.
-    ``events``: what is watched on a motion.
-    ``discrete``: the record of the discrete motion, where its step is wanted.
+    ``events``: what is watched on a motion. ``discrete``: its record, where its step is wanted.
     """
     chosen = options or Options()
     require_written(d, group, chosen)
@@ -74,10 +73,7 @@ def assemble(
     if framed:
         old = Lowering(d, group, chosen, lowering.graph).reader
         frame = PrincipalFrame(framed.problem["frame"], old, chosen.attitude == "quaternion")
-    wanted, momenta = _of_state(lowering, chosen, kept or {}, events)
-    stepped = lowered(lowering, discrete) if discrete else None
-    if stepped:
-        wanted |= {x: factored(lowering.graph, y) for x, y in stepped.functions.items()}
+    wanted, momenta, stepped = _of_state(lowering, chosen, kept or {}, events, discrete)
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
         wanted |= _inertia(frame.old) | frame_changes(frame, lowering.reader)
@@ -118,16 +114,23 @@ def assemble(
 
 
 def _of_state(
-    lowering: Lowering, chosen: Options, kept: Mapping[str, Tree], events: Sequence[Event]
-) -> tuple[dict[str, list[Node]], MomentumState | None]:
-    """Name → outputs of the functions of the state, and the state with momenta."""
+    lowering: Lowering,
+    chosen: Options,
+    kept: Mapping[str, Tree],
+    events: Sequence[Event],
+    discrete: Derivation | None,
+) -> tuple[dict[str, list[Node]], MomentumState | None, Lowered | None]:
+    """Name → outputs of the functions of the state; the state with momenta; the discrete step."""
     wanted = _outputs(lowering, chosen)
     group = lowering.reader.group
     momenta = momentum_state(lowering, group, chosen) if chosen.momenta else None
     wanted |= _added(lowering, momenta, kept)
     if events:
         wanted["events"] = values(lowering, events)
-    return wanted, momenta
+    stepped = lowered(lowering, discrete) if discrete else None
+    if stepped:
+        wanted |= {x: factored(lowering.graph, y) for x, y in stepped.functions.items()}
+    return wanted, momenta, stepped
 
 
 def _added(
