@@ -62,7 +62,7 @@ def fits_ends(e: Ensemble) -> bool:
 def size_of_spread(e: Ensemble, chosen: Sequence[str]) -> tuple[float, float]:
     """Width and height of :func:`spread`."""
     count = len(differing(e, chosen, PANELS))
-    return 0.4 + 2.5 * min(count, WIDE), 0.8 + 1.6 * max(1, math.ceil(count / WIDE))
+    return max(4.8, 0.4 + 2.5 * min(count, WIDE)), 0.8 + 1.6 * max(1, math.ceil(count / WIDE))
 
 
 def spread(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
@@ -109,7 +109,7 @@ def _panels(figure: Any, count: int) -> list[Any]:
 def size_of_ends(e: Ensemble, chosen: Sequence[str]) -> tuple[float, float]:
     """Width and height of :func:`ends`."""
     across, rows = len(e.varied_names[:ACROSS]), len(differing(e, chosen, ROWS))
-    return 1.0 + 2.3 * across, 0.8 + 1.5 * max(1, rows)
+    return max(3.6, 1.0 + 2.3 * across), 0.8 + 1.5 * max(1, rows)
 
 
 def ends(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
