@@ -133,8 +133,8 @@ def drawn(name: str, folder: Path) -> bytes:
 def unlike() -> list[str]:
     """What draws, and is here in another version than in requirements-dev.lock."""
     text = (ROOT / "requirements-dev.lock").read_text(encoding="utf-8")
-    wanted = dict(re.findall(r"^([\w-]+)==(\S+)", text, re.M))
-    return [x for x in ("matplotlib", "numpy", "pillow") if version(x) != wanted[x]]
+    wanted = re.findall(r"^([\w-]+==\S+)", text, re.M)  # for some Pythons each
+    return [x for x in ("matplotlib", "numpy", "pillow") if f"{x}=={version(x)}" not in wanted]
 
 
 if __name__ == "__main__":
