@@ -406,6 +406,14 @@ def motion_of(problem: Problem, record: Derivation, step: str = "gauss") -> Emit
     return Emitted.of(made, problem, record, step, one_degree(problem, record), why)
 
 
+def motion_of_many(problem: Problem, record: Derivation) -> Emitted:
+    """The same for ensembles, whose motions stop at terminal events alone."""
+    from .motion.ensemble import STEP
+
+    ends = tuple(x for x in problem.events if x.terminal)
+    return motion_of(replace(problem, events=ends), record, STEP)
+
+
 def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
     """The effective potential where the symmetries of a problem leave one degree of freedom, an
     entry of g; else ``None``."""

@@ -20,7 +20,7 @@ from ..language.suffixed import suffixed
 from ..language.tree import Tree, replaced
 from ..language.values import value
 from ..native.library import FLAGS, CSource, loaded, over_cores
-from ..native.motion_in_c import Motion, binding
+from ..native.motion_in_c import Motion, binding, binding_to_events
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..schema.followed import Event
@@ -108,9 +108,14 @@ class Emitted:
     @cached_property
     def compiled_ensemble(self) -> CDLL:
         """The emitted C of many motions at once, over all cores where the compiler can; as
-        ``compiled``."""
-        files = emit(self.program, self.record, ("c",), self.name, Options(ensemble=True))
-        files["steps.c"] = binding(self.name, (), ensemble=True)
+        ``compiled``.  Eight in lanes at a time or, to end at events, each by the step."""
+        name, step = self.name, self.step
+        options = Options(ensemble=True, step=(step,) * bool(self.events))
+        files = emit(self.program, self.record, ("c",), name, options)
+        if self.events:
+            files["steps.c"] = binding_to_events(name, step)
+        else:
+            files["steps.c"] = binding(name, (), ensemble=True)
         return loaded(over_cores(CSource(self.name, tuple(files.items()), None, FLAGS)))
 
     def motion(self, k: Array, u: Array, x: Array, *, compiled: bool) -> Moved:

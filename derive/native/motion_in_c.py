@@ -96,6 +96,30 @@ size_t derive_ensemble(size_t n, double *x, const double *k, size_t k_each, cons
 {{
     return {name}_ensemble(n, x, k, k_each, u, u_each, t0, t1, tol, h, status);
 }}
+"""
+ENDED = """\
+void derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
+    size_t u_each, double t0, double t1, double tol, double *h, int *status, double *ended);
+void derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
+    size_t u_each, double t0, double t1, double tol, double *h, int *status, double *ended)
+{{
+#ifdef _OPENMP
+#pragma omp parallel for schedule(dynamic, 16)
+#endif
+    for (long long j = 0; j < (long long)n; ++j) {{
+        const size_t i = (size_t)j;
+        {name}_motion m;
+        {name}_begin(&m, t0, x + i*{name}_N_STATE);
+        m.h_next = h[i];
+        status[i] = {name}_{step}_to(&m, k + i*k_each, u + i*u_each, t1, tol);
+        status[i] += status[i] == {name}_EVENT ? m.event : 0;
+        memcpy(x + i*{name}_N_STATE, m.x, sizeof m.x);
+        h[i] = m.h_next;
+        ended[i] = m.t;
+    }}
+}}
+"""
+CONSTANTS = """\
 void derive_constants(size_t n, const double *p, double *k, int *wrong);
 void derive_constants(size_t n, const double *p, double *k, int *wrong)
 {{
@@ -119,8 +143,13 @@ def binding(
     every, to = ((MOVE, WATCH), MOVE_TO_EVENT) if events else ((MOVE,), MOVE_TO)
     moves = [text.format(name=name, step=x) for x in steps for text in every]
     moves += [to.format(name=name, step=x) for x in steps if x not in fixed]
-    parts = [INCLUDE, HEAD * bool(steps), EVENT * events, ENSEMBLE * ensemble]
+    parts = [INCLUDE, HEAD * bool(steps), EVENT * events, (ENSEMBLE + CONSTANTS) * ensemble]
     return "\n".join([*(x.format(name=name) for x in parts if x), *moves])
+
+
+def binding_to_events(name: str, step: str) -> str:
+    """The same of an ensemble whose motions end at their events, by one of those steps."""
+    return "\n".join(x.format(name=name, step=step) for x in (INCLUDE, ENDED, CONSTANTS))
 
 
 FAULTS = {
@@ -279,15 +308,18 @@ def ensemble(
     span: tuple[float, float],
     tol: float,
     h: Array,
+    *ended: Array,
 ) -> Integers:
     """The status of each of n motions, which are moved from one time to another; x (n, state) and h
-    (n,), their next steps, are written into; k and u, one row for all or for each its own."""
+    (n,), their next steps, are written into, and so is, where they end at events, the time (n,)
+    when they did; k and u, one row for all or for each its own.  AT_EVENT + k: at event k."""
     require_tolerance(tol)
     n, status = len(x), np.zeros(len(x), dtype=np.intc)
     each = [ctypes.c_size_t(a.shape[1] if len(a) == n and n > 1 else 0) for a in (k, u)]
     times = map(ctypes.c_double, (*span, tol))
     function = library.derive_ensemble
-    function.restype = ctypes.c_size_t
+    function.restype = None
     numbers = (pointer(k), each[0], pointer(u), each[1], *times)
-    function(ctypes.c_size_t(n), pointer(x), *numbers, pointer(h), pointer(status))
+    told = [pointer(h), pointer(status), *map(pointer, ended)]
+    function(ctypes.c_size_t(n), pointer(x), *numbers, *told)
     return status

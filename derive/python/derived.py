@@ -212,13 +212,12 @@ class Derived:
     ) -> SimulatedEnsemble:
         from ..motion.ensemble import Many, Plan, require_steps_of_an_ensemble
         from ..motion.varied import laws
-        from ..pipeline import motion_of
+        from ..pipeline import motion_of_many
         from .simulated import SimulatedEnsemble
 
         require_steps_of_an_ensemble(**how)
         plan = Plan(n, laws(vary), t, points, tol, seed, **begin)
-        unwatched = replace(self.problem, events=())
-        many = Many(motion_of(unwatched, self.record), self.problem, plan)
+        many = Many(motion_of_many(self.problem, self.record), self.problem, plan)
         return SimulatedEnsemble.of(many.whole([*many.parts()]))
 
     def motion_page(
