@@ -7,6 +7,7 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -44,7 +45,7 @@ def command_ensemble(
     if args.out:
         format_of(args.out)  # refused before the work
     plan = plan_of(args, start)
-    many = Many(motion_of(problem, record), problem, plan)
+    many = Many(motion_of(replace(problem, events=()), record), problem, plan)
     if problem.events:
         text = "the events of the file are not looked for in an ensemble"
         print(f"derive: warning: {problem.name}: {text}", file=sys.stderr)
