@@ -182,7 +182,7 @@ ENOUGH = 1e-3
 
 NEWTON_STEPS, STALLED_NEWTON = 20, 1e-10
 """The most steps of Newton's method for the stages; and below which change it is rounding that it
-does no more, of rates that are large where a problem is stiff."""
+does no more, of rates that are large where a problem is stiff, or the last step is enough."""
 
 COLLOCATED = ("gauss", "gauss_jax")
 """The steps of Gauss's collocation."""
