@@ -78,5 +78,5 @@ class SimulatedEnsemble(Ensemble):
         path = Path(out)
         format_of(path.name)
         with path.open("wb") as file, writer(file, path.name, self) as made:
-            made.add(Part(self.varied, self.status, self.states))
+            made.add(Part(self.varied, self.status, self.states, self.end))
         return path
