@@ -118,6 +118,7 @@ KEPT = {
     "motion/test_motion.py::test_bad_input_is_one_line": 4,
     "motion/test_motion.py::test_the_tolerance_is_that_of_a_short_run": 1,
     "page/test_motion_page.py::test_bad_input_is_one_line": 4,
+    "page/test_motion_page.py::test_every_page_is_small": 2,
     "page/test_motion_page.py::test_notes_without_a_motion": 2,
     "plot/test_pictures.py::test_every_kind_has_the_same_bytes_twice": 1,
     "problem/test_bad_problems.py::test_hostile_files_cost_little": 6,
