@@ -284,6 +284,8 @@ def add_reading_options(
     notes.add_argument("--out", metavar="FILE", required=True, help="FILE.tex, .pdf, .html or .sty")
     about = "beside FILE.html a page for each problem, linked from it, in which the body moves"
     notes.add_argument("--motion", metavar="T", type=float, help=f"{about} for a time T")
+    about = "a picture of the motion of each problem for a time T, beside FILE and shown in it"
+    notes.add_argument("--picture", metavar="T", type=float, help=f"{about} (needs matplotlib)")
     for one in (*walks, *searched, notes):
         one.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
         one.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")

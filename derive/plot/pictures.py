@@ -116,14 +116,14 @@ ENSEMBLE_KINDS = {
     "spread": Kind(
         ensemble_pictures.spread,
         "median and quantiles of an ensemble in time",
-        "several instants, --points, and a motion that reached the end",
+        "several instants, --points, and a motion that reached the end, or an event",
         ensemble_pictures.fits_spread,
         ensemble_pictures.size_of_spread,
     ),
     "ends": Kind(
         ensemble_pictures.ends,
         "the ends of an ensemble against what is varied",
-        "a motion that reached the end",
+        "a motion that reached the end, or an event",
         ensemble_pictures.fits_ends,
         ensemble_pictures.size_of_ends,
     ),
