@@ -22,8 +22,9 @@ import numpy as np
 
 from ..native.motion_in_c import AT_EVENT, Integers
 from .ensemble import Ensemble, Part
-from .run import Array
+from .run import Array, Run
 from .run_files import FORMATS, RunFileError, pyarrow
+from .run_files import read as read_run
 
 MARK = "derive ensemble"
 """What the head of a file begins with, by which it is known."""
@@ -182,6 +183,14 @@ def read(path: Path) -> Ensemble:
     except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile):
         raise RunFileError(f"{path}: no ensemble that derive simulate wrote, or damaged") from None
     raise RunFileError(f"{path}: the name of an ensemble must end in {', '.join(FORMATS)}")
+
+
+def read_either(path: Path) -> Run | Ensemble:
+    """The run or the ensemble in a file; ``RunFileError`` where there is neither."""
+    try:
+        return read(path)
+    except RunFileError:
+        return read_run(path)
 
 
 def _head(like: Ensemble) -> str:
