@@ -21,6 +21,7 @@ from .graph import Node
 from .kept import Kept
 from .linearise import by_leaves, by_numbers, by_state
 from .lower import Lowering
+from .matrix_state import FROM_MATRIX, LABELS, TO_MATRIX, matrix_state
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
 from .options import Options
@@ -106,10 +107,10 @@ def assemble(
         tuple(kept or ()),
         table(events),
         _kept_by_gauss(lowering, chosen, functions, len(parameters), tuple(kept or ())),
-        momenta.names if momenta else (),
-        momenta.size if momenta else 0,
+        *((momenta.names, momenta.size) if momenta else ((), 0)),
         mass_fault=lowering.inverses.mass_fault,
         discrete=stepped.step if stepped else None,
+        matrix_state=door.names if (door := matrix_state(lowering.reader.space)) else (),
     )
 
 
@@ -183,7 +184,7 @@ def _functions(
     for kind, members in (("state", state), ("input", inputs)):
         for name in members:
             names.claim(name, f"{kind} {name}")
-    texts = _equations(lowering.record) | TEXTS
+    texts = _equations(lowering.record) | TEXTS | LABELS
     scheduler = Scheduler(names, texts | (_equations(stepped.record) if stepped else {}))
     fixed = frontier(x for name in wanted if name != "inertia" for x in wanted[name])
     leaves = [lowering.reader.leaf(x, "parameter") for x in parameters]
@@ -214,6 +215,9 @@ def _functions(
     framing = _framing(frame, scheduler, from_p, numbers) if frame else None
     for name, nodes in drift(space).items():
         functions[name] = scheduler.function(nodes, moving)
+    if door := matrix_state(space):
+        functions[TO_MATRIX] = scheduler.function(door.outputs[TO_MATRIX], moving)
+        functions[FROM_MATRIX] = scheduler.function(door.outputs[FROM_MATRIX], door.places(names))
     return functions, constants, framing
 
 

@@ -1,10 +1,11 @@
 """The functions of an emitted program as data: what each takes and writes, and what it gives.
 
 Every language loops over them.  Arrays are x, the state; k, the constants; p, the parameters; u,
-the inputs; y, the state with momenta in place of the velocity; dx and dy, the rates; D, a matrix by
-rows: 2N × 2N, or with a column for each input or parameter, N the dimension of the group; out, of
-the size of what is taken, or the Poisson tensor; of a discrete step q, h times its momentum, then
-h, z, its unknowns, b, what is computed before these, and s, coordinates of what it turns by.
+the inputs; y, the state with momenta in place of the velocity; z, that with a matrix in place of
+the quaternion; dx and dy, the rates; D, a matrix by rows: 2N × 2N, or with a column for each input
+or parameter, N the dimension of the group; out, of the size of what is taken, or as its function
+says; of a discrete step q, h times its momentum, then h, v, its unknowns, b, what is computed
+before these, and s, coordinates of what it turns by.
 """
 
 from __future__ import annotations
@@ -56,6 +57,7 @@ X, K, P, U, Y = (
     )
 )
 DY, TENSOR = Argument("dy", ("STATE",)), Argument("out", ("REDUCED", "REDUCED"))
+Z, Z_OUT = Argument("z", ("MATRIX",)), Argument("out", ("MATRIX",))
 OUT, INPUTS_OUT = Argument("out", ("STATE",)), Argument("out", ("INPUTS",))
 
 
@@ -63,10 +65,10 @@ def _matrix(*columns: str) -> Argument:
     return Argument("D", ("2", "ALGEBRA", *columns))
 
 
-ARRAYS = {"q": "LOADED", "b": "BEGUN", "z": "UNKNOWNS", "s": "TURNS"}
+ARRAYS = {"q": "LOADED", "b": "BEGUN", "v": "UNKNOWNS", "s": "TURNS"}
 """The arrays of a discrete step and their sizes."""
 
-Q, B, Z, S = (Argument(name, (size,)) for name, size in ARRAYS.items())
+Q, B, V, S = (Argument(name, (size,)) for name, size in ARRAYS.items())
 
 
 def _out(*sizes: str) -> Argument:
@@ -107,6 +109,15 @@ SIGNATURES = (
         (X,),
         doc="how far x is off the group: the sum of the sizes of what its relations leave, "
         "0 on the group",
+    ),
+    Signature(
+        "to_matrix", (X,), (Z_OUT,), "the state x with A, row by row, in place of the quaternion"
+    ),
+    Signature(
+        "from_matrix",
+        (Z,),
+        (OUT,),
+        "the state z, which begins with a rotation A, with its quaternion instead, q_0 >= 0",
     ),
     Signature("into_frame", (X, K), (OUT,), f"the state x {THERE}"),
     Signature("out_of_frame", (X, K), (OUT,), f"the state x {BACK}"),
@@ -162,19 +173,19 @@ SIGNATURES = (
     ),
     Signature(
         "step_newton",
-        (X, K, B, Q, Z),
+        (X, K, B, Q, V),
         (_out("CORRECTED"),),
-        "Newton's step for a discrete step z: what is to be taken away, and the determinant",
+        "Newton's step for a discrete step v: what is to be taken away, and the determinant",
     ),
     Signature(
-        "step_turn", (Z, S), (_out("UNKNOWNS"),), "a discrete step z and a turn by s after it"
+        "step_turn", (V, S), (_out("UNKNOWNS"),), "a discrete step v and a turn by s after it"
     ),
-    Signature("step_turn_little", (Z, S), (_out("UNKNOWNS"),), "the same for an s of at most 1e-8"),
+    Signature("step_turn_little", (V, S), (_out("UNKNOWNS"),), "the same for an s of at most 1e-8"),
     Signature(
         "step_end",
-        (X, K, Q, Z),
+        (X, K, Q, V),
         (_out("MOVED"),),
-        "what a discrete step z adds to the element of x, and h times the momentum after it",
+        "what a discrete step v adds to the element of x, and h times the momentum after it",
     ),
     Signature(
         "inertia",
@@ -204,6 +215,7 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         "ALGEBRA": p.dimension,
         "REDUCED": p.reduced,
         **(p.discrete.sizes if p.discrete else {}),
+        "MATRIX": len(p.matrix_state),
         "2": 2,
         "6": 6,
     }

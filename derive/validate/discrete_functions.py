@@ -93,7 +93,7 @@ class DiscreteFunctions:
         z = [self.draw() for _ in (self.places if self._on_basis else range(3))]
         W = self._turned(z)
         load = self._load(h, W)
-        given = {**self._loaded(arguments, load, h), "z": self.measured(z, "z")}
+        given = {**self._loaded(arguments, load, h), "v": self.measured(z, "v")}
         given |= {"b": self.measured((), "b")}
         turns = self.chart.group.dimension if self._on_basis else 3
         *change, det = self._run("step_newton", given, turns + 1)
@@ -101,7 +101,7 @@ class DiscreteFunctions:
         slopes = []
         for b in range(turns):
             varied = self._beside(z, b)
-            *moved, _ = self._plainly("step_newton", arguments, q=[*load, h], z=varied, b=())
+            *moved, _ = self._plainly("step_newton", arguments, q=[*load, h], v=varied, b=())
             self._same("step_newton", [part(x, EPS) for x in moved], [a == b for a in range(turns)])
             slopes.append([part(x, EPS) for x in self._load(h, self._turned(varied))])
         self._same("step_newton", [det], [q.determinant(tuple(map(tuple, slopes)))])
@@ -114,7 +114,7 @@ class DiscreteFunctions:
         begun = self._run("step_begin", given, 4)
         end = q.plus(self._linear(self.point.g), self._first(load))
         off = q.determinant(self._along(end, theta + EPSILON)) - 1
-        there = {**given, "b": Array(begun, "b"), "z": self.measured([theta], "z")}
+        there = {**given, "b": Array(begun, "b"), "v": self.measured([theta], "v")}
         wanted = [part(off, 0) / part(off, EPS), part(off, EPS)]
         self._same("step_newton", self._run("step_newton", there, 2), wanted)
         return ("step_begin", "step_newton", *self._end(arguments, h, load, [theta], None))
@@ -137,7 +137,7 @@ class DiscreteFunctions:
             if not self._on_basis and self.chart.group.affine:
                 moved = self._with_centre(self._linear(moved), load)
             after = self._after(h, W, load)
-        given = {**self._loaded(arguments, load, h), "z": self.measured(z, "z")}
+        given = {**self._loaded(arguments, load, h), "v": self.measured(z, "v")}
         wanted = [*(moved[i][j] for _, i, j in self.chart.entries), *after]
         self._same("step_end", self._run("step_end", given, len(wanted)), wanted)
         return ("step_end",)
@@ -162,7 +162,7 @@ class DiscreteFunctions:
             assert back is not None
             total = q.times(back, q.plus(one, half))
         after = q.minus(q.times(self._turned(z), total), one)
-        given = {"z": self.measured(z, "z"), "s": self.measured(s, "s")}
+        given = {"v": self.measured(z, "v"), "s": self.measured(s, "s")}
         wanted = [after[i][j] for i, j in self.places]
         self._same(name, self._run(name, given, len(wanted)), wanted)
 

@@ -34,12 +34,14 @@ SIGNATURES = {
     "step_velocity": ("void", "const* x", "const* k", "const* q", "* out"),
     "step_guess": ("void", "const* x", "const* k", "const* q", "* out"),
     "step_begin": ("void", "const* x", "const* k", "const* q", "* out"),
-    "step_newton": ("void", *(f"const* {a}" for a in "xkbqz"), "* out"),
-    "step_turn": ("void", "const* z", "const* s", "* out"),
-    "step_turn_little": ("void", "const* z", "const* s", "* out"),
-    "step_end": ("void", *(f"const* {a}" for a in "xkqz"), "* out"),
+    "step_newton": ("void", *(f"const* {a}" for a in "xkbqv"), "* out"),
+    "step_turn": ("void", "const* v", "const* s", "* out"),
+    "step_turn_little": ("void", "const* v", "const* s", "* out"),
+    "step_end": ("void", *(f"const* {a}" for a in "xkqv"), "* out"),
     "project": ("void", "const* x", "* out"),
     "defect": ("real", "const* x"),
+    "to_matrix": ("void", "const* x", "* out"),
+    "from_matrix": ("void", "const* z", "* out"),
     "jacobian": ("void", "t", "const* x", "const* k", "const* u", "* dx", "* D"),
     "jacobian_inputs": ("void", "t", "const* x", "const* k", "const* u", "* D"),
     "jacobian_raw": ("void", "t", "const* x", "const* k", "const* u", "* D"),
@@ -53,7 +55,7 @@ SIGNATURES = {
 }
 """Function → what it returns, and what it takes in order: the contract with its callers."""
 
-SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS", "CONSERVED", "REDUCED")
+SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS", "CONSERVED", "REDUCED", "MATRIX")
 DECLARED = {"P": "PARAMETERS", "K": "CONSTANTS", "U": "INPUTS"}
 """Macro → the size that it declares: arrays that may be empty, which C does not have: SIZE is 1
 then."""

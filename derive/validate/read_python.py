@@ -30,7 +30,7 @@ from .terms import (
 
 OF_STATE = (
     *("_rhs", "_energy", "_conserved", "_project", "_defect", "_jacobian", "_jacobian_inputs"),
-    *("_momentum", "_multiplier", "_jacobian_raw"),
+    *("_momentum", "_multiplier", "_jacobian_raw", "_to_matrix"),
 )
 OF_Y, OF_BOTH = ("_velocity", "_momentum_rhs", "_poisson"), ("_velocity_step", "_momentum_rates")
 SIGNATURES = {
@@ -38,16 +38,17 @@ SIGNATURES = {
     **dict.fromkeys(OF_STATE, ("xp", "t", "x", "k", "u")),
     **dict.fromkeys(OF_Y, ("xp", "t", "y", "k", "u")),
     **dict.fromkeys(OF_BOTH, ("xp", "t", "x", "y", "k", "u")),
+    "_from_matrix": ("xp", "z"),
     "_jacobian_parameters": ("xp", "t", "x", "p", "u"),
     "_step_momentum": ("xp", "x", "k"),
     "_step_force": ("xp", "t", "x", "k", "u"),
     "_step_velocity": ("xp", "x", "k", "q"),
     "_step_guess": ("xp", "x", "k", "q"),
     "_step_begin": ("xp", "x", "k", "q"),
-    "_step_newton": ("xp", "x", "k", "b", "q", "z"),
-    "_step_turn": ("xp", "z", "s"),
-    "_step_turn_little": ("xp", "z", "s"),
-    "_step_end": ("xp", "x", "k", "q", "z"),
+    "_step_newton": ("xp", "x", "k", "b", "q", "v"),
+    "_step_turn": ("xp", "v", "s"),
+    "_step_turn_little": ("xp", "v", "s"),
+    "_step_end": ("xp", "x", "k", "q", "v"),
 }
 CALLS = tuple(f"_{name}(xp, " for name in BUNDLES)
 """How a call of a function of integrals begins."""

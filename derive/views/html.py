@@ -68,15 +68,18 @@ def html(
     language: Language = ENGLISH,
     findings: Sequence[Finding] = (),
     moving: Mapping[str, str] | None = None,
+    pictures: Mapping[str, str] | None = None,
 ) -> str:
     """The walk of records as a web page: what holds for any group, then a part for each record.
 
-    ``moving``: name of a record → the file of a page in which its body moves, which gets a link.
+    ``moving``: name of a record → the file of a page in which its body moves, which gets a link;
+    ``pictures``: the file of a picture of its motion, which is shown.
     """
     chosen, word = notation or Notation(), language.word
     parts = book(records, language)
     numbers, found = numbered(parts), corrections(parts, findings, language)
-    written = [_PartFields(p, chosen, language, numbers, found, moving or {}) for p in parts]
+    beside = moving or {}, pictures or {}
+    written = [_PartFields(p, chosen, language, numbers, found, *beside) for p in parts]
     shown = {s.label: [*p.equations(s)] for p in written for s in p.part.steps}
     template = environment("html", autoescape=True).get_template("page.html.jinja")
     return template.render(
@@ -148,6 +151,7 @@ class _PartFields:
     numbers: Mapping[str, str]
     corrections: Mapping[str, Mapping[int, list[Passage]]]
     moving: Mapping[str, str]
+    pictures: Mapping[str, str]
 
     @cached_property
     def names(self) -> Mapping[str, str]:
@@ -164,6 +168,7 @@ class _PartFields:
             "steps": [self.step(step, shown) for step in self.part.steps],
             "names": [*self.symbols(), *self.parameters()],
             "moving": self.moving.get(self.part.name, "") if self.part.record else "",
+            "picture": self.pictures.get(self.part.name, "") if self.part.record else "",
             **self.figure(),
         }
 

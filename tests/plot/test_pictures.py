@@ -145,6 +145,13 @@ def test_a_kind_that_does_not_fit_is_told(kind, says):
         plot(run_of("euler_top"), "a.svg", kind)
 
 
+def test_what_is_of_ensembles_is_refused_for_a_run():
+    with pytest.raises(PlotError, match="spread is of an ensemble, and this is none; there are"):
+        plot(run_of("euler_top"), "a.svg", "spread")
+    with pytest.raises(PlotError, match="columns are chosen of an ensemble"):
+        plot(run_of("euler_top"), "a.svg", columns=["A_11"])
+
+
 def test_a_polhode_needs_the_inertia():
     run = run_of("euler_top")
     bare = Run(run.columns, run.table, {**run.facts, "body": {}})

@@ -7,11 +7,11 @@ import math
 import re
 
 TOKEN = re.compile(r"[A-Za-z_]\w*|[0-9]+\.[0-9]*(?:e[+-]?[0-9]+)?f?|[0-9]+(?:e[+-]?[0-9]+)?|\S")
+CHANGED = "constants|rhs|rhs_batch|energy|project|defect|to_matrix|from_matrix"
 BODIES = {
     "c": r"^\w[^\n;]*?_({})\([^;{{]*?\)\n\{{\n(.*?)^\}}",
     "python": r"^def _({})\([^)]*\):\n(.*?)(?=^def |\Z)",
 }
-NAMES = "constants|rhs|rhs_batch|energy|project|defect"
 CHECKS = {"c": r"    if \(.*", "python": r"    tests = \[.*?^    \]$|, tests$"}
 COMMENTS = {"c": r"/\*.*?\*/|^#[^\n]*", "python": r"#[^\n]*"}
 WORDS = "const double float return int for void size_t xp fabs abs sqrt s n _ p x k u dx out t"
@@ -45,7 +45,7 @@ def names_in(e):
     return own.union(*map(names_in, e))
 
 
-def mutants(text, language, module, names=NAMES):
+def mutants(text, language, module, names=CHANGED):
     """(function, kind, position, changed text) for every change of functions of these names."""
     for found in re.finditer(BODIES[language].format(names), text, re.MULTILINE | re.DOTALL):
         function, (start, _) = found[1], found.span(2)

@@ -34,7 +34,7 @@ STEPPING = "step_"
 
 Leaves = dict[str, list[Node]]
 """Array → the numbers in it: ``q``, h times a momentum, or the momentum itself where a velocity is
-told by it, then the step h; ``z``, the unknowns; ``b``, what is computed before they are found;
+told by it, then the step h; ``v``, the unknowns; ``b``, what is computed before they are found;
 ``s``, coordinates by which an element is turned."""
 
 
@@ -99,7 +99,7 @@ def lowered(here: Lowering, record: Derivation) -> Lowered:
         WHOLE: (group.n**2 + shift, 0, 0, 0),
         BASIS: (group.dimension, len(pattern(group.basis, group.size)), 0, group.dimension),
     }[kind]
-    names = {"q": "momentum", "z": "unknown", "b": "begun", "s": "turn"}
+    names = {"q": "momentum", "v": "unknown", "b": "begun", "s": "turn"}
     leaves = {x: e.leaves(name, n) for (x, name), n in zip(names.items(), counts, strict=True)}
     q, z, b, s = leaves.values()
     if kind == TURNING:
