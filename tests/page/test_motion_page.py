@@ -318,13 +318,23 @@ def test_the_command_writes_it_with_a_run_or_alone(tmp_path, capsys):
 def test_notes_link_to_the_page_of_each_problem(tmp_path, capsys):
     out = tmp_path / "notes.html"
     assert main(["notes", "so3", "jelly", "--motion", "5", "--lang", "fr", "--out", str(out)]) == 0
-    names = ["so3_motion.html", "jelly_motion.html"]
+    names = ["notes_so3_motion.html", "notes_jelly_motion.html"]
     assert capsys.readouterr().out.split() == [str(out), *(str(tmp_path / x) for x in names)]
     links = re.findall('<a href="([^#"]*)">En mouvement', out.read_text(encoding="utf-8"))
     assert links == names
     for name, text in zip(("so3", "jelly"), names, strict=True):
         page = derive.derive(name).motion_page(5.0, language="fr")
         assert (tmp_path / text).read_text(encoding="utf-8") == page
+
+
+def test_notes_in_two_languages_have_pages_of_their_own(tmp_path, capsys):
+    both = []
+    for name, more in (("notes.html", []), ("notes_fr.html", ["--lang", "fr"])):
+        out = str(tmp_path / name)
+        assert main(["notes", "so3", "--motion", "5", "--out", out, *more]) == 0
+        both.append({*capsys.readouterr().out.split()})
+    assert not both[0] & both[1]
+    assert not told((tmp_path / "notes_so3_motion.html").read_text(encoding="utf-8"))["comma"]
 
 
 @pytest.mark.parametrize(
