@@ -540,3 +540,23 @@ def test_texts_of_a_stranger_are_shown_as_text(hostile, opened):
     assert BAD in page.locator('[data-name="a"]').inner_text()
     assert page.locator("h1").inner_text() == BAD
     assert page.locator("img").count() == 0
+
+
+@pytest.mark.dist
+@pytest.mark.parametrize("width", [1280, 390])
+def test_what_is_beside_keeps_its_place(width, opened):
+    """A value about 0.001, where small numbers begin to be powers of ten."""
+    d, tilt = derive.derive("top"), (0.3, 0, 0)
+    spin = d.simulate(0.01, start={"zeta_3": 1.0}, exp=tilt, points=1)["body_angular_momentum_3"][0]
+    page = opened(d.motion_page(10.0, start={"zeta_3": 0.001 / spin}, exp=tilt), width)
+    told, places = set(), set()
+    for k in range(20):
+        seek(page, 0.0125 * 1.37**k)
+        page.wait_for_timeout(20)
+        cell = page.locator('[data-name="body_angular_momentum_3"] td').first
+        told.add(cell.inner_text())
+        places.add(page.locator(".adjuster").first.bounding_box()["y"])
+        assert page.locator(".clock").bounding_box()["height"] < 30
+    assert "0.0010000" in told
+    assert {len(x) for x in told} == {9}
+    assert len(places) == 1
