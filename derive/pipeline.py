@@ -386,14 +386,16 @@ def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree
     return named(found) | first_integrals(found.problem, beside_symmetries=True)
 
 
-def motion_of(problem: Problem, record: Derivation, step: str = "gauss") -> Emitted:
-    """The emitted code of a problem with a step, which stops at its events, and all that its motion
-    keeps, for runs."""
+def motion_of(
+    problem: Problem, record: Derivation, step: str = "gauss", order: str = ""
+) -> Emitted:
+    """The emitted code of a problem with a step, of an ``order`` if it is the discrete one, which
+    stops at its events, and all that its motion keeps, for runs."""
     from .code.options import Options
     from .motion.emitted import Emitted
 
     has, why = record.definition("θ") is not None, ""
-    plain = Options(step=(step,))
+    plain = Options(step=(step,), order=order)
     told = replace(plain, multiplier=has)
     for chosen in (replace(told, conserved=True), told, plain):
         try:
@@ -403,7 +405,7 @@ def motion_of(problem: Problem, record: Derivation, step: str = "gauss") -> Emit
             why = why or str(error)
             if chosen == plain:
                 raise
-    return Emitted.of(made, problem, record, step, one_degree(problem, record), why)
+    return Emitted.of(made, problem, record, step, one_degree(problem, record), why, order)
 
 
 def motion_of_many(problem: Problem, record: Derivation) -> Emitted:

@@ -44,8 +44,8 @@ class OneDegree:
 
 @dataclass(frozen=True)
 class Emitted:
-    """A program, its record, and a step in time that is emitted with it, which stops at the
-    ``events``; are the numbers of the problem in SI?
+    """A program, its record, and a step in time that is emitted with it, of an ``order`` if it is
+    the discrete one, which stops at the ``events``; are the numbers of the problem in SI?
 
     ``facts``: what a run says of the problem.
     """
@@ -57,6 +57,7 @@ class Emitted:
     in_si: bool = False
     events: tuple[Event, ...] = ()
     left: OneDegree | None = None
+    order: str = ""
 
     @classmethod
     def of(
@@ -67,6 +68,7 @@ class Emitted:
         step: str,
         left: OneDegree | None = None,
         unsought: str = "",
+        order: str = "",
     ) -> Emitted:
         """That of the program of a problem; ``left``: what its symmetries leave, if it is one
         degree of freedom; ``unsought``: why it has none of what the motion keeps but the energy.
@@ -80,18 +82,23 @@ class Emitted:
         }
         units = any(x.unit for x in problem.parameters.values())
         in_si = units and problem.lagrangian is None
-        return cls(program, record, step, facts, in_si, problem.events, left)
+        return cls(program, record, step, facts, in_si, problem.events, left, order)
 
     @property
     def name(self) -> str:
         """The prefix of the emitted functions."""
         return self.program.name
 
+    @property
+    def options(self) -> Options:
+        """Those of its step."""
+        return Options(step=(self.step,), order=self.order)
+
     @cached_property
     def python(self) -> ModuleType:
         """The emitted module of Python."""
-        module, steps = ModuleType(self.name), Options(step=(self.step,))
-        (text,) = emit(self.program, self.record, ("python",), self.name, steps).values()
+        module = ModuleType(self.name)
+        (text,) = emit(self.program, self.record, ("python",), self.name, self.options).values()
         exec(compile(text, f"{self.name}.py", "exec"), module.__dict__)  # our own templates
         return module
 
@@ -100,7 +107,7 @@ class Emitted:
         """The emitted C as a library, whose iterations end at rounding, as those of the Python;
         ``CompileError`` where there is no compiler."""
         name = self.name
-        files = emit(self.program, self.record, ("c",), name, Options(step=(self.step,)))
+        files = emit(self.program, self.record, ("c",), name, self.options)
         files["steps.c"] = binding(name, (self.step,), FIXED, events=bool(self.events))
         to_rounding = f"-D{name}_ENOUGH=0"
         return loaded(CSource(name, tuple(files.items()), None, (*FLAGS, to_rounding)))
@@ -168,6 +175,16 @@ class Emitted:
     def _kept(self) -> list[int]:
         """The places of what is conserved beside the energy, which has a column of its own."""
         return [k for k, name in enumerate(self.program.conserved) if name != "energy"]
+
+    def vanishing(self, k: Array) -> list[str]:
+        """What the motion keeps that is 0 in every state for these constants, by name, as what
+        gravity gives where there is none: 0 in a state without any symmetry."""
+        if not self._kept:
+            return []
+        x = np.cos(1.0 + np.arange(len(self.program.state)))
+        with np.errstate(all="ignore"):
+            found = self.python.conserved(1.0, x, k)[self._kept]
+        return [self.program.conserved[j] for j, v in zip(self._kept, found, strict=True) if v == 0]
 
     def columns(self) -> tuple[Column, ...]:
         """The columns of a run: time, state, then what :meth:`table` adds."""

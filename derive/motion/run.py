@@ -47,7 +47,8 @@ class Run:
     JSON has it: the name of the problem, its title, group and hash, ``unsought`` (why nothing but
     the energy stands as what is kept, if so), ``parameters`` (name → number), ``method`` (the
     step, its tolerance or size), ``language`` (in which it was run, C or Python), ``evaluations``
-    (of the rate), ``ended`` (empty, or why it stopped too soon), ``events`` (those that happened),
+    (of the rate), ``vanishing`` (what it keeps that is 0 in any state with these parameters),
+    ``ended`` (empty, or why it stopped too soon), ``events`` (those that happened),
     ``body`` and ``potential`` (what pictures need).
     """
 
@@ -94,4 +95,4 @@ class Run:
     def __repr__(self) -> str:
         name, rows = self.facts.get("problem", "?"), len(self.table)
         span = f", t = {self.t[0]:g} … {self.t[-1]:g}" if rows else ""
-        return f"<run of {name}: {rows} instants{span}>"
+        return f"<run of {name}: {rows} instant{'s' * (rows != 1)}{span}>"

@@ -91,6 +91,8 @@ def _known(values: Collection[str], given: Mapping[str, float], where: str) -> N
     for name, number in given.items():
         if name not in values:
             near = did_you_mean(near_name(name, [*values]), after=" ")
+            if name == "exp":
+                near = "a tilt is set by --exp, varied by a parameter that [initial] exp uses; "
             if (other := turned(name)) in values:
                 near = f"ω̂(−𝐧) is the conjugate of ω̂(𝐧): give {other}; "
             raise MotionError(
