@@ -388,9 +388,19 @@ def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree
 
 def motion_of(problem: Problem, record: Derivation, step: str = "gauss") -> Emitted:
     """The emitted code of a problem with a step and all that its motion keeps, for runs."""
+    from .motion.emitted import Emitted
+
+    made, why = moving_program(problem, record, step)
+    return Emitted.of(made, problem, record, step, one_degree(problem, record), why)
+
+
+def moving_program(
+    problem: Problem, record: Derivation, step: str = "gauss"
+) -> tuple[Program, str]:
+    """The program of a problem with all that its motion keeps, and why it has none of that but the
+    energy: none is found, or it is not looked for where NumPy or SymPy is not there."""
     from .code.options import Options
     from .code.step.step_numbers import FIXED
-    from .motion.emitted import Emitted
 
     has, why = record.definition("θ") is not None, ""
     # a step of its own size would stop at the events, which are looked for here
@@ -398,13 +408,12 @@ def motion_of(problem: Problem, record: Derivation, step: str = "gauss") -> Emit
     told = replace(plain, multiplier=has)
     for chosen in (replace(told, conserved=True), told, plain):
         try:
-            made = program(problem, record, chosen)
-            break
-        except Refused as error:  # none is found, or none is written for this state
+            return program(problem, record, chosen), why
+        except (Refused, ImportError) as error:  # or none is written for this state
             why = why or str(error)
             if chosen == plain:
                 raise
-    return Emitted.of(made, problem, record, step, one_degree(problem, record), why)
+    raise AssertionError("the last is made or raises")
 
 
 def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:

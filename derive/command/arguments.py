@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from .. import __version__
 from ..language.near_names import did_you_mean, near_name
-from ..plot.pictures import told_kinds
+from ..plot.kinds_told import told_kinds
 from ..views.rendering import FORMATS
 from .guard import one_line
 
@@ -283,7 +283,9 @@ def add_reading_options(
     about = "beside FILE.html a page for each problem, linked from it, in which the body moves"
     notes.add_argument("--motion", metavar="T", type=float, help=f"{about} for a time T")
     for one in (*walks, *searched, notes):
-        one.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
+        one.add_argument(
+            "--fragment", action="store_true", help="LaTeX to \\input, HTML to put into a page"
+        )
         one.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
         for option, name in (("--notation", "transpose"), ("--hat", "hat")):
             values, meaning = NOTATIONS[name]

@@ -8,15 +8,15 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..code.emit import emit
 from ..code.options import Options
 from ..language.greek import GREEK
 from ..language.templating import environment, folder
-from ..motion.emitted import Emitted
+from ..motion.emitted_code import EmittedCode
+from ..motion.first_numbers import FirstNumbers
 from ..motion.kept_words import in_words
-from ..motion.start import Start
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..views.html import visible
@@ -24,6 +24,9 @@ from ..views.language import ENGLISH, Language
 from ..views.outline import capitalised, subtitle, title
 from .moving_body import element, moving_body
 from .shortened import called, shortened
+
+if TYPE_CHECKING:
+    from ..motion.start import Start
 
 WORDS = {
     "play": "play",
@@ -61,10 +64,10 @@ FUNCTIONS = ("constants", "rhs", "energy", "conserved", "defect", "multiplier")
 
 
 def motion_page(
-    code: Emitted,
+    code: EmittedCode,
     problem: Problem,
     record: Derivation,
-    begin: Start,
+    begin: Start | FirstNumbers,
     duration: float,
     tol: float,
     language: Language = ENGLISH,
@@ -90,7 +93,7 @@ def style() -> str:
     return re.sub(r"(?<=[;{},:])\s+|\s+(?=[{}])|\s*\n\s*", "", text)
 
 
-def script(code: Emitted, record: Derivation) -> str:
+def script(code: EmittedCode, record: Derivation) -> str:
     """The emitted module, what mounts a motion, and the call of it, in few characters."""
     (source,) = emit(
         code.program, record, ("javascript",), code.name, Options(step=("gauss",))
@@ -109,14 +112,18 @@ def script(code: Emitted, record: Derivation) -> str:
 
 
 def data(
-    code: Emitted, problem: Problem, record: Derivation, begin: Start, language: Language
+    code: EmittedCode,
+    problem: Problem,
+    record: Derivation,
+    begin: Start | FirstNumbers,
+    language: Language,
 ) -> dict[str, Any]:
     """What the script is told of the motion, as JSON has it."""
     made = code.program
     group = problem.group if problem.advected is None else None
     units = {x.name: x.unit for x in code.columns()}
     return {
-        **{x: getattr(begin, x).tolist() for x in ("x", "p", "u")},
+        **{x: [*map(float, getattr(begin, x))] for x in ("x", "p", "u")},
         "entries": element(group, made.state),
         "body": moving_body(record.problem, group, made.state),
         "labels": {

@@ -12,7 +12,9 @@ from derive.command.cli import main
 from derive.motion.run import Column, Run
 from derive.motion.run_files import written
 from derive.plot.body_pictures import hull
-from derive.plot.pictures import KINDS, OVERVIEW, PRECISION, plot
+from derive.plot.kinds_told import KINDS as TOLD
+from derive.plot.kinds_told import OVERVIEW, PRECISION
+from derive.plot.pictures import KINDS, plot
 from derive.plot.plot_sheet import FORMATS, PlotError, label, sheet
 from derive.plot.precision import of_runs, table
 from derive.plot.spheroid_pictures import followed, maps, section
@@ -60,6 +62,10 @@ def fitting(kind):
     if kind in STARTING:
         return simulated(*STARTING[kind])
     return run_of(TORUS, 2.0, 5) if kind == "vorticity" else run_of("euler_top")
+
+
+def test_the_help_tells_every_kind():
+    assert [*TOLD] == [*KINDS]
 
 
 @pytest.mark.parametrize("kind", [*KINDS, OVERVIEW])

@@ -1,0 +1,23 @@
+"""The kinds of pictures in a line each, for the help of the command line: nothing is drawn here."""
+
+KINDS = {
+    "state": "the state against time",
+    "energy": "relative errors of the energy and of what is conserved",
+    "axes": "tips of the body's axes on the sphere",
+    "polhode": "the velocity on the ellipsoid of inertia",
+    "body": "the body at several instants",
+    "potential": "the effective potential, with the run in it",
+    "spheroid": "semi-axes, pressure and sections of a fluid ellipsoid",
+    "vorticity": "vorticity and enstrophy of a fluid on the torus",
+}
+OVERVIEW, PRECISION = "overview", "precision"
+"""One sheet with all kinds that fit; a diagram of several runs (:mod:`.precision`)."""
+
+
+def told_kinds() -> str:
+    """The kinds with what they are."""
+    listed = KINDS | {
+        OVERVIEW: "all that fit",
+        PRECISION: "work against error, of several runs or of a table",
+    }
+    return "; ".join(f"{name}: {about}" for name, about in listed.items())
