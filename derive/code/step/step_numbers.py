@@ -15,7 +15,6 @@ from .explicit_fields import GROWTH as EXPLICIT_GROWTH
 from .explicit_fields import SAFETY as EXPLICIT_SAFETY
 from .explicit_fields import explicit, fields_of
 from .lanes import OF_EACH, in_lanes, part_of
-from .stage_modes import StageModes
 
 
 def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
