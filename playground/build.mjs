@@ -14,43 +14,22 @@ const [stage, out] = process.argv.slice(2);
 const here = dirname(fileURLToPath(import.meta.url));
 const core = join(here, "node_modules", "pyodide");
 const html = join(here, "..", "templates", "html");
-const CORE = ["pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip"];
+const CORE = ["pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm"];
 
 const files = (folder) => readdirSync(folder, { withFileTypes: true, recursive: true })
   .filter((x) => x.isFile()).map((x) => join(x.parentPath ?? x.path, x.name)).sort();
 
-/* a folder of modules, compiled, without sources, as .tar.gz: the same bytes on any day */
-const PACK = `
-import compileall, gzip, io, os, tarfile
-from py_compile import PycInvalidationMode as Mode
-
-def packed(folder):
-    os.chdir(folder)
-    assert compileall.compile_dir(".", quiet=1, legacy=True, invalidation_mode=Mode.UNCHECKED_HASH)
-    names = sorted(os.path.join(at, x)[2:] for at, _, xs in os.walk(".") for x in xs if not x.endswith(".py"))
-    tar = io.BytesIO()
-    with tarfile.open(fileobj=tar, mode="w", format=tarfile.USTAR_FORMAT) as archive:
-        for name in names:
-            with open(name, "rb") as file:
-                content = file.read()
-            about = tarfile.TarInfo(name)
-            about.size = len(content)
-            archive.addfile(about, io.BytesIO(content))
-    return gzip.compress(tar.getvalue(), 9, mtime=0)
-
-packed
-`;
-
+/* Python packs its own modules: pack.py */
 async function pack() {
   const python = await loadPyodide({ env: { PYTHONHASHSEED: "0" } });
-  const packed = python.runPython(PACK);
-  for (const part of ["first", "later"]) {
-    for (const file of files(join(stage, part))) {
-      const name = `/${part}/${relative(join(stage, part), file)}`;
-      python.FS.mkdirTree(dirname(name));
-      python.FS.writeFile(name, new Uint8Array(readFileSync(file)));
-    }
-    writeFileSync(join(out, `${part}.tar.gz`), packed(`/${part}`).toJs());
+  for (const file of files(stage).filter((x) => !x.endsWith("data.json"))) {
+    const name = `/${relative(stage, file)}`;
+    python.FS.mkdirTree(dirname(name));
+    python.FS.writeFile(name, new Uint8Array(readFileSync(file)));
+  }
+  const packs = python.runPython(readFileSync(join(here, "python", "pack.py"), "utf8")).toJs();
+  for (const [name, bytes] of Object.entries(packs)) {
+    writeFileSync(join(out, name === "library" ? join("pyodide", "python_stdlib.zip") : `${name}.tar.gz`), bytes);
   }
 }
 

@@ -15,7 +15,7 @@ from ..figure.figure import svg
 from ..figure.scene import scene
 from ..language.templating import environment
 from ..language.tree import Tree
-from ..paper.findings import Finding
+from ..paper.finding import Finding
 from ..printing.escape import between_dollars, prose
 from ..printing.inline import inline, spelt
 from ..printing.line_breaking import groups

@@ -11,7 +11,7 @@ from ..language.refused import Refused
 from ..record.record import Derivation
 
 if TYPE_CHECKING:
-    from ..paper.findings import Finding
+    from ..paper.finding import Finding
     from ..printing.notation import Notation
     from ..record.record import Step
     from .language import Language

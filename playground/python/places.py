@@ -22,7 +22,8 @@ def line_of(message: str, text: str) -> int:
     for pattern in KEYS:
         if found := pattern.search(message):
             key = re.escape(found[1])
-            wanted = re.compile(rf"\s*(?:[\"']?{key}[\"']?\s*=|\[+[\w.]*\b{key}\]+)|.*[{{,]\s*{key}\s*=")
+            alone = rf"\s*(?:[\"']?{key}[\"']?\s*=|\[+[\w.]*\b{key}\]+)"
+            wanted = re.compile(rf"{alone}|.*[{{,]\s*{key}\s*=")
             for k in range(first, last):
                 if wanted.match(lines[k]):
                     return k + 1

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import io
 import json
+import pickle
 import re
 import shlex
 import shutil
@@ -25,9 +26,14 @@ from places import line_of
 from derive.command.cli import derive, main
 from derive.command.guard import one_line
 from derive.language.refused import Refused
+from derive.paper.finding import Finding
+from derive.record.contract import AMENDED
+from derive.record.record import Derivation
 
 Tell = Callable[[str, str], None]
 FOLDER = Path("/problem")
+STORED = "amendments.pickle"
+"""Where the problem file is written; a file of this site beside this module."""
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,60}")
 SECONDS, TOLERANCE = 20.0, 1e-9
 """Of a motion."""
@@ -57,8 +63,8 @@ class Play:
             what = "out of memory" if isinstance(error, MemoryError) else "nested too deeply"
             self.fault(f"derive: {what}: the input is too large for this machine")
         except ImportError as error:
-            if error.name == "mpmath":
-                raise
+            if (error.name or "").partition(".")[0] in ("derive", "mpmath"):
+                raise  # the worker loads it, and asks again
             self.fault("derive: this needs NumPy, which is not here")
         for line in err.getvalue().splitlines():
             self.tell("warning", line)
@@ -83,12 +89,11 @@ class Play:
         """The walk as the HTML of ``derive walk FILE --format html --fragment``, piece by piece."""
         from derive.views.html import fragment
         from derive.views.language import language
-        from derive.views.rendering import corrections
 
         with self.refusals():
             self.read(text)
             self.tell("derived", {"steps": len(self.record.steps), "name": self.record.name})
-            found = corrections([self.record])
+            found = corrections(self.record)
             for piece in fragment([self.record], language=language(lang), findings=found):
                 self.tell("piece", piece)
             self.tell("walked", {})
@@ -156,6 +161,14 @@ class Play:
             page |= {"t": SECONDS, "tol": TOLERANCE}
             page["x"] = moving(page, made)
             self.tell("motion", {"source": source, "page": page})
+
+
+def corrections(record: Derivation) -> list[Finding]:
+    """Those of the print, which are the same for every problem, and were found when this was
+    built."""
+    numbers = {n for step in record.steps for n in step.paper} & AMENDED
+    stored = Path(__file__).with_name(STORED)
+    return [x for x in pickle.loads(stored.read_bytes()) if x.number in numbers] if numbers else []
 
 
 def with_numbers(made: Any) -> Any:

@@ -23,7 +23,7 @@ export function editor(parent, schema, words, changed) {
     parent,
     state: EditorState.create({
       extensions: [
-        lineNumbers(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), lintGutter(),
+        lineNumbers(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), lintGutter(), EditorView.lineWrapping,
         StreamLanguage.define(toml), syntaxHighlighting(colours),
         autocompletion({ override: [completions(schema)] }),
         keymap.of([...completionKeymap, ...historyKeymap, ...defaultKeymap]),

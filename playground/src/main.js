@@ -91,6 +91,7 @@ async function derive() {
     } else if (kind === "walked") equations.end();
   });
   if (how === "superseded") return;
+  the("walk").removeAttribute("aria-busy");
   if (!begun || fault) equations.clear(make("p", { class: "fault" }, fault ? found.at(-1).message : told));
   faults(damaged ? [{ message: words.damaged, line: 1, severity: "warning" }, ...found] : found);
   walked = null;
@@ -156,7 +157,6 @@ function edited() {
   about();
   the("walk").setAttribute("aria-busy", "true");
   timer = setTimeout(async () => {
-    the("walk").removeAttribute("aria-busy");
     moved = null;
     await address(false);
     take.told();

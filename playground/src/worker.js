@@ -7,37 +7,49 @@ const SITE = "/lib/site";
 let now = 0;
 const tell = (kind, news, moved = []) => postMessage({ id: now, kind, news }, moved);
 
-async function unpacked(python, name) {
-  const answer = await fetch(`${base}${name}.tar.gz`);
-  if (!answer.ok) throw new Error(`${name}: ${answer.status}`);
-  return () => answer.arrayBuffer().then((x) => python().unpackArchive(new Uint8Array(x), "gztar", { extractDir: SITE }));
+let python;
+
+/* a part of the package, fetched now, and unpacked when it is asked for */
+function part(name) {
+  const fetched = fetch(`${base}${name}.tar.gz`).then((x) => {
+    if (!x.ok) throw new Error(`${name}: ${x.status}`);
+    return x.arrayBuffer();
+  });
+  fetched.catch(() => {});
+  let done;
+  return () => (done ??= fetched.then((x) => {
+    python.unpackArchive(new Uint8Array(x), "gztar", { extractDir: SITE });
+    python.runPython("import importlib; importlib.invalidate_caches()");
+  }));
 }
 
 async function begun() {
-  let python;
-  const first = unpacked(() => python, "first");
+  const first = part("first");
   python = await loadPyodide({ indexURL: `${base}pyodide/` });
-  await (await first)();
+  await first();
   python.runPython(`import sys; sys.path.insert(0, "${SITE}"); sys.dont_write_bytecode = True`);
   const Play = python.pyimport("play").Play;
-  const play = Play((kind, news) => tell(kind, JSON.parse(news)));
-  return { python, play };
+  return Play((kind, news) => tell(kind, JSON.parse(news)));
 }
 
 const started = begun();
-started.then(({ python }) => tell("ready", { python: python.version }), (e) => tell("broken", String(e)));
+started.then(() => tell("ready", { python: python.version }), (e) => tell("broken", String(e)));
 
-/* what is pure Python and not needed at first is loaded when an import of it fails */
-async function withLater(does) {
+let rest, later;
+
+/* what a walk does not need is fetched behind the first one; some libraries when an import of them fails */
+async function answered(ask, does) {
+  const afterwards = () => (rest ??= part("rest"));
+  if (ask !== "walk") await afterwards()();
   try {
-    return does();
+    does();
   } catch (e) {
-    const { python } = await started;
-    if (!String(e).includes("No module named 'mpmath'")) throw e;
-    await (await unpacked(() => python, "later"))();
-    python.runPython("import importlib; importlib.invalidate_caches()");
-    return does();
+    if (String(e).includes("No module named 'mpmath'")) await (later ??= part("later"))();
+    else if (String(e).includes("No module named 'derive.")) await afterwards()();
+    else throw e;
+    does();
   }
+  afterwards();
 }
 
 const ASKED = {
@@ -57,10 +69,10 @@ const ASKED = {
 let line = Promise.resolve();
 addEventListener("message", ({ data }) => {
   line = line.then(async () => {
-    const { play } = await started;
+    const play = await started;
     now = data.id;
     try {
-      await withLater(() => ASKED[data.ask](play, data));
+      await answered(data.ask, () => ASKED[data.ask](play, data));
     } catch (e) {
       tell("error", { message: `derive: ${String(e).trim().split("\n").at(-1)}`, line: 1 });
     }

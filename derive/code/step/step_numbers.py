@@ -136,6 +136,8 @@ def parts(p: Program) -> list[tuple[int, int]]:
 def gauss(coarse: bool) -> dict[str, Any]:
     """The numbers of Gauss's collocation, which round-trip as decimals: see ``Collocation``;
     ``coarse``: its stages apart, too, for Newton's method where there is a Jacobian."""
+    from .stage_modes import StageModes  # which alone needs mpmath
+
     method = Collocation()
     return {
         "nodes": method.c,
