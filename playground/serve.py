@@ -1,6 +1,7 @@
-"""A folder on 127.0.0.1, for the eyes of this machine: ``python -m playground.serve DIR [PORT]``."""
+"""A folder on 127.0.0.1, for this machine alone: ``python -m playground.serve DIR [PORT]``."""
 
 import sys
+from contextlib import suppress
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -37,10 +38,8 @@ def main(folder: Path, port: int = 8000) -> None:
         serving = server(folder)
     with serving:
         print(f"http://127.0.0.1:{serving.server_port}/play/  (Ctrl-C ends)", flush=True)
-        try:
+        with suppress(KeyboardInterrupt):
             serving.serve_forever()
-        except KeyboardInterrupt:
-            pass
 
 
 if __name__ == "__main__":

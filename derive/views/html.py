@@ -78,7 +78,7 @@ def html(
     ``moving``: name of a record → the file of a page in which its body moves, which gets a link.
     """
     shown = _shown(records, notation or Notation(), language, findings, moving or {})
-    return _template("page").render(shown)
+    return _template("page").render(shown, within="main")
 
 
 def fragment(
@@ -92,7 +92,7 @@ def fragment(
     ``page.css``: in pieces, each made when it is asked for, which end where an article does."""
     shown = _shown(records, notation or Notation(), language, findings, {})
     piece: list[str] = []
-    for part in _template("fragment").generate(shown):
+    for part in _template("fragment").generate(shown, within="div"):
         piece.append(part)
         if part.endswith(ARTICLE):
             yield "".join(piece)

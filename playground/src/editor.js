@@ -18,7 +18,7 @@ const colours = HighlightStyle.define([
 
 export function editor(parent, schema, words, changed) {
   const label = new Compartment();
-  const about = (w) => EditorView.contentAttributes.of({ "aria-label": w.editor });
+  const about = (w) => EditorView.contentAttributes.of({ "aria-label": w.editor, tabindex: "0" });
   const view = new EditorView({
     parent,
     state: EditorState.create({

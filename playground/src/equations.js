@@ -8,6 +8,7 @@ article { content-visibility: auto; contain-intrinsic-size: auto 9rem; }
 .tick.wrong { color: var(--wrong); }
 button { opacity: 1; min-height: 24px; min-width: 24px; }
 h1:first-child { margin-top: 0; }
+a { text-decoration: underline; text-underline-offset: .15em; text-decoration-thickness: from-font; }
 a:focus-visible, button:focus-visible, summary:focus-visible { outline: 2px solid var(--mark); outline-offset: 1px; }
 @media (min-width: 68rem) { .printed { position: static; width: auto; } .printed > span { display: inline; } }
 `;
@@ -16,6 +17,12 @@ export class Equations {
   #root;
   #open = null;
   #words;
+  /* what is wider than its box can be moved by keys */
+  #seen = new IntersectionObserver((found) => {
+    for (const { target } of found) {
+      if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
+    }
+  });
 
   constructor(host, css) {
     this.#root = host.attachShadow({ mode: "open" });
@@ -29,6 +36,7 @@ export class Equations {
 
   /* begin anew; markup that comes in pieces is parsed as a page is that is loading */
   begin(words, lang) {
+    this.#seen.disconnect();
     this.#words = words;
     const loading = document.implementation.createHTMLDocument("");
     loading.open();
@@ -47,6 +55,8 @@ export class Equations {
     this.#open.write("</div>");
     this.#open.close();
     this.#open = null;
+    for (const summary of this.#root.querySelectorAll("summary")) unlinked(summary);
+    for (const wide of this.#root.querySelectorAll(".wide")) this.#seen.observe(wide);
     for (const button of this.#root.querySelectorAll("button[data-tex]")) {
       button.setAttribute("aria-label", `${this.#words.tex} ${button.parentElement.textContent.trim()}`);
       const other = make("button", { type: "button", title: this.#words.mathml }, "MathML");
@@ -91,6 +101,18 @@ export class Equations {
     place.tabIndex = -1;
     place.focus({ preventScroll: true });
   }
+}
+
+/* the links of a summary, which opens and shuts, stand in what it opens */
+function unlinked(summary) {
+  const links = [...summary.querySelectorAll("a")];
+  if (!links.length) return;
+  const list = make("p", { class: "note" });
+  for (const link of links) {
+    link.replaceWith(link.textContent);
+    list.append(link, " ");
+  }
+  summary.after(list);
 }
 
 /* one equation as one formula */

@@ -19,7 +19,7 @@ function part(name) {
   let done;
   return () => (done ??= fetched.then((x) => {
     python.unpackArchive(new Uint8Array(x), "gztar", { extractDir: SITE });
-    python.runPython("import importlib; importlib.invalidate_caches()");
+    python.runPython("import sys; sys.path_importer_cache.clear()");
   }));
 }
 

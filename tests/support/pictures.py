@@ -1,7 +1,7 @@
 """The pictures of README, in docs/pictures: python -m tests.support.pictures.
 
-A page of lecture notes as PDF, and a step of the walk as a page in a browser; both of ``top``.  It
-needs TeX, pdftoppm, Chromium and playwright.
+A page of lecture notes as PDF, a step of the walk as a page in a browser, and the playground; all
+of ``top``.  It needs TeX, pdftoppm, Chromium, playwright and Node.
 """
 
 import shutil
@@ -13,6 +13,7 @@ from playwright.sync_api import sync_playwright
 
 from derive.command.cli import main
 from tests.support.needs import BROWSERS
+from tests.support.playground_site import built, chromium, served, walked
 
 PICTURES = Path(__file__).parents[2] / "docs" / "pictures"
 PDF_STEP = "top.euler"
@@ -45,8 +46,19 @@ def walk(folder):
         shown.close()
 
 
+def playground():
+    """The playground with the equations of a top, in a browser."""
+    with served(built().parent) as (address, _), chromium() as browser:
+        page = browser.new_page(viewport={"width": 1280, "height": 760}, color_scheme="light")
+        page.goto(f"{address}play/#top")
+        walked(page, "top")
+        page.evaluate(f"play.equations.go({PDF_STEP!r})")
+        page.screenshot(path=PICTURES / "playground.png")
+
+
 if __name__ == "__main__":
     PICTURES.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         notes(folder)
         walk(folder)
+    playground()
