@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed$(if $(LOCKED),-locked)
 INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: help derive test coverage mutants dist docs playground site play notes bench accuracy fuzz lint lock clean
+.PHONY: help derive test coverage mutants dist docs playground site play notes pictures bench accuracy fuzz lint lock clean
 
 help:            ## this list
 	@sed -n 's/^\([a-z]*\):.*## /  make \1  \t/p' Makefile
@@ -69,6 +69,9 @@ lock:            ## the versions that are newest now, and the hashes of their fi
 	  --custom-compile-command "make lock; to have these versions: make test LOCKED=1" \
 	  --output-file requirements-dev.lock pyproject.toml -
 	rm -rf build/lock
+
+pictures: $(STAMP) ## the pictures of docs/plot.md, from the runs in examples/runs
+	$(BIN)/python -m tests.support.motion_pictures
 
 bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside its peers
 	$(BIN)/python -m benchmarks.road

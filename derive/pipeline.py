@@ -387,7 +387,8 @@ def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree
 
 
 def motion_of(problem: Problem, record: Derivation, step: str = "gauss") -> Emitted:
-    """The emitted code of a problem with a step and all that its motion keeps, for runs."""
+    """The emitted code of a problem with a step, which stops at its events, and all that its motion
+    keeps, for runs."""
     from .motion.emitted import Emitted
 
     made, why = moving_program(problem, record, step)
@@ -400,11 +401,9 @@ def moving_program(
     """The program of a problem with all that its motion keeps, and why it has none of that but the
     energy: none is found, or it is not looked for where NumPy or SymPy is not there."""
     from .code.options import Options
-    from .code.step.step_numbers import FIXED
 
     has, why = record.definition("θ") is not None, ""
-    # a step of its own size would stop at the events, which are looked for here
-    plain = Options(step=(step,) if step in FIXED else ())
+    plain = Options(step=(step,))
     told = replace(plain, multiplier=has)
     for chosen in (replace(told, conserved=True), told, plain):
         try:
@@ -414,6 +413,14 @@ def moving_program(
             if chosen == plain:
                 raise
     raise AssertionError("the last is made or raises")
+
+
+def motion_of_many(problem: Problem, record: Derivation) -> Emitted:
+    """The same for ensembles, whose motions stop at terminal events alone."""
+    from .motion.ensemble import STEP
+
+    ends = tuple(x for x in problem.events if x.terminal)
+    return motion_of(replace(problem, events=ends), record, STEP)
 
 
 def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
@@ -445,12 +452,11 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
     from .code.assemble import assemble
     from .code.events import watched
 
-    on_torus = problem.torus is not None
-    events = watched(problem.name, problem.events, options, on_torus=on_torus) if options else ()
+    events = watched(problem.name, problem.events, options) if options else ()
     if problem.torus:
         from .code.torus.torus_program import torus_program
 
-        return torus_program(record, problem.torus, options)
+        return torus_program(record, problem.torus, options, events)
     if problem.group is None:
         raise ProblemError(
             f"{problem.name}: {problem.without_matrices}, so it has no numeric code; "

@@ -22,7 +22,7 @@ const files = (folder) => readdirSync(folder, { withFileTypes: true, recursive: 
 /* Python packs its own modules: pack.py */
 async function pack() {
   const python = await loadPyodide({ env: { PYTHONHASHSEED: "0" } });
-  for (const file of files(stage).filter((x) => !x.endsWith("data.json"))) {
+  for (const file of ["first", "later"].flatMap((x) => files(join(stage, x)))) {
     const name = `/${relative(stage, file)}`;
     python.FS.mkdirTree(dirname(name));
     python.FS.writeFile(name, new Uint8Array(readFileSync(file)));
@@ -47,8 +47,8 @@ await build({
 for (const file of ["index.html", "moving.html", "play.css", "icon.svg", "play.webmanifest"]) {
   copyFileSync(join(here, "src", file), join(out, file));
 }
-for (const file of ["page.css", "motion.css", "motion.js"]) copyFileSync(join(html, file), join(out, file));
-copyFileSync(join(stage, "data.json"), join(out, "data.json"));
+for (const file of ["page.css", "motion.css"]) copyFileSync(join(html, file), join(out, file));
+for (const file of ["data.json", "motion.js"]) copyFileSync(join(stage, file), join(out, file));
 
 const all = files(out).map((x) => relative(out, x));
 const hash = createHash("sha256");

@@ -6,6 +6,7 @@ libraries in pure Python that it needs, and ``data.json``: ready-made problems, 
 
 import importlib
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -17,6 +18,7 @@ from derive.algebra.families import FAMILIES
 from derive.code.languages import LANGUAGES
 from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED
 from derive.command.cli import READY, ready_made
+from derive.page.motion_page import SCRIPTS
 from derive.problem.toml import TOP
 from derive.schema.body_kinds import Point
 from derive.schema.declared import Parameter
@@ -91,6 +93,14 @@ def schema() -> dict[str, object]:
     }
 
 
+def drawing() -> str:
+    """What moves a body, and its functions by name."""
+    folder = HERE.parent / "templates" / "html" / "motion"
+    source = "".join((folder / f"{x}.js").read_text(encoding="utf-8") for x in SCRIPTS)
+    names = re.findall(r"^(?:function|const) (\w+)", source, re.MULTILINE)
+    return f"{source}\nglobalThis.drawing = {{ {', '.join(names)} }};\n"
+
+
 def main(out: Path) -> None:
     """Stage everything in a folder."""
     shutil.rmtree(out, ignore_errors=True)
@@ -105,6 +115,7 @@ def main(out: Path) -> None:
     for module in ("play", "places"):
         shutil.copy(HERE / "python" / f"{module}.py", first)
     told = {"version": derive.__version__, "problems": problems(), **options(), "schema": schema()}
+    (out / "motion.js").write_text(drawing(), encoding="utf-8")
     (out / "data.json").write_text(json.dumps(told, ensure_ascii=False, sort_keys=True))
 
 

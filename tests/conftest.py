@@ -9,7 +9,7 @@ from tests.support import thorough
 from tests.support.needs import left_out
 
 ALL = "DERIVE_ALL_TESTS"
-"""Set for the processes of xdist, which cannot see what was typed."""
+""""named" or "thorough", for the processes of xdist, which cannot see what was typed."""
 
 
 def pytest_addoption(parser):
@@ -19,18 +19,26 @@ def pytest_addoption(parser):
 
 def pytest_configure(config):
     """Tests that are named on the command line are run whole."""
-    named = config.args_source is not config.ArgsSource.TESTPATHS
-    if not hasattr(config, "workerinput") and (named or config.getoption("--thorough")):
-        os.environ[ALL] = "1"
+    if hasattr(config, "workerinput"):
+        return
+    if config.args_source is not config.ArgsSource.TESTPATHS:
+        os.environ[ALL] = "named"
+    elif config.getoption("--thorough"):
+        os.environ[ALL] = "thorough"
 
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config, items):
-    """Leave out what takes long, where nothing is named."""
-    if os.environ.get(ALL):
+    """Leave out what takes long, where nothing is named; of all tests it is not measured."""
+    wanted = os.environ.get(ALL)
+    if wanted == "named":
         return
-    items[:], left = thorough.split(items)
-    if left:
+    run, left = thorough.split(items)
+    if wanted == "thorough":
+        for item in left:
+            item.add_marker("no_cover")
+    elif left:
+        items[:] = run
         config.hook.pytest_deselected(items=left)
 
 

@@ -21,6 +21,7 @@ from .graph import Node
 from .kept import Kept
 from .linearise import by_leaves, by_numbers, by_state
 from .lower import Lowering
+from .matrix_state import FROM_MATRIX, LABELS, TO_MATRIX, matrix_state
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
 from .naming import ClaimedNames
 from .options import Options
@@ -108,6 +109,7 @@ def assemble(
         momenta.size if momenta else 0,
         mass_fault=lowering.inverses.mass_fault,
         discrete=discrete_step.discrete_step(d, group, chosen),
+        matrix_state=door.names if (door := matrix_state(lowering.reader.space)) else (),
     )
 
 
@@ -179,7 +181,7 @@ def _functions(
     for kind, members in (("state", state), ("input", inputs)):
         for name in members:
             names.claim(name, f"{kind} {name}")
-    scheduler = Scheduler(names, _equations(lowering.record) | TEXTS)
+    scheduler = Scheduler(names, _equations(lowering.record) | TEXTS | LABELS)
     fixed = frontier(x for name in wanted if name != "inertia" for x in wanted[name])
     leaves = [lowering.reader.leaf(x, "parameter") for x in parameters]
     from_p = _leaf_places(names, leaves, "p")
@@ -205,6 +207,9 @@ def _functions(
     framing = _framing(frame, scheduler, from_p, numbers) if frame else None
     for name, nodes in drift(space).items():
         functions[name] = scheduler.function(nodes, moving)
+    if door := matrix_state(space):
+        functions[TO_MATRIX] = scheduler.function(door.outputs[TO_MATRIX], moving)
+        functions[FROM_MATRIX] = scheduler.function(door.outputs[FROM_MATRIX], door.places(names))
     return functions, constants, framing
 
 

@@ -177,7 +177,8 @@ def _attitude(group: Group) -> list[str]:
     shift = " + T" if group.affine else ""
     return [
         f"q is a unit quaternion, scalar first: a point r of the body stands at q r q*{shift}",
-        "in space; dq/dt = q zeta / 2 keeps its norm.",
+        "in space; dq/dt = q zeta / 2 keeps its norm. to_matrix takes a state x to that with the",
+        "matrix A of q, row by row, in place of q, and from_matrix takes it back, q_0 >= 0.",
     ]
 
 

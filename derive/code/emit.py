@@ -141,7 +141,7 @@ def _fields(
     explicit_alone = {*asked.options.step} <= {*METHODS}  # what devices have
     printer = language.printer(real)
     sizes = {"x": len(p.state), "k": len(p.constants), "u": len(p.inputs)}
-    sizes |= {"p": len(p.parameters), "y": len(p.momenta)}
+    sizes |= {"p": len(p.parameters), "y": len(p.momenta), "z": len(p.matrix_state)}
     if p.framing:
         sizes["axes"] = sum(n + n * n for n, _ in p.framing.matrices)
         sizes["frame"] = len(p.framing.numbers.outputs)

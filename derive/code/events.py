@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+import math
+from collections.abc import Collection, Mapping, Sequence
+from fractions import Fraction
 from typing import Protocol
 
 from ..language.expression import names
 from ..language.near_names import did_you_mean, near_name
 from ..language.tree import Tree
+from ..language.values import value
 from .factor import factored
-from .graph import Node
+from .graph import Graph, Node
 from .lower import Lowering
 from .options import Options
 from .program import LoweringError, Watched
@@ -18,8 +21,8 @@ from .reduced_state import state_of
 
 DIRECTIONS = {"both": 0, "rising": 1, "falling": -1}
 
-WATCHING = ("gauss", "vern9")
-"""The steps whose motions stop at events."""
+UNWATCHED = "gauss_jax"
+"""The step whose motions do not stop at events."""
 
 
 class Event(Protocol):
@@ -47,16 +50,12 @@ def table(events: Sequence[Event]) -> tuple[Watched, ...]:
     return tuple(Watched(x.name, DIRECTIONS[x.direction], x.terminal) for x in events)
 
 
-def watched(
-    name: str, events: Sequence[Event], chosen: Options, *, on_torus: bool
-) -> Sequence[Event]:
+def watched(name: str, events: Sequence[Event], chosen: Options) -> Sequence[Event]:
     """The events at which the steps of an emission stop; ``LoweringError`` where none are written
     for its state."""
-    if not events or not {*WATCHING} & {*chosen.step}:
+    if not {*chosen.step} - {UNWATCHED}:
         return ()
-    if on_torus:
-        raise LoweringError(f"{name}: [[event]] is not written on the torus: leave out --step")
-    if chosen.frame == "principal":
+    if events and chosen.frame == "principal":
         raise LoweringError(
             f"{name}: [[event]] is of the state in the frame of the parameters: leave out --frame"
         )
@@ -76,6 +75,22 @@ def values(lowering: Lowering, events: Sequence[Event]) -> list[Node]:
     reader.memo |= {("par", x): node for x, node in own.items()}  # the last that is lowered
     reader.label = ""
     return factored(lowering.graph, [scalar(lowering.tree(x.when)) for x in events])
+
+
+def values_of(
+    problem: str, events: Sequence[Event], graph: Graph, state: Mapping[str, Node]
+) -> list[Node]:
+    """The same of numbers of the state that have no matrices and no parameters beside them."""
+    numbers: dict[str, Node] = {
+        "π": graph.num(Fraction(math.pi)), "t": graph.leaf("t", "time")
+    }  # fmt: skip
+    for event in events:
+        _require_known(problem, event, state)
+    try:
+        found = [value(x.when, numbers, state, graph.function, graph.num) for x in events]
+    except (ArithmeticError, ValueError) as error:
+        raise LoweringError(f"{problem}: [[event]]: {error}") from None
+    return factored(graph, found)
 
 
 def _require_known(problem: str, event: Event, known: Collection[str]) -> None:

@@ -55,7 +55,7 @@ class Node:
         return self.graph.product([self.graph.of(other), self.graph.recip(self)])
 
     def __pow__(self, n: int) -> Node:
-        return self.graph.product([self] * n)
+        return self.graph.product([self if n > 0 else self.graph.recip(self)] * abs(n))
 
     @staticmethod
     def dot(a: Iterable[Node], b: Iterable[Node]) -> Node:

@@ -17,7 +17,7 @@ from ..language.suffixed import suffixed
 from ..record.tree_data import decode
 from . import dense
 from .graph import Node
-from .quaternion import conjugate
+from .quaternion import conjugate, horn
 from .reader import RecordReader, scalar
 
 FRAME = "frame"
@@ -198,13 +198,13 @@ class PrincipalFrame:
             self._number_of(x, name, "parameter")
 
     def _quaternions(self) -> tuple[tuple[Node, ...], ...]:
-        """The quaternions of S and of H̄, by the axis of the largest eigenvalue (see ``_horn``)."""
+        """The quaternions of S and of H̄, by the axis of the largest eigenvalue (see ``horn``)."""
         found = []
         for name, R in (("space", self.S and self._S), ("frame", self._H)):
             if not R:
                 found.append((self.graph.num(1), *(self.graph.num(0),) * 3))
                 continue
-            axes = self._principal(_horn(R), f"{name}_trace", f"{name}_quaternion")
+            axes = self._principal(horn(R), f"{name}_trace", f"{name}_quaternion")
             kept = self._kept(f"{name}_q", tuple((x,) for x in axes.rows[-1]))
             found.append(tuple(x for (x,) in kept))
         return found[0], conjugate(found[1])
@@ -217,15 +217,3 @@ class PrincipalFrame:
 
     def _named(self, name: str, m: Matrix) -> Matrix:
         return self.old.entries(m, name)
-
-
-def _horn(R: Matrix) -> Matrix:
-    """The symmetric 4 × 4 matrix of a rotation R whose eigenvalue 3, the largest, is at its
-    quaternion, scalar first (Horn 1987)."""
-    (a, b, c), (d, e, f), (g, h, i) = R
-    return (
-        (a + e + i, h - f, c - g, d - b),
-        (h - f, a - e - i, b + d, c + g),
-        (c - g, b + d, e - a - i, f + h),
-        (d - b, c + g, f + h, i - a - e),
-    )

@@ -176,7 +176,8 @@ class Program:
 
     ``functions``: constants, rhs, energy; inertia for a body turned in space; and what is asked for
     of conserved, multiplier, events; of jacobian, jacobian_inputs, jacobian_parameters; momentum,
-    velocity, momentum_rhs and poisson; into_frame, out_of_frame, inputs_into_frame.
+    velocity, momentum_rhs and poisson; into_frame, out_of_frame, inputs_into_frame; to_matrix and
+    from_matrix of a state with a quaternion.
     """
 
     name: str
@@ -212,6 +213,8 @@ class Program:
     """What ``constants`` says that the mass matrix is."""
     discrete: Any = None
     """What the step of the discrete motion is written by (``step.discrete_step.DiscreteStep``)."""
+    matrix_state: tuple[str, ...] = ()
+    """The names of the state with a matrix in place of its quaternion, where there is one."""
 
     @property
     def momentum_range(self) -> tuple[int, int]:

@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from ..language.rational import Matrix
+from ..language.suffixed import suffixed
 from .graph import Graph, Node
 
 Quaternion = tuple[Any, ...]
@@ -44,6 +45,53 @@ def matrix_of(g: Graph, q: tuple[Node, ...]) -> Matrix:
         columns.append(column)
     span = range(3)
     return tuple(tuple(g.value(columns[j][i], f"A_{i + 1}{j + 1}") for j in span) for i in span)
+
+
+def horn(R: Matrix) -> Matrix:
+    """The symmetric 4 × 4 matrix of a rotation R whose eigenvalue 3, the largest, is at its
+    quaternion, scalar first (Horn 1987): 4 q q̄ − 1, for q as a column."""
+    (a, b, c), (d, e, f), (g, h, i) = R
+    return (
+        (a + e + i, h - f, c - g, d - b),
+        (h - f, a - e - i, b + d, c + g),
+        (c - g, b + d, e - a - i, f + h),
+        (d - b, c + g, f + h, i - a - e),
+    )
+
+
+def of_rotation(g: Graph, R: Matrix) -> list[Node]:
+    """The unit quaternion of a rotation R, its scalar not negative, without a branch.
+
+    Column i of 4 q q̄ is 4 q_i q. Added with the sign of q_i, up to one sign of them all, the
+    columns make 4 Σ |q_i| q, which is never small: half turns are turns like others.
+    """
+    columns = [
+        tuple(g.value(x + int(i == j), suffixed("N", i, j), "rotation") for j, x in enumerate(row))
+        for i, row in enumerate(horn(R))
+    ]
+
+    def joined(a: Quaternion, b: Quaternion, product: Node, name: str) -> Quaternion:
+        """a ± b by the sign of the product of their factors."""
+        sign = _sign(g, g.value(product, f"{name}_product", "rotation"))
+        sign = g.value(sign, f"{name}_sign", "rotation")
+        return tuple(
+            g.value(x + sign * y, suffixed(name, i), "rotation")
+            for i, (x, y) in enumerate(zip(a, b, strict=True))
+        )
+
+    first = joined(columns[0], columns[1], columns[0][1], "first")
+    second = joined(columns[2], columns[3], columns[2][3], "second")
+    whole = joined(first, second, Node.dot(first, second), "whole")
+    square = g.value(Node.dot(whole, whole), "square", "rotation")
+    scale = _sign(g, whole[0]) * g.recip(g.function("sqrt", square))
+    scale = g.value(scale, "scale", "rotation")
+    return [x * scale for x in whole]
+
+
+def _sign(g: Graph, x: Node) -> Node:
+    """1 where x ≥ 0, else −1."""
+    none = g.none(x)
+    return (x + none) * g.recip(g.absolute(x) + none)
 
 
 def halves(column: Matrix) -> list[Node]:

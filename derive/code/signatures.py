@@ -1,9 +1,10 @@
 """The functions of an emitted program as data: what each takes and writes, and what it gives.
 
 Every language loops over them.  Arrays are x, the state; k, the constants; p, the parameters; u,
-the inputs; y, the state with momenta in place of the velocity; dx and dy, the rates; D, a matrix by
-rows: 2N × 2N, or with a column for each input or parameter, N the dimension of the group; out, of
-the size of what is taken, or the Poisson tensor.
+the inputs; y, the state with momenta in place of the velocity; z, that with a matrix in place of
+the quaternion; dx and dy, the rates; D, a matrix by rows: 2N × 2N, or with a column for each input
+or parameter, N the dimension of the group; out, of the size of what is taken, or as its function
+says.
 """
 
 from __future__ import annotations
@@ -55,6 +56,7 @@ X, K, P, U, Y = (
     )
 )
 DY, TENSOR = Argument("dy", ("STATE",)), Argument("out", ("REDUCED", "REDUCED"))
+Z, Z_OUT = Argument("z", ("MATRIX",)), Argument("out", ("MATRIX",))
 OUT, INPUTS_OUT = Argument("out", ("STATE",)), Argument("out", ("INPUTS",))
 
 
@@ -108,6 +110,15 @@ SIGNATURES = (
         (X,),
         doc="how far x is off the group: the sum of the sizes of what its relations leave, "
         "0 on the group",
+    ),
+    Signature(
+        "to_matrix", (X,), (Z_OUT,), "the state x with A, row by row, in place of the quaternion"
+    ),
+    Signature(
+        "from_matrix",
+        (Z,),
+        (OUT,),
+        "the state z, which begins with a rotation A, with its quaternion instead, q_0 >= 0",
     ),
     Signature("into_frame", (X, K), (OUT,), f"the state x {THERE}"),
     Signature("out_of_frame", (X, K), (OUT,), f"the state x {BACK}"),
@@ -169,6 +180,7 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         "EVENTS": len(p.events),
         "ALGEBRA": p.dimension,
         "REDUCED": p.reduced,
+        "MATRIX": len(p.matrix_state),
         "MOMENTS": len(p.functions["moments"].outputs) if "moments" in p.functions else 0,
         "2": 2,
         "6": 6,

@@ -142,9 +142,11 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
             about = f"warn of a negative {what} instead of refusing it"
             one.add_argument(f"--allow-negative-{name}", action="store_true", help=about)
     plot = command("plot")
-    about = "a run: .npz, .csv or .parquet; for precision several, or a table"
+    about = "a run or an ensemble: .npz, .csv or .parquet; for precision several, or a table"
     plot.add_argument("run_file", metavar="RUN", nargs="+", help=about)
     plot.add_argument("--kind", default="", help=told_kinds())
+    about = "a column of an ensemble that is drawn; repeated"
+    plot.add_argument("--column", metavar="NAME", action="append", default=[], help=about)
     plot.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
     plot.add_argument("--out", metavar="FILE", required=True, help="FILE.svg, .pdf or .png")
     paper = command("paper")

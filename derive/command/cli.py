@@ -322,7 +322,7 @@ def command_simulate(args: argparse.Namespace) -> int:
 
 def command_plot(args: argparse.Namespace) -> int:
     """Draw a run of a motion, or several: .svg, .pdf or .png (needs matplotlib)."""
-    from ..motion.run_files import read
+    from ..motion.ensemble_files import read_either
     from ..plot.kinds_told import PRECISION
     from ..plot.pictures import plot
     from ..plot.plot_sheet import ending
@@ -337,7 +337,7 @@ def command_plot(args: argparse.Namespace) -> int:
     elif len(paths) > 1:
         raise UsageError(f"several runs are for --kind {PRECISION}: give one")
     else:
-        picture = plot(read(paths[0]), out.name, args.kind, word)
+        picture = plot(read_either(paths[0]), out.name, args.kind, word, args.column)
     for path in write({out.name: picture}, out.parent, links=True):
         print(path)
     return 0

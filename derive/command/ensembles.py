@@ -12,12 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from ..motion.ensemble import STATUS, Many, Part, Plan, require_steps_of_an_ensemble
+from ..motion.ensemble import Many, Part, Plan, require_steps_of_an_ensemble
 from ..motion.ensemble_files import writer
 from ..motion.run_files import format_of
 from ..motion.start import MotionError
 from ..motion.varied import Varied
-from ..pipeline import motion_of
+from ..native.motion_in_c import AT_EVENT
+from ..pipeline import motion_of_many
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from .guard import heard, one_line
@@ -44,9 +45,9 @@ def command_ensemble(
     if args.out:
         format_of(args.out)  # refused before the work
     plan = plan_of(args, start)
-    many = Many(motion_of(problem, record), problem, plan)
-    if problem.events:
-        text = "the events of the file are not looked for in an ensemble"
+    many = Many(motion_of_many(problem, record), problem, plan)
+    if not all(x.terminal for x in problem.events):
+        text = "events that are not terminal are not looked for in an ensemble"
         print(f"derive: warning: {problem.name}: {text}", file=sys.stderr)
     tally = Tally(len(many.first.x))
     with heard() as interrupted, kept(many, args.out) as add:
@@ -65,7 +66,7 @@ def command_ensemble(
         text = f"interrupted after {tally.motions} of {plan.n} motions"
         print(f"derive: {problem.name}: {text}", file=sys.stderr)
         return 130
-    return 0 if tally.count[0] else 1
+    return 0 if any(k == 0 or k >= AT_EVENT for k in tally.count) else 1
 
 
 @contextmanager
@@ -74,8 +75,7 @@ def kept(many: Many, out: str) -> Iterator[Callable[[Part], None]]:
     if not out:
         yield lambda part: None
         return
-    empty = Part(np.empty((0, len(many.plan.names))), np.empty(0, int), np.empty((0, 1, 1)))
-    with growing(Path(out)) as file, writer(file, out, many.whole([empty])) as made:
+    with growing(Path(out)) as file, writer(file, out, many.whole([many.none])) as made:
         yield made.add
 
 
@@ -113,7 +113,7 @@ def summary(many: Many, tally: Tally) -> list[str]:
     span = f"{plan.n} motions, t = 0 … {many.t[-1]:g}"
     lines = [f"{facts['problem']}: {span}, by {facts['method']}, in C; seed {plan.seed}"]
     lines += [f"  {x}" for _, x in facts["varied"]]
-    lines += [f"  {tally.count[k]} {text}" for k, text in STATUS.items() if tally.count[k]]
+    lines += [f"  {tally.count[k]} {text}" for k, text in many.said.items() if tally.count[k]]
     if tally.count[0]:
         pairs = zip(many.code.program.state, *(x.tolist() for x in tally.ends()), strict=True)
         told = ", ".join(f"{name} = {mean:.6g} ± {off:.2g}" for name, mean, off in pairs)

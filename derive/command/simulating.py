@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -43,7 +44,7 @@ def moving_page(
     problem: Problem, record: Derivation, t: float, method: Method, lang: str, **start: Any
 ) -> str:
     """The page of a motion from 0 to t, from a start as ``beginning`` takes it; ``Refused``."""
-    code = motion_of(problem, record)
+    code = motion_of(replace(problem, events=()), record)
     begin = beginning(code, problem, **start)
     instants(method, t, 1)  # refuses a time that is none
     return motion_page(code, problem, record, begin, t, method.tol, language(lang))

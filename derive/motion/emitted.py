@@ -20,9 +20,10 @@ from ..language.suffixed import suffixed
 from ..language.tree import Tree, replaced
 from ..language.values import value
 from ..native.library import FLAGS, CSource, loaded, over_cores
-from ..native.motion_in_c import Motion, binding
+from ..native.motion_in_c import Motion, binding, binding_to_events
 from ..problem.problem import Problem
 from ..record.record import Derivation
+from ..schema.followed import Event
 from .body_outline import outline
 from .emitted_code import EmittedCode, in_si
 from .motion_in_python import MotionInPython
@@ -44,13 +45,14 @@ class OneDegree:
 
 @dataclass(frozen=True)
 class Emitted(EmittedCode):
-    """A step in time that is emitted with a program.
+    """A step in time that is emitted with a program, which stops at the ``events``.
 
     ``facts``: what a run says of the problem.
     """
 
     step: str
     facts: Mapping[str, Any]
+    events: tuple[Event, ...] = ()
     left: OneDegree | None = None
 
     @classmethod
@@ -73,7 +75,7 @@ class Emitted(EmittedCode):
             "hash": problem_hash(record),
             "unsought": unsought,
         }
-        return cls(program, record, in_si(problem), step, facts, left)
+        return cls(program, record, in_si(problem), step, facts, problem.events, left)
 
     @cached_property
     def python(self) -> ModuleType:
@@ -89,22 +91,28 @@ class Emitted(EmittedCode):
         ``CompileError`` where there is no compiler."""
         name = self.name
         files = emit(self.program, self.record, ("c",), name, Options(step=(self.step,)))
-        files["steps.c"] = binding(name, (self.step,), FIXED)
+        files["steps.c"] = binding(name, (self.step,), FIXED, events=bool(self.events))
         to_rounding = f"-D{name}_ENOUGH=0"
         return loaded(CSource(name, tuple(files.items()), None, (*FLAGS, to_rounding)))
 
     @cached_property
     def compiled_ensemble(self) -> CDLL:
         """The emitted C of many motions at once, over all cores where the compiler can; as
-        ``compiled``."""
-        files = emit(self.program, self.record, ("c",), self.name, Options(ensemble=True))
-        files["steps.c"] = binding(self.name, (), ensemble=True)
+        ``compiled``.  Eight in lanes at a time or, to end at events, each by the step."""
+        name, step = self.name, self.step
+        options = Options(ensemble=True, step=(step,) * bool(self.events))
+        files = emit(self.program, self.record, ("c",), name, options)
+        if self.events:
+            files["steps.c"] = binding_to_events(name, step)
+        else:
+            files["steps.c"] = binding(name, (), ensemble=True)
         return loaded(over_cores(CSource(self.name, tuple(files.items()), None, FLAGS)))
 
     def motion(self, k: Array, u: Array, x: Array, *, compiled: bool) -> Moved:
         """The motion that is in the state x at time 0, in C or in Python."""
         if compiled:
-            return Motion(self.compiled, (self.step,), (), lambda: (k, u), x, 0.0)
+            names = tuple(x.name for x in self.events)
+            return Motion(self.compiled, (self.step,), names, lambda: (k, u), x, 0.0)
         return MotionInPython(self.python, self.step, k, u, x)
 
     def constants(self, p: Array) -> Array:

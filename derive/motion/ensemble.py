@@ -11,11 +11,12 @@ import numpy as np
 
 from ..language.expression import names
 from ..native.library import CompileError
-from ..native.motion_in_c import Integers, constants, ensemble
+from ..native.motion_in_c import AT_EVENT, Integers, constants, ensemble
 from ..problem.problem import Problem
 from .emitted import Emitted
 from .method import TOLERANCE, Method, instants
 from .run import Array
+from .simulate import require_values
 from .start import OFF_THE_GROUP, MotionError, Start, start
 from .varied import Draws, Varied
 
@@ -48,7 +49,8 @@ STATUS = {
     3: "needed steps that became too short",
     -1: "were not followed",
 }
-"""The status of a motion → what it says of some."""
+"""The status of a motion → what it says of some; AT_EVENT + k, k from 0, is the end at a terminal
+event of the file, in order."""
 
 MOTIONS, BYTES = 4096, 64 * 2**20
 """The most motions that are followed at once, and the most memory that their states may take."""
@@ -59,12 +61,15 @@ MOST = 10**12
 
 @dataclass(frozen=True)
 class Part:
-    """Some motions: what is ``varied`` (motions, names), ``status`` (motions,), of STATUS, and
-    ``states`` (motions, instants, state), of which those after an end are no numbers."""
+    """Some motions: what is ``varied`` (motions, names), ``status`` (motions,), of STATUS,
+    ``states`` (motions, instants, state), of which those after an end are no numbers, and ``end``
+    (motions, 1 + state), time and state where one ends at an event, else no numbers; (motions, 0)
+    for a file without terminal events."""
 
     varied: Array
     status: Integers
     states: Array
+    end: Array
 
 
 @dataclass(frozen=True)
@@ -78,6 +83,7 @@ class Ensemble:
     varied: Array
     status: Integers
     states: Array
+    end: Array
 
     @property
     def varied_names(self) -> tuple[str, ...]:
@@ -150,6 +156,7 @@ class Many:
         first = dict(zip(plan.names, Draws(plan.varied, plan.seed).next(1)[0], strict=True))
         self.first = self._start(first)
         stated = {name for t in problem.initial.trees() for name in names(t)}
+        require_values(code, self.first)
         self.one_by_one = bool(stated & {*plan.names})  # the start is an expression of them
         try:
             self.library = code.compiled_ensemble
@@ -169,7 +176,23 @@ class Many:
             "varied": [[x.name, str(x)] for x in self.plan.varied],
             "seed": self.plan.seed,
             "method": str(Method(STEP, None, self.plan.tol)),
+            "ends": [x.name for x in self.code.events],
         }
+
+    @property
+    def said(self) -> dict[int, str]:
+        """STATUS, with the events."""
+        ends = enumerate(self.code.events, AT_EVENT)
+        return STATUS | {k: f"ended at event {x.name}" for k, x in ends}
+
+    @property
+    def none(self) -> Part:
+        """No motions."""
+        state, names = len(self.first.x), len(self.plan.names)
+        width = (1 + state) * bool(self.code.events)
+        shapes = (0, names), (0,), (0, len(self.t), state), (0, width)
+        varied, status, states, end = map(np.empty, shapes)
+        return Part(varied, status.astype(np.intc), states, end)
 
     @property
     def size(self) -> int:
@@ -235,12 +258,17 @@ class Many:
         k, wrong = constants(self.library, p, len(self.code.program.constants))
         status: Integers = np.where(wrong != 0, 1, 0).astype(np.intc)
         states, h = np.full((len(x), len(self.t), x.shape[1]), math.nan), np.zeros(len(x))
+        end = np.full((len(x), self.none.end.shape[1]), math.nan)
         on, before = np.flatnonzero(status == 0), 0.0
         for j, t in enumerate(self.t.tolist()):
             # copies of those that go on
-            own, step = x[on], h[on]
-            told = ensemble(self.library, own, k[on], u[on], (before, t), self.plan.tol, step)
+            own, step, ended = x[on], h[on], [np.empty(len(on))] * bool(self.code.events)
+            span = before, t
+            told = ensemble(self.library, own, k[on], u[on], span, self.plan.tol, step, *ended)
             status[on], h[on], x[on], before = told, step, own, t
+            for times in ended:
+                stops = told >= AT_EVENT
+                end[on[stops]] = np.column_stack([times, own])[stops]
             on = on[told == 0]
             states[on, j] = x[on]
-        return Part(draws, status, states)
+        return Part(draws, status, states, end)

@@ -1,9 +1,10 @@
 """Ensembles as files, written part by part: no more than a part is in memory.
 
 ``.npz`` of NumPy holds ``states`` (motions, instants, state), ``varied`` (motions, names),
-``status`` (motions,), the instants ``t`` and, as JSON, the ``head``; its arrays lie there as they
-are in memory, so that they can be mapped.  ``.csv`` and ``.parquet`` have a row for each motion and
-instant.  The same ensemble gives the same bytes.
+``status`` (motions,), ``end`` where motions end at events, the instants ``t`` and, as JSON, the
+``head``; its arrays lie there as they are in memory, so that they can be mapped.  ``.csv`` and
+``.parquet`` have a row for each motion and instant; that of the first instant after the end at an
+event has the time and the state of this.  The same ensemble gives the same bytes.
 """
 
 from __future__ import annotations
@@ -19,10 +20,11 @@ from typing import IO, Any, Protocol
 
 import numpy as np
 
-from ..native.motion_in_c import Integers
+from ..native.motion_in_c import AT_EVENT, Integers
 from .ensemble import Ensemble, Part
-from .run import Array
+from .run import Array, Run
 from .run_files import FORMATS, RunFileError, pyarrow
+from .run_files import read as read_run
 
 MARK = "derive ensemble"
 """What the head of a file begins with, by which it is known."""
@@ -47,7 +49,7 @@ class _Npz:
     def __init__(self, file: IO[bytes], like: Ensemble):
         self.like, self.n, self.done = like, int(like.facts["motions"]), 0
         self.archive = zipfile.ZipFile(file, "w", zipfile.ZIP_STORED)
-        self.rest: list[tuple[Array, Integers]] = []
+        self.rest: list[tuple[Array, Integers, Array]] = []
         self.shape = (self.n, len(like.t), len(like.names))
         self.member = self._member("states", self.shape, "<f8")
 
@@ -59,7 +61,7 @@ class _Npz:
 
     def add(self, part: Part) -> None:
         self.member.write(np.ascontiguousarray(part.states, dtype="<f8").data)
-        self.rest.append((part.varied, part.status))  # and not the states
+        self.rest.append((part.varied, part.status, part.end))  # and not the states
         self.done += len(part.status)
 
     def close(self) -> None:
@@ -67,12 +69,18 @@ class _Npz:
         for first in range(0, left * width, BLOCK):  # motions that were not followed
             self.member.write(np.full(min(BLOCK, left * width - first), math.nan, "<f8").data)
         self.member.close()
-        names = len(self.like.varied_names)
-        varied = [x for x, _ in self.rest] + [np.full((left, names), math.nan)]
-        status = [x for _, x in self.rest] + [np.full(left, -1)]
+        names, ends = len(self.like.varied_names), self.like.end.shape[1]
+        none = (
+            np.full((left, names), math.nan),
+            np.full(left, -1),
+            np.full((left, ends), math.nan),
+        )
+        varied, status, end = map(np.concatenate, zip(*self.rest, none, strict=True))
         head = np.array(_head(self.like))
-        self._write("varied", np.concatenate(varied), "<f8")
-        self._write("status", np.concatenate(status), "<i4")
+        self._write("varied", varied, "<f8")
+        self._write("status", status, "<i4")
+        if ends:
+            self._write("end", end, "<f8")
         self._write("t", self.like.t, "<f8")
         self._write("head", head, head.dtype.str)
         self.archive.close()
@@ -93,13 +101,17 @@ class _Table:
         """The columns of a part."""
         m, k = part.states.shape[:2]
         first, self.done = self.done, self.done + m
-        flat = part.states.reshape(m * k, -1)
+        t, states = np.tile(self.like.t, (m, 1)), part.states
+        if part.end.size:
+            ended, states = np.flatnonzero(part.status >= AT_EVENT), states.copy()
+            after = ended, np.searchsorted(self.like.t, part.end[ended, 0])
+            t[after], states[after] = part.end[ended, 0], part.end[ended, 1:]
         return [
             np.repeat(np.arange(first, first + m), k),
             np.repeat(part.status, k),
             *np.repeat(part.varied, k, axis=0).T,
-            np.tile(self.like.t, m),
-            *flat.T,
+            t.ravel(),
+            *states.reshape(m * k, -1).T,
         ]
 
 
@@ -173,6 +185,14 @@ def read(path: Path) -> Ensemble:
     raise RunFileError(f"{path}: the name of an ensemble must end in {', '.join(FORMATS)}")
 
 
+def read_either(path: Path) -> Run | Ensemble:
+    """The run or the ensemble in a file; ``RunFileError`` where there is neither."""
+    try:
+        return read(path)
+    except RunFileError:
+        return read_run(path)
+
+
 def _head(like: Ensemble) -> str:
     """The facts as one line of JSON."""
     told = {"file": MARK, "state": like.names, "t": like.t.tolist(), "facts": dict(like.facts)}
@@ -196,8 +216,9 @@ def _from_npz(path: Path) -> Ensemble:
     with np.load(path, allow_pickle=False) as found:
         told = _told(str(found["head"]))
         t, varied, status = (found[x] for x in ("t", "varied", "status"))
+        end = found["end"] if "end" in found.files else np.empty((len(status), 0))
     states = _mapped(path, "states.npy")
-    return Ensemble(told["facts"], tuple(told["state"]), t, varied, status, states)
+    return Ensemble(told["facts"], tuple(told["state"]), t, varied, status, states, end)
 
 
 def _mapped(path: Path, name: str) -> Array:
@@ -235,4 +256,10 @@ def _of_rows(told: dict[str, Any], rows: Array) -> Ensemble:
     t, names = np.array(told["t"]), tuple(told["state"])
     split = rows.reshape(-1, len(t), rows.shape[1])
     status, varied = split[:, 0, 1].astype(np.intc), split[:, 0, 2 : -1 - len(names)]
-    return Ensemble(told["facts"], names, t, varied, status, split[..., -len(names) :])
+    own = split[..., -1 - len(names) :]
+    end = np.full((len(status), own.shape[2] * bool(told["facts"].get("ends"))), math.nan)
+    if end.size:
+        ended = np.flatnonzero(status >= AT_EVENT)
+        last = ended, np.isfinite(own[ended, :, 1]).sum(axis=1) - 1
+        end[ended], own[last] = own[last], math.nan
+    return Ensemble(told["facts"], names, t, varied, status, own[..., 1:], end)

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
-from copy import copy
 from types import ModuleType
 from typing import Any
 
-from ..native.motion_in_c import FAULTS, StepError
+from ..native.motion_in_c import AT_EVENT, FAULTS, StepError
 from .run import Array
 
 
@@ -16,13 +14,7 @@ class MotionInPython:
 
     def __init__(self, code: ModuleType, step: str, k: Array, u: Array, x: Array):
         self._code, self._step, self._numbers = code, step, (k, u)
-        self._motion = code.begin(0.0, x)
-
-    def __copy__(self) -> MotionInPython:
-        """The motion as it is now, whatever becomes of this one."""
-        other = object.__new__(type(self))
-        other.__dict__ |= self.__dict__ | {"_motion": copy(self._motion)}
-        return other
+        self._motion, self.event = code.begin(0.0, x), ""
 
     @property
     def t(self) -> float:
@@ -39,6 +31,11 @@ class MotionInPython:
     def h(self) -> float:
         """The last step."""
         return float(self._motion.h)
+
+    @property
+    def rising(self) -> bool:
+        """Is the event reached from below?"""
+        return bool(self._motion.rising)
 
     @property
     def evaluations(self) -> int:
@@ -58,16 +55,19 @@ class MotionInPython:
         """Make n steps of size h; ``StepError``."""
         self._told(self._of(self._step)(self._motion, *self._numbers, h, n))
 
-    def move_to(self, t: float, tol: float, *, most: float = math.inf) -> None:
-        """Move up to a time, in steps of their own size, at most so many; ``StepError``."""
-        step = self._of(f"{self._step}_step")
-        while self.left(t) and most > 0:
-            self._told(self._code.towards(step, self._motion, *self._numbers, t, tol))
-            most -= 1
+    def move_to(self, t: float, tol: float) -> None:
+        """Move up to a time or an event, in steps of their own size; ``StepError``."""
+        self._told(self._of(f"{self._step}_to")(self._motion, *self._numbers, t, tol))
+
+    def watch(self, t: float, h: float) -> None:
+        """Move up to a time or an event, in steps of size h; ``StepError``."""
+        step = self._of(self._step)
+        self._told(self._code.watch(step, self._motion, *self._numbers, t, h))
 
     def _of(self, name: str) -> Any:
         return getattr(self._code, name)
 
     def _told(self, status: int) -> None:
-        if status:
+        self.event = self._code.EVENTS[self._motion.event] if status == AT_EVENT else ""
+        if status and not self.event:
             raise StepError(FAULTS[status].format(self.t))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -9,17 +10,17 @@ from typing import Any
 import numpy as np
 
 from ..code.step.step_numbers import parts
+from ..language.tree import replaced
+from ..language.values import approximate
 from ..native.library import CompileError
 from ..native.motion_in_c import Motion
 from ..problem.inertia import fault_of_quadrics
 from ..problem.problem import Problem
-from ..schema.declared import Parameter
 from .emitted import Emitted
 from .method import Method, instants
 from .run import Array, Run
 from .start import OFF_THE_GROUP, MotionError, Start, start
 from .trajectory import Trajectory
-from .watch import Watch
 
 LONG, TURN = 500, 2.0
 """A motion of more steps is compiled, where there is a compiler; in a step for a tolerance no part
@@ -48,9 +49,8 @@ def run(
     Python, or, for ``None``, by C where that pays and there is a compiler."""
     times = instants(method, duration, points)
     begin = beginning(code, problem, given=given, exponent=exponent, project=project)
-    watch = Watch(problem.events, code.program.state, code.program.inputs, begin)
-    follow = following(code, begin, method, duration, watch, compiled)
-    return simulate(code, begin, method, times, watch, follow, progress)
+    follow = following(code, begin, method, duration, compiled)
+    return simulate(code, begin, method, times, follow, progress)
 
 
 def following(
@@ -58,11 +58,11 @@ def following(
     begin: Start,
     method: Method,
     duration: float,
-    watch: Watch,
     compiled: bool | None = None,
 ) -> Trajectory:
     """The motion at its begin; ``CompileError`` where C is asked for and there is no compiler."""
     k, u = code.constants(begin.p), begin.u
+    ends = {x.name: x.terminal for x in code.events}
     if compiled is not False and (compiled or is_long(code, k, begin, method, duration)):
         try:
             motion = code.motion(k, u, begin.x, compiled=True)
@@ -70,8 +70,8 @@ def following(
             if compiled:
                 raise
         else:
-            return Trajectory(motion, method, watch)
-    return Trajectory(code.motion(k, u, begin.x, compiled=False), method, watch)
+            return Trajectory(motion, method, ends)
+    return Trajectory(code.motion(k, u, begin.x, compiled=False), method, ends)
 
 
 def is_long(code: Emitted, k: Array, begin: Start, method: Method, duration: float) -> bool:
@@ -94,9 +94,9 @@ def beginning(
 ) -> Start:
     """From :func:`start`, on the group, with rates that are finite; ``MotionError`` for no such."""
     begin = on_the_group(code, start(code.program, problem, given, exponent), project=project)
-    chosen = {x: Parameter(default=value) for x, value in begin.parameters.items()}
-    if fault := fault_of_quadrics(problem.body, chosen):
-        raise MotionError(f"{code.name}: {fault.replace('the defaults', 'these parameters')}")
+    if fault := fault_of_quadrics(problem.body, begin.parameters, "these parameters"):
+        raise MotionError(f"{code.name}: {fault}")
+    require_values(code, begin)
     k = code.constants(begin.p)
     with np.errstate(all="ignore"):
         rates = code.python.rhs(0.0, begin.x, k, begin.u)
@@ -106,6 +106,16 @@ def beginning(
             "two ends of a spring at one place"
         )
     return begin
+
+
+def require_values(code: Emitted, begin: Start) -> None:
+    """``MotionError`` for an event in which nothing is finite at the start."""
+    listed = zip((*code.program.inputs, *code.program.state), (*begin.u, *begin.x), strict=True)
+    numbers = {**begin.parameters, **dict(listed)}
+    for event in code.events:
+        found = approximate(replaced(event.when, "t", 0), numbers, float)
+        if found is None or not math.isfinite(found):
+            raise MotionError(f"{code.name}: event {event.name}: no finite value at the start")
 
 
 def on_the_group(code: Emitted, begin: Start, *, project: bool) -> Start:
@@ -127,7 +137,6 @@ def simulate(
     begin: Start,
     method: Method,
     times: Array,
-    watch: Watch,
     follow: Trajectory,
     progress: Progress,
 ) -> Run:
@@ -146,8 +155,8 @@ def simulate(
         ended = "interrupted"
     x = np.concatenate(states)
     t = times[: len(x)]
-    if watch.happened and watch.happened[-1].terminal:
-        t, x = np.append(t, follow.t), np.append(x, follow.x[None], axis=0)
+    if follow.happened and (last := follow.happened[-1]).terminal:
+        t, x = np.append(t, last.t), np.append(x, last.state[None], axis=0)
     columns, table = code.columns(), code.table(t, x, k, begin.u)
     first = dict(zip((c.name for c in columns), table[0].tolist(), strict=True))
     facts = {
@@ -158,7 +167,7 @@ def simulate(
         "language": "C" if isinstance(follow.motion, Motion) else "Python",
         "evaluations": follow.motion.evaluations,
         "ended": ended,
-        "events": [one.plain() for one in watch.happened],
+        "events": [one.plain() for one in follow.happened],
         "body": code.body(begin.p),
         "potential": code.potential(first, begin.parameters),
     }

@@ -47,9 +47,10 @@ void derive_now(const {name}_motion *m, double *now, double *x)
 }}
 """
 EVENT = """\
-int derive_event(const {name}_motion *m);
-int derive_event(const {name}_motion *m)
+int derive_event(const {name}_motion *m, int *rising);
+int derive_event(const {name}_motion *m, int *rising)
 {{
+    *rising = m->rising;
     return m->event;
 }}
 """
@@ -80,23 +81,11 @@ int derive_{step}_to({name}_motion *m, const double *k, const double *u, double 
     return fault;
 }}
 """
-WATCHED = """\
-size_t derive_{step}_watched({name}_motion *m, const double *k, const double *u, double h, size_t n,
-    size_t parts, double *t, double *x);
-size_t derive_{step}_watched({name}_motion *m, const double *k, const double *u, double h, size_t n,
-    size_t parts, double *t, double *x)
+WATCH = """\
+int derive_{step}_watch({name}_motion *m, const double *k, const double *u, double t1, double h);
+int derive_{step}_watch({name}_motion *m, const double *k, const double *u, double t1, double h)
 {{
-    size_t i = 0;
-    for (; i < n && {name}_{step}(m, k, u, h, 1) == 0 && m->h == h; ++i) {{
-        for (size_t j = 1; j < parts; ++j, ++t, x += {name}_N_STATE) {{
-            *t = m->t + ((double)j/(double)parts - 1)*h;
-            {name}_dense(m, *t, x);
-        }}
-        *t++ = m->t;
-        memcpy(x, m->x, sizeof m->x);
-        x += {name}_N_STATE;
-    }}
-    return i;
+    return {name}_watch({name}_{step}, m, k, u, t1, h);
 }}
 """
 ENSEMBLE = """\
@@ -107,6 +96,30 @@ size_t derive_ensemble(size_t n, double *x, const double *k, size_t k_each, cons
 {{
     return {name}_ensemble(n, x, k, k_each, u, u_each, t0, t1, tol, h, status);
 }}
+"""
+ENDED = """\
+void derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
+    size_t u_each, double t0, double t1, double tol, double *h, int *status, double *ended);
+void derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const double *u,
+    size_t u_each, double t0, double t1, double tol, double *h, int *status, double *ended)
+{{
+#ifdef _OPENMP
+#pragma omp parallel for schedule(dynamic, 16)
+#endif
+    for (long long j = 0; j < (long long)n; ++j) {{
+        const size_t i = (size_t)j;
+        {name}_motion m;
+        {name}_begin(&m, t0, x + i*{name}_N_STATE);
+        m.h_next = h[i];
+        status[i] = {name}_{step}_to(&m, k + i*k_each, u + i*u_each, t1, tol);
+        status[i] += status[i] == {name}_EVENT ? m.event : 0;
+        memcpy(x + i*{name}_N_STATE, m.x, sizeof m.x);
+        h[i] = m.h_next;
+        ended[i] = m.t;
+    }}
+}}
+"""
+CONSTANTS = """\
 void derive_constants(size_t n, const double *p, double *k, int *wrong);
 void derive_constants(size_t n, const double *p, double *k, int *wrong)
 {{
@@ -127,11 +140,16 @@ def binding(
 ) -> str:
     """C that makes functions of a library of the inline functions of a header of steps; those that
     are ``fixed`` have no size of their own; are there ``events``?"""
-    moves = [text.format(name=name, step=x) for x in steps for text in (MOVE, WATCHED)]
-    to = MOVE_TO_EVENT if events else MOVE_TO
+    every, to = ((MOVE, WATCH), MOVE_TO_EVENT) if events else ((MOVE,), MOVE_TO)
+    moves = [text.format(name=name, step=x) for x in steps for text in every]
     moves += [to.format(name=name, step=x) for x in steps if x not in fixed]
-    parts = [INCLUDE, HEAD * bool(steps), EVENT * events, ENSEMBLE * ensemble]
+    parts = [INCLUDE, HEAD * bool(steps), EVENT * events, (ENSEMBLE + CONSTANTS) * ensemble]
     return "\n".join([*(x.format(name=name) for x in parts if x), *moves])
+
+
+def binding_to_events(name: str, step: str) -> str:
+    """The same of an ensemble whose motions end at their events, by one of those steps."""
+    return "\n".join(x.format(name=name, step=step) for x in (INCLUDE, ENDED, CONSTANTS))
 
 
 FAULTS = {
@@ -159,7 +177,8 @@ class Motion:
 
     ``steps``: those of the library, a motion of which this is; ``numbers``: the constants and the
     inputs of the next move.  Where there is no next state, ``StepError``, and it is as it was after
-    the last good step.  ``event``: the name of that at which it stands, else "".
+    the last good step.  ``event``: the name of that at which it stands, else ""; ``rising``: is it
+    reached from below?
     """
 
     def __init__(
@@ -172,7 +191,7 @@ class Motion:
         t: float,
     ):
         self._library, self._steps, self._numbers = library, steps, numbers
-        self._events, self.event = events, ""
+        self._events, self.event, self.rising = events, "", False
         self.t, self.h, self.x = float(t), 0.0, np.array(x, dtype=float)
         self._t_low, self.evaluations = 0.0, 0
         self._ask_for_memory()
@@ -204,37 +223,28 @@ class Motion:
             self._moved(self._named(step), ctypes.c_double(h), count)
         return self
 
-    def move_to(
-        self, t: float, tol: float = 1e-9, step: str = "", most: float = math.inf
-    ) -> Motion:
-        """Move up to a time, or to an event before it, in steps of their own size for a tolerance,
-        at most so many where there are no events; the same call again goes on from an event."""
+    def move_to(self, t: float, tol: float = 1e-9, step: str = "") -> Motion:
+        """Move up to a time, or to an event before it, in steps of their own size for a tolerance;
+        the same call again goes on from an event."""
         require_tolerance(tol)
         name = self._named(step)
         if not hasattr(self._library, f"derive_{name}_to"):
             raise ValueError(f"{name} has steps of a fixed size: call move()")
+        how = ctypes.c_double(t), ctypes.c_double(tol)
         if self._events:
-            return self._moved(f"{name}_to", ctypes.c_double(t), ctypes.c_double(tol))
-        while self.left(t) and most > 0:
-            count = int(min(MANY, most))
-            how = (ctypes.c_double(t), ctypes.c_double(tol), ctypes.c_size_t(count))
-            self._moved(f"{name}_to", *how)
-            most -= count
+            return self._moved(f"{name}_to", *how)
+        while self.left(t):
+            self._moved(f"{name}_to", *how, ctypes.c_size_t(MANY))
         return self
 
-    def watched(self, h: float, n: int, parts: int) -> tuple[Array, Array]:
-        """Make n steps of size h, or those before the first that is not made whole; times (steps
-        parts) and states (steps parts, state) at the ends of so many parts of each.
-
-        Of what is made less the motion is of no more use: take a copy.
-        """
-        t, x = np.empty(n * parts), np.empty((n * parts, len(self.x)))
-        k, u = map(pointer, self._numbers())
-        sizes = (ctypes.c_double(h), ctypes.c_size_t(n), ctypes.c_size_t(parts))
-        function = self._function(f"{self._named('')}_watched", ctypes.c_size_t)
-        done = parts * function(self._at, k, u, *sizes, pointer(t), pointer(x))
-        self._moved(self._named(""), ctypes.c_double(h), ctypes.c_size_t(0))  # where it is now
-        return t[:done], x[:done]
+    def watch(self, t: float, h: float, step: str = "") -> Motion:
+        """Make steps of size h, the last one shorter where that is left, up to a time or an event
+        before it; the same call again goes on from an event, to where its step ends without it."""
+        if not self._events:
+            raise ValueError("the problem has no [[event]]: call move()")
+        if not (math.isfinite(t) and 0 < h < math.inf):
+            raise ValueError(f"expected a time and the size of a step, not t = {t}, h = {h}")
+        return self._moved(f"{self._named(step)}_watch", ctypes.c_double(t), ctypes.c_double(h))
 
     def dense(self, t: float) -> Array:
         """The state at a time within the last step, by the polynomial of its method."""
@@ -257,7 +267,9 @@ class Motion:
         self.evaluations = int(evaluations)
         self.event = ""
         if status == AT_EVENT:
-            self.event = self._events[self._function("event", ctypes.c_int)(self._at)]
+            rising = ctypes.c_int()
+            found = self._function("event", ctypes.c_int)(self._at, ctypes.byref(rising))
+            self.event, self.rising = self._events[found], bool(rising.value)
         elif status:
             raise StepError(FAULTS[status].format(self.t))
         return self
@@ -296,15 +308,18 @@ def ensemble(
     span: tuple[float, float],
     tol: float,
     h: Array,
+    *ended: Array,
 ) -> Integers:
     """The status of each of n motions, which are moved from one time to another; x (n, state) and h
-    (n,), their next steps, are written into; k and u, one row for all or for each its own."""
+    (n,), their next steps, are written into, and so is, where they end at events, the time (n,)
+    when they did; k and u, one row for all or for each its own.  AT_EVENT + k: at event k."""
     require_tolerance(tol)
     n, status = len(x), np.zeros(len(x), dtype=np.intc)
     each = [ctypes.c_size_t(a.shape[1] if len(a) == n and n > 1 else 0) for a in (k, u)]
     times = map(ctypes.c_double, (*span, tol))
     function = library.derive_ensemble
-    function.restype = ctypes.c_size_t
+    function.restype = None
     numbers = (pointer(k), each[0], pointer(u), each[1], *times)
-    function(ctypes.c_size_t(n), pointer(x), *numbers, pointer(h), pointer(status))
+    told = [pointer(h), pointer(status), *map(pointer, ended)]
+    function(ctypes.c_size_t(n), pointer(x), *numbers, *told)
     return status

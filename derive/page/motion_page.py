@@ -22,7 +22,7 @@ from ..record.record import Derivation
 from ..views.html import visible
 from ..views.language import ENGLISH, Language
 from ..views.outline import capitalised, subtitle, title
-from .moving_body import element, moving_body
+from .moving_body import Data, element, moving_body
 from .shortened import called, shortened
 
 if TYPE_CHECKING:
@@ -57,10 +57,28 @@ WORDS = {
 }
 """The words of a page, by the names that its script has for them."""
 
-NAMES = ("STATE", "PARAMETERS", "INPUTS", "BASIS", "begin", "gauss_to")
+NAMES = ("PARAMETERS", "INPUTS", "begin", "gauss_to", "constants", "rhs")
+KEPT = ("conserved", "defect", "multiplier")
+"""What a page takes of the emitted module, and the functions that it takes where they are there."""
+
 VELOCITIES = ("ζ", "w")
-FUNCTIONS = ("constants", "rhs", "energy", "conserved", "defect", "multiplier")
-"""What a page takes of the emitted module, the functions where they are there."""
+MOST, CURVES = 24, 12
+"""So many numbers of the velocity have sliders; so many of the state are drawn where no body is."""
+
+SCRIPTS = (
+    "vectors",
+    "text",
+    "run",
+    "colours",
+    "shapes",
+    "body",
+    "canvas",
+    "stage",
+    "chart",
+    "polhode",
+    "mount",
+)
+"""The files of the drawing, in templates/html/motion."""
 
 
 def motion_page(
@@ -74,7 +92,7 @@ def motion_page(
 ) -> str:
     """The page of a motion from 0 to ``duration``, to a tolerance."""
     found = data(code, problem, record, begin, language) | {"t": duration, "tol": tol}
-    written = json.dumps(found, ensure_ascii=False, sort_keys=True, separators=(",", ":"))
+    written = json.dumps(_whole(found), ensure_ascii=False, sort_keys=True, separators=(",", ":"))
     template = environment("html", autoescape=True).get_template("motion.html.jinja")
     return template.render(
         language=language.name,
@@ -83,8 +101,19 @@ def motion_page(
         needs_script=language.word("The motion is computed by a script."),
         style=style(),
         data=written.replace("<", "\\u003c"),
-        script=script(code, record).replace("</", "<\\/"),
+        script=script(code, record, found["body"]).replace("</", "<\\/"),
+        name=code.name,
     )
+
+
+def _whole(data: Any) -> Any:
+    """The same data with whole numbers as such: 1 for 1.0."""
+    if isinstance(data, dict):
+        return {name: _whole(x) for name, x in data.items()}
+    if isinstance(data, list | tuple):
+        return [_whole(x) for x in data]
+    whole = isinstance(data, float) and data.is_integer() and abs(data) < 1e6
+    return int(data) if whole and str(data) != "-0.0" else data
 
 
 def style() -> str:
@@ -93,22 +122,46 @@ def style() -> str:
     return re.sub(r"(?<=[;{},:])\s+|\s+(?=[{}])|\s*\n\s*", "", text)
 
 
-def script(code: EmittedCode, record: Derivation) -> str:
+def script(code: EmittedCode, record: Derivation, body: Data) -> str:
     """The emitted module, what mounts a motion, and the call of it, in few characters."""
     (source,) = emit(
         code.program, record, ("javascript",), code.name, Options(step=("gauss",))
     ).values()
-    has = [x for x in FUNCTIONS if x in code.program.functions]
-    names = [*NAMES, *has, *(["CONSERVED"] * ("conserved" in has))]
+    own = code.program
+    kept = [x for x in KEPT if x in own.functions]
+    if "energy" in own.functions and "energy" not in own.conserved:
+        kept.append("energy")
+    names = [*NAMES, *kept, *(["CONSERVED"] * ("conserved" in kept))]
     module = called(source.replace("\nexport ", "\n"), names)
-    mount = (folder("html") / "motion.js").read_text(encoding="utf-8")
-    given = ", ".join(names)
-    return shortened(
-        f'"use strict";\nconst emitted = (() => {{\n{module}return {{ {given} }};\n}})();\n'
-        f'{mount}\nconst page = JSON.parse(document.getElementById("page").textContent);\n'
-        'const home = document.getElementById("motion");\n'
-        "home.motion = mount(home, { module: emitted, ...page });\n"
+    drawing = "".join(
+        (folder("html") / "motion" / f"{x}.js").read_text(encoding="utf-8") for x in SCRIPTS
     )
+    chosen = pieces(body)
+    drawing = called(drawing, ["mount", *chosen.values()])
+    given = ", ".join(f"{name}: {x}" for name, x in chosen.items())
+    return shortened(
+        f'"use strict";\nconst emitted = (() => {{\n{module}'
+        f"return {{ {', '.join(names)} }};\n}})();\n"
+        f'{drawing}\nconst page = JSON.parse(document.getElementById("page").textContent);\n'
+        'const home = document.getElementById("motion");\n'
+        f"home.motion = mount(home, {{ module: emitted, ...page }}, {{ {given} }});\n"
+    )
+
+
+def pieces(body: Data) -> dict[str, str]:
+    """What draws a body of :func:`.moving_body`: names of the drawing's functions, by what they are
+    for; a function that is not named, nor called by one that is, is no part of the page."""
+    turned = {"turned_start": "turned_start"}
+    if not body["parts"]:
+        return {"stage": "chart_stage"} | turned
+    solids = [x for part in body["parts"] for x in part["solids"]]
+    names = {x["shape"] for x in solids if "shape" in x}
+    names |= {"quadric" for x in solids if "quadric" in x}
+    names |= {"of_moments" for part in body["parts"] if part["moments"]}
+    if body["springs"] or any(part["anchors"] for part in body["parts"]):
+        names.add("spring")
+    side = "polhode" if body["polhode"] else "velocities"
+    return {"stage": "solid_stage", "side": side} | turned | {x: x for x in sorted(names)}
 
 
 def data(
@@ -121,18 +174,36 @@ def data(
     """What the script is told of the motion, as JSON has it."""
     made = code.program
     group = problem.group if problem.advected is None else None
+    entries = element(group, made.state)
+    velocity = [s for s in range(len(made.state)) if s not in {at for *_, at in entries}]
+    largest = sorted(range(len(made.state)), key=lambda s: -abs(float(begin.x[s])))[:CURVES]
+    body = moving_body(record.problem, group, made.state)
+    adjusted, curves = velocity[:MOST], [] if body["parts"] else sorted(largest)
+    basis = made.basis if entries else ()
+    side = "velocities" if body["polhode"] else "polhode"
+    unsaid = {side, *(x for x in ("defect", "multiplier") if x not in made.functions)}
+    unsaid |= set() if made.inputs else {"inputs"}
+    unsaid |= set() if entries else {"element", "turned"}
     units = {x.name: x.unit for x in code.columns()}
     return {
         **{x: [*map(float, getattr(begin, x))] for x in ("x", "p", "u")},
-        "entries": element(group, made.state),
-        "body": moving_body(record.problem, group, made.state),
+        "entries": entries,
+        "basis": [
+            [[i, j, float(v)] for i, row in enumerate(E) for j, v in enumerate(row) if v]
+            for E in basis
+        ],
+        "order": len(basis[0]) if basis else 0,
+        "names": {s: made.state[s] for s in {*adjusted, *curves}},
+        "adjusted": adjusted,
+        "curves": curves,
+        "body": body,
         "labels": {
             **_labels([(x, meaning, unit) for x, _, unit, meaning in made.parameters], language),
             **_labels([(x, _meaning(x, record, language), units[x]) for x in made.state], language),
         },
         "kept": {x: in_words(x, language.word) for x in made.conserved if x != "energy"},
         "units": {x: units.get(x, "") for x in ("t", "energy")},
-        "words": {x: language.word(message) for x, message in WORDS.items()},
+        "words": {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid},
         "comma": language.name == "fr",
     }
 

@@ -10,14 +10,22 @@ KINDS = {
     "spheroid": "semi-axes, pressure and sections of a fluid ellipsoid",
     "vorticity": "vorticity and enstrophy of a fluid on the torus",
 }
+ENSEMBLE_KINDS = {
+    "spread": "median and quantiles of an ensemble in time",
+    "ends": "the ends of an ensemble against what is varied",
+}
 OVERVIEW, PRECISION = "overview", "precision"
 """One sheet with all kinds that fit; a diagram of several runs (:mod:`.precision`)."""
 
 
 def told_kinds() -> str:
     """The kinds with what they are."""
-    listed = KINDS | {
-        OVERVIEW: "all that fit",
-        PRECISION: "work against error, of several runs or of a table",
-    }
+    listed = (
+        KINDS
+        | ENSEMBLE_KINDS
+        | {
+            OVERVIEW: "all that fit",
+            PRECISION: "work against error, of several runs or of a table",
+        }
+    )
     return "; ".join(f"{name}: {about}" for name, about in listed.items())

@@ -1,15 +1,17 @@
-"""The kinds of pictures: name → what draws it, and the columns that it needs."""
+"""The kinds of pictures, of runs and of ensembles: name → what draws it, and what it needs."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ..language.near_names import did_you_mean, near_name
+from ..motion.ensemble import Ensemble
 from ..motion.run import Run
 from . import (
     body_pictures,
+    ensemble_pictures,
     potential_picture,
     spheroid_pictures,
     surfaces,
@@ -23,12 +25,13 @@ from .plot_sheet import PlotError, ending, look, sheet, written
 @dataclass(frozen=True)
 class Kind:
     """A kind of picture: ``draw(figure, run, word)`` on a sheet of a ``size``, in inches; what it
-    ``needs``; ``fits``: has a run that?"""
+    ``needs``; ``fits``: has a run that?  Those of an ensemble are drawn, and measured, with the
+    columns that are chosen after all else."""
 
-    draw: Callable[[Any, Run, Any], None]
+    draw: Callable[..., None]
     needs: str
-    fits: Callable[[Run], bool]
-    size: Callable[[Run], tuple[float, float]]
+    fits: Callable[[Any], bool]
+    size: Callable[..., tuple[float, float]]
 
 
 def _columns(*names: str) -> Callable[[Run], bool]:
@@ -101,40 +104,77 @@ KINDS = {
         _sized(7.0, 3.3),
     ),
 }
+ENSEMBLE_KINDS = {
+    "spread": Kind(
+        ensemble_pictures.spread,
+        "several instants, --points, and a motion that reached the end",
+        ensemble_pictures.fits_spread,
+        ensemble_pictures.size_of_spread,
+    ),
+    "ends": Kind(
+        ensemble_pictures.ends,
+        "a motion that reached the end",
+        ensemble_pictures.fits_ends,
+        ensemble_pictures.size_of_ends,
+    ),
+}
 
 
-def plot(run: Run, name: str, kind: str = "", word: Any = str) -> bytes:
-    """The bytes of a picture of a run, in the format of the ending of ``name``; ``kind`` of KINDS,
-    or OVERVIEW, else what suits the run; ``word``: English → the language of the labels.
+def plot(
+    run: Run | Ensemble, name: str, kind: str = "", word: Any = str, columns: Sequence[str] = ()
+) -> bytes:
+    """The bytes of a picture of a run or of an ensemble, in the format of the ending of ``name``;
+    ``kind`` of KINDS or ENSEMBLE_KINDS, or OVERVIEW, else what suits it; ``word``: English → the
+    language of the labels; ``columns``: of the state of an ensemble, those that are drawn.
     ``PlotError``."""
     ending(name)
-    fitting = [x for x, own in KINDS.items() if own.fits(run)]
-    there = f"there are {', '.join(fitting)}" if fitting else "nothing else can be drawn of it"
-    if not len(run.table):
+    kinds, what = KINDS, "run"
+    more: tuple[Sequence[str], ...] = ()
+    if isinstance(run, Ensemble):
+        kinds, more, what = ENSEMBLE_KINDS, (columns,), "ensemble"
+    elif columns:
+        raise PlotError("columns are chosen of an ensemble: leave out --column")
+    elif not len(run.table):
         raise PlotError("the run has no instant: nothing to draw")
+    chosen = _chosen(kinds, run, kind, what)
+    with look():
+        return written(_sheet_of(kinds, chosen, run, word, more), name)
+
+
+def _chosen(kinds: Mapping[str, Kind], run: Any, kind: str, what: str) -> list[str]:
+    """The kinds that are drawn of a run, or of an ensemble."""
+    fitting = [x for x, own in kinds.items() if own.fits(run)]
+    there = f"there are {', '.join(fitting)}" if fitting else "nothing else can be drawn of it"
     if not kind:
-        kind = next((x for x in ("vorticity", "axes", "state") if x in fitting), "energy")
+        first = ("vorticity", "axes", "state", "energy") if kinds is KINDS else tuple(kinds)
+        kind = next((x for x in first if x in fitting), first[-1])
     if kind == PRECISION:
         raise PlotError(f"{kind} is of several runs, derive plot A B …, or of a table; {there}")
-    if kind != OVERVIEW and kind not in KINDS:
-        near = did_you_mean(near_name(kind, [*KINDS, OVERVIEW]), after=" ")
-        raise PlotError(f"unknown kind {kind[:40]!r}; {near}for this run {there}")
+    if kind != OVERVIEW and kind not in {**KINDS, **ENSEMBLE_KINDS}:
+        near = did_you_mean(near_name(kind, [*kinds, OVERVIEW]), after=" ")
+        raise PlotError(f"unknown kind {kind[:40]!r}; {near}for this {what} {there}")
     chosen = fitting if kind == OVERVIEW else [kind]
     if not chosen or not {*chosen} <= {*fitting}:
-        needs = KINDS[kind].needs if kind in KINDS else "a column of the state or of the energy"
-        raise PlotError(f"{kind} needs {needs}, which this run has not; {there}")
-    with look():
-        return written(_sheet_of(run, chosen, word), name)
+        needs = "a column of the state or of the energy"
+        if kind in kinds:
+            needs = kinds[kind].needs
+        elif kind != OVERVIEW:
+            other = "a run" if what == "ensemble" else "an ensemble"
+            raise PlotError(f"{kind} is of {other}, and this is none; {there}")
+        raise PlotError(f"{kind} needs {needs}, which this {what} has not; {there}")
+    return chosen
 
 
-def _sheet_of(run: Run, chosen: list[str], word: Any) -> Any:
+def _sheet_of(
+    kinds: Mapping[str, Kind], chosen: list[str], run: Any, word: Any, columns: tuple[Any, ...]
+) -> Any:
     """A figure with some kinds, one below the other."""
-    sizes = [KINDS[kind].size(run) for kind in chosen]
+    sizes = [kinds[kind].size(run, *columns) for kind in chosen]
     figure = sheet(max(x for x, _ in sizes), sum(y for _, y in sizes))
     if len(chosen) == 1:
-        KINDS[chosen[0]].draw(figure, run, word)
+        kinds[chosen[0]].draw(figure, run, word, *columns)
         return figure
     rows = figure.subfigures(len(chosen), 1, height_ratios=[y for _, y in sizes])
     for row, kind in zip(rows, chosen, strict=True):
-        KINDS[kind].draw(row, run, word)
+        kinds[kind].draw(row, run, word, *columns)
     return figure

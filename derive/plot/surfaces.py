@@ -12,6 +12,9 @@ from .plot_sheet import COLOURS, PlotError, label
 VIEW = np.array([0.75, 0.5, 0.43]) / np.linalg.norm([0.75, 0.5, 0.43])
 """From where the pictures are seen, a unit vector."""
 
+FAST = 0.25
+"""A tip that moves further than this from instant to instant, on the mean, makes no curve."""
+
 
 def projected(points: Array, view: Array = VIEW) -> Array:
     """Points (…, 3) → (…, 2), along the view, the third axis upwards."""
@@ -34,7 +37,8 @@ def surface(panel: Any, root: Array) -> None:
     turn = np.linspace(0, 2 * np.pi, 241)
     circle = np.stack([np.cos(turn), np.sin(turn)])
     seen = np.linalg.solve(root, VIEW)  # the outline: normal ⟂ view
-    frame = np.linalg.svd(seen[None])[2][1:]
+    right = np.cross([0.0, 0.0, 1.0], seen)
+    frame = np.stack([x / np.linalg.norm(x) for x in (right, np.cross(seen, right))])
     x, y = projected(circle.T @ frame @ root).T
     panel.fill(x, y, facecolor="#f4f4f4", edgecolor="#555555", lw=0.8, zorder=0)
     for k in range(3):
@@ -47,11 +51,13 @@ def surface(panel: Any, root: Array) -> None:
 
 
 def axes(figure: Any, run: Run, word: Any) -> None:
-    """The tips of the body's axes on the unit sphere of space: precession and nutation."""
+    """The tips of the body's axes on the unit sphere of space: precession and nutation; without
+    those that turn too fast for the instants of the run, unless all do."""
     A = attitude(run)
     panel = figure.subplots()
     surface(panel, np.eye(3))
-    for k in range(3):
+    steps = np.linalg.norm(np.diff(A, axis=0), axis=1).mean(axis=0) if len(A) > 1 else np.zeros(3)
+    for k in [k for k in range(3) if steps[k] < FAST] or range(3):
         tip = A[:, :, k]
         curve(panel, tip, tip, COLOURS[k], f"$A e_{k + 1}$")
     figure.legend(*panel.get_legend_handles_labels(), loc="outside lower center", ncols=3)

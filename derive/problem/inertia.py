@@ -189,11 +189,12 @@ def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str
 
 def is_negative(t: Tree, parameters: Mapping[str, Parameter]) -> bool:
     """Is it negative for the defaults of the parameters? No, where one has none."""
-    found = approximate(t, _defaults(parameters))
+    found = approximate(t, defaults(parameters))
     return found is not None and found < 0
 
 
-def _defaults(parameters: Mapping[str, Parameter]) -> dict[str, float]:
+def defaults(parameters: Mapping[str, Parameter]) -> dict[str, float]:
+    """Name → the default of a parameter that has one."""
     return {name: p.default for name, p in parameters.items() if p.default is not None}
 
 
@@ -204,12 +205,12 @@ def massless(body: Body) -> bool:
     return len(numbers) == len(masses) and sum(numbers) == 0
 
 
-def fault_of_quadrics(body: Body | None, parameters: Mapping[str, Parameter]) -> str:
-    """What is wrong with an ellipsoid of the body for the defaults; "" if nothing is."""
+def fault_of_quadrics(body: Body | None, values: Mapping[str, float], whose: str) -> str:
+    """What is wrong with an ellipsoid of the body for some ``values`` of the parameters, which are
+    ``whose``; "" if nothing is."""
     solids = body.solids if isinstance(body, GivenBody) else ()
     quadrics = (x.sizes["quadric"] for x in solids if "quadric" in x.sizes)
-    values = _defaults(parameters)
-    return next(filter(None, (fault_of_quadric(Q, values) for Q in quadrics)), "")
+    return next(filter(None, (fault_of_quadric(Q, values, whose) for Q in quadrics)), "")
 
 
 def impossible(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
@@ -220,7 +221,7 @@ def impossible(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
     if not isinstance(body, GivenBody):
         return False
     if body.solids:
-        found = [approximate(t, _defaults(parameters)) for t in _trees(body)]
+        found = [approximate(t, defaults(parameters)) for t in _trees(body)]
         if any(x is None for x in found):
             return False
         m, *rest = (Fraction(x) for x in found if x is not None)
@@ -250,7 +251,7 @@ def of_cad(body: Body | None, parameters: Mapping[str, Parameter]) -> bool:
     """
     if not isinstance(body, GivenBody) or body.solids or len(body.given.c) != 3:
         return False
-    found = [approximate(t, _defaults(parameters)) for t in _trees(body)]
+    found = [approximate(t, defaults(parameters)) for t in _trees(body)]
     if any(x is None for x in found):
         return False
     numbers = [Fraction(x) for x in found if x is not None]

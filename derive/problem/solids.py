@@ -202,9 +202,9 @@ def exact_root(x: Fraction | int) -> Fraction | None:
     return root if root and root * root == x else None
 
 
-def fault_of_quadric(Q: Rows, values: Mapping[str, float]) -> str:
+def fault_of_quadric(Q: Rows, values: Mapping[str, float], whose: str = "") -> str:
     """Why ⟨r, Q r⟩ ≤ 1 is no ellipsoid, "" where it may be one: Q is symmetric, and positive
-    definite where the ``values`` of parameters tell it."""
+    definite where the ``values`` of parameters, which are ``whose``, tell it."""
     span = range(len(Q))
     if any(Q[i][j] != Q[j][i] for i in span for j in range(i)):
         return "the matrix of an ellipsoid must be symmetric"
@@ -214,9 +214,7 @@ def fault_of_quadric(Q: Rows, values: Mapping[str, float]) -> str:
         return ""
     if rational.definite(rational.matrix(numbers)):
         return ""
-    return "the matrix of an ellipsoid must be positive definite" + " for the defaults" * bool(
-        values
-    )
+    return f"the matrix of an ellipsoid must be positive definite{f' for {whose}' * bool(values)}"
 
 
 def rotation_about(axis: Row, angle: Tree) -> tuple[Row, ...]:

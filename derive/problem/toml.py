@@ -233,7 +233,8 @@ def _positive(where: str | None, what: str) -> None:
 def _massive(problem: Problem, negative_mass: bool) -> None:
     """``ProblemError`` for a direction without inertia, and for masses that cannot be."""
     moved, own = problem.group, problem.body
-    if fault := inertia.fault_of_quadrics(own, problem.parameters):
+    values = inertia.defaults(problem.parameters)
+    if fault := inertia.fault_of_quadrics(own, values, "the defaults"):
         raise ProblemError(f"body: {fault}")
     if moved and own and (still := inertia.still_direction(moved, own)):
         raise ProblemError(

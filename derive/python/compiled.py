@@ -46,6 +46,10 @@ void derive_rhs(double *b)
 five arguments takes ctypes longer than rhs takes."""
 
 
+MORE = 9 - 4
+"""How many more numbers a rotation has as a matrix than as a quaternion."""
+
+
 class Names(NamedTuple):
     """The names of a program's numbers, and the counts of constants and of coordinates of 𝔤."""
 
@@ -329,6 +333,20 @@ class Compiled(InMomenta):
         function = self._function("defect", ctypes.c_double)
         return float(function(pointer(_array(x, len(self.STATE)))))
 
+    def to_matrix(self, x: Any) -> Array:
+        """The state x with A, row by row, for its quaternion; needs ``attitude="quaternion"``."""
+        return self._exchanged("to_matrix", x, len(self.STATE), len(self.STATE) + MORE)
+
+    def from_matrix(self, z: Any) -> Array:
+        """The state z, which begins with a rotation A, with the quaternion of A, q_0 ≥ 0."""
+        return self._exchanged("from_matrix", z, len(self.STATE) + MORE, len(self.STATE))
+
+    def _exchanged(self, what: str, x: Any, size: int, found: int) -> Array:
+        """What the C function ``what`` makes of so many numbers, so many others."""
+        function, given, out = self._function(what, None), _array(x, size), np.zeros(found)
+        function(*map(pointer, (given, out)))
+        return out
+
     def into_frame(self, x: Any) -> Array:
         """The state x taken to the principal frame; needs ``frame="principal"``."""
         return self._change_frame("into_frame", x, len(self.STATE))
@@ -370,6 +388,8 @@ class Compiled(InMomenta):
         function = getattr(self._library, f"{self._source.name}_{what}", None)
         if function is None and what.endswith("_frame"):
             raise ValueError("not compiled: ask for it by compile(..., frame='principal')")
+        if function is None and what.endswith("_matrix"):
+            raise ValueError("not compiled: ask for it by compile(..., attitude='quaternion')")
         if function is None and what in ("momentum", "velocity", "momentum_rhs", "poisson"):
             raise ValueError("not compiled: ask for it by compile(..., momenta=True)")
         if function is None and what in ("project", "defect"):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
@@ -212,12 +212,12 @@ class Derived:
     ) -> SimulatedEnsemble:
         from ..motion.ensemble import Many, Plan, require_steps_of_an_ensemble
         from ..motion.varied import laws
-        from ..pipeline import motion_of
+        from ..pipeline import motion_of_many
         from .simulated import SimulatedEnsemble
 
         require_steps_of_an_ensemble(**how)
         plan = Plan(n, laws(vary), t, points, tol, seed, **begin)
-        many = Many(motion_of(self.problem, self.record), self.problem, plan)
+        many = Many(motion_of_many(self.problem, self.record), self.problem, plan)
         return SimulatedEnsemble.of(many.whole([*many.parts()]))
 
     def motion_page(
@@ -238,7 +238,7 @@ class Derived:
         from ..pipeline import motion_of
         from ..views.language import language as named
 
-        code = motion_of(self.problem, self.record)
+        code = motion_of(replace(self.problem, events=()), self.record)
         begin = beginning(code, self.problem, given=start or {}, exponent=exp, project=project)
         instants(Method(tol=tol), t, 1)
         return motion_page(code, self.problem, self.record, begin, t, tol, named(language))

@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from ..motion.ensemble import Ensemble, Part
 from ..motion.run import Run
+
+
+def _drawn(
+    run: Run | Ensemble, path: Path, kind: str, lang: str, columns: Sequence[str] = ()
+) -> Path:
+    from ..plot.pictures import plot
+    from ..views.language import language
+
+    path.write_bytes(plot(run, path.name, kind, language(lang).word, columns))
+    return path
 
 
 class Simulated(Run):
@@ -25,12 +36,7 @@ class Simulated(Run):
 
     def plot(self, out: str | Path, kind: str = "", lang: str = "en") -> Path:
         """Draw it to a file, .svg, .pdf or .png, as ``derive plot --kind`` does; ``PlotError``."""
-        from ..plot.pictures import plot
-        from ..views.language import language
-
-        path = Path(out)
-        path.write_bytes(plot(self, path.name, kind, language(lang).word))
-        return path
+        return _drawn(self, Path(out), kind, lang)
 
     def save(self, out: str | Path) -> Path:
         """Write it to a file, .npz, .csv or .parquet."""
@@ -57,6 +63,13 @@ class SimulatedEnsemble(Ensemble):
 
         return cls.of(read(Path(path)))
 
+    def plot(
+        self, out: str | Path, kind: str = "", lang: str = "en", columns: Sequence[str] = ()
+    ) -> Path:
+        """Draw it to a file, .svg, .pdf or .png, as ``derive plot --kind --column`` does;
+        ``PlotError``."""
+        return _drawn(self, Path(out), kind, lang, columns)
+
     def save(self, out: str | Path) -> Path:
         """Write it to a file, .npz, .csv or .parquet."""
         from ..motion.ensemble_files import writer
@@ -65,5 +78,5 @@ class SimulatedEnsemble(Ensemble):
         path = Path(out)
         format_of(path.name)
         with path.open("wb") as file, writer(file, path.name, self) as made:
-            made.add(Part(self.varied, self.status, self.states))
+            made.add(Part(self.varied, self.status, self.states, self.end))
         return path

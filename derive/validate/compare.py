@@ -15,6 +15,7 @@ from random import Random
 from typing import Any
 
 from ..record.json_writer import to_json
+from .attitude import compare_attitude, exact_root
 from .conservation import compare_conserved
 from .declarations import DiffersError, compare_names
 from .degree_bounds import Measured, MeasuredElementary
@@ -169,6 +170,9 @@ class Comparison:
         if "project" in self.module.functions:
             drift = partial(self._drift_numbers, arguments)
             found.append(compare_drift(drift, self._draw, self.claims.state, point))
+        if "to_matrix" in self.module.functions:
+            own = self._attitude, self._require_equal, self.claims.state
+            found += compare_attitude(*own, point)
         if "multiplier" in self.module.functions:
             theta = self._call("multiplier", arguments, value=1)["value"]
             self._require_equal("multiplier", ("theta",), theta, (point.named.names["θ"],))
@@ -255,6 +259,14 @@ class Comparison:
             found = run(summands(function), arguments, elementary, literal)
             self._measure(found)
         return [getattr(y, "value", y) for y in found]
+
+    def _attitude(self, name: str, x: Sequence[Any], size: int) -> Sequence[Any]:
+        """The numbers of ``to_matrix`` at the state x, or of ``from_matrix`` at z."""
+        letter = "z" if name == "from_matrix" else "x"
+        given = {letter: self._array(x, letter, self.claims.entry_degree)}
+        found = Machine(self.module, exact_root, self.literal).call(name, given, out=size)["out"]
+        self._measure(found)
+        return found
 
     def _draw(self) -> Fraction:
         return Fraction(self.random.randint(1, self.claims.size))

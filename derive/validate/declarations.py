@@ -25,6 +25,8 @@ def compare_names(m: Module, claims: Claims) -> None:
         "PARAMETERS": len(listed),
         "ALGEBRA": claims.group.dimension,
     }
+    if "q_0" in claims.state.names:
+        sizes["MATRIX"] = len(claims.state.names) + 5  # nine entries for four
     for what, size in sizes.items():
         if m.sizes.get(what, size) != size:
             raise DiffersError(f"the size {what} is {m.sizes[what]}, not {size}")

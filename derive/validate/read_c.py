@@ -33,6 +33,8 @@ SIGNATURES = {
     "from_rest": ("void", "t", "const* x", "const* k", "const* u", "* out"),
     "project": ("void", "const* x", "* out"),
     "defect": ("real", "const* x"),
+    "to_matrix": ("void", "const* x", "* out"),
+    "from_matrix": ("void", "const* z", "* out"),
     "jacobian": ("void", "t", "const* x", "const* k", "const* u", "* dx", "* D"),
     "jacobian_inputs": ("void", "t", "const* x", "const* k", "const* u", "* D"),
     "jacobian_raw": ("void", "t", "const* x", "const* k", "const* u", "* D"),
@@ -46,7 +48,7 @@ SIGNATURES = {
 }
 """Function → what it returns, and what it takes in order: the contract with its callers."""
 
-SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS", "CONSERVED", "REDUCED")
+SIZES = ("STATE", "ALGEBRA", "PARAMETERS", "CONSTANTS", "INPUTS", "CONSERVED", "REDUCED", "MATRIX")
 DECLARED = {"P": "PARAMETERS", "K": "CONSTANTS", "U": "INPUTS"}
 """Macro → the size that it declares: arrays that may be empty, which C does not have: SIZE is 1
 then."""

@@ -29,7 +29,7 @@ from .terms import (
 
 OF_STATE = (
     *("_rhs", "_energy", "_conserved", "_project", "_defect", "_jacobian", "_jacobian_inputs"),
-    *("_momentum", "_multiplier", "_jacobian_raw"),
+    *("_momentum", "_multiplier", "_jacobian_raw", "_to_matrix"),
 )
 OF_Y, OF_BOTH = ("_velocity", "_momentum_rhs", "_poisson"), ("_velocity_step", "_momentum_rates")
 SIGNATURES = {
@@ -37,6 +37,7 @@ SIGNATURES = {
     **dict.fromkeys(OF_STATE, ("xp", "t", "x", "k", "u")),
     **dict.fromkeys(OF_Y, ("xp", "t", "y", "k", "u")),
     **dict.fromkeys(OF_BOTH, ("xp", "t", "x", "y", "k", "u")),
+    "_from_matrix": ("xp", "z"),
     "_jacobian_parameters": ("xp", "t", "x", "p", "u"),
 }
 CALLS = tuple(f"_{name}(xp, " for name in BUNDLES)

@@ -2,7 +2,7 @@
 
 A proof at random points needs one rational function everywhere; a branch could be one thing at the
 points that are tried and another elsewhere. A size |x| or a comparison may serve the checks of
-``constants``, and ``defect`` is a sum of sizes.
+``constants``, ``defect`` is a sum of sizes, and ``from_matrix`` asks for signs.
 """
 
 from __future__ import annotations
@@ -15,6 +15,8 @@ from .terms import Body, CodeError, CodeFunction
 REFUSED = (1, 2)
 """What ``constants`` returns of a body with a singular mass matrix, or with numbers that are not
 finite."""
+SIGNED = "from_matrix"
+"""The function that may ask for signs: it is tried with each choice of them."""
 UNSMOOTH = ("abs", "gt", "lt", "le", "eq", "not")
 
 
@@ -22,6 +24,10 @@ def require_straight_line(f: CodeFunction) -> None:
     """``CodeError`` unless what a function gives depends on no size and no condition."""
     tainted: set[str] = set()
     body = f.body
+    if f.name == SIGNED:
+        if any(s[0] in ("if", "for") for s in body):
+            raise CodeError(f"{f.name}: what it computes is under a condition")
+        return
     if f.name == "defect":
         body = summands(f).body
     if f.name == "project":
@@ -42,6 +48,8 @@ def tested_parameters(f: CodeFunction) -> set[int]:
 
     ``CodeError`` where it tests anything else.
     """
+    if f.name == SIGNED:
+        return set()
     places: dict[str, int] = {}
     found: set[int] = set()
 

@@ -146,7 +146,7 @@ class Play:
         from derive.code.options import Options
         from derive.motion.emitted_code import EmittedCode, in_si
         from derive.motion.first_numbers import first_numbers
-        from derive.page.motion_page import data
+        from derive.page.motion_page import data, pieces
         from derive.pipeline import moving_program
         from derive.views.language import language
 
@@ -160,7 +160,8 @@ class Play:
             page = data(code, self.problem, self.record, begin, language(lang))
             page |= {"t": SECONDS, "tol": TOLERANCE}
             page["x"] = moving(page, made)
-            self.tell("motion", {"source": source, "page": page})
+            told = {"source": source, "page": page, "pieces": pieces(page["body"])}
+            self.tell("motion", told)
 
 
 def corrections(record: Derivation) -> list[Finding]:

@@ -12,8 +12,8 @@ export class Motion {
     });
   }
 
-  show(words, lang, { source, page }) {
-    this.told = { source, page, lang };
+  show(words, lang, told) {
+    this.told = { ...told, lang };
     this.frame = make("iframe", { src: "moving.html", title: words.motion, sandbox: "allow-scripts allow-same-origin" });
     this.place.replaceChildren(make("p", { class: "note" }, words.moved), this.frame);
   }

@@ -1,6 +1,7 @@
 """Events, emitted: at known times in every language, in order, once, and what is refused."""
 
 import subprocess
+from copy import copy
 from math import pi, sqrt
 
 import numpy as np
@@ -60,10 +61,18 @@ direction = "falling"
 name = "below"
 when = "A_12"
 """
+SPUN = f"""
+name = "spun"
+group = "SO(3)"
+{BODY}
+[[event]]
+name = "quarter"
+when = "A_11"
+"""
 FALLEN, HALF = sqrt(6 / 9.81), sqrt(3 / 9.81)
 AT_ONE = [1.0, 0, 0, 0, 1, 0, 0, 0, 1]
 STANDING = [*AT_ONE, 0, 0, 3.0, 0, 2, 0, 1, 0, 0]
-STEPS = ("gauss", "vern9")
+STEPS, FIXED = ("gauss", "vern9"), ("gauss", "vern9", "rk4")
 
 
 @pytest.fixture(scope="module")
@@ -71,13 +80,13 @@ def emitted(tmp_path_factory):
     """A function (text, language, options) → the folder with the code, made once."""
     made = {}
 
-    def get(text, language, **options):
-        key = (text, language, *map(str, options.items()))
+    def get(text, language, step=FIXED, **options):
+        key = (text, language, step, *map(str, options.items()))
         if key not in made:
             folder = made[key] = tmp_path_factory.mktemp("events")
             (folder / "p.toml").write_text(text)
             languages = {language, "python"}
-            derive.derive(folder / "p.toml").emit(folder, sorted(languages), step=STEPS, **options)
+            derive.derive(folder / "p.toml").emit(folder, sorted(languages), step=step, **options)
         return made[key]
 
     return get
@@ -111,6 +120,8 @@ def test_a_falling_stone(emitted, language, step):
         assert abs(t - exact) < 1e-12
     assert [place.status for place in places] == [4] * 4 + [0] * 2 + [4] * 3 + [0] * 2
     assert (places[4].t, places[-1].t) == (1.0, 0.0)
+    rising = [place.rising for place in places if place.status == 4]
+    assert rising == [False, True, False, False, True, True, True]
     at = {listed[place.event]: place.x for place in places[:4]}
     assert abs(at["ground"][11]) < 1e-13
     assert abs(at["half"][11] - 1.5) < 1e-13
@@ -224,6 +235,102 @@ when = "(t - 1/2)^3"
         assert found == [("cubic", pytest.approx(0.5, abs=1e-12)), ("later", pytest.approx(0.75))]
 
 
+METHODS = [(language, x) for language in LANGUAGES for x in FIXED]
+METHODS += [(language, "discrete") for language in ("c", "python", "cpp")]
+
+
+def zero(name, x):
+    """What becomes 0 at an event of the stone."""
+    return {"ground": x[11], "half": x[11] - 1.5, "also": 1.5 - x[11], "quarter": x[0]}[name]
+
+
+@pytest.mark.parametrize(("language", "step"), METHODS)
+def test_steps_of_one_size_are_watched(emitted, language, step):
+    """At the zeros of the motion that they make, which is the same as without a watch: each event,
+    in order and once, to a time between the ends of steps and then to the end of one."""
+    folder = emitted(STONE, language, ("discrete",) if step == "discrete" else FIXED)
+    names_of, h = names(folder, "stone"), 0.07
+    calls = [(f"{step}_watch", t, h) for t in (8 * h, 15 * h) for _ in range(5)]
+    plain = [(step, h, 8), (step, h, 7)]
+    places = follow(language, folder, "stone", calls, STANDING, [3.0])
+    ends = follow(language, folder, "stone", plain, STANDING, [3.0])
+    found = [place for place in places if place.status == 4]
+    assert [names_of[x.event] for x in found] == ["half", "also", "ground", "quarter"]
+    assert [x.rising for x in found] == [False, True, False, False]
+    off = {"gauss": 1e-12, "vern9": 1e-12, "rk4": 1e-5, "discrete": 4e-3}[step]
+    for x, exact in zip(found, (HALF, HALF, FALLEN, pi / 4), strict=True):
+        assert abs(x.t - exact) < off
+        assert abs(zero(names_of[x.event], x.x)) < 1e-13
+    for place, end in zip((places[4], places[9]), ends, strict=True):
+        assert (place.status, place.t) == (0, end.t)
+        same = 0 if step in ("rk4", "vern9") else 1e-13
+        assert np.abs(place.x - end.x).max() <= same
+
+
+@pytest.mark.parametrize(("language", "step"), METHODS)
+def test_they_are_watched_backwards_to_a_shorter_last_step(emitted, language, step):
+    folder = emitted(STONE, language, ("discrete",) if step == "discrete" else FIXED)
+    calls = [(step, 0.07, 12), *[(f"{step}_watch", 0.3, 0.08)] * 5]
+    places = follow(language, folder, "stone", calls, STANDING, [3.0])[1:]
+    assert [x.status for x in places] == [4, 4, 4, 0, 0]
+    found = [names(folder, "stone")[x.event] for x in places[:3]]
+    assert found == ["quarter", "ground", "up"]
+    assert [x.rising for x in places[:3]] == [True] * 3
+    assert places[4].t == pytest.approx(0.3, rel=0, abs=1e-15)
+    assert places[4].h == pytest.approx(-0.06, rel=1e-9)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_step_that_is_made_in_halves_is_watched_whole(emitted, language):
+    """So coarse that the iteration of gauss does not converge."""
+    folder, h = emitted(SPUN, language, ("gauss",)), 1.0
+    x, calls = (
+        [*AT_ONE, 0, 0, 9.0],
+        [("gauss_watch", 2.0, h)] * 13 + [("begin", 0, 0), ("gauss", h, 2)],
+    )
+    *places, _, end = follow(language, folder, "spun", calls, x)
+    found = [place.t for place in places if place.status == 4]
+    exact = (np.arange(6) + 0.5) * pi / 9
+    assert found == pytest.approx(exact, rel=0, abs=1e-10)  # the error of such halves
+    assert abs(end.h) < h
+    assert (places[6].status, places[6].t) == (0, 2.0)
+    assert np.abs(places[6].x - end.x).max() < 1e-6  # not of the same parts
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("real", ["double", "float"])
+def test_rk4_alone(emitted, language, real):
+    """Without what steps of their own size need; in floats, too."""
+    folder = emitted(SPUN, language, ("rk4",), real=real)
+    calls = [("rk4_watch", 1.0, 1 / 64)] * 5
+    places = follow(language, folder, "spun", calls, [*AT_ONE, 0, 0, 9.0], real=real)
+    assert [place.status for place in places] == [4, 4, 4, 0, 0]
+    exact = (np.arange(3) + 0.5) * pi / 9
+    assert [x.t for x in places[:3]] == pytest.approx(exact, rel=0, abs=1e-5)
+    zeros = [abs(x.x[0]) for x in places[:3]]
+    assert max(zeros) < (1e-14 if real == "double" else 1e-6)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(("t", "h"), [(1.0, 0.0), (np.inf, 0.1), (1.0, np.inf)])
+def test_what_is_no_step_is_told(emitted, language, t, h):
+    folder = emitted(SPUN, language, ("rk4",))
+    (place,) = follow(language, folder, "spun", [("rk4_watch", t, h)], [*AT_ONE, 0, 0, 9.0])
+    assert (place.status, place.t) == (2, 0.0)
+
+
+def test_from_an_event_other_steps_go_on(emitted):
+    """And the end of the step in which it was is forgotten."""
+    folder = emitted(STONE, "python")
+    code = import_python("stone", folder)
+    k, m = code.constants([3.0]), code.begin(0.0, np.array(STANDING))
+    assert code.watch(code.rk4, m, k, None, 1.0, 0.5) == code.EVENT
+    assert code.rk4(m, k, None, 1e-3) == code.OK
+    t = m.t
+    assert code.watch(code.rk4, m, k, None, t + 0.02, 0.01) == code.OK
+    assert m.t == pytest.approx(t + 0.02, rel=0, abs=1e-15)
+
+
 def test_steps_of_a_size_do_not_stop_and_are_no_event(emitted):
     folder = emitted(STONE, "python")
     code = import_python("stone", folder)
@@ -243,6 +350,20 @@ def test_the_compiled_c_tells_them(tmp_path):
             found.append(m.event)
         assert found == ["half", "also", "ground", "quarter"]
         assert m.t == 1.0
+        m, again = f.begin(STANDING), []
+        while m.watch(1.0, 0.1, step).event:
+            again.append((m.event, m.rising))
+            if not again[1:]:
+                other = copy(m)
+        assert again == [(name, name == "also") for name in found]
+        assert np.abs(m.x - f.begin(STANDING).move(0.1, 10, step).x).max() < 1e-13
+        assert (other.event, other.watch(1.0, 0.1, step).event) == ("half", "also")
+    plain = derive.compile("so3", step="rk4").begin([*AT_ONE, 0, 0, 1])
+    with pytest.raises(ValueError, match="has no"):
+        plain.watch(1.0, 0.1)
+    for t, h in ((1.0, 0.0), (np.inf, 0.1), (1.0, np.nan)):
+        with pytest.raises(ValueError, match="the size of a step"):
+            m.watch(t, h)
 
 
 @pytest.mark.parametrize(
@@ -264,4 +385,4 @@ def test_what_is_refused(tmp_path, capsys, when, more, words):
     assert words in err
     assert err.count("\n") == 1
     assert not out.exists() or not [*out.iterdir()]
-    assert main(["emit", str(path), "--step", "rk4", "--out", str(out)]) == 0
+    assert main(["emit", str(path), "--out", str(out)]) == 0

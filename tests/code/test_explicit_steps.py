@@ -134,8 +134,10 @@ def test_every_language_has_the_same_motion(emitted, language, name):
     places = follow(language, folder, name, commands, x, p, u)
     for a, b in zip(places, follow("c", folder, name, commands, x, p, u), strict=True):
         assert (a.status, a.t) == (b.status, b.t)
-        assert abs(a.h - b.h) <= 1e-6 * abs(b.h)  # of an error that is near rounding
-        assert np.abs(a.x - b.x).max() < 1e-13
+        # h goes with the ninth root of an estimated error: processors round the sums of the Python
+        # apart, by 1e-15 of some 1e-11
+        assert abs(a.h - b.h) <= 1e-5 * abs(b.h)
+        assert np.abs(a.x - b.x).max() < 1e-13 * np.abs(b.x).max()  # which is up to 13
 
 
 def start_of(folder, name, rng):

@@ -17,7 +17,7 @@ from derive.motion.varied import Draws, Varied
 from derive.pipeline import motion_of
 from derive.python.simulated import SimulatedEnsemble
 from tests.problems.line import FALLING
-from tests.problems.moving import SPIN
+from tests.problems.moving import BODY, SPIN, WEIGHT
 from tests.support.needs import need, needs
 from tests.support.unmeasured import environment
 
@@ -311,10 +311,79 @@ def test_what_python_refuses(so3, chosen, words):
         so3.simulate(1.0, **{"ensemble": 3} | chosen)
 
 
+STONE = f"""
+name = "stone"
+group = "SE(3)"
+[parameters]
+H = 3.0
+{BODY}{WEIGHT}[initial]
+zeta_2 = 2
+T_3 = "H"
+[[event]]
+name = "ground"
+when = "T_3"
+terminal = true
+[[event]]
+name = "turned"
+when = "A_11"
+terminal = true
+"""
+
+
+@pytest.fixture(scope="module")
+def stones(tmp_path_factory):
+    need("cc")
+    path = tmp_path_factory.mktemp("stones") / "stone.toml"
+    path.write_text(STONE)
+    d, vary = derive.derive(path), {"H": (0.5, 4.0), "zeta_2": (1.5, 2.5)}
+    return d, d.simulate(0.8, ensemble=60, vary=vary, points=4, tol=1e-12, seed=2)
+
+
+def test_motions_end_at_the_first_of_their_terminal_events(stones):
+    d, e = stones
+    lands, turned = np.sqrt(2 * e["H"] / 9.81), np.pi / 2 / e.varied[:, 1]
+    first = np.minimum(lands, turned)
+    expected = np.where(first > 0.8, 0, np.where(lands < turned, 4, 5))
+    assert np.array_equal(e.status, expected)
+    assert {*expected} == {0, 4, 5}
+    ended = expected > 0
+    assert e.facts["ends"] == ["ground", "turned"]
+    assert e.end[ended, 0] == pytest.approx(first[ended], rel=0, abs=1e-11)
+    assert np.isnan(e.end[~ended]).all()
+    place = e.names.index("T_3") + 1
+    assert np.abs(e.end[expected == 4, place]).max() < 1e-13
+    assert np.abs(e.end[expected == 5, 1]).max() < 1e-13
+    assert np.array_equal(np.isfinite(e.states[..., 0]), e.t <= np.where(ended, first, 1)[:, None])
+    k = int(np.flatnonzero(expected == 5)[0])
+    start = dict(zip(e.varied_names, e.varied[k].tolist(), strict=True))
+    run = d.simulate(0.8, start=start, points=4, tol=1e-13)
+    assert np.abs(run.states[-1] - e.end[k, 1:]).max() < 1e-10
+
+
+@pytest.mark.parametrize("ending", [".npz", ".csv", ".parquet"])
+def test_a_file_has_the_ends(stones, tmp_path, ending):
+    if ending == ".parquet":
+        need("the module pyarrow")
+    _, e = stones
+    found = SimulatedEnsemble.read(e.save(tmp_path / f"stones{ending}"))
+    for name in ("varied", "status", "states", "end"):
+        assert np.array_equal(getattr(found, name), getattr(e, name), equal_nan=True)
+
+
+def test_the_command_tells_the_ends(tmp_path, capsys):
+    need("cc")
+    (tmp_path / "stone.toml").write_text(STONE)
+    asked = [str(tmp_path / "stone.toml"), "--t", "2", "--ensemble", "9", "--vary", "H=0.5:0.6"]
+    assert main(["simulate", *asked]) == 0
+    out, err = capsys.readouterr()
+    assert "  9 ended at event ground\n" in out
+    assert err == ""
+
+
 @needs("cc")
-def test_events_are_told_to_be_left_out(tmp_path, capsys):
+def test_events_that_are_not_terminal_are_told_to_be_left_out(tmp_path, capsys):
     text = 'name = "e"\nwhen = "A_11"\n'
     (tmp_path / "line.toml").write_text(f"{FALLING}\n[[event]]\n{text}")
     asked = [str(tmp_path / "line.toml"), "--t", "0.1", "--ensemble", "2", "--vary", "T_1=50:60"]
     assert main(["simulate", *asked]) == 0
-    assert "events of the file are not looked for" in capsys.readouterr().err
+    assert "events that are not terminal are not looked for" in capsys.readouterr().err

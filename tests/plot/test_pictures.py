@@ -11,10 +11,10 @@ import derive
 from derive.command.cli import main
 from derive.motion.run import Column, Run
 from derive.motion.run_files import written
+from derive.plot import kinds_told
 from derive.plot.body_pictures import hull
-from derive.plot.kinds_told import KINDS as TOLD
 from derive.plot.kinds_told import OVERVIEW, PRECISION
-from derive.plot.pictures import KINDS, plot
+from derive.plot.pictures import ENSEMBLE_KINDS, KINDS, plot
 from derive.plot.plot_sheet import FORMATS, PlotError, label, sheet
 from derive.plot.precision import of_runs, table
 from derive.plot.spheroid_pictures import followed, maps, section
@@ -65,7 +65,8 @@ def fitting(kind):
 
 
 def test_the_help_tells_every_kind():
-    assert [*TOLD] == [*KINDS]
+    assert [*kinds_told.KINDS] == [*KINDS]
+    assert [*kinds_told.ENSEMBLE_KINDS] == [*ENSEMBLE_KINDS]
 
 
 @pytest.mark.parametrize("kind", [*KINDS, OVERVIEW])
@@ -149,6 +150,13 @@ def test_the_view_is_a_projection():
 def test_a_kind_that_does_not_fit_is_told(kind, says):
     with pytest.raises(PlotError, match=says):
         plot(run_of("euler_top"), "a.svg", kind)
+
+
+def test_what_is_of_ensembles_is_refused_for_a_run():
+    with pytest.raises(PlotError, match="spread is of an ensemble, and this is none; there are"):
+        plot(run_of("euler_top"), "a.svg", "spread")
+    with pytest.raises(PlotError, match="columns are chosen of an ensemble"):
+        plot(run_of("euler_top"), "a.svg", columns=["A_11"])
 
 
 def test_a_polhode_needs_the_inertia():

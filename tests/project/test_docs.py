@@ -89,7 +89,7 @@ def test_what_a_page_names_is_there(page):
     text = PAGES[page]
     for path in PATH.findall(" ".join(x for where, x in SPANS if where == page)):
         assert (ROOT / path).exists() or "LANGUAGE" in path or "KIND" in path, path
-    for target, anchor in re.findall(r"\]\(([\w./-]+?\.(?:md|png))?(#[\w-]+)?\)", text):
+    for target, anchor in re.findall(r"\]\(([\w./-]+?\.(?:md|png|svg))?(#[\w-]+)?\)", text):
         file = (ROOT / page).parent / target if target else ROOT / page
         assert file.is_file(), target
         if anchor:

@@ -19,7 +19,12 @@ ARGUMENT = re.compile(
 )
 SIZES = {"x": "STATE", "k": "CONSTANTS", "p": "PARAMETERS", "u": "INPUTS", "dx": "STATE"}
 SIZES |= {"y": "STATE", "dy": "STATE"}
+MORE = 5
+"""A rotation has five numbers more as a matrix than as a quaternion."""
 COLUMNS = {"jacobian_inputs": "INPUTS", "jacobian_parameters": "PARAMETERS"}
+
+
+STATES = {"x", "y", "z"}
 
 
 @dataclass(frozen=True)
@@ -33,16 +38,12 @@ class Call:
 
     def kinds(self):
         """The name of what is shown → the inputs u that it has."""
-        more = (
-            {f"{self.name}_unforced": ""}
-            if "u" in self.takes and {"x", "y"} & {*self.takes}
-            else {}
-        )
+        more = {f"{self.name}_unforced": ""} if "u" in self.takes and STATES & {*self.takes} else {}
         return {self.name: "u"} | more
 
     def given(self, words, u):
         """The arguments in words of a language, by their letters; ``u``: empty for none."""
-        words = words | {"y": words["x"]}
+        words = {"z": "z"} | words | {"y": words["x"]}
         inputs = {"u": words["none"]} if "u" in self.takes and not u else {}
         return [x for x in ((words | inputs)[a] for a in self.takes) if x]
 
@@ -74,6 +75,8 @@ def size(array, function, sizes):
         return sizes["CONSERVED"]
     if function == "poisson":
         return sizes["REDUCED"] ** 2
+    if function == "to_matrix":
+        return sizes["STATE"] + MORE
     if array == "out":
         return sizes["INPUTS" if function.startswith("inputs_") else "STATE"]
     return sizes[SIZES[array]]
@@ -81,7 +84,7 @@ def size(array, function, sizes):
 
 def in_c(call, library, prefix, values):
     """What the compiled C gives; ``values``: the arrays x, k, p, u; y is x."""
-    values = values | {"y": values["x"]}
+    values = with_others(values)
     array = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
     function = getattr(library, f"{prefix}_{call.name}")
     function.restype = None if call.writes else ctypes.c_double
@@ -92,8 +95,16 @@ def in_c(call, library, prefix, values):
     return np.concatenate(outs) if outs else np.array([value])
 
 
+def with_others(values):
+    """The arrays with those that are made of x: y, of the same numbers, and z, which is x and then
+    its first numbers again."""
+    x = values["x"]
+    return values | {"y": x, "z": np.resize(x, len(x) + MORE)}
+
+
 def in_rust(call, name, u):
-    words = {"t": "T", "x": "x", "k": "&k", "p": "p", "u": "u", "none": "&[0.0; m::N_INPUTS]"}
+    words = {"z": "&std::array::from_fn(|i| x[i % m::N_STATE])"}
+    words |= {"t": "T", "x": "x", "k": "&k", "p": "p", "u": "u", "none": "&[0.0; m::N_INPUTS]"}
     arguments = call.given(words, u)
     if not call.writes:
         return f'show("{name}", &[m::{call.name}({", ".join(arguments)})]);'
@@ -106,19 +117,22 @@ def in_rust(call, name, u):
 
 
 def in_javascript(call, name, u):
-    words = {"t": str(T), "x": "x", "k": "k", "p": "p", "u": "u", "none": ""}
+    words = {"z": f"[...x, ...x.slice(0, {MORE})]"}
+    words |= {"t": str(T), "x": "x", "k": "k", "p": "p", "u": "u", "none": ""}
     return f'show("{name}", flat(m.{call.name}({", ".join(call.given(words, u))})));'
 
 
 def in_cpp(call, name, u):
-    words = {"t": "T", "x": "x", "k": "k", "p": "p", "u": "u", "none": ""}
+    words = {"z": "around<m::MatrixState>(x)"}
+    words |= {"t": "T", "x": "x", "k": "k", "p": "p", "u": "u", "none": ""}
     line = f'show("{name}", m::{call.name}({", ".join(call.given(words, u))}));'
     return "\n".join([line, *in_spans(call, name)]) if u else line
 
 
 def in_spans(call, name):
     """The same call on spans, from C++20 on."""
-    words = {"t": "T", "x": "std::span(x)", "k": "std::span(k)", "p": "std::span(p)", "none": ""}
+    words = {"z": "m::In<m::n_matrix>(around<m::MatrixState>(x))"}
+    words |= {"t": "T", "x": "std::span(x)", "k": "std::span(k)", "p": "std::span(p)", "none": ""}
     arguments = [*call.given(words | {"u": "std::span(u)"}, "u"), *call.writes]
     made = "".join(f"std::array<m::Real, {n}> {a}; " for a, n in call.writes.items())
     called = f"m::{call.name}({', '.join(arguments)})"
@@ -131,12 +145,12 @@ def in_spans(call, name):
 
 def in_python(call, module, values, u):
     """What a function of a module gives, for one state and as the second of a batch."""
-    takes, values = [a for a in call.takes if a != "u" or u], values | {"y": values["x"]}
+    takes, values = [a for a in call.takes if a != "u" or u], with_others(values)
     function, given = getattr(module, call.name), [values[a] for a in takes]
     yield flat(function(*given))
-    if {"x", "y"} & {*takes}:
+    if STATES & {*takes}:
         batch = [
-            np.stack([v + 1, v]) if a in "xy" else v for a, v in zip(takes, given, strict=True)
+            np.stack([v + 1, v]) if a in STATES else v for a, v in zip(takes, given, strict=True)
         ]
         yield flat(function(*batch), 1)
 
@@ -150,7 +164,9 @@ def flat(found, *index):
 def in_julia(call, module, values, u):
     """What a function of a module that is read back gives: first what it writes, then x and k or
     p, then t."""
-    values = values | {"y": values["x"]}
+    x = values["x"].whole()
+    around = Numbers(len(x) + MORE, values=[*x, *x[:MORE]])
+    values = values | {"y": values["x"], "z": around}
     given = [values[a] for a in call.takes if a not in "tu"]
     time = [values["t"]] if "t" in call.takes else []
     inputs = {"u": values["u"]} if u and "u" in call.takes else {}

@@ -7,14 +7,13 @@ import math
 import re
 
 TOKEN = re.compile(r"[A-Za-z_]\w*|[0-9]+\.[0-9]*(?:e[+-]?[0-9]+)?f?|[0-9]+(?:e[+-]?[0-9]+)?|\S")
+CHANGED = "constants|rhs|rhs_batch|energy|project|defect|to_matrix|from_matrix"
 BODIES = {
     "c": re.compile(
-        r"^\w[^\n]*_(constants|rhs|rhs_batch|energy|project|defect)\([^;{]*?\)\n\{\n(.*?)^\}",
+        rf"^\w[^\n]*_({CHANGED})\([^;{{]*?\)\n\{{\n(.*?)^\}}",
         re.M | re.S,
     ),
-    "python": re.compile(
-        r"^def _(constants|rhs|energy|project|defect)\([^)]*\):\n(.*?)(?=^def |\Z)", re.M | re.S
-    ),
+    "python": re.compile(rf"^def _({CHANGED})\([^)]*\):\n(.*?)(?=^def |\Z)", re.M | re.S),
 }
 CHECKS = {"c": r"    if \(.*", "python": r"    tests = \[.*?^    \]$|, tests$"}
 COMMENTS = {"c": r"/\*.*?\*/|^#[^\n]*", "python": r"#[^\n]*"}

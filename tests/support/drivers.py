@@ -125,6 +125,12 @@ template <class Array> Array read()
     }}
     return out;
 }}
+template <class Array, class Short> Array around(const Short &x)
+{{
+    Array out{{}};
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = x[i % x.size()];
+    return out;
+}}
 template <std::size_t n> void more(const std::array<{real}, n> &values)
 {{
     for (const double v : values) std::printf(" %.17g", v);

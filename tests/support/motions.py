@@ -1,8 +1,8 @@
 """Emitted steps, run: a program in each language reads commands and prints where a motion is.
 
 A command is a word and two numbers: ``begin t 0`` starts at time t in the state that was given;
-``gauss``, ``rk4``, ``vern9 h n``, ``gauss_to``, ``vern9_to t1 tol`` move; ``dense t 0`` asks for
-the state at time t.
+``gauss``, ``rk4``, ``vern9 h n``, ``gauss_to``, ``vern9_to t1 tol``, ``gauss_watch``, ``rk4_watch
+t1 h`` … move; ``dense t 0`` asks for the state at time t.
 """
 
 import subprocess
@@ -60,7 +60,7 @@ int main(void)
         if (strcmp(word, "dense") == 0) {{
             {name}_dense(&m, (real)a, out);
         }}
-        printf("%d %d %.17g %.17g", status, {event}, (double)m.t, (double)m.h);
+        printf("%d %d %d %.17g %.17g", status, {event}, {rising}, (double)m.t, (double)m.h);
         for (int i = 0; i < {name}_N_STATE; ++i) {{
             printf(" %.17g", (double)out[i]);
         }}
@@ -73,15 +73,20 @@ C_CALL = """\
         if (strcmp(word, "{step}") == 0) {{
             status = {name}_{step}(&m, k, u, (real)a, {last});
         }}"""
+C_WATCH = """\
+        if (strcmp(word, "{step}_watch") == 0) {{
+            status = {name}_watch({name}_{step}, &m, k, u, (real)a, (real)b);
+        }}"""
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where a motion is after a command: what the step returned, the event (-1 for none), t, the
-    last step, the state."""
+    """Where a motion is after a command: what the step returned, the event (-1 for none), is it
+    reached from below, t, the last step, the state."""
 
     status: int
     event: int
+    rising: bool
     t: float
     h: float
     x: np.ndarray
@@ -108,18 +113,25 @@ def watched(path):
     return "N_EVENTS" in path.read_text()
 
 
+def steps_of(found):
+    """The names among those that are called of steps of one size."""
+    return [x for x, _ in found if x in FIXED]
+
+
 def in_c(folder, name, flags, real):
     """The program in C, strictly compiled with ``flags``, once."""
     need("cc")
     program = folder / "-".join(("drive", *(x.strip("-") for x in flags)))
     if not program.exists():
-        calls = [
-            C_CALL.format(name=name, step=x, last=last)
-            for x, last in called(folder / f"{name}_steps.h", f"{name}_", "(real)b", "(size_t)b")
-        ]
+        found = called(folder / f"{name}_steps.h", f"{name}_", "(real)b", "(size_t)b")
+        calls = [C_CALL.format(name=name, step=x, last=last) for x, last in found]
         source = folder / "drive.c"
-        event = "m.event" if watched(folder / f"{name}.h") else "-1"
-        text = C.format(name=name, real=real, event=event, calls="\n".join(calls))
+        event, rising = "-1", "0"
+        if watched(folder / f"{name}.h"):
+            event, rising = "m.event", "m.rising"
+            calls += [C_WATCH.format(name=name, step=x) for x in steps_of(found)]
+        more = {"event": event, "rising": rising, "calls": "\n".join(calls)}
+        text = C.format(name=name, real=real, **more)
         source.write_text(text)
         strict = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror"]
         command = [CC, *strict, *flags, str(source), str(folder / f"{name}.c"), "-o", str(program)]
@@ -145,9 +157,10 @@ for (const line of lines.filter(Boolean)) {{
     }} else if (word === "dense") {{
         state = code.dense(m, a);
     }} else {{
-        status = code[word](m, k, u, a, b);
+        const step = word.replace("_watch", "");
+        status = step === word ? code[word](m, k, u, a, b) : code.watch(code[step], m, k, u, a, b);
     }}
-    console.log([status, m.event ?? -1, m.t, m.h, ...state].join(" "));
+    console.log([status, m.event ?? -1, Number(m.rising ?? 0), m.t, m.h, ...state].join(" "));
 }}
 """
 
@@ -192,7 +205,7 @@ fn main() {{
             Err(code::Stopped::NotFinite) => 2,
             Err(code::Stopped::NotConverged) => 3,{at_event}
         }};
-        print!("{{status}} {{}} {{:e}} {{:e}}", {event}, m.t, m.h);
+        print!("{{status}} {{}} {{}} {{:e}} {{:e}}", {event}, {rising}, m.t, m.h);
         for value in state.unwrap_or(m.x) {{
             print!(" {{value:e}}");
         }}
@@ -208,14 +221,20 @@ def in_rust(folder, name, flags, real):
     program = folder / "drive-rs"
     if not program.exists():
         numbers = {"double": "f64", "float": "f32"}[real]
+        found = called(folder / f"{name}.rs", "pub fn ", numbers, "usize")
         calls = [
             f'            "{x}" => made = code::{x}(&mut m, &k, &u, a, b as {last}),'
-            for x, last in called(folder / f"{name}.rs", "pub fn ", numbers, "usize")
+            for x, last in found
         ]
-        at_event, event = "", "-1"
+        at_event, event, rising = "", "-1", "0"
         if watched(folder / f"{name}.rs"):
             at_event, event = " Err(code::Stopped::AtEvent) => 4,", "m.event"
-        more = {"at_event": at_event, "event": event}
+            rising = "i32::from(m.rising)"
+            calls += [
+                f'            "{x}_watch" => made = code::watch(code::{x}, &mut m, &k, &u, a, b),'
+                for x in steps_of(found)
+            ]
+        more = {"at_event": at_event, "event": event, "rising": rising}
         source = RUST.format(name=name, real=numbers, calls="\n".join(calls), **more)
         (folder / "drive.rs").write_text(source)
         command = ["rustc", "--edition", "2021", "-O", "-Dwarnings", "-o", str(program)]
@@ -254,7 +273,8 @@ int main()
             m = Motion(a, x);
         }}
 {calls}
-        std::cout << int(status) << " " << {event} << " " << m.t() << " " << m.h();
+        std::cout << int(status) << " " << {event} << " " << {rising};
+        std::cout << " " << m.t() << " " << m.h();
         for (const Real value : word == "dense" ? m.dense(a) : m.x()) {{
             std::cout << " " << value;
         }}
@@ -276,8 +296,12 @@ def in_cpp(folder, name, flags, real):
         found = called(folder / f"{name}.hpp", "Status ", "b", "std::size_t(b)")
         calls = [CPP_CALL.format(step=x, last=last) for x, last in found]
         source, compiled = folder / "drive.cpp", folder / f"{name}.o"
-        event = "m.event()" if watched(folder / f"{name}.hpp") else "-1"
-        source.write_text(CPP.format(name=name, event=event, calls="\n".join(calls)))
+        event, rising = "-1", "0"
+        if watched(folder / f"{name}.hpp"):
+            event, rising = "m.event()", "m.rising()"
+            calls += [CPP_CALL.format(step=f"{x}_watch", last="b") for x in steps_of(found)]
+        more = {"event": event, "rising": rising, "calls": "\n".join(calls)}
+        source.write_text(CPP.format(name=name, **more))
         subprocess.run(
             [CC, "-O2", "-c", str(folder / f"{name}.c"), "-o", str(compiled)], check=True
         )
@@ -296,8 +320,8 @@ def printed(program, commands, given):
     found = [line.split() for line in done.stdout.splitlines()]
     assert len(found) == len(commands)
     return [
-        Place(int(status), int(event), float(t), float(h), np.array(x, float))
-        for status, event, t, h, *x in found
+        Place(int(status), int(event), rising == "1", float(t), float(h), np.array(x, float))
+        for status, event, rising, t, h, *x in found
     ]
 
 
@@ -310,9 +334,11 @@ def by_python(folder, name, commands, given):
         status = 0
         if word == "begin":
             m = code.begin(a, x)
+        elif word.endswith("_watch"):
+            status = code.watch(getattr(code, word.removesuffix("_watch")), m, k, u, a, b)
         elif word != "dense":
             status = getattr(code, word)(m, k, u, a, b)
         at = code.dense(m, a) if word == "dense" else m.x.copy()
-        event = getattr(m, "event", None)
-        places.append(Place(status, -1 if event is None else event, m.t, m.h, at))
+        event, rising = getattr(m, "event", None), getattr(m, "rising", False)
+        places.append(Place(status, -1 if event is None else event, rising, m.t, m.h, at))
     return places

@@ -1,11 +1,13 @@
-"""The pictures of README, in docs/pictures: python -m tests.support.pictures.
+"""The pictures of README and of the page that moves, in docs/pictures: python -m
+tests.support.pictures [notes] [walk] [motion] [playground].
 
-A page of lecture notes as PDF, a step of the walk as a page in a browser, and the playground; all
-of ``top``.  It needs TeX, pdftoppm, Chromium, playwright and Node.
+A page of lecture notes as PDF, a step of the walk as a page in a browser, the page with the body in
+it, and the playground; all of ``top``.  It needs TeX, pdftoppm, Chromium, playwright and Node.
 """
 
 import shutil
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -31,22 +33,42 @@ def notes(folder):
     subprocess.run(["pdftoppm", *size, *crop, f"{folder}/top.pdf", PICTURES / "notes"], check=True)
 
 
+def shown(playwright, **how):
+    """A page in a browser that asks for less motion."""
+    browser = next(filter(shutil.which, BROWSERS))
+    arguments = ["--no-sandbox"]
+    running = playwright.chromium.launch(executable_path=shutil.which(browser), args=arguments)
+    return running, running.new_page(color_scheme="light", reduced_motion="reduce", **how)
+
+
+def motion(folder):
+    """The page of a motion at an instant, with its trail."""
+    start = ["--set", "zeta_3=150", "--exp", "0.5,0,0"]
+    main(["simulate", "top", "--t", "2", *start, "--html", f"{folder}/motion.html"])
+    with sync_playwright() as p:
+        browser, page = shown(p, viewport={"width": 880, "height": 540})
+        page.goto(f"file://{folder}/motion.html")
+        page.evaluate('document.getElementById("motion").motion.seek(0.75)')
+        page.wait_for_function('document.getElementById("motion").motion.time === 0.75')
+        page.wait_for_timeout(200)
+        page.screenshot(path=PICTURES / "motion.png")
+        browser.close()
+
+
 def walk(folder):
     """The steps in a browser, from the top of the first to the bottom of the last."""
     main(["walk", "top", "--format", "html", "--out", f"{folder}/top.html"])
-    browser = next(filter(shutil.which, BROWSERS))
     with sync_playwright() as p:
-        shown = p.chromium.launch(executable_path=shutil.which(browser), args=["--no-sandbox"])
-        page = shown.new_page(viewport={"width": 760, "height": 900}, color_scheme="light")
+        browser, page = shown(p, viewport={"width": 760, "height": 900})
         page.goto(f"file://{folder}/top.html")
         boxes = [page.locator(f"[id='{x}']").bounding_box() for x in STEPS]
         top, bottom = boxes[0]["y"] - 10, boxes[1]["y"] + boxes[1]["height"] + 10
         clip = {"x": 0, "y": top, "width": 760, "height": bottom - top}
         page.screenshot(path=PICTURES / "walk.png", full_page=True, clip=clip)
-        shown.close()
+        browser.close()
 
 
-def playground():
+def playground(_):
     """The playground with the equations of a top, in a browser."""
     with served(built().parent) as (address, _), chromium() as browser:
         page = browser.new_page(viewport={"width": 1280, "height": 760}, color_scheme="light")
@@ -58,7 +80,7 @@ def playground():
 
 if __name__ == "__main__":
     PICTURES.mkdir(exist_ok=True)
+    made = {"notes": notes, "walk": walk, "motion": motion, "playground": playground}
     with tempfile.TemporaryDirectory() as folder:
-        notes(folder)
-        walk(folder)
-    playground()
+        for name in sys.argv[1:] or made:
+            made[name](folder)

@@ -1,42 +1,33 @@
-"""The value of a tree at a point of a fluid: numbers, functions, fields, operators, by the meaning
-of every name."""
+"""The value of a tree at a point of a fluid, by the meaning of its operations and functions."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
-from operator import add
 from typing import Any
 
 from ...language.tree import Tree
 from ..arithmetic import EvaluationError
 from ..nilpotent import EPS, EPS_PRIME, nilpotent, part
+from .field_algebra import (
+    Matrix,
+    Normal,
+    OnBoundary,
+    Value,
+    componentwise,
+    divergence,
+    field_of,
+    plus,
+    power,
+    times,
+    trace,
+)
+from .field_names import NAMES
 from .fluid_model import Direction, FluidModel, gradient, mean
 from .functions import Field, Function, dot, shifted
-from .operators import Operator, Told, applied
+from .operators import Operator, Told
 
-Value = Any
 ALONG_CURVE = ("mul", "Γ", "u")
-
-
-@dataclass(frozen=True)
-class Matrix:
-    """A matrix at each place."""
-
-    rows: tuple[tuple[Function, ...], ...]
-
-
-@dataclass(frozen=True)
-class Normal:
-    """The unit normal of the boundary."""
-
-
-@dataclass(frozen=True)
-class OnBoundary:
-    """A function on the boundary."""
-
-    f: Function
 
 
 class FluidValues:
@@ -44,7 +35,8 @@ class FluidValues:
     under an integral?"""
 
     def __init__(self, model: FluidModel):
-        self.model, self.known = model, dict[str, Value]()
+        self.model: FluidModel = model
+        self.known: dict[str, Value] = {}
         self.found: dict[tuple[Tree, bool], Value] = {}
 
     def of(self, t: Tree, pointwise: bool = False) -> Value:
@@ -64,10 +56,10 @@ class FluidValues:
             return self._product(op, parts, pointwise)
         if op == "call":
             return self._call(parts[0], parts[1:])
+        if op == "pow":
+            return power(self.of(parts[0]), parts[1])
         if op not in OPERATIONS:
             raise EvaluationError(f"{op} has no meaning for fields")
-        if op == "pow":
-            return _power(self.of(parts[0]), parts[1])
         found = [self.of(x, pointwise) for x in parts]
         return OPERATIONS[op](self, *found)
 
@@ -92,8 +84,8 @@ class FluidValues:
             return (a * b).mean()
         if Normal in (type(a), type(b)):
             (field,) = (x for x in (a, b) if not isinstance(x, Normal))
-            return OnBoundary(self._normal_part(_field(field)))
-        return mean(self._weighted(_field(a), _field(b)))
+            return OnBoundary(self._normal_part(field_of(field)))
+        return mean(self._weighted(field_of(a), field_of(b)))
 
     def _weighted(self, a: Field, b: Field) -> Any:
         """The product at each place, over the points with the mass."""
@@ -116,57 +108,10 @@ class FluidValues:
             found = [*found, found[-1]]
         *metric, a, b = found
         if metric:
-            b = self.times(metric[0], b)
+            b = times(metric[0], b)
         if pointwise:
-            return dot(_field(a), _field(b))
+            return dot(field_of(a), field_of(b))
         return self.pair(a, b)
-
-    def times(self, a: Value, b: Value) -> Value:
-        """The product of two values, an operator applied to what follows it."""
-        if isinstance(a, Operator):
-            if isinstance(b, Operator):
-                return a.then(b)
-            if isinstance(b, Told):
-                raise EvaluationError("an operator before a transposed one")
-            if not isinstance(b, (tuple, Function)):
-                raise EvaluationError("an operator is of fields")
-            return applied(a, b, self.plus, self.times)
-        if isinstance(a, int):
-            a = Fraction(a)
-        if isinstance(a, (Fraction, Function)):
-            if isinstance(a, Function) and not a.is_constant:
-                raise EvaluationError("a function is no factor")
-            if isinstance(b, tuple):
-                return tuple(x * a for x in b)
-            if isinstance(b, (Operator, Told)):
-                return b.scaled(a)
-            if isinstance(b, Function):
-                return b * a
-            if isinstance(b, OnBoundary):
-                return OnBoundary(b.f * a)
-            if isinstance(b, Matrix):
-                return Matrix(tuple(tuple(x * a for x in row) for row in b.rows))
-        if isinstance(a, Matrix) and isinstance(b, Matrix):
-            return _product(a, b)
-        if isinstance(b, Function) and b.is_constant and not isinstance(a, Function):
-            return self.times(b, a)
-        raise EvaluationError("these are not multiplied")
-
-    def plus(self, a: Value, b: Value) -> Value:
-        """a + b, of one kind; 0 is of each."""
-        for x, y in ((a, b), (b, a)):
-            if isinstance(x, Function) and x == 0 and not isinstance(y, Function):
-                return y
-        if type(a) is not type(b):
-            raise EvaluationError("a sum of things of two kinds")
-        if isinstance(a, tuple):
-            return tuple(x + y for x, y in zip(a, b, strict=True))
-        if isinstance(a, OnBoundary):
-            return OnBoundary(a.f + b.f)
-        if isinstance(a, Matrix):
-            rows = zip(a.rows, b.rows, strict=True)
-            return Matrix(tuple(tuple(map(add, x, y)) for x, y in rows))
-        return a + b
 
     # -- functions -----------------------------------------------------------------------------
 
@@ -207,7 +152,7 @@ class FluidValues:
 
     def field(self, t: Tree) -> Field:
         """A field in space."""
-        found = _field(self.of(t))
+        found = field_of(self.of(t))
         if found[0].space is not self.model.space:
             raise EvaluationError("a field in space is expected")
         return found
@@ -252,12 +197,12 @@ class FluidValues:
             return tuple(part(x, mask) for x in model.eulerian(other))
         moved = (model.first if mask == EPS else model.second).displacement
         if what == "G":
-            return Operator.of(lambda c: tuple(self._composed(x, mask) for x in _field(c)))
+            return Operator.of(lambda c: tuple(self.composed(x, mask) for x in field_of(c)))
         if what == "ρ":
             return self.product_with(model.rate_of_density(moved))
         raise EvaluationError("δ is of η′, G and ρ, δ′ of η")
 
-    def _composed(self, f: Function, mask: int) -> Any:
+    def composed(self, f: Function, mask: int) -> Any:
         """The part of a mask of f ∘ g on the family."""
         model = self.model
         return model.at_points(part(shifted(f, model.displacement), mask))
@@ -281,9 +226,9 @@ class FluidValues:
             raise EvaluationError("the metric is the density")
         total: Value = self.model.one * 0
         for x, y in ((self._rate(a), self.of(b)), (self.of(a), self._rate(b))):
-            total = total + self.pair(x, y if density is None else self.times(density, y))
+            total = total + self.pair(x, y if density is None else times(density, y))
         if density is not None:
-            total = total + self.pair(self.of(a), self.times(self.named("ρ̇"), self.of(b)))
+            total = total + self.pair(self.of(a), times(self.named("ρ̇"), self.of(b)))
         return total
 
     def _rate(self, t: Tree) -> Value:
@@ -311,35 +256,15 @@ class FluidValues:
         return f.d(0)
 
 
-def componentwise(change: Callable[[Any], Any], *, on_curve: bool = False) -> Operator:
-    """What changes functions, as an operator on functions and fields."""
-    return Operator.of(
-        lambda c: change(c) if isinstance(c, Function) else tuple(map(change, _field(c))),
-        on_curve=on_curve,
-    )
-
-
-def divergence(field: Field) -> Any:
-    """Σ ∂_j a_j."""
-    found = [f.d(j) for j, f in enumerate(field)]
-    return sum(found[1:], found[0])
-
-
-def _field(x: Value) -> Field:
-    if not isinstance(x, tuple):
-        raise EvaluationError("a field is expected")
-    return x
-
-
 def _nabla(values: FluidValues, field: Value) -> Operator:
     """∇_c: the rate of a field from each place to the place where c leads."""
-    if _field(field)[0].space is values.model.curve:  # from the curve to that beside it
+    if field_of(field)[0].space is values.model.curve:  # from the curve to that beside it
         rate = values.model.curve.rate
-        return Operator.of(lambda a: tuple(rate(x, field) for x in _field(a)))
-    along = [nilpotent(EPS) * x for x in _field(field)]
+        return Operator.of(lambda a: tuple(rate(x, field) for x in field_of(a)))
+    along = [nilpotent(EPS) * x for x in field_of(field)]
     if along and field[0].space is not values.model.space:
         raise EvaluationError("∇ is along a field in space")
-    return Operator.of(lambda a: tuple(part(shifted(x, along, 1), EPS) for x in _field(a)))
+    return Operator.of(lambda a: tuple(part(shifted(x, along, 1), EPS) for x in field_of(a)))
 
 
 def _transposed(_: FluidValues, x: Value) -> Operator:
@@ -354,34 +279,16 @@ def _inverse(values: FluidValues, x: Value) -> Operator:
     return values.product_with(values.model.inverse_density)
 
 
-def _power(x: Value, n: Any) -> Value:
-    if not isinstance(x, Matrix) or n != 2:
-        raise EvaluationError("a power is the square of a matrix")
-    return _product(x, x)
-
-
-def _product(a: Matrix, b: Matrix) -> Matrix:
-    columns = [*zip(*b.rows, strict=True)]
-    return Matrix(tuple(tuple(dot(row, c) for c in columns) for row in a.rows))
-
-
-def _trace(_: FluidValues, x: Value) -> Function:
-    if not isinstance(x, Matrix):
-        raise EvaluationError("the trace is of a matrix")
-    found = [row[j] for j, row in enumerate(x.rows)]
-    return sum(found[1:], found[0])
-
-
 def _add(values: FluidValues, first: Value, *rest: Value) -> Value:
     for x in rest:
-        first = values.plus(first, x)
+        first = plus(first, x)
     return first
 
 
 def _mul(values: FluidValues, *factors: Value) -> Value:
     *rest, found = factors
     for x in reversed(rest):
-        found = values.times(x, found)
+        found = times(x, found)
     return found
 
 
@@ -389,11 +296,10 @@ OPERATIONS: dict[str, Callable[..., Value]] = {
     "add": _add,
     "mul": _mul,
     "T": _transposed,
-    "tr": _trace,
+    "tr": lambda _, x: trace(x),
     "inv": _inverse,
     "nabla": _nabla,
     "one": lambda values: Operator.of(lambda c: c),
-    "pow": _power,
 }
 
 CALLS: dict[str, tuple[int, Callable[..., Value]]] = {
@@ -423,67 +329,7 @@ def _paired(values: FluidValues, moved: Value) -> Value:
 
 def _over_points(values: FluidValues, moved: Value) -> Field:
     """A tangent vector at g."""
-    field = _field(moved)
+    field = field_of(moved)
     if field[0].space is not values.model.points:
         raise EvaluationError("a tangent vector at g is expected")
     return field
-
-
-def _points(values: FluidValues, mask: int) -> Field:
-    return tuple(part(x, mask) for x in values.model.nu)
-
-
-def _moved(values: FluidValues, mask: int) -> Field:
-    model = values.model
-    return tuple(model.at_points(part(x, mask)) for x in model.displacement)
-
-
-def _lagrangian(values: FluidValues) -> Value:
-    return part(values.model.lagrangian(_points(values, 0)), 0)
-
-
-def _potential(values: FluidValues) -> Value:
-    return part(values.model.potential, 0)
-
-
-NAMES: dict[str, Callable[[FluidValues], Value]] = {
-    "u": lambda v: v.model.u,
-    "η": lambda v: v.model.first.displacement,
-    "η′": lambda v: v.model.second.displacement,
-    "δu": lambda v: v.model.first.velocity,
-    "δ′u": lambda v: v.model.second.velocity,
-    "u̇": lambda v: v.model.acceleration,
-    "δt": lambda v: v.model.first.time,
-    "δ′t": lambda v: v.model.second.time,
-    "v": lambda v: _points(v, 0),
-    "ν": lambda v: _points(v, 0),
-    "ν̇": lambda v: tuple(map(v.model.at_points, v.model.acceleration_of_points)),
-    "ġ": lambda v: tuple(v.model.at_points(x) for x in v.model.u),
-    "δν": lambda v: _points(v, EPS),
-    "δ′ν": lambda v: _points(v, EPS_PRIME),
-    "δg": lambda v: _moved(v, EPS),
-    "δ′g": lambda v: _moved(v, EPS_PRIME),
-    "U": _potential,
-    "Ũ": _potential,
-    "V": lambda v: v.model.V,
-    "f": lambda v: tuple(-x for x in gradient(v.model.V)),
-    "L": _lagrangian,
-    "L̃": _lagrangian,
-    "h̃": lambda v: part(v.model.energy(_points(v, 0)), 0),
-    "G": lambda v: componentwise(lambda x: v._composed(x, 0)),
-    "D": lambda v: Operator.of(lambda c: divergence(_field(c))),
-    "p": lambda v: v.model.any_pressure if v.model.at.free else v.model.pressure,
-    "ρ": lambda v: v.product_with(v.model.density),
-    "ρ̇": lambda v: v.product_with(v.model.rate_of_density(v.model.u)),
-    "ϑ": lambda v: v.model.moved_field,
-    "ϑ̇": lambda v: v.model.rate_of_moved(),
-    "n": lambda _: Normal(),
-    "Γ": lambda v: componentwise(v.model.curve.of_space),
-    "Γ_0": lambda v: componentwise(v.model.curve.of_points),
-    "Γ̇": lambda v: componentwise(v.model.rate_on_curve),
-    "∂_s": lambda v: componentwise(v.along_curve, on_curve=True),
-    "γ_s": lambda v: v.model.curve.tangent,
-    "γ̇": lambda v: v.model.velocity_of_curve,
-    "κ": lambda v: v.of_level(v.model.curve.of_space(v.model.density)),
-    "κ̇": lambda v: v.of_level(v.model.rate_of_level),
-}

@@ -24,7 +24,8 @@ from ..verdict import IMPOSSIBLE, MOST_BITS, RefusedError, Verdict, bit_count, r
 from . import fluid_symbols
 from .disc import Disc
 from .edges import Edges
-from .field_values import FluidValues, Matrix, OnBoundary, Value
+from .field_algebra import Matrix, OnBoundary, Value, times
+from .field_values import FluidValues
 from .flat_torus import torus
 from .fluid_model import FluidModel, Locus
 from .functions import Function
@@ -251,13 +252,13 @@ def pairs(equation: Equation, values: FluidValues) -> Iterator[tuple[Any, Any]]:
     written = 0 in (equation.lhs, equation.rhs)  # a 0 of any kind
     for x, y in ((left, right), (right, left)):
         if written and isinstance(x, Function) and x == 0 and not isinstance(y, Function):
-            left, right = y, values.times(Fraction(0), y)
+            left, right = y, times(Fraction(0), y)
     if isinstance(left, Operator) and isinstance(right, Operator):
         b = model.space.any_field(model.draw)
         on_curve = {x.on_curve for x in (left, right)}
         if on_curve == {True}:
             b = tuple(map(model.curve.of_space, b))
-        left, right = (values.times(x, b) for x in (left, right))
+        left, right = (times(x, b) for x in (left, right))
     if isinstance(left, Told) or isinstance(right, Told):
         like = next((x for x in (left, right) if not isinstance(x, Told)), ())
         if isinstance(like, Function):

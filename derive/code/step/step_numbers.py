@@ -36,7 +36,7 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         "memory": memory(p, options, told["stages"] if told else 0),
         "names": options.step,
         "least": LEAST,
-        "watch": WATCH if p.events else None,
+        "watch": WATCH[options.real] if p.events else None,
         "ensemble": ensemble(p, written) if compiled and options.ensemble else None,
         "gauss": gauss("raw" in options.jacobian) if {*COLLOCATED} & {*options.step} else None,
         "keeps": textwrap.wrap(sentences(p.keeps, energy_alone=not p.conserved), 92)
@@ -193,15 +193,18 @@ ENOUGH = 1e-3
 
 NEWTON_STEPS, STALLED_NEWTON = 20, 1e-10
 """The most steps of Newton's method for the stages; and below which change it is rounding that it
-does no more, of rates that are large where a problem is stiff."""
+does no more, of rates that are large where a problem is stiff, or the last step is enough."""
 
 COLLOCATED = ("gauss", "gauss_jax")
 """The steps of Gauss's collocation."""
 
-WATCH = {"parts": 16, "halvings": 40, "newton": 8, "exact": 1e-15}
+WATCH = {
+    real: {"parts": 16, "halvings": 40, "newton": 8, "exact": exact, "sliver": sliver}
+    for real, exact, sliver in (("double", 1e-15, 1e-9), ("float", 1e-7, 1e-4))
+}
 """An event is looked for at the ends of so many parts of a step, on its polynomial; the part is
 halved so often; then so many steps that end there, at most, correct the instant to an exact one,
-relative."""
+relative.  ``sliver``: the part of a step below which nothing is left of a time."""
 
 FIXED, IN_FLOAT = ("rk4", "discrete"), ("rk4",)
 """The steps that have no size of their own, and those that are written for float, too."""

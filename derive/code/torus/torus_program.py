@@ -7,7 +7,7 @@ which the program says its tables alone; the templates of each language have the
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
 from fractions import Fraction
@@ -15,12 +15,13 @@ from typing import NamedTuple
 
 from ...algebra.torus import Place, Torus
 from ...record.record import Derivation
+from ..events import Event, table, values_of
 from ..factor import factored
 from ..graph import Graph, Node
 from ..naming import ClaimedNames
 from ..options import Options
 from ..program import EmittedFunction, Load, LoweringError, Program
-from ..schedule import Scheduler, frontier
+from ..schedule import Scheduler, Source, frontier
 from .lattice_state import described, names, position
 from .written_out import WrittenOut
 
@@ -58,8 +59,11 @@ class Loops:
     operations: Mapping[str, str]
 
 
-def torus_program(d: Derivation, torus: Torus, options: Options | None = None) -> Program:
-    """The program of a record on the torus; ``LoweringError`` for an option that it has not."""
+def torus_program(
+    d: Derivation, torus: Torus, options: Options | None = None, events: Sequence[Event] = ()
+) -> Program:
+    """The program of a record on the torus; ``LoweringError`` for an option that it has not.
+    ``events``: what is watched on a motion."""
     chosen = options or Options()
     _require_written(d, chosen)
     functions, constants = _looped(torus), tuple[str, ...]()
@@ -71,6 +75,8 @@ def torus_program(d: Derivation, torus: Torus, options: Options | None = None) -
         looped = {*functions} - {*own}
     else:
         looped = {*functions} - {"constants"}
+    if events:
+        functions["events"] = _watched(d.name, torus, events)
     return Program(
         d.name,
         str(d.problem.get("title", "")),
@@ -94,6 +100,7 @@ def torus_program(d: Derivation, torus: Torus, options: Options | None = None) -
         (),
         functions,
         conserved=CONSERVED if chosen.conserved else (),
+        events=table(events),
         loops=loops(torus, looped) if looped else None,
         on_torus=True,
     )
@@ -132,18 +139,15 @@ def _scratch(torus: Torus) -> tuple[str, ...]:
 
 def _written_out(d: Derivation, torus: Torus) -> tuple[dict[str, EmittedFunction], tuple[str, ...]]:
     """The functions of the record's equations, term by term, and the names of the constants."""
-    graph, state = Graph(), names(torus)
-    leaves = [graph.leaf(x, "state") for x in state]
-    out = WrittenOut(torus, graph, leaves)
+    graph = Graph()
+    state = _leaves(graph, torus)
+    out = WrittenOut(torus, graph, [*state.values()])
     motion, energy = d["motion"].equations[0].rhs, d["energy"].equations[0].rhs
     rates = [x for n in torus.half_plane for x in out.value(motion, {"𝐧": n})]
     wanted: dict[str, list[Node]] = {"rhs": rates, "energy": [out.value(energy, {}).re]}
     wanted = {name: factored(graph, found) for name, found in wanted.items()}
     claimed = ClaimedNames()
-    places = {
-        x: (claimed.claim(name, name), ("x", i))
-        for i, (x, name) in enumerate(zip(leaves, state, strict=True))
-    }
+    places = _places(claimed, state)
     scheduler = Scheduler(claimed, {})
     fixed = frontier(x for found in wanted.values() for x in found)
     constants = tuple(claimed.claim(f"sine_{i}", f"node {x.id}") for i, x in enumerate(fixed, 1))
@@ -151,6 +155,23 @@ def _written_out(d: Derivation, torus: Torus) -> tuple[dict[str, EmittedFunction
     functions = {"constants": scheduler.function(fixed, {})}
     functions |= {name: scheduler.function(x, places | kept) for name, x in wanted.items()}
     return functions, constants
+
+
+def _leaves(graph: Graph, torus: Torus) -> dict[str, Node]:
+    return {x: graph.leaf(x, "state") for x in names(torus)}
+
+
+def _places(claimed: ClaimedNames, state: Mapping[str, Node]) -> dict[Node, tuple[str, Source]]:
+    return {x: (claimed.claim(name, name), ("x", i)) for i, (name, x) in enumerate(state.items())}
+
+
+def _watched(name: str, torus: Torus, events: Sequence[Event]) -> EmittedFunction:
+    """What becomes 0 at each event."""
+    graph, claimed = Graph(), ClaimedNames()
+    state = _leaves(graph, torus)
+    found = values_of(name, events, graph, state)
+    places = {**_places(claimed, state), graph.leaf("t", "time"): ("t", ("t", 0))}
+    return Scheduler(claimed, {}).function(found, places)
 
 
 # -- loops ---------------------------------------------------------------------------------------

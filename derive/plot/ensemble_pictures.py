@@ -1,0 +1,140 @@
+"""Pictures of ensembles: how its motions spread in time, and where they are at the end."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ..language.near_names import did_you_mean, near_name
+from ..motion.ensemble import Ensemble
+from ..motion.run import Array
+from .plot_sheet import COLOURS, PlotError, label
+
+PANELS, WIDE = 12, 3
+"""The most panels where no columns are chosen, and how many stand side by side."""
+
+ROWS, ACROSS = 6, 4
+"""The most columns of the state against what is varied, and the most of what is varied."""
+
+BANDS = ((0.05, 0.95, 0.2), (0.25, 0.75, 0.35))
+"""Quantiles between which a band is drawn, with its strength."""
+
+POINTS = 2000
+"""So many motions are drawn as points: of more, every k-th, so that a file can be opened."""
+
+SAME = 1e-13
+"""A column whose values differ by less, relative to the largest, is the same in all motions."""
+
+
+def differing(e: Ensemble, chosen: Sequence[str], most: int) -> list[str]:
+    """The columns that are drawn: those chosen, or the first of the state that differ from motion
+    to motion at the end; ``PlotError`` for names that it has not."""
+    for name in chosen:
+        if name not in e.names:
+            near = did_you_mean(near_name(name, e.names), after=" ")
+            raise PlotError(f"no column {name[:40]!r}; {near}there are {', '.join(e.names[:40])}")
+    return [*chosen] or [x for x in e.names if _differs(finished(e, x))][:most] or [*e.names[:most]]
+
+
+def _differs(end: Array) -> bool:
+    return bool(len(end) and np.ptp(end) > SAME * np.abs(end).max())
+
+
+def finished(e: Ensemble, name: str) -> Array:
+    """A column at the end, of the motions that reached it."""
+    end = e.states[:, -1, e.names.index(name)]
+    return np.asarray(end[e.status == 0], dtype=float)
+
+
+def fits_spread(e: Ensemble) -> bool:
+    """Are there instants between which something spreads?"""
+    return len(e.t) > 1 and fits_ends(e)
+
+
+def fits_ends(e: Ensemble) -> bool:
+    """Did any motion reach the end?"""
+    return bool((e.status == 0).any())
+
+
+def size_of_spread(e: Ensemble, chosen: Sequence[str]) -> tuple[float, float]:
+    """Width and height of :func:`spread`."""
+    count = len(differing(e, chosen, PANELS))
+    return max(4.8, 0.4 + 2.5 * min(count, WIDE)), 0.8 + 1.6 * max(1, math.ceil(count / WIDE))
+
+
+def spread(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
+    """Each column in time, a panel each: its median, and bands from the 5th percentile to the
+    95th and from the 25th to the 75th, over the motions that go on at an instant."""
+    names = differing(e, chosen, PANELS)
+    panels = _panels(figure, len(names))
+    for panel, name in zip(panels, names, strict=True):
+        levels = [x for low, high, _ in BANDS for x in (low, high)]
+        found = quantiles(e, name, [0.5, *levels])
+        for k, (*_, strength) in enumerate(BANDS):
+            low, high = found[1 + 2 * k], found[2 + 2 * k]
+            panel.fill_between(e.t, low, high, color=COLOURS[0], alpha=strength, lw=0)
+        panel.plot(e.t, found[0], c=COLOURS[0])
+        panel.set_ylabel(label(name))
+        panel.set_xlim(e.t[0], e.t[-1])
+    for panel in panels[-WIDE:]:
+        panel.set_xlabel("$t$")
+    told = word("median, and the bands of 50 % and 90 % of the motions")
+    figure.suptitle(f"{told}; {reached(e, word)}", fontsize=8)
+
+
+def quantiles(e: Ensemble, name: str, levels: Sequence[float]) -> Array:
+    """Quantiles of a column at each instant, (levels, instants), over the motions that are there;
+    one instant after the other, so that an ensemble on the disk need not fit in memory."""
+    j, rows = e.names.index(name), []
+    for i in range(len(e.t)):
+        values = np.asarray(e.states[:, i, j], dtype=float)
+        values = values[np.isfinite(values)]
+        rows.append(np.quantile(values, levels) if len(values) else [math.nan] * len(levels))
+    return np.array(rows).T
+
+
+def _panels(figure: Any, count: int) -> list[Any]:
+    """So many panels, side by side, the last row filled from the left."""
+    wide = min(count, WIDE)
+    grid = figure.subplots(math.ceil(count / wide), wide, sharex=True, squeeze=False).ravel()
+    for k, panel in enumerate(grid):
+        panel.set_visible(k < count)
+        panel.tick_params(labelbottom=k >= count - wide)
+    return [*grid[:count]]
+
+
+def size_of_ends(e: Ensemble, chosen: Sequence[str]) -> tuple[float, float]:
+    """Width and height of :func:`ends`."""
+    across, rows = len(e.varied_names[:ACROSS]), len(differing(e, chosen, ROWS))
+    return max(3.6, 1.0 + 2.3 * across), 0.8 + 1.5 * max(1, rows)
+
+
+def ends(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
+    """The state at the end against what is varied, a point each motion; a mark below stands for one
+    that did not reach the end."""
+    names, varied = differing(e, chosen, ROWS), e.varied_names[:ACROSS]
+    grid = figure.subplots(len(names), len(varied), sharex="col", sharey="row", squeeze=False)
+    good, lost = (_thinned(np.flatnonzero(which)) for which in (e.status == 0, e.status != 0))
+    for row, name in zip(grid, names, strict=True):
+        end = np.asarray(e.states[:, -1, e.names.index(name)][good], dtype=float)
+        for k, panel in enumerate(row):
+            panel.plot(e.varied[good, k], end, ".", c=COLOURS[0], ms=2.5, alpha=0.6, mew=0)
+            if len(lost):
+                panel.plot(e.varied[lost, k], np.full(len(lost), 0.02), "|", c=COLOURS[1],
+                           ms=5, transform=panel.get_xaxis_transform())  # fmt: skip
+        row[0].set_ylabel(label(name))
+    for panel, name in zip(grid[-1], varied, strict=True):
+        panel.set_xlabel(f"{label(name)}, {word('varied')}")
+    figure.suptitle(f"$t = {e.t[-1]:g}$; {reached(e, word)}", fontsize=8)
+
+
+def _thinned(motions: Any) -> Any:
+    return motions[:: max(1, math.ceil(len(motions) / POINTS))]
+
+
+def reached(e: Ensemble, word: Any) -> str:
+    """How many motions reached the end, of how many."""
+    return f"{int((e.status == 0).sum())}/{len(e.status)} {word('motions to the end')}"

@@ -1,0 +1,283 @@
+/* A motion in an element of a page: mount(element, page, pieces) builds all that is seen, and returns
+ * what moves it: { time, state, seek, play, pause, run }.
+ *
+ * page: { module: the emitted module, with gauss; x, p, u: the start, in the module's order;
+ * t, tol: how long, how exact; entries: [row, column, place] of the element of the group in x, whose
+ * order × order matrices have the basis, [row, column, entry] of each; names: { place: name } of what is
+ * shown of x, adjusted: the places that have sliders, curves: those drawn where no body is;
+ * labels: { name: [meaning, unit] }; kept: { name: words }; units: { t, energy }; body: see
+ * moving_body.py; words, comma }.
+ * pieces: { stage, side: what draws there; turned_start; the shapes of the body, and what makes them }.
+ * Texts of a problem come in as text, never as markup. */
+function mount(element, page, pieces) {
+  const { module, words } = page;
+  const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  const scheme = matchMedia("(prefers-color-scheme: dark)");
+
+  /* ---- what is moved by the reader */
+
+  const p = [...page.p], u = [...page.u], x0 = [...page.x], theta = page.basis.map(() => 0);
+  const place = new Set(page.entries.map((e) => e[2]));
+  const velocity = [...x0.keys()].filter((s) => !place.has(s));
+  const start = () => {
+    const x = [...x0];
+    if (theta.some((a) => a !== 0)) pieces.turned_start(page, x, theta);
+    return x;
+  };
+
+  const energy = module.energy ?? (module.CONSERVED?.includes("energy")
+    && ((t, x, k) => module.conserved(t, x, k)[module.CONSERVED.indexOf("energy")]));
+  const scene = { page, p, velocity, energy, ask, run: null, trail: [], redraw: () => scene.run && show(scene.run.at(time), before) };
+  let run, time = 0, wanted = null, playing = false, trail = [], first = {}, told = 0;
+
+  const message = make("p", { class: "message", role: "status" });
+  function restart() {
+    try {
+      run = scene.run = begun(page, p, u, start());
+    } catch (e) {
+      message.textContent = words.singular;
+      pause();
+      return;
+    }
+    message.textContent = "";
+    for (const x of views) x.restart?.(run.at(0));
+    clear();
+    first = invariants(0, run.at(0));
+    time = 0;
+    wanted = null;
+    told = 0;
+    ask();
+  }
+
+  function invariants(t, x) {
+    const found = {};
+    if (module.energy) found.energy = module.energy(t, x, run.k);
+    const values = module.conserved?.(t, x, run.k);
+    values?.forEach((v, i) => (found[module.CONSERVED[i]] = v));
+    if (module.defect) found.defect = module.defect(x);
+    if (module.multiplier) found.multiplier = module.multiplier(t, x, run.k, u);
+    return found;
+  }
+
+  const stage = pieces.stage(scene, pieces), side = pieces.side?.(scene), views = side ? [stage, side] : [stage];
+
+  /* ---- the frame */
+
+  let asked = 0, before = 0;
+  function ask() {
+    asked ||= requestAnimationFrame(frame);
+  }
+
+  function frame(now) {
+    asked = 0;
+    if (!run) return;
+    const late = performance.now() + 14;
+    if (playing) {
+      const by = min(0.1, (now - before) / 1000 || 1 / 60) * speed;
+      const next = min(time + by, page.t);
+      run.reach(next, late);
+      time = min(next, run.last >= next ? next : max(time, run.last));
+      if (time >= page.t || run.ended && time >= run.last) pause();
+      push();
+    } else if (wanted !== null) {
+      const ready = run.reach(wanted, late);
+      time = min(wanted, run.last);
+      if (ready || run.ended) {
+        wanted = null;
+        fill();
+      }
+    } else if (!trail.length) {
+      fill();
+    }
+    before = now;
+    show(run.at(time), now);
+    if (playing || wanted !== null) ask();
+  }
+
+  const TRAIL = 480;
+  function push() {
+    if (!trail.length || time > trail.at(-1)[0]) trail.push([time, run.at(time).slice()]);
+    if (trail.length > TRAIL) trail.shift();
+  }
+  const clear = () => (trail = scene.trail = []);
+
+  /* the trail before a time that was not played up to */
+  function fill() {
+    const each = speed / 60, count = min(TRAIL, floor(time / each));
+    clear();
+    for (let i = count; i >= 0; --i) {
+      const t = max(0, time - i * each);
+      trail.push([t, run.at(t).slice()]);
+    }
+  }
+
+  function show(x, now) {
+    for (const view of views) view.draw(x);
+    clock.textContent = ["t =", mark(time.toFixed(places), page), page.units.t].join(" ");
+    if (document.activeElement !== slider || playing) slider.value = time / page.t * 1000;
+    slider.setAttribute("aria-valuetext", clock.textContent);
+    if (now - told > 90 || !playing) {
+      told = now;
+      for (const [name, v] of Object.entries(invariants(time, x))) {
+        const [value, change] = rows[name];
+        value.textContent = shown(v, page, name === "defect" ? 2 : 5);
+        value.classList.toggle("wrong", name === "multiplier" && !(v > 0));
+        if (change) {
+          const by = abs(v - first[name]);
+          change.textContent = by === 0 ? "0" : mark(by.toExponential(0), page);
+        }
+      }
+      if (run.ended && time >= run.last) message.textContent = words.ended;
+    }
+  }
+
+  /* ---- controls */
+
+  const nice = (v) => {
+    const power = 10 ** floor(log10(v));
+    return power * [1, 2, 5, 10].reduce((best, c) => (c * power <= v * 1.001 ? c : best), 1);
+  };
+  function first_speed() {
+    const k = module.constants(p), x = start(), rates = module.rhs(0, x, k, u);
+    const places = page.entries.length ? page.entries.map((e) => e[2]) : velocity;
+    const large = (list) => max(...list.map(abs), 1e-12);
+    const rate = large(places.map((s) => rates[s])) / large(places.map((s) => x[s]));
+    return nice(max(1e-6, min(max(1, page.t / 60), 16 / max(rate, 1e-9))));
+  }
+  let speed = 1;
+  try {
+    speed = first_speed();
+  } catch (e) { /* told by restart */ }
+  const places = max(2, min(6, ceil(2 - log10(speed))));
+
+  const button = (glyph, label, does) => make("button", { type: "button", "aria-label": label, title: label, click: does }, glyph);
+  const toggle = button("▶", words.play, () => (playing ? pause() : play()));
+  function play() {
+    if (time >= page.t || run?.ended && time >= run.last) restart();
+    playing = true;
+    wanted = null;
+    before = NaN;
+    toggle.textContent = "❚❚";
+    toggle.setAttribute("aria-label", toggle.title = words.pause);
+    ask();
+  }
+  function pause() {
+    playing = false;
+    toggle.textContent = "▶";
+    toggle.setAttribute("aria-label", toggle.title = words.play);
+  }
+  function seek(t) {
+    pause();
+    wanted = max(0, min(page.t, t));
+    ask();
+  }
+  const stepped = (by) => seek((wanted ?? time) + by * speed / 30);
+  const clock = make("span", { class: "clock" });
+  const slider = make("input", {
+    type: "range", min: 0, max: 1000, step: "any", value: 0, "aria-label": words.time, class: "time",
+    input: () => seek(slider.value / 1000 * page.t),
+  });
+  const speeds = make("select", { "aria-label": words.speed, title: words.speed, change: () => {
+    speed = Number(speeds.value);
+    clear();
+    ask();
+  } });
+  for (let e = floor(log10(speed)) - 1; e < log10(speed) + 2; ++e) {
+    for (const c of [1, 2, 5]) {
+      const v = Number(`${c}e${e}`);
+      speeds.append(make("option", { value: v, ...(abs(v / speed - 1) < 1e-6 ? { selected: "" } : {}) }, `× ${mark(String(v), page)}`));
+    }
+  }
+  speed = Number(speeds.value);
+
+  const adjusters = [];
+  function adjuster(name, title, unit, initial, low_end, high_end, put) {
+    const range = make("input", { type: "range", min: low_end, max: high_end, step: "any", value: initial, "aria-label": `${called(name)} ${title}` });
+    const exact = make("input", { type: "number", step: "any", value: initial, "aria-label": called(name) });
+    const take = (v, other) => {
+      if (!Number.isFinite(v)) return;
+      put(v);
+      other.value = Number(v.toPrecision(6));
+      restart();
+    };
+    on(range, "input", () => take(range.valueAsNumber, exact));
+    on(exact, "change", () => {
+      const v = exact.valueAsNumber;
+      if (v < Number(range.min)) range.min = v;
+      if (v > Number(range.max)) range.max = v;
+      take(v, range);
+      range.value = v;
+    });
+    adjusters.push(() => {
+      put(initial);
+      exact.value = range.value = initial;
+    });
+    exact.value = Number(initial.toPrecision(6));
+    return make("div", { class: "adjuster", "data-name": name },
+      make("span", { class: "name" }, called(name)), range, exact, make("span", { class: "unit" }, unit.replace("^2", "²").replace("^3", "³")),
+      ...(title ? [make("small", {}, title)] : []));
+  }
+  const span = (v, least = 1) => (v > 0 ? [0, 2 * v] : v < 0 ? [2 * v, 0] : [-least, least]);
+  const about = (name) => page.labels[name] ?? ["", ""];
+  const fast = max(...velocity.map((s) => abs(x0[s])), 0) || 1;
+  const MOST = 24;
+  const group = (title, note, rows, open) => rows.length
+    ? [make("details", open ? { open: "" } : {}, make("summary", {}, title), ...(note ? [make("p", {}, note)] : []), ...rows)] : [];
+
+  const rows = {};
+  const table = make("table", {}, make("thead", {}, make("tr", {}, make("th", {}, words.kept), make("th", {}), make("th", {}, words.change))));
+  const lines = make("tbody");
+  table.append(lines);
+  function tabulate() {
+    for (const name of Object.keys(first)) {
+      const cells = [make("td"), make("td")], special = name === "defect" || name === "multiplier";
+      rows[name] = special ? [cells[0]] : cells;
+      const unit = name === "energy" || name === "multiplier" ? page.units.energy : "";
+      const label = words[name] ?? page.kept[name];
+      lines.append(make("tr", { "data-name": name }, make("th", { scope: "row" }, label, ...(unit ? [make("span", { class: "unit" }, ` ${unit}`)] : [])), ...cells));
+    }
+  }
+
+  if (side) side.element.className = side.shape;
+  const beside = side ? [make("figure", {}, side.element, make("figcaption", {}, side.element.getAttribute("aria-label")))] : [];
+  const settings = [
+    ...group(words.start, "", page.adjusted.map((s) => adjuster(page.names[s], ...about(page.names[s]), x0[s], ...span(x0[s], fast), (v) => (x0[s] = v))), true),
+    ...group(words.element, words.turned, theta.slice(0, MOST).map((_, k) => adjuster(`theta_${k + 1}`, "", "", 0, -3, 3, (v) => (theta[k] = v))), false),
+    ...group(words.parameters, "", module.PARAMETERS.map((name, i) => adjuster(name, ...about(name), p[i], ...span(p[i]), (v) => (p[i] = v))), true),
+    ...group(words.inputs, "", module.INPUTS.map((name, i) => adjuster(name, ...about(name), u[i], ...span(u[i]), (v) => (u[i] = v))), false),
+  ];
+  const reset = make("button", { type: "button", class: "reset", click: () => {
+    for (const back of adjusters) back();
+    restart();
+  } }, words.reset);
+
+  element.classList.add("motion");
+  element.append(
+    make("div", { class: "stage" }, stage.element, message),
+    make("div", { class: "controls", role: "group", "aria-label": words.controls },
+      button("❘◂", words.again, () => seek(0)), button("◂", words.back, () => stepped(-1)), toggle,
+      button("▸", words.step, () => stepped(1)), slider, clock, speeds),
+    make("div", { class: "beside" }, ...beside, table, ...settings, reset, make("p", { class: "keys" }, words.keys)),
+  );
+  on(document, "keydown", (e) => {
+    if (e.ctrlKey || e.metaKey || e.altKey || e.target.closest("input, select, summary, textarea")) return;
+    if (e.key === " " && e.target.closest("button")) return;
+    const does = { " ": () => (playing ? pause() : play()), ArrowLeft: () => stepped(-1), ArrowRight: () => stepped(1), Home: () => seek(0), End: () => seek(page.t) }[e.key];
+    if (does) {
+      e.preventDefault();
+      does();
+    }
+  });
+  const recolour = () => {
+    scene.colours = colours_of(element);
+    ask();
+  };
+  on(scheme, "change", recolour);
+  recolour();
+  restart();
+  if (run) {
+    tabulate();
+    if (!still) play();
+  }
+  return { get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause };
+}

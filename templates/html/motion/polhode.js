@@ -1,0 +1,53 @@
+/* The angular velocity in the body, on the ellipsoid of its energy where the body only turns. */
+function polhode(scene) {
+  const { body, words } = scene.page, { energy } = scene;
+  const side = canvas(scene, words.polhode), glance = camera(scene, side, [0, 0, 1], 0.6, 0.4);
+  let inertia;
+
+  /* the matrix of the kinetic energy in the angular velocity, which the energy says */
+  const found_inertia = (x) => {
+    if (!body.turns || !energy) return null;
+    const E = (w) => {
+      const y = Float64Array.from(x);
+      body.polhode.forEach((s, i) => (y[s] = w[i]));
+      return energy(0, y, scene.run.k);
+    };
+    const e = (i, j) => [0, 1, 2].map((k) => Number(k === i) + Number(k === j)), rest = E([0, 0, 0]);
+    const one = (i) => 2 * (E(e(i, -1)) - rest);
+    return [0, 1, 2].map((i) => [0, 1, 2].map((j) => (i === j ? one(i) : E(e(i, j)) - rest - (one(i) + one(j)) / 2)));
+  };
+
+  return {
+    element: side.element,
+    shape: "side",
+    restart() {
+      inertia = undefined;
+    },
+    draw(x) {
+      const { trail, colours } = scene;
+      const at = (y) => body.polhode.map((s) => y[s]);
+      inertia ??= found_inertia(x);
+      const now = at(x), turning = inertia && dot(now, inertia.map((row) => dot(row, now)));
+      const axes = turning > 0 && principal(inertia).map(([q, v]) => (q > 0 ? scaled(sqrt(turning / q), v) : null));
+      const wires = axes && axes.every(Boolean) ? axes : [];
+      const most = max(...trail.map(([, y]) => size(at(y))), size(now), ...wires.map(size)) || 1;
+      const pic = picture(scene, side, glance, [0, 0, 0], 0.4 * min(side.width, side.height) / most * glance.zoom);
+      wires.forEach((a, i) => {
+        const b = wires[(i + 1) % 3];
+        for (let k = 0; k < 48; ++k) {
+          const on = (j) => plus(scaled(cos(j * PI / 24), a), b, sin(j * PI / 24));
+          pic.line(on(k), on(k + 1), colours.soft, 0.8, 0.55);
+        }
+      });
+      for (let k = 0; k < 3; ++k) {
+        const e = [0, 0, 0];
+        e[k] = 1.08 * most;
+        pic.arrow([0, 0, 0], e, colours[`e${k + 1}`], `ζ${low(String(k + 1))}`);
+      }
+      for (let k = 0; k + 1 < trail.length; ++k) pic.line(at(trail[k][1]), at(trail[k + 1][1]), colours.mark, 1.6, 0.15 + 0.85 * k / trail.length, 0.02 * most);
+      pic.line([0, 0, 0], now, colours.ink, 1.2, 0.7);
+      pic.dot(now, 3.5, colours.mark);
+      pic.done();
+    },
+  };
+}

@@ -1,0 +1,89 @@
+/* The body on the stage, with gravity and the ground; pieces: see built. */
+function solid_stage(scene, pieces) {
+  const { page } = scene, { body } = page;
+  const stage = canvas(scene, page.words.stage);
+  const eye = camera(scene, stage, scaled(-1, built(page, scene.p, pieces).gravity),
+    body.planar ? -PI / 2 : 0.55, body.planar ? 1.5708 : 0.33);
+  let drawn, reached = 0;
+
+  /* a faint net below the body, or where it stands; it goes with a body that flies, line by line */
+  const ground = (pic, target) => {
+    if (body.planar) return;
+    const { above } = eye, k = above.findIndex((v) => v !== 0), s = above[k];
+    const h = s * drawn.level, side = reached / 2, lines = 5;
+    if (abs(h - target[k]) > 6 * reached) return;
+    const [i, j] = [(k + 1) % 3, (k + 2) % 3];
+    const middle = [i, j].map((a) => side * round(target[a] / side));
+    for (let a = -lines; a <= lines; ++a) {
+      for (const [c, d, m] of [[i, j, 0], [j, i, 1]]) {
+        const end = (b) => {
+          const r = [0, 0, 0];
+          r[k] = h;
+          r[c] = middle[m] + a * side;
+          r[d] = middle[1 - m] + b * side;
+          return pic.to(r);
+        };
+        const wide = sqrt(lines * lines - a * a + 0.01);
+        stage.stroke([end(-wide), end(wide)], scene.colours.line, 1);
+      }
+    }
+  };
+
+  return {
+    element: stage.element,
+    restart(x) {
+      drawn = placed(built(page, scene.p, pieces), x, eye.above);
+      reached = 0;
+    },
+    draw(x) {
+      const { parts, gravity } = drawn, { trail, colours } = scene;
+      const spots = parts.map((part) => moved(part, x));
+      const free = parts.every((part) => !part.fixed && !part.centres.length && !part.anchors.length);
+      const target = free ? spots[0](parts[0].centre) : drawn.middle;
+      const ends = parts.flatMap((part, i) => [...part.tips, ...Object.values(part.points).map((r) => r.at)].map((r) => size(plus(spots[i](r), target, -1))));
+      const about = parts.flatMap((part) => [...part.centres, ...part.anchors].map((c) => min(size(plus(c.at, target, -1)), 4 * drawn.reach)));
+      reached = max(reached, drawn.reach, ...ends, ...about);
+      const scale = 0.42 * min(stage.width, stage.height) / reached * eye.zoom;
+      const pic = picture(scene, stage, eye, target, scale);
+      ground(pic, target);
+      parts.forEach((part, i) => {
+        const at = spots[i], tones = colours.tones[i % 2];
+        for (const f of part.faces) pic.face(f.v.map(at), tones[f.tone], f.clear);
+        for (const [a, b] of part.edges) pic.line(at(a), at(b), tones[0][10], 1.4);
+        for (const r of Object.values(part.points)) {
+          pic.dot(at(r.at), r.mass > 0 ? 6.5 * cbrt(max(r.mass / part.heavy, 0.1)) : 2.5, tones[0][6]);
+        }
+        const o = at([0, 0, 0]);
+        part.tips.forEach((tip, k) => pic.arrow(o, at(tip), colours[`e${k + 1}`], `e${low(String(k + 1))}`));
+        if (part.fixed) pic.dot(o, 4, colours.ink, true);
+        for (const { at: c, on } of part.centres) {
+          for (const id of on) pic.line(at(part.points[id].at), c, colours.soft, 1, 0.6);
+          pic.dot(c, 6, colours.mark, true);
+          pic.dot(plus(c, eye.towards, 1e-6), 2, colours.mark);
+        }
+        for (const { at: c, on } of part.anchors) {
+          pieces.spring(stage, pic, at(part.points[on].at), c, colours.ink);
+          pic.dot(c, 4.5, colours.soft);
+        }
+        for (let k = 0; k + 1 < trail.length; ++k) {
+          const [, a] = trail[k], [, b] = trail[k + 1];
+          const age = (k + 1) / trail.length, from = moved(part, a), to = moved(part, b);
+          for (const r of part.traced) pic.line(from(r), to(r), colours.mark, 1.5, age * age);
+        }
+      });
+      for (const [i, a, j, b] of body.springs) pieces.spring(stage, pic, spots[i](parts[i].points[a].at), spots[j](parts[j].points[b].at), colours.ink);
+      pic.done();
+      const strength = size(gravity);
+      if (strength) {
+        const g = scaled(30 / strength, gravity), dx = dot(g, eye.right), dy = -dot(g, eye.up);
+        const X = stage.width - 34, Y = 44, { pen } = stage;
+        const long = hypot(dx, dy), c = dx / (long || 1), s = dy / (long || 1);
+        stage.stroke([[X - dx / 2, Y - dy / 2], [X + dx / 2, Y + dy / 2]], colours.soft, 1.5);
+        pen.fillStyle = colours.soft;
+        stage.path([[X + dx / 2 + 4 * c, Y + dy / 2 + 4 * s], [X + dx / 2 - 5 * c - 3.5 * s, Y + dy / 2 - 5 * s + 3.5 * c], [X + dx / 2 - 5 * c + 3.5 * s, Y + dy / 2 - 5 * s - 3.5 * c]]);
+        pen.fill();
+        pic.text("g", X + 14, Y, colours.soft);
+      }
+    },
+  };
+}

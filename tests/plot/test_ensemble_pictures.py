@@ -1,0 +1,144 @@
+"""Pictures of ensembles: what they say, the same bytes, and what is refused."""
+
+import numpy as np
+import pytest
+
+from derive.command.cli import main
+from derive.motion.ensemble import Ensemble, Part
+from derive.motion.ensemble_files import writer
+from derive.plot.ensemble_pictures import POINTS, differing, quantiles
+from derive.plot.kinds_told import OVERVIEW
+from derive.plot.pictures import ENSEMBLE_KINDS, plot
+from derive.plot.plot_sheet import FORMATS, PlotError, sheet
+from derive.python.simulated import SimulatedEnsemble
+from derive.views.language import language
+from tests.support.needs import needs
+
+pytestmark = needs("the module matplotlib")
+LAWS = [["x_1", "x_1 from 0 to 1"], ["k", "k from 1 to 2"]]
+
+
+def ensemble(motions=50, instants=20):
+    """x_1 = a + k t, x_2 = 7, with a and k drawn; each tenth motion ends after half of the time."""
+    t = np.linspace(0.1, 2.0, instants)
+    a, k = np.random.default_rng(3).uniform(size=(2, motions))
+    states = np.stack([a[:, None] + k[:, None] * t, np.full((motions, instants), 7.0)], axis=-1)
+    status = np.where(np.arange(motions) % 10 == 0, 3, 0).astype(np.intc)
+    states[status != 0, instants // 2 :] = np.nan
+    facts = {"problem": "line", "varied": LAWS, "motions": motions}
+    return Ensemble(facts, ("x_1", "x_2"), t, np.column_stack([a, k]), status, states)
+
+
+def drawn(kind, e, columns=(), word=str):
+    """The figure of a kind."""
+    figure = sheet(6.0, 4.0)
+    ENSEMBLE_KINDS[kind].draw(figure, e, word, columns)
+    return figure
+
+
+@pytest.mark.parametrize("kind", [*ENSEMBLE_KINDS, OVERVIEW])
+def test_the_same_bytes_twice(kind):
+    for name in (f"a{x}" for x in FORMATS):
+        first = plot(ensemble(), name, kind)
+        assert first == plot(ensemble(), name, kind)
+        assert len(first) > 2000
+
+
+def test_quantiles_are_those_of_the_motions_that_go_on():
+    e = ensemble()
+    found = quantiles(e, "x_1", [0.0, 0.5, 1.0])
+    for i in range(len(e.t)):
+        there = sorted(x for x in e.states[:, i, 0].tolist() if x == x)
+        assert len(there) == (45 if i >= 10 else 50)
+        middle = (there[(len(there) - 1) // 2] + there[len(there) // 2]) / 2
+        assert found[:, i] == pytest.approx([there[0], middle, there[-1]])
+
+
+def test_a_band_lies_between_its_quantiles():
+    e = ensemble()
+    (panel,) = drawn("spread", e).get_axes()
+    assert panel.get_ylabel() == "$x_{1}$"  # the other is the same in all
+    wide, narrow = (x.get_paths()[0].vertices for x in panel.collections)
+    for band, levels in ((wide, (0.05, 0.95)), (narrow, (0.25, 0.75))):
+        at_end = band[np.isclose(band[:, 0], e.t[-1]), 1]
+        good = e.states[e.status == 0, -1, 0]
+        assert [at_end.min(), at_end.max()] == pytest.approx(np.quantile(good, levels).tolist())
+    (line,) = panel.get_lines()
+    assert np.array_equal(line.get_ydata(), quantiles(e, "x_1", [0.5])[0])
+
+
+def test_the_ends_are_those_of_the_motions():
+    e = ensemble()
+    figure = drawn("ends", e)
+    panels = figure.get_axes()
+    assert [x.get_xlabel() for x in panels] == ["$x_{1}$, varied", "$k$, varied"]
+    for k, panel in enumerate(panels):
+        good, lost = panel.get_lines()
+        assert np.array_equal(good.get_xdata(), e.varied[e.status == 0, k])
+        assert np.array_equal(good.get_ydata(), e.states[e.status == 0, -1, 0])
+        assert np.array_equal(lost.get_xdata(), e.varied[e.status != 0, k])
+    assert figure.get_suptitle() == "$t = 2$; 45/50 motions to the end"
+    french = drawn("ends", e, word=language("fr").word)
+    assert french.get_suptitle() == "$t = 2$; 45/50 mouvements jusqu’à la fin"
+
+
+def test_of_very_many_motions_some_are_points():
+    (panel, _) = drawn("ends", ensemble(3 * POINTS, 2)).get_axes()
+    assert POINTS / 2 < len(panel.get_lines()[0].get_xdata()) <= POINTS
+
+
+def test_the_columns_that_are_drawn():
+    e = ensemble()
+    assert differing(e, (), 12) == ["x_1"]
+    assert differing(e, ("x_2", "x_1"), 12) == ["x_2", "x_1"]
+    assert len(drawn("spread", e, ("x_2", "x_1")).get_axes()) == 2
+    still = Ensemble(e.facts, e.names, e.t, e.varied, e.status, np.ones_like(e.states))
+    assert differing(still, (), 12) == ["x_1", "x_2"]
+
+
+def saved(folder, e, name="many.npz"):
+    """The file of an ensemble."""
+    with (folder / name).open("wb") as file, writer(file, name, e) as made:
+        made.add(Part(e.varied, e.status, e.states))
+    return folder / name
+
+
+@pytest.mark.parametrize("name", ["many.npz", "many.csv"])
+def test_the_command_and_python(tmp_path, name):
+    path, out = saved(tmp_path, ensemble(), name), tmp_path / "a.svg"
+    assert main(["plot", str(path), "--out", str(out)]) == 0
+    assert out.read_bytes() == plot(ensemble(), "a.svg", "spread")
+    words = ["plot", str(path), "--column", "x_2", "--column", "x_1", "--kind", "ends"]
+    assert main([*words, "--out", str(out)]) == 0
+    own = SimulatedEnsemble.read(path).plot(tmp_path / "b.svg", "ends", columns=("x_2", "x_1"))
+    assert out.read_bytes() == own.read_bytes()
+
+
+def test_one_instant_has_ends():
+    assert plot(ensemble(instants=1), "a.svg") == plot(ensemble(instants=1), "a.svg", "ends")
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--kind", "polhode"], "polhode is of a run, and this is none; there are spread, ends"),
+        (["--kind", "spred"], "unknown kind 'spred'; did you mean 'spread'? for this ensemble"),
+        (["--column", "x_3"], "no column 'x_3'; did you mean"),
+    ],
+)
+def test_what_is_refused(tmp_path, capsys, words, told):
+    path, out = saved(tmp_path, ensemble()), tmp_path / "a.svg"
+    assert main(["plot", str(path), *words, "--out", str(out)]) == 2
+    err = capsys.readouterr().err
+    assert told in err
+    assert err.count("\n") == 1
+    assert not out.exists()
+
+
+def test_what_needs_more_is_told():
+    e = ensemble()
+    with pytest.raises(PlotError, match=r"spread needs several instants.*there are ends"):
+        plot(ensemble(instants=1), "a.svg", "spread")
+    lost = Ensemble(e.facts, e.names, e.t, e.varied, np.full_like(e.status, 2), e.states)
+    with pytest.raises(PlotError, match=r"reached the end.*nothing else can be drawn"):
+        plot(lost, "a.svg")
