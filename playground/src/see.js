@@ -14,7 +14,7 @@ export class Motion {
 
   show(words, lang, told) {
     this.told = { ...told, lang };
-    this.frame = make("iframe", { src: "moving.html", title: words.motion, sandbox: "allow-scripts allow-same-origin" });
+    this.frame = make("iframe", { src: "moving.html", title: words.motion });
     this.place.replaceChildren(make("p", { class: "note" }, words.moved), this.frame);
   }
 
