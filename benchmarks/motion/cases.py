@@ -136,7 +136,8 @@ class Form:
         """The parts of a state, a quaternion as its matrix."""
         found: dict[str, list[float]] = {}
         for name, value in zip(self.module.STATE, x, strict=True):
-            found.setdefault(name.partition("_")[0], []).append(value)
+            part = name.partition("_")[0] + "_dot" * name.endswith("_dot")
+            found.setdefault(part, []).append(value)
         return [rotation(*y) if name == "q" else np.array(y) for name, y in found.items()]
 
     def error(self, x: Array, wanted: Array) -> float:

@@ -30,11 +30,12 @@ OURS = ("ensemble", "gauss, one by one")
 
 
 def starts(form: Form) -> Array:
-    """States beside that of the motion, a row each; the velocities are the last part."""
+    """States beside that of the motion, a row each, on the group; the velocities are the last
+    part."""
     rng, x = np.random.default_rng(1), np.tile(form.x, (COUNT, 1))
     last = len(form.parts(form.x)[-1])
     x[:, -last:] *= 1 + SPREAD * rng.normal(size=(COUNT, last))
-    return x
+    return np.asarray(form.module.project(x))
 
 
 def batches(form: Form, x: Array) -> Any:

@@ -141,14 +141,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
         for name, what in ALLOWED.items():
             about = f"warn of a negative {what} instead of refusing it"
             one.add_argument(f"--allow-negative-{name}", action="store_true", help=about)
-    plot = command("plot")
-    about = "a run or an ensemble: .npz, .csv or .parquet; for precision several, or a table"
-    plot.add_argument("run_file", metavar="RUN", nargs="+", help=about)
-    plot.add_argument("--kind", default="", help=told_kinds())
-    about = "a column of an ensemble that is drawn; repeated"
-    plot.add_argument("--column", metavar="NAME", action="append", default=[], help=about)
-    plot.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
-    plot.add_argument("--out", metavar="FILE", required=True, help="FILE.svg, .pdf or .png")
+    add_picture_options(command("plot"))
     paper = command("paper")
     paper.add_argument("--format", choices=("text", "json"), default="text")
     paper.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
@@ -157,6 +150,19 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     build.add_argument("--out", metavar="DIR", default="generated")
     build.add_argument("--print", action="store_true", help="print the walks as well")
     return top
+
+
+def add_picture_options(plot: argparse.ArgumentParser) -> None:
+    """Add the options of ``plot``: of what, which picture, to where."""
+    from ..views.language import LANGUAGES
+
+    about = "a run or an ensemble: .npz, .csv or .parquet; for precision several, or a table"
+    plot.add_argument("run_file", metavar="RUN", nargs="+", help=about)
+    plot.add_argument("--kind", default="", help=told_kinds())
+    about = "a column of an ensemble that is drawn; repeated"
+    plot.add_argument("--column", metavar="NAME", action="append", default=[], help=about)
+    plot.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
+    plot.add_argument("--out", metavar="FILE", required=True, help="FILE.svg, .pdf or .png")
 
 
 def add_motion_options(simulated: argparse.ArgumentParser) -> None:
@@ -284,6 +290,8 @@ def add_reading_options(
     notes.add_argument("--out", metavar="FILE", required=True, help="FILE.tex, .pdf, .html or .sty")
     about = "beside FILE.html a page for each problem, linked from it, in which the body moves"
     notes.add_argument("--motion", metavar="T", type=float, help=f"{about} for a time T")
+    about = "a picture of the motion of each problem for a time T, beside FILE and shown in it"
+    notes.add_argument("--picture", metavar="T", type=float, help=f"{about} (needs matplotlib)")
     for one in (*walks, *searched, notes):
         one.add_argument(
             "--fragment", action="store_true", help="LaTeX to \\input, HTML to put into a page"

@@ -7,7 +7,7 @@ import argparse
 import os
 import sys
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -238,27 +238,36 @@ def command_notes(args: argparse.Namespace) -> int:
     walks = list(with_progress((walked(name) for name in names), len(names), "walks"))
     records = [record for _, record in walks]
     pages = {} if args.motion is None else pages_of_motions(args, walks)
-    moving = dict(zip((d.name for d in records), pages, strict=False))
+    pictures = {} if args.picture is None else pictures_of_motions(args, out, walks)
+    moving, drawn = (
+        dict(zip((d.name for d in records), files, strict=False)) for files in (pages, pictures)
+    )
     text = notes(
-        records, out.suffix, args.lang, fragment=args.fragment, moving=moving, **notation(args)
+        records,
+        out.suffix,
+        args.lang,
+        fragment=args.fragment,
+        moving=moving,
+        pictures=drawn,
+        **notation(args),
     )
     if out.suffix in (".tex", ".pdf"):
         warn_of_letters(records)
-    content = pdf_of(text, out) if out.suffix == ".pdf" else text
-    for path in write({out.name: content, **pages}, out.parent, links=True):
+    content = pdf_of(text, out, pictures) if out.suffix == ".pdf" else text
+    for path in write({out.name: content, **pages, **pictures}, out.parent, links=True):
         print(path)
     return 0
 
 
-def pdf_of(tex: str, out: Path) -> bytes:
-    """The PDF of LaTeX, to be the file ``out``; where none is made, the LaTeX is written beside
-    it, as OUT.tex: the error says where."""
+def pdf_of(tex: str, out: Path, pictures: Mapping[str, bytes]) -> bytes:
+    """The PDF of LaTeX with its pictures, to be the file ``out``; where none is made, the LaTeX is
+    written beside it, as OUT.tex: the error says where."""
     from .writing import write
 
     try:
-        (made,) = with_progress(map(pdf, [tex]), 1, "LaTeX")
+        (made,) = with_progress((pdf(x, pictures) for x in [tex]), 1, "LaTeX")
     except RenderError as error:
-        (source,) = write({f"{out.name}.tex": tex}, out.parent)
+        (source, *_) = write({f"{out.name}.tex": tex, **pictures}, out.parent)
         raise RenderError(f"{error}; the LaTeX is written to {source}") from None
     return made
 
@@ -275,6 +284,23 @@ def pages_of_motions(
         raise UsageError("--motion: pages are linked from notes FILE.html, without --discrete")
     chosen: tuple[Any, ...] = args.motion, Method(), args.lang
     return {f"{x[1].name}_motion.html": moving_page(*x, *chosen, given={}) for x in walks}
+
+
+def pictures_of_motions(
+    args: argparse.Namespace, out: Path, walks: Sequence[tuple[Problem, Derivation]]
+) -> dict[str, bytes]:
+    """File → the picture of the motion of a problem, one for each; ``Refused`` where one has no
+    motion."""
+    from .simulating import picture_of
+
+    if args.discrete or args.fragment or out.suffix == ".sty":
+        raise UsageError("--picture: notes have pictures without --discrete, --fragment and .sty")
+    ending = ".svg" if out.suffix == ".html" else ".pdf"
+    names = [f"{record.name}_motion{ending}" for _, record in walks]
+    return {
+        name: picture_of(*x, args.picture, name, args.lang)
+        for name, x in zip(names, walks, strict=True)
+    }
 
 
 def warn_of_letters(records: Sequence[Derivation]) -> None:

@@ -19,6 +19,7 @@ from ..motion.simulate import beginning, run
 from ..motion.start import MotionError, state_file
 from ..page.motion_page import motion_page
 from ..pipeline import motion_of
+from ..plot.pictures import plot
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..views.language import language
@@ -48,6 +49,13 @@ def moving_page(
     begin = beginning(code, problem, **start)
     instants(method, t, 1)  # refuses a time that is none
     return motion_page(code, problem, record, begin, t, method.tol, language(lang))
+
+
+def picture_of(problem: Problem, record: Derivation, t: float, name: str, lang: str) -> bytes:
+    """A picture of the motion from 0 to t, in the format of a name; ``Refused``."""
+    method = Method()
+    code = motion_of(problem, record, method.step)
+    return plot(run(code, problem, method, t, 500, given={}), name, word=language(lang).word)
 
 
 def method_of(args: argparse.Namespace) -> Method:

@@ -90,6 +90,11 @@ class Ensemble:
         """The names of what is varied."""
         return tuple(name for name, _ in self.facts["varied"])
 
+    @property
+    def at_event(self) -> np.ndarray[Any, np.dtype[np.bool_]]:
+        """Did it end at a terminal event? (motions,)"""
+        return self.status >= AT_EVENT
+
     def __getitem__(self, name: str) -> Array:
         """What is varied by its name, (motions,), or a number of the state, (motions, instants);
         ``KeyError`` says which there are. A name that is both is that of the state."""

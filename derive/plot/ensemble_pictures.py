@@ -25,6 +25,9 @@ BANDS = ((0.05, 0.95, 0.2), (0.25, 0.75, 0.35))
 POINTS = 2000
 """So many motions are drawn as points: of more, every k-th, so that a file can be opened."""
 
+TIME = "t"
+"""The row of the time of the end."""
+
 SAME = 1e-13
 """A column whose values differ by less, relative to the largest, is the same in all motions."""
 
@@ -36,17 +39,22 @@ def differing(e: Ensemble, chosen: Sequence[str], most: int) -> list[str]:
         if name not in e.names:
             near = did_you_mean(near_name(name, e.names), after=" ")
             raise PlotError(f"no column {name[:40]!r}; {near}there are {', '.join(e.names[:40])}")
-    return [*chosen] or [x for x in e.names if _differs(finished(e, x))][:most] or [*e.names[:most]]
+    return [*chosen] or [x for x in e.names if _differs(at_end(e, x))][:most] or [*e.names[:most]]
 
 
 def _differs(end: Array) -> bool:
-    return bool(len(end) and np.ptp(end) > SAME * np.abs(end).max())
+    there = end[np.isfinite(end)]
+    return bool(len(there) and np.ptp(there) > SAME * np.abs(there).max())
 
 
-def finished(e: Ensemble, name: str) -> Array:
-    """A column at the end, of the motions that reached it."""
-    end = e.states[:, -1, e.names.index(name)]
-    return np.asarray(end[e.status == 0], dtype=float)
+def at_end(e: Ensemble, name: str) -> Array:
+    """A column at the end of each motion, at its event where it ended at one; no number for one
+    that went wrong.  ``t`` is the time of it."""
+    j = -1 if name == TIME else e.names.index(name)
+    last = np.full(len(e.status), e.t[-1]) if name == TIME else e.states[:, -1, j]
+    if not e.at_event.any():
+        return np.where(e.status == 0, last, math.nan)
+    return np.where(e.at_event, e.end[:, 1 + j], np.where(e.status == 0, last, math.nan))
 
 
 def fits_spread(e: Ensemble) -> bool:
@@ -55,8 +63,8 @@ def fits_spread(e: Ensemble) -> bool:
 
 
 def fits_ends(e: Ensemble) -> bool:
-    """Did any motion reach the end?"""
-    return bool((e.status == 0).any())
+    """Did any motion reach the end, or an event that ends it?"""
+    return bool(((e.status == 0) | e.at_event).any())
 
 
 def size_of_spread(e: Ensemble, chosen: Sequence[str]) -> tuple[float, float]:
@@ -106,22 +114,33 @@ def _panels(figure: Any, count: int) -> list[Any]:
     return [*grid[:count]]
 
 
+def _rows(e: Ensemble, chosen: Sequence[str]) -> list[str]:
+    """The rows of :func:`ends`: the time where events end motions, then the columns."""
+    first = [TIME] if e.at_event.any() else []
+    return [*first, *differing(e, chosen, ROWS)]
+
+
 def size_of_ends(e: Ensemble, chosen: Sequence[str]) -> tuple[float, float]:
     """Width and height of :func:`ends`."""
-    across, rows = len(e.varied_names[:ACROSS]), len(differing(e, chosen, ROWS))
+    across, rows = len(e.varied_names[:ACROSS]), len(_rows(e, chosen))
     return max(3.6, 1.0 + 2.3 * across), 0.8 + 1.5 * max(1, rows)
 
 
 def ends(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
-    """The state at the end against what is varied, a point each motion; a mark below stands for one
-    that did not reach the end."""
-    names, varied = differing(e, chosen, ROWS), e.varied_names[:ACROSS]
+    """The state at the end against what is varied, a point each motion; of one that ended at an
+    event the state there, in another colour, and the time; a mark below stands for one that went
+    wrong."""
+    names, varied = _rows(e, chosen), e.varied_names[:ACROSS]
     grid = figure.subplots(len(names), len(varied), sharex="col", sharey="row", squeeze=False)
-    good, lost = (_thinned(np.flatnonzero(which)) for which in (e.status == 0, e.status != 0))
+    events, good = e.at_event, e.status == 0
+    groups = [(_thinned(np.flatnonzero(x)), c) for x, c in ((good, 0), (events, 2)) if x.any()]
+    lost = _thinned(np.flatnonzero(~(good | events)))
     for row, name in zip(grid, names, strict=True):
-        end = np.asarray(e.states[:, -1, e.names.index(name)][good], dtype=float)
+        end = at_end(e, name)
         for k, panel in enumerate(row):
-            panel.plot(e.varied[good, k], end, ".", c=COLOURS[0], ms=2.5, alpha=0.6, mew=0)
+            for which, c in groups:
+                style = {"c": COLOURS[c], "ms": 2.5, "alpha": 0.6, "mew": 0}
+                panel.plot(e.varied[which, k], end[which], ".", **style)
             if len(lost):
                 panel.plot(e.varied[lost, k], np.full(len(lost), 0.02), "|", c=COLOURS[1],
                            ms=5, transform=panel.get_xaxis_transform())  # fmt: skip
@@ -136,5 +155,7 @@ def _thinned(motions: Any) -> Any:
 
 
 def reached(e: Ensemble, word: Any) -> str:
-    """How many motions reached the end, of how many."""
-    return f"{int((e.status == 0).sum())}/{len(e.status)} {word('motions to the end')}"
+    """How many motions reached the end, of how many, and how many an event that ended them."""
+    ended = int(e.at_event.sum())
+    told = f"{int((e.status == 0).sum())}/{len(e.status)} {word('motions to the end')}"
+    return f"{told}, {ended} {word('to an event')}" if ended else told

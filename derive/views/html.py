@@ -72,10 +72,12 @@ def html(
     language: Language = ENGLISH,
     findings: Sequence[Finding] = (),
     moving: Mapping[str, str] | None = None,
+    pictures: Mapping[str, str] | None = None,
 ) -> str:
     """The walk of records as a web page: what holds for any group, then a part for each record.
 
-    ``moving``: name of a record → the file of a page in which its body moves, which gets a link.
+    ``moving``: name of a record → the file of a page in which its body moves, which gets a link;
+    ``pictures``: the file of a picture of its motion, which is shown.
     """
     shown = _shown(records, notation or Notation(), language, findings, moving or {})
     return _template("page").render(shown, within="main")
@@ -115,6 +117,7 @@ def _shown(
     word = language.word
     parts = book(records, language)
     numbers, found = numbered(parts), corrections(parts, findings, language)
+<<<<<<< HEAD
     written = [_PartFields(p, chosen, language, numbers, found, moving) for p in parts]
     home = {s.label: (p, s) for p in written for s in p.part.steps}
 
@@ -129,6 +132,18 @@ def _shown(
         "about": visible(capitalised(subtitle(records[0], language))) if len(records) == 1 else "",
         "road": words(word(road(records)), chosen, ready=True),
         "conventions": " ".join(
+=======
+    beside = moving or {}, pictures or {}
+    written = [_PartFields(p, chosen, language, numbers, found, *beside) for p in parts]
+    shown = {s.label: [*p.equations(s)] for p in written for s in p.part.steps}
+    template = environment("html", autoescape=True).get_template("page.html.jinja")
+    return template.render(
+        language=language.name,
+        title=visible(title(records[0], language)) if len(records) == 1 else word(MOTION),
+        about=visible(capitalised(subtitle(records[0], language))) if len(records) == 1 else "",
+        road=words(word(road(records)), chosen, ready=True),
+        conventions=" ".join(
+>>>>>>> origin/main
             words(word(x), chosen, ready=True)
             for x in (TRANSPOSES[chosen.transpose], conventions(records))
         ),
@@ -192,6 +207,7 @@ class _PartFields:
     numbers: Mapping[str, str]
     corrections: Mapping[str, Mapping[int, list[Passage]]]
     moving: Mapping[str, str]
+    pictures: Mapping[str, str]
 
     @cached_property
     def names(self) -> Mapping[str, str]:
@@ -209,6 +225,7 @@ class _PartFields:
             "steps": (self.step(step, shown) for step in self.part.steps),
             "names": [*self.symbols(), *self.parameters()],
             "moving": self.moving.get(self.part.name, "") if self.part.record else "",
+            "picture": self.pictures.get(self.part.name, "") if self.part.record else "",
             **self.figure(),
         }
 

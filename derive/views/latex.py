@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate, pairwise
 
@@ -54,16 +54,18 @@ def latex(
     *,
     language: Language = ENGLISH,
     findings: Sequence[Finding] = (),
+    pictures: Mapping[str, str] | None = None,
 ) -> str:
     """A document for pdflatex; every equation bears its label.
 
     Of several records what holds for any group comes once. ``findings``: where the print of the
-    paper is corrected, to be told in footnotes.
+    paper is corrected, to be told in footnotes; ``pictures``: name of a record → the file of a
+    picture of its motion.
     """
     records = [d] if isinstance(d, Derivation) else [*d]
     one = len(records) == 1
     parts = book(records, language)
-    writer = _Writer(parts, language, findings)
+    writer = _Writer(parts, language, findings, pictures or {})
     chosen = notation or Notation()
     stated = (TRANSPOSES[chosen.transpose], conventions(records))
     meant = " ".join(between_dollars(language.word(x)) for x in stated)
@@ -78,6 +80,7 @@ def latex(
         conventions=styled(f"{meant} {tex_text(language.word(PAPER))}"),
         walk=styled("\n".join(writer.body())),
         drawn=any(writer.drawings.values()),
+        pictures=bool(pictures),
         regular=styled(prose(language.word(REGULAR))),
         from_these=tex_text(language.word("from")),
         references=tex_text(language.word("References")),
@@ -133,6 +136,7 @@ class _Writer:
     parts: Sequence[BookPart]
     language: Language
     findings: Sequence[Finding]
+    pictures: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def drawings(self) -> dict[str, Scene | None]:
@@ -148,6 +152,10 @@ class _Writer:
             if drawn := self.drawings[part.name]:
                 caption = prose(self.language.of(drawn.caption))
                 yield rf"\walkfigure{{{tikz(drawn)}}}{{{caption}}}"
+            if part.record and (picture := self.pictures.get(part.name)):
+                told = tex_text(self.language.word("In motion"))
+                shown = rf"\includegraphics[width=0.7\textwidth]{{{picture}}}"
+                yield rf"\walkfigure{{{shown}}}{{{told}}}"
             for step in part.steps:
                 yield from ("", *self.step(part, step))
             if names := [*_names(part, latex_names(part.source), self.language)]:

@@ -121,12 +121,14 @@ def notes(
     *,
     fragment: bool = False,
     moving: Mapping[str, str] | None = None,
+    pictures: Mapping[str, str] | None = None,
     **notation: str,
 ) -> str:
     """Lecture notes of several records as a web page or as LaTeX, with the paper's corrections.
 
     ``fragment``: LaTeX without a preamble, for a document that uses the package ``.sty``.
-    ``moving``: the pages that a web page links to, by the names of the records.
+    ``moving``: the pages that a web page links to, by the names of the records; ``pictures``: files
+    of pictures of their motions, which are shown.
     """
     from ..printing.notation import Notation
     from . import latex
@@ -152,8 +154,9 @@ def notes(
     if fragment:
         return latex.fragment(records, language=words, findings=found)
     if ending == ".html":
-        return html(records, chosen, language=words, findings=found, moving=moving)
-    return latex.latex(records, chosen, language=words, findings=found)
+        beside = {"moving": moving, "pictures": pictures}
+        return html(records, chosen, language=words, findings=found, **beside)
+    return latex.latex(records, chosen, language=words, findings=found, pictures=pictures)
 
 
 def unprinted(records: Sequence[Derivation]) -> str:
@@ -176,8 +179,9 @@ def corrections(records: Sequence[Derivation]) -> list[Finding]:
     return amendments(numbers) if numbers else []
 
 
-def pdf(tex: str) -> bytes:
-    """The PDF of a LaTeX document; ``RenderError`` names what is missing or the first error."""
+def pdf(tex: str, pictures: Mapping[str, bytes] | None = None) -> bytes:
+    """The PDF of a LaTeX document, with files of ``pictures`` that it shows; ``RenderError`` names
+    what is missing or the first error."""
     import os
     import shutil
     import subprocess
@@ -198,6 +202,8 @@ def pdf(tex: str) -> bytes:
     )
     with tempfile.TemporaryDirectory(prefix="derive-") as folder:
         (Path(folder) / "notes.tex").write_text(tex, encoding="utf-8")
+        for name, picture in (pictures or {}).items():
+            (Path(folder) / name).write_bytes(picture)
         for command in runs:
             done = subprocess.run(command, cwd=folder, env=timeless, capture_output=True)
         if done.returncode:

@@ -1,11 +1,14 @@
 """Pictures of ensembles: what they say, the same bytes, and what is refused."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from derive.command.cli import main
 from derive.motion.ensemble import Ensemble, Part
 from derive.motion.ensemble_files import writer
+from derive.native.motion_in_c import AT_EVENT
 from derive.plot.ensemble_pictures import POINTS, differing, quantiles
 from derive.plot.kinds_told import OVERVIEW
 from derive.plot.pictures import ENSEMBLE_KINDS, plot
@@ -26,7 +29,18 @@ def ensemble(motions=50, instants=20):
     status = np.where(np.arange(motions) % 10 == 0, 3, 0).astype(np.intc)
     states[status != 0, instants // 2 :] = np.nan
     facts = {"problem": "line", "varied": LAWS, "motions": motions}
-    return Ensemble(facts, ("x_1", "x_2"), t, np.column_stack([a, k]), status, states)
+    varied, end = np.column_stack([a, k]), np.empty((motions, 0))
+    return Ensemble(facts, ("x_1", "x_2"), t, varied, status, states, end)
+
+
+def with_events(e):
+    """The same, but that those which ended were at an event then, at x_1 = 3."""
+    status = np.where(e.status == 3, AT_EVENT, e.status).astype(np.intc)
+    end = np.full((len(status), 3), np.nan)
+    for i in np.flatnonzero(status):
+        a, k = e.varied[i]
+        end[i] = (3 - a) / k, 3.0, 7.0
+    return replace(e, status=status, end=end, facts={**e.facts, "ends": ["wall"]})
 
 
 def drawn(kind, e, columns=(), word=str):
@@ -82,6 +96,20 @@ def test_the_ends_are_those_of_the_motions():
     assert french.get_suptitle() == "$t = 2$; 45/50 mouvements jusqu’à la fin"
 
 
+def test_the_ends_at_events_are_those_of_the_events():
+    e = with_events(ensemble())
+    figure = drawn("ends", e)
+    time, _, column, _ = figure.get_axes()
+    assert (time.get_ylabel(), column.get_ylabel()) == ("$t$", "$x_{1}$")
+    at_last, at_event = time.get_lines()
+    assert set(at_last.get_ydata()) == {2.0}
+    a, k = e.varied[e.status == AT_EVENT].T
+    assert np.array_equal(at_event.get_xdata(), a)
+    assert np.allclose(a + k * at_event.get_ydata(), 3.0)
+    assert set(column.get_lines()[1].get_ydata()) == {3.0}
+    assert figure.get_suptitle() == "$t = 2$; 45/50 motions to the end, 5 to an event"
+
+
 def test_of_very_many_motions_some_are_points():
     (panel, _) = drawn("ends", ensemble(3 * POINTS, 2)).get_axes()
     assert POINTS / 2 < len(panel.get_lines()[0].get_xdata()) <= POINTS
@@ -92,14 +120,14 @@ def test_the_columns_that_are_drawn():
     assert differing(e, (), 12) == ["x_1"]
     assert differing(e, ("x_2", "x_1"), 12) == ["x_2", "x_1"]
     assert len(drawn("spread", e, ("x_2", "x_1")).get_axes()) == 2
-    still = Ensemble(e.facts, e.names, e.t, e.varied, e.status, np.ones_like(e.states))
+    still = replace(e, states=np.ones_like(e.states))
     assert differing(still, (), 12) == ["x_1", "x_2"]
 
 
 def saved(folder, e, name="many.npz"):
     """The file of an ensemble."""
     with (folder / name).open("wb") as file, writer(file, name, e) as made:
-        made.add(Part(e.varied, e.status, e.states))
+        made.add(Part(e.varied, e.status, e.states, e.end))
     return folder / name
 
 
@@ -139,6 +167,6 @@ def test_what_needs_more_is_told():
     e = ensemble()
     with pytest.raises(PlotError, match=r"spread needs several instants.*there are ends"):
         plot(ensemble(instants=1), "a.svg", "spread")
-    lost = Ensemble(e.facts, e.names, e.t, e.varied, np.full_like(e.status, 2), e.states)
+    lost = replace(e, status=np.full_like(e.status, 2))
     with pytest.raises(PlotError, match=r"reached the end.*nothing else can be drawn"):
         plot(lost, "a.svg")

@@ -118,7 +118,7 @@ def remade(name: str, folder: Path) -> bytes:
         return run_files.written(small_run(run_files.read(path), made), name)
     e = small_ensemble(ensemble_files.read(path), made)
     with out.open("wb") as file, ensemble_files.writer(file, name, e) as writer:
-        writer.add(Part(e.varied, e.status, e.states))
+        writer.add(Part(e.varied, e.status, e.states, e.end))
     return out.read_bytes()
 
 
