@@ -107,23 +107,13 @@ KINDS = {
 ENSEMBLE_KINDS = {
     "spread": Kind(
         ensemble_pictures.spread,
-<<<<<<< HEAD
-        "several instants, --points, and a motion that reached the end",
-=======
-        "median and quantiles of an ensemble in time",
         "several instants, --points, and a motion that reached the end, or an event",
->>>>>>> origin/main
         ensemble_pictures.fits_spread,
         ensemble_pictures.size_of_spread,
     ),
     "ends": Kind(
         ensemble_pictures.ends,
-<<<<<<< HEAD
-        "a motion that reached the end",
-=======
-        "the ends of an ensemble against what is varied",
         "a motion that reached the end, or an event",
->>>>>>> origin/main
         ensemble_pictures.fits_ends,
         ensemble_pictures.size_of_ends,
     ),

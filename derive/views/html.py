@@ -9,8 +9,6 @@ from functools import cache, cached_property, lru_cache, partial
 from html import escape
 from typing import Any
 
-from jinja2 import Template
-
 from ..figure.figure import svg
 from ..figure.scene import scene
 from ..language.templating import environment
@@ -79,8 +77,9 @@ def html(
     ``moving``: name of a record → the file of a page in which its body moves, which gets a link;
     ``pictures``: the file of a picture of its motion, which is shown.
     """
-    shown = _shown(records, notation or Notation(), language, findings, moving or {})
-    return _template("page").render(shown, within="main")
+    beside = moving or {}, pictures or {}
+    shown = _shown(records, notation or Notation(), language, findings, beside)
+    return str(_template("page").render(shown, within="main"))
 
 
 def fragment(
@@ -92,7 +91,7 @@ def fragment(
 ) -> Iterator[str]:
     """What a page shows of the walk of records, to stand in another page with the style sheet
     ``page.css``: in pieces, each made when it is asked for, which end where an article does."""
-    shown = _shown(records, notation or Notation(), language, findings, {})
+    shown = _shown(records, notation or Notation(), language, findings)
     piece: list[str] = []
     for part in _template("fragment").generate(shown, within="div"):
         piece.append(part)
@@ -102,7 +101,7 @@ def fragment(
     yield "".join(piece)
 
 
-def _template(name: str) -> Template:
+def _template(name: str) -> Any:
     return environment("html", autoescape=True).get_template(f"{name}.html.jinja")
 
 
@@ -111,14 +110,14 @@ def _shown(
     chosen: Notation,
     language: Language,
     findings: Sequence[Finding],
-    moving: Mapping[str, str],
+    beside: tuple[Mapping[str, str], Mapping[str, str]] = ({}, {}),
 ) -> Fields:
-    """What the templates show of the walk of records."""
+    """What the templates show of the walk of records; ``beside``: the pages and the pictures that
+    are named beside it."""
     word = language.word
     parts = book(records, language)
     numbers, found = numbered(parts), corrections(parts, findings, language)
-<<<<<<< HEAD
-    written = [_PartFields(p, chosen, language, numbers, found, moving) for p in parts]
+    written = [_PartFields(p, chosen, language, numbers, found, *beside) for p in parts]
     home = {s.label: (p, s) for p in written for s in p.part.steps}
 
     @cache
@@ -132,18 +131,6 @@ def _shown(
         "about": visible(capitalised(subtitle(records[0], language))) if len(records) == 1 else "",
         "road": words(word(road(records)), chosen, ready=True),
         "conventions": " ".join(
-=======
-    beside = moving or {}, pictures or {}
-    written = [_PartFields(p, chosen, language, numbers, found, *beside) for p in parts]
-    shown = {s.label: [*p.equations(s)] for p in written for s in p.part.steps}
-    template = environment("html", autoescape=True).get_template("page.html.jinja")
-    return template.render(
-        language=language.name,
-        title=visible(title(records[0], language)) if len(records) == 1 else word(MOTION),
-        about=visible(capitalised(subtitle(records[0], language))) if len(records) == 1 else "",
-        road=words(word(road(records)), chosen, ready=True),
-        conventions=" ".join(
->>>>>>> origin/main
             words(word(x), chosen, ready=True)
             for x in (TRANSPOSES[chosen.transpose], conventions(records))
         ),
