@@ -32,6 +32,12 @@ at = [0, 0, "l"]
 kind = "gravity"
 g = [0, 0, "-g"]
 """
+SLOW = ("inhomogeneous_fluid", "stratified_fluid", "riemann_ellipsoid")
+CHECKED = [
+    pytest.param(x, marks=pytest.mark.dist) if x in SLOW else x
+    for x in ready_made()
+    if x != "zeitlin"  # which needs NumPy
+]
 MESH = '\n[body]\nsolid = "mesh"\nfile = "cube.off"\ndensity = 1\n'
 BAD = [
     (PENDULUM.replace('at = [0, "l", 0]', "at = [0, 1]"), 12, "point 2, at"),
@@ -70,7 +76,7 @@ def test_a_ready_made_problem_is_walked_as_by_the_command(page, capsys, name):
     assert fragment(page, text, lang) == said(capsys, *command)
 
 
-@pytest.mark.parametrize("name", [x for x in ready_made() if x != "zeitlin"])
+@pytest.mark.parametrize("name", CHECKED)
 def test_a_ready_made_problem_is_checked(page, name):
     text = (READY / f"{name}.toml").read_text(encoding="utf-8")
     how, heard = asked(page, "check", text=text)
