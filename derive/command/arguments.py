@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from .. import __version__
 from ..language.near_names import did_you_mean, near_name
-from ..plot.pictures import told_kinds
+from ..plot.kinds_told import told_kinds
 from ..views.rendering import FORMATS
 from .guard import one_line
 
@@ -296,7 +296,9 @@ def add_reading_options(
     about = "a picture of the motion of each problem for a time T, beside FILE and shown in it"
     notes.add_argument("--picture", metavar="T", type=float, help=f"{about} (needs matplotlib)")
     for one in (*walks, *searched, notes):
-        one.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
+        one.add_argument(
+            "--fragment", action="store_true", help="LaTeX to \\input, HTML to put into a page"
+        )
         one.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
         for option, name in (("--notation", "transpose"), ("--hat", "hat")):
             values, meaning = NOTATIONS[name]

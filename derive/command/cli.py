@@ -355,7 +355,8 @@ def command_simulate(args: argparse.Namespace) -> int:
 def command_plot(args: argparse.Namespace) -> int:
     """Draw a run of a motion, or several: .svg, .pdf or .png (needs matplotlib)."""
     from ..motion.ensemble_files import read_either
-    from ..plot.pictures import PRECISION, plot
+    from ..plot.kinds_told import PRECISION
+    from ..plot.pictures import plot
     from ..plot.plot_sheet import ending
     from ..plot.precision import plot_precision
     from ..views.language import language
@@ -477,6 +478,9 @@ def _discard_stdout() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
+BROUGHT = {"numpy": "NumPy", "sympy": "SymPy"}
+"""What comes with the package, though not in a browser, and is loaded where it is needed."""
+
 ABOUT = """Equations of motion of bodies moved by Lie groups: derived step by step, checked,
 shown as text, LaTeX or a web page, and emitted as code."""
 
@@ -508,6 +512,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
     except StoppedError as error:
         print(f"derive: {one_line(error)}", file=sys.stderr)
+        return 2
+    except ModuleNotFoundError as error:
+        if error.name not in BROUGHT:
+            raise
+        print(f"derive: this needs {BROUGHT[error.name]}, which is not here", file=sys.stderr)
         return 2
     except (MemoryError, RecursionError) as error:
         what = "out of memory" if isinstance(error, MemoryError) else "nested too deeply"

@@ -25,8 +25,9 @@ from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..schema.followed import Event
 from .body_outline import outline
+from .emitted_code import EmittedCode, in_si
 from .motion_in_python import MotionInPython
-from .run import Array, Column
+from .run import Array
 from .start import MotionError
 from .trajectory import Moved
 
@@ -43,18 +44,15 @@ class OneDegree:
 
 
 @dataclass(frozen=True)
-class Emitted:
-    """A program, its record, and a step in time that is emitted with it, of an ``order`` if it is
-    the discrete one, which stops at the ``events``; are the numbers of the problem in SI?
+class Emitted(EmittedCode):
+    """A step in time that is emitted with a program, of an ``order`` if it is the discrete one,
+    which stops at the ``events``.
 
     ``facts``: what a run says of the problem.
     """
 
-    program: Program
-    record: Derivation
     step: str
     facts: Mapping[str, Any]
-    in_si: bool = False
     events: tuple[Event, ...] = ()
     left: OneDegree | None = None
     order: str = ""
@@ -80,14 +78,7 @@ class Emitted:
             "hash": problem_hash(record),
             "unsought": unsought,
         }
-        units = any(x.unit for x in problem.parameters.values())
-        in_si = units and problem.lagrangian is None
-        return cls(program, record, step, facts, in_si, problem.events, left, order)
-
-    @property
-    def name(self) -> str:
-        """The prefix of the emitted functions."""
-        return self.program.name
+        return cls(program, record, in_si(problem), step, facts, problem.events, left, order)
 
     @property
     def options(self) -> Options:
@@ -171,47 +162,25 @@ class Emitted:
             return {}
         return {"entry": suffixed("A", i, j), "u": u.tolist(), "V": V.tolist()}
 
-    @property
-    def _kept(self) -> list[int]:
-        """The places of what is conserved beside the energy, which has a column of its own."""
-        return [k for k, name in enumerate(self.program.conserved) if name != "energy"]
-
     def vanishing(self, k: Array) -> list[str]:
         """What the motion keeps that is 0 in every state for these constants, by name, as what
         gravity gives where there is none: 0 in a state without any symmetry."""
-        if not self._kept:
+        if not self.kept:
             return []
         x = np.cos(1.0 + np.arange(len(self.program.state)))
         with np.errstate(all="ignore"):
-            found = self.python.conserved(1.0, x, k)[self._kept]
-        return [self.program.conserved[j] for j, v in zip(self._kept, found, strict=True) if v == 0]
-
-    def columns(self) -> tuple[Column, ...]:
-        """The columns of a run: time, state, then what :meth:`table` adds."""
-        has = self.program.functions
-        names = [("t", "time"), *((x, "state") for x in self.program.state), ("energy", "energy")]
-        names += [(self.program.conserved[k], "conserved") for k in self._kept]
-        names += [("defect", "defect")] * ("defect" in has)
-        names += [("multiplier", "multiplier")] * ("multiplier" in has)
-        return tuple(Column(x, kind, self._unit(x, kind)) for x, kind in names)
+            found = self.python.conserved(1.0, x, k)[self.kept]
+        return [self.program.conserved[j] for j, v in zip(self.kept, found, strict=True) if v == 0]
 
     def table(self, t: Array, x: Array, k: Array, u: Array) -> Array:
         """The rows of a run at some times and states, (instants, columns)."""
         code, has = self.python, self.program.functions
         parts = [t[:, None], x, code.energy(t, x, k)[:, None]]
         with np.errstate(all="ignore"):
-            if self._kept:
-                parts.append(code.conserved(t, x, k)[:, self._kept])
+            if self.kept:
+                parts.append(code.conserved(t, x, k)[:, self.kept])
             if "defect" in has:
                 parts.append(code.defect(x)[:, None])
             if "multiplier" in has:
                 parts.append(code.multiplier(t, x, k, u)[:, None])
         return np.concatenate(parts, axis=1)
-
-    def _unit(self, name: str, kind: str) -> str:
-        if kind == "time":
-            return "s" if self.in_si else ""
-        if not self.in_si or kind not in ("state", "energy", "multiplier"):
-            return ""
-        by_letter = {"T": "m", "z": "1/s", "w": "m/s"}
-        return by_letter.get(name[0], "") if kind == "state" else "J"

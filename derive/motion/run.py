@@ -8,19 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from .emitted_code import KINDS, Column
+
+__all__ = ("KINDS", "Array", "Column", "Happening", "Run")
+
 Array = np.ndarray[Any, np.dtype[np.float64]]
-
-KINDS = ("time", "state", "energy", "conserved", "defect", "multiplier")
-"""What a column can be, in the order of a table."""
-
-
-@dataclass(frozen=True)
-class Column:
-    """A column of a run: its name, what it is (of KINDS), its unit, empty where there is none."""
-
-    name: str
-    kind: str
-    unit: str = ""
 
 
 @dataclass(frozen=True)

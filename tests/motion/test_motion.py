@@ -9,9 +9,10 @@ import derive
 from derive.code.step.collocation import Collocation
 from derive.command.cli import main
 from derive.command.simulating import negative
+from derive.motion.first_numbers import exponential
 from derive.motion.method import Method, instants
 from derive.motion.run_files import read
-from derive.motion.start import MotionError, exponential
+from derive.motion.start import MotionError
 from tests.oracles import free_top, lagrange_top
 
 MOMENTS = (1.25, 2.0, 2.75)
