@@ -32,7 +32,6 @@ from .reader import RecordReader
 from .rewrite import reachable
 from .schedule import Scheduler, frontier
 from .step.discrete_step import STEPPING, Lowered, lowered
-from .step.kept_by_gauss import kept_by_gauss
 from .titles import titles
 
 Place = tuple[str, tuple[str, int]]
@@ -153,8 +152,12 @@ def _kept_by_gauss(
     parameters: int,
     conserved: Sequence[str],
 ) -> KeptByGauss | None:
-    """What the step keeps of which that is asked for."""
+    """What the step keeps of which that is asked for; not looked for where NumPy is not there."""
     if "gauss" not in chosen.step:
+        return None
+    try:
+        from .step.kept_by_gauss import kept_by_gauss
+    except ImportError:
         return None
     sizes = {"p": parameters, "u": len(lowering.reader.inputs)}
     return kept_by_gauss(functions, lowering.reader.space, sizes, conserved)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from .. import __version__
 from ..language.near_names import did_you_mean, near_name
-from ..plot.pictures import told_kinds
+from ..plot.kinds_told import told_kinds
 from ..views.rendering import FORMATS
 from .guard import one_line
 
@@ -167,6 +167,7 @@ def add_picture_options(plot: argparse.ArgumentParser) -> None:
 
 def add_motion_options(simulated: argparse.ArgumentParser) -> None:
     """Add the options of ``simulate``: how long, how exact, from where, and what is kept."""
+    from ..code.options import DEPENDENT
     from ..views.language import LANGUAGES
 
     simulated.add_argument("problem", help="a ready-made name or a .toml file")
@@ -176,6 +177,8 @@ def add_motion_options(simulated: argparse.ArgumentParser) -> None:
     simulated.add_argument("--dt", type=real, metavar="DT", help="steps of this size instead")
     about = "how the motion is followed: gauss (the default), vern9, or, with --dt, rk4 or discrete"
     simulated.add_argument("--step", dest="method", metavar="STEP", help=about)
+    values, about = DEPENDENT["order"]
+    simulated.add_argument("--order", choices=values, help=about)
     about = "a number of the state, a parameter or an input, as zeta_3=2; repeated"
     simulated.add_argument("--set", action="append", type=number, metavar="NAME=NUMBER", help=about)
     about = "such numbers from a .toml file, or the end of a run"
@@ -293,7 +296,9 @@ def add_reading_options(
     about = "a picture of the motion of each problem for a time T, beside FILE and shown in it"
     notes.add_argument("--picture", metavar="T", type=float, help=f"{about} (needs matplotlib)")
     for one in (*walks, *searched, notes):
-        one.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
+        one.add_argument(
+            "--fragment", action="store_true", help="LaTeX to \\input, HTML to put into a page"
+        )
         one.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
         for option, name in (("--notation", "transpose"), ("--hat", "hat")):
             values, meaning = NOTATIONS[name]
