@@ -142,7 +142,8 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
             about = f"warn of a negative {what} instead of refusing it"
             one.add_argument(f"--allow-negative-{name}", action="store_true", help=about)
     plot = command("plot")
-    about = "a run or an ensemble: .npz, .csv or .parquet; for precision several, or a table"
+    about = "a run or an ensemble: .npz, .csv or .parquet; several for energy; for precision "
+    about += "several, or a table"
     plot.add_argument("run_file", metavar="RUN", nargs="+", help=about)
     plot.add_argument("--kind", default="", help=told_kinds())
     about = "a column of an ensemble that is drawn; repeated"

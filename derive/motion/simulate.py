@@ -158,7 +158,6 @@ def simulate(
     if follow.happened and (last := follow.happened[-1]).terminal:
         t, x = np.append(t, last.t), np.append(x, last.state[None], axis=0)
     columns, table = code.columns(), code.table(t, x, k, begin.u)
-    first = dict(zip((c.name for c in columns), table[0].tolist(), strict=True))
     facts = {
         **code.facts,
         "parameters": dict(begin.parameters),
@@ -169,6 +168,6 @@ def simulate(
         "ended": ended,
         "events": [one.plain() for one in follow.happened],
         "body": code.body(begin.p),
-        "potential": code.potential(first, begin.parameters),
+        "potential": code.potential(table, begin.parameters),
     }
     return Run(columns, table, facts)
