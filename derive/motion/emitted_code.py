@@ -1,0 +1,75 @@
+"""A program with its record, and the columns of what a motion of it gives: nothing is run here."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..code.program import Program
+from ..problem.problem import Problem
+from ..record.record import Derivation
+
+KINDS = ("time", "state", "energy", "conserved", "defect", "multiplier")
+"""What a column can be, in the order of a table."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a run: its name, what it is (of KINDS), its unit, empty where there is none."""
+
+    name: str
+    kind: str
+    unit: str = ""
+
+
+def in_si(problem: Problem) -> bool:
+    """Are the numbers of a problem in SI?"""
+    return any(x.unit for x in problem.parameters.values())
+
+
+@dataclass(frozen=True)
+class EmittedCode:
+    """A program and its record; are the numbers of the problem in SI?"""
+
+    program: Program
+    record: Derivation
+    in_si: bool
+
+    @property
+    def name(self) -> str:
+        """The prefix of the emitted functions."""
+        return self.program.name
+
+    @property
+    def kept(self) -> list[int]:
+        """The places of what is conserved beside the energy, which has a column of its own."""
+        return [k for k, name in enumerate(self.program.conserved) if name != "energy"]
+
+    def columns(self) -> tuple[Column, ...]:
+        """The columns of a run: time, state, then what :meth:`table` adds."""
+        has = self.program.functions
+        names = [("t", "time"), *((x, "state") for x in self.program.state), ("energy", "energy")]
+        names += [(self.program.conserved[k], "conserved") for k in self.kept]
+        names += [("defect", "defect")] * ("defect" in has)
+        names += [("multiplier", "multiplier")] * ("multiplier" in has)
+        return tuple(Column(x, kind, self._unit(x, kind)) for x, kind in names)
+
+    def _unit(self, name: str, kind: str) -> str:
+        if not self.in_si:
+            return ""
+        if kind == "state":
+            return self._unit_of_state(name)
+        return {"time": "s", "energy": "J", "multiplier": "J"}.get(kind, "")
+
+    def _unit_of_state(self, name: str) -> str:
+        """That of a place, of a velocity, and of ζ on an element of the basis: of one that does no
+        more than shift, whose columns are those of the rows that are 0, that of a velocity.  Where
+        there are no matrices, none is known."""
+        if not name.startswith("zeta"):
+            return {"T": "m", "w": "m/s"}.get(name[0], "")
+        if self.program.state[0][0] not in "AT":
+            return ""
+        basis = self.program.basis
+        moved = range(len(basis[0]))
+        shifted = {i for i in moved if not any(any(E[i]) for E in basis)}
+        own = basis[int(name.rpartition("_")[2]) - 1]
+        return "1/s" if any(row[j] for row in own for j in moved if j not in shifted) else "m/s"
