@@ -156,7 +156,8 @@ def add_picture_options(plot: argparse.ArgumentParser) -> None:
     """Add the options of ``plot``: of what, which picture, to where."""
     from ..views.language import LANGUAGES
 
-    about = "a run or an ensemble: .npz, .csv or .parquet; for precision several, or a table"
+    about = "a run or an ensemble: .npz, .csv or .parquet; several for energy; for precision "
+    about += "several, or a table"
     plot.add_argument("run_file", metavar="RUN", nargs="+", help=about)
     plot.add_argument("--kind", default="", help=told_kinds())
     about = "a column of an ensemble that is drawn; repeated"

@@ -356,7 +356,7 @@ def command_plot(args: argparse.Namespace) -> int:
     """Draw a run of a motion, or several: .svg, .pdf or .png (needs matplotlib)."""
     from ..motion.ensemble_files import read_either
     from ..plot.kinds_told import PRECISION
-    from ..plot.pictures import plot
+    from ..plot.pictures import plot, plot_energies
     from ..plot.plot_sheet import ending
     from ..plot.precision import plot_precision
     from ..views.language import language
@@ -366,8 +366,12 @@ def command_plot(args: argparse.Namespace) -> int:
     out, paths, word = Path(args.out), [Path(x) for x in args.run_file], language(args.lang).word
     if args.kind == PRECISION:
         picture = plot_precision(paths, out.name, word)
+    elif len(paths) > 1 and args.kind == "energy":
+        if args.column:
+            raise UsageError("columns are chosen of an ensemble: leave out --column")
+        picture = plot_energies([(str(x), read_either(x)) for x in paths], out.name, word)
     elif len(paths) > 1:
-        raise UsageError(f"several runs are for --kind {PRECISION}: give one")
+        raise UsageError(f"several runs are for --kind {PRECISION} and --kind energy: give one")
     else:
         picture = plot(read_either(paths[0]), out.name, args.kind, word, args.column)
     for path in write({out.name: picture}, out.parent, links=True):

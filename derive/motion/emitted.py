@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from ctypes import CDLL
 from dataclasses import dataclass
@@ -16,37 +15,26 @@ from ..code.emit import emit, problem_hash
 from ..code.options import Options
 from ..code.program import Program
 from ..code.step.step_numbers import FIXED
-from ..language.suffixed import suffixed
-from ..language.tree import Tree, replaced
-from ..language.values import value
 from ..native.library import FLAGS, CSource, loaded, over_cores
 from ..native.motion_in_c import Motion, binding, binding_to_events
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..schema.followed import Event
+from ..schema.lagrangian_kinds import Lagrangian
 from .body_outline import outline
 from .emitted_code import EmittedCode, in_si
 from .motion_in_python import MotionInPython
+from .one_degree import OneDegree
 from .run import Array
 from .start import MotionError
+from .stated_inertia import inertia_of
 from .trajectory import Moved
-
-
-@dataclass(frozen=True)
-class OneDegree:
-    """What symmetries leave of a problem where it is one degree of freedom: ``V``, the effective
-    potential, a tree in the ``entry`` of g, the momenta 𝒥_1, 𝒥_2, … and the parameters; what the
-    ``momenta`` are called among what the motion keeps."""
-
-    entry: tuple[int, int]
-    V: Tree
-    momenta: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class Emitted(EmittedCode):
     """A step in time that is emitted with a program, of an ``order`` if it is the discrete one,
-    which stops at the ``events``.
+    which stops at the ``events``; the ``lagrangian`` of a problem without points.
 
     ``facts``: what a run says of the problem.
     """
@@ -56,6 +44,7 @@ class Emitted(EmittedCode):
     events: tuple[Event, ...] = ()
     left: OneDegree | None = None
     order: str = ""
+    lagrangian: Lagrangian | None = None
 
     @classmethod
     def of(
@@ -78,7 +67,8 @@ class Emitted(EmittedCode):
             "hash": problem_hash(record),
             "unsought": unsought,
         }
-        return cls(program, record, in_si(problem), step, facts, problem.events, left, order)
+        si, events, stated = in_si(problem), problem.events, problem.lagrangian
+        return cls(program, record, si, step, facts, events, left, order, stated)
 
     @property
     def options(self) -> Options:
@@ -131,36 +121,24 @@ class Emitted(EmittedCode):
             raise MotionError(str(error)) from None
 
     def body(self, p: Array) -> dict[str, Any]:
-        """What pictures need of a body: its tensor of inertia, if it is turned in space, and its
-        :func:`outline`."""
+        """What pictures need of a body: its tensor of inertia, if it is turned in space, of its
+        points or of ℓ, and its :func:`outline`."""
         numbers = dict(zip(self.python.PARAMETERS, p.tolist(), strict=True))
         stated = self.record.problem
         found = outline(stated, numbers) if stated else {}
         if "inertia" in self.program.functions:
             found["inertia"] = np.asarray(self.python.inertia(p), dtype=float).tolist()
+        elif self.lagrangian and self.program.group in ("SO(3)", "SE(3)"):
+            tensor = inertia_of(self.lagrangian, numbers)
+            found["inertia"] = [] if tensor is None else tensor.tolist()
         return {name: x for name, x in found.items() if x}
 
-    def potential(self, first: Mapping[str, float], numbers: Mapping[str, float]) -> dict[str, Any]:
-        """The effective potential for the momenta of the ``first`` row of a run: V at u, an entry
-        of a rotation."""
-        if self.left is None or not {*self.left.momenta} <= {*first}:
+    def potential(self, table: Array, numbers: Mapping[str, float]) -> dict[str, Any]:
+        """The effective potential about where the energy of a run, by its ``table``, lets it go."""
+        if self.left is None:
             return {}
-        i, j = self.left.entry
-        u = np.linspace(-1, 1, 402)[1:-1].round(6)
-        known: dict[Tree, Any] = {("entry", "A", i, j): u}
-        known |= {("at", "𝒥", k): first[x] for k, x in enumerate(self.left.momenta, 1)}
-        tree = self.left.V
-        for k, x in enumerate(known):
-            tree = replaced(tree, x, ("par", f"_{k}"))
-        values = {**numbers, **{f"_{k}": x for k, x in enumerate(known.values())}}
-        try:
-            V = value(tree, {"π": math.pi}, values, None, float)
-        except (ArithmeticError, ValueError):
-            return {}
-        V = np.broadcast_to(V, u.shape)
-        if not np.isfinite(V).all():
-            return {}
-        return {"entry": suffixed("A", i, j), "u": u.tolist(), "V": V.tolist()}
+        run = dict(zip((c.name for c in self.columns()), table.T, strict=True))
+        return self.left.along(run, numbers)
 
     def vanishing(self, k: Array) -> list[str]:
         """What the motion keeps that is 0 in every state for these constants, by name, as what

@@ -23,8 +23,7 @@ class Column:
 
 def in_si(problem: Problem) -> bool:
     """Are the numbers of a problem in SI?"""
-    units = any(x.unit for x in problem.parameters.values())
-    return units and problem.lagrangian is None
+    return any(x.unit for x in problem.parameters.values())
 
 
 @dataclass(frozen=True)
@@ -55,9 +54,22 @@ class EmittedCode:
         return tuple(Column(x, kind, self._unit(x, kind)) for x, kind in names)
 
     def _unit(self, name: str, kind: str) -> str:
-        if kind == "time":
-            return "s" if self.in_si else ""
-        if not self.in_si or kind not in ("state", "energy", "multiplier"):
+        if not self.in_si:
             return ""
-        by_letter = {"T": "m", "z": "1/s", "w": "m/s"}
-        return by_letter.get(name[0], "") if kind == "state" else "J"
+        if kind == "state":
+            return self._unit_of_state(name)
+        return {"time": "s", "energy": "J", "multiplier": "J"}.get(kind, "")
+
+    def _unit_of_state(self, name: str) -> str:
+        """That of a place, of a velocity, and of ζ on an element of the basis: of one that does no
+        more than shift, whose columns are those of the rows that are 0, that of a velocity.  Where
+        there are no matrices, none is known."""
+        if not name.startswith("zeta"):
+            return {"T": "m", "w": "m/s"}.get(name[0], "")
+        if self.program.state[0][0] not in "AT":
+            return ""
+        basis = self.program.basis
+        moved = range(len(basis[0]))
+        shifted = {i for i in moved if not any(any(E[i]) for E in basis)}
+        own = basis[int(name.rpartition("_")[2]) - 1]
+        return "1/s" if any(row[j] for row in own for j in moved if j not in shifted) else "m/s"

@@ -115,7 +115,8 @@ class Ensemble:
 @dataclass(frozen=True)
 class Plan:
     """What is asked for: n motions from 0 to ``duration``, kept at ``points`` instants after the
-    start, from a start by ``given``, ``exponent`` and ``project`` as that of a run.
+    start, and there, too, if these are several; the start is by ``given``, ``exponent`` and
+    ``project`` as that of a run.
 
     ``MotionError`` for what is no plan.
     """
@@ -147,8 +148,9 @@ class Plan:
 
     @property
     def times(self) -> Array:
-        """The instants that are kept."""
-        return instants(Method(STEP), self.duration, self.points)[1:]
+        """The instants that are kept: the end, or of several the start, too."""
+        found = instants(Method(STEP), self.duration, self.points)
+        return found[1:] if self.points == 1 else found
 
 
 class Many:
@@ -184,7 +186,16 @@ class Many:
             "seed": self.plan.seed,
             "method": str(Method(STEP, None, self.plan.tol)),
             "ends": [x.name for x in self.code.events],
+            "units": self._units,
         }
+
+    @property
+    def _units(self) -> dict[str, str]:
+        """The units of the time, of the state and of what is varied, of those that have one."""
+        stated = {x.name: x.unit for x in self.code.columns() if x.kind in ("time", "state")}
+        given = self.problem.parameters
+        stated |= {x: given[x].unit for x in self.plan.names if x in given}
+        return {name: unit for name, unit in stated.items() if unit}
 
     @property
     def said(self) -> dict[int, str]:
@@ -268,6 +279,9 @@ class Many:
         end = np.full((len(x), self.none.end.shape[1]), math.nan)
         on, before = np.flatnonzero(status == 0), 0.0
         for j, t in enumerate(self.t.tolist()):
+            if t == 0:
+                states[on, j] = x[on]
+                continue
             # copies of those that go on
             own, step, ended = x[on], h[on], [np.empty(len(on))] * bool(self.code.events)
             span = before, t

@@ -165,7 +165,6 @@ def simulate(
             raise MotionError(f"{code.name}: {ended}")
         t, x = np.append(t, follow.motion.t), np.append(x, follow.motion.x[None], axis=0)
     columns, table = code.columns(), code.table(t, x, k, begin.u)
-    first = dict(zip((c.name for c in columns), table[0].tolist(), strict=True))
     facts = {
         **code.facts,
         "parameters": dict(begin.parameters),
@@ -177,6 +176,6 @@ def simulate(
         "vanishing": code.vanishing(k),
         "events": [one.plain() for one in follow.happened],
         "body": code.body(begin.p),
-        "potential": code.potential(first, begin.parameters),
+        "potential": code.potential(table, begin.parameters),
     }
     return Run(columns, table, facts)

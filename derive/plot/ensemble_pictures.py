@@ -12,6 +12,8 @@ from ..language.near_names import did_you_mean, near_name
 from ..motion.ensemble import Ensemble
 from ..motion.run import Array
 from .plot_sheet import COLOURS, PlotError, label
+from .surfaces import ATTITUDE
+from .time_series import with_unit
 
 PANELS, WIDE = 12, 3
 """The most panels where no columns are chosen, and how many stand side by side."""
@@ -25,6 +27,9 @@ BANDS = ((0.05, 0.95, 0.2), (0.25, 0.75, 0.35))
 POINTS = 2000
 """So many motions are drawn as points: of more, every k-th, so that a file can be opened."""
 
+THIRD_AXIS = ("A_13", "A_23", "A_33")
+"""Where the third axis of a body points in space."""
+
 TIME = "t"
 """The row of the time of the end."""
 
@@ -34,12 +39,20 @@ SAME = 1e-13
 
 def differing(e: Ensemble, chosen: Sequence[str], most: int) -> list[str]:
     """The columns that are drawn: those chosen, or the first of the state that differ from motion
-    to motion at the end; ``PlotError`` for names that it has not."""
+    to motion at the end, of a turn of R³ its last column alone; ``PlotError`` for names that it has
+    not."""
     for name in chosen:
         if name not in e.names:
             near = did_you_mean(near_name(name, e.names), after=" ")
             raise PlotError(f"no column {name[:40]!r}; {near}there are {', '.join(e.names[:40])}")
-    return [*chosen] or [x for x in e.names if _differs(at_end(e, x))][:most] or [*e.names[:most]]
+    turned = e.facts.get("group") in ("SO(3)", "SE(3)") and {*ATTITUDE} <= {*e.names}
+    there = [x for x in e.names if not turned or x not in ATTITUDE or x in THIRD_AXIS]
+    return [*chosen] or [x for x in there if _differs(at_end(e, x))][:most] or [*there[:most]]
+
+
+def named(e: Ensemble, name: str) -> str:
+    """A column, what is varied or the time, with its unit."""
+    return with_unit(label(name), e.facts.get("units", {}).get(name, ""))
 
 
 def _differs(end: Array) -> bool:
@@ -85,10 +98,10 @@ def spread(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
             low, high = found[1 + 2 * k], found[2 + 2 * k]
             panel.fill_between(e.t, low, high, color=COLOURS[0], alpha=strength, lw=0)
         panel.plot(e.t, found[0], c=COLOURS[0])
-        panel.set_ylabel(label(name))
+        panel.set_ylabel(named(e, name))
         panel.set_xlim(e.t[0], e.t[-1])
     for panel in panels[-WIDE:]:
-        panel.set_xlabel("$t$")
+        panel.set_xlabel(named(e, TIME))
     told = word("median, and the bands of 50 % and 90 % of the motions")
     figure.suptitle(f"{told}; {reached(e, word)}", fontsize=8)
 
@@ -144,10 +157,12 @@ def ends(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
             if len(lost):
                 panel.plot(e.varied[lost, k], np.full(len(lost), 0.02), "|", c=COLOURS[1],
                            ms=5, transform=panel.get_xaxis_transform())  # fmt: skip
-        row[0].set_ylabel(label(name))
+        row[0].set_ylabel(named(e, name))
     for panel, name in zip(grid[-1], varied, strict=True):
-        panel.set_xlabel(f"{label(name)}, {word('varied')}")
-    figure.suptitle(f"$t = {e.t[-1]:g}$; {reached(e, word)}", fontsize=8)
+        panel.set_xlabel(f"{named(e, name)}, {word('varied')}")
+    unit = e.facts.get("units", {}).get(TIME, "")
+    last = f"$t = {e.t[-1]:g}$ {unit}".strip()
+    figure.suptitle(f"{last}; {reached(e, word)}", fontsize=8)
 
 
 def _thinned(motions: Any) -> Any:

@@ -12,6 +12,7 @@ from ..motion.run import Run
 from . import (
     body_pictures,
     ensemble_pictures,
+    polhode_picture,
     potential_picture,
     spheroid_pictures,
     surfaces,
@@ -50,6 +51,10 @@ def _has_inertia(run: Run) -> bool:
     return "inertia" in run.facts.get("body", {})
 
 
+def _has_polhode(run: Run) -> bool:
+    return _columns(*polhode_picture.VELOCITY)(run) and _rotates(run) and _has_inertia(run)
+
+
 def _rotates(run: Run) -> bool:
     return str(run.facts.get("group", "")) in ("SO(3)", "SE(3)")
 
@@ -74,20 +79,21 @@ KINDS = {
         _sized(4.2, 4.4),
     ),
     "polhode": Kind(
-        surfaces.polhode,
-        "zeta_1 … zeta_3 of a rotation of R³, and body.inertia in the facts",
-        lambda run: _columns(*surfaces.VELOCITY)(run) and _rotates(run) and _has_inertia(run),
+        polhode_picture.polhode,
+        "zeta_1 … zeta_3 of a rotation of R³ and a tensor of inertia, that of points or solids, of "
+        "[body] given, or of an ℓ that is quadratic in zeta_1 … zeta_3",
+        _has_polhode,
         _sized(7.0, 3.9),
     ),
     "body": Kind(
         body_pictures.body,
-        "columns A_11 … A_33, and a body in the facts",
+        "columns A_11 … A_33, and a body of points, of solids or with a tensor of inertia",
         lambda run: _turned(run) and any(body_pictures.drawn(run).values()),
         _sized(8.0, 2.2),
     ),
     "potential": Kind(
         potential_picture.potential,
-        "one degree of freedom that its symmetries leave: potential in the facts",
+        "symmetries that leave one degree of freedom",
         lambda run: bool(run.facts.get("potential")),
         _sized(5.0, 3.4),
     ),
@@ -139,6 +145,25 @@ def plot(
     chosen = _chosen(kinds, run, kind, what)
     with look():
         return written(_sheet_of(kinds, chosen, run, word, more), name)
+
+
+def plot_energies(
+    listed: Sequence[tuple[str, Run | Ensemble]], name: str, word: Any = str
+) -> bytes:
+    """The bytes of a picture of the errors of the energy of several runs, each with what it is
+    called, as :func:`plot`."""
+    ending(name)
+    runs: list[tuple[str, Run]] = []
+    for called, run in listed:
+        if isinstance(run, Ensemble) or not (len(run.table) and run.of_kind("energy")):
+            raise PlotError(f"{called}: no run with a column of the energy: leave it out")
+        runs.append((called, run))
+    if len({x.columns[0].unit for _, x in runs}) > 1:
+        raise PlotError("energy: some runs have a time in s, some have no units: draw them apart")
+    with look():
+        figure = sheet(6.5, 3.4)
+        time_series.energies(figure, runs, word)
+        return written(figure, name)
 
 
 def _chosen(kinds: Mapping[str, Kind], run: Any, kind: str, what: str) -> list[str]:

@@ -24,6 +24,7 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 LOOK: dict[Any, Any] = {
     "svg.hashsalt": "derive",
     "svg.fonttype": "path",
+    "pdf.fonttype": 42,  # TrueType, where journals refuse the Type 3 of matplotlib
     "font.size": 9,
     "axes.spines.top": False,
     "axes.spines.right": False,

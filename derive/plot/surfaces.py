@@ -1,4 +1,4 @@
-"""Curves on ellipsoids and spheres: hidden parts thin; tips of axes, and the polhode."""
+"""Curves on ellipsoids and spheres: hidden parts thin; tips of axes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..motion.run import Array, Run
-from .plot_sheet import COLOURS, PlotError, label
+from .plot_sheet import COLOURS
 
 VIEW = np.array([0.75, 0.5, 0.43]) / np.linalg.norm([0.75, 0.5, 0.43])
 """From where the pictures are seen, a unit vector."""
@@ -32,8 +32,9 @@ def curve(panel: Any, points: Array, normals: Array, colour: str, name: str = ""
     panel.plot(x[:1], y[:1], "o", c=colour, ms=3)
 
 
-def surface(panel: Any, root: Array) -> None:
-    """The ellipsoid {root u : |u| = 1}, root symmetric: its outline, and its sections by axes."""
+def surface(panel: Any, root: Array, axes: Array | None = None) -> None:
+    """The ellipsoid {root u : |u| = 1}, root symmetric: its outline, and its sections by the planes
+    of ``axes``, columns, without them those of the coordinates."""
     turn = np.linspace(0, 2 * np.pi, 241)
     circle = np.stack([np.cos(turn), np.sin(turn)])
     seen = np.linalg.solve(root, VIEW)  # the outline: normal ⟂ view
@@ -42,7 +43,7 @@ def surface(panel: Any, root: Array) -> None:
     x, y = projected(circle.T @ frame @ root).T
     panel.fill(x, y, facecolor="#f4f4f4", edgecolor="#555555", lw=0.8, zorder=0)
     for k in range(3):
-        u = circle.T @ np.delete(np.eye(3), k, axis=0)
+        u = circle.T @ np.delete(np.eye(3) if axes is None else axes.T, k, axis=0)
         x, y = projected(u @ root).T
         front = u @ seen >= 0
         panel.plot(np.where(front, x, np.nan), np.where(front, y, np.nan), c="#bbbbbb", lw=0.5)
@@ -63,45 +64,9 @@ def axes(figure: Any, run: Run, word: Any) -> None:
     figure.legend(*panel.get_legend_handles_labels(), loc="outside lower center", ncols=3)
 
 
-def polhode(figure: Any, run: Run, word: Any) -> None:
-    """The velocity on the ellipsoid of inertia ⟨ζ, Iζ⟩ = 2T of the first instant, and the momentum
-    M = Iζ on the sphere of its length."""
-    inertia, zeta = _inertia(run), _velocity(run)
-    momentum = zeta @ inertia
-    left, right = figure.subplots(1, 2)
-    values, vectors = np.linalg.eigh(inertia)
-    twice = float(zeta[0] @ momentum[0])
-    surface(left, vectors @ np.diag(np.sqrt(twice / values)) @ vectors.T)
-    curve(left, zeta, momentum, COLOURS[0])
-    left.set_title(f"{label('zeta')}: {word('ellipsoid of inertia')}")
-    surface(right, np.linalg.norm(momentum[0]) * np.eye(3))
-    curve(right, momentum, momentum, COLOURS[1])
-    right.set_title(f"$M$: {word('sphere of angular momentum')}")
-
-
 def attitude(run: Run) -> Array:
     """A at the instants, (instants, 3, 3)."""
     return np.stack([run[x] for x in ATTITUDE], -1).reshape(-1, 3, 3)
 
 
-def _velocity(run: Run) -> Array:
-    return np.stack([run[x] for x in VELOCITY], -1)
-
-
-def _inertia(run: Run) -> Array:
-    """The inertia tensor of the facts, which a picture of the polhode needs."""
-    try:
-        found = np.array(run.facts["body"]["inertia"], float)
-        good = found.shape == (3, 3) and np.array_equal(found, found.T)
-        good = good and bool((np.linalg.eigvalsh(found) > 0).all())
-    except (KeyError, TypeError, ValueError):
-        good = False
-    if not good:
-        raise PlotError(
-            "polhode: the facts of this run have no body.inertia, three rows of a positive tensor"
-        )
-    return found
-
-
 ATTITUDE = tuple(f"A_{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3))
-VELOCITY = ("zeta_1", "zeta_2", "zeta_3")

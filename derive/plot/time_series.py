@@ -1,9 +1,10 @@
-"""The state against time, and how well what the motion keeps was kept."""
+"""The state against time, and how well what motions keep was kept."""
 
 from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -47,7 +48,8 @@ def energy(figure: Any, run: Run, word: Any) -> None:
     that of the vector; of what begins at 0, the difference itself.  What is exact has no place on
     the axis: it is left out."""
     panel, exact, sizes = figure.subplots(), [], norms(run)
-    for k, (name, y) in enumerate({**run.of_kind("energy"), **run.of_kind("conserved")}.items()):
+    kept = {**run.of_kind("energy"), **run.of_kind("conserved")}.items()
+    for k, (name, y) in enumerate(kept):
         scale = sizes.get(vector_of(name), abs(y[0]))
         away = np.abs(y - y[0]) / (scale or 1.0)
         shown = in_words(name, word)
@@ -59,9 +61,33 @@ def energy(figure: Any, run: Run, word: Any) -> None:
         away[away == 0] = np.nan
         panel.semilogy(run.t, away, style, c=COLOURS[k % len(COLOURS)], label=shown)
     if exact:
-        panel.plot([], [], " ", label=f"{word('exact')}: {', '.join(exact)}")
+        panel.plot([], [], " ", label=f"{word('exact:')} {', '.join(exact)}")
     panel.set_xlabel(time_label(run))
-    panel.set_ylabel(word("relative error"))
+    vectors = any(abs(y[0]) < sizes.get(vector_of(x), 0) for x, y in kept)
+    told = word("components relative to the length of their vector") if vectors else ""
+    panel.set_ylabel(f"{word('relative error')}\n{told}".strip())
+    panel.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+
+
+def energies(figure: Any, runs: Sequence[tuple[str, Run]], word: Any) -> None:
+    """|E − E₀| / |E₀| of several runs, each with what it is called and its method; of a run that
+    begins with no energy, the difference itself."""
+    panel, exact = figure.subplots(), []
+    for k, (name, run) in enumerate(runs):
+        y = run["energy"]
+        away = np.abs(y - y[0]) / (abs(y[0]) or 1.0)
+        shown = f"{run.facts.get('method', '?')}\n{name}".replace("$", r"\$")
+        shown += "" if y[0] else f" ({word('absolute')})"
+        if not away.any():
+            exact.append(shown)
+            continue
+        style = ("-", "--", ":")[k // len(COLOURS) % 3]
+        away[away == 0] = np.nan
+        panel.semilogy(run.t, away, style, c=COLOURS[k % len(COLOURS)], lw=0.8, label=shown)
+    for shown in exact:
+        panel.plot([], [], " ", label=f"{word('exact:')} {shown}")
+    panel.set_xlabel(time_label(runs[0][1]))
+    panel.set_ylabel(word("relative error of the energy"))
     panel.legend(loc="center left", bbox_to_anchor=(1, 0.5))
 
 

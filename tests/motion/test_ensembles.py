@@ -44,12 +44,15 @@ def small(monkeypatch, motions=7):
 
 
 def test_each_motion_is_that_of_a_run(so3, some):
-    assert some.t.tolist() == [1, 2]
+    assert some.t.tolist() == [0, 1, 2]
+    assert some.facts["units"] == {
+        "t": "s", **{f"zeta_{k}": "1/s" for k in (1, 2, 3)}, "J_11": "kg m^2"
+    }  # fmt: skip
     assert not some.status.any()
     for k in (0, 17, 39):
         start = dict(zip(some.varied_names, some.varied[k].tolist(), strict=True))
         run = so3.simulate(2.0, start=start, points=2, tol=1e-13)
-        assert np.abs(run.states[1:] - some.states[k]).max() < 1e-10
+        assert np.abs(run.states - some.states[k]).max() < 1e-10
 
 
 def test_what_is_drawn_is_by_its_law_whatever_the_parts():

@@ -13,6 +13,7 @@ from derive.motion.first_numbers import exponential
 from derive.motion.method import Method, instants
 from derive.motion.run_files import read
 from derive.motion.start import MotionError
+from derive.motion.stated_inertia import inertia_of
 from tests.oracles import free_top, lagrange_top
 
 MOMENTS = (1.25, 2.0, 2.75)
@@ -351,3 +352,48 @@ def test_motions_of_other_states():
     assert np.ptp(torus["energy"]) < 1e-13
     rod = derive.derive("rod").simulate(1.0, start={"zeta_1": 1.0}, points=2)
     assert np.ptp(rod["energy"]) < 1e-13
+
+
+# ---------------------------------------------------------------- an ℓ of no points
+
+
+@pytest.mark.parametrize(
+    ("name", "units"),
+    [
+        ("euler_top", {"t": "s", "zeta_1": "1/s", "energy": "J"}),
+        ("rod", {"T_1": "m", "zeta_1": "1/s", "zeta_4": "m/s", "energy": "J"}),
+        ("euler_poisson", {"t": "s", "zeta_1": "", "energy": "J"}),
+    ],
+)
+def test_a_lagrangian_has_units_where_its_parameters_have(name, units):
+    run = derive.derive(name).simulate(0.01, points=1)
+    assert units == {x.name: x.unit for x in run.columns if x.name in units}
+
+
+TURNED = """
+name = "turned"
+group = "SO(3)"
+[parameters]
+a = 2.0
+[lagrangian]
+L = "{}"
+"""
+TENSOR = [[4, 1, 0], [1, 2, 0], [0, 0, 2]]
+
+
+@pytest.mark.parametrize(
+    ("L", "inertia"),
+    [
+        ("a*zeta_1^2 + zeta_1*zeta_2 + zeta_2^2 + zeta_3^2 - A_33", TENSOR),
+        ("a*zeta_1^2 + zeta_2^2 + zeta_3^2 + a*zeta_3", None),
+        ("a*zeta_1^2 + zeta_2^2 + (2 + A_33)*zeta_3^2", None),
+        ("a*zeta_1^2 + zeta_2^2 + zeta_3^2 + zeta_3^4", None),
+        ("a*zeta_1^2 + zeta_2^2 - zeta_3^2", None),
+    ],
+)
+def test_a_quadratic_lagrangian_has_a_tensor_of_inertia(L, inertia, tmp_path):
+    (tmp_path / "turned.toml").write_text(TURNED.format(L))
+    problem = derive.derive(tmp_path / "turned.toml").problem
+    found = inertia_of(problem.lagrangian, {"a": 2.0})
+    assert (found is None) == (inertia is None)
+    assert found is None or found.tolist() == inertia

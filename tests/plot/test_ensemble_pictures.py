@@ -13,6 +13,7 @@ from derive.plot.ensemble_pictures import POINTS, differing, quantiles
 from derive.plot.kinds_told import OVERVIEW
 from derive.plot.pictures import ENSEMBLE_KINDS, plot
 from derive.plot.plot_sheet import FORMATS, PlotError, sheet
+from derive.plot.surfaces import ATTITUDE
 from derive.python.simulated import SimulatedEnsemble
 from derive.views.language import language
 from tests.support.needs import needs
@@ -122,6 +123,29 @@ def test_the_columns_that_are_drawn():
     assert len(drawn("spread", e, ("x_2", "x_1")).get_axes()) == 2
     still = replace(e, states=np.ones_like(e.states))
     assert differing(still, (), 12) == ["x_1", "x_2"]
+
+
+def test_of_a_turn_the_third_axis_is_drawn():
+    names = (*ATTITUDE, "zeta_1")
+    states = np.random.default_rng(4).normal(size=(50, 20, 10))
+    turned = replace(ensemble(), names=names, states=states)
+    assert differing(turned, (), 12) == list(names)
+    turned = replace(turned, facts={**turned.facts, "group": "SO(3)"})
+    assert differing(turned, (), 12) == ["A_13", "A_23", "A_33", "zeta_1"]
+    assert differing(turned, ("A_11",), 12) == ["A_11"]
+
+
+def test_units_are_those_of_the_facts():
+    e = ensemble()
+    e = replace(e, facts={**e.facts, "units": {"t": "s", "x_1": "m", "k": "m/s"}})
+    (panel,) = drawn("spread", e).get_axes()
+    assert (panel.get_xlabel(), panel.get_ylabel()) == ("$t$ [s]", "$x_{1}$ [m]")
+    figure = drawn("ends", e)
+    assert [x.get_xlabel() for x in figure.get_axes()] == [
+        "$x_{1}$ [m], varied",
+        "$k$ [m/s], varied",
+    ]
+    assert figure.get_suptitle() == "$t = 2$ s; 45/50 motions to the end"
 
 
 def saved(folder, e, name="many.npz"):

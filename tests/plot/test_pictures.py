@@ -2,6 +2,7 @@
 
 import importlib
 import json
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -9,16 +10,19 @@ import pytest
 
 import derive
 from derive.command.cli import main
+from derive.motion.one_degree import turning_points
 from derive.motion.run import Column, Run
 from derive.motion.run_files import written
 from derive.plot import kinds_told
 from derive.plot.body_pictures import hull
 from derive.plot.kinds_told import OVERVIEW, PRECISION
-from derive.plot.pictures import ENSEMBLE_KINDS, KINDS, plot
+from derive.plot.pictures import ENSEMBLE_KINDS, KINDS, plot, plot_energies
 from derive.plot.plot_sheet import FORMATS, PlotError, label, sheet
+from derive.plot.polhode_picture import levels, unstable
 from derive.plot.precision import of_runs, table
 from derive.plot.spheroid_pictures import followed, maps, section
 from derive.plot.surfaces import VIEW, projected
+from derive.plot.time_series import energies
 from derive.plot.torus_pictures import vorticity
 from derive.views.language import language
 from tests.support.flows import emitted, flow
@@ -129,6 +133,47 @@ def test_a_component_is_held_against_its_vector():
     assert ends == pytest.approx([2e-13, 0.1, 0.005], rel=1e-3)
 
 
+def test_the_picture_says_what_components_are_held_against():
+    said = "components relative to the length of their vector"
+    assert said in words_of(simulated("euler_top", 1.0), "energy")
+    assert said not in words_of(simulated("top", 0.5), "energy")  # one component alone
+
+
+def test_the_energies_of_several_runs(tmp_path, capsys):
+    paths = [tmp_path / "a.npz", tmp_path / "b.npz"]
+    for path, step in zip(paths, ("discrete", "gauss"), strict=True):
+        derive.derive("top").simulate(0.04, dt=0.002, step=step, points=20).save(path)
+    runs = [(x.name, derive_read(x)) for x in paths]
+    figure = sheet(6.5, 3.4)
+    energies(figure, runs, str)
+    (panel,) = figure.get_axes()
+    named = {x.get_label(): x.get_ydata() for x in panel.get_lines()}
+    assert {x.split("\n")[0].removeprefix("exact: ") for x in named} == {
+        "discrete, dt 0.002",
+        "gauss, dt 0.002",
+    }
+    E = runs[0][1]["energy"]
+    drawn = np.nan_to_num(named["discrete, dt 0.002\na.npz"])
+    assert drawn == pytest.approx(abs(E / E[0] - 1), abs=1e-15)
+    out = tmp_path / "a.pdf"
+    words = ["plot", *map(str, paths), "--kind", "energy", "--out", str(out)]
+    assert main(words) == 0
+    assert len(out.read_bytes()) > 2000
+    still = Run((Column("t", "time"), Column("x_1", "state")), np.zeros((2, 2)))
+    with pytest.raises(PlotError, match="c: no run with a column of the energy"):
+        plot_energies([*runs, ("c", still)], "a.svg")
+    bare = tuple(replace(x, unit="") for x in runs[0][1].columns)
+    with pytest.raises(PlotError, match="some have no units"):
+        plot_energies([runs[0], ("c", Run(bare, runs[0][1].table))], "a.svg")
+    assert main([*words, "--column", "A_11"]) == 2
+    assert "leave out --column" in capsys.readouterr().err
+
+
+def test_fonts_of_a_pdf_are_truetype():
+    assert b"/Type3" not in (found := plot(run_of("euler_top"), "a.pdf", "energy"))
+    assert b"/TrueType" in found or b"/CIDFontType2" in found
+
+
 def test_the_view_is_a_projection():
     square = projected(np.eye(3))
     assert square.T @ square == pytest.approx(np.eye(2))
@@ -162,8 +207,36 @@ def test_what_is_of_ensembles_is_refused_for_a_run():
 def test_a_polhode_needs_the_inertia():
     run = run_of("euler_top")
     bare = Run(run.columns, run.table, {**run.facts, "body": {}})
-    with pytest.raises(PlotError, match=r"body\.inertia in the facts"):
+    with pytest.raises(
+        PlotError, match=r"a tensor of inertia, that of .* \[body\] given, or of an ℓ"
+    ):
         plot(bare, "a.svg", "polhode")
+
+
+def test_neighbouring_polhodes_keep_both_integrals_and_the_separatrix_meets_the_middle_axis():
+    d = np.array([1.0, 1.6, 2.2])
+    found = [*levels(d)]
+    assert len(found) == 14
+    for u, parts in found:
+        assert np.linalg.norm(u, axis=1) == pytest.approx(np.ones(len(u)))
+        assert np.ptp(u**2 @ d) < 1e-12
+        assert parts == (abs(u**2 @ d - 1.6).max() < 1e-12)
+        assert not parts or abs(u[:, 1]).max() == pytest.approx(1)
+    assert [parts for _, parts in levels(np.array([1.0, 1.0, 2.0]))] == [False] * 6
+    assert [*levels(np.ones(3))] == []
+    assert unstable(np.array([1, 1.6, 2.2])) == 1
+    assert unstable(np.array([1, 1, 2.2])) is None
+
+
+def test_a_polhode_marks_the_axes_and_its_titles_are_level():
+    run = simulated("euler_top", 1.0)
+    told = words_of(run, "polhode", language("fr").word)
+    assert all(x in told for x in ("axe stable", "axe instable", "séparatrice", "$I = 1.6$"))
+    figure = sheet(7.0, 3.9)
+    KINDS["polhode"].draw(figure, run, str)
+    figure.draw_without_rendering()
+    left, right = (x.title.get_window_extent().y0 for x in figure.get_axes())
+    assert abs(left - right) < 3
 
 
 def test_the_command(tmp_path, capsys):
@@ -187,15 +260,22 @@ def test_without_matplotlib_the_remedy_is_told(monkeypatch):
 # ---------------------------------------------------------------- what is drawn
 
 
-@pytest.mark.parametrize(("problem", "end"), [("top", 0.5), ("spherical_pendulum", 3.0)])
-def test_the_effective_potential_is_the_energy_where_the_body_turns_back(problem, end):
+@pytest.mark.parametrize(
+    ("problem", "end", "spin"),
+    [("top", 0.5, 100.0), ("top", 0.5, 600.0), ("spherical_pendulum", 3.0, None)],
+)
+def test_the_effective_potential_is_the_energy_where_the_body_turns_back(problem, end, spin):
     """E = V(u) + u̇²/(2 slope): V is below E on the whole run, and meets it where u̇ = 0."""
-    run = simulated(problem, end)
+    run = derive.derive(problem).simulate(end, start={"zeta_3": spin} if spin else {})
     u, V = (np.array(run.facts["potential"][x]) for x in ("u", "V"))
     height, energy = run[run.facts["potential"]["entry"]], run["energy"][0]
     there = np.interp(height, u, V)
     scale = np.ptp(there)
-    assert there[0] == pytest.approx(energy, abs=0.02 * scale) or problem != "top"  # let go at rest
+    assert there[0] == pytest.approx(energy, abs=1e-3 * scale) or problem != "top"  # let go at rest
+    inside = (u >= height.min()) & (u <= height.max())
+    assert inside.sum() > 75  # the window is scaled to the well
+    assert not inside[0]
+    assert not inside[-1]
     assert np.all(there <= energy + 1e-3 * scale)
     assert np.any(there < energy - 0.3 * scale)
 
@@ -209,10 +289,39 @@ def test_the_potential_of_a_symmetric_top_is_the_known_one():
     assert pytest.approx(known + about_axis**2 / (2 * p["I3"]), rel=1e-12) == V
 
 
+def test_the_run_lies_in_the_well_of_its_energy():
+    run = derive.derive("top").simulate(1.0, start={"zeta_3": 600.0}, exp=(0.5, 0, 0))
+    figure = sheet(5.0, 3.4)
+    KINDS["potential"].draw(figure, run, str)
+    (panel,) = figure.get_axes()
+    curve, energy, own, *_ = (np.array(x.get_ydata()) for x in panel.get_lines())
+    assert own.max() <= energy[0] * (1 + 1e-3)
+    assert own.min() == pytest.approx(0, abs=1e-3 * energy[0])
+    assert curve[0] > 1.5 * energy[0] < curve[-1]
+    assert panel.get_ylabel() == r"$V - V_{\min}$ [J]"
+
+
+@pytest.mark.parametrize("start", [(-0.2, -0.1), (0.2, 0.2), (-0.5, 0.3)])
+def test_the_turning_points_are_those_of_the_well_of_the_motion(start):
+    wells = [lambda u: u * u - 0.25, lambda u: (u * u - 0.25) * (u * u - 0.81)]
+    for V in wells:
+        assert turning_points(V, 0.0, *start) == pytest.approx((-0.5, 0.5)) or V is wells[1]
+    assert turning_points(wells[1], 0.0, 0.6, 0.7) == pytest.approx((0.5, 0.9))
+    low, high = turning_points(lambda u: 0 * u, 1.0, *start)
+    assert -1 < low < -1 + 1e-6
+    assert 1 - 1e-6 < high < 1
+
+
+def test_a_motion_that_stays_has_a_window_too():
+    asleep = derive.derive("lagrange_top").simulate(1.0, points=5, exp=(0, 0, 0))
+    assert np.ptp(asleep.facts["potential"]["u"]) > 0.01
+    assert len(plot(asleep, "a.svg", "potential")) > 2000
+
+
 def test_two_degrees_of_freedom_have_no_potential():
     run = simulated("euler_top", 1.0)
     assert not run.facts["potential"]
-    with pytest.raises(PlotError, match="potential needs one degree of freedom"):
+    with pytest.raises(PlotError, match=r"potential needs .* one degree of freedom"):
         plot(run, "a.svg", "potential")
 
 

@@ -1,0 +1,99 @@
+"""The effective potential that symmetries leave of a motion, about where its energy lets it go."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..language.suffixed import suffixed
+from ..language.tree import Tree, replaced
+from ..language.values import value
+from .run import Array
+
+SAMPLES = 201
+"""At so many places V is kept."""
+
+EDGE = 1 - 1e-9
+"""An entry of a rotation lies between −1 and 1, where V may have poles."""
+
+BEYOND, STEADY = 0.4, 0.05
+"""So much of the well is shown on each side of it; and so far about a motion that stays where it
+is, to rounding, which has no well."""
+
+
+@dataclass(frozen=True)
+class OneDegree:
+    """What symmetries leave of a problem where it is one degree of freedom: ``V``, the effective
+    potential, a tree in the ``entry`` of g, the momenta 𝒥_1, 𝒥_2, … and the parameters; what the
+    ``momenta`` are called among what the motion keeps."""
+
+    entry: tuple[int, int]
+    V: Tree
+    momenta: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """The entry as a column of a run."""
+        return suffixed("A", *self.entry)
+
+    def along(self, run: Mapping[str, Array], numbers: Mapping[str, float]) -> dict[str, Any]:
+        """V at some u, an entry of a rotation, for the momenta of the first row of a run, given by
+        its columns: between the turning points of its energy, and a little beyond; empty where
+        there is none."""
+        if not {*self.momenta} <= {*run}:
+            return {}
+        first = {**numbers, **{x: float(run[x][0]) for x in self.momenta}}
+        at, energy = run[self.name], float(run["energy"][0])
+        try:
+            well = turning_points(lambda u: self._value(u, first), energy, at.min(), at.max())
+            u = window(*well)
+            V = np.broadcast_to(self._value(u, first), u.shape)
+        except (ArithmeticError, ValueError):
+            return {}
+        if not np.isfinite(V).all():
+            return {}
+        return {"entry": self.name, "u": u.tolist(), "V": V.tolist()}
+
+    def _value(self, u: Any, numbers: Mapping[str, float]) -> Any:
+        i, j = self.entry
+        known: dict[Tree, Any] = {("entry", "A", i, j): u}
+        known |= {("at", "𝒥", k): numbers[x] for k, x in enumerate(self.momenta, 1)}
+        tree = self.V
+        for k, x in enumerate(known):
+            tree = replaced(tree, x, ("par", f"_{k}"))
+        values = {**numbers, **{f"_{k}": x for k, x in enumerate(known.values())}}
+        return value(tree, {"π": math.pi}, values, None, float)
+
+
+def turning_points(
+    V: Callable[[float], float], energy: float, low: float, high: float
+) -> tuple[float, float]:
+    """The ends of the well {V ≤ energy} in which a motion was between ``low`` and ``high``."""
+    step = max(1e-3 * (high - low), 1e-9)
+    low, high = (min(max(float(x), -EDGE), EDGE) for x in (low, high))
+    return _end(V, energy, low, -step), _end(V, energy, high, step)
+
+
+def _end(V: Callable[[float], float], energy: float, u: float, step: float) -> float:
+    """The end of the well on one side of u: steps, each twice the last, then halves."""
+    inside, outside = u, u + step
+    while abs(outside) < EDGE and V(outside) <= energy:
+        inside, outside, step = outside, outside + 2 * step, 2 * step
+    outside = min(max(outside, -EDGE), EDGE)
+    if V(outside) <= energy:
+        return outside
+    for _ in range(60):
+        middle = (inside + outside) / 2
+        inside, outside = (middle, outside) if V(middle) <= energy else (inside, middle)
+    return inside
+
+
+def window(low: float, high: float) -> Array:
+    """Places from a little below a well to a little above it, (SAMPLES,)."""
+    wide = high - low
+    beside = BEYOND * wide if wide > 1e-7 else STEADY
+    return np.linspace(max(-EDGE, low - beside), min(EDGE, high + beside), SAMPLES)
