@@ -13,7 +13,7 @@ from ..language.tree import Tree
 from ..record.record import Derivation
 from .change_of_frame import frame_changes
 from .conventions import conventions
-from .drift import TEXTS, drift
+from .drift import TEXTS, drift, matrices
 from .events import Event, table, values
 from .excluded_options import require_written
 from .factor import factored
@@ -110,6 +110,7 @@ def assemble(
         momenta.size if momenta else 0,
         mass_fault=lowering.inverses.mass_fault,
         discrete=discrete_step.discrete_step(d, group, chosen),
+        blocks=matrices(lowering.reader.space),
         matrix_state=door.names if (door := matrix_state(lowering.reader.space)) else (),
     )
 

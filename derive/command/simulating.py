@@ -164,7 +164,7 @@ def negative(t: Array, column: Array) -> str:
     last = below[gaps[0]] if len(gaps) else below[-1]
     until = f" … {t[last]:.4g}" if last > below[0] else ""
     more = " and later" if len(gaps) else ""
-    return f"at t = {t[below[0]]:.4g}{until}{more} ({len(below)} of {len(t)} instants)"
+    return f"at t = {t[below[0]]:.4g}{until}{more}, at {len(below)} of {len(t)} instants"
 
 
 def _told(run: Run) -> int:
@@ -174,7 +174,7 @@ def _told(run: Run) -> int:
         text = f"of what it keeps the energy alone is told: {why.removeprefix(f'{name}: ')}"
         print(f"derive: note: {one_line(f'{name}: {text}')}", file=sys.stderr)
     for label, column in run.of_kind("multiplier").items():
-        if where := negative(run.t, column):
+        if run.facts.get("filled") and (where := negative(run.t, column)):
             text = f"{label} is negative {where}: a fluid would tear there"
             print(f"derive: warning: {name}: {text}", file=sys.stderr)
     if not run.ended and not np.any(run.states != run.states[0]):

@@ -23,6 +23,7 @@ from ..native.library import FLAGS, CSource, loaded, over_cores
 from ..native.motion_in_c import Motion, binding, binding_to_events
 from ..problem.problem import Problem
 from ..record.record import Derivation
+from ..schema.body_kinds import GivenBody
 from ..schema.followed import Event
 from .body_outline import outline
 from .motion_in_python import MotionInPython
@@ -77,6 +78,7 @@ class Emitted:
             "group": program.group,
             "hash": problem_hash(record),
             "unsought": unsought,
+            "filled": isinstance(problem.body, GivenBody) and bool(problem.body.solids),
         }
         units = any(x.unit for x in problem.parameters.values())
         in_si = units and problem.lagrangian is None

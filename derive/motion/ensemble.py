@@ -13,6 +13,7 @@ from ..language.expression import names
 from ..native.library import CompileError
 from ..native.motion_in_c import AT_EVENT, Integers, constants, ensemble
 from ..problem.problem import Problem
+from .component import reflection
 from .emitted import Emitted
 from .method import TOLERANCE, Method, instants
 from .run import Array
@@ -245,6 +246,8 @@ class Many:
         code = self.code
         if "defect" not in code.program.functions:
             return x
+        if fault := reflection(code.program.blocks, x):
+            raise MotionError(f"{code.name}: a motion starts off the group: {fault}")
         for _ in range(20 if self.plan.project else 0):  # Newton's method
             x = np.asarray(code.python.project(x), dtype=float)
         off = np.asarray(code.python.defect(x))

@@ -16,8 +16,10 @@ from ..native.library import CompileError
 from ..native.motion_in_c import Motion
 from ..problem.inertia import fault_of_quadrics
 from ..problem.problem import Problem
+from .component import reflection, singular
 from .emitted import Emitted
 from .method import Method, instants
+from .not_finite import why_not_finite
 from .run import Array, Run
 from .start import OFF_THE_GROUP, MotionError, Start, start
 from .trajectory import Trajectory
@@ -100,11 +102,10 @@ def beginning(
     k = code.constants(begin.p)
     with np.errstate(all="ignore"):
         rates = code.python.rhs(0.0, begin.x, k, begin.u)
-    if not np.isfinite(rates).all():
-        raise MotionError(
-            f"{code.name}: the equations have no finite value at the start: look at the state, as "
-            "two ends of a spring at one place"
-        )
+        energy = float(code.python.energy(0.0, begin.x, k))
+    if not (np.isfinite(rates).all() and math.isfinite(energy)):
+        why = why_not_finite(problem, begin, energy)
+        raise MotionError(f"{code.name}: the equations have no finite value at the start: {why}")
     return begin
 
 
@@ -122,13 +123,20 @@ def on_the_group(code: Emitted, begin: Start, *, project: bool) -> Start:
     """The start, taken to the group where that is asked for; ``MotionError`` where it is off."""
     if "defect" not in code.program.functions:
         return begin
-    x = begin.x
-    for _ in range(20 if project else 0):  # Newton's method
-        x = np.asarray(code.python.project(x), dtype=float)
-    off = float(code.python.defect(x))
+    x, blocks = begin.x, code.program.blocks
+    if fault := reflection(blocks, x):
+        raise MotionError(f"{code.name}: the start is not on the group: {fault}")
+    with np.errstate(all="ignore"):
+        for _ in range(20 if project else 0):  # Newton's method
+            x = np.asarray(code.python.project(x), dtype=float)
+        off = float(code.python.defect(x))
     if not off <= OFF_THE_GROUP:
-        told = "not taken to the group" if project else "not on the group: --project takes it there"
-        raise MotionError(f"{code.name}: the start is {told}; its defect is {off:.3g}")
+        told = f"not taken to the group: {singular(blocks, begin.x)}"
+        if not project:
+            told = f"not on the group: --project takes it there; its defect is {off:.3g}"
+        raise MotionError(f"{code.name}: the start is {told}")
+    if fault := reflection(blocks, x):
+        raise MotionError(f"{code.name}: the start is not taken to the group: {fault}")
     return replace(begin, x=x)
 
 
