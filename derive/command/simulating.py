@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..motion.ensemble import require_an_ensemble
+from ..motion.kept_words import parts
 from ..motion.method import STEPS, Method, instants
 from ..motion.run import Array, Run
 from ..motion.run_files import format_of, written
@@ -27,6 +28,9 @@ from .ensembles import command_ensemble
 from .guard import one_line
 from .progress import with_progress
 from .writing import write
+
+ROUNDING = 1e-15
+"""A component that is smaller, beside the others, is that of sums of a few terms."""
 
 MANY, LARGEST = 60, 8
 """Of a state of more than so many numbers only so many are told, those that are largest."""
@@ -125,7 +129,8 @@ def summary(run: Run) -> list[str]:
     for kind in ("energy", "conserved"):
         for label, column in run.of_kind(kind).items():
             change = float(np.abs(column - column[0]).max())
-            lines.append(f"  {label}: {column[0]:.9g} at first, changed by at most {change:.1e}")
+            first = at_first(run, label)
+            lines.append(f"  {label}: {first:.9g} at first, changed by at most {change:.1e}")
     for label, column in run.of_kind("defect").items():
         lines.append(f"  {label}: at most {float(column.max()):.1e}")
     lines += events(run)
@@ -136,6 +141,14 @@ def summary(run: Run) -> list[str]:
     told = [f"{x} = {last[x]:.6g}" for x in shown]
     told += [f"… (the largest of {len(state)})"] * (len(shown) < len(state))
     return [*lines, f"  at the end: {', '.join(told)}"]
+
+
+def at_first(run: Run, label: str) -> float:
+    """A quantity at first; 0 where that is the rounding of what has the same name."""
+    family = [x for x in run.names if parts(x)[0] == parts(label)[0]]
+    size = max(abs(float(run[x][0])) for x in family)
+    first = float(run[label][0])
+    return 0.0 if abs(first) <= ROUNDING * size else first
 
 
 def events(run: Run) -> list[str]:

@@ -26,6 +26,7 @@ from ..record.record import Derivation
 from ..schema.body_kinds import GivenBody
 from ..schema.followed import Event
 from .body_outline import outline
+from .kept_words import in_order
 from .motion_in_python import MotionInPython
 from .run import Array, Column
 from .start import MotionError
@@ -169,7 +170,8 @@ class Emitted:
     @property
     def _kept(self) -> list[int]:
         """The places of what is conserved beside the energy, which has a column of its own."""
-        return [k for k, name in enumerate(self.program.conserved) if name != "energy"]
+        names = self.program.conserved
+        return [k for k in in_order(names) if names[k] != "energy"]
 
     def columns(self) -> tuple[Column, ...]:
         """The columns of a run: time, state, then what :meth:`table` adds."""

@@ -48,7 +48,8 @@ class Run:
     the energy stands as what is kept, if so), ``filled`` (does the body fill a solid),
     ``parameters`` (name → number), ``method`` (the step, its tolerance or size), ``language`` (in
     which it was run, C or Python), ``evaluations`` (of the rate), ``ended`` (empty, or why it
-    stopped too soon), ``events`` (those that happened), ``body`` and ``potential`` (what pictures need).
+    stopped too soon), ``events`` (those that happened), ``body`` and ``potential`` (what pictures
+    need).
     """
 
     columns: tuple[Column, ...]

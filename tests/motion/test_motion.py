@@ -1,6 +1,7 @@
 """Motions of derive simulate: known solutions, order, what is kept, what is refused."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,8 +9,10 @@ import pytest
 import derive
 from derive.code.step.collocation import Collocation
 from derive.command.cli import main
-from derive.command.simulating import negative
+from derive.command.simulating import at_first, negative
+from derive.motion.kept_words import in_order
 from derive.motion.method import Method, instants
+from derive.motion.run import Column, Run
 from derive.motion.run_files import read
 from derive.motion.start import MotionError, exponential
 from tests.oracles import free_top, lagrange_top
@@ -371,3 +374,16 @@ def test_a_reflection_is_no_rotation():
         compiled.from_matrix([1, 0, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1.0])
     with pytest.raises(ValueError, match="a reflection"):
         derive.compile("top", step="gauss").begin([-1, 0, 0, 0, -1, 0, 0, 0, -1, 0, 0, 1.0])
+
+
+def test_components_are_told_in_their_order_and_zeros_as_zeros():
+    names = ["energy", "momentum_2", "spin_3", "momentum_10", "momentum_1", "spin_1", "casimir"]
+    found = [names[k] for k in in_order(names)]
+    assert found[1:4] == ["momentum_1", "momentum_2", "momentum_10"]
+    assert found == ["energy", *found[1:4], "spin_1", "spin_3", "casimir"]
+    columns = tuple(
+        Column(x, k) for x, k in (("t", "time"), ("L_1", "conserved"), ("L_2", "conserved"))
+    )
+    run = Run(columns, np.array([[0.0, 2.0, 3e-17]]))
+    assert [at_first(run, x) for x in ("L_1", "L_2")] == [2.0, 0.0]
+    assert str(at_first(replace(run, table=np.array([[0.0, -0.0, 0.0]])), "L_1")) == "0.0"
