@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed$(if $(LOCKED),-locked)
 INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: help derive test coverage mutants dist docs notes pictures bench accuracy fuzz lint lock clean
+.PHONY: help derive test coverage mutants dist docs playground site play notes pictures bench accuracy fuzz lint lock clean
 
 help:            ## this list
 	@sed -n 's/^\([a-z]*\):.*## /  make \1  \t/p' Makefile
@@ -42,6 +42,23 @@ docs: $(STAMP)   ## the site of docs/ and of the docstrings, in build/docs; a de
 	$(INSTALL) --editable ".[docs]"
 	rm -rf build/docs
 	$(BIN)/sphinx-build -q -E -W --keep-going -c docs . build/docs
+
+NODE_MODULES := playground/node_modules/.package-lock.json
+
+playground: $(STAMP) $(NODE_MODULES) ## the playground in the browser, a static folder: build/site/play
+	$(BIN)/python -m playground.stage build/playground/stage
+	node playground/build.mjs build/playground/stage build/site/play
+
+site: docs playground ## the documentation and the playground, one static folder: build/site
+	cp -R build/docs/. build/site/
+
+play: playground ## the playground on this machine alone, at an address that is printed
+	$(BIN)/python -m playground.serve build/site
+
+$(NODE_MODULES): playground/package-lock.json
+	@{ command -v node && command -v npm; } >/dev/null || \
+	  { echo "make: no Node on the path: install nodejs and npm" >&2; exit 2; }
+	npm ci --prefix playground --no-audit --no-fund
 
 lock:            ## the versions that are newest now, and the hashes of their files, into requirements-dev.lock
 	rm -rf build/lock

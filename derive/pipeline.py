@@ -386,24 +386,35 @@ def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree
     return named(found) | first_integrals(found.problem, beside_symmetries=True)
 
 
-def motion_of(problem: Problem, record: Derivation, step: str = "gauss") -> Emitted:
-    """The emitted code of a problem with a step, which stops at its events, and all that its motion
-    keeps, for runs."""
-    from .code.options import Options
+def motion_of(
+    problem: Problem, record: Derivation, step: str = "gauss", order: str = ""
+) -> Emitted:
+    """The emitted code of a problem with a step, of an ``order`` if it is the discrete one, which
+    stops at its events, and all that its motion keeps, for runs."""
     from .motion.emitted import Emitted
 
+    made, why = moving_program(problem, record, step, order)
+    return Emitted.of(made, problem, record, step, one_degree(problem, record), why, order)
+
+
+def moving_program(
+    problem: Problem, record: Derivation, step: str = "gauss", order: str = ""
+) -> tuple[Program, str]:
+    """The program of a problem with all that its motion keeps, and why it has none of that but the
+    energy: none is found, or it is not looked for where NumPy or SymPy is not there."""
+    from .code.options import Options
+
     has, why = record.definition("θ") is not None, ""
-    plain = Options(step=(step,))
+    plain = Options(step=(step,), order=order)
     told = replace(plain, multiplier=has)
     for chosen in (replace(told, conserved=True), told, plain):
         try:
-            made = program(problem, record, chosen)
-            break
-        except Refused as error:  # none is found, or none is written for this state
+            return program(problem, record, chosen), why
+        except (Refused, ImportError) as error:  # or none is written for this state
             why = why or str(error)
             if chosen == plain:
                 raise
-    return Emitted.of(made, problem, record, step, one_degree(problem, record), why)
+    raise AssertionError("the last is made or raises")
 
 
 def motion_of_many(problem: Problem, record: Derivation) -> Emitted:
@@ -442,6 +453,7 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
     """The program of a problem; in its principal frame that is the program of another problem."""
     from .code.assemble import assemble
     from .code.events import watched
+    from .code.excluded_options import require_written
 
     events = watched(problem.name, problem.events, options) if options else ()
     if problem.torus:
@@ -455,5 +467,9 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
         )
     if options is None or options.frame == "given":
         kept = conserved_quantities(problem, record) if options and options.conserved else None
-        return assemble(record, problem.group, options, kept=kept, events=events)
+        stepped = None
+        if options and "discrete" in options.step:
+            require_written(record, problem.group, options)
+            stepped = discrete(problem)
+        return assemble(record, problem.group, options, kept=kept, events=events, discrete=stepped)
     return assemble(record, problem.group, options, walk(principal(problem)))

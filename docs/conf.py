@@ -17,9 +17,9 @@ include_patterns = ["*.md", "docs/*.md", "docs/*/*.md"]
 
 ROOT = Path(__file__).parents[1]
 CONTENTS = {
-    "Use": "tutorial commands problem-file potentials/* lagrangian dirichlet fluid zeitlin "
-    "symmetries integrals reduction equilibria motion ensembles plot notes code options steps "
-    "discrete build python sympy record",
+    "Use": "tutorial playground commands problem-file potentials/* lagrangian dirichlet fluid "
+    "zeitlin symmetries integrals reduction equilibria motion ensembles plot notes code options "
+    "steps discrete build python sympy record",
     "Trust": "trust performance strangers ../SECURITY paper",
     "Inside": "architecture extending reference ../CONTRIBUTING ../CHANGELOG",
 }

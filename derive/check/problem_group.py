@@ -14,7 +14,7 @@ from ..algebra.structure import rank
 from ..record.contract import ANY_GROUP
 from ..record.record import RecordError
 from ..record.shape import IDENTIFIER
-from .torus.torus_model import group_of_torus, torus_of
+from .torus.torus_group import group_of_torus, torus_of
 
 
 def group_of(problem: Mapping[str, Any]) -> Group | None:

@@ -31,8 +31,7 @@ from .program import EmittedFunction, Framing, KeptByGauss, LoweringError, Progr
 from .reader import RecordReader
 from .rewrite import reachable
 from .schedule import Scheduler, frontier
-from .step import discrete_step
-from .step.kept_by_gauss import kept_by_gauss
+from .step.discrete_step import STEPPING, Lowered, lowered
 from .titles import titles
 
 Place = tuple[str, tuple[str, int]]
@@ -59,12 +58,13 @@ def assemble(
     framed: Derivation | None = None,
     kept: Mapping[str, Tree] | None = None,
     events: Sequence[Event] = (),
+    discrete: Derivation | None = None,
 ) -> Program:
     """The program of a record; ``LoweringError`` when the record has no solved equations.
 
     ``framed``: the record of the problem in its principal frame, if the code is to be in that.
     ``kept``: what the motion keeps, by names, as :mod:`derive.code.kept` takes it.
-    ``events``: what is watched on a motion.
+    ``events``: what is watched on a motion. ``discrete``: its record, where its step is wanted.
     """
     chosen = options or Options()
     require_written(d, group, chosen)
@@ -73,7 +73,7 @@ def assemble(
     if framed:
         old = Lowering(d, group, chosen, lowering.graph).reader
         frame = PrincipalFrame(framed.problem["frame"], old, chosen.attitude == "quaternion")
-    wanted, momenta = _of_state(lowering, chosen, kept or {}, events)
+    wanted, momenta, stepped = _of_state(lowering, chosen, kept or {}, events, discrete)
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
         wanted |= _inertia(frame.old) | frame_changes(frame, lowering.reader)
@@ -81,7 +81,7 @@ def assemble(
     checks += frame.regular if frame else []
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
     parameters = _used_parameters(d, found, chosen)
-    given = wanted, checks, parameters, frame, momenta
+    given = wanted, checks, parameters, frame, momenta, stepped
     functions, constants, framing = _functions(lowering, chosen, *given)
     return Program(
         d.name,
@@ -106,35 +106,39 @@ def assemble(
         tuple(kept or ()),
         table(events),
         _kept_by_gauss(lowering, chosen, functions, len(parameters), tuple(kept or ())),
-        momenta.names if momenta else (),
-        momenta.size if momenta else 0,
+        *((momenta.names, momenta.size) if momenta else ((), 0)),
         mass_fault=lowering.inverses.mass_fault,
-        discrete=discrete_step.discrete_step(d, group, chosen),
+        discrete=stepped.step if stepped else None,
         blocks=matrices(lowering.reader.space),
         matrix_state=door.names if (door := matrix_state(lowering.reader.space)) else (),
     )
 
 
 def _of_state(
-    lowering: Lowering, chosen: Options, kept: Mapping[str, Tree], events: Sequence[Event]
-) -> tuple[dict[str, list[Node]], MomentumState | None]:
-    """Name → outputs of the functions of the state, and the state with momenta."""
+    lowering: Lowering,
+    chosen: Options,
+    kept: Mapping[str, Tree],
+    events: Sequence[Event],
+    discrete: Derivation | None,
+) -> tuple[dict[str, list[Node]], MomentumState | None, Lowered | None]:
+    """Name → outputs of the functions of the state; the state with momenta; the discrete step."""
     wanted = _outputs(lowering, chosen)
     group = lowering.reader.group
     momenta = momentum_state(lowering, group, chosen) if chosen.momenta else None
     wanted |= _added(lowering, momenta, kept)
     if events:
         wanted["events"] = values(lowering, events)
-    return wanted, momenta
+    stepped = lowered(lowering, discrete) if discrete else None
+    if stepped:
+        wanted |= {x: factored(lowering.graph, y) for x, y in stepped.functions.items()}
+    return wanted, momenta, stepped
 
 
 def _added(
     lowering: Lowering, momenta: MomentumState | None, kept: Mapping[str, Tree]
 ) -> dict[str, list[Node]]:
-    """Name → outputs of the functions in momenta, of θ, of the discrete step, and of what is
-    kept."""
+    """Name → outputs of the functions in momenta, of θ, and of what is kept."""
     found = {**momenta.wanted} if momenta else {}
-    found |= discrete_step.functions(lowering)
     if lowering.reader.options.multiplier:
         found["multiplier"] = [lowering.reader.number("θ")]
     if kept:
@@ -149,8 +153,12 @@ def _kept_by_gauss(
     parameters: int,
     conserved: Sequence[str],
 ) -> KeptByGauss | None:
-    """What the step keeps of which that is asked for."""
+    """What the step keeps of which that is asked for; not looked for where NumPy is not there."""
     if "gauss" not in chosen.step:
+        return None
+    try:
+        from .step.kept_by_gauss import kept_by_gauss
+    except ImportError:
         return None
     sizes = {"p": parameters, "u": len(lowering.reader.inputs)}
     return kept_by_gauss(functions, lowering.reader.space, sizes, conserved)
@@ -170,6 +178,7 @@ def _functions(
     parameters: Sequence[str],
     frame: PrincipalFrame | None,
     momenta: MomentumState | None,
+    stepped: Lowered | None,
 ) -> tuple[dict[str, EmittedFunction], list[str], Framing | None]:
     """The program's functions by name, the names of the entries of ``k``, and the functions that
     find the principal frame where there is one."""
@@ -179,7 +188,8 @@ def _functions(
     for kind, members in (("state", state), ("input", inputs)):
         for name in members:
             names.claim(name, f"{kind} {name}")
-    scheduler = Scheduler(names, _equations(lowering.record) | TEXTS | LABELS)
+    texts = _equations(lowering.record) | TEXTS | LABELS
+    scheduler = Scheduler(names, texts | (_equations(stepped.record) if stepped else {}))
     fixed = frontier(x for name in wanted if name != "inertia" for x in wanted[name])
     leaves = [lowering.reader.leaf(x, "parameter") for x in parameters]
     from_p = _leaf_places(names, leaves, "p")
@@ -191,8 +201,12 @@ def _functions(
     moving = _places(lowering.reader, names, state, inputs)
     kept = {x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))}
     by_momenta = momenta.places(moving, names) if momenta else {}
+    of_step = {**moving}
+    for array, read_by_it in (stepped.leaves if stepped else {}).items():
+        of_step |= _leaf_places(names, read_by_it, array)
     for name, nodes in wanted.items():
         own = by_momenta if name in OF_Y else moving
+        own = of_step if name.startswith(STEPPING) else own
         places = from_p if name == "inertia" else {**own, **kept}
         functions[name] = scheduler.function(nodes, places)
     functions["rhs"] = replace(functions["rhs"], titles=titles(lowering.reader))

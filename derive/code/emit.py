@@ -25,7 +25,7 @@ from .options import Options
 from .printers import SourcePrinter
 from .program import TOLERANCE, Program
 from .request import EmissionRequest
-from .signatures import functions
+from .signatures import ARRAYS, functions
 from .statements import Statements, comment
 from .step.explicit_fields import METHODS
 from .step.step_numbers import IN_FLOAT, steps
@@ -145,6 +145,7 @@ def _fields(
     if p.framing:
         sizes["axes"] = sum(n + n * n for n, _ in p.framing.matrices)
         sizes["frame"] = len(p.framing.numbers.outputs)
+    sizes |= {x: p.discrete.sizes[y] for x, y in ARRAYS.items() if p.discrete}
     written = Statements(language, real, sizes, prefix)
     called = {x for f in p.all_functions() for x in f.calls()}
     parameters = [_parameter(x) for x in p.parameters]

@@ -130,7 +130,7 @@ _LANGUAGES = (
         {"double": "f64", "float": "f32"},
         bundle="let {name} = {text};",
         batch="{array}[{index}][s]",
-        steps=("gauss", "rk4", "vern9"),
+        steps=("gauss", "rk4", "vern9", "discrete"),
     ),
     TargetLanguage(
         "julia",
@@ -150,7 +150,7 @@ _LANGUAGES = (
         "const {name} = {text};",
         SLASH,
         {"double": "Float64Array", "float": "Float32Array"},
-        steps=("gauss", "rk4", "vern9"),
+        steps=("gauss", "rk4", "vern9", "discrete"),
     ),
 )
 LANGUAGES = {x.name: x for x in _LANGUAGES}

@@ -4,7 +4,8 @@ Every language loops over them.  Arrays are x, the state; k, the constants; p, t
 the inputs; y, the state with momenta in place of the velocity; z, that with a matrix in place of
 the quaternion; dx and dy, the rates; D, a matrix by rows: 2N × 2N, or with a column for each input
 or parameter, N the dimension of the group; out, of the size of what is taken, or as its function
-says.
+says; of a discrete step q, h times its momentum, then h, v, its unknowns, b, what is computed
+before these, and s, coordinates of what it turns by.
 """
 
 from __future__ import annotations
@@ -64,6 +65,16 @@ def _matrix(*columns: str) -> Argument:
     return Argument("D", ("2", "ALGEBRA", *columns))
 
 
+ARRAYS = {"q": "LOADED", "b": "BEGUN", "v": "UNKNOWNS", "s": "TURNS"}
+"""The arrays of a discrete step and their sizes."""
+
+Q, B, V, S = (Argument(name, (size,)) for name, size in ARRAYS.items())
+
+
+def _out(*sizes: str) -> Argument:
+    return Argument("out", sizes)
+
+
 GIVEN, PRINCIPAL = "the frame of the parameters", "the principal frame that k holds"
 THERE, BACK = f"taken from {GIVEN} to {PRINCIPAL}", f"taken from {PRINCIPAL} to {GIVEN}"
 SIGNATURES = (
@@ -83,18 +94,6 @@ SIGNATURES = (
         (T, X, K),
         (Argument("out", ("CONSERVED",)),),
         "what the motion keeps where no input acts, one number for each of its names",
-    ),
-    Signature(
-        "moments",
-        (K,),
-        (Argument("out", ("MOMENTS",)),),
-        "the moments of the body and, where it is there, of its damping, by rows",
-    ),
-    Signature(
-        "from_rest",
-        (T, X, K, U),
-        (Argument("out", ("ALGEBRA",)),),
-        "the rate of the velocity of the body at rest at x",
     ),
     Signature(
         "events",
@@ -154,6 +153,41 @@ SIGNATURES = (
     ),
     Signature("poisson", (T, Y, K), (TENSOR,), "the Poisson tensor at y, by rows"),
     Signature(
+        "step_momentum", (X, K), (_out("MOMENTA"),), "the momentum at x, that a discrete step takes"
+    ),
+    Signature(
+        "step_force",
+        (T, X, K, U),
+        (_out("MOMENTA"),),
+        "what the forces add to it in a unit of time",
+    ),
+    Signature("step_velocity", (X, K, Q), (_out("ALGEBRA"),), "the velocity of a momentum q"),
+    Signature(
+        "step_guess",
+        (X, K, Q),
+        (_out("TURNS"),),
+        "about what a discrete step of h times the momentum, q, turns by",
+    ),
+    Signature(
+        "step_begin", (X, K, Q), (_out("BEGUN"),), "what a discrete step needs of x and q alone"
+    ),
+    Signature(
+        "step_newton",
+        (X, K, B, Q, V),
+        (_out("CORRECTED"),),
+        "Newton's step for a discrete step v: what is to be taken away, and the determinant",
+    ),
+    Signature(
+        "step_turn", (V, S), (_out("UNKNOWNS"),), "a discrete step v and a turn by s after it"
+    ),
+    Signature("step_turn_little", (V, S), (_out("UNKNOWNS"),), "the same for an s of at most 1e-8"),
+    Signature(
+        "step_end",
+        (X, K, Q, V),
+        (_out("MOVED"),),
+        "what a discrete step v adds to the element of x, and h times the momentum after it",
+    ),
+    Signature(
         "inertia",
         (P,),
         (Argument("I", ("6",)),),
@@ -180,8 +214,8 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         "EVENTS": len(p.events),
         "ALGEBRA": p.dimension,
         "REDUCED": p.reduced,
+        **(p.discrete.sizes if p.discrete else {}),
         "MATRIX": len(p.matrix_state),
-        "MOMENTS": len(p.functions["moments"].outputs) if "moments" in p.functions else 0,
         "2": 2,
         "6": 6,
     }

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from .. import __version__
 from ..language.near_names import did_you_mean, near_name
-from ..plot.pictures import told_kinds
+from ..plot.kinds_told import told_kinds
 from ..views.rendering import FORMATS
 from .guard import one_line
 
@@ -141,14 +141,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
         for name, what in ALLOWED.items():
             about = f"warn of a negative {what} instead of refusing it"
             one.add_argument(f"--allow-negative-{name}", action="store_true", help=about)
-    plot = command("plot")
-    about = "a run or an ensemble: .npz, .csv or .parquet; for precision several, or a table"
-    plot.add_argument("run_file", metavar="RUN", nargs="+", help=about)
-    plot.add_argument("--kind", default="", help=told_kinds())
-    about = "a column of an ensemble that is drawn; repeated"
-    plot.add_argument("--column", metavar="NAME", action="append", default=[], help=about)
-    plot.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
-    plot.add_argument("--out", metavar="FILE", required=True, help="FILE.svg, .pdf or .png")
+    add_picture_options(command("plot"))
     paper = command("paper")
     paper.add_argument("--format", choices=("text", "json"), default="text")
     paper.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
@@ -159,8 +152,22 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
     return top
 
 
+def add_picture_options(plot: argparse.ArgumentParser) -> None:
+    """Add the options of ``plot``: of what, which picture, to where."""
+    from ..views.language import LANGUAGES
+
+    about = "a run or an ensemble: .npz, .csv or .parquet; for precision several, or a table"
+    plot.add_argument("run_file", metavar="RUN", nargs="+", help=about)
+    plot.add_argument("--kind", default="", help=told_kinds())
+    about = "a column of an ensemble that is drawn; repeated"
+    plot.add_argument("--column", metavar="NAME", action="append", default=[], help=about)
+    plot.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
+    plot.add_argument("--out", metavar="FILE", required=True, help="FILE.svg, .pdf or .png")
+
+
 def add_motion_options(simulated: argparse.ArgumentParser) -> None:
     """Add the options of ``simulate``: how long, how exact, from where, and what is kept."""
+    from ..code.options import DEPENDENT
     from ..views.language import LANGUAGES
 
     simulated.add_argument("problem", help="a ready-made name or a .toml file")
@@ -170,6 +177,8 @@ def add_motion_options(simulated: argparse.ArgumentParser) -> None:
     simulated.add_argument("--dt", type=real, metavar="DT", help="steps of this size instead")
     about = "how the motion is followed: gauss (the default), vern9, or, with --dt, rk4 or discrete"
     simulated.add_argument("--step", dest="method", metavar="STEP", help=about)
+    values, about = DEPENDENT["order"]
+    simulated.add_argument("--order", choices=values, help=about)
     about = "a number of the state, a parameter or an input, as zeta_3=2; repeated"
     simulated.add_argument("--set", action="append", type=number, metavar="NAME=NUMBER", help=about)
     about = "such numbers from a .toml file, or the end of a run"
@@ -287,7 +296,9 @@ def add_reading_options(
     about = "a picture of the motion of each problem for a time T, beside FILE and shown in it"
     notes.add_argument("--picture", metavar="T", type=float, help=f"{about} (needs matplotlib)")
     for one in (*walks, *searched, notes):
-        one.add_argument("--fragment", action="store_true", help="LaTeX to \\input: no preamble")
+        one.add_argument(
+            "--fragment", action="store_true", help="LaTeX to \\input, HTML to put into a page"
+        )
         one.add_argument("--lang", choices=LANGUAGES, default="en", help="English or French")
         for option, name in (("--notation", "transpose"), ("--hat", "hat")):
             values, meaning = NOTATIONS[name]

@@ -237,7 +237,7 @@ def command_notes(args: argparse.Namespace) -> int:
     walked = discrete_walk if args.discrete else derive
     walks = list(with_progress((walked(name) for name in names), len(names), "walks"))
     records = [record for _, record in walks]
-    pages = {} if args.motion is None else pages_of_motions(args, walks)
+    pages = {} if args.motion is None else pages_of_motions(args, out, walks)
     pictures = {} if args.picture is None else pictures_of_motions(args, out, walks)
     moving, drawn = (
         dict(zip((d.name for d in records), files, strict=False)) for files in (pages, pictures)
@@ -273,17 +273,18 @@ def pdf_of(tex: str, out: Path, pictures: Mapping[str, bytes]) -> bytes:
 
 
 def pages_of_motions(
-    args: argparse.Namespace, walks: Sequence[tuple[Problem, Derivation]]
+    args: argparse.Namespace, out: Path, walks: Sequence[tuple[Problem, Derivation]]
 ) -> dict[str, str]:
     """File → the page in which the body of a problem moves, one for each; ``Refused`` where one
     has no motion."""
     from ..motion.method import Method
     from .simulating import moving_page
 
-    if args.discrete or not args.out.endswith(".html"):
+    if args.discrete or out.suffix != ".html":
         raise UsageError("--motion: pages are linked from notes FILE.html, without --discrete")
     chosen: tuple[Any, ...] = args.motion, Method(), args.lang
-    return {f"{x[1].name}_motion.html": moving_page(*x, *chosen, given={}) for x in walks}
+    names = beside(out, walks, ".html")
+    return {name: moving_page(*x, *chosen, given={}) for name, x in zip(names, walks, strict=True)}
 
 
 def pictures_of_motions(
@@ -296,11 +297,16 @@ def pictures_of_motions(
     if args.discrete or args.fragment or out.suffix == ".sty":
         raise UsageError("--picture: notes have pictures without --discrete, --fragment and .sty")
     ending = ".svg" if out.suffix == ".html" else ".pdf"
-    names = [f"{record.name}_motion{ending}" for _, record in walks]
     return {
         name: picture_of(*x, args.picture, name, args.lang)
-        for name, x in zip(names, walks, strict=True)
+        for name, x in zip(beside(out, walks, ending), walks, strict=True)
     }
+
+
+def beside(out: Path, walks: Sequence[tuple[Problem, Derivation]], ending: str) -> list[str]:
+    """The names of the files of motions beside the notes ``out``, which begin as its own does:
+    other notes in the same folder, as in another language, have others."""
+    return [f"{out.stem}_{record.name}_motion{ending}" for _, record in walks]
 
 
 def warn_of_letters(records: Sequence[Derivation]) -> None:
@@ -349,7 +355,8 @@ def command_simulate(args: argparse.Namespace) -> int:
 def command_plot(args: argparse.Namespace) -> int:
     """Draw a run of a motion, or several: .svg, .pdf or .png (needs matplotlib)."""
     from ..motion.ensemble_files import read_either
-    from ..plot.pictures import PRECISION, plot
+    from ..plot.kinds_told import PRECISION
+    from ..plot.pictures import plot
     from ..plot.plot_sheet import ending
     from ..plot.precision import plot_precision
     from ..views.language import language
@@ -471,6 +478,9 @@ def _discard_stdout() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
+BROUGHT = {"numpy": "NumPy", "sympy": "SymPy"}
+"""What comes with the package, though not in a browser, and is loaded where it is needed."""
+
 ABOUT = """Equations of motion of bodies moved by Lie groups: derived step by step, checked,
 shown as text, LaTeX or a web page, and emitted as code."""
 
@@ -502,6 +512,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
     except StoppedError as error:
         print(f"derive: {one_line(error)}", file=sys.stderr)
+        return 2
+    except ModuleNotFoundError as error:
+        if error.name not in BROUGHT:
+            raise
+        print(f"derive: this needs {BROUGHT[error.name]}, which is not here", file=sys.stderr)
         return 2
     except (MemoryError, RecursionError) as error:
         what = "out of memory" if isinstance(error, MemoryError) else "nested too deeply"

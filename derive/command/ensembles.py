@@ -30,7 +30,7 @@ def plan_of(args: argparse.Namespace, start: dict[str, Any]) -> Plan:
     """The ensemble that a command asks for; ``MotionError`` for options that are not for one."""
     if args.html:
         raise MotionError("--html shows one motion: leave out --ensemble")
-    require_steps_of_an_ensemble(args.method, args.dt)
+    require_steps_of_an_ensemble(args.method, args.dt, args.order)
     chosen = {} if args.tol is None else {"tol": args.tol}
     points = 1 if args.points is None else args.points
     varied = tuple(Varied(*x) for x in args.vary or ())

@@ -35,6 +35,9 @@ ROUNDING = 1e-15
 MANY, LARGEST = 60, 8
 """Of a state of more than so many numbers only so many are told, those that are largest."""
 
+TOLD, ALL_EVENTS = 10, "all are in the file of --out, and run.events in Python"
+"""So many times of an event are told; where there are more."""
+
 
 def page_of(args: argparse.Namespace, problem: Problem, record: Derivation) -> str:
     """The page that a command asks for; ``Refused`` where there is none."""
@@ -65,7 +68,7 @@ def picture_of(problem: Problem, record: Derivation, t: float, name: str, lang: 
 def method_of(args: argparse.Namespace) -> Method:
     """The step, and its size or tolerance."""
     chosen = {} if args.tol is None else {"tol": args.tol}
-    return Method(args.method or STEPS[0], args.dt, **chosen)
+    return Method(args.method or STEPS[0], args.dt, **chosen, order=args.order or "")
 
 
 def start_of(args: argparse.Namespace) -> dict[str, Any]:
@@ -84,7 +87,7 @@ def run_of(args: argparse.Namespace, problem: Problem, record: Derivation) -> Ru
         format_of(args.out)  # refused before the work
     method = method_of(args)
     return run(
-        motion_of(problem, record, method.step),
+        motion_of(problem, record, method.step, method.order),
         problem,
         method,
         args.t,
@@ -124,10 +127,13 @@ def command_simulate(
 def summary(run: Run) -> list[str]:
     """What a run says of itself, in lines."""
     name, method = run.facts["problem"], run.facts["method"]
-    span, how = f"{len(run.t)} instants, t = 0 … {run.t[-1]:g}", run.facts["language"]
+    count, how = len(run.t), run.facts["language"]
+    span = f"{count} instant{'s' * (count != 1)}, t = 0 … {run.t[-1]:g}"
     lines = [f"{name}: {span}, by {method}, in {how}"]
     for kind in ("energy", "conserved"):
         for label, column in run.of_kind(kind).items():
+            if label in run.facts.get("vanishing", ()):
+                continue
             change = float(np.abs(column - column[0]).max())
             first = at_first(run, label)
             lines.append(f"  {label}: {first:.9g} at first, changed by at most {change:.1e}")
@@ -152,16 +158,18 @@ def at_first(run: Run, label: str) -> float:
 
 
 def events(run: Run) -> list[str]:
-    """What happened, a line each event: how often, and when, the first three times and the last."""
+    """What happened, a line each event: how often, and when; of more than TOLD times the first
+    three and the last."""
     times: dict[str, list[float]] = {}
     for one in run.events:
         times.setdefault(one.name, []).append(one.t)
     lines = []
     for name, found in times.items():
         shown = [f"{t:.12g}" for t in found]
-        shown = shown if len(shown) <= 4 else [*shown[:3], "…", shown[-1]]
-        often = "once" if len(found) == 1 else f"{len(found)} times"
-        lines.append(f"  event {name}: {often}, at t = {', '.join(shown)}")
+        often, rest = "once" if len(found) == 1 else f"{len(found)} times", ""
+        if len(shown) > TOLD:
+            shown, rest = [*shown[:3], "…", shown[-1]], f" ({ALL_EVENTS})"
+        lines.append(f"  event {name}: {often}, at t = {', '.join(shown)}{rest}")
     return lines
 
 

@@ -5,18 +5,28 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from itertools import combinations
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .camera import FLAT, Segment, View
 from .drawing import Point
 from .drawn_body import ORIGIN, UNITS, BodyPart, Numbers, Vector, plus, scaled
-from .meshes import Mesh
 from .shapes import Curve, Shape
+
+if TYPE_CHECKING:
+    from .drawn_body import DrawnSolid
+    from .meshes import Mesh
 
 FAR, NEAR, PLACED = 1.9, 0.35, 1.5
 """Distances in sizes of the body: an anchor beyond FAR or within NEAR is drawn at PLACED."""
 
-Body = Shape | Mesh
+
+def _solid(s: DrawnSolid, sight: Vector) -> Shape | Mesh:
+    """A solid seen along ``sight``; a mesh alone needs NumPy."""
+    if s.kind != "mesh":
+        return Shape(s, sight)
+    from .meshes import Mesh
+
+    return Mesh(s, sight)
 
 
 class Panel:
@@ -49,9 +59,7 @@ class Panel:
     def look(self, view: View) -> None:
         """Choose a view, and compute the curves of the solids in it."""
         self.view, sight = view, scaled(self.size, view.towards)
-        self.bodies: list[Body] = [
-            Mesh(s, sight) if s.kind == "mesh" else Shape(s, sight) for s in self.part.solids
-        ]
+        self.bodies = [_solid(s, sight) for s in self.part.solids]
         self.curves: list[list[Curve]] = []
         if not view.flat:
             self.curves = [list(body.curves()) for body in self.bodies]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .drawing import (
     Dot,
@@ -21,9 +21,12 @@ from .drawing import (
     zigzag,
 )
 from .drawn_body import ORIGIN, Vector, scaled
-from .panels import Body, Panel
+from .panels import Panel
 from .placing import Wish
 from .shapes import Shape
+
+if TYPE_CHECKING:
+    from .meshes import Mesh
 
 APART = 2.7
 """Marks on paper nearer than this, in millimetres, are drawn as one."""
@@ -190,7 +193,7 @@ def _force(panel: Panel, sheet: Sheet, force: Mapping[str, Any]) -> None:
 
 
 def _runs(
-    points: Sequence[Vector], bodies: Sequence[Body]
+    points: Sequence[Vector], bodies: Sequence[Shape | Mesh]
 ) -> Iterator[tuple[bool, Sequence[Vector]]]:
     """A curve cut where it goes out of sight or comes back: (hidden, points) for each piece."""
     hidden = [body.hides(points) for body in bodies]

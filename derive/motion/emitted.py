@@ -26,9 +26,9 @@ from ..record.record import Derivation
 from ..schema.body_kinds import GivenBody
 from ..schema.followed import Event
 from .body_outline import outline
-from .kept_words import in_order
+from .emitted_code import EmittedCode, in_si
 from .motion_in_python import MotionInPython
-from .run import Array, Column
+from .run import Array
 from .start import MotionError
 from .trajectory import Moved
 
@@ -45,20 +45,18 @@ class OneDegree:
 
 
 @dataclass(frozen=True)
-class Emitted:
-    """A program, its record, and a step in time that is emitted with it, which stops at the
-    ``events``; are the numbers of the problem in SI?
+class Emitted(EmittedCode):
+    """A step in time that is emitted with a program, of an ``order`` if it is the discrete one,
+    which stops at the ``events``.
 
     ``facts``: what a run says of the problem.
     """
 
-    program: Program
-    record: Derivation
     step: str
     facts: Mapping[str, Any]
-    in_si: bool = False
     events: tuple[Event, ...] = ()
     left: OneDegree | None = None
+    order: str = ""
 
     @classmethod
     def of(
@@ -69,6 +67,7 @@ class Emitted:
         step: str,
         left: OneDegree | None = None,
         unsought: str = "",
+        order: str = "",
     ) -> Emitted:
         """That of the program of a problem; ``left``: what its symmetries leave, if it is one
         degree of freedom; ``unsought``: why it has none of what the motion keeps but the energy.
@@ -81,20 +80,18 @@ class Emitted:
             "unsought": unsought,
             "filled": isinstance(problem.body, GivenBody) and bool(problem.body.solids),
         }
-        units = any(x.unit for x in problem.parameters.values())
-        in_si = units and problem.lagrangian is None
-        return cls(program, record, step, facts, in_si, problem.events, left)
+        return cls(program, record, in_si(problem), step, facts, problem.events, left, order)
 
     @property
-    def name(self) -> str:
-        """The prefix of the emitted functions."""
-        return self.program.name
+    def options(self) -> Options:
+        """Those of its step."""
+        return Options(step=(self.step,), order=self.order)
 
     @cached_property
     def python(self) -> ModuleType:
         """The emitted module of Python."""
-        module, steps = ModuleType(self.name), Options(step=(self.step,))
-        (text,) = emit(self.program, self.record, ("python",), self.name, steps).values()
+        module = ModuleType(self.name)
+        (text,) = emit(self.program, self.record, ("python",), self.name, self.options).values()
         exec(compile(text, f"{self.name}.py", "exec"), module.__dict__)  # our own templates
         return module
 
@@ -103,7 +100,7 @@ class Emitted:
         """The emitted C as a library, whose iterations end at rounding, as those of the Python;
         ``CompileError`` where there is no compiler."""
         name = self.name
-        files = emit(self.program, self.record, ("c",), name, Options(step=(self.step,)))
+        files = emit(self.program, self.record, ("c",), name, self.options)
         files["steps.c"] = binding(name, (self.step,), FIXED, events=bool(self.events))
         to_rounding = f"-D{name}_ENOUGH=0"
         return loaded(CSource(name, tuple(files.items()), None, (*FLAGS, to_rounding)))
@@ -167,38 +164,25 @@ class Emitted:
             return {}
         return {"entry": suffixed("A", i, j), "u": u.tolist(), "V": V.tolist()}
 
-    @property
-    def _kept(self) -> list[int]:
-        """The places of what is conserved beside the energy, which has a column of its own."""
-        names = self.program.conserved
-        return [k for k in in_order(names) if names[k] != "energy"]
-
-    def columns(self) -> tuple[Column, ...]:
-        """The columns of a run: time, state, then what :meth:`table` adds."""
-        has = self.program.functions
-        names = [("t", "time"), *((x, "state") for x in self.program.state), ("energy", "energy")]
-        names += [(self.program.conserved[k], "conserved") for k in self._kept]
-        names += [("defect", "defect")] * ("defect" in has)
-        names += [("multiplier", "multiplier")] * ("multiplier" in has)
-        return tuple(Column(x, kind, self._unit(x, kind)) for x, kind in names)
+    def vanishing(self, k: Array) -> list[str]:
+        """What the motion keeps that is 0 in every state for these constants, by name, as what
+        gravity gives where there is none: 0 in a state without any symmetry."""
+        if not self.kept:
+            return []
+        x = np.cos(1.0 + np.arange(len(self.program.state)))
+        with np.errstate(all="ignore"):
+            found = self.python.conserved(1.0, x, k)[self.kept]
+        return [self.program.conserved[j] for j, v in zip(self.kept, found, strict=True) if v == 0]
 
     def table(self, t: Array, x: Array, k: Array, u: Array) -> Array:
         """The rows of a run at some times and states, (instants, columns)."""
         code, has = self.python, self.program.functions
         parts = [t[:, None], x, code.energy(t, x, k)[:, None]]
         with np.errstate(all="ignore"):
-            if self._kept:
-                parts.append(code.conserved(t, x, k)[:, self._kept])
+            if self.kept:
+                parts.append(code.conserved(t, x, k)[:, self.kept])
             if "defect" in has:
                 parts.append(code.defect(x)[:, None])
             if "multiplier" in has:
                 parts.append(code.multiplier(t, x, k, u)[:, None])
         return np.concatenate(parts, axis=1)
-
-    def _unit(self, name: str, kind: str) -> str:
-        if kind == "time":
-            return "s" if self.in_si else ""
-        if not self.in_si or kind not in ("state", "energy", "multiplier"):
-            return ""
-        by_letter = {"T": "m", "z": "1/s", "w": "m/s"}
-        return by_letter.get(name[0], "") if kind == "state" else "J"

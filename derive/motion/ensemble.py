@@ -26,11 +26,13 @@ STEP = "vern9"
 
 
 def require_steps_of_an_ensemble(
-    step: str | None, dt: float | None, compiled: bool | None = None
+    step: str | None, dt: float | None, order: object = "", compiled: bool | None = None
 ) -> None:
     """``MotionError`` for a method that is not that of ensembles."""
     if step and step != STEP:
         raise MotionError(f"an ensemble is followed by {STEP}, not by {step[:40]}: leave it out")
+    if order:
+        raise MotionError(f"--order is that of --step discrete, not of {STEP}: leave it out")
     if dt is not None:
         raise MotionError("the motions of an ensemble have steps of their own: leave out the size")
     if compiled is False:

@@ -23,7 +23,7 @@ import numpy as np
 from ..native.motion_in_c import AT_EVENT, Integers
 from .ensemble import Ensemble, Part
 from .run import Array, Run
-from .run_files import FORMATS, RunFileError, pyarrow
+from .run_files import COMMENT, FORMATS, RunFileError, commented, pyarrow
 from .run_files import read as read_run
 
 MARK = "derive ensemble"
@@ -118,7 +118,7 @@ class _Table:
 class _Csv(_Table):
     def __init__(self, file: IO[bytes], like: Ensemble):
         super().__init__(file, like)
-        file.write(f"# {_head(like)}\n{','.join(self.names)}\n".encode())
+        file.write(f"{','.join(self.names)}\n{COMMENT}{_head(like)}\n".encode())
 
     def add(self, part: Part) -> None:
         columns = [x.tolist() for x in self.rows(part)]
@@ -237,8 +237,7 @@ def _mapped(path: Path, name: str) -> Array:
 
 def _from_csv(path: Path) -> Ensemble:
     with path.open(encoding="utf-8") as file:
-        told = _told(file.readline().removeprefix("# "))
-        file.readline()
+        told = _told(commented(file.readline(), file.readline()))
         return _of_rows(told, np.loadtxt(file, delimiter=",", ndmin=2))
 
 

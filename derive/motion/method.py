@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..code.languages import C
+from ..code.options import DEPENDENT
 from ..code.step.step_numbers import FIXED
 from ..language.limits import STEPS_OF_A_MOTION
 from ..language.near_names import did_you_mean, near_name
@@ -18,13 +19,16 @@ STEPS = C.steps
 """The steps that a motion can be followed by, the first one by default: those of C, which Python
 has, too."""
 
+ORDERS = DEPENDENT["order"][0]
+"""The orders that the discrete step can have, the first one by default."""
+
 LEAST_TOLERANCE, TOLERANCE, MOST_INSTANTS = 1e-15, 1e-9, 10_000_000
 
 
 @dataclass(frozen=True)
 class Method:
     """A step by name, in steps of size ``dt`` or, where that is ``None``, of their own for a
-    tolerance.
+    tolerance; ``order``: of the discrete step alone, of ORDERS.
 
     ``MotionError`` for a step that there is not, a size or a tolerance that is no use.
     """
@@ -32,11 +36,20 @@ class Method:
     step: str = STEPS[0]
     dt: float | None = None
     tol: float = TOLERANCE
+    order: str = ""
 
     def __post_init__(self) -> None:
         if self.step not in STEPS:
             near = did_you_mean(near_name(self.step, [*STEPS]), after=" ")
             raise MotionError(f"no step {self.step[:40]!r}; {near}there is {', '.join(STEPS)}")
+        if self.order and self.step != "discrete":
+            raise MotionError(
+                f"--order is that of --step discrete, not of {self.step}: leave it out"
+            )
+        if self.order not in ("", *ORDERS):
+            raise MotionError(
+                f"the order must be one of {', '.join(ORDERS)}, not {self.order[:40]}"
+            )
         if self.dt is None and self.step in FIXED:
             raise MotionError(f"{self.step} has steps of one size: give --dt")
         if self.dt is not None and not (math.isfinite(self.dt) and self.dt > 0):
@@ -48,7 +61,10 @@ class Method:
             )
 
     def __str__(self) -> str:
-        return f"{self.step}, " + (f"dt {self.dt:g}" if self.dt else f"tol {self.tol:g}")
+        step = self.step
+        if step == "discrete":
+            step += f" of order {self.order or ORDERS[0]}"
+        return f"{step}, " + (f"dt {self.dt:g}" if self.dt else f"tol {self.tol:g}")
 
 
 def instants(method: Method, duration: float, points: int) -> Array:

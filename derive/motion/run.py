@@ -8,19 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from .emitted_code import KINDS, Column
+
+__all__ = ("KINDS", "Array", "Column", "Happening", "Run")
+
 Array = np.ndarray[Any, np.dtype[np.float64]]
-
-KINDS = ("time", "state", "energy", "conserved", "defect", "multiplier")
-"""What a column can be, in the order of a table."""
-
-
-@dataclass(frozen=True)
-class Column:
-    """A column of a run: its name, what it is (of KINDS), its unit, empty where there is none."""
-
-    name: str
-    kind: str
-    unit: str = ""
 
 
 @dataclass(frozen=True)
@@ -47,9 +39,9 @@ class Run:
     JSON has it: the name of the problem, its title, group and hash, ``unsought`` (why nothing but
     the energy stands as what is kept, if so), ``filled`` (does the body fill a solid),
     ``parameters`` (name → number), ``method`` (the step, its tolerance or size), ``language`` (in
-    which it was run, C or Python), ``evaluations`` (of the rate), ``ended`` (empty, or why it
-    stopped too soon), ``events`` (those that happened), ``body`` and ``potential`` (what pictures
-    need).
+    which it was run, C or Python), ``evaluations`` (of the rate), ``vanishing`` (what it keeps that
+    is 0 in any state with these parameters), ``ended`` (empty, or why it stopped too soon),
+    ``events`` (those that happened), ``body`` and ``potential`` (what pictures need).
     """
 
     columns: tuple[Column, ...]
@@ -95,4 +87,4 @@ class Run:
     def __repr__(self) -> str:
         name, rows = self.facts.get("problem", "?"), len(self.table)
         span = f", t = {self.t[0]:g} … {self.t[-1]:g}" if rows else ""
-        return f"<run of {name}: {rows} instants{span}>"
+        return f"<run of {name}: {rows} instant{'s' * (rows != 1)}{span}>"

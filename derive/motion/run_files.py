@@ -1,4 +1,5 @@
-"""Runs as files: ``.npz`` of NumPy, ``.csv`` with its facts in a first comment, ``.parquet``.
+"""Runs as files: ``.npz`` of NumPy, ``.csv`` with its facts in a comment below the names of the
+columns, ``.parquet``.
 
 All three hold the same numbers to the last bit, the columns with their kinds and units, and the
 facts as JSON.  The same run gives the same bytes.
@@ -20,6 +21,9 @@ from .run import KINDS, Column, Run
 
 MARK = "derive run"
 """What the facts of a file begin with, by which it is known."""
+
+COMMENT = "# "
+"""What the line of a .csv begins with that other programs skip."""
 
 
 class RunFileError(Refused, ValueError):
@@ -96,12 +100,18 @@ def _from_npz(data: bytes) -> Run:
 def _to_csv(run: Run) -> bytes:
     names = [f"{x.name} [{x.unit}]" if x.unit else x.name for x in run.columns]
     rows = (",".join(map(repr, row)) for row in run.table.tolist())
-    return "\n".join([f"# {_head(run)}", ",".join(names), *rows, ""]).encode()
+    return "\n".join([",".join(names), COMMENT + _head(run), *rows, ""]).encode()
 
 
 def _from_csv(data: bytes) -> Run:
-    head, _, *rows = data.decode().splitlines()
-    return _run(head.removeprefix("# "), [[float(x) for x in row.split(",")] for row in rows])
+    first, second, *rows = data.decode().splitlines()
+    head = commented(first, second)
+    return _run(head, [[float(x) for x in row.split(",")] for row in rows])
+
+
+def commented(first: str, second: str) -> str:
+    """What the comment of a table says, its second line, or, in files of before, its first."""
+    return (first if first.startswith(COMMENT) else second).removeprefix(COMMENT)
 
 
 def _to_parquet(run: Run) -> bytes:

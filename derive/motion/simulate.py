@@ -31,6 +31,9 @@ of the state changes by more than about TURN of its size."""
 CHUNKS = 200
 """The parts of a run between which it can be stopped and its progress is shown."""
 
+INTERRUPTED = "interrupted"
+"""Why a run ended by Ctrl-C."""
+
 Progress = Callable[[Iterable[Any], int], Iterator[Any]]
 
 
@@ -149,7 +152,7 @@ def simulate(
     progress: Progress,
 ) -> Run:
     """The run of a problem; one that must stop, or that Ctrl-C or a terminal event stops, keeps
-    what is done, and ``run.ended`` says why."""
+    what is done, and ``run.ended`` says why; ``MotionError`` where there is no first step."""
     k = code.constants(begin.p)
     chunks = np.array_split(times[1:], min(CHUNKS, len(times) - 1))
     states, ended = [begin.x[None]], ""
@@ -160,11 +163,15 @@ def simulate(
             if ended:
                 break
     except KeyboardInterrupt:
-        ended = "interrupted"
+        ended = INTERRUPTED
     x = np.concatenate(states)
     t = times[: len(x)]
     if follow.happened and (last := follow.happened[-1]).terminal:
         t, x = np.append(t, last.t), np.append(x, last.state[None], axis=0)
+    elif len(x) == 1 and ended not in ("", INTERRUPTED):  # before an instant that is kept
+        if follow.motion.t == 0:
+            raise MotionError(f"{code.name}: {ended}")
+        t, x = np.append(t, follow.motion.t), np.append(x, follow.motion.x[None], axis=0)
     columns, table = code.columns(), code.table(t, x, k, begin.u)
     first = dict(zip((c.name for c in columns), table[0].tolist(), strict=True))
     facts = {
@@ -175,6 +182,7 @@ def simulate(
         "language": "C" if isinstance(follow.motion, Motion) else "Python",
         "evaluations": follow.motion.evaluations,
         "ended": ended,
+        "vanishing": code.vanishing(k),
         "events": [one.plain() for one in follow.happened],
         "body": code.body(begin.p),
         "potential": code.potential(first, begin.parameters),

@@ -1,15 +1,9 @@
-"""Where a motion starts: an element of the group, a velocity, parameters, inputs.
-
-Unless something is said, the element is the identity, the velocity and the inputs are zero, and the
-parameters have their defaults.  What [initial] of the problem file says comes first, then what is
-given.
-"""
+"""Where a motion starts: an element of the group, a velocity, parameters, inputs."""
 
 from __future__ import annotations
 
-import math
 import tomllib
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,24 +11,15 @@ from typing import Any
 import numpy as np
 
 from ..code.program import Program
-from ..code.torus.lattice_state import turned
-from ..language.expression import names
-from ..language.near_names import did_you_mean, near_name
-from ..language.refused import Refused
-from ..language.tree import Tree
-from ..language.values import approximate
 from ..problem.problem import Problem
-from ..problem.state_names import state_names
-from ..problem.stated_motion import named
+from .first_numbers import MotionError, first_numbers
 from .run import Array
 from .run_files import known, read
 
+__all__ = ("OFF_THE_GROUP", "MotionError", "Start", "start", "state_file")
+
 OFF_THE_GROUP = 1e-9
 """A larger defect of a start is taken for a mistake."""
-
-
-class MotionError(Refused, ValueError):
-    """A motion that cannot be started, or no method of it: the message says what to do."""
 
 
 @dataclass(frozen=True)
@@ -60,104 +45,9 @@ def start(
     ``MotionError`` for a name that means nothing, a parameter without a number, a number that is
     none.
     """
-    emitted = {name: default for name, default, _, _ in program.parameters}
-    apart = {name for name in named(problem) if name in problem.parameters}
-    defaults = emitted | {x: problem.parameters[x].default for x in sorted(apart - {*emitted})}
-    zero = dict.fromkeys((*program.inputs, *program.state), 0.0)
-    values: dict[str, float | None] = {**defaults, **zero}
-    _known(values, given, program.name)
-    values |= {name: x for name, x in given.items() if name in defaults}
-    numbers, stated = _stated(problem, values)
-    _known(zero, numbers, f"{program.name}, [initial],")
-    element = _at(problem, program, exponent if len(exponent) else stated)
-    if len(exponent):
-        numbers = {name: x for name, x in numbers.items() if name not in element}
-    values |= element | numbers | dict(given)
-    missing = [name for name, value in values.items() if value is None]
-    if missing:
-        raise MotionError(
-            f"{program.name}: no value for {', '.join(missing)}: give --set {missing[0]}=NUMBER"
-        )
-    found = {name: float(value) for name, value in values.items() if value is not None}
-    x, p, u = (
-        np.array([found[name] for name in listed])
-        for listed in (program.state, emitted, program.inputs)
-    )
-    return Start(x, p, u, {name: found[name] for name in defaults})
-
-
-def _known(values: Collection[str], given: Mapping[str, float], where: str) -> None:
-    """``MotionError`` for a name that means nothing, and for a number that is none."""
-    for name, number in given.items():
-        if name not in values:
-            near = did_you_mean(near_name(name, [*values]), after=" ")
-            if (other := turned(name)) in values:
-                near = f"ω̂(−𝐧) is the conjugate of ω̂(𝐧): give {other}; "
-            raise MotionError(
-                f"{where} has no {name[:40]!r}; {near}its numbers: {_listed([*values])}"
-            )
-        if not math.isfinite(number):
-            raise MotionError(f"{where}: {name} = {number} is no finite number")
-
-
-def _stated(
-    problem: Problem, values: Mapping[str, float | None]
-) -> tuple[dict[str, float], list[float]]:
-    """The numbers and the exponent of [initial], by the values of the parameters."""
-    known = {name: x for name, x in values.items() if x is not None}
-
-    def number(name: str, t: Tree) -> float:
-        found = approximate(t, known, float)
-        if found is None:
-            raise MotionError(
-                f"{problem.name}: initial, {name}: no finite number for these parameters: "
-                f"{', '.join(dict.fromkeys(names(t))) or 'there are none'}"
-            )
-        return found
-
-    numbers = {name: number(name, t) for name, t in problem.initial.numbers.items()}
-    return numbers, [number("exp", t) for t in problem.initial.exp]
-
-
-def _listed(names: Sequence[str], most: int = 30) -> str:
-    """Some names, the first and the last where there are too many for a line."""
-    short = [*names] if len(names) <= most else [*names[: most - 1], "…", names[-1]]
-    return ", ".join(short)
-
-
-def _at(problem: Problem, program: Program, exponent: Sequence[float]) -> dict[str, float]:
-    """Name → number of the entries of the element of the group, empty where the state has none."""
-    group = problem.group
-    if group is None or problem.advected is not None:
-        if len(exponent):
-            raise MotionError(f"{program.name}: its state has no element of a group: no exp")
-        return {}
-    basis = np.array([[[float(x) for x in row] for row in E] for E in program.basis])
-    if len(exponent) not in (0, len(basis)):
-        raise MotionError(
-            f"{program.name}: exp takes {len(basis)} numbers, the coordinates in the basis of the "
-            f"Lie algebra, not {len(exponent)}"
-        )
-    g = np.eye(basis.shape[1])
-    if len(exponent):
-        g = exponential(np.einsum("a,aij->ij", np.array(exponent, dtype=float), basis))
-    places = state_names(group)
-    own = {x: t for x in program.state if isinstance(t := places.get(x), tuple) and t[1] == "A"}
-    return {name: float(g[t[2] - 1, t[3] - 1]) for name, t in own.items()}
-
-
-def exponential(X: Array) -> Array:
-    """The exponential of a matrix: Taylor's series of X/2ˢ, of norm below ½, squared s times."""
-    size = float(np.abs(X).sum(axis=1).max())
-    halvings = max(0, math.ceil(math.log2(size)) + 1) if size > 0 else 0
-    small, term = X / 2**halvings, np.eye(len(X))
-    total = term.copy()
-    for k in range(1, 18):  # 2^-17/17! is below rounding
-        term = term @ small / k
-        total += term
-    for _ in range(halvings):
-        total = total @ total
-    return total
+    found = first_numbers(program, problem, given, exponent)
+    x, p, u = (np.array(numbers) for numbers in found[:3])
+    return Start(x, p, u, found.parameters)
 
 
 def state_file(path: Path) -> dict[str, float]:

@@ -154,7 +154,8 @@ def binding_to_events(name: str, step: str) -> str:
 
 FAULTS = {
     2: "the equations have no finite value at t = {:.9g}",
-    5: "there is no discrete step of this size at t = {:.9g}: take a smaller one",
+    5: "there is no discrete step of this size at t = {:.9g}: take a smaller one "
+    "(a turn needs h|ζ| of at most about 1 rad)",
     3: "the steps become too short at t = {:.9g}: a collision, or a motion without bound",
 }
 """What a step returns → why there is no next state, at a time."""

@@ -8,15 +8,15 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..code.emit import emit
 from ..code.options import Options
 from ..language.greek import GREEK
 from ..language.templating import environment, folder
-from ..motion.emitted import Emitted
+from ..motion.emitted_code import EmittedCode
+from ..motion.first_numbers import FirstNumbers
 from ..motion.kept_words import in_words
-from ..motion.start import Start
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..views.html import visible
@@ -24,6 +24,9 @@ from ..views.language import ENGLISH, Language
 from ..views.outline import capitalised, subtitle, title
 from .moving_body import Data, element, moving_body
 from .shortened import called, shortened
+
+if TYPE_CHECKING:
+    from ..motion.start import Start
 
 WORDS = {
     "play": "play",
@@ -79,10 +82,10 @@ SCRIPTS = (
 
 
 def motion_page(
-    code: Emitted,
+    code: EmittedCode,
     problem: Problem,
     record: Derivation,
-    begin: Start,
+    begin: Start | FirstNumbers,
     duration: float,
     tol: float,
     language: Language = ENGLISH,
@@ -119,7 +122,7 @@ def style() -> str:
     return re.sub(r"(?<=[;{},:])\s+|\s+(?=[{}])|\s*\n\s*", "", text)
 
 
-def script(code: Emitted, record: Derivation, body: Data) -> str:
+def script(code: EmittedCode, record: Derivation, body: Data) -> str:
     """The emitted module, what mounts a motion, and the call of it, in few characters."""
     (source,) = emit(
         code.program, record, ("javascript",), code.name, Options(step=("gauss",))
@@ -162,14 +165,18 @@ def pieces(body: Data) -> dict[str, str]:
 
 
 def data(
-    code: Emitted, problem: Problem, record: Derivation, begin: Start, language: Language
+    code: EmittedCode,
+    problem: Problem,
+    record: Derivation,
+    begin: Start | FirstNumbers,
+    language: Language,
 ) -> dict[str, Any]:
     """What the script is told of the motion, as JSON has it."""
     made = code.program
     group = problem.group if problem.advected is None else None
     entries = element(group, made.state)
     velocity = [s for s in range(len(made.state)) if s not in {at for *_, at in entries}]
-    largest = sorted(range(len(made.state)), key=lambda s: -abs(begin.x[s]))[:CURVES]
+    largest = sorted(range(len(made.state)), key=lambda s: -abs(float(begin.x[s])))[:CURVES]
     body = moving_body(record.problem, group, made.state)
     adjusted, curves = velocity[:MOST], [] if body["parts"] else sorted(largest)
     basis = made.basis if entries else ()
@@ -179,7 +186,7 @@ def data(
     unsaid |= set() if entries else {"element", "turned"}
     units = {x.name: x.unit for x in code.columns()}
     return {
-        **{x: getattr(begin, x).tolist() for x in ("x", "p", "u")},
+        **{x: [*map(float, getattr(begin, x))] for x in ("x", "p", "u")},
         "entries": entries,
         "basis": [
             [[i, j, float(v)] for i, row in enumerate(E) for j, v in enumerate(row) if v]

@@ -8,11 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
 from ..algebra.groups import Group
 from ..figure.drawn_body import UNITS, Numbers
-from ..figure.meshes import simplified
 from ..problem.state_names import state_names
 
 DIGITS = 4
@@ -60,19 +57,19 @@ def _turning(group: Group, state: Sequence[str], at: set[int]) -> list[int]:
     velocity = [k for k in range(len(state)) if k not in at]
     if len(velocity) != len(group.basis) or group.places[0][1].n != 3:
         return []
-    o, size = group.places[0][0], len(group.basis[0])
+    o = group.places[0][0]
     found = []
     for i in range(3):
-        turn = np.zeros((size, size))
-        turn[o + (i + 2) % 3, o + (i + 1) % 3] = 1
-        turn[o + (i + 1) % 3, o + (i + 2) % 3] = -1
-        own = [k for k, E in zip(velocity, group.basis, strict=True) if _same(E, turn)]
+        after, next_after = o + (i + 1) % 3, o + (i + 2) % 3
+        turn = {(next_after, after): 1, (after, next_after): -1}
+        own = [k for k, E in zip(velocity, group.basis, strict=True) if _entries(E) == turn]
         found += own[:1]
     return found if len(found) == 3 else []
 
 
-def _same(E: Any, other: Any) -> bool:
-    return bool(np.array_equal(np.array([[float(x) for x in row] for row in E]), other))
+def _entries(E: Any) -> dict[tuple[int, int], Any]:
+    """The entries of a matrix that are not 0, by their places."""
+    return {(i, j): x for i, row in enumerate(E) for j, x in enumerate(row) if x}
 
 
 def _gravity(problem: Mapping[str, Any]) -> Data:
@@ -187,6 +184,10 @@ def _sum(x: Data, y: Data) -> Data:
 
 def _mesh(solid: Mapping[str, Any], value: Numbers) -> Data:
     """A mesh with its places at the defaults, thinned out where it has very many faces."""
+    import numpy as np
+
+    from ..figure.meshes import simplified
+
     R = np.array([value.vector(row) for row in solid["rotation"] or UNITS])
     own = np.array([value.vector(v) for v in solid["sizes"]["vertices"]])
     own = own @ R.T + np.array(value.vector(solid["shift"] or (0, 0, 0)))

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import ChainMap
 from collections.abc import Container, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from random import Random
@@ -27,14 +27,15 @@ from ..language import rational as q
 from ..language.show import show
 from ..language.tree import Tree, names, neg
 from ..record.record import Derivation, Equation
+from .finding import (
+    CONFIRMED,
+    DEFINITION,
+    MISPRINT,
+    OMISSION,
+    SIGN,
+    Finding,
+)
 from .printed import PAPER, Printed
-
-CONFIRMED, DEFINITION = "confirmed", "definition"
-SIGN, OMISSION, MISPRINT = "sign convention", "omission", "misprint"
-VERDICTS = (CONFIRMED, SIGN, OMISSION, MISPRINT, DEFINITION)
-
-HOLDS = {SIGN: "with −dϖ for dϖ, −ω for ω", OMISSION: "where there are no forces"}
-"""How what is false as it stands is true, by its verdict."""
 
 ORIENTED = ("dϖ", "ω")
 """Forms that change their sign with the convention: dϖ(δ, δ′) is δ[ϖ(δ′)] − δ′[ϖ(δ)], or the
@@ -54,27 +55,6 @@ class Sparse(Random):
         """A random integer from a to b."""
         zero = self.random() < 0.7
         return 0 if zero and a <= 0 <= b else super().randint(a, b)
-
-
-@dataclass(frozen=True)
-class Finding:
-    """What became of one numbered equation.
-
-    ``verdict``: one of :data:`VERDICTS`; ``equations``: those that are false as printed.
-    """
-
-    number: int
-    verdict: str
-    printed: str
-    derived: str | None
-    counterexample: dict[str, str] | None
-    remark: str
-    equations: tuple[Equation, ...] = ()
-
-    @property
-    def holds(self) -> str | None:
-        """In words, how a print that is false as it stands is true; ``None`` for any other."""
-        return HOLDS.get(self.verdict)
 
 
 def compare(records: Sequence[Derivation]) -> list[Finding]:

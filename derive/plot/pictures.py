@@ -18,17 +18,17 @@ from . import (
     time_series,
     torus_pictures,
 )
+from .kinds_told import OVERVIEW, PRECISION
 from .plot_sheet import PlotError, ending, look, sheet, written
 
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of picture: ``draw(figure, run, word)`` on a sheet of a ``size``, in inches; ``about``
-    it in a line; what it ``needs``; ``fits``: has a run that?  Those of an ensemble are drawn, and
-    measured, with the columns that are chosen after all else."""
+    """A kind of picture: ``draw(figure, run, word)`` on a sheet of a ``size``, in inches; what it
+    ``needs``; ``fits``: has a run that?  Those of an ensemble are drawn, and measured, with the
+    columns that are chosen after all else."""
 
     draw: Callable[..., None]
-    about: str
     needs: str
     fits: Callable[[Any], bool]
     size: Callable[..., tuple[float, float]]
@@ -57,56 +57,48 @@ def _rotates(run: Run) -> bool:
 KINDS = {
     "state": Kind(
         time_series.state,
-        "the state against time",
         "columns of the state",
         lambda run: run.states.shape[1] > 0,
         time_series.size_of_state,
     ),
     "energy": Kind(
         time_series.energy,
-        "relative errors of the energy and of what is conserved",
         "a column of the energy or of what is conserved",
         lambda run: bool(run.of_kind("energy") or run.of_kind("conserved")),
         _sized(6.5, 3.4),
     ),
     "axes": Kind(
         surfaces.axes,
-        "tips of the body's axes on the sphere",
         "a rotation of R³: columns A_11 … A_33",
         lambda run: _turned(run) and _rotates(run),
         _sized(4.2, 4.4),
     ),
     "polhode": Kind(
         surfaces.polhode,
-        "the velocity on the ellipsoid of inertia",
         "zeta_1 … zeta_3 of a rotation of R³, and body.inertia in the facts",
         lambda run: _columns(*surfaces.VELOCITY)(run) and _rotates(run) and _has_inertia(run),
         _sized(7.0, 3.9),
     ),
     "body": Kind(
         body_pictures.body,
-        "the body at several instants",
         "columns A_11 … A_33, and a body in the facts",
         lambda run: _turned(run) and any(body_pictures.drawn(run).values()),
         _sized(8.0, 2.2),
     ),
     "potential": Kind(
         potential_picture.potential,
-        "the effective potential, with the run in it",
         "one degree of freedom that its symmetries leave: potential in the facts",
         lambda run: bool(run.facts.get("potential")),
         _sized(5.0, 3.4),
     ),
     "spheroid": Kind(
         spheroid_pictures.spheroid,
-        "semi-axes, pressure and sections of a fluid ellipsoid",
         "one solid ellipsoid, and a column of the multiplier",
         lambda run: _turned(run) and spheroid_pictures.is_fluid(run),
         _sized(7.5, 3.0),
     ),
     "vorticity": Kind(
         torus_pictures.vorticity,
-        "vorticity and enstrophy of a fluid on the torus",
         "columns re_1_0, im_1_0, … of the torus",
         _columns("re_1_0", "im_1_0"),
         _sized(7.0, 3.3),
@@ -115,31 +107,17 @@ KINDS = {
 ENSEMBLE_KINDS = {
     "spread": Kind(
         ensemble_pictures.spread,
-        "median and quantiles of an ensemble in time",
         "several instants, --points, and a motion that reached the end, or an event",
         ensemble_pictures.fits_spread,
         ensemble_pictures.size_of_spread,
     ),
     "ends": Kind(
         ensemble_pictures.ends,
-        "the ends of an ensemble against what is varied",
         "a motion that reached the end, or an event",
         ensemble_pictures.fits_ends,
         ensemble_pictures.size_of_ends,
     ),
 }
-
-OVERVIEW, PRECISION = "overview", "precision"
-"""One sheet with all kinds that fit; a diagram of several runs (:mod:`.precision`)."""
-
-
-def told_kinds() -> str:
-    """The kinds with what they are, for the help of the command line."""
-    listed = {name: own.about for name, own in {**KINDS, **ENSEMBLE_KINDS}.items()} | {
-        OVERVIEW: "all that fit",
-        PRECISION: "work against error, of several runs or of a table",
-    }
-    return "; ".join(f"{name}: {about}" for name, about in listed.items())
 
 
 def plot(

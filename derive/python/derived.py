@@ -163,6 +163,7 @@ class Derived:
         step: str = "",
         tol: float = 1e-9,
         dt: float | None = None,
+        order: int | str = "",
         start: Mapping[str, float] | None = None,
         exp: Sequence[float] = (),
         points: int | None = None,
@@ -173,7 +174,8 @@ class Derived:
         seed: int | None = None,
     ) -> Simulated | SimulatedEnsemble:
         """The motion from 0 to t as a table, with what it keeps: by a ``step`` of the emitted code,
-        to a tolerance ``tol``, or in steps of size ``dt``.
+        to a tolerance ``tol``, or in steps of size ``dt``; ``order``: of the discrete step, 2, 4,
+        6 or 8.
 
         ``start``: numbers of the state, parameters and inputs by name; ``exp``: the element of the
         group is exp of these coordinates; ``compiled``: by the C or by the Python, else by the C
@@ -191,11 +193,11 @@ class Derived:
 
         begin: dict[str, Any] = {"given": start or {}, "exponent": exp, "project": project}
         if ensemble is not None:
-            how = {"step": step, "dt": dt, "compiled": compiled}
+            how = {"step": step, "dt": dt, "order": order, "compiled": compiled}
             return self._many(ensemble, vary or {}, t, points or 1, tol, seed or 0, begin, how)
         require_an_ensemble(vary, seed)
-        method = Method(step or STEPS[0], dt, tol)
-        code = motion_of(self.problem, self.record, method.step)
+        method = Method(step or STEPS[0], dt, tol, str(order))
+        code = motion_of(self.problem, self.record, method.step, method.order)
         kept = 500 if points is None else points
         return Simulated.of(run(code, self.problem, method, t, kept, **begin, compiled=compiled))
 

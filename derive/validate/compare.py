@@ -16,9 +16,11 @@ from typing import Any
 
 from ..record.json_writer import to_json
 from .attitude import compare_attitude, exact_root
+from .chart import StateChart
 from .conservation import compare_conserved
 from .declarations import DiffersError, compare_names
 from .degree_bounds import Measured, MeasuredElementary
+from .discrete_functions import DiscreteFunctions
 from .ellipsoid_integrals import WithIntegrals
 from .emitted_file import Machine, Module
 from .exact_points import Claims, Point
@@ -179,6 +181,7 @@ class Comparison:
             found.append("multiplier")
         if "conserved" in self.module.functions:
             found.append(self._conserved(arguments))
+        found += self._discrete(arguments)
         return (*found, *self._in_momenta(arguments), *self._jacobians(arguments))
 
     @property
@@ -291,6 +294,21 @@ class Comparison:
             return ()
         own = self._call, self.plain, self._require_equal, self._draw, self.point, self.claims.state
         return MomentumFunctions(*own).compare(arguments)
+
+    def _discrete(self, arguments: Mapping[str, Any]) -> tuple[str, ...]:
+        """The names of the functions of a discrete step, where there is one, each found right."""
+        if "step_momentum" not in self.module.functions:
+            return ()
+        state = self.claims.state
+        assert isinstance(state, StateChart)
+        moments, entry = self.claims.moment_degree, self.claims.entry_degree
+        most = DERIVATIVE_DEGREE * self.claims.group.size**2 * (sum(moments) + sum(entry))
+
+        def measured(values: Sequence[Any], name: str) -> Array:
+            return self._array(values, name, (most, most))
+
+        own = self._call, measured, self.plain, self._require_equal, self._draw, self.point
+        return DiscreteFunctions(*own, state).compare(arguments)
 
     def _jacobians(self, arguments: Mapping[str, Any]) -> list[str]:
         """The names of the module's Jacobians, each found equal to exact derivatives of ``rhs``."""

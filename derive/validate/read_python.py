@@ -1,8 +1,9 @@
 """Emitted Python read into terms, by its syntax tree; nothing of the text is ever run.
 
 Read are the functions in plain numbers: ``_constants``, ``_rhs``, ``_energy``, ``_inertia``,
-``_project``, ``_defect`` and the Jacobians, with the names, the defaults and the basis. The public
-functions, which hand arrays to these, the steps in time and their numbers are not:
+``_project``, ``_defect``, the Jacobians and those of a discrete step, with the names, the defaults
+and the basis. The public functions, which hand arrays to these, the steps in time and their numbers
+are not:
 :func:`unread_statements` gives their text, to be compared with what is emitted.
 """
 
@@ -39,6 +40,15 @@ SIGNATURES = {
     **dict.fromkeys(OF_BOTH, ("xp", "t", "x", "y", "k", "u")),
     "_from_matrix": ("xp", "z"),
     "_jacobian_parameters": ("xp", "t", "x", "p", "u"),
+    "_step_momentum": ("xp", "x", "k"),
+    "_step_force": ("xp", "t", "x", "k", "u"),
+    "_step_velocity": ("xp", "x", "k", "q"),
+    "_step_guess": ("xp", "x", "k", "q"),
+    "_step_begin": ("xp", "x", "k", "q"),
+    "_step_newton": ("xp", "x", "k", "b", "q", "v"),
+    "_step_turn": ("xp", "v", "s"),
+    "_step_turn_little": ("xp", "v", "s"),
+    "_step_end": ("xp", "x", "k", "q", "v"),
 }
 CALLS = tuple(f"_{name}(xp, " for name in BUNDLES)
 """How a call of a function of integrals begins."""

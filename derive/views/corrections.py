@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..language.tree import Tree
-from ..paper.findings import OMISSION, SIGN, Finding
+from ..paper.finding import OMISSION, SIGN, Finding
 from .book import BookPart
 from .language import Language
 from .paper import grouped

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache, partial
+from functools import cache, cached_property, lru_cache, partial
 from html import escape
 from typing import Any
 
@@ -13,7 +13,7 @@ from ..figure.figure import svg
 from ..figure.scene import scene
 from ..language.templating import environment
 from ..language.tree import Tree
-from ..paper.findings import Finding
+from ..paper.finding import Finding
 from ..printing.escape import between_dollars, prose
 from ..printing.inline import inline, spelt
 from ..printing.line_breaking import groups
@@ -51,6 +51,8 @@ LONG = 0.4 * ROOM
 
 Fields = dict[str, Any]
 """What a template shows, by name."""
+Equations = Callable[[str], list[Fields]]
+ARTICLE = "</article>\n"
 EQUALS = literal(" = ")
 CONTINUATION: Fields = {"id": "", "number": "", "long": False, "cells": (), "clause": "", "tex": ""}
 """The fields of a line that belongs to the equation above it."""
@@ -75,25 +77,66 @@ def html(
     ``moving``: name of a record → the file of a page in which its body moves, which gets a link;
     ``pictures``: the file of a picture of its motion, which is shown.
     """
-    chosen, word = notation or Notation(), language.word
+    beside = moving or {}, pictures or {}
+    shown = _shown(records, notation or Notation(), language, findings, beside)
+    return str(_template("page").render(shown, within="main"))
+
+
+def fragment(
+    records: Sequence[Derivation],
+    notation: Notation | None = None,
+    *,
+    language: Language = ENGLISH,
+    findings: Sequence[Finding] = (),
+) -> Iterator[str]:
+    """What a page shows of the walk of records, to stand in another page with the style sheet
+    ``page.css``: in pieces, each made when it is asked for, which end where an article does."""
+    shown = _shown(records, notation or Notation(), language, findings)
+    piece: list[str] = []
+    for part in _template("fragment").generate(shown, within="div"):
+        piece.append(part)
+        if part.endswith(ARTICLE):
+            yield "".join(piece)
+            piece = []
+    yield "".join(piece)
+
+
+def _template(name: str) -> Any:
+    return environment("html", autoescape=True).get_template(f"{name}.html.jinja")
+
+
+def _shown(
+    records: Sequence[Derivation],
+    chosen: Notation,
+    language: Language,
+    findings: Sequence[Finding],
+    beside: tuple[Mapping[str, str], Mapping[str, str]] = ({}, {}),
+) -> Fields:
+    """What the templates show of the walk of records; ``beside``: the pages and the pictures that
+    are named beside it."""
+    word = language.word
     parts = book(records, language)
     numbers, found = numbered(parts), corrections(parts, findings, language)
-    beside = moving or {}, pictures or {}
     written = [_PartFields(p, chosen, language, numbers, found, *beside) for p in parts]
-    shown = {s.label: [*p.equations(s)] for p in written for s in p.part.steps}
-    template = environment("html", autoescape=True).get_template("page.html.jinja")
-    return template.render(
-        language=language.name,
-        title=visible(title(records[0], language)) if len(records) == 1 else word(MOTION),
-        about=visible(capitalised(subtitle(records[0], language))) if len(records) == 1 else "",
-        road=words(word(road(records)), chosen, ready=True),
-        conventions=" ".join(
+    home = {s.label: (p, s) for p in written for s in p.part.steps}
+
+    @cache
+    def equations(label: str) -> list[Fields]:
+        part, step = home[label]
+        return [*part.equations(step)]
+
+    return {
+        "language": language.name,
+        "title": visible(title(records[0], language)) if len(records) == 1 else word(MOTION),
+        "about": visible(capitalised(subtitle(records[0], language))) if len(records) == 1 else "",
+        "road": words(word(road(records)), chosen, ready=True),
+        "conventions": " ".join(
             words(word(x), chosen, ready=True)
             for x in (TRANSPOSES[chosen.transpose], conventions(records))
         ),
-        regular=words(word(REGULAR), chosen),
-        paper=word(PAPER),
-        words={
+        "regular": words(word(REGULAR), chosen),
+        "paper": word(PAPER),
+        "words": {
             "from": capitalised(word("from")),
             "coordinates": capitalised(word("coordinates")),
             "names": word("Names"),
@@ -102,9 +145,9 @@ def html(
             "moving": word("In motion"),
             "references": word("References"),
         },
-        references=[x[1:] for x in references(records)],
-        parts=[p.fields(shown) for p in written],
-    )
+        "references": [x[1:] for x in references(records)],
+        "parts": [p.fields(equations) for p in written],
+    }
 
 
 def numbered(parts: Sequence[BookPart]) -> dict[str, str]:
@@ -158,14 +201,15 @@ class _PartFields:
         """Name → LaTeX, of the part's record."""
         return latex_names(self.part.source)
 
-    def fields(self, shown: Mapping[str, list[Fields]]) -> Fields:
-        """What the template shows of the part; ``shown``: label → the equations of that step."""
+    def fields(self, shown: Equations) -> Fields:
+        """What the template shows of the part, its steps one by one; ``shown``: label → the
+        equations of that step."""
         return {
             "id": anchor(self.part.name),
             "number": self.numbers[self.part.name],
             "heading": visible(self.part.heading),
             "about": words(self.part.about, self.notation),
-            "steps": [self.step(step, shown) for step in self.part.steps],
+            "steps": (self.step(step, shown) for step in self.part.steps),
             "names": [*self.symbols(), *self.parameters()],
             "moving": self.moving.get(self.part.name, "") if self.part.record else "",
             "picture": self.pictures.get(self.part.name, "") if self.part.record else "",
@@ -180,11 +224,11 @@ class _PartFields:
         caption = words(self.language.of(drawn.caption), self.notation)
         return {"figure": svg(drawn), "caption": caption}
 
-    def step(self, step: Step, shown: Mapping[str, list[Fields]]) -> Fields:
+    def step(self, step: Step, shown: Equations) -> Fields:
         """The fields of a step, with the equations it rests on, or that write it in coordinates."""
 
         def unfolded(label: str) -> Fields:
-            return {"label": label, "id": anchor(label), "equations": shown[label]}
+            return {"label": label, "id": anchor(label), "equations": shown(label)}
 
         return {
             "label": step.label,
@@ -194,7 +238,7 @@ class _PartFields:
             "notes": [words(x, self.notation) for x in assumed(step, self.language)],
             "corrections": [*map(self.correction, self.corrections[step.label].values())],
             "prose": words(self.language.of(step.prose), self.notation),
-            "equations": shown[step.label],
+            "equations": shown(step.label),
             "uses": [unfolded(x) for x in step.uses],
             "coordinates": [
                 unfolded(x.label)

@@ -13,7 +13,7 @@ from ..figure.figure import tikz
 from ..figure.scene import scene
 from ..language.templating import environment
 from ..language.tree import Tree
-from ..paper.findings import Finding
+from ..paper.finding import Finding
 from ..printing.escape import between_dollars, prose, tex_text
 from ..printing.letters import parameter
 from ..printing.macros import definitions, styled

@@ -100,6 +100,16 @@ ON_FLUIDS = (
     ("AK", "V. I. Arnold, B. A. Khesin", "Topological Methods in Hydrodynamics", "Springer, 1998"),
 )
 """Where more is said of fluids."""
+ON_STEPS_OF_TIME = (
+    (
+        "MV",
+        "J. Moser, A. P. Veselov",
+        "Discrete versions of some classical integrable systems and factorization of matrix "
+        "polynomials",
+        "Communications in Mathematical Physics 139 (2), 1991, 217–243",
+    ),
+)
+"""Where more is said of motions in steps of time."""
 REFERENCES = (
     ("paper", "P. Iglesias-Zemmour", "D’où viennent les équations du mouvement des solides ?", ""),
     ("Aud", "M. Audin", "Spinning Tops", "Cambridge University Press, 1996"),
@@ -172,7 +182,8 @@ def plain_conventions(d: Derivation, language: Language = ENGLISH) -> str:
 
 def references(records: Sequence[Derivation]) -> tuple[tuple[str, str, str, str], ...]:
     """The works that notes of some records end with."""
-    return REFERENCES + (ON_FLUIDS if any(map(of_fluid, records)) else ())
+    more = (of_fluid, ON_FLUIDS), (discrete, ON_STEPS_OF_TIME)
+    return REFERENCES + sum((works for of, works in more if any(map(of, records))), start=())
 
 
 def of_fluid(d: Derivation) -> bool:

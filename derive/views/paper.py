@@ -7,7 +7,7 @@ import textwrap
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
-from ..paper.findings import VERDICTS, Finding
+from ..paper.finding import VERDICTS, Finding
 from .language import ENGLISH, Language
 
 WIDTH = 100

@@ -11,7 +11,7 @@ from ..language.refused import Refused
 from ..record.record import Derivation
 
 if TYPE_CHECKING:
-    from ..paper.findings import Finding
+    from ..paper.finding import Finding
     from ..printing.notation import Notation
     from ..record.record import Step
     from .language import Language
@@ -87,13 +87,18 @@ def render(
 
     if form not in FORMATS:
         raise RenderError(f"no format {form[:40]!r}; there are {', '.join(FORMATS)}")
-    if fragment and form != "latex":
-        raise RenderError("--fragment is for --format latex")
+    if fragment and form not in LINKED:
+        raise RenderError("--fragment is for --format latex and html")
     chosen = Notation(**notation)
     if form not in LINKED and chosen != Notation():
         raise RenderError("--notation and --hat are for --format latex and html")
     if steps:
         d = _of_steps(d, steps, linked=form in LINKED)
+    if fragment and form == "html":
+        from .html import fragment as markup
+
+        found = corrections([d])
+        return "".join(markup([d], chosen, language=language(lang), findings=found))
     if fragment:
         from .latex import fragment as fragment_of
 

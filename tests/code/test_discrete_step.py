@@ -204,6 +204,14 @@ def test_the_energy_does_not_drift(name, order):
     assert found.max() < 2 * found[:100].max()
 
 
+def test_a_step_that_begins_on_the_last_ones_ends_where_it_should():
+    """Long steps of a chaotic motion, which a polynomial through the last ones may lead far off:
+    each ends at the solution that is near, not at another one."""
+    f = compiled("so4", 6)
+    found = energies(f, start(f), 0.06, 8000, 20)
+    assert 1e-8 < found.max() < 1e-3
+
+
 @pytest.mark.parametrize("order", [2, 6])
 @pytest.mark.parametrize("name", ["top", "sl3", "so4"])
 def test_momenta_are_kept_to_rounding(name, order):
@@ -229,10 +237,42 @@ def test_the_group_is_kept():
 # ---------------------------------------------------------------- what is told
 
 
-@pytest.mark.parametrize("language", ["c", "cpp", "python"])
+@pytest.mark.parametrize("language", ["javascript", "rust"])
+@pytest.mark.parametrize("name", [*KINDS, "SO(3)", "SL(3)", "GL(3)", "SE(3)"])
+def test_other_languages_move_as_c(name, language, tmp_path):
+    """Of each kind, there and back, and within a step."""
+    f, own = compiled(name, 4), walked(name).problem.name
+    walked(name).emit(tmp_path, ("c", language), own, step="discrete", order=4)
+    commands = [("discrete", 0.02, 10), ("dense", 0.194, 0), ("discrete", -0.01, 10)]
+    commands += [("dense", 0.11, 0)]
+    given = commands, start(f), f._in_use().p, f.u
+    for x, y in zip(*(follow(z, tmp_path, own, *given) for z in (language, "c")), strict=True):
+        assert (x.status, y.status) == (0, 0)
+        assert (x.t, x.h) == (y.t, y.h)
+        assert np.abs(x.x - y.x).max() < 1e-13 * np.abs(y.x).max()
+
+
+@pytest.mark.parametrize("language", ["c", "python", "javascript", "rust"])
+def test_beside_other_steps_it_moves_as_alone(language, tmp_path):
+    """Names of one method do not hide those of another; and so of gauss."""
+    x = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0.6, 0, 0.8]
+    places = {}
+    for chosen in (("discrete",), ("gauss",), ("discrete", "gauss", "vern9", "rk4")):
+        folder = tmp_path / "".join(chosen)
+        walked("ball").emit(folder, (language,), "ball", step=chosen)
+        for step in chosen:
+            places[step, len(chosen)] = follow(language, folder, "ball", [(step, 0.1, 9)], x)
+    for step in ("discrete", "gauss"):
+        (alone,), (beside,) = places[step, 1], places[step, 4]
+        assert (beside.status, beside.t) == (0, alone.t)
+        assert np.abs(beside.x - alone.x).max() < 1e-15
+
+
+@pytest.mark.parametrize("language", ["c", "cpp", "python", "javascript", "rust"])
 def test_a_step_without_solution_is_told(language, tmp_path):
     """A ball turns by at most 1 rad h |zeta|: a longer step leaves the motion as it was."""
-    walked("ball").emit(tmp_path, ("c", "cpp", "python"), "ball", step="discrete", order=2)
+    languages = {"cpp": ("c", "cpp")}.get(language, (language,))
+    walked("ball").emit(tmp_path, languages, "ball", step="discrete", order=2)
     x = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0.6, 0, 0.8]
     commands = [("discrete", 0.99, 1), ("discrete", 1.01, 1), ("discrete", 1e3, 3)]
     commands += [("discrete", float("nan"), 1), ("discrete", -0.5, 2)]
@@ -245,13 +285,13 @@ def test_a_step_without_solution_is_told(language, tmp_path):
     assert (back.status, back.h) == (0, -0.5)
 
 
-@pytest.mark.parametrize("name", ["so4", "sl3", "sp4"])
-def test_too_large_a_step_is_told_on_any_group(name):
+@pytest.mark.parametrize(("name", "h"), [("so4", 10.0), ("sl3", 1.0), ("sp4", 10.0)])
+def test_too_large_a_step_is_told_on_any_group(name, h):
     f = compiled(name)
     x = start(f, 5.0)
     m = f.begin(x)
     with pytest.raises(ArithmeticError, match="no discrete step"):
-        m.move(10.0)
+        m.move(h)
     assert np.array_equal(m.x, x)
 
 

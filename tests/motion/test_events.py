@@ -191,8 +191,12 @@ def test_the_command_tells_the_events(tmp_path, capsys):
     assert main(["simulate", str(problem(tmp_path, QUARTERS)), "--t", "10"]) == 0
     out, err = capsys.readouterr()
     assert "  event quarter: 6 times, at t = 0.785398163397, 2.35619449019, 3.926" in out
-    assert ", …, 8.63937979737\n" in out
+    assert ", 7.06858347058, 8.63937979737\n" in out
     assert err == ""
+    assert main(["simulate", str(problem(tmp_path, QUARTERS)), "--t", "20"]) == 0
+    out, err = capsys.readouterr()
+    assert "  event quarter: 13 times, at t = 0.785398163397, 2.35619449019, 3.926" in out
+    assert ", …, 19.6349540849 (all are in the file of --out, and run.events in Python)\n" in out
     assert main(["simulate", str(problem(tmp_path, FALL)), "--t", "10"]) == 0
     out, err = capsys.readouterr()
     assert f"  event ground: once, at t = {np.sqrt(6 / 9.81):.12g}\n" in out

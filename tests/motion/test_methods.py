@@ -5,6 +5,8 @@ import pytest
 
 import derive
 from derive.command.cli import main
+from derive.motion.run_files import read
+from derive.motion.start import MotionError
 from derive.native import motion_in_c
 from derive.native.library import CompileError
 from tests.problems.moving import BODY, WEIGHT
@@ -164,10 +166,53 @@ def test_the_discrete_step_is_one_of_them(capsys):
     assert np.abs(in_c.table - in_python.table).max() < 1e-12
     assert main(["simulate", "so3", "--t", "5", "--step", "discrete"]) == 2
     assert "discrete has steps of one size: give --dt" in capsys.readouterr().err
-    assert main(["simulate", "so3", "--t", "5", "--step", "discrete", "--dt", "0.5"]) == 1
-    err = capsys.readouterr().err
-    assert "there is no discrete step of this size at t = 0" in err
-    assert err.count("\n") == 1
     given = ["--t", "5", "--step", "discrete", "--dt", "0.01"]
     assert main(["simulate", "gyrostat", *given]) == 2
     assert "is of a Lagrangian of points" in capsys.readouterr().err
+
+
+def test_a_step_that_there_is_not_makes_no_run(tmp_path, capsys):
+    out = tmp_path / "run.npz"
+    given = ["--t", "5", "--set", "zeta_3=100", "--step", "discrete", "--dt", "0.02"]
+    assert main(["simulate", "so3", *given, "--out", str(out)]) == 2
+    text, err = capsys.readouterr()
+    assert (text, err.count("\n")) == ("", 1)
+    assert "so3: there is no discrete step of this size at t = 0: take a smaller one" in err
+    assert "h|ζ|" in err
+    assert not out.exists()
+
+
+def test_a_motion_that_stops_before_what_is_kept_has_its_last_state():
+    fall = {"T_1": 0.0, "w_2": 0.0, "zeta_3": 0.0}
+    run = derive.derive("comet").simulate(1.0, start=fall, points=1)
+    assert "the steps become too short" in run.ended
+    assert run.t[0] == 0
+    assert 0.06 < run.t[1] < 0.0648
+    assert len(run.t) == 2
+
+
+def test_the_discrete_step_has_an_order(tmp_path, capsys):
+    """A step of twice the size makes the error 2^order times as large."""
+    d, start = derive.derive("so3"), {"zeta_1": 1.0, "zeta_2": 0.5}
+    exact = d.simulate(1.0, start=start, tol=1e-14, points=1).states[-1]
+    for order in (2, 4):
+        coarse, fine = (
+            np.abs(
+                d.simulate(1.0, start=start, step="discrete", dt=h, order=order).states[-1] - exact
+            ).max()
+            for h in (0.1, 0.05)
+        )
+        assert np.log2(coarse / fine) == pytest.approx(order, abs=0.3)
+    out = tmp_path / "run.csv"
+    given = ["simulate", "so3", "--t", "1", "--set", "zeta_1=1", "--dt", "0.1", "--step"]
+    assert main([*given, "discrete", "--order", "4", "--out", str(out)]) == 0
+    assert ", by discrete of order 4, dt 0.1, in " in capsys.readouterr().out
+    assert read(out).facts["method"] == "discrete of order 4, dt 0.1"
+    for more, words in (
+        (["rk4", "--order", "4"], "--order is that of --step discrete, not of rk4"),
+        (["rk4", "--order", "4", "--ensemble", "2", "--vary", "zeta_1=0:1"], "followed by vern9"),
+    ):
+        assert main([*given, *more]) == 2
+        assert words in capsys.readouterr().err
+    with pytest.raises(MotionError, match="the order must be one of 2, 4, 6, 8, not 3"):
+        d.simulate(1.0, step="discrete", dt=0.1, order=3)

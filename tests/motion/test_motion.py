@@ -10,11 +10,12 @@ import derive
 from derive.code.step.collocation import Collocation
 from derive.command.cli import main
 from derive.command.simulating import at_first, negative
+from derive.motion.first_numbers import exponential
 from derive.motion.kept_words import in_order
 from derive.motion.method import Method, instants
 from derive.motion.run import Column, Run
 from derive.motion.run_files import read
-from derive.motion.start import MotionError, exponential
+from derive.motion.start import MotionError
 from tests.oracles import free_top, lagrange_top
 
 MOMENTS = (1.25, 2.0, 2.75)
@@ -208,6 +209,18 @@ def test_the_folder_of_a_run_is_made_as_by_other_commands(tmp_path, capsys):
     assert read(out).facts["problem"] == "so3"
 
 
+def test_what_vanishes_for_these_parameters_is_not_told(capsys):
+    """What gravity gives is 0 without it, a momentum that is 0 at the start is a fact."""
+    start = ("so3", "--t", "0.1", "--set", "zeta_1=1")
+    no_gravity = [x for k in (1, 2, 3) for x in ("--set", f"g_{k}=0")]
+    with_it, without = told(capsys, *start)[1], told(capsys, *start, *no_gravity)[1]
+    assert "  angular_momentum: " in with_it
+    assert "  angular_momentum: " not in without
+    assert "  energy: " in without
+    still = told(capsys, "top", "--t", "0.1", "--exp", "1,0,0", "--set", "zeta_3=0")[1]
+    assert "  angular_momentum_3: 0 at first" in still
+
+
 def test_what_is_amiss_is_told(capsys):
     err = told(capsys, "jelly", "--t", "1")[2]
     assert "nothing moves" in err
@@ -303,6 +316,7 @@ def test_ctrl_c_keeps_what_is_done(tmp_path, capsys, monkeypatch):
         (["--t", "1", "--points", "0"], "can be kept"),
         (["--t", "1", "--step", "guass"], "did you mean 'gauss'?"),
         (["--t", "1", "--set", "zeta_4=1"], "has no 'zeta_4'"),
+        (["--t", "1", "--set", "exp=1"], "varied by a parameter that [initial] exp uses"),
         (["--t", "1", "--set", "zeta_1"], "is not NAME=NUMBER"),
         (["--t", "1", "--set", "zeta_1=inf"], "expected a number"),
         (["--t", "1", "--set", "A_11=2"], "--project takes it there; its defect is 3"),

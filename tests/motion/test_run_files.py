@@ -72,5 +72,20 @@ def test_files_that_are_not_there_or_have_no_format(tmp_path):
 
 
 def test_the_head_of_a_csv_is_json():
-    head = written(RUN, "a.csv").decode().splitlines()[0].removeprefix("# ")
+    head = written(RUN, "a.csv").decode().splitlines()[1].removeprefix("# ")
     assert json.loads(head)["facts"]["problem"] == "so3"
+
+
+def test_a_csv_is_a_table_for_numpy(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_bytes(written(RUN, path.name))
+    table = np.genfromtxt(path, delimiter=",", names=True)
+    assert table.dtype.names == ("t_s", "A_11", "energy_J")
+    assert np.array_equal(table["t_s"], TABLE[:, 0])
+
+
+def test_a_csv_with_its_facts_in_the_first_line_is_read(tmp_path):
+    first, second, rest = written(RUN, "a.csv").decode().split("\n", 2)
+    path = tmp_path / "a.csv"
+    path.write_text(f"{second}\n{first}\n{rest}", encoding="utf-8")
+    assert read(path).table.tobytes() == TABLE.tobytes()

@@ -318,13 +318,23 @@ def test_the_command_writes_it_with_a_run_or_alone(tmp_path, capsys):
 def test_notes_link_to_the_page_of_each_problem(tmp_path, capsys):
     out = tmp_path / "notes.html"
     assert main(["notes", "so3", "jelly", "--motion", "5", "--lang", "fr", "--out", str(out)]) == 0
-    names = ["so3_motion.html", "jelly_motion.html"]
+    names = ["notes_so3_motion.html", "notes_jelly_motion.html"]
     assert capsys.readouterr().out.split() == [str(out), *(str(tmp_path / x) for x in names)]
     links = re.findall('<a href="([^#"]*)">En mouvement', out.read_text(encoding="utf-8"))
     assert links == names
     for name, text in zip(("so3", "jelly"), names, strict=True):
         page = derive.derive(name).motion_page(5.0, language="fr")
         assert (tmp_path / text).read_text(encoding="utf-8") == page
+
+
+def test_notes_in_two_languages_have_pages_of_their_own(tmp_path, capsys):
+    both = []
+    for name, more in (("notes.html", []), ("notes_fr.html", ["--lang", "fr"])):
+        out = str(tmp_path / name)
+        assert main(["notes", "so3", "--motion", "5", "--out", out, *more]) == 0
+        both.append({*capsys.readouterr().out.split()})
+    assert not both[0] & both[1]
+    assert not told((tmp_path / "notes_so3_motion.html").read_text(encoding="utf-8"))["comma"]
 
 
 @pytest.mark.parametrize(
@@ -530,3 +540,23 @@ def test_texts_of_a_stranger_are_shown_as_text(hostile, opened):
     assert BAD in page.locator('[data-name="a"]').inner_text()
     assert page.locator("h1").inner_text() == BAD
     assert page.locator("img").count() == 0
+
+
+@pytest.mark.dist
+@pytest.mark.parametrize("width", [1280, 390])
+def test_what_is_beside_keeps_its_place(width, opened):
+    """A value about 0.001, where small numbers begin to be powers of ten."""
+    d, tilt = derive.derive("top"), (0.3, 0, 0)
+    spin = d.simulate(0.01, start={"zeta_3": 1.0}, exp=tilt, points=1)["body_angular_momentum_3"][0]
+    page = opened(d.motion_page(10.0, start={"zeta_3": 0.001 / spin}, exp=tilt), width)
+    told, places = set(), set()
+    for k in range(20):
+        seek(page, 0.0125 * 1.37**k)
+        page.wait_for_timeout(20)
+        cell = page.locator('[data-name="body_angular_momentum_3"] td').first
+        told.add(cell.inner_text())
+        places.add(page.locator(".adjuster").first.bounding_box()["y"])
+        assert page.locator(".clock").bounding_box()["height"] < 30
+    assert "0.0010000" in told
+    assert {len(x) for x in told} == {9}
+    assert len(places) == 1

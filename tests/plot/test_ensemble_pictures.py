@@ -10,7 +10,8 @@ from derive.motion.ensemble import Ensemble, Part
 from derive.motion.ensemble_files import writer
 from derive.native.motion_in_c import AT_EVENT
 from derive.plot.ensemble_pictures import POINTS, differing, quantiles
-from derive.plot.pictures import ENSEMBLE_KINDS, OVERVIEW, plot
+from derive.plot.kinds_told import OVERVIEW
+from derive.plot.pictures import ENSEMBLE_KINDS, plot
 from derive.plot.plot_sheet import FORMATS, PlotError, sheet
 from derive.python.simulated import SimulatedEnsemble
 from derive.views.language import language

@@ -11,8 +11,10 @@ import derive
 from derive.command.cli import main
 from derive.motion.run import Column, Run
 from derive.motion.run_files import written
+from derive.plot import kinds_told
 from derive.plot.body_pictures import hull
-from derive.plot.pictures import KINDS, OVERVIEW, PRECISION, plot
+from derive.plot.kinds_told import OVERVIEW, PRECISION
+from derive.plot.pictures import ENSEMBLE_KINDS, KINDS, plot
 from derive.plot.plot_sheet import FORMATS, PlotError, label, sheet
 from derive.plot.precision import of_runs, table
 from derive.plot.spheroid_pictures import followed, maps, section
@@ -60,6 +62,11 @@ def fitting(kind):
     if kind in STARTING:
         return simulated(*STARTING[kind])
     return run_of(TORUS, 2.0, 5) if kind == "vorticity" else run_of("euler_top")
+
+
+def test_the_help_tells_every_kind():
+    assert [*kinds_told.KINDS] == [*KINDS]
+    assert [*kinds_told.ENSEMBLE_KINDS] == [*ENSEMBLE_KINDS]
 
 
 @pytest.mark.parametrize("kind", [*KINDS, OVERVIEW])

@@ -20,7 +20,7 @@ def test_the_picture_of_each_problem_is_beside_and_shown(name, shown, tmp_path, 
     assert main(["notes", "rod", "euler_top", "--picture", "3", "--out", str(out)]) == 0
     pictures = re.findall(shown, out.read_text(encoding="utf-8"))
     ending = "svg" if name == "notes.html" else "pdf"
-    assert pictures == [f"rod_motion.{ending}", f"euler_top_motion.{ending}"]
+    assert pictures == [f"{out.stem}_{x}_motion.{ending}" for x in ("rod", "euler_top")]
     assert capsys.readouterr().out.split() == [str(out), *(str(tmp_path / x) for x in pictures)]
     for problem, picture in zip(("rod", "euler_top"), pictures, strict=True):
         run = derive.derive(problem).simulate(3.0)
@@ -38,7 +38,7 @@ def test_in_a_pdf(tmp_path):
     bare, out = tmp_path / "bare.pdf", tmp_path / "notes.pdf"
     assert main(["notes", "rod", "--out", str(bare)]) == 0
     assert main(["notes", "rod", "--picture", "3", "--out", str(out)]) == 0
-    assert (tmp_path / "rod_motion.pdf").stat().st_size > 2000
+    assert (tmp_path / "notes_rod_motion.pdf").stat().st_size > 2000
     assert out.stat().st_size > bare.stat().st_size + 2000
 
 

@@ -9,11 +9,8 @@ import re
 TOKEN = re.compile(r"[A-Za-z_]\w*|[0-9]+\.[0-9]*(?:e[+-]?[0-9]+)?f?|[0-9]+(?:e[+-]?[0-9]+)?|\S")
 CHANGED = "constants|rhs|rhs_batch|energy|project|defect|to_matrix|from_matrix"
 BODIES = {
-    "c": re.compile(
-        rf"^\w[^\n]*_({CHANGED})\([^;{{]*?\)\n\{{\n(.*?)^\}}",
-        re.M | re.S,
-    ),
-    "python": re.compile(rf"^def _({CHANGED})\([^)]*\):\n(.*?)(?=^def |\Z)", re.M | re.S),
+    "c": r"^\w[^\n;]*?_({})\([^;{{]*?\)\n\{{\n(.*?)^\}}",
+    "python": r"^def _({})\([^)]*\):\n(.*?)(?=^def |\Z)",
 }
 CHECKS = {"c": r"    if \(.*", "python": r"    tests = \[.*?^    \]$|, tests$"}
 COMMENTS = {"c": r"/\*.*?\*/|^#[^\n]*", "python": r"#[^\n]*"}
@@ -48,9 +45,9 @@ def names_in(e):
     return own.union(*map(names_in, e))
 
 
-def mutants(text, language, module):
-    """(function, kind, position, changed text) for every change."""
-    for found in BODIES[language].finditer(text):
+def mutants(text, language, module, names=CHANGED):
+    """(function, kind, position, changed text) for every change of functions of these names."""
+    for found in re.finditer(BODIES[language].format(names), text, re.MULTILINE | re.DOTALL):
         function, (start, _) = found[1], found.span(2)
         body = blank(COMMENTS[language], found[2])
         if function == "constants":

@@ -227,8 +227,10 @@ def in_rust(folder, name, flags, real):
             for x, last in found
         ]
         at_event, event, rising = "", "-1", "0"
+        if "NoSolution" in (folder / f"{name}.rs").read_text():
+            at_event = " Err(code::Stopped::NoSolution) => 5,"
         if watched(folder / f"{name}.rs"):
-            at_event, event = " Err(code::Stopped::AtEvent) => 4,", "m.event"
+            at_event, event = f"{at_event} Err(code::Stopped::AtEvent) => 4,", "m.event"
             rising = "i32::from(m.rising)"
             calls += [
                 f'            "{x}_watch" => made = code::watch(code::{x}, &mut m, &k, &u, a, b),'

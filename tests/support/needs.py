@@ -42,6 +42,7 @@ PACKAGES = {
     "ninja": "ninja-build",
     "pkg-config": "pkg-config",
     "node": "nodejs",
+    "npm": "npm",
     "rustc": "rustc-web",
     "Rust 2024": "rustc-web",
     "pdflatex": TEX,

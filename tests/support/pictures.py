@@ -1,8 +1,8 @@
 """The pictures of README and of the page that moves, in docs/pictures: python -m
-tests.support.pictures [notes] [walk] [motion].
+tests.support.pictures [notes] [walk] [motion] [playground].
 
-A page of lecture notes as PDF, a step of the walk as a page in a browser, and the page with the
-body in it; all of ``top``.  It needs TeX, pdftoppm, Chromium and playwright.
+A page of lecture notes as PDF, a step of the walk as a page in a browser, the page with the body in
+it, and the playground; all of ``top``.  It needs TeX, pdftoppm, Chromium, playwright and Node.
 """
 
 import shutil
@@ -15,6 +15,7 @@ from playwright.sync_api import sync_playwright
 
 from derive.command.cli import main
 from tests.support.needs import BROWSERS
+from tests.support.playground_site import built, chromium, served, walked
 
 PICTURES = Path(__file__).parents[2] / "docs" / "pictures"
 PDF_STEP = "top.euler"
@@ -67,9 +68,19 @@ def walk(folder):
         browser.close()
 
 
+def playground(_):
+    """The playground with the equations of a top, in a browser."""
+    with served(built().parent) as (address, _), chromium() as browser:
+        page = browser.new_page(viewport={"width": 1280, "height": 760}, color_scheme="light")
+        page.goto(f"{address}play/#top")
+        walked(page, "top")
+        page.evaluate(f"play.equations.go({PDF_STEP!r})")
+        page.screenshot(path=PICTURES / "playground.png")
+
+
 if __name__ == "__main__":
     PICTURES.mkdir(exist_ok=True)
-    made = {"notes": notes, "walk": walk, "motion": motion}
+    made = {"notes": notes, "walk": walk, "motion": motion, "playground": playground}
     with tempfile.TemporaryDirectory() as folder:
         for name in sys.argv[1:] or made:
             made[name](folder)

@@ -144,3 +144,29 @@ def test_every_symbol_goes_through_a_macro(said):
 def test_choices_that_have_no_sense(said):
     assert "--format latex" in said("walk", "so3", "--fragment", code=2).err
     assert "latex and html" in said("walk", "so3", "--notation", "top", code=2).err
+
+
+def test_steps_of_time_refer_to_moser_and_veselov(said, tmp_path):
+    for ending in ("tex", "html"):
+        plain, in_steps = tmp_path / f"plain.{ending}", tmp_path / f"steps.{ending}"
+        said("notes", "so3", "--out", plain)
+        said("notes", "so3", "--discrete", "--out", in_steps)
+        assert "Discrete versions of some classical" not in plain.read_text(encoding="utf-8")
+        assert "Discrete versions of some classical" in in_steps.read_text(encoding="utf-8")
+
+
+def test_a_greek_letter_that_the_walk_does_not_have_is_a_parameters(said, tmp_path):
+    """The density of a cone is ρ in sentences and equations; α, a velocity of the walk, is not that
+    of a parameter."""
+    out = tmp_path / "notes.tex"
+    said("notes", "top", "--out", out)
+    text = out.read_text(encoding="utf-8")
+    assert r"\pi\,\rho\,\parameter{R}" in text
+    assert r"\parameter{rho}" not in text
+    (tmp_path / "spun.toml").write_text(
+        'name = "spun"\ngroup = "SO(3)"\n[parameters]\nalpha = {}\n[[point]]\nmass = "alpha"\n'
+        "at = [1, 0, 0]\n[[point]]\nmass = 1\nat = [0, 1, 0]\n",
+        encoding="utf-8",
+    )
+    said("notes", tmp_path / "spun.toml", "--out", out)
+    assert r"\parameter{alpha}" in out.read_text(encoding="utf-8")

@@ -3,36 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import Any
 
 from ..nilpotent import EPS, EPS_PRIME, part
 from .field_algebra import Normal, Value, componentwise, divergence, field_of
-from .fluid_model import gradient
+from .fluid_model import FluidModel, gradient
 from .functions import Field
 from .operators import Operator
 
-if TYPE_CHECKING:
-    from .field_values import FluidValues
+
+def _points(model: FluidModel, mask: int) -> Field:
+    return tuple(part(x, mask) for x in model.nu)
 
 
-def _points(values: FluidValues, mask: int) -> Field:
-    return tuple(part(x, mask) for x in values.model.nu)
-
-
-def _moved(values: FluidValues, mask: int) -> Field:
-    model = values.model
+def _moved(model: FluidModel, mask: int) -> Field:
     return tuple(model.at_points(part(x, mask)) for x in model.displacement)
 
 
-def _lagrangian(values: FluidValues) -> Value:
-    return part(values.model.lagrangian(_points(values, 0)), 0)
+def _lagrangian(model: FluidModel) -> Value:
+    return part(model.lagrangian(_points(model, 0)), 0)
 
 
-def _potential(values: FluidValues) -> Value:
-    return part(values.model.potential, 0)
+def _potential(model: FluidModel) -> Value:
+    return part(model.potential, 0)
 
 
-NAMES: dict[str, Callable[[FluidValues], Value]] = {
+NAMES: dict[str, Callable[[Any], Value]] = {
     "u": lambda v: v.model.u,
     "η": lambda v: v.model.first.displacement,
     "η′": lambda v: v.model.second.displacement,
@@ -41,21 +37,21 @@ NAMES: dict[str, Callable[[FluidValues], Value]] = {
     "u̇": lambda v: v.model.acceleration,
     "δt": lambda v: v.model.first.time,
     "δ′t": lambda v: v.model.second.time,
-    "v": lambda v: _points(v, 0),
-    "ν": lambda v: _points(v, 0),
+    "v": lambda v: _points(v.model, 0),
+    "ν": lambda v: _points(v.model, 0),
     "ν̇": lambda v: tuple(map(v.model.at_points, v.model.acceleration_of_points)),
     "ġ": lambda v: tuple(v.model.at_points(x) for x in v.model.u),
-    "δν": lambda v: _points(v, EPS),
-    "δ′ν": lambda v: _points(v, EPS_PRIME),
-    "δg": lambda v: _moved(v, EPS),
-    "δ′g": lambda v: _moved(v, EPS_PRIME),
-    "U": _potential,
-    "Ũ": _potential,
+    "δν": lambda v: _points(v.model, EPS),
+    "δ′ν": lambda v: _points(v.model, EPS_PRIME),
+    "δg": lambda v: _moved(v.model, EPS),
+    "δ′g": lambda v: _moved(v.model, EPS_PRIME),
+    "U": lambda v: _potential(v.model),
+    "Ũ": lambda v: _potential(v.model),
     "V": lambda v: v.model.V,
     "f": lambda v: tuple(-x for x in gradient(v.model.V)),
-    "L": _lagrangian,
-    "L̃": _lagrangian,
-    "h̃": lambda v: part(v.model.energy(_points(v, 0)), 0),
+    "L": lambda v: _lagrangian(v.model),
+    "L̃": lambda v: _lagrangian(v.model),
+    "h̃": lambda v: part(v.model.energy(_points(v.model, 0)), 0),
     "G": lambda v: componentwise(lambda x: v.composed(x, 0)),
     "D": lambda v: Operator.of(lambda c: divergence(field_of(c))),
     "p": lambda v: v.model.any_pressure if v.model.at.free else v.model.pressure,
@@ -73,3 +69,4 @@ NAMES: dict[str, Callable[[FluidValues], Value]] = {
     "κ": lambda v: v.of_level(v.model.curve.of_space(v.model.density)),
     "κ̇": lambda v: v.of_level(v.model.rate_of_level),
 }
+"""Name → what it is, by the ``FluidValues`` of a model."""

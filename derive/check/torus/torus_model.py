@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 
-from ...algebra.groups import Group
 from ...algebra.samplers import Source
 from ...algebra.torus import Place, Torus
 from ...language import rational as q
@@ -37,20 +36,6 @@ LEAST = 3
 STEPS = ((-2, Fraction(1, 12)), (-1, Fraction(-2, 3)), (1, Fraction(2, 3)), (2, Fraction(-1, 12)))
 """The derivative at 0 of a polynomial of degree 4 at most, by its values: s and the weight of its
 value at s."""
-
-
-def torus_of(problem: Mapping[str, Any]) -> Torus:
-    """The torus of a record's problem."""
-    return Torus(problem["torus"]["N"])
-
-
-def group_of_torus(torus: Torus) -> Group:
-    """SU(N) by its name and size, without a table of a basis, or elements."""
-
-    def none(random: Source, size: int) -> Matrix:
-        raise EvaluationError(f"no elements of {torus.name} are drawn")
-
-    return Group(torus.name, torus.N, "linear", (), none)
 
 
 class TorusModel:

@@ -5,7 +5,10 @@ where Σ γ_i³ = 0, and so on.  For order 4 these are Suzuki's five, for which 
 (M. Suzuki, Physics Letters A 146 (1990), 319–323); for 6 and 8 the nine and the seventeen of least
 size that W. Kahan and R.-C. Li found (*Composition constants for raising the orders of
 unconventional schemes for ordinary differential equations*, Mathematics of Computation 66 (1997),
-1089–1099), to 24 decimals: a test holds them against every order condition.
+1089–1099), to 26 decimals: digit by digit those of E. Hairer, C. Lubich and G. Wanner, *Geometric
+Numerical Integration*, V.3.2, (3.12) and (3.14), as OrdinaryDiffEq.jl (``KahanLi6``,
+``KahanLi8``) and REBOUND's ``janus`` have them, too.  A test holds them against every order
+condition.
 """
 
 from __future__ import annotations

@@ -1,16 +1,10 @@
-"""The discrete motion of a group in one step, from (g₀, ζ₀) to (g₁, ζ₁).
+"""The discrete motion of a group in one step, from (g₀, ζ₀) to (g₁, ζ₁), by the momentum p.
 
-With the momentum p at the door, p₀ = Θ⁻(g₀, g₁) and p₁ = Θ⁺(g₀, g₁) (steps ``one_forms`` and
-``balance`` of ``derive walk --discrete``), for every ξ of 𝔤
-
-    Tr (g₁ − g₀)J (g₀ξ)‾ = h Tr g₀Z*J (g₀ξ)‾,    Z* = Z₀ + ½h Ż₀,
-    Tr g₁Z′J (g₁ξ)‾ = (1/h) Tr (g₁ − g₀)J (g₁ξ)‾,    Z₁ = Z′ + ½h Ż₁,
-
-Ż being the rate of the velocity that the forces give a body at rest at g.  Damping D adds ½hD to J
-on the left of the first line, and takes it away on the right of the second.  What is solved for
-depends on 𝔤: ``TURNING``, the skew 3 × 3 matrices: a unit quaternion of g₀⁻¹g₁; ``VOLUME``, those
-of trace 0: the multiplier in g₁ = B + θ ḡ₀⁻¹J⁻¹, det g₁ = 1; ``WHOLE``, all matrices: nothing;
-``BASIS``, any others: dim 𝔤 numbers.  H ⋉ Rⁿ is H about the centre of mass, which moves by itself.
+From p₀, that of ζ₀ with half of the work of the forces, g₁ is found, as hp₀ is hΘ⁻(g₀, g₁) without
+them; then p₁ = Θ⁺(g₀, g₁), the other half, and ζ₁.  What is solved for depends on 𝔤: ``TURNING``,
+the skew 3 × 3 matrices: a unit quaternion of g₀⁻¹g₁; ``VOLUME``, those of trace 0: the multiplier θ
+of g₁; ``WHOLE``, all matrices: nothing; ``BASIS``, any others, and all with damping: dim 𝔤 numbers.
+H ⋉ Rⁿ is H about the centre of mass, which moves by itself.
 """
 
 from __future__ import annotations
@@ -26,37 +20,54 @@ from ..graph import Node
 from ..lower import Lowering
 from ..options import Options
 from ..program import LoweringError
-from ..slots import fixed_entries, layout
 from .compositions import weights
+from .discrete_basis import basis
+from .discrete_ends import Ends
+from .discrete_linear import volume, whole
+from .discrete_turning import turning
+from .discrete_turns import pattern
 
 TURNING, VOLUME, WHOLE, BASIS = "turning", "volume", "whole", "basis"
 
-Terms = list[tuple[Fraction, int, int]]
-"""The entries of a sparse matrix: coefficient, row and column."""
+STEPPING = "step_"
+"""How the names of the functions of a step begin."""
+
+Leaves = dict[str, list[Node]]
+"""Array → the numbers in it: ``q``, h times a momentum, or the momentum itself where a velocity is
+told by it, then the step h; ``v``, the unknowns; ``b``, what is computed before they are found;
+``s``, coordinates by which an element is turned."""
 
 
 @dataclass(frozen=True)
 class DiscreteStep:
-    """What templates write the step of a group by: its ``kind``; ``n``, of its points, ``size``, of
-    its matrices; ``centred``: is it seen from the centre of mass; ``damped``: is there D; the
-    ``places`` (row, column) of the numbers of the state in g, and what the other entries are,
-    ``fixed``; for each a the entries of E_a, ``basis``, and of ζ_a in Z, ``read``; ``order``."""
+    """What templates write the step of a group by.
+
+    ``kind``; how many ``momenta``, ``unknowns``, numbers ``begun`` and ``turns``, what Newton's
+    method finds, there are; ``group``: the numbers of the state that tell g; ``order``; ``norm``:
+    the largest sum of a row of an E_a, by size.
+    """
 
     kind: str
-    n: int
-    size: int
-    centred: bool
-    damped: bool
-    places: list[tuple[int, int]]
-    fixed: list[tuple[int, int, int]]
-    basis: list[Terms]
-    read: list[Terms]
+    momenta: int
+    unknowns: int
+    begun: int
+    turns: int
+    group: int
     order: int
+    norm: Fraction
 
     @property
-    def inside(self) -> int:
-        """The size of the matrices that are solved for."""
-        return self.size if self.kind == BASIS else self.n
+    def sizes(self) -> dict[str, int]:
+        """How many numbers the arrays of its functions have, by their names in a signature."""
+        return {
+            "MOMENTA": self.momenta,
+            "LOADED": self.momenta + 1,
+            "BEGUN": self.begun,
+            "UNKNOWNS": self.unknowns,
+            "TURNS": self.turns,
+            "CORRECTED": self.turns + 1,
+            "MOVED": self.group + self.momenta,
+        }
 
     @property
     def weights(self) -> list[float]:
@@ -64,47 +75,60 @@ class DiscreteStep:
         return [float(x) for x in weights(self.order)]
 
 
-def discrete_step(d: Derivation, group: Group, options: Options) -> DiscreteStep | None:
-    """The step of a record; ``None`` where none is asked for."""
-    if "discrete" not in options.step:
-        return None
-    stated, n, s = group.stated, group.n, group.size
-    damped = bool(d.problem.get("damping"))
-    kind, centred = kind_of(group), False
-    if group.affine and kind != BASIS:
-        centred = group.free_translations and not damped
-        kind = kind if centred else BASIS
-    slots = layout(group, options.layout == "col")
-    places = [(x.row, n if x.letter == "T" else x.column) for x in slots]
-    ones = {**fixed_entries(group), (s - 1, s - 1): 1}
-    others = [(i, j) for i in range(s) for j in range(s) if (i, j) not in places]
-    span = range(group.dimension)
-    return DiscreteStep(
-        kind,
-        n,
-        s,
-        centred,
-        damped,
-        places,
-        [(i, j, ones.get((i, j), 0)) for i, j in others],
-        [_terms(e) for e in stated.basis],
-        [stated.coordinate_terms(a) for a in span],
-        int(options.order or 2),
-    )
+@dataclass(frozen=True)
+class Lowered:
+    """The record of a step, the step, its functions as name → outputs, and the leaves that they
+    read beside those of others."""
+
+    record: Derivation
+    step: DiscreteStep
+    functions: dict[str, list[Node]]
+    leaves: Leaves
 
 
-def kind_of(group: Group) -> str:
-    """How the linear parts of a group are solved for."""
+def lowered(here: Lowering, record: Derivation) -> Lowered:
+    """The step of the discrete motion that a record tells; ``here``: the lowering of the motion in
+    time of its problem."""
+    e = Ends(here, record)
+    group, damped = e.group, bool(record.problem.get("damping"))
+    kind = kind_of(here.reader.group, damped=damped)
+    shift = group.n if group.affine else 0
+    counts = {
+        TURNING: (3 + shift, 3, 0, 0),
+        VOLUME: (group.n**2 + shift, 1, 4, 0),
+        WHOLE: (group.n**2 + shift, 0, 0, 0),
+        BASIS: (group.dimension, len(pattern(group.basis, group.size)), 0, group.dimension),
+    }[kind]
+    names = {"q": "momentum", "v": "unknown", "b": "begun", "s": "turn"}
+    leaves = {x: e.leaves(name, n) for (x, name), n in zip(names.items(), counts, strict=True)}
+    q, z, b, s = leaves.values()
+    if kind == TURNING:
+        found = turning(e, q, z)
+    elif kind == VOLUME:
+        found = volume(e, q, b, z)
+    elif kind == WHOLE:
+        found = whole(e, q)
+    else:
+        moments, damping = _moments(here, group), _damping(e) if damped else None
+        found = basis(e, moments, damping, q, z, s)
+    turns = counts[1] if kind in (TURNING, VOLUME) else counts[3]
+    slots = len(here.reader.space.slots)
+    norm = max(sum(map(abs, row)) for m in group.basis for row in m)
+    order = int(here.reader.options.order or 2)
+    step = DiscreteStep(kind, *counts[:3], turns, slots, order, Fraction(norm))
+    return Lowered(record, step, found, leaves | {"q": [*q, e.h]})
+
+
+def kind_of(group: Group, *, damped: bool = False) -> str:
+    """How a group is solved for."""
     linear = len(group.linear_basis)
+    if damped or (group.affine and not group.free_translations):
+        return BASIS
     if "orthogonal" in group.relations and (group.n, linear) == (3, 3):
         return TURNING
     if "unimodular" in group.relations and (group.n, linear) == (3, 8):
         return VOLUME
     return WHOLE if linear == group.n**2 else BASIS
-
-
-def _terms(m: Matrix) -> Terms:
-    return [(x, i, j) for i, row in enumerate(m) for j, x in enumerate(row) if x]
 
 
 def refuse(d: Derivation, group: Group, options: Options) -> None:
@@ -124,24 +148,6 @@ def refuse(d: Derivation, group: Group, options: Options) -> None:
         raise LoweringError(f"{d.name}: --step discrete {reason}: leave it out")
 
 
-def functions(lowering: Lowering) -> dict[str, list[Node]]:
-    """The functions that the step reads, as name → outputs, where one is asked for: ``moments`` J
-    by rows, of the size of the group's matrices, and D where damping acts; ``from_rest`` Ż."""
-    d, graph, reader = lowering.record, lowering.graph, lowering.reader
-    group, options = reader.group, reader.options
-    if "discrete" not in options.step:
-        return {}
-    whole = [x for row in _moments(lowering, group) for x in row]
-    if d.problem.get("damping"):
-        whole += [x for row in _damping(lowering, group) for x in row]
-    rest = Lowering(d, group, options, graph)
-    for name in ("ζ", "w") if group.affine else ("ζ",):
-        still: Matrix = tuple((graph.num(0),) for _ in reader.space.values[name])
-        rest.reader.state[name] = rest.reader.space.values[name] = still
-    pushed = rest.reader.space.velocity(rest.reader.component)
-    return {"moments": whole, "from_rest": pushed}
-
-
 def _moments(lowering: Lowering, group: Group) -> Matrix:
     """J, or with translations [[J, c], [c̄, m]]."""
     reader = lowering.reader
@@ -152,15 +158,15 @@ def _moments(lowering: Lowering, group: Group) -> Matrix:
     return (*above, (*(x for (x,) in c), reader.number("m")))
 
 
-def _damping(lowering: Lowering, group: Group) -> Matrix:
+def _damping(e: Ends) -> Matrix:
     """Σ κ_i r_i r̄_i over the points, with translations of (r_i, 1)."""
-    graph, reader = lowering.graph, lowering.reader
-    size = range(group.size)
+    graph, reader = e.graph, e.lowering.reader
+    size = range(e.group.size)
     total: list[list[list[Node]]] = [[[] for _ in size] for _ in size]
     for i in reader.members(("at", "κ", "i"), "i"):
         kappa, r = reader.number_of(("at", "κ", i)), reader.member(("at", "r", i))
         assert not isinstance(r, Node)
-        place = [*(x for (x,) in r), graph.num(1)][: group.size]
+        place = [*(x for (x,) in r), graph.num(1)][: e.group.size]
         for a in size:
             for b in size:
                 total[a][b].append(graph.product((kappa, place[a], place[b])))

@@ -81,17 +81,6 @@ def kept_by_gauss(
     return KeptByGauss(tuple(exact), tuple(others), group)
 
 
-def sentences(found: KeptByGauss, *, energy_alone: bool) -> str:
-    """What the emitted files say of it; is no other integral looked at?"""
-    exact = [*["the group"] * found.group, *found.exact]
-    text = f"In this form of the state it keeps {', '.join(exact) or 'no integral'} to rounding"
-    if found.others:
-        text += f", and to the error of its steps alone {', '.join(found.others)}"
-    if energy_alone:
-        text += ", but not the energy" * (not found.exact) + "; --conserved names other integrals"
-    return f"{text}."
-
-
 class _Points:
     """The functions of a program at random points, of one body without inputs."""
 

@@ -7,16 +7,14 @@ from itertools import groupby
 from typing import Any
 
 from ..options import Options
-from ..program import Program
+from ..program import KeptByGauss, Program
 from ..statements import Statements
 from .collocation import Collocation
 from .discrete_fields import written_step
 from .explicit_fields import GROWTH as EXPLICIT_GROWTH
 from .explicit_fields import SAFETY as EXPLICIT_SAFETY
 from .explicit_fields import explicit, fields_of
-from .kept_by_gauss import sentences
 from .lanes import OF_EACH, in_lanes, part_of
-from .stage_modes import StageModes
 
 
 def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
@@ -45,6 +43,17 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         if p.keeps
         else [],
     }
+
+
+def sentences(found: KeptByGauss, *, energy_alone: bool) -> str:
+    """What the emitted files say of it; is no other integral looked at?"""
+    exact = [*["the group"] * found.group, *found.exact]
+    text = f"In this form of the state it keeps {', '.join(exact) or 'no integral'} to rounding"
+    if found.others:
+        text += f", and to the error of its steps alone {', '.join(found.others)}"
+    if energy_alone:
+        text += ", but not the energy" * (not found.exact) + "; --conserved names other integrals"
+    return f"{text}."
 
 
 def discrete(p: Program, written: Statements, options: Options) -> dict[str, Any] | None:
@@ -127,6 +136,8 @@ def parts(p: Program) -> list[tuple[int, int]]:
 def gauss(coarse: bool) -> dict[str, Any]:
     """The numbers of Gauss's collocation, which round-trip as decimals: see ``Collocation``;
     ``coarse``: its stages apart, too, for Newton's method where there is a Jacobian."""
+    from .stage_modes import StageModes  # which alone needs mpmath
+
     method = Collocation()
     return {
         "nodes": method.c,

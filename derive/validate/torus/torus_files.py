@@ -22,7 +22,8 @@ from ...algebra.torus import Place
 from ...check.arithmetic import EvaluationError
 from ...check.evaluate import evaluate
 from ...check.residue import Residue
-from ...check.torus.torus_model import TorusModel, environment, torus_of
+from ...check.torus.torus_group import torus_of
+from ...check.torus.torus_model import TorusModel, environment
 from ...language import rational as q
 from ...record.json_writer import to_json
 from ...record.record import Derivation

@@ -120,7 +120,7 @@ function mount(element, page, pieces) {
       told = now;
       for (const [name, v] of Object.entries(invariants(time, x))) {
         const [value, change] = rows[name];
-        value.textContent = shown(v, page, name === "defect" ? 2 : 5);
+        value.textContent = shown(v, page, name === "defect" ? 2 : 5, first[name]);
         value.classList.toggle("wrong", name === "multiplier" && !(v > 0));
         if (change) {
           const by = abs(v - first[name]);

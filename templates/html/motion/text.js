@@ -10,13 +10,13 @@ const called = (name) => {
   return short ? short + low(end.replaceAll("_", ",")) : name.replaceAll("_", " ");
 };
 
-/* a number as it is shown: mark(text, page) with its decimal sign, shown(v, page) with its digits */
+/* a number as it is shown: mark(text, page) with its decimal sign, shown(v, page, digits, like) with the
+ * decimals that another of the same row has: it keeps its width while it moves */
 const mark = (text, page) => (page.comma ? text.replace(".", ",") : text).replace("-", "−");
-const shown = (v, page, digits = 5) => {
-  const size = abs(v);
-  const small = size !== 0 && size < 1e-3, large = size >= 1e6;
-  if (digits > 2 && size < 1e-14) return "0";
-  return mark(small || large ? v.toExponential(min(digits - 1, 3)) : String(Number(v.toPrecision(digits))), page);
+const shown = (v, page, digits, like) => {
+  const size = abs(like);
+  if (v === 0 || digits > 2 && abs(v) < 1e-14) return "0";
+  return mark(size < 1e-3 || size >= 1e6 ? v.toExponential(min(digits - 1, 3)) : v.toFixed(max(0, digits - 1 - floor(log10(size)))), page);
 };
 
 const on = (what, name, does, how) => what.addEventListener(name, does, how);

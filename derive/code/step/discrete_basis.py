@@ -1,0 +1,217 @@
+"""A discrete step on any group: dim 𝔤 equations, those of the balance on a basis E_a.
+
+The step is V = g₀⁻¹g₁ − 1, found by Newton's method with turns 1 + V ← (1 + V)W.  In the balance
+what has g₂ is Θ⁻ of the step after g₁, and what has g₀, Θ⁺ of that before: both are linear in the
+step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+
+from ...language import rational as q
+from ...language.rational import Matrix
+from ...language.tree import Tree, add, mul, replaced, terms
+from .. import dense
+from ..graph import Node
+from .discrete_ends import Ends, entries_of, has
+from .discrete_newton import change
+from .discrete_turns import pattern, turned
+
+BEND: Tree = ("add", "g_2", ("mul", -2, "g_1"), "g_0")
+OF_STEP: Tree = ("mul", "g_1", "V")
+
+
+class OnBasis:
+    """The equations on the basis, and the letters V, U = 1 + V and C = ḡg in them."""
+
+    def __init__(self, e: Ends, moments: Matrix, damping: Matrix | None, steps: list[Node]):
+        self.e, size = e, range(e.group.size)
+        self.places = pattern(e.group.basis, e.group.size)
+        leaves = dict(zip(self.places, steps, strict=True))
+        zero, one = e.graph.num(0), e.one
+        V: Matrix = tuple(tuple(leaves.get((i, j), zero) for j in size) for i in size)
+        U = q.plus(V, dense.numbers(e.graph, q.identity(e.group.size)))
+        own = e.lowering.reader
+        hatted = e.group.affine
+        own.state |= {"V": V, "U": U, "C": self._square}
+        own.state |= {"Ĵ" if hatted else "J": moments}
+        if damping:
+            own.state |= {"D̂" if hatted else "D": damping}
+        self.V, self.U = V, U
+        n = e.group.n
+        if hatted:
+            own.state["ι"] = tuple(
+                tuple(one if i == j else zero for j in range(n)) for i in range(n + 1)
+            )
+            own.state["o"] = tuple((one if i == n else zero,) for i in range(n + 1))
+        for a, m in enumerate(e.group.basis, 1):
+            own.memo["at", "E", a] = dense.numbers(e.graph, m)
+
+    @property
+    def span(self) -> range:
+        """The indices of the basis."""
+        return range(1, self.e.group.dimension + 1)
+
+    @cached_property
+    def _square(self) -> Matrix:
+        """C = ḡg on displacements of points: 1 where g turns."""
+        e, A = self.e, self.e.space.values["A"]
+        if "orthogonal" in e.group.relations:
+            return dense.numbers(e.graph, q.identity(e.group.size))
+        C = e.named(q.times(q.transposed(A), A), "C")
+        if not e.group.affine:
+            return C
+        return q.bordered(C, e.zero(tuple((row[0],) for row in C)), e.graph.num(0))
+
+    # -- the balance ---------------------------------------------------------------------------
+
+    @cached_property
+    def _balance(self) -> tuple[tuple[Tree, ...], str]:
+        """The terms of what vanishes for every ξ, and the name of ξ."""
+        e = self.e
+        if e.has("dalembert"):
+            step = e.record["dalembert"]
+        else:
+            step = e.record["discrete_affine.balance" if e.group.affine else "discrete.balance"]
+        (found,) = step.equations
+        e.label = step.key(found)
+        (xi,) = found.for_all
+        return terms(found.lhs), xi
+
+    def _on(self, a: int, kept: Iterator[Tree]) -> Tree:
+        _, xi = self._balance
+        return replaced(add(*kept), xi, ("at", "E", a))
+
+    def _ends(self, letter: str, moved: Tree) -> Iterator[Tree]:
+        """h times the terms that are linear in the step on the side of g₂, or g₀."""
+        for term in self._balance[0]:
+            if has(term, "g_0", "g_2"):
+                bent = replaced(term, BEND, letter)
+                if has(bent, letter):
+                    yield replaced(_times_h(bent), letter, moved)
+
+    def before(self, a: int, moved: Tree = OF_STEP) -> Node:
+        """h times what Θ⁻ has on E_a, of a change ``moved`` of the element."""
+        return self._number(self._on(a, self._ends("g_2", moved)))
+
+    def after(self, a: int) -> Node:
+        """h times what Θ⁺ has on E_a at the end of the step: there g is g₁U."""
+        there: Tree = ("mul", ("T", "U"), ("T", "g_1"))
+        found = (replaced(x, ("T", "g_1"), there) for x in self._ends("g_0", "g_2"))
+        return self._number(self._on(a, (replaced(x, "g_2", OF_STEP) for x in found)))
+
+    def pushed(self, a: int) -> Node:
+        """What the forces have on E_a."""
+        e = self.e
+        if self._told:
+            own = (x for x in self._told if not has(x, "g_0", "g_2"))
+            t = replaced(add(*own), ("at", "E", "a"), ("at", "E", a))
+        else:
+            t = self._on(a, (x for x in self._balance[0] if not has(x, "g_0", "g_2")))
+        return -e.number(t, {"h": e.one, **self._forces})
+
+    @cached_property
+    def _told(self) -> tuple[Tree, ...]:
+        """The terms of the balance on E_a with the forces of the problem in it, where the record
+        has that: there it is shorter."""
+        found = self.e.record["motion"].equations[-1]
+        return terms(found.lhs) if has(found.lhs, "E") else ()
+
+    @cached_property
+    def _forces(self) -> dict[Tree, Matrix]:
+        """N̂₁, of N₁ and f₁, which may be 0; its last row is not seen."""
+        e, values = self.e, self.e.space.values
+        found: dict[Tree, Matrix] = {"N_1": self._shaped("N_1", values["A"])}
+        if e.group.affine:
+            f = self._shaped("f_1", values["T"])
+            found["N̂_1"] = q.bordered(found["N_1"], f, e.graph.num(0))
+        return found
+
+    def _shaped(self, name: str, like: Matrix) -> Matrix:
+        """The value of a name, which may be 0."""
+        found = self.e.value(name)
+        return self.e.zero(like) if isinstance(found, Node) else found
+
+    def _number(self, t: Tree) -> Node:
+        return self.e.number(_gathered(t))
+
+    # -- what is lowered -----------------------------------------------------------------------
+
+    def metric(self) -> list[list[Node]]:
+        """M: on E_a, of the velocity g E_b, without damping."""
+        return [
+            [self._undamped(a, ("mul", "g_1", ("at", "E", b))) for b in self.span]
+            for a in self.span
+        ]
+
+    def momentum(self) -> list[Node]:
+        """M ζ."""
+        e = self.e
+        Z = e.named(e.space.hat(e.space.coordinates), "Z")
+        e.lowering.reader.state["Z"] = Z
+        return [self._undamped(a, ("mul", "g_1", "Z")) for a in self.span]
+
+    def _undamped(self, a: int, moved: Tree) -> Node:
+        found = (x for x in self._ends("g_2", moved) if not has(x, "h"))
+        return self._number(self._on(a, found))
+
+    def slopes(self) -> list[list[Node]]:
+        """The derivative of what Θ⁻ has on E_a, for δg = g₁U E_b."""
+        moved: list[Tree] = [("mul", "g_1", "U", ("at", "E", b)) for b in self.span]
+        return [[self.before(a, x) for x in moved] for a in self.span]
+
+
+def basis(
+    e: Ends,
+    moments: Matrix,
+    damping: Matrix | None,
+    momentum: list[Node],
+    steps: list[Node],
+    turns: list[Node],
+) -> dict[str, list[Node]]:
+    """The functions of a step; ``turns``: leaves of the coordinates of X."""
+    own, g = OnBasis(e, moments, damping, steps), e.graph
+    span = own.span
+    left = [own.before(a) - p for a, p in zip(span, momentum, strict=True)]
+    moved = q.times(e.space.element, own.V)
+    right = tuple((p,) for p in momentum)
+    M = tuple(map(tuple, own.metric()))
+    factors = dense.factorised(g, M, lambda part, x: g.value(x, f"metric_{part}"))
+    velocity = entries_of(
+        dense.solve(g, factors, right, lambda part, x: g.value(x, f"told_{part}"))
+    )
+    return {
+        "step_momentum": own.momentum(),
+        "step_force": [own.pushed(a) for a in span],
+        "step_guess": velocity,
+        "step_newton": change(g, own.slopes(), left, e.label),
+        **turned(e, own.V, own.U, own.places, turns),
+        "step_end": [*e.space.entries(moved), *(own.after(a) for a in span)],
+        "step_velocity": velocity,
+    }
+
+
+def _times_h(term: Tree) -> Tree:
+    """h times a term of a balance, which has 1/h, or none."""
+    if has(term, "h"):
+        return replaced(term, ("inv", "h"), 1)
+    return mul("h", term)
+
+
+def _gathered(t: Tree) -> Tree:
+    """The same with traces of products begun at ξ, and C for ḡ₁g₁."""
+    if not isinstance(t, tuple):
+        return t
+    if t[0] == "tr" and isinstance(t[1], tuple) and t[1][0] == "mul":
+        factors = mul(*t[1][1:])[1:]  # type: ignore[index]
+        first = next(k for k, x in enumerate(factors) if has(x, "E"))
+        turned, found = [*factors[first:], *factors[:first]], list[Tree]()
+        for x in turned:
+            if x == "g_1" and found[-1:] == [("T", "g_1")]:
+                found[-1] = "C"
+            else:
+                found.append(x)
+        return ("tr", ("mul", *found))
+    return (t[0], *(_gathered(x) for x in t[1:]))

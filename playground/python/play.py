@@ -1,0 +1,227 @@
+"""What the playground asks of the package, in a worker of the browser: the command line's own
+functions on the text of a problem file.
+
+``tell`` takes a kind of news and its JSON, as soon as there is any; what is refused is told as
+``error``, with the line of the file that it concerns.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import pickle
+import re
+import shlex
+import shutil
+import sys
+import tomllib
+import zipfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from pathlib import Path
+from typing import Any
+
+from places import line_of
+
+from derive.command.cli import derive, main
+from derive.command.guard import one_line
+from derive.language.refused import Refused
+from derive.paper.finding import Finding
+from derive.record.contract import AMENDED
+from derive.record.record import Derivation
+
+Tell = Callable[[str, str], None]
+FOLDER = Path("/problem")
+STORED = "amendments.pickle"
+"""Where the problem file is written; a file of this site beside this module."""
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,60}")
+SECONDS, TOLERANCE = 20.0, 1e-9
+"""Of a motion."""
+
+
+class Play:
+    """One problem at a time: its text, and what was derived of it."""
+
+    def __init__(self, tell: Tell) -> None:
+        self.tell_text, self.text, self.problem, self.record = tell, "", None, None
+        self.path = FOLDER / "problem.toml"
+
+    def tell(self, kind: str, news: Any) -> None:
+        """Send news."""
+        self.tell_text(kind, json.dumps(news, ensure_ascii=False))
+
+    @contextmanager
+    def refusals(self) -> Iterator[None]:
+        """A context that tells what is refused as the command line does."""
+        out, err = io.StringIO(), io.StringIO()
+        try:
+            with redirect_stdout(out), redirect_stderr(err):
+                yield
+        except Refused as error:
+            self.fault(f"derive: {one_line(error)}")
+        except (MemoryError, RecursionError) as error:
+            what = "out of memory" if isinstance(error, MemoryError) else "nested too deeply"
+            self.fault(f"derive: {what}: the input is too large for this machine")
+        except ImportError as error:
+            if (error.name or "").partition(".")[0] in ("derive", "mpmath"):
+                raise  # the worker loads it, and asks again
+            self.fault("derive: this needs NumPy, which is not here")
+        for line in err.getvalue().splitlines():
+            self.tell("warning", line)
+
+    def fault(self, message: str) -> None:
+        """Tell what is wrong, and at which line."""
+        self.tell("error", {"message": message, "line": line_of(message, self.text)})
+
+    def read(self, text: str) -> None:
+        """Write a problem file, and derive its equations unless they are there."""
+        if text == self.text and self.record is not None:
+            return
+        self.text, self.record = text, None
+        shutil.rmtree(FOLDER, ignore_errors=True)
+        FOLDER.mkdir()
+        self.path = FOLDER / f"{name_of(text)}.toml"
+        self.path.write_text(text, encoding="utf-8")
+        with inside(FOLDER):
+            self.problem, self.record = derive(self.path.name)
+
+    def walk(self, text: str, lang: str) -> None:
+        """The walk as the HTML of ``derive walk FILE --format html --fragment``, piece by piece."""
+        from derive.views.html import fragment
+        from derive.views.language import language
+
+        with self.refusals():
+            self.read(text)
+            self.tell("derived", {"steps": len(self.record.steps), "name": self.record.name})
+            found = corrections(self.record)
+            for piece in fragment([self.record], language=language(lang), findings=found):
+                self.tell("piece", piece)
+            self.tell("walked", {})
+
+    def check(self, text: str) -> None:
+        """A verdict on each step."""
+        from derive.check.checker import fresh_seed, verdicts
+        from derive.views.latex import anchor
+
+        with self.refusals():
+            self.read(text)
+            for v in verdicts(self.record, fresh_seed()):
+                told = {"id": anchor(v.label), "label": v.label, "holds": v.holds}
+                tried = {"bound": f"{v.bound:.0e}", "count": v.tried[0], "of": v.of}
+                self.tell("verdict", told | tried | {"groups": v.tried[1], "reason": v.reason})
+            self.tell("checked", {})
+
+    def plain(self, text: str) -> None:
+        """The data of a problem file, for the form; nothing where it is no TOML."""
+        try:
+            self.tell("plain", tomllib.loads(text))
+        except (tomllib.TOMLDecodeError, RecursionError, TypeError, ValueError):
+            self.tell("plain", None)
+
+    def files(self, text: str, words: str) -> bytes | None:
+        """The files that a command writes, as a zip; ``words``: the command after its name, in
+        which FILE stands for the problem file."""
+        written: dict[str, bytes] = {}
+        with self.refusals():
+            self.read(text)
+            out = FOLDER / "out"
+            shutil.rmtree(out, ignore_errors=True)
+            out.mkdir()
+            command = [self.path.name if x == "FILE" else x for x in shlex.split(words)]
+            said = io.StringIO()
+            with inside(FOLDER), redirect_stderr(said):
+                try:
+                    status = main(command)
+                except SystemExit as ended:
+                    status = ended.code
+            if status:
+                self.fault(said.getvalue().strip().splitlines()[-1])
+                return None
+            written = {x.name: x.read_bytes() for x in sorted(out.iterdir())}
+        return zipped(written) if written else None
+
+    def motion(self, text: str, lang: str) -> None:
+        """The emitted JavaScript, and what the page of a motion is told."""
+        from derive.code.emit import emit
+        from derive.code.options import Options
+        from derive.motion.emitted_code import EmittedCode, in_si
+        from derive.motion.first_numbers import first_numbers
+        from derive.page.motion_page import data, pieces
+        from derive.pipeline import moving_program
+        from derive.views.language import language
+
+        with self.refusals():
+            self.read(text)
+            made, _ = moving_program(self.problem, self.record)
+            code = EmittedCode(made, self.record, in_si(self.problem))
+            begin = first_numbers(with_numbers(made), self.problem, {})
+            chosen = Options(step=("gauss",))
+            (source,) = emit(made, self.record, ("javascript",), made.name, chosen).values()
+            page = data(code, self.problem, self.record, begin, language(lang))
+            page |= {"t": SECONDS, "tol": TOLERANCE}
+            page["x"] = moving(page, made)
+            told = {"source": source, "page": page, "pieces": pieces(page["body"])}
+            self.tell("motion", told)
+
+
+def corrections(record: Derivation) -> list[Finding]:
+    """Those of the print, which are the same for every problem, and were found when this was
+    built."""
+    numbers = {n for step in record.steps for n in step.paper} & AMENDED
+    stored = Path(__file__).with_name(STORED)
+    return [x for x in pickle.loads(stored.read_bytes()) if x.number in numbers] if numbers else []
+
+
+def with_numbers(made: Any) -> Any:
+    """A program whose parameters all have a number: 1 where the file gives none, as a slider can
+    change it."""
+    from dataclasses import replace
+
+    listed = tuple((x, 1.0 if v is None else v, *rest) for x, v, *rest in made.parameters)
+    return replace(made, parameters=listed)
+
+
+def moving(page: Any, made: Any) -> list[float]:
+    """A start that moves: where the file gives no velocity, one about the last but one of its
+    coordinates, with a little of the others."""
+    x, at_rest = page["x"], {place for _, _, place in page["entries"]}
+    velocity = [k for k in range(len(x)) if k not in at_rest and made.state[k][0] in "zw"]
+    if velocity and not any(x[k] for k in velocity):
+        for k in velocity:
+            x[k] = 0.1
+        x[velocity[min(1, len(velocity) - 1)]] = 2.0
+    return x
+
+
+def name_of(text: str) -> str:
+    """The name of a problem, for its file."""
+    try:
+        name = tomllib.loads(text).get("name")
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError):
+        return "problem"
+    return name if isinstance(name, str) and NAME.fullmatch(name) else "problem"
+
+
+@contextmanager
+def inside(folder: Path) -> Iterator[None]:
+    """A context in a folder."""
+    import os
+
+    before = Path.cwd()
+    os.chdir(folder)
+    try:
+        yield
+    finally:
+        os.chdir(before)
+
+
+def zipped(files: dict[str, bytes]) -> bytes:
+    """Files as a zip, without dates."""
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in files.items():
+            archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED)
+    return out.getvalue()
+
+
+sys.setrecursionlimit(max(sys.getrecursionlimit(), 1000))

@@ -1,0 +1,38 @@
+/* An element with attributes, listeners and what is in it; texts are never markup. */
+export function make(tag, given = {}, ...inside) {
+  const made = document.createElement(tag);
+  for (const [name, v] of Object.entries(given)) {
+    if (typeof v === "function") made.addEventListener(name, v);
+    else if (v === true) made.setAttribute(name, "");
+    else if (v !== false && v !== undefined) made.setAttribute(name, v);
+  }
+  made.append(...inside);
+  return made;
+}
+
+export const the = (id) => document.getElementById(id);
+
+/* let the reader save bytes as a file */
+export function save(name, content, type = "application/octet-stream") {
+  const url = URL.createObjectURL(new Blob([content], { type }));
+  make("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 60_000);
+}
+
+/* copy a text, and say so on the button for a moment */
+export async function copy(text, button, done) {
+  const before = button.textContent;
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const area = make("textarea", { class: "away", "aria-hidden": "true" });
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    document.execCommand("copy");
+    area.remove();
+    button.focus();
+  }
+  button.textContent = done;
+  setTimeout(() => { button.textContent = before; }, 1200);
+}

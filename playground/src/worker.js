@@ -1,0 +1,81 @@
+/* The package, in a worker: { id, ask, ...arguments } in, { id, kind, news } out; "ready" first. */
+import { loadPyodide } from "./pyodide/pyodide.mjs";
+
+const base = new URL("./", import.meta.url).href;
+const SITE = "/lib/site";
+
+let now = 0;
+const tell = (kind, news, moved = []) => postMessage({ id: now, kind, news }, moved);
+
+let python;
+
+/* a part of the package, fetched now, and unpacked when it is asked for */
+function part(name) {
+  const fetched = fetch(`${base}${name}.tar.gz`).then((x) => {
+    if (!x.ok) throw new Error(`${name}: ${x.status}`);
+    return x.arrayBuffer();
+  });
+  fetched.catch(() => {});
+  let done;
+  return () => (done ??= fetched.then((x) => {
+    python.unpackArchive(new Uint8Array(x), "gztar", { extractDir: SITE });
+    python.runPython("import sys; sys.path_importer_cache.clear()");
+  }));
+}
+
+async function begun() {
+  const first = part("first");
+  python = await loadPyodide({ indexURL: `${base}pyodide/` });
+  await first();
+  python.runPython(`import sys; sys.path.insert(0, "${SITE}"); sys.dont_write_bytecode = True`);
+  const Play = python.pyimport("play").Play;
+  return Play((kind, news) => tell(kind, JSON.parse(news)));
+}
+
+const started = begun();
+started.then(() => tell("ready", { python: python.version }), (e) => tell("broken", String(e)));
+
+let rest, later;
+
+/* what a walk does not need is fetched behind the first one; some libraries when an import of them fails */
+async function answered(ask, does) {
+  const afterwards = () => (rest ??= part("rest"));
+  if (ask !== "walk") await afterwards()();
+  try {
+    does();
+  } catch (e) {
+    if (String(e).includes("No module named 'mpmath'")) await (later ??= part("later"))();
+    else if (String(e).includes("No module named 'derive.")) await afterwards()();
+    else throw e;
+    does();
+  }
+  afterwards();
+}
+
+const ASKED = {
+  walk: (play, m) => play.walk(m.text, m.lang),
+  plain: (play, m) => play.plain(m.text),
+  check: (play, m) => play.check(m.text),
+  motion: (play, m) => play.motion(m.text, m.lang),
+  files: (play, m) => {
+    const made = play.files(m.text, m.words);
+    if (!made) return;
+    const bytes = made.toJs();
+    made.destroy();
+    tell("files", bytes.buffer, [bytes.buffer]);
+  },
+};
+
+let line = Promise.resolve();
+addEventListener("message", ({ data }) => {
+  line = line.then(async () => {
+    const play = await started;
+    now = data.id;
+    try {
+      await answered(data.ask, () => ASKED[data.ask](play, data));
+    } catch (e) {
+      tell("error", { message: `derive: ${String(e).trim().split("\n").at(-1)}`, line: 1 });
+    }
+    tell("end", {});
+  });
+});

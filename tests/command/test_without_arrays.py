@@ -1,0 +1,70 @@
+"""Where NumPy and SymPy are not there, as in a browser: walks, pages, checks and code are the same,
+and what needs them says so in a line."""
+
+import subprocess
+import sys
+
+import pytest
+
+from derive.command.cli import main, ready_made
+
+WITHOUT = """
+import sys
+sys.modules.update(numpy=None, sympy=None)
+from derive.command.cli import main
+for words in sys.argv[1].split(";"):
+    if status := main(words.split()):
+        sys.exit(status)
+"""
+MESH = 'name = "cube"\ngroup = "SO(3)"\n[body]\nsolid = "mesh"\nfile = "cube.off"\ndensity = 1\n'
+
+
+@pytest.fixture
+def said(capsys):
+    def printed(*words):
+        assert main([*words]) == 0
+        return capsys.readouterr().out
+
+    return printed
+
+
+def without(*commands, code=0, folder=None):
+    done = subprocess.run(
+        [sys.executable, "-c", WITHOUT, ";".join(commands)],
+        cwd=folder,
+        capture_output=True,
+        encoding="utf-8",
+    )
+    assert done.returncode == code, done.stderr[-2000:]
+    return done
+
+
+@pytest.mark.parametrize("name", ["so3", "comet", "two_tops", "affine", "zeitlin", "ideal_fluid"])
+def test_the_walk_is_the_same(name, said):
+    command = f"walk {name} --format html --fragment"
+    assert without(command).stdout == said(*command.split())
+
+
+def test_every_ready_made_problem_has_a_walk_and_a_page(tmp_path):
+    names = ready_made()
+    commands = [f"walk {name} --format html --out {name}.html" for name in names]
+    without(*commands, folder=tmp_path)
+    assert sorted(x.stem for x in tmp_path.iterdir()) == names
+
+
+def test_checks_and_code_are_the_same(said, tmp_path):
+    command = "emit so3 --lang c --lang javascript --lang python"
+    without(f"{command} --out here", "check so3 se3 --seed 1", folder=tmp_path)
+    said(*command.split(), "--out", str(tmp_path / "there"))
+    here, there = (
+        {x.name: x.read_bytes() for x in (tmp_path / y).iterdir()} for y in ("here", "there")
+    )
+    assert here == there
+
+
+def test_what_needs_arrays_is_refused_in_a_line(tmp_path):
+    (tmp_path / "cube.off").write_text("OFF\n")
+    (tmp_path / "cube.toml").write_text(MESH)
+    for command in ("walk cube.toml", "check zeitlin", "simulate so3 --t 1"):
+        line = without(command, code=2, folder=tmp_path).stderr
+        assert line == "derive: this needs NumPy, which is not here\n"

@@ -1,0 +1,93 @@
+"""The playground built once for all tests, served on this machine, and pages of it in Chromium."""
+
+import hashlib
+import shutil
+import subprocess
+import sys
+import threading
+from contextlib import contextmanager
+from pathlib import Path
+
+from playground.serve import server
+from tests.support.needs import BROWSERS
+
+ROOT = Path(__file__).parents[2]
+OWN, SITE = ROOT / "playground", ROOT / "build" / "site" / "play"
+STAMP = ROOT / "build" / "playground" / "stamp"
+SOURCES = ("derive", "templates", "playground")
+
+
+def signature():
+    """The hash of all that the playground is made of."""
+    made = hashlib.sha256()
+    for folder in SOURCES:
+        for path in sorted((ROOT / folder).rglob("*")):
+            parts = {"node_modules", "__pycache__"} & {*path.parts}
+            if path.is_file() and not parts:
+                made.update(str(path.relative_to(ROOT)).encode() + path.read_bytes())
+    return made.hexdigest()
+
+
+def built():
+    """The folder of the playground as it is now; one process builds it."""
+    import fcntl
+
+    STAMP.parent.mkdir(parents=True, exist_ok=True)
+    with STAMP.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        now = signature()
+        if not (STAMP.is_file() and STAMP.read_text() == now and SITE.is_dir()):
+            if not (OWN / "node_modules").is_dir():
+                command = ["npm", "ci", "--no-audit", "--no-fund"]
+                subprocess.run(command, cwd=OWN, check=True, capture_output=True)
+            stage = STAMP.with_name("stage")
+            subprocess.run([sys.executable, "-m", "playground.stage", stage], cwd=ROOT, check=True)
+            subprocess.run(["node", OWN / "build.mjs", stage, SITE], cwd=ROOT, check=True)
+            STAMP.write_text(now)
+    return SITE
+
+
+@contextmanager
+def served(folder):
+    """The address of a folder while it is served, and the server."""
+    serving = server(folder)
+    thread = threading.Thread(target=serving.serve_forever, daemon=True)
+    thread.start()
+    try:
+        yield f"http://127.0.0.1:{serving.server_port}/", serving
+    finally:
+        serving.shutdown()
+        serving.server_close()
+
+
+@contextmanager
+def chromium():
+    """The browser of the machine."""
+    from playwright.sync_api import sync_playwright
+
+    path = next(filter(None, map(shutil.which, BROWSERS)))
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+        yield running
+        running.close()
+
+
+ASK = """([ask, more]) => new Promise(async (resolve) => {
+    const heard = [];
+    const plain = (bytes) => btoa(Array.from(bytes, (x) => String.fromCharCode(x)).join(""));
+    const how = await play.engine.ask({ ask, ...more }, (kind, news) => {
+        heard.push([kind, kind === "files" ? plain(new Uint8Array(news)) : news]);
+    });
+    resolve([how, heard]);
+})"""
+
+
+def asked(page, ask, **more):
+    """How a question to the worker ended, and all that it answered."""
+    how, heard = page.evaluate(ASK, [ask, more])
+    return how, [(kind, news) for kind, news in heard]
+
+
+def walked(opened, what="so3"):
+    """Wait until a problem is walked."""
+    opened.wait_for_selector(f'body[data-walked="{what}"]', timeout=90_000)

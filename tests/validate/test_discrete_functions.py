@@ -1,0 +1,94 @@
+"""The validator of the functions of a discrete step: what is emitted passes, no change of it."""
+
+import tomllib
+from functools import cache
+
+import pytest
+
+import derive
+from derive.code.emit import emit
+from derive.code.options import Options
+from derive.pipeline import program, walk
+from derive.problem.toml import problem_of
+from derive.validate.chart import Chart
+from derive.validate.compare import compare
+from derive.validate.emission import EmittedFiles
+from derive.validate.exact_points import Claims
+from derive.validate.read_c import read_c
+from derive.validate.read_python import read_python
+from derive.validate.terms import CodeError
+from tests.check.test_discrete import DRIVEN
+from tests.support.code_mutations import mutants
+
+KINDS = {
+    "so3": "step_force, step_guess, step_newton",
+    "se3": "step_force, step_guess, step_newton",
+    "sl3": "step_guess, step_begin, step_newton",
+    "saff3": "step_guess, step_begin, step_newton",
+    "gl3": "step_force, step_end",
+    "heisenberg": "step_turn, step_turn_little, step_newton",
+    "sim3": "step_turn, step_turn_little, step_newton",
+    "so4": "step_turn, step_turn_little, step_newton",
+    "screw": "step_turn, step_turn_little, step_newton",
+    "SO(3)": "step_turn, step_turn_little, step_newton",
+    "SE(3)": "step_turn, step_turn_little, step_newton",
+    "SL(3)": "step_turn, step_turn_little, step_newton",
+}
+"""Problem, or group of one with inputs and damping → what is read back of its step."""
+
+
+@cache
+def emitted(name, layout="row"):
+    """The record, the files and the numbers in them."""
+    options = Options(step=("discrete",), layout=layout)
+    if "(" in name:
+        text = DRIVEN.replace("GROUP", name).replace("length = 1 ", "length = 0 ")
+        problem = problem_of(tomllib.loads(text))
+    else:
+        problem = derive.derive(name).problem
+    record = walk(problem)
+    compiled = program(problem, record, options)
+    files = emit(compiled, record, ("c", "python"), "own", options)
+    return record, files, compiled.numbers()
+
+
+@pytest.mark.parametrize("layout", ["row", "col"])
+@pytest.mark.parametrize("name", KINDS)
+def test_the_functions_of_a_step_are_read_back(name, layout):
+    record, files, numbers = emitted(name, layout)
+    reports = EmittedFiles(files, "own", Chart(layout), numbers).reports(record)
+    read = [x for x in reports if x.read]
+    assert len(read) == 2
+    for report in read:
+        assert report.holds, report.text
+        assert KINDS[name] in report.text
+        assert "step_momentum, step_velocity, step_force" in report.text
+
+
+def compared(name, language, text):
+    """Compare a changed file with the record."""
+    record, files, numbers = emitted(name)
+    if language == "c":
+        module = read_c("own.c", {**files, "own.c": text}, "own")
+    else:
+        module = read_python("own.py", text)
+    compare(module, Claims(record, Chart(), 2**64), numbers, "", 1e-3)
+    return module
+
+
+@pytest.mark.no_cover
+@pytest.mark.parametrize("language", ["c", "python"])
+@pytest.mark.parametrize("name", ["so3", "se3", "sl3", "gl3", "so4", "SE(3)"])
+def test_a_change_of_a_function_of_a_step_is_refused(name, language):
+    text = emitted(name)[1][f"own.{'c' if language == 'c' else 'py'}"]
+    module = compared(name, language, text)
+    found = [*mutants(text, language, module, r"step_\w+")]
+    assert {x for x, *_ in found} >= {"step_momentum", "step_force", "step_end", "step_velocity"}
+    passed = []
+    for function, kind, place, changed in found[:: max(1, len(found) // 25)]:
+        try:
+            compared(name, language, changed)
+        except CodeError:
+            continue
+        passed.append((function, kind, text.count("\n", 0, place) + 1))
+    assert not passed
