@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 
 from ..code.step.step_numbers import parts
+from ..language.show import show
 from ..language.tree import replaced
 from ..language.values import approximate
 from ..native.library import CompileError
 from ..native.motion_in_c import Motion
 from ..problem.inertia import fault_of_quadrics
-from ..problem.problem import Problem
+from ..problem.problem import Problem, points_of
 from .component import reflection, singular
 from .emitted import Emitted
 from .method import Method, instants
@@ -102,7 +103,7 @@ def beginning(
     if fault := fault_of_quadrics(problem.body, begin.parameters, "these parameters"):
         raise MotionError(f"{code.name}: {fault}")
     require_values(code, begin)
-    k = code.constants(begin.p)
+    k = _constants(code, problem, begin)
     with np.errstate(all="ignore"):
         rates = code.python.rhs(0.0, begin.x, k, begin.u)
         energy = float(code.python.energy(0.0, begin.x, k))
@@ -110,6 +111,18 @@ def beginning(
         why = why_not_finite(problem, begin, energy)
         raise MotionError(f"{code.name}: the equations have no finite value at the start: {why}")
     return begin
+
+
+def _constants(code: Emitted, problem: Problem, begin: Start) -> Array:
+    """k of the start; ``MotionError``, with the negative masses, where no body has them."""
+    try:
+        return code.constants(begin.p)
+    except MotionError as error:
+        masses = [x.mass for x in points_of(problem.body)]
+        found = [(show(m), approximate(m, begin.parameters, float)) for m in masses]
+        wrong = [f"{name} = {m:g}" for name, m in found if m is not None and m < 0]
+        why = f": a mass is negative, {', '.join(wrong)}" if wrong else ""
+        raise MotionError(f"{error}{why}") from None
 
 
 def require_values(code: Emitted, begin: Start) -> None:

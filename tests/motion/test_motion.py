@@ -378,6 +378,11 @@ def test_motions_of_other_states():
     assert np.ptp(rod["energy"]) < 1e-13
 
 
+def test_a_negative_mass_is_named(capsys):
+    err = told(capsys, "sl3", "--t", "1", "--set", "m1=-1")[2]
+    assert err.endswith("not positive: a mass is negative, m1 = -1\n")
+
+
 def test_a_reflection_is_no_rotation():
     """Where its relations hold as well: in any block, with scale, and by the compiled code."""
     for name, entry, group in (("two_tops", "A2_33", "SO(3)"), ("sim3", "A_33", "Sim(3)")):
