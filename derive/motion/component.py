@@ -10,6 +10,9 @@ import numpy as np
 from ..code.program import Block
 from .run import Array
 
+SINGULAR = 1e-12
+"""A determinant that is not larger is 0 to rounding."""
+
 
 def determinants(block: Block, x: Array) -> Array:
     """det A of one block, of states (…, size of the state)."""
@@ -29,10 +32,12 @@ def reflection(blocks: Sequence[Block], x: Array) -> str:
     return ""
 
 
-def singular(blocks: Sequence[Block], x: Array) -> str:
+def not_near(blocks: Sequence[Block], x: Array) -> str:
+    """That a state is on no side from which ``project`` reaches the group, in words, or empty."""
+    found = [float(determinants(block, x)) for block in blocks]
+    return next((f"det A = {det:.3g} is not above 0" for det in found if not det > SINGULAR), "")
+
+
+def unreached(blocks: Sequence[Block], x: Array) -> str:
     """Why Newton's method finds no element of the group from a state, in words."""
-    for block in blocks:
-        det = float(determinants(block, x))
-        if not det > 1e-12:
-            return f"from det A = {det:.3g} Newton's method finds none, it needs det A > 0"
-    return "it is too far off for Newton's method"
+    return not_near(blocks, x) or "it is too far off for Newton's method"

@@ -17,7 +17,7 @@ from ..native.library import CompileError
 from ..native.motion_in_c import Motion
 from ..problem.inertia import fault_of_quadrics
 from ..problem.problem import Problem, points_of
-from .component import reflection, singular
+from .component import not_near, reflection, unreached
 from .emitted import Emitted
 from .method import Method, instants
 from .not_finite import why_not_finite
@@ -147,9 +147,10 @@ def on_the_group(code: Emitted, begin: Start, *, project: bool) -> Start:
             x = np.asarray(code.python.project(x), dtype=float)
         off = float(code.python.defect(x))
     if not off <= OFF_THE_GROUP:
-        told = f"not taken to the group: {singular(blocks, begin.x)}"
+        told = f"not taken to the group: {unreached(blocks, begin.x)}"
         if not project:
-            told = f"not on the group: --project takes it there; its defect is {off:.3g}"
+            near = not_near(blocks, x) or "--project takes it there"
+            told = f"not on the group: {near}; its defect is {off:.3g}"
         raise MotionError(f"{code.name}: the start is {told}")
     if fault := reflection(blocks, x):
         raise MotionError(f"{code.name}: the start is not taken to the group: {fault}")

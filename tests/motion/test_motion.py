@@ -321,7 +321,10 @@ def test_ctrl_c_keeps_what_is_done(tmp_path, capsys, monkeypatch):
         (["--t", "1", "--set", "zeta_1=inf"], "expected a number"),
         (["--t", "1", "--set", "A_11=2"], "--project takes it there; its defect is 3"),
         (["--t", "1", "--set", "A_11=0", "--set", "A_22=0", "--project"], "not taken to the group"),
-        (["--t", "1", "--set", "A_11=0", "--set", "A_22=0", "--project"], "from det A = 0"),
+        (
+            ["--t", "1", "--set", "A_11=0", "--set", "A_22=0", "--project"],
+            "det A = 0 is not above 0",
+        ),
         (["--t", "1", "--exp", "0,0,0", "--set", "A_33=-1"], "det A = -1: a reflection is no elem"),
         (["--t", "1", "--exp", "0,0,0", "--set", "A_33=-0.9", "--project"], "of SO(3)"),
         (["--t", "1", "--exp", "1,2"], "takes 3 numbers"),
