@@ -80,7 +80,14 @@ def _shapes(action: str, basis: Sequence[Matrix]) -> None:
             raise ValueError(f"element {a} of the basis: the last row of an affine one must be 0")
     n = size - (action == "affine")
     if not 2 <= n <= LARGEST:
-        raise ValueError(f"the matrices move points of R^{n}; from R^2 to R^{LARGEST} are known")
+        line = (
+            '; affine maps of a line are linear ones of (r, 1): action = "linear" with the same '
+            "basis, points at [r, 1]"
+        )
+        raise ValueError(
+            f"the matrices move points of R^{n}; from R^2 to R^{LARGEST} are known"
+            + line * (action == "affine" and n == 1)
+        )
 
 
 def _independent(basis: Sequence[Matrix]) -> None:

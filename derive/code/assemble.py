@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from ..algebra.groups import Group
 from ..language.limits import SLOPES
@@ -13,7 +14,7 @@ from ..language.tree import Tree
 from ..record.record import Derivation
 from .change_of_frame import frame_changes
 from .conventions import conventions
-from .drift import TEXTS, drift
+from .drift import TEXTS, drift, matrices
 from .events import Event, table, values
 from .excluded_options import require_written
 from .factor import factored
@@ -31,6 +32,7 @@ from .program import EmittedFunction, Framing, KeptByGauss, LoweringError, Progr
 from .reader import RecordReader
 from .rewrite import reachable
 from .schedule import Scheduler, frontier
+from .state import StateSpace
 from .step.discrete_step import STEPPING, Lowered, lowered
 from .titles import titles
 
@@ -109,8 +111,14 @@ def assemble(
         *((momenta.names, momenta.size) if momenta else ((), 0)),
         mass_fault=lowering.inverses.mass_fault,
         discrete=stepped.step if stepped else None,
-        matrix_state=door.names if (door := matrix_state(lowering.reader.space)) else (),
+        **_matrices(lowering.reader.space),
     )
+
+
+def _matrices(space: StateSpace) -> dict[str, Any]:
+    """What the program says of the matrices in a state, or beside its quaternion."""
+    door = matrix_state(space)
+    return {"blocks": matrices(space), "matrix_state": door.names if door else ()}
 
 
 def _of_state(

@@ -11,6 +11,7 @@ A velocity dA/dt goes along by the derivative of the step: what leaves the group
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
@@ -22,6 +23,7 @@ from ..language.rational import Matrix
 from . import dense
 from .graph import Graph, Node
 from .linearise import Varied
+from .program import Block
 from .quaternion import conjugate, multiplied
 from .state import StateSpace
 
@@ -79,6 +81,23 @@ def _blocks(x: StateSpace) -> list[_Step]:
         if not kept.none:
             found.append(_Block(x.graph, factor, kept, mark).step(_entries(x, offset, factor)))
     return found
+
+
+def matrices(x: StateSpace) -> tuple[Block, ...]:
+    """The places of the entries of A, row by row, of the factors that have relations."""
+    if x.quaternion or not x.slots:
+        return ()
+    at = {(s.letter, s.row, s.column): k for k, s in enumerate(x.slots)}
+    return tuple(
+        Block(factor.name, _places(at, offset, factor), factor.conformal)
+        for offset, factor in x.group.places
+        if not relations(factor).none
+    )
+
+
+def _places(at: Mapping[tuple[str, int, int], int], offset: int, factor: Group) -> tuple[int, ...]:
+    span = range(offset, offset + factor.n)
+    return tuple(at["A", i, j] for i in span for j in span)
 
 
 def _entries(x: StateSpace, offset: int, factor: Group) -> list[Node]:

@@ -8,18 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.tree import Tree, fold
+from ..language.tree import Tree, add, fold, mul
 from ..language.values import OPERATIONS
+from . import dense
 from .graph import Node
 from .linearise import Varied
 from .lower import Lowering
-from .reader import scalar
-
-BACK: Tree = ("inv", "A")
+from .reader import matrix, scalar
+from .velocity_in_space import BACK, IN_SPACE, has_velocity, in_space
 
 
 class Kept:
@@ -29,6 +30,7 @@ class Kept:
         self.lowering, self.reader = lowering, lowering.reader
         self.graph, self.space = lowering.graph, lowering.reader.space
         self.energy = self.reader.number("h̃")
+        self.push = self._push()
         self.momenta = self._momenta()
         self.names: dict[str, Any] = {x: lowering.tree(x) for x in ("t", "π")}
         self.names["h̃"] = self.energy
@@ -41,12 +43,48 @@ class Kept:
 
     def value(self, t: Tree) -> Node:
         """The value of one quantity."""
-        found: Node = fold(self._at)(t)
+        found: Node = fold(self._at)(in_space(t) if self.push else t)
         return found
+
+    def _push(self) -> Matrix:
+        """ν𝕁, the matrix p with p̃(δg) = Tr p δḡ of points where C does not drop out; else empty.
+
+        (n, n), or (n, n + 1) of affine maps.
+        """
+        found = self.reader.record.definition("h̃")
+        if found is None or not has_velocity(found[1].rhs):
+            return ()
+        nu, tau = self.space.velocity_names
+        rows = q.transposed(self._matrix(("mul", "J", ("T", nu))))
+        if self.space.group.affine:
+            rows = q.plus(rows, self._matrix(("mul", tau, ("T", "c"))))
+            last = self._matrix(add(mul(nu, "c"), mul("m", tau)))
+            rows = tuple((*row, *x) for row, x in zip(rows, last, strict=True))
+        return self._named(rows, "push")
+
+    def _matrix(self, t: Tree) -> Matrix:
+        return matrix(self.lowering.tree(t))
+
+    def _named(self, m: Matrix, name: str) -> Matrix:
+        return dense.entrywise(m, name, lambda x, y: self.graph.value(x, y, ""), column=False)
+
+    def _body_momentum(self, a: int) -> Node:
+        """Π_a = p̃(gE_a)."""
+        moved = q.times(self.space.element, self.space.member(a))
+        found = dense.dot(self.push, moved[: len(self.push)])
+        return self.graph.value(found, f"momentum_{a + 1}", "")
+
+    @cached_property
+    def _in_space(self) -> Matrix:
+        """ν𝕁ḡ, the matrix p with p̃(Yg) = Tr p Ȳ."""
+        g = self.space.element
+        return self._named(q.times(self.push, q.transposed(g)), "space_momentum")
 
     def _momenta(self) -> tuple[Node, ...]:
         """Π_a = ∂L̃/∂ζ_a: the record's, or of points, where L̃ + Ũ is a square, ∂h̃/∂ζ_a."""
         span = range(self.space.group.dimension)
+        if self.push:
+            return tuple(self._body_momentum(a) for a in span)
         if "lagrangian" in self.reader.record.problem:
             return tuple(scalar(self.reader.member(("at", "Π", a + 1))) for a in span)
         slopes = (Varied(self.graph, self.space.faster(a), f"zeta_{a + 1}") for a in span)
@@ -85,6 +123,9 @@ class Kept:
                 return self.graph.product([x] * abs(n))
             case ("div", _, _):
                 return self.graph.product((parts[0], self.graph.recip(parts[1])))
+            case ("inner", head, _) if head == IN_SPACE:
+                Y = parts[1][: len(self.push)]
+                return dense.dot(self._in_space, Y)
             case ("inner", "Π", _):
                 coordinates = self.space.group.nearest(parts[1])
                 terms = zip(self.momenta, coordinates, strict=True)

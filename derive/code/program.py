@@ -137,6 +137,16 @@ class Watched:
 
 
 @dataclass(frozen=True)
+class Block:
+    """The matrix A of one factor in the state: the name of its group, the places of its n² entries;
+    does the group turn space, up to scale, so that det A > 0 is not told by its relations?"""
+
+    group: str
+    places: tuple[int, ...]
+    turns: bool
+
+
+@dataclass(frozen=True)
 class KeptByGauss:
     """What ``step.kept_by_gauss`` finds: the names of what is kept to rounding, and of what the
     motion keeps beside; is the group kept so?"""
@@ -213,6 +223,8 @@ class Program:
     """What ``constants`` says that the mass matrix is."""
     discrete: Any = None
     """What the step of the discrete motion is written by (``step.discrete_step.DiscreteStep``)."""
+    blocks: tuple[Block, ...] = ()
+    """The matrices in the state of the factors whose ``project`` there is."""
     matrix_state: tuple[str, ...] = ()
     """The names of the state with a matrix in place of its quaternion, where there is one."""
 

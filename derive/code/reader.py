@@ -17,6 +17,7 @@ from .naming import name_of
 from .options import Options
 from .program import LoweringError
 from .reduced_state import state_of
+from .velocity_in_space import by_velocity
 
 Value = Node | Matrix
 
@@ -134,7 +135,7 @@ class RecordReader:
         if name not in self.memo:
             found = self.record.definition(name)
             if found is not None:
-                self.memo[name] = self._defined(found, name_of(name))
+                self.memo[name] = self._defined(found, name_of(name), self._rhs(*found))
             else:
                 self.memo[name] = self._entries(name)
             if name == "C":
@@ -179,11 +180,18 @@ class RecordReader:
         self.label = outer
         return table
 
-    def _defined(self, found: tuple[Step, Equation], name: str) -> Value:
-        """The value of the right side of a definition, named unless it is J from a given I."""
+    def _rhs(self, _: Step, equation: Equation) -> Tree:
+        """The right side of a definition; of the energy by the velocity in space."""
+        if equation.lhs != "h̃":
+            return equation.rhs
+        return by_velocity(equation.rhs, self.space.velocity_names)
+
+    def _defined(self, found: tuple[Step, Equation], name: str, rhs: Tree | None = None) -> Value:
+        """The value of the right side of a definition, or of what stands for it, named unless it is
+        J from a given I."""
         step, equation = found
         outer, self.label = self.label, step.key(equation)
-        value = self.tree(equation.rhs)
+        value = self.tree(equation.rhs if rhs is None else rhs)
         # a J that comes from a given I goes back to it: its terms cancel before they are rounded
         if equation.lhs != "J" or not _sums_of_parameters(value):
             value = self.named(value, name, recorded=True)

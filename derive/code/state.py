@@ -260,6 +260,11 @@ class StateSpace:
         return self._whole(self.values["A"], self.values.get("T", ()), 1)
 
     @property
+    def velocity_names(self) -> tuple[str, str]:
+        """What the linear part of ġ and its shift are called: numbers of the state, or by ζ."""
+        return ("α", "τ") if self.tangent else ("Ȧ", "Ṫ")
+
+    @property
     def rate(self) -> Matrix:
         """ġ as nodes, of the size of the group's matrices, where the state holds it."""
         return self._whole(self.values["α"], self.values.get("τ", ()), 0)

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..motion.ensemble import require_an_ensemble
+from ..motion.kept_words import parts
 from ..motion.method import STEPS, Method, instants
 from ..motion.run import Array, Run
 from ..motion.run_files import format_of, written
@@ -27,6 +28,9 @@ from .ensembles import command_ensemble
 from .guard import one_line
 from .progress import with_progress
 from .writing import write
+
+ROUNDING = 1e-15
+"""A component that is smaller, beside the others, is that of sums of a few terms."""
 
 MANY, LARGEST = 60, 8
 """Of a state of more than so many numbers only so many are told, those that are largest."""
@@ -131,7 +135,8 @@ def summary(run: Run) -> list[str]:
             if label in run.facts.get("vanishing", ()):
                 continue
             change = float(np.abs(column - column[0]).max())
-            lines.append(f"  {label}: {column[0]:.9g} at first, changed by at most {change:.1e}")
+            first = at_first(run, label)
+            lines.append(f"  {label}: {first:.9g} at first, changed by at most {change:.1e}")
     for label, column in run.of_kind("defect").items():
         lines.append(f"  {label}: at most {float(column.max()):.1e}")
     lines += events(run)
@@ -142,6 +147,14 @@ def summary(run: Run) -> list[str]:
     told = [f"{x} = {last[x]:.6g}" for x in shown]
     told += [f"… (the largest of {len(state)})"] * (len(shown) < len(state))
     return [*lines, f"  at the end: {', '.join(told)}"]
+
+
+def at_first(run: Run, label: str) -> float:
+    """A quantity at first; 0 where that is the rounding of what has the same name."""
+    family = [x for x in run.names if parts(x)[0] == parts(label)[0]]
+    size = max(abs(float(run[x][0])) for x in family)
+    first = float(run[label][0])
+    return 0.0 if abs(first) <= ROUNDING * size else first
 
 
 def events(run: Run) -> list[str]:
@@ -172,7 +185,7 @@ def negative(t: Array, column: Array) -> str:
     last = below[gaps[0]] if len(gaps) else below[-1]
     until = f" … {t[last]:.4g}" if last > below[0] else ""
     more = " and later" if len(gaps) else ""
-    return f"at t = {t[below[0]]:.4g}{until}{more} ({len(below)} of {len(t)} instants)"
+    return f"at t = {t[below[0]]:.4g}{until}{more}, at {len(below)} of {len(t)} instants"
 
 
 def _told(run: Run) -> int:
@@ -182,7 +195,7 @@ def _told(run: Run) -> int:
         text = f"of what it keeps the energy alone is told: {why.removeprefix(f'{name}: ')}"
         print(f"derive: note: {one_line(f'{name}: {text}')}", file=sys.stderr)
     for label, column in run.of_kind("multiplier").items():
-        if where := negative(run.t, column):
+        if run.facts.get("filled") and (where := negative(run.t, column)):
             text = f"{label} is negative {where}: a fluid would tear there"
             print(f"derive: warning: {name}: {text}", file=sys.stderr)
     if not run.ended and not np.any(run.states != run.states[0]):

@@ -19,6 +19,7 @@ from ..native.library import FLAGS, CSource, loaded, over_cores
 from ..native.motion_in_c import Motion, binding, binding_to_events
 from ..problem.problem import Problem
 from ..record.record import Derivation
+from ..schema.body_kinds import GivenBody
 from ..schema.followed import Event
 from ..schema.lagrangian_kinds import Lagrangian
 from .body_outline import outline
@@ -66,6 +67,7 @@ class Emitted(EmittedCode):
             "group": program.group,
             "hash": problem_hash(record),
             "unsought": unsought,
+            "filled": isinstance(problem.body, GivenBody) and bool(problem.body.solids),
         }
         si, events, stated = in_si(problem), problem.events, problem.lagrangian
         return cls(program, record, si, step, facts, events, left, order, stated)

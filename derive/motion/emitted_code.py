@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from ..code.program import Program
 from ..problem.problem import Problem
 from ..record.record import Derivation
+from .kept_words import in_order
 
 KINDS = ("time", "state", "energy", "conserved", "defect", "multiplier")
 """What a column can be, in the order of a table."""
@@ -42,7 +43,8 @@ class EmittedCode:
     @property
     def kept(self) -> list[int]:
         """The places of what is conserved beside the energy, which has a column of its own."""
-        return [k for k, name in enumerate(self.program.conserved) if name != "energy"]
+        names = self.program.conserved
+        return [k for k in in_order(names) if names[k] != "energy"]
 
     def columns(self) -> tuple[Column, ...]:
         """The columns of a run: time, state, then what :meth:`table` adds."""

@@ -13,6 +13,7 @@ from ..language.expression import names
 from ..native.library import CompileError
 from ..native.motion_in_c import AT_EVENT, Integers, constants, ensemble
 from ..problem.problem import Problem
+from .component import reflection, unreached
 from .emitted import Emitted
 from .method import TOLERANCE, Method, instants
 from .run import Array
@@ -258,16 +259,18 @@ class Many:
         code = self.code
         if "defect" not in code.program.functions:
             return x
+        if fault := reflection(code.program.blocks, x):
+            raise MotionError(f"{code.name}: a motion starts off the group: {fault}")
+        begun = x
         for _ in range(20 if self.plan.project else 0):  # Newton's method
             x = np.asarray(code.python.project(x), dtype=float)
         off = np.asarray(code.python.defect(x))
         if not (off <= OFF_THE_GROUP).all():
             worst = int(np.flatnonzero(~(off <= OFF_THE_GROUP))[0])
-            remedy = "" if self.plan.project else ": --project takes it there"
-            raise MotionError(
-                f"{code.name}: motion {first + worst} starts off the group, with a defect of "
-                f"{off[worst]:.3g}{remedy}"
-            )
+            why = f"with a defect of {off[worst]:.3g}: --project takes it there"
+            if self.plan.project:
+                why = unreached(code.program.blocks, begun[worst])
+            raise MotionError(f"{code.name}: motion {first + worst} starts off the group, {why}")
         return x
 
     def _part(self, first: int, draws: Array) -> Part:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 KEPT = {
     "momentum": "linear momentum",
@@ -12,6 +12,18 @@ KEPT = {
     "body_angular_momentum": "angular momentum in the body",
     "deformation_body": "circulation in the body",
 }
+
+
+def parts(name: str) -> tuple[str, int]:
+    """``angular_momentum_3`` → angular_momentum and 3; 0 where there is no number."""
+    base, number = re.fullmatch(r"(.*?)(?:_(\d+))?", name, re.DOTALL).groups()  # type: ignore[union-attr]
+    return base, int(number or 0)
+
+
+def in_order(names: Sequence[str]) -> list[int]:
+    """The places of names, those with one base together, where the first of them is, by number."""
+    bases = [parts(x)[0] for x in names]
+    return sorted(range(len(names)), key=lambda k: (bases.index(bases[k]), parts(names[k])[1]))
 
 
 def in_words(name: str, word: Callable[[str], str]) -> str:

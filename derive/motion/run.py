@@ -37,11 +37,11 @@ class Run:
 
     ``table``: (instants, columns), the first column the time; ``facts``: what it was made of, as
     JSON has it: the name of the problem, its title, group and hash, ``unsought`` (why nothing but
-    the energy stands as what is kept, if so), ``parameters`` (name → number), ``method`` (the
-    step, its tolerance or size), ``language`` (in which it was run, C or Python), ``evaluations``
-    (of the rate), ``vanishing`` (what it keeps that is 0 in any state with these parameters),
-    ``ended`` (empty, or why it stopped too soon), ``events`` (those that happened),
-    ``body`` and ``potential`` (what pictures need).
+    the energy stands as what is kept, if so), ``filled`` (does the body fill a solid),
+    ``parameters`` (name → number), ``method`` (the step, its tolerance or size), ``language`` (in
+    which it was run, C or Python), ``evaluations`` (of the rate), ``vanishing`` (what it keeps that
+    is 0 in any state with these parameters), ``ended`` (empty, or why it stopped too soon),
+    ``events`` (those that happened), ``body`` and ``potential`` (what pictures need).
     """
 
     columns: tuple[Column, ...]

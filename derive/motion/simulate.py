@@ -10,14 +10,17 @@ from typing import Any
 import numpy as np
 
 from ..code.step.step_numbers import parts
+from ..language.show import show
 from ..language.tree import replaced
 from ..language.values import approximate
 from ..native.library import CompileError
 from ..native.motion_in_c import Motion
 from ..problem.inertia import fault_of_quadrics
-from ..problem.problem import Problem
+from ..problem.problem import Problem, points_of
+from .component import not_near, reflection, unreached
 from .emitted import Emitted
 from .method import Method, instants
+from .not_finite import why_not_finite
 from .run import Array, Run
 from .start import OFF_THE_GROUP, MotionError, Start, start
 from .trajectory import Trajectory
@@ -100,15 +103,26 @@ def beginning(
     if fault := fault_of_quadrics(problem.body, begin.parameters, "these parameters"):
         raise MotionError(f"{code.name}: {fault}")
     require_values(code, begin)
-    k = code.constants(begin.p)
+    k = _constants(code, problem, begin)
     with np.errstate(all="ignore"):
         rates = code.python.rhs(0.0, begin.x, k, begin.u)
-    if not np.isfinite(rates).all():
-        raise MotionError(
-            f"{code.name}: the equations have no finite value at the start: look at the state, as "
-            "two ends of a spring at one place"
-        )
+        energy = float(code.python.energy(0.0, begin.x, k))
+    if not (np.isfinite(rates).all() and math.isfinite(energy)):
+        why = why_not_finite(problem, begin, energy)
+        raise MotionError(f"{code.name}: the equations have no finite value at the start: {why}")
     return begin
+
+
+def _constants(code: Emitted, problem: Problem, begin: Start) -> Array:
+    """k of the start; ``MotionError``, with the negative masses, where no body has them."""
+    try:
+        return code.constants(begin.p)
+    except MotionError as error:
+        masses = [x.mass for x in points_of(problem.body)]
+        found = [(show(m), approximate(m, begin.parameters, float)) for m in masses]
+        wrong = [f"{name} = {m:g}" for name, m in found if m is not None and m < 0]
+        why = f": a mass is negative, {', '.join(wrong)}" if wrong else ""
+        raise MotionError(f"{error}{why}") from None
 
 
 def require_values(code: Emitted, begin: Start) -> None:
@@ -125,13 +139,21 @@ def on_the_group(code: Emitted, begin: Start, *, project: bool) -> Start:
     """The start, taken to the group where that is asked for; ``MotionError`` where it is off."""
     if "defect" not in code.program.functions:
         return begin
-    x = begin.x
-    for _ in range(20 if project else 0):  # Newton's method
-        x = np.asarray(code.python.project(x), dtype=float)
-    off = float(code.python.defect(x))
+    x, blocks = begin.x, code.program.blocks
+    if fault := reflection(blocks, x):
+        raise MotionError(f"{code.name}: the start is not on the group: {fault}")
+    with np.errstate(all="ignore"):
+        for _ in range(20 if project else 0):  # Newton's method
+            x = np.asarray(code.python.project(x), dtype=float)
+        off = float(code.python.defect(x))
     if not off <= OFF_THE_GROUP:
-        told = "not taken to the group" if project else "not on the group: --project takes it there"
-        raise MotionError(f"{code.name}: the start is {told}; its defect is {off:.3g}")
+        told = f"not taken to the group: {unreached(blocks, begin.x)}"
+        if not project:
+            near = not_near(blocks, x) or "--project takes it there"
+            told = f"not on the group: {near}; its defect is {off:.3g}"
+        raise MotionError(f"{code.name}: the start is {told}")
+    if fault := reflection(blocks, x):
+        raise MotionError(f"{code.name}: the start is not taken to the group: {fault}")
     return replace(begin, x=x)
 
 

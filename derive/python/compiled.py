@@ -20,9 +20,10 @@ import numpy as np
 from ..code.emit import emit
 from ..code.languages import LANGUAGES
 from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
-from ..code.program import Program
+from ..code.program import Block, Program
 from ..code.step.step_numbers import FIXED
 from ..language.near_names import did_you_mean, near_name
+from ..motion.component import reflection
 from ..motion.start import OFF_THE_GROUP
 from ..native.library import FLAGS, CompileError, CSource, loaded, over_cores
 from ..native.motion_in_c import Array, Motion, binding, constants, ensemble, pointer
@@ -46,6 +47,9 @@ void derive_rhs(double *b)
 five arguments takes ctypes longer than rhs takes."""
 
 
+ROTATION = Block("SO(3)", tuple(range(9)), turns=True)
+"""Where A is in a state that begins with a rotation."""
+
 MORE = 9 - 4
 """How many more numbers a rotation has as a matrix than as a quaternion."""
 
@@ -63,6 +67,7 @@ class Names(NamedTuple):
     algebra: int
     reduced: int
     unread: tuple[str, ...]
+    blocks: tuple[Block, ...]
 
     @classmethod
     def of(
@@ -75,7 +80,7 @@ class Names(NamedTuple):
         events = tuple(x.name for x in program.events)
         named = program.state, program.inputs, program.conserved, events
         unread = tuple(x for x in declared if x not in defaults)
-        return cls(*named, defaults, steps, *sizes, unread)
+        return cls(*named, defaults, steps, *sizes, unread, program.blocks)
 
 
 class Values(NamedTuple):
@@ -242,6 +247,8 @@ class Compiled(InMomenta):
         state = np.array(x, dtype=float)
         if state.shape != (len(self.STATE),):
             raise ValueError(f"expected a state of {len(self.STATE)} numbers")
+        if fault := reflection(self._names.blocks, state):
+            raise ValueError(f"the state is not on the group: {fault}")
         off = self.defect(state) if self._has("defect") else 0.0
         if not off <= OFF_THE_GROUP:
             raise ValueError(
@@ -339,7 +346,10 @@ class Compiled(InMomenta):
 
     def from_matrix(self, z: Any) -> Array:
         """The state z, which begins with a rotation A, with the quaternion of A, q_0 ≥ 0."""
-        return self._exchanged("from_matrix", z, len(self.STATE) + MORE, len(self.STATE))
+        size = len(self.STATE) + MORE
+        if self._has("from_matrix") and (fault := reflection([ROTATION], _array(z, size))):
+            raise ValueError(fault)
+        return self._exchanged("from_matrix", z, size, len(self.STATE))
 
     def _exchanged(self, what: str, x: Any, size: int, found: int) -> Array:
         """What the C function ``what`` makes of so many numbers, so many others."""

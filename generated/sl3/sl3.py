@@ -536,33 +536,38 @@ def _energy(xp, t, x, k, u):
     # Z = [ζ₁, ζ₂, ζ₃; ζ₄, ζ₅, ζ₆; ζ₇, ζ₈, −ζ₁ − ζ₅]
     Z_33 = -(zeta_1 + zeta_5)
 
-    # linear.trivialisation.5: 18 mul, 12 add
-    # C = ĀA
-    C_11 = A_11*A_11 + A_21*A_21 + A_31*A_31
-    C_12 = A_11*A_12 + A_21*A_22 + A_31*A_32
-    C_13 = A_11*A_13 + A_21*A_23 + A_31*A_33
-    C_22 = A_12*A_12 + A_22*A_22 + A_32*A_32
-    C_23 = A_12*A_13 + A_22*A_23 + A_32*A_33
-    C_33 = A_13*A_13 + A_23*A_23 + A_33*A_33
+    # sl3.motion.1: 27 mul, 18 add
+    # Ȧ = AZ
+    A_dot_11 = A_11*zeta_1 + A_12*zeta_4 + A_13*zeta_7
+    A_dot_12 = A_11*zeta_2 + A_12*zeta_5 + A_13*zeta_8
+    A_dot_13 = A_11*zeta_3 + A_12*zeta_6 + A_13*Z_33
+    A_dot_21 = A_21*zeta_1 + A_22*zeta_4 + A_23*zeta_7
+    A_dot_22 = A_21*zeta_2 + A_22*zeta_5 + A_23*zeta_8
+    A_dot_23 = A_21*zeta_3 + A_22*zeta_6 + A_23*Z_33
+    A_dot_31 = A_31*zeta_1 + A_32*zeta_4 + A_33*zeta_7
+    A_dot_32 = A_31*zeta_2 + A_32*zeta_5 + A_33*zeta_8
+    A_dot_33 = A_31*zeta_3 + A_32*zeta_6 + A_33*Z_33
 
-    # sl3.energy.1: 72 mul, 49 add
+    # sl3.energy.1: 63 mul, 43 add
     # h̃ = ½ Tr ZJZ̄C + ½ Tr CK
-    tr_Z_J_Z_T_C = (
-        (J_11*zeta_1 + J_12*zeta_2 + J_13*zeta_3)*(zeta_1*C_11 + zeta_4*C_12 + zeta_7*C_13)
-        + (J_12*zeta_1 + J_22*zeta_2 + J_23*zeta_3)*(zeta_2*C_11 + zeta_5*C_12
-        + zeta_8*C_13) + (J_13*zeta_1 + J_23*zeta_2 + J_33*zeta_3)*(zeta_3*C_11
-        + zeta_6*C_12 + Z_33*C_13) + (J_11*zeta_4 + J_12*zeta_5
-        + J_13*zeta_6)*(zeta_1*C_12 + zeta_4*C_22 + zeta_7*C_23) + (J_12*zeta_4
-        + J_22*zeta_5 + J_23*zeta_6)*(zeta_2*C_12 + zeta_5*C_22 + zeta_8*C_23)
-        + (J_13*zeta_4 + J_23*zeta_5 + J_33*zeta_6)*(zeta_3*C_12 + zeta_6*C_22
-        + Z_33*C_23) + (J_11*zeta_7 + J_12*zeta_8 + J_13*Z_33)*(zeta_1*C_13
-        + zeta_4*C_23 + zeta_7*C_33) + (J_12*zeta_7 + J_22*zeta_8
-        + J_23*Z_33)*(zeta_2*C_13 + zeta_5*C_23 + zeta_8*C_33) + (J_13*zeta_7
-        + J_23*zeta_8 + J_33*Z_33)*(zeta_3*C_13 + zeta_6*C_23 + Z_33*C_33)
+    tr_A_dot_J_A_dot_T = (
+        A_dot_11*(J_11*A_dot_11 + J_12*A_dot_12 + J_13*A_dot_13) + A_dot_12*(J_12*A_dot_11
+        + J_22*A_dot_12 + J_23*A_dot_13) + A_dot_13*(J_13*A_dot_11 + J_23*A_dot_12
+        + J_33*A_dot_13) + A_dot_21*(J_11*A_dot_21 + J_12*A_dot_22 + J_13*A_dot_23)
+        + A_dot_22*(J_12*A_dot_21 + J_22*A_dot_22 + J_23*A_dot_23)
+        + A_dot_23*(J_13*A_dot_21 + J_23*A_dot_22 + J_33*A_dot_23)
+        + A_dot_31*(J_11*A_dot_31 + J_12*A_dot_32 + J_13*A_dot_33)
+        + A_dot_32*(J_12*A_dot_31 + J_22*A_dot_32 + J_23*A_dot_33)
+        + A_dot_33*(J_13*A_dot_31 + J_23*A_dot_32 + J_33*A_dot_33)
     )
-    tr_C_K = K_11*C_11 + 2.0*K_12*C_12 + 2.0*K_13*C_13 + K_22*C_22 + 2.0*K_23*C_23 + K_33*C_33
+    tr_C_K = (
+        K_11*(A_11*A_11 + A_21*A_21 + A_31*A_31) + 2.0*K_12*(A_11*A_12 + A_21*A_22
+        + A_31*A_32) + 2.0*K_13*(A_11*A_13 + A_21*A_23 + A_31*A_33) + K_22*(A_12*A_12
+        + A_22*A_22 + A_32*A_32) + 2.0*K_23*(A_12*A_13 + A_22*A_23 + A_32*A_33)
+        + K_33*(A_13*A_13 + A_23*A_23 + A_33*A_33)
+    )
     return [
-        0.5*(tr_Z_J_Z_T_C + tr_C_K),
+        0.5*(tr_A_dot_J_A_dot_T + tr_C_K),
     ]
 
 

@@ -1,5 +1,6 @@
 """What ``--conserved`` adds is kept along motions, and is what the search found."""
 
+from fractions import Fraction
 from types import ModuleType
 
 import numpy as np
@@ -10,6 +11,7 @@ from derive.code.emit import emit
 from derive.code.options import Options
 from derive.code.program import LoweringError
 from derive.command.cli import main, ready_made
+from derive.language.rational import times, transposed
 from derive.language.refused import Refused
 from derive.pipeline import program
 from derive.problem.toml import problem_of
@@ -205,3 +207,31 @@ def test_nothing_is_kept():
     timed = on_algebra("zeta_1^2 + (2 + t^2)*zeta_2^2", {"brackets": [[1, 2, 2, 1]]})
     with pytest.raises(Refused, match=r"on the time.*no Casimir.*: leave out --conserved"):
         timed.emit(conserved=True)
+
+
+def exactly(A, Z, J, Y):
+    """Tr AZJĀȲ in fractions: p̃(Yg) of points with moments J."""
+    A, Z, J, Y = ([[Fraction(x) for x in row] for row in m.tolist()] for m in (A, Z, J, Y))
+    whole = A
+    for m in (Z, J, transposed(A), transposed(Y)):
+        whole = times(whole, m)
+    return float(sum(whole[i][i] for i in range(3)))
+
+
+def test_momenta_of_space_where_the_body_is_stretched():
+    """By ν = gZ they lose the digits that (A, ζ) has lost, not those of A⁻¹ and ĀA as well."""
+    module, rng = module_of("sl3"), np.random.default_rng(4)
+    (left, _), (right, _) = (np.linalg.qr(rng.normal(size=(3, 3))) for _ in range(2))
+    A, Z = left @ np.diag([1e4, 1.0, 1e-4]) @ right, rng.normal(size=(3, 3))
+    Z[2, 2] = -Z[0, 0] - Z[1, 1]
+    x, p = np.concatenate([A.ravel(), Z.ravel()[:8]]), module.DEFAULTS
+    points = np.array([[p[f"{a}{i}"] for a in "xyz"] for i in range(1, 5)])
+    masses = np.array([p[f"m{i}"] for i in range(1, 5)])
+    J = np.einsum("i,ij,ik->jk", masses, points, points)
+    kept = dict(zip(module.CONSERVED, module.conserved(0.0, x, module.constants(p)), strict=True))
+    size = np.abs(A).max() ** 2 * np.abs(Z).max() * np.abs(J).max()
+    for axis, (i, j) in enumerate(((1, 2), (2, 0), (0, 1)), 1):
+        turn = np.zeros((3, 3))
+        turn[j, i], turn[i, j] = 1.0, -1.0
+        wanted = exactly(A, Z, J, turn)
+        assert abs(kept[f"angular_momentum_{axis}"] - wanted) < 1e-14 * size

@@ -1,6 +1,7 @@
 """Motions of derive simulate: known solutions, order, what is kept, what is refused."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,9 +9,11 @@ import pytest
 import derive
 from derive.code.step.collocation import Collocation
 from derive.command.cli import main
-from derive.command.simulating import negative
+from derive.command.simulating import at_first, negative
 from derive.motion.first_numbers import exponential
+from derive.motion.kept_words import in_order
 from derive.motion.method import Method, instants
+from derive.motion.run import Column, Run
 from derive.motion.run_files import read
 from derive.motion.start import MotionError
 from derive.motion.stated_inertia import inertia_of
@@ -227,6 +230,25 @@ def test_what_is_amiss_is_told(capsys):
         x for name in ("zeta_1=0", "zeta_5=0", "zeta_2=1", "zeta_4=-1") for x in ("--set", name)
     ]
     assert "a fluid would tear" in told(capsys, "dirichlet", "--t", "1", *turning)[2]
+    assert told(capsys, "sl3", "--t", "1", *turning)[2] == ""  # points: nothing that could tear
+
+
+@pytest.mark.parametrize(
+    ("about", "given", "why"),
+    [
+        ('L = "zeta_1^4 + zeta_2^2 + zeta_3^2"', "zeta_2=1", "second derivative of L in the vel"),
+        ('L = "-sqrt(1 - zeta_1^2 - zeta_2^2 - zeta_3^2)"', "zeta_1=3", "the root of a negative"),
+        ('L = "zeta_1^2 + zeta_2^2 + zeta_3^2"', "zeta_1=1e200", "too large, as 1e+200"),
+    ],
+)
+@pytest.mark.filterwarnings("error")
+def test_why_equations_have_no_finite_value(about, given, why, tmp_path, capsys):
+    file = tmp_path / "own.toml"
+    file.write_text(f'name = "own"\ngroup = "SO(3)"\n[lagrangian]\n{about}\n')
+    code, out, err = told(capsys, str(file), "--t", "1", "--set", given)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert why in err
+    assert "spring" not in err
 
 
 @pytest.mark.parametrize("wrong", ["Q_12=5", "Q_33=-1"])
@@ -239,9 +261,9 @@ def test_a_quadric_that_is_not_positive_is_named(wrong, capsys):
 
 def test_when_a_multiplier_is_negative():
     t = np.linspace(0, 5, 501)
-    assert negative(t, t - 0.875) == "at t = 0 … 0.87 (88 of 501 instants)"
-    assert negative(t, np.cos(t)) == "at t = 1.58 … 4.71 (314 of 501 instants)"
-    assert negative(t, -np.sin(3 * t)).startswith("at t = 0.01 … 1.04 and later (")
+    assert negative(t, t - 0.875) == "at t = 0 … 0.87, at 88 of 501 instants"
+    assert negative(t, np.cos(t)) == "at t = 1.58 … 4.71, at 314 of 501 instants"
+    assert negative(t, -np.sin(3 * t)).startswith("at t = 0.01 … 1.04 and later, at ")
     assert negative(t, t) == negative(t, 0 * t) == negative(t, t - 1e-15) == ""
 
 
@@ -300,6 +322,12 @@ def test_ctrl_c_keeps_what_is_done(tmp_path, capsys, monkeypatch):
         (["--t", "1", "--set", "zeta_1=inf"], "expected a number"),
         (["--t", "1", "--set", "A_11=2"], "--project takes it there; its defect is 3"),
         (["--t", "1", "--set", "A_11=0", "--set", "A_22=0", "--project"], "not taken to the group"),
+        (
+            ["--t", "1", "--set", "A_11=0", "--set", "A_22=0", "--project"],
+            "det A = 0 is not above 0",
+        ),
+        (["--t", "1", "--exp", "0,0,0", "--set", "A_33=-1"], "det A = -1: a reflection is no elem"),
+        (["--t", "1", "--exp", "0,0,0", "--set", "A_33=-0.9", "--project"], "of SO(3)"),
         (["--t", "1", "--exp", "1,2"], "takes 3 numbers"),
         (["--t", "1", "--out", "run.txt"], "must end in .npz, .csv, .parquet"),
         (["--t", "1", "--state", "missing.toml"], "missing.toml: No such file"),
@@ -397,3 +425,33 @@ def test_a_quadratic_lagrangian_has_a_tensor_of_inertia(L, inertia, tmp_path):
     found = inertia_of(problem.lagrangian, {"a": 2.0})
     assert (found is None) == (inertia is None)
     assert found is None or found.tolist() == inertia
+
+
+def test_a_negative_mass_is_named(capsys):
+    err = told(capsys, "sl3", "--t", "1", "--set", "m1=-1")[2]
+    assert err.endswith("not positive: a mass is negative, m1 = -1\n")
+
+
+def test_a_reflection_is_no_rotation():
+    """Where its relations hold as well: in any block, with scale, and by the compiled code."""
+    for name, entry, group in (("two_tops", "A2_33", "SO(3)"), ("sim3", "A_33", "Sim(3)")):
+        with pytest.raises(MotionError, match=rf"a reflection is no element of {group[:-3]}"):
+            derive.derive(name).simulate(1.0, start={entry: -1.0}, exp=())
+    compiled = derive.compile("top", step="gauss", attitude="quaternion")
+    with pytest.raises(ValueError, match="a reflection"):
+        compiled.from_matrix([1, 0, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1.0])
+    with pytest.raises(ValueError, match="a reflection"):
+        derive.compile("top", step="gauss").begin([-1, 0, 0, 0, -1, 0, 0, 0, -1, 0, 0, 1.0])
+
+
+def test_components_are_told_in_their_order_and_zeros_as_zeros():
+    names = ["energy", "momentum_2", "spin_3", "momentum_10", "momentum_1", "spin_1", "casimir"]
+    found = [names[k] for k in in_order(names)]
+    assert found[1:4] == ["momentum_1", "momentum_2", "momentum_10"]
+    assert found == ["energy", *found[1:4], "spin_1", "spin_3", "casimir"]
+    columns = tuple(
+        Column(x, k) for x, k in (("t", "time"), ("L_1", "conserved"), ("L_2", "conserved"))
+    )
+    run = Run(columns, np.array([[0.0, 2.0, 3e-17]]))
+    assert [at_first(run, x) for x in ("L_1", "L_2")] == [2.0, 0.0]
+    assert str(at_first(replace(run, table=np.array([[0.0, -0.0, 0.0]])), "L_1")) == "0.0"

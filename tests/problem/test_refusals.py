@@ -92,7 +92,8 @@ def test_a_problem_is_refused(group, text, reason):
 BASES = [
     ("basis = 1", "must list at most"),
     ('action = "affine"\nbasis = [[[1, 0, 0], [0, 0, 0], [0, 0, 1]]]', "last row of an affine one"),
-    ("basis = [[[1]]]", "move points of R.1"),
+    ("basis = [[[1]]]", "move points of R.1; from R.2 to R.8 are known$"),
+    ('action = "affine"\nbasis = [[[1, 0], [0, 0]]]', 'action = "linear" with the same basis'),
     ("basis = [[[0, 1], [0, 0]], [[0, 0], [1, 0]]]", "not a Lie algebra"),
     (f"basis = [{[[0] * 20] * 20}]", "larger than"),
 ]
