@@ -252,6 +252,22 @@ def test_other_languages_move_as_c(name, language, tmp_path):
         assert np.abs(x.x - y.x).max() < 1e-13 * np.abs(y.x).max()
 
 
+@pytest.mark.parametrize("language", ["c", "python", "javascript", "rust"])
+def test_beside_other_steps_it_moves_as_alone(language, tmp_path):
+    """Names of one method do not hide those of another; and so of gauss."""
+    x = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0.6, 0, 0.8]
+    places = {}
+    for chosen in (("discrete",), ("gauss",), ("discrete", "gauss", "vern9", "rk4")):
+        folder = tmp_path / "".join(chosen)
+        walked("ball").emit(folder, (language,), "ball", step=chosen)
+        for step in chosen:
+            places[step, len(chosen)] = follow(language, folder, "ball", [(step, 0.1, 9)], x)
+    for step in ("discrete", "gauss"):
+        (alone,), (beside,) = places[step, 1], places[step, 4]
+        assert (beside.status, beside.t) == (0, alone.t)
+        assert np.abs(beside.x - alone.x).max() < 1e-15
+
+
 @pytest.mark.parametrize("language", ["c", "cpp", "python", "javascript", "rust"])
 def test_a_step_without_solution_is_told(language, tmp_path):
     """A ball turns by at most 1 rad h |zeta|: a longer step leaves the motion as it was."""
