@@ -57,8 +57,8 @@ if TYPE_CHECKING:
     from .integrals.all_integrals import Found
     from .language.quadratic import Number
     from .language.tree import Tree
+    from .motion.effective_well import OneDegree
     from .motion.emitted import Emitted
-    from .motion.one_degree import OneDegree
     from .reduction.reduced_record import Reduction
     from .symmetries.steps import Symmetries
 
@@ -429,7 +429,7 @@ def motion_of_many(problem: Problem, record: Derivation) -> Emitted:
 def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
     """The effective potential where the symmetries of a problem leave one degree of freedom, an
     entry of g; else ``None``."""
-    from .motion.one_degree import OneDegree
+    from .motion.effective_well import OneDegree
     from .reduction.one_degree import leaves_one, momenta_of
     from .reduction.reduced_record import record_of
     from .symmetries.found import symmetries_of

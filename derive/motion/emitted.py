@@ -23,9 +23,9 @@ from ..schema.body_kinds import GivenBody
 from ..schema.followed import Event
 from ..schema.lagrangian_kinds import Lagrangian
 from .body_outline import outline
+from .effective_well import OneDegree
 from .emitted_code import EmittedCode, in_si
 from .motion_in_python import MotionInPython
-from .one_degree import OneDegree
 from .run import Array
 from .start import MotionError
 from .stated_inertia import inertia_of

@@ -38,8 +38,8 @@ def polhode(figure: Any, run: Run, word: Any) -> None:
     _family(right, length * np.eye(3), axes, 1 / moments)
     curve(right, momentum, momentum, COLOURS[1])
     right.set_title(f"$M$, {word('sphere of angular momentum')}")
-    for panel in (left, right):  # so that the titles stand at one height
-        panel.set_aspect("equal", adjustable="datalim")
+    _square(left, root)
+    _square(right, length * np.eye(3))
     _marks(left, root, axes, moments)
     _marks(right, length * np.eye(3), axes, moments)
     _legend(figure, left, word)
@@ -104,6 +104,12 @@ def _marks(panel: Any, root: Array, axes: Array, moments: Array) -> None:
         panel.plot([x], [y], c="#000000", ms=4.5, ls="", zorder=4, **style)
         panel.annotate(f"$I = {moments[k]:.3g}$", (x, y), (5, 4), textcoords="offset points",
                        fontsize=7, zorder=5)  # fmt: skip
+
+
+def _square(panel: Any, root: Array) -> None:
+    """Limits as wide as they are high about the ellipsoid: so the titles stand at one height."""
+    most = 1.04 * float(np.linalg.norm(root @ projected(np.eye(3)), axis=0).max())
+    panel.set(xlim=(-most, most), ylim=(-most, most))
 
 
 def _legend(figure: Any, panel: Any, word: Any) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 import derive
 from derive.command.cli import main
-from derive.motion.one_degree import turning_points
+from derive.motion.effective_well import turning_points
 from derive.motion.run import Column, Run
 from derive.motion.run_files import written
 from derive.plot import kinds_told
@@ -149,11 +149,11 @@ def test_the_energies_of_several_runs(tmp_path, capsys):
     (panel,) = figure.get_axes()
     named = {x.get_label(): x.get_ydata() for x in panel.get_lines()}
     assert {x.split("\n")[0].removeprefix("exact: ") for x in named} == {
-        "discrete, dt 0.002",
+        "discrete of order 2, dt 0.002",
         "gauss, dt 0.002",
     }
     E = runs[0][1]["energy"]
-    drawn = np.nan_to_num(named["discrete, dt 0.002\na.npz"])
+    drawn = np.nan_to_num(named["discrete of order 2, dt 0.002\na.npz"])
     assert drawn == pytest.approx(abs(E / E[0] - 1), abs=1e-15)
     out = tmp_path / "a.pdf"
     words = ["plot", *map(str, paths), "--kind", "energy", "--out", str(out)]
