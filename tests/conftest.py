@@ -9,12 +9,14 @@ from tests.support import thorough
 from tests.support.needs import left_out
 
 ALL = "DERIVE_ALL_TESTS"
-""""named" or "thorough", for the processes of xdist, which cannot see what was typed."""
+"""What was asked for, for the processes of xdist, which cannot see what was typed."""
 
 
 def pytest_addoption(parser):
-    """``--thorough``: all tests, not the quick ones alone."""
-    parser.addoption("--thorough", action="store_true", help="all tests, as make coverage has them")
+    """``--half``, ``--thorough``: half or all of what a quick run leaves out, as well."""
+    told = "of the tests that a quick run leaves out"
+    parser.addoption("--half", action="store_true", help=f"half {told}, too, as make coverage")
+    parser.addoption("--thorough", action="store_true", help=f"all {told}, too, as make thorough")
 
 
 def pytest_configure(config):
@@ -25,6 +27,8 @@ def pytest_configure(config):
         os.environ[ALL] = "named"
     elif config.getoption("--thorough"):
         os.environ[ALL] = "thorough"
+    elif config.getoption("--half"):
+        os.environ[ALL] = "half"
 
 
 @pytest.hookimpl(trylast=True)
@@ -34,11 +38,12 @@ def pytest_collection_modifyitems(config, items):
     if wanted == "named":
         return
     run, left = thorough.split(items)
-    if wanted == "thorough":
-        for item in left:
-            item.add_marker("no_cover")
-    elif left:
-        items[:] = run
+    more, left = {"thorough": (left, []), "half": thorough.half(left)}.get(wanted, ([], left))
+    for item in more:
+        item.add_marker("no_cover")
+    if left:
+        kept = {*run, *more}
+        items[:] = [item for item in items if item in kept]
         config.hook.pytest_deselected(items=left)
 
 

@@ -1,5 +1,6 @@
-"""What a run of all tests leaves to ``make coverage``, which has them all: the long ones that try
-the tests themselves (mutations, forgeries), random problems, and most cases of what has many.
+"""What a quick run leaves out: the long ones that try the tests themselves (mutations, forgeries),
+random problems, and most cases of what has many.  ``make coverage`` has half of these, every other
+case, ``make thorough`` all.
 
 A test that is named on the command line, by its file or folder, is run whole.
 """
@@ -240,6 +241,16 @@ KEPT = {
     f"validate/test_validation.py::{FORMS}": 2,
 }
 """Test → how many of its cases, the first ones, are run with the others: two seconds or so."""
+
+
+def half(items):
+    """Every other one of some items, of each test the first, and the rest."""
+    seen, run, rest = Counter(), [], []
+    for item in items:
+        name = item.nodeid.partition("[")[0]
+        (rest if seen[name] % 2 else run).append(item)
+        seen[name] += 1
+    return run, rest
 
 
 def split(items):
