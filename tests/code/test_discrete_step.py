@@ -198,10 +198,12 @@ def test_the_energy_does_not_drift(name, order):
     f = compiled(name, order)
     f.u = np.zeros(len(f.INPUTS))
     x = start(f)
-    found = energies(f, x, {2: 0.02, 4: 0.05, 6: 0.1}[order], 1_000_000)
+    h = {2: 0.02, 4: 0.05, 6: 0.1}[order]
+    first = energies(f, x, h, 10_000, each=5).max()  # few numbers would miss the largest
+    found = energies(f, x, h, 1_000_000).max()
     compiled.cache_clear()
-    assert found[:100].max() > 1e-13  # it is no rounding that is measured
-    assert found.max() < 2 * found[:100].max()
+    assert first > 1e-13  # it is no rounding that is measured
+    assert found < 2 * first
 
 
 def test_a_step_that_begins_on_the_last_ones_ends_where_it_should():

@@ -45,7 +45,7 @@ BAD = [
     (PENDULUM.replace("SO(3)", "SOO(3)"), 2, "unknown group 'SOO(3)'"),
     (PENDULUM.replace('group = "SO(3)"', 'group = "SO(3)'), 2, "not TOML"),
     (PENDULUM.replace("l = { default = 2 }", 'l = { default = "x" }'), 5, "parameter 'l'"),
-    (PENDULUM.replace("g = { default = 9.81 }\n", ""), 17, "potential 1, g"),
+    (PENDULUM.replace("g = { default = 9.81 }\n", ""), 17, "potential 1, key 'g'"),
     ('name = "cube"\ngroup = "SO(3)"\n' + MESH, 1, "NumPy"),
     ("", 1, "key 'group' is missing"),
 ]
