@@ -11,6 +11,7 @@ import sympy
 from derive.command.cli import main
 from derive.language.show import show
 from derive.paper import findings as paper
+from derive.paper.finding import VERDICTS
 from derive.paper.printed import PAPER
 from derive.record.contract import AMENDED
 from derive.views.text import text
@@ -28,7 +29,7 @@ def test_all_numbers():
 
 
 def test_verdicts():
-    found = {v: {n for n, f in findings().items() if f.verdict == v} for v in paper.VERDICTS}
+    found = {v: {n for n, f in findings().items() if f.verdict == v} for v in VERDICTS}
     assert found["misprint"] == {20, 29, 31, 32}
     assert found["sign convention"] == {25, 26}
     assert found["omission"] == {35}
