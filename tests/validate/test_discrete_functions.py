@@ -1,5 +1,6 @@
 """The validator of the functions of a discrete step: what is emitted passes, no change of it."""
 
+import re
 import tomllib
 from functools import cache
 
@@ -76,6 +77,11 @@ def compared(name, language, text):
     return module
 
 
+def transposed(text):
+    """A text in which an entry of Y² and that of its transpose are one: Y is skew on SO(n)."""
+    return re.sub(r"power_2_(\d)(\d)", lambda m: "power_2_" + "".join(sorted(m.groups())), text)
+
+
 @pytest.mark.no_cover
 @pytest.mark.parametrize("language", ["c", "python"])
 @pytest.mark.parametrize("name", ["so3", "se3", "sl3", "gl3", "so4", "SE(3)"])
@@ -86,6 +92,8 @@ def test_a_change_of_a_function_of_a_step_is_refused(name, language):
     assert {x for x, *_ in found} >= {"step_momentum", "step_force", "step_end", "step_velocity"}
     passed = []
     for function, kind, place, changed in found[:: max(1, len(found) // 25)]:
+        if name == "so4" and transposed(changed) == transposed(text):
+            continue
         try:
             compared(name, language, changed)
         except CodeError:
