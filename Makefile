@@ -20,9 +20,10 @@ test: $(STAMP)   ## lint, types, and the tests that take minutes
 	$(BIN)/mypy
 	$(BIN)/python -m pytest -n 2
 
-coverage: $(STAMP) ## more tests, and the lines and branches of derive/ that none runs; fails below 95 %
+# branches that only those cases take which a quick run leaves out, and which are not measured, count as not taken
+coverage: $(STAMP) ## more tests, and the lines and branches of derive/ that none runs; fails below 95 % of lines
 	$(BIN)/python -m pytest --half -n 2 --cov --cov-report= --cov-report=json
-	$(BIN)/python -m tests.support.covered 95
+	$(BIN)/python -m tests.support.covered 95 92
 
 thorough: $(STAMP) ## all tests, an hour
 	$(BIN)/python -m pytest --thorough -n 2

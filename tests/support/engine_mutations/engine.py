@@ -172,7 +172,8 @@ class Process:
         self.child = os.fork()
         if not self.child:
             try:
-                resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+                most = MEMORY + addressed()  # what other tests have loaded is there already
+                resource.setrlimit(resource.RLIMIT_AS, (most, most))
                 serve(mutant, graph, other)
             finally:
                 os._exit(0)
@@ -264,6 +265,13 @@ def reached(job: Job, files: set[str]) -> dict[str, set[int]]:
         watch.stop()
     data = watch.get_data()
     return {x: {*(data.lines(str(ROOT / x)) or ())} for x in files}
+
+
+def addressed() -> int:
+    """The bytes of addresses of this process; 0 where that is not told."""
+    told = Path("/proc/self/statm")
+    pages = int(told.read_text(encoding="ascii").split()[0]) if told.exists() else 0
+    return pages * resource.getpagesize()
 
 
 def in_a_process(task: Any) -> Any:
