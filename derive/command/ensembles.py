@@ -85,7 +85,7 @@ class Tally:
     def __init__(self, size: int):
         self.count: Counter[int] = Counter()
         self.sum, self.squares = np.zeros(size), np.zeros(size)
-        self.origin = np.zeros(size)
+        self.origin: np.ndarray[Any, Any] | None = None
 
     @property
     def motions(self) -> int:
@@ -97,12 +97,13 @@ class Tally:
         self.count.update(part.status.tolist())
         ends = part.states[part.status == 0, -1]
         if len(ends):
-            self.origin = self.origin if self.sum.any() else ends[0]
+            self.origin = ends[0] if self.origin is None else self.origin
             self.sum += (ends - self.origin).sum(axis=0)
             self.squares += ((ends - self.origin) ** 2).sum(axis=0)
 
     def ends(self) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
         """Mean and standard deviation of the states at the end."""
+        assert self.origin is not None
         mean = self.sum / self.count[0]
         return self.origin + mean, np.sqrt(np.maximum(self.squares / self.count[0] - mean**2, 0))
 

@@ -104,7 +104,7 @@ def _to_csv(run: Run) -> bytes:
 
 
 def _from_csv(data: bytes) -> Run:
-    first, second, *rows = data.decode().splitlines()
+    first, second, *rows = (x.rstrip("\r") for x in data.decode().rstrip("\n").split("\n"))
     head = commented(first, second)
     return _run(head, [[float(x) for x in row.split(",")] for row in rows])
 

@@ -11,7 +11,7 @@ import pytest
 
 import derive
 from derive.command.cli import main
-from derive.command.ensembles import kept
+from derive.command.ensembles import Tally, kept
 from derive.motion import ensemble as of_parts
 from derive.motion.varied import Draws, Varied
 from derive.pipeline import motion_of
@@ -390,3 +390,14 @@ def test_events_that_are_not_terminal_are_told_to_be_left_out(tmp_path, capsys):
     asked = [str(tmp_path / "line.toml"), "--t", "0.1", "--ensemble", "2", "--vary", "T_1=50:60"]
     assert main(["simulate", *asked]) == 0
     assert "events that are not terminal are not looked for" in capsys.readouterr().err
+
+
+def test_mean_and_deviation_are_those_of_all_parts():
+    """Also where the ends of the first part are one state, as of a part of one motion."""
+    tally, ends = Tally(1), [[3.0], [3.0], [5.0], [9.0]]
+    for some in (ends[:1], ends[1:2], ends[2:]):
+        states = np.array(some)[:, None, :]
+        none = np.empty((len(some), 0))
+        tally.add(of_parts.Part(none, np.zeros(len(some), int), states, none))
+    mean, off = tally.ends()
+    assert (mean[0], off[0]) == pytest.approx((np.mean(ends), np.std(ends)))
