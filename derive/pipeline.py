@@ -447,7 +447,8 @@ def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
         return None
     told = reduced.record[f"{problem.name}.effective"].equations
     V = next(e.rhs for e in told if e.lhs == "𝒱")
-    return OneDegree((left.entry[2], left.entry[3]), V, momenta_of(found))
+    turns = problem.group is not None and "orthogonal" in problem.group.relations
+    return OneDegree((left.entry[2], left.entry[3]), V, momenta_of(found), turns)
 
 
 def program(problem: Problem, record: Derivation, options: Options | None = None) -> Program:

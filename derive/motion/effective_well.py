@@ -20,6 +20,9 @@ SAMPLES = 201
 EDGE = 1 - 1e-9
 """An entry of a rotation lies between −1 and 1, where V may have poles."""
 
+Bounds = tuple[float, float]
+ROTATION: Bounds = (-EDGE, EDGE)
+
 BEYOND, STEADY = 0.4, 0.05
 """So much of the well is shown on each side of it; and so far about a motion that stays where it
 is, to rounding, which has no well."""
@@ -29,11 +32,13 @@ is, to rounding, which has no well."""
 class OneDegree:
     """What symmetries leave of a problem where it is one degree of freedom: ``V``, the effective
     potential, a tree in the ``entry`` of g, the momenta 𝒥_1, 𝒥_2, … and the parameters; what the
-    ``momenta`` are called among what the motion keeps."""
+    ``momenta`` are called among what the motion keeps; is the entry that of a rotation: it
+    ``turns``?"""
 
     entry: tuple[int, int]
     V: Tree
     momenta: tuple[str, ...]
+    turns: bool = True
 
     @property
     def name(self) -> str:
@@ -41,7 +46,7 @@ class OneDegree:
         return suffixed("A", *self.entry)
 
     def along(self, run: Mapping[str, Array], numbers: Mapping[str, float]) -> dict[str, Any]:
-        """V at some u, an entry of a rotation, for the momenta of the first row of a run, given by
+        """V at some u, an entry of g, for the momenta of the first row of a run, given by
         its columns: between the turning points of its energy, and a little beyond; empty where
         there is none."""
         if not {*self.momenta} <= {*run}:
@@ -49,8 +54,10 @@ class OneDegree:
         first = {**numbers, **{x: float(run[x][0]) for x in self.momenta}}
         at, energy = run[self.name], float(run["energy"][0])
         try:
-            well = turning_points(lambda u: self._value(u, first), energy, at.min(), at.max())
-            u = window(*well)
+            low, high = float(at.min()), float(at.max())
+            bounds = ROTATION if self.turns else beside(low, high)
+            well = turning_points(lambda u: self._value(u, first), energy, low, high, bounds)
+            u = window(*well, bounds)
             V = np.broadcast_to(self._value(u, first), u.shape)
         except (ArithmeticError, ValueError):
             return {}
@@ -69,21 +76,30 @@ class OneDegree:
         return value(tree, {"π": math.pi}, values, None, float)
 
 
+def beside(low: float, high: float) -> Bounds:
+    """As far beyond a motion as it went: an entry of no rotation has no bounds of its own."""
+    wide = max(high - low, STEADY)
+    return low - wide, high + wide
+
+
 def turning_points(
-    V: Callable[[float], float], energy: float, low: float, high: float
+    V: Callable[[float], float], energy: float, low: float, high: float, bounds: Bounds = ROTATION
 ) -> tuple[float, float]:
-    """The ends of the well {V ≤ energy} in which a motion was between ``low`` and ``high``."""
+    """The ends of the well {V ≤ energy}, within bounds, in which a motion was between ``low`` and
+    ``high``."""
     step = max(1e-3 * (high - low), 1e-9)
-    low, high = (min(max(float(x), -EDGE), EDGE) for x in (low, high))
-    return _end(V, energy, low, -step), _end(V, energy, high, step)
+    low, high = (min(max(x, bounds[0]), bounds[1]) for x in (low, high))
+    return _end(V, energy, low, -step, bounds), _end(V, energy, high, step, bounds)
 
 
-def _end(V: Callable[[float], float], energy: float, u: float, step: float) -> float:
+def _end(
+    V: Callable[[float], float], energy: float, u: float, step: float, bounds: Bounds
+) -> float:
     """The end of the well on one side of u: steps, each twice the last, then halves."""
     inside, outside = u, u + step
-    while abs(outside) < EDGE and V(outside) <= energy:
+    while bounds[0] < outside < bounds[1] and V(outside) <= energy:
         inside, outside, step = outside, outside + 2 * step, 2 * step
-    outside = min(max(outside, -EDGE), EDGE)
+    outside = min(max(outside, bounds[0]), bounds[1])
     if V(outside) <= energy:
         return outside
     for _ in range(60):
@@ -92,8 +108,8 @@ def _end(V: Callable[[float], float], energy: float, u: float, step: float) -> f
     return inside
 
 
-def window(low: float, high: float) -> Array:
+def window(low: float, high: float, bounds: Bounds = ROTATION) -> Array:
     """Places from a little below a well to a little above it, (SAMPLES,)."""
     wide = high - low
-    beside = BEYOND * wide if wide > 1e-7 else STEADY
-    return np.linspace(max(-EDGE, low - beside), min(EDGE, high + beside), SAMPLES)
+    more = BEYOND * wide if wide > 1e-7 else STEADY
+    return np.linspace(max(bounds[0], low - more), min(bounds[1], high + more), SAMPLES)

@@ -449,3 +449,14 @@ def test_the_help_has_every_kind(capsys):
     text = " ".join(capsys.readouterr().out.split())
     for kind in (*KINDS, OVERVIEW, PRECISION):
         assert f"{kind}: " in text
+
+
+def test_the_well_of_a_motion_that_does_not_turn():
+    """It may be anywhere: about where the motion was, and no cosine."""
+    run = derive.derive("heisenberg").simulate(6.0, start={"zeta_1": 1.0, "zeta_3": 0.4})
+    told = run.facts["potential"]
+    entry, u = run[told["entry"]], np.array(told["u"])
+    assert entry.max() > 2
+    assert u[0] <= entry.min()
+    assert u[-1] >= entry.max()
+    assert np.ptp(u) <= 3 * np.ptp(entry)
