@@ -1,5 +1,5 @@
 /* The editor of the problem file: colours of TOML, completion of its keys, faults at their lines. */
-import { autocompletion, completionKeymap } from "@codemirror/autocomplete";
+import { autocompletion, completionKeymap, startCompletion } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
 import { HighlightStyle, StreamLanguage, bracketMatching, syntaxHighlighting } from "@codemirror/language";
 import { toml } from "@codemirror/legacy-modes/mode/toml";
@@ -25,7 +25,7 @@ export function editor(parent, schema, words, changed) {
       extensions: [
         lineNumbers(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), lintGutter(), EditorView.lineWrapping,
         StreamLanguage.define(toml), syntaxHighlighting(colours),
-        autocompletion({ override: [completions(schema)] }),
+        autocompletion({ override: [completions({ ...schema, start: startCompletion })] }),
         keymap.of([...completionKeymap, ...historyKeymap, ...defaultKeymap]),
         label.of(about(words)),
         EditorView.updateListener.of((u) => { if (u.docChanged) changed(view.state.doc.toString()); }),

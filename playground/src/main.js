@@ -29,7 +29,7 @@ const equations = new Equations(the("walk"), css);
 const motion = new Motion(the("see"));
 const engine = typeof WebAssembly === "object" ? new Engine({ seconds: SECONDS, onstate }) : null;
 const text = editor(the("editor"), data.schema, words, edited);
-const form = new Form(the("form"), data.schema.groups, (made) => { text.text = made; });
+const form = new Form(the("form"), data.schema, (made) => { text.text = made; });
 const take = new Take(the("take"), data, files, () => ({ name: problem_name(), text: text.text, ready: chosen() }));
 
 let tab = "walk", told = "", walked = null, moved = null, timer = 0, damaged = false;
@@ -80,7 +80,7 @@ async function derive() {
   say(words.deriving);
   const how = await engine.ask({ ask: "walk", text: asking, lang }, (kind, news) => {
     if (kind === "derived") steps = news.steps;
-    else if (kind === "warning") found.push({ message: news, line: 1, severity: "warning" });
+    else if (kind === "warning") found.push({ line: 1, ...(news.message ? news : { message: news }), severity: "warning" });
     else if (kind === "error") {
       fault = true;
       found.push({ ...news, severity: "error" });
