@@ -60,9 +60,8 @@ def _initial(table: Any, reader: FileReader) -> Initial:
         if name in reader.parameters:
             raise ProblemError(f"{where}: a parameter has its default in [parameters]")
         if isinstance(value, list):
-            raise ProblemError(
-                f"{where}: one number each, {name[:40]}_1 = …, {name[:40]}_2 = …; only exp is a list"
-            )
+            first, second = (f"{name[:40]}_{k} = …" for k in (1, 2))
+            raise ProblemError(f"{where}: one number each, {first}, {second}; only exp is a list")
         found[reader.identifier(name, where)] = _number(value, where, reader)
     where, exp = "initial, exp", table.get("exp", [])
     if not isinstance(exp, list):

@@ -30,7 +30,8 @@ function keys(schema, { name, kind }, whole) {
   return schema.tables[name] ?? [];
 }
 
-const groups = (schema) => Object.entries(schema.groups).map(([label, { meaning }], k) => ({ label, detail: meaning, type: "class", boost: -k }));
+const groups = (schema) => Object.entries(schema.groups).map(([label, { meaning }], k) => ({ label, detail: meaning, type: "class", sortText: order(k) }));
+const order = (k) => String(k).padStart(3, "0");
 const plain = (labels, type) => labels.map((label) => ({ label, type }));
 
 /* the values of a key, where it has few */
@@ -74,6 +75,6 @@ export const completions = (schema) => (context) => {
     view.dispatch({ changes: { from, to, insert: `${x.label} = ` }, selection: { anchor: from + x.label.length + 3 }, userEvent: "input.complete" });
     if (values(schema, x.label, here().name).length) schema.start?.(view);
   };
-  const options = keys(schema, here(), doc.toString()).map((label, k) => ({ label, type: "property", apply: again, boost: -k }));
+  const options = keys(schema, here(), doc.toString()).map((label, k) => ({ label, type: "property", apply: again, sortText: order(k) }));
   return { from: context.pos - word[1].length, options };
 };

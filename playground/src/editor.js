@@ -19,6 +19,10 @@ const colours = HighlightStyle.define([
 export function editor(parent, schema, words, changed) {
   const label = new Compartment();
   const about = (w) => EditorView.contentAttributes.of({ "aria-label": w.editor, tabindex: "0" });
+  const told = (text) => {
+    document.dispatchEvent(new CustomEvent("text", { detail: text }));
+    changed(text);
+  };
   const view = new EditorView({
     parent,
     state: EditorState.create({
@@ -28,7 +32,7 @@ export function editor(parent, schema, words, changed) {
         autocompletion({ override: [completions({ ...schema, start: startCompletion })] }),
         keymap.of([...completionKeymap, ...historyKeymap, ...defaultKeymap]),
         label.of(about(words)),
-        EditorView.updateListener.of((u) => { if (u.docChanged) changed(view.state.doc.toString()); }),
+        EditorView.updateListener.of((u) => { if (u.docChanged) told(u.state.doc.toString()); }),
       ],
     }),
   });
@@ -43,6 +47,7 @@ export function editor(parent, schema, words, changed) {
     /* faults: [{ line, message, severity }] */
     show(faults) {
       const { doc } = view.state;
+      document.dispatchEvent(new CustomEvent("faults", { detail: faults }));
       const found = faults.map(({ line, message, severity }) => {
         const at = doc.line(Math.max(1, Math.min(line, doc.lines)));
         return { from: at.from + (at.text.length - at.text.trimStart().length), to: at.to, message, severity };
@@ -50,6 +55,8 @@ export function editor(parent, schema, words, changed) {
       view.dispatch(setDiagnostics(view.state, found));
     },
     go(line) {
+      document.dispatchEvent(new CustomEvent("go", { detail: line }));
+      if (parent.hidden) return;
       const at = view.state.doc.line(Math.max(1, Math.min(line, view.state.doc.lines)));
       view.dispatch({ selection: { anchor: at.from }, scrollIntoView: true });
       view.focus();
