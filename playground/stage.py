@@ -109,6 +109,7 @@ def schema() -> dict[str, object]:
         "solid": {x: [*own.names()] for x, own in SOLIDS.items()},
         "lists": sorted({x for table in own for x in vectors(table)}),
         "values": VALUES,
+        "named": [x for _, x in named_groups()],
         "groups": {x: moved(group(x), f.meaning) for f, x in named_groups()},
     }
 

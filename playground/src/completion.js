@@ -30,7 +30,7 @@ function keys(schema, { name, kind }, whole) {
   return schema.tables[name] ?? [];
 }
 
-const groups = (schema) => Object.entries(schema.groups).map(([label, { meaning }], k) => ({ label, detail: meaning, type: "class", sortText: order(k) }));
+const groups = (schema) => schema.named.map((label, k) => ({ label, detail: schema.groups[label].meaning, type: "class", sortText: order(k) }));
 const order = (k) => String(k).padStart(3, "0");
 const plain = (labels, type) => labels.map((label) => ({ label, type }));
 

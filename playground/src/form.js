@@ -104,7 +104,7 @@ export class Form {
   }
 
   choice(label, values, value, put_, mark) {
-    const option = (x) => make("option", { value: x }, this.words[x] ?? this.words.keys[x] ?? x);
+    const option = (x) => make("option", { value: x }, this.words.keys[x] ?? this.words[x] ?? x);
     const select = make("select", { "data-mark": mark ?? false, change: () => put_(select.value) }, ...values.map((x) => (Array.isArray(x) ? make("optgroup", { label: x[0] }, ...x[1].map(option)) : option(x))));
     select.value = value;
     return make("label", {}, `${label} `, select);
@@ -122,7 +122,7 @@ export class Form {
   /* a table of several with its number, its keys, and a button to take it away */
   row(name, k, count, keys) {
     const { words } = this;
-    return make("div", { class: "table", role: "group", "aria-label": `${name} ${count}`, "data-table": k }, make("strong", {}, name), ...keys.map((x) => this.key(k, x)),
+    return make("div", { class: "table", role: "group", "aria-label": `${name} ${count}`, "data-table": k }, make("strong", {}, name === words.point ? `${name} ${count}` : name), ...keys.map((x) => this.key(k, x)),
       make("button", { type: "button", class: "quiet", "aria-label": `${words.remove} ${name} ${count}`, click: () => this.edit(without(this.text, k)) }, "✕"));
   }
 
@@ -130,7 +130,7 @@ export class Form {
 
   head() {
     const { words, group, schema } = this, families = {};
-    for (const x of Object.keys(schema.groups)) (families[x.split("(")[0]] ??= []).push(x);
+    for (const x of schema.named) (families[x.split("(")[0]] ??= []).push(x);
     const others = group.name && !schema.groups[group.name] ? [group.name] : [];
     const chosen = this.choice(words.group, [...others, ...Object.entries(families)], group.name, (x) => this.edit(fitted(put(this.text, 0, "group", JSON.stringify(x)), group.n, schema)), "0.group");
     return make("fieldset", {}, this.key(0, "name", words.name), this.key(0, "title"), ...(group.name ? [chosen] : []));
@@ -182,7 +182,8 @@ export class Form {
       const fits = (y) => own(y) || (y === "at" ? !points && !own("on") && !own("between") : y === "on" || y === "between" ? points && !own("at") : y !== "block");
       return [this.row(words.keys[kind] ?? words.keys[x.name] ?? kind, k, count[x.name], keys.filter(fits))];
     });
-    const kinds = [...Object.keys(schema.potential).map((x) => `potential.${x}`), ...Object.keys(schema.input).map((x) => `input.${x}`), "damping"];
+    const stated = all.some((x) => OTHERS.includes(x.name)), potentials = Object.keys(schema.potential).map((x) => `potential.${x}`);
+    const kinds = stated ? ["input.covector"] : [...potentials, ...Object.keys(schema.input).map((x) => `input.${x}`), "damping"];
     const add = make("select", { "aria-label": words.addforce, change: () => this.edit(withTable(this.text, force(this.text, add.value, group.n ?? 3), [...FORCES, ...BODY, ...OTHERS])) },
       make("option", { value: "" }, `${words.addforce} …`), ...kinds.map((x) => make("option", { value: x }, words.keys[x.split(".").at(-1)] ?? x)));
     if (all.some((x) => x.name === "fluid")) return [];

@@ -22,7 +22,7 @@ export const WORDS = {
     value: "default", start: "Start afresh", steps: "Steps", kind: "kind", point: "point", density: "density",
     keys: {
       far_centre: "far centre", self_gravity: "self-gravity", covector: "input: covector", force: "input: force", hollow_ball: "hollow ball", semi_axes: "semi-axes",
-      on: "on point", between: "between points", anchor: "anchored at",
+      on: "on point", between: "between points", anchor: "anchored at", title: "Title", body: "body",
     },
     unread: "The text is no TOML yet: the form shows it when what is wrong there is mended.", sure: "A new problem replaces this text. Go on?",
     kept: (x) => `Kept as text, unchanged: ${x}.`, nonumber: (x) => `“${x}” is no number`, semicolons: "entries with , between them; with ; where they have decimal commas",
