@@ -250,14 +250,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     },
     "energy_kept": {
         "kernel": (
-            "The energy, and its rate, which is what the kernel pairs with "
-            "η′ = u, as u too is divergence-free and tangent to the boundary: so the energy is "
-            "constant, by Euler’s equation alone, without Helmholtz’ decomposition, which only the "
-            "pressure needs.",
-            "L’énergie, et sa dérivée, qui est le produit par "
-            "η′ = u qui figure dans le noyau, car u aussi est solénoïdal et tangent au bord : "
-            "l’énergie est donc constante, par la seule équation d’Euler, sans la décomposition de "
-            "Helmholtz, dont seule la pression a besoin.",
+            "The energy and its rate, which is the expression of the kernel for η′ = u, as u too "
+            "is divergence-free and tangent to the boundary: so the energy is constant, by Euler’s "
+            "equation alone, without Helmholtz’ decomposition, which only the pressure needs.",
+            "L’énergie et sa dérivée, qui est l’expression du noyau pour η′ = u, car u aussi est "
+            "solénoïdal et tangent au bord : l’énergie est donc constante, par la seule équation "
+            "d’Euler, sans la décomposition de Helmholtz, dont seule la pression a besoin.",
         ),
         "homogeneous": (
             "∇_u is skew for such a field: ∇_u u contributes nothing.",
