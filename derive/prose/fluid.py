@@ -245,7 +245,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "product with it. So the density is advected.",
             "En chaque lieu, ∇_u ρ est la dérivée d’un produit, que donne la règle de Leibniz ; "
             "⟨u, grad ρ⟩ est ici le produit scalaire en chaque lieu, sans intégrale, et le produit "
-            "par celui-ci. La densité est donc transportée par u.",
+            "par celui-ci. La densité est donc transportée.",
         ),
     },
     "energy_kept": {
