@@ -274,7 +274,7 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         "absorbed": (
             "The change of Ũ is dŨ(ν) = −⟨f, u⟩, which vanishes, as f is a gradient: Ũ and ½ ‖u‖² "
             "are each constant, where the density is the same everywhere.",
-            "La variation de Ũ est dŨ(ν) = −⟨f, u⟩, qui est nulle, car f est un gradient : Ũ et "
+            "La variation de Ũ est dŨ(ν) = −⟨f, u⟩, qui s’annule, car f est un gradient : Ũ et "
             "½ ‖u‖² sont constants l’un et l’autre, si la densité est partout la même.",
         ),
         "pressure": (
