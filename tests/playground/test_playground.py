@@ -33,11 +33,7 @@ kind = "gravity"
 g = [0, 0, "-g"]
 """
 SLOW = ("inhomogeneous_fluid", "stratified_fluid", "riemann_ellipsoid")
-CHECKED = [
-    pytest.param(x, marks=pytest.mark.dist) if x in SLOW else x
-    for x in ready_made()
-    if x != "zeitlin"  # which needs NumPy
-]
+CHECKED = [pytest.param(x, marks=pytest.mark.dist) if x in SLOW else x for x in ready_made()]
 MESH = '\n[body]\nsolid = "mesh"\nfile = "cube.off"\ndensity = 1\n'
 BAD = [
     (PENDULUM.replace('at = [0, "l", 0]', "at = [0, 1]"), 12, "point 2, at"),
