@@ -64,7 +64,9 @@ def test_the_moving_page_for_screen_readers(browser, site, width, dark):
     axe = (OWN / "node_modules" / "axe-core" / "axe.min.js").read_text(encoding="utf-8")
     frame.evaluate(f"{axe}; 0")
     found = frame.evaluate("axe.run({ resultTypes: ['violations'] }).then((x) => x.violations)")
-    told = [(x["id"], [y["html"][:120] + y["failureSummary"] for y in x["nodes"][:3]]) for x in found]
+    told = [
+        (x["id"], [y["html"][:120] + y["failureSummary"] for y in x["nodes"][:3]]) for x in found
+    ]
     assert not told, json.dumps(told, indent=1)
     context.close()
 
