@@ -282,7 +282,7 @@ def test_a_fluid_of_irrational_axes_keeps_its_circulation(tmp_path, capsys):
     )
     code, text, err = told(capsys, str(path), "--t", "1")
     assert (code, err) == (0, "")
-    assert "deformation_body_3: " in text
+    assert "circulation_3: " in text
 
 
 def test_ctrl_c_keeps_what_is_done(tmp_path, capsys, monkeypatch):
