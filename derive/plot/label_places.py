@@ -23,11 +23,12 @@ def beside(
     ``places``: of the marks, (labels, 2); ``shadow``: M, 3 × 2, of which the rows uM, |u| = 1, fill
     what is seen of the ellipsoid; ``points``: how long a unit of both is, in points.
     """
-    marks, gram = places * points, np.linalg.inv(shadow.T @ shadow) / points**2
+    marks: Array = places * points
+    gram = np.asarray(np.linalg.inv(shadow.T @ shadow) / points**2, dtype=float)
     boxes: list[tuple[Array, Array]] = [(x - GAP, x + GAP) for x in marks]
     found = []
     for k, (mark, text) in enumerate(zip(marks, labels, strict=True)):
-        size = np.array([width(text), FONT])
+        size: Array = np.array([width(text), FONT])
         others = [box for j, box in enumerate(boxes) if j != k]
         offsets = [*_around(size)]
         faults = [_faults(mark + x, size, gram, others) for x in offsets]
