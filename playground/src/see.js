@@ -13,7 +13,7 @@ export class Motion {
   }
 
   show(words, lang, told) {
-    this.told = { ...told, lang };
+    this.told = { ...told, lang, title: words.motion };
     this.frame = make("iframe", { src: "moving.html", title: words.motion });
     this.place.replaceChildren(make("p", { class: "note" }, words.moved), this.frame);
   }
