@@ -390,6 +390,7 @@ def test_motions_of_other_states():
     [
         ("euler_top", {"t": "s", "zeta_1": "1/s", "energy": "J"}),
         ("rod", {"T_1": "m", "zeta_1": "1/s", "zeta_4": "m/s", "energy": "J"}),
+        ("heisenberg", {"A_12": "", "zeta_1": "1/s", "zeta_2": "1/s", "zeta_3": "1/s"}),
         ("euler_poisson", {"t": "s", "zeta_1": "", "energy": "J"}),
     ],
 )
