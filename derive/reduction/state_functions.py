@@ -15,7 +15,7 @@ from typing import Any
 
 from ..algebra.exact_kernel import kernel, rational
 from ..algebra.groups import Group
-from ..algebra.residues import PRIMES, ResidueSource
+from ..algebra.residue_vectors import PRIMES, ResidueSource
 from ..language.tree import Tree, add, mul
 from ..symmetries.group_entries import entries
 from ..symmetries.tangent_fields import EXTRA

@@ -16,7 +16,7 @@ from functools import cached_property
 
 from ..algebra.exact_kernel import Rows
 from ..algebra.groups import Group
-from ..algebra.residues import Residues, ResidueSource
+from ..algebra.residue_vectors import Residues, ResidueSource
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.show import show

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from functools import cached_property
 
 from ..algebra.exact_kernel import kernel
-from ..algebra.residues import Residues, ResidueSource
+from ..algebra.residue_vectors import Residues, ResidueSource
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.tree import Tree, add, mul, neg

@@ -10,7 +10,7 @@ from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, Protocol
 
-from ..algebra.residues import Residues, ResidueSource
+from ..algebra.residue_vectors import Residues, ResidueSource
 from ..language.derivatives import DERIVATIVES
 from ..language.tree import Tree
 

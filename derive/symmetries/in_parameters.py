@@ -12,7 +12,7 @@ from fractions import Fraction
 from itertools import chain, combinations, combinations_with_replacement
 
 from ..algebra.exact_kernel import fraction_of, kernel, pivots
-from ..algebra.residues import Residues
+from ..algebra.residue_vectors import Residues
 from ..language.tree import Tree, add, mul, plain
 from .gradient import Tape
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 
-from ..algebra.residues import PRIMES, Residues, ResidueSource, primes_from
+from ..algebra.residue_vectors import PRIMES, Residues, ResidueSource, primes_from
 from ..language.show import show
 from ..language.tree import Tree, nodes
 from ..problem.problem import ProblemError

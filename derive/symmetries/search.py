@@ -9,7 +9,7 @@ from functools import cached_property
 from math import gcd, lcm
 
 from ..algebra.exact_kernel import Rows, kernel, rational
-from ..algebra.residues import Residues
+from ..algebra.residue_vectors import Residues
 from ..language.tree import Tree, coefficient, mul, plain, terms
 from ..problem.problem import ProblemError
 from .conditions import Conditions

@@ -16,7 +16,7 @@ from functools import cache
 
 from ..algebra.exact_kernel import kernel, pivots, rational
 from ..algebra.groups import Group
-from ..algebra.residues import PRIMES, Residues, ResidueSource
+from ..algebra.residue_vectors import PRIMES, Residues, ResidueSource
 from ..language import rational as q
 from ..language.rational import Matrix
 

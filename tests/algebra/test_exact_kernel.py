@@ -7,7 +7,7 @@ import pytest
 import sympy
 
 from derive.algebra.exact_kernel import echelon, fraction_of, kernel, pivots, rational
-from derive.algebra.residues import PRIMES, Residues, ResidueSource, residue_of
+from derive.algebra.residue_vectors import PRIMES, Residues, ResidueSource, residue_of
 
 P = PRIMES[0]
 

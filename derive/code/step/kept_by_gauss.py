@@ -20,7 +20,7 @@ from typing import Any
 from zlib import crc32
 
 from ...algebra.exact_kernel import Rows, kernel, pivots
-from ...algebra.residues import PRIMES, Residues, ResidueSource
+from ...algebra.residue_vectors import PRIMES, Residues, ResidueSource
 from ...language import rational as q
 from ...language.tree import nodes
 from ..ellipsoid import BUNDLES
