@@ -86,6 +86,7 @@ bench: $(STAMP)  ## cost of deriving, growth with the group, emitted code beside
 	$(BIN)/python -m benchmarks.zeitlin
 	$(BIN)/python -m benchmarks.motion
 	$(BIN)/python -m benchmarks.discrete
+	$(BIN)/python -m benchmarks.playground
 
 accuracy: $(STAMP) ## worst error of each output against 50 digits, over 100000 states of each problem: an hour
 	$(BIN)/python -m benchmarks.accuracy

@@ -4,6 +4,7 @@ const chosen = (pieces) => Object.fromEntries(Object.entries(pieces).map(([x, na
 addEventListener("message", async ({ data, source, origin }) => {
   if (source !== parent || origin !== location.origin || !data.source) return;
   document.documentElement.lang = data.lang;
+  document.title = document.querySelector("h1").textContent = data.title;
   const url = URL.createObjectURL(new Blob([data.source], { type: "text/javascript" }));
   try {
     const module = await import(url);

@@ -14,7 +14,7 @@ export class Motion {
   }
 
   show(words, lang, told) {
-    this.told = { ...told, lang };
+    this.told = { ...told, lang, title: words.motion };
     this.more = null;
     this.frame = make("iframe", { src: "moving.html", title: words.motion });
     this.place.replaceChildren(make("p", { class: "note" }, words.moved), this.frame);
@@ -22,7 +22,7 @@ export class Motion {
 
   /* what it keeps, which is found behind it */
   keep(told) {
-    this.more = { ...told, lang: this.told.lang };
+    this.more = { ...told, lang: this.told.lang, title: this.told.title };
     this.send();
   }
 

@@ -1,6 +1,7 @@
 """Where NumPy and SymPy are not there, as in a browser: walks, pages, checks, symmetries and code
 are the same, and what needs them says so in a line."""
 
+import json
 import re
 import subprocess
 import sys
@@ -18,6 +19,11 @@ for words in sys.argv[2].split(";"):
         sys.exit(status)
 """
 MESH = 'name = "cube"\ngroup = "SO(3)"\n[body]\nsolid = "mesh"\nfile = "cube.off"\ndensity = 1\n'
+FORGED = {
+    "motion": ('["wedge", "𝐦", "𝐧"]', '["wedge", "𝐧", "𝐦"]'),
+    "algebra": ('"sin"', '"cos"'),
+    "momenta": ('["call", "T", "𝐧"]', '["call", "T", ["mul", -1, "𝐧"]]'),
+}
 
 
 @pytest.fixture
@@ -80,21 +86,41 @@ def test_code_is_the_same(said, tmp_path, command, hidden):
     assert told == ("gauss" in command and "riemann" not in command)  # whose energy is an integral
 
 
-def test_checks_are_the_same():
-    without("check so3 se3 --seed 1")
-
-
 @pytest.mark.parametrize("name", ["so3", "top", "comet", "riemann_ellipsoid"])
 def test_symmetries_are_the_same(name, said):
     command = f"symmetries {name}"
     assert without(command).stdout == said(*command.split())
 
 
+def test_checks_are_the_same(said):
+    command = "check so3 se3 zeitlin --seed 1"
+    assert without(command).stdout == said(*command.split())
+
+
+def test_forged_records_of_the_torus_are_refused_alike(said, tmp_path, capsys):
+    text = said("walk", "zeitlin", "--format", "json")
+    files = []
+    for label, (old, new) in FORGED.items():
+        record = json.loads(text)
+        (step,) = (x for x in record["steps"] if x["label"] == f"zeitlin.{label}")
+        equations = json.dumps(step["equations"], ensure_ascii=False)
+        assert old in equations
+        step["equations"] = json.loads(equations.replace(old, new))
+        files.append(str(tmp_path / f"{label}.json"))
+        (tmp_path / f"{label}.json").write_text(json.dumps(record), encoding="utf-8")
+    command = ["check", *files, "--seed", "1"]
+    found = without(" ".join(command), code=1).stdout
+    assert main(command) == 1
+    assert found == capsys.readouterr().out
+    failed = [x.split()[1] for x in found.splitlines() if x.startswith("FAILS")]
+    assert failed == [f"zeitlin.{x}:" for x in FORGED]
+
+
 def test_what_needs_arrays_is_refused_in_a_line(tmp_path):
     (tmp_path / "cube.off").write_text("OFF\n")
     (tmp_path / "cube.toml").write_text(MESH)
     needs = {
-        "NumPy": ("walk cube.toml", "check zeitlin", "simulate so3 --t 1"),
+        "NumPy": ("walk cube.toml", "simulate so3 --t 1"),
         "SymPy": ("integrals so3", "emit so3 --conserved --out here"),
     }
     for library, commands in needs.items():

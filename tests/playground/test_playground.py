@@ -6,6 +6,7 @@ import io
 import json
 import tomllib
 import zipfile
+from xml.etree import ElementTree
 
 import pytest
 
@@ -40,11 +41,7 @@ kind = "gravity"
 g = [0, 0, "-g"]
 """
 SLOW = ("inhomogeneous_fluid", "stratified_fluid", "riemann_ellipsoid")
-CHECKED = [
-    pytest.param(x, marks=pytest.mark.dist) if x in SLOW else x
-    for x in ready_made()
-    if x != "zeitlin"  # which needs NumPy
-]
+CHECKED = [pytest.param(x, marks=pytest.mark.dist) if x in SLOW else x for x in ready_made()]
 MESH = '\n[body]\nsolid = "mesh"\nfile = "cube.off"\ndensity = 1\n'
 BAD = [
     (PENDULUM.replace('at = [0, "l", 0]', "at = [0, 1]"), 12, "point 2, at"),
@@ -403,6 +400,25 @@ def test_an_equation_is_copied(fresh, site):
     mathml = fresh.evaluate("navigator.clipboard.readText()")
     assert tex.startswith("L")
     assert mathml.startswith('<math xmlns="http://www.w3.org/1998/Math/MathML"')
+
+
+def test_copied_mathml_is_whole_without_the_style_of_the_page(fresh, site):
+    """Every bar of the TeX is an accent of the MathML, which is well-formed by itself."""
+    fresh.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    fresh.goto(f"{site}#gl3")
+    walked(fresh, "gl3")
+    equations = fresh.locator("#walk .equation:has(.overline):has(button)")
+    bars = 0
+    for k in range(equations.count()):
+        tex, button = (equations.nth(k).locator("button").nth(x) for x in (0, 1))
+        button.click()
+        copied = ElementTree.fromstring(fresh.evaluate("navigator.clipboard.readText()"))
+        marks = [x.text for x in copied.iter("{http://www.w3.org/1998/Math/MathML}mo")]
+        told = tex.get_attribute("data-tex")
+        assert marks.count("‾") == told.count("\\bar{") + told.count("\\overline{"), told
+        assert not [x for x in copied.iter() if x.get("class") == "overline"]
+        bars += marks.count("‾")
+    assert bars > 20
 
 
 def test_a_browser_without_web_assembly_says_what_to_do(browser, site):

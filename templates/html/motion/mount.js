@@ -231,7 +231,7 @@ function mount(element, page, pieces) {
     ? [make("details", open ? { open: "" } : {}, make("summary", {}, title), ...(note ? [make("p", {}, note)] : []), ...rows)] : [];
 
   const rows = {};
-  const table = make("table", {}, make("thead", {}, make("tr", {}, make("th", {}, words.kept), make("th", {}), make("th", {}, words.change))));
+  const table = make("table", {}, make("thead", {}, make("tr", {}, make("th", {}, words.kept), make("td", {}), make("th", {}, words.change))));
   const lines = make("tbody");
   table.append(lines);
   function tabulate() {
