@@ -402,16 +402,22 @@ def motion_of(
 
 
 def moving_program(
-    problem: Problem, record: Derivation, step: str = "gauss", order: str = ""
+    problem: Problem,
+    record: Derivation,
+    step: str = "gauss",
+    order: str = "",
+    *,
+    sought: bool = True,
 ) -> tuple[Program, str]:
     """The program of a problem with all that its motion keeps, and why it has none of that but the
-    energy: none is found, or it is not looked for where NumPy or SymPy is not there."""
+    energy: none is found, or it is not looked for where SymPy is not there.  ``sought``: is it
+    looked for?"""
     from .code.options import Options
 
     has, why = record.definition("θ") is not None, ""
     plain = Options(step=(step,), order=order)
     told = replace(plain, multiplier=has)
-    for chosen in (replace(told, conserved=True), told, plain):
+    for chosen in (*([replace(told, conserved=True)] * sought), told, plain):
         try:
             return program(problem, record, chosen), why
         except (Refused, ImportError) as error:  # or none is written for this state
