@@ -56,7 +56,9 @@ def span(message: str, lines: list[str]) -> tuple[int, int]:
 def alone(message: str, lines: list[str]) -> tuple[int, int]:
     """The same of a table that stands once; all where there is none."""
     found = SECTION.search(message)
-    header = re.compile(rf"\s*\[\s*{re.escape(found[1])}\s*\]" if found else "$^")
+    if found is None:
+        return 0, len(lines)
+    header = re.compile(rf"\s*\[\s*{re.escape(found[1])}\s*\]")
     start = next((k for k, line in enumerate(lines) if header.match(line)), None)
     return (0, len(lines)) if start is None else (start, end(start, lines))
 
