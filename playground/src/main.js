@@ -143,13 +143,13 @@ async function see() {
 
 /* what a motion keeps takes longer to be found, and another library: behind the motion, which does not wait for it */
 async function keep(mark) {
-  if (keeping === mark || !motion.frame) return;
+  if (keeping === mark || !motion.frame || !walked) return;
   keeping = mark;
   say(words.keeping);
-  const how = await engine.ask({ ask: "kept", text: text.text, lang }, (kind, news) => {
+  const how = await engine.ask({ ask: "kept", text: walked.text, lang }, (kind, news) => {
     if (kind === "kept" && moved === mark) motion.keep(news);
   });
-  if (how !== "end" && keeping === mark) keeping = null;
+  if (how !== "end" && how !== "late" && keeping === mark) keeping = null;
   if (told === words.keeping) say("");
 }
 
