@@ -35,7 +35,8 @@ from .walk.discrete import (
 from .walk.discrete.discrete_letters import DiscreteAlphabet
 from .walk.failure import naming_steps
 from .walk.fluid import (
-    circulation, fluid_kernel, fluid_points, fluid_principle, loops, pressure, trivialised,
+    advection, circulation, energy_kept, fluid_kernel, fluid_points, fluid_principle, loops,
+    pressure, trivialised,
 )
 from .walk.fluid.fluid_letters import FluidAlphabet
 from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side, vorticity
@@ -178,6 +179,8 @@ FLUID = (
     Stage("derivative", "exterior trivial a c", "Exterior", trivialised.exterior_by_fields),
     Stage("kernel", "derivative principle a c", "FluidKernel", fluid_kernel.kernel),
     Stage("pressure", "kernel points a c", "Steps", pressure.pressure),
+    Stage("advection", "a c", "Steps", advection.advection),
+    Stage("energy", "kernel trivial a c", "Step", energy_kept.energy_kept),
     Stage("circulation", "kernel points a c", "Steps", circulation.circulation),
     Stage("kelvin", "kernel points a c", "Steps", loops.kelvin),
 )
