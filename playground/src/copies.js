@@ -5,8 +5,8 @@ import { make } from "./dom.js";
 export function copies(root, words) {
   for (const button of root.querySelectorAll("button[data-tex]")) {
     const number = button.parentElement.textContent.match(/\([^()]*\)/)?.[0] ?? "";
-    const other = make("button", { type: "button", title: words.mathml, "aria-label": `${words.mathml} ${number}` }, "MathML");
-    button.setAttribute("aria-label", `${words.tex} ${number}`);
+    const other = make("button", { type: "button", title: words.mathml, "aria-label": `MathML ${number}: ${words.mathml}` }, "MathML");
+    button.setAttribute("aria-label", `TeX ${number}: ${words.tex}`);
     button.after(" ", other);
   }
   for (const step of root.querySelectorAll("article")) stop(step, step.querySelector(".number button"));

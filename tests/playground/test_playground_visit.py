@@ -247,16 +247,16 @@ def test_copies_are_told_apart_and_one_stop_of_tab_a_step(fresh, site):
     visit(fresh, f"{site}#so3")
     found = fresh.evaluate("""() => [...play.equations.root.querySelectorAll("article")].map(
         (x) => [...x.querySelectorAll(".number button")].map((y) => [y.ariaLabel, y.tabIndex]))""")
-    assert found[0] == [["copy the LaTeX (1.1)", 0], ["copy the MathML (1.1)", -1]]
+    assert found[0] == [["TeX (1.1): copy the LaTeX", 0], ["MathML (1.1): copy the MathML", -1]]
     assert all(sum(stop == 0 for _, stop in x) == 1 for x in found if x)
     assert sum(map(len, found)) > 100
     fresh.locator("#walk .number button").first.focus()
     label = "play.equations.root.activeElement.getAttribute('aria-label')"
     for key, expected in (
-        ("ArrowRight", "copy the MathML (1.1)"),
-        ("ArrowDown", "copy the MathML (1.2)"),
-        ("ArrowLeft", "copy the LaTeX (1.2)"),
-        ("ArrowUp", "copy the LaTeX (1.1)"),
+        ("ArrowRight", "MathML (1.1): copy the MathML"),
+        ("ArrowDown", "MathML (1.2): copy the MathML"),
+        ("ArrowLeft", "TeX (1.2): copy the LaTeX"),
+        ("ArrowUp", "TeX (1.1): copy the LaTeX"),
     ):
         fresh.keyboard.press(key)
         assert fresh.evaluate(label) == expected
