@@ -34,8 +34,8 @@ const tabs = new Tabs(["walk", "see", "take"], (name) => {
   if (name === "see") see();
 });
 
-/* what is derived: the text and language of the walk that stands, of the motion; the walk that runs; is a check to follow? */
-let walked = null, moved = null, running = null, wanted = false;
+/* what is derived: the text and language of the walk that stands, of the motion, of what it keeps; the walk that runs; is a check to follow? */
+let walked = null, moved = null, keeping = null, running = null, wanted = false;
 /* what changed: when it will be derived; what is wrong with the address; where to go in the next walk */
 let timer = 0, notice = "", aim = null;
 let told = "";
@@ -170,9 +170,11 @@ async function check() {
 }
 
 async function see() {
-  if (!engine || !walked || moved === `${walked.lang} ${walked.text}`) return;
+  if (!engine || !walked) return;
   const mark = `${walked.lang} ${walked.text}`;
+  if (moved === mark) return keep(mark);
   moved = mark;
+  keeping = null;
   motion.clear();
   say(words.emitting);
   const how = await engine.ask({ ask: "motion", text: text.text, lang }, (kind, news) => {
@@ -180,7 +182,21 @@ async function see() {
     else if (kind === "error") motion.say(`${words.nomotion} ${news.message}`);
   });
   if (how !== "end") moved = null;
-  if (ended(how)) say("");
+  if (!ended(how)) return;
+  say("");
+  await keep(mark);
+}
+
+/* what a motion keeps takes longer to be found, and another library: behind the motion, which does not wait for it */
+async function keep(mark) {
+  if (keeping === mark || !motion.frame) return;
+  keeping = mark;
+  say(words.keeping);
+  const how = await engine.ask({ ask: "kept", text: text.text, lang }, (kind, news) => {
+    if (kind === "kept" && moved === mark) motion.keep(news);
+  });
+  if (how !== "end" && keeping === mark) keeping = null;
+  if (told === words.keeping) say("");
 }
 
 /* the files of a command as { zip }, or what it { refused }; a walk that runs is waited for */
