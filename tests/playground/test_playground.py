@@ -376,17 +376,24 @@ def test_a_form_writes_the_same_file(fresh, site):
     assert tomllib.loads(fresh.evaluate("play.text.text")) == expected
 
 
-def test_a_notebook_is_one(fresh, site, tmp_path):
+def test_a_notebook_is_one(fresh, site, tmp_path, monkeypatch):
     fresh.goto(f"{site}#so3")
     walked(fresh)
     fresh.click("#tab-take")
     with fresh.expect_download() as waiting:
         fresh.click("#take button:has-text('.ipynb')")
     book = json.loads(waiting.value.path().read_text(encoding="utf-8"))
-    source = "".join(book["cells"][0]["source"])
-    place = tmp_path / "so3.toml"
-    exec(source.replace('"so3.toml"', repr(str(place))), {})
-    assert place.read_text(encoding="utf-8") == (READY / "so3.toml").read_text(encoding="utf-8")
+    title, problem, *_ = ("".join(x["source"]) for x in book["cells"])
+    assert title.startswith("# The solid about a fixed point\n")
+    assert "pip install derive-mechanics" in title
+    monkeypatch.chdir(tmp_path)
+    ran = {}
+    exec(problem, ran)
+    text = (READY / "so3.toml").read_text(encoding="utf-8")
+    assert ran["problem"] == text
+    assert f"problem = r'''{text}'''\n" in problem
+    assert ran["d"].labels == derived("so3").labels
+    assert not [*tmp_path.iterdir()]  # no file is written over
 
 
 def test_an_equation_is_copied(fresh, site):
