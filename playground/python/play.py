@@ -21,6 +21,7 @@ from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any
 
+import starts
 from places import line_of
 
 from derive.command.cli import derive, main
@@ -98,6 +99,9 @@ class Play:
             found = corrections(self.record)
             for piece in fragment([self.record], language=language(lang), findings=found):
                 self.tell("piece", piece)
+            for line in starts.faults(self.problem):
+                message = f"derive: {self.path.name}: {line}"
+                self.tell("warning", {"message": message, "line": line_of(message, text)})
             self.tell("walked", {})
 
     def check(self, text: str) -> None:
@@ -114,11 +118,13 @@ class Play:
             self.tell("checked", {})
 
     def plain(self, text: str) -> None:
-        """The data of a problem file, for the form; nothing where it is no TOML."""
+        """The text of a problem file, for the form, and whether it is TOML."""
         try:
-            self.tell("plain", tomllib.loads(text))
-        except (tomllib.TOMLDecodeError, RecursionError, TypeError, ValueError):
-            self.tell("plain", None)
+            tomllib.loads(text)
+        except (RecursionError, ValueError):
+            self.tell("plain", {"text": text, "read": False})
+        else:
+            self.tell("plain", {"text": text, "read": True})
 
     def files(self, text: str, words: str) -> bytes | None:
         """The files that a command writes, as a zip; ``words``: the command after its name, in

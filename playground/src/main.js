@@ -3,10 +3,10 @@ import { copy, kept, make, the } from "./dom.js";
 import { editor } from "./editor.js";
 import { Engine } from "./engine.js";
 import { Equations, power } from "./equations.js";
-import * as writing from "./form.js";
+import { Form, SCAFFOLD } from "./form.js";
 import { Places } from "./history.js";
 import { asked, spoken } from "./link.js";
-import { BEGUN, menu } from "./menu.js";
+import { menu } from "./menu.js";
 import { Motion } from "./see.js";
 import { Steps } from "./steps.js";
 import { Tabs } from "./tabs.js";
@@ -27,7 +27,7 @@ const steps = new Steps(the("steps"), (id, again) => go(id, again));
 const motion = new Motion(the("see"));
 const engine = typeof WebAssembly === "object" ? new Engine({ seconds: SECONDS, onstate }) : null;
 const text = editor(the("editor"), data.schema, words, edited);
-const form = new writing.Form(the("form"), data.schema.groups, (made) => { text.text = made; });
+const form = new Form(the("form"), data.schema, (made) => { text.text = made; });
 const take = new Take(the("take"), data, files, () => ({ name: problem_name(), text: text.text, title: equations.title || problem_name(), ready: chosen() }));
 const tabs = new Tabs(["walk", "see", "take"], (name) => {
   the("steps").parentElement.hidden = name !== "walk";
@@ -102,7 +102,7 @@ async function walk() {
   say(wanted ? words.queued : words.deriving);
   const how = await engine.ask({ ask: "walk", text: asking, lang }, (kind, news) => {
     if (kind === "derived") count = news.steps;
-    else if (kind === "warning") found.push({ message: news, line: 1, severity: "warning" });
+    else if (kind === "warning") found.push({ line: 1, ...(news.message ? news : { message: news }), severity: "warning" });
     else if (kind === "error") {
       fault = true;
       found.push({ ...news, severity: "error" });
@@ -190,13 +190,13 @@ async function see() {
 
 /* what a motion keeps takes longer to be found, and another library: behind the motion, which does not wait for it */
 async function keep(mark) {
-  if (keeping === mark || !motion.frame) return;
+  if (keeping === mark || !motion.frame || !walked) return;
   keeping = mark;
   say(words.keeping);
-  const how = await engine.ask({ ask: "kept", text: text.text, lang }, (kind, news) => {
+  const how = await engine.ask({ ask: "kept", text: walked.text, lang }, (kind, news) => {
     if (kind === "kept" && moved === mark) motion.keep(news);
   });
-  if (how !== "end" && keeping === mark) keeping = null;
+  if (how !== "end" && how !== "late" && keeping === mark) keeping = null;
   if (told === words.keeping) say("");
 }
 
@@ -318,7 +318,7 @@ function widen(wide) {
   if (at?.id) equations.back(at);
 }
 
-the("ready").addEventListener("change", (e) => choose(e.target.value ? ready(e.target.value).text : writing.SCAFFOLD ?? BEGUN));
+the("ready").addEventListener("change", (e) => choose(e.target.value ? ready(e.target.value).text : SCAFFOLD));
 for (const button of document.querySelectorAll("[data-lang]")) {
   button.addEventListener("click", async () => {
     lang = button.dataset.lang;

@@ -26,6 +26,13 @@ export const WORDS = {
     mass: "mass", at: "at", add: "Add", remove: "Remove", potentials: "Forces", solid: "solid", parameters: "Parameters",
     formonly: "This problem has tables that the form does not show: it would leave them out. Edit its text.",
     value: "default", start: "Start afresh", steps: "Steps", kind: "kind", point: "point", density: "density",
+    keys: {
+      far_centre: "far centre", self_gravity: "self-gravity", covector: "input: covector", force: "input: force", hollow_ball: "hollow ball", semi_axes: "semi-axes",
+      on: "on point", between: "between points", anchor: "anchored at", title: "Title", body: "body",
+    },
+    unread: "The text is no TOML yet: the form shows it when what is wrong there is mended.", sure: "A new problem replaces this text. Go on?",
+    kept: (x) => `Kept as text, unchanged: ${x}.`, nonumber: (x) => `“${x}” is no number`, semicolons: "entries with , between them; with ; where they have decimal commas",
+    addpoint: "Add a point", addforce: "Add a force", madeof: "made of", startsat: "Velocity at the start", given: "moments, given",
   },
   fr: {
     home: "derive", language: "Langue", ready: "Problème", own: "le vôtre", write: "Le problème",
@@ -66,6 +73,17 @@ export const WORDS = {
     mass: "masse", at: "en", add: "Ajouter", remove: "Enlever", potentials: "Forces", solid: "solide", parameters: "Paramètres",
     formonly: "Ce problème a des tables que le formulaire ne montre pas : il les omettrait. Modifiez son texte.",
     value: "défaut", start: "Recommencer", steps: "Étapes", kind: "genre", point: "point", density: "densité",
+    keys: {
+      gravity: "pesanteur", spring: "ressort", torsion: "ressort de torsion", attraction: "attraction", far_centre: "centre lointain", self_gravity: "pesanteur propre", field: "champ",
+      harmonic: "champ harmonique", volume: "énergie de volume", expression: "expression", covector: "entrée : covecteur", force: "entrée : force", input: "entrée", damping: "amortissement",
+      title: "Titre", name: "nom", mass: "masse", at: "en", on: "au point", block: "bloc", between: "entre les points", anchor: "ancré en", stiffness: "raideur", length: "longueur", rest: "repos",
+      strength: "intensité", centre: "centre", charges: "charges", coefficient: "coefficient", frame: "repère", space: "espace", body: "corps", kind: "genre", density: "densité",
+      ball: "boule", box: "pavé", ellipsoid: "ellipsoïde", cylinder: "cylindre", cone: "cône", hollow_ball: "boule creuse", tetrahedron: "tétraèdre",
+      radius: "rayon", height: "hauteur", sides: "côtés", semi_axes: "demi-axes", outer: "extérieur", inner: "intérieur", vertices: "sommets", rotation: "rotation", shift: "décalage",
+    },
+    unread: "Le texte n’est pas encore du TOML : le formulaire le montre dès que l’erreur y est corrigée.", sure: "Un nouveau problème remplace ce texte. Continuer ?",
+    kept: (x) => `Gardés comme texte, sans changement : ${x}.`, nonumber: (x) => `« ${x} » n’est pas un nombre`, semicolons: "des valeurs séparées par , ; par ; si elles ont des virgules décimales",
+    addpoint: "Ajouter un point", addforce: "Ajouter une force", madeof: "fait de", startsat: "Vitesse au départ", given: "moments, donnés",
   },
 };
 

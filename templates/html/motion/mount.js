@@ -288,9 +288,9 @@ function mount(element, page, pieces) {
   }
   /* the same motion, and more that it keeps: by another module of the same problem, with words */
   function keep(other, kept) {
+    if (!run) return;
     keeping = other;
     page.kept = kept;
-    if (!run) return;
     begin_to_keep();
     tabulate();
     ask();
