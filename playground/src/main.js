@@ -87,9 +87,11 @@ async function derive() {
   if (running !== run) return;
   running = null;
   if (how === "superseded" && !timer) return derive();
-  if (!wanted || timer) return;
-  wanted = false;
-  if (walked) await check();
+  if (timer || !walked) return;
+  if (wanted) {
+    wanted = false;
+    await check();
+  } else if (tabs.now === "see") await see();
 }
 
 async function walk() {
@@ -126,7 +128,6 @@ async function walk() {
     steps.fill(equations.root, words);
   }
   if (how === "end") document.body.dataset.walked = fault ? "fault" : chosen() ?? "own";
-  if (walked && tabs.now === "see") see();
   return how;
 }
 
@@ -170,7 +171,7 @@ async function check() {
 }
 
 async function see() {
-  if (!engine || !walked) return;
+  if (!engine || !walked || running || timer) return;
   const mark = `${walked.lang} ${walked.text}`;
   if (moved === mark) return keep(mark);
   moved = mark;
