@@ -26,7 +26,7 @@ const names = data.problems.map((x) => x.name);
 const ready = (name) => data.problems.find((x) => x.name === name);
 
 const equations = new Equations(the("walk"), css);
-const motion = new Motion(the("see"));
+const motion = new Motion(the("see"), () => text);
 const engine = typeof WebAssembly === "object" ? new Engine({ seconds: SECONDS, onstate }) : null;
 const text = editor(the("editor"), data.schema, words, edited);
 const form = new Form(the("form"), data.schema.groups, (made) => { text.text = made; });
@@ -77,6 +77,7 @@ async function derive() {
   if (!engine) return athome(words.plain);
   const asking = text.text, begin = performance.now(), found = [];
   let begun = false, fault = false, steps = 0;
+  motion.stale();
   say(words.deriving);
   const how = await engine.ask({ ask: "walk", text: asking, lang }, (kind, news) => {
     if (kind === "derived") steps = news.steps;
@@ -154,6 +155,7 @@ async function files(command) {
 
 function edited() {
   clearTimeout(timer);
+  motion.stale();
   about();
   the("walk").setAttribute("aria-busy", "true");
   timer = setTimeout(async () => {
