@@ -25,7 +25,7 @@ addEventListener("message", async ({ data, source, origin }) => {
     home.replaceChildren();
     home.motion = globalThis.drawing.mount(home, { ...data.page, module }, chosen(data.pieces));
     const into = document.createElement("button");
-    Object.assign(into, { type: "button", className: "reset into", textContent: data.into });
+    Object.assign(into, { type: "button", className: "into", textContent: data.into });
     into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module.PARAMETERS, data.pushed) }));
     home.querySelector(".beside").append(into);
     tell({ moved: true });
