@@ -29,8 +29,15 @@ from derive.views.outline import title
 from derive.views.system import system
 
 HERE = Path(__file__).parent
-LIBRARIES, LATER = ("jinja2", "markupsafe"), ("mpmath",)
-"""Loaded at the start; when something asks for them."""
+LIBRARIES, LATER = ("jinja2", "markupsafe"), ("mpmath", "sympy")
+"""Loaded at the start; when something asks for them, each in a file of its own."""
+UNUSED = {
+    "sympy": (
+        *("benchmarks", "categories", "codegen", "crypto", "diffgeom", "holonomic", "liealgebras"),
+        *("physics", "sandbox", "stats", "testing", "vector", "autolev", "fortran", "latex"),
+    ),
+}
+"""Folders of a library that its other modules import for tasks alone that nobody has here."""
 
 
 def wheel(out: Path) -> None:
@@ -48,7 +55,9 @@ def wheel(out: Path) -> None:
 def library(name: str, out: Path) -> None:
     """The modules of a library, without tests and what is compiled."""
     source = Path(importlib.import_module(name).__file__ or "").parent
-    skip = shutil.ignore_patterns("__pycache__", "*.so", "*.pyi", "*.c", "tests", "*.typed")
+    skip = shutil.ignore_patterns(
+        *("__pycache__", "*.so", "*.pyi", "*.c", "tests", "*.typed", *UNUSED.get(name, ()))
+    )
     shutil.copytree(source, out / name, ignore=skip)
 
 
@@ -111,7 +120,7 @@ def main(out: Path) -> None:
     for name in LIBRARIES:
         library(name, first)
     for name in LATER:
-        library(name, later)
+        library(name, later / name)
     for module in ("play", "places"):
         shutil.copy(HERE / "python" / f"{module}.py", first)
     told = {"version": derive.__version__, "problems": problems(), **options(), "schema": schema()}

@@ -1,6 +1,8 @@
 /* The walk, in a tree of its own with the style of the notes: pieces of markup as they come, ticks, copies. */
 import { copy, make } from "./dom.js";
 
+const MATHML = "http://www.w3.org/1998/Math/MathML";
+
 const STYLE = `
 :host { display: block; overflow-wrap: break-word; font: 1.0625rem/1.55 Charter, "Bitstream Charter", "Sitka Text", Cambria, Georgia, serif; }
 article { content-visibility: auto; contain-intrinsic-size: auto 9rem; }
@@ -115,9 +117,24 @@ function unlinked(summary) {
   summary.after(list);
 }
 
-/* one equation as one formula */
+/* one equation as one formula, which needs no style of this page */
 export function mathml(equation) {
   const parts = [...equation.querySelectorAll("math")].filter((x) => !x.closest("button"));
-  const inside = parts.map((x) => `<mrow>${x.innerHTML}</mrow>`).join("");
-  return `<math xmlns="http://www.w3.org/1998/Math/MathML" display="block">${inside}</math>`;
+  const inside = parts.map((x) => `${x.closest(".clause") ? '<mspace width="1em"></mspace>' : ""}<mrow>${barred(x).innerHTML}</mrow>`);
+  return `<math xmlns="${MATHML}" display="block">${inside.join("").replaceAll("&nbsp;", "&#160;")}</math>`;
+}
+
+/* a formula whose bars are accents, not borders */
+function barred(math) {
+  const plain = math.cloneNode(true);
+  const element = (name, attributes, ...within) => {
+    const made = document.createElementNS(MATHML, name);
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+    made.append(...within);
+    return made;
+  };
+  for (const row of plain.querySelectorAll(".overline")) {
+    row.replaceWith(element("mover", { accent: "true" }, element("mrow", {}, ...row.childNodes), element("mo", { stretchy: "true" }, "‾")));
+  }
+  return plain;
 }

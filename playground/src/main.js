@@ -32,7 +32,7 @@ const text = editor(the("editor"), data.schema, words, edited);
 const form = new Form(the("form"), data.schema.groups, (made) => { text.text = made; });
 const take = new Take(the("take"), data, files, () => ({ name: problem_name(), text: text.text, ready: chosen() }));
 
-let tab = "walk", told = "", walked = null, moved = null, timer = 0, damaged = false;
+let tab = "walk", told = "", walked = null, moved = null, keeping = null, timer = 0, damaged = false;
 
 const problem_name = () => text.text.match(/^\s*name\s*=\s*"([A-Za-z]\w{0,60})"/m)?.[1] ?? "problem";
 const chosen = () => names.find((x) => ready(x).text === text.text);
@@ -125,9 +125,11 @@ async function check() {
 }
 
 async function see() {
-  if (!engine || !walked || moved === `${walked.lang} ${walked.text}`) return;
+  if (!engine || !walked) return;
   const mark = `${walked.lang} ${walked.text}`;
+  if (moved === mark) return keep(mark);
   moved = mark;
+  keeping = null;
   motion.clear();
   say(words.emitting);
   const how = await engine.ask({ ask: "motion", text: text.text, lang }, (kind, news) => {
@@ -135,7 +137,21 @@ async function see() {
     else if (kind === "error") motion.say(`${words.nomotion} ${news.message}`);
   });
   if (how !== "end") moved = null;
-  if (ended(how)) say("");
+  if (!ended(how)) return;
+  say("");
+  await keep(mark);
+}
+
+/* what a motion keeps takes longer to be found, and another library: behind the motion, which does not wait for it */
+async function keep(mark) {
+  if (keeping === mark || !motion.frame) return;
+  keeping = mark;
+  say(words.keeping);
+  const how = await engine.ask({ ask: "kept", text: text.text, lang }, (kind, news) => {
+    if (kind === "kept" && moved === mark) motion.keep(news);
+  });
+  if (how !== "end" && keeping === mark) keeping = null;
+  if (told === words.keeping) say("");
 }
 
 async function files(command) {

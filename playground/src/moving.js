@@ -22,13 +22,18 @@ addEventListener("message", async ({ data, source, origin }) => {
   try {
     const module = await import(url);
     const home = document.getElementById("motion");
+    if (data.kept) {
+      home.motion.keep(module, data.kept);
+      tell({ kept: "" });
+      return;
+    }
     home.replaceChildren();
     home.motion = globalThis.drawing.mount(home, { ...data.page, module }, chosen(data.pieces));
     const into = document.createElement("button");
     Object.assign(into, { type: "button", className: "into", textContent: data.into });
-    into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module.PARAMETERS, data.pushed) }));
+    into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module.PARAMETERS, data.page.pushed) }));
     home.querySelector(".beside").append(into);
-    tell({ moved: true });
+    tell({ moved: "" });
     new ResizeObserver(() => tell({ height: home.scrollHeight })).observe(home);
   } catch (e) {
     tell({ fault: String(e) });

@@ -11,23 +11,25 @@ export class Motion {
       if (origin !== location.origin || source !== this.frame?.contentWindow) return;
       if (data.listens) source.postMessage(this.told, location.origin);
       else if (data.fault) this.say(data.fault);
-      else if (data.moved) this.frame.dataset.moved = "";
       else if (data.height) this.frame.style.setProperty("--height", `${data.height}px`);
-      else if (data.numbers) this.keep(data.numbers, text());
+      else if (data.numbers) this.put(data.numbers, text());
+      else Object.assign(this.frame.dataset, data);
+      this.send();
     });
   }
 
   show(words, lang, told) {
     this.words = words;
     this.told = { ...told, lang, title: words.motion, into: words.into };
+    this.more = null;
     this.frame = make("iframe", { src: "moving.html", title: words.motion });
-    this.note = make("p", { class: "note", role: "status" }, [words.moved, ...(told.pushed ? [words.pushed] : []), ...this.unset].join(" "));
+    this.note = make("p", { class: "note", role: "status" }, [words.moved, ...(told.page.pushed ? [words.pushed] : []), ...this.unset].join(" "));
     this.unset = [];
     this.place.replaceChildren(this.note, this.frame);
   }
 
   /* the numbers set, in the text of the problem, where the frame shows it as it is */
-  keep(numbers, text) {
+  put(numbers, text) {
     if (this.frame.classList.contains("stale")) return;
     const found = written(text.text, numbers);
     this.unset = found.left.length ? [this.words.left(found.left.join(", "))] : [];
@@ -40,6 +42,18 @@ export class Motion {
     if (!this.frame || this.frame.classList.contains("stale")) return;
     this.frame.classList.add("stale");
     this.note.textContent = this.words.stale;
+  }
+
+  /* what it keeps, which is found behind it */
+  keep(told) {
+    this.more = { ...told, lang: this.told.lang, title: this.told.title };
+    this.send();
+  }
+
+  send() {
+    if (!this.more || this.frame?.dataset.moved === undefined) return;
+    this.frame.contentWindow.postMessage(this.more, location.origin);
+    this.more = null;
   }
 
   say(text) {

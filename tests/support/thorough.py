@@ -14,6 +14,7 @@ KEPT = {
     "check/test_checker_ranges.py::test_no_degree_is_larger_than_that_of_the_bound": 1,
     "check/test_discrete.py::test_a_discrete_record_holds_also_from_its_json": 1,
     "check/test_discrete.py::test_every_corruption_of_a_discrete_step_is_refused": 5,
+    "check/test_fluid_forgeries.py::test_what_advection_and_energy_rest_on": 1,
     "check/test_forgeries.py::test_forgeries_around_heads_arguments_indices_and_quantifiers": 1,
     "check/test_forgeries.py::test_forgeries_of_headers": 1,
     "check/test_forgeries.py::test_no_seed_lets_a_number_of_points_through": 25,

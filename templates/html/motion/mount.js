@@ -1,5 +1,5 @@
 /* A motion in an element of a page: mount(element, page, pieces) builds all that is seen, and returns
- * what moves it: { time, state, seek, play, pause, run }, and the numbers as they are: { given }.
+ * what moves it: { time, state, seek, play, pause, run, keep }, and the numbers as they are: { given, trail }.
  *
  * page: { module: the emitted module, with gauss; x, p, u: the start, in the module's order;
  * t, tol: how long, how exact; entries: [row, column, place] of the element of the group in x, whose
@@ -31,6 +31,7 @@ function mount(element, page, pieces) {
     && ((t, x, k) => module.conserved(t, x, k)[module.CONSERVED.indexOf("energy")]));
   const scene = { page, p, velocity, energy, ask, run: null, trail: [], redraw: () => scene.run && show(scene.run.at(time), before) };
   let run, time = 0, wanted = null, playing = false, trail = [], first = {}, told = 0;
+  let keeping = module, k = null;  // what gives the numbers that are kept, and its constants
 
   const message = make("p", { class: "message", role: "status" });
   const tell = (text, where = home) => {
@@ -52,20 +53,24 @@ function mount(element, page, pieces) {
     tell("");
     for (const x of views) x.restart?.(run.at(0));
     clear();
-    first = invariants(0, run.at(0));
-    for (const name of Object.keys(first)) rows[name] ??= row(name);
-    table.tHead.hidden = !lines.firstChild;
+    begin_to_keep();
+    tabulate();
     time = 0;
     wanted = null;
     told = 0;
     ask();
   }
 
+  function begin_to_keep() {
+    k = keeping === module ? run.k : keeping.constants(p);
+    first = invariants(0, run.at(0));
+  }
+
   function invariants(t, x) {
     const found = {};
     if (module.energy) found.energy = module.energy(t, x, run.k);
-    const values = module.conserved?.(t, x, run.k);
-    values?.forEach((v, i) => (found[module.CONSERVED[i]] = v));
+    const values = keeping.conserved?.(t, x, k);
+    values?.forEach((v, i) => (found[keeping.CONSERVED[i]] = v));
     if (module.defect) found.defect = module.defect(x);
     if (module.multiplier) found.multiplier = module.multiplier(t, x, run.k, u);
     return found;
@@ -265,14 +270,19 @@ function mount(element, page, pieces) {
 
   const rows = {};
   const table = make("table", {}, make("thead", {}, make("tr", {}, make("th", {}, words.kept), make("td", {}), make("th", {}, words.change))));
-  const lines = make("tbody"), others = make("tbody", {}, make("tr", { class: "unit" }, make("th", { colspan: 3 }, words.others)));
+  const lines = make("tbody"), others = make("tbody");
   table.append(lines, ...(words.others ? [others] : []));
-  function row(name) {
-    const cells = [make("td"), make("td")], lost = name === "multiplier" || name === "energy" && page.lost;
-    const unit = name === "energy" || name === "multiplier" ? page.units.energy : "";
-    const label = words[name] ?? page.kept[name];
-    (lost ? others : lines).append(make("tr", { "data-name": name }, make("th", { scope: "row" }, label, ...(unit ? [make("span", { class: "unit" }, ` ${unit}`)] : [])), ...cells));
-    return lost || name === "defect" ? [cells[0]] : cells;
+  function tabulate() {
+    lines.replaceChildren();
+    others.replaceChildren(make("tr", { class: "unit" }, make("th", { colspan: 3 }, words.others)));
+    for (const name of Object.keys(first)) {
+      const cells = [make("td"), make("td")], lost = name === "multiplier" || name === "energy" && page.lost;
+      rows[name] = lost || name === "defect" ? [cells[0]] : cells;
+      const unit = name === "energy" || name === "multiplier" ? page.units.energy : "";
+      const label = words[name] ?? page.kept[name];
+      (lost ? others : lines).append(make("tr", { "data-name": name }, make("th", { scope: "row" }, label, ...(unit ? [make("span", { class: "unit" }, ` ${unit}`)] : [])), ...cells));
+    }
+    table.tHead.hidden = !lines.firstChild;
   }
 
   if (side) side.element.className = side.shape;
@@ -313,5 +323,14 @@ function mount(element, page, pieces) {
   recolour();
   restart();
   if (!still) play();
-  return { given: { x: x0, p, theta }, get trail() { return trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause };
+  /* the same motion, and more that it keeps: by another module of the same problem, with words */
+  function keep(other, kept) {
+    keeping = other;
+    page.kept = kept;
+    if (!run) return;
+    begin_to_keep();
+    tabulate();
+    ask();
+  }
+  return { given: { x: x0, p, theta }, get trail() { return trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause, keep };
 }
