@@ -116,7 +116,10 @@ def test_the_wheel_scrolls_and_zooms_with_ctrl_alone(fresh, site):
     until(frame, "true", lambda: frame.locator(".side").screenshot() != before)
     assert frame.evaluate(beside) == 0
     fresh.mouse.wheel(0, 4000)
-    until(frame, f"{beside} > 100")
+    left = (
+        "((x) => x.scrollHeight - x.clientHeight - x.scrollTop)(document.querySelector('.beside'))"
+    )
+    until(frame, f"{left} < 2")
     reset = frame.locator(".reset").bounding_box()
     assert reset["y"] + reset["height"] <= 800
 
