@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..code.emit import emit
@@ -36,9 +36,11 @@ WORDS = {
     "again": "to the start",
     "time": "time",
     "speed": "seconds of the motion in a second",
+    "pace": "speed",
     "controls": "the time",
     "stage": "the body, turned by dragging or by the arrow keys",
     "polhode": "The angular velocity in the body",
+    "ellipsoid": "The angular velocity in the body: its path, the polhode, on the energy ellipsoid",
     "velocities": "The velocity in time",
     "start": "The velocity at the start",
     "element": "The element at the start",
@@ -48,12 +50,16 @@ WORDS = {
     "reset": "As it was",
     "kept": "What is kept",
     "change": "change",
+    "others": "What is not kept",
     "energy": "energy",
     "defect": "off the group by",
     "multiplier": "multiplier",
-    "singular": "No body has these numbers.",
+    "singular": "No body has these numbers",
+    "no_number": "This is no number.",
     "ended": "The motion cannot go on: a collision, or a motion without bound.",
-    "keys": "Space plays, ← and → step. Drag turns, wheel zooms, double click goes back.",
+    "flat": "Here the body is flat, det A = 0: its points move on, these equations do not.",
+    "keys": "Space plays, ← and → step. Drag turns, two fingers or Ctrl and the wheel zoom, "
+    "double click goes back.",
 }
 """The words of a page, by the names that its script has for them."""
 
@@ -61,7 +67,15 @@ NAMES = ("PARAMETERS", "INPUTS", "begin", "gauss_to", "constants", "rhs")
 KEPT = ("conserved", "defect", "multiplier")
 """What a page takes of the emitted module, and the functions that it takes where they are there."""
 
+LENGTHS = re.compile(r"\n *if \([^{}]*\.length !==[^{}]*\) \{\s*throw new RangeError[^{}]*\}(?=\n)")
+"""A check of how many numbers a function is given, which a page gives always."""
+THROWN = re.compile(r'new RangeError\("[^"]*"\)')
+"""What a page catches, without its words."""
+
 VELOCITIES = ("ζ", "w")
+REACH = 60.0
+"""1/s: an angular velocity has a slider to this at least, about ten turns in a second."""
+
 MOST, CURVES = 24, 12
 """So many numbers of the velocity have sliders; so many of the state are drawn where no body is."""
 
@@ -119,7 +133,7 @@ def _whole(data: Any) -> Any:
 def style() -> str:
     """The style sheet, without the spaces that it does not need."""
     text = (folder("html") / "motion.css").read_text(encoding="utf-8")
-    return re.sub(r"(?<=[;{},:])\s+|\s+(?=[{}])|\s*\n\s*", "", text)
+    return re.sub(r"(?<=[;{},:])\s+|;?\s+(?=[{}])|\s*\n\s*", "", text).replace(";}", "}")
 
 
 def script(code: EmittedCode, record: Derivation, body: Data) -> str:
@@ -132,7 +146,7 @@ def script(code: EmittedCode, record: Derivation, body: Data) -> str:
     if "energy" in own.functions and "energy" not in own.conserved:
         kept.append("energy")
     names = [*NAMES, *kept, *(["CONSERVED"] * ("conserved" in kept))]
-    module = called(source.replace("\nexport ", "\n"), names)
+    module = called(THROWN.sub("0", LENGTHS.sub("", source.replace("\nexport ", "\n"))), names)
     drawing = "".join(
         (folder("html") / "motion" / f"{x}.js").read_text(encoding="utf-8") for x in SCRIPTS
     )
@@ -160,6 +174,8 @@ def pieces(body: Data) -> dict[str, str]:
     names |= {"of_moments" for part in body["parts"] if part["moments"]}
     if body["springs"] or any(part["anchors"] for part in body["parts"]):
         names.add("spring")
+    if body["stretches"]:
+        names.add("flattened")
     side = "polhode" if body["polhode"] else "velocities"
     return {"stage": "solid_stage", "side": side} | turned | {x: x for x in sorted(names)}
 
@@ -180,11 +196,20 @@ def data(
     body = moving_body(record.problem, group, made.state)
     adjusted, curves = velocity[:MOST], [] if body["parts"] else sorted(largest)
     basis = made.basis if entries else ()
-    side = "velocities" if body["polhode"] else "polhode"
-    unsaid = {side, *(x for x in ("defect", "multiplier") if x not in made.functions)}
+    lost = not _steady(record.problem)
+    unsaid = {"ellipsoid", "velocities" if body["polhode"] else "polhode"}
+    unsaid |= {x for x in ("defect", "multiplier") if x not in made.functions}
+    unsaid |= set() if lost or "multiplier" in made.functions else {"others"}
+    unsaid |= set() if body["stretches"] else {"flat"}
     unsaid |= set() if made.inputs else {"inputs"}
     unsaid |= set() if entries else {"element", "turned"}
     units = {x.name: x.unit for x in code.columns()}
+    words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
+    if body["turns"]:
+        words["polhode"] = language.word(WORDS["ellipsoid"])
+    if group is not None and group.name.startswith(("SL(", "SAff(")) and "defect" in words:
+        words["defect"] += " |det A − 1|"
+    turning = {s for s, E in zip(velocity, made.basis, strict=False) if _turns(E)}
     return {
         **{x: [*map(float, getattr(begin, x))] for x in ("x", "p", "u")},
         "entries": entries,
@@ -195,6 +220,8 @@ def data(
         "order": len(basis[0]) if basis else 0,
         "names": {s: made.state[s] for s in {*adjusted, *curves}},
         "adjusted": adjusted,
+        "reach": [REACH if s in turning else 1 for s in adjusted],
+        **({"lost": True} if lost else {}),
         "curves": curves,
         "body": body,
         "labels": {
@@ -203,9 +230,30 @@ def data(
         },
         "kept": {x: in_words(x, language.word) for x in made.conserved if x != "energy"},
         "units": {x: units.get(x, "") for x in ("t", "energy")},
-        "words": {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid},
+        "words": words,
         "comma": language.name == "fr",
     }
+
+
+def _turns(E: Sequence[Sequence[Any]]) -> bool:
+    """Is a matrix of the basis antisymmetric?"""
+    span = range(len(E))
+    return all(E[i][j] + E[j][i] == 0 for i in span for j in span)
+
+
+def _steady(problem: Mapping[str, Any]) -> bool:
+    """Is the energy kept: no damping, no input, nothing that depends on the time by itself?"""
+    stated = [problem.get("potentials"), problem.get("lagrangian")]
+    return not (problem.get("damping") or problem.get("inputs") or _timed(stated))
+
+
+def _timed(data: Any) -> bool:
+    """Does the time stand in data of a record, but as what a place r(t) depends on?"""
+    if isinstance(data, dict):
+        return any(map(_timed, data.values()))
+    if isinstance(data, list | tuple):
+        return [*data[:1]] != ["call"] and any(map(_timed, data))
+    return bool(data == "t")
 
 
 def _meaning(name: str, record: Derivation, language: Language) -> str:

@@ -22,8 +22,10 @@ Data = Any
 def moving_body(problem: Mapping[str, Any], group: Group | None, state: Sequence[str]) -> Data:
     """What is drawn of the problem of a record: ``parts``, one for each factor of the group that
     moves points of the plane or of space, none where one of them does not; ``springs`` between
-    them; ``gravity``; ``polhode``, the places of an angular velocity in the state."""
+    them; ``gravity``; ``polhode``, the places of an angular velocity in the state; ``stretches``:
+    can it become flat, as volumes are not kept?"""
     none = {"parts": [], "springs": [], "gravity": [0, 0, 0], "polhode": [], "turns": False}
+    none["stretches"] = False
     if group is None or any(factor.n not in (2, 3) for _, factor in group.places):
         return none
     group = group.stated
@@ -40,6 +42,7 @@ def moving_body(problem: Mapping[str, Any], group: Group | None, state: Sequence
         "gravity": _gravity(problem),
         "planar": all(part["n"] == 2 for part in parts),
         "polhode": turning,
+        "stretches": any(sum(E[i][i] for i in range(len(E))) for E in group.basis),
         "turns": bool(turning) and len(state) - len(at) == 3,
     }
 
@@ -153,7 +156,7 @@ def _solid(solid: Mapping[str, Any], problem: Mapping[str, Any]) -> Data:
         columns = [[_sum(x, ["mul", -1, y]) for x, y in zip(v, first, strict=True)] for v in others]
         return {"shape": kind, "columns": columns, "shift": first}
     stretch = [*_stretch(kind, s)]
-    columns = [[["mul", r, stretch[j]] for r in (R[0][j], R[1][j], R[2][j])] for j in range(3)]
+    columns = [[_product(row[j], stretch[j]) for row in R] for j in range(3)]
     return {"shape": kind if kind in SHAPES else "ball", "columns": columns, "shift": shift}
 
 
@@ -180,6 +183,10 @@ def _image(R: Sequence[Sequence[Any]], v: Sequence[Any]) -> list[Data]:
 
 def _sum(x: Data, y: Data) -> Data:
     return ["add", x, y]
+
+
+def _product(x: Data, y: Data) -> Data:
+    return 0 if x == 0 else y if x == 1 else ["mul", x, y]
 
 
 def _mesh(solid: Mapping[str, Any], value: Numbers) -> Data:

@@ -184,7 +184,9 @@ class Play:
         (source,) = emit(made, self.record, ("javascript",), made.name, chosen).values()
         page = data(code, self.problem, self.record, begin, language(lang))
         page |= {"t": SECONDS, "tol": TOLERANCE}
+        stated = [*page["x"]]
         page["x"] = moving(page, made)
+        page["pushed"] = page["x"] != stated
         return source, page
 
 
@@ -222,13 +224,15 @@ def with_numbers(made: Any) -> Any:
 
 def moving(page: Any, made: Any) -> list[float]:
     """A start that moves: where the file gives no velocity, one about the last but one of its
-    coordinates, with a little of the others."""
-    x, at_rest = page["x"], {place for _, _, place in page["entries"]}
+    coordinates, with a little of the others; a tenth of it on a group that stretches, which could
+    make the body flat."""
+    x, at_rest = [*page["x"]], {place for _, _, place in page["entries"]}
     velocity = [k for k in range(len(x)) if k not in at_rest and made.state[k][0] in "zw"]
     if velocity and not any(x[k] for k in velocity):
+        size = 0.1 if page["body"]["stretches"] else 1.0
         for k in velocity:
-            x[k] = 0.1
-        x[velocity[min(1, len(velocity) - 1)]] = 2.0
+            x[k] = 0.1 * size
+        x[velocity[min(1, len(velocity) - 1)]] = 2.0 * size
     return x
 
 

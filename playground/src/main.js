@@ -24,7 +24,7 @@ const ready = (name) => data.problems.find((x) => x.name === name);
 const equations = new Equations(the("walk"), css, document.querySelector(".read .bar"), (id) => go(id));
 const places = new Places(equations);
 const steps = new Steps(the("steps"), (id, again) => go(id, again));
-const motion = new Motion(the("see"));
+const motion = new Motion(the("see"), () => text);
 const engine = typeof WebAssembly === "object" ? new Engine({ seconds: SECONDS, onstate }) : null;
 const text = editor(the("editor"), data.schema, words, edited);
 const form = new Form(the("form"), data.schema, (made) => { text.text = made; });
@@ -99,6 +99,7 @@ async function walk() {
   const here = equations.at();
   let begun = false, fault = false, count = 0;
   if (here?.id) aim ??= here;
+  motion.stale();
   say(wanted ? words.queued : words.deriving);
   const how = await engine.ask({ ask: "walk", text: asking, lang }, (kind, news) => {
     if (kind === "derived") count = news.steps;
@@ -226,6 +227,7 @@ function later(does, after) {
 }
 
 function edited() {
+  motion.stale();
   about();
   the("walk").setAttribute("aria-busy", "true");
   later(async () => {

@@ -1,5 +1,18 @@
-/* In a frame whose policy lets nothing be fetched: the emitted module, as a blob, and what moves the body by it. */
+/* In a frame whose policy lets nothing be fetched: the emitted module, as a blob, and what moves the body by it.
+ * The page about it is told how high it is, and the numbers that the reader has set. */
 const chosen = (pieces) => Object.fromEntries(Object.entries(pieces).map(([x, name]) => [x, globalThis.drawing[name]]));
+const tell = (news) => parent.postMessage(news, location.origin);
+
+/* the numbers that are not those of the file: all of the velocity where one of it is */
+function numbers({ given }, page, names, pushed) {
+  const told = (list, all) => Object.fromEntries(list.filter(([, now, was]) => all || now !== was).map(([name, now]) => [name, now]));
+  const start = page.adjusted.map((s) => [page.names[s], given.x[s], page.x[s]]);
+  return {
+    initial: told(start, pushed || start.some(([, now, was]) => now !== was)),
+    parameters: told(names.map((name, i) => [name, given.p[i], page.p[i]]), false),
+    exp: given.theta.some((a) => a !== 0) ? [...given.theta] : [],
+  };
+}
 
 addEventListener("message", async ({ data, source, origin }) => {
   if (source !== parent || origin !== location.origin || !data.source) return;
@@ -11,16 +24,21 @@ addEventListener("message", async ({ data, source, origin }) => {
     const home = document.getElementById("motion");
     if (data.kept) {
       home.motion.keep(module, data.kept);
-      parent.postMessage({ kept: "" }, location.origin);
+      tell({ kept: "" });
       return;
     }
     home.replaceChildren();
     home.motion = globalThis.drawing.mount(home, { ...data.page, module }, chosen(data.pieces));
-    parent.postMessage({ moved: "" }, location.origin);
+    const into = document.createElement("button");
+    Object.assign(into, { type: "button", className: "into", textContent: data.into });
+    into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module.PARAMETERS, data.page.pushed) }));
+    home.querySelector(".beside").append(into);
+    tell({ moved: "" });
+    new ResizeObserver(() => tell({ height: home.scrollHeight })).observe(home);
   } catch (e) {
-    parent.postMessage({ fault: String(e) }, location.origin);
+    tell({ fault: String(e) });
   } finally {
     URL.revokeObjectURL(url);
   }
 });
-parent.postMessage({ listens: true }, location.origin);
+tell({ listens: true });

@@ -1,23 +1,47 @@
 /* The motion of the problem, in a frame: a new one for every problem, so that nothing of the last is left. */
 import { make } from "./dom.js";
+import { written } from "./numbers.js";
 
 export class Motion {
-  constructor(place) {
+  /* text: { text }, which takes the numbers that the reader has set */
+  constructor(place, text) {
     this.place = place;
+    this.unset = [];
     addEventListener("message", ({ data, source, origin }) => {
       if (origin !== location.origin || source !== this.frame?.contentWindow) return;
       if (data.listens) source.postMessage(this.told, location.origin);
       else if (data.fault) this.say(data.fault);
+      else if (data.height) this.frame.style.setProperty("--height", `${data.height}px`);
+      else if (data.numbers) this.put(data.numbers, text());
       else Object.assign(this.frame.dataset, data);
       this.send();
     });
   }
 
   show(words, lang, told) {
-    this.told = { ...told, lang, title: words.motion };
+    this.words = words;
+    this.told = { ...told, lang, title: words.motion, into: words.into };
     this.more = null;
     this.frame = make("iframe", { src: "moving.html", title: words.motion });
-    this.place.replaceChildren(make("p", { class: "note" }, words.moved), this.frame);
+    this.note = make("p", { class: "note", role: "status" }, [words.moved, ...(told.page.pushed ? [words.pushed] : []), ...this.unset].join(" "));
+    this.unset = [];
+    this.place.replaceChildren(this.note, this.frame);
+  }
+
+  /* the numbers set, in the text of the problem, where the frame shows it as it is */
+  put(numbers, text) {
+    if (this.frame.classList.contains("stale")) return;
+    const found = written(text.text, numbers);
+    this.unset = found.left.length ? [this.words.left(found.left.join(", "))] : [];
+    if (found.text === text.text) this.note.textContent = this.unset.join("");
+    else text.text = found.text;
+  }
+
+  /* the text is another one, or is wrong: what moves is that of before */
+  stale() {
+    if (!this.frame || this.frame.classList.contains("stale")) return;
+    this.frame.classList.add("stale");
+    this.note.textContent = this.words.stale;
   }
 
   /* what it keeps, which is found behind it */

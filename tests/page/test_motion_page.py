@@ -480,9 +480,116 @@ def test_sliders_change_the_motion_and_all_goes_back(pages, opened):
         assert np.abs(state() - first).max() > 0.01
         page.get_by_role("button", name="As it was").click()
         assert np.array_equal(state(), first)
-    page.locator('[data-name="R"] input[type=number]').fill("0")
-    page.keyboard.press("Tab")
-    assert page.get_by_role("status").inner_text() == "No body has these numbers."
+
+
+def typed(page, name, text):
+    """Type a number, and leave its box."""
+    row = page.locator(f'[data-name="{name}"]')
+    row.locator("input[inputmode]").fill(text)
+    row.locator("input[inputmode]").press("Tab")
+    return row
+
+
+@pytest.mark.dist
+@pytest.mark.parametrize("width", [390, 1280])
+def test_a_wrong_number_is_told_where_it_is(width, pages, opened):
+    page = opened(pages("top"), width)
+    row = typed(page, "R", "0")
+    told = page.get_by_role("status")
+    assert told.inner_text() == "No body has these numbers: R = 0."
+    assert row.get_by_role("status").count() == 1
+    box = told.bounding_box()
+    assert 0 <= box["y"] <= 844 - box["height"]
+    energy = page.locator('tr[data-name="energy"] td').first
+    assert energy.inner_text() == ""
+    typed(page, "R", "0.03")
+    assert told.inner_text() == ""
+    page.wait_for_timeout(100)
+    assert energy.inner_text() != ""
+
+
+@pytest.mark.dist
+def test_a_number_with_a_comma_or_a_point_and_nothing_else(pages, opened):
+    page = opened(pages("top", "fr"))
+
+    def g():
+        return page.evaluate(f"{MOTION}.given.p[3]")
+
+    for text, value in (("1,5", 1.5), ("2.25", 2.25), ("−3e-1", -0.3)):
+        typed(page, "g", text)
+        assert g() == value
+    for text in ("1,234.5", "five", "", "1e999"):
+        box = typed(page, "g", text).locator("input[inputmode]")
+        assert box.get_attribute("aria-invalid") == "true"
+        assert page.get_by_role("status").inner_text() == "Ce n’est pas un nombre."
+        assert g() == -0.3
+    typed(page, "g", "9,81")
+    assert box.get_attribute("aria-invalid") == "false"
+
+
+@pytest.mark.dist
+def test_a_slider_spins_the_body_both_ways(pages, opened):
+    page = opened(pages("so3"))
+    ends = page.locator('[data-name="zeta_3"] input[type=range]').evaluate("(x) => [x.min, x.max]")
+    assert [float(x) for x in ends] == [-60, 60]
+
+
+@pytest.mark.dist
+def test_the_trail_follows_the_speed_that_is_set(opened):
+    """The tip of an axis that turns fast about another goes a small angle between two points."""
+    page = opened(derive.derive("top").motion_page(10.0, start={"zeta_1": 0.5}))
+    page.locator('[data-name="zeta_1"] input[type=range]').fill("50")
+    seek(page, 1.0)
+    page.wait_for_timeout(200)
+    page.get_by_role("button", name="play").click()
+    page.wait_for_function(f"{MOTION}.time > 1.2")
+    page.get_by_role("button", name="pause").click()
+    trail = page.evaluate(f"{MOTION}.trail.map(([t]) => t)")
+    assert len(trail) == 480
+    assert np.diff(trail).min() > 0
+    assert np.diff(trail).max() < 0.2 / 50
+
+
+@pytest.mark.dist
+def test_what_is_not_kept_stands_apart(opened):
+    page = opened(derive.derive("jelly").motion_page(2.0, start={"zeta_1": 0.1}))
+    groups = "[...document.querySelectorAll('tbody')].map((x) => x.innerText)"
+    kept, others = page.evaluate(groups)
+    assert "energy" not in kept
+    assert others.startswith("What is not kept")
+    assert "energy" in others
+
+
+def test_the_energy_is_kept_where_nothing_moves_it(pages):
+    lost = {x: told(derive.derive(x).motion_page(1.0)) for x in ("jelly", "gl3")}
+    assert [x.get("lost", False) for x in lost.values()] == [True, False]
+    assert told(pages("sl3"))["words"]["defect"] == "off the group by |det A − 1|"
+    assert told(pages("top"))["words"]["defect"] == "off the group by"
+
+
+@pytest.mark.parametrize(
+    ("more", "lost"),
+    [
+        ("", False),
+        ('[[potential]]\nkind = "expression"\nU = "r1_z*cos(t)"\n', True),
+        ('[[potential]]\nkind = "expression"\nU = "r1_z*cos(1)"\n', False),
+        ("[[damping]]\ncoefficient = 1\n", True),
+    ],
+)
+def test_what_makes_an_energy_change(more, lost, tmp_path):
+    points = "".join(
+        f"[[point]]\nmass = 1\nat = {at}\n" for at in ([1, 0, 0], [0, 1, 0], [0, 0, 1])
+    )
+    path = tmp_path / "three.toml"
+    path.write_text(f'name = "three"\ngroup = "SO(3)"\n{points}{more}', encoding="utf-8")
+    assert told(derive.derive(path).motion_page(1.0)).get("lost", False) == lost
+
+
+@pytest.mark.dist
+def test_a_body_that_becomes_flat_is_told(opened):
+    page = opened(derive.derive("gl3").motion_page(5.0, start={"zeta_1": -0.5}))
+    page.evaluate(f"{MOTION}.seek(5)")
+    page.wait_for_function('document.querySelector(".message").textContent.includes("det A = 0")')
 
 
 @pytest.mark.dist

@@ -2,6 +2,8 @@
 taken, run whole."""
 
 import json
+import subprocess
+import tomllib
 
 import pytest
 
@@ -26,6 +28,15 @@ def moving(opened, site, name):
     frame = opened.frames[-1]
     frame.evaluate("document.getElementById('motion').motion.pause()")
     return frame
+
+
+def until(frame, expression, too=lambda: True):
+    """Wait until an expression of the frame is true; its policy lets no script wait for a text."""
+    for _ in range(100):
+        if frame.evaluate(expression) and too():
+            return
+        frame.page.wait_for_timeout(100)
+    pytest.fail(f"never: {expression}")
 
 
 @pytest.mark.parametrize(
@@ -90,3 +101,129 @@ def test_the_notebook_runs(fresh, site, tmp_path):
     assert "every step holds" in shown["check"]
     assert "run of so3" in shown["motion"]
     assert "so3.c" in shown["code"]
+
+
+# ---------------------------------------------------------------- where the frame is small
+
+
+def test_the_wheel_scrolls_and_zooms_with_ctrl_alone(fresh, site):
+    frame = moving(fresh, site, "top")
+    side = frame.locator(".side").bounding_box()
+    fresh.mouse.move(side["x"] + side["width"] / 2, side["y"] + side["height"] / 2)
+    before = frame.locator(".side").screenshot()
+    beside = "document.querySelector('.beside').scrollTop"
+    fresh.keyboard.down("Control")
+    fresh.mouse.wheel(0, -300)
+    fresh.keyboard.up("Control")
+    until(frame, "true", lambda: frame.locator(".side").screenshot() != before)
+    assert frame.evaluate(beside) == 0
+    fresh.mouse.wheel(0, 4000)
+    left = (
+        "((x) => x.scrollHeight - x.clientHeight - x.scrollTop)(document.querySelector('.beside'))"
+    )
+    until(frame, f"{left} < 2")
+    reset = frame.locator(".reset").bounding_box()
+    assert reset["y"] + reset["height"] <= 800
+
+
+def test_on_a_phone_all_is_in_one_page(browser, site):
+    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
+    opened = context.new_page()
+    frame = moving(opened, site, "top")
+    touch = "[...document.querySelectorAll('canvas')].map((x) => getComputedStyle(x).touchAction)"
+    assert {*frame.evaluate(touch)} == {"pan-y"}
+    whole = "document.documentElement.scrollHeight - innerHeight"
+    until(frame, f"{whole} < 4 && innerHeight > 900")
+    assert frame.locator("canvas").first.bounding_box()["height"] < 0.5 * 844
+    frame.locator(".reset").scroll_into_view_if_needed()
+    assert opened.evaluate("scrollY") > 200
+    assert frame.locator(".keys").is_visible()
+    context.close()
+
+
+# ---------------------------------------------------------------- what is said
+
+
+def test_a_push_is_told_only_where_there_is_one(fresh, site):
+    said = {}
+    for name in ("sim3", "comet"):
+        moving(fresh, site, name)
+        said[name] = fresh.locator("#see .note").inner_text()
+    assert "pushed" in said["sim3"]
+    assert "pushed" not in said["comet"]  # it has a velocity in [initial]
+
+
+def test_what_moves_when_the_text_is_wrong_is_dim(fresh, site):
+    moving(fresh, site, "so3")
+    fresh.evaluate("play.text.text = 'name = \"so3\"\\ngroup = 3\\n'")
+    fresh.wait_for_selector("iframe.stale", timeout=10_000)
+    assert fresh.locator("#see .note").inner_text().startswith("The text has changed")
+    walked(fresh, "fault")
+    assert fresh.locator("iframe.stale").count() == 1
+
+
+def test_a_body_that_becomes_flat_is_told_and_a_smaller_push_does_not(fresh, site):
+    frame = moving(fresh, site, "gl3")
+    frame.evaluate(STATE, 20.0)
+    frame.evaluate("document.getElementById('motion').motion.seek(20)")
+    message = "document.querySelector('.message').textContent"
+    until(frame, f"{message}.includes('det A = 0')")
+    frame = moving(fresh, site, "jelly")
+    frame.evaluate(STATE, 20.0)
+    assert frame.evaluate("document.getElementById('motion').motion.run.last") == 20.0
+    assert frame.evaluate(message) == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "numbers"),
+    [("top", {"g": "3,5", "zeta_3": "40"}), ("sim3", {"zeta_1": "1.5", "theta_2": "-0.25"})],
+)
+def test_numbers_that_are_set_go_into_the_text(fresh, site, name, numbers):
+    frame = moving(fresh, site, name)
+    for x, value in numbers.items():
+        row = frame.locator(f'[data-name="{x}"]')
+        row.locator("xpath=ancestor::details").evaluate("(e) => { e.open = true; }")
+        row.locator("input[inputmode]").fill(value)
+        row.locator("input[inputmode]").press("Tab")
+    expected = frame.evaluate(STATE, 1.0)
+    before = tomllib.loads(fresh.evaluate("play.text.text"))
+    frame.locator(".into").click()
+    walked(fresh, "own")
+    fresh.wait_for_selector("iframe[data-moved]:not(.stale)", timeout=90_000)
+    after = tomllib.loads(fresh.evaluate("play.text.text"))
+    if name == "top":
+        assert after["parameters"]["g"] == before["parameters"]["g"] | {"default": 3.5}
+        assert after["initial"] == before["initial"] | {"zeta_3": 40}
+    else:
+        assert after["initial"]["exp"] == [0, -0.25, 0, 0, 0, 0, 0]
+    found = fresh.frames[-1].evaluate(STATE, 1.0)
+    assert max(abs(a - b) for a, b in zip(found, expected, strict=True)) < 1e-9
+
+
+NUMBERS = """
+import { written } from "./numbers.mjs";
+const text = `name = "x"
+[parameters]
+m = 1.5 # mass
+k = { meaning = "default", default = 1e-3 }
+[initial]
+exp = [0.3, 0, 0]
+`;
+const initial = { zeta_1: 2, zeta_2: 0 }, parameters = { m: -2, k: 4, q: 1 };
+const set = { initial, parameters, exp: [1, 0, 0] };
+console.log(JSON.stringify(written(text, set)));
+"""
+
+
+def test_numbers_in_a_text_and_what_has_no_place_in_it(tmp_path):
+    need("node")
+    source = OWN / "src" / "numbers.js"
+    (tmp_path / "numbers.mjs").write_text(source.read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "main.mjs").write_text(NUMBERS, encoding="utf-8")
+    command = ["node", tmp_path / "main.mjs"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    told = json.loads(done.stdout)
+    found = tomllib.loads(told["text"])
+    assert found["parameters"] == {"m": -2, "k": {"meaning": "default", "default": 4}}
+    assert found["initial"] == {"zeta_1": 2, "exp": [0.3, 0, 0]}
+    assert told["left"] == ["q", "θ"]

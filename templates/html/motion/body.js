@@ -93,3 +93,11 @@ const moved = ({ map }, x) => {
   const M = map.map((row, i) => row.map((at, j) => (at < 0 ? Number(i === j) : x[at])));
   return (r) => [0, 1, 2].map((i) => M[i][0] * r[0] + M[i][1] * r[1] + M[i][2] * r[2] + M[i][3]);
 };
+
+/* has a part become flat? Then its velocity in the body, Ȧ = AΩ, has no end; the points move on. */
+function flattened({ body }, x) {
+  return body.parts.some((part) => {
+    const at = moved(part, x), [a, b, c] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((e) => plus(at(e), at([0, 0, 0]), -1));
+    return abs(dot(a, cross(b, c))) < 1e-4 * size(a) * size(b) * size(c);
+  });
+}

@@ -66,6 +66,7 @@ function camera({ ask }, { element: seen }, up, azimuth, elevation) {
   });
   for (const over of ["pointerup", "pointercancel"]) on(seen, over, (e) => down_at.delete(e.pointerId));
   on(seen, "wheel", (e) => {
+    if (!e.ctrlKey) return; // it scrolls
     e.preventDefault();
     zoomed(exp(-e.deltaY / 600));
   }, { passive: false });

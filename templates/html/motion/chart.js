@@ -1,30 +1,41 @@
-/* Curves of some places of the state in time. */
+/* Curves of some places of the state in time; those after the sixth are dashed, in the same colours. */
 function chart(scene, label, places) {
   const view = canvas(scene, label);
   return {
     element: view.element,
     draw() {
-      const { pen } = view, { trail, colours } = scene;
+      const { pen } = view, { trail, colours, page } = scene;
       pen.clearRect(0, 0, view.width, view.height);
       if (trail.length < 2) return;
       const t0 = trail[0][0], t1 = trail.at(-1)[0] || 1;
       const all = trail.flatMap(([, x]) => places.map((s) => x[s]));
-      let low = min(...all), high = max(...all);
-      const middle = (low + high) / 2, half = max((high - low) / 2, 0.02 * max(abs(low), abs(high)), 1e-12);
-      [low, high] = [middle - 1.08 * half, middle + 1.08 * half];
-      const X = (t) => 8 + (view.width - 50) * (t - t0) / (t1 - t0), Y = (v) => 8 + (view.height - 16) * (high - v) / (high - low);
-      if (low < 0 && high > 0) view.stroke([[8, Y(0)], [view.width - 42, Y(0)]], colours.line, 1);
+      const least = min(...all), most = max(...all);
+      const middle = (least + most) / 2, half = max((most - least) / 2, 0.02 * max(abs(least), abs(most)), 1e-12);
+      const left = 64, right = view.width - 46, foot = view.height - 18;
+      const X = (t) => left + (right - left) * (t - t0) / (t1 - t0), Y = (v) => (8 + foot) / 2 - (foot - 8) * (v - middle) / half / 2.16;
+      const write = (what, x, y, align, colour = colours.soft) => {
+        pen.fillStyle = colour;
+        pen.textAlign = align;
+        pen.fillText(what, x, y);
+      };
+      const short = (v) => shown(v, page, 3, v);
       pen.font = "12px Georgia, serif";
       pen.textBaseline = "middle";
-      pen.textAlign = "left";
-      const ends = places.map((s, i) => [Y(trail.at(-1)[1][s]), s, colours.lines[i % 6]]).sort((a, b) => a[0] - b[0]);
-      let above = -Infinity;
-      for (const [y, s, colour] of ends) {
-        view.stroke(trail.map(([t, x]) => [X(t), Y(x[s])]), colour, 1.5);
-        pen.fillStyle = colour;
-        above = max(y, above + 13);
-        if (above < view.height - 4) pen.fillText(called(scene.page.names[s]), view.width - 38, above);
-      }
+      pen.setLineDash([]);
+      view.stroke([[left, 8], [left, foot], [right, foot]], colours.line, 1);
+      if (least < 0 && most > 0) view.stroke([[left, Y(0)], [right, Y(0)]], colours.line, 1);
+      for (const v of [most, least]) write(short(v), left - 5, most - least < half ? Y(middle) : Y(v), "right");
+      write(`t = ${short(t0)}`, left, foot + 10, "left");
+      write(`${short(t1)} ${page.units.t}`, right, foot + 10, "right");
+      const ends = places.map((s, i) => [Y(trail.at(-1)[1][s]), s, i]).sort((a, b) => a[0] - b[0]), at = [];
+      ends.forEach(([y], k) => (at[k] = max(y, k ? at[k - 1] + 13 : 6)));
+      for (let k = ends.length - 1, most_low = foot; k >= 0; --k, most_low = at[k + 1] - 13) at[k] = min(at[k], most_low);
+      ends.forEach(([y, s, i], k) => {
+        const colour = colours.lines[i % 6];
+        pen.setLineDash(i > 5 ? [4, 3] : []);
+        view.stroke([...trail.map(([t, x]) => [X(t), Y(x[s])]), [right + 10, at[k]]], colour, 1.5);
+        write(called(page.names[s]), right + 13, at[k], "left", colour);
+      });
     },
   };
 }

@@ -1,16 +1,18 @@
 /* A motion in an element of a page: mount(element, page, pieces) builds all that is seen, and returns
- * what moves it: { time, state, seek, play, pause, run, keep }.
+ * what moves it: { time, state, seek, play, pause, run, keep }, and the numbers as they are: { given, trail }.
  *
  * page: { module: the emitted module, with gauss; x, p, u: the start, in the module's order;
  * t, tol: how long, how exact; entries: [row, column, place] of the element of the group in x, whose
  * order × order matrices have the basis, [row, column, entry] of each; names: { place: name } of what is
  * shown of x, adjusted: the places that have sliders, curves: those drawn where no body is;
+ * reach: how far the slider of each goes at least; lost: is the energy not kept?
  * labels: { name: [meaning, unit] }; kept: { name: words }; units: { t, energy }; body: see
  * moving_body.py; words, comma }.
- * pieces: { stage, side: what draws there; turned_start; the shapes of the body, and what makes them }.
+ * pieces: { stage, side: what draws there; turned_start; flattened, where a group stretches; the shapes of
+ * the body, and what makes them }.
  * Texts of a problem come in as text, never as markup. */
 function mount(element, page, pieces) {
-  const { module, words } = page;
+  const { module, words } = page, aria = "aria-label";
   const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
   const scheme = matchMedia("(prefers-color-scheme: dark)");
 
@@ -32,18 +34,27 @@ function mount(element, page, pieces) {
   let keeping = module, k = null;  // what gives the numbers that are kept, and its constants
 
   const message = make("p", { class: "message", role: "status" });
+  const tell = (text, where = home) => {
+    message.textContent = text;
+    where.append(message);
+  };
+  let changed = "", place_of = null;
   function restart() {
+    run = scene.run = null;
     try {
       run = scene.run = begun(page, p, u, start());
     } catch (e) {
-      message.textContent = words.singular;
+      tell(`${words.singular}${changed}.`, place_of ?? home);
+      for (const cell of table.querySelectorAll("td")) cell.textContent = "";
       pause();
-      return;
     }
-    message.textContent = "";
+    element.classList.toggle("none", !run);
+    if (!run) return;
+    tell("");
     for (const x of views) x.restart?.(run.at(0));
     clear();
     begin_to_keep();
+    tabulate();
     time = 0;
     wanted = null;
     told = 0;
@@ -65,7 +76,7 @@ function mount(element, page, pieces) {
     return found;
   }
 
-  const stage = pieces.stage(scene, pieces), side = pieces.side?.(scene), views = side ? [stage, side] : [stage];
+  const stage = pieces.stage(scene, pieces), home = make("div", { class: "stage" }, stage.element), side = pieces.side?.(scene), views = side ? [stage, side] : [stage];
 
   /* ---- the frame */
 
@@ -100,16 +111,29 @@ function mount(element, page, pieces) {
     if (playing || wanted !== null) ask();
   }
 
-  const TRAIL = 480;
+  /* the trail has a point in every frame, and one for every TURN of what turns fast */
+  const TRAIL = 480, TURN = 0.15;
+  const places = page.entries.length ? page.entries.map((e) => e[2]) : velocity;
+  const large = (list) => max(...list.map(abs), 1e-12);
+  const rate = (x, k) => {
+    const rates = module.rhs(time, x, k, u);
+    return large(places.map((s) => rates[s])) / large(places.map((s) => x[s]));
+  };
+  const spacing = (x) => min(speed / 60, TURN / rate(x, run.k));
   function push() {
-    if (!trail.length || time > trail.at(-1)[0]) trail.push([time, run.at(time).slice()]);
-    if (trail.length > TRAIL) trail.shift();
+    if (!trail.length) return fill();
+    const [from, x] = trail.at(-1), count = min(TRAIL, ceil((time - from) / spacing(x)));
+    for (let i = 1; i <= count; ++i) {
+      const t = from + (time - from) * i / count;
+      trail.push([t, run.at(t).slice()]);
+    }
+    trail.splice(0, trail.length - TRAIL);
   }
   const clear = () => (trail = scene.trail = []);
 
   /* the trail before a time that was not played up to */
   function fill() {
-    const each = speed / 60, count = min(TRAIL, floor(time / each));
+    const each = spacing(run.at(time)), count = min(TRAIL, floor(time / each));
     clear();
     for (let i = count; i >= 0; --i) {
       const t = max(0, time - i * each);
@@ -119,7 +143,7 @@ function mount(element, page, pieces) {
 
   function show(x, now) {
     for (const view of views) view.draw(x);
-    clock.textContent = ["t =", mark(time.toFixed(places), page), page.units.t].join(" ");
+    clock.textContent = ["t =", mark(time.toFixed(digits), page), page.units.t].join(" ");
     if (document.activeElement !== slider || playing) slider.value = time / page.t * 1000;
     slider.setAttribute("aria-valuetext", clock.textContent);
     if (now - told > 90 || !playing) {
@@ -133,7 +157,7 @@ function mount(element, page, pieces) {
           change.textContent = by === 0 ? "0" : mark(by.toExponential(0), page);
         }
       }
-      if (run.ended && time >= run.last) message.textContent = words.ended;
+      if (run.ended && time >= run.last) tell(pieces.flattened?.(page, x) ? words.flat : words.ended);
     }
   }
 
@@ -144,33 +168,30 @@ function mount(element, page, pieces) {
     return power * [1, 2, 5, 10].reduce((best, c) => (c * power <= v * 1.001 ? c : best), 1);
   };
   function first_speed() {
-    const k = module.constants(p), x = start(), rates = module.rhs(0, x, k, u);
-    const places = page.entries.length ? page.entries.map((e) => e[2]) : velocity;
-    const large = (list) => max(...list.map(abs), 1e-12);
-    const rate = large(places.map((s) => rates[s])) / large(places.map((s) => x[s]));
-    return nice(max(1e-6, min(max(1, page.t / 60), 16 / max(rate, 1e-9))));
+    return nice(max(1e-6, min(max(1, page.t / 60), 16 / max(rate(start(), module.constants(p)), 1e-9))));
   }
   let speed = 1;
   try {
     speed = first_speed();
   } catch (e) { /* told by restart */ }
-  const places = max(2, min(6, ceil(2 - log10(speed))));
+  const digits = max(2, min(6, ceil(2 - log10(speed))));
 
-  const button = (glyph, label, does) => make("button", { type: "button", "aria-label": label, title: label, click: does }, glyph);
+  const button = (glyph, label, does) => make("button", { type: "button", [aria]: label, title: label, click: does }, glyph);
   const toggle = button("▶", words.play, () => (playing ? pause() : play()));
   function play() {
-    if (time >= page.t || run?.ended && time >= run.last) restart();
+    if (!run) return;
+    if (time >= page.t || run.ended && time >= run.last) restart();
     playing = true;
     wanted = null;
     before = NaN;
     toggle.textContent = "❚❚";
-    toggle.setAttribute("aria-label", toggle.title = words.pause);
+    toggle.setAttribute(aria, toggle.title = words.pause);
     ask();
   }
   function pause() {
     playing = false;
     toggle.textContent = "▶";
-    toggle.setAttribute("aria-label", toggle.title = words.play);
+    toggle.setAttribute(aria, toggle.title = words.play);
   }
   function seek(t) {
     pause();
@@ -180,10 +201,10 @@ function mount(element, page, pieces) {
   const stepped = (by) => seek((wanted ?? time) + by * speed / 30);
   const clock = make("span", { class: "clock" });
   const slider = make("input", {
-    type: "range", min: 0, max: 1000, step: "any", value: 0, "aria-label": words.time, class: "time",
+    type: "range", min: 0, max: 1000, step: "any", value: 0, [aria]: words.time, class: "time",
     input: () => seek(slider.value / 1000 * page.t),
   });
-  const speeds = make("select", { "aria-label": words.speed, title: words.speed, change: () => {
+  const speeds = make("select", { [aria]: words.speed, title: words.speed, change: () => {
     speed = Number(speeds.value);
     clear();
     ask();
@@ -198,57 +219,76 @@ function mount(element, page, pieces) {
 
   const adjusters = [];
   function adjuster(name, title, unit, initial, low_end, high_end, put) {
-    const range = make("input", { type: "range", min: low_end, max: high_end, step: "any", value: initial, "aria-label": `${called(name)} ${title}` });
-    const exact = make("input", { type: "number", step: "any", value: initial, "aria-label": called(name) });
-    const take = (v, other) => {
-      if (!Number.isFinite(v)) return;
+    const range = make("input", { type: "range", min: low_end, max: high_end, step: "any", value: initial, [aria]: `${called(name)} ${title}` });
+    const exact = make("input", { inputmode: "decimal", autocomplete: "off", [aria]: called(name) });
+    const wrong = (is) => exact.setAttribute("aria-invalid", is);
+    const write = (v) => {
+      exact.value = mark(String(Number(v.toPrecision(6))), page);
+      wrong(false);
+    };
+    const take = (v) => {
       put(v);
-      other.value = Number(v.toPrecision(6));
+      changed = `: ${called(name)} = ${exact.value}`;
+      place_of = whole;
       restart();
     };
-    on(range, "input", () => take(range.valueAsNumber, exact));
+    on(range, "input", () => {
+      write(range.valueAsNumber);
+      take(range.valueAsNumber);
+    });
     on(exact, "change", () => {
-      const v = exact.valueAsNumber;
-      if (v < Number(range.min)) range.min = v;
-      if (v > Number(range.max)) range.max = v;
-      take(v, range);
+      const text = exact.value.trim().replace(",", ".").replaceAll("−", "-"), v = Number(text);
+      if (!text || !Number.isFinite(v)) {
+        wrong(true);
+        tell(words.no_number, whole);
+        return;
+      }
+      range.min = min(range.min, v);
+      range.max = max(range.max, v);
       range.value = v;
+      wrong(false);
+      take(v);
     });
     adjusters.push(() => {
       put(initial);
-      exact.value = range.value = initial;
+      range.value = initial;
+      write(initial);
     });
-    exact.value = Number(initial.toPrecision(6));
-    return make("div", { class: "adjuster", "data-name": name },
+    write(initial);
+    const whole = make("div", { class: "adjuster", "data-name": name },
       make("span", { class: "name" }, called(name)), range, exact, make("span", { class: "unit" }, unit.replace("^2", "²").replace("^3", "³")),
       ...(title ? [make("small", {}, title)] : []));
+    return whole;
   }
-  const span = (v, least = 1) => (v > 0 ? [0, 2 * v] : v < 0 ? [2 * v, 0] : [-least, least]);
+  const span = (v) => (v > 0 ? [0, 2 * v] : v < 0 ? [2 * v, 0] : [-1, 1]);
+  const about_zero = (least, most = max(least, 2 * fast)) => [-most, most];
   const about = (name) => page.labels[name] ?? ["", ""];
-  const fast = max(...velocity.map((s) => abs(x0[s])), 0) || 1;
+  const fast = max(...velocity.map((s) => abs(x0[s])), 0);
   const MOST = 24;
   const group = (title, note, rows, open) => rows.length
     ? [make("details", open ? { open: "" } : {}, make("summary", {}, title), ...(note ? [make("p", {}, note)] : []), ...rows)] : [];
 
   const rows = {};
   const table = make("table", {}, make("thead", {}, make("tr", {}, make("th", {}, words.kept), make("td", {}), make("th", {}, words.change))));
-  const lines = make("tbody");
-  table.append(lines);
+  const lines = make("tbody"), others = make("tbody");
+  table.append(lines, ...(words.others ? [others] : []));
   function tabulate() {
     lines.replaceChildren();
+    others.replaceChildren(make("tr", { class: "unit" }, make("th", { colspan: 3 }, words.others)));
     for (const name of Object.keys(first)) {
-      const cells = [make("td"), make("td")], special = name === "defect" || name === "multiplier";
-      rows[name] = special ? [cells[0]] : cells;
+      const cells = [make("td"), make("td")], lost = name === "multiplier" || name === "energy" && page.lost;
+      rows[name] = lost || name === "defect" ? [cells[0]] : cells;
       const unit = name === "energy" || name === "multiplier" ? page.units.energy : "";
       const label = words[name] ?? page.kept[name];
-      lines.append(make("tr", { "data-name": name }, make("th", { scope: "row" }, label, ...(unit ? [make("span", { class: "unit" }, ` ${unit}`)] : [])), ...cells));
+      (lost ? others : lines).append(make("tr", { "data-name": name }, make("th", { scope: "row" }, label, ...(unit ? [make("span", { class: "unit" }, ` ${unit}`)] : [])), ...cells));
     }
+    table.tHead.hidden = !lines.firstChild;
   }
 
   if (side) side.element.className = side.shape;
-  const beside = side ? [make("figure", {}, side.element, make("figcaption", {}, side.element.getAttribute("aria-label")))] : [];
+  const beside = side ? [make("figure", {}, side.element, make("figcaption", {}, side.element.getAttribute(aria)))] : [];
   const settings = [
-    ...group(words.start, "", page.adjusted.map((s) => adjuster(page.names[s], ...about(page.names[s]), x0[s], ...span(x0[s], fast), (v) => (x0[s] = v))), true),
+    ...group(words.start, "", page.adjusted.map((s, i) => adjuster(page.names[s], ...about(page.names[s]), x0[s], ...about_zero(page.reach[i]), (v) => (x0[s] = v))), true),
     ...group(words.element, words.turned, theta.slice(0, MOST).map((_, k) => adjuster(`theta_${k + 1}`, "", "", 0, -3, 3, (v) => (theta[k] = v))), false),
     ...group(words.parameters, "", module.PARAMETERS.map((name, i) => adjuster(name, ...about(name), p[i], ...span(p[i]), (v) => (p[i] = v))), true),
     ...group(words.inputs, "", module.INPUTS.map((name, i) => adjuster(name, ...about(name), u[i], ...span(u[i]), (v) => (u[i] = v))), false),
@@ -260,11 +300,11 @@ function mount(element, page, pieces) {
 
   element.classList.add("motion");
   element.append(
-    make("div", { class: "stage" }, stage.element, message),
-    make("div", { class: "controls", role: "group", "aria-label": words.controls },
+    home,
+    make("div", { class: "controls", role: "group", [aria]: words.controls },
       button("❘◂", words.again, () => seek(0)), button("◂", words.back, () => stepped(-1)), toggle,
-      button("▸", words.step, () => stepped(1)), slider, clock, speeds),
-    make("div", { class: "beside" }, ...beside, table, ...settings, reset, make("p", { class: "keys" }, words.keys)),
+      button("▸", words.step, () => stepped(1)), slider, clock, make("label", {}, words.pace, " ", speeds), make("p", { class: "keys" }, words.keys)),
+    make("div", { class: "beside" }, ...beside, table, ...settings, reset),
   );
   on(document, "keydown", (e) => {
     if (e.ctrlKey || e.metaKey || e.altKey || e.target.closest("input, select, summary, textarea")) return;
@@ -282,10 +322,7 @@ function mount(element, page, pieces) {
   on(scheme, "change", recolour);
   recolour();
   restart();
-  if (run) {
-    tabulate();
-    if (!still) play();
-  }
+  if (!still) play();
   /* the same motion, and more that it keeps: by another module of the same problem, with words */
   function keep(other, kept) {
     if (!run) return;
@@ -295,5 +332,5 @@ function mount(element, page, pieces) {
     tabulate();
     ask();
   }
-  return { get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause, keep };
+  return { given: { x: x0, p, theta }, get trail() { return trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause, keep };
 }
