@@ -525,13 +525,38 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     },
     "conserved": {
         "kept": (
-            "Of the energy and, for a group that is no product, the momenta of rotations and "
-            "translations of space, the motion keeps, without inputs and damping: {kept}. Other "
-            "symmetries are not tried here: derive symmetries finds all of them.",
-            "De l’énergie et, pour un groupe qui n’est pas un produit, des impulsions des "
-            "rotations et translations de l’espace, le mouvement conserve, sans entrées ni "
-            "amortissement : {kept}. D’autres symétries ne sont pas essayées ici : derive "
-            "symmetries les trouve toutes.",
+            "Without inputs and damping the motion keeps {kept}.",
+            "Sans entrées ni amortissement, le mouvement conserve {kept}.",
+        ),
+        "tried": (
+            "Tried were the energy and, of the displacements of space that the group has, the "
+            "rotations about the origin, all or those about one line, and the translations, all "
+            "or those across gravity; derive symmetries finds all symmetries.",
+            "Ont été essayées l’énergie et, parmi les déplacements de l’espace que contient le "
+            "groupe, les rotations autour de l’origine, toutes ou celles autour d’une droite, et "
+            "les translations, toutes ou celles perpendiculaires à la pesanteur ; derive "
+            "symmetries trouve toutes les symétries.",
+        ),
+        "tried_all": (
+            "Tried were the energy and, of the displacements of space that the group has, all "
+            "rotations about the origin together and all translations together; derive "
+            "symmetries finds all symmetries.",
+            "Ont été essayées l’énergie et, parmi les déplacements de l’espace que contient le "
+            "groupe, toutes les rotations autour de l’origine à la fois et toutes les "
+            "translations à la fois ; derive symmetries trouve toutes les symétries.",
+        ),
+        "no_distances": (
+            "Part of the potential is no function of distances, so that no displacement of space "
+            "was tried here; derive symmetries finds all symmetries.",
+            "Une partie du potentiel n’est pas une fonction de distances, si bien qu’aucun "
+            "déplacement de l’espace n’a été essayé ici ; derive symmetries trouve toutes les "
+            "symétries.",
+        ),
+        "product": (
+            "The group is a product, so that no displacement of space was tried here; derive "
+            "symmetries finds all symmetries.",
+            "Le groupe est un produit, si bien qu’aucun déplacement de l’espace n’a été essayé "
+            "ici ; derive symmetries trouve toutes les symétries.",
         ),
         "noether": (
             "The Cartan form, on an infinitesimal symmetry of L̃, is constant along the motion "
@@ -551,6 +576,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "the component along gravity of the angular momentum ℓ about the origin of space",
             "la composante le long de la pesanteur du moment cinétique ℓ par rapport à l’origine "
             "de l’espace",
+        ),
+        "along_axis": (
+            "the component of the angular momentum ℓ, taken about the origin of space, along an "
+            "axis about which the potential may be turned",
+            "la composante du moment cinétique ℓ, pris par rapport à l’origine de l’espace, le "
+            "long d’un axe autour duquel on peut tourner le potentiel",
         ),
         "momentum": (
             "the momentum p",
