@@ -21,7 +21,7 @@ from ..language import rational as q
 from ..language.tree import Tree, names
 from ..problem.problem import Problem
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, listed
+from ..record.sentence import Prose
 from .alphabet import Alphabet
 from .axis import Given
 from .chapter import Chapter
@@ -30,7 +30,7 @@ from .point_potentials import column
 from .potential import U_Q, Potentials
 from .potential_letters import moved
 from .wedge import vector_sum
-from .wording import say
+from .wording import enumerated, say
 
 GAMMA = Letter("γ", 3)
 AXIS = Letter("y", 3)
@@ -73,7 +73,7 @@ def conserved_steps(
         laws += x.law
     if not kept:
         return ()
-    prose = say("conserved.kept", kept=listed("{first}, {second}", laws))
+    prose = say("conserved.kept", kept=enumerated(laws))
     prose += say(f"conserved.{_tried(group, v)}") + say("conserved.noether")
     draft.depends_on(motion)
     return (draft.step([*definitions, *kept], prose),)

@@ -82,6 +82,7 @@ def test_every_step_leads_to_the_motion(name):
             f"{name}.by_momenta",
             f"{name}.poisson_tensor",
             f"{name}.conserved",
+            f"{general}.moment_map",
             f"{general}.kks",
         }
     assert expected <= found
