@@ -303,21 +303,21 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Ce qui agit par le premier moment n’ajoute rien, car c = 0.",
         ),
         "relabelling": (
-            "It is the momentum of the relabellings r ↦ hr of the body that keep J, hJh̄ = J, of "
-            "which the velocities are JS for skew matrices S.",
-            "C’est le moment des réétiquetages r ↦ hr du corps qui conservent J, hJh̄ = J, dont "
-            "les vitesses sont JS pour des matrices antisymétriques S.",
+            "It is the momentum of the relabellings of the body by matrices h that keep J, "
+            "hJh̄ = J; their velocities V are V = JS with skew matrices S.",
+            "C’est le moment des réétiquetages du corps par les matrices h qui conservent J, "
+            "hJh̄ = J ; leurs vitesses V sont V = JS avec des matrices antisymétriques S.",
         ),
     },
     "no_rotation": {
         "free": (
-            "In a rigid rotation exp(tΩ) the velocity Z is Ω, skew, and Ż = 0. As n is odd, every "
-            "skew matrix is singular, as Υ is: so are Ω and Ω². Without forces Ω² = θJ⁻¹, where "
-            "C = 𝟏; then θ = 0, Ω² = 0 and Ω = 0: nothing rotates rigidly.",
-            "Dans une rotation rigide exp(tΩ), la vitesse Z est Ω, antisymétrique, et Ż = 0. Comme "
-            "n est impair, toute matrice antisymétrique est singulière, comme l’est Υ : donc Ω et "
-            "Ω² le sont. Sans forces Ω² = θJ⁻¹, là où C = 𝟏 ; alors θ = 0, Ω² = 0 et Ω = 0 : rien "
-            "ne tourne rigidement.",
+            "In a rigid rotation exp(tΩ) the velocity Z is Ω, skew, and Ż = 0. The number of rows "
+            "is odd, so that every skew matrix is singular, as Υ is: so are Ω and Ω². Without "
+            "forces Ω² = θJ⁻¹, where C = 𝟏; then θ = 0, Ω² = 0 and Ω = 0: nothing rotates rigidly.",
+            "Dans une rotation rigide exp(tΩ), la vitesse Z est Ω, antisymétrique, et Ż = 0. Le "
+            "nombre de lignes est impair, donc toute matrice antisymétrique est singulière, comme "
+            "l’est Υ : donc Ω et Ω² le sont. Sans forces Ω² = θJ⁻¹, là où C = 𝟏 ; alors θ = 0, "
+            "Ω² = 0 et Ω = 0 : rien ne tourne rigidement.",
         ),
     },
     "elimination": {
@@ -545,10 +545,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "groupe, toutes les rotations autour de l’origine à la fois et toutes les "
             "translations à la fois ; derive symmetries trouve toutes les symétries.",
         ),
-        "no_distances": (
-            "Part of the potential is no function of distances, so that no displacement of space "
-            "was tried here; derive symmetries finds all symmetries.",
-            "Une partie du potentiel n’est pas une fonction de distances, si bien qu’aucun "
+        "by_coordinates": (
+            "Part of the potential is told by coordinates of places, so that no displacement of "
+            "space was tried here; derive symmetries finds all symmetries.",
+            "Une partie du potentiel est donnée par des coordonnées, si bien qu’aucun "
             "déplacement de l’espace n’a été essayé ici ; derive symmetries trouve toutes les "
             "symétries.",
         ),

@@ -117,7 +117,8 @@ def _described(s: Solid) -> Sentence:
             phrase("integrals.count_of_triangles", count=str(len(s.sizes["faces"]))),
         ]
     else:
-        sizes = [phrase(f"integrals.{k}", size=_size(x)) for k, x in s.sizes.items() if k in SIZES]
+        told = {k: _rows(x) if k == "quadric" else _size(x) for k, x in s.sizes.items()}
+        sizes = [phrase(f"integrals.{k}", size=x) for k, x in told.items() if k in SIZES]
     solid = phrase(
         "integrals.layered" if is_layered(s.density) else "integrals.solid",
         kind=SOLIDS[s.kind],
@@ -130,6 +131,10 @@ def _described(s: Solid) -> Sentence:
     if s.shift:
         return phrase("integrals.shifted", solid=solid, shift=_size(s.shift))
     return phrase("integrals.turned", solid=solid) if s.rotation else solid
+
+
+def _rows(x: Any) -> str:
+    return "; ".join(", ".join(map(_size, row)) for row in x)
 
 
 def _size(x: Any) -> str:

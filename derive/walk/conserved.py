@@ -130,7 +130,7 @@ def _tried(group: Group, v: Potentials) -> str:
     if group.factors:
         return "product"
     if v.pointwise.forces:
-        return "no_distances"
+        return "by_coordinates"
     return "tried" if group.n == 3 else "tried_all"
 
 

@@ -25,7 +25,6 @@ from ..record.vocabulary import (
     ROTATIONS,
     VOCABULARY,
 )
-from ..schema.body_kinds import MomentBody
 from ..schema.outside import ForceInput
 from .wording import phrase, say
 
@@ -65,15 +64,7 @@ def symbols(
     if problem.force_inputs:
         meanings["f_u"] = _inputs(problem, vectors=not discrete)
     used = of_steps(steps, meant, sizes)
-    latex = {x: about.latex for x, about in meant.items()} | _beside_parameters(problem)
-    return tuple(Symbol(x, meanings[x], latex[x], uses) for x, uses in used.items())
-
-
-def _beside_parameters(problem: Problem) -> dict[str, str]:
-    """Masses in bold type beside a parameter m that is another mass: it would differ by its serifs
-    alone, in one product with the total mass."""
-    symbolic = isinstance(problem.body, MomentBody)
-    return {"m": r"\mathbf m"} if "m" in problem.parameters and not symbolic else {}
+    return tuple(Symbol(x, meanings[x], meant[x].latex, uses) for x, uses in used.items())
 
 
 def _sizes(group: Group) -> dict[str, int]:

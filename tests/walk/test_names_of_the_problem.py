@@ -8,6 +8,7 @@ from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.sentence import english
 from derive.views.language import language
+from derive.views.outline import latex_names
 from derive.views.rendering import render
 
 CARRIED = """
@@ -127,10 +128,10 @@ at = [0, 0, 1]
 @pytest.mark.parametrize(("m", "latex"), [("m", r"\mathbf m"), ("k", "m")])
 def test_the_total_mass_is_another_letter_than_a_parameter_m(m, latex):
     d = walked(MASS.format(m=m))
-    assert next(s.latex for s in d.symbols if s.name == "m") == latex
+    assert latex_names(d)["m"] == latex
     assert (r"\mathbf m" in render(d, "latex", "en")) == (m == "m")
 
 
 def test_moments_are_the_same_in_both_meanings():
     moments = 'name = "masses"\ngroup = "SE(3)"\n[body]\nmoments = "symbolic"\n'
-    assert next(s.latex for s in walked(moments).symbols if s.name == "m") == "m"
+    assert latex_names(walked(moments))["m"] == "m"
