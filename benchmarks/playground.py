@@ -24,7 +24,7 @@ AIMS = {
     "loaded, MB gzip": 7.5,
     "memory of the page, MB": 300.0,
 }
-BEHIND = ("keep.js", "rest.tar.gz", "later.tar.gz", "moving.html", "moving.js", "motion.css")
+BEHIND = ("keep.js", "rest.tar.gz", "mpmath.tar.gz", "moving.html", "moving.js", "motion.css")
 """Fetched after the first walk, with what begins with the names of the files that come later."""
 WATCH = """addEventListener("DOMContentLoaded", () => {
     const look = () => {

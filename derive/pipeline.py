@@ -35,7 +35,8 @@ from .walk.discrete import (
 from .walk.discrete.discrete_letters import DiscreteAlphabet
 from .walk.failure import naming_steps
 from .walk.fluid import (
-    circulation, fluid_kernel, fluid_points, fluid_principle, loops, pressure, trivialised,
+    advection, circulation, energy_kept, fluid_kernel, fluid_points, fluid_principle, loops,
+    pressure, trivialised,
 )
 from .walk.fluid.fluid_letters import FluidAlphabet
 from .walk.lie import (
@@ -182,6 +183,8 @@ FLUID = (
     Stage("derivative", "exterior trivial a c", "Exterior", trivialised.exterior_by_fields),
     Stage("kernel", "derivative principle a c", "FluidKernel", fluid_kernel.kernel),
     Stage("pressure", "kernel points a c", "Steps", pressure.pressure),
+    Stage("advection", "a c", "Steps", advection.advection),
+    Stage("energy", "kernel trivial a c", "Step", energy_kept.energy_kept),
     Stage("circulation", "kernel points a c", "Steps", circulation.circulation),
     Stage("kelvin", "kernel points a c", "Steps", loops.kelvin),
 )
@@ -403,16 +406,22 @@ def motion_of(
 
 
 def moving_program(
-    problem: Problem, record: Derivation, step: str = "gauss", order: str = ""
+    problem: Problem,
+    record: Derivation,
+    step: str = "gauss",
+    order: str = "",
+    *,
+    sought: bool = True,
 ) -> tuple[Program, str]:
     """The program of a problem with all that its motion keeps, and why it has none of that but the
-    energy: none is found, or it is not looked for where NumPy or SymPy is not there."""
+    energy: none is found, or it is not looked for where SymPy is not there.  ``sought``: is it
+    looked for?"""
     from .code.options import Options
 
     has, why = record.definition("θ") is not None, ""
     plain = Options(step=(step,), order=order)
     told = replace(plain, multiplier=has)
-    for chosen in (replace(told, conserved=True), told, plain):
+    for chosen in (*([replace(told, conserved=True)] * sought), told, plain):
         try:
             return program(problem, record, chosen), why
         except (Refused, ImportError) as error:  # or none is written for this state

@@ -53,7 +53,9 @@ for (const file of ["data.json", "motion.js"]) copyFileSync(join(stage, file), j
 const all = files(out).map((x) => relative(out, x));
 const hash = createHash("sha256");
 for (const file of all) hash.update(file).update(readFileSync(join(out, file)));
-const kept = all.filter((x) => x !== "index.html");
+const LATE = ["sympy.tar.gz"]; // too large to be kept before it is asked for
+const kept = all.filter((x) => x !== "index.html" && !LATE.includes(x));
 writeFileSync(join(out, "keep.js"), readFileSync(join(here, "src", "keep.js"), "utf8")
+  .replace("__LATE__", JSON.stringify(LATE))
   .replace("__VERSION__", hash.digest("hex").slice(0, 16))
   .replace("__FILES__", JSON.stringify(["./", ...kept])));

@@ -11,26 +11,42 @@ import shutil
 import subprocess
 import sys
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import derive
-from derive.algebra.families import FAMILIES
+from derive.algebra.families import FAMILIES, Family, group
+from derive.algebra.groups import Group
 from derive.code.languages import LANGUAGES
 from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED
 from derive.command.cli import READY, ready_made
+from derive.language.limits import TABLES
 from derive.page.motion_page import SCRIPTS
 from derive.problem.toml import TOP
+from derive.schema.algebra_kinds import REPRESENTATIONS, StatedAdvected, StatedAlgebra
 from derive.schema.body_kinds import Point
-from derive.schema.declared import Parameter
+from derive.schema.declared import Parameter, StatedGroup
+from derive.schema.fluid_kinds import DENSITIES, FORCES, Fluid
+from derive.schema.followed import DIRECTIONS, Event
 from derive.schema.kinds import kinds
+from derive.schema.lagrangian_kinds import SECTIONS, SIDES
+from derive.schema.outside import INPUTS, Damping
 from derive.schema.solid_kinds import SOLIDS
+from derive.schema.table import Table
 from derive.views.language import language
 from derive.views.outline import title
 from derive.views.system import system
 
 HERE = Path(__file__).parent
-LIBRARIES, LATER = ("jinja2", "markupsafe"), ("mpmath",)
-"""Loaded at the start; when something asks for them."""
+LIBRARIES, LATER = ("jinja2", "markupsafe"), ("mpmath", "sympy")
+"""Loaded at the start; when something asks for them, each in a file of its own."""
+UNUSED = {
+    "sympy": (
+        *("benchmarks", "categories", "codegen", "crypto", "diffgeom", "holonomic", "liealgebras"),
+        *("physics", "sandbox", "stats", "testing", "vector", "autolev", "fortran", "latex"),
+    ),
+}
+"""Folders of a library that its other modules import for tasks alone that nobody has here."""
 
 
 def wheel(out: Path) -> None:
@@ -48,7 +64,9 @@ def wheel(out: Path) -> None:
 def library(name: str, out: Path) -> None:
     """The modules of a library, without tests and what is compiled."""
     source = Path(importlib.import_module(name).__file__ or "").parent
-    skip = shutil.ignore_patterns("__pycache__", "*.so", "*.pyi", "*.c", "tests", "*.typed")
+    skip = shutil.ignore_patterns(
+        *("__pycache__", "*.so", "*.pyi", "*.c", "tests", "*.typed", *UNUSED.get(name, ()))
+    )
     shutil.copytree(source, out / name, ignore=skip)
 
 
@@ -83,14 +101,65 @@ def options() -> dict[str, object]:
 
 
 def schema() -> dict[str, object]:
-    """The keys of a problem file: at the top, and of its tables; kinds with their keys."""
+    """The keys of a problem file: at the top, of its tables, of the kinds of some; what is a list;
+    the values of keys that have few; groups with what they move, and how their velocity is
+    called."""
+    many = {*TABLES, "advected"}
+    single = {"parameters", "body", "algebra", "group", "fluid", "initial", *SECTIONS}
+    potentials, inputs = kinds(), dict(INPUTS)
+    own = [*potentials.values(), *inputs.values(), *SOLIDS.values(), *(x for _, x in STATED)]
     return {
         "top": sorted(TOP),
-        "tables": {"point": [*Point.names()], "parameters": [*Parameter.names()]},
-        "potential": {x: [*own.names()] for x, own in kinds().items()},
+        "single": sorted(single),
+        "many": sorted(many),
+        "tables": {x: [*own.names()] for x, own in STATED},
+        "potential": {x: [*own.names()] for x, own in potentials.items()},
+        "input": {x: [*own.names()] for x, own in inputs.items()},
         "solid": {x: [*own.names()] for x, own in SOLIDS.items()},
-        "groups": {x: [f.least, f.most, f.meaning] for x, f in FAMILIES.items()},
+        "lists": sorted({x for table in own for x in vectors(table)}),
+        "values": VALUES,
+        "named": [x for _, x in named_groups()],
+        "groups": {x: moved(group(x), f.meaning) for f, x in named_groups()},
     }
+
+
+STATED: tuple[tuple[str, type[Table]], ...] = (
+    *(("parameters", Parameter), ("group", StatedGroup), ("algebra", StatedAlgebra)),
+    *(("advected", StatedAdvected), ("point", Point), ("damping", Damping), ("event", Event)),
+    *(("fluid", Fluid), *SECTIONS.items()),
+)
+"""The tables of one kind."""
+VALUES = {
+    "trivialisation": SIDES,
+    "direction": DIRECTIONS,
+    "frame": ("space", "body"),
+    "action": ("linear", "affine"),
+    "moments": ("symbolic",),
+    "representation": REPRESENTATIONS,
+    "density": DENSITIES,
+    "forces": FORCES,
+}
+"""The values of a key that has few; ``density`` is that of a fluid."""
+
+
+def vectors(own: type[Table]) -> set[str]:
+    """The keys of a table whose values are lists of numbers or expressions."""
+    found = {x: k for x, k in own.keys().items() if k.depth == 1}
+    apart = {x for x, k in found.items() if k.keys is not None}
+    return {*found} - apart | ({"at"} if apart or "at" in own.names() else set())
+
+
+def named_groups() -> Iterator[tuple[Family, str]]:
+    """Every named group, by its family and its name."""
+    for name, family in FAMILIES.items():
+        for n in range(family.least, family.most + 1):
+            if n % family.step == 0:
+                yield family, f"{name}({n})"
+
+
+def moved(g: Group, meaning: str) -> dict[str, object]:
+    """The dimension of the space that a group moves, that of its algebra, whether it translates."""
+    return {"n": g.n, "d": g.dimension, "affine": g.affine, "meaning": meaning}
 
 
 def drawing() -> str:
@@ -111,8 +180,8 @@ def main(out: Path) -> None:
     for name in LIBRARIES:
         library(name, first)
     for name in LATER:
-        library(name, later)
-    for module in ("play", "places"):
+        library(name, later / name)
+    for module in ("play", "places", "starts"):
         shutil.copy(HERE / "python" / f"{module}.py", first)
     told = {"version": derive.__version__, "problems": problems(), **options(), "schema": schema()}
     (out / "motion.js").write_text(drawing(), encoding="utf-8")

@@ -236,6 +236,12 @@ class Group:
         linear = replace(self, action="linear", basis=self.linear_basis, factors=())
         return linear.normal_space
 
+    @cached_property
+    def keeps_no_more_than_volume(self) -> bool:
+        """Are all linear maps of trace 0 among the linear parts of 𝔤?"""
+        normal = self.normal_space_of_linear_parts
+        return all(x == q.scaled(x[0][0], q.identity(self.n)) for x in normal)
+
     @property
     def normal_direction(self) -> Matrix:
         """The matrix that spans the normal space of the linear parts, which must have dimension 1;

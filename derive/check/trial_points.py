@@ -24,6 +24,7 @@ from .meaning import environment
 from .model import Model
 from .problem_group import group_of
 from .residue import ResidueSource, random_prime
+from .torus import torus_model
 from .torus.torus_group import torus_of
 from .trial_groups import TRIED, groups_with_relations
 
@@ -148,8 +149,6 @@ class TrialPoints:
     def _place(self, g: Group, source: Source, size: int, at: Locus, *, generic: bool) -> Place:
         """A random model at which the hypotheses of a step hold, and its names."""
         if "torus" in self.problem and not generic:
-            from .torus import torus_model  # which alone needs NumPy
-
             fluid: Any = torus_model.TorusModel(torus_of(self.problem), source, size)
             return fluid, torus_model.environment(fluid)
         model = model_at(self.problem, g, source, size, at, generic=generic)

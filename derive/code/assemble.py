@@ -160,13 +160,11 @@ def _kept_by_gauss(
     parameters: int,
     conserved: Sequence[str],
 ) -> KeptByGauss | None:
-    """What the step keeps of which that is asked for; not looked for where NumPy is not there."""
+    """What the step keeps of which that is asked for."""
     if "gauss" not in chosen.step:
         return None
-    try:
-        from .step.kept_by_gauss import kept_by_gauss
-    except ImportError:
-        return None
+    from .step.kept_by_gauss import kept_by_gauss
+
     sizes = {"p": parameters, "u": len(lowering.reader.inputs)}
     return kept_by_gauss(functions, lowering.reader.space, sizes, conserved)
 

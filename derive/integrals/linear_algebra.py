@@ -6,8 +6,10 @@ the true one, so what is found modulo p and proved over the field is all there i
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
+
+from ..algebra.exact_kernel import kernel, pivots
 
 PRIMES = (2**31 - 1, 2**31 - 19, 2**31 - 61)
 """Primes below 2³¹: a product of two residues fits into 63 bits."""
@@ -18,52 +20,22 @@ Row = Mapping[int, Any]
 
 def kernel_modulo(rows: Iterable[Row], width: int, p: int) -> list[list[int]]:
     """A basis of {x : Σ_j a_j x_j = 0 for every row} modulo p, vectors of ``width`` residues."""
-    reduced, pivots = echelon_modulo(rows, width, p)
-    basis = []
-    for free in (j for j in range(width) if j not in pivots):
-        x = [0] * width
-        x[free] = 1
-        for r, j in enumerate(pivots):
-            x[j] = -int(reduced[r, free]) % p
-        basis.append(x)
-    return basis
+    return kernel(_distinct(rows, width, p), width, p)[0]
 
 
-def echelon_modulo(rows: Iterable[Row], width: int, p: int) -> tuple[Any, list[int]]:
-    """The reduced echelon form modulo p, as an array, and its pivot columns."""
-    import numpy as np
-
-    distinct = {tuple(sorted((j, x % p) for j, x in row.items() if x % p)) for row in rows}
-    a = np.zeros((len(distinct), width), dtype=np.int64)
-    for i, row in enumerate(sorted(distinct)):
+def _distinct(rows: Iterable[Row], width: int, p: int) -> Iterator[list[int]]:
+    """The rows that are not the same, in order, with their zeros."""
+    for row in sorted({tuple(sorted((j, x % p) for j, x in row.items() if x % p)) for row in rows}):
+        found = [0] * width
         for j, x in row:
-            a[i, j] = x
-    pivots: list[int] = []
-    for j in range(width):
-        r = len(pivots)
-        below = np.flatnonzero(a[r:, j])
-        if not below.size:
-            continue
-        k = r + int(below[0])
-        if k != r:
-            a[[r, k]] = a[[k, r]]
-        a[r] = a[r] * pow(int(a[r, j]), -1, p) % p
-        others = np.flatnonzero(a[:, j])
-        others = others[others != r]
-        if others.size:
-            active = np.flatnonzero(a[r])
-            block = np.ix_(others, active)
-            a[block] = (a[block] - a[others, j][:, None] * a[r, active]) % p
-        pivots.append(j)
-    return a, pivots
+            found[j] = int(x)
+        yield found
 
 
 def rank_modulo(rows: Sequence[Sequence[int]], p: int) -> int:
     """The rank of a dense matrix modulo p."""
-    if not rows:
-        return 0
-    sparse = [{j: x for j, x in enumerate(row) if x % p} for row in rows]
-    return len(echelon_modulo(sparse, len(rows[0]), p)[1])
+    width = len(rows[0]) if rows else 0
+    return len(pivots(([int(x % p) for x in row] for row in rows), width, p))
 
 
 def kernel_vector(rows: Sequence[Row], width: int, field: Any) -> list[Any] | None:

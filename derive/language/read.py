@@ -39,7 +39,7 @@ FUNCTIONS = frozenset(
 _OF_ELEMENTS = ("g", "δg", "δ′g", "N", "N\u0302", "A", "T", "R")
 _OF_STEPS = ("U", "W", "M", "ℓ", "p", "q", "x")
 NUMBERED = frozenset(
-    {"f_1", "μ_1", "Γ_0", "I_1", "I_2", "I_3", "Ψ_0", "Ψ_1", "Ψ_2"}
+    {"f_1", "μ_1", "Γ_0", "ρ_0", "I_1", "I_2", "I_3", "Ψ_0", "Ψ_1", "Ψ_2"}
     | {f"{x}_{k}" for x in _OF_ELEMENTS for k in range(3)}
     | {f"{x}_{k}" for x in _OF_STEPS for k in range(2)}
 )

@@ -64,14 +64,15 @@ class EmittedCode:
 
     def _unit_of_state(self, name: str) -> str:
         """That of a place, of a velocity, and of ζ on an element of the basis: of one that does no
-        more than shift, whose columns are those of the rows that are 0, that of a velocity.  Where
-        there are no matrices, none is known."""
+        more than shift, whose columns are those of the rows that are 0 where the state has a T,
+        that of a velocity.  Where there are no matrices, none is known."""
         if not name.startswith("zeta"):
             return {"T": "m", "w": "m/s"}.get(name[0], "")
         if self.program.state[0][0] not in "AT":
             return ""
         basis = self.program.basis
         moved = range(len(basis[0]))
-        shifted = {i for i in moved if not any(any(E[i]) for E in basis)}
+        affine = any(x[0] == "T" for x in self.program.state)
+        shifted = {i for i in moved if affine and not any(any(E[i]) for E in basis)}
         own = basis[int(name.rpartition("_")[2]) - 1]
         return "1/s" if any(row[j] for row in own for j in moved if j not in shifted) else "m/s"

@@ -10,7 +10,7 @@ KEPT = {
     "angular_momentum": "angular momentum",
     "body_momentum": "linear momentum in the body",
     "body_angular_momentum": "angular momentum in the body",
-    "deformation_body": "circulation in the body",
+    "circulation": "circulation in the body",
 }
 
 

@@ -22,17 +22,23 @@ from . import (
 from .kinds_told import OVERVIEW, PRECISION
 from .plot_sheet import PlotError, ending, look, sheet, written
 
+Needs = tuple[tuple[str, Callable[[Any], bool]], ...]
+"""What a picture needs, one after the other: in words, and whether a run has it."""
+
 
 @dataclass(frozen=True)
 class Kind:
     """A kind of picture: ``draw(figure, run, word)`` on a sheet of a ``size``, in inches; what it
-    ``needs``; ``fits``: has a run that?  Those of an ensemble are drawn, and measured, with the
-    columns that are chosen after all else."""
+    ``needs``.  Those of an ensemble are drawn, and measured, with the columns that are chosen after
+    all else."""
 
     draw: Callable[..., None]
-    needs: str
-    fits: Callable[[Any], bool]
+    needs: Needs
     size: Callable[..., tuple[float, float]]
+
+    def lacks(self, run: Any) -> str:
+        """The first thing that it needs and a run has not; empty where it can be drawn."""
+        return next((told for told, has in self.needs if not has(run)), "")
 
 
 def _columns(*names: str) -> Callable[[Run], bool]:
@@ -43,84 +49,93 @@ def _sized(width: float, height: float) -> Callable[[Run], tuple[float, float]]:
     return lambda run: (width, height)
 
 
-def _turned(run: Run) -> bool:
-    return _columns(*surfaces.ATTITUDE)(run)
-
-
-def _has_inertia(run: Run) -> bool:
-    return "inertia" in run.facts.get("body", {})
-
-
-def _has_polhode(run: Run) -> bool:
-    return _columns(*polhode_picture.VELOCITY)(run) and _rotates(run) and _has_inertia(run)
-
-
 def _rotates(run: Run) -> bool:
     return str(run.facts.get("group", "")) in ("SO(3)", "SE(3)")
 
 
+ROTATION = ("a group of rotations of R³, SO(3) or SE(3)", _rotates)
+ATTITUDE = ("columns A_11 … A_33", _columns(*surfaces.ATTITUDE))
+
 KINDS = {
     "state": Kind(
         time_series.state,
-        "columns of the state",
-        lambda run: run.states.shape[1] > 0,
+        (("columns of the state", lambda run: run.states.shape[1] > 0),),
         time_series.size_of_state,
     ),
     "energy": Kind(
         time_series.energy,
-        "a column of the energy or of what is conserved",
-        lambda run: bool(run.of_kind("energy") or run.of_kind("conserved")),
+        (
+            (
+                "a column of the energy or of what is conserved",
+                lambda run: bool(run.of_kind("energy") or run.of_kind("conserved")),
+            ),
+        ),
         _sized(6.5, 3.4),
     ),
-    "axes": Kind(
-        surfaces.axes,
-        "a rotation of R³: columns A_11 … A_33",
-        lambda run: _turned(run) and _rotates(run),
-        _sized(4.2, 4.4),
-    ),
+    "axes": Kind(surfaces.axes, (ROTATION, ATTITUDE), _sized(4.2, 4.4)),
     "polhode": Kind(
         polhode_picture.polhode,
-        "zeta_1 … zeta_3 of a rotation of R³ and a tensor of inertia, that of points or solids, of "
-        "[body] given, or of an ℓ that is quadratic in zeta_1 … zeta_3",
-        _has_polhode,
+        (
+            ROTATION,
+            ("columns zeta_1 … zeta_3", _columns(*polhode_picture.VELOCITY)),
+            (
+                "a tensor of inertia, that of points or solids, of [body] given, or of an ℓ that "
+                "is quadratic in zeta_1 … zeta_3",
+                lambda run: "inertia" in run.facts.get("body", {}),
+            ),
+        ),
         _sized(7.0, 3.9),
     ),
     "body": Kind(
         body_pictures.body,
-        "columns A_11 … A_33, and a body of points, of solids or with a tensor of inertia",
-        lambda run: _turned(run) and any(body_pictures.drawn(run).values()),
+        (
+            ATTITUDE,
+            (
+                "a body of points, of solids or with a tensor of inertia",
+                lambda run: any(body_pictures.drawn(run).values()),
+            ),
+        ),
         _sized(8.0, 2.2),
     ),
     "potential": Kind(
         potential_picture.potential,
-        "symmetries that leave one degree of freedom",
-        lambda run: bool(run.facts.get("potential")),
+        (
+            (
+                "symmetries that leave one degree of freedom",
+                lambda run: bool(run.facts.get("potential")),
+            ),
+        ),
         _sized(5.0, 3.4),
     ),
     "spheroid": Kind(
         spheroid_pictures.spheroid,
-        "one solid ellipsoid, and a column of the multiplier",
-        lambda run: _turned(run) and spheroid_pictures.is_fluid(run),
+        (
+            ATTITUDE,
+            ("a body that is one solid ellipsoid", spheroid_pictures.is_ellipsoid),
+            ("a column of the multiplier", lambda run: bool(run.of_kind("multiplier"))),
+        ),
         _sized(7.5, 3.0),
     ),
     "vorticity": Kind(
         torus_pictures.vorticity,
-        "columns re_1_0, im_1_0, … of the torus",
-        _columns("re_1_0", "im_1_0"),
+        (("columns re_1_0, im_1_0, … of the torus", _columns("re_1_0", "im_1_0")),),
         _sized(7.0, 3.3),
     ),
 }
 ENSEMBLE_KINDS = {
     "spread": Kind(
         ensemble_pictures.spread,
-        "several instants, --points, and a motion that reached the end, or an event",
-        ensemble_pictures.fits_spread,
+        (
+            (
+                "several instants, --points, and a motion that reached the end, or an event",
+                ensemble_pictures.fits_spread,
+            ),
+        ),
         ensemble_pictures.size_of_spread,
     ),
     "ends": Kind(
         ensemble_pictures.ends,
-        "a motion that reached the end, or an event",
-        ensemble_pictures.fits_ends,
+        (("a motion that reached the end, or an event", ensemble_pictures.fits_ends),),
         ensemble_pictures.size_of_ends,
     ),
 }
@@ -168,7 +183,7 @@ def plot_energies(
 
 def _chosen(kinds: Mapping[str, Kind], run: Any, kind: str, what: str) -> list[str]:
     """The kinds that are drawn of a run, or of an ensemble."""
-    fitting = [x for x, own in kinds.items() if own.fits(run)]
+    fitting = [x for x, own in kinds.items() if not own.lacks(run)]
     there = f"there are {', '.join(fitting)}" if fitting else "nothing else can be drawn of it"
     if not kind:
         first = ("vorticity", "axes", "state", "energy") if kinds is KINDS else tuple(kinds)
@@ -182,7 +197,7 @@ def _chosen(kinds: Mapping[str, Kind], run: Any, kind: str, what: str) -> list[s
     if not chosen or not {*chosen} <= {*fitting}:
         needs = "a column of the state or of the energy"
         if kind in kinds:
-            needs = kinds[kind].needs
+            needs = kinds[kind].lacks(run)
         elif kind != OVERVIEW:
             other = "a run" if what == "ensemble" else "an ensemble"
             raise PlotError(f"{kind} is of {other}, and this is none; {there}")

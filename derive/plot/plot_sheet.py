@@ -77,7 +77,9 @@ def written(figure: Any, name: str) -> bytes:
 
 def settled(figure: Any) -> None:
     """Lay a figure out once and for all, places rounded: the solver of the layout does not always
-    find the last digits alike."""
+    find the last digits alike.  The first layout does not know where titles go above panels of a
+    fixed shape; the second does."""
+    figure.draw_without_rendering()
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
     for part in figure.subfigs:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..motion.run import Array, Run
+from .label_places import FONT, beside
 from .plot_sheet import COLOURS, PlotError, label
 from .surfaces import VIEW, curve, projected, surface
 
@@ -18,6 +19,9 @@ NEIGHBOURS = (0.25, 0.5, 0.75)
 
 STABLE, UNSTABLE, SEPARATRIX = "stable axis", "unstable axis", "separatrix"
 """What is marked, as the legend says it."""
+
+SIZE = 230
+"""About how wide a panel is, in points."""
 
 EQUAL = 1e-9
 """Moments whose relative difference is less are one."""
@@ -93,17 +97,19 @@ def _marks(panel: Any, root: Array, axes: Array, moments: Array) -> None:
     """The ends of the axes, that are seen, with their numbers: a dot for a stable one, a cross for
     the unstable one; of equal moments no axis is marked."""
     seen = np.linalg.solve(root, VIEW)
-    for k in range(3):
-        if any(_equal(moments[k], moments[j]) for j in range(3) if j != k):
-            continue
-        end = axes[:, k] * (1 if axes[:, k] @ seen >= 0 else -1)
-        x, y = projected(root @ end)
+    marked = [
+        k for k in range(3) if not any(_equal(moments[k], moments[j]) for j in range(3) if j != k)
+    ]
+    ends = [axes[:, k] * (1 if axes[:, k] @ seen >= 0 else -1) for k in marked]
+    places = np.array([projected(root @ end) for end in ends]).reshape(-1, 2)
+    labels = [f"$I = {moments[k]:.3g}$" for k in marked]
+    offsets = beside(places, labels, root @ projected(np.eye(3)), SIZE / np.ptp(panel.get_xlim()))
+    for k, place, text, (x, y) in zip(marked, places, labels, offsets, strict=True):
         style: dict[str, Any] = {"marker": "o", "label": STABLE}
         if k == unstable(moments):
             style = {"marker": "x", "mew": 1.4, "label": UNSTABLE}
-        panel.plot([x], [y], c="#000000", ms=4.5, ls="", zorder=4, **style)
-        panel.annotate(f"$I = {moments[k]:.3g}$", (x, y), (5, 4), textcoords="offset points",
-                       fontsize=7, zorder=5)  # fmt: skip
+        panel.plot(*place[:, None], c="#000000", ms=4.5, ls="", zorder=4, **style)
+        panel.annotate(text, place, (x, y), textcoords="offset points", fontsize=FONT, zorder=5)
 
 
 def _square(panel: Any, root: Array) -> None:

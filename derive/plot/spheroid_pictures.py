@@ -17,11 +17,11 @@ PRESSURE = "#7a4b00"
 """The colour of its axis, its curve, and of when it is negative."""
 
 
-def is_fluid(run: Run) -> bool:
-    """Is the body one ellipsoid about the origin, with a multiplier beside it?"""
+def is_ellipsoid(run: Run) -> bool:
+    """Is the body one ellipsoid about the origin?"""
     body = run.facts.get("body", {})
     ellipsoids, others = body.get("ellipsoids", ()), body.get("points") or body.get("solids")
-    return len(ellipsoids) == 1 and not others and bool(run.of_kind("multiplier"))
+    return len(ellipsoids) == 1 and not others
 
 
 def maps(run: Run) -> Array:

@@ -176,11 +176,13 @@ def _allowed(word: str) -> bool:
 
 def _is_formula(word: str, first: bool) -> bool:
     """Is it a word with a sign of mathematics in it, a quotient of letters, a function of one, a
-    differential as dm, the first of a bracket, or one letter?
+    differential as dm, the first of a bracket, or one letter, also that of a parameter in ‘quotes’?
 
     The article “a” is none, nor is a capital that may begin the sentence (``first``); a circumflex
     in a longer word is a letter of French.
     """
+    if re.fullmatch("‘[A-Za-z]’", word):
+        return True
     if not _allowed(word):
         return False
     if len(word) == 1 and word.isascii():

@@ -25,21 +25,6 @@ def tables(data: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
     return tables
 
 
-def unread(raw: bytes, error: ValueError) -> str:
-    """What is wrong with a text that is not TOML, and the remedy where it is known."""
-    if isinstance(error, UnicodeDecodeError):
-        line = raw[: error.start].count(b"\n") + 1
-        return f"line {line} has a byte that is not UTF-8; save the file as UTF-8"
-    said = str(error)
-    if said.startswith(("Cannot overwrite", "Cannot declare", "Cannot mutate")):
-        said += "; a key or a table stands twice, where a list of tables is written [[…]]"
-    at = re.search(r"at line ([0-9]+)", said)
-    lines = raw.decode("utf-8-sig", "replace").split("\n")
-    if at and not lines[int(at[1]) - 1].partition("=")[0].isascii():
-        said += "; names have the letters A to Z, a to z, digits and _ only"
-    return said
-
-
 def used_at(data: Mapping[str, Any], name: str, *but: str) -> str:
     """The first table and key, but some, in which a name stands, as other messages say it."""
     word = re.compile(rf"(?<![A-Za-z0-9_]){re.escape(name)}(?![A-Za-z0-9_])")

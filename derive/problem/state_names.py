@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from ..algebra.groups import Group
 from ..language.suffixed import by_letter, suffixed
 from ..language.tree import Tree
 from ..schema.algebra_kinds import Advected
+from ..schema.table import nearest
 
 LIKE_AN_ENTRY = re.compile(r"A[0-9]*_([1-9]{2}|[0-9]+_[0-9]+)|(T|zeta)[0-9]*_[1-9][0-9]*")
 """What an entry of the state of some group is called."""
@@ -19,12 +20,31 @@ def no_entry(name: str, group: Group, known: Mapping[str, Tree]) -> str:
     of an entry; "" for any other."""
     if not LIKE_AN_ENTRY.fullmatch(name):
         return ""
-    runs = by_letter(x for x in known if x != "t").values()
-    ends = (dict.fromkeys((run[0], run[-1])) for run in runs)
-    entries = ", ".join(map(" … ".join, ends))
     on_group = any(isinstance(t, tuple) and t[1] == "A" for t in known.values())
     whose = group.name if on_group else "the state of this algebra"
-    return f"{whose} has no {name[:40]}; its entries are {entries}"
+    return f"{whose} has no {name[:40]}; its entries are {entries(known)}"
+
+
+def entries(known: Iterable[str]) -> str:
+    """The names of a state in words: the first and the last of each letter."""
+    runs = by_letter(x for x in known if x != "t").values()
+    ends = (dict.fromkeys((run[0], run[-1])) for run in runs)
+    return ", ".join(map(" … ".join, ends))
+
+
+def undeclared(
+    name: str, where: str, parameters: Collection[str], group: Group, known: Mapping[str, Tree]
+) -> str:
+    """That a name in an expression of a Lagrangian is neither a parameter nor of the state, in
+    words."""
+    if fault := no_entry(name, group, known):
+        return f"{where}: {fault}"
+    hint = nearest(name[:40], parameters).removeprefix("; ")
+    other = f"{hint} Else " if hint else ""
+    return (
+        f"{where}: {name[:40]!r} is not declared; {other}add it to [parameters]; the state has "
+        f"{entries(known)}"
+    )
 
 
 def coordinates(group: Group) -> list[Tree]:

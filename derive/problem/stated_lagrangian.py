@@ -15,13 +15,15 @@ from typing import Any
 from ..algebra.groups import Group
 from ..algebra.structure import as_text
 from ..language.derivatives import derivative
+from ..language.expression import names
 from ..language.tree import Tree, add, mul, neg, nodes, plain
 from ..schema.lagrangian_kinds import SECTIONS, Inertia, Lagrangian
+from .fields import used_at
 from .file_reader import FileReader
 from .moved_entries import EntriesOfElement
 from .null_directions import Direction, along, held, hessian, null_directions, vanishes
 from .problem import ProblemError
-from .state_names import coordinates, no_entry
+from .state_names import coordinates, no_entry, undeclared
 
 
 def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lagrangian:
@@ -40,6 +42,11 @@ def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lag
     if not isinstance(data[where], dict):
         raise ProblemError(f"key {where!r} must be a table [{where}]")
     table = reader.whole(own, data[where], where)
+    for name in (x for t in table.trees() for x in names(t)):
+        if name not in reader.parameters:
+            at = used_at(data, name)
+            known = reader.state_names
+            raise ProblemError(undeclared(name, at, reader.parameters, group, known))
     found = of_inertia(table, group) if isinstance(table, Inertia) else table
     if not any(t in coordinates(group) for t in nodes(found.L)):
         raise ProblemError(f"{where}: no coordinate of the velocity, as zeta_1, so no motion")

@@ -59,13 +59,19 @@ def _initial(table: Any, reader: FileReader) -> Initial:
         where = f"initial, {name[:40]}"
         if name in reader.parameters:
             raise ProblemError(f"{where}: a parameter has its default in [parameters]")
+        if isinstance(value, list):
+            first, second = (f"{name[:40]}_{k} = …" for k in (1, 2))
+            raise ProblemError(f"{where}: one number each, {first}, {second}; only exp is a list")
         found[reader.identifier(name, where)] = _number(value, where, reader)
     where, exp = "initial, exp", table.get("exp", [])
     if not isinstance(exp, list):
         raise ProblemError(f"{where}: expected a list, the coordinates in the basis of 𝔤")
     if reader.group and reader.advected is None and len(exp) not in (0, reader.group.dimension):
         count = reader.group.dimension
-        raise ProblemError(f"{where}: expected {count} coordinates in the basis, not {len(exp)}")
+        raise ProblemError(
+            f"{where}: expected {count} coordinates in the basis, not {len(exp)}; their order is "
+            f"that of {_order(reader)}"
+        )
     return Initial(found, tuple(_number(x, where, reader) for x in exp))
 
 
@@ -77,3 +83,12 @@ def _number(value: Any, where: str, reader: FileReader) -> Tree:
             hint = nearest(name, reader.parameters)
             raise ProblemError(f"{where}: {name[:40]!r} is not declared in [parameters]{hint}")
     return found
+
+
+def _order(reader: FileReader) -> str:
+    """The basis of the Lie algebra in words."""
+    group = reader.moving()
+    d, n = group.dimension, group.n
+    if group.free_translations:
+        return f"E_1 … E_{d}, the linear parts first, then the {n} translations"
+    return f"E_1 … E_{d}" if d > 1 else "E_1"

@@ -32,16 +32,16 @@ from ..schema.lagrangian_kinds import SECTIONS
 from ..schema.table import Table, nearest
 from . import inertia
 from .bodies import body
-from .fields import LIKE_A_PLACE, unread, used_at
+from .fields import LIKE_A_PLACE, used_at
 from .file_reader import FileReader
 from .forces import forces, negative_stiffness_of
 from .group import group_of
 from .problem import Problem, ProblemError
-from .state_names import known_in_lagrangian, no_entry
 from .stated_algebra import carried_group
 from .stated_lagrangian import lagrangian
 from .stated_motion import KEYS, named, stated_motion
 from .stated_torus import on_torus, torus_problem
+from .toml_faults import unread
 
 TOP = {"name", "title", "group", "action", "parameters", "point", "body", "potential", "input"}
 TOP |= {"damping", "solid", "algebra", "advected", "fluid", *SECTIONS, *KEYS}
@@ -286,10 +286,6 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
             where, shown = used_at(data, name), name[:40]
             hint = nearest(shown, problem.parameters).removeprefix("; ")
             other = f"{hint} Else " if hint else ""
-            if problem.lagrangian and problem.group:
-                known = known_in_lagrangian(problem.group, problem.advected)
-                if fault := no_entry(name, problem.group, known):
-                    raise ProblemError(f"{where}: {fault}")
             raise ProblemError(f"{where}: {shown!r} is not declared; {other}add it to [parameters]")
     own = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}
     elsewhere = {*own, *named(problem)}

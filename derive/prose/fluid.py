@@ -151,11 +151,9 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     "kernel": {
         "fluid": (
             "X is in the kernel if and only if this expression vanishes for every η′ that is "
-            "divergence-free and tangent to the boundary: Euler’s equation. For η′ = u it says "
-            "that the energy h̃ is constant along the motion.",
+            "divergence-free and tangent to the boundary: Euler’s equation.",
             "X est dans le noyau si et seulement si cette expression s’annule pour tout η′ "
-            "solénoïdal et tangent au bord : l’équation d’Euler. Pour η′ = u, elle dit que "
-            "l’énergie h̃ est constante le long du mouvement.",
+            "solénoïdal et tangent au bord : l’équation d’Euler.",
         ),
         "fluid_line": (
             "With δt = 0 the same two tests leave X = 0: the kernel is at most a line. It is a "
@@ -232,6 +230,59 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "intégrale. Sans bord, cela ne dit rien.",
         ),
     },
+    "advection": {
+        "carried": (
+            "The density at the place of a point is that of the point, ρ(g(r)) = ρ₀(r), at all "
+            "times. By the chain rule, Ġ = G ∇_u, this gives ρ̇, without any hypothesis on u; the "
+            "variation of ḠG along η = u gives the same.",
+            "La densité au lieu d’un point est celle du point, ρ(g(r)) = ρ₀(r), à tout instant. "
+            "Par dérivation des fonctions composées, Ġ = G ∇_u, il en résulte ρ̇, sans aucune "
+            "hypothèse sur u ; la variation de ḠG le long de η = u donne la même dérivée.",
+        ),
+        "place": (
+            "At each place ∇_u ρ is a derivative of products, to which the product rule applies; "
+            "⟨u, grad ρ⟩ is here the scalar product at each place, without an integral, and the "
+            "product with it. So the density is advected.",
+            "En chaque lieu, ∇_u ρ est la dérivée d’un produit, que donne la règle de Leibniz ; "
+            "⟨u, grad ρ⟩ est ici le produit scalaire en chaque lieu, sans intégrale, et le produit "
+            "par celui-ci. La densité est donc transportée.",
+        ),
+    },
+    "energy_kept": {
+        "kernel": (
+            "The energy and its rate, which is the expression of the kernel for η′ = u, as u too "
+            "is divergence-free and tangent to the boundary: so the energy is constant, by Euler’s "
+            "equation alone, without Helmholtz’ decomposition, which only the pressure needs.",
+            "L’énergie et sa dérivée, qui est l’expression du noyau pour η′ = u, car u aussi est "
+            "solénoïdal et tangent au bord : l’énergie est donc constante, par la seule équation "
+            "d’Euler, sans la décomposition de Helmholtz, dont seule la pression a besoin.",
+        ),
+        "homogeneous": (
+            "∇_u is skew for such a field: ∇_u u contributes nothing.",
+            "∇_u est antisymétrique pour un tel champ : ∇_u u ne contribue pas.",
+        ),
+        "advected": (
+            "The change of the density contributes ½ ⟨ρ̇u, u⟩, which is ⟨u, ∇_u u⟩_ρ as ∇_u is skew "
+            "for such a field.",
+            "La variation de la densité contribue par ½ ⟨ρ̇u, u⟩, qui est ⟨u, ∇_u u⟩_ρ car ∇_u est "
+            "antisymétrique pour un tel champ.",
+        ),
+        "forced": (
+            "The change of Ũ is dŨ(ν), the opposite of the power of the force.",
+            "La variation de Ũ est dŨ(ν), l’opposé de la puissance de la force.",
+        ),
+        "absorbed": (
+            "The change of Ũ is dŨ(ν) = −⟨f, u⟩, which vanishes, as f is a gradient: Ũ and ½ ‖u‖² "
+            "are each constant, where the density is the same everywhere.",
+            "La variation de Ũ est dŨ(ν) = −⟨f, u⟩, qui s’annule, car f est un gradient : Ũ et "
+            "½ ‖u‖² sont constants l’un et l’autre, si la densité est partout la même.",
+        ),
+        "pressure": (
+            "The pressure does no work: by Stokes’ theorem ⟨grad p, u⟩ is −⟨p, Du⟩, and Du = 0.",
+            "La pression ne travaille pas : par le théorème de Stokes, ⟨grad p, u⟩ est −⟨p, Du⟩, "
+            "et Du = 0.",
+        ),
+    },
     "relabelling": {
         "field": (
             "Displacements h of the body made before g, g ∘ h, where h is the same at all times, "
@@ -242,12 +293,6 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "instant, laissent u invariant : δg = Gϑ et δu = 0, où ϑ est l’image dans l’espace du "
             "déplacement du corps. Le long du mouvement, ϑ varie par l’équation de structure, où "
             "le mouvement est l’autre variation.",
-        ),
-        "density": (
-            "So does the density, by its variation along η = u: as a function, "
-            "ρ̇ + ⟨u, grad ρ⟩ = 0 at each place.",
-            "De même la densité, par sa variation le long de η = u : comme fonction, "
-            "ρ̇ + ⟨u, grad ρ⟩ = 0 en chaque lieu.",
         ),
     },
     "circulation": {

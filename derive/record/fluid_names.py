@@ -81,7 +81,7 @@ FLUID: dict[str, Name] = {
         "D", letter(OPERATOR)),
     "p": name("pressure", "pression", "p", unknown(FUNCTION_ON_SPACE)),
     "grad": name("gradient", "gradient", r"\operatorname{grad}",
-        function(FUNCTION_ON_SPACE, FIELD)),
+        function(FUNCTION_ON_SPACE, FIELD), function(OPERATOR, FIELD)),
     "div": name("divergence", "divergence", r"\operatorname{div}",
         function(FIELD, FUNCTION_ON_SPACE)),
     "Δ": name("Laplacian, div grad", "laplacien, div grad", r"\Delta",
@@ -100,6 +100,9 @@ FLUID: dict[str, Name] = {
         "densité en chaque lieu, et le produit par celle-ci", r"\rho", letter(OPERATOR)),
     "ρ̇": name("∂ρ/∂t along the motion, at each place",
         "∂ρ/∂t le long du mouvement, en chaque lieu", r"\dot\rho", rate(OPERATOR)),
+    "ρ_0": name("density of the body at each of its points, and the product with it: dm = ρ₀ dr",
+        "densité du corps en chacun de ses points, et le produit par celle-ci : dm = ρ₀ dr",
+        r"\rho_0", letter(OPERATOR)),
     "ϑ": name("image in space of a displacement of the body made before g, which keeps volume and "
         "density; it is carried along by the motion",
         "image dans l’espace d’un déplacement du corps effectué avant g, qui conserve volume et "

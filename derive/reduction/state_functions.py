@@ -13,11 +13,9 @@ from itertools import combinations_with_replacement
 from math import comb, gcd, isqrt, lcm
 from typing import Any
 
-import numpy as np
-
 from ..algebra.exact_kernel import kernel, rational
 from ..algebra.groups import Group
-from ..algebra.residue_arrays import PRIMES, Array, ResidueSource
+from ..algebra.residue_vectors import PRIMES, ResidueSource
 from ..language.tree import Tree, add, mul
 from ..symmetries.group_entries import entries
 from ..symmetries.tangent_fields import EXTRA
@@ -145,9 +143,9 @@ class StateFunctions:
         ]
         others = [k for k, at in enumerate(these) if at not in self.invariant]
         listed.sort(key=lambda e: (sum(e[k] for k in others), sum(e)))
-        found = [kernel(self._values(these, listed, p), p) for p in PRIMES[:2]]
+        found = [kernel(self._values(these, listed, p), len(listed), p) for p in PRIMES[:2]]
         rules = {}
-        for c, *rows in zip(found[0][1], *(x[0].tolist() for x in found), strict=True):
+        for c, *rows in zip(found[0][1], *(x for x, _ in found), strict=True):
             residues = [[row[k] for row in rows] for k, _ in enumerate(listed)]
             numbers = [rational(x, PRIMES[:2]) for x in residues]
             if None not in numbers:
@@ -158,7 +156,9 @@ class StateFunctions:
                 }
         return rules
 
-    def _values(self, these: Sequence[int], listed: Sequence[Exponents], p: int) -> Array:
+    def _values(
+        self, these: Sequence[int], listed: Sequence[Exponents], p: int
+    ) -> Iterator[tuple[int, ...]]:
         """The monomials at random elements, a row for each of these."""
         source = ResidueSource(p, len(listed) + EXTRA, 6)
         g = self.group.sample_inside(source, 1)
@@ -169,7 +169,7 @@ class StateFunctions:
             for x, n in zip(at, e, strict=True):
                 total = total * x**n if n else total
             columns.append(total.values)
-        return np.array(columns).T
+        return zip(*columns, strict=True)
 
     # -- as trees ------------------------------------------------------------------------------
 

@@ -10,13 +10,13 @@ and δL̃ = ⟨Π, δZ⟩ + Φ(η) + τ ∂ₜL̃ = dF/dt is linear in V₀, V�
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
+from ..algebra.exact_kernel import Rows
 from ..algebra.groups import Group
-from ..algebra.residue_arrays import Array, Residues, ResidueSource
+from ..algebra.residue_vectors import Residues, ResidueSource
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.show import show
@@ -41,7 +41,7 @@ TRIES = 40
 MOST_POINTS = 4000
 """So many points are tried at once, unless one system needs more."""
 
-System = tuple[dict[Tree, int], Array]
+System = tuple[dict[Tree, int], Rows]
 """Values of the parameters and their functions, and the rows for them."""
 
 
@@ -100,7 +100,7 @@ class Conditions:
         columns, all by default; more rows than there are columns."""
         kept = [*range(self.unknowns.count)] if columns is None else [*columns]
         wanted, found = len(kept) + EXTRA, list[System]()
-        points = (wanted * 5 // 4) * self.oversampling + EXTRA
+        points = (wanted * 5 // 4) * self.oversampling + EXTRA if self.oversampling > 1 else wanted
         for batch in range(TRIES):
             several = min(count - len(found), max(1, MOST_POINTS // points))
             found += self._batch(several, points, wanted, kept, p, TRIES * seed + batch)
@@ -119,17 +119,22 @@ class Conditions:
         drawn = self.parameters.drawn(count, p, 2 * seed)
         count = len(drawn["π"])
         source = ResidueSource(p, count * points, 2 * seed + 1)
-        values = {x: Residues(np.repeat(v, points), p) for x, v in drawn.items()}
+        values = {x: Residues([c for c in v for _ in range(points)], p) for x, v in drawn.items()}
         found = Functions(source, true_roots=self.true_roots)
         point = Point(self, source, values, found)
-        rows = np.array([point.column(k).values for k in kept]).T
-        systems = []
+        enough: dict[int, list[int]] = {}
         for k in range(count):
-            here = slice(k * points, (k + 1) * points)
-            valid = rows[here][found.valid[here]]
+            valid = [i for i in range(k * points, (k + 1) * points) if found.valid[i]]
             if len(valid) >= wanted:
-                systems.append(({x: int(v[k]) for x, v in drawn.items()}, valid[:wanted]))
-        return systems
+                enough[k] = valid[:wanted]
+        if not enough:
+            return []
+        there = point.at([i for valid in enough.values() for i in valid])
+        rows = [*map(list, zip(*(there.column(k).values for k in kept), strict=True))]
+        return [
+            ({x: v[k] for x, v in drawn.items()}, rows[j * wanted : (j + 1) * wanted])
+            for j, k in enumerate(enough)
+        ]
 
 
 class Point:
@@ -155,9 +160,33 @@ class Point:
         leaves |= dict(zip(coordinates(group), zeta, strict=True))
         leaves |= {x: self.g[i][j] for x, (i, j) in self.places.items()}
         self.leaves = leaves
-        self.slopes = system.tape.at(leaves, source, found).gradient()
-        momenta = [self.slopes.get(x, zero) for x in coordinates(group)]
-        self.P = tuple(tuple(zero + x for x in row) for row in group.covector_matrix(momenta))
+        self.group, self.evaluated = group, system.tape.at(leaves, source, found)
+
+    def at(self, places: Sequence[int]) -> Point:
+        """Some of the points, all in their order: before what is computed when it is asked for."""
+        if len(places) == self.source.points:
+            return self
+        found = copy(self)
+        found.source = ResidueSource(self.source.p, len(places), 0)  # of constants alone
+        found.t = self.t.at(places)
+        found.g, found.Z = (
+            tuple(tuple(x.at(places) for x in row) for row in m) for m in (self.g, self.Z)
+        )
+        found.leaves = {x: y.at(places) for x, y in self.leaves.items()}
+        found.evaluated = self.evaluated.at(places, found.source)
+        return found
+
+    @cached_property
+    def slopes(self) -> Mapping[Tree, Residues]:
+        """The derivatives of L̃."""
+        return self.evaluated.gradient()
+
+    @cached_property
+    def P(self) -> Matrix:
+        """The momenta, a matrix."""
+        zero = self.source.constant(0)
+        momenta = [self.slopes.get(x, zero) for x in coordinates(self.group)]
+        return tuple(tuple(zero + x for x in row) for row in self.group.covector_matrix(momenta))
 
     @cached_property
     def along(self) -> Matrix:

@@ -13,10 +13,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cached_property
 
-import numpy as np
-
 from ..algebra.exact_kernel import kernel
-from ..algebra.residue_arrays import Array, ResidueSource
+from ..algebra.residue_vectors import Residues, ResidueSource
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.tree import Tree, add, mul, neg
@@ -25,6 +23,9 @@ from .scalar_lagrangian import by_state
 from .search import Search
 from .symmetry import Symmetry
 from .tangent_fields import TangentField
+
+Vector = list[Residues]
+"""Coordinates, each for all values of the parameters."""
 
 
 class Brackets:
@@ -36,53 +37,59 @@ class Brackets:
         self.fields = unknowns.fields
         first, count = unknowns.first_field, len(self.fields)
         _, table = search.samples
-        whole = np.zeros((*table.shape[:2], unknowns.count), np.int64)
-        whole[:, :, search.support] = table
-        rest = whole[:, :, first:]
-        self.moving, self.still = rest[:, :, :count], rest[:, :, count : 2 * count]
-        self.tau = rest[:, :, 2 * count]
+        zero = Residues([0] * len(search.samples[0]), self.p)
+        whole = [
+            [x.get(k, zero) for k in range(first, unknowns.count)]
+            for x in (dict(zip(search.support, row, strict=True)) for row in table)
+        ]
+        self.moving, self.still = ([row[k : k + count] for row in whole] for k in (0, count))
+        self.tau = [row[2 * count] for row in whole]
 
     @cached_property
-    def of_fields(self) -> Array:
-        """The coordinates of the brackets of the tangent fields, d × d × d: of (Y, X) and (Y′, X′)
-        it is ([Y′, Y], [X′, X])."""
+    def of_fields(self) -> dict[tuple[int, int], dict[int, int]]:
+        """The coordinates of the brackets of the tangent fields, for those that are not 0: of
+        (Y, X) and (Y′, X′) it is ([Y′, Y], [X′, X])."""
         group, p = self.search.system.group, self.p
         source = ResidueSource(p, 2 * group.size**2, 5)
         g = group.sample_inside(source, 1)
         basis = [_values(x, g, source) for x in self.fields]
-        count = len(self.fields)
-        found = np.zeros((count, count, count), np.int64)
+        count, brackets = len(self.fields), dict[tuple[int, int], TangentField]()
         for a, x in enumerate(self.fields):
             for b, y in enumerate(self.fields[:a]):
                 z = TangentField(q.bracket(y.Y, x.Y), q.bracket(y.X, x.X))
                 if any(map(any, (*z.Y, *z.X))):
-                    columns = np.array([*basis, _values(z, g, source)]).T
-                    vectors, free = kernel(columns, p)
-                    assert free == [count]
-                    found[a, b] = -vectors[0][:count] % p
-                    found[b, a] = vectors[0][:count]
+                    brackets[b, a] = z
+        columns = [*basis, *(_values(z, g, source) for z in brackets.values())]
+        vectors, free = kernel(zip(*columns, strict=True), len(columns), p)
+        assert free == [*range(count, len(columns))]
+        found: dict[tuple[int, int], dict[int, int]] = {}
+        for (b, a), vector in zip(brackets, vectors, strict=True):
+            found[b, a] = {k: x for k, x in enumerate(vector[:count]) if x}
+            found[a, b] = {k: p - x for k, x in found[b, a].items()}
         return found
 
-    def _bracket(self, x: Array, y: Array) -> Array:
-        """The bracket of fields by their coordinates, for each value of the parameters."""
-        total = np.zeros_like(x)
-        for a, b in zip(*np.nonzero(self.of_fields.any(axis=2)), strict=True):
-            weight = x[:, a] * y[:, b] % self.p
-            total = (total + weight[:, None] * self.of_fields[a, b] % self.p) % self.p
+    def _bracket(self, x: Vector, y: Vector) -> Vector:
+        """The bracket of fields by their coordinates."""
+        total = [0 * z for z in x]
+        for (a, b), coordinates in self.of_fields.items():
+            if x[a] and y[b]:
+                weight = x[a] * y[b]
+                for k, c in coordinates.items():
+                    total[k] = total[k] + weight * c
         return total
 
     def commute(self, i: int, j: int) -> bool:
         """Is the bracket of two symmetries 0?"""
-        u, v = self.still[:, i], self.still[:, j]
-        du, dv = self.moving[:, i], self.moving[:, j]
-        tau, tau_prime = self.tau[:, i, None], self.tau[:, j, None]
-        start = tau * dv - tau_prime * du + self._bracket(u, v)
-        rate = self._bracket(u, dv) + self._bracket(du, v)
-        return not any((x % self.p).any() for x in (start, rate, self._bracket(du, dv)))
+        u, v, du, dv = self.still[i], self.still[j], self.moving[i], self.moving[j]
+        tau, tau_prime = self.tau[i], self.tau[j]
+        pairs = zip(du, dv, self._bracket(u, v), strict=True)
+        start = [tau * y - tau_prime * x + z for x, y, z in pairs]
+        rates = zip(self._bracket(u, dv), self._bracket(du, v), strict=True)
+        return not any((*start, *(x + y for x, y in rates), *self._bracket(du, dv)))
 
     def commuting(self) -> Iterator[tuple[int, int]]:
         """The pairs of symmetries whose bracket is 0."""
-        count = self.moving.shape[1]
+        count = len(self.moving)
         yield from ((i, j) for i in range(count) for j in range(i) if self.commute(i, j))
 
 
@@ -106,8 +113,8 @@ def _along(field: Symmetry, other: Symmetry) -> Tree:
     return add(*found)
 
 
-def _values(field: TangentField, g: Matrix, source: ResidueSource) -> Array:
+def _values(field: TangentField, g: Matrix, source: ResidueSource) -> list[int]:
     """The values of a field at the points, in one list."""
     value = q.minus(q.times(field.Y, g), q.times(g, field.X))
     zero = source.constant(0)
-    return np.concatenate([(zero + x).values for row in value for x in row])
+    return [y for row in value for x in row for y in (zero + x).values]

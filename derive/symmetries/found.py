@@ -53,6 +53,8 @@ class Found:
     commuting: tuple[frozenset[int], ...] = ()
     integrand: Integrand | None = None
     """What stands for an integral in L̃, where it has one."""
+    of_points: bool = False
+    """Is L̃ that of a body of points, of which symmetries of the body may change the labels?"""
 
     @property
     def lagrangian(self) -> Lagrangian:
@@ -82,6 +84,7 @@ def symmetries_of(problem: Problem, record: Derivation, *, of_integrand: bool = 
     integral = of_integrand and any(isinstance(p, SelfGravity) for p in problem.potentials)
     integrand = Integrand.beside(problem.parameters) if integral else None
     scalar = with_scalar_lagrangian(problem, record, integrand)
+    of_points = problem.lagrangian is None
     system = Conditions(scalar)
     search, state = Search(system), emitted_state(problem)
     found = [of_solution(x, system.unknowns, system.group, system.side) for x in search.solutions()]
@@ -91,7 +94,7 @@ def symmetries_of(problem: Problem, record: Derivation, *, of_integrand: bool = 
     order = sorted(told, key=lambda k: (ORDER.index(found[k].kind), -k))
     listed = tuple(found[k] for k in order)
     if not listed:
-        return Found(scalar, (), system.open_functions, (), state, (), integrand)
+        return Found(scalar, (), system.open_functions, (), state, (), integrand, of_points)
     commuting = [(i, j) for i, j in Brackets(search).commuting() if {i, j} <= {*told}]
     pairs = [
         _oriented(order.index(i), order.index(j), number)
@@ -100,7 +103,9 @@ def symmetries_of(problem: Problem, record: Derivation, *, of_integrand: bool = 
     ]
     central = tuple(sorted(pairs, key=lambda x: (x.first, x.second)))
     places = tuple(frozenset((order.index(i), order.index(j))) for i, j in commuting)
-    return Found(scalar, listed, system.open_functions, central, state, places, integrand)
+    return Found(
+        scalar, listed, system.open_functions, central, state, places, integrand, of_points
+    )
 
 
 def says_nothing(x: Symmetry, problem: Problem) -> bool:

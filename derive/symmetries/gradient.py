@@ -1,18 +1,16 @@
 """A scalar expression and its derivatives at many points at once, by reverse accumulation.
 
 Every distinct subtree is one entry of a tape; the derivative by each leaf is its adjoint, found in
-one pass back over the tape.
+one pass back over the tape, where what has numbers and parameters alone is left out.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, Protocol
 
-import numpy as np
-
-from ..algebra.residue_arrays import Residues, ResidueSource
+from ..algebra.residue_vectors import Residues, ResidueSource
 from ..language.derivatives import DERIVATIVES
 from ..language.tree import Tree
 
@@ -44,6 +42,8 @@ class Floats:
 
     def value(self, name: str, x: Number) -> Number:
         """The value of a function, by its name."""
+        import numpy as np
+
         return getattr(np, {"atan": "arctan"}.get(name, name))(x)
 
 
@@ -55,6 +55,7 @@ class Tape:
         self.given = frozenset(given)
         self.places: dict[Tree, int] = {}
         self.ops: list[tuple[Any, tuple[int, ...], Any]] = []
+        self.moves: list[bool] = []
         self.last = self._place(tree)
 
     def _place(self, t: Tree) -> int:
@@ -75,6 +76,9 @@ class Tape:
             entry = (t[0], tuple(map(self._place, t[1:])), None)
         self.places[t] = len(self.ops)
         self.ops.append(entry)
+        fixed = t == "π" or t in self.given or (isinstance(t, tuple) and t[0] == "par")
+        by_state = entry[0] == "leaf" and not fixed
+        self.moves.append(by_state or any(self.moves[k] for k in entry[1]))
         return self.places[t]
 
     @property
@@ -121,7 +125,7 @@ class Functions:
     def __init__(self, source: ResidueSource, *, true_roots: bool = True):
         self.source, self.true_roots = source, true_roots
         self.known: list[tuple[str, Residues, Residues]] = []
-        self.valid = np.ones(source.points, bool)
+        self.valid = [True] * source.points
 
     def value(self, name: str, x: Residues) -> Residues:
         """The value of a function at x, the same at the same x."""
@@ -134,11 +138,19 @@ class Functions:
             return self._on_curve(HYPERBOLIC, -1, name, x)
         if name == "sqrt" and self.true_roots:
             value = x.root()
-            self.valid &= (value * value).values == x.values
+            square = value * value
+            pairs = zip(self.valid, square.values, x.values, strict=True)
+            self.valid = [known and a == b for known, a, b in pairs]
         else:
             value = self.source.randint(1, 1)
         self.known.append((name, x, value))
         return value
+
+    def at(self, places: Sequence[int], source: ResidueSource) -> Functions:
+        """The same at some of the points; ``source``: of so many."""
+        found = Functions(source, true_roots=self.true_roots)
+        found.known = [(name, x.at(places), y.at(places)) for name, x, y in self.known]
+        return found
 
     def _on_curve(self, names: tuple[str, ...], sign: int, name: str, x: Residues) -> Residues:
         """A point of c² ± s² = 1 by the tangent u of half its argument, and s/c."""
@@ -155,13 +167,19 @@ class Evaluated:
     def __init__(self, tape: Tape, values: list[Number], source: Numbers, found: Values):
         self.tape, self.values, self.source, self.found = tape, values, source, found
 
+    def at(self, places: Sequence[int], source: ResidueSource) -> Evaluated:
+        """The same, of residues, at some of the points; ``source``: of so many."""
+        assert isinstance(self.found, Functions)
+        values = [x.at(places) for x in self.values]
+        return Evaluated(self.tape, values, source, self.found.at(places, source))
+
     @property
     def value(self) -> Number:
         """The value of the expression."""
         return self.values[self.tape.last]
 
     def gradient(self) -> dict[Tree, Number]:
-        """The derivative by each leaf."""
+        """The derivative by each leaf that is no parameter."""
         adjoint: dict[int, Number] = {self.tape.last: self.source.constant(1)}
         found: dict[Tree, Number] = {}
         for k in range(len(self.tape.ops) - 1, -1, -1):
@@ -171,21 +189,27 @@ class Evaluated:
             op, args, data = self.tape.ops[k]
             if op == "leaf":
                 found[data] = whole
-            for j, slope in zip(args, self._slopes(op, args, data), strict=True):
+            fixed = [self.values[j] for j in args if not self.tape.moves[j]]
+            moving = [j for j in args if self.tape.moves[j]]
+            slopes = self._slopes(op, [self.values[j] for j in moving], fixed, args, data)
+            for j, slope in zip(moving, slopes, strict=True):
                 part = whole if slope is None else whole * slope
                 adjoint[j] = adjoint[j] + part if j in adjoint else part
         return found
 
-    def _slopes(self, op: str, args: tuple[int, ...], data: Any) -> list[Number | None]:
-        """The derivative of an operation by each operand; ``None`` for 1."""
-        a = [self.values[k] for k in args]
+    def _slopes(
+        self, op: str, a: list[Number], fixed: list[Number], args: tuple[int, ...], data: Any
+    ) -> list[Number | None]:
+        """The derivative of an operation by each operand ``a`` that moves; ``None`` for 1."""
         if op == "add":
             return [None] * len(a)
         if op == "mul":
-            return [_multiplied([*a[:k], *a[k + 1 :]]) for k in range(len(a))]
+            return _others(a, fixed)
         if op == "div":
-            back = 1 / a[1]
-            return [back, -(a[0] * back * back)]
+            above, below = (self.values[k] for k in args)
+            back = 1 / below
+            slopes = [back, -(above * back * back)]
+            return [x for x, k in zip(slopes, args, strict=True) if self.tape.moves[k]]
         if op == "pow":
             return [a[0] ** (data - 1) * data]
         if op == "fun":
@@ -220,6 +244,19 @@ def _summed(a: list[Number]) -> Number:
     for x in a[1:]:
         total = total + x
     return total
+
+
+def _others(a: list[Number], fixed: list[Number]) -> list[Number | None]:
+    """For each of some factors the product of the others, and of what is fixed; ``None`` for 1."""
+    before = [_multiplied(fixed) if fixed else None]
+    for x in a[:-1]:
+        before.append(x if before[-1] is None else before[-1] * x)
+    found: list[Number | None] = []
+    after: Number | None = None
+    for x, y in zip(reversed(a), reversed(before), strict=True):
+        found.append(after if y is None else y if after is None else y * after)
+        after = x if after is None else x * after
+    return found[::-1]
 
 
 def _multiplied(a: list[Number]) -> Number:

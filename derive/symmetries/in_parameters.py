@@ -11,14 +11,12 @@ from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from itertools import chain, combinations, combinations_with_replacement
 
-import numpy as np
-
-from ..algebra.exact_kernel import echelon, fraction_of, kernel
-from ..algebra.residue_arrays import Array
+from ..algebra.exact_kernel import fraction_of, kernel, pivots
+from ..algebra.residue_vectors import Residues
 from ..language.tree import Tree, add, mul, plain
 from .gradient import Tape
 
-Samples = Array
+Samples = Residues
 """The residues of a number, one for each of the values of the parameters."""
 
 SPARE = 6
@@ -45,11 +43,16 @@ def quotients_of(samples: Samples, known: dict[Tree, Samples], p: int) -> Iterat
             yield found
 
 
+def constant(samples: Samples) -> bool:
+    """Is it the same number for all values of the parameters?"""
+    return len({*samples.values}) == 1
+
+
 def _constant(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
     del known
-    if (samples != samples[0]).any():
+    if not constant(samples):
         return None
-    x = fraction_of(int(samples[0]), p)
+    x = fraction_of(samples.values[0], p)
     return None if x is None else (plain(x), 1)
 
 
@@ -65,14 +68,14 @@ def _multiple(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient 
 def _ratio(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
     """c times a quotient of known quantities."""
     for t, values in known.items():
-        if (found := _multiple(samples * values % p, known, p)) is not None:
+        if (found := _multiple(samples * values, known, p)) is not None:
             return found[0], t
     return None
 
 
 def _linear(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
     """A linear combination of known quantities."""
-    listed = [*known][: max(0, len(samples) - SPARE)]
+    listed = [*known][: max(0, len(samples.values) - SPARE)]
     terms = _dependence([known[t] for t in listed], samples, p)
     return None if terms is None else (_combination(terms, listed), 1)
 
@@ -80,19 +83,20 @@ def _linear(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | 
 def _rational(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient | None:
     """A quotient of polynomials in the parameters."""
     names = [t for t in known if isinstance(t, tuple) and t[0] in ("par", "fun")]
+    product = _Products(samples, known)
     few = chain.from_iterable(combinations(names, n) for n in range(1, FEW + 1))
     for some in (*few, *[names] * (len(names) > FEW)):
         for degree in range(1, LARGEST_DEGREE + 1):
             every = [*_monomials(some, degree)]
-            products = [_product([known[x] for x in m], len(samples), p) for m in every]
-            _, independent = echelon(np.array(products).T, p)  # cos² + sin² = 1
-            if 2 * len(independent) + SPARE > len(samples):
+            products = [product[m] for m in every]
+            independent = pivots(_rows(products), len(products), p)  # cos² + sin² = 1
+            if 2 * len(independent) + SPARE > len(samples.values):
                 break
             listed = [every[k] for k in independent]
             columns = [products[k] for k in independent]
-            below = [-samples * x % p for x in columns]
-            basis, _ = kernel(np.array([*columns, *below]).T, p)
-            numbers = [fraction_of(int(x), p) for x in basis[0]] if len(basis) else [None]
+            below = [-samples * x for x in columns]
+            basis, _ = kernel(_rows([*columns, *below]), 2 * len(columns), p)
+            numbers = [fraction_of(x, p) for x in basis[0]] if basis else [None]
             if None not in numbers:
                 trees = [mul(1, *m) for m in listed]
                 above, under = numbers[: len(listed)], numbers[len(listed) :]
@@ -100,24 +104,33 @@ def _rational(samples: Samples, known: dict[Tree, Samples], p: int) -> Quotient 
     return None
 
 
+class _Products(dict[tuple[Tree, ...], Samples]):
+    """The products of known quantities, each made when it is asked for."""
+
+    def __init__(self, samples: Samples, known: dict[Tree, Samples]):
+        self[()], self.known = samples.like([1] * len(samples.values)), known
+
+    def __missing__(self, m: tuple[Tree, ...]) -> Samples:
+        self[m] = self[m[:-1]] * self.known[m[-1]]
+        return self[m]
+
+
 def _monomials(names: Sequence[Tree], degree: int) -> Iterator[tuple[Tree, ...]]:
     for d in range(degree + 1):
         yield from combinations_with_replacement(names, d)
 
 
-def _product(factors: Sequence[Samples], count: int, p: int) -> Samples:
-    total = np.ones(count, np.int64)
-    for x in factors:
-        total = total * x % p
-    return total
+def _rows(columns: Sequence[Samples]) -> Iterator[tuple[int, ...]]:
+    """A matrix by its columns."""
+    return zip(*(x.values for x in columns), strict=True)
 
 
 def _same_ratio(a: Samples, b: Samples, p: int) -> Fraction | None:
     """c with a = c b for all samples; ``None`` where there is none."""
-    if not b[0]:
+    if not b.values[0]:
         return None
-    c = int(a[0]) * pow(int(b[0]), -1, p) % p
-    return None if (a != b * c % p).any() else fraction_of(c, p)
+    c = a.values[0] * pow(b.values[0], -1, p) % p
+    return fraction_of(c, p) if a == b * c else None
 
 
 def _dependence(
@@ -126,10 +139,10 @@ def _dependence(
     """Numbers x with Σ x_k column_k = samples, as few as elimination leaves."""
     if not columns:
         return None
-    basis, free = kernel(np.array([*columns, samples]).T, p)
+    basis, free = kernel(_rows([*columns, samples]), len(columns) + 1, p)
     if not free or free[-1] != len(columns):
         return None
-    numbers = [fraction_of(int(-x % p), p) for x in basis[-1][:-1]]
+    numbers = [fraction_of(-x % p, p) for x in basis[-1][:-1]]
     return None if None in numbers else numbers
 
 

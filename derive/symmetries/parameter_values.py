@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 
-from ..algebra.residue_arrays import PRIMES, Array, Residues, ResidueSource, primes_from
+from ..algebra.residue_vectors import PRIMES, Residues, ResidueSource, primes_from
 from ..language.show import show
 from ..language.tree import Tree, nodes
 from ..problem.problem import ProblemError
@@ -65,10 +65,10 @@ class ParameterValues:
             found = Functions(source)
             for x in self.roots_of_numbers:
                 Tape(x).at({}, source, found)
-            if found.valid.all():
+            if all(found.valid):
                 yield p
 
-    def drawn(self, count: int, p: int, seed: int) -> dict[Tree, Array]:
+    def drawn(self, count: int, p: int, seed: int) -> dict[Tree, list[int]]:
         """Up to so many values of each at which its roots are true: residues."""
         many = count << (len(self.roots) - len(self.roots_of_numbers))
         source = ResidueSource(p, many, seed)
@@ -76,10 +76,12 @@ class ParameterValues:
         values: dict[Tree, Residues] = {x: source.randint(1, 1) for x in self.letters}
         for x in self.functions:
             values[x] = Tape(x).at(values, source, found).value
-        return {x: v.values[found.valid][:count] for x, v in values.items()}
+        valid = [k for k, holds in enumerate(found.valid) if holds][:count]
+        return {x: v.at(valid).values for x, v in values.items()}
 
     def at(self, t: Tree, values: Mapping[Tree, int], p: int) -> int:
         """The residue of an expression in parameters, by values of what it is made of."""
         source = ResidueSource(p, 1, 0)
         leaves = {x: source.constant(v) for x, v in values.items()}
-        return int(Tape(t, self.functions).at(leaves, source, Functions(source)).value.values[0])
+        found: Residues = Tape(t, self.functions).at(leaves, source, Functions(source)).value
+        return found.values[0]

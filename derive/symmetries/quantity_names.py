@@ -6,6 +6,7 @@ from collections import Counter
 
 from ..language.tree import Tree
 from .found import Found
+from .scalar_lagrangian import by_state
 from .symmetry import Symmetry
 from .tree_matrices import full
 
@@ -19,15 +20,25 @@ NAMES = {
 }
 """What is kept by a symmetry of a kind; by another it has the name of the kind."""
 
+CIRCULATION = "circulation"
+"""What is kept by a relabelling of a body that its group deforms, be it a turn or not."""
+
 
 def named(found: Found) -> dict[str, Tree]:
     """Name → the quantity, in Π_a, h̃, t, the entries of g and the parameters.
 
     ``momentum_1`` …: along an axis, if all of a kind are; else numbered; alone without a number.
     """
-    bases = [NAMES.get(x.kind, x.kind) for x in found.symmetries]
+    relabelled = [found.of_points and relabels(x) for x in found.symmetries]
+    bases = [
+        CIRCULATION if is_one else NAMES.get(x.kind, x.kind)
+        for x, is_one in zip(found.symmetries, relabelled, strict=True)
+    ]
     many = Counter(bases)
-    axes = [axis(x) for x in found.symmetries]
+    axes = [
+        axis_of_relabelling(x) if is_one else axis(x)
+        for x, is_one in zip(found.symmetries, relabelled, strict=True)
+    ]
     by_axis = {
         base: all(own) and len({*own}) == len(own)
         for base in many
@@ -54,6 +65,32 @@ def axis(x: Symmetry) -> str:
         return str(places[0][0]) if len(places) == 1 else ""
     if not x.kind.startswith("rotation") or len(places) != 2 or places[0] != places[1][::-1]:
         return ""
-    i, j = places[0]
+    return _axis_of_plane(x, *places[0])
+
+
+def relabels(x: Symmetry) -> bool:
+    """Of a body of points: does it change their labels alone, δA = −AX with XJ + JX̄ = 0?
+
+    ½ Tr(Z J Z̄ C) is left as it is where Tr Z(XJ + JX̄)Z̄C = 0; with all Z = uv̄, ⟨u, v⟩ = 0, among
+    the velocities, as where all maps that keep the volume are in the group, XJ + JX̄ = 0.
+    """
+    if x.kind not in ("rotation_body", "deformation_body"):
+        return False
+    X = x.still[1]
+    return all(
+        factor.keeps_no_more_than_volume
+        for offset, factor in x.group.places
+        if full([row[offset : offset + factor.size] for row in X])
+    )
+
+
+def axis_of_relabelling(x: Symmetry) -> str:
+    """That of the skew W in X = WJ⁻¹, by the rows of X; empty where W turns more than a plane."""
+    rows = [i for i, row in enumerate(x.still[1], 1) if any(by_state(y) != 0 for y in row)]
+    return _axis_of_plane(x, *rows) if len(rows) == 2 else ""
+
+
+def _axis_of_plane(x: Symmetry, i: int, j: int) -> str:
+    """The number of the axis of R³ about which a plane turns, else the two numbers of the plane."""
     spatial = [factor.n for _, factor in x.group.places] == [3]
     return str(6 - i - j) if spatial else f"{i}{j}"

@@ -8,14 +8,12 @@ from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm
 
-import numpy as np
-
-from ..algebra.exact_kernel import kernel, rational
-from ..algebra.residue_arrays import Array
+from ..algebra.exact_kernel import Rows, kernel, rational
+from ..algebra.residue_vectors import Residues
 from ..language.tree import Tree, coefficient, mul, plain, terms
 from ..problem.problem import ProblemError
 from .conditions import Conditions
-from .in_parameters import Quotient, Samples, quantities, quotients_of
+from .in_parameters import Quotient, Samples, constant, quantities, quotients_of
 from .scalar_lagrangian import by_state, of_parameters
 from .sparse_vectors import Columns, independent, sparse, vector
 
@@ -37,20 +35,20 @@ class Search:
     def __init__(self, system: Conditions):
         self.system, self.primes = system, system.parameters.primes
         self.p = self.primes[0]
-        self._others: dict[int, tuple[dict[Tree, int], Array]] = {}
+        self._others: dict[int, tuple[dict[Tree, int], Rows]] = {}
         self.shapes: list[Columns] = []
         ((_, rows),) = system.systems(1, self.p, 1)
-        found, free = kernel(rows, self.p)
+        found, free = kernel(rows, system.unknowns.count, self.p)
         first = system.unknowns.first_field
-        kept = [k for k, c in enumerate(free) if c >= first]
-        self.free = [free[k] for k in kept]
-        self.support = [int(c) for c in np.flatnonzero(found[kept].any(axis=0))] if kept else []
+        kept = [x for x, c in zip(found, free, strict=True) if c >= first]
+        self.free = [c for c in free if c >= first]
+        self.support = [c for c, column in enumerate(zip(*kept, strict=True)) if any(column)]
 
-    def at(self, count: int, seed: int) -> list[tuple[dict[Tree, int], Array]]:
+    def at(self, count: int, seed: int) -> list[tuple[dict[Tree, int], Rows]]:
         """Random parameters, and the kernel there on the columns of its support."""
         found = []
         for values, rows in self.system.systems(count, self.p, seed, self.support):
-            basis, free = kernel(rows, self.p)
+            basis, free = kernel(rows, len(self.support), self.p)
             if [self.support[c] for c in free] != self.free:
                 raise ProblemError(
                     f"{self.system.problem.name}: there are not as many symmetries for all "
@@ -59,24 +57,26 @@ class Search:
             found.append((values, self._shaped(basis, self.p)))
         return found
 
-    def _shaped(self, basis: Array, p: int) -> Array:
+    def _shaped(self, basis: Rows, p: int) -> Rows:
         """The kernel by other vectors, where these have been chosen."""
-        return np.array([vector(basis, x, p) for x in self.shapes]) if self.shapes else basis
+        return [vector(basis, x, p) for x in self.shapes] if self.shapes else basis
 
     @cached_property
-    def samples(self) -> tuple[list[dict[Tree, int]], Array]:
-        """Values of the parameters, and the kernel for each: samples × symmetries × support."""
+    def samples(self) -> tuple[list[dict[Tree, int]], list[list[Residues]]]:
+        """Values of the parameters, and the kernel, symmetries × support, for all of them."""
         found = self.at(2, 2)
-        if (found[0][1] != found[1][1]).any():
+        if found[0][1] != found[1][1]:
             found += self.at(SAMPLES, 3)
-        return [x for x, _ in found], np.array([x for _, x in found])
+        rows = zip(*(basis for _, basis in found), strict=True)
+        table = [[Residues([*x], self.p) for x in zip(*row, strict=True)] for row in rows]
+        return [x for x, _ in found], table
 
     @cached_property
     def known(self) -> dict[Tree, Samples]:
         """The residues of the quantities that depend on parameters alone, for each sample."""
         trees = quantities(self.system.tape, of_parameters)
         values = self.samples[0]
-        return {t: np.array([self._value(t, x) for x in values]) for t in trees}
+        return {t: Residues([self._value(t, x) for x in values], self.p) for t in trees}
 
     def _value(self, t: Tree, values: Mapping[Tree, int]) -> int:
         return self.system.parameters.at(t, values, self.p)
@@ -96,15 +96,20 @@ class Search:
 
     def _sparse_solutions(self) -> list[Solution | None]:
         """Independent ones among vectors with many zeros, as far as they are found."""
-        tried = sparse(self.samples[1][0], self.p)
+        tried = sparse(self._first(), self.p)
         self._choose(tried)
-        rows, found, chosen = self.samples[1][0], list[Solution | None](), list[int]()
+        rows, found, chosen = self._first(), list[Solution | None](), list[int]()
         for k in range(len(tried)):
-            if independent(rows[[*chosen, k]], self.p) and (x := self._solution(k)):
+            rank = independent([rows[i] for i in (*chosen, k)], self.p)
+            if rank and (x := self._solution(k)):
                 found.append(x)
                 chosen.append(k)
         self._choose([tried[k] for k in chosen])
         return found
+
+    def _first(self) -> Rows:
+        """The kernel for the first of the values."""
+        return [[x.values[0] for x in row] for row in self.samples[1]]
 
     def _choose(self, shapes: list[Columns]) -> None:
         """Takes other vectors of the kernel."""
@@ -113,13 +118,12 @@ class Search:
         self._others.clear()
 
     def _solution(self, k: int) -> Solution | None:
-        table = self.samples[1][:, k, :]
         found = {}
-        for j, column in enumerate(self.support):
-            if table[:, j].any():
-                guesses = quotients_of(table[:, j], self.known, self.p)
+        for j, (column, x) in enumerate(zip(self.support, self.samples[1][k], strict=True)):
+            if x:
+                guesses = quotients_of(x, self.known, self.p)
                 quotient = self._constant(k, j) or next(
-                    (x for x in guesses if self._holds(x, k, j)), None
+                    (y for y in guesses if self._holds(y, k, j)), None
                 )
                 if quotient is None:
                     return None
@@ -129,8 +133,7 @@ class Search:
     def _constant(self, k: int, j: int) -> Quotient | None:
         """The number that a coefficient is for all parameters, by as many primes as it needs:
         rational, or a multiple of a root of a number."""
-        column = self.samples[1][:, k, j]
-        if (column != column[0]).any():
+        if not constant(self.samples[1][k][j]):
             return None
         for t in (1, *self.system.parameters.roots_of_numbers):
             x = self._multiple_of(t, k, j)
@@ -143,9 +146,7 @@ class Search:
         residues: list[int] = []
         for count, p in enumerate(self.primes, 1):
             values, basis = self._modulo(p)
-            residues.append(
-                int(basis[k, j]) * pow(self.system.parameters.at(t, values, p), -1, p) % p
-            )
+            residues.append(basis[k][j] * pow(self.system.parameters.at(t, values, p), -1, p) % p)
             if count > 1 and (x := rational(residues, self.primes[:count])) is not None:
                 return x
         return None
@@ -155,13 +156,13 @@ class Search:
         p = self.primes[1]
         values, basis = self._modulo(p)
         above, below = (self.system.parameters.at(t, values, p) for t in quotient)
-        return (above - below * int(basis[k, j])) % p == 0
+        return (above - below * basis[k][j]) % p == 0
 
-    def _modulo(self, p: int) -> tuple[dict[Tree, int], Array]:
+    def _modulo(self, p: int) -> tuple[dict[Tree, int], Rows]:
         """Random parameters, and the kernel there, modulo another prime."""
         if p not in self._others:
             ((values, rows),) = self.system.systems(1, p, 4, self.support)
-            self._others[p] = values, self._shaped(kernel(rows, p)[0], p)
+            self._others[p] = values, self._shaped(kernel(rows, len(self.support), p)[0], p)
         return self._others[p]
 
 

@@ -6,12 +6,11 @@ three numbers of W vanish; the reduced echelon form mixes these.
 
 from __future__ import annotations
 
-import numpy as np
+from random import Random
 
-from ..algebra.exact_kernel import echelon
-from ..algebra.residue_arrays import Array
+from ..algebra.exact_kernel import Rows, echelon, pivots
 
-ORDERS = 60
+ORDERS = 200
 """So many orders of the columns are tried."""
 
 MOST = 40
@@ -21,31 +20,32 @@ Columns = tuple[int, ...]
 """Where a vector is 1, then where it is 0: as many as the dimension, which determines it."""
 
 
-def vector(basis: Array, columns: Columns, p: int) -> Array:
+def vector(basis: Rows, columns: Columns, p: int) -> list[int]:
     """The vector of the span of independent rows that is 1 and 0 at these columns."""
-    order = [*columns, *(c for c in range(basis.shape[1]) if c not in columns)]
-    reduced, _ = echelon(basis[:, order], p)
-    found = np.zeros(basis.shape[1], np.int64)
-    found[order] = reduced[0]
-    return found
+    width = len(basis[0])
+    order = [*columns, *(c for c in range(width) if c not in columns)]
+    reduced, _ = echelon(_permuted(basis, order), width, p)
+    return [x for _, x in sorted(zip(order, reduced[0], strict=True))]
 
 
-def sparse(basis: Array, p: int) -> list[Columns]:
+def sparse(basis: Rows, p: int) -> list[Columns]:
     """Vectors of the span with many zeros, those with most first: rows of echelon forms."""
-    random, width = np.random.default_rng(0), basis.shape[1]
-    found: dict[bytes, tuple[int, Columns]] = {}
+    random, width = Random(0), len(basis[0])
+    found: dict[frozenset[int], Columns] = {}
     for _ in range(ORDERS):
-        order = random.permutation(width)
-        reduced, pivots = echelon(basis[:, order], p)
-        columns = [int(order[c]) for c in pivots]
+        order = sorted(range(width), key=lambda _: random.random())
+        reduced, leading = echelon(_permuted(basis, order), width, p)
+        columns = [order[c] for c in leading]
         for k, row in enumerate(reduced):
-            x = np.zeros(width, bool)
-            x[order] = row != 0
-            shape = (columns[k], *columns[:k], *columns[k + 1 :])
-            found.setdefault(x.tobytes(), (int(x.sum()), shape))
-    return [shape for _, shape in sorted(found.values(), key=lambda entry: entry[0])][:MOST]
+            support = frozenset(c for c, x in zip(order, row, strict=True) if x)
+            found.setdefault(support, (columns[k], *columns[:k], *columns[k + 1 :]))
+    return [found[x] for x in sorted(found, key=lambda x: (len(x), sorted(x)))][:MOST]
 
 
-def independent(basis: Array, p: int) -> bool:
+def _permuted(basis: Rows, order: list[int]) -> Rows:
+    return [[row[c] for c in order] for row in basis]
+
+
+def independent(basis: Rows, p: int) -> bool:
     """Are rows independent modulo p?"""
-    return len(echelon(basis, p)[1]) == len(basis)
+    return len(pivots(basis, len(basis[0]), p)) == len(basis)

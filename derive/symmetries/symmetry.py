@@ -211,13 +211,30 @@ def _combined(size: int, weighted: Iterable[tuple[Tree, Sequence[Sequence[Fracti
             for j, x in enumerate(row):
                 if x:
                     rows[i][j].append(mul(plain(Fraction(x)), c))
-    return tuple(tuple(add(*x) for x in row) for row in rows)
+    return tuple(tuple(_sum(x) for x in row) for row in rows)
+
+
+def _sum(parts: Sequence[Tree]) -> Tree:
+    """The sum of the coefficients in an entry: 0 where they cancel."""
+    whole = add(*parts)
+    return 0 if len(parts) > 1 and by_state(whole) == 0 else whole
 
 
 def _leading_sign(m: Entries) -> int:
-    """The sign of the first entry that is not 0; of a skew matrix, of the turn, which is positive
-    from e_1 to e_2, e_2 to e_3, e_3 to e_1 and so on."""
-    i, j, x = next((i, j, x) for i, row in enumerate(m) for j, x in enumerate(row) if x != 0)
-    sign = -1 if coefficient(terms(x)[0])[0] < 0 else 1
-    skew = j < len(m) and by_state(add(x, m[j][i])) == 0
-    return sign * (-1) ** (i + j) if skew else sign
+    """The sign of the first entry that is not 0; of a skew matrix, or of WM with a turn W of a
+    plane and a positive M, that of the turn, which is positive from e_1 to e_2, e_2 to e_3, e_3 to
+    e_1 and so on."""
+    places = [(i, j) for i, row in enumerate(m) for j, x in enumerate(row) if by_state(x) != 0]
+    rows = sorted({i for i, _ in places})
+    if len(rows) == 2 and _sign(m, *rows) == -_sign(m, *rows[::-1]) != 0:
+        i, j = rows
+        return -_sign(m, i, j) if (i + j) % 2 else _sign(m, i, j)
+    i, j = places[0]
+    skew = j < len(m) and by_state(add(m[i][j], m[j][i])) == 0
+    return -_sign(m, i, j) if skew and (i + j) % 2 else _sign(m, i, j)
+
+
+def _sign(m: Entries, i: int, j: int) -> int:
+    """That of an entry: of the first of its terms."""
+    x = by_state(m[i][j])
+    return 0 if x == 0 else -1 if coefficient(terms(x)[0])[0] < 0 else 1

@@ -14,16 +14,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 
-import numpy as np
-
-from ..algebra.exact_kernel import echelon, kernel, rational
+from ..algebra.exact_kernel import kernel, pivots, rational
 from ..algebra.groups import Group
-from ..algebra.residue_arrays import PRIMES, Array, Residues, ResidueSource
+from ..algebra.residue_vectors import PRIMES, Residues, ResidueSource
 from ..language import rational as q
 from ..language.rational import Matrix
 
-EXTRA = 20
-"""So many random points more than there are unknowns: what vanishes at all of them vanishes."""
+EXTRA = 6
+"""So many random points more than there are unknowns: what vanishes at all of them vanishes, as a
+wrong solution would meet with a chance of about 1/p at each."""
 
 
 @dataclass(frozen=True)
@@ -55,20 +54,21 @@ def tangent_fields(group: Group) -> tuple[TangentField, ...]:
     return (*mixed[::-1], *[x for x in right if x in kept][::-1], *list(left)[::-1])
 
 
-def independent(vectors: Sequence[Array]) -> list[int]:
+def independent(vectors: Sequence[Sequence[int]]) -> list[int]:
     """The places of vectors that are no combinations of earlier ones, modulo a prime."""
-    return echelon(np.array(vectors).T, PRIMES[0])[1]
+    return pivots(zip(*vectors, strict=True), len(vectors), PRIMES[0])
 
 
-def _values(field: TangentField, group: Group) -> Array:
+def _values(field: TangentField, group: Group) -> list[int]:
     """The values of a field at some elements of the group, in one list."""
     g = _element(group, group.size**2)
     value = q.minus(q.times(field.Y, g), q.times(g, field.X))
-    return np.concatenate([_array(x, len(g[0][0].values)) for row in value for x in row])
+    return [y for row in value for x in row for y in _at_all(x, len(g[0][0].values))]
 
 
-def _array(x: object, points: int) -> Array:
-    return x.values if isinstance(x, Residues) else np.zeros(points, np.int64)
+def _at_all(x: object, points: int) -> list[int]:
+    """The values of a number at the points, 0 where it is none of them."""
+    return x.values if isinstance(x, Residues) else [0] * points
 
 
 @cache
@@ -81,7 +81,8 @@ def _element(group: Group, points: int, p: int = PRIMES[0]) -> Matrix:
 
 def _mixed(group: Group) -> list[TangentField]:
     """A basis of all pairs (Y, X) with g⁻¹Yg − X in 𝔤 for every g."""
-    s, found = group.size, [kernel(_tangency(group, p), p)[0].tolist() for p in PRIMES[:2]]
+    s = group.size
+    found = [kernel(_tangency(group, p), 2 * s**2, p)[0] for p in PRIMES[:2]]
     fields = []
     for residues in zip(*found, strict=True):
         entries = [rational(x, PRIMES[:2]) or Fraction(0) for x in zip(*residues, strict=True)]
@@ -90,7 +91,7 @@ def _mixed(group: Group) -> list[TangentField]:
     return fields
 
 
-def _tangency(group: Group, p: int) -> Array:
+def _tangency(group: Group, p: int) -> list[tuple[int, ...]]:
     """A row at each point of the group for the entries of Y and X: Tr N̄(g⁻¹Yg − X), which
     vanishes for every N normal to 𝔤; N is random there."""
     span, source = range(group.size), ResidueSource(p, 2 * group.size**2 + EXTRA, 2)
@@ -100,7 +101,7 @@ def _tangency(group: Group, p: int) -> Array:
         N = q.plus(N, q.scaled(source.randint(1, 1), normal))
     turned = q.times(q.times(g, q.transposed(N)), inverse(g, source))  # by Y_ij it is its ji
     columns = [turned[j][i] for i in span for j in span] + [-N[i][j] for i in span for j in span]
-    return np.array([_array(x, source.points) for x in columns]).T
+    return [*zip(*(_at_all(x, source.points) for x in columns), strict=True)]
 
 
 def _without_scaling(field: TangentField, group: Group) -> TangentField:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from ..language.layers import is_layered
@@ -36,14 +37,22 @@ SIZES = ("radius", "outer", "inner", "sides", "semi_axes", "quadric", "height", 
 """The sizes of a solid that are told in words."""
 
 
+LETTERS = "mcJr"
+"""The letters of the step of the integrals itself: a parameter of the same name is in quotes."""
+
+
 def body_step(
-    problem: Problem, points: Lagrangian | None, a: Alphabet, c: Chapter
+    problem: Problem,
+    points: Lagrangian | None,
+    a: Alphabet,
+    c: Chapter,
+    letters: str = LETTERS,
 ) -> tuple[Step, ...]:
     """The step that states the numbers of the body, after that of its integrals for solids; none
     where there is no body.
 
     ``points``: what is said of the points of any body, with the alphabet ``a``; ``None``: of these
-    integrals the moments alone are told.
+    integrals the moments alone are told; ``letters``: what a size must not be called in words.
     """
     body = problem.body
     steps: list[Step] = []
@@ -57,7 +66,7 @@ def body_step(
     elif isinstance(body, GivenBody):
         if body.solids:
             steps += [continuum(points, a, c)] if points else []
-            steps.append(_integrals(body.solids, c))
+            steps.append(_integrals(body.solids, c, letters))
         equations += _moments(body.given)
         given = say("body.given")
         prose = say("body.moments") if body.solids else given
@@ -109,44 +118,46 @@ def _moments(own: Moments) -> list[Equation]:
     ]
 
 
-def _described(s: Solid) -> Sentence:
+def _described(s: Solid, letters: str) -> Sentence:
     """A solid in words: kind, density, sizes, where it is."""
+    shown = partial(_size, letters=letters)
     if s.kind == "mesh":
         sizes = [
             phrase("integrals.count_of_vertices", count=str(len(s.sizes["vertices"]))),
             phrase("integrals.count_of_triangles", count=str(len(s.sizes["faces"]))),
         ]
     else:
-        told = {k: _rows(x) if k == "quadric" else _size(x) for k, x in s.sizes.items()}
+        told = {k: _rows(x, letters) if k == "quadric" else shown(x) for k, x in s.sizes.items()}
         sizes = [phrase(f"integrals.{k}", size=x) for k, x in told.items() if k in SIZES]
     solid = phrase(
         "integrals.layered" if is_layered(s.density) else "integrals.solid",
         kind=SOLIDS[s.kind],
-        density=_size(s.density),
+        density=shown(s.density),
         sizes=listed("{first}, {second}", sizes),
     )
     if s.rotation and s.shift:
         moved = "integrals.turned_and_shifted"
-        return phrase(moved, solid=solid, shift=_size(s.shift))
+        return phrase(moved, solid=solid, shift=shown(s.shift))
     if s.shift:
-        return phrase("integrals.shifted", solid=solid, shift=_size(s.shift))
+        return phrase("integrals.shifted", solid=solid, shift=shown(s.shift))
     return phrase("integrals.turned", solid=solid) if s.rotation else solid
 
 
-def _rows(x: Any) -> str:
-    return "; ".join(", ".join(map(_size, row)) for row in x)
+def _rows(x: Any, letters: str) -> str:
+    return "; ".join(", ".join(_size(y, letters) for y in row) for row in x)
 
 
-def _size(x: Any) -> str:
+def _size(x: Any, letters: str) -> str:
     if isinstance(x, tuple) and x and not isinstance(x[0], str):
-        return "(" + ", ".join(map(_size, x)) + ")"
-    return show(in_quotes(x, {*"mcJr"}))  # the letters of the step itself
+        return "(" + ", ".join(_size(y, letters) for y in x) + ")"
+    return show(in_quotes(x, {*letters}))
 
 
-def _integrals(solids: tuple[Solid, ...], c: Chapter) -> Step:
+def _integrals(solids: tuple[Solid, ...], c: Chapter, letters: str) -> Step:
+    told = [_described(x, letters) for x in solids]
     return c.draft("integrals", "definition").step(
         stated("m = ∫ dm,  c = ∫ r dm,  J = ∫ rr̄ dm"),
         say("integrals.moments")
-        + say("integrals.solids", solids=listed("{first}; {second}", [*map(_described, solids)])),
+        + say("integrals.solids", solids=listed("{first}; {second}", told)),
         (39,),
     )

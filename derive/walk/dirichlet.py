@@ -22,7 +22,6 @@ from ..algebra.determinants import determinant, determinant_letter
 from ..algebra.groups import Group
 from ..algebra.word_trees import WordNotation, tree_of
 from ..algebra.words import Expr, Factor, Letter, inner, number, trace, word
-from ..language import rational as q
 from ..language.derivatives import product, quotient
 from ..language.layers import is_layered
 from ..language.tree import Tree, add, mul, neg
@@ -60,7 +59,8 @@ def fluid_steps(
     solid, that a group of all maps that keep volumes moves; ``circulation`` and ``no_rotation``.
     Of a gas ``circulation`` alone; none elsewhere."""
     gas = any(isinstance(p, Volume) for p in problem.potentials)
-    if group.affine or group.factors or not (_keeps_volumes(group) or (gas and _moves_all(group))):
+    kept = "unimodular" in group.relations
+    if group.affine or group.factors or not group.keeps_no_more_than_volume or not (kept or gas):
         return ()
     body = problem.body
     solids = body.solids if isinstance(body, GivenBody) else ()
@@ -77,15 +77,6 @@ def fluid_steps(
     circulation = fluid.circulation()
     turned = (fluid.no_rotation(circulation),) if free and group.n % 2 else ()
     return (*told, circulation, *turned)
-
-
-def _keeps_volumes(group: Group) -> bool:
-    normal = group.normal_space_of_linear_parts
-    return len(normal) == 1 and group.normal_direction == q.identity(group.n)
-
-
-def _moves_all(group: Group) -> bool:
-    return not group.normal_space_of_linear_parts
 
 
 class _Fluid(FluidBody):

@@ -14,7 +14,7 @@ from ..record.vocabulary import DERIVATIVE_OF, VOCABULARY
 
 FREE = ("letter", "value on X", "function")
 """Roles of the names that the walk starts from, which no equation gives."""
-OPERATORS = ("δ", "δ′", "d/dt", "∫")
+OPERATORS = ("δ", "δ′", "d/dt", "∫", "grad")
 """The functions that the walk starts from."""
 
 

@@ -1,8 +1,8 @@
 """Run where the site is built, by the very Python that runs it: what the browser loads, compiled,
-in three parts as .tar.gz, the same bytes on any day.
+in parts as .tar.gz, the same bytes on any day.
 
 ``first``: what a walk needs, found by walking every ready-made problem; ``rest``: the other modules
-of the package; ``later``: libraries that little asks for.
+of the package; then the libraries that little asks for, each by its name.
 """
 
 import ast
@@ -52,13 +52,15 @@ def is_text(x: ast.stmt) -> bool:
     return constant and isinstance(x.value.value, str)
 
 
-def compiled(folder: Path) -> None:
-    """The modules of a folder as code, beside what else there is."""
-    for path in sorted(folder.rglob("*.py")):
+def compiled(folder: Path, optimize: int = 0) -> None:
+    """The modules of a folder as code, beside what else there is; ``optimize``: as Python's option
+    -O or -OO has it, which then takes the docstrings out."""
+    for path in sorted(folder.rglob("*.py")) if not optimize else ():
         undocumented(path)
     os.chdir(folder)
+    chosen = {"legacy": True, "optimize": optimize}
     mode = PycInvalidationMode.UNCHECKED_HASH
-    assert compileall.compile_dir(".", quiet=1, legacy=True, invalidation_mode=mode)
+    assert compileall.compile_dir(".", quiet=1, invalidation_mode=mode, **chosen)
     for path in sorted(folder.rglob("*.py")):
         path.unlink()
 
@@ -100,12 +102,24 @@ def listed(folder: Path) -> list[str]:
     return sorted(str(x) for x in found if "__pycache__" not in x.parts)
 
 
+def with_ctypes(folder: Path) -> None:
+    """The package ctypes of the standard library, which :func:`library` leaves out, beside the
+    library that asks for the sizes of numbers in C."""
+    with zipfile.ZipFile(standard()) as source:
+        source.extractall(folder, [f"ctypes/{x}.py" for x in ("__init__", "_endian")])
+
+
+def standard() -> str:
+    """The place of the standard library that Pyodide brings."""
+    (place,) = [x for x in sys.path if x.endswith(".zip")]
+    return place
+
+
 def library() -> bytes:
     """The standard library that Pyodide brings, compiled as by ``python -OO``, without what no
     program asks for that has no terminal, no processes and no network."""
     out = io.BytesIO()
-    (place,) = [x for x in sys.path if x.endswith(".zip")]
-    with zipfile.ZipFile(place) as source, zipfile.ZipFile(out, "w") as target:
+    with zipfile.ZipFile(standard()) as source, zipfile.ZipFile(out, "w") as target:
         for name in sorted(source.namelist()):
             if name.endswith("/") or LEFT_OUT.match(name):
                 continue
@@ -118,10 +132,13 @@ def library() -> bytes:
 
 
 def packs() -> dict[str, bytes]:
-    """Name → bytes, of the three parts."""
+    """Name → bytes, of the parts."""
     sys.dont_write_bytecode = True
     compiled(FIRST)
-    compiled(LATER)
+    later = sorted(LATER.iterdir())
+    with_ctypes(LATER / "sympy")
+    for folder in later:
+        compiled(folder, 2)
     needed = walked()
     every = listed(FIRST)
     first = [x for x in every if x in needed or (x.startswith(NEEDED) and not x.endswith(".pyc"))]
@@ -129,7 +146,7 @@ def packs() -> dict[str, bytes]:
     return {
         "first": packed(FIRST, first),
         "rest": packed(FIRST, rest),
-        "later": packed(LATER, listed(LATER)),
+        **{folder.name: packed(folder, listed(folder)) for folder in later},
         "library": library(),
     }
 

@@ -21,6 +21,7 @@ from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any
 
+import starts
 from places import line_of
 
 from derive.command.cli import derive, main
@@ -34,6 +35,8 @@ Tell = Callable[[str, str], None]
 FOLDER = Path("/problem")
 STORED = "amendments.pickle"
 """Where the problem file is written; a file of this site beside this module."""
+LATER = ("mpmath", "sympy")
+"""Libraries that are loaded when something asks for them."""
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,60}")
 SECONDS, TOLERANCE = 20.0, 1e-9
 """Of a motion."""
@@ -63,7 +66,7 @@ class Play:
             what = "out of memory" if isinstance(error, MemoryError) else "nested too deeply"
             self.fault(f"derive: {what}: the input is too large for this machine")
         except ImportError as error:
-            if (error.name or "").partition(".")[0] in ("derive", "mpmath"):
+            if (error.name or "").partition(".")[0] == "derive":
                 raise  # the worker loads it, and asks again
             self.fault("derive: this needs NumPy, which is not here")
         for line in err.getvalue().splitlines():
@@ -96,6 +99,9 @@ class Play:
             found = corrections(self.record)
             for piece in fragment([self.record], language=language(lang), findings=found):
                 self.tell("piece", piece)
+            for line in starts.faults(self.problem):
+                message = f"derive: {self.path.name}: {line}"
+                self.tell("warning", {"message": message, "line": line_of(message, text)})
             self.tell("walked", {})
 
     def check(self, text: str) -> None:
@@ -112,11 +118,13 @@ class Play:
             self.tell("checked", {})
 
     def plain(self, text: str) -> None:
-        """The data of a problem file, for the form; nothing where it is no TOML."""
+        """The text of a problem file, for the form, and whether it is TOML."""
         try:
-            self.tell("plain", tomllib.loads(text))
-        except (tomllib.TOMLDecodeError, RecursionError, TypeError, ValueError):
-            self.tell("plain", None)
+            tomllib.loads(text)
+        except (RecursionError, ValueError):
+            self.tell("plain", {"text": text, "read": False})
+        else:
+            self.tell("plain", {"text": text, "read": True})
 
     def files(self, text: str, words: str) -> bytes | None:
         """The files that a command writes, as a zip; ``words``: the command after its name, in
@@ -141,27 +149,58 @@ class Play:
         return zipped(written) if written else None
 
     def motion(self, text: str, lang: str) -> None:
-        """The emitted JavaScript, and what the page of a motion is told."""
+        """The emitted JavaScript, and what the page of a motion is told; of what it keeps the
+        energy alone, so that the body moves at once."""
+        from derive.page.motion_page import pieces
+
+        with self.refusals():
+            source, page = self.moved(text, lang, sought=False)
+            self.tell("motion", {"source": source, "page": page, "pieces": pieces(page["body"])})
+
+    def kept(self, text: str, lang: str) -> None:
+        """The emitted JavaScript with all that the motion keeps, and its words; nothing where that
+        is the energy alone."""
+        with self.refusals():
+            source, page = self.moved(text, lang, sought=True)
+            if page["kept"]:
+                self.tell("kept", {"source": source, "kept": page["kept"]})
+
+    def moved(self, text: str, lang: str, *, sought: bool) -> tuple[str, dict[str, Any]]:
+        """The emitted JavaScript of a motion, and what its page is told; is it ``sought`` what the
+        motion keeps?"""
         from derive.code.emit import emit
         from derive.code.options import Options
         from derive.motion.emitted_code import EmittedCode, in_si
         from derive.motion.first_numbers import first_numbers
-        from derive.page.motion_page import data, pieces
+        from derive.page.motion_page import data
         from derive.pipeline import moving_program
         from derive.views.language import language
 
-        with self.refusals():
-            self.read(text)
-            made, _ = moving_program(self.problem, self.record)
-            code = EmittedCode(made, self.record, in_si(self.problem))
-            begin = first_numbers(with_numbers(made), self.problem, {})
-            chosen = Options(step=("gauss",))
-            (source,) = emit(made, self.record, ("javascript",), made.name, chosen).values()
-            page = data(code, self.problem, self.record, begin, language(lang))
-            page |= {"t": SECONDS, "tol": TOLERANCE}
-            page["x"] = moving(page, made)
-            told = {"source": source, "page": page, "pieces": pieces(page["body"])}
-            self.tell("motion", told)
+        self.read(text)
+        made, _ = moving_program(self.problem, self.record, sought=sought)
+        code = EmittedCode(made, self.record, in_si(self.problem))
+        begin = first_numbers(with_numbers(made), self.problem, {})
+        chosen = Options(step=("gauss",))
+        (source,) = emit(made, self.record, ("javascript",), made.name, chosen).values()
+        page = data(code, self.problem, self.record, begin, language(lang))
+        page |= {"t": SECONDS, "tol": TOLERANCE}
+        page["x"] = moving(page, made)
+        return source, page
+
+
+class NotYet(BaseException):
+    """A library is not there, and can be loaded: no handler of errors stops it, so that the worker
+    loads it, and asks again."""
+
+
+class Later:
+    """The finder of modules that is asked last."""
+
+    @staticmethod
+    def find_spec(name: str, path: object = None, target: object = None) -> None:
+        """None; ``NotYet`` for a library that can be loaded."""
+        if name in LATER:
+            raise NotYet(f"No module named {name!r}")
 
 
 def corrections(record: Derivation) -> list[Finding]:
@@ -225,3 +264,5 @@ def zipped(files: dict[str, bytes]) -> bytes:
 
 
 sys.setrecursionlimit(max(sys.getrecursionlimit(), 1000))
+if sys.platform == "emscripten":
+    sys.meta_path.append(Later())  # type: ignore[arg-type]

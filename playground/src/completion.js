@@ -1,51 +1,80 @@
 /* What may stand at a place of a problem file, from the tables of the package. */
+import { velocity } from "./state.js";
 
-/* the table that a line stands in: { name, kind } from the header and the key kind or solid */
+const KIND = /^\s*(?:kind|solid)\s*=\s*"(\w+)"/;
+
+/* the table that a line stands in: its name and kind */
 function table(doc, number) {
   let name = "", kind = "", n = number;
   for (; n >= 1; --n) {
     const header = doc.line(n).text.match(/^\s*\[+\s*([\w.]+)/);
     if (header) {
-      name = header[1].split(".").at(-1);
+      [name] = header[1].split(".");
       break;
     }
   }
   for (let k = n + 1; k <= doc.lines; ++k) {
     const { text } = doc.line(k);
     if (/^\s*\[/.test(text)) break;
-    kind ||= text.match(/^\s*(?:kind|solid)\s*=\s*"(\w+)"/)?.[1] ?? "";
+    kind ||= text.match(KIND)?.[1] ?? "";
   }
   return { name, kind };
 }
 
-function keys(schema, { name, kind }) {
-  if (!name) return schema.top;
-  if (name === "potential") return ["kind", ...(schema.potential[kind] ?? [])];
-  if (name === "solid") return ["kind", ...(schema.solid[kind] ?? [])];
+function keys(schema, { name, kind }, whole) {
+  if (!name) return schema.top.filter((x) => !schema.many.includes(x) && (!schema.single.includes(x) || x === "group"));
+  if (name === "initial") return [...velocity(schema, whole), "exp"];
   if (name === "body") return ["moments", "given", "solid", ...(schema.solid[kind] ?? [])];
+  if (schema[name] && !schema.tables[name]) return ["kind", ...(schema[name][kind] ?? [])];
+  if (name === "parameters") return [];
   return schema.tables[name] ?? [];
 }
 
-function groups(schema) {
-  return Object.entries(schema.groups).flatMap(([name, [least, most, detail]]) =>
-    [2, 3, 4].filter((n) => n >= least && n <= most).map((n) => ({ label: `${name}(${n})`, detail, type: "class" })));
+const groups = (schema) => schema.named.map((label, k) => ({ label, detail: schema.groups[label].meaning, type: "class", sortText: order(k) }));
+const order = (k) => String(k).padStart(3, "0");
+const plain = (labels, type) => labels.map((label) => ({ label, type }));
+
+/* the values of a key, where it has few */
+function values(schema, key, name) {
+  if ((key === "group" && !name) || (key === "of" && name === "algebra")) return groups(schema);
+  if (key === "kind") return plain(Object.keys(schema[name === "solid" || name === "input" ? name : "potential"]), "enum");
+  if (key === "solid" && name === "body") return plain(Object.keys(schema.solid), "enum");
+  if (key === "density" && name !== "fluid") return [];
+  return plain(schema.values[key] ?? [], "enum");
+}
+
+/* a header, with its own brackets and no others */
+function headers(schema, line, before, pos) {
+  const [, open, word] = before.match(/^\s*(\[+)(\w*)$/), after = line.text.slice(before.length).match(/^\w*\]*/)[0];
+  const labels = open === "[" ? schema.single : schema.many, close = "]".repeat(open.length);
+  const options = plain(labels, "namespace").map((x) => ({ ...x, apply: (view, _, from) => {
+    const insert = `${x.label}${close}`;
+    view.dispatch({ changes: { from, to: line.from + before.length + after.length, insert }, selection: { anchor: from + insert.length }, userEvent: "input.complete" });
+  } }));
+  return { from: pos - word.length, options };
 }
 
 export const completions = (schema) => (context) => {
   const { doc } = context.state, line = doc.lineAt(context.pos), before = line.text.slice(0, context.pos - line.from);
-  const plain = (labels, type) => labels.map((label) => ({ label, type }));
-  const value = before.match(/^\s*(\w+)\s*=\s*"([^"]*)$/);
+  const here = () => table(doc, line.number);
+  if (/^\s*\[{1,2}\w*$/.test(before)) return headers(schema, line, before, context.pos);
+  const value = before.match(/^\s*(\w+)\s*=\s*("?)([^"]*)$/);
   if (value) {
-    const here = table(doc, line.number), from = context.pos - value[2].length;
-    if (value[1] === "group") return { from, options: groups(schema) };
-    if (value[1] === "kind") return { from, options: plain(Object.keys(here.name === "solid" ? schema.solid : schema.potential), "enum") };
-    if (value[1] === "solid") return { from, options: plain(Object.keys(schema.solid), "enum") };
-    return null;
+    const [, key, quote, word] = value, options = values(schema, key, here().name);
+    if (!options.length || (!quote && word)) return null;
+    const closed = line.text.slice(before.length).startsWith('"');
+    return { from: context.pos - word.length, options: quote ? options.map((x) => (closed ? x : { ...x, apply: `${x.label}"` })) : options.map((x) => ({ ...x, apply: `"${x.label}"` })) };
   }
-  const header = before.match(/^\s*\[+(\w*)$/);
-  if (header) return { from: context.pos - header[1].length, options: plain(schema.top, "namespace") };
+  const inline = before.match(/[{,]\s*(\w*)$/);
+  if (inline && here().name === "parameters" && /^\s*\w+\s*=\s*\{/.test(before)) {
+    return { from: context.pos - inline[1].length, options: schema.tables.parameters.map((label) => ({ label, type: "property", apply: `${label} = ` })) };
+  }
   const word = before.match(/^\s*(\w*)$/);
   if (!word || (!word[1] && !context.explicit)) return null;
-  const options = keys(schema, table(doc, line.number)).map((label) => ({ label, type: "property", apply: `${label} = ` }));
+  const again = (view, x, from, to) => {
+    view.dispatch({ changes: { from, to, insert: `${x.label} = ` }, selection: { anchor: from + x.label.length + 3 }, userEvent: "input.complete" });
+    if (values(schema, x.label, here().name).length) schema.start?.(view);
+  };
+  const options = keys(schema, here(), doc.toString()).map((label, k) => ({ label, type: "property", apply: again, sortText: order(k) }));
   return { from: context.pos - word[1].length, options };
 };

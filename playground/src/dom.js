@@ -36,3 +36,12 @@ export async function copy(text, button, done) {
   button.textContent = done;
   setTimeout(() => { button.textContent = before; }, 1200);
 }
+
+/* a choice that the browser keeps for the next visit */
+export function kept(name, value) {
+  try {
+    if (value === undefined) return localStorage.getItem(name);
+    localStorage.setItem(name, value);
+  } catch { /* a browser that keeps nothing */ }
+  return null;
+}

@@ -1,22 +1,35 @@
 /* The walk, in a tree of its own with the style of the notes: pieces of markup as they come, ticks, copies. */
+import { copies, moved } from "./copies.js";
 import { copy, make } from "./dom.js";
+
+const MATHML = "http://www.w3.org/1998/Math/MathML";
 
 const STYLE = `
 :host { display: block; overflow-wrap: break-word; font: 1.0625rem/1.55 Charter, "Bitstream Charter", "Sitka Text", Cambria, Georgia, serif; }
 article { content-visibility: auto; contain-intrinsic-size: auto 9rem; }
 .tick { color: var(--right); font-size: .85rem; font-weight: 400; }
 .tick.wrong { color: var(--wrong); }
+article:focus { outline: 0; }
+.aimed > h3 { background: color-mix(in srgb, var(--mark) 12%, transparent); }
 button { opacity: 1; min-height: 24px; min-width: 24px; }
 h1:first-child { margin-top: 0; }
 a { text-decoration: underline; text-underline-offset: .15em; text-decoration-thickness: from-font; }
 a:focus-visible, button:focus-visible, summary:focus-visible { outline: 2px solid var(--mark); outline-offset: 1px; }
 @media (min-width: 68rem) { .printed { position: static; width: auto; } .printed > span { display: inline; } }
+@media (max-width: 40rem) {
+  .equation { padding-right: 0; }
+  .right { flex: 1 1 55%; }
+  .number { position: static; flex: 1 0 100%; }
+  .number button { display: inline-block; }
+}
 `;
 
 export class Equations {
   #root;
   #open = null;
   #words;
+  #host;
+  #bar;
   /* what is wider than its box can be moved by keys */
   #seen = new IntersectionObserver((found) => {
     for (const { target } of found) {
@@ -24,15 +37,22 @@ export class Equations {
     }
   });
 
-  constructor(host, css) {
+  /* bar: what the walk moves under; go: what a link to a step does */
+  constructor(host, css, bar, go) {
+    this.#host = host;
+    this.#bar = bar;
+    this.wanted = go;
     this.#root = host.attachShadow({ mode: "open" });
     const sheet = new CSSStyleSheet();
     sheet.replaceSync(css + STYLE);
     this.#root.adoptedStyleSheets = [sheet];
     this.#root.addEventListener("click", (e) => this.#clicked(e));
+    this.#root.addEventListener("keydown", (e) => { if (moved(this.#root, e.target.closest("button"), e.key)) e.preventDefault(); });
   }
 
   get root() { return this.#root; }
+
+  get title() { return this.#root.querySelector("h1")?.textContent ?? ""; }
 
   /* begin anew; markup that comes in pieces is parsed as a page is that is loading */
   begin(words, lang) {
@@ -57,11 +77,15 @@ export class Equations {
     this.#open = null;
     for (const summary of this.#root.querySelectorAll("summary")) unlinked(summary);
     for (const wide of this.#root.querySelectorAll(".wide")) this.#seen.observe(wide);
-    for (const button of this.#root.querySelectorAll("button[data-tex]")) {
-      button.setAttribute("aria-label", `${this.#words.tex} ${button.parentElement.textContent.trim()}`);
-      const other = make("button", { type: "button", title: this.#words.mathml }, "MathML");
-      other.setAttribute("aria-label", `${this.#words.mathml} ${button.parentElement.textContent.trim()}`);
-      button.after(" ", other);
+    told(this.#root, this.#words);
+    copies(this.#root, this.#words);
+  }
+
+  /* let the links in the walk be addresses, which may be opened elsewhere; address: id → address */
+  linked(address) {
+    for (const link of this.#root.querySelectorAll("a[href^='#']")) {
+      link.dataset.to ??= link.getAttribute("href").slice(1);
+      link.setAttribute("href", address(link.dataset.to));
     }
   }
 
@@ -77,16 +101,16 @@ export class Equations {
   tick({ id, holds, bound, reason }) {
     const place = this.#root.getElementById(id)?.querySelector("h3 .rule");
     if (!place) return;
-    const text = holds ? `✓ < ${bound}` : "✗";
-    const title = holds ? this.#words.holds(bound) : `${this.#words.fails}: ${reason}`;
-    place.after(" ", make("span", { class: holds ? "tick" : "tick wrong", title }, text));
+    const text = holds ? `✓ < ${power(bound)}` : "✗";
+    const title = holds ? this.#words.holds(power(bound)) : `${this.#words.fails}: ${reason}`;
+    place.after(" ", make("span", { class: holds ? "tick" : "tick wrong", title, role: "img", "aria-label": title }, text));
   }
 
   #clicked(e) {
-    const link = e.target.closest("a[href^='#']"), button = e.target.closest("button");
-    if (link) {
+    const link = e.target.closest("a[data-to]"), button = e.target.closest("button");
+    if (link && !e.ctrlKey && !e.metaKey && !e.shiftKey) {
       e.preventDefault();
-      this.go(link.getAttribute("href").slice(1));
+      this.wanted(link.dataset.to);
     } else if (button?.dataset.tex) {
       copy(button.dataset.tex, button, "✓");
     } else if (button) {
@@ -94,12 +118,72 @@ export class Equations {
     }
   }
 
+  /* where the reader is: the step under the bar, and how far below it that begins; nothing where there is no step */
+  at() {
+    if (this.#open) return null;
+    const edge = this.#edge();
+    for (const step of this.#root.querySelectorAll("header, article")) {
+      const { top, bottom } = step.getBoundingClientRect();
+      if (bottom > edge + 1) return { id: step.id, by: Math.round(top - edge) };
+    }
+    return null;
+  }
+
+  /* Go to where at() was, by default the beginning; a second time when what came into sight has its height. */
+  back({ id, by }) {
+    if (!id && by === undefined) return this.#scrolls().scrollTo(0, 0);
+    const place = id ? this.#root.getElementById(id) : this.#root.querySelector("header");
+    if (!place) return;
+    const here = () => this.#scrolls().scrollBy(0, place.getBoundingClientRect().top - this.#edge() - by);
+    place.scrollIntoView({ block: "start", behavior: "instant" });
+    here();
+    requestAnimationFrame(() => requestAnimationFrame(here));
+  }
+
+  /* go to a step, and mark it; is there such a one? */
   go(id) {
     const place = this.#root.getElementById(id);
-    if (!place) return;
-    place.scrollIntoView({ block: "start" });
+    if (!place) return false;
+    this.back({ id, by: 0 });
+    for (const marked of this.#root.querySelectorAll(".aimed")) marked.classList.remove("aimed");
+    place.classList.add("aimed");
     place.tabIndex = -1;
     place.focus({ preventScroll: true });
+    return true;
+  }
+
+  #edge() { return Math.max(0, this.#bar.getBoundingClientRect().bottom); }
+
+  /* on a phone the page is moved, else the walk in it */
+  #scrolls() { return getComputedStyle(this.#host).overflowY === "visible" ? window : this.#host; }
+}
+
+/* a number as a power of ten: 9e-38 */
+export function power(text) {
+  const [digits, exponent] = String(text).split("e");
+  const raised = (x) => [...x].map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)])).join("");
+  return exponent ? `${digits} × 10${raised(exponent.replace("+", ""))}` : digits;
+}
+
+/* "(26)*" at a step that has no correction: a link to the step that has it, or to the page of all */
+function told(root, words) {
+  const corrected = new Map();
+  for (const step of root.querySelectorAll("article")) {
+    const printed = step.querySelector(".printed");
+    const found = printed?.lastChild?.textContent.match(/\(\d+\)\*/g) ?? [];
+    const own = step.querySelector(".correction");
+    for (const number of found) {
+      if (own && !corrected.has(number)) corrected.set(number, step.id);
+      const to = own && corrected.get(number) === step.id ? "" : corrected.get(number);
+      if (to === "") continue;
+      const link = make("a", { href: to ? `#${to}` : "../trust.html#the-print-of-the-note", title: words.corrected }, "*");
+      link.setAttribute("aria-label", `${words.corrected} ${number.slice(0, -1)}`);
+      const text = [...printed.childNodes].find((x) => x.nodeType === 3 && x.data.includes(number));
+      if (!text) continue;
+      const rest = text.splitText(text.data.indexOf(number) + number.length - 1);
+      rest.data = rest.data.slice(1);
+      rest.before(link);
+    }
   }
 }
 
@@ -115,9 +199,24 @@ function unlinked(summary) {
   summary.after(list);
 }
 
-/* one equation as one formula */
+/* one equation as one formula, which needs no style of this page */
 export function mathml(equation) {
   const parts = [...equation.querySelectorAll("math")].filter((x) => !x.closest("button"));
-  const inside = parts.map((x) => `<mrow>${x.innerHTML}</mrow>`).join("");
-  return `<math xmlns="http://www.w3.org/1998/Math/MathML" display="block">${inside}</math>`;
+  const inside = parts.map((x) => `${x.closest(".clause") ? '<mspace width="1em"></mspace>' : ""}<mrow>${barred(x).innerHTML}</mrow>`);
+  return `<math xmlns="${MATHML}" display="block">${inside.join("").replaceAll("&nbsp;", "&#160;")}</math>`;
+}
+
+/* a formula whose bars are accents, not borders */
+function barred(math) {
+  const plain = math.cloneNode(true);
+  const element = (name, attributes, ...within) => {
+    const made = document.createElementNS(MATHML, name);
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+    made.append(...within);
+    return made;
+  };
+  for (const row of plain.querySelectorAll(".overline")) {
+    row.replaceWith(element("mover", { accent: "true" }, element("mrow", {}, ...row.childNodes), element("mo", { stretchy: "true" }, "‾")));
+  }
+  return plain;
 }

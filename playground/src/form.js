@@ -1,146 +1,264 @@
-/* A form that writes a problem file: group, body, forces, parameters. It shows what it can write, and no other file. */
+/* A form that writes a problem file: group, body, forces, start, parameters. It edits the text of these tables, and leaves
+ * all others and comments as they are. */
+import { about, declared, parameters, withDefault, withoutParameter } from "./declared.js";
 import { make } from "./dom.js";
+import { bodies, bodyOf, fitted, force } from "./made.js";
+import { entry, lineAt, put, raw, tables, uncommented, withTable, without } from "./source.js";
+import { velocity } from "./state.js";
+import { listed, numeral, shown, toml } from "./values.js";
 
-const TOP = ["name", "title", "group", "parameters", "point", "body", "solid", "potential"];
-const KINDS = { gravity: ["g"], spring: ["between", "on", "anchor", "stiffness", "length"], attraction: ["strength", "centre"], expression: ["U"] };
-const SIZES = { ball: ["radius"], box: ["sides"], cylinder: ["radius", "height"], cone: ["radius", "height"], ellipsoid: ["semi_axes"], hollow_ball: ["outer", "inner"] };
-const WORDS = "sin cos tan exp log sqrt abs t pi";
+/* a small problem to begin with */
+export const SCAFFOLD = `name = "mine"
+title = "A pendulum"
+group = "SO(3)"
 
-const quoted = (x) => JSON.stringify(String(x));
-const number = (x) => typeof x === "number" || /^[-+]?\d+(\.\d+)?$/.test(x);
-const atom = (x) => (number(x) ? String(x) : quoted(x));
-const list = (x) => String(x).split(",").map((y) => y.trim()).filter(Boolean);
-const written = (key, x) => (Array.isArray(x) ? `${key} = [${x.map(atom).join(", ")}]` : `${key} = ${atom(x)}`);
+[parameters]
+m = { default = 1, unit = "kg", meaning = "mass" }
+l = { default = 1, unit = "m", meaning = "length" }
+g = { default = 9.81, unit = "m/s^2", meaning = "gravity" }
 
-/* may the form write this file without leaving anything out? */
-export function fits(data) {
-  if (!data || !Object.keys(data).every((x) => TOP.includes(x)) || typeof data.group !== "string") return false;
-  const flat = (x) => (Array.isArray(x) ? x.every((y) => typeof y !== "object") : typeof x !== "object");
-  const plain = (table, keys) => Object.entries(table).every(([key, x]) => keys.includes(key) && flat(x));
-  const { point = [], solid = [], body, potential = [], parameters = {} } = data;
-  return point.every((x) => plain(x, ["mass", "at"]))
-    && solid.length <= 1 && solid.every((x) => x.kind in SIZES && plain(x, ["kind", "density", ...SIZES[x.kind]]))
-    && (!body || plain(body, ["moments"]) || body.solid in SIZES && plain(body, ["solid", "density", ...SIZES[body.solid]]))
-    && potential.every((x) => x.kind in KINDS && plain(x, ["kind", ...KINDS[x.kind]]))
-    && Object.values(parameters).every((x) => flat(x) || plain(x, ["default", "unit", "meaning"]));
-}
+# a body of points; at least three that are not on one line
+[[point]]
+mass = "m"
+at = [0, 0, "-l"]
 
-/* the text of a file with these data */
-export function toml(data) {
-  const out = [`name = ${quoted(data.name)}`, ...(data.title ? [`title = ${quoted(data.title)}`] : []), `group = ${quoted(data.group)}`, ""];
-  const table = (header, entries) => out.push(header, ...Object.entries(entries).filter(([, x]) => x !== "" && x !== undefined).map(([k, x]) => written(k, x)), "");
-  const names = used(data);
-  if (names.length) {
-    out.push("[parameters]");
-    for (const name of names) {
-      const about = data.parameters?.[name] ?? {};
-      const plain = typeof about === "object" ? about : { default: about };
-      const inside = Object.entries(plain).filter(([, x]) => x !== "" && x !== null).map(([k, x]) => written(k, x));
-      out.push(`${name} = { ${inside.join(", ")} }`.replace("{  }", "{}"));
-    }
-    out.push("");
-  }
-  if (data.body) table("[body]", data.body);
-  for (const x of data.solid ?? []) table("[[solid]]", x);
-  for (const x of data.point ?? []) table("[[point]]", x);
-  for (const x of data.potential ?? []) table("[[potential]]", x);
-  return `${out.join("\n").trim()}\n`;
-}
+[[point]]
+mass = "m/10"
+at = ["l/10", 0, 0]
 
-/* the names in all expressions, which are parameters */
-function used(data) {
-  const texts = [data.body, ...(data.solid ?? []), ...(data.point ?? []), ...(data.potential ?? [])].filter(Boolean)
-    .flatMap((x) => Object.entries(x).filter(([key]) => !["kind", "solid", "moments"].includes(key)).flatMap(([, y]) => y)).map(String);
-  const found = new Set(texts.flatMap((x) => x.match(/[A-Za-z]\w*/g) ?? []));
-  const known = new Set(WORDS.split(" "));
-  const kept = [...found].filter((x) => !known.has(x) && !/^r\d+_\w$/.test(x));
-  return [...new Set([...Object.keys(data.parameters ?? {}), ...kept])];
-}
+[[point]]
+mass = "m/10"
+at = [0, "l/10", 0]
+
+[[potential]]
+kind = "gravity"
+g = [0, 0, "-g"]
+
+[initial]
+zeta_1 = 1
+`;
+
+const BODY = ["point", "body", "solid"], FORCES = ["potential", "input", "damping"], MOST = 16;
+const OTHERS = ["lagrangian", "inertia", "algebra", "fluid"];
+const SHOWN = ["", ...BODY, ...FORCES, "parameters", "initial"];
 
 export class Form {
-  constructor(place, groups, changed) {
-    Object.assign(this, { place, changed });
-    this.groups = Object.entries(groups).flatMap(([name, [least, most]]) => [2, 3, 4].filter((n) => n >= least && n <= most).map((n) => `${name}(${n})`));
+  constructor(place, schema, changed) {
+    Object.assign(this, { place, schema, changed, text: "", faults: [], forgotten: new Map(), bodies: new Map() });
     place.addEventListener("submit", (e) => e.preventDefault());
+    document.addEventListener("faults", (e) => {
+      this.faults = e.detail;
+      if (!place.hidden) this.mark();
+    });
+    document.addEventListener("text", (e) => { this.latest = e.detail; });
+    document.addEventListener("go", (e) => {
+      if (!place.hidden) this.go(e.detail);
+    });
   }
 
-  show(data, words) {
-    this.words = words;
-    this.data = fits(data) ? structuredClone(data) : null;
-    if (!this.data) {
-      const afresh = make("button", { type: "button", click: () => {
-        this.data = { name: "mine", group: "SO(3)", point: [{ mass: "m", at: ["a", 0, 0] }, { mass: "m", at: [0, "b", 0] }, { mass: "m", at: [0, 0, "c"] }] };
-        this.write(true);
-      } }, words.start);
-      this.place.replaceChildren(make("p", {}, words.formonly), afresh);
-      return;
-    }
+  /* `plain`: a text, and whether it is TOML; nothing where the worker had no time to say so */
+  show(plain, words) {
+    const { text, read } = plain ?? { text: this.latest, read: true };
+    if (text !== this.text) for (const x of [this.forgotten, this.bodies]) x.clear();
+    Object.assign(this, { words, text: text ?? "" });
+    if (text && read) return this.draw();
+    const afresh = make("button", { type: "button", click: () => {
+      if (!text?.trim() || confirm(words.sure)) this.write(SCAFFOLD);
+    } }, words.start);
+    return this.place.replaceChildren(make("p", { role: "alert" }, words.unread), afresh);
+  }
+
+  /* another text, as it is */
+  write(text) {
+    this.text = text;
+    this.changed(text);
     this.draw();
   }
 
-  write(anew = false) {
-    this.changed(toml(this.data));
-    if (anew) this.draw();
+  /* another text that an edit of a field made */
+  edit(text) {
+    this.write(declared(this.text, text, this.forgotten));
   }
 
-  field(label, value, put, more = {}) {
-    const input = make("input", { ...more, change: () => { put(input.value.trim()); this.write(); } });
-    input.value = Array.isArray(value) ? value.join(", ") : value ?? "";
+  get group() {
+    const name = shown(raw(this.text, tables(this.text)[0], "group"));
+    return { name, ...this.schema.groups[name] };
+  }
+
+  /* ---- fields */
+
+  field(label, mark, value, put_, more = {}) {
+    const input = make("input", { ...more, "data-mark": mark, change: () => put_(input.value, input) });
+    input.value = value;
     return make("label", {}, `${label} `, input);
   }
 
-  choice(label, values, value, put) {
-    const select = make("select", { change: () => { put(select.value); this.write(true); } }, ...values.map((x) => make("option", { value: x }, this.words[x] ?? x)));
+  /* of a key of the k-th table */
+  key(k, key, label = this.words.keys[key] ?? key) {
+    const own = tables(this.text)[k], value = raw(this.text, own, key);
+    const list = this.schema.lists.includes(key) || listed(value) !== null;
+    const few = key === "frame" || key === "direction" ? this.schema.values[key] : null;
+    if (few) return this.choice(label, few, shown(value) || few[0], (x) => this.edit(put(this.text, k, key, JSON.stringify(x))), `${k}.${key}`);
+    const hint = list ? { title: this.words.semicolons } : {};
+    return this.field(label, `${k}.${key}`, shown(value), (x) => this.edit(put(this.text, k, key, ["name", "title"].includes(key) ? x.trim() ? JSON.stringify(x.trim()) : undefined : toml(x, list))), hint);
+  }
+
+  choice(label, values, value, put_, mark) {
+    const option = (x) => make("option", { value: x }, this.words.keys[x] ?? this.words[x] ?? x);
+    const select = make("select", { "data-mark": mark ?? false, change: () => put_(select.value) }, ...values.map((x) => (Array.isArray(x) ? make("optgroup", { label: x[0] }, ...x[1].map(option)) : option(x))));
     select.value = value;
     return make("label", {}, `${label} `, select);
   }
 
-  /* a table of a list, by its keys, with a button to take it away */
-  table(name, list_, k, keys, lists) {
-    const x = list_[k], { words } = this;
-    return make("div", { class: "table", role: "group", "aria-label": `${name} ${k + 1}` }, ...keys.map((key) => this.field(words[key] ?? key, x[key], (v) => {
-      if (v) x[key] = lists.includes(key) ? list(v) : v;
-      else delete x[key];
-    })), make("button", { type: "button", class: "quiet", "aria-label": `${words.remove} ${name} ${k + 1}`, click: () => { list_.splice(k, 1); this.write(true); } }, "✕"));
+  /* a number, with a comma or a point; what is none is told beside it, and not written */
+  number(label, mark, value, put_, more) {
+    return this.field(label, mark, value, (typed, input) => {
+      const x = typed.trim() ? numeral(typed) : "";
+      if (x !== null) return put_(x);
+      return this.tell(input, this.words.nonumber(typed.trim()));
+    }, { inputmode: "decimal", ...more });
+  }
+
+  /* a table of several with its number, its keys, and a button to take it away */
+  row(name, k, count, keys) {
+    const { words } = this;
+    return make("div", { class: "table", role: "group", "aria-label": `${name} ${count}`, "data-table": k }, make("strong", {}, name === words.point ? `${name} ${count}` : name), ...keys.map((x) => this.key(k, x)),
+      make("button", { type: "button", class: "quiet", "aria-label": `${words.remove} ${name} ${count}`, click: () => this.edit(without(this.text, k)) }, "✕"));
+  }
+
+  /* ---- its parts */
+
+  head() {
+    const { words, group, schema } = this, families = {};
+    for (const x of schema.named) (families[x.split("(")[0]] ??= []).push(x);
+    const others = group.name && !schema.groups[group.name] ? [group.name] : [];
+    const chosen = this.choice(words.group, [...others, ...Object.entries(families)], group.name, (x) => this.edit(fitted(put(this.text, 0, "group", JSON.stringify(x)), group.n, schema)), "0.group");
+    return make("fieldset", {}, this.key(0, "name", words.name), this.key(0, "title"), ...(group.name ? [chosen] : []));
+  }
+
+  body(all) {
+    const { words, schema, group } = this, kind = bodyOf(this.text), made = bodies(group.n ?? 3);
+    if (all.some((x) => OTHERS.includes(x.name)) || all[0].entries.some((x) => BODY.includes(x.key))) return [];
+    const change = (x) => {
+      this.bodies.set(kind, all.filter((y) => BODY.includes(y.name)).map((y) => uncommented(this.text.slice(y.from, y.to))).join("\n"));
+      let text = this.text;
+      for (let k = all.length - 1; k > 0; --k) if (BODY.includes(all[k].name)) text = without(text, k);
+      this.edit(withTable(text, this.bodies.get(x) || made[x], ["", "parameters"]));
+    };
+    const count = { point: 0, solid: 0 };
+    const rows = all.flatMap((x, k) => {
+      if (x.name === "point" && x.many) return [this.row(words.point, k, ++count.point, ["mass", "at", ...(group.name.includes(" x ") ? ["block"] : [])])];
+      const said = x.name === "body" ? "solid" : "kind", sizes = schema.solid[shown(raw(this.text, x, said))];
+      if ((x.name !== "body" && x.name !== "solid") || !sizes) return [];
+      const kinds = this.choice(words.keys.kind, Object.keys(schema.solid).filter((y) => y !== "mesh"), shown(raw(this.text, x, said)), (y) => this.edit(this.resized(k, said, y)), `${k}.${said}`);
+      const keys = sizes.filter((y) => !["rotation", "shift", "quadric"].includes(y) || entry(x, y)).filter((y) => y !== "semi_axes" || !entry(x, "quadric"));
+      return [make("div", { class: "table", role: "group", "aria-label": words.solid, "data-table": k }, kinds, ...keys.map((y) => this.key(k, y)))];
+    });
+    const add = make("button", { type: "button", class: "quiet", click: () => this.edit(withTable(this.text, `[[point]]\nmass = "m"\nat = [${Array(group.n ?? 3).fill(0).join(", ")}]`, rows.length ? ["point"] : ["", "parameters"])) }, words.addpoint);
+    const choice = this.choice(words.madeof, [...Object.keys(made), ...(kind in made ? [] : [kind])], kind, change);
+    return [make("fieldset", {}, make("legend", {}, words.body), choice, ...rows, ...(kind === "points" || count.point ? [add] : []))];
+  }
+
+  /* a solid of another kind, with the sizes that this has */
+  resized(k, said, kind) {
+    let text = put(this.text, k, said, JSON.stringify(kind));
+    const keys = Object.values(this.schema.solid).flat(), own = this.schema.solid[kind];
+    for (const { key } of tables(text)[k].entries) if (keys.includes(key) && !own.includes(key)) text = put(text, k, key);
+    const fresh = { sides: '["a", "b", "c"]', semi_axes: '["a", "b", "c"]', vertices: "[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]", outer: '"a"', inner: '"b"' };
+    for (const key of own) {
+      if (["density", "rotation", "shift", "quadric"].includes(key) || entry(tables(text)[k], key)) continue;
+      text = put(text, k, key, fresh[key] ?? JSON.stringify(key[0]));
+    }
+    return text;
+  }
+
+  forces(all) {
+    const { words, schema, group } = this, count = {};
+    const rows = all.flatMap((x, k) => {
+      if (!FORCES.includes(x.name) || !x.many) return [];
+      const kind = shown(raw(this.text, x, "kind")), keys = schema[x.name]?.[kind] ?? schema.tables[x.name] ?? [];
+      count[x.name] = (count[x.name] ?? 0) + 1;
+      const points = all.some((y) => y.name === "point"), own = (y) => entry(x, y);
+      const fits = (y) => own(y) || (y === "at" ? !points && !own("on") && !own("between") : y === "on" || y === "between" ? points && !own("at") : y !== "block");
+      return [this.row(words.keys[kind] ?? words.keys[x.name] ?? kind, k, count[x.name], keys.filter(fits))];
+    });
+    const stated = all.some((x) => OTHERS.includes(x.name)), potentials = Object.keys(schema.potential).map((x) => `potential.${x}`);
+    const kinds = stated ? ["input.covector"] : [...potentials, ...Object.keys(schema.input).map((x) => `input.${x}`), "damping"];
+    const add = make("select", { "aria-label": words.addforce, change: () => this.edit(withTable(this.text, force(this.text, add.value, group.n ?? 3), [...FORCES, ...BODY, ...OTHERS])) },
+      make("option", { value: "" }, `${words.addforce} …`), ...kinds.map((x) => make("option", { value: x }, words.keys[x.split(".").at(-1)] ?? x)));
+    if (all.some((x) => x.name === "fluid")) return [];
+    return [make("fieldset", {}, make("legend", {}, words.potentials), ...rows, add)];
+  }
+
+  start(all) {
+    const { words } = this, k = all.findIndex((x) => x.name === "initial"), own = all[k];
+    const has = own?.entries.map((x) => x.key) ?? [], names = [...new Set([...velocity(this.schema, this.text), ...has])];
+    const few = names.length > MOST ? names.filter((x, j) => j < MOST || has.includes(x)) : names;
+    if (!few.length) return [];
+    const set = (name, typed) => {
+      const value = toml(typed, name === "exp");
+      if (!own) return this.edit(value === undefined ? this.text : withTable(this.text, `[initial]\n${name} = ${value}`));
+      const text = put(this.text, k, name, value);
+      return this.edit(tables(text)[k].entries.length ? text : without(text, k));
+    };
+    return [make("fieldset", {}, make("legend", {}, words.startsat), ...few.map((name) => this.field(name, `${k}.${name}`, own ? shown(raw(this.text, own, name)) : "", (x) => set(name, x), { inputmode: name === "exp" ? false : "decimal" })))];
+  }
+
+  parameters(all) {
+    const { words } = this, k = all.findIndex((x) => x.name === "parameters"), own = parameters(this.text);
+    if (!own.length) return [];
+    return [make("fieldset", {}, make("legend", {}, words.parameters), ...own.map(({ key, begin, end }) => {
+      const value = this.text.slice(begin, end), told = about(value);
+      const set = (x) => this.write(put(this.text, k, key, withDefault(value, x)));
+      const label = told.unit ? `${key} (${told.unit})` : key;
+      return make("span", { class: "box" }, this.number(label, `${k}.${key}`, told.default, set, { title: told.meaning ?? false }),
+        make("button", { type: "button", class: "quiet", "aria-label": `${words.remove} ${key}`, click: () => this.write(withoutParameter(this.text, key)) }, "✕"));
+    }))];
   }
 
   draw() {
-    const { data, words } = this, group = this.groups.includes(data.group) ? this.groups : [data.group, ...this.groups];
-    const kind = data.point?.length ? "points" : data.body?.moments ? "moments" : "solid";
-    const solid = data.solid?.[0] ?? data.body ?? {}, key = data.solid ? "kind" : "solid", n = Number(data.group.match(/\((\d)/)?.[1] ?? 3);
-    const bodies = {
-      points: () => ({ point: [{ mass: "m", at: ["a", ...Array(n - 1).fill(0)] }] }),
-      moments: () => ({ body: { moments: "symbolic" } }),
-      solid: () => ({ body: { solid: "box", density: "rho", sides: ["a", "b", "c"] } }),
-    };
-    const set = (made) => {
-      for (const x of ["point", "body", "solid"]) delete data[x];
-      Object.assign(data, made);
-    };
-    const body = kind === "points" ? [
-      ...data.point.map((_, k) => this.table(words.point, data.point, k, ["mass", "at"], ["at"])),
-      make("button", { type: "button", class: "quiet", click: () => { data.point.push({ mass: "m", at: Array(n).fill(0) }); this.write(true); } }, `${words.add}: ${words.point}`),
-    ] : kind === "solid" ? [
-      this.choice(words.kind, Object.keys(SIZES), solid[key], (v) => { set({ body: { solid: v, density: solid.density ?? "rho", ...Object.fromEntries(SIZES[v].map((x) => [x, x.endsWith("s") && x !== "radius" ? ["a", "b", "c"] : x])) } }); }),
-      ...["density", ...SIZES[solid[key]]].map((x) => this.field(words[x] ?? x, solid[x], (v) => { solid[x] = v.includes(",") ? list(v) : v; })),
-    ] : [];
-    const forces = data.potential ??= [];
-    const fresh = { gravity: { g: [...Array(n - 1).fill(0), "-g"] }, spring: { on: 1, anchor: Array(n).fill(0), stiffness: "k", length: 0 }, attraction: { strength: "mu", centre: [...Array(n - 1).fill(0), "R"] }, expression: { U: "k*r1_x^2" } };
-    const add = make("select", { "aria-label": `${words.add}: ${words.potentials}`, change: () => { forces.push({ kind: add.value, ...structuredClone(fresh[add.value]) }); this.write(true); } },
-      make("option", { value: "" }, `${words.add} …`), ...Object.keys(fresh).map((x) => make("option", { value: x }, x)));
-    const names = used(data);
-    const value = (name) => { const x = data.parameters?.[name]; return typeof x === "object" ? x.default : x; };
-    this.place.replaceChildren(
-      make("fieldset", {}, this.field(words.name, data.name, (v) => { data.name = v; }), this.choice(words.group, group, data.group, (v) => { data.group = v; })),
-      make("fieldset", {}, make("legend", {}, words.body), this.choice(words.body, Object.keys(bodies), kind, (v) => set(bodies[v]())), ...body),
-      make("fieldset", {}, make("legend", {}, words.potentials), ...forces.map((x, k) => this.table(x.kind, forces, k, KINDS[x.kind], ["g", "between", "anchor", "centre"])), add),
-      ...(names.length ? [make("fieldset", {}, make("legend", {}, words.parameters), ...names.map((name) => this.field(name, value(name), (v) => {
-        const about = (data.parameters ??= {})[name];
-        const plain = typeof about === "object" ? { ...about } : {};
-        if (v === "") delete plain.default;
-        else plain.default = Number(v);
-        data.parameters[name] = plain;
-      }, { type: "number", step: "any" })))] : []),
-    );
+    const all = tables(this.text), focus = document.activeElement?.dataset?.mark, { words } = this;
+    const rest = new Set(all.filter((x) => !SHOWN.includes(x.name) || (x.name === "body" && bodyOf(this.text) === "given")).map((x) => (x.many ? `[[${x.name}]]` : `[${x.name}]`)));
+    for (const x of all[0].entries) if (!["name", "title", "group"].includes(x.key) || this.text[x.begin] === "{") rest.add(x.key);
+    const kept = rest.size ? [make("p", { class: "warning" }, words.kept([...rest].join(", ")))] : [];
+    this.place.replaceChildren(this.head(), ...this.body(all), ...this.forces(all), ...this.start(all), ...this.parameters(all), ...kept);
+    if (focus && this.place.contains(document.activeElement) === false) this.at(focus)?.focus();
+    this.mark();
+  }
+
+  /* ---- what is wrong */
+
+  at(mark) {
+    return this.place.querySelector(`[data-mark="${CSS.escape(mark)}"]`);
+  }
+
+  /* the field, or the row, that a line of the text is of */
+  where(line) {
+    const all = tables(this.text), k = all.findLastIndex((x) => lineAt(this.text, x.from) <= line && x.to);
+    const found = all[k]?.entries.find((x) => lineAt(this.text, x.from) <= line && line <= lineAt(this.text, x.end));
+    return (found && this.at(`${k}.${found.key}`)) ?? this.place.querySelector(`[data-table="${k}"] input`);
+  }
+
+  tell(input, message) {
+    const id = `fault-${input.dataset.mark}`;
+    this.place.querySelector(`#${CSS.escape(id)}`)?.remove();
+    input.setAttribute("aria-invalid", "true");
+    input.setAttribute("aria-describedby", id);
+    input.closest("label").after(make("span", { id, class: "error", role: "alert" }, message));
+  }
+
+  mark() {
+    for (const x of this.place.querySelectorAll("[aria-invalid]")) x.removeAttribute("aria-invalid");
+    for (const x of this.place.querySelectorAll("span.error")) x.remove();
+    for (const { line, message } of this.faults) {
+      const input = this.where(line);
+      if (input) this.tell(input, message.replace(/^derive: (\S+\.toml: )?/, ""));
+    }
+  }
+
+  go(line) {
+    const input = this.where(line);
+    if (input) input.focus();
+    else document.getElementById("as-text")?.click();
   }
 }

@@ -1,6 +1,7 @@
-/* Keeps the playground for use without a network: every file of one build, and no other request. */
+/* Keeps the playground for use without a network: every file of one build, those of LATE once they
+ * have been asked for, and no other request. */
 const NAME = "derive-play-__VERSION__";
-const FILES = __FILES__;
+const FILES = __FILES__, LATE = __LATE__;
 
 addEventListener("install", (e) => e.waitUntil((async () => {
   const cache = await caches.open(NAME);
@@ -21,6 +22,12 @@ addEventListener("fetch", (e) => {
   if (!url.pathname.startsWith(place)) return;
   const name = url.pathname.slice(place.length);
   const key = name === "" || name === "index.html" ? "./" : name;
-  if (!FILES.includes(key)) return;
-  e.respondWith((async () => (await (await caches.open(NAME)).match(key)) ?? fetch(e.request))());
+  if (![...FILES, ...LATE].includes(key)) return;
+  e.respondWith((async () => {
+    const cache = await caches.open(NAME), stored = await cache.match(key);
+    if (stored) return stored;
+    const found = await fetch(e.request);
+    if (found.ok && LATE.includes(key)) e.waitUntil(cache.put(key, found.clone()));
+    return found;
+  })());
 });

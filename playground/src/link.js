@@ -1,4 +1,5 @@
-/* A problem as the fragment of an address: #so3 for a ready-made one, #p=… for a text, compressed. */
+/* A problem as an address: #so3 for a ready-made one, #p=… for a text, compressed; #so3/linear.kernel for a step of it,
+ * ?lang=fr for the language. */
 const LARGEST = 400_000;
 
 async function through(stream, bytes) {
@@ -28,15 +29,31 @@ export async function unpacked(word) {
   return new TextDecoder("utf-8", { fatal: true }).decode(text);
 }
 
-/* what an address asks for: { name } or { text }, and { damaged } where it cannot be read */
+/* what an address asks for: { name } or { text }, the { step } to go to; { damaged } where it cannot be read, and
+ * { missing } the name of no ready-made problem */
 export async function asked(hash, names) {
-  const word = hash.replace(/^#/, "");
-  if (!word) return { name: "so3" };
-  if (names.includes(word)) return { name: word };
-  if (!word.startsWith("p=")) return { name: "so3", damaged: true };
+  const [word, ...rest] = hash.replace(/^#/, "").split("/"), step = plain(rest.join("/"));
+  if (!word) return { name: "so3", step };
+  const name = names.find((x) => x === word) ?? names.find((x) => x.toLowerCase() === word.toLowerCase());
+  if (name) return { name, step };
+  if (!word.startsWith("p=")) return { name: "so3", step: "", missing: plain(word) };
   try {
-    return { text: await unpacked(word.slice(2)) };
+    return { text: await unpacked(word.slice(2)), step };
   } catch {
-    return { name: "so3", damaged: true };
+    return { name: "so3", step: "", damaged: true };
   }
 }
+
+function plain(word) {
+  try {
+    return decodeURIComponent(word);
+  } catch {
+    return word;
+  }
+}
+
+/* the language that an address asks for, if any */
+export const spoken = (search) => new URLSearchParams(search).get("lang");
+
+/* the address of a problem, which is a name or a packed text, and of a step of it, in a language */
+export const placed = (lang, word, step = "") => `?lang=${lang}#${word}${step && `/${encodeURIComponent(step)}`}`;

@@ -1,38 +1,44 @@
 /* The playground: the problem on one side, what is derived of it on the other. */
-import { the, make, copy } from "./dom.js";
+import { copy, kept, make, the } from "./dom.js";
 import { editor } from "./editor.js";
 import { Engine } from "./engine.js";
-import { Equations } from "./equations.js";
-import { Form } from "./form.js";
-import { asked, packed } from "./link.js";
+import { Equations, power } from "./equations.js";
+import { Form, SCAFFOLD } from "./form.js";
+import { Places } from "./history.js";
+import { asked, spoken } from "./link.js";
+import { menu } from "./menu.js";
 import { Motion } from "./see.js";
+import { Steps } from "./steps.js";
+import { Tabs } from "./tabs.js";
 import { Take } from "./take.js";
 import { WORDS, inWords } from "./words.js";
 
-const WAIT = 500, SECONDS = 60;
-const TABS = ["walk", "see", "take"];
-const kept = (name, value) => {
-  try {
-    if (value === undefined) return localStorage.getItem(name);
-    localStorage.setItem(name, value);
-  } catch { /* a browser that keeps nothing */ }
-  return null;
-};
+const WAIT = 500, MOVED = 150, SECONDS = 60;
 
-let lang = kept("lang") ?? (navigator.language?.startsWith("fr") ? "fr" : "en");
+let lang = spoken(location.search) ?? kept("lang") ?? (navigator.language?.startsWith("fr") ? "fr" : "en");
 let words = WORDS[lang] ?? WORDS[lang = "en"];
 const [data, css] = await Promise.all([fetch("data.json").then((x) => x.json()), fetch("page.css").then((x) => x.text())]);
 const names = data.problems.map((x) => x.name);
 const ready = (name) => data.problems.find((x) => x.name === name);
 
-const equations = new Equations(the("walk"), css);
+const equations = new Equations(the("walk"), css, document.querySelector(".read .bar"), (id) => go(id));
+const places = new Places(equations);
+const steps = new Steps(the("steps"), (id, again) => go(id, again));
 const motion = new Motion(the("see"));
 const engine = typeof WebAssembly === "object" ? new Engine({ seconds: SECONDS, onstate }) : null;
 const text = editor(the("editor"), data.schema, words, edited);
-const form = new Form(the("form"), data.schema.groups, (made) => { text.text = made; });
-const take = new Take(the("take"), data, files, () => ({ name: problem_name(), text: text.text, ready: chosen() }));
+const form = new Form(the("form"), data.schema, (made) => { text.text = made; });
+const take = new Take(the("take"), data, files, () => ({ name: problem_name(), text: text.text, title: equations.title || problem_name(), ready: chosen() }));
+const tabs = new Tabs(["walk", "see", "take"], (name) => {
+  the("steps").parentElement.hidden = name !== "walk";
+  if (name === "see") see();
+});
 
-let tab = "walk", told = "", walked = null, moved = null, timer = 0, damaged = false;
+/* what is derived: the text and language of the walk that stands, of the motion, of what it keeps; the walk that runs; is a check to follow? */
+let walked = null, moved = null, keeping = null, running = null, wanted = false;
+/* what changed: when it will be derived; what is wrong with the address; where to go in the next walk */
+let timer = 0, notice = "", aim = null;
+let told = "";
 
 const problem_name = () => text.text.match(/^\s*name\s*=\s*"([A-Za-z]\w{0,60})"/m)?.[1] ?? "problem";
 const chosen = () => names.find((x) => ready(x).text === text.text);
@@ -73,14 +79,28 @@ function athome(why) {
 
 /* ---- what is asked */
 
+/* derive what is written; a check that was asked for meanwhile follows */
 async function derive() {
   if (!engine) return athome(words.plain);
+  const run = running = walk();
+  const how = await run;
+  if (running !== run) return;
+  running = null;
+  if (how === "superseded" && !timer) return derive();
+  if (!wanted || timer) return;
+  wanted = false;
+  if (walked) await check();
+}
+
+async function walk() {
   const asking = text.text, begin = performance.now(), found = [];
-  let begun = false, fault = false, steps = 0;
-  say(words.deriving);
+  const here = equations.at();
+  let begun = false, fault = false, count = 0;
+  if (here?.id) aim ??= here;
+  say(wanted ? words.queued : words.deriving);
   const how = await engine.ask({ ask: "walk", text: asking, lang }, (kind, news) => {
-    if (kind === "derived") steps = news.steps;
-    else if (kind === "warning") found.push({ message: news, line: 1, severity: "warning" });
+    if (kind === "derived") count = news.steps;
+    else if (kind === "warning") found.push({ line: 1, ...(news.message ? news : { message: news }), severity: "warning" });
     else if (kind === "error") {
       fault = true;
       found.push({ ...news, severity: "error" });
@@ -90,21 +110,47 @@ async function derive() {
       equations.write(news);
     } else if (kind === "walked") equations.end();
   });
-  if (how === "superseded") return;
+  if (how === "superseded") return how;
   the("walk").removeAttribute("aria-busy");
   if (!begun || fault) equations.clear(make("p", { class: "fault" }, fault ? found.at(-1).message : told));
-  faults(damaged ? [{ message: words.damaged, line: 1, severity: "warning" }, ...found] : found);
+  faults(notice ? [{ message: notice, line: 1, severity: "warning" }, ...found] : found);
+  notice = "";
   walked = null;
-  if (!ended(how)) return;
-  walked = fault ? null : { text: asking, lang };
-  say(fault ? "" : words.derived(steps, ((performance.now() - begin) / 1000).toFixed(1)));
-  document.body.dataset.walked = fault ? "fault" : chosen() ?? "own";
-  if (!fault && tab === "see") await see();
+  if (ended(how) && !fault) {
+    walked = { text: asking, lang };
+    say(words.derived(count, ((performance.now() - begin) / 1000).toFixed(1)));
+    stands();
+  } else {
+    if (how === "end") say("");
+    wanted = false;
+    steps.fill(equations.root, words);
+  }
+  if (how === "end") document.body.dataset.walked = fault ? "fault" : chosen() ?? "own";
+  if (walked && tabs.now === "see") see();
+  return how;
+}
+
+/* the walk of the address stands in the page: its steps are links, and listed, and the reader is taken to one of them */
+function stands() {
+  const word = chosen() ?? places.word, to = aim;
+  equations.linked((id) => `#${word}/${encodeURIComponent(id)}`);
+  steps.fill(equations.root, words);
+  places.stands = true;
+  aim = null;
+  if (to?.step && !equations.go(to.step)) say(words.nostep(to.step));
+  else if (to && !to.step) equations.back(to);
+  passed();
 }
 
 async function check() {
-  if (tab !== "walk") show("walk");
-  if (!engine || walked?.text !== text.text) return;
+  if (tabs.now !== "walk") tabs.show("walk");
+  if (!engine) return;
+  if (running || timer) {
+    wanted = true;
+    say(words.queued);
+    return;
+  }
+  if (walked?.text !== text.text) return say(words.unfit);
   equations.unticked();
   say(words.checking);
   let count = 0, wrong = 0, bound = "", refused = "";
@@ -119,14 +165,16 @@ async function check() {
     say(`${words.checking} ${count + wrong}`);
   });
   if (how === "superseded" || !ended(how)) return;
-  say(refused || (wrong ? words.failed(wrong) : words.checked(count, bound)));
+  say(refused || (wrong ? words.failed(wrong) : words.checked(count, power(bound))));
   document.body.dataset.checked = refused ? "refused" : wrong ? "fails" : "holds";
 }
 
 async function see() {
-  if (!engine || !walked || moved === `${walked.lang} ${walked.text}`) return;
+  if (!engine || !walked) return;
   const mark = `${walked.lang} ${walked.text}`;
+  if (moved === mark) return keep(mark);
   moved = mark;
+  keeping = null;
   motion.clear();
   say(words.emitting);
   const how = await engine.ask({ ask: "motion", text: text.text, lang }, (kind, news) => {
@@ -134,34 +182,56 @@ async function see() {
     else if (kind === "error") motion.say(`${words.nomotion} ${news.message}`);
   });
   if (how !== "end") moved = null;
-  if (ended(how)) say("");
+  if (!ended(how)) return;
+  say("");
+  await keep(mark);
 }
 
+/* what a motion keeps takes longer to be found, and another library: behind the motion, which does not wait for it */
+async function keep(mark) {
+  if (keeping === mark || !motion.frame || !walked) return;
+  keeping = mark;
+  say(words.keeping);
+  const how = await engine.ask({ ask: "kept", text: walked.text, lang }, (kind, news) => {
+    if (kind === "kept" && moved === mark) motion.keep(news);
+  });
+  if (how !== "end" && how !== "late" && keeping === mark) keeping = null;
+  if (told === words.keeping) say("");
+}
+
+/* the files of a command as { zip }, or what it { refused }; a walk that runs is waited for */
 async function files(command) {
-  if (!engine) return null;
-  let found = null;
+  if (!engine) return { refused: words.plain };
+  let found = null, refused = "";
+  await running;
   say(words.emitting);
   const how = await engine.ask({ ask: "files", text: text.text, words: command }, (kind, news) => {
     if (kind === "files") found = news;
-    else if (kind === "error") say(news.message);
+    else if (kind === "error") refused = news.message;
   });
-  if (how === "end" && !found) return null;
   if (ended(how)) say("");
-  return found;
+  else refused = how === "superseded" ? words.overtaken : told;
+  return found ? { zip: found } : { refused };
 }
 
 /* ---- what changes */
 
-function edited() {
+function later(does, after) {
   clearTimeout(timer);
+  timer = does ? setTimeout(() => {
+    timer = 0;
+    does();
+  }, after) : 0;
+}
+
+function edited() {
   about();
   the("walk").setAttribute("aria-busy", "true");
-  timer = setTimeout(async () => {
+  later(async () => {
     moved = null;
-    await address(false);
+    await places.problem(lang, chosen(), text.text);
     take.told();
     await derive();
-    damaged = false;
   }, WAIT);
 }
 
@@ -171,54 +241,57 @@ function about() {
   the("ready").value = name ?? "";
 }
 
-/* the problem in the address; a step of the history where another one was chosen */
-async function address(anew) {
-  const name = chosen(), hash = name ? `#${name}` : `#p=${await packed(text.text)}`;
-  if (hash === location.hash) return;
-  history[anew ? "pushState" : "replaceState"](null, "", hash);
+/* go to a step, which gets an entry of its own in the history; `again`: in the place of the last one's */
+function go(id, again = false) {
+  if (tabs.now !== "walk") tabs.show("walk");
+  places.step(lang, chosen() ?? places.word, id, again);
+  equations.go(id);
 }
 
+/* show what the address asks for, at the place that it was left at, if it was */
 async function visit() {
-  const found = await asked(location.hash, names);
-  damaged = found.damaged ?? false;
+  const found = await asked(location.hash, names), asks = spoken(location.search);
+  notice = found.damaged ? words.damaged : found.missing !== undefined ? words.missing(found.missing) : "";
+  if (asks in WORDS && asks !== lang) {
+    lang = asks;
+    speak();
+  }
   const now = found.text ?? ready(found.name).text;
+  aim = places.left ?? (found.step ? { step: found.step } : {});
+  if (!notice) places.settle(lang, found.name ?? places.word, found.step);
+  if (now === walked?.text && now === text.text && lang === walked.lang && !notice) {
+    later(null);
+    stands();
+    return;
+  }
+  places.stands = false;
   if (now !== text.text) text.text = now;
-  clearTimeout(timer);
+  later(null);
   moved = null;
   about();
   take.told();
   if (!the("form").hidden) await filled();
   await derive();
-  damaged = false;
 }
 
-function menu() {
-  const groups = Map.groupBy?.(data.problems, (x) => x.group) ?? new Map([["", data.problems]]);
-  the("ready").replaceChildren(make("option", { value: "" }, words.own),
-    ...[...groups].map(([group, list]) => make("optgroup", { label: group || "–" },
-      ...list.map((x) => make("option", { value: x.name, title: x[`about_${lang}`] }, `${x.name}: ${x[`title_${lang}`]}`)))));
+/* another problem, in an entry of its own */
+async function choose(now) {
+  places.keep();
+  text.text = now;
+  later(null);
+  await places.problem(lang, chosen(), now, true);
+  await visit();
 }
 
 function speak() {
   words = WORDS[lang];
   document.documentElement.lang = lang;
   inWords(words);
-  menu();
+  menu(the("ready"), data.problems, words, lang);
   about();
   text.inWords(words);
   take.show(words, lang);
   for (const button of document.querySelectorAll("[data-lang]")) button.setAttribute("aria-pressed", String(button.dataset.lang === lang));
-}
-
-function show(name) {
-  tab = name;
-  for (const x of TABS) {
-    const at = the(`tab-${x}`);
-    at.setAttribute("aria-selected", String(x === name));
-    at.tabIndex = x === name ? 0 : -1;
-    the(x).hidden = x !== name;
-  }
-  if (name === "see") see();
 }
 
 async function filled() {
@@ -236,41 +309,59 @@ async function write(as) {
   the("editor").hidden = shown;
 }
 
-the("ready").addEventListener("change", async (e) => {
-  if (!e.target.value) return;
-  text.text = ready(e.target.value).text;
-  clearTimeout(timer);
-  await address(true);
-  await visit();
-});
+function widen(wide) {
+  const at = equations.at();
+  document.body.classList.toggle("wide", wide);
+  the("wide").setAttribute("aria-pressed", String(wide));
+  kept("wide", wide ? "yes" : "");
+  if (at?.id) equations.back(at);
+}
+
+the("ready").addEventListener("change", (e) => choose(e.target.value ? ready(e.target.value).text : SCAFFOLD));
 for (const button of document.querySelectorAll("[data-lang]")) {
-  button.addEventListener("click", () => {
+  button.addEventListener("click", async () => {
     lang = button.dataset.lang;
     kept("lang", lang);
     speak();
     moved = null;
+    await places.problem(lang, chosen(), text.text);
     if (!the("form").hidden) filled();
     derive();
   });
 }
-for (const x of TABS) the(`tab-${x}`).addEventListener("click", () => show(x));
-document.querySelector("[role=tablist]").addEventListener("keydown", (e) => {
-  const by = { ArrowRight: 1, ArrowLeft: -1 }[e.key];
-  if (!by) return;
-  show(TABS[(TABS.indexOf(tab) + by + TABS.length) % TABS.length]);
-  the(`tab-${tab}`).focus();
-});
 the("check").addEventListener("click", check);
-the("stop").addEventListener("click", () => engine.stop());
+the("stop").addEventListener("click", () => {
+  wanted = false;
+  engine.stop();
+});
 the("as-text").addEventListener("click", () => write("text"));
 the("as-form").addEventListener("click", () => write("form"));
 the("link").addEventListener("click", async (e) => {
-  clearTimeout(timer);
-  await address(false);
+  await places.problem(lang, chosen(), text.text);
   await copy(location.href, e.target, words.linked);
+});
+the("wide").addEventListener("click", () => widen(!document.body.classList.contains("wide")));
+addEventListener("keydown", (e) => {
+  if (e.key !== "F8") return;
+  e.preventDefault();
+  the("wide").click();
 });
 addEventListener("popstate", visit);
 
+/* what is read now, a while after the reader stopped moving */
+function passed() {
+  const at = equations.at();
+  if (!places.stands || !at) return;
+  steps.show(at.id);
+  places.keep();
+}
+let resting = 0;
+addEventListener("scroll", () => {
+  clearTimeout(resting);
+  resting = setTimeout(passed, MOVED);
+}, true);
+
+widen(kept("wide") === "yes");
 speak();
 onstate();
 if (engine) say(words.loading);

@@ -9,9 +9,14 @@ addEventListener("message", async ({ data, source, origin }) => {
   try {
     const module = await import(url);
     const home = document.getElementById("motion");
+    if (data.kept) {
+      home.motion.keep(module, data.kept);
+      parent.postMessage({ kept: "" }, location.origin);
+      return;
+    }
     home.replaceChildren();
     home.motion = globalThis.drawing.mount(home, { ...data.page, module }, chosen(data.pieces));
-    parent.postMessage({ moved: true }, location.origin);
+    parent.postMessage({ moved: "" }, location.origin);
   } catch (e) {
     parent.postMessage({ fault: String(e) }, location.origin);
   } finally {

@@ -35,21 +35,27 @@ async function begun() {
 const started = begun();
 started.then(() => tell("ready", { python: python.version }), (e) => tell("broken", String(e)));
 
-let rest, later;
+const parts = new Map(), tried = new Set();
+const begin = (name) => parts.get(name) ?? parts.set(name, part(name)).get(name);
 
 /* what a walk does not need is fetched behind the first one; some libraries when an import of them fails */
 async function answered(ask, does) {
-  const afterwards = () => (rest ??= part("rest"));
-  if (ask !== "walk") await afterwards()();
-  try {
-    does();
-  } catch (e) {
-    if (String(e).includes("No module named 'mpmath'")) await (later ??= part("later"))();
-    else if (String(e).includes("No module named 'derive.")) await afterwards()();
-    else throw e;
-    does();
+  if (ask !== "walk") await begin("rest")();
+  for (;;) {
+    try {
+      does();
+      break;
+    } catch (e) {
+      const missing = /No module named '(derive|mpmath|sympy)\b/.exec(String(e))?.[1], name = missing === "derive" ? "rest" : missing;
+      if (!name || tried.has(name)) throw e;
+      await begin(name)().catch((why) => {
+        parts.delete(name); // to be fetched when there is a network again
+        throw why;
+      });
+      tried.add(name);
+    }
   }
-  afterwards();
+  begin("rest");
 }
 
 const ASKED = {
@@ -57,6 +63,7 @@ const ASKED = {
   plain: (play, m) => play.plain(m.text),
   check: (play, m) => play.check(m.text),
   motion: (play, m) => play.motion(m.text, m.lang),
+  kept: (play, m) => play.kept(m.text, m.lang),
   files: (play, m) => {
     const made = play.files(m.text, m.words);
     if (!made) return;

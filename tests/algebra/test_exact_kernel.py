@@ -1,14 +1,13 @@
-"""Kernels modulo primes, rational numbers from residues, and arrays of residues."""
+"""Kernels modulo primes, rational numbers from residues, and vectors of residues."""
 
 from fractions import Fraction
 from random import Random
 
-import numpy as np
 import pytest
 import sympy
 
-from derive.algebra.exact_kernel import echelon, fraction_of, kernel, rational
-from derive.algebra.residue_arrays import PRIMES, Residues, ResidueSource, residue_of
+from derive.algebra.exact_kernel import echelon, fraction_of, kernel, pivots, rational
+from derive.algebra.residue_vectors import PRIMES, Residues, ResidueSource, residue_of
 
 P = PRIMES[0]
 
@@ -19,13 +18,34 @@ def test_a_kernel_is_that_of_sympy(shape):
     rank = min(shape) - 1
     rows = [[random.randint(-5, 5) for _ in range(shape[1])] for _ in range(max(rank, 1))]
     rows += [[sum(x) for x in zip(*rows, strict=True)] for _ in range(shape[0] - len(rows))]
-    found, free = kernel(np.array(rows), P)
+    residues, width = [[x % P for x in row] for row in rows], shape[1]
+    found, free = kernel(residues, width, P)
     matrix = sympy.Matrix(rows)
     assert len(found) == len(free) == len(matrix.nullspace())
-    assert echelon(np.array(rows), P)[1] == [*matrix.rref()[1]]
-    products = (np.array(rows) % P)[:, None, :] * found % P
-    assert not (products.sum(axis=2) % P).any()
-    assert all(found[k, c] == 1 for k, c in enumerate(free))
+    reduced, leading = matrix.rref()
+    there = [[residue_of(Fraction(x.p, x.q), P) for x in row] for row in reduced.tolist()]
+    assert echelon(residues, width, P) == (there[: len(leading)], [*leading])
+    assert pivots(residues, width, P) == [*leading]
+    for x in found:
+        assert not any(sum(a * b for a, b in zip(row, x, strict=True)) % P for row in rows)
+    assert all(found[k][c] == 1 for k, c in enumerate(free))
+
+
+@pytest.mark.parametrize("p", [P, 3])
+def test_digits_do_not_overflow(p):
+    """The largest residues, in more rows and columns than one digit of 62 bits would bear."""
+    n = 70
+    rows = [[p - 1 - (i == j) for j in range(n)] for i in range(n)]
+    matrix = sympy.Matrix(rows)
+    rank = sympy.polys.matrices.DomainMatrix.from_Matrix(matrix).convert_to(sympy.GF(p)).rank()
+    assert len(pivots(rows, n, p)) == rank
+    for x in kernel(rows, n, p)[0]:
+        assert not any(sum(a * b for a, b in zip(row, x, strict=True)) % p for row in rows)
+
+
+def test_there_may_be_no_rows():
+    assert kernel([], 2, P) == ([[1, 0], [0, 1]], [0, 1])
+    assert echelon([[0, 0]], 2, P) == ([], [])
 
 
 def test_primes():
@@ -47,7 +67,7 @@ def test_a_long_fraction_needs_more_primes():
 
 
 def test_residues_compute_as_numbers():
-    x, y = (Residues(np.array([a, b], np.int64), P) for a, b in ((3, 5), (7, 11)))
+    x, y = (Residues([a, b], P) for a, b in ((3, 5), (7, 11)))
     for found, expected in (
         (x + y, (10, 16)),
         (x - 1, (2, 4)),
@@ -57,6 +77,11 @@ def test_residues_compute_as_numbers():
         (1 / x, (Fraction(1, 3), Fraction(1, 5))),
         (x**-2, (Fraction(1, 9), Fraction(1, 25))),
         (-x, (-3, -5)),
+        (x * 0 + y, (7, 11)),
+        (
+            Residues.dot([x, 2, y, 3, 0], [y, x, Fraction(1, 3), 5, x]),
+            (21 + 6 + Fraction(7, 3) + 15, 55 + 10 + Fraction(11, 3) + 15),
+        ),
     ):
         assert [*found.values] == [residue_of(Fraction(e), P) for e in expected]
 

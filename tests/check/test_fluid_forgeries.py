@@ -1,14 +1,18 @@
 """Statements about a fluid that have no meaning are refused, and it is said why."""
 
 from dataclasses import replace
+from fractions import Fraction
 
 import pytest
 
+from derive.check.fluid.disc import Disc
+from derive.check.fluid.flat_torus import Torus
 from derive.check.fluid.fluid_checker import FluidChecker
 from derive.record.record import Equation
-from tests.support.walks import SEED, record
+from tests.support.walks import FLUIDS, SEED, record
 
 D = record("ideal_fluid")
+STRATIFIED = record("stratified_fluid")
 STEP = D["ideal_fluid.pressure"]
 WITHOUT = {
     "no name": (("add", "u", "foo"), "u", "no value for 'foo'"),
@@ -26,6 +30,11 @@ WITHOUT = {
     "the integral of a field": (("call", "∫", "u"), 0, "over the points"),
     "the variation of u": (("call", "δ", "u"), "u", "δ is of η′, G and ρ"),
     "the rate of a field": (("call", "d/dt", "u"), "u", "d/dt is of a scalar product"),
+    "the gradient of the density at the boundary": (
+        ("inner", ("call", "grad", "ρ"), "n"),
+        0,
+        "a field is expected",
+    ),
     "the rate of a product": (
         ("call", "d/dt", ("inner", "u", "η")),
         0,
@@ -59,6 +68,105 @@ def test_densities_are_not_multiplied():
     found = FluidChecker(DENSE.problem, SEED).check(forged)
     assert not found.holds
     assert "more densities" in found.reason
+
+
+HALF = Fraction(1, 2)
+SLOPE = ("inner", "u", ("call", "grad", "ρ"))
+ALONG = ("nabla", "u")
+BEND = ("mul", ALONG, "u")
+RATE = ("call", "d/dt", "h̃")
+FALL = ("mul", -1, "f")
+
+
+def power(*summed, metric=("metric", "ρ")):
+    """⟨u, Σ⟩_ρ, or without the density."""
+    return (*metric, "u", ("add", *summed))
+
+
+FORGED = {
+    "carried backwards": ("advection", ("add", "ρ̇", ("mul", -1, SLOPE)), 0),
+    "carried at twice the speed": ("advection", ("add", "ρ̇", ("mul", 2, SLOPE)), 0),
+    "at rest": ("advection", "ρ̇", 0),
+    "carried along another field": ("advection", ("add", "ρ̇", ("inner", "η", SLOPE[2])), 0),
+    "no product rule": ("advection", ("mul", ALONG, "ρ"), ("mul", "ρ", ALONG)),
+    "a density of the places": ("advection", ("mul", "G", "ρ"), "G"),
+    "an energy without its half": (
+        "energy_kept",
+        "h̃",
+        ("add", ("norm2", "ρ", "u"), "Ũ"),
+    ),
+    "an energy without the potential": ("energy_kept", "h̃", ("mul", HALF, ("norm2", "ρ", "u"))),
+    "an energy without the density": (
+        "energy_kept",
+        "h̃",
+        ("add", ("mul", HALF, ("norm2", "u")), "Ũ"),
+    ),
+    "a fall upwards": ("energy_kept", ("call", "dŨ", "ν"), ("metric", "ρ", "f", "u")),
+    "a change of the density without its half": (
+        "energy_kept",
+        ("inner", ("mul", "ρ̇", "u"), "u"),
+        ("metric", "ρ", "u", BEND),
+    ),
+    "a change of the density of the other sign": (
+        "energy_kept",
+        ("mul", HALF, ("inner", ("mul", "ρ̇", "u"), "u")),
+        ("mul", -1, ("metric", "ρ", "u", BEND)),
+    ),
+    "a rate without ∇_u u": ("energy_kept", RATE, power("u̇", FALL), ("u̇",)),
+    "a rate with twice ∇_u u": (
+        "energy_kept",
+        RATE,
+        power("u̇", ("mul", 2, BEND), FALL),
+        ("u̇",),
+    ),
+    "a rate without the force": ("energy_kept", RATE, power("u̇", BEND), ("u̇",)),
+    "a rate with the force backwards": ("energy_kept", RATE, power("u̇", BEND, "f"), ("u̇",)),
+    "a rate without the density": (
+        "energy_kept",
+        RATE,
+        power("u̇", BEND, FALL, metric=("inner",)),
+        ("u̇",),
+    ),
+    "the motion alone": ("energy_kept", ("call", "d/dt", ("metric", "ρ", "u", "u")), 0),
+    "a pressure that works": ("energy_kept", ("metric", "ρ", ("call", "grad", "p"), "u"), 0),
+}
+"""Of a stratified fluid: the step, the sides of a false equation, what it is said to hold for."""
+
+
+@pytest.mark.parametrize("case", FORGED)
+def test_a_false_advection_or_energy_is_refused(case):
+    label, left, right, *for_all = FORGED[case]
+    step = STRATIFIED[label]
+    found = FluidChecker(STRATIFIED.problem, SEED).check(
+        replace(step, equations=(Equation(left, right, *for_all),))
+    )
+    assert not found.holds
+    assert "the sides differ" in found.reason
+
+
+NEEDY = {"skew", "energy_kept"}
+RESTING = {"chain", "advection", *NEEDY}
+
+
+@pytest.mark.parametrize("name", FLUIDS)
+def test_what_advection_and_energy_rest_on(name, monkeypatch):
+    """Any field carries the density along; the energy is kept by one that has no divergence and is
+    tangent to the boundary."""
+    d = record(name)
+
+    def broken(space, field):
+        with monkeypatch.context() as patched:
+            patched.setattr(space, "solenoidal", field)
+            checker = FluidChecker(d.problem, SEED)
+            tried = (s for s in d.steps if s.label.partition(".")[2] in RESTING)
+            return {s.label.partition(".")[2] for s in tried if not checker.check(s).holds}
+
+    def through(self, draw, wide=False):
+        stream = self.function(draw, 3)
+        return -stream.d(1), stream.d(0)
+
+    assert broken(Torus, lambda self, draw, wide=False: self.any_field(draw)) == NEEDY
+    assert broken(Disc, through) == NEEDY
 
 
 def verdict(step):

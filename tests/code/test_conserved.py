@@ -1,5 +1,6 @@
 """What ``--conserved`` adds is kept along motions, and is what the search found."""
 
+import re
 from fractions import Fraction
 from types import ModuleType
 
@@ -8,6 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from derive.code.emit import emit
+from derive.code.languages import LANGUAGES
 from derive.code.options import Options
 from derive.code.program import LoweringError
 from derive.command.cli import main, ready_made
@@ -115,6 +117,31 @@ def test_names():
     free = module_of("kirchhoff").CONSERVED
     assert {*free} >= {f"momentum_{i}" for i in (1, 2, 3)}
     assert {*free} >= {f"angular_momentum_{i}" for i in (1, 2, 3)}
+
+
+BASES = {
+    "time": "energy",
+    "translation_space": "momentum",
+    "rotation_space": "angular_momentum",
+    "boost": "centre",
+    "rotation_body": "body_angular_momentum",
+}
+
+
+@pytest.mark.parametrize("name", ["se3", "lagrange_top", "kovalevskaya_top", "saff3"])
+def test_one_order_in_all_languages_that_of_the_symmetries(name):
+    own = derive(name)
+    kinds = [x.kind for x in own.symmetries()]
+    names = module_of(name).CONSERVED
+    listed = [re.sub(r"_\d+$", "", x) for x in names]
+    assert [BASES[x] for x in kinds] == listed[: len(kinds)]
+    assert {*listed[len(kinds) :]} <= {"integral"}
+    assert kinds == sorted(kinds, key=[*BASES].index)
+    for language in LANGUAGES:
+        files = own.emit(languages=(language,), conserved=True)
+        found = [re.findall(r'"(\w+)"', text) for text in files.values()]
+        within = [x for x in found for k in range(len(x)) if tuple(x[k : k + len(names)]) == names]
+        assert within, language
 
 
 def test_nothing_else_changes():

@@ -86,6 +86,8 @@ def test_off_the_group_it_is_refused_and_can_be_projected(tmp_path, capsys):
     ("text", "words"),
     [
         ("[initial]\nexp = [1, 2]", "initial, exp: expected 3 coordinates in the basis, not 2"),
+        ("[initial]\nexp = [1, 2]", "their order is that of E_1 … E_3"),
+        ("[initial]\nzeta = [1, 2, 3]", "initial, zeta: one number each, zeta_1 = …, zeta_2 = …"),
         ("[initial]\nexp = 1", "initial, exp: expected a list"),
         ("[initial]\nzeta_1 = true", "initial, zeta_1: expected a number or an expression"),
         ("[initial]\nzeta_1 = inf", "initial, zeta_1: inf is not a finite number"),

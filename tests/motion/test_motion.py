@@ -282,7 +282,7 @@ def test_a_fluid_of_irrational_axes_keeps_its_circulation(tmp_path, capsys):
     )
     code, text, err = told(capsys, str(path), "--t", "1")
     assert (code, err) == (0, "")
-    assert "deformation_body_3: " in text
+    assert "circulation_3: " in text
 
 
 def test_ctrl_c_keeps_what_is_done(tmp_path, capsys, monkeypatch):
@@ -390,6 +390,7 @@ def test_motions_of_other_states():
     [
         ("euler_top", {"t": "s", "zeta_1": "1/s", "energy": "J"}),
         ("rod", {"T_1": "m", "zeta_1": "1/s", "zeta_4": "m/s", "energy": "J"}),
+        ("heisenberg", {"A_12": "", "zeta_1": "1/s", "zeta_2": "1/s", "zeta_3": "1/s"}),
         ("euler_poisson", {"t": "s", "zeta_1": "", "energy": "J"}),
     ],
 )

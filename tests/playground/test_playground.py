@@ -6,10 +6,18 @@ import io
 import json
 import tomllib
 import zipfile
+from xml.etree import ElementTree
 
 import pytest
 
+from derive import derive as derived
+from derive.code.emit import emit
+from derive.code.options import Options
 from derive.command.cli import READY, main, ready_made
+from derive.motion.simulate import beginning
+from derive.page.motion_page import data
+from derive.pipeline import motion_of
+from derive.views.language import language
 from tests.support.needs import need
 from tests.support.playground_site import asked, built, served, walked
 
@@ -33,11 +41,7 @@ kind = "gravity"
 g = [0, 0, "-g"]
 """
 SLOW = ("inhomogeneous_fluid", "stratified_fluid", "riemann_ellipsoid")
-CHECKED = [
-    pytest.param(x, marks=pytest.mark.dist) if x in SLOW else x
-    for x in ready_made()
-    if x != "zeitlin"  # which needs NumPy
-]
+CHECKED = [pytest.param(x, marks=pytest.mark.dist) if x in SLOW else x for x in ready_made()]
 MESH = '\n[body]\nsolid = "mesh"\nfile = "cube.off"\ndensity = 1\n'
 BAD = [
     (PENDULUM.replace('at = [0, "l", 0]', "at = [0, 1]"), 12, "point 2, at"),
@@ -113,6 +117,77 @@ def test_a_typed_problem_gives_the_bytes_of_the_command(page, capsys, tmp_path):
             *words.replace("FILE", str(file)).replace("out/mine", str(tmp_path / "mine")).split(),
         )
         assert shown == made.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("text", "chosen"),
+    [
+        (PENDULUM, "--step gauss"),
+        (PENDULUM, "--step gauss --conserved"),
+        ("kovalevskaya_top", "--conserved"),
+        ("se3", "--step gauss --conserved"),
+        ("gas_cloud", "--step gauss --conserved"),
+    ],
+    ids=range(5),
+)
+def test_what_is_kept_is_in_the_code_of_the_page(page, capsys, tmp_path, text, chosen):
+    file = tmp_path / "mine.toml"
+    file.write_text(text if "\n" in text else (READY / f"{text}.toml").read_text())
+    words = f"emit FILE --lang c --lang javascript --lang python {chosen} --out out"
+    _, heard = asked(page, "files", text=file.read_text(), words=words)
+    assert [kind for kind, _ in heard] == ["files"]
+    with zipfile.ZipFile(io.BytesIO(base64.b64decode(heard[0][1]))) as archive:
+        files = {x: archive.read(x) for x in archive.namelist()}
+    said(capsys, *words.replace("FILE", str(file)).split()[:-1], str(tmp_path / "out"))
+    assert files == {x.name: x.read_bytes() for x in (tmp_path / "out").iterdir()}
+
+
+@pytest.mark.parametrize("name", ["so3", "kovalevskaya_top", "sl3", "riemann_ellipsoid"])
+def test_a_motion_has_what_the_page_of_the_command_has(page, name):
+    text = (READY / f"{name}.toml").read_text(encoding="utf-8")
+    (how, first), (_, heard) = (
+        asked(page, ask, text=text, lang="fr") for ask in ("motion", "kept")
+    )
+    assert how == "end"
+    ((_, shown),) = [x for x in first if x[0] == "motion"]
+    ((_, told),) = [x for x in heard if x[0] == "kept"]
+    own = derived(name)
+    code = motion_of(own.problem, own.record)
+    begin = beginning(code, own.problem, given={})
+    there = data(code, own.problem, own.record, begin, language("fr"))
+    assert told["kept"] == there["kept"] != {}
+    assert shown["page"]["kept"] == {}
+    assert {
+        x for x in shown["page"] if shown["page"][x] != json.loads(json.dumps(there)).get(x)
+    } <= {*("kept", "x", "t", "tol", "names")}
+    chosen = Options(step=("gauss",))
+    (source,) = emit(code.program, own.record, ("javascript",), name, chosen).values()
+    assert told["source"] == source
+
+
+def test_what_is_kept_comes_behind_the_motion(fresh, site):
+    """The body moves first; then the momenta are in its table, and they stay what they are."""
+    fresh.goto(f"{site}#top")
+    walked(fresh, "top")
+    fresh.click("#tab-see")
+    fresh.wait_for_selector("iframe[data-moved]", timeout=90_000)
+    fresh.wait_for_selector("iframe[data-kept]", timeout=90_000)
+    frame = fresh.frames[-1]
+    frame.evaluate("document.getElementById('motion').motion.seek(3)")
+    frame.wait_for_function("() => document.getElementById('motion').motion.time === 3")
+    frame.wait_for_timeout(200)
+    names = frame.evaluate(
+        "[...document.querySelectorAll('tr[data-name]')].map((x) => x.dataset.name)"
+    )
+    assert names == ["energy", "angular_momentum_3", "body_angular_momentum_3", "defect"]
+    for name in names[:-1]:
+        change = frame.inner_text(f"[data-name={name}] td + td").replace("−", "-")
+        assert float(change) < 1e-8
+    frame.fill("[data-name=zeta_1] input[type=number]", "3")
+    frame.press("[data-name=zeta_1] input[type=number]", "Enter")
+    frame.wait_for_timeout(200)
+    assert frame.inner_text("[data-name=body_angular_momentum_3] td + td") == "0"
+    assert not fresh.told
 
 
 @pytest.mark.parametrize(("text", "line", "message"), BAD, ids=range(len(BAD)))
@@ -301,17 +376,24 @@ def test_a_form_writes_the_same_file(fresh, site):
     assert tomllib.loads(fresh.evaluate("play.text.text")) == expected
 
 
-def test_a_notebook_is_one(fresh, site, tmp_path):
+def test_a_notebook_is_one(fresh, site, tmp_path, monkeypatch):
     fresh.goto(f"{site}#so3")
     walked(fresh)
     fresh.click("#tab-take")
     with fresh.expect_download() as waiting:
         fresh.click("#take button:has-text('.ipynb')")
     book = json.loads(waiting.value.path().read_text(encoding="utf-8"))
-    source = "".join(book["cells"][0]["source"])
-    place = tmp_path / "so3.toml"
-    exec(source.replace('"so3.toml"', repr(str(place))), {})
-    assert place.read_text(encoding="utf-8") == (READY / "so3.toml").read_text(encoding="utf-8")
+    title, problem, *_ = ("".join(x["source"]) for x in book["cells"])
+    assert title.startswith("# The solid about a fixed point\n")
+    assert "pip install derive-mechanics" in title
+    monkeypatch.chdir(tmp_path)
+    ran = {}
+    exec(problem, ran)
+    text = (READY / "so3.toml").read_text(encoding="utf-8")
+    assert ran["problem"] == text
+    assert f"problem = r'''{text}'''\n" in problem
+    assert ran["d"].labels == derived("so3").labels
+    assert not [*tmp_path.iterdir()]  # no file is written over
 
 
 def test_an_equation_is_copied(fresh, site):
@@ -325,6 +407,25 @@ def test_an_equation_is_copied(fresh, site):
     mathml = fresh.evaluate("navigator.clipboard.readText()")
     assert tex.startswith("L")
     assert mathml.startswith('<math xmlns="http://www.w3.org/1998/Math/MathML"')
+
+
+def test_copied_mathml_is_whole_without_the_style_of_the_page(fresh, site):
+    """Every bar of the TeX is an accent of the MathML, which is well-formed by itself."""
+    fresh.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    fresh.goto(f"{site}#gl3")
+    walked(fresh, "gl3")
+    equations = fresh.locator("#walk .equation:has(.overline):has(button)")
+    bars = 0
+    for k in range(equations.count()):
+        tex, button = (equations.nth(k).locator("button").nth(x) for x in (0, 1))
+        button.click()
+        copied = ElementTree.fromstring(fresh.evaluate("navigator.clipboard.readText()"))
+        marks = [x.text for x in copied.iter("{http://www.w3.org/1998/Math/MathML}mo")]
+        told = tex.get_attribute("data-tex")
+        assert marks.count("‾") == told.count("\\bar{") + told.count("\\overline{"), told
+        assert not [x for x in copied.iter() if x.get("class") == "overline"]
+        bars += marks.count("‾")
+    assert bars > 20
 
 
 def test_a_browser_without_web_assembly_says_what_to_do(browser, site):

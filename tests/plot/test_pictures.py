@@ -17,7 +17,7 @@ from derive.plot import kinds_told
 from derive.plot.body_pictures import hull
 from derive.plot.kinds_told import OVERVIEW, PRECISION
 from derive.plot.pictures import ENSEMBLE_KINDS, KINDS, plot, plot_energies
-from derive.plot.plot_sheet import FORMATS, PlotError, label, sheet
+from derive.plot.plot_sheet import FORMATS, PlotError, label, settled, sheet
 from derive.plot.polhode_picture import levels, unstable
 from derive.plot.precision import of_runs, table
 from derive.plot.spheroid_pictures import followed, maps, section
@@ -197,6 +197,24 @@ def test_a_kind_that_does_not_fit_is_told(kind, says):
         plot(run_of("euler_top"), "a.svg", kind)
 
 
+@pytest.mark.parametrize(
+    ("problem", "kind", "says"),
+    [
+        ("heisenberg", "axes", r"axes needs a group of rotations of R³, SO\(3\) or SE\(3\), which"),
+        ("heisenberg", "polhode", "polhode needs a group of rotations of R³"),
+        ("charged_body", "polhode", "polhode needs a tensor of inertia, that of points"),
+        ("gas_cloud", "spheroid", "spheroid needs a body that is one solid ellipsoid, which"),
+        ("zeitlin", "body", "body needs columns A_11 … A_33, which"),
+        ("zeitlin", "potential", "potential needs symmetries that leave"),
+    ],
+)
+def test_a_refusal_names_what_is_missing_and_no_more(problem, kind, says):
+    run = simulated(problem, 0.01)
+    with pytest.raises(PlotError, match=says):
+        plot(run, "a.svg", kind)
+    assert KINDS[kind].lacks(run)
+
+
 def test_what_is_of_ensembles_is_refused_for_a_run():
     with pytest.raises(PlotError, match="spread is of an ensemble, and this is none; there are"):
         plot(run_of("euler_top"), "a.svg", "spread")
@@ -237,6 +255,25 @@ def test_a_polhode_marks_the_axes_and_its_titles_are_level():
     figure.draw_without_rendering()
     left, right = (x.title.get_window_extent().y0 for x in figure.get_axes())
     assert abs(left - right) < 3
+
+
+@pytest.mark.parametrize("problem", ["euler_top", "so3", "hammer", "kovalevskaya_top"])
+def test_labels_of_axes_are_off_the_outline_and_titles_on_the_sheet(problem):
+    """By what is drawn: the boxes of the texts, the corners of the outline."""
+    figure = sheet(*KINDS["polhode"].size(run := simulated(problem, 1.0)))
+    KINDS["polhode"].draw(figure, run, str)
+    settled(figure)
+    renderer = figure.canvas.get_renderer()
+    for panel in figure.get_axes():
+        assert panel.title.get_window_extent(renderer).y1 <= figure.bbox.height
+        outline = panel.patches[0].get_path().vertices
+        ends = np.linspace(outline[:-1], outline[1:], 9).reshape(-1, 2)
+        boxes = [x.get_window_extent(renderer) for x in panel.texts]
+        touched = [x.count_contains(panel.transData.transform(ends)) for x in boxes]
+        # a needle's own end is as narrow as a label is wide
+        assert touched == [0] * len(boxes) or problem == "hammer"
+        assert sum(touched) < len(ends) // 4
+        assert not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k])
 
 
 def test_the_command(tmp_path, capsys):

@@ -38,6 +38,10 @@ TABLES = {
         {"L": SQUARE + " + T_1"},
         "lagrangian, key 'L': SO(3) has no T_1; its entries are A_11 … A_33, zeta_1 … zeta_3",
     ),
+    "a letter of others": (
+        {"L": "zeta_1^2 + zeta_2^2 + xi_3^2"},
+        "'xi_3' is not declared; add it to [parameters]; the state has A_11 … A_33, zeta_1 …",
+    ),
     "no entry at all": ({"L": SQUARE + " + A_1"}, "'A_1' is not declared"),
     "another coordinate": (
         {"L": SQUARE + " + zeta_4"},

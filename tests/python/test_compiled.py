@@ -3,6 +3,7 @@
 import copy
 import multiprocessing
 import pickle
+import re
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
@@ -230,3 +231,18 @@ def test_cvode(top):
     solver = CVODE(field, rtol=1e-10, atol=1e-12)
     found = solver.solve(np.linspace(0, 1, 3), START)
     assert abs(top.energy(1, found.y[-1]) - top.energy(0, START)) < 1e-7
+
+
+@pytest.mark.parametrize("name", ["so3", "se3", "sl3", "saff3", "sp4", "su2", "heisenberg", "gl3"])
+def test_a_motion_begins_on_the_group_by_the_same_rule_on_each(name):
+    """det A = 1 on SL(n) as ĀA = 1 on SO(n); on GL(n) there is nothing to be kept."""
+    f = derive.compile(name, step="rk4")
+    x = np.zeros(len(f.STATE))
+    x[[k for k, s in enumerate(f.STATE) if re.fullmatch(r"A_(\d)\1", s)]] = 1
+    f.begin(x)
+    x[0] = 2
+    if name == "gl3":
+        assert f.begin(x).x[0] == 2
+        return
+    with pytest.raises(ValueError, match="the state is not on the group, its defect is "):
+        f.begin(x)

@@ -10,7 +10,7 @@ from derive.views.outline import assumed, moving
 from derive.views.rendering import FORMATS, notes, render
 from tests.support.walks import FLUIDS, record
 
-ON_MOTIONS = {"circulation": 1, "kelvin": 2}
+ON_MOTIONS = {"energy_kept": 1, "circulation": 1, "kelvin": 2}
 """Of the equations that say something of the acceleration, how many hold on motions alone."""
 EVERY = {"en": "for every", "fr": "pour tout"}
 ALONG = {"en": "along the motion", "fr": "le long du mouvement"}

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from derive.language.show import show
-from derive.pipeline import walk
+from derive.pipeline import discrete, walk
 from derive.printing.escape import markdown_text, prose, tex_text
 from derive.printing.letters import names_of, parameter
 from derive.printing.line_breaking import Piece, display_width, fill
@@ -318,3 +318,22 @@ def test_a_factor_stands_apart_from_a_denominator():
     """∂L̃/∂t δt is a product, in sentences as well."""
     assert r"/\partial t\,\delta t" in prose("of ∂L̃/∂t δt; the")
     assert r"\," not in prose("of δL̃ = ⟨Π, δZ⟩ + ⟨Φ, ξ⟩; the")
+
+
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [
+        ("text", "height ‘h’)"),
+        ("latex", r"height $\parameter{h}$)"),
+        ("markdown", r"height $\mathsf{h}$)"),
+        (
+            "html",
+            'height <span class="kept"><math><mi mathvariant="normal" class="parameter">h</mi>',
+        ),
+    ],
+)
+def test_a_height_h_is_told_from_the_step_of_time(name, shown):
+    """In the sentence of the integrals too, of a discrete walk; elsewhere no letter is h."""
+    top = load(PROBLEMS / "top.toml")
+    assert shown in " ".join(render(discrete(top), name).split())
+    assert "(radius R, height h)" in " ".join(render(walk(top), "text").split())

@@ -4,17 +4,22 @@
 """
 
 import ast
+from dataclasses import replace
 
 import pytest
 
+from derive.record.json_writer import to_json
+from derive.record.record import Equation
 from tests.project.test_layers import ROOT
 from tests.support.engine_mutations import ledger
+from tests.support.engine_mutations.engine import Output
 from tests.support.engine_mutations.jobs import JOBS
-from tests.support.engine_mutations.judge import CAUGHT, LATE, Verdict, numbers
+from tests.support.engine_mutations.judge import CAUGHT, LATE, Verdict, equations, numbers
 from tests.support.engine_mutations.known import EXPLAINED, reason
 from tests.support.engine_mutations.operators import mutants
 from tests.support.engine_mutations.run import LEFT, MODULES, ROOMS, Survey, chosen, results
 from tests.support.engine_mutations.table import counted, line, table, told, wrong
+from tests.support.walks import record
 
 pytestmark = pytest.mark.no_cover
 SAMPLE, SEED = 15, 7
@@ -96,6 +101,17 @@ RULES = [
     ("walk/multipliers.py", "factor: ('inv', x.name)  →  x.name"),
     ("code/lower.py", "comparison: i == j  →  i != j"),
 ]
+
+
+@pytest.mark.parametrize(("factor", "outcome"), [(2, "equations"), (3, "checker")])
+def test_a_fluid_is_judged_by_its_own_checker(factor, outcome):
+    """The one for matrices refuses true equations of fluids as well."""
+    d = record("ideal_fluid")
+    step = d["energy_kept"]
+    other = Equation(("mul", factor, "h̃"), ("norm2", "u"))
+    changed = replace(step, equations=(other, *step.equations[1:]))
+    new = replace(d, steps=tuple(changed if x is step else x for x in d.steps))
+    assert equations(*(Output(to_json(x)) for x in (new, d))).outcome == outcome
 
 
 def test_a_run_goes_on_where_it_ended():

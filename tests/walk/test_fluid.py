@@ -4,6 +4,7 @@ import json
 from dataclasses import replace
 from functools import cache
 
+import numpy as np
 import pytest
 import sympy
 
@@ -21,7 +22,7 @@ from derive.record.json_reader import from_json
 from derive.record.json_writer import to_json
 from derive.record.record import RecordError
 from derive.walk.failure import WalkError
-from derive.walk.fluid import loops
+from derive.walk.fluid import advection, energy_kept, loops
 from tests.support.record_mutations import tried
 from tests.support.walks import FLUIDS, SEED, record
 
@@ -188,6 +189,69 @@ def test_circulation_along_a_known_curve(name, names, start):
         equation = of(name)[label].equations[k]
         left, right = (on_curve(z, names, start) for z in (equation.lhs, equation.rhs))
         assert vanishes(left - right), (label, k)
+
+
+def sheared():
+    """Of a fluid on T² that two shears move in turn: its fields, and what is integrated for h̃ and Ũ
+    and for dŨ(ν), by the points."""
+    a, b = t + t**2 / 2, 2 * t - t**2
+    second = y + b * sympy.sin(x)
+    g = sympy.Matrix([x + a * sympy.sin(second), second])
+    first = x - a * sympy.sin(y)
+    back = {x: first, y: y - b * sympy.sin(first)}
+    body = 2 + sympy.sin(x - y) + sympy.cos(x + 2 * y + 1) / 2
+    V = sympy.sin(x + 2) + sympy.cos(x + y)
+    u, rho = (z.subs(back, simultaneous=True) for z in (g.diff(t), body))
+    fall = body * V.subs({x: g[0], y: g[1]}, simultaneous=True)
+    energy = body * g.diff(t).dot(g.diff(t)) / 2 + fall
+    force = -sympy.Matrix([V.diff(z) for z in PLACE])
+    names = {"u": u, "u̇": u.diff(t), "ρ": rho, "ρ̇": rho.diff(t), "f": force}
+    return names | {"h̃": energy, "Ũ": fall, "dŨ": fall.diff(t)}
+
+
+def over_the_torus(tree, names):
+    """The mean at one time of what a scalar of a record integrates, by the trapezoidal rule."""
+    if tree in ("h̃", "Ũ", ("call", "dŨ", "ν")):
+        found = names[tree if isinstance(tree, str) else "dŨ"]
+    elif tree == ("call", "d/dt", "h̃"):
+        found = names["h̃"].diff(t)
+    elif tree[0] == "add":
+        return sum(over_the_torus(z, names) for z in tree[1:])
+    elif tree[0] == "mul":
+        return float(tree[1]) * over_the_torus(tree[2], names)
+    else:
+        *metric, left, right = tree[1:] if tree[0] != "norm2" else (*tree[1:], tree[-1])
+        found = flow(("inner", left, right), names) * sympy.prod([names[z] for z in metric])
+    angles = 2 * np.pi * np.arange(64) / 64
+    value = sympy.lambdify((x, y), found.subs(t, sympy.Rational(1, 3)), "numpy")
+    return np.mean(value(*np.meshgrid(angles, angles)))
+
+
+def test_density_and_energy_of_a_known_motion():
+    """A motion of no force: what holds for any acceleration holds of it, and is not 0 = 0."""
+    names, d = sheared(), of("stratified_fluid")
+    assert vanishes(sympy.expand(flow(d["advection"].equations[-1].lhs, names)))
+    for e in d["energy_kept"].equations[:4]:
+        left, right = (over_the_torus(z, names) for z in (e.lhs, e.rhs))
+        assert abs(left) > 1e-3
+        assert left == pytest.approx(right, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("where", "what", "words"),
+    [
+        (advection, "varied_cauchy_green", "not carried along with the volume"),
+        (energy_kept, "rate_of_density", "not what the kernel pairs with u"),
+    ],
+)
+def test_what_the_density_and_the_energy_need(where, what, words, monkeypatch):
+    """One rate of the density by both roads; and that it is this one."""
+    right = getattr(where, what)
+    monkeypatch.setattr(where, what, lambda *a: -right(*a))
+    walk(load_problem("ideal_fluid"))
+    for name in FLUIDS[1:]:
+        with pytest.raises(WalkError, match=words):
+            walk(load_problem(name))
 
 
 @pytest.mark.parametrize("name", FLUIDS)

@@ -29,6 +29,13 @@ class Normal:
 
 
 @dataclass(frozen=True)
+class Slope:
+    """The gradient of the density, whose products with fields are those at each place."""
+
+    field: Field
+
+
+@dataclass(frozen=True)
 class OnBoundary:
     """A function on the boundary."""
 

@@ -57,6 +57,7 @@ NAMES: dict[str, Callable[[Any], Value]] = {
     "p": lambda v: v.model.any_pressure if v.model.at.free else v.model.pressure,
     "ρ": lambda v: v.product_with(v.model.density),
     "ρ̇": lambda v: v.product_with(v.model.rate_of_density(v.model.u)),
+    "ρ_0": lambda v: v.product_with(v.model.mass),
     "ϑ": lambda v: v.model.moved_field,
     "ϑ̇": lambda v: v.model.rate_of_moved(),
     "n": lambda _: Normal(),

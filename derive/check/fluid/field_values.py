@@ -13,6 +13,7 @@ from .field_algebra import (
     Matrix,
     Normal,
     OnBoundary,
+    Slope,
     Value,
     componentwise,
     divergence,
@@ -82,9 +83,11 @@ class FluidValues:
             return a.paired(b, self.pair)
         if isinstance(a, Function) and isinstance(b, Function):
             return (a * b).mean()
-        if Normal in (type(a), type(b)):
-            (field,) = (x for x in (a, b) if not isinstance(x, Normal))
-            return OnBoundary(self._normal_part(field_of(field)))
+        for x, y in ((a, b), (b, a)):
+            if isinstance(x, Normal):
+                return OnBoundary(self._normal_part(field_of(y)))
+            if isinstance(x, Slope):
+                return self.product_with(dot(field_of(y), x.field))
         return mean(self._weighted(field_of(a), field_of(b)))
 
     def _weighted(self, a: Field, b: Field) -> Any:
@@ -164,10 +167,9 @@ class FluidValues:
             raise EvaluationError("the integral is of a function over the points")
         return mean(found * self.model.mass)
 
-    def gradient(self, t: Tree) -> Field:
-        """grad of a function."""
-        f = self.functional(t)
-        return gradient(f)
+    def gradient(self, t: Tree) -> Value:
+        """grad of a function, or of the density."""
+        return Slope(gradient(self.model.density)) if t == "ρ" else gradient(self.functional(t))
 
     def divergence(self, t: Tree) -> Any:
         """div of a field."""
@@ -186,7 +188,7 @@ class FluidValues:
 
     def along_normal(self, t: Tree) -> OnBoundary:
         """∂ₙ of a function."""
-        return OnBoundary(self._normal_part(self.gradient(t)))
+        return OnBoundary(self._normal_part(gradient(self.functional(t))))
 
     def varied(self, what: Tree, mask: int) -> Value:
         """δ or δ′ of η′, η, G or ρ on the family; δ of ϖ(X) on lifts."""
@@ -212,8 +214,10 @@ class FluidValues:
         return componentwise(lambda x: x * f)
 
     def rate(self, t: Tree) -> Value:
-        """d/dt of ⟨a, b⟩ or ⟨a, b⟩_ρ of fields, by the rates of both and of the density; of what is
-        along the curve; on lifts, of ϖ(δy)."""
+        """d/dt of ⟨a, b⟩ or ⟨a, b⟩_ρ of fields, by the rates of both and of the density; of the
+        energy, over the points; of what is along the curve; on lifts, of ϖ(δy)."""
+        if t == "h̃":
+            return self.model.rate_of_energy
         if t == ("call", "ϖ", "δy") and self.model.at.lift:
             return self.model.cartan_varied(EPS_PRIME)
         if t in (ALONG_CURVE, "γ_s"):

@@ -224,9 +224,9 @@ def ill_formed(equation: Equation, step: Step) -> str:
 
 
 def densities(t: Tree) -> int:
-    """The most factors ρ, ρ⁻¹ or κ, or rates of them, in a term of a tree."""
+    """The most factors ρ, ρ₀, ρ⁻¹ or κ, or rates of them, in a term of a tree."""
     if not isinstance(t, tuple):
-        return t in ("ρ", "ρ̇", "κ", "κ̇")
+        return t in ("ρ", "ρ_0", "ρ̇", "κ", "κ̇")
     found = map(densities, t[1:])
     return max(found) if t[0] == "add" else sum(found)
 

@@ -266,6 +266,17 @@ class FluidModel:
         """p of the motion, with any constant."""
         return self.motion[1] + self.number()
 
+    @cached_property
+    def rate_of_energy(self) -> Any:
+        """d/dt of ½ ∫ ‖ν‖² dm + ∫ V(g) dm, over the points, whose mass stays: id + εu moves them,
+        and ν is u + εu̇ where they are then."""
+        e = nilpotent(EPS)
+        ahead = [e * x for x in self.u]
+        later = (x + e * y for x, y in zip(self.u, self.acceleration, strict=True))
+        nu, V = ([self.at_points(shifted(x, ahead, 1)) for x in f] for f in (later, [self.V]))
+        kinetic = self.over_points(nu, nu) * Fraction(1, 2)
+        return part(kinetic + mean(V[0] * self.mass), EPS)
+
     def rate_of_moved(self) -> Fields:
         """∂ϑ/∂t: ϑ is moved with the points by id + εu, ϑ ↦ D(id + εu)ϑ ∘ (id − εu)."""
         e, e_prime = nilpotent(EPS), nilpotent(EPS_PRIME)

@@ -10,7 +10,7 @@ from ...record.record import Derivation, Step
 from ..definitions import Usage, definitions, occurrences
 
 _PRIMITIVE = """
-    U V Ũ dŨ u v η η′ δu δ′u u̇ ν ν̇ δg δ′g δν δ′ν ġ G D grad div Δ ∇ ∂ₙ n ρ ρ̇ ϑ ϑ̇
+    U V Ũ dŨ u v η η′ δu δ′u u̇ ν ν̇ δg δ′g δν δ′ν ġ G D grad div Δ ∇ ∂ₙ n ρ ρ̇ ρ_0 ϑ ϑ̇
     δt δ′t δy δ′y X δ δ′ d/dt ∫ Γ_0 Γ̇ γ_s γ̇ ∂_s κ κ̇
     """
 PRIMITIVE = frozenset(_PRIMITIVE.split())

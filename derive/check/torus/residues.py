@@ -1,8 +1,4 @@
-"""Residues at all points of the lattice at once: what a sum over it adds, as one array.
-
-A value is u · a, the number u and the array a: of small integers, as coordinates are, or of
-residues modulo p.  A number times an array is a product of numbers.
-"""
+"""Residues at all points of the lattice at once: what a sum over it adds, as one list."""
 
 from __future__ import annotations
 
@@ -11,71 +7,46 @@ from fractions import Fraction
 from operator import add, mul
 from typing import Any
 
-import numpy as np
-
 from ..arithmetic import EvaluationError
 from ..residue import Residue, _quotient, _residue
 
 SMALL = 2**30
-"""Products of two integers below it are those of machine integers."""
-Numbers = np.ndarray[Any, Any]
+"""Integers of the lattice are below it; the residue of another number only by a rare chance."""
 NUMBERS = (int, Fraction, Residue)
 
 
-def is_small(a: Any) -> bool:
-    """Are all of these machine integers that may be multiplied?"""
-    if isinstance(a, int):
-        return abs(a) < SMALL
-    return a.dtype == np.int64 and bool(np.abs(a).max(initial=0) < SMALL)
-
-
 class Residues:
-    """An array of residues modulo p, ``unit`` times ``a``."""
+    """Residues ``a`` modulo p, one for each point."""
 
-    __slots__ = ("a", "p", "unit")
+    __slots__ = ("a", "p")
 
-    def __init__(self, a: Numbers, p: int, unit: int = 1):
-        self.a, self.p, self.unit = (a if a.dtype == np.int64 else a % p), p, unit % p
+    def __init__(self, a: Sequence[int], p: int):
+        self.a, self.p = a, p
 
-    @property
-    def whole(self) -> Numbers:
-        """The residues themselves."""
-        if self.unit == 1:
-            return self.a
-        return self.a.astype(object) * self.unit % self.p
-
-    def integers(self) -> Numbers:
+    def integers(self) -> list[int]:
         """The small integers of which these are the residues; ``EvaluationError`` for others."""
-        unit = self.unit if self.unit <= self.p // 2 else self.unit - self.p
-        if not (is_small(self.a) and is_small(unit)):
+        p, half = self.p, self.p // 2
+        found = [x if x <= half else x - p for x in self.a]
+        if not all(-SMALL < x < SMALL for x in found):
             raise EvaluationError("small integers are expected on the lattice")
-        return self.a * unit
+        return found
 
-    def _combined(self, f: Callable[[Any, Any], Any], a: Any, b: Any, unit: int = 1) -> Residues:
-        if not (is_small(a) and is_small(b)):
-            a, b = (x if isinstance(x, int) else x.astype(object) for x in (a, b))
-        return Residues(f(a, b), self.p, unit)
-
-    def __mul__(self, other: Any) -> Any:
+    def _with(self, f: Callable[[int, int], int], other: Any) -> Any:
+        p = self.p
         if isinstance(other, Residues):
-            return self._combined(mul, self.a, other.a, self.unit * other.unit)
+            return Residues([x % p for x in map(f, self.a, other.a)], p)
         if not isinstance(other, NUMBERS):
             return NotImplemented
-        n = _residue(other, self.p)
-        if is_small(n) and is_small(self.a):
-            return Residues(self.a * n, self.p, self.unit)
-        return Residues(self.a, self.p, self.unit * n)
+        n = _residue(other, p)
+        return Residues([f(x, n) % p for x in self.a], p)
+
+    def __mul__(self, other: Any) -> Any:
+        return self._with(mul, other)
 
     __rmul__ = __mul__
 
     def __add__(self, other: Any) -> Any:
-        if isinstance(other, Residues) and self.unit == other.unit:
-            return self._combined(add, self.a, other.a, self.unit)
-        if isinstance(other, Residues):
-            return self._combined(add, self.whole, other.whole)
-        if not isinstance(other, NUMBERS):
-            return NotImplemented
-        return self._combined(add, self.whole, _residue(other, self.p))
+        return self._with(add, other)
 
     __radd__ = __add__
 
@@ -92,9 +63,7 @@ class Residues:
         return self * (1 / other if isinstance(other, Residues) else Fraction(1) / other)
 
     def __rtruediv__(self, other: Any) -> Any:
-        inverses = [_quotient(1, int(x), self.p) for x in self.a]
-        unit = _quotient(1, self.unit, self.p)
-        return Residues(np.array(inverses, dtype=object), self.p, unit) * other
+        return Residues([_quotient(1, x, self.p) for x in self.a], self.p) * other
 
     @staticmethod
     def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
@@ -103,4 +72,4 @@ class Residues:
 
     def total(self) -> Residue:
         """The sum of all of them."""
-        return Residue(int(self.a.sum()) * self.unit, self.p)
+        return Residue(sum(self.a), self.p)

@@ -12,12 +12,10 @@ from functools import cached_property
 from random import Random
 from typing import Any
 
-import numpy as np
-
 from ..arithmetic import EvaluationError
 from ..grades import CONSTANT, Graded
 from ..residue import BITS, ROUNDS, Residue, _passes_miller_rabin
-from .residues import Numbers, Residues
+from .residues import Residues
 
 
 def prime_with_roots(random: Random, order: int) -> tuple[int, int]:
@@ -79,8 +77,8 @@ class Turns:
         if not self.roots.p:
             return Graded(CONSTANT)
         if isinstance(x, Residues):
-            turns = (x / self.step).integers() % self.roots.N
-            return Residues(self.waves[name][turns], self.roots.p)
+            wave, N = self.waves[name], self.roots.N
+            return Residues([wave[k % N] for k in (x / self.step).integers()], self.roots.p)
         if x not in self.turns:
             raise EvaluationError("an angle on the torus is a multiple of 2π/N")
         return self.value(name, self.turns[x])
@@ -91,10 +89,7 @@ class Turns:
         return (ahead + back) / 2 if name == "cos" else (ahead - back) / (2 * self.roots.i)
 
     @cached_property
-    def waves(self) -> dict[str, Numbers]:
+    def waves(self) -> dict[str, list[int]]:
         """cos and sin of 2πk/N for all k, as integers."""
         span = range(self.roots.N)
-        return {
-            name: np.array([self.value(name, k).n for k in span], dtype=object)
-            for name in ("cos", "sin")
-        }
+        return {name: [self.value(name, k).n for k in span] for name in ("cos", "sin")}

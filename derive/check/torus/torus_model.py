@@ -10,10 +10,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from itertools import repeat
 from random import Random
 from typing import Any
-
-import numpy as np
 
 from ...algebra.samplers import Source
 from ...algebra.torus import Place, Torus
@@ -23,8 +22,8 @@ from ...language.tree import Tree
 from ..arithmetic import EvaluationError, is_matrix
 from ..evaluate import Environment, evaluate
 from ..grades import DegreeSource
-from ..residue import Residue, _residue
-from .residues import Numbers, Residues
+from ..residue import _residue
+from .residues import Residues
 from .roots_of_unity import RootsOfUnity, Turns
 
 ALL_PAIRS = 5
@@ -52,19 +51,17 @@ class TorusModel:
         self.zeta = {n: self.draw() for n in torus.places}
         self.vorticity = {n: self.derivative(n) for n in torus.places}
         self.made: dict[Place, Matrix] = {}
-        span = np.arange(torus.N)
-        self.powers = self.array([self.roots[k] for k in range(torus.N)])
-        self.turns = np.outer(span, span) % torus.N
-        self.all_places = tuple(
-            (Residues(x, self.roots.p),) for x in np.transpose(torus.places) if self.roots.p
-        )
-        self.entries = (span[:, None] + span) % torus.N, (span - span[:, None]) % torus.N
         self.hypothesis_failures: dict[Any, str] = {}
         self.scale = torus.N / (4 * self.pi * self.roots.i)
         self.Z = q.scaled(self.scale, self.matrix(self.grid(self.zeta)))
         self.W = self.matrix(self.grid(self.vorticity))
         self.P = q.scaled(-1 / self.scale, self.Z)
         self.rate = q.minus(q.times(self.Z, self.W), q.times(self.W, self.Z))
+
+    @property
+    def all_places(self) -> Matrix:
+        """The points of the lattice, all at once, as one vector."""
+        return tuple((Residues(x, self.roots.p),) for x in zip(*self.torus.places, strict=True))
 
     def draw(self) -> Any:
         """A random number of the field, not 0."""
@@ -77,37 +74,31 @@ class TorusModel:
         other = (-a, -b)
         return sum((self.zeta[n] * Fraction(x * x + y * y, 2) for x, y in (n, other)), Fraction(0))
 
-    def array(self, numbers: Sequence[Any]) -> Numbers:
-        """Numbers of the field as an array, of integers where they are residues."""
-        return np.array([getattr(x, "n", x) for x in numbers], dtype=object)
+    def fourier(self, sign: int) -> Matrix:
+        """e^(± 2πi jk/N) in row j and column k: the discrete Fourier transform."""
+        span = range(self.torus.N)
+        return tuple(tuple(self.roots[sign * j * k] for k in span) for j in span)
 
-    def number(self, x: Any) -> Any:
-        """One of the numbers of an array."""
-        return x if self.graded else Residue(int(x), self.roots.p)
+    def grid(self, coefficients: Mapping[Place, Any]) -> Matrix:
+        """a(n) as a matrix over n modulo N, 0 at 0."""
+        N, span = self.torus.N, range(self.torus.N)
+        found = {(a % N, b % N): x for (a, b), x in coefficients.items()}
+        return tuple(tuple(found.get((a, b), Fraction(0)) for b in span) for a in span)
 
-    def product(self, a: Numbers, b: Numbers) -> Numbers:
-        """That of two arrays as matrices."""
-        return a @ b if self.graded else a @ b % self.roots.p
-
-    def grid(self, coefficients: Mapping[Place, Any]) -> Numbers:
-        """a(n) as an array over n modulo N, 0 at 0."""
-        found = np.full((self.torus.N, self.torus.N), 0, dtype=object)
-        found[tuple(np.transpose(list(coefficients)))] = self.array([*coefficients.values()])
-        return found
-
-    def matrix(self, grid: Numbers) -> Matrix:
+    def matrix(self, grid: Matrix) -> Matrix:
         """Σ a(n) T(n), entry by entry: in row r and column c those with n₂ = c − r, times
         e^(2πi n₁(r + c)/N)."""
-        sums = self.product(self.powers[self.turns], grid)[self.entries]
-        return tuple(tuple(self.number(x) for x in row) for row in sums)
+        N, sums = self.torus.N, q.times(self.fourier(1), grid)
+        return tuple(tuple(sums[(r + c) % N][(c - r) % N] for c in range(N)) for r in range(N))
 
-    def coefficients(self, m: Matrix) -> Numbers:
-        """a(n) of a matrix Σ a(n) T(n), that is Tr m T(−n)/N, as an array over n modulo N."""
-        sums = np.full_like(self.turns, 0, dtype=object)
-        sums[self.entries] = [self.array(row) for row in m]
-        N, p = self.torus.N, self.roots.p
-        by_N = Fraction(1, N) if self.graded else pow(N, -1, p)
-        return self.product(self.powers[-self.turns % N], sums * by_N)
+    def coefficients(self, m: Matrix) -> Matrix:
+        """a(n) of a matrix Σ a(n) T(n), that is Tr m T(−n)/N, as a matrix over n modulo N."""
+        N = self.torus.N
+        half = (N + 1) // 2  # 1/2 modulo N
+        sums = tuple(
+            tuple(m[half * (s - k) % N][half * (s + k) % N] for k in range(N)) for s in range(N)
+        )
+        return q.scaled(Fraction(1, N), q.times(self.fourier(-1), sums))
 
     def basis(self, n: Place) -> Matrix:
         """T(n) = ω^(n₁n₂) g^n₁ h^n₂, by the clock and the shift; each made once."""
@@ -136,21 +127,24 @@ def environment(model: TorusModel) -> Environment:
     return _environment(model, model.W)
 
 
-def _place(torus: Torus, given: tuple[Tree, ...], env: Environment) -> Place:
-    """A point of the lattice, given as one or by its two coordinates; or all at once, as arrays."""
+def _place(torus: Torus, given: tuple[Tree, ...], env: Environment) -> Place | list[Place]:
+    """A point of the lattice, given as one or by its two coordinates; or all at once."""
     found = [evaluate(x, env) for x in given]
     if len(found) == 1:
         if not is_matrix(found[0]) or len(found[0]) != 2:
             raise EvaluationError("a point of the lattice is expected")
         found = [row[0] for row in found[0]]
-    whole = (x.integers() if isinstance(x, Residues) else int(x) for x in found)
-    return torus.representative(tuple(whole))  # type: ignore[arg-type]
+    x, y = found
+    if isinstance(x, Residues) and isinstance(y, Residues):
+        N, both = torus.N, zip(x.integers(), y.integers(), strict=True)
+        return [(a % N, b % N) for a, b in both]
+    return torus.representative((int(x), int(y)))
 
 
 class Elements:
     """Σ a(n) T(n), a sum that is not yet taken, over the points of the lattice."""
 
-    def __init__(self, model: TorusModel, n: Place, a: Any = 1):
+    def __init__(self, model: TorusModel, n: list[Place], a: Any = 1):
         self.model, self.n, self.a = model, n, a
 
     def __mul__(self, other: Any) -> Elements:
@@ -162,18 +156,26 @@ class Elements:
 
     def total(self) -> Matrix:
         """The matrix."""
-        grid, p = np.full((self.model.torus.N,) * 2, 0, dtype=object), self.model.roots.p
-        a = self.a.whole if isinstance(self.a, Residues) else _residue(self.a, p)
-        np.add.at(grid, self.n, a)
-        return self.model.matrix(grid % p)
+        N, p = self.model.torus.N, self.model.roots.p
+        grid = [[0] * N for _ in range(N)]
+        numbers = self.a.a if isinstance(self.a, Residues) else repeat(_residue(self.a, p))
+        for (x, y), a in zip(self.n, numbers, strict=False):
+            grid[x][y] += a
+        return self.model.matrix(q.matrix(grid))
 
 
-def _of_grid(model: TorusModel, grid: Callable[[], Numbers]) -> Callable[[Place], Any]:
-    """a(n) at a point, or at all at once, of an array that is made when it is asked for."""
+def _of_grid(model: TorusModel, grid: Callable[[], Matrix]) -> Callable[[Any], Any]:
+    """a(n) at a point, or at all at once, of a matrix that is made when it is asked for."""
 
-    def value(n: Place) -> Any:
-        found = grid()[n]
-        return Residues(found, model.roots.p) if np.ndim(found) else model.number(found)
+    @cache
+    def residues() -> list[list[int]]:
+        return [[_residue(x, model.roots.p) for x in row] for row in grid()]
+
+    def value(n: Place | list[Place]) -> Any:
+        if isinstance(n, tuple):
+            return grid()[n[0]][n[1]]
+        found = residues()
+        return Residues([found[x][y] for x, y in n], model.roots.p)
 
     return value
 
@@ -190,17 +192,16 @@ def _half_square(torus: Torus, a: Callable[[Place], Any], power: int) -> Any:
 def _environment(model: TorusModel, W: Matrix) -> Environment:
     torus, N, zero = model.torus, model.torus.N, Fraction(0)
 
-    def of_place(values: Callable[[Place], Any]) -> Callable[..., Any]:
+    def of_place(values: Callable[[Any], Any]) -> Callable[..., Any]:
         return lambda _, a, env: values(_place(torus, a, env))
 
     @cache
-    def coefficients() -> Numbers:
-        found = model.coefficients(W)
-        found[0, 0] = 0
-        return found
+    def coefficients() -> Matrix:
+        (_, *first), *rest = model.coefficients(W)
+        return ((zero, *first), *rest)
 
-    def basis(n: Place) -> Any:
-        return Elements(model, n) if np.ndim(n[0]) or np.ndim(n[1]) else model.basis(n)
+    def basis(n: Place | list[Place]) -> Any:
+        return model.basis(n) if isinstance(n, tuple) else Elements(model, n)
 
     vorticity = _of_grid(model, coefficients)
 

@@ -11,7 +11,7 @@ much as its error is, and nothing else is kept better.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import reduce
 from itertools import combinations_with_replacement
@@ -19,10 +19,8 @@ from operator import add, mul
 from typing import Any
 from zlib import crc32
 
-import numpy as np
-
-from ...algebra.exact_kernel import echelon, kernel
-from ...algebra.residue_arrays import PRIMES, Array, Residues, ResidueSource
+from ...algebra.exact_kernel import Rows, kernel, pivots
+from ...algebra.residue_vectors import PRIMES, Residues, ResidueSource
 from ...language import rational as q
 from ...language.tree import nodes
 from ..ellipsoid import BUNDLES
@@ -51,32 +49,34 @@ def kept_by_gauss(
     if n > LARGEST + 1 or integrals or framed or not space.group.has_inner_samples:
         return None
     pairs = [*combinations_with_replacement(range(n), 2)]
-    some = _columns(_on_the_group(space, _Points(functions, sizes, n)))
+    some = _on_the_group(space, _Points(functions, sizes, n))
     spanned = _Points(functions, sizes, n + len(pairs) + MORE)
     weights = [spanned.draw() for _ in range(n - 1)]
     weights.append(1 - reduce(add, weights))
-    x = [Residues(sum_of(_columns(weights), row), P) for row in some.T]
+    x = [Residues.dot(weights, coordinate.values) for coordinate in some]
     f = [*spanned.values("rhs", x), spanned.source.constant(1)]
     x.append(spanned.t)
     rates = [x[i] * f[j] + f[i] * x[j] for i, j in pairs]
-    quadratics, _ = kernel(_columns([*f, *rates]), P)
+    quadratics, _ = kernel(_rows([*f, *rates]), n + len(pairs), P)
 
-    here = _Points(functions, sizes, len(quadratics) + MORE)
+    names, numbers = conserved or ("energy",), "conserved" if conserved else "energy"
+    here = _Points(functions, sizes, len(quadratics) + len(names) + MORE)
     place = _on_the_group(space, here)
     on = [*place, here.t]
-    of_state = _columns([*on, *(on[i] * on[j] for i, j in pairs)])
-    values = [Residues(sum_of(of_state, row), P) for row in quadratics]
-    one = here.source.constant(1)
-    constant, _ = kernel(_columns([*values, one]), P)
-    relations = product(constant[:, :-1], quadratics)
-    group = _rank(_slopes(relations, on, pairs)) == n - 1 - _dimension(space)
-    names, numbers = conserved or ("energy",), "conserved" if conserved else "energy"
-    found = here.values(numbers, place)
-    exact = [
-        name
-        for name, number in zip(names, found, strict=True)
-        if group and len(kernel(_columns([*values, one, number]), P)[0]) > len(constant)
+    of_state = [*on, *(on[i] * on[j] for i, j in pairs)]
+    values = [Residues.dot(row, of_state) for row in quadratics]
+    columns = [*values, here.source.constant(1), *here.values(numbers, place)]
+    vectors, free = kernel(_rows(columns), len(columns), P)
+    first = len(values) + 1
+    listed = [Residues(row, P) for row in quadratics]
+    relations = [
+        Residues.dot(x[: first - 1], listed).values
+        for x, c in zip(vectors, free, strict=True)
+        if c < first
     ]
+    group = _rank(_slopes(relations, on, pairs)) == n - 1 - _dimension(space)
+    told = {c for x, c in zip(vectors, free, strict=True) if not any(x[first:c])}
+    exact = [x for c, x in enumerate(names, first) if group and c in told]
     others = [name for name in conserved if name not in exact]
     return KeptByGauss(tuple(exact), tuple(others), group)
 
@@ -90,8 +90,8 @@ class _Points:
         self.source, self.functions = ResidueSource(P, points, 1), functions
         zero = self.source.constant(0)
         self.t = self.draw()
-        body = np.random.default_rng(2)  # the same for all points
-        p = [self.source.constant(int(v)) for v in body.integers(1, P, sizes["p"])]
+        body = ResidueSource(P, sizes["p"], 2).randint(0, 1)  # the same for all points
+        p = [self.source.constant(v) for v in body.values]
         self.arrays = {"p": p, "u": [zero] * sizes["u"], "t": [self.t]}
         self.arrays["k"] = self._evaluated(functions["constants"])
 
@@ -120,8 +120,7 @@ class _Points:
             return self._any_function(str(e[-2]), self._value(e[-1], known))
         parts = [self._value(x, known) for x in e[1:]]
         if e[0] == "none":
-            zero = (parts[0] + self.source.constant(0)).values == 0
-            return Residues(zero.astype(np.int64), P)
+            return Residues([int(x == 0) for x in (parts[0] + self.source.constant(0)).values], P)
         if e[0] == "div":
             return parts[0] / parts[1]
         return reduce({"add": add, "mul": mul}[e[0]], parts)
@@ -160,33 +159,23 @@ def _dimension(space: StateSpace) -> int:
     return 2 * space.group.dimension - len([*space.held])
 
 
-def _columns(found: Sequence[Residues]) -> Array:
-    return np.stack([x.values for x in found], axis=1)
+def _rows(columns: Sequence[Residues]) -> Iterator[tuple[int, ...]]:
+    """A matrix by its columns."""
+    return zip(*(x.values for x in columns), strict=True)
 
 
-def sum_of(columns: Array, weights: Array) -> Array:
-    """Σ_j w_j a_j modulo P."""
-    total = np.zeros(len(columns), np.int64)
-    for j in np.flatnonzero(weights):
-        total = (total + columns[:, j] * weights[j]) % P
-    return total
-
-
-def product(a: Array, b: Array) -> Array:
-    """a b modulo P."""
-    return np.array([sum_of(b.T, row) for row in a], np.int64).reshape(len(a), b.shape[1])
-
-
-def _slopes(relations: Array, on: Sequence[Residues], pairs: Sequence[tuple[int, int]]) -> Array:
+def _slopes(relations: Rows, on: Sequence[Residues], pairs: Sequence[tuple[int, int]]) -> Rows:
     """The derivatives by the state of some quadratics, by rows, at the first point."""
-    n = len(on)
-    x = np.array([value.values[0] for value in on], np.int64)
-    slopes = relations[:, :n] % P
-    for (i, j), weight in zip(pairs, relations[:, n:].T, strict=True):
-        slopes[:, i] = (slopes[:, i] + weight * x[j]) % P
-        slopes[:, j] = (slopes[:, j] + weight * x[i]) % P
+    n, x = len(on), [value.values[0] for value in on]
+    slopes = []
+    for relation in relations:
+        row = relation[:n]
+        for (i, j), weight in zip(pairs, relation[n:], strict=True):
+            row[i] += weight * x[j]
+            row[j] += weight * x[i]
+        slopes.append([y % P for y in row])
     return slopes
 
 
-def _rank(rows: Array) -> int:
-    return len(echelon(rows, P)[1])
+def _rank(rows: Rows) -> int:
+    return len(pivots(rows, len(rows[0]), P)) if rows else 0

@@ -14,8 +14,8 @@ from ...record.record import Equation, Step
 from ..chapter import Chapter
 from ..exterior import brackets_of
 from ..factorisation import factored_tree
-from ..trivialisation import varied_cauchy_green
 from ..wording import say
+from .advection import rate_of_density
 from .fluid_kernel import FluidKernel
 from .fluid_letters import FluidAlphabet
 from .fluid_points import Points
@@ -32,17 +32,14 @@ def circulation(
     # δη′ − δ′η for δ the relabelling and δ′ the motion: δu = 0, and δ′η is the rate of ϑ
     crossed = brackets_of(a)[w.xi_prime]
     found = -substitute(crossed, with_derivatives({w.xi: carried, w.xi_prime: u}))
-    told = [Equation(a.moved_rate.name, moving.tree(found))]
     images = {a.moved_field: moving.mark(found), w.velocity: word(w.acceleration)}
     given: list[Equation] = []
     if a.advected:
-        density = varied_cauchy_green(a, along(w.velocity)).marked(c.label("transport"))
-        told.append(Equation("ρ̇", moving.tree(density)))
-        images[a.C] = moving.mark(density)
+        images[a.C] = rate_of_density(a).marked(c.label("advection"))
         turned, density = word(along(a.moved_field)), word(a.C)
         given = [Equation(keeping.tree(turned * density), keeping.tree(density * turned))]
-    varied = say("relabelling.field") + (say("relabelling.density") if a.advected else ())
-    first = moving.step(told, varied)
+    told = (Equation(a.moved_rate.name, moving.tree(found)),)
+    first = moving.step(told, say("relabelling.field"))
     momentum = inner(u, a.volume * carried)
     changed = derivation(momentum, images.get)
     driven = substitute(stage.balance, {w.xi_prime: carried})

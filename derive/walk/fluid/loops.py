@@ -18,8 +18,9 @@ from ...record.formulas import stated
 from ...record.record import Equation, Step
 from ..chapter import Chapter
 from ..factorisation import factored_tree
-from ..trivialisation import trivial_images, varied_cauchy_green
+from ..trivialisation import trivial_images
 from ..wording import say
+from .advection import rate_of_density
 from .fluid_kernel import FluidKernel
 from .fluid_letters import FluidAlphabet
 from .fluid_points import GRADIENT_OF_V, Points
@@ -94,7 +95,7 @@ def _level(a: FluidAlphabet, c: Chapter) -> Step:
     draft = c.draft("level_curve", "variation")
     images = {
         CURVE: (word(CURVE) * word(along(a.w.velocity))).marked(c.label("curve")),
-        a.C: varied_cauchy_green(a, along(a.w.velocity)).marked(c.label("relabelling")),
+        a.C: rate_of_density(a).marked(c.label("advection")),
         LEVEL: word(CHANGE),
     }
     both = word(CURVE) * word(a.C) - word(LEVEL) * word(CURVE)

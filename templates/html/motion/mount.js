@@ -1,5 +1,5 @@
 /* A motion in an element of a page: mount(element, page, pieces) builds all that is seen, and returns
- * what moves it: { time, state, seek, play, pause, run }.
+ * what moves it: { time, state, seek, play, pause, run, keep }.
  *
  * page: { module: the emitted module, with gauss; x, p, u: the start, in the module's order;
  * t, tol: how long, how exact; entries: [row, column, place] of the element of the group in x, whose
@@ -29,6 +29,7 @@ function mount(element, page, pieces) {
     && ((t, x, k) => module.conserved(t, x, k)[module.CONSERVED.indexOf("energy")]));
   const scene = { page, p, velocity, energy, ask, run: null, trail: [], redraw: () => scene.run && show(scene.run.at(time), before) };
   let run, time = 0, wanted = null, playing = false, trail = [], first = {}, told = 0;
+  let keeping = module, k = null;  // what gives the numbers that are kept, and its constants
 
   const message = make("p", { class: "message", role: "status" });
   function restart() {
@@ -42,18 +43,23 @@ function mount(element, page, pieces) {
     message.textContent = "";
     for (const x of views) x.restart?.(run.at(0));
     clear();
-    first = invariants(0, run.at(0));
+    begin_to_keep();
     time = 0;
     wanted = null;
     told = 0;
     ask();
   }
 
+  function begin_to_keep() {
+    k = keeping === module ? run.k : keeping.constants(p);
+    first = invariants(0, run.at(0));
+  }
+
   function invariants(t, x) {
     const found = {};
     if (module.energy) found.energy = module.energy(t, x, run.k);
-    const values = module.conserved?.(t, x, run.k);
-    values?.forEach((v, i) => (found[module.CONSERVED[i]] = v));
+    const values = keeping.conserved?.(t, x, k);
+    values?.forEach((v, i) => (found[keeping.CONSERVED[i]] = v));
     if (module.defect) found.defect = module.defect(x);
     if (module.multiplier) found.multiplier = module.multiplier(t, x, run.k, u);
     return found;
@@ -229,6 +235,7 @@ function mount(element, page, pieces) {
   const lines = make("tbody");
   table.append(lines);
   function tabulate() {
+    lines.replaceChildren();
     for (const name of Object.keys(first)) {
       const cells = [make("td"), make("td")], special = name === "defect" || name === "multiplier";
       rows[name] = special ? [cells[0]] : cells;
@@ -279,5 +286,14 @@ function mount(element, page, pieces) {
     tabulate();
     if (!still) play();
   }
-  return { get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause };
+  /* the same motion, and more that it keeps: by another module of the same problem, with words */
+  function keep(other, kept) {
+    if (!run) return;
+    keeping = other;
+    page.kept = kept;
+    begin_to_keep();
+    tabulate();
+    ask();
+  }
+  return { get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause, keep };
 }

@@ -224,7 +224,7 @@ def serve(mutant: Mutant, graph: dict[str, set[str]], connection: Any) -> None:
 
 def refuses(job: Job, output: Output, labels: list[str]) -> bool:
     """Does this process refuse one of these steps, or the code, or break on it, or hang?"""
-    from derive.check.checker import Checker
+    from derive.check.checker import checker_of
     from derive.record.json_reader import from_json
 
     try:
@@ -232,7 +232,7 @@ def refuses(job: Job, output: Output, labels: list[str]) -> bool:
             d = from_json(output.record)
             if not labels:
                 return any(not r.holds for r in read_back(job, output))
-            checker = Checker(d.problem, SEED)
+            checker = checker_of(d.problem, SEED)
             return not all(checker.check(s).holds for s in d.steps if s.label in labels)
     except (Exception, OutOfTimeError):
         return True

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from derive.check.checker import Checker
+from derive.check.checker import Checker, checker_of
 from derive.check.definitions import unexplained
 from derive.language.tree import mul
 from derive.record.contract import ANY_GROUP
@@ -51,7 +51,7 @@ def of_any_group(action: str) -> Checker:
     return Checker({"group": "any group", "action": action}, SEED)
 
 
-def refused(step: Step, own: Checker) -> str:
+def refused(step: Step, own: Any) -> str:
     """Why the checker refuses a step; empty when it holds."""
     some = of_any_group(own.problem["action"]) if step.scope == ANY_GROUP else own
     verdict = some.check(step)
@@ -130,14 +130,14 @@ def equations(new: Output, old: Output) -> Verdict:
         d, right = from_json(new.record), from_json(old.record)
     except RecordError as error:
         return Verdict("checker", str(error))
-    own, steps = Checker(d.problem, SEED), changed_steps(d, right)
+    own, steps = checker_of(d.problem, SEED), changed_steps(d, right)
     try:
         for step in steps:
             if why := refused(step, own):
                 return Verdict("checker", why)
     except RecordError as error:
         return Verdict("checker", str(error))
-    for step, name in zip(d.steps, unexplained(d.steps), strict=True):
+    for step, name in zip(d.steps, unexplained(d.steps, own.primitive), strict=True):
         if name:
             return Verdict("checker", f"{step.label}: nothing says what {name} is")
     if why := less(d, right, steps, own):
@@ -150,7 +150,7 @@ def equations(new: Output, old: Output) -> Verdict:
     return Verdict("words", ", ".join(s.label for s in other) or "the problem or the symbols")
 
 
-def less(d: Derivation, right: Derivation, steps: list[Step], own: Checker) -> str:
+def less(d: Derivation, right: Derivation, steps: list[Step], own: Any) -> str:
     """What a true record leaves out: a step, equations, or what an equation says; empty if not."""
     if missing := {s.label for s in right.steps} - {s.label for s in d.steps}:
         return f"without {', '.join(sorted(missing))}"
@@ -168,7 +168,7 @@ def less(d: Derivation, right: Derivation, steps: list[Step], own: Checker) -> s
     return ""
 
 
-def idle(step: Step, own: Checker) -> int:
+def idle(step: Step, own: Any) -> int:
     """How many equations of a true step stay true when one side is doubled, as 0 = 0 does."""
     found = 0
     for k, equation in enumerate(step.equations):

@@ -1,0 +1,30 @@
+/* The code that was made: one of its files at a time, to read, to copy or to save. */
+import { copy, make, save } from "./dom.js";
+
+export class Code {
+  constructor() {
+    this.place = make("div", { class: "code", "aria-live": "polite" });
+  }
+
+  clear() {
+    this.place.replaceChildren();
+  }
+
+  /* files: name → bytes */
+  async show(files, words) {
+    const texts = new Map();
+    for (const [name, bytes] of files) texts.set(name, await bytes.text());
+    const shown = make("pre", { tabindex: "0", translate: "no" }), lines = make("span", { class: "told" });
+    const select = make("select", { "aria-label": words.file, change: () => {
+      shown.textContent = texts.get(select.value);
+      shown.scrollTop = shown.scrollLeft = 0;
+      shown.setAttribute("aria-label", select.value);
+      lines.textContent = words.lines(texts.get(select.value).split("\n").length - 1);
+    } }, ...[...texts.keys()].map((x) => make("option", { value: x }, x)));
+    const copies = make("button", { type: "button", click: () => copy(shown.textContent, copies, "✓") }, words.copy);
+    const saves = make("button", { type: "button", click: () => save(select.value, files.get(select.value)) }, words.savefile);
+    this.place.replaceChildren(make("div", { class: "row" }, make("label", {}, `${words.file} `, select), copies, saves, lines), shown);
+    shown.setAttribute("role", "region");
+    select.dispatchEvent(new Event("change"));
+  }
+}

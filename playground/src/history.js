@@ -1,0 +1,53 @@
+/* Where the reader was: an entry of the browser's history for each problem and each step that is gone to. */
+import { packed, placed, spoken } from "./link.js";
+
+export class Places {
+  /* does the walk of the entry that is shown stand in the page? */
+  stands = false;
+
+  constructor(equations) {
+    this.equations = equations;
+    history.scrollRestoration = "manual";
+  }
+
+  /* the problem of the entry that is shown: its name, or p=… */
+  get word() { return location.hash.replace(/^#/, "").split("/")[0]; }
+
+  /* and its step, if any */
+  get named() { return decodeURIComponent(location.hash.split("/").slice(1).join("/")); }
+
+  /* the place that the reader left the entry at which is shown */
+  get left() { return history.state?.at ?? null; }
+
+  /* remember where the reader is */
+  keep() {
+    const at = this.stands && this.equations.at();
+    if (at) history.replaceState({ at }, "");
+  }
+
+  /* The entry of a problem, by its name if it has one: another one where `anew`, and where a ready-made one was
+   * changed, so that Back finds it. */
+  async problem(lang, name, text, anew = false) {
+    const word = name ?? `p=${await packed(text)}`, before = this.word;
+    if (word === before && lang === spoken(location.search)) return;
+    if (word !== before) this.stands = false;
+    const changed = !name && !before.startsWith("p=");
+    this.#enter(anew || changed, placed(lang, word, word === before ? this.named : ""));
+  }
+
+  /* the entry of a step; `again`: in the place of another step's, which was passed */
+  step(lang, word, id, again) {
+    this.keep();
+    this.#enter(!again, placed(lang, word, id));
+  }
+
+  /* the entry that is shown, written in full */
+  settle(lang, word, step) {
+    this.stands = false;
+    history.replaceState(history.state, "", placed(lang, word, step));
+  }
+
+  #enter(anew, url) {
+    history[anew ? "pushState" : "replaceState"]({}, "", url);
+  }
+}

@@ -1,0 +1,64 @@
+/* What the form writes for a new body and a new force, and lists of another length where the group is another. */
+import { entry, put, raw, tables } from "./source.js";
+import { listed, shown, toml } from "./values.js";
+
+const zeros = (n) => Array(n).fill("0");
+const list = (x) => toml(x.join(", "), true);
+
+/* kind → its tables, in Rⁿ */
+export const bodies = (n) => ({
+  points: zeros(n).map((_, k) => `[[point]]\nmass = "m"\nat = ${list(zeros(n).map((x, j) => (j === k ? "abcdefhk"[k] : x)))}`).join("\n\n"),
+  moments: '[body]\nmoments = "symbolic"',
+  solid: '[body]\nsolid = "box"\ndensity = "rho"\nsides = ["a", "b", "c"]',
+});
+
+/* what the body of a text is: a kind of these, or "given" */
+export function bodyOf(text) {
+  const all = tables(text), body = all.find((x) => x.name === "body");
+  if (entry(body, "moments")) return "moments";
+  if (entry(body, "solid") || all.some((x) => x.name === "solid")) return "solid";
+  return body ? "given" : "points";
+}
+
+/* the table of a new force: "potential.spring", "input.force", "damping" */
+export function force(text, name, n) {
+  const [section, kind] = name.split("."), all = tables(text);
+  const points = all.filter((x) => x.name === "point").length, zero = list(zeros(n));
+  const place = points ? "on = 1" : `at = ${zero}`, letter = `u${all.filter((x) => x.name === "input").length + 1}`;
+  const rows = (entry_) => `[${zeros(n).map((_, i) => `[${zeros(n).map((__, j) => entry_(i, j)).join(", ")}]`).join(", ")}]`;
+  const down = (x) => list([...zeros(n - 1), x]);
+  const keys = {
+    gravity: `g = ${down("-g")}`,
+    spring: `${place}\nanchor = ${zero}\nstiffness = "k"\nlength = 0`,
+    torsion: 'stiffness = "k"',
+    attraction: `strength = "mu"\ncentre = ${down("R")}`,
+    far_centre: `strength = "mu"\ncentre = ${down("R")}`,
+    self_gravity: 'G = "G"',
+    field: `E = ${down("E")}\ncharges = [${Array(Math.max(points, 1)).fill('"q"').join(", ")}]`,
+    harmonic: `W = ${rows((i, j) => (i === j ? '"k"' : 0))}`,
+    volume: 'U = "k*(det_A - 1)^2"',
+    expression: `U = "k*r1_${n > 3 ? 1 : "x"}^2"`,
+    covector: `name = "${letter}"`,
+    force: `name = "${letter}"\n${place}`,
+  };
+  return section === "damping" ? `[[damping]]\ncoefficient = "kappa"${points ? "" : `\nat = ${zero}`}` : `[[${section}]]\nkind = "${kind}"\n${keys[kind]}`;
+}
+
+/* a text whose group is another: vectors of the space as long as its new dimension; of what is cut the last entry, if it is
+ * not 0, is that of gravity */
+export function fitted(text, before, schema) {
+  const now = schema.groups[shown(raw(text, tables(text)[0], "group"))]?.n;
+  if (!now || !before || now === before) return text;
+  let made = text;
+  tables(text).forEach((table, k) => {
+    for (const key of ["at", "g", "anchor", "centre", "E"]) {
+      const value = listed(raw(made, table && tables(made)[k], key));
+      if (value?.length !== before) continue;
+      const own = now > before ? [...value, ...zeros(now - before)] : value.slice(0, now);
+      if (key === "g" && now > before && value.slice(0, -1).every((x) => x === "0")) own.splice(0, own.length, ...zeros(now - 1), value.at(-1));
+      if (key === "g" && now < before && own.every((x) => x === "0")) own[now - 1] = value.at(-1);
+      made = put(made, k, key, list(own));
+    }
+  });
+  return made;
+}

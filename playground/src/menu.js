@@ -1,0 +1,9 @@
+/* The menu of the ready-made problems, by their groups, and of one's own. */
+import { make } from "./dom.js";
+
+export function menu(select, problems, words, lang) {
+  const groups = Map.groupBy?.(problems, (x) => x.group) ?? new Map([["", problems]]);
+  select.replaceChildren(make("option", { value: "" }, words.own),
+    ...[...groups].map(([group, list]) => make("optgroup", { label: group || "–" },
+      ...list.map((x) => make("option", { value: x.name, title: x[`about_${lang}`] }, `${x.name}: ${x[`title_${lang}`]}`)))));
+}
