@@ -39,7 +39,9 @@ from .walk.fluid import (
     pressure, trivialised,
 )
 from .walk.fluid.fluid_letters import FluidAlphabet
-from .walk.lie import advected, any_lagrangian, basis, expressed, momentum_side, vorticity
+from .walk.lie import (
+    advected, any_lagrangian, basis, expressed, kept_by_any, momentum_side, vorticity,
+)
 from .walk.head import problem_data, symbols
 from .walk.inputs import acts
 from .walk.lineage import traced
@@ -162,6 +164,8 @@ EXPRESSED = (
     Stage("basis", "problem group lagrangian a c", "Basis", advected.reduced, "reduced"),
     Stage("expressed", "problem group lagrangian basis c", "Expressed", expressed.expressed),
     Stage("balance", "expressed problem group lagrangian basis c_u", "Steps", expressed.balance),
+    Stage("conserved", "expressed problem group lagrangian balance c",
+          "Steps", kept_by_any.kept),
     Stage("by_momenta", "expressed problem group lagrangian basis balance c c_u",
           "Steps", momentum_side.by_momenta),
     Stage("explicit", "problem group balance expressed.told c_u",

@@ -107,14 +107,23 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
     found = Locus(principal, contracted, *told, free, step.driven, fields[0], fields[1])
     if still and contracted:
         raise RecordError("the hypotheses δt = 0 and δt = 1 exclude each other")
-    return replace(found, inside=step.rule == EVALUATION, still=still, stepping=_steps(step))
+    inside = step.rule == EVALUATION or bool({*CARRIED} & _told(step))
+    return replace(found, inside=inside, still=still, stepping=_steps(step))
+
+
+CARRIED = ("Π_o", "Π̇_o")
+"""What g carries to the other side, A⁻¹ξ′A, is in 𝔤 for g in the group alone."""
+
+
+def _told(step: Step) -> set[str]:
+    """The names in the equations of a step."""
+    sides = (x for e in step.equations for x in (e.lhs, e.rhs))
+    return {x for side in sides for x in names(side)}
 
 
 def _steps(step: Step) -> bool:
     """Does a step speak of g₂ on the discrete motion?"""
-    sides = (x for e in step.equations for x in (e.lhs, e.rhs))
-    told = {*AFTER} & {x for side in sides for x in names(side)}
-    return step.kind in ("kernel", "solution", "conservation") and bool(told)
+    return step.kind in ("kernel", "solution", "conservation") and bool({*AFTER} & _told(step))
 
 
 AFTER = ("g_2", "A_2", "T_2", "R_2", "M_1", "ℓ_1", "p_1", "m_1", "H")

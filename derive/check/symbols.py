@@ -24,7 +24,8 @@ from .definitions import Usage, definitions, occurrences
 from .evaluate import Environment, evaluate, free_indices
 from .function_signatures import AT_ONE_TIME, AXIS, HEADS, INDEX_SETS, MOTION, SOLVED, VARIATION
 
-RATES = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "ṗ_b", "ℓ̇_b", "Γ̇", "Ẇ", "Υ̇")
+RATES: tuple[str, ...] = ("Ȧ", "Ṫ", "α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇", "ṗ", "ḣ", "Π̇", "Π̇_o")
+RATES += ("ṗ_b", "ℓ̇_b", "Γ̇", "Ẇ", "Υ̇")
 """The names whose value is one on X: rates along the motion."""
 
 

@@ -175,8 +175,8 @@ def _allowed(word: str) -> bool:
 
 
 def _is_formula(word: str, first: bool) -> bool:
-    """Is it a word with a sign of mathematics in it, a quotient of letters, a function of one, or
-    one letter, also that of a parameter in ‘quotes’?
+    """Is it a word with a sign of mathematics in it, a quotient of letters, a function of one, a
+    differential as dm, the first of a bracket, or one letter, also that of a parameter in ‘quotes’?
 
     The article “a” is none, nor is a capital that may begin the sentence (``first``); a circumflex
     in a longer word is a letter of French.
@@ -188,7 +188,8 @@ def _is_formula(word: str, first: bool) -> bool:
     if len(word) == 1 and word.isascii():
         return word.isalpha() and word != "a" and not (first and word in "AEIOY")
     called = word.partition("(")[0] in NAMES and "(" in word
-    if called or re.fullmatch(r"d?[A-Za-z]/d?[a-z]|[A-Za-z]\([A-Za-z]\)", word) or word in NAMED:
+    small = r"d?[A-Za-z]/d?[a-z]|[A-Za-z]\([A-Za-z]\)|d[mrt]|\[[A-Z]"
+    if called or re.fullmatch(small, word) or word in NAMED:
         return True
     decomposed = unicodedata.normalize("NFD", word)
     if len(word) > 1:

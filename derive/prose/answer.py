@@ -3,13 +3,56 @@
 from __future__ import annotations
 
 STEPS: dict[str, dict[str, tuple[str, str]]] = {
+    "moment_map": {
+        "left": (
+            "Z is the same for hg as for g, where h is constant. The momentum of these "
+            "displacements is Π carried by g to the other side, Π_o (the moment map): along the "
+            "motion it has no coadjoint term, and is constant where Φ vanishes. The energy "
+            "changes only with the time that L̃ has by itself.",
+            "Z est le même pour hg que pour g, où h est constant. Le moment de ces déplacements "
+            "est Π transporté par g de l’autre côté, Π_o (l’application moment) : le long du "
+            "mouvement il n’a pas de terme coadjoint, et il est constant là où Φ s’annule. "
+            "L’énergie ne varie que par le temps que L̃ contient explicitement.",
+        ),
+        "right": (
+            "Z is the same for gh as for g, where h is constant. The momentum of these "
+            "displacements is Π carried by g to the other side, Π_o (the moment map): along the "
+            "motion it has no coadjoint term, and is constant where Φ vanishes. The energy "
+            "changes only with the time that L̃ has by itself.",
+            "Z est le même pour gh que pour g, où h est constant. Le moment de ces déplacements "
+            "est Π transporté par g de l’autre côté, Π_o (l’application moment) : le long du "
+            "mouvement il n’a pas de terme coadjoint, et il est constant là où Φ s’annule. "
+            "L’énergie ne varie que par le temps que L̃ contient explicitement.",
+        ),
+    },
+    "conserved": {
+        "kept_by_any": (
+            "Without inputs the motion keeps {kept}.",
+            "Sans entrées, le mouvement conserve {kept}.",
+        ),
+        "other": (
+            "the whole of the other momentum Π_o",
+            "la totalité de l’autre moment Π_o",
+        ),
+        "components": (
+            "Components of Π_o were not tried: derive symmetries finds all symmetries.",
+            "Les composantes de Π_o n’ont pas été essayées : derive symmetries trouve toutes les "
+            "symétries.",
+        ),
+        "no_element": (
+            "The state has no element of the group, which Π_o needs; what is kept of Π itself, "
+            "derive integrals finds.",
+            "L’état ne contient pas l’élément du groupe dont Π_o a besoin ; ce qui est conservé de "
+            "Π même, derive integrals le trouve.",
+        ),
+    },
     "kks": {
         "level": (
-            "The other momentum is Π carried by g to the other side. The second equation has on "
-            "its right the variations of this momentum: on a level of it they vanish, and there "
-            "dϖ at constant time is the form of Kirillov, Kostant and Souriau on the orbit of Π.",
-            "L’autre moment est Π transporté par g de l’autre côté. La seconde équation a pour "
-            "second membre les variations de ce moment : sur un niveau de celui-ci elles "
+            "The second equation has on its right the variations of the other momentum Π_o: on a "
+            "level of it they vanish, and there dϖ at constant time is the form of Kirillov, "
+            "Kostant and Souriau on the orbit of Π.",
+            "La seconde équation a pour second membre les variations de l’autre moment Π_o : sur "
+            "un niveau de celui-ci elles "
             "s’annulent, et dϖ à temps constant est alors la forme de Kirillov, Kostant et "
             "Souriau sur l’orbite de Π.",
         ),

@@ -456,6 +456,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
         ),
     },
     "algebra": {
+        "matrices": (
+            "The basis, as matrices.",
+            "La base, en matrices.",
+        ),
         "brackets": (
             "The brackets of the basis; those that are not listed vanish.",
             "Les crochets de la base ; ceux qui ne figurent pas sont nuls.",

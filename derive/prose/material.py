@@ -127,8 +127,8 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "demi-axes {size}",
         ),
         "quadric": (
-            "matrix {size}",
-            "matrice {size}",
+            "matrix of rows {size}",
+            "matrice de lignes {size}",
         ),
         "height": (
             "height {size}",

@@ -146,6 +146,10 @@ VOCABULARY: dict[str, Name] = {
         "une matrice qui donne Π_a sur E_a, comme Π", r"\Pi_g", defined(SQUARE)),
     "Π̇": name("dΠ/dt along the motion", "dΠ/dt le long du mouvement",
         r"\dot\Pi", rate(SQUARE), rate(family("basis", SCALAR))),
+    "Π_o": name("the other momentum, Π carried by g to the other side",
+        "l’autre moment, Π transporté par g de l’autre côté", r"\Pi_o", defined(SQUARE)),
+    "Π̇_o": name("dΠ_o/dt along the motion",
+        "dΠ_o/dt le long du mouvement", r"\dot\Pi_o", rate(SQUARE)),
     "p_b": name("momentum in the body frame, Σ m_i Āv_i",
         "quantité de mouvement dans le repère du corps, Σ m_i Āv_i", "p_b", defined(VECTOR)),
     "δp_b": name("variation of p_b", "variation de p_b", r"\delta p_b", letter(VECTOR)),
@@ -507,7 +511,7 @@ ON_THE_TORUS: dict[str, Name] = {
 }
 """Meanings of names on the torus."""
 
-DERIVATIVE_OF = {"dϖ": "ϖ", "ḣ": "h̃", "ℓ̇": "ℓ", "ṗ": "p"}
+DERIVATIVE_OF = {"dϖ": "ϖ", "ḣ": "h̃", "ℓ̇": "ℓ", "ṗ": "p", "Π̇_o": "Π_o"}
 DERIVATIVE_OF |= {"dΘ⁺": "Θ⁺", "dΘ⁻": "Θ⁻"}
 DERIVATIVE_OF |= {"ρ̇": "ρ", "ϑ̇": "ϑ"}
 DERIVATIVE_OF |= {"Γ̇": "Γ", "δΓ": "Γ", "Ẇ": "W", "Υ̇": "Υ", "dϖ_h": "ϖ_h", "d𝒜": "𝒜"}

@@ -141,7 +141,14 @@ ACCELERATIONS = ("α̇", "τ̇", "Ż", "ẇ", "ζ̇", "ℓ̇_b", "ṗ_b", "u̇",
 
 def latex_names(d: Derivation) -> dict[str, str]:
     """Name → LaTeX, of a record with its problem's parameters."""
-    return names_of(d.symbols, [*map(str, d.problem.get("parameters") or ())])
+    parameters, body = [*map(str, d.problem.get("parameters") or ())], d.problem.get("body")
+    symbolic = isinstance(body, Mapping) and body.get("kind") == "moments"
+    return names_of(d.symbols, parameters) | (BOLD if "m" in parameters and not symbolic else {})
+
+
+BOLD = {"m": r"\mathbf m"}
+"""Masses beside a parameter m that is another mass: in one product with the total mass it would
+differ by its serifs alone."""
 
 
 def title(d: Derivation, language: Language = ENGLISH) -> str:

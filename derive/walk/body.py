@@ -127,7 +127,8 @@ def _described(s: Solid, letters: str) -> Sentence:
             phrase("integrals.count_of_triangles", count=str(len(s.sizes["faces"]))),
         ]
     else:
-        sizes = [phrase(f"integrals.{k}", size=shown(x)) for k, x in s.sizes.items() if k in SIZES]
+        told = {k: _rows(x, letters) if k == "quadric" else shown(x) for k, x in s.sizes.items()}
+        sizes = [phrase(f"integrals.{k}", size=x) for k, x in told.items() if k in SIZES]
     solid = phrase(
         "integrals.layered" if is_layered(s.density) else "integrals.solid",
         kind=SOLIDS[s.kind],
@@ -140,6 +141,10 @@ def _described(s: Solid, letters: str) -> Sentence:
     if s.shift:
         return phrase("integrals.shifted", solid=solid, shift=shown(s.shift))
     return phrase("integrals.turned", solid=solid) if s.rotation else solid
+
+
+def _rows(x: Any, letters: str) -> str:
+    return "; ".join(", ".join(_size(y, letters) for y in row) for row in x)
 
 
 def _size(x: Any, letters: str) -> str:

@@ -2,8 +2,9 @@
 into itself and leaves L̃ alone, the momentum of that displacement, p̃(Yg); and the energy.
 
 The displacements are the rotations and translations of space, δg = Yg with Y = (Y, b), Y skew: they
-keep the kinetic energy whatever the group, where they belong to it.  All symmetries of a problem
-are found in :mod:`derive.symmetries`.
+keep the kinetic energy whatever the group, where they belong to it.  All rotations about the origin
+are tried, else those about one line (:mod:`.axis`); all translations, else those across gravity.
+All symmetries of a problem are found in :mod:`derive.symmetries`.
 """
 
 from __future__ import annotations
@@ -17,17 +18,19 @@ from ..algebra.space import hat, normal_form
 from ..algebra.word_trees import tree_of
 from ..algebra.words import Expr, Letter, inner, word
 from ..language import rational as q
-from ..language.tree import Tree
+from ..language.tree import Tree, names
 from ..problem.problem import Problem
 from ..record.record import Equation, Step
-from ..record.sentence import Prose, listed
+from ..record.sentence import Prose
 from .alphabet import Alphabet
+from .axis import Given
 from .chapter import Chapter
 from .hat import anticommute
+from .point_potentials import column
 from .potential import U_Q, Potentials
 from .potential_letters import moved
 from .wedge import vector_sum
-from .wording import say
+from .wording import enumerated, say
 
 GAMMA = Letter("γ", 3)
 AXIS = Letter("y", 3)
@@ -70,10 +73,8 @@ def conserved_steps(
         laws += x.law
     if not kept:
         return ()
-    prose = say(
-        "conserved.kept",
-        kept=listed("{first}, {second}", laws),
-    ) + say("conserved.noether")
+    prose = say("conserved.kept", kept=enumerated(laws))
+    prose += say(f"conserved.{_tried(group, v)}") + say("conserved.noether")
     draft.depends_on(motion)
     return (draft.step([*definitions, *kept], prose),)
 
@@ -92,8 +93,7 @@ def kept_momenta(group: Group, v: Potentials, b: Alphabet, *, vectors: bool) -> 
     """The momenta of rotations and translations of space that are kept; ``vectors``: ℓ is one."""
     found = []
     if _turned(group) and (rate := _turning(v, b, vectors=vectors)) is not None:
-        law = "angular_momentum" if rate == "ℓ̇" else "along_gravity"
-        found.append(Kept(True, rate, say(f"conserved.{law}")))
+        found.append(Kept(True, rate, say(f"conserved.{_turning_law(rate)}")))
     if (rate := _shifting(group, v, b)) is not None:
         law = "momentum" if rate == "ṗ" else "across_gravity"
         found.append(Kept(False, rate, say(f"conserved.{law}")))
@@ -125,6 +125,15 @@ def vector_momenta(momenta: Mapping[Letter, Expr], b: Alphabet) -> SpaceMomenta:
     return SpaceMomenta(whole, gradient(paired, shift) if b.affine else None, vectors=True)
 
 
+def _tried(group: Group, v: Potentials) -> str:
+    """The name of the sentence that says which displacements of space were tried."""
+    if group.factors:
+        return "product"
+    if v.pointwise.forces:
+        return "by_coordinates"
+    return "tried" if group.n == 3 else "tried_all"
+
+
 def _turned(group: Group) -> bool:
     """Does the group contain the rotations of space, which act from the left?"""
     n, size = group.n, group.size
@@ -135,39 +144,59 @@ def _turned(group: Group) -> bool:
 
 
 def _turning(v: Potentials, b: Alphabet, *, vectors: bool) -> Tree | None:
-    """What vanishes of ℓ̇: all of it, or ⟨γ, ℓ̇⟩, where the potential is kept by all rotations of
-    space, or by those about gravity; ``None`` where by neither."""
+    """What vanishes of ℓ̇: all of it, or its component along a line, where the potential is kept by
+    all rotations of space, or by those about the line; ``None`` where by neither."""
+    if v.pointwise.forces:
+        return None
+    given = Given.of(v.pointwise.problem)
     Y = Letter("Y", b.n, b.n, -1)
-    if not v.pointwise.keeps(turning=True):
-        return None
-    rate = _varied(v, word(Y), None, b)
-    if not rate:
+    if not given.vectors and not _varied(v, word(Y), None, b, given.known(None)):
         return "ℓ̇"
-    if b.n != 3 or normal_form(_varied(v, word(hat(GAMMA)), None, b)):
-        return None
-    return ("inner", "γ", "ℓ̇") if vectors else ("inner", ("hat", "γ"), "ℓ̇")
+    for line in given.lines() if b.n == 3 else ():
+        along: Tree = GAMMA.name if given.weighs else column(line)
+        axis = GAMMA if given.weighs else AXIS
+        if not normal_form(_varied(v, word(hat(axis)), None, b, given.known(line, axis))):
+            return ("inner", along if vectors else ("hat", along), "ℓ̇")
+    return None
+
+
+def _turning_law(rate: Tree) -> str:
+    """The name of the words for what vanishes of ℓ̇."""
+    if rate == "ℓ̇":
+        return "angular_momentum"
+    return "along_gravity" if GAMMA.name in names(rate) else "along_axis"
 
 
 def _shifting(group: Group, v: Potentials, b: Alphabet) -> Tree | None:
     """What vanishes of ṗ: all of it, or γ ∧ ṗ, where the potential is kept by all translations of
     space, or by those across gravity; ``None`` where by neither."""
-    if not group.free_translations or not v.pointwise.keeps(turning=False):
+    if not group.free_translations or not v.pointwise.shifts:
         return None
-    if not _varied(v, None, word(Letter("b", b.n)), b):
+    given = Given.of(v.pointwise.problem)
+    known = given.known(None)
+    if not _varied(v, None, word(Letter("b", b.n)), b, known):
         return "ṗ"
     across = word(hat(GAMMA)) * word(AXIS)
-    if b.n != 3 or normal_form(_varied(v, None, across, b)):
+    if b.n != 3 or not given.lines() or normal_form(_varied(v, None, across, b, known)):
         return None
     return ("wedge", "γ", "ṗ")
 
 
-def _varied(v: Potentials, turn: Expr | None, shift: Expr | None, b: Alphabet) -> Expr:
+def _varied(
+    v: Potentials, turn: Expr | None, shift: Expr | None, b: Alphabet, known: Mapping[Letter, Expr]
+) -> Expr:
     """The derivative of Ũ along δA = YA, δT = YT with Y = ``turn``, or along δT = ``shift``;
-    without U_Q, which is judged by its terms."""
-    images = {}
+    without U_Q, which is judged by its terms.
+
+    ``known``: letters of the problem, by what is known of them.
+    """
+    images, T = {}, b.T.position
     if turn is not None:
+        # T less a constant that Y sends to 0 turns as T does
+        seen = next((x.letter for x in v.own if x.value == word(T)), T)
         images[b.A.position] = turn * word(b.A.position)
-        images[b.T.position] = turn * word(b.T.position)
+        images[T] = turn * word(seen)
     if shift is not None:
-        images[b.T.position] = shift
-    return derivation(without(v.energy, U_Q), moved(v.own, images).get)
+        images[T] = shift
+    varied = derivation(without(v.energy, U_Q), moved(v.own, images).get)
+    return substitute(varied, known)

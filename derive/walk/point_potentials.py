@@ -40,10 +40,9 @@ class Radial:
     anchor: tuple[Tree, ...]
     tension: Tree
 
-    def keeps(self, *, turning: bool) -> bool:
-        """Does ‖d‖ stay when space is turned about its origin, or shifted?"""
-        if turning:
-            return not any(x != 0 for x in self.anchor)
+    @property
+    def shifts(self) -> bool:
+        """Does ‖d‖ stay when space is shifted?"""
         return not sum(self.signs.values())
 
     @property
@@ -63,9 +62,10 @@ class PointPotentials:
     radials: list[Radial] = field(default_factory=list)
     forces: dict[int, list[Tree]] = field(default_factory=dict)
 
-    def keeps(self, *, turning: bool) -> bool:
-        """Is U_Q a function of distances that stay when space is turned, or shifted?"""
-        return not self.forces and all(x.keeps(turning=turning) for x in self.radials)
+    @property
+    def shifts(self) -> bool:
+        """Is U_Q a function of distances that stay when space is shifted?"""
+        return not self.forces and all(x.shifts for x in self.radials)
 
     def add_force(self, i: int, force: Tree) -> None:
         """Add a term to the force on point i."""

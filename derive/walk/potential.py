@@ -72,8 +72,9 @@ def potentials(problem: Problem, a: Alphabet, c: Chapter, C: Expr | None = None)
     if found.energies:
         energy = energy + word(U_Q)
         definitions += [*found.differences, Equation("U_Q", add(*found.energies))]
+    shown = [*over_points[: len(over_points) - len(found.energies)]]
     energies = [
-        Equation("U", add(*over_points)),
+        Equation("U", add(*shown, *([U_Q.name] if found.energies else []))),
         Equation("Ũ", draft.tree(energy)),
     ]
     prose = sum((w.prose for w in parts), _opening(over_points))

@@ -67,7 +67,7 @@ def potential_separation(
     draft = c.draft("separation", "identification")
     energy = _centred(v.energy, b, Chapter(b.chapter).label("separation"))
     place = Letter("R", b.n)
-    inside = v.pointwise.keeps(turning=False)
+    inside = v.pointwise.shifts
     both = bool(terms_with(terms_with(energy, place), b.A.position))
     rest = bool(without(energy, U_Q)) and not both
     prose = _prose(

@@ -224,6 +224,8 @@ KEPT = {
     "walk/test_field.py::test_on_groups": 3,
     "walk/test_fluid.py::test_every_step_holds_and_is_read_again": 1,
     "walk/test_fluid.py::test_where_the_density_is_the_same_the_pressure_alone_sees_a_force": 0,
+    "walk/test_kept_momenta.py::test_all_that_leave_the_potential_alone": 3,
+    "walk/test_kept_momenta.py::test_harmonic_forces": 2,
     "walk/test_layered.py::test_every_corruption_is_refused": 1,
     "walk/test_random_problems.py::test_points": 0,
     "walk/test_random_problems.py::test_solids": 0,

@@ -359,3 +359,15 @@ def test_the_catalogue_is_in_the_package():
 def test_records_read_back_say_the_same(records):
     for d in records:
         assert text(from_json(to_json(d)), language=FRENCH) == text(d, language=FRENCH)
+
+
+@pytest.mark.parametrize(
+    ("plain", "typeset"),
+    [
+        ("a measure of mass dm, density", r"a measure of mass $\mathrm{d}m$, density"),
+        ("that ⟨Π, [Z, E_a]⟩ is", r"that $\langle\Pi, [Z, E_{a}]\rangle$ is"),
+        ("their velocities V are V = JS with", "their velocities $V$ are $V = JS$ with"),
+    ],
+)
+def test_a_formula_is_typeset_whole(plain, typeset):
+    assert prose(plain, tex_text) == typeset

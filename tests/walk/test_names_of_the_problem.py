@@ -8,6 +8,8 @@ from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.record.sentence import english
 from derive.views.language import language
+from derive.views.outline import latex_names
+from derive.views.rendering import render
 
 CARRIED = """
 name = "carried"
@@ -104,3 +106,32 @@ def test_the_velocity_as_matrices():
     french = language("fr").of(d["left.energy"].prose)
     assert "moment Π" in french
     assert "impulsion" not in french
+
+
+MASS = """
+name = "masses"
+group = "SO(3)"
+[parameters]
+{m} = {{}}
+[[point]]
+mass = "{m}"
+at = [1, 0, 0]
+[[point]]
+mass = 2
+at = [0, 1, 0]
+[[point]]
+mass = 1
+at = [0, 0, 1]
+"""
+
+
+@pytest.mark.parametrize(("m", "latex"), [("m", r"\mathbf m"), ("k", "m")])
+def test_the_total_mass_is_another_letter_than_a_parameter_m(m, latex):
+    d = walked(MASS.format(m=m))
+    assert latex_names(d)["m"] == latex
+    assert (r"\mathbf m" in render(d, "latex", "en")) == (m == "m")
+
+
+def test_moments_are_the_same_in_both_meanings():
+    moments = 'name = "masses"\ngroup = "SE(3)"\n[body]\nmoments = "symbolic"\n'
+    assert latex_names(walked(moments))["m"] == "m"

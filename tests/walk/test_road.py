@@ -19,8 +19,9 @@ Terms of a sum and the two sides of a product of vectors may change places.
 """
 
 REWRITTEN = {"so4.exterior", "su2.exterior", "two_tops.exterior", "top.components"}
-"""Tr ξJZξ̄′ − Tr ξ′JZξ̄ is now the bracket, Tr [ξ′, ξ] JZ̄, and the top has m g l; all else is as it
-was."""
+REWRITTEN |= {f"{x}.potential" for x in ("jelly", "comet", "two_tops", "ellipsoid")}
+"""Tr ξJZξ̄′ − Tr ξ′JZξ̄ is now the bracket, Tr [ξ′, ξ] JZ̄, the top has m g l, and U is
+told by U_Q; all else is as it was."""
 
 RENAMED = {"θ": "λ"}
 """The multiplier had the letter of the principal moments."""
@@ -82,6 +83,7 @@ def test_every_step_leads_to_the_motion(name):
             f"{name}.by_momenta",
             f"{name}.poisson_tensor",
             f"{name}.conserved",
+            f"{general}.moment_map",
             f"{general}.kks",
         }
     assert expected <= found

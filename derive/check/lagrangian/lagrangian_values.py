@@ -19,7 +19,7 @@ from ..name_values import NameValues, Values
 from ..nilpotent import EPS, EPS_PRIME, ETA, nilpotent, part
 from . import reduced_by_symmetries
 from .brackets_by_flow import brackets
-from .lagrangian_model import PAIRED, LagrangianModel
+from .lagrangian_model import PAIRED, WITH_BRACKET, LagrangianModel
 
 
 def environment(model: LagrangianModel) -> Environment:
@@ -91,6 +91,7 @@ def _motion(model: LagrangianModel) -> Values:
     """What follows from the acceleration of the motion; M and β."""
     values = {"Ż": model.acceleration, "ζ̇": _column(model.group.nearest(model.acceleration))}
     values["Π̇"] = _covector(model, _rates(model))
+    values |= _other_momentum(model)
     values |= {"M": model.metric, "β": _column(model.load)}
     return values if model.generic else values | {"𝕁": brackets(model)}
 
@@ -102,6 +103,26 @@ def _rates(model: LagrangianModel) -> list[Any]:
     faster = q.plus(model.Z, q.scaled(e, model.acceleration))
     found = _momenta(model, model.t + e, model.moved(model.g, ahead), faster)
     return [part(x, EPS) for x in found]
+
+
+def _other_momentum(model: LagrangianModel) -> Values:
+    """Π_o with its rate, and ḣ: ⟨Π_o, E⟩ is the momentum along Eg on the left, gE on the right."""
+    e = nilpotent(EPS)
+    ahead, _ = model.displaced((e, model.Z))
+    t, g = model.t + e, model.moved(model.g, ahead)
+    undone = q.inverse(model.g)
+    assert undone is not None
+    back = model.back_along(undone, EPS)
+    faster = q.plus(model.Z, q.scaled(e, model.acceleration))
+    found = []
+    for x in model.group.basis:
+        aside = q.times(x, g) if model.side == "left" else q.times(g, x)
+        found.append(model.momentum(t, g, faster, model.carried(g, back, aside)))
+    return {
+        "Π_o": _covector(model, [part(x, 0) for x in found]),
+        "Π̇_o": _covector(model, [part(x, EPS) for x in found]),
+        "ḣ": model.indices(part(model.energy(t, g, faster), EPS), WITH_BRACKET),
+    }
 
 
 def _rate(model: LagrangianModel, what: Tree, env: Environment) -> Any:

@@ -12,11 +12,10 @@ from ...algebra.word_trees import tree_of
 from ...algebra.words import Expr, Letter, word
 from ...language.tree import add, neg, replaced
 from ...record.record import Equation, Step
-from ...record.sentence import listed
 from ..chapter import Chapter
 from ..conserved import Kept, kept_momenta
 from ..failure import WalkError
-from ..wording import say
+from ..wording import enumerated, say
 from .discrete_blocks import Blocks
 from .discrete_forces import DiscreteForces
 from .discrete_letters import DiscreteAlphabet, respelled
@@ -49,7 +48,7 @@ def conserved(
         change = add(names[1], neg(names[0]))
         rate = replaced(x.rate, "ℓ̇" if x.turning else "ṗ", change)
         laws.append(Equation(rate, 0))
-    told = listed("{first}, {second}", sum((x.law for x in kept), ()))
+    told = enumerated(sum((x.law for x in kept), ()))
     prose = say("conserved.discrete", kept=told)
     return (draft.step((*definitions, *laws), prose),)
 

@@ -13,6 +13,7 @@ from ...algebra.calculus import derivation
 from ...algebra.carried import block
 from ...algebra.forms import left, strip_left
 from ...algebra.groups import Group
+from ...algebra.structure import brackets_of, faithful
 from ...algebra.words import Letter, word
 from ...language.rational import Matrix
 from ...language.suffixed import suffixed
@@ -28,6 +29,9 @@ from ..wording import say
 from .any_lagrangian import SIDES, AnyLagrangian
 from .basis import Basis, brackets
 from .orbit_form import sign_of
+
+UNNAMED = "G"
+"""The name of an algebra of no family."""
 
 NAMED = 6
 """Of so many entries of one name each is named."""
@@ -57,8 +61,8 @@ def reduced(
     draft = c.draft("coordinates", "coordinates")
     draft.depends_on(general["second_order"])
     place = draft.step(stated("Z = Σ_a ζ_a E_a"), say("coordinates.reduced"))
-    told, side = brackets(group, c), problem.lagrangian.trivialisation
-    size = sum(x.size for x in problem.advected)
+    side, size = problem.lagrangian.trivialisation, sum(x.size for x in problem.advected)
+    told = brackets(group, c, shown=not size and not _chosen(group))
     rows = range(group.n - size, group.n)
     moved = EntriesOfAdvected([block(e, rows) for e in group.basis], sign(a, side))
     if not size:
@@ -90,6 +94,16 @@ def reduced(
         say(f"advected.{side}") + say("advected.names", entries=", ".join(names)),
     )
     return Basis(moved, (rates,), advected, told, (place, *told, advected))
+
+
+def _chosen(group: Group) -> bool:
+    """Were the matrices of an algebra chosen for its brackets, which is all that the file says?"""
+    table, span = group.structure_constants, range(group.dimension)
+    rows = (
+        (a + 1, b + 1, k + 1, table[a][b][k]) for a in span for b in span[a + 1 :] for k in span
+    )
+    known = group.name != UNNAMED
+    return not known and group.basis == faithful(brackets_of(rows), group.dimension)
 
 
 def _names(advected: Iterable[Advected]) -> Iterator[str]:

@@ -27,6 +27,7 @@ from ..contraction import CONTRACTED, CONTRACTION, Contraction
 from ..factorisation import at_constant_time
 from ..momentum import any_lagrangian_forms, contact
 from ..wording import say
+from .moment_map import moment_map
 from .orbit_form import orbit_form, sign_of
 
 SIDES: dict[str, Trivialisation] = {"left": forms.left, "right": forms.right}
@@ -68,8 +69,9 @@ def any_lagrangian(a: Alphabet, side: str, c: Chapter) -> AnyLagrangian:
     written, derived, motion = told
     momenta, energy = _momenta(c), _energy(c)
     first = (_carried(a, side, c), momenta, energy, _structure(a, crossed, c), written)
-    orbit = orbit_form(form, a, moved, c)
-    steps = (*first, derived, *_kernel(form, a, c), motion, orbit)
+    other = moment_map(balance, a, moved, c)
+    orbit = orbit_form(form, a, moved, other, c)
+    steps = (*first, derived, *_kernel(form, a, c), motion, other, orbit)
     velocity = tree_of(moved(word(a.A.position), word(a.Z.velocity)))
     return AnyLagrangian(_epsilon(balance, a), velocity, steps)
 

@@ -57,18 +57,35 @@ def _names(group: Group) -> Prose:
     return say("coordinates.blocks", blocks=listed("{first}; {second}", blocks))
 
 
-def brackets(group: Group, c: Chapter) -> tuple[Step, ...]:
-    """[E_a, E_b] where it is not 0."""
+def brackets(group: Group, c: Chapter, *, shown: bool = True) -> tuple[Step, ...]:
+    """[E_a, E_b] where it is not 0, after E_a as matrices where these are not many; ``shown``: are
+    they those of the problem?"""
     table, span = group.structure_constants, range(group.dimension)
-    equations = [
+    listed = [
         Equation(("bracket", member("E", a), member("E", b)), _combined(table[a][b], "E"))
         for a in span
         for b in span
         if a < b and any(table[a][b])
     ]
-    if not equations:
+    few = shown and group.dimension * group.size**2 <= MOST
+    basis = _matrices(group) if few else []
+    if not basis and not listed:
         return ()
-    return (c.draft("algebra", "relation").step(equations, say("algebra.brackets")),)
+    prose = (say("algebra.matrices") if basis else ()) + say("algebra.brackets")
+    return (c.draft("algebra", "relation").step([*basis, *listed], prose),)
+
+
+MOST = 160
+"""So many entries have the matrices of a basis at most that are shown: those of SO(5) have 250,
+those of SE(3) 96, those of GL(3) 81."""
+
+
+def _matrices(group: Group) -> list[Equation]:
+    """E_a as matrices."""
+    return [
+        Equation(member("E", a), ("matrix", *(("row", *map(plain, row)) for row in e)))
+        for a, e in enumerate(group.basis)
+    ]
 
 
 def member(family: str, a: int) -> Tree:

@@ -24,12 +24,14 @@ from ..wording import say
 CONSTANT_TIME = (Equation("δt", 0), Equation("δ′t", 0))
 
 
-def orbit_form(form: Expr, a: Alphabet, moved: Trivialisation, c: Chapter) -> Step:
+def orbit_form(form: Expr, a: Alphabet, moved: Trivialisation, other: Step, c: Chapter) -> Step:
     """dϖ at constant time, less what the variations of the other momentum are in it.
 
-    ``form``: dϖ by Π and the letter of the bracket.  ``ValueError`` where the rest is no bracket.
+    ``form``: dϖ by Π and the letter of the bracket; ``other``: the step of the other momentum.
+    ``ValueError`` where the rest is no bracket.
     """
     draft = c.draft("kks", "restriction")
+    draft.depends_on(other)
     crossed = Letter("[ξ, ξ′]", a.n, a.n)
     display = {a.bracket: read("[ξ′, ξ]"), crossed: read("[ξ, ξ′]")}
     notation = WordNotation(display=display, covectors=frozenset(a.Pi.letters))

@@ -69,4 +69,4 @@ def test_a_wrong_bracket_is_no_orbit_form():
     a, c = Alphabet("n", affine=False), Chapter("left")
     alone = inner(word(a.Pi.d_momentum), word(a.Z.xi_prime))
     with pytest.raises(ValueError, match="neither the expression nor its opposite"):
-        orbit_form(alone, a, forms.left, c)
+        orbit_form(alone, a, forms.left, told("left"), c)
