@@ -159,7 +159,7 @@ def test_a_motion_has_what_the_page_of_the_command_has(page, name):
     assert shown["page"]["kept"] == {}
     assert {
         x for x in shown["page"] if shown["page"][x] != json.loads(json.dumps(there)).get(x)
-    } <= {*("kept", "x", "t", "tol", "names")}
+    } <= {*("kept", "x", "t", "tol", "names", "pushed")}
     chosen = Options(step=("gauss",))
     (source,) = emit(code.program, own.record, ("javascript",), name, chosen).values()
     assert told["source"] == source
@@ -183,8 +183,8 @@ def test_what_is_kept_comes_behind_the_motion(fresh, site):
     for name in names[:-1]:
         change = frame.inner_text(f"[data-name={name}] td + td").replace("−", "-")
         assert float(change) < 1e-8
-    frame.fill("[data-name=zeta_1] input[type=number]", "3")
-    frame.press("[data-name=zeta_1] input[type=number]", "Enter")
+    frame.fill("[data-name=zeta_1] input[inputmode]", "3")
+    frame.press("[data-name=zeta_1] input[inputmode]", "Enter")
     frame.wait_for_timeout(200)
     assert frame.inner_text("[data-name=body_angular_momentum_3] td + td") == "0"
     assert not fresh.told
