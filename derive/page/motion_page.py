@@ -196,7 +196,7 @@ def data(
     body = moving_body(record.problem, group, made.state)
     adjusted, curves = velocity[:MOST], [] if body["parts"] else sorted(largest)
     basis = made.basis if entries else ()
-    lost = not _steady(record.problem)
+    lost = any(begin.u) or not _steady(record.problem)
     unsaid = {"ellipsoid", "velocities" if body["polhode"] else "polhode"}
     unsaid |= {x for x in ("defect", "multiplier") if x not in made.functions}
     unsaid |= set() if lost or "multiplier" in made.functions else {"others"}
@@ -242,9 +242,10 @@ def _turns(E: Sequence[Sequence[Any]]) -> bool:
 
 
 def _steady(problem: Mapping[str, Any]) -> bool:
-    """Is the energy kept: no damping, no input, nothing that depends on the time by itself?"""
-    stated = [problem.get("potentials"), problem.get("lagrangian")]
-    return not (problem.get("damping") or problem.get("inputs") or _timed(stated))
+    """Is the energy kept without inputs: no damping, nothing that depends on the time by itself?"""
+    return not (
+        problem.get("damping") or _timed([problem.get(x) for x in ("potentials", "lagrangian")])
+    )
 
 
 def _timed(data: Any) -> bool:

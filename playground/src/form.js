@@ -150,7 +150,7 @@ export class Form {
       if (x.name === "point" && x.many) return [this.row(words.point, k, ++count.point, ["mass", "at", ...(group.name.includes(" x ") ? ["block"] : [])])];
       const said = x.name === "body" ? "solid" : "kind", sizes = schema.solid[shown(raw(this.text, x, said))];
       if ((x.name !== "body" && x.name !== "solid") || !sizes) return [];
-      const kinds = this.choice(words.keys.kind, Object.keys(schema.solid).filter((y) => y !== "mesh"), shown(raw(this.text, x, said)), (y) => this.edit(this.resized(k, said, y)), `${k}.${said}`);
+      const kinds = this.choice(words.keys.kind ?? words.kind, Object.keys(schema.solid).filter((y) => y !== "mesh"), shown(raw(this.text, x, said)), (y) => this.edit(this.resized(k, said, y)), `${k}.${said}`);
       const keys = sizes.filter((y) => !["rotation", "shift", "quadric"].includes(y) || entry(x, y)).filter((y) => y !== "semi_axes" || !entry(x, "quadric"));
       return [make("div", { class: "table", role: "group", "aria-label": words.solid, "data-table": k }, kinds, ...keys.map((y) => this.key(k, y)))];
     });

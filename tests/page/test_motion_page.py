@@ -561,8 +561,10 @@ def test_what_is_not_kept_stands_apart(opened):
 
 
 def test_the_energy_is_kept_where_nothing_moves_it(pages):
-    lost = {x: told(derive.derive(x).motion_page(1.0)) for x in ("jelly", "gl3")}
-    assert [x.get("lost", False) for x in lost.values()] == [True, False]
+    lost = {x: told(derive.derive(x).motion_page(1.0)) for x in ("jelly", "gl3", "so3")}
+    assert [x.get("lost", False) for x in lost.values()] == [True, False, False]
+    pushed = derive.derive("so3").motion_page(1.0, start={"u_1": 0.5})
+    assert told(pushed).get("lost", False)
     assert told(pages("sl3"))["words"]["defect"] == "off the group by |det A − 1|"
     assert told(pages("top"))["words"]["defect"] == "off the group by"
 
