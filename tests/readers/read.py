@@ -46,13 +46,25 @@ def faults(d, kind):
     ]
 
 
+BOLD = "𝐦"
+"""A mass beside a parameter m; elsewhere a point of a lattice."""
+
+
+def unbold(tree):
+    """A tree with the letter of masses as the record has it."""
+    if isinstance(tree, tuple):
+        return tuple(map(unbold, tree))
+    return "m" if tree == BOLD else tree
+
+
 def missing(equations, said, known, plain):
     """The first equation that is not there in its place; empty where all are.
 
     That a parameter is itself may be left out, and entries of a matrix may be letters that the
     next equations explain.
     """
-    left = [tuple(canonical(x, known, plain) for x in e) for e in said]
+    bold = "m" in known.parameters and BOLD not in known.letters
+    left = [tuple(canonical(unbold(x) if bold else x, known, plain) for x in e) for e in said]
     for e in equations:
         want = tuple(canonical(x, known, plain) for x in (e.lhs, e.rhs))
         have = left.pop(0) if left and left[0][0] == want[0] else None
