@@ -78,7 +78,7 @@ def test_back_and_forward_go_to_where_the_reader_was(fresh, site):
     in_sight(fresh, "so3.kernel")
     fresh.locator("#walk article[id='so3.kernel'] summary").first.click()
     fresh.locator("#walk article[id='so3.kernel'] details a").first.click()
-    fresh.wait_for_function("!location.hash.endsWith('/so3.kernel')")
+    fresh.wait_for_function("() => !location.hash.endsWith('/so3.kernel')")
     second = fresh.url.rpartition("/")[2]
     in_sight(fresh, second)
     fresh.wait_for_function("(id) => document.getElementById('steps').value === id", arg=second)
@@ -87,7 +87,7 @@ def test_back_and_forward_go_to_where_the_reader_was(fresh, site):
     in_sight(fresh, "so3.kernel")
     addressed(fresh, "#so3/so3.kernel")
     fresh.go_back()
-    fresh.wait_for_function("document.getElementById('walk').scrollTop < 5")
+    fresh.wait_for_function("() => document.getElementById('walk').scrollTop < 5")
     fresh.go_forward()
     in_sight(fresh, "so3.kernel")
     fresh.evaluate("delete document.body.dataset.walked")
