@@ -1,8 +1,8 @@
 """The line through the origin about which space may be turned without moving what a potential is
 given by: the acceleration of gravity, anchors, centres, the axes of harmonic forces.
 
-Whether two vectors are parallel is decided in the field of the parameters
-(:func:`derive.problem.null_directions.vanishes`).
+Whether two vectors are parallel is decided by residues modulo large primes
+(:func:`derive.problem.null_directions.vanishes`); what is then claimed is checked.
 """
 
 from __future__ import annotations

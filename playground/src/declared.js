@@ -4,23 +4,21 @@ import { names } from "./values.js";
 
 const NO_EXPRESSION = new Set("kind solid moments name title group of direction trivialisation frame unit meaning representation file action terminal".split(" "));
 
+/* those of a body whose moments are letters */
+const SPAN = [...Array(8).keys()].map((k) => k + 1);
+const SYMBOLIC = ["m", ...SPAN.map((i) => `c_${i}`), ...SPAN.flatMap((i) => SPAN.filter((j) => j >= i).map((j) => `J_${i}${j}`))];
+
 /* the names that a text uses in its expressions */
 export function used(text) {
   const found = new Set();
   for (const table of tables(text)) {
     if (table.name === "parameters" || table.name.startsWith("parameters.")) continue;
     for (const x of table.entries) {
-      if (table.name === "body" && x.key === "moments") symbolic(text).forEach((y) => found.add(y));
+      if (table.name === "body" && x.key === "moments") SYMBOLIC.forEach((y) => found.add(y));
       if (!NO_EXPRESSION.has(x.key) && table.name) names(text.slice(x.begin, x.end)).forEach((y) => found.add(y));
     }
   }
   return found;
-}
-
-/* those of a body whose moments are letters */
-function symbolic() {
-  const span = [...Array(8).keys()].map((k) => k + 1);
-  return ["m", ...span.map((i) => `c_${i}`), ...span.flatMap((i) => span.filter((j) => j >= i).map((j) => `J_${i}${j}`))];
 }
 
 const place = (text) => tables(text).findIndex((x) => x.name === "parameters");

@@ -2,6 +2,7 @@
 taken, run whole."""
 
 import json
+import shutil
 import subprocess
 import tomllib
 
@@ -201,7 +202,7 @@ def test_numbers_that_are_set_go_into_the_text(fresh, site, name, numbers):
 
 
 NUMBERS = """
-import { written } from "./numbers.mjs";
+import { written } from "./numbers.js";
 const text = `name = "x"
 [parameters]
 m = 1.5 # mass
@@ -217,10 +218,11 @@ console.log(JSON.stringify(written(text, set)));
 
 def test_numbers_in_a_text_and_what_has_no_place_in_it(tmp_path):
     need("node")
-    source = OWN / "src" / "numbers.js"
-    (tmp_path / "numbers.mjs").write_text(source.read_text(encoding="utf-8"), encoding="utf-8")
-    (tmp_path / "main.mjs").write_text(NUMBERS, encoding="utf-8")
-    command = ["node", tmp_path / "main.mjs"]
+    for name in ("numbers", "declared", "source", "values"):
+        shutil.copy(OWN / "src" / f"{name}.js", tmp_path)
+    (tmp_path / "package.json").write_text('{ "type": "module" }')
+    (tmp_path / "main.js").write_text(NUMBERS, encoding="utf-8")
+    command = ["node", tmp_path / "main.js"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     told = json.loads(done.stdout)
     found = tomllib.loads(told["text"])
