@@ -23,6 +23,7 @@ from ..printing.tex import Cut, cut_up, formula, joined
 from ..printing.typeset import Formula, literal, plain
 from ..printing.widths import measure
 from ..record.record import Derivation, Equation, Step
+from ..record.rules import RULES
 from .book import MOTION, REGULAR, BookPart, book, parameters
 from .corrections import Passage, corrections
 from .entries import entries
@@ -234,6 +235,7 @@ class _PartFields:
             "label": step.label,
             "id": anchor(step.label),
             "rule": capitalised(self.language.word(step.rule)),
+            "told": words(self.language.word(RULES[step.rule].sentence), self.notation),
             "printed": printed(step),
             "notes": [words(x, self.notation) for x in assumed(step, self.language)],
             "corrections": [*map(self.correction, self.corrections[step.label].values())],

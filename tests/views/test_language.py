@@ -256,7 +256,7 @@ TYPOGRAPHY = {
     "quotation marks have their space": rf"«[^{WIDE}]|[^{WIDE}]»",
     "no space twice": rf"[\s{THIN}{WIDE}]{{2}}",
     "no space before": r"\s[,.)]|\( ",
-    "accents on capitals": r"\b(?:A (?!r_i)|E[tc]at|Equa|Elem|Eqa|Energ|Ecri|Elle-meme)",
+    "accents on capitals": r"\b(?:A (?!r_i|=)|E[tc]at|Equa|Elem|Eqa|Energ|Ecri|Elle-meme)",
     "ligatures": r"\b[Oo]eu|[cn]oeu",
 }
 
