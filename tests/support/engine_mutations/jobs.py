@@ -325,6 +325,7 @@ LAGRANGIANS = [
     ("SL(2)", {"momenta": True}),
     ("ideal_fluid", {}),
     ("inhomogeneous_fluid", {}),
+    ("stratified_fluid", {}),
     ("torus", {}),
 ]
 SOUGHT = [
