@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ..motion.driven import INPUTS
 from ..motion.ensemble import require_an_ensemble
 from ..motion.kept_words import parts
 from ..motion.method import STEPS, Method, instants
@@ -26,6 +26,7 @@ from ..record.record import Derivation
 from ..views.language import language
 from .ensembles import command_ensemble
 from .guard import one_line
+from .loading import allowed, derive
 from .progress import with_progress
 from .writing import write
 
@@ -97,15 +98,13 @@ def run_of(args: argparse.Namespace, problem: Problem, record: Derivation) -> Ru
     )
 
 
-def command_simulate(
-    args: argparse.Namespace, derived: Callable[[str], tuple[Problem, Derivation]]
-) -> int:
+def command_simulate(args: argparse.Namespace) -> int:
     """Run ``derive simulate``: its exit code."""
     if args.dt is not None and args.tol is not None:
         raise MotionError("--dt is a step of one size, --tol chooses it: give one of them")
     if args.ensemble is None:
         require_an_ensemble(args.vary, args.seed)
-    problem, record = derived(args.problem)
+    problem, record = derive(args.problem, **allowed(args))
     if args.ensemble is not None:
         return command_ensemble(args, problem, record, start_of(args))
     if args.html:
@@ -130,13 +129,16 @@ def summary(run: Run) -> list[str]:
     count, how = len(run.t), run.facts["language"]
     span = f"{count} instant{'s' * (count != 1)}, t = 0 … {run.t[-1]:g}"
     lines = [f"{name}: {span}, by {method}, in {how}"]
+    drives = run.facts.get("drives", [])
     for kind in ("energy", "conserved"):
+        by = drives if kind == "energy" else [x for x in drives if x == INPUTS]
+        why = f": by {' and '.join(by)}" if by else ""
         for label, column in run.of_kind(kind).items():
             if label in run.facts.get("vanishing", ()):
                 continue
             change = float(np.abs(column - column[0]).max())
             first = at_first(run, label)
-            lines.append(f"  {label}: {first:.9g} at first, changed by at most {change:.1e}")
+            lines.append(f"  {label}: {first:.9g} at first, changed by at most {change:.1e}{why}")
     for label, column in run.of_kind("defect").items():
         lines.append(f"  {label}: at most {float(column.max()):.1e}")
     lines += events(run)

@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 
-from derive.command.cli import READY, ready_made
+from derive.command.loading import READY, ready_made
 from tests.playground.test_playground import PENDULUM, typed
 from tests.support.playground_site import asked, walked
 
