@@ -66,7 +66,7 @@ function faults(list) {
 
 /* what an ending other than "end" says */
 function ended(how) {
-  if (how === "late") say(words.late(SECONDS));
+  if (how === "late") say(words.late(engine.seconds));
   else if (how === "stopped") say(words.stopped);
   else if (how === "broken") athome(words.broken);
   return how === "end";
@@ -198,7 +198,7 @@ async function keep(mark) {
     if (kind === "kept" && moved === mark) motion.keep(news);
   });
   if (how !== "end" && how !== "late" && keeping === mark) keeping = null;
-  if (told === words.keeping) say("");
+  if (told === words.keeping) say(how === "late" ? words.notkept(engine.seconds) : how === "stopped" ? words.stopped : "");
 }
 
 /* the files of a command as { zip }, or what it { refused }; a walk that runs is waited for */
