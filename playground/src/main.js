@@ -28,10 +28,13 @@ const motion = new Motion(the("see"), () => text);
 const engine = typeof WebAssembly === "object" ? new Engine({ seconds: SECONDS, onstate }) : null;
 const text = editor(the("editor"), data.schema, words, edited);
 const form = new Form(the("form"), data.schema, (made) => { text.text = made; });
-const take = new Take(the("take"), data, files, () => ({ name: problem_name(), text: text.text, title: equations.title || problem_name(), ready: chosen() }));
+const take = new Take(the("take"), data, {
+  ask: files, reasons, file: () => ({ name: problem_name(), text: text.text, title: equations.title || problem_name(), ready: chosen() }),
+});
 const tabs = new Tabs(["walk", "see", "take"], (name) => {
   the("steps").parentElement.hidden = name !== "walk";
   if (name === "see") see();
+  if (name === "take") take.weigh();
 });
 
 /* what is derived: the text and language of the walk that stands, of the motion, of what it keeps; the walk that runs; is a check to follow? */
@@ -54,6 +57,7 @@ function onstate() {
   const busy = engine?.busy ?? false;
   the("stop").hidden = the("progress").hidden = !busy;
   the("check").disabled = !engine;
+  if (!busy) take.weigh();
 }
 
 function faults(list) {
@@ -92,6 +96,7 @@ async function derive() {
     wanted = false;
     await check();
   } else if (tabs.now === "see") await see();
+  else take.weigh();
 }
 
 async function walk() {
@@ -214,6 +219,14 @@ async function files(command) {
   if (ended(how)) say("");
   else refused = how === "superseded" ? words.overtaken : told;
   return found ? { zip: found } : { refused };
+}
+
+/* why options of the code cannot be added to others; null while something else is asked, or is to be derived */
+async function reasons(command) {
+  if (tabs.now !== "take" || !engine || engine.busy || walked?.text !== text.text) return null;
+  let found = null;
+  await engine.ask({ ask: "refused", text: walked.text, words: command }, (kind, news) => { if (kind === "refused") found = news; });
+  return found;
 }
 
 /* ---- what changes */

@@ -211,7 +211,11 @@ def test_a_search_that_the_clock_ends_leaves_the_motion_running(fresh, site):
 
 @pytest.mark.parametrize(
     ("name", "numbers"),
-    [("top", {"g": "3,5", "zeta_3": "40"}), ("sim3", {"zeta_1": "1.5", "theta_2": "-0.25"})],
+    [
+        ("top", {"g": "3,5", "zeta_3": "40"}),
+        ("sim3", {"zeta_1": "1.5", "theta_2": "-0.25"}),
+        ("so3", {"u_2": "0,5"}),
+    ],
 )
 def test_numbers_that_are_set_go_into_the_text(fresh, site, name, numbers):
     frame = moving(fresh, site, name)
@@ -229,8 +233,11 @@ def test_numbers_that_are_set_go_into_the_text(fresh, site, name, numbers):
     if name == "top":
         assert after["parameters"]["g"] == before["parameters"]["g"] | {"default": 3.5}
         assert after["initial"] == before["initial"] | {"zeta_3": 40}
-    else:
+    elif name == "sim3":
         assert after["initial"]["exp"] == [0, -0.25, 0, 0, 0, 0, 0]
+    else:
+        assert after["initial"]["u_2"] == 0.5
+        assert not {"u_1", "u_3"} & {*after["initial"]}
     found = fresh.frames[-1].evaluate(STATE, 1.0)
     assert max(abs(a - b) for a, b in zip(found, expected, strict=True)) < 1e-9
 

@@ -332,5 +332,5 @@ function mount(element, page, pieces) {
     tabulate();
     ask();
   }
-  return { given: { x: x0, p, theta }, get trail() { return trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause, keep };
+  return { given: { x: x0, p, u, theta }, get trail() { return trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause, keep };
 }
