@@ -9,7 +9,7 @@ import statistics
 import sys
 import time
 
-from derive.command.cli import derive, ready_made
+from derive.command.loading import derive, ready_made
 from derive.problem.problem import ProblemError
 from derive.symmetries.found import symmetries_of
 from derive.symmetries.tangent_fields import tangent_fields

@@ -19,7 +19,7 @@ from derive.algebra.families import FAMILIES, Family, group
 from derive.algebra.groups import Group
 from derive.code.languages import LANGUAGES
 from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED
-from derive.command.cli import READY, ready_made
+from derive.command.loading import READY, ready_made
 from derive.language.limits import TABLES
 from derive.page.motion_page import SCRIPTS
 from derive.problem.toml import TOP

@@ -7,98 +7,21 @@ import argparse
 import os
 import sys
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from ..language.near_names import did_you_mean, near_name
 from ..language.refused import Refused
-from ..problem.problem import Problem, ProblemError
-from ..record.record import Derivation, Step
-from ..schema.table import nearest
-from ..views.rendering import NOTES, RenderError, notes, pdf, render, unprinted
-from .encoding import as_in_a_file, replacing_unencodable
+from ..views.rendering import render
+from .encoding import replacing_unencodable
 from .guard import StoppedError, one_line, time_limit
+from .loading import UsageError, allowed, derive, discrete_walk, load_problem, ready_made
 from .progress import with_progress
+from .showing import notation, save, save_record, steps_of, told_steps, warn_of_letters
 
 if TYPE_CHECKING:
     from ..check.verdict import Verdict
-
-READY = Path(__file__).resolve().parents[1] / "problems"
-
-
-class UsageError(Refused):
-    """Bad input on the command line: one clear line, and the exit code 2."""
-
-
-def ready_made() -> list[str]:
-    """The names of the ready-made problems."""
-    return sorted(f.name.removesuffix(".toml") for f in READY.iterdir() if f.name.endswith(".toml"))
-
-
-def load_problem(name: str, **allowances: bool) -> Problem:
-    """A ready-made problem by name, or a TOML file by path; ``allowances``: what may be negative,
-    as in ``problem.toml.load``. ``UsageError`` where there is neither."""
-    from ..problem.toml import load
-
-    if name in ready_made():
-        return load(READY / f"{name}.toml")
-    path = Path(name)
-    if path.suffix == ".toml" or path.exists():
-        return load(path, **allowances)
-    if "\n" in name:
-        raise UsageError("a problem is a name or a .toml file, not its text: write it to a file")
-    near = near_name(name.lower(), ready_made())
-    if path.with_name(f"{path.name}.toml").is_file():
-        near = f"{name}.toml"
-    hint = did_you_mean(near[:60], after=" ")
-    raise UsageError(
-        f"unknown problem {name[:60]!r}; {hint}ready-made: {', '.join(ready_made())}; "
-        "or give a .toml file"
-    )
-
-
-def derive(name: str, **allowances: bool) -> tuple[Problem, Derivation]:
-    """A problem and its record, with warnings of doubts; ``UsageError`` where it has no walk."""
-    from ..pipeline import walk
-    from ..problem.doubts import doubts
-
-    problem = load_problem(name, **allowances)
-    for doubt in doubts(problem):
-        print(f"derive: warning: {one_line(name)}: {one_line(doubt)}", file=sys.stderr)
-    try:
-        return problem, walk(problem)
-    except ProblemError as error:
-        raise UsageError(f"{name}: {error}") from None
-
-
-def discrete_walk(name: str, **allowances: bool) -> tuple[Problem, Derivation]:
-    """A problem and the record of its discrete motion."""
-    from ..pipeline import discrete
-
-    problem = load_problem(name, **allowances)
-    return problem, discrete(problem)
-
-
-def allowances(args: argparse.Namespace) -> dict[str, bool]:
-    """The keywords of :func:`load_problem` for what the flags allow to be negative."""
-    from .arguments import ALLOWED
-
-    return {f"negative_{x}": getattr(args, f"allow_negative_{x}") for x in ALLOWED}
-
-
-def save(text: str, out: str | None, form: str) -> None:
-    """Write a text of one of the formats to stdout, or whole to the file ``out``."""
-    from .writing import write
-
-    if out is None:
-        if form != "text":
-            as_in_a_file()
-        sys.stdout.write(text if text.endswith("\n") else text + "\n")
-    else:
-        path = Path(out)
-        write({path.name: text}, path.parent, links=True)
 
 
 def command_list(_: argparse.Namespace) -> int:
@@ -116,7 +39,7 @@ def command_walk(args: argparse.Namespace) -> int:
     if args.discrete and args.trivialisation:
         raise UsageError("--discrete and --trivialisation are of two roads: leave out one")
     walked = discrete_walk if args.discrete else derive
-    problem, record = walked(args.problem, **allowances(args))
+    problem, record = walked(args.problem, **allowed(args))
     if args.trivialisation:
         if problem.fluid:
             raise UsageError(
@@ -173,18 +96,12 @@ def command_equilibria(args: argparse.Namespace) -> int:
     return 0
 
 
-def told_steps(record: Derivation, first: str = "poisson") -> list[Step]:
-    """The steps of a record from one on: those that tell integrals, or equilibria."""
-    labels = [step.label for step in record.steps]
-    return [*record.steps[labels.index(f"{record.name}.{first}") :]]
-
-
 def command_symmetries(args: argparse.Namespace) -> int:
     """All symmetries of a problem's Lagrangian, and what the motion keeps by each."""
     from ..pipeline import symmetries
     from ..symmetries.steps import shown as about_symmetries
 
-    problem, walked = derive(args.problem, **allowances(args))
+    problem, walked = derive(args.problem, **allowed(args))
     save_record(symmetries(problem, walked).record, about_symmetries, args)
     return 0
 
@@ -194,131 +111,16 @@ def command_reduction(args: argparse.Namespace) -> int:
     from ..pipeline import reduction
     from ..reduction.reduced_record import shown
 
-    problem, walked = derive(args.problem, **allowances(args))
+    problem, walked = derive(args.problem, **allowed(args))
     save_record(reduction(problem, walked).record, shown, args)
     return 0
 
 
-def save_record(
-    record: Derivation, own: Callable[[Derivation], list[Step]], args: argparse.Namespace
-) -> None:
-    """Write the steps of a record that are asked for, else its ``own``; in JSON all."""
-    steps = steps_of(record, args.labels)
-    if not steps and args.format != "json":
-        steps = own(record)
-    chosen = {"fragment": args.fragment, "steps": steps, **notation(args)}
-    shown = render(record, args.format, args.lang, **chosen)
-    if args.format == "latex":
-        warn_of_letters([record])
-    save(shown, args.out, args.format)
-
-
-def steps_of(record: Derivation, labels: Sequence[str]) -> list[Step]:
-    """The steps with these labels, which may lack the problem's name; ``UsageError`` for others."""
-    by_label = {s.label: s for s in record.steps}
-    short = {x.removeprefix(f"{record.name}."): x for x in by_label}
-    found = []
-    for label in labels:
-        if label not in by_label and label not in short:
-            hint = nearest(label, {*short, *by_label})
-            raise UsageError(f"{record.name} has no step {label[:60]!r}{hint}")
-        found.append(by_label[short.get(label, label)])
-    return found
-
-
 def command_notes(args: argparse.Namespace) -> int:
     """Lecture notes of problems: .tex, .pdf or .html; or .sty, the macros of their fragments."""
-    from .writing import write
+    from .noting import command_notes
 
-    out = Path(args.out)
-    if out.suffix not in NOTES:
-        raise UsageError(f"--out {args.out}: the name must end in {', '.join(NOTES)}")
-    names = dict.fromkeys(args.problem)
-    walked = discrete_walk if args.discrete else derive
-    walks = list(with_progress((walked(name) for name in names), len(names), "walks"))
-    records = [record for _, record in walks]
-    pages = {} if args.motion is None else pages_of_motions(args, out, walks)
-    pictures = {} if args.picture is None else pictures_of_motions(args, out, walks)
-    moving, drawn = (
-        dict(zip((d.name for d in records), files, strict=False)) for files in (pages, pictures)
-    )
-    text = notes(
-        records,
-        out.suffix,
-        args.lang,
-        fragment=args.fragment,
-        moving=moving,
-        pictures=drawn,
-        **notation(args),
-    )
-    if out.suffix in (".tex", ".pdf"):
-        warn_of_letters(records)
-    content = pdf_of(text, out, pictures) if out.suffix == ".pdf" else text
-    for path in write({out.name: content, **pages, **pictures}, out.parent, links=True):
-        print(path)
-    return 0
-
-
-def pdf_of(tex: str, out: Path, pictures: Mapping[str, bytes]) -> bytes:
-    """The PDF of LaTeX with its pictures, to be the file ``out``; where none is made, the LaTeX is
-    written beside it, as OUT.tex: the error says where."""
-    from .writing import write
-
-    try:
-        (made,) = with_progress((pdf(x, pictures) for x in [tex]), 1, "LaTeX")
-    except RenderError as error:
-        (source, *_) = write({f"{out.name}.tex": tex, **pictures}, out.parent)
-        raise RenderError(f"{error}; the LaTeX is written to {source}") from None
-    return made
-
-
-def pages_of_motions(
-    args: argparse.Namespace, out: Path, walks: Sequence[tuple[Problem, Derivation]]
-) -> dict[str, str]:
-    """File → the page in which the body of a problem moves, one for each; ``Refused`` where one
-    has no motion."""
-    from ..motion.method import Method
-    from .simulating import moving_page
-
-    if args.discrete or out.suffix != ".html":
-        raise UsageError("--motion: pages are linked from notes FILE.html, without --discrete")
-    chosen: tuple[Any, ...] = args.motion, Method(), args.lang
-    names = beside(out, walks, ".html")
-    return {name: moving_page(*x, *chosen, given={}) for name, x in zip(names, walks, strict=True)}
-
-
-def pictures_of_motions(
-    args: argparse.Namespace, out: Path, walks: Sequence[tuple[Problem, Derivation]]
-) -> dict[str, bytes]:
-    """File → the picture of the motion of a problem, one for each; ``Refused`` where one has no
-    motion."""
-    from .simulating import picture_of
-
-    if args.discrete or args.fragment or out.suffix == ".sty":
-        raise UsageError("--picture: notes have pictures without --discrete, --fragment and .sty")
-    ending = ".svg" if out.suffix == ".html" else ".pdf"
-    return {
-        name: picture_of(*x, args.picture, name, args.lang)
-        for name, x in zip(beside(out, walks, ending), walks, strict=True)
-    }
-
-
-def beside(out: Path, walks: Sequence[tuple[Problem, Derivation]], ending: str) -> list[str]:
-    """The names of the files of motions beside the notes ``out``, which begin as its own does:
-    other notes in the same folder, as in another language, have others."""
-    return [f"{out.stem}_{record.name}_motion{ending}" for _, record in walks]
-
-
-def warn_of_letters(records: Sequence[Derivation]) -> None:
-    """Warn on stderr of the letters of some records that LaTeX does not have."""
-    if lost := unprinted(records):
-        shown = ", ".join(lost[:20])
-        print(f"derive: warning: LaTeX has no {one_line(shown)} here, and shows ?", file=sys.stderr)
-
-
-def notation(args: argparse.Namespace) -> dict[str, str]:
-    """The notations that were chosen for transposes and skew matrices."""
-    return {"transpose": args.notation, "hat": args.hat}
+    return command_notes(args)
 
 
 def command_emit(args: argparse.Namespace) -> int:
@@ -330,12 +132,12 @@ def command_emit(args: argparse.Namespace) -> int:
     if args.names:
         prefix = args.prefix  # with one, the problem need not be there
         if prefix is None:
-            prefix = load_problem(args.problem, **allowances(args)).name
+            prefix = load_problem(args.problem, **allowed(args)).name
         print(*planned(languages(args), prefix, options(args)), sep="\n")
         return 0
     if args.check:
-        return checked(args, lambda **more: derive(args.problem, **allowances(args) | more))
-    problem, record = derive(args.problem, **allowances(args))
+        return checked(args)
+    problem, record = derive(args.problem, **allowed(args))
     asked = wanted(args, problem)
     compiled, files = made(problem, record, asked)
     if args.validate and not validated(files, files, record, compiled, asked):
@@ -349,7 +151,7 @@ def command_simulate(args: argparse.Namespace) -> int:
     """Follow the motion of a problem: its states, its energy, and all that it keeps, as a file."""
     from .simulating import command_simulate
 
-    return command_simulate(args, lambda name: derive(name, **allowances(args)))
+    return command_simulate(args)
 
 
 def command_plot(args: argparse.Namespace) -> int:
@@ -389,7 +191,7 @@ def command_check(args: argparse.Namespace) -> int:
     for name in args.problem:
         try:
             record = (
-                read(Path(name)) if name.endswith(".json") else derive(name, **allowances(args))[1]
+                read(Path(name)) if name.endswith(".json") else derive(name, **allowed(args))[1]
             )
             verdicts = list(with_progress(check(record, seed), 1 + len(record.steps), name))
         except Refused as error:

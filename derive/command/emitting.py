@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 import shlex
 import sys
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,6 +22,7 @@ from ..pipeline import program
 from ..problem.forces import negative_stiffness_of
 from ..problem.problem import Problem
 from ..record.record import Derivation
+from .loading import allowed, derive
 from .writing import REMEDY, stale, text_on_disk
 
 HEAD = 10_000
@@ -60,15 +61,15 @@ def made(p: Problem, record: Derivation, e: EmissionRequest) -> tuple[Program, d
     return compiled, emit(compiled, record, e.languages, e.prefix, e.options, e.allowed)
 
 
-def checked(args: argparse.Namespace, derive: Callable[..., tuple[Problem, Derivation]]) -> int:
+def checked(args: argparse.Namespace) -> int:
     """0 where the files of a folder are what is emitted now, 1 where they are not, and how.
 
-    What a file states holds but for what the command says.  ``derive``: the problem, with what may
-    be negative in it.
+    What a file states holds but for what the command says.
     """
     folder = Path(args.out or ".")
     stated = statements(folder)
-    p, record = derive(**{f"negative_{x}": True for e in stated.values() for x in e.allowed})
+    as_stated = {f"negative_{x}": True for e in stated.values() for x in e.allowed}
+    p, record = derive(args.problem, **allowed(args) | as_stated)
     own = {
         file: e
         for file, e in stated.items()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -26,6 +25,7 @@ from ..record.record import Derivation
 from ..views.language import language
 from .ensembles import command_ensemble
 from .guard import one_line
+from .loading import allowed, derive
 from .progress import with_progress
 from .writing import write
 
@@ -97,15 +97,13 @@ def run_of(args: argparse.Namespace, problem: Problem, record: Derivation) -> Ru
     )
 
 
-def command_simulate(
-    args: argparse.Namespace, derived: Callable[[str], tuple[Problem, Derivation]]
-) -> int:
+def command_simulate(args: argparse.Namespace) -> int:
     """Run ``derive simulate``: its exit code."""
     if args.dt is not None and args.tol is not None:
         raise MotionError("--dt is a step of one size, --tol chooses it: give one of them")
     if args.ensemble is None:
         require_an_ensemble(args.vary, args.seed)
-    problem, record = derived(args.problem)
+    problem, record = derive(args.problem, **allowed(args))
     if args.ensemble is not None:
         return command_ensemble(args, problem, record, start_of(args))
     if args.html:

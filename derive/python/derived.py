@@ -299,7 +299,7 @@ def derive(problem: Problem | str | Path, *, discrete: bool = False) -> Derived:
     """The derivation of a problem, of a problem file, or of a ready-made problem; ``ProblemError``
     says in one line what is wrong.  ``discrete``: its motion in steps of time h, without inputs."""
     from .. import pipeline
-    from ..command.cli import load_problem
+    from ..command.loading import load_problem
 
     if not isinstance(problem, Problem):
         problem = load_problem(str(problem))

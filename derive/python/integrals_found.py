@@ -174,7 +174,7 @@ class FirstIntegrals:
         return self.markdown()
 
     def _rendered(self, form: str, lang: str = "en") -> str:
-        from ..command.cli import told_steps
+        from ..command.showing import told_steps
         from ..views.rendering import render
 
         return render(self.record, form, lang, steps=told_steps(self.record))
@@ -194,7 +194,7 @@ def first_integrals(
     is for generic values of them; ``conditions``: special values with more are found, too.
     ``ProblemError``, ``NotReducedError`` say what is wrong.
     """
-    from ..command.cli import load_problem
+    from ..command.loading import load_problem
     from ..pipeline import integrals
 
     if not isinstance(problem, Problem):

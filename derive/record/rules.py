@@ -142,7 +142,7 @@ RULES: dict[str, Rule] = {
     "Poisson bracket": Rule(
         "crochet de Poisson",
         "A function is constant along the motion where its bracket with the energy vanishes.",
-        "Une fonction est constante le long du mouvement là où son crochet avec l’énergie s’annule.",
+        "Une fonction est constante le long du mouvement si son crochet avec l’énergie est nul.",
         "conservation",
     ),
     "inversion": Rule(
@@ -166,7 +166,7 @@ RULES: dict[str, Rule] = {
     "enclosure": Rule(
         "encadrement",
         "A critical point is proved to be near a point, by the terms of the expansion there.",
-        "On prouve qu’un point critique est proche d’un point, par les termes du développement en ce point.",
+        "Il y a un point critique près d’un point : les termes du développement le prouvent.",
         "identity",
     ),
     "evaluation": Rule(

@@ -24,8 +24,9 @@ from typing import Any
 import starts
 from places import line_of
 
-from derive.command.cli import derive, main
+from derive.command.cli import main
 from derive.command.guard import one_line
+from derive.command.loading import derive
 from derive.language.refused import Refused
 from derive.paper.finding import Finding
 from derive.record.contract import AMENDED

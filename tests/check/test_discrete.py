@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from derive.check.checker import check, checker_of
-from derive.command.cli import load_problem, main
+from derive.command.cli import main
+from derive.command.loading import load_problem
 from derive.pipeline import discrete
 from derive.problem.toml import problem_of
 from derive.record.json_reader import from_json

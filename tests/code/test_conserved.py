@@ -12,7 +12,8 @@ from derive.code.emit import emit
 from derive.code.languages import LANGUAGES
 from derive.code.options import Options
 from derive.code.program import LoweringError
-from derive.command.cli import main, ready_made
+from derive.command.cli import main
+from derive.command.loading import ready_made
 from derive.language.rational import times, transposed
 from derive.language.refused import Refused
 from derive.pipeline import program

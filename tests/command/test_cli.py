@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from derive.command.cli import main, ready_made
+from derive.command.cli import main
+from derive.command.loading import ready_made
 from derive.record.json_writer import to_data, to_json
 from derive.views.rendering import FORMATS
 from tests.support.needs import CC, needs

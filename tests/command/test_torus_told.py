@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from derive import derive
-from derive.command.cli import UsageError, main
+from derive.command.cli import main
+from derive.command.loading import UsageError
 from derive.command.simulating import summary
 from derive.problem.problem import ProblemError
 

@@ -8,7 +8,8 @@ import sys
 
 import pytest
 
-from derive.command.cli import main, ready_made
+from derive.command.cli import main
+from derive.command.loading import ready_made
 
 WITHOUT = """
 import sys

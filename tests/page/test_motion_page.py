@@ -12,7 +12,8 @@ import pytest
 import derive
 from derive.code.emit import emit
 from derive.code.options import Options
-from derive.command.cli import main, ready_made
+from derive.command.cli import main
+from derive.command.loading import ready_made
 from derive.page.moving_body import moving_body
 from derive.page.shortened import called, shortened
 from derive.pipeline import motion_of

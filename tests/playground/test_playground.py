@@ -13,7 +13,8 @@ import pytest
 from derive import derive as derived
 from derive.code.emit import emit
 from derive.code.options import Options
-from derive.command.cli import READY, main, ready_made
+from derive.command.cli import main
+from derive.command.loading import READY, ready_made
 from derive.motion.simulate import beginning
 from derive.page.motion_page import data
 from derive.pipeline import motion_of

@@ -7,7 +7,7 @@ import subprocess
 import pytest
 
 from derive.code.options import CHOICES, REPEATED
-from derive.command.cli import READY
+from derive.command.loading import READY
 from tests.playground.test_playground import BAD, PENDULUM, typed
 from tests.support.needs import need
 from tests.support.playground_site import OWN, built, walked

@@ -7,7 +7,7 @@ import tomllib
 
 import pytest
 
-from derive.command.cli import READY, ready_made
+from derive.command.loading import READY, ready_made
 from derive.problem.toml import problem_of
 from playground.python.starts import names
 from playground.stage import schema

@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 
-from derive.command.cli import ready_made
+from derive.command.loading import ready_made
 from derive.language.limits import SENTENCE
 from derive.pipeline import walk
 from derive.problem.toml import problem_of

@@ -49,9 +49,11 @@ def commands(pdf):
 def main(folder, pdf):
     """Run all of them there."""
     import derive
+    from derive.command import loading
+
+    loading.derive = functools.cache(loading.derive)  # one walk for all that is made of it
     from derive.command import cli
 
-    cli.derive = functools.cache(cli.derive)  # one walk for all that is made of it
     os.makedirs(folder, exist_ok=True)
     os.chdir(folder)
     for name, arguments in commands(pdf):

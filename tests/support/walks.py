@@ -5,7 +5,7 @@ from functools import cache
 import pytest
 
 from derive.check.checker import Checker
-from derive.command.cli import derive, ready_made
+from derive.command.loading import derive, ready_made
 from derive.record.contract import ANY_GROUP
 
 NAMES = ("linear", "affine", "so3", "se3", "sl3")

@@ -4,7 +4,7 @@ from collections import Counter
 
 import pytest
 
-from derive.command.cli import derive, ready_made
+from derive.command.loading import derive, ready_made
 from derive.language.expression import parse
 from derive.language.show import show
 from derive.pipeline import symmetries, walk

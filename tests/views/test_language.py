@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from derive import prose as texts
-from derive.command.cli import main, ready_made
+from derive.command.cli import main
+from derive.command.loading import ready_made
 from derive.paper.printed import PAPER
 from derive.pipeline import discrete, symmetries, walk
 from derive.printing.escape import markdown_text, prose, tex_text

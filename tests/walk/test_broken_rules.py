@@ -6,7 +6,7 @@ import pytest
 
 from derive import pipeline
 from derive.algebra import calculus
-from derive.command.cli import load_problem
+from derive.command.loading import load_problem
 from derive.pipeline import walk
 from derive.problem.problem import ProblemError
 from derive.walk import rotation, trivialisation

@@ -13,7 +13,8 @@ from derive import derive as derived
 from derive.algebra import forms
 from derive.check.checker import check, checker_of
 from derive.check.fluid.flat_torus import Torus
-from derive.command.cli import load_problem, main
+from derive.command.cli import main
+from derive.command.loading import load_problem
 from derive.language.show import show
 from derive.language.tree import names as names_in
 from derive.pipeline import walk
