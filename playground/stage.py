@@ -36,6 +36,7 @@ from derive.schema.table import Table
 from derive.views.language import language
 from derive.views.outline import title
 from derive.views.system import system
+from playground.python.starts import of_points
 
 HERE = Path(__file__).parent
 LIBRARIES, LATER = ("jinja2", "markupsafe"), ("mpmath", "sympy")
@@ -158,8 +159,10 @@ def named_groups() -> Iterator[tuple[Family, str]]:
 
 
 def moved(g: Group, meaning: str) -> dict[str, object]:
-    """The dimension of the space that a group moves, that of its algebra, whether it translates."""
-    return {"n": g.n, "d": g.dimension, "affine": g.affine, "meaning": meaning}
+    """The dimension of the space that a group moves, that of its algebra, and how many numbers of
+    the velocity of a body of points are called w."""
+    w = sum(x.startswith("w_") for x in of_points(g))
+    return {"n": g.n, "d": g.dimension, "w": w, "meaning": meaning}
 
 
 def drawing() -> str:

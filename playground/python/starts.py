@@ -6,8 +6,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from derive.algebra.groups import Group
 from derive.language.suffixed import suffixed
-from derive.problem.state_names import entries, known_in_lagrangian
+from derive.problem.state_names import entries, known_in_lagrangian, state_names
 
 
 def faults(problem: Any) -> Iterator[str]:
@@ -24,15 +25,21 @@ def faults(problem: Any) -> Iterator[str]:
 def names(problem: Any) -> list[str]:
     """The numbers of the state, those of g that never change among them, and of the inputs."""
     group, own = problem.group, problem.lagrangian
-    found = [x for x in known_in_lagrangian(group, problem.advected) if x != "t"]
-    if own is not None:
-        held = {suffixed("zeta", a) for a in own.held}
-        found = [x for x in found if x not in held]
-    elif group.free_translations:
+    if own is None:
+        return [*of_points(group), *inputs(problem)]
+    held = {"t"} | {suffixed("zeta", a) for a in own.held}
+    known = known_in_lagrangian(group, problem.advected)
+    return [*(x for x in known if x not in held), *inputs(problem)]
+
+
+def of_points(group: Group) -> list[str]:
+    """Those of the state of a body of points: with translations the last n of the velocity are
+    w."""
+    shift = {}
+    if group.free_translations:
         turns = group.dimension - group.n
         shift = {suffixed("zeta", turns + i): suffixed("w", i) for i in range(1, group.n + 1)}
-        found = [shift.get(x, x) for x in found]
-    return [*found, *inputs(problem)]
+    return [shift.get(x, x) for x in state_names(group) if x != "t"]
 
 
 def inputs(problem: Any) -> Iterator[str]:
