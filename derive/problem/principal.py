@@ -39,6 +39,8 @@ MANY = 100
 
 def principal(problem: Problem) -> Problem:
     """The problem in its principal frame; ``ProblemError`` says why it has none."""
+    if problem.body is None:
+        raise ProblemError(f"{problem.name}: no body, so no principal frame")
     group = problem.group
     kind = frame_of(group) if group else ""
     if group is None or not kind:
@@ -47,8 +49,6 @@ def principal(problem: Problem) -> Problem:
             f"{problem.name}: no principal frame is known for {what}; it is for "
             "SO(n), SE(n), SL(n), SAff(n), GL(n) and Aff(n)"
         )
-    if problem.body is None:
-        raise ProblemError(f"{problem.name}: no body, so no principal frame")
     for p in problem.potentials:
         if p.unturned:
             raise ProblemError(
