@@ -118,11 +118,11 @@ def test_the_wheel_scrolls_and_zooms_with_ctrl_alone(fresh, site):
     fresh.keyboard.up("Control")
     until(frame, "true", lambda: frame.locator(".side").screenshot() != before)
     assert frame.evaluate(beside) == 0
-    fresh.mouse.wheel(0, 4000)
     left = (
         "((x) => x.scrollHeight - x.clientHeight - x.scrollTop)(document.querySelector('.beside'))"
     )
-    until(frame, f"{left} < 2")
+    # what it keeps comes into the column later, and makes it longer
+    until(frame, "true", lambda: fresh.mouse.wheel(0, 4000) or frame.evaluate(f"{left} < 2"))
     reset = frame.locator(".reset").bounding_box()
     assert reset["y"] + reset["height"] <= 800
 
