@@ -79,7 +79,7 @@ def continued(run: Run, problem: Problem, record: Derivation) -> tuple[dict[str,
         raise MotionError("a run of no instants")
     facts, state = run.facts, {x: float(a[-1]) for x, a in run.of_kind("state").items()}
     if facts.get("hash") == problem_hash(record):
-        return {**facts["parameters"], **facts["inputs"], **state}, ""
+        return {**facts.get("parameters", {}), **facts.get("inputs", {}), **state}, ""
     other, group = facts.get("problem", "?"), facts.get("group", "?")
     whose = f"a run of {other!r}, not of {problem.name!r}"
     if other == problem.name:
