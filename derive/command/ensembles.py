@@ -51,7 +51,8 @@ def command_ensemble(
         print(f"derive: warning: {problem.name}: {text}", file=sys.stderr)
     tally = Tally(len(many.first.x))
     with heard() as interrupted, kept(many, args.out) as add:
-        parts = with_progress(many.parts(), many.count, f"{problem.name}, parts of {many.size}")
+        about = f"{problem.name}, parts of {many.size}"
+        parts = with_progress(many.parts(interrupted), many.count, about)
         for part in parts:
             add(part)
             tally.add(part)

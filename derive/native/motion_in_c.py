@@ -110,7 +110,7 @@ void derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const 
     size_t u_each, double t0, double t1, double tol, double *h, int *status, double *ended)
 {{
 #ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic, 16)
+#pragma omp parallel for schedule(dynamic)
 #endif
     for (long long j = 0; j < (long long)n; ++j) {{
         const size_t i = (size_t)j;

@@ -1,4 +1,5 @@
-"""Ctrl-C in a run: the last row is where it stopped, and nothing that it tells lies behind that."""
+"""Ctrl-C in a run, whose last row is where it stopped, behind which it tells nothing; in an
+ensemble, which keeps the motions that are done."""
 
 import os
 import signal
@@ -9,12 +10,14 @@ import pytest
 
 import derive
 from derive.command.cli import main
+from derive.motion import ensemble as of_parts
 from derive.motion.motion_in_python import MotionInPython
 from derive.motion.run_files import read
 from derive.motion.trajectory import Trajectory
 from derive.native.motion_in_c import Motion
+from derive.python.simulated import SimulatedEnsemble
 from tests.problems import moving
-from tests.support.needs import needs
+from tests.support.needs import need, needs
 
 TURNS = f"""{moving.SPIN}[initial]
 zeta_3 = "w"
@@ -22,6 +25,7 @@ zeta_3 = "w"
 name = "quarter"
 when = "A_11"
 """
+OPTIONS = ["--vary", "zeta_1=0:1", "--vary", "J_11=normal:1:0.01"]
 METHODS = [{}, {"dt": 0.01}, {"dt": 0.01, "step": "rk4"}, {"step": "vern9"}]
 
 
@@ -111,3 +115,56 @@ def test_a_signal_in_a_long_run(tmp_path, capsys, monkeypatch):
     assert 0 < run.t[1] < 1000
     assert f"spin: interrupted at t = {run.t[1]:g}\n" in capsys.readouterr().err
     assert 0 < run.events[-1].t <= run.t[1]
+
+
+# ---------------------------------------------------------------- ensembles
+
+
+@needs("cc")
+@pytest.mark.parametrize("ending", [".npz", ".csv", ".parquet"])
+def test_ctrl_c_within_a_part_keeps_what_is_done_of_it(ending, tmp_path, capsys, monkeypatch):
+    """A part is made by several calls of C."""
+    if ending == ".parquet":
+        need("the module pyarrow")
+    monkeypatch.setattr(of_parts, "SECONDS", 1e-9)
+    monkeypatch.setattr(of_parts, "TOGETHER", 4)
+    monkeypatch.setattr("os.cpu_count", lambda: 1)
+    made, calls = of_parts.Many._follow, []
+
+    def interrupted(self, *given):
+        calls.append(given)
+        if len(calls) == stop:
+            os.kill(os.getpid(), signal.SIGINT)
+        return made(self, *given)
+
+    monkeypatch.setattr(of_parts.Many, "_follow", interrupted)
+    out = tmp_path / f"e{ending}"
+    asked = ["simulate", "so3", "--t", "1", "--ensemble", "40", *OPTIONS, "--out", str(out)]
+    stop = 3
+    assert main(asked) == 130
+    assert "interrupted after 12 of 40 motions" in capsys.readouterr().err
+    some = SimulatedEnsemble.read(out)
+    stop = 0
+    assert main(asked) == 0
+    whole = SimulatedEnsemble.read(out)
+    assert np.array_equal(some.states[:12], whole.states[:12])
+    assert np.array_equal(some.varied[:12], whole.varied[:12])
+    assert {*some.status[12:].tolist()} <= {-1}
+
+
+@needs("cc")
+def test_a_second_ctrl_c_ends_at_once(tmp_path, monkeypatch):
+    """And leaves no file."""
+    monkeypatch.setattr("os.cpu_count", lambda: 1)
+    made = of_parts.Many._follow
+
+    def interrupted(self, *given):
+        os.kill(os.getpid(), signal.SIGINT)
+        os.kill(os.getpid(), signal.SIGINT)
+        made(self, *given)
+        raise AssertionError("it goes on")
+
+    monkeypatch.setattr(of_parts.Many, "_follow", interrupted)
+    asked = ["simulate", "so3", "--t", "1", "--ensemble", "40", *OPTIONS]
+    assert main([*asked, "--out", str(tmp_path / "e.npz")]) == 130
+    assert not [*tmp_path.iterdir()]
