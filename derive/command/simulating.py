@@ -27,7 +27,7 @@ from .ensembles import command_ensemble
 from .guard import one_line
 from .loading import allowed, derive
 from .progress import with_progress
-from .writing import write
+from .writing import require_place, write
 
 ROUNDING = 1e-15
 """A component that is smaller, beside the others, is that of sums of a few terms."""
@@ -91,8 +91,6 @@ def run_of(
     args: argparse.Namespace, problem: Problem, record: Derivation, start: dict[str, Any]
 ) -> Run:
     """The run that a command asks for; ``Refused`` where there is none."""
-    if args.out:
-        format_of(args.out)  # refused before the work
     method = method_of(args)
     return run(
         motion_of(problem, record, method.step, method.order),
@@ -111,6 +109,10 @@ def command_simulate(args: argparse.Namespace) -> int:
         raise MotionError("--dt is a step of one size, --tol chooses it: give one of them")
     if args.ensemble is None:
         require_an_ensemble(args.vary, args.seed)
+    if args.out:
+        format_of(args.out)  # refused before the work
+    for file in filter(None, (args.out, args.html)):
+        require_place(Path(file))
     problem, record = derive(args.problem, **allowed(args))
     start = start_of(args, problem, record)
     if args.ensemble is not None:
