@@ -181,7 +181,7 @@ def main(out: Path) -> None:
         library(name, first)
     for name in LATER:
         library(name, later / name)
-    for module in ("play", "places", "starts"):
+    for module in ("play", "places"):
         shutil.copy(HERE / "python" / f"{module}.py", first)
     told = {"version": derive.__version__, "problems": problems(), **options(), "schema": schema()}
     (out / "motion.js").write_text(drawing(), encoding="utf-8")

@@ -113,7 +113,7 @@ def command_simulate(args: argparse.Namespace) -> int:
         format_of(args.out)  # refused before the work
     for file in filter(None, (args.out, args.html)):
         require_place(Path(file))
-    problem, record = derive(args.problem, **allowed(args))
+    problem, record = derive(args.problem, followed=True, **allowed(args))
     start = start_of(args, problem, record)
     if args.ensemble is not None:
         return command_ensemble(args, problem, record, start)

@@ -141,6 +141,7 @@ KEPT = {
     "playground/test_playground_page.py::test_texts_are_never_markup": 1,
     "plot/test_pictures.py::test_every_kind_has_the_same_bytes_twice": 1,
     "problem/test_bad_problems.py::test_hostile_files_cost_little": 6,
+    "problem/test_followed_names.py::test_they_are_those_of_the_emitted_code": 12,
     "problem/test_hints.py::test_a_negative_stiffness": 3,
     "problem/test_kinds.py::test_a_record_of_another_form_is_refused": 10,
     "problem/test_kinds.py::test_an_example_holds": 1,
