@@ -6,7 +6,6 @@ python -m benchmarks.playground [rounds]
 
 from __future__ import annotations
 
-import gzip
 import re
 import statistics
 import sys
@@ -14,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from tests.support.needs import missing
-from tests.support.playground_site import built, chromium, served, walked
+from tests.support.playground_site import built, chromium, first_walk, served, size, walked
 
 AIMS = {
     "first equation, s": 4.0,
@@ -24,8 +23,6 @@ AIMS = {
     "loaded, MB gzip": 7.5,
     "memory of the page, MB": 300.0,
 }
-BEHIND = ("keep.js", "rest.tar.gz", "mpmath.tar.gz", "moving.html", "moving.js", "motion.css")
-"""Fetched after the first walk, with what begins with the names of the files that come later."""
 WATCH = """addEventListener("DOMContentLoaded", () => {
     const look = () => {
         const root = document.getElementById("walk").shadowRoot;
@@ -67,19 +64,14 @@ def memory() -> float:
     return max(found) / 1000
 
 
-def size(names: set[str]) -> float:
-    """Of files of the playground, in MB, each as gzip −9."""
-    return sum(len(gzip.compress((built() / x).read_bytes(), 9)) for x in names) / 1e6
-
-
 def figures(address: str, browser: Any) -> dict[str, float]:
     """Those of one visit."""
     page, asked = browser.new_page(), set[str]()
-    page.on("request", lambda x: asked.add(x.url.removeprefix(address).partition("#")[0]))
+    page.on("request", lambda x: asked.add(x.url))
     page.add_init_script(WATCH)
     page.goto(f"{address}#so3")
     walked(page)
-    first = {x or "index.html" for x in asked if ":" not in x and x not in BEHIND}
+    first = first_walk(asked, address)
     found = {"first equation, s": page.evaluate("begun") / 1000}
     found["check so3, s"] = page.evaluate(CHECK) / 1000
     found["memory of the page, MB"] = memory()

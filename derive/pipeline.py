@@ -468,23 +468,39 @@ def program(problem: Problem, record: Derivation, options: Options | None = None
     """The program of a problem; in its principal frame that is the program of another problem."""
     from .code.assemble import assemble
     from .code.events import watched
-    from .code.excluded_options import require_written
 
+    require_program(problem, record, options)
     events = watched(problem.name, problem.events, options) if options else ()
     if problem.torus:
         from .code.torus.torus_program import torus_program
 
         return torus_program(record, problem.torus, options, events)
-    if problem.group is None:
+    assert problem.group
+    if options is None or options.frame == "given":
+        kept = conserved_quantities(problem, record) if options and options.conserved else None
+        stepped = discrete(problem) if options and "discrete" in options.step else None
+        return assemble(record, problem.group, options, kept=kept, events=events, discrete=stepped)
+    return assemble(record, problem.group, options, walk(principal(problem)))
+
+
+def require_program(problem: Problem, record: Derivation, options: Options | None = None) -> None:
+    """Refuse options that exclude one another or the problem, before anything is made of it:
+    ``LoweringError``, or ``ProblemError`` where it has no code, or no such frame."""
+    from .code.events import watched
+    from .code.excluded_options import require_written
+    from .code.options import Options
+    from .code.torus.torus_program import require_on_torus
+
+    chosen = options or Options()
+    watched(problem.name, problem.events, chosen)
+    if problem.torus:
+        require_on_torus(record, chosen)
+    elif problem.group is None:
         raise ProblemError(
             f"{problem.name}: {problem.without_matrices}, so it has no numeric code; "
             f"{problem.with_matrices}"
         )
-    if options is None or options.frame == "given":
-        kept = conserved_quantities(problem, record) if options and options.conserved else None
-        stepped = None
-        if options and "discrete" in options.step:
-            require_written(record, problem.group, options)
-            stepped = discrete(problem)
-        return assemble(record, problem.group, options, kept=kept, events=events, discrete=stepped)
-    return assemble(record, problem.group, options, walk(principal(problem)))
+    else:
+        require_written(record, problem.group, chosen)
+        if chosen.frame == "principal":
+            principal(problem)

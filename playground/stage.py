@@ -22,6 +22,7 @@ from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED
 from derive.command.loading import READY, ready_made
 from derive.language.limits import TABLES
 from derive.page.motion_page import SCRIPTS
+from derive.problem.followed_names import of_points
 from derive.problem.toml import TOP
 from derive.schema.algebra_kinds import REPRESENTATIONS, StatedAdvected, StatedAlgebra
 from derive.schema.body_kinds import Point
@@ -158,8 +159,10 @@ def named_groups() -> Iterator[tuple[Family, str]]:
 
 
 def moved(g: Group, meaning: str) -> dict[str, object]:
-    """The dimension of the space that a group moves, that of its algebra, whether it translates."""
-    return {"n": g.n, "d": g.dimension, "affine": g.affine, "meaning": meaning}
+    """The dimension of the space that a group moves, that of its algebra, and how many numbers of
+    the velocity of a body of points are called w."""
+    w = sum(x.startswith("w_") for x in of_points(g))
+    return {"n": g.n, "d": g.dimension, "w": w, "meaning": meaning}
 
 
 def drawing() -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ..language.show import show
-from ..language.tree import Tree, names
+from ..language.tree import Tree
 from ..record.record import Equation, RecordError, Step
 from .function_signatures import RATES
 
@@ -107,7 +107,7 @@ def locus_of(step: Step, equation: Equation | None = None) -> Locus:
     found = Locus(principal, contracted, *told, free, step.driven, fields[0], fields[1])
     if still and contracted:
         raise RecordError("the hypotheses δt = 0 and δt = 1 exclude each other")
-    inside = step.rule == EVALUATION or bool({*CARRIED} & _told(step))
+    inside = step.rule == EVALUATION or bool(step.names & {*CARRIED})
     return replace(found, inside=inside, still=still, stepping=_steps(step))
 
 
@@ -115,15 +115,9 @@ CARRIED = ("Π_o", "Π̇_o")
 """What g carries to the other side, A⁻¹ξ′A, is in 𝔤 for g in the group alone."""
 
 
-def _told(step: Step) -> set[str]:
-    """The names in the equations of a step."""
-    sides = (x for e in step.equations for x in (e.lhs, e.rhs))
-    return {x for side in sides for x in names(side)}
-
-
 def _steps(step: Step) -> bool:
     """Does a step speak of g₂ on the discrete motion?"""
-    return step.kind in ("kernel", "solution", "conservation") and bool({*AFTER} & _told(step))
+    return step.kind in ("kernel", "solution", "conservation") and bool(step.names & {*AFTER})
 
 
 AFTER = ("g_2", "A_2", "T_2", "R_2", "M_1", "ℓ_1", "p_1", "m_1", "H")

@@ -53,10 +53,6 @@ def emit(
     places = planned(languages, prefix, chosen)
     if chosen.ensemble and program.loops:
         raise EmitError(f"{d.name}: --ensemble is not written for loops on the torus: leave it out")
-    plain = [name for name in languages if program.framing and not LANGUAGES[name].framed]
-    if plain:
-        framed = ", ".join(name for name, x in LANGUAGES.items() if x.framed)
-        raise EmitError(f"--frame principal is written in {framed}, not in {', '.join(plain)}")
     files: dict[str, str] = {}
     for name in dict.fromkeys(language for language, _ in places.values()):
         own = {file: template for file, (language, template) in places.items() if language == name}
@@ -69,8 +65,8 @@ def emit(
 
 
 def planned(languages: Sequence[str], prefix: str, chosen: Options) -> dict[str, tuple[str, str]]:
-    """File name → its language and template; ``EmitError`` for a prefix that is no name, a form or
-    a step that a language does not have."""
+    """File name → its language and template; ``EmitError`` for a prefix that is no name, a form, a
+    frame or a step that a language does not have."""
     form = chosen.form
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]{0,63}", prefix) or prefix in PREFIXES:
         raise EmitError(
@@ -83,6 +79,10 @@ def planned(languages: Sequence[str], prefix: str, chosen: Options) -> dict[str,
         raise EmitError(
             f"--form header is one of {', '.join(forms)}: add --lang {next(iter(forms))}"
         )
+    plain = [name for name in languages if not LANGUAGES[name].framed]
+    if chosen.frame == "principal" and plain:
+        framed = ", ".join(name for name, x in LANGUAGES.items() if x.framed)
+        raise EmitError(f"--frame principal is written in {framed}, not in {', '.join(plain)}")
     of_double = [f"--step {x}" for x in chosen.step if x not in IN_FLOAT]
     of_double += ["--ensemble"] * chosen.ensemble
     if chosen.real == "float" and of_double:

@@ -25,6 +25,8 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
                 f"{d.name}: --jacobian {by} is a matrix of {rows * width} entries on {group.name}, "
                 f"of dimension {group.dimension}; compilers manage {most}: leave it out"
             )
+    if "inputs" in chosen.jacobian and not d.problem.get("inputs"):
+        raise LoweringError(f"{d.name}: there are no inputs to linearise in")
     if "advected" in d.problem:
         _refused_without_element(d, chosen)
     if d.problem.get("lagrangian", {}).get("held"):

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..motion.driven import INPUTS
 from ..motion.ensemble import require_an_ensemble
 from ..motion.kept_words import parts
 from ..motion.method import STEPS, Method, instants
@@ -139,13 +140,16 @@ def summary(run: Run) -> list[str]:
     count, how = len(run.t), run.facts["language"]
     span = f"{count} instant{'s' * (count != 1)}, t = 0 … {run.t[-1]:g}"
     lines = [f"{name}: {span}, by {method}, in {how}"]
+    drives = run.facts.get("drives", [])
     for kind in ("energy", "conserved"):
+        by = drives if kind == "energy" else [x for x in drives if x == INPUTS]
+        why = f": by {' and '.join(by)}" if by else ""
         for label, column in run.of_kind(kind).items():
             if label in run.facts.get("vanishing", ()):
                 continue
             change = float(np.abs(column - column[0]).max())
             first = at_first(run, label)
-            lines.append(f"  {label}: {first:.9g} at first, changed by at most {change:.1e}")
+            lines.append(f"  {label}: {first:.9g} at first, changed by at most {change:.1e}{why}")
     for label, column in run.of_kind("defect").items():
         lines.append(f"  {label}: at most {float(column.max()):.1e}")
     lines += events(run)

@@ -23,6 +23,7 @@ from ..schema.body_kinds import GivenBody
 from ..schema.followed import Event
 from ..schema.lagrangian_kinds import Lagrangian
 from .body_outline import outline
+from .central_inertia import Centre, centre_of
 from .effective_well import OneDegree
 from .emitted_code import EmittedCode, in_si
 from .motion_in_python import MotionInPython
@@ -46,6 +47,7 @@ class Emitted(EmittedCode):
     left: OneDegree | None = None
     order: str = ""
     lagrangian: Lagrangian | None = None
+    centre: Centre | None = None
 
     @classmethod
     def of(
@@ -70,7 +72,8 @@ class Emitted(EmittedCode):
             "filled": isinstance(problem.body, GivenBody) and bool(problem.body.solids),
         }
         si, events, stated = in_si(problem), problem.events, problem.lagrangian
-        return cls(program, record, si, step, facts, events, left, order, stated)
+        centre = centre_of(problem)
+        return cls(program, record, si, step, facts, events, left, order, stated, centre)
 
     @property
     def options(self) -> Options:
@@ -124,12 +127,16 @@ class Emitted(EmittedCode):
 
     def body(self, p: Array) -> dict[str, Any]:
         """What pictures need of a body: its tensor of inertia, if it is turned in space, of its
-        points or of ℓ, and its :func:`outline`."""
+        points or of ℓ, about its centre where that is free, and its :func:`outline`."""
         numbers = dict(zip(self.python.PARAMETERS, p.tolist(), strict=True))
         stated = self.record.problem
         found = outline(stated, numbers) if stated else {}
         if "inertia" in self.program.functions:
-            found["inertia"] = np.asarray(self.python.inertia(p), dtype=float).tolist()
+            about_origin = np.asarray(self.python.inertia(p), dtype=float)
+            tensor: Array | None = about_origin
+            if self.centre:
+                tensor = self.centre.inertia(about_origin, numbers)
+            found["inertia"] = [] if tensor is None else tensor.tolist()
         elif self.lagrangian and self.program.group in ("SO(3)", "SE(3)"):
             tensor = inertia_of(self.lagrangian, numbers)
             found["inertia"] = [] if tensor is None else tensor.tolist()

@@ -18,6 +18,7 @@ from ..native.motion_in_c import Motion
 from ..problem.inertia import fault_of_quadrics
 from ..problem.problem import Problem, points_of
 from .component import not_near, reflection, unreached
+from .driven import drives
 from .emitted import Emitted
 from .method import Method, instants
 from .not_finite import why_not_finite
@@ -181,11 +182,13 @@ def simulate(
         t, x = np.append(t, last[0]), np.append(x, last[1][None], axis=0)
     elif len(x) == 1 and ended not in ("", INTERRUPTED) and not follow.happened:
         raise MotionError(f"{code.name}: {ended}")
+    inputs = dict(zip(code.program.inputs, begin.u.tolist(), strict=True))
     columns, table = code.columns(), code.table(t, x, k, begin.u)
     facts = {
         **code.facts,
         "parameters": dict(begin.parameters),
-        "inputs": dict(zip(code.program.inputs, begin.u.tolist(), strict=True)),
+        "inputs": inputs,
+        "drives": drives(code.record.problem or {}, inputs),
         "method": str(method),
         "language": "C" if isinstance(follow.motion, Motion) else "Python",
         "evaluations": follow.motion.evaluations,

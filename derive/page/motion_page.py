@@ -14,6 +14,7 @@ from ..code.emit import emit
 from ..code.options import Options
 from ..language.greek import GREEK
 from ..language.templating import environment, folder
+from ..motion.driven import drives
 from ..motion.emitted_code import EmittedCode
 from ..motion.first_numbers import FirstNumbers
 from ..motion.kept_words import in_words
@@ -40,6 +41,7 @@ WORDS = {
     "controls": "the time",
     "stage": "the body, turned by dragging or by the arrow keys",
     "polhode": "The angular velocity in the body",
+    "now": "The angular velocity in the body, and the ellipsoid of its kinetic energy now",
     "ellipsoid": "The angular velocity in the body: its path, the polhode, on the energy ellipsoid",
     "velocities": "The velocity in time",
     "start": "The velocity at the start",
@@ -196,8 +198,8 @@ def data(
     body = moving_body(record.problem, group, made.state)
     adjusted, curves = velocity[:MOST], [] if body["parts"] else sorted(largest)
     basis = made.basis if entries else ()
-    lost = any(begin.u) or not _steady(record.problem)
-    unsaid = {"ellipsoid", "velocities" if body["polhode"] else "polhode"}
+    lost = bool(drives(record.problem, {}))
+    unsaid = {"ellipsoid", "now", "velocities" if body["polhode"] else "polhode"}
     unsaid |= {x for x in ("defect", "multiplier") if x not in made.functions}
     unsaid |= set() if lost or "multiplier" in made.functions else {"others"}
     unsaid |= set() if body["stretches"] else {"flat"}
@@ -206,7 +208,9 @@ def data(
     units = {x.name: x.unit for x in code.columns()}
     words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
     if body["turns"]:
-        words["polhode"] = language.word(WORDS["ellipsoid"])
+        words["polhode"] = language.word(WORDS["ellipsoid" if _free(record.problem) else "now"])
+    if made.inputs:
+        words["kept"] = language.word("What is kept without inputs")
     if group is not None and group.name.startswith(("SL(", "SAff(")) and "defect" in words:
         words["defect"] += " |det A − 1|"
     turning = {s for s, E in zip(velocity, made.basis, strict=False) if _turns(E)}
@@ -241,20 +245,19 @@ def _turns(E: Sequence[Sequence[Any]]) -> bool:
     return all(E[i][j] + E[j][i] == 0 for i in span for j in span)
 
 
-def _steady(problem: Mapping[str, Any]) -> bool:
-    """Is the energy kept without inputs: no damping, nothing that depends on the time by itself?"""
-    return not (
-        problem.get("damping") or _timed([problem.get(x) for x in ("potentials", "lagrangian")])
-    )
+def _free(problem: Mapping[str, Any]) -> bool:
+    """Does the motion keep the kinetic energy, as nothing acts on the body?"""
+    acting = any(problem.get(x) for x in ("potentials", "inputs", "damping"))
+    return not acting and not _placed(problem.get("lagrangian"))
 
 
-def _timed(data: Any) -> bool:
-    """Does the time stand in data of a record, but as what a place r(t) depends on?"""
+def _placed(data: Any) -> bool:
+    """Does what tells where a body is stand in ℓ, an entry of g or of a vector that it carries?"""
     if isinstance(data, dict):
-        return any(map(_timed, data.values()))
-    if isinstance(data, list | tuple):
-        return [*data[:1]] != ["call"] and any(map(_timed, data))
-    return bool(data == "t")
+        return any(map(_placed, data.values()))
+    if not isinstance(data, list | tuple):
+        return False
+    return (data[:1] == ["entry"] and data[1] != "ζ") or any(map(_placed, data))
 
 
 def _meaning(name: str, record: Derivation, language: Language) -> str:

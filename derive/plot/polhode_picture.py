@@ -18,6 +18,7 @@ NEIGHBOURS = (0.25, 0.5, 0.75)
 """How far from an axis to the separatrix other polhodes are drawn."""
 
 STABLE, UNSTABLE, SEPARATRIX = "stable axis", "unstable axis", "separatrix"
+AXIS = "principal axis"
 """What is marked, as the legend says it."""
 
 SIZE = 230
@@ -25,28 +26,40 @@ SIZE = 230
 
 EQUAL = 1e-9
 """Moments whose relative difference is less are one."""
+KEPT = 1e-3
+"""A relative change that is not seen: where energy and momentum change by less, no torque acts."""
 
 
 def polhode(figure: Any, run: Run, word: Any) -> None:
     """The velocity on the ellipsoid of inertia ⟨ζ, Iζ⟩ = 2T of the first instant, and the momentum
-    M = Iζ on the sphere of its length; on both other motions, faint, and the principal axes."""
+    M = Iζ on the sphere of its length; on both other motions, faint, and the principal axes.
+
+    Where a torque acts these leave the surfaces, and other motions, free ones, are left out."""
     inertia, zeta = inertia_of(run), np.stack([run[x] for x in VELOCITY], -1)
     momentum = zeta @ inertia
     moments, axes = np.linalg.eigh(inertia)
     twice, length = float(zeta[0] @ momentum[0]), float(np.linalg.norm(momentum[0]))
     root = axes @ np.diag(np.sqrt(twice / moments)) @ axes.T
+    free = _kept(np.sum(zeta * momentum, axis=1)) and _kept(np.linalg.norm(momentum, axis=1))
     left, right = figure.subplots(1, 2)
-    _family(left, root, axes, moments)
-    curve(left, zeta, momentum, COLOURS[0])
-    left.set_title(f"{label('zeta')}, {word('ellipsoid of inertia')}")
-    _family(right, length * np.eye(3), axes, 1 / moments)
-    curve(right, momentum, momentum, COLOURS[1])
-    right.set_title(f"$M$, {word('sphere of angular momentum')}")
-    _square(left, root)
-    _square(right, length * np.eye(3))
-    _marks(left, root, axes, moments)
-    _marks(right, length * np.eye(3), axes, moments)
+    sphere, late = length * np.eye(3), "" if free else f"\n{word('at first: a torque acts')}"
+    for panel, map_, d, along, colour in (
+        (left, root, moments, zeta, COLOURS[0]),
+        (right, sphere, 1 / moments, momentum, COLOURS[1]),
+    ):
+        surface(panel, map_, axes)
+        if free:
+            _family(panel, map_, axes, d)
+        curve(panel, along, momentum, colour)
+        _square(panel, map_, along)
+        _marks(panel, map_, axes, moments, free)
+    left.set_title(f"{label('zeta')}, {word('ellipsoid of inertia')}{late}")
+    right.set_title(f"$M$, {word('sphere of angular momentum')}{late}")
     _legend(figure, left, word)
+
+
+def _kept(x: Array) -> bool:
+    return bool(np.ptp(x) <= KEPT * abs(x[0]))
 
 
 def levels(d: Array) -> Iterator[tuple[Array, bool]]:
@@ -80,8 +93,7 @@ def _equal(x: float, y: float) -> bool:
 
 
 def _family(panel: Any, root: Array, axes: Array, d: Array) -> None:
-    """The ellipsoid {root u : |u| = 1}, and the curves of :func:`levels` on it, as seen."""
-    surface(panel, root, axes)
+    """The curves of :func:`levels` on the ellipsoid {root u : |u| = 1}, as seen."""
     seen = np.linalg.solve(root, VIEW)
     for u, parts in levels(d):
         u = u @ axes.T
@@ -93,9 +105,9 @@ def _family(panel: Any, root: Array, axes: Array, d: Array) -> None:
         panel.plot(np.where(front, x, np.nan), np.where(front, y, np.nan), zorder=1, **style)
 
 
-def _marks(panel: Any, root: Array, axes: Array, moments: Array) -> None:
+def _marks(panel: Any, root: Array, axes: Array, moments: Array, free: bool) -> None:
     """The ends of the axes, that are seen, with their numbers: a dot for a stable one, a cross for
-    the unstable one; of equal moments no axis is marked."""
+    the unstable one, where no torque acts; of equal moments no axis is marked."""
     seen = np.linalg.solve(root, VIEW)
     marked = [
         k for k in range(3) if not any(_equal(moments[k], moments[j]) for j in range(3) if j != k)
@@ -105,23 +117,25 @@ def _marks(panel: Any, root: Array, axes: Array, moments: Array) -> None:
     labels = [f"$I = {moments[k]:.3g}$" for k in marked]
     offsets = beside(places, labels, root @ projected(np.eye(3)), SIZE / np.ptp(panel.get_xlim()))
     for k, place, text, (x, y) in zip(marked, places, labels, offsets, strict=True):
-        style: dict[str, Any] = {"marker": "o", "label": STABLE}
-        if k == unstable(moments):
+        style: dict[str, Any] = {"marker": "o", "label": STABLE if free else AXIS}
+        if free and k == unstable(moments):
             style = {"marker": "x", "mew": 1.4, "label": UNSTABLE}
         panel.plot(*place[:, None], c="#000000", ms=4.5, ls="", zorder=4, **style)
         panel.annotate(text, place, (x, y), textcoords="offset points", fontsize=FONT, zorder=5)
 
 
-def _square(panel: Any, root: Array) -> None:
-    """Limits as wide as they are high about the ellipsoid: so the titles stand at one height."""
-    most = 1.04 * float(np.linalg.norm(root @ projected(np.eye(3)), axis=0).max())
+def _square(panel: Any, root: Array, along: Array) -> None:
+    """Limits as wide as they are high about the ellipsoid and what is drawn over it: so the titles
+    stand at one height."""
+    reach = np.linalg.norm(root @ projected(np.eye(3)), axis=0).max()
+    most = 1.04 * max(float(reach), float(np.abs(projected(along)).max()))
     panel.set(xlim=(-most, most), ylim=(-most, most))
 
 
 def _legend(figure: Any, panel: Any, word: Any) -> None:
     """What dots, crosses and dashes are, of those that are there."""
     named = {x.get_label(): x for x in panel.get_lines()}
-    shown = {x: named[x] for x in (STABLE, UNSTABLE, SEPARATRIX) if x in named}
+    shown = {x: named[x] for x in (STABLE, UNSTABLE, SEPARATRIX, AXIS) if x in named}
     if shown:
         names = [word(x) for x in shown]
         figure.legend([*shown.values()], names, loc="outside lower center", ncols=3)

@@ -46,7 +46,7 @@ def state(figure: Any, run: Run, word: Any) -> None:
 def energy(figure: Any, run: Run, word: Any) -> None:
     """|E − E₀| / |E₀| of the energy and of every conserved quantity, of a component of a vector by
     that of the vector; of what begins at 0, the difference itself.  What is exact has no place on
-    the axis: it is left out."""
+    the axis: it is left out.  It is no error where damping, an input or the time changes them."""
     panel, exact, sizes = figure.subplots(), [], norms(run)
     kept = {**run.of_kind("energy"), **run.of_kind("conserved")}.items()
     for k, (name, y) in enumerate(kept):
@@ -65,7 +65,8 @@ def energy(figure: Any, run: Run, word: Any) -> None:
     panel.set_xlabel(time_label(run))
     vectors = any(abs(y[0]) < sizes.get(vector_of(x), 0) for x, y in kept)
     told = word("components relative to the length of their vector") if vectors else ""
-    panel.set_ylabel(f"{word('relative error')}\n{told}".strip())
+    error = word("relative change" if run.facts.get("drives") else "relative error")
+    panel.set_ylabel(f"{error}\n{told}".strip())
     panel.legend(loc="center left", bbox_to_anchor=(1, 0.5))
 
 
@@ -87,7 +88,9 @@ def energies(figure: Any, runs: Sequence[tuple[str, Run]], word: Any) -> None:
     for shown in exact:
         panel.plot([], [], " ", label=f"{word('exact:')} {shown}")
     panel.set_xlabel(time_label(runs[0][1]))
-    panel.set_ylabel(word("relative error of the energy"))
+    driven = any(run.facts.get("drives") for _, run in runs)
+    change, error = "relative change of the energy", "relative error of the energy"
+    panel.set_ylabel(word(change if driven else error))
     panel.legend(loc="center left", bbox_to_anchor=(1, 0.5))
 
 

@@ -9,7 +9,7 @@ from ..algebra.groups import Group
 from ..language.expression import names
 from ..language.suffixed import suffixed
 from .problem import Problem
-from .state_names import entries, known_in_lagrangian
+from .state_names import entries, known_in_lagrangian, state_names
 
 
 def faults(problem: Problem) -> Iterator[str]:
@@ -29,16 +29,21 @@ def faults(problem: Problem) -> Iterator[str]:
 
 def numbers_followed(problem: Problem, group: Group) -> list[str]:
     """The numbers of the state, those of g that never change among them, and of the inputs."""
-    own = problem.lagrangian
-    found = [x for x in known_in_lagrangian(group, problem.advected) if x != "t"]
-    if own is not None:
-        held = {suffixed("zeta", a) for a in own.held}
-        found = [x for x in found if x not in held]
-    elif group.free_translations:
+    if problem.lagrangian is None:
+        return [*of_points(group), *_inputs(problem, group)]
+    held = {"t"} | {suffixed("zeta", a) for a in problem.lagrangian.held}
+    known = known_in_lagrangian(group, problem.advected)
+    return [*(x for x in known if x not in held), *_inputs(problem, group)]
+
+
+def of_points(group: Group) -> list[str]:
+    """Those of the state of a body of points: with translations the last n of the velocity are
+    w."""
+    shift = {}
+    if group.free_translations:
         turns = group.dimension - group.n
         shift = {suffixed("zeta", turns + i): suffixed("w", i) for i in range(1, group.n + 1)}
-        found = [shift.get(x, x) for x in found]
-    return [*found, *_inputs(problem, group)]
+    return [shift.get(x, x) for x in state_names(group) if x != "t"]
 
 
 def _inputs(problem: Problem, group: Group) -> Iterator[str]:

@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import Any
 
 from ..language.refused import Refused
-from ..language.tree import Tree
+from ..language.tree import Tree, names
 from .contract import ANY_GROUP
 from .hypotheses import Hypothesis
 from .name_types import Use
@@ -68,6 +68,12 @@ class Step:
     def kind(self) -> str:
         """What the step's equations are, by its rule: a definition, an identity, …"""
         return RULES[self.rule].kind
+
+    @cached_property
+    def names(self) -> frozenset[str]:
+        """The names that occur in the equations."""
+        sides = (x for e in self.equations for x in (e.lhs, e.rhs))
+        return frozenset(x for side in sides for x in names(side))
 
     @cached_property
     def keys(self) -> tuple[str, ...]:

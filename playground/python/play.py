@@ -149,6 +149,22 @@ class Play:
             written = {x.name: x.read_bytes() for x in sorted(out.iterdir())}
         return zipped(written) if written else None
 
+    def refused(self, text: str, words: str) -> None:
+        """Why options that are not among ``words``, those of an emission, cannot be added."""
+        from argparse import ArgumentParser
+
+        from derive.command.arguments import add_emission_options
+        from derive.command.emitting import languages, options
+        from derive.command.refused_options import refused
+
+        with self.refusals():
+            self.read(text)
+            asked = ArgumentParser()
+            add_emission_options(asked)
+            args = asked.parse_args(shlex.split(words))
+            found = refused(self.problem, self.record, languages(args), options(args))
+            self.tell("refused", found)
+
     def motion(self, text: str, lang: str) -> None:
         """The emitted JavaScript, and what the page of a motion is told; of what it keeps the
         energy alone, so that the body moves at once."""

@@ -24,18 +24,21 @@ const ready = (name) => data.problems.find((x) => x.name === name);
 const equations = new Equations(the("walk"), css, document.querySelector(".read .bar"), (id) => go(id));
 const places = new Places(equations);
 const steps = new Steps(the("steps"), (id, again) => go(id, again));
-const motion = new Motion(the("see"), () => text);
 const engine = typeof WebAssembly === "object" ? new Engine({ seconds: SECONDS, onstate }) : null;
+const motion = new Motion(the("see"), { text: () => text, engine, say, ended });
 const text = editor(the("editor"), data.schema, words, edited);
 const form = new Form(the("form"), data.schema, (made) => { text.text = made; });
-const take = new Take(the("take"), data, files, () => ({ name: problem_name(), text: text.text, title: equations.title || problem_name(), ready: chosen() }));
+const take = new Take(the("take"), data, {
+  ask: files, reasons, file: () => ({ name: problem_name(), text: text.text, title: equations.title || problem_name(), ready: chosen() }),
+});
 const tabs = new Tabs(["walk", "see", "take"], (name) => {
   the("steps").parentElement.hidden = name !== "walk";
   if (name === "see") see();
+  if (name === "take") take.weigh();
 });
 
-/* what is derived: the text and language of the walk that stands, of the motion, of what it keeps; the walk that runs; is a check to follow? */
-let walked = null, moved = null, keeping = null, running = null, wanted = false;
+/* what is derived: the text and language of the walk that stands, the walk that runs; is a check to follow? */
+let walked = null, running = null, wanted = false;
 /* what changed: when it will be derived; what is wrong with the address; where to go in the next walk */
 let timer = 0, notice = "", aim = null;
 let told = "";
@@ -45,7 +48,9 @@ const chosen = () => names.find((x) => ready(x).text === text.text);
 
 /* ---- what is told */
 
-function say(state) {
+/* instead of what is told now, or of another text alone */
+function say(state, instead = told) {
+  if (told !== instead) return;
   told = state;
   the("state").textContent = state;
 }
@@ -54,6 +59,7 @@ function onstate() {
   const busy = engine?.busy ?? false;
   the("stop").hidden = the("progress").hidden = !busy;
   the("check").disabled = !engine;
+  if (!busy) take.weigh();
 }
 
 function faults(list) {
@@ -66,7 +72,7 @@ function faults(list) {
 
 /* what an ending other than "end" says */
 function ended(how) {
-  if (how === "late") say(words.late(SECONDS));
+  if (how === "late") say(words.late(engine.seconds));
   else if (how === "stopped") say(words.stopped);
   else if (how === "broken") athome(words.broken);
   return how === "end";
@@ -92,6 +98,7 @@ async function derive() {
     wanted = false;
     await check();
   } else if (tabs.now === "see") await see();
+  else take.weigh();
 }
 
 async function walk() {
@@ -172,33 +179,7 @@ async function check() {
 }
 
 async function see() {
-  if (!engine || !walked || running || timer) return;
-  const mark = `${walked.lang} ${walked.text}`;
-  if (moved === mark) return keep(mark);
-  moved = mark;
-  keeping = null;
-  motion.clear();
-  say(words.emitting);
-  const how = await engine.ask({ ask: "motion", text: text.text, lang }, (kind, news) => {
-    if (kind === "motion") motion.show(words, lang, news);
-    else if (kind === "error") motion.say(`${words.nomotion} ${news.message}`);
-  });
-  if (how !== "end") moved = null;
-  if (!ended(how)) return;
-  say("");
-  await keep(mark);
-}
-
-/* what a motion keeps takes longer to be found, and another library: behind the motion, which does not wait for it */
-async function keep(mark) {
-  if (keeping === mark || !motion.frame || !walked) return;
-  keeping = mark;
-  say(words.keeping);
-  const how = await engine.ask({ ask: "kept", text: walked.text, lang }, (kind, news) => {
-    if (kind === "kept" && moved === mark) motion.keep(news);
-  });
-  if (how !== "end" && how !== "late" && keeping === mark) keeping = null;
-  if (told === words.keeping) say("");
+  if (engine && walked && !running && !timer) await motion.of(walked, words);
 }
 
 /* the files of a command as { zip }, or what it { refused }; a walk that runs is waited for */
@@ -216,6 +197,14 @@ async function files(command) {
   return found ? { zip: found } : { refused };
 }
 
+/* why options of the code cannot be added to others; null while something else is asked, or is to be derived */
+async function reasons(command) {
+  if (tabs.now !== "take" || !engine || engine.busy || walked?.text !== text.text) return null;
+  let found = null;
+  await engine.ask({ ask: "refused", text: walked.text, words: command }, (kind, news) => { if (kind === "refused") found = news; });
+  return found;
+}
+
 /* ---- what changes */
 
 function later(does, after) {
@@ -231,7 +220,7 @@ function edited() {
   about();
   the("walk").setAttribute("aria-busy", "true");
   later(async () => {
-    moved = null;
+    motion.forget();
     await places.problem(lang, chosen(), text.text);
     take.told();
     await derive();
@@ -270,7 +259,7 @@ async function visit() {
   places.stands = false;
   if (now !== text.text) text.text = now;
   later(null);
-  moved = null;
+  motion.forget();
   about();
   take.told();
   if (!the("form").hidden) await filled();
@@ -326,7 +315,7 @@ for (const button of document.querySelectorAll("[data-lang]")) {
     lang = button.dataset.lang;
     kept("lang", lang);
     speak();
-    moved = null;
+    motion.forget();
     await places.problem(lang, chosen(), text.text);
     if (!the("form").hidden) filled();
     derive();

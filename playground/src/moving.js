@@ -3,13 +3,16 @@
 const chosen = (pieces) => Object.fromEntries(Object.entries(pieces).map(([x, name]) => [x, globalThis.drawing[name]]));
 const tell = (news) => parent.postMessage(news, location.origin);
 
-/* the numbers that are not those of the file: all of the velocity where one of it is */
-function numbers({ given }, page, names, pushed) {
+/* the numbers that are not those of the file: all of the velocity where one of it is; the inputs stand in [initial], too */
+function numbers({ given }, page, { PARAMETERS, INPUTS }) {
   const told = (list, all) => Object.fromEntries(list.filter(([, now, was]) => all || now !== was).map(([name, now]) => [name, now]));
   const start = page.adjusted.map((s) => [page.names[s], given.x[s], page.x[s]]);
   return {
-    initial: told(start, pushed || start.some(([, now, was]) => now !== was)),
-    parameters: told(names.map((name, i) => [name, given.p[i], page.p[i]]), false),
+    initial: {
+      ...told(start, page.pushed || start.some(([, now, was]) => now !== was)),
+      ...told(INPUTS.map((name, i) => [name, given.u[i], page.u[i]]), false),
+    },
+    parameters: told(PARAMETERS.map((name, i) => [name, given.p[i], page.p[i]]), false),
     exp: given.theta.some((a) => a !== 0) ? [...given.theta] : [],
   };
 }
@@ -31,7 +34,7 @@ addEventListener("message", async ({ data, source, origin }) => {
     home.motion = globalThis.drawing.mount(home, { ...data.page, module }, chosen(data.pieces));
     const into = document.createElement("button");
     Object.assign(into, { type: "button", className: "into", textContent: data.into });
-    into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module.PARAMETERS, data.page.pushed) }));
+    into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module) }));
     home.querySelector(".beside").append(into);
     tell({ moved: "" });
     new ResizeObserver(() => tell({ height: home.scrollHeight })).observe(home);

@@ -1,4 +1,4 @@
-/* The options of derive emit, with what each of them does in words. */
+/* The options of derive emit, with what each of them does in words, and why it cannot be chosen now. */
 import { make } from "./dom.js";
 
 export class Options {
@@ -21,35 +21,65 @@ export class Options {
 
   show(words) {
     const { data } = this, about = (name) => words.about[name] ?? data.about[name];
-    const told = (name, ...inside) => make("div", { class: "option" }, ...inside, make("p", { id: `about-${name}` }, about(name)));
-    const one = ([name, [first, ...others]]) => told(name, make("label", {}, `${name} `, this.#select(name, words.default(first), others)));
-    const several = ([name, values]) => told(name, make("fieldset", { "aria-describedby": `about-${name}` },
-      make("legend", {}, name), ...values.map((x) => this.#box(this.repeated, `${name} ${x}`, x))));
-    const added = (name) => told(name, this.#box(this.added, name, name, `about-${name}`));
+    this.choices = new Map(); // words of the command line, "step gauss" → what chooses them
+    this.places = {}; // option → where it is told why some of its values cannot be chosen
+    this.fault = make("p", { class: "fault", role: "status" });
+    const called = (name, x) => [x, words.values[name]?.[x]].filter(Boolean).join(" – ");
+    const told = (name, ...inside) => make("div", { class: "option" }, ...inside, make("p", { id: `about-${name}` }, about(name)), this.#why(name));
+    const one = ([name, values]) => told(name, make("label", {}, `${name} `, this.#select(name, values, (x) => called(name, x), words.default)));
+    const several = ([name, values]) => told(name, make("fieldset", { "aria-describedby": `about-${name} why-${name}` },
+      make("legend", {}, name), ...values.map((x) => this.#box(this.repeated, `${name} ${x}`, `${name} ${x}`, called(name, x), name))));
+    const added = (name) => told(name, this.#box(this.added, name, name, name, name));
     return make("div", { class: "choices" },
-      make("fieldset", {}, make("legend", {}, words.languages), ...data.languages.map((x) => this.#box(this.languages, x, x))),
+      make("fieldset", {}, make("legend", {}, words.languages), ...data.languages.map((x) => this.#box(this.languages, x, `lang ${x}`, x, "lang")), this.#why("lang")),
       make("details", {}, make("summary", {}, words.options), make("div", { class: "options" },
         ...Object.entries(data.choices).map(one), ...Object.entries(data.repeated).map(several),
-        make("h3", {}, words.further), ...data.added.map(added))));
+        make("h3", {}, words.further), ...data.added.map(added))), this.fault);
   }
 
-  #select(name, standard, others) {
-    const select = make("select", { "aria-describedby": `about-${name}`, change: () => {
+  /* reasons: words of the command line → why the command would refuse them beside what is chosen; "" where that is refused itself */
+  refuse(reasons) {
+    this.fault.textContent = reasons[""] ?? "";
+    for (const place of Object.values(this.places)) place.replaceChildren();
+    const alike = new Map(); // the values of an option that have one reason
+    for (const [choice, { input, shown }] of this.choices) {
+      const reason = reasons[choice], [name, value = name] = choice.split(" ");
+      input.disabled = Boolean(reason);
+      shown.title = reason ?? "";
+      if (!reason) continue;
+      const key = `${name} ${reason}`;
+      alike.set(key, { name, reason, values: [...alike.get(key)?.values ?? [], value] });
+    }
+    for (const { name, reason, values } of alike.values()) this.places[name].append(make("li", {}, make("b", {}, values.join(", ")), ` – ${reason}`));
+  }
+
+  #why(name) {
+    return this.places[name] = make("ul", { class: "why", id: `why-${name}` });
+  }
+
+  #select(name, [first, ...others], called, standard) {
+    const select = make("select", { "aria-describedby": `about-${name} why-${name}`, change: () => {
       if (select.value) this.single[name] = select.value;
       else delete this.single[name];
       this.changed();
-    } }, make("option", { value: "" }, standard), ...others.map((x) => make("option", { value: x }, x)));
+    } }, make("option", { value: "" }, standard(called(first))), ...others.map((x) => {
+      const option = make("option", { value: x }, called(x));
+      this.choices.set(`${name} ${x}`, { input: option, shown: option });
+      return option;
+    }));
     select.value = this.single[name] ?? "";
     return select;
   }
 
-  #box(set, value, text, about) {
-    const input = make("input", { type: "checkbox", "aria-describedby": about, change: () => {
+  #box(set, value, choice, text, name) {
+    const input = make("input", { type: "checkbox", "aria-describedby": name === "lang" ? `why-${name}` : `about-${name} why-${name}`, change: () => {
       if (input.checked) set.add(value);
       else set.delete(value);
       this.changed();
     } });
     input.checked = set.has(value);
-    return make("label", { class: "box" }, input, ` ${text}`);
+    const shown = make("label", { class: "box" }, input, ` ${text}`);
+    this.choices.set(choice, { input, shown });
+    return shown;
   }
 }

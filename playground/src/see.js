@@ -3,19 +3,56 @@ import { make } from "./dom.js";
 import { written } from "./numbers.js";
 
 export class Motion {
-  /* text: { text }, which takes the numbers that the reader has set */
-  constructor(place, text) {
-    this.place = place;
+  /* text: () → { text }, which takes the numbers that the reader has set; engine: what is asked; say(state, instead) tells, and
+   * ended(how) tells an ending other than "end" */
+  constructor(place, { text, engine, say, ended }) {
+    Object.assign(this, { place, engine, say, ended });
     this.unset = [];
     addEventListener("message", ({ data, source, origin }) => {
       if (origin !== location.origin || source !== this.frame?.contentWindow) return;
       if (data.listens) source.postMessage(this.told, location.origin);
-      else if (data.fault) this.say(data.fault);
+      else if (data.fault) this.fail(data.fault);
       else if (data.height) this.frame.style.setProperty("--height", `${data.height}px`);
       else if (data.numbers) this.put(data.numbers, text());
       else Object.assign(this.frame.dataset, data);
       this.send();
     });
+  }
+
+  /* the motion of a walk, { text, lang }, unless it is there, and then what it keeps */
+  async of(walk, words) {
+    const mark = `${walk.lang} ${walk.text}`;
+    if (this.moved !== mark) {
+      this.moved = mark;
+      this.keeping = null;
+      this.clear();
+      this.say(words.emitting);
+      const how = await this.engine.ask({ ask: "motion", ...walk }, (kind, news) => {
+        if (kind === "motion") this.show(words, walk.lang, news);
+        else if (kind === "error") this.fail(`${words.nomotion} ${news.message}`);
+      });
+      if (how !== "end") this.forget();
+      if (!this.ended(how)) return;
+      this.say("");
+    }
+    await this.seek(mark, walk, words);
+  }
+
+  /* what it keeps takes longer to be found, and another library: behind the motion, which does not wait for it */
+  async seek(mark, walk, words) {
+    if (this.keeping === mark || !this.frame) return;
+    this.keeping = mark;
+    this.say(words.keeping);
+    const how = await this.engine.ask({ ask: "kept", ...walk }, (kind, news) => {
+      if (kind === "kept" && this.moved === mark) this.keep(news);
+    });
+    if (how !== "end" && how !== "late" && this.keeping === mark) this.keeping = null;
+    this.say(how === "late" ? words.notkept(this.engine.seconds) : how === "stopped" ? words.stopped : "", words.keeping);
+  }
+
+  /* it is made again when it is asked for */
+  forget() {
+    this.moved = null;
   }
 
   show(words, lang, told) {
@@ -56,7 +93,7 @@ export class Motion {
     this.more = null;
   }
 
-  say(text) {
+  fail(text) {
     this.frame = null;
     this.place.replaceChildren(make("p", { class: "fault" }, text));
   }

@@ -6,7 +6,7 @@ export function velocity(schema, text) {
   const factors = name.split(/\s*[x×]\s*(?=[A-Z])/).map((x) => schema.groups[x.replaceAll(" ", "")]);
   if (factors.some((x) => !x)) return [];
   const stated = /^\s*\[\s*(lagrangian|inertia)\s*\]/m.test(text), d = factors.reduce((sum, x) => sum + x.d, 0);
-  const shift = factors.length === 1 && factors[0].affine && !stated ? factors[0].n : 0;
+  const shift = factors.length === 1 && !stated ? factors[0].w : 0;
   const counted = (letter, count) => Array.from({ length: count }, (_, k) => `${letter}_${k + 1}`);
   return [...counted("zeta", d - shift), ...counted("w", shift)];
 }

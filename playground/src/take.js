@@ -8,15 +8,17 @@ import { unzipped } from "./zip.js";
 const TYPES = { ".tex": "text/x-tex", ".json": "application/json", ".html": "text/html", ".ipynb": "application/x-ipynb+json", ".toml": "application/toml" };
 
 export class Take {
-  /* ask: (words of a command) → { zip } or { refused }; file: () → { name, text, title, ready } */
-  constructor(place, data, ask, file) {
-    Object.assign(this, { place, ask, file });
+  /* ask: (words of a command) → { zip } or { refused }; reasons: (options of an emission) → why others cannot be added, or null while
+   * that cannot be known; file: () → { name, text, title, ready } */
+  constructor(place, data, { ask, reasons, file }) {
+    Object.assign(this, { place, ask, reasons, file });
     this.options = new Options(data, () => this.told());
     this.code = new Code();
   }
 
   show(words, lang) {
     this.words = words;
+    this.weighed = null;
     const speaks = lang === "en" ? "" : ` --lang ${lang}`;
     this.tells = [];
     this.place.replaceChildren(
@@ -88,5 +90,23 @@ export class Take {
   told() {
     this.code.clear();
     for (const tell of this.tells) tell();
+    this.weigh();
+  }
+
+  /* options that would be refused cannot be chosen; asked again until they are those of what is chosen now */
+  async weigh() {
+    if (this.weighing) return;
+    this.weighing = true;
+    for (;;) {
+      const { text } = this.file(), { command } = this.options, old = this.weighed;
+      if (old?.text === text && old.command === command) break;
+      if (old && old.text !== text) this.options.refuse({});
+      this.weighed = null;
+      const found = await this.reasons(command);
+      if (!found) break;
+      this.options.refuse(found);
+      this.weighed = { text, command };
+    }
+    this.weighing = false;
   }
 }

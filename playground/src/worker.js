@@ -63,6 +63,7 @@ const ASKED = {
   plain: (play, m) => play.plain(m.text),
   check: (play, m) => play.check(m.text),
   motion: (play, m) => play.motion(m.text, m.lang),
+  refused: (play, m) => play.refused(m.text, m.words),
   kept: (play, m) => play.kept(m.text, m.lang),
   files: (play, m) => {
     const made = play.files(m.text, m.words);

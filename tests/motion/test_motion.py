@@ -399,6 +399,43 @@ def test_a_lagrangian_has_units_where_its_parameters_have(name, units):
     assert units == {x.name: x.unit for x in run.columns if x.name in units}
 
 
+AWAY = """
+name = "away"
+group = "SE(3)"
+[body]
+given = { m = 10, centre = [0.5, 0.3, 0.4], I_centre = [[1, 0, 0], [0, 2, 0], [0, 0, 2.5]] }
+[initial]
+zeta_1 = 0.01
+zeta_2 = 2
+zeta_3 = 0.02
+w_1 = -0.8
+w_3 = 1.0
+"""
+
+
+def test_the_inertia_of_a_free_body_is_that_about_its_centre(tmp_path):
+    """By what its motion keeps: the energy of turning and the length of the momentum, about the
+    centre alone."""
+    (tmp_path / "away.toml").write_text(AWAY)
+    run = derive.derive(tmp_path / "away.toml").simulate(30.0, points=100)
+    zeta = np.stack([run[f"zeta_{k}"] for k in (1, 2, 3)], axis=-1)
+    momentum = zeta @ np.array(run.facts["body"]["inertia"])
+    for kept in (np.sum(zeta * momentum, axis=1), np.linalg.norm(momentum, axis=1)):
+        assert np.ptp(kept) < 1e-8 * kept[0]
+    assert np.ptp(zeta[:, 1]) > 3  # it flips
+
+
+def test_a_held_input_is_named_beside_what_it_changes(capsys):
+    assert main(["simulate", "so3", "--t", "1", "--set", "u_1=0.5"]) == 0
+    (energy,) = (x for x in capsys.readouterr().out.splitlines() if "energy" in x)
+    assert energy.endswith(": by inputs")
+    assert main(["simulate", "jelly", "--t", "1"]) == 0
+    told = capsys.readouterr().out.splitlines()
+    (energy,) = (x for x in told if "energy" in x)
+    assert energy.endswith(": by damping")
+    assert not any(x.endswith("damping") for x in told if x != energy)
+
+
 TURNED = """
 name = "turned"
 group = "SO(3)"

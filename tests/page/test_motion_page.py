@@ -564,8 +564,10 @@ def test_what_is_not_kept_stands_apart(opened):
 def test_the_energy_is_kept_where_nothing_moves_it(pages):
     lost = {x: told(derive.derive(x).motion_page(1.0)) for x in ("jelly", "gl3", "so3")}
     assert [x.get("lost", False) for x in lost.values()] == [True, False, False]
-    pushed = derive.derive("so3").motion_page(1.0, start={"u_1": 0.5})
-    assert told(pushed).get("lost", False)
+    pushed = told(derive.derive("so3").motion_page(1.0, start={"u_1": 0.5}))
+    assert not pushed.get("lost", False)
+    assert pushed["words"]["kept"] == "What is kept without inputs"
+    assert told(pages("top"))["words"]["kept"] == "What is kept"
     assert told(pages("sl3"))["words"]["defect"] == "off the group by |det A − 1|"
     assert told(pages("top"))["words"]["defect"] == "off the group by"
 
@@ -586,6 +588,13 @@ def test_what_makes_an_energy_change(more, lost, tmp_path):
     path = tmp_path / "three.toml"
     path.write_text(f'name = "three"\ngroup = "SO(3)"\n{points}{more}', encoding="utf-8")
     assert told(derive.derive(path).motion_page(1.0)).get("lost", False) == lost
+
+
+def test_a_path_is_said_to_be_on_the_ellipsoid_where_nothing_acts(pages):
+    free = ("euler_top",)
+    for name in (*free, "gyrostat", "top", "kovalevskaya_top"):
+        caption = told(derive.derive(name).motion_page(1.0))["words"]["polhode"]
+        assert ("its path, the polhode, on" in caption) == (name in free), name
 
 
 @pytest.mark.dist

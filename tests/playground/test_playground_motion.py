@@ -175,9 +175,47 @@ def test_a_body_that_becomes_flat_is_told_and_a_smaller_push_does_not(fresh, sit
     assert frame.evaluate(message) == ""
 
 
+SHORT = """() => {
+    const sought = (x) => document.getElementById("state").textContent === x;
+    const seconds = () => (sought("What is kept is sought …") ? 0.2 : 60);
+    Object.defineProperty(play.engine, "seconds", { get: seconds });
+}"""
+"""The clock is short for the search alone."""
+
+
+def test_a_search_that_the_clock_ends_leaves_the_motion_running(fresh, site):
+    fresh.goto(f"{site}#top")
+    walked(fresh, "top")
+    fresh.evaluate(SHORT)
+    fresh.click("#tab-see")
+    stopped = "What is kept was not found in 0.2 s: the motion goes on."
+    fresh.wait_for_function(
+        "(x) => document.getElementById('state').textContent.startsWith(x)",
+        arg=stopped,
+        timeout=90_000,
+    )
+    assert "\n" not in fresh.inner_text("#state")
+    assert fresh.locator("iframe[data-moved]:not([data-kept]):not(.stale)").count() == 1
+    frame = fresh.frames[-1]
+    time = "document.getElementById('motion').motion.time"
+    now = frame.evaluate(time)
+    until(frame, f"{time} > {now + 0.05}")
+    listed = "[...document.querySelectorAll('tr[data-name]')].map((x) => x.dataset.name)"
+    assert frame.evaluate(listed) == ["energy", "defect"]
+    fresh.click("#tab-walk")
+    fresh.click("#tab-see")  # it is not sought again
+    fresh.wait_for_timeout(300)
+    assert fresh.inner_text("#state") == stopped
+    assert not fresh.told
+
+
 @pytest.mark.parametrize(
     ("name", "numbers"),
-    [("top", {"g": "3,5", "zeta_3": "40"}), ("sim3", {"zeta_1": "1.5", "theta_2": "-0.25"})],
+    [
+        ("top", {"g": "3,5", "zeta_3": "40"}),
+        ("sim3", {"zeta_1": "1.5", "theta_2": "-0.25"}),
+        ("so3", {"u_2": "0,5"}),
+    ],
 )
 def test_numbers_that_are_set_go_into_the_text(fresh, site, name, numbers):
     frame = moving(fresh, site, name)
@@ -195,8 +233,11 @@ def test_numbers_that_are_set_go_into_the_text(fresh, site, name, numbers):
     if name == "top":
         assert after["parameters"]["g"] == before["parameters"]["g"] | {"default": 3.5}
         assert after["initial"] == before["initial"] | {"zeta_3": 40}
-    else:
+    elif name == "sim3":
         assert after["initial"]["exp"] == [0, -0.25, 0, 0, 0, 0, 0]
+    else:
+        assert after["initial"]["u_2"] == 0.5
+        assert not {"u_1", "u_3"} & {*after["initial"]}
     found = fresh.frames[-1].evaluate(STATE, 1.0)
     assert max(abs(a - b) for a, b in zip(found, expected, strict=True)) < 1e-9
 

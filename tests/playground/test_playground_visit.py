@@ -6,6 +6,7 @@ import subprocess
 
 import pytest
 
+from derive.code.options import CHOICES, REPEATED
 from derive.command.loading import READY
 from tests.playground.test_playground import BAD, PENDULUM, typed
 from tests.support.needs import need
@@ -13,6 +14,19 @@ from tests.support.playground_site import OWN, built, walked
 
 BELOW = """(id) => play.equations.root.getElementById(id).getBoundingClientRect().top
     - document.querySelector(".read .bar").getBoundingClientRect().bottom"""
+NUMBERS = """name = "mine"
+group = "SO(3)"
+[[point]]
+mass = 1
+at = [2, 0, 0]
+[[point]]
+mass = 1
+at = [0, 2, 0]
+[[point]]
+mass = 1
+at = [0, 0, 2]
+"""
+"""Without parameters."""
 HOSTILE = [
     PENDULUM,
     "",
@@ -157,13 +171,13 @@ def test_an_address_says_the_problem_and_the_language(fresh, site):
 
 def test_what_is_taken_is_shown_and_what_is_refused_is_told_beside(fresh, site):
     visit(fresh, f"{site}#so3")
-    typed(fresh, PENDULUM)
+    typed(fresh, NUMBERS)
     walked(fresh, "own")
     fresh.click("#tab-take")
     with fresh.expect_download() as waiting:
         fresh.click("#take button:has-text('mine.toml')")
     assert waiting.value.suggested_filename == "mine.toml"
-    assert waiting.value.path().read_text(encoding="utf-8") == PENDULUM
+    assert waiting.value.path().read_text(encoding="utf-8") == NUMBERS
     fresh.click("#take button:has-text('Show the code')")
     fresh.wait_for_selector(".code pre")
     listed = fresh.locator(".code option").all_inner_texts()
@@ -176,12 +190,90 @@ def test_what_is_taken_is_shown_and_what_is_refused_is_told_beside(fresh, site):
         fresh.click(".code button:has-text('Save')")
     assert waiting.value.path().read_text(encoding="utf-8") == code
     fresh.click("#take summary")
-    fresh.click("#take label:has-text('multiplier')")
+    fresh.click("#take label:has-text('parameters')")
     assert fresh.locator(".code pre").count() == 0  # it was of other options
     fresh.click("#take button:has-text('Show the code')")
     fault = fresh.locator("#take .row:has(button:has-text('zip')) [role=alert]")
     fault.wait_for()
-    assert "multiplier" in fault.inner_text()
+    assert "no parameters" in fault.inner_text()
+
+
+REFUSED = "[...document.querySelectorAll('#take :is(option, input):disabled')].length"
+
+
+def told(page, option):
+    """Wait for the reason why an option cannot be chosen; where it is told."""
+    place = page.locator(f"#why-{option} li")
+    place.wait_for()
+    return place
+
+
+def test_an_option_that_would_be_refused_cannot_be_chosen(fresh, site):
+    """As the command does for what is chosen; what is chosen can always be left out."""
+    visit(fresh, f"{site}#so3")
+    fresh.click("#tab-take")
+    fresh.click("#take summary")
+    assert "SO(3) has none or several" in told(fresh, "multiplier").inner_text()
+    box = fresh.get_by_role("checkbox", name="multiplier")
+    assert box.is_disabled()
+    assert "SO(3) has none" in box.locator("xpath=..").get_attribute("title")
+    assert "why-multiplier" in box.get_attribute("aria-describedby")
+    assert told(fresh, "step").inner_text().startswith("gauss_jax – ")
+    orders = fresh.locator("select[aria-describedby~=why-order] option")
+    assert [x.is_disabled() for x in orders.all()] == [False, True, True, True]
+    fresh.get_by_label("discrete").check()
+    fresh.wait_for_function("() => !document.querySelector('#why-order li')")
+    assert not orders.nth(2).is_disabled()
+    assert "not for julia" in told(fresh, "lang").inner_text()
+    assert fresh.get_by_label("julia").is_disabled()
+    fresh.get_by_label("discrete").uncheck()
+    told(fresh, "order")
+    assert fresh.get_by_label("julia").is_enabled()
+    fresh.select_option("select[aria-describedby~=why-attitude]", "quaternion")
+    velocity = fresh.locator("select[aria-describedby~=why-velocity] option")
+    told(fresh, "velocity")
+    assert velocity.nth(1).is_disabled()
+    fresh.evaluate("delete document.body.dataset.walked")
+    fresh.select_option("#ready", "sl3")  # on which a quaternion that is chosen is refused
+    walked(fresh, "sl3")
+    fault = fresh.locator("#take .choices .fault")
+    fault.wait_for()
+    assert "a quaternion needs SO(3) or SE(3)" in fault.inner_text()
+    assert fresh.evaluate(REFUSED) == 0
+    fresh.select_option("select[aria-describedby~=why-attitude]", "")
+    assert "SL(3)" in told(fresh, "attitude").inner_text()
+    assert fault.inner_text() == ""
+    assert fresh.get_by_role("checkbox", name="multiplier").is_enabled()
+    assert not fresh.told
+
+
+def test_what_is_wrong_refuses_no_option(fresh, site):
+    visit(fresh, f"{site}#so3")
+    fresh.click("#tab-take")
+    fresh.click("#take summary")
+    told(fresh, "multiplier")
+    typed(fresh, BAD[1][0])
+    walked(fresh, "fault")
+    assert fresh.evaluate(REFUSED) == 0
+
+
+WORDS = """
+import {{ WORDS }} from {module};
+process.stdout.write(JSON.stringify([WORDS.en.values, WORDS.fr.values]));
+"""
+
+
+def test_values_are_told_in_words_in_both_languages():
+    need("node")
+    script = WORDS.format(module=json.dumps((OWN / "src" / "words.js").as_uri()))
+    run = ["node", "--input-type=module", "-e", script]
+    found = json.loads(subprocess.run(run, check=True, capture_output=True).stdout)
+    values = CHOICES | REPEATED
+    for words in found:
+        assert {x: [*y] for x, y in words.items()} == {x: [*values[x][0]] for x in words}
+        assert {"jacobian", "step", "frame", "velocity"} <= {*words}
+    english, french = found
+    assert all(english[x] != french[x] for x in ("jacobian", "step", "frame"))
 
 
 @pytest.mark.parametrize("lang", ["en", "fr"])
@@ -195,8 +287,10 @@ def test_options_say_what_they_do(fresh, site, lang):
         assert about.is_visible()
         assert (about.inner_text() == data["about"][name]) == (lang == "en")
     for name, (first, *_) in data["choices"].items():
-        shown = fresh.locator(f"select[aria-describedby=about-{name}]")
-        assert shown.locator("option").first.inner_text().startswith(f"{first} (")
+        shown = fresh.locator(f"select[aria-describedby~=about-{name}]").locator("option").first
+        words = {"form": ".h", "frame": {"en": "as in", "fr": "comme dans"}[lang], "velocity": "Z"}
+        begin = f"{first} – {words[name]}" if name in words else f"{first} ("
+        assert shown.inner_text().startswith(begin)
 
 
 @pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))

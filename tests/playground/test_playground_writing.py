@@ -1,13 +1,20 @@
 """Writing a problem in the playground: the form edits its own tables and keeps all else; numbers
 with commas; faults at their fields; completion; names of the start that the state has not."""
 
+import json
+import subprocess
 import tomllib
 
 import pytest
 
 from derive.command.loading import READY, ready_made
+from derive.problem.followed_names import numbers_followed
+from derive.problem.toml import problem_of
+from playground.stage import schema
 from tests.playground.test_playground import PENDULUM, typed
-from tests.support.playground_site import asked, walked
+from tests.support.flows import emitted
+from tests.support.needs import need
+from tests.support.playground_site import OWN, asked, walked
 
 TRACED = """# a first line
 name = "mine"  # its name
@@ -306,3 +313,44 @@ def test_a_fault_of_toml_is_at_its_line(page, text, line, message):
     (error,) = told(page, text, "error")
     assert message in error["message"]
     assert error["line"] == line
+
+
+# ---- the names of the state
+
+
+VELOCITY = """
+import {{ velocity }} from {module};
+import {{ readFileSync }} from "node:fs";
+const {{ schema, texts }} = JSON.parse(readFileSync(0, "utf8"));
+process.stdout.write(JSON.stringify(texts.map((x) => velocity(schema, x))));
+"""
+
+
+def offered(texts):
+    """The names of the velocity that the page has for some texts."""
+    script = VELOCITY.format(module=json.dumps((OWN / "src" / "state.js").as_uri()))
+    given = json.dumps({"schema": schema(), "texts": texts})
+    run = ["node", "--input-type=module", "-e", script]
+    done = subprocess.run(run, input=given, capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+@pytest.mark.parametrize("name", ready_made())
+def test_names_of_the_start_are_the_emitted_ones(name):
+    """Of what is told with the walk; of what the page offers, where the group is a named one, but
+    for coordinates that are held at 0, which only a derivation finds."""
+    need("node")
+    text = (READY / f"{name}.toml").read_text(encoding="utf-8")
+    problem = problem_of(tomllib.loads(text))
+    if problem.group is None:
+        pytest.skip("no code: it has no matrices")
+    code = emitted(name)
+    told = numbers_followed(problem, problem.group)
+    assert {*code.STATE, *code.INPUTS} <= {*told}
+    own = [x for x in code.STATE if x.startswith(("zeta_", "w_"))]
+    assert [x for x in told if x.startswith(("zeta_", "w_"))] == own
+    (found,) = offered([text])
+    held = {f"zeta_{a}" for a in (problem.lagrangian.held if problem.lagrangian else ())}
+    factors = [x.name for x in problem.group.factors] or [problem.group.name]
+    named = {*factors} <= {*schema()["groups"]}
+    assert [x for x in found if x not in held] == (own if named else [])

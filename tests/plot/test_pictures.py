@@ -257,6 +257,24 @@ def test_a_polhode_marks_the_axes_and_its_titles_are_level():
     assert abs(left - right) < 3
 
 
+def test_a_polhode_on_which_a_torque_acts_has_no_others_and_is_seen_whole():
+    run = derive.derive("top").simulate(2.0, start={"zeta_3": 3.0}, points=40)
+    told = words_of(run, "polhode", str)
+    assert "at first: a torque acts" in told
+    assert "principal axis" in told
+    assert not any(x in told for x in ("separatrix", "stable axis"))
+    figure = sheet(7.0, 3.9)
+    KINDS["polhode"].draw(figure, run, str)
+    for panel in figure.get_axes():
+        ends = np.abs([x.get_xydata() for x in panel.lines if len(x.get_xydata()) == len(run.t)])
+        assert np.nanmax(ends) <= panel.get_xlim()[1]
+
+
+def test_what_changes_by_damping_is_no_error():
+    for problem, told in (("jelly", "relative change"), ("so3", "relative error")):
+        assert told in words_of(simulated(problem, 1.0), "energy", str)
+
+
 @pytest.mark.parametrize("problem", ["euler_top", "so3", "hammer", "kovalevskaya_top"])
 def test_labels_of_axes_are_off_the_outline_and_titles_on_the_sheet(problem):
     """By what is drawn: the boxes of the texts, the corners of the outline."""

@@ -1,5 +1,6 @@
 """The playground built once for all tests, served on this machine, and pages of it in Chromium."""
 
+import gzip
 import hashlib
 import shutil
 import subprocess
@@ -15,6 +16,12 @@ ROOT = Path(__file__).parents[2]
 OWN, SITE = ROOT / "playground", ROOT / "build" / "site" / "play"
 STAMP = ROOT / "build" / "playground" / "stamp"
 SOURCES = ("derive", "templates", "playground")
+BEHIND = (
+    *("keep.js", "rest.tar.gz", "mpmath.tar.gz"),
+    *("moving.html", "moving.js", "motion.css", "motion.js"),
+)
+"""Files that are fetched behind the first walk: the rest of the package, and what a motion and the
+worker of the service ask for."""
 
 
 def signature():
@@ -91,3 +98,15 @@ def asked(page, ask, **more):
 def walked(opened, what="so3"):
     """Wait until a problem is walked."""
     opened.wait_for_selector(f'body[data-walked="{what}"]', timeout=90_000)
+
+
+def first_walk(asked, address):
+    """The files of the playground among the addresses that a page asked for, but for those that
+    are fetched behind its first walk."""
+    own = {x.removeprefix(address).partition("#")[0] or "index.html" for x in asked}
+    return {x for x in own if ":" not in x} - {*BEHIND}
+
+
+def size(names):
+    """Of files of the playground, in MB, each as gzip −9."""
+    return sum(len(gzip.compress((built() / x).read_bytes(), 9)) for x in names) / 1e6

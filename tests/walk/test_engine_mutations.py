@@ -114,6 +114,14 @@ def test_a_fluid_is_judged_by_its_own_checker(factor, outcome):
     assert equations(*(Output(to_json(x)) for x in (new, d))).outcome == outcome
 
 
+def test_a_wrong_letter_is_tried_on_what_uses_it():
+    """Loading runs its line for every job; of two, one runs more of the module."""
+    module, names = "walk/fluid/loops.py", ("linear", "ideal_fluid")
+    survey = Survey([module], [x for name in names for x in JOBS if x.name == name])
+    skew, *_ = (m for m in mutants(module, (ROOT / module).read_text()) if "sign: -1" in str(m))
+    assert survey.reaching(skew) == [1]
+
+
 def test_a_run_goes_on_where_it_ended():
     """With what has a verdict; a change that stands twice on a line is two."""
     some = list(mutants("x.py", "def f(x):\n    return g(x, 1), g(x, 1), x + 2"))

@@ -11,6 +11,8 @@ import sympy
 from derive import Fluid, Problem, ProblemError
 from derive import derive as derived
 from derive.algebra import forms
+from derive.algebra.calculus import reduce
+from derive.algebra.words import word
 from derive.check.checker import check, checker_of
 from derive.check.fluid.flat_torus import Torus
 from derive.command.cli import main
@@ -24,6 +26,7 @@ from derive.record.json_writer import to_json
 from derive.record.record import RecordError
 from derive.walk.failure import WalkError
 from derive.walk.fluid import advection, energy_kept, loops
+from derive.walk.fluid.pressure import GRADIENT
 from tests.support.record_mutations import tried
 from tests.support.walks import FLUIDS, SEED, record
 
@@ -301,6 +304,14 @@ def test_a_wrong_structure_equation_leads_nowhere(name, monkeypatch):
     monkeypatch.setattr(forms, "structure_equation", lambda *a: -right(*a))
     with pytest.raises(WalkError, match="divergence of the acceleration"):
         walk(problem_of(WELL) if name == "well" else load_problem(name))
+
+
+def test_a_pair_along_a_curve_is_read_either_way():
+    """What ⟨Γ grad p, γ_s⟩ becomes is what its transpose does, transposed."""
+    pushed = word(loops.CURVE) * word(GRADIENT)
+    rule = loops.along_curve(GRADIENT)
+    assert reduce(pushed, rule) not in (pushed, pushed.bar)
+    assert reduce(pushed.bar, rule) == reduce(pushed, rule).bar
 
 
 def test_fields_with_a_divergence_break_what_rests_on_it(monkeypatch):

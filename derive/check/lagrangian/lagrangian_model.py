@@ -16,6 +16,7 @@ from ...algebra.groups import Group
 from ...algebra.samplers import Source
 from ...language import rational as q
 from ...language.rational import Matrix
+from ...language.tree import Tree
 from ...record.tree_data import decode
 from ..arithmetic import EvaluationError
 from ..draws import Draws
@@ -26,6 +27,7 @@ from ..model import Direction
 from ..nilpotent import EPS, EPS_PRIME, ETA, Nilpotent, derivative_in, nilpotent, part
 from .carried_along import CarriedAlong
 from .given_field import GivenField
+from .settled import settled
 
 ENTRY, PAIRED, WITH_BRACKET = 2, 4, 6
 """The indices of an entry of a matrix, of ⟨Π, ξ⟩, of ⟨Π, [ξ′, ξ]⟩: what a claim contracts."""
@@ -133,9 +135,10 @@ class LagrangianModel(Draws):
         if self.tree is not None:
             zeta = tuple((x,) for x in self.group.nearest(Z))
             place = {"Γ": self.advected.at(g)} if self.advected else {"A": g}
-            names = {**self.expressions.names, **place, "t": t, "ζ": zeta}
+            tree, known = self.settled
+            names = {**self.expressions.names, **known, **place, "t": t, "ζ": zeta}
             env = Environment(self.n, names, parameters=self.parameters, elementary=self.elementary)
-            return evaluate(self.tree, env)
+            return evaluate(tree, env)
         square = q.trace(q.times(q.times(Z, self.quadratic), q.transposed(Z)))
         product = Fraction(1)
         for constant, later, at, moving in self.weights:
@@ -143,6 +146,12 @@ class LagrangianModel(Draws):
             linear = linear + q.trace(q.times(g, at)) + q.trace(q.times(Z, moving))
             product = product * linear
         return square * Fraction(1, 2) + product
+
+    @cached_property
+    def settled(self) -> tuple[Tree, dict[str, Any]]:
+        """The tree of ℓ with names for what is the same at all points, and their values."""
+        assert self.tree is not None
+        return settled(self.tree, self.expressions)
 
     def momentum(self, t: Any, g: Matrix, Z: Matrix, eta: Matrix) -> Any:
         """The derivative of ℓ with respect to Z along eta."""

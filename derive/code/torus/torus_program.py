@@ -65,7 +65,7 @@ def torus_program(
     """The program of a record on the torus; ``LoweringError`` for an option that it has not.
     ``events``: what is watched on a motion."""
     chosen = options or Options()
-    _require_written(d, chosen)
+    require_on_torus(d, chosen)
     functions, constants = _looped(torus), tuple[str, ...]()
     if not chosen.conserved:
         del functions["conserved"]
@@ -106,7 +106,8 @@ def torus_program(
     )
 
 
-def _require_written(d: Derivation, chosen: Options) -> None:
+def require_on_torus(d: Derivation, chosen: Options) -> None:
+    """``LoweringError`` for an option that is not written on the torus."""
     for on, option in (
         (chosen.layout != "row", f"--layout {chosen.layout}"),
         (chosen.attitude != "matrix", f"--attitude {chosen.attitude}"),

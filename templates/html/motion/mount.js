@@ -205,7 +205,7 @@ function mount(element, page, pieces) {
     input: () => seek(slider.value / 1000 * page.t),
   });
   const speeds = make("select", { [aria]: words.speed, title: words.speed, change: () => {
-    speed = Number(speeds.value);
+    speed = +speeds.value;
     clear();
     ask();
   } });
@@ -215,7 +215,7 @@ function mount(element, page, pieces) {
       speeds.append(make("option", { value: v, ...(abs(v / speed - 1) < 1e-6 ? { selected: "" } : {}) }, `× ${mark(String(v), page)}`));
     }
   }
-  speed = Number(speeds.value);
+  speed = +speeds.value;
 
   const adjusters = [];
   function adjuster(name, title, unit, initial, low_end, high_end, put) {
@@ -223,7 +223,7 @@ function mount(element, page, pieces) {
     const exact = make("input", { inputmode: "decimal", autocomplete: "off", [aria]: called(name) });
     const wrong = (is) => exact.setAttribute("aria-invalid", is);
     const write = (v) => {
-      exact.value = mark(String(Number(v.toPrecision(6))), page);
+      exact.value = mark(String(+v.toPrecision(6)), page);
       wrong(false);
     };
     const take = (v) => {
@@ -332,5 +332,5 @@ function mount(element, page, pieces) {
     tabulate();
     ask();
   }
-  return { given: { x: x0, p, theta }, get trail() { return trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause, keep };
+  return { given: { x: x0, p, u, theta }, get trail() { return trail; }, get time() { return time; }, get state() { return run.at(time); }, get run() { return run; }, seek, play, pause, keep };
 }

@@ -252,15 +252,21 @@ def read_back(job: Job, output: Output) -> list[Any]:
 # -- what a job runs ----------------------------------------------------------------------------
 
 
-def reached(job: Job, files: set[str]) -> dict[str, set[int]]:
-    """The lines of some files of ``derive`` that a job runs, loading included if it is derived."""
-    for name in [x for x in sys.modules if x.split(".")[0] == "derive" and not job.refused]:
+def reached(job: Job | None, files: set[str]) -> dict[str, set[int]]:
+    """The lines of some files of ``derive`` that a job runs, loading included if it is derived; for
+    ``None`` those that loading alone runs."""
+    for name in [
+        x for x in sys.modules if x.split(".")[0] == "derive" and not (job and job.refused)
+    ]:
         del sys.modules[name]
     watch = Coverage(data_file=None, config_file=False, include=[str(ROOT / x) for x in files])
     watch.set_option("run:disable_warnings", ["no-data-collected"])
     watch.start()
     try:
-        attempted(job)
+        if job is None:
+            importlib.import_module("derive.pipeline")
+        else:
+            attempted(job)
     finally:
         watch.stop()
     data = watch.get_data()

@@ -188,6 +188,11 @@ m = 2.0
 [lagrangian]
 L = "I*(4*zeta_1^2 + 4*zeta_2^2 + zeta_3^2)/2 - m*A_31"
 """
+POURED = """
+name = "test"
+[fluid]
+forces = "potential"
+"""
 TORUS = """
 name = "test"
 [algebra]
@@ -251,7 +256,7 @@ class Job(NamedTuple):
 TEXTS = PROBLEMS | {p.stem: p.read_text(encoding="utf-8") for p in READY.glob("*.toml")}
 TEXTS |= {"solids": SOLIDS, "mixed": MIXED, "both": BOTH, "given": GIVEN, "numbers": NUMBERS}
 TEXTS |= {"functions": FUNCTIONS, "on the right": ON_THE_RIGHT, "quartic": QUARTIC}
-TEXTS |= {"goryachev": GORYACHEV, "carried on the right": CARRIED, "torus": TORUS}
+TEXTS |= {"goryachev": GORYACHEV, "carried on the right": CARRIED, "torus": TORUS, "poured": POURED}
 WHOLE = ("state", "inputs", "parameters")
 CHOSEN = [
     ("linear", {}),
@@ -325,6 +330,8 @@ LAGRANGIANS = [
     ("SL(2)", {"momenta": True}),
     ("ideal_fluid", {}),
     ("inhomogeneous_fluid", {}),
+    ("stratified_fluid", {}),
+    ("poured", {}),
     ("torus", {}),
 ]
 SOUGHT = [

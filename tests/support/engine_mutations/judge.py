@@ -169,11 +169,13 @@ def less(d: Derivation, right: Derivation, steps: list[Step], own: Any) -> str:
 
 
 def idle(step: Step, own: Any) -> int:
-    """How many equations of a true step stay true when one side is doubled, as 0 = 0 does."""
+    """How many equations of a true step stay true when one side is doubled, as 0 = 0 does; a side
+    that is written 0 becomes 1, the left one too: 0 = x says what x = 0 does."""
     found = 0
     for k, equation in enumerate(step.equations):
-        doubled = 1 if equation.rhs == 0 else mul(2, equation.rhs)
-        false = (*step.equations[:k], replace(equation, rhs=doubled), *step.equations[k + 1 :])
+        zero = next((side for side in ("rhs", "lhs") if getattr(equation, side) == 0), "")
+        other = replace(equation, **({zero: 1} if zero else {"rhs": mul(2, equation.rhs)}))
+        false = (*step.equations[:k], other, *step.equations[k + 1 :])
         found += not refused(replace(step, equations=false), own)
     return found
 

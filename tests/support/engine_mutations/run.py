@@ -70,11 +70,14 @@ class Survey:
             assert output.trouble == ("refused" if job.refused else ""), (job.name, output.why)
         files = {*modules}
         self.lines = [in_a_process(lambda job=job: reached(job, files)) for job in jobs]
+        self.loaded: dict[str, set[int]] = in_a_process(lambda: reached(None, files))
 
     def reaching(self, m: Mutant) -> list[int]:
-        """The jobs that run a line that is changed."""
+        """The jobs that run a line that is changed: what is made wrong where the module is loaded,
+        a letter say, shows in those that run more of it, if there are any."""
         span = range(m.lines[0], m.lines[1] + 1)
-        return [i for i, x in enumerate(self.lines) if not x[m.module].isdisjoint(span)]
+        found = [i for i, x in enumerate(self.lines) if not x[m.module].isdisjoint(span)]
+        return [i for i in found if self.lines[i][m.module] - self.loaded[m.module]] or found
 
     def verdict(self, m: Mutant) -> Verdict:
         """The first that catches it, or the worst of what it does unnoticed."""

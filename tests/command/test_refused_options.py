@@ -1,0 +1,64 @@
+"""What is told before an option is chosen is what the command says when it is."""
+
+import pytest
+
+from derive import derive
+from derive.code.languages import LANGUAGES
+from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
+from derive.command.cli import main
+from derive.command.refused_options import further, refused
+
+FORMS = {
+    "so3": ((), Options()),
+    "sl3": (("julia",), Options(frame="given", momenta=True)),
+    "spherical_pendulum": (("c", "rust"), Options(jacobian=("raw",))),
+    "euler_top": (("python",), Options(step=("gauss", "gauss_jax"))),
+    "zeitlin": (("c",), Options(real="float")),
+    "top": (("c",), Options(attitude="quaternion", step=("rk4",))),
+}
+
+
+def words(languages, options):
+    """As the command takes them."""
+    found = [f"--lang={x}" for x in languages]
+    found += [f"--{x}={getattr(options, x)}" for x in (*CHOICES, *DEPENDENT) if getattr(options, x)]
+    found += [f"--{x}={y}" for x in REPEATED for y in getattr(options, x)]
+    return found + [f"--{x}" for x in ADDED if getattr(options, x)]
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_the_reasons_are_those_of_the_command(name, capsys, tmp_path):
+    languages, options = FORMS[name]
+    d = derive(name)
+    found = refused(d.problem, d.record, languages or ("c", "python"), options)
+    assert found
+    choices = dict(further(languages or ("c", "python"), options))
+    assert {*found} <= {*choices}
+    for choice, reason in found.items():
+        command = ["emit", name, *words(*choices[choice]), "--out", str(tmp_path / "out")]
+        assert main(command) == 2
+        assert reason in capsys.readouterr().err, choice
+    assert not (tmp_path / "out").exists()
+
+
+def test_what_is_not_refused_is_made(tmp_path):
+    d = derive("so3")
+    found = refused(d.problem, d.record, ("python",), Options())
+    left = {x: y for x, y in further(("python",), Options()) if x not in found}
+    assert "multiplier" in found
+    assert {"step gauss", "attitude quaternion", "lang julia", "momenta"} <= {*left}
+    for k, choice in enumerate(left.values()):
+        assert main(["emit", "so3", *words(*choice), "--out", str(tmp_path / str(k))]) == 0
+
+
+def test_every_option_is_offered_once():
+    found = [x for x, _ in further((), Options())]
+    several = CHOICES | DEPENDENT | REPEATED
+    count = len(LANGUAGES) + len(ADDED) + sum(len(x) for x, _ in several.values())
+    assert len(found) == len({*found}) == count - len(CHOICES)
+
+
+def test_what_is_refused_itself_is_told_alone():
+    d = derive("sl3")
+    (told,) = refused(d.problem, d.record, ("c",), Options(attitude="quaternion")).items()
+    assert told == ("", "sl3: a quaternion needs SO(3) or SE(3), not SL(3)")
