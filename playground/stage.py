@@ -22,6 +22,7 @@ from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED
 from derive.command.loading import READY, ready_made
 from derive.language.limits import TABLES
 from derive.page.motion_page import SCRIPTS
+from derive.problem.followed_names import of_points
 from derive.problem.toml import TOP
 from derive.schema.algebra_kinds import REPRESENTATIONS, StatedAdvected, StatedAlgebra
 from derive.schema.body_kinds import Point
@@ -36,7 +37,6 @@ from derive.schema.table import Table
 from derive.views.language import language
 from derive.views.outline import title
 from derive.views.system import system
-from playground.python.starts import of_points
 
 HERE = Path(__file__).parent
 LIBRARIES, LATER = ("jinja2", "markupsafe"), ("mpmath", "sympy")
@@ -184,7 +184,7 @@ def main(out: Path) -> None:
         library(name, first)
     for name in LATER:
         library(name, later / name)
-    for module in ("play", "places", "starts"):
+    for module in ("play", "places"):
         shutil.copy(HERE / "python" / f"{module}.py", first)
     told = {"version": derive.__version__, "problems": problems(), **options(), "schema": schema()}
     (out / "motion.js").write_text(drawing(), encoding="utf-8")

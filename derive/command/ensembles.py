@@ -14,7 +14,6 @@ import numpy as np
 
 from ..motion.ensemble import Many, Part, Plan, require_steps_of_an_ensemble
 from ..motion.ensemble_files import writer
-from ..motion.run_files import format_of
 from ..motion.start import MotionError
 from ..motion.varied import Varied
 from ..native.motion_in_c import AT_EVENT
@@ -42,8 +41,6 @@ def command_ensemble(
     args: argparse.Namespace, problem: Problem, record: Derivation, start: dict[str, Any]
 ) -> int:
     """Run ``derive simulate --ensemble``: its exit code."""
-    if args.out:
-        format_of(args.out)  # refused before the work
     plan = plan_of(args, start)
     many = Many(motion_of_many(problem, record), problem, plan)
     if not all(x.terminal for x in problem.events):
@@ -51,7 +48,8 @@ def command_ensemble(
         print(f"derive: warning: {problem.name}: {text}", file=sys.stderr)
     tally = Tally(len(many.first.x))
     with heard() as interrupted, kept(many, args.out) as add:
-        parts = with_progress(many.parts(), many.count, f"{problem.name}, parts of {many.size}")
+        about = f"{problem.name}, parts of {many.size}"
+        parts = with_progress(many.parts(interrupted), many.count, about)
         for part in parts:
             add(part)
             tally.add(part)

@@ -46,13 +46,16 @@ def load_problem(name: str, **allowances: bool) -> Problem:
     )
 
 
-def derive(name: str, **allowances: bool) -> tuple[Problem, Derivation]:
-    """A problem and its record, with warnings of doubts; ``UsageError`` where it has no walk."""
+def derive(name: str, *, followed: bool = False, **allowances: bool) -> tuple[Problem, Derivation]:
+    """A problem and its record, with warnings of doubts; ``UsageError`` where it has no walk.
+
+    ``followed``: a motion is to be, which refuses names that the state has not.
+    """
     from ..pipeline import walk
     from ..problem.doubts import doubts
 
     problem = load_problem(name, **allowances)
-    for doubt in doubts(problem):
+    for doubt in doubts(problem, followed=followed):
         print(f"derive: warning: {one_line(name)}: {one_line(doubt)}", file=sys.stderr)
     try:
         return problem, walk(problem)

@@ -28,7 +28,7 @@ from .ensembles import command_ensemble
 from .guard import one_line
 from .loading import allowed, derive
 from .progress import with_progress
-from .writing import write
+from .writing import require_place, write
 
 ROUNDING = 1e-15
 """A component that is smaller, beside the others, is that of sums of a few terms."""
@@ -40,13 +40,15 @@ TOLD, ALL_EVENTS = 10, "all are in the file of --out, and run.events in Python"
 """So many times of an event are told; where there are more."""
 
 
-def page_of(args: argparse.Namespace, problem: Problem, record: Derivation) -> str:
+def page_of(
+    args: argparse.Namespace, problem: Problem, record: Derivation, start: dict[str, Any]
+) -> str:
     """The page that a command asks for; ``Refused`` where there is none."""
     if not args.html.endswith(".html"):
         raise MotionError(f"{args.html}: the name of a page must end in .html")
     if args.dt is not None or args.method not in (None, STEPS[0]):
         raise MotionError("--html: the page moves by gauss to a tolerance: leave out --dt, --step")
-    return moving_page(problem, record, args.t, method_of(args), args.lang, **start_of(args))
+    return moving_page(problem, record, args.t, method_of(args), args.lang, **start)
 
 
 def moving_page(
@@ -72,9 +74,13 @@ def method_of(args: argparse.Namespace) -> Method:
     return Method(args.method or STEPS[0], args.dt, **chosen, order=args.order or "")
 
 
-def start_of(args: argparse.Namespace) -> dict[str, Any]:
-    """Where the motion starts, as ``beginning`` takes it."""
-    given = state_file(Path(args.state)) if args.state else {}
+def start_of(args: argparse.Namespace, problem: Problem, record: Derivation) -> dict[str, Any]:
+    """Where the motion starts, as ``beginning`` takes it; on stderr what is amiss with it."""
+    given: dict[str, float] = {}
+    if args.state:
+        given, doubt = state_file(Path(args.state), problem, record)
+        if doubt:
+            print(f"derive: warning: {one_line(f'{args.state}: {doubt}')}", file=sys.stderr)
     return {
         "given": given | dict(args.set or ()),
         "exponent": args.exp or (),
@@ -82,10 +88,10 @@ def start_of(args: argparse.Namespace) -> dict[str, Any]:
     }
 
 
-def run_of(args: argparse.Namespace, problem: Problem, record: Derivation) -> Run:
+def run_of(
+    args: argparse.Namespace, problem: Problem, record: Derivation, start: dict[str, Any]
+) -> Run:
     """The run that a command asks for; ``Refused`` where there is none."""
-    if args.out:
-        format_of(args.out)  # refused before the work
     method = method_of(args)
     return run(
         motion_of(problem, record, method.step, method.order),
@@ -93,7 +99,7 @@ def run_of(args: argparse.Namespace, problem: Problem, record: Derivation) -> Ru
         method,
         args.t,
         500 if args.points is None else args.points,
-        **start_of(args),
+        **start,
         progress=lambda parts, total: with_progress(parts, total, problem.name),
     )
 
@@ -104,16 +110,21 @@ def command_simulate(args: argparse.Namespace) -> int:
         raise MotionError("--dt is a step of one size, --tol chooses it: give one of them")
     if args.ensemble is None:
         require_an_ensemble(args.vary, args.seed)
-    problem, record = derive(args.problem, **allowed(args))
+    if args.out:
+        format_of(args.out)  # refused before the work
+    for file in filter(None, (args.out, args.html)):
+        require_place(Path(file))
+    problem, record = derive(args.problem, followed=True, **allowed(args))
+    start = start_of(args, problem, record)
     if args.ensemble is not None:
-        return command_ensemble(args, problem, record, start_of(args))
+        return command_ensemble(args, problem, record, start)
     if args.html:
-        out, page = Path(args.html), page_of(args, problem, record)
+        out, page = Path(args.html), page_of(args, problem, record, start)
         for path in write({out.name: page}, out.parent, links=True):
             print(path)
         if not args.out:
             return 0
-    found = run_of(args, problem, record)
+    found = run_of(args, problem, record, start)
     for line in summary(found):
         print(one_line(line))
     if args.out:

@@ -77,6 +77,18 @@ def write(files: Mapping[str, str | bytes], out: Path, *, links: bool = False) -
             temporary.unlink(missing_ok=True)
 
 
+def require_place(path: Path) -> None:
+    """``WriteError`` where no file of a name can be written, nor a folder made for it; nothing is
+    left there."""
+    try:
+        target = _target(path)
+        if not target.exists() or target.is_file():
+            folder = next(x for x in target.absolute().parents if os.path.lexists(x))
+            _temporary(folder).unlink()
+    except OSError as error:
+        raise WriteError(f"{path}: {error.strerror}; choose another --out") from None
+
+
 @contextmanager
 def growing(path: Path) -> Iterator[IO[bytes]]:
     """A file that is written part by part under a temporary name, and then renamed; ``WriteError``

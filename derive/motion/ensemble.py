@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+import os
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -58,6 +60,11 @@ event of the file, in order."""
 MOTIONS, BYTES = 4096, 64 * 2**20
 """The most motions that are followed at once, and the most memory that their states may take."""
 
+TOGETHER, SECONDS = 256, 0.5
+"""In lanes so many motions are followed by one core: who is among them is no matter of time, so
+that the same ensemble has the same bits.  Ctrl-C is heard after calls of C that take about so
+many seconds."""
+
 MOST = 10**12
 """More motions than this are a mistake."""
 
@@ -73,6 +80,10 @@ class Part:
     status: Integers
     states: Array
     end: Array
+
+    def some(self, first: int, end: int) -> Part:
+        """Those from one up to another, in the same memory."""
+        return Part(*(x[first:end] for x in vars(self).values()))
 
 
 @dataclass(frozen=True)
@@ -223,11 +234,27 @@ class Many:
         """How many parts there are."""
         return -(-self.plan.n // self.size)
 
-    def parts(self) -> Iterator[Part]:
-        """The motions, ``size`` at a time."""
+    def parts(self, stopped: Callable[[], bool] = lambda: False) -> Iterator[Part]:
+        """The motions, ``size`` at a time; where they are ``stopped`` no more, the last time those
+        that are done."""
         draws = Draws(self.plan.varied, self.plan.seed)
         for first in range(0, self.plan.n, self.size):
-            yield self._part(first, draws.next(min(self.size, self.plan.n - first)))
+            yield self._part(first, draws.next(min(self.size, self.plan.n - first)), stopped)
+
+    def _part(self, first: int, draws: Array, stopped: Callable[[], bool]) -> Part:
+        """The motions of some draws, by calls that take about SECONDS."""
+        n, state, width = len(draws), len(self.first.x), self.none.end.shape[1]
+        states, end = np.full((n, len(self.t), state), math.nan), np.full((n, width), math.nan)
+        part = Part(draws, np.zeros(n, dtype=np.intc), states, end)
+        unit, done = 1 if self.code.events else TOGETHER, 0
+        count = unit * (os.cpu_count() or 1)
+        while done < n and not stopped():
+            begun = time.monotonic()
+            self._follow(first + done, part.some(done, done + count))
+            done = min(n, done + count)
+            pace = SECONDS / max(time.monotonic() - begun, SECONDS / 8)
+            count = max(1, int(count * pace) // unit) * unit
+        return part.some(0, done)
 
     def whole(self, parts: Sequence[Part]) -> Ensemble:
         """All that is in some parts."""
@@ -273,26 +300,38 @@ class Many:
             raise MotionError(f"{code.name}: motion {first + worst} starts off the group, {why}")
         return x
 
-    def _part(self, first: int, draws: Array) -> Part:
-        x, p, u = self._starts(draws)
+    def _follow(self, first: int, part: Part) -> None:
+        """Follow some motions by what is varied, and put the rest into their part."""
+        x, p, u = self._starts(part.varied)
         x = self._on_the_group(x, first)
         k, wrong = constants(self.library, p, len(self.code.program.constants))
-        status: Integers = np.where(wrong != 0, 1, 0).astype(np.intc)
-        states, h = np.full((len(x), len(self.t), x.shape[1]), math.nan), np.zeros(len(x))
-        end = np.full((len(x), self.none.end.shape[1]), math.nan)
-        on, before = np.flatnonzero(status == 0), 0.0
+        status, states = part.status, part.states
+        status[:] = wrong != 0
+        h, before = np.zeros(len(x)), 0.0
         for j, t in enumerate(self.t.tolist()):
             if t == 0:
-                states[on, j] = x[on]
+                states[status == 0, j] = x[status == 0]
                 continue
+            on, places = self._going_on(status)
             # copies of those that go on
             own, step, ended = x[on], h[on], [np.empty(len(on))] * bool(self.code.events)
             span = before, t
             told = ensemble(self.library, own, k[on], u[on], span, self.plan.tol, step, *ended)
-            status[on], h[on], x[on], before = told, step, own, t
+            mine, before = on == places, t
+            status[on[mine]], h[on[mine]], x[on[mine]] = told[mine], step[mine], own[mine]
             for times in ended:
                 stops = told >= AT_EVENT
-                end[on[stops]] = np.column_stack([times, own])[stops]
-            on = on[told == 0]
-            states[on, j] = x[on]
-        return Part(draws, status, states, end)
+                part.end[on[stops]] = np.column_stack([times, own])[stops]
+            states[status == 0, j] = x[status == 0]
+
+    def _going_on(self, status: Integers) -> tuple[Integers, Integers]:
+        """The motions that go on, each in its place among the others of its TOGETHER, and the
+        places; where a motion does not go on, the first one that does stands in its place."""
+        places, on = np.arange(len(status), dtype=np.intc), status == 0
+        if self.code.events or on.all():
+            return places[on], places[on]
+        groups = [places[k : k + TOGETHER] for k in range(0, len(places), TOGETHER)]
+        groups = [x for x in groups if on[x].any()]
+        filled = [np.where(on[x], x, x[on[x]][0]) for x in groups]
+        none: list[Integers] = [places[:0]]
+        return np.concatenate(none + filled), np.concatenate(none + groups)

@@ -15,6 +15,7 @@ class MotionInPython:
     def __init__(self, code: ModuleType, step: str, k: Array, u: Array, x: Array):
         self._code, self._step, self._numbers = code, step, (k, u)
         self._motion, self.event = code.begin(0.0, x), ""
+        self._sure = 0.0, x  # time and state at the end of the last move
 
     @property
     def t(self) -> float:
@@ -64,10 +65,17 @@ class MotionInPython:
         step = self._of(self._step)
         self._told(self._code.watch(step, self._motion, *self._numbers, t, h))
 
+    def settle(self) -> None:
+        """Be where the last move has ended, after one that Ctrl-C has stopped on the way."""
+        begun = self._code.begin(*self._sure)
+        begun.evaluations = self.evaluations
+        self._motion, self.event = begun, ""
+
     def _of(self, name: str) -> Any:
         return getattr(self._code, name)
 
     def _told(self, status: int) -> None:
         self.event = self._code.EVENTS[self._motion.event] if status == AT_EVENT else ""
+        self._sure = self.t, self.x.copy()
         if status and not self.event:
             raise StepError(FAULTS[status].format(self.t))

@@ -24,7 +24,7 @@ from .method import Method, instants
 from .not_finite import why_not_finite
 from .run import Array, Run
 from .start import OFF_THE_GROUP, MotionError, Start, start
-from .trajectory import Trajectory
+from .trajectory import INTERRUPTED, Trajectory
 
 LONG, TURN = 500, 2.0
 """A motion of more steps is compiled, where there is a compiler; in a step for a tolerance no part
@@ -32,9 +32,6 @@ of the state changes by more than about TURN of its size."""
 
 CHUNKS = 200
 """The parts of a run between which it can be stopped and its progress is shown."""
-
-INTERRUPTED = "interrupted"
-"""Why a run ended by Ctrl-C."""
 
 Progress = Callable[[Iterable[Any], int], Iterator[Any]]
 
@@ -177,16 +174,14 @@ def simulate(
             states.append(found)
             if ended:
                 break
-    except KeyboardInterrupt:
+    except KeyboardInterrupt:  # between two parts
         ended = INTERRUPTED
     x = np.concatenate(states)
     t = times[: len(x)]
-    if follow.happened and (last := follow.happened[-1]).terminal:
-        t, x = np.append(t, last.t), np.append(x, last.state[None], axis=0)
-    elif len(x) == 1 and ended not in ("", INTERRUPTED):  # before an instant that is kept
-        if follow.motion.t == 0:
-            raise MotionError(f"{code.name}: {ended}")
-        t, x = np.append(t, follow.motion.t), np.append(x, follow.motion.x[None], axis=0)
+    if (last := behind(follow, t, ended)) is not None:
+        t, x = np.append(t, last[0]), np.append(x, last[1][None], axis=0)
+    elif len(x) == 1 and ended not in ("", INTERRUPTED) and not follow.happened:
+        raise MotionError(f"{code.name}: {ended}")
     inputs = dict(zip(code.program.inputs, begin.u.tolist(), strict=True))
     columns, table = code.columns(), code.table(t, x, k, begin.u)
     facts = {
@@ -204,3 +199,12 @@ def simulate(
         "potential": code.potential(table, begin.parameters),
     }
     return Run(columns, table, facts)
+
+
+def behind(follow: Trajectory, t: Array, ended: str) -> tuple[float, Array] | None:
+    """Time and state of a last row behind the instants t: where Ctrl-C stopped the motion, or it
+    must stop before an instant, or its last event, that no event lies behind the table."""
+    ends = [(x.t, x.state) for x in follow.happened[-1:]]
+    if ended == INTERRUPTED or (ended and len(t) == 1):
+        ends.append((follow.motion.t, follow.motion.x))
+    return next(((when, x) for when, x in reversed(ends) if when > t[-1]), None)

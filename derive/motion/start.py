@@ -10,13 +10,15 @@ from typing import Any
 
 import numpy as np
 
+from ..code.emit import problem_hash
 from ..code.program import Program
 from ..problem.problem import Problem
+from ..record.record import Derivation
 from .first_numbers import MotionError, first_numbers
-from .run import Array
+from .run import Array, Run
 from .run_files import known, read
 
-__all__ = ("OFF_THE_GROUP", "MotionError", "Start", "start", "state_file")
+__all__ = ("OFF_THE_GROUP", "MotionError", "Start", "continued", "start", "state_file")
 
 OFF_THE_GROUP = 1e-9
 """A larger defect of a start is taken for a mistake."""
@@ -50,13 +52,14 @@ def start(
     return Start(x, p, u, found.parameters)
 
 
-def state_file(path: Path) -> dict[str, float]:
-    """Name → number, of a TOML file of such pairs, or of the last instant of a run."""
+def state_file(path: Path, problem: Problem, record: Derivation) -> tuple[dict[str, float], str]:
+    """Name → number, of a TOML file of such pairs, or of a run, which is continued, and what is to
+    be told of it."""
     if known(path.name):
-        run = read(path)
-        if not len(run.table):
-            raise MotionError(f"{path}: a run of no instants")
-        return {name: float(column[-1]) for name, column in run.of_kind("state").items()}
+        try:
+            return continued(read(path), problem, record)
+        except MotionError as error:
+            raise MotionError(f"{path}: {error}") from None
     try:
         found: dict[str, Any] = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
@@ -66,4 +69,21 @@ def state_file(path: Path) -> dict[str, float]:
     for name, number in found.items():
         if type(number) not in (int, float):
             raise MotionError(f"{path}: {name[:40]} must be a number, as zeta_1 = 0.5")
-    return {name: float(number) for name, number in found.items()}
+    return {name: float(number) for name, number in found.items()}, ""
+
+
+def continued(run: Run, problem: Problem, record: Derivation) -> tuple[dict[str, float], str]:
+    """The end of a run with its parameters and inputs; of a run of other equations on the group of
+    the problem the state alone, and that this is so, in words.  ``MotionError`` for other runs."""
+    if not len(run.table):
+        raise MotionError("a run of no instants")
+    facts, state = run.facts, {x: float(a[-1]) for x, a in run.of_kind("state").items()}
+    if facts.get("hash") == problem_hash(record):
+        return {**facts.get("parameters", {}), **facts.get("inputs", {}), **state}, ""
+    other, group = facts.get("problem", "?"), facts.get("group", "?")
+    whose = f"a run of {other!r}, not of {problem.name!r}"
+    if other == problem.name:
+        whose = f"a run of another {other!r}, as the file was then"
+    if group != problem.group_name:
+        raise MotionError(f"{whose}: it moves by {group}, this by {problem.group_name}")
+    return state, f"{whose}: its state alone is taken, not its parameters and inputs"

@@ -12,6 +12,9 @@ from ..native.motion_in_c import StepError
 from .method import Method
 from .run import Array, Happening
 
+INTERRUPTED = "interrupted"
+"""Why a run ended by Ctrl-C."""
+
 SLIVER = 1e-9
 """The part of a step below which nothing is left of a time."""
 
@@ -51,6 +54,9 @@ class Moved(Protocol):
     def watch(self, t: float, h: float) -> object:
         """Move up to a time or an event, in steps of size h; ``StepError``."""
 
+    def settle(self) -> None:
+        """Be at a time in the state of that time, after a move that Ctrl-C has cut short."""
+
 
 class Trajectory:
     """A motion under way, and the events that ``happened`` on it; ``ends``: name of an event →
@@ -61,26 +67,38 @@ class Trajectory:
         self.happened: list[Happening] = []
 
     def reach(self, times: Array) -> tuple[Array, str]:
-        """The states at increasing times, fewer where the motion must stop, and why."""
+        """The states at increasing times, fewer where the motion must stop or Ctrl-C stops it, and
+        why."""
         states: list[Array] = []
-        for time in times.tolist():
-            if why := self._until(time):
-                return np.array(states).reshape(-1, len(self.motion.x)), why
-            states.append(self.motion.x.copy())
-        return np.array(states), ""
+        why = ""
+        try:
+            for time in times.tolist():
+                if why := self._until(time):
+                    break
+                states.append(self.motion.x.copy())
+        except KeyboardInterrupt:
+            why = INTERRUPTED
+            self.motion.settle()
+            self._note()
+        return np.array(states).reshape(-1, len(self.motion.x)), why
 
     def _until(self, end: float) -> str:
         """Steps up to a time; why not, where that fails or an event ends the motion."""
-        m = self.motion
         try:
             while name := self._event(end):
-                direction, ends = "rising" if m.rising else "falling", self.ends[name]
-                self.happened.append(Happening(name, m.t, direction, ends, m.x.copy()))
-                if ends:
+                self._note()
+                if self.ends[name]:
                     return f"event {name}"
         except StepError as error:
             return str(error)
         return ""
+
+    def _note(self) -> None:
+        """Note the event at which the motion stands, if it does and that is not yet noted."""
+        m = self.motion
+        if m.event and (m.t, m.event) not in ((x.t, x.name) for x in self.happened[-1:]):
+            direction = "rising" if m.rising else "falling"
+            self.happened.append(Happening(m.event, m.t, direction, self.ends[m.event], m.x.copy()))
 
     def _event(self, end: float) -> str:
         """The event to which steps lead, the last of which may be shorter, or "" at a time."""

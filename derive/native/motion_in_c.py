@@ -55,37 +55,43 @@ int derive_event(const {name}_motion *m, int *rising)
 }}
 """
 MOVE = """\
-int derive_{step}({name}_motion *m, const double *k, const double *u, double h, size_t n);
-int derive_{step}({name}_motion *m, const double *k, const double *u, double h, size_t n)
+void derive_{step}({name}_motion *m, const double *k, const double *u, double h, size_t n,
+    int *told);
+void derive_{step}({name}_motion *m, const double *k, const double *u, double h, size_t n,
+    int *told)
 {{
-    return {name}_{step}(m, k, u, h, n);
+    *told = {name}_{step}(m, k, u, h, n);
 }}
 """
 MOVE_TO_EVENT = """\
-int derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol);
-int derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol)
+void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
+    int *told);
+void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
+    int *told)
 {{
-    return {name}_{step}_to(m, k, u, t1, tol);
+    *told = {name}_{step}_to(m, k, u, t1, tol);
 }}
 """
 MOVE_TO = """\
-int derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
-    size_t n);
-int derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
-    size_t n)
+void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
+    size_t n, int *told);
+void derive_{step}_to({name}_motion *m, const double *k, const double *u, double t1, double tol,
+    size_t n, int *told)
 {{
     int fault = {name}_{step}(m, k, u, 0, 0); /* dense asks for the numbers of a call */
     for (; fault == 0 && n > 0 && t1 - m->t - m->t_low != 0; --n) {{
         fault = {name}_towards({name}_{step}_step, m, k, u, t1, tol);
     }}
-    return fault;
+    *told = fault;
 }}
 """
 WATCH = """\
-int derive_{step}_watch({name}_motion *m, const double *k, const double *u, double t1, double h);
-int derive_{step}_watch({name}_motion *m, const double *k, const double *u, double t1, double h)
+void derive_{step}_watch({name}_motion *m, const double *k, const double *u, double t1, double h,
+    int *told);
+void derive_{step}_watch({name}_motion *m, const double *k, const double *u, double t1, double h,
+    int *told)
 {{
-    return {name}_watch({name}_{step}, m, k, u, t1, h);
+    *told = {name}_watch({name}_{step}, m, k, u, t1, h);
 }}
 """
 ENSEMBLE = """\
@@ -104,7 +110,7 @@ void derive_ensemble(size_t n, double *x, const double *k, size_t k_each, const 
     size_t u_each, double t0, double t1, double tol, double *h, int *status, double *ended)
 {{
 #ifdef _OPENMP
-#pragma omp parallel for schedule(dynamic, 16)
+#pragma omp parallel for schedule(dynamic)
 #endif
     for (long long j = 0; j < (long long)n; ++j) {{
         const size_t i = (size_t)j;
@@ -194,7 +200,7 @@ class Motion:
         self._library, self._steps, self._numbers = library, steps, numbers
         self._events, self.event, self.rising = events, "", False
         self.t, self.h, self.x = float(t), 0.0, np.array(x, dtype=float)
-        self._t_low, self.evaluations = 0.0, 0
+        self._t_low, self.evaluations, self._status = 0.0, 0, ctypes.c_int()
         self._ask_for_memory()
         self._function("begin")(self._at, ctypes.c_double(t), pointer(self.x))
 
@@ -206,7 +212,7 @@ class Motion:
     def __copy__(self) -> Motion:
         """The motion as it is now, whatever becomes of this one."""
         other = object.__new__(type(self))
-        other.__dict__ |= self.__dict__ | {"x": self.x.copy()}
+        other.__dict__ |= self.__dict__ | {"x": self.x.copy(), "_status": ctypes.c_int()}
         other._ask_for_memory()
         ctypes.memmove(other._at, self._at, self._size)
         return other
@@ -260,20 +266,26 @@ class Motion:
         return step or steps[0]
 
     def _moved(self, name: str, *how: Any) -> Motion:
-        now = np.empty(4)
         k, u = map(pointer, self._numbers())
-        status = self._function(name, ctypes.c_int)(self._at, k, u, *how)
+        self._status = ctypes.c_int()
+        self._function(name)(self._at, k, u, *how, ctypes.byref(self._status))
+        self.settle()
+        if (status := self._status.value) not in (0, AT_EVENT):
+            raise StepError(FAULTS[status].format(self.t))
+        return self
+
+    def settle(self) -> None:
+        """Be where the last call of C has led, also after one that Ctrl-C has cut off from here:
+        it is heard when that call is over."""
+        now = np.empty(4)
         self._function("now")(self._at, pointer(now), pointer(self.x))
         self.t, self._t_low, self.h, evaluations = now.tolist()
         self.evaluations = int(evaluations)
         self.event = ""
-        if status == AT_EVENT:
+        if self._status.value == AT_EVENT:
             rising = ctypes.c_int()
             found = self._function("event", ctypes.c_int)(self._at, ctypes.byref(rising))
             self.event, self.rising = self._events[found], bool(rising.value)
-        elif status:
-            raise StepError(FAULTS[status].format(self.t))
-        return self
 
     def _function(self, name: str, result: Any = None) -> Any:
         function = getattr(self._library, f"derive_{name}")

@@ -2,7 +2,8 @@
 
 They are no part of the equations: no record has them, and of emitted files those with steps
 alone, which stop at events.  Which names the state
-has is known where it is emitted, so that a name that it lacks is refused when a motion is started.
+has is known where it is emitted, so that a name that it lacks is refused when a motion is started;
+with the walk it is told (:mod:`.followed_names`).
 """
 
 from __future__ import annotations

@@ -21,7 +21,6 @@ from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any
 
-import starts
 from places import line_of
 
 from derive.command.cli import main
@@ -29,6 +28,7 @@ from derive.command.guard import one_line
 from derive.command.loading import derive
 from derive.language.refused import Refused
 from derive.paper.finding import Finding
+from derive.problem.followed_names import faults
 from derive.record.contract import AMENDED
 from derive.record.record import Derivation
 
@@ -100,7 +100,7 @@ class Play:
             found = corrections(self.record)
             for piece in fragment([self.record], language=language(lang), findings=found):
                 self.tell("piece", piece)
-            for line in starts.faults(self.problem):
+            for line in faults(self.problem):
                 message = f"derive: {self.path.name}: {line}"
                 self.tell("warning", {"message": message, "line": line_of(message, text)})
             self.tell("walked", {})

@@ -196,7 +196,7 @@ def test_a_file_that_is_no_ensemble_is_told(some, tmp_path, capsys):
 @pytest.mark.parametrize("ending", [".npz", ".csv"])
 def test_ctrl_c_keeps_what_is_done(ending, tmp_path, capsys, monkeypatch):
     small(monkeypatch)
-    made, calls = of_parts.Many._part, []
+    made, calls = of_parts.Many._follow, []
 
     def interrupted(self, *given):
         calls.append(given)
@@ -204,7 +204,7 @@ def test_ctrl_c_keeps_what_is_done(ending, tmp_path, capsys, monkeypatch):
             os.kill(os.getpid(), signal.SIGINT)
         return made(self, *given)
 
-    monkeypatch.setattr(of_parts.Many, "_part", interrupted)
+    monkeypatch.setattr(of_parts.Many, "_follow", interrupted)
     before = signal.getsignal(signal.SIGINT)
     out = tmp_path / f"e{ending}"
     asked = ["--t", "1", "--ensemble", "40", *OPTIONS, "--out", str(out)]
@@ -217,6 +217,17 @@ def test_ctrl_c_keeps_what_is_done(ending, tmp_path, capsys, monkeypatch):
     assert np.isfinite(e.states[done]).all()
     assert {*e.status[~done].tolist()} <= {-1}
     assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_the_bits_are_no_matter_of_time(so3, monkeypatch):
+    """Some motions have no body, some end on the way: what is beside the others stays the same."""
+    vary = {"zeta_1": (0, 1), "J_11": ("normal", 0.2, 1)}
+    asked = {"ensemble": 600, "vary": vary, "points": 3, "seed": 3}
+    whole = so3.simulate(2.0, **asked)
+    assert {*whole.status.tolist()} == {0, 1}
+    monkeypatch.setattr("os.cpu_count", lambda: 1)
+    monkeypatch.setattr(of_parts, "SECONDS", 1e-9)
+    assert np.array_equal(so3.simulate(2.0, **asked).states, whole.states, equal_nan=True)
 
 
 LIMITED = """\

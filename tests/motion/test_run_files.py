@@ -1,10 +1,14 @@
 """A run, written and read: every bit, the same bytes, and what is no run."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from derive.command import simulating
+from derive.command.cli import main
+from derive.command.writing import WriteError, require_place
 from derive.motion.run import Column, Run
 from derive.motion.run_files import FORMATS, RunFileError, read, written
 from tests.support.needs import need
@@ -89,3 +93,44 @@ def test_a_csv_with_its_facts_in_the_first_line_is_read(tmp_path):
     path = tmp_path / "a.csv"
     path.write_text(f"{second}\n{first}\n{rest}", encoding="utf-8")
     assert read(path).table.tobytes() == TABLE.tobytes()
+
+
+@pytest.mark.parametrize("place", ["file/x.npz", "file/new/x.npz", "folder.npz"])
+@pytest.mark.parametrize("options", [[], ["--ensemble", "9", "--vary", "zeta_1=0:1"]])
+def test_a_place_that_cannot_be_is_told_before_the_run(
+    tmp_path, capsys, monkeypatch, place, options
+):
+    def never(*_, **__):
+        raise AssertionError("it has begun")
+
+    for name in ("derive", "run", "command_ensemble"):
+        monkeypatch.setattr(simulating, name, never)
+    (tmp_path / "file").write_text("a file")
+    (tmp_path / "folder.npz").mkdir()
+    out = tmp_path / place
+    assert main(["simulate", "so3", "--t", "1", *options, "--out", str(out)]) == 2
+    text, err = capsys.readouterr()
+    assert (text, err.count("\n")) == ("", 1)
+    assert err.startswith(f"derive: {out}: ")
+    assert "choose another --out" in err
+    assert sorted(x.name for x in tmp_path.rglob("*")) == ["file", "folder.npz"]
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="there is no /proc")
+@pytest.mark.parametrize("option", ["--out", "--html"])
+def test_a_folder_that_takes_no_file_is_told(capsys, option):
+    file = "/proc/x.npz" if option == "--out" else "/proc/x.html"
+    assert main(["simulate", "so3", "--t", "1", option, file]) == 2
+    text, err = capsys.readouterr()
+    assert (text, err.count("\n")) == ("", 1)
+    assert err.startswith(f"derive: {file}: ")
+
+
+def test_a_place_that_can_be_is_left_as_it_is(tmp_path):
+    (tmp_path / "old.npz").write_text("old")
+    for name in ("new.npz", "new/folder/x.npz", "old.npz"):
+        require_place(tmp_path / name)
+    assert [x.name for x in tmp_path.iterdir()] == ["old.npz"]
+    assert (tmp_path / "old.npz").read_text() == "old"
+    with pytest.raises(WriteError, match="Not a directory"):
+        require_place(tmp_path / "old.npz" / "x.npz")

@@ -8,8 +8,8 @@ import tomllib
 import pytest
 
 from derive.command.loading import READY, ready_made
+from derive.problem.followed_names import numbers_followed
 from derive.problem.toml import problem_of
-from playground.python.starts import names
 from playground.stage import schema
 from tests.playground.test_playground import PENDULUM, typed
 from tests.support.flows import emitted
@@ -345,7 +345,7 @@ def test_names_of_the_start_are_the_emitted_ones(name):
     if problem.group is None:
         pytest.skip("no code: it has no matrices")
     code = emitted(name)
-    told = names(problem)
+    told = numbers_followed(problem, problem.group)
     assert {*code.STATE, *code.INPUTS} <= {*told}
     own = [x for x in code.STATE if x.startswith(("zeta_", "w_"))]
     assert [x for x in told if x.startswith(("zeta_", "w_"))] == own

@@ -152,6 +152,7 @@ KEPT = {
     "playground/test_playground_writing.py::test_names_of_the_start_are_the_emitted_ones": 2,
     "plot/test_pictures.py::test_every_kind_has_the_same_bytes_twice": 1,
     "problem/test_bad_problems.py::test_hostile_files_cost_little": 6,
+    "problem/test_followed_names.py::test_they_are_those_of_the_emitted_code": 12,
     "problem/test_hints.py::test_a_negative_stiffness": 3,
     "problem/test_kinds.py::test_a_record_of_another_form_is_refused": 10,
     "problem/test_kinds.py::test_an_example_holds": 1,

@@ -1,0 +1,53 @@
+"""Which names of [initial] and [[event]] does the state of a problem lack?  Told with the walk: a
+program, which would refuse them, takes seconds to make."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..algebra.groups import Group
+from ..language.expression import names
+from ..language.suffixed import suffixed
+from .problem import Problem
+from .state_names import entries, known_in_lagrangian, state_names
+
+
+def faults(problem: Problem) -> Iterator[str]:
+    """A line for each name that the state has not; none where no names are known, as of a torus."""
+    if problem.group is None:
+        return
+    known = numbers_followed(problem, problem.group)
+    for name in problem.initial.numbers:
+        if name not in known:
+            yield f"initial, {name[:40]}: the state has no such number; it has {entries(known)}"
+    watched = {*known, *known_in_lagrangian(problem.group, problem.advected), *problem.parameters}
+    for k, event in enumerate(problem.events, 1):
+        for name in dict.fromkeys(names(event.when)):
+            if name not in watched:
+                yield f"event {k}, when: the state has no {name[:40]}; it has {entries(known)}"
+
+
+def numbers_followed(problem: Problem, group: Group) -> list[str]:
+    """The numbers of the state, those of g that never change among them, and of the inputs."""
+    if problem.lagrangian is None:
+        return [*of_points(group), *_inputs(problem, group)]
+    held = {"t"} | {suffixed("zeta", a) for a in problem.lagrangian.held}
+    known = known_in_lagrangian(group, problem.advected)
+    return [*(x for x in known if x not in held), *_inputs(problem, group)]
+
+
+def of_points(group: Group) -> list[str]:
+    """Those of the state of a body of points: with translations the last n of the velocity are
+    w."""
+    shift = {}
+    if group.free_translations:
+        turns = group.dimension - group.n
+        shift = {suffixed("zeta", turns + i): suffixed("w", i) for i in range(1, group.n + 1)}
+    return [shift.get(x, x) for x in state_names(group) if x != "t"]
+
+
+def _inputs(problem: Problem, group: Group) -> Iterator[str]:
+    """Those of the inputs: one for each coordinate of 𝔤, or of the space of a force."""
+    for x in problem.inputs:
+        count = group.dimension if x.kind == "covector" else group.n
+        yield from (suffixed(x.name, i) for i in range(1, count + 1))
