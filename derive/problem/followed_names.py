@@ -21,6 +21,7 @@ def faults(problem: Problem) -> Iterator[str]:
         if name not in known:
             yield f"initial, {name[:40]}: the state has no such number; it has {entries(known)}"
     watched = {*known, *known_in_lagrangian(problem.group, problem.advected), *problem.parameters}
+    watched |= of_other_forms(problem.group)
     for k, event in enumerate(problem.events, 1):
         for name in dict.fromkeys(names(event.when)):
             if name not in watched:
@@ -44,6 +45,12 @@ def of_points(group: Group) -> list[str]:
         turns = group.dimension - group.n
         shift = {suffixed("zeta", turns + i): suffixed("w", i) for i in range(1, group.n + 1)}
     return [shift.get(x, x) for x in state_names(group) if x != "t"]
+
+
+def of_other_forms(group: Group) -> set[str]:
+    """Those of the state in a form that can be emitted beside: dg/dt, a quaternion."""
+    found = {f"{x}_dot" for x in state_names(group) if x[:2] in ("A_", "T_")}
+    return found | ({f"q_{k}" for k in range(4)} if group.turns_space else set())
 
 
 def _inputs(problem: Problem, group: Group) -> Iterator[str]:

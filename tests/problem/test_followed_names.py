@@ -42,6 +42,17 @@ def test_they_are_those_of_the_emitted_code(name):
     assert [*faults(problem)] == []
 
 
+@pytest.mark.parametrize(
+    ("form", "when"),
+    [(["--attitude", "quaternion"], "q_2 - w"), (["--velocity", "tangent"], "A_12_dot - w")],
+)
+def test_names_of_another_form_of_the_state_are_not_told(told, tmp_path, form, when):
+    text = f'{FILE}[[event]]\nname = "e"\nwhen = "{when}"\n'
+    emit = ("emit", "--lang", "c", "--step", "gauss", "--out", str(tmp_path))
+    assert told(text, *emit, *form) == (0, "")
+    assert told(text, *emit)[0] == 2
+
+
 @pytest.mark.parametrize("command", [["walk"], ["emit", "--out"]])
 @pytest.mark.parametrize(
     ("text", "words"),
