@@ -61,6 +61,10 @@ def first_numbers(
     _known(zero, numbers, f"{program.name}, [initial],")
     element = _at(problem, program, exponent if len(exponent) else stated)
     if len(exponent):
+        if twice := [name for name in element if name in given]:
+            raise MotionError(
+                f"{program.name}: exp and {twice[0]} both say where the body is: leave out one"
+            )
         numbers = {name: x for name, x in numbers.items() if name not in element}
     values |= element | numbers | dict(given)
     missing = [name for name, value in values.items() if value is None]

@@ -14,6 +14,7 @@ from ..code.emit import problem_hash
 from ..code.program import Program
 from ..problem.problem import Problem
 from ..record.record import Derivation
+from .driven import TIME, drives
 from .first_numbers import MotionError, first_numbers
 from .run import Array, Run
 from .run_files import known, read
@@ -79,7 +80,9 @@ def continued(run: Run, problem: Problem, record: Derivation) -> tuple[dict[str,
         raise MotionError("a run of no instants")
     facts, state = run.facts, {x: float(a[-1]) for x, a in run.of_kind("state").items()}
     if facts.get("hash") == problem_hash(record):
-        return {**facts.get("parameters", {}), **facts.get("inputs", {}), **state}, ""
+        again = "its equations depend on t, which begins again at 0"
+        told = again if TIME in drives(record.problem or {}, {}) else ""
+        return {**facts.get("parameters", {}), **facts.get("inputs", {}), **state}, told
     other, group = facts.get("problem", "?"), facts.get("group", "?")
     whose = f"a run of {other!r}, not of {problem.name!r}"
     if other == problem.name:

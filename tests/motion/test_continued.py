@@ -109,6 +109,27 @@ def test_a_run_in_python_goes_on_as_its_file():
     assert (held["J_11"], held["zeta_1"]) == (2.0, run["zeta_1"][-1])
 
 
+def test_a_time_that_begins_again_is_told(simulate, tmp_path):
+    at = ("[1, 0, 0]", "[0, 2, 0]", "[0, 0, 3]")
+    text = 'name = "timed"\ngroup = "SO(3)"\n'
+    text += "".join(f"[[point]]\nmass = 1\nat = {x}\n" for x in at)
+    text += '[[potential]]\nkind = "expression"\nU = "r1_z*cos(t)"\n[initial]\nzeta_3 = 1\n'
+    path = tmp_path / "first.npz"
+    run = simulate(text)[1]
+    path.write_bytes(written(run, path.name))
+    code, _, err = simulate(text, "--state", path)
+    assert (code, err.count("\n")) == (0, 1)
+    assert "depend on t, which begins again at 0" in err
+
+
+def test_a_place_that_is_said_twice_is_refused(simulate, first, capsys):
+    path = first[1]
+    own = path.with_name("p.toml")
+    assert main(["simulate", str(own), "--t", "1", "--state", str(path), "--exp", "0.5,0,0"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.endswith("exp and A_11 both say where the body is: leave out one")
+
+
 def test_a_run_of_no_instants_starts_nothing():
     d = derive.derive("so3")
     run = d.simulate(0.1, points=1)
