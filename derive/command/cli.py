@@ -137,7 +137,8 @@ def command_emit(args: argparse.Namespace) -> int:
         return 0
     if args.check:
         return checked(args)
-    problem, record = derive(args.problem, **allowed(args))
+    # steps refuse an event by a name that the state has not
+    problem, record = derive(args.problem, followed=bool(args.step), **allowed(args))
     asked = wanted(args, problem)
     compiled, files = made(problem, record, asked)
     if args.validate and not validated(files, files, record, compiled, asked):

@@ -9,6 +9,10 @@ from contextlib import contextmanager
 
 from ..language.limits import MESSAGE
 
+AGAIN = 0.1
+"""After so many seconds it is raised again: Python drops what is raised while it collects garbage,
+and at the end of an import."""
+
 
 class StoppedError(BaseException):
     """The time is over. Not an ``Exception``, so that nothing on the way catches it."""
@@ -37,8 +41,7 @@ def time_limit(seconds: float | None) -> Iterator[None]:
         raise over
 
     before = signal.signal(signal.SIGPROF, stop)
-    # and again each second: Python drops what is raised while it collects garbage
-    signal.setitimer(signal.ITIMER_PROF, seconds, 1)
+    signal.setitimer(signal.ITIMER_PROF, seconds, AGAIN)
     try:
         yield
     except Exception as error:

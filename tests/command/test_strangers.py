@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from time import process_time
 
 import pytest
 
@@ -116,6 +117,23 @@ def test_time_is_over_within():
     for _ in range(2):
         with pytest.raises(StoppedError, match=r"after 0\.01 s"), time_limit(0.01):
             all(True for _ in iter(int, 1))
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_what_is_dropped_while_an_object_goes_is_raised_again_soon():
+    class Going:
+        def __del__(self):
+            until = process_time() + 0.03
+            while process_time() < until:
+                pass
+
+    begun = process_time()
+    with pytest.raises(StoppedError), time_limit(0.01):
+        going = Going()
+        del going
+        while process_time() < begun + 10:
+            pass
+    assert 0.03 < process_time() - begun < 0.5
 
 
 @pytest.mark.parametrize("words", ["0", "-1", "nan", "inf", "x"])

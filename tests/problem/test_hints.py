@@ -147,7 +147,7 @@ def unhurried(problems):  # a list may be done before the clock of the machine t
     return ""
 
 derive.command.listing.listing = unhurried
-gc.disable()  # what is raised while it collects is raised again after a second only
+gc.disable()  # what is raised while it collects is dropped, and raised again later
 sys.exit(main([*sys.argv[1:], "--seconds", "0.0001"]))
 """
 """In a process of its own: where an import is stopped, a library stays half done."""
