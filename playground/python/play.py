@@ -87,7 +87,8 @@ class Play:
         self.path = FOLDER / f"{name_of(text)}.toml"
         self.path.write_text(text, encoding="utf-8")
         with inside(FOLDER):
-            self.problem, self.record = derive(self.path.name)
+            # names that the state has not are told with each walk, at their line
+            self.problem, self.record = derive(self.path.name, followed=True)
 
     def walk(self, text: str, lang: str) -> None:
         """The walk as the HTML of ``derive walk FILE --format html --fragment``, piece by piece."""
