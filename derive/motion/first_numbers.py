@@ -61,9 +61,10 @@ def first_numbers(
     _known(zero, numbers, f"{program.name}, [initial],")
     element = _at(problem, program, exponent if len(exponent) else stated)
     if len(exponent):
-        if twice := [name for name in element if name in given]:
+        if all(name in given for name in element):
+            first = next(iter(element))
             raise MotionError(
-                f"{program.name}: exp and {twice[0]} both say where the body is: leave out one"
+                f"{program.name}: exp and {first}, … both say where the body is: leave out one"
             )
         numbers = {name: x for name, x in numbers.items() if name not in element}
     values |= element | numbers | dict(given)

@@ -236,12 +236,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "{name}, une force à l’origine du corps, dans le repère du corps",
         ),
         "space_force": (
-            "{name}, a force at r_{point}, in the space frame",
-            "{name}, une force en r_{point}, dans le repère de l’espace",
+            "{name}, a force at {point}, in the space frame",
+            "{name}, une force en {point}, dans le repère de l’espace",
         ),
         "body_force": (
-            "{name}, a force at r_{point}, in the body frame",
-            "{name}, une force en r_{point}, dans le repère du corps",
+            "{name}, a force at {point}, in the body frame",
+            "{name}, une force en {point}, dans le repère du corps",
         ),
     },
 }

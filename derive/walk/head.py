@@ -103,4 +103,4 @@ def _inputs(problem: Problem, *, vectors: bool) -> Prose:
 
 def _force(given: ForceInput) -> Sentence:
     """A force that is given at every call, in words."""
-    return phrase(f"input.{given.frame}_force", name=given.name, point=str(given.on))
+    return phrase(f"input.{given.frame}_force", name=given.name, point=f"r_{given.on}")

@@ -127,7 +127,7 @@ def test_a_place_that_is_said_twice_is_refused(simulate, first, capsys):
     own = path.with_name("p.toml")
     assert main(["simulate", str(own), "--t", "1", "--state", str(path), "--exp", "0.5,0,0"]) == 2
     (line,) = capsys.readouterr().err.splitlines()
-    assert line.endswith("exp and A_11 both say where the body is: leave out one")
+    assert line.endswith("exp and A_11, … both say where the body is: leave out one")
 
 
 def test_a_run_of_no_instants_starts_nothing():
