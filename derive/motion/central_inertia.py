@@ -1,40 +1,41 @@
-"""The tensor of inertia by which a body turns that is free in space."""
+"""The tensor of inertia by which a body turns that is free in space, as the walk tells it."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
 
-from ..language.tree import Tree
-from ..language.values import approximate
-from ..problem.problem import Problem
+from ..language import rational as q
+from ..language.tree import Tree, replaced
+from ..language.values import approximate, value
+from ..record.record import Derivation
+from ..schema.body_kinds import Body
 from .run import Array
 
-
-class Centre(NamedTuple):
-    """The mass m and the first moment c of a body, trees in its parameters."""
-
-    m: Tree
-    c: tuple[Tree, ...]
-
-    def inertia(self, about_origin: Array, numbers: Mapping[str, float]) -> Array | None:
-        """The tensor about the centre of mass, (3, 3), of that about the origin, by Steiner's
-        theorem; ``None`` where there is no mass or no number."""
-        found = [approximate(x, numbers, float) for x in (self.m, *self.c)]
-        if any(x is None for x in found) or not found[0]:
-            return None
-        m, *c = np.array(found, float)
-        tensor: Array = about_origin - (np.dot(c, c) * np.eye(3) - np.outer(c, c)) / m
-        return tensor
+UNIT = "1"
 
 
-def centre_of(problem: Problem) -> Centre | None:
-    """Where the body of a problem is that also moves freely from place to place; ``None`` where its
-    group does not have all translations, or there is no such body."""
-    body, group = problem.body, problem.group
-    if body is None or group is None or not (group.affine and group.turns_space):
+def central_inertia(record: Derivation, body: Body, numbers: Mapping[str, float]) -> Array | None:
+    """I_c, (3, 3), by the equations of a record for J_c and for it; ``None`` where that has none,
+    as on SO(3), and for a body without mass."""
+    told = [(x, record.definition(x)) for x in ("J_c", "I_c")]
+    if not all(found for _, found in told):
         return None
+
+    def number(t: Tree) -> float | None:
+        return approximate(t, numbers, float)
+
     own = body.moments()
-    return Centre(own.m, own.c)
+    known = {
+        UNIT: q.identity(3),
+        "m": number(own.m),
+        "c": tuple((number(x),) for x in own.c),
+        "J": tuple(tuple(map(number, row)) for row in own.J),
+    }
+    if not known["m"]:
+        return None
+    for x, found in told:
+        assert found
+        known[x] = value(replaced(found[1].rhs, ("one",), UNIT), known, number=float)
+    return np.array(known["I_c"], float)

@@ -1,4 +1,4 @@
-"""What changes the energy of a motion, which is kept where nothing does."""
+"""What changes the energy of a motion, or the kinetic energy, which is kept where nothing does."""
 
 from __future__ import annotations
 
@@ -14,6 +14,21 @@ def drives(problem: Mapping[str, Any], inputs: Mapping[str, float]) -> list[str]
     timed = _timed([problem.get(x) for x in ("potentials", "lagrangian")])
     there = {DAMPING: problem.get("damping"), TIME: timed, INPUTS: any(inputs.values())}
     return [what for what, is_there in there.items() if is_there]
+
+
+def is_free(problem: Mapping[str, Any]) -> bool:
+    """Does a motion keep the kinetic energy, as nothing can act on the body?"""
+    acting = any(problem.get(x) for x in ("potentials", "inputs", "damping"))
+    return not acting and not _placed(problem.get("lagrangian"))
+
+
+def _placed(data: Any) -> bool:
+    """Does what tells where a body is stand in ℓ, an entry of g or of a vector that it carries?"""
+    if isinstance(data, dict):
+        return any(map(_placed, data.values()))
+    if not isinstance(data, list | tuple):
+        return False
+    return ([*data[:1]] == ["entry"] and data[1] != "ζ") or any(map(_placed, data))
 
 
 def _timed(data: Any) -> bool:

@@ -19,11 +19,11 @@ from ..native.library import FLAGS, CSource, loaded, over_cores
 from ..native.motion_in_c import Motion, binding, binding_to_events
 from ..problem.problem import Problem
 from ..record.record import Derivation
-from ..schema.body_kinds import GivenBody
+from ..schema.body_kinds import Body, GivenBody
 from ..schema.followed import Event
 from ..schema.lagrangian_kinds import Lagrangian
 from .body_outline import outline
-from .central_inertia import Centre, centre_of
+from .central_inertia import central_inertia
 from .effective_well import OneDegree
 from .emitted_code import EmittedCode, in_si
 from .motion_in_python import MotionInPython
@@ -47,7 +47,7 @@ class Emitted(EmittedCode):
     left: OneDegree | None = None
     order: str = ""
     lagrangian: Lagrangian | None = None
-    centre: Centre | None = None
+    solid: Body | None = None
 
     @classmethod
     def of(
@@ -72,8 +72,7 @@ class Emitted(EmittedCode):
             "filled": isinstance(problem.body, GivenBody) and bool(problem.body.solids),
         }
         si, events, stated = in_si(problem), problem.events, problem.lagrangian
-        centre = centre_of(problem)
-        return cls(program, record, si, step, facts, events, left, order, stated, centre)
+        return cls(program, record, si, step, facts, events, left, order, stated, problem.body)
 
     @property
     def options(self) -> Options:
@@ -132,11 +131,9 @@ class Emitted(EmittedCode):
         stated = self.record.problem
         found = outline(stated, numbers) if stated else {}
         if "inertia" in self.program.functions:
+            central = central_inertia(self.record, self.solid, numbers) if self.solid else None
             about_origin = np.asarray(self.python.inertia(p), dtype=float)
-            tensor: Array | None = about_origin
-            if self.centre:
-                tensor = self.centre.inertia(about_origin, numbers)
-            found["inertia"] = [] if tensor is None else tensor.tolist()
+            found["inertia"] = (about_origin if central is None else central).tolist()
         elif self.lagrangian and self.program.group in ("SO(3)", "SE(3)"):
             tensor = inertia_of(self.lagrangian, numbers)
             found["inertia"] = [] if tensor is None else tensor.tolist()

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..code.emit import emit
 from ..code.options import Options
 from ..language.greek import GREEK
 from ..language.templating import environment, folder
-from ..motion.driven import drives
+from ..motion.driven import drives, is_free
 from ..motion.emitted_code import EmittedCode
 from ..motion.first_numbers import FirstNumbers
 from ..motion.kept_words import in_words
@@ -208,7 +208,7 @@ def data(
     units = {x.name: x.unit for x in code.columns()}
     words = {x: language.word(WORDS[x]) for x in WORDS if x not in unsaid}
     if body["turns"]:
-        words["polhode"] = language.word(WORDS["ellipsoid" if _free(record.problem) else "now"])
+        words["polhode"] = language.word(WORDS["ellipsoid" if is_free(record.problem) else "now"])
     if made.inputs:
         words["kept"] = language.word("What is kept without inputs")
     if group is not None and group.name.startswith(("SL(", "SAff(")) and "defect" in words:
@@ -243,21 +243,6 @@ def _turns(E: Sequence[Sequence[Any]]) -> bool:
     """Is a matrix of the basis antisymmetric?"""
     span = range(len(E))
     return all(E[i][j] + E[j][i] == 0 for i in span for j in span)
-
-
-def _free(problem: Mapping[str, Any]) -> bool:
-    """Does the motion keep the kinetic energy, as nothing acts on the body?"""
-    acting = any(problem.get(x) for x in ("potentials", "inputs", "damping"))
-    return not acting and not _placed(problem.get("lagrangian"))
-
-
-def _placed(data: Any) -> bool:
-    """Does what tells where a body is stand in ℓ, an entry of g or of a vector that it carries?"""
-    if isinstance(data, dict):
-        return any(map(_placed, data.values()))
-    if not isinstance(data, list | tuple):
-        return False
-    return (data[:1] == ["entry"] and data[1] != "ζ") or any(map(_placed, data))
 
 
 def _meaning(name: str, record: Derivation, language: Language) -> str:

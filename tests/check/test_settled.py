@@ -3,6 +3,8 @@
 from fractions import Fraction
 from random import Random
 
+import pytest
+
 from derive.algebra.families import group
 from derive.check.elementary_values import ElementaryValues
 from derive.check.evaluate import Environment, evaluate
@@ -11,7 +13,8 @@ from derive.check.lagrangian.settled import settled
 from derive.check.locus import Locus
 from derive.language.read import read
 from derive.language.tree import nodes
-from derive.record.tree_data import encode
+from derive.record.record import RecordError
+from derive.record.tree_data import decode, encode
 
 MOMENT = ("add", ("pow", ("fun", "sin", ("mul", Fraction(1, 3), "π")), 2), ("par", "a"))
 """(sin π/3)² + a: of a problem, and of nothing that moves."""
@@ -31,7 +34,9 @@ def environment(**names):
 def test_equal_parts_have_one_name_and_the_value_is_the_same():
     of_the_problem = environment()
     tree, known = settled(L, of_the_problem)
-    assert len(known) == 1
+    (name,) = known
+    with pytest.raises(RecordError, match="a name may not be"):
+        decode(name, "L")
     assert [x for x in nodes(tree) if x in (("par", "a"), "π")] == []
     column = tuple((Fraction(x),) for x in (2, 3, 7))
     at = environment(t=Fraction(11), ζ=column)

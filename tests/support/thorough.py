@@ -149,7 +149,7 @@ KEPT = {
     "playground/test_playground_page.py::test_files_of_strangers_end_in_a_line": 1,
     "playground/test_playground_page.py::test_screen_readers_and_contrast": 1,
     "playground/test_playground_page.py::test_texts_are_never_markup": 1,
-    "playground/test_playground_writing.py::test_names_of_the_start_are_the_emitted_ones": 2,
+    "playground/test_playground_writing.py::test_names_of_the_velocity_are_the_emitted_ones": 2,
     "plot/test_pictures.py::test_every_kind_has_the_same_bytes_twice": 1,
     "problem/test_bad_problems.py::test_hostile_files_cost_little": 6,
     "problem/test_followed_names.py::test_they_are_those_of_the_emitted_code": 12,

@@ -13,7 +13,8 @@ from ..evaluate import Environment, evaluate
 
 def settled(t: Tree, env: Environment) -> tuple[Tree, dict[str, Value]]:
     """The tree with a name for each of its largest parts that speak of parameters, numbers and
-    names of ``env`` alone, and the values of these names; equal parts have one name.
+    names of ``env`` alone, and the values of these names, which no record can have; equal parts
+    have one name.
     """
     named: dict[Tree, str] = {}
 
@@ -21,7 +22,7 @@ def settled(t: Tree, env: Environment) -> tuple[Tree, dict[str, Value]]:
         if not isinstance(x, tuple) or x[0] == "par":
             return x
         if is_settled(x, env):
-            return named.setdefault(x, f"part {len(named) + 1}")
+            return named.setdefault(x, f"\0{len(named)}")
         return (x[0], *map(short, x[1:]))
 
     tree = short(t)
