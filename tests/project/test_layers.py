@@ -13,7 +13,7 @@ ALLOWED = {
     "algebra": {"algebra", "language"},
     "schema": {"schema", "language"},
     "problem": {"problem", "schema", "algebra", "language"},
-    "record": {"record", "schema", "language"},
+    "record": {"record", "prose", "schema", "language"},
     "walk": {"walk", "prose", "record", "problem", "schema", "algebra", "language"},
     "integrals": {"integrals", "walk", "record", "problem", "algebra", "language"},
     "equilibria": {"equilibria", "integrals", "walk", "record", "language"},
