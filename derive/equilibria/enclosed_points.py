@@ -22,11 +22,11 @@ from fractions import Fraction
 from typing import Any
 
 from ..integrals.all_integrals import Found
-from ..integrals.lie_poisson import LiePoisson, Polynomial
+from ..integrals.lie_poisson import LiePoisson, Polynomial, plain
 from ..language import rational as q
 from ..language.quadratic import Number, Quadratic
 from .energy_casimir import diagonalised, signs
-from .entries_of_elements import Minor, numbers
+from .entries_of_elements import Line, numbers
 from .equilibrium_points import (
     About,
     Elements,
@@ -251,10 +251,10 @@ def near_the_group(
     levels = [{**f, one: f.get(one, 0) - c} for f, c in zip(kept, level, strict=True)]
     at = [Ball(rational(x), radius) for x in about.at]
     return all(
-        x.sufficient
+        (x.sufficient or (x.open and x.attained(about.at) and invertible(_balls(x.entries, at))))
         and all(_spanned(f, group_value(about.system, f, Fraction(0)), levels) for f in x.constant)
-        and all(independent(_balls(m, at)) for m in x.independent)
-        and all(determinant(_balls(m, at)).positive for m in x.positive)
+        and all(independent(_balls(m.matrix, at)) for m in x.independent)
+        and all(determinant(_balls(m.matrix, at)).positive for m in x.positive)
         for x in on
     )
 
@@ -264,19 +264,24 @@ def _spanned(f: Polynomial, value: Number, levels: Sequence[Polynomial]) -> bool
     one = (0,) * len(next(iter(f)))
     every = [*levels, {**f, one: f.get(one, 0) - value}]
     monomials = {m for g in every for m in g}
-    rows = [[Fraction(str(g.get(m, 0))) for m in monomials] for g in every]
+    rows = [[Fraction(plain(g.get(m, 0))) for m in monomials] for g in every]
     return q.rank(q.matrix(rows)) == q.rank(q.matrix(rows[:-1]))
 
 
-def _balls(minor: Minor, at: Sequence[Ball]) -> Balls:
-    return [[*row] for row in numbers(minor.matrix, at, lambda c: Ball(Fraction(c)))]
+def _balls(matrix: Sequence[Line], at: Sequence[Ball]) -> Balls:
+    return [[*row] for row in numbers(matrix, at, lambda c: Ball(Fraction(c)))]
 
 
 def independent(rows: Balls) -> bool:
     """Are the rows surely independent?"""
     pivots = q.echelon(q.matrix([[x.mid for x in row] for row in rows]))[1]
-    found = determinant([[row[j] for j in pivots] for row in rows])
-    return len(pivots) == len(rows) and abs(found.mid) > found.off
+    return len(pivots) == len(rows) and invertible([[row[j] for j in pivots] for row in rows])
+
+
+def invertible(a: Balls) -> bool:
+    """Is a square matrix surely invertible?"""
+    found = determinant(a)
+    return abs(found.mid) > found.off
 
 
 def determinant(a: Balls) -> Ball:

@@ -54,6 +54,12 @@ class Conditions:
     factor: Group
     kept: Relations
 
+    @property
+    def open(self) -> bool:
+        """Is the factor open in the affine hull of its matrices?"""
+        kept = self.kept
+        return not (kept.form or kept.determinant) and kept.dimension == self.factor.dimension
+
     def attained(self, at: Sequence[Any]) -> bool:
         """Has an element these entries, which are not refuted?  True is proved."""
         if self.sufficient:
