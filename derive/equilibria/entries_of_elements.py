@@ -194,8 +194,8 @@ class _Reader:
     def _named(self, what: str, places: Sequence[int], matrix: Sequence[Line]) -> Minor:
         listed = ", ".join(str(i + 1 + self.offset) for i in places)
         if len(places) > 1:
-            return Minor(matrix, f"the {what}s {listed} of g would be dependent")
-        return Minor(matrix, f"the {what} {listed} of g would be 0")
+            return Minor(matrix, f"{what}s {listed} of g would be dependent")
+        return Minor(matrix, f"{what} {listed} of g would be 0")
 
     def _scales(self, j: int) -> bool:
         """Is the unit vector e_j, as a row or a column, an eigenvector of all of 𝔥?"""
