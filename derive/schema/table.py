@@ -101,6 +101,7 @@ dimension of the space, which the group says."""
 
 First = Annotated[Row, Key("first", 1, trees=True, keys=("c", "centre"))]
 Second = Annotated[Rows, Key("second", 2, trees=True, keys=("J", "I", "I_centre"))]
+Central = Annotated[bool, Key("central", keys=("I_centre",), told=False)]
 Length = Annotated[Tree, Key("length", trees=True)]
 Inner = Annotated[Tree, Key("length", trees=True, zero=True)]
 Density = Annotated[Tree, Key("layered", trees=True)]
@@ -112,9 +113,10 @@ Vertices = Annotated[tuple[tuple[Fraction, ...], ...], Key("vertices", 2, keys=(
 Faces = Annotated[tuple[tuple[int, ...], ...], Key("faces", 2, keys=("file",))]
 Turn = Annotated[Rows | None, Key("turn", 2, trees=True, null=True)]
 Shift = Annotated[Row | None, Key("shift", 1, trees=True, null=True)]
-"""Moments of a body, and of solids in R³ the sizes: lengths, positive, one or three; a density, of
-an ellipsoid or a ball a polynomial in the level s of a place; a symmetric matrix; four corners;
-what the file of a mesh has.  A rotation and a vector of R³, or none."""
+"""Moments of a body, and whether a file says them about its centre; of solids in R³ the sizes:
+lengths, positive, one or three; a density, of an ellipsoid or a ball a polynomial in the level s of
+a place; a symmetric matrix; four corners; what the file of a mesh has.  A rotation and a vector of
+R³, or none."""
 
 Name = Annotated[str, Key("name")]
 Letters = Annotated[str, Key("letters")]

@@ -14,6 +14,7 @@ from derive.language.values import approximate
 from derive.motion.run import Column, Run
 from derive.motion.run_files import written
 from derive.problem.data import data
+from derive.problem.doubts import doubts
 from derive.problem.problem import ProblemError
 from derive.problem.toml import load
 from derive.python.api import Table
@@ -302,7 +303,7 @@ def test_numbers_of_a_drawing_program(tmp_path, capsys):
         )
         assert main(["walk", str(path)]) == 0
         told = capsys.readouterr().err
-        assert bool(re.search("warning: .*part.toml: body, given: no masses", told)) == warned
+        assert bool(re.search("warning: .*part.toml: body: no masses", told)) == warned
         assert ("then write centre and I_centre" in told) == warned
 
 
@@ -311,6 +312,91 @@ def test_no_word_on_moments_that_are_impossible_in_both_ways():
         Problem("b", SE(3), Moments(m=2, c=FAR, I=np.diag([1, 1, 5])))
     assert "no masses have these moments" in str(caught.value)
     assert "I_centre" not in str(caught.value)
+
+
+def plate(seed, digits):
+    """m, the centre and I about it, of points in a plane, with so many digits."""
+    rng = np.random.default_rng(seed)
+    points = (
+        rng.normal(size=(6, 3))
+        @ np.diag([1.0, 0.6, 0.0])
+        @ np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    )
+    points += rng.normal(size=3)
+    masses = rng.uniform(0.1, 1, size=6)
+    m = masses.sum()
+    r = points - (centre := masses @ points / m)
+    J = np.einsum("i,ij,ik->jk", masses, r, r)
+    tensor = np.trace(J) * np.eye(3) - J
+    return m, *([[float(f"{y:.{digits}g}") for y in np.ravel(x)]] for x in (centre, tensor))
+
+
+@pytest.mark.parametrize("digits", [4, 16])
+@pytest.mark.parametrize("symbolic", [False, True])
+def test_flat_bodies_in_few_digits_are_bodies(digits, symbolic):
+    """None of them is told to be of no masses, whether its numbers are written or are defaults."""
+    for seed in range(12):
+        m, (centre,), (tensor,) = plate(seed, digits)
+        values = {f"i{j}{k}": tensor[3 * j + k] for j in range(3) for k in range(j, 3)}
+        rows = [[f"i{min(j, k)}{max(j, k)}" for k in range(3)] for j in range(3)]
+        if not symbolic:
+            rows, values = [[values[x] for x in row] for row in rows], {}
+        body = Moments(m=m, centre=centre, I_centre=rows)
+        assert not [*doubts(Problem("plate", SE(3), body, parameters=values), {})]
+
+
+IMPOSSIBLE = "no masses have these moments: J − c c̄/m must be positive"
+
+
+@pytest.mark.parametrize(
+    ("group", "moments", "told"),
+    [
+        ("SE(3)", {"c": [0, 0, 0], "I": np.diag([0.33, 0.21, 1.0])}, "1 is above 0.54"),
+        # far from the origin, and said as it must be: nothing else to write
+        ("SE(3)", {"centre": FAR, "I_centre": np.diag([0.33, 0.21, 1.0])}, "1 is above 0.54"),
+        ("SE(3)", {"centre": FAR, "I_centre": np.diag([0.5, 0.5, 1.003])}, "1.003 is above 1"),
+        ("SO(3)", {"c": [0, 0, 0], "I": np.diag([-1e-4, 1, 1])}, "1 is above 0.9999"),
+        # stretched along an axis, a body has kinetic energy by that moment alone
+        ("SL(3)", {"c": [0, 0, 0], "J": np.diag([1, 1, -1e-4])}, "2 is above 1.9998"),
+        ("SE(2)", {"c": [0, 0], "J": np.diag([1, -0.25])}, "eigenvalue -0.25"),
+    ],
+)
+def test_impossible_moments_with_their_numbers(group, moments, told, tmp_path, capsys):
+    with pytest.raises(ProblemError, match=IMPOSSIBLE) as caught:
+        Problem("b", group, Moments(m=2, **moments))
+    assert told in str(caught.value)
+    assert "I_centre" not in str(caught.value)
+    (first, c), (second, tensor) = moments.items()
+    least = tensor[-1][-1] if tensor[0][0] > 0 else tensor[0][0]
+    rows = [[("x" if x == least else float(x)) for x in row] for row in np.asarray(tensor)]
+    problem = Problem("b", group, Moments(m=2, **{first: c, second: rows}), parameters={"x": least})
+    (doubt,) = doubts(problem, {})
+    assert IMPOSSIBLE in doubt
+    assert told in doubt
+    assert not [*doubts(problem, {"x": 0.5})]
+
+
+def test_every_command_tells_impossible_moments(tmp_path, capsys):
+    path = tmp_path / "part.toml"
+    path.write_text(
+        'name = "part"\ngroup = "SO(3)"\n[parameters]\nC = 0.4\n[body]\n'
+        'given = { m = 2, c = [0, 0, 0], I = [[0.33, 0, 0], [0, 0.21, 0], [0, 0, "C"]] }\n'
+    )
+    simulate = ["simulate", str(path), "--t", "0.1", "--dt", "0.1", "--step", "rk4"]
+    assert main(simulate) == 0
+    assert IMPOSSIBLE not in capsys.readouterr().err
+    assert main([*simulate, "--set", "C=1"]) == 0
+    assert IMPOSSIBLE in capsys.readouterr().err
+    path.write_text(path.read_text().replace("0.4", "1"))
+    for command in (
+        ["check"],
+        ["integrals"],
+        ["equilibria"],
+        ["walk", "--discrete"],
+        ["reduction"],
+    ):
+        assert main([command[0], str(path), *command[1:]]) == 0
+        assert IMPOSSIBLE in capsys.readouterr().err
 
 
 def test_a_centre_that_is_too_long(tmp_path):
