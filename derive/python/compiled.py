@@ -19,6 +19,7 @@ import numpy as np
 
 from ..code.emit import emit
 from ..code.languages import LANGUAGES
+from ..code.naming import own_prefix
 from ..code.options import ADDED, CHOICES, DEPENDENT, REPEATED, Options
 from ..code.program import Block, Program
 from ..code.step.step_numbers import FIXED
@@ -457,7 +458,7 @@ def compile(
     if options.real != "double" or options.form != "source":
         raise ProblemError("compile: the library is of double from sources; leave out real, form")
     made_of = program(derived.problem, derived.record, options)
-    name = derived.problem.name
+    name = own_prefix(derived.problem.name)
     files = emit(made_of, derived.record, ("c",), name, options)
     files["binding.c"] = BINDING.format(name=name)
     if options.moves:
