@@ -6,7 +6,7 @@ stranger's, and the word of Python.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields
 from fractions import Fraction
 from functools import cache
@@ -262,6 +262,11 @@ class Table:
             for x in _members(value, k.depth)
             for t in (x.trees() if isinstance(x, Table) else [x] if k.trees else [])
         ]
+
+
+def place(on: int | Sequence[Number], block: int | None) -> dict[str, Any]:
+    """The keys of a point by its number, or of a place of a body, of a block of a product."""
+    return {"on" if isinstance(on, int) else "at": on, "block": block}
 
 
 def _plain(value: Any, depth: int) -> Any:
