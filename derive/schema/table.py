@@ -169,12 +169,52 @@ OTHER_WORDS = {
     **dict.fromkeys(("world", "inertial"), "space"),
 }
 """What others call it."""
+ELSEWHERE = {
+    **dict.fromkeys(
+        ("com", "center_of_mass", "centre_of_mass"),
+        "the centre of mass is 'centre' in [body] given = { m, centre, I_centre }",
+    ),
+    **dict.fromkeys(
+        ("inertia", "moment_of_inertia", "inertia_tensor"),
+        "a tensor of inertia is 'I' or 'I_centre' in [body] given = { m, centre, I_centre }",
+    ),
+    **dict.fromkeys(
+        ("direction", "axis", "magnitude", "value"),
+        "a force has all its components at every call, in the axes of its 'frame'; the direction "
+        "of gravity is that of the vector 'g'",
+    ),
+    **dict.fromkeys(
+        ("torque", "moment", "wrench"), 'a torque is an [[input]] with kind = "covector"'
+    ),
+    **dict.fromkeys(
+        ("rpy", "roll", "pitch", "yaw", "euler", "orientation", "quaternion", "rotation"),
+        "a rotation is { axis, angle } or rows in a solid; a motion starts turned by 'exp' in "
+        "[initial]; --attitude quaternion is of emitted code",
+    ),
+    **dict.fromkeys(
+        ("constraint", "constraints", "joint", "joints", "nonholonomic", "rolling", "link"),
+        "what holds a body is its group, as SO(3) about a point or one of your own in [group]; "
+        "other constraints, joints between bodies and rolling are not here",
+    ),
+    **dict.fromkeys(
+        ("contact", "contacts", "collision", "impact", "friction", "restitution"),
+        "contacts, impacts and dry friction are not here: an [[event]] ends a motion where a body "
+        "would touch, [[damping]] is viscous",
+    ),
+}
+"""Where a word stands that is often tried, or that it is outside of all this."""
 
 
 def nearest(word: str, known: Collection[str]) -> str:
     """``; did you mean 'spring'?``, or nothing."""
     other = OTHER_WORDS.get(word, "")
     return did_you_mean(other if other in known else near_name(word, known), "; ")
+
+
+def hint(word: str, known: Collection[str]) -> str:
+    """Where a word stands that means nothing here, as of :data:`ELSEWHERE`; or else the nearest."""
+    away = word in ELSEWHERE and OTHER_WORDS.get(word) not in known
+    return f"; {ELSEWHERE[word]}" if away else nearest(word, known)
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True)
