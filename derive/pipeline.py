@@ -393,9 +393,11 @@ def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree
     """Name → what the motion keeps: by each symmetry, else by Casimirs and integrals up to degree
     4 of the reduced equations; of these what no symmetry gives stands beside symmetries, too."""
     from .integrals.integral_names import first_integrals
-    from .symmetries.found import symmetries_of
+    from .symmetries.found import kept_with_damping, symmetries_of
     from .symmetries.quantity_names import named
 
+    if problem.damping:
+        return named(kept_with_damping(problem, record))
     if problem.advected is not None:
         return first_integrals(problem)
     found = symmetries_of(problem, record, of_integrand=True)

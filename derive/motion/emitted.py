@@ -83,7 +83,7 @@ class Emitted(EmittedCode):
     def python(self) -> ModuleType:
         """The emitted module of Python."""
         module = ModuleType(self.name)
-        (text,) = emit(self.program, self.record, ("python",), self.name, self.options).values()
+        (text,) = emit(self.program, self.record, ("python",), self.prefix, self.options).values()
         exec(compile(text, f"{self.name}.py", "exec"), module.__dict__)  # our own templates
         return module
 
@@ -91,7 +91,7 @@ class Emitted(EmittedCode):
     def compiled(self) -> CDLL:
         """The emitted C as a library, whose iterations end at rounding, as those of the Python;
         ``CompileError`` where there is no compiler."""
-        name = self.name
+        name = self.prefix
         files = emit(self.program, self.record, ("c",), name, self.options)
         files["steps.c"] = binding(name, (self.step,), FIXED, events=bool(self.events))
         to_rounding = f"-D{name}_ENOUGH=0"
@@ -101,7 +101,7 @@ class Emitted(EmittedCode):
     def compiled_ensemble(self) -> CDLL:
         """The emitted C of many motions at once, over all cores where the compiler can; as
         ``compiled``.  Eight in lanes at a time or, to end at events, each by the step."""
-        name, step = self.name, self.step
+        name, step = self.prefix, self.step
         options = Options(ensemble=True, step=(step,) * bool(self.events))
         files = emit(self.program, self.record, ("c",), name, options)
         if self.events:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..code.naming import own_prefix
 from ..code.program import Program
 from ..problem.problem import Problem
 from ..record.record import Derivation
@@ -37,8 +38,13 @@ class EmittedCode:
 
     @property
     def name(self) -> str:
-        """The prefix of the emitted functions."""
+        """That of the problem, for messages."""
         return self.program.name
+
+    @property
+    def prefix(self) -> str:
+        """That of the emitted functions."""
+        return own_prefix(self.name)
 
     @property
     def kept(self) -> list[int]:

@@ -141,7 +141,7 @@ def style() -> str:
 def script(code: EmittedCode, record: Derivation, body: Data) -> str:
     """The emitted module, what mounts a motion, and the call of it, in few characters."""
     (source,) = emit(
-        code.program, record, ("javascript",), code.name, Options(step=("gauss",))
+        code.program, record, ("javascript",), code.prefix, Options(step=("gauss",))
     ).values()
     own = code.program
     kept = [x for x in KEPT if x in own.functions]

@@ -80,6 +80,9 @@ class SymmetriesOf(Checked):
         """The problem, its Lagrangian as one expression."""
         return self.found.problem
 
+    def __repr__(self) -> str:
+        return f"<symmetries of {self.record.name}: {len(self)}>"
+
     def __len__(self) -> int:
         return self.found.dimension
 

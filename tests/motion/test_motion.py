@@ -225,7 +225,7 @@ def test_what_vanishes_for_these_parameters_is_not_told(capsys):
 def test_what_is_amiss_is_told(capsys):
     err = told(capsys, "jelly", "--t", "1")[2]
     assert "nothing moves" in err
-    assert "note: jelly: of what it keeps the energy alone is told: damping is no part" in err
+    assert "note: jelly: damping changes the energy at the rate −Σ κ |v|², and no momentum" in err
     turning = [
         x for name in ("zeta_1=0", "zeta_5=0", "zeta_2=1", "zeta_4=-1") for x in ("--set", name)
     ]
