@@ -129,7 +129,7 @@ def test_the_walk_imports_nothing_of_it():
 def test_where_a_configuration_is_left_as_it_is(capsys, name, left):
     """Upright, by a turn of space and one of the body; by turns of space alone never."""
     words = " ".join(said(capsys, name, "effective").out.split())
-    assert ("elsewhere a motion along the symmetries leaves" in words) == left
+    assert ("is positive a motion along the symmetries leaves" in words) == left
     assert ("No motion along the symmetries leaves" in words) != left
 
 
