@@ -147,14 +147,15 @@ class Emitted(EmittedCode):
         return self.left.along(run, numbers)
 
     def vanishing(self, k: Array) -> list[str]:
-        """What the motion keeps that is 0 in every state for these constants, by name, as what
-        gravity gives where there is none: 0 in a state without any symmetry."""
+        """What the motion keeps that is 0 or no number in every state for these constants, by name,
+        as what gravity gives where there is none: in a state without any symmetry."""
         if not self.kept:
             return []
         x = np.cos(1.0 + np.arange(len(self.program.state)))
         with np.errstate(all="ignore"):
             found = self.python.conserved(1.0, x, k)[self.kept]
-        return [self.program.conserved[j] for j, v in zip(self.kept, found, strict=True) if v == 0]
+        pairs = zip(self.kept, found, strict=True)
+        return [self.program.conserved[j] for j, v in pairs if v == 0 or np.isnan(v)]
 
     def table(self, t: Array, x: Array, k: Array, u: Array) -> Array:
         """The rows of a run at some times and states, (instants, columns)."""

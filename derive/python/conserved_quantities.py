@@ -141,7 +141,7 @@ class SymmetriesOf(Checked):
         return {x: float(value) for x, value in found.items() if value is not None}
 
     def _entries(self, leaves: Mapping[Tree, Any]) -> list[list[Any]]:
-        from ..symmetries.group_entries import element
+        from ..problem.moved_entries import element
 
         group = self.problem.group
         assert group is not None

@@ -105,11 +105,11 @@ def test_both_languages(pages):
     english, french = (told(pages("top", x)) for x in ("en", "fr"))
     assert english["words"]["energy"] == "energy"
     assert french["words"]["energy"] == "énergie"
-    assert french["kept"]["angular_momentum_3"] == "moment cinétique 3"
-    assert french["labels"]["rho"] == ["masse volumique", "kg/m^3"]
+    assert french["kept"]["angular_momentum_3"] == ["moment cinétique 3", "kg m²/s"]
+    assert french["labels"]["rho"] == ["masse volumique", "kg/m³"]
     assert french["labels"]["zeta_1"] == ["vitesse angulaire dans le corps", "1/s"]
     assert '<html lang="fr">' in pages("top", "fr")
-    assert english["kept"]["body_angular_momentum_3"] == "angular momentum in the body 3"
+    assert english["kept"]["body_angular_momentum_3"][0] == "angular momentum in the body 3"
     untold = {x for x, y in english["words"].items() if y == french["words"][x]}
     assert untold == {"pause"}
 
@@ -559,6 +559,19 @@ def test_what_is_not_kept_stands_apart(opened):
     assert "energy" not in kept
     assert others.startswith("What is not kept")
     assert "energy" in others
+
+
+@pytest.mark.dist
+def test_a_component_along_no_direction_is_not_shown(pages, opened):
+    """Along gravity, in its unit; without gravity none, beside a body that turns."""
+    page = opened(pages("so3"))
+    row = "[...document.querySelectorAll('[data-name=angular_momentum]')].map((x) => x.innerText)"
+    (shown,) = page.evaluate(row)
+    assert "kg m²/s" in shown
+    page.locator('[data-name="g_3"] input[type=number]').fill("0")
+    page.locator('[data-name="g_3"] input[type=number]').press("Enter")
+    page.wait_for_timeout(100)
+    assert page.evaluate(row) == []
 
 
 def test_the_energy_is_kept_where_nothing_moves_it(pages):
