@@ -174,6 +174,7 @@ def pieces(body: Data) -> dict[str, str]:
     names = {x["shape"] for x in solids if "shape" in x}
     names |= {"quadric" for x in solids if "quadric" in x}
     names |= {"of_moments" for part in body["parts"] if part["moments"]}
+    names |= {"of_inertia" for part in body["parts"] if "turning" in part}
     if body["springs"] or any(part["anchors"] for part in body["parts"]):
         names.add("spring")
     if body["stretches"]:

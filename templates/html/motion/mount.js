@@ -167,12 +167,9 @@ function mount(element, page, pieces) {
     const power = 10 ** floor(log10(v));
     return power * [1, 2, 5, 10].reduce((best, c) => (c * power <= v * 1.001 ? c : best), 1);
   };
-  function first_speed() {
-    return nice(max(1e-6, min(max(1, page.t / 60), 16 / max(rate(start(), module.constants(p)), 1e-9))));
-  }
   let speed = 1;
   try {
-    speed = first_speed();
+    speed = nice(max(1e-6, min(max(1, page.t / 60), 16 / max(rate(start(), module.constants(p)), 1e-9))));
   } catch (e) { /* told by restart */ }
   const digits = max(2, min(6, ceil(2 - log10(speed))));
 
