@@ -266,6 +266,7 @@ KEPT = {
     "walk/test_signed_masses.py::test_the_key_has_one_value": 0,
     "walk/test_sizes.py::test_code_against_points": 8,
     "walk/test_sizes.py::test_the_record_holds": 1,
+    "walk/test_superposition.py::test_the_second_of_two_adds_what_the_first_adds": 5,
     "walk/test_stages.py::test_what_runs_is_what_the_table_says": 30,
 }
 """Test → how many of its cases are run with the others, and more where it has more kinds of them:
