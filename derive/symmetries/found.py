@@ -10,6 +10,7 @@ from ..code.graph import Graph
 from ..code.options import Options
 from ..code.state import StateSpace
 from ..language.tree import Tree, coefficient, neg, terms
+from ..problem.moved_entries import element
 from ..problem.null_directions import along, hessian, null_directions
 from ..problem.problem import Problem, ProblemError
 from ..problem.state_names import coordinates
@@ -19,7 +20,6 @@ from ..schema.kinds.self_gravity import SelfGravity
 from ..schema.lagrangian_kinds import Lagrangian
 from .conditions import Conditions
 from .field_brackets import Brackets, cocycle
-from .group_entries import element
 from .scalar_lagrangian import Integrand, by_state, with_scalar_lagrangian
 from .search import Search
 from .symmetry import Symmetry, of_solution
