@@ -174,7 +174,7 @@ def _frame(group: Group, frame: Mapping[str, Any], driven: bool) -> list[str]:
 
 
 def _attitude(group: Group) -> list[str]:
-    shift = " + T" if group.affine else ""
+    shift = " + T" if group.affine or group.factors else ""
     return [
         f"q is a unit quaternion, scalar first: a point r of the body stands at q r q*{shift}",
         "in space; dq/dt = q zeta / 2 keeps its norm. to_matrix takes a state x to that with the",

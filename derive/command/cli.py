@@ -9,10 +9,12 @@ import sys
 from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
+from contextvars import copy_context
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..language.refused import Refused
+from ..language.telling import LISTENER
 from ..views.rendering import render
 from .encoding import replacing_unencodable
 from .guard import StoppedError, one_line, time_limit
@@ -300,7 +302,13 @@ def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:
         sys.stdout.flush()  # the help: main tells what cannot be written
         raise
     with time_limit(getattr(args, "seconds", None)):
-        return int(args.run(args))
+        return copy_context().run(heard, args)
+
+
+def heard(args: argparse.Namespace) -> int:
+    """The exit code of the command of some arguments; what it tells goes to stderr as it works."""
+    LISTENER.set(lambda text: print(f"derive: note: {one_line(text)}", file=sys.stderr, flush=True))
+    return int(args.run(args))
 
 
 def main(argv: Sequence[str] | None = None) -> int:
