@@ -24,10 +24,11 @@ class RenderError(Refused, ValueError):
 
 
 def _text(d: Derivation, words: Language, notation: Notation, alone: bool) -> str:
-    from .text import step_text, text
+    from .text import clashing, step_text, text
 
     if alone:
-        return "\n".join(step_text(step, language=words) for step in d.steps)
+        own = clashing(d)
+        return "\n".join(step_text(step, language=words, quoted=own) for step in d.steps)
     return text(d, language=words)
 
 
@@ -107,11 +108,12 @@ def render(
 
 
 def _of_steps(d: Derivation, steps: Sequence[Step], *, linked: bool) -> Derivation:
-    """A record of some steps; where references are ``linked``, of those among them alone."""
+    """A record of some steps; where references are ``linked``, of those among them alone, and
+    without its names."""
     there = {s.label for s in steps}
     if linked:
         steps = [replace(s, uses=tuple(x for x in s.uses if x in there)) for s in steps]
-    return replace(d, steps=tuple(steps), symbols=())
+    return replace(d, steps=tuple(steps), symbols=() if linked else d.symbols)
 
 
 def notes(
