@@ -71,6 +71,7 @@ def _refused_without_element(d: Derivation, chosen: Options) -> None:
         (chosen.velocity == "tangent", "--velocity tangent"),
         (chosen.attitude == "quaternion", "--attitude quaternion"),
         (chosen.layout == "col", "--layout col"),
+        (chosen.state == "moving", "--state moving"),
         (chosen.varied, f"--jacobian {' '.join(chosen.varied)}"),
     ):
         if on:

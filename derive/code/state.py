@@ -21,7 +21,7 @@ from . import dense
 from .graph import Graph, Node
 from .options import Options
 from .quaternion import ROTATED, axis, halves, matrix_of, multiplied
-from .slots import Slot, fixed_entries, layout
+from .slots import Slot, fixed_entries, layout, still_slots
 
 Seeds = dict[Node, Node]
 """A variation of the state: leaf → its derivative."""
@@ -49,7 +49,8 @@ class StateSpace:
         self.right, self.held = right, held
         self.graph, self.group, self.n = graph, group.stated, group.n
         self.standard = group
-        self.slots = layout(group, options.layout == "col")
+        self.still = still_slots(group) if options.state == "moving" else {}
+        self.slots = [x for x in layout(group, options.layout == "col") if x not in self.still]
         self.quaternion = options.attitude == "quaternion"
         self.tangent = options.velocity == "tangent"
         self.names: list[str] = []
@@ -86,12 +87,12 @@ class StateSpace:
         """New leaves in their places of A and T; ``mark`` for the entries of ġ."""
         span, num = range(self.n), self.graph.num
         leaves = {(x.letter, x.row, x.column): self._leaf(x.name + mark) for x in slots}
-        ones = {} if mark else fixed_entries(self.group)
+        fixed = {("A", *place): num(x) for place, x in fixed_entries(self.group).items()}
+        fixed |= {(x.letter, x.row, x.column): num(y) for x, y in self.still.items()}
+        known = leaves if mark else leaves | fixed
         return {
-            "A": tuple(
-                tuple(leaves.get(("A", i, j), num(ones.get((i, j), 0))) for j in span) for i in span
-            ),
-            "T": tuple((leaves.get(("T", i, 0), num(0)),) for i in span),
+            "A": tuple(tuple(known.get(("A", i, j), num(0)) for j in span) for i in span),
+            "T": tuple((known.get(("T", i, 0), num(0)),) for i in span),
         }
 
     def along(self, a: int) -> Seeds:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import isqrt
+from random import Random
 from typing import Any
 
 from ..algebra.groups import Group
@@ -20,6 +21,8 @@ from ..language.rational import Matrix
 
 Numbers = tuple[Any, ...]
 EPSILON = nilpotent(EPS)
+LARGE = 2**20
+"""Of the random integers of two elements in which an entry is the same where it never varies."""
 Entry = tuple[str, int, int]
 """The name of a number of the state, and the row and column where it is in a matrix of the
 group."""
@@ -28,11 +31,12 @@ group."""
 @dataclass(frozen=True)
 class Chart:
     """What an emission chose about the state, in the words of its options: order of entries, matrix
-    or quaternion, ζ or ġ."""
+    or quaternion, ζ or ġ, all entries or those that vary."""
 
     layout: str = "row"
     attitude: str = "matrix"
     velocity: str = "body"
+    state: str = "whole"
 
 
 @dataclass(frozen=True)
@@ -72,6 +76,9 @@ class StateChart:
             if factor.affine:
                 last = offset + factor.n
                 found += [(named(f"T{mark}", i), offset + i, last) for i in span]
+        if self.chart.state == "moving" and self.group.has_inner_samples:
+            one, two = (self.group.sample_inside(Random(k), LARGE) for k in (1, 2))
+            found = [(x, i, j) for x, i, j in found if one[i][j] != two[i][j]]
         return found
 
     @property

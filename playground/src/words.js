@@ -26,6 +26,7 @@ export const WORDS = {
       form: { source: ".h and .c", header: "one header" },
       frame: { given: "as in the file", principal: "of its moments" },
       velocity: { body: "Z = g⁻¹ dg/dt", tangent: "dg/dt" },
+      state: { whole: "all entries of g", moving: "those that vary" },
       jacobian: { state: "how a deviation grows", inputs: "what an input changes", parameters: "what a parameter changes", raw: "∂(dx/dt)/∂x, x as stored" },
       step: {
         gauss: "collocation at Gauss’s points", rk4: "Runge and Kutta’s, of order 4", vern9: "Verner’s, of order 9",
@@ -74,6 +75,7 @@ export const WORDS = {
       form: { source: ".h et .c", header: "un seul en-tête" },
       frame: { given: "comme dans le fichier", principal: "de ses moments" },
       velocity: { body: "Z = g⁻¹ dg/dt", tangent: "dg/dt" },
+      state: { whole: "tous les coefficients de g", moving: "ceux qui varient" },
       jacobian: { state: "comment un écart croît", inputs: "ce que change une entrée", parameters: "ce que change un paramètre", raw: "∂(dx/dt)/∂x, x tel que stocké" },
       step: {
         gauss: "collocation aux points de Gauss", rk4: "Runge et Kutta, d’ordre 4", vern9: "Verner, d’ordre 9",
@@ -87,7 +89,8 @@ export const WORDS = {
       layout: "les coefficients de A ligne par ligne, ou colonne par colonne",
       attitude: "A comme matrice, ou comme quaternion unitaire (SO(3), SE(3))",
       frame: "le corps comme il est donné, ou dans son repère principal",
-      velocity: "l’état finit par Z = g⁻¹ dg/dt, ou par dg/dt", order: "celui de --step discrete (2 par défaut)",
+      velocity: "l’état finit par Z = g⁻¹ dg/dt, ou par dg/dt",
+      state: "tous les coefficients de g, ou sans ceux qui ne varient jamais", order: "celui de --step discrete (2 par défaut)",
       jacobian: "aussi les équations linéarisées, en l’état, les entrées ou les paramètres, ou (raw) la dérivée de dx/dt par x comme il est stocké, pour les intégrateurs implicites ; plusieurs à la fois",
       step: "aussi un pas de temps, et un mouvement qui avance par lui ; gauss_jax est gauss en JAX ; plusieurs à la fois",
       momenta: "aussi le mouvement en moments : vers eux et retour, leurs dérivées, le tenseur de Poisson",
