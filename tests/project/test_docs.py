@@ -2,9 +2,11 @@
 
 import ast
 import re
+import runpy
 import subprocess
 import sys
 import tomllib
+from types import SimpleNamespace
 
 import pytest
 
@@ -218,3 +220,18 @@ def test_every_make_target_is_described():
     told = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     assert all(f"make {t}" in told for t in TARGETS)
     assert {"derive", "test", "bench", "docs", "help"} <= {*TARGETS}
+
+
+@needs("make")
+def test_the_site_leads_to_its_playground():
+    """From every page, however deep, and only where there is one: make docs has none."""
+    for target, told in (("site", True), ("docs", False)):
+        command = ["make", "--dry-run", target]
+        said = subprocess.run(command, cwd=ROOT, capture_output=True, text=True).stdout
+        (build,) = [x for x in said.splitlines() if "sphinx-build" in x]
+        tags = {build.split()[build.split().index("-t") + 1]} if "-t" in build.split() else set()
+        app = SimpleNamespace(tags=SimpleNamespace(has=tags.__contains__))
+        conf = runpy.run_path(str(ROOT / "docs" / "conf.py"))
+        context = {"pathto": lambda path, resource: f"../{path}" if resource else ""}
+        conf["playground"](app, "docs/motion", "page.html", context, None)
+        assert ('href="../play/index.html"' in context.get("theme_announcement", "")) is told
