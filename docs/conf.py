@@ -20,7 +20,7 @@ CONTENTS = {
     "Use": "tutorial playground commands problem-file potentials/* lagrangian dirichlet fluid "
     "zeitlin symmetries integrals reduction equilibria motion ensembles plot notes code options "
     "steps discrete build python sympy record",
-    "Trust": "trust performance strangers ../SECURITY paper",
+    "Trust": "trust performance not-here strangers ../SECURITY paper",
     "Inside": "architecture extending reference ../CONTRIBUTING ../CHANGELOG",
 }
 

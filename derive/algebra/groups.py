@@ -42,6 +42,9 @@ class Group:
     larger: bool = False
     stated_basis: tuple[Matrix, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<group {self.name}: dimension {self.dimension}>"
+
     @cached_property
     def stated(self) -> Group:
         """The same group in the basis that the user states, whose coordinates are those of the

@@ -87,6 +87,14 @@ class Parser(argparse.ArgumentParser):
             self.error(one_line(what + did_you_mean(near, "; ")))
         return found, left
 
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """A choice that there is not, with the nearest that there is."""
+        try:
+            super()._check_value(action, value)
+        except argparse.ArgumentError as error:
+            near = did_you_mean(near_name(str(value), map(str, action.choices or ())), "; ")
+            raise argparse.ArgumentError(action, f"{error.message}{near}") from None
+
     def error(self, message: str) -> NoReturn:
         """What is wrong in one line, and exit 2; --help has the usage."""
         self.exit(2, f"{self.prog}: error: {one_line(message)}\n")

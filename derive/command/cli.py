@@ -16,7 +16,7 @@ from ..language.refused import Refused
 from ..views.rendering import render
 from .encoding import replacing_unencodable
 from .guard import StoppedError, one_line, time_limit
-from .loading import UsageError, allowed, derive, discrete_walk, load_problem, ready_made
+from .loading import UsageError, allowed, derive, discrete_walk, doubted, load_problem, ready_made
 from .progress import with_progress
 from .showing import notation, save, save_record, steps_of, told_steps, warn_of_letters
 
@@ -60,7 +60,7 @@ def command_integrals(args: argparse.Namespace) -> int:
     """Find the polynomial first integrals of the reduced equations of a problem."""
     from ..pipeline import integrals
 
-    problem = load_problem(args.problem)
+    problem = doubted(args.problem)
     chosen = {"at_defaults": args.at_defaults, "conditions": args.conditions}
     record = integrals(problem, args.degree, **chosen)[1]
     # the JSON is a whole record, which can be checked
@@ -82,9 +82,9 @@ def command_equilibria(args: argparse.Namespace) -> int:
             raise UsageError(f"{option} {twice[0]}: given more than once; leave out all but one")
     found: object
     if args.near:
-        found, record = equilibrium_near(load_problem(args.problem), dict(args.near))
+        found, record = equilibrium_near(doubted(args.problem), dict(args.near))
     else:
-        found, record = equilibria(load_problem(args.problem), dict(args.at or ()))
+        found, record = equilibria(doubted(args.problem), dict(args.at or ()))
     if not found:
         raise UsageError(
             f"{record.name}: no equilibrium among the points with at most one momentum, 1, and at "

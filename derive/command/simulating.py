@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..motion.driven import INPUTS
+from ..motion.driven import DAMPING, INPUTS
 from ..motion.ensemble import require_an_ensemble
 from ..motion.kept_words import parts
 from ..motion.method import STEPS, Method, instants
@@ -114,7 +114,8 @@ def command_simulate(args: argparse.Namespace) -> int:
         format_of(args.out)  # refused before the work
     for file in filter(None, (args.out, args.html)):
         require_place(Path(file))
-    problem, record = derive(args.problem, followed=True, **allowed(args))
+    chosen = {"followed": True, "given": dict(args.set or ())}
+    problem, record = derive(args.problem, **chosen, **allowed(args))
     start = start_of(args, problem, record)
     if args.ensemble is not None:
         return command_ensemble(args, problem, record, start)
@@ -205,7 +206,9 @@ def _told(run: Run) -> int:
     """The exit code, and on stderr what is amiss."""
     name = run.facts["problem"]
     if why := run.facts.get("unsought"):
-        text = f"of what it keeps the energy alone is told: {why.removeprefix(f'{name}: ')}"
+        damped = DAMPING in run.facts.get("drives", ())  # and the energy is not kept
+        lead = "" if damped else "of what it keeps the energy alone is told: "
+        text = lead + why.removeprefix(f"{name}: ")
         print(f"derive: note: {one_line(f'{name}: {text}')}", file=sys.stderr)
     for label, column in run.of_kind("multiplier").items():
         if run.facts.get("filled") and (where := negative(run.t, column)):

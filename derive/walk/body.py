@@ -74,7 +74,7 @@ def body_step(
         equations = [*_points(problem), *equations]
         prose = say("body.points") + prose
         if problem.group and problem.group.factors:
-            prose += say("body.blocks")
+            prose += say("body.homogeneous" if problem.homogeneous else "body.blocks")
     for k, p in enumerate(problem.places, problem.masses + 1):
         if isinstance(body, PointBody):
             equations.append(Equation(("at", "m", k), 0))
