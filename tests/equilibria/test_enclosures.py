@@ -9,6 +9,7 @@ import pytest
 import sympy
 from scipy.optimize import fsolve
 
+from derive.algebra.families import group
 from derive.check.enclosure import enclosure_fault
 from derive.equilibria.enclosed_points import _slopes, certified
 from derive.equilibria.equilibrium_points import Expansion, NoEquilibriumError
@@ -86,7 +87,7 @@ def test_engine_and_checker_enclose_where_it_is_below_a_half(kappa):
         radius, (positive, negative) = certified(terms, 2, 0)
     except NoEquilibriumError:
         radius = None
-    fault = enclosure_fault(told(terms))
+    fault = enclosure_fault(told(terms), group("SO(2) x SO(2)"), "left")
     assert (radius is not None) == (fault == "") == (exact < sympy.Rational(1, 2))
     if radius is not None:
         assert radius == width

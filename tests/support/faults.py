@@ -37,26 +37,30 @@ def changed(fault):
     return text.replace(fault["old"], fault["new"])
 
 
+def failed(tests, folder):
+    """The first test that fails of some in a copy of the tree; "" where all pass."""
+    command = [sys.executable, "-m", "pytest", "-x", "--quick", "-p", "no:cacheprovider"]
+    done = subprocess.run(
+        [*command, f"tests/{tests}"],
+        **{"cwd": folder, "capture_output": True, "text": True},
+        env=os.environ | {"PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"},
+    )
+    if done.returncode == 0:
+        return ""
+    if (found := re.search(r"^(?:FAILED|ERROR) (.+?)(?: - |$)", done.stdout, re.M)) is None:
+        raise RuntimeError(done.stdout + done.stderr)
+    return found[1]
+
+
 def seen_by(fault, folder):
     """The first test that fails with a fault in a copy of the tree; "" where all pass."""
     place = folder / fault["file"]
     whole = place.read_bytes()
     place.write_text(changed(fault), encoding="utf-8")
-    command = [sys.executable, "-m", "pytest", "-x", "--quick", "-p", "no:cacheprovider"]
     try:
-        done = subprocess.run(
-            [*command, *(f"tests/{x}" for x in fault["tests"])],
-            **{"cwd": folder, "capture_output": True, "text": True},
-            env=os.environ | {"PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"},
-        )
+        return next(filter(None, (failed(x, folder) for x in fault["tests"])), "")
     finally:
         place.write_bytes(whole)
-    if done.returncode == 0:
-        return ""
-    found = re.search(r"^(?:FAILED|ERROR) (\S+)", done.stdout, re.M)
-    if found is None:
-        raise RuntimeError(done.stdout + done.stderr)
-    return found[1]
 
 
 def main(words=()):
