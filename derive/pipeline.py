@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from .code.options import Options
     from .code.program import Program
     from .equilibria.enclosed_points import Enclosed
+    from .equilibria.entries_of_elements import Conditions
     from .equilibria.stability import Equilibrium
     from .integrals.all_integrals import Found
     from .language.quadratic import Number
@@ -328,13 +329,22 @@ def equilibrium_near(problem: Problem, values: Mapping[str, Number]) -> tuple[En
     whole, record = integrals(problem, at_defaults=True)
     try:
         require_numbers(whole)
-        found = enclosed(whole, values)
+        found = enclosed(whole, values, _elements(problem, whole))
     except Refused as error:
         raise ProblemError(f"{problem.name}: {error}") from None
     assert problem.group is not None
     c = Chapter(problem.name, problem.group.name)
     steps = (*record.steps, *told_enclosed(whole, found, record.steps, c))
     return found, replace(record, steps=supposing_all(traced(steps)))
+
+
+def _elements(problem: Problem, whole: Found) -> tuple[Conditions, ...]:
+    """What the entries of g satisfy that are among the variables of the reduced equations."""
+    from .equilibria.entries_of_elements import conditions
+
+    assert problem.group is not None
+    left = problem.lagrangian is None or problem.lagrangian.trivialisation == "left"
+    return conditions(whole.system, problem.group, left=left)
 
 
 def equilibria(
@@ -348,7 +358,7 @@ def equilibria(
 
     whole, record = integrals(problem, at_defaults=True)
     try:
-        found = equilibria_of(whole, values)
+        found = equilibria_of(whole, values, _elements(problem, whole))
     except Refused as error:
         raise ProblemError(f"{problem.name}: {error}") from None
     assert problem.group is not None
@@ -383,9 +393,11 @@ def conserved_quantities(problem: Problem, record: Derivation) -> dict[str, Tree
     """Name → what the motion keeps: by each symmetry, else by Casimirs and integrals up to degree
     4 of the reduced equations; of these what no symmetry gives stands beside symmetries, too."""
     from .integrals.integral_names import first_integrals
-    from .symmetries.found import symmetries_of
+    from .symmetries.found import kept_with_damping, symmetries_of
     from .symmetries.quantity_names import named
 
+    if problem.damping:
+        return named(kept_with_damping(problem, record))
     if problem.advected is not None:
         return first_integrals(problem)
     found = symmetries_of(problem, record, of_integrand=True)

@@ -21,6 +21,7 @@ from ..record.json_writer import to_json
 from ..record.record import Derivation, Equation, RecordError, Step
 from . import symbols, well_formedness
 from .arithmetic import EvaluationError
+from .claims.claim_checker import ClaimChecker
 from .definitions import PRIMITIVE, unexplained
 from .dependencies import unused
 from .enclosure import enclosure_fault, kept_claims
@@ -155,7 +156,8 @@ class Checker(TrialPoints):
             for g in self.groups_for(step, e):
                 if reason := difference(e, self.environment(g, step, SIZE, e)):
                     return f"motions do not keep the left side of a level: {reason}"
-        return enclosure_fault(step)
+        (group,) = self.groups(step.scope, driven=step.driven)
+        return enclosure_fault(step, group, side_of(self.problem))
 
     def refuse_hypotheses(
         self, step: Step, groups: Iterable[Group], find_fault: Callable[[Group, Step], str]
@@ -241,7 +243,8 @@ def verdicts(d: Derivation, seed: int | None = None) -> Iterator[Verdict]:
     cannot aim it at them, even where a seed is agreed upon.
     """
     digest = hashlib.sha256(to_json(d).encode("utf-8", "surrogatepass")).hexdigest()
-    checker = checker_of(d.problem, f"{fresh_seed() if seed is None else seed} {digest}")
+    seeded = f"{fresh_seed() if seed is None else seed} {digest}"
+    checker, claims = checker_of(d.problem, seeded), ClaimChecker(d, seeded)
     yield checker.symbols(d)
     faults = zip(
         unexplained(d.steps, checker.primitive),
@@ -249,7 +252,10 @@ def verdicts(d: Derivation, seed: int | None = None) -> Iterator[Verdict]:
         missing_mass_hypotheses(d.steps, d.problem),
         strict=True,
     )
-    for verdict, (new, old, other) in zip(map(checker.check, d.steps), faults, strict=True):
+    for step, (new, old, other) in zip(d.steps, faults, strict=True):
+        verdict = checker.check(step)
         reason = UNEXPLAINED.format(new) if new else UNUSED.format(old) if old else other
+        if verdict.holds:
+            reason = reason or claims.fault(step)
         stands = not reason or not verdict.holds
         yield verdict if stands else Verdict(verdict.label, False, reason, 1.0)

@@ -3,7 +3,7 @@
 The last equation of the step has h̃ with multiples of the left sides of the others, C_j − c_j; all
 right sides are polynomials.  𝓛 = their last, plus Σ δ_j times the others, has one critical point
 near the place of its distances, if Newton's step there is a contraction: computed here once more,
-from the trees, in fractions.
+from the trees, in fractions.  Entries of g there must be those of an element of the group.
 """
 
 from __future__ import annotations
@@ -13,9 +13,12 @@ from fractions import Fraction
 from functools import reduce
 from typing import Any
 
+from ..algebra.groups import Group
 from ..language import rational as q
+from ..language.show import show
 from ..language.tree import Tree, nodes
 from ..record.record import Equation, Step
+from .entries_on_a_level import Entries
 
 Powers = tuple[tuple[Tree, int], ...]
 Terms = dict[Powers, Fraction]
@@ -30,8 +33,9 @@ def kept_claims(step: Step) -> list[Equation]:
     return [Equation(("call", "d/dt", e.lhs), 0) for e in step.equations[:-1]]
 
 
-def enclosure_fault(step: Step) -> str:
-    """Why the equations of a step enclose no critical point; "" where they do."""
+def enclosure_fault(step: Step, group: Group, side: str) -> str:
+    """Why the equations of a step enclose no critical point at entries of an element of a group; ""
+    where they do.  ``side``: "right" where entries of g move by E_bg."""
     *levels, energy = step.equations
     lefts = [_terms(e.lhs, {}) for e in levels]
     own = _terms(energy.lhs, {})
@@ -42,11 +46,18 @@ def enclosure_fault(step: Step) -> str:
     names = [*centre, *(f"δ{j}" for j, _ in enumerate(levels))]
     if len(names) > SIZE:
         return f"{len(names)} variables and multipliers; at most {SIZE}"
+    entries = Entries(group, [*centre], left=side != "right")
+    momenta: list[Tree] = [("at", "Π", a + 1) for a in range(group.dimension)]
+    if free := [x for x in (*momenta, *entries.missing()) if x not in centre]:
+        return f"no critical point is enclosed: {show(free[0])} is free"
     function = _terms(energy.rhs, centre)
     for j, e in enumerate(levels):
         for m, c in _terms(e.rhs, centre).items():
             function[*m, (f"δ{j}", 1)] = c
-    return "" if _contracts(function, names) else "no critical point is enclosed: no contraction"
+    radius = _radius(function, names)
+    if radius is None:
+        return "no critical point is enclosed: no contraction"
+    return entries.fault(lefts, centre, radius)
 
 
 def _variables(trees: Sequence[Tree]) -> list[Tree]:
@@ -111,8 +122,9 @@ def _spanned(f: Terms, others: Sequence[Terms]) -> bool:
     return q.rank(q.matrix(rows)) == q.rank(q.matrix(rows[:-1])) if others else False
 
 
-def _contracts(function: Terms, names: Sequence[Tree]) -> bool:
-    """Is |J⁻¹g| = a, and ‖|J⁻¹|B(2a)‖ < ½, for the slope g and second derivatives J at 0?"""
+def _radius(function: Terms, names: Sequence[Tree]) -> Fraction | None:
+    """2a for a = |J⁻¹g|, where ‖|J⁻¹|B(2a)‖ < ½, for the slope g and second derivatives J at 0;
+    else ``None``."""
     place, size = {x: i for i, x in enumerate(names)}, len(names)
     slope = [Fraction(0)] * size
     second = [[Fraction(0)] * size for _ in names]
@@ -128,15 +140,15 @@ def _contracts(function: Terms, names: Sequence[Tree]) -> bool:
             second[i][j] += k * c
     inverse = q.inverse(q.matrix(second))
     if inverse is None:
-        return False
-    radius = 2 * max(abs(x) for x in q.flatten(q.times(inverse, q.column(slope))))
+        return None
+    radius = Fraction(2 * max(abs(x) for x in q.flatten(q.times(inverse, q.column(slope)))))
     change = [[Fraction(0)] * size for _ in names]
     for powers, c in above:
         small = radius ** (sum(powers.values()) - 2)
         for i, j, k in _pairs(powers):
             change[i][j] += k * c * small
     moved: Any = q.times(tuple(tuple(map(abs, row)) for row in inverse), q.matrix(change))
-    return 2 * max(map(sum, moved)) < 1
+    return radius if 2 * max(map(sum, moved)) < 1 else None
 
 
 def _pairs(powers: dict[int, int]) -> list[tuple[int, int, int]]:

@@ -22,12 +22,14 @@ from fractions import Fraction
 from typing import Any
 
 from ..integrals.all_integrals import Found
-from ..integrals.lie_poisson import LiePoisson, Polynomial
+from ..integrals.lie_poisson import LiePoisson, Polynomial, plain
 from ..language import rational as q
 from ..language.quadratic import Number, Quadratic
 from .energy_casimir import diagonalised, signs
+from .entries_of_elements import Line, numbers
 from .equilibrium_points import (
     About,
+    Elements,
     Expansion,
     NoEquilibriumError,
     coordinates,
@@ -65,9 +67,10 @@ class Enclosed:
         return "stable" if 0 in self.signature else "unstable" if self.grows else "open"
 
 
-def enclosed(whole: Found, values: Mapping[str, Number]) -> Enclosed:
+def enclosed(whole: Found, values: Mapping[str, Number], on: Elements) -> Enclosed:
     """The equilibrium near a point, on its level of the Casimirs, where those of the entries of g
-    have the values of the group; ``NoEquilibriumError`` where none is found or enclosed."""
+    have the values of the group; ``NoEquilibriumError`` where none is found or enclosed, or it is
+    not proved that an element of the group has its entries, which satisfy ``on``."""
     system, algebra = whole.system, whole.system.algebra
     kept = [algebra.over_the_field(f) for f in whole.casimirs]
     start = About(system, start_of(system, values))
@@ -77,6 +80,8 @@ def enclosed(whole: Found, values: Mapping[str, Number]) -> Enclosed:
     found = [_rounded(y) for y in multipliers]
     function = lagrange_function(about, kept, level, found)
     radius, signature = certified(function, len(x) + len(found), len(found))
+    if not near_the_group(about, kept, level, radius, on):
+        raise NoEquilibriumError(NOT_ON_THE_GROUP)
     values_near = eigenvalues([e.slope for e in about.rates])
     unstable = 0 not in signature and grows(about, kept, radius)
     return Enclosed(about, (*level,), (*found,), radius, signature, values_near, unstable)
@@ -230,6 +235,60 @@ def contraction(inverse: q.Matrix, change: Sequence[Sequence[Fraction]]) -> Frac
     return Fraction(max(map(sum, moved)))
 
 
+# -- elements of the group -----------------------------------------------------------------------
+
+
+def near_the_group(
+    about: About,
+    kept: Sequence[Polynomial],
+    level: Sequence[Fraction],
+    radius: Fraction,
+    on: Elements,
+) -> bool:
+    """Has an element of the group the entries of each point of the level within the radius?  True
+    is proved: what is constant on the group is a combination of the Casimirs."""
+    one = (0,) * len(about.at)
+    levels = [{**f, one: f.get(one, 0) - c} for f, c in zip(kept, level, strict=True)]
+    at = [Ball(rational(x), radius) for x in about.at]
+    return all(
+        (x.sufficient or (x.open and x.attained(about.at) and invertible(_balls(x.entries, at))))
+        and all(_spanned(f, group_value(about.system, f, Fraction(0)), levels) for f in x.constant)
+        and all(independent(_balls(m.matrix, at)) for m in x.independent)
+        and all(determinant(_balls(m.matrix, at)).positive for m in x.positive)
+        for x in on
+    )
+
+
+def _spanned(f: Polynomial, value: Number, levels: Sequence[Polynomial]) -> bool:
+    """Is a polynomial, less a number, a combination of others?"""
+    one = (0,) * len(next(iter(f)))
+    every = [*levels, {**f, one: f.get(one, 0) - value}]
+    monomials = {m for g in every for m in g}
+    rows = [[Fraction(plain(g.get(m, 0))) for m in monomials] for g in every]
+    return q.rank(q.matrix(rows)) == q.rank(q.matrix(rows[:-1]))
+
+
+def _balls(matrix: Sequence[Line], at: Sequence[Ball]) -> Balls:
+    return [[*row] for row in numbers(matrix, at, lambda c: Ball(Fraction(c)))]
+
+
+def independent(rows: Balls) -> bool:
+    """Are the rows surely independent?"""
+    pivots = q.echelon(q.matrix([[x.mid for x in row] for row in rows]))[1]
+    return len(pivots) == len(rows) and invertible([[row[j] for j in pivots] for row in rows])
+
+
+def invertible(a: Balls) -> bool:
+    """Is a square matrix surely invertible?"""
+    found = determinant(a)
+    return abs(found.mid) > found.off
+
+
+def determinant(a: Balls) -> Ball:
+    """The determinant of a square matrix."""
+    return characteristic(a)[-1] * Ball(Fraction((-1) ** len(a)))
+
+
 # -- instability ---------------------------------------------------------------------------------
 
 
@@ -246,6 +305,11 @@ class Ball:
     def __mul__(self, other: Ball) -> Ball:
         off = abs(self.mid) * other.off + abs(other.mid) * self.off + self.off * other.off
         return Ball(self.mid * other.mid, off)
+
+    @property
+    def positive(self) -> bool:
+        """Are all its numbers positive?"""
+        return self.mid > self.off
 
     @property
     def negative(self) -> bool:
@@ -320,4 +384,9 @@ def _breaks_newton(c: Sequence[Ball]) -> bool:
 NOT_ISOLATED = (
     "the equilibrium near there is not proved to be the only one on its level of the Casimirs; "
     "exact coordinates are given by --at"
+)
+
+NOT_ON_THE_GROUP = (
+    "that an element of the group has the entries of g near there is not proved; exact coordinates "
+    "are given by --at"
 )

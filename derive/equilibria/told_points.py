@@ -216,6 +216,8 @@ def _product(n: Sequence[Number], m: Sequence[Number], away: Sequence[Tree]) -> 
 
 def _verdict(x: Equilibrium) -> Prose:
     """What is proved of its stability."""
+    if not x.attained:
+        return say("equilibrium.undecided")
     if x.verdict == "stable":
         beyond = x.form is not None and x.form.whole
         compact = "equilibrium.stable_compact" if x.compact else "equilibrium.stable"

@@ -42,8 +42,8 @@ def _reduced(whole: Found, made_from: Iterable[Step], c: Chapter, *, driven: boo
     for i, x in enumerate(system.variables):
         equations.append(Equation(rate(x), algebra.field_tree(algebra.flow.get(i, {}))))
     only = len(system.variables) == system.momenta
-    dimension = str(len(system.variables))
-    prose = say("poisson.group" if only else "poisson.advected", dimension=dimension)
+    kind = "poisson.group" if only else "poisson.advected"
+    prose = draft.claim(kind, dimension=len(system.variables))
     return draft.step(equations, prose + (say("poisson.undriven") if driven else ()))
 
 

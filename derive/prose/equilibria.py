@@ -97,6 +97,12 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "racines par Sturm, toutes les valeurs propres sont imaginaires ou 0, ce qui ne "
             "prouve rien. La stabilité de l’équilibre reste ouverte.",
         ),
+        "undecided": (
+            "Whether an element of the group has these entries of g is not decided: of the "
+            "stability nothing is said.",
+            "Qu’un élément du groupe ait ces coefficients de g n’est pas décidé : de la stabilité "
+            "on ne dit rien.",
+        ),
         "eigenvalues": (
             "The eigenvalues are about {eigenvalues}.",
             "Les valeurs propres sont environ {eigenvalues}.",

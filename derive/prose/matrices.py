@@ -529,21 +529,32 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Sans entrées ni amortissement, le mouvement conserve {kept}.",
         ),
         "tried": (
-            "Tried were the energy and, of the displacements of space that the group has, the "
-            "rotations about the origin, all or those about one line, and the translations, all "
-            "or those across gravity; derive symmetries finds all symmetries.",
-            "Ont été essayées l’énergie et, parmi les déplacements de l’espace que contient le "
-            "groupe, les rotations autour de l’origine, toutes ou celles autour d’une droite, et "
-            "les translations, toutes ou celles perpendiculaires à la pesanteur ; derive "
-            "symmetries trouve toutes les symétries.",
-        ),
-        "tried_all": (
-            "Tried were the energy and, of the displacements of space that the group has, all "
-            "rotations about the origin together and all translations together; derive "
+            "Tried were the energy and, of the displacements of space, {displacements}; derive "
             "symmetries finds all symmetries.",
-            "Ont été essayées l’énergie et, parmi les déplacements de l’espace que contient le "
-            "groupe, toutes les rotations autour de l’origine à la fois et toutes les "
-            "translations à la fois ; derive symmetries trouve toutes les symétries.",
+            "Ont été essayés l’énergie et, parmi les déplacements de l’espace, {displacements} ; "
+            "derive symmetries trouve toutes les symétries.",
+        ),
+        "rotations": (
+            "the rotations about the origin (all, or those about one line)",
+            "les rotations autour de l’origine (toutes, ou celles autour d’une droite)",
+        ),
+        "translations": (
+            "the translations (all, or those across gravity)",
+            "les translations (toutes, ou celles perpendiculaires à la pesanteur)",
+        ),
+        "rotations_together": (
+            "all rotations about the origin together",
+            "toutes les rotations autour de l’origine à la fois",
+        ),
+        "translations_together": (
+            "all translations together",
+            "toutes les translations à la fois",
+        ),
+        "alone": (
+            "The energy alone was tried here, and no displacement of space; derive symmetries "
+            "finds all symmetries.",
+            "Seule l’énergie a été essayée ici, sans aucun déplacement de l’espace ; derive "
+            "symmetries trouve toutes les symétries.",
         ),
         "by_coordinates": (
             "Part of the potential is told by coordinates of places, so that no displacement of "
@@ -551,12 +562,6 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Une partie du potentiel est donnée par des coordonnées, si bien qu’aucun "
             "déplacement de l’espace n’a été essayé ici ; derive symmetries trouve toutes les "
             "symétries.",
-        ),
-        "product": (
-            "The group is a product, so that no displacement of space was tried here; derive "
-            "symmetries finds all symmetries.",
-            "Le groupe est un produit, si bien qu’aucun déplacement de l’espace n’a été essayé "
-            "ici ; derive symmetries trouve toutes les symétries.",
         ),
         "noether": (
             "The Cartan form, on an infinitesimal symmetry of L̃, is constant along the motion "

@@ -13,6 +13,7 @@ from typing import Any
 
 from ..language.limits import RECORD_BYTES, TREE
 from . import sentence
+from .claims import CLAIMS, Claim
 from .contract import ANY_GROUP, CHAPTERS, COMMENTARY
 from .hypotheses import PROPERTIES, SPACES, Hypothesis
 from .name_types import ROLES, Type, Use
@@ -127,7 +128,8 @@ def _step(data: Any, where: str, earlier: Set[str], group: str) -> Step:
     given = _equations(data, "given", where, quantified=False) if "given" in data else ()
     driven = bool(_field(data, "driven", bool, where)) if "driven" in data else False
     supposed = _hypotheses(data, where) if "hypotheses" in data else ()
-    return Step(label, rule, uses, equations, prose, paper, scope, given, driven, supposed)
+    claims = _claims(data, where) if "claims" in data else ()
+    return Step(label, rule, uses, equations, prose, paper, scope, given, driven, supposed, claims)
 
 
 def _equations(data: Any, key: str, where: str, *, quantified: bool = True) -> tuple[Equation, ...]:
@@ -154,6 +156,18 @@ def _hypotheses(data: Any, where: str) -> tuple[Hypothesis, ...]:
         if (space in SPACES) != (what == "nondegenerate") or (space and space not in SPACES):
             raise RecordError(f"{place}: key 'on' is of a form: one of {', '.join(SPACES)}")
         found.append(Hypothesis(what, decode(_field(item, "of", object, place), place), space))
+    return tuple(found)
+
+
+def _claims(data: Any, where: str) -> tuple[Claim, ...]:
+    found = []
+    for k, item in enumerate(_field(data, "claims", list, where), 1):
+        place = f"{where}, claim {k}"
+        kind = _field(item, "says", str, place)
+        if kind not in CLAIMS:
+            raise RecordError(f"{place}: unknown claim {kind[:40]!r}")
+        values = (x for x in item.items() if x[0] != "says")
+        found.append(Claim(kind, tuple((name, decode(x, place)) for name, x in values)))
     return tuple(found)
 
 

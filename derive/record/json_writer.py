@@ -12,6 +12,7 @@ import json
 from typing import Any
 
 from . import sentence
+from .claims import Claim
 from .contract import COMMENTARY
 from .hypotheses import Hypothesis
 from .name_types import Use
@@ -61,7 +62,13 @@ def _step_data(s: Step) -> dict[str, Any]:
             {"key": key} | _equation_data(e) for key, e in zip(s.keys, s.equations, strict=True)
         ],
     }
+    if s.claims:
+        data["claims"] = [_claim_data(x) for x in s.claims]
     return data | {"driven": True} if s.driven else data
+
+
+def _claim_data(x: Claim) -> dict[str, Any]:
+    return {"says": x.kind} | {name: encode(value) for name, value in x.values}
 
 
 def _hypothesis_data(x: Hypothesis) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from typing import Any
 
 from ..language.refused import Refused
 from ..language.tree import Tree, names
+from .claims import Claim
 from .contract import ANY_GROUP
 from .hypotheses import Hypothesis
 from .name_types import Use
@@ -50,7 +51,8 @@ class Step:
 
     ``scope`` is ``"any group"`` or the name of the group on which the equations hold; ``given``:
     equations that are supposed to hold; ``driven``: inputs and damping act; ``hypotheses``: what
-    is inverted, or tells the velocity of X, can be.
+    is inverted, or tells the velocity of X, can be; ``claims``: what its sentences say beside the
+    equations.
     """
 
     label: str
@@ -63,6 +65,7 @@ class Step:
     given: tuple[Equation, ...] = ()
     driven: bool = False
     hypotheses: tuple[Hypothesis, ...] = ()
+    claims: tuple[Claim, ...] = ()
 
     @property
     def kind(self) -> str:
@@ -106,6 +109,9 @@ class Derivation:
     problem: Mapping[str, Any]
     symbols: tuple[Symbol, ...]
     steps: tuple[Step, ...]
+
+    def __repr__(self) -> str:
+        return f"<record {self.name}: {len(self.steps)} steps>"
 
     @property
     def name(self) -> str:

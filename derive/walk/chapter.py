@@ -13,10 +13,11 @@ from dataclasses import dataclass, replace
 from ..algebra.word_trees import PLAIN, WordNotation, tree_of
 from ..algebra.words import Expr
 from ..language.tree import Tree
+from ..record.claims import Claim, rendered
 from ..record.contract import ANY_GROUP
 from ..record.hypotheses import Hypothesis
 from ..record.record import Equation, Step
-from ..record.sentence import Prose
+from ..record.sentence import Prose, Sentence
 from .failure import begin, end
 
 
@@ -48,6 +49,7 @@ class Draft:
     def __init__(self, chapter: Chapter, label: str, rule: str):
         self.chapter, self.label, self.rule = chapter, label, rule
         self.uses: dict[str, None] = {}
+        self.claims: list[Claim] = []
         begin(label, rule)
 
     def depends_on(self, *made: Expr | Step) -> None:
@@ -60,6 +62,14 @@ class Draft:
         """The tree of an expression, whose origin is noted among the uses of this step."""
         self.depends_on(e)
         return tree_of(e, notation)
+
+    def claim(self, key: str, **places: Tree | Sentence) -> Prose:
+        """A sentence of this step that says more than its equations, by its key, and the values or
+        phrases in its places; it is noted among the claims of the step."""
+        phrases = {name: x for name, x in places.items() if isinstance(x, Sentence)}
+        values = ((name, x) for name, x in places.items() if not isinstance(x, Sentence))
+        self.claims.append(Claim(key, tuple(values)))
+        return (rendered(self.claims[-1], **phrases),)
 
     def step(
         self,
@@ -85,6 +95,7 @@ class Draft:
             tuple(where),
             c.driven,
             tuple(hypotheses),
+            tuple(self.claims),
         )
 
     def mark(self, e: Expr) -> Expr:

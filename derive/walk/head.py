@@ -85,7 +85,7 @@ def _meant(problem: Problem) -> dict[str, Name]:
     if problem.lagrangian:
         own = dict(CARRYING) if problem.advected else {}
         return VOCABULARY | LAGRANGIANS[problem.lagrangian.trivialisation] | own
-    blocks = PRODUCTS if group and group.factors and not group.affine else {}
+    blocks = PRODUCTS if group and len(group.factors) > 1 else {}
     turning = group is not None and group.turns_space
     turned = dict(DISPLACEMENTS if group and group.affine else ROTATIONS) if turning else {}
     return VOCABULARY | turned | blocks

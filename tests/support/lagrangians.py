@@ -42,6 +42,11 @@ def unit(i, j):
     return [[int((i, j) == (k, m)) for m in range(4)] for k in range(4)]
 
 
+TURN = [[0, -1, 0], [1, 0, 0], [0, 0, 0]]
+BOOSTS = ([[0, 0, 1], [0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 0, 1], [0, 1, 0]])
+LORENTZ = {"name": "Lorentz", "basis": [TURN, *BOOSTS]}
+"""Those of a plane and a time that runs forwards, which is not what a form tells."""
+
 LINES = {"name": "Lines", "basis": [unit(0, 0), unit(0, 1), unit(2, 2), unit(2, 3)]}
 
 
@@ -102,4 +107,5 @@ def every_equilibrium():
         derive(lagrangian(solid, "SE(3)")).equilibria({"Pi_1": 1}),
         derive(lagrangian(squares(*range(2, 12)), "SO(5)")).equilibria({"Pi_1": 1}),
         derive(lagrangian(squares(*range(2, 8)), "SO(4)")).equilibria({"Pi_1": 1, "Pi_6": 1}),
+        derive(lagrangian(squares(1, 1, 3) + " - A_33", LORENTZ)).equilibria({"A_33": -1}),
     ]

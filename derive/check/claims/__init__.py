@@ -1,0 +1,1 @@
+"""What the sentences of a record claim beside its equations, computed again from its trees."""

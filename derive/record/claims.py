@@ -1,0 +1,75 @@
+"""Claims: what a sentence of a step says beside the step's equations, as data.
+
+A claim has the key of its sentence in :mod:`derive.prose` and a value, a tree, for each place that
+is filled by one; ``("row", …)`` lists several.  The sentence is its rendering, and nothing that
+:data:`CLAIMS` lists is said without one: ``derive check`` computes every claim again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from ..language.show import show
+from ..language.tree import Tree
+from ..prose import english
+from . import sentence
+from .sentence import Prose, Sentence
+
+CLAIMS: frozenset[str] = frozenset({"poisson.group", "poisson.advected"})
+"""The keys of the sentences that are claims."""
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What the sentence of a key, ``kind``, says with these values in its places."""
+
+    kind: str
+    values: tuple[tuple[str, Tree], ...] = ()
+
+    def __getitem__(self, name: str) -> Tree:
+        """The value of a place; ``KeyError`` for none."""
+        return dict(self.values)[name]
+
+    @property
+    def texts(self) -> dict[str, str]:
+        """What stands in the places of the sentence."""
+        return {name: text(x) for name, x in self.values}
+
+
+def text(x: Tree) -> str:
+    """A value as it stands in a sentence: several with commas."""
+    several = x[1:] if isinstance(x, tuple) and x[0] == "row" else (x,)
+    return ", ".join(map(show, several))
+
+
+def rendered(claim: Claim, **phrases: Sentence) -> Sentence:
+    """The sentence of a claim; ``phrases`` fill the places that have no value."""
+    return sentence.phrase(english(claim.kind), **(claim.texts | phrases))
+
+
+def fault(prose: Prose, claims: tuple[Claim, ...]) -> str:
+    """A sentence that is a claim and among none of these, or a claim that no sentence is; "" where
+    they agree."""
+    keys = {english(kind): kind for kind in CLAIMS}
+    said = [x for x in _parts(prose) if x.message in keys]
+    for claim in claims:
+        if not any(_says(x, claim) for x in said):
+            return f"the claim {claim.kind} is not what the sentences say"
+    for x in said:
+        if not any(_says(x, claim) for claim in claims):
+            return f"the sentence {keys[x.message]} is a claim, and the step has none such"
+    return ""
+
+
+def _says(x: Sentence, claim: Claim) -> bool:
+    """Is a sentence the rendering of a claim, up to its phrases?"""
+    texts = {name: y for name, y in x.places if isinstance(y, str)}
+    return x.message == english(claim.kind) and texts == claim.texts
+
+
+def _parts(prose: Prose) -> Iterator[Sentence]:
+    """The sentences, and those in their places."""
+    for x in prose:
+        yield x
+        yield from _parts(tuple(y for _, y in x.places if isinstance(y, Sentence)))
