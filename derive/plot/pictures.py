@@ -70,7 +70,7 @@ KINDS = {
                 lambda run: bool(run.of_kind("energy") or run.of_kind("conserved")),
             ),
         ),
-        _sized(6.5, 3.4),
+        time_series.size_of_energy,
     ),
     "axes": Kind(surfaces.axes, (ROTATION, ATTITUDE), _sized(4.2, 4.4)),
     "polhode": Kind(

@@ -576,21 +576,26 @@ def test_every_ready_made_problem_has_a_page_that_draws(name, opened):
     assert min(page.evaluate(INK)) > 0.002
 
 
-DRAWN = """() => {
-    const { prototype } = CanvasRenderingContext2D, stage = document.querySelector("canvas");
-    const kept = globalThis.drawn = { dots: [], lines: [] };
+DRAWN = """(n) => {
+    const { prototype } = CanvasRenderingContext2D, stage = document.querySelectorAll("canvas")[n];
+    const kept = globalThis.drawn = { dots: [], lines: [], strokes: [] };
     const heard = (name, does) => {
         const own = prototype[name];
         prototype[name] = function (...a) {
-            if (this.canvas === stage) does(...a);
+            if (this.canvas === stage) does.apply(this, a);
             own.call(this, ...a);
         };
     };
-    heard("clearRect", () => { kept.dots = []; kept.lines = []; });
+    heard("clearRect", () => Object.assign(kept, { dots: [], lines: [], strokes: [] }));
     heard("arc", (x, y) => kept.dots.push([x, y]));
-    for (const name of ["moveTo", "lineTo"]) heard(name, (x, y) => kept.lines.push([x, y]));
+    heard("beginPath", () => { kept.path = []; });
+    heard("stroke", function () { kept.strokes.push([this.strokeStyle, kept.path]); });
+    for (const name of ["moveTo", "lineTo"]) {
+        heard(name, (x, y) => [kept.lines, kept.path].forEach((list) => list.push([x, y])));
+    }
 }"""
-"""Keeps the places, in pixels, of what the last picture has: its dots, and ends of its lines."""
+"""Keeps the places, in pixels, of what the last picture on the n-th canvas has: its dots, ends of
+its lines, and strokes, colour and line."""
 
 IN_PLANE = """
 name = "flat"
@@ -617,7 +622,7 @@ def test_a_plane_is_seen_as_it_is(group, gravity, opened, tmp_path):
     path.write_text(IN_PLANE.format(group, gravity))
     page = opened(derive.derive(path).motion_page(2.0, start={"zeta_1": 1.3}))
     page.wait_for_timeout(100)
-    page.evaluate(DRAWN)
+    page.evaluate(DRAWN, 0)
     seek(page, 0.7)
     page.wait_for_timeout(100)
     (one, other, *_), lines = map(np.array, page.evaluate("[drawn.dots, drawn.lines]"))
@@ -628,6 +633,27 @@ def test_a_plane_is_seen_as_it_is(group, gravity, opened, tmp_path):
     assert np.abs(apart - scale * own).max() < 1e-6
     fall = (lines[-4] - lines[-5]) * [1, -1]  # before the head of the arrow
     assert np.abs(fall - 30 * np.array(gravity) / np.linalg.norm(gravity)).max() < 1e-6
+
+
+def test_a_curve_ends_where_its_time_does(opened):
+    """What leads to its name is of another colour, that of no curve."""
+    page = opened(derive.derive("hung_bar").motion_page(2.0))
+    page.wait_for_timeout(100)
+    page.evaluate(DRAWN, 1)
+    seek(page, 1.5)
+    page.wait_for_timeout(100)
+    strokes = [(x, np.array(line)) for x, line in page.evaluate("drawn.strokes")]
+    axes = strokes[0][1]
+    curves = [(x, line) for x, line in strokes if len(line) > 20]
+    assert len(curves) == 3
+    colours = {x for x, _ in curves}
+    for colour, line in strokes:
+        assert colour not in colours or line[:, 0].max() <= axes[:, 0].max() + 1e-9
+    state = page.evaluate(f"[...{MOTION}.state]")[6:]
+    ends = [line[-1, 1] for _, line in curves]  # in the order of their names, the highest first
+    assert np.all(np.diff(ends) > 0)
+    span = (ends[0] - ends[-1]) / (max(state) - min(state))
+    assert ends == pytest.approx([ends[0] + span * (v - max(state)) for v in sorted(state)[::-1]])
 
 
 @pytest.mark.dist

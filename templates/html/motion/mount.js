@@ -19,8 +19,8 @@ function mount(element, page, pieces) {
   /* ---- what is moved by the reader */
 
   const p = [...page.p], u = [...page.u], x0 = [...page.x], theta = page.basis.map(() => 0);
-  const place = new Set(page.entries.map((e) => e[2]));
-  const velocity = [...x0.keys()].filter((s) => !place.has(s));
+  const element_at = page.entries.map((e) => e[2]);
+  const velocity = [...x0.keys()].filter((s) => !element_at.includes(s));
   const start = () => {
     const x = [...x0];
     if (theta.some((a) => a !== 0)) pieces.turned_start(page, x, theta);
@@ -113,7 +113,7 @@ function mount(element, page, pieces) {
 
   /* the trail has a point in every frame, and one for every TURN of what turns fast */
   const TRAIL = 480, TURN = 0.15;
-  const places = page.entries.length ? page.entries.map((e) => e[2]) : velocity;
+  const places = element_at.length ? element_at : velocity;
   const large = (list) => max(...list.map(abs), 1e-12);
   const rate = (x, k) => {
     const rates = module.rhs(time, x, k, u);
