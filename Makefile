@@ -45,7 +45,7 @@ dist: $(STAMP)   ## minutes more of tests: wheels, old and new versions, every b
 docs: $(STAMP)   ## the site of docs/ and of the docstrings, in build/docs; a dead link is an error
 	$(INSTALL) --editable ".[docs]"
 	rm -rf build/docs
-	$(BIN)/sphinx-build -q -E -W --keep-going -c docs . build/docs
+	$(BIN)/sphinx-build -q -E -W --keep-going $(if $(filter site,$(MAKECMDGOALS)),-t play) -c docs . build/docs
 
 NODE_MODULES := playground/node_modules/.package-lock.json
 

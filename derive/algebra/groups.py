@@ -125,6 +125,11 @@ class Group:
         whole = self.free_translations if self.affine else self.dimension == 3
         return whole and self.linear_basis == hats
 
+    @property
+    def rotates(self) -> bool:
+        """Does it turn R³ by all rotations, as maps of r or as matrices on (r, 1)?"""
+        return self.turns_space or (len(self.factors) == 1 and self.factors[0].turns_space)
+
     @cached_property
     def places(self) -> tuple[tuple[int, Group], ...]:
         """The blocks of a product as (first row, factor), rows counted from 0; one block for any

@@ -179,6 +179,8 @@ def add_motion_options(simulated: argparse.ArgumentParser) -> None:
     from ..code.options import DEPENDENT
     from ..views.language import LANGUAGES
 
+    simulated.epilog = """An [[event]] of the file happens where its expression changes its sign;
+    what only touches 0 is none, or is one by rounding."""
     simulated.add_argument("problem", help="a ready-made name or a .toml file")
     simulated.add_argument("--t", type=real, required=True, metavar="T", help="the time, from 0 on")
     about = "the error of a short run, relative to the size of the state (default: 1e-9)"

@@ -9,16 +9,17 @@ import sys
 from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
+from contextvars import copy_context
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..language.refused import Refused
-from ..views.rendering import render
+from ..language.telling import LISTENER
 from .encoding import replacing_unencodable
 from .guard import StoppedError, one_line, time_limit
 from .loading import UsageError, allowed, derive, discrete_walk, doubted, load_problem, ready_made
 from .progress import with_progress
-from .showing import notation, save, save_record, steps_of, told_steps, warn_of_letters
+from .showing import columns, save, save_record, save_steps, steps_of, told_steps
 
 if TYPE_CHECKING:
     from ..check.verdict import Verdict
@@ -48,11 +49,7 @@ def command_walk(args: argparse.Namespace) -> int:
         if args.format == "json":
             raise UsageError("--trivialisation both is to be read: choose another --format")
         record = both_trivialisations(record)
-    chosen = {"fragment": args.fragment, "steps": steps_of(record, args.labels), **notation(args)}
-    shown = render(record, args.format, args.lang, **chosen)
-    if args.format == "latex":
-        warn_of_letters([record])
-    save(shown, args.out, args.format)
+    save_steps(record, steps_of(record, args.labels), args)
     return 0
 
 
@@ -65,8 +62,7 @@ def command_integrals(args: argparse.Namespace) -> int:
     record = integrals(problem, args.degree, **chosen)[1]
     # the JSON is a whole record, which can be checked
     new = () if args.format == "json" else told_steps(record)
-    shown = {"fragment": args.fragment, "steps": new, **notation(args)}
-    save(render(record, args.format, args.lang, **shown), args.out, args.format)
+    save_steps(record, new, args)
     return 0
 
 
@@ -91,8 +87,7 @@ def command_equilibria(args: argparse.Namespace) -> int:
             "most one other coordinate, 1 or -1: give one by --at NAME=NUMBER"
         )
     new = () if args.format == "json" else told_steps(record, "equilibrium_1")
-    chosen = {"fragment": args.fragment, "steps": new, **notation(args)}
-    save(render(record, args.format, args.lang, **chosen), args.out, args.format)
+    save_steps(record, new, args)
     return 0
 
 
@@ -236,7 +231,10 @@ def command_paper(args: argparse.Namespace) -> int:
 
     records = [derive(name)[1] for name in paper.PROBLEMS]
     findings = list(with_progress(paper.findings(records), len(PAPER), "equations"))
-    shown = as_json(findings) if args.format == "json" else as_text(findings, language(args.lang))
+    if args.format == "json":
+        shown = as_json(findings)
+    else:
+        shown = as_text(findings, language(args.lang), columns(args.out))
     save(shown, args.out, args.format)
     return 0
 
@@ -245,6 +243,7 @@ def command_build(args: argparse.Namespace) -> int:
     """Make all of generated/ again."""
     from ..code.emit import emit
     from ..pipeline import program
+    from ..views.rendering import render
     from .writing import write
 
     def made(name: str) -> tuple[str, dict[str, str]]:
@@ -300,7 +299,13 @@ def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:
         sys.stdout.flush()  # the help: main tells what cannot be written
         raise
     with time_limit(getattr(args, "seconds", None)):
-        return int(args.run(args))
+        return copy_context().run(heard, args)
+
+
+def heard(args: argparse.Namespace) -> int:
+    """The exit code of the command of some arguments; what it tells goes to stderr as it works."""
+    LISTENER.set(lambda text: print(f"derive: note: {one_line(text)}", file=sys.stderr, flush=True))
+    return int(args.run(args))
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -119,19 +119,18 @@ def command_simulate(args: argparse.Namespace) -> int:
     start = start_of(args, problem, record)
     if args.ensemble is not None:
         return command_ensemble(args, problem, record, start)
+    pages, files = [], []  # all are written before a word is said: who reads it may go away
     if args.html:
         out, page = Path(args.html), page_of(args, problem, record, start)
-        for path in write({out.name: page}, out.parent, links=True):
-            print(path)
-        if not args.out:
-            return 0
+        pages = write({out.name: page}, out.parent, links=True)
+    if args.html and not args.out:
+        print(*pages, sep="\n")
+        return 0
     found = run_of(args, problem, record, start)
-    for line in summary(found):
-        print(one_line(line))
     if args.out:
         out = Path(args.out)
-        for path in write({out.name: written(found, out.name)}, out.parent, links=True):
-            print(path)
+        files = write({out.name: written(found, out.name)}, out.parent, links=True)
+    print(*pages, *map(one_line, summary(found)), *files, sep="\n")
     return _told(found)
 
 

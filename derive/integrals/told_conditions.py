@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from ..language.show import show
+from ..language.show import in_sentence
 from ..language.tree import Tree, add, mul, neg
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
@@ -75,7 +75,7 @@ def solved_letter(algebra: Algebra, j: int, value: Any) -> tuple[Tree, Tree]:
 def case_text(algebra: Algebra, case: Case) -> str:
     """The equations of a case as text."""
     pairs = (solved_letter(algebra, j, value) for j, value in case.solved)
-    return ", ".join(f"{show(x)} = {show(y)}" for x, y in pairs)
+    return ", ".join(f"{in_sentence(x)} = {in_sentence(y)}" for x, y in pairs)
 
 
 def all_conditions(whole: Found, found: Conditions) -> Prose:
@@ -101,4 +101,4 @@ def _listed(texts: Iterable[str]) -> str:
 
 
 def _polynomial(algebra: Algebra, f: Any) -> str:
-    return show(algebra.number_tree(algebra.field(f)))
+    return in_sentence(algebra.number_tree(algebra.field(f)))

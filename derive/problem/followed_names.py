@@ -52,7 +52,7 @@ def of_points(group: Group) -> list[str]:
 def of_other_forms(group: Group) -> set[str]:
     """Those of the state in a form that can be emitted beside: dg/dt, a quaternion."""
     found = {f"{x}_dot" for x in state_names(group) if x[:2] in ("A_", "T_")}
-    return found | ({f"q_{k}" for k in range(4)} if group.turns_space else set())
+    return found | ({f"q_{k}" for k in range(4)} if group.rotates else set())
 
 
 def _inputs(problem: Problem, group: Group) -> Iterator[str]:

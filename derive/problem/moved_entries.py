@@ -10,7 +10,7 @@ from functools import cache
 from typing import Any, ClassVar
 
 from ..algebra.groups import Group
-from ..algebra.told_entries import told_entries
+from ..algebra.told_entries import constant_entries
 from ..language.derivatives import derivative, product, quotient
 from ..language.tree import Tree, add, fold, mul, nodes, plain
 
@@ -68,22 +68,11 @@ Rows = tuple[tuple[Tree, ...], ...]
 
 @cache
 def element(group: Group) -> Rows:
-    """The entries of g: numbers where they are the same in all of the group, or, where no exact
-    element is known on which that could be tried, in the last row of an affine factor and between
-    blocks."""
-    span, told = range(group.size), told_entries(group) if group.has_inner_samples else ()
-
-    def number(i: int, j: int) -> Fraction | int | None:
-        if told:
-            value, weights = told[i][j]
-            return None if weights else plain(value)
-        at, last = ([x for x in group.places if k >= x[0]][-1] for k in (j, i))
-        corner = last[1].affine and i == last[0] + last[1].n
-        return int(i == j) if corner else 0 if at != last else None
+    """The entries of g: numbers where they are the same in all of the group."""
+    still, span = constant_entries(group), range(group.size)
 
     def entry(i: int, j: int) -> Tree:
-        found = number(i, j)
-        return ("entry", "A", i + 1, j + 1) if found is None else found
+        return plain(still[i, j]) if (i, j) in still else ("entry", "A", i + 1, j + 1)
 
     return tuple(tuple(entry(i, j) for j in span) for i in span)
 
@@ -110,9 +99,8 @@ def settled(t: Tree, group: Group) -> Tree:
                 return ("fun", name, parts[0])
         return x
 
-    constant = {("entry", "A", i, j) for i, row in enumerate(g, 1) for j, x in enumerate(row, 1)}
-    constant -= {x for row in g for x in row}
-    return at(t) if constant & {*nodes(t)} else t
+    still = {("entry", "A", i + 1, j + 1) for i, j in constant_entries(group)}
+    return at(t) if still & {*nodes(t)} else t
 
 
 def rational(rows: Sequence[Sequence[Fraction]]) -> list[list[Tree]]:

@@ -34,30 +34,30 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     },
     "hat": {
         "rotations": (
-            "The Lie algebra 𝔰𝔬(3) is identified with R³ by j(X)Y = X ∧ Y; the bracket is the "
+            "The Lie algebra 𝔰𝔬(3) is identified with ℝ³ by j(X)Y = X ∧ Y; the bracket is the "
             "vector product.",
-            "On identifie l’algèbre de Lie 𝔰𝔬(3) à R³ par j(X)Y = X ∧ Y ; le crochet est le "
+            "On identifie l’algèbre de Lie 𝔰𝔬(3) à ℝ³ par j(X)Y = X ∧ Y ; le crochet est le "
             "produit vectoriel.",
         ),
         "displacements": (
-            "The linear part 𝔰𝔬(3) of the Lie algebra is identified with R³ by j(X)Y = X ∧ Y; the "
+            "The linear part 𝔰𝔬(3) of the Lie algebra is identified with ℝ³ by j(X)Y = X ∧ Y; the "
             "bracket is the vector product.",
-            "On identifie la partie linéaire 𝔰𝔬(3) de l’algèbre de Lie à R³ par j(X)Y = X ∧ Y ; "
+            "On identifie la partie linéaire 𝔰𝔬(3) de l’algèbre de Lie à ℝ³ par j(X)Y = X ∧ Y ; "
             "le crochet est le produit vectoriel.",
         ),
     },
     "isomorphism": {
         "onto": (
-            "The operator j is an isomorphism of R³ onto 𝔰𝔬(3): both have dimension 3, and j(ζ) = "
+            "The operator j is an isomorphism of ℝ³ onto 𝔰𝔬(3): both have dimension 3, and j(ζ) = "
             "0 for ζ = 0 alone.",
-            "L’opérateur j est un isomorphisme de R³ sur 𝔰𝔬(3) : tous deux sont de dimension 3, "
+            "L’opérateur j est un isomorphisme de ℝ³ sur 𝔰𝔬(3) : tous deux sont de dimension 3, "
             "et j(ζ) = 0 pour ζ = 0 seulement.",
         ),
     },
     "inertia": {
         "metric": (
-            "The metric of J on 𝔰𝔬(3) is that of the tensor of inertia on R³.",
-            "La métrique de J sur 𝔰𝔬(3) est celle du tenseur d’inertie sur R³.",
+            "The metric of J on 𝔰𝔬(3) is that of the tensor of inertia on ℝ³.",
+            "La métrique de J sur 𝔰𝔬(3) est celle du tenseur d’inertie sur ℝ³.",
         ),
     },
     "exterior_vector": {

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
-from ..language.show import show
+from ..language.show import in_sentence
 from ..language.tree import names as names_in
 from ..printing.letters import names_of
 from ..record.contract import AMENDED, ANY_GROUP, FIELDS
@@ -263,7 +263,7 @@ def assumed(step: Step, language: Language = ENGLISH) -> list[str]:
     if any(map(_of_accelerations, step.equations)) and not moving(step.equations):
         found.append(language.word("for any acceleration"))
         left = {e: None for e in left if not _velocity(e)}
-    return [*found, *(f"{show(e.lhs)} = {show(e.rhs)}" for e in left)]
+    return [*found, *(f"{in_sentence(e.lhs)} = {in_sentence(e.rhs)}" for e in left)]
 
 
 def _of_accelerations(e: Equation) -> bool:
@@ -297,7 +297,7 @@ def notes(step: Step, language: Language = ENGLISH) -> list[str]:
     return [*paper, *assumed(step, language)]
 
 
-DOMAINS = {"δA": "T_A G", "δ′A": "T_A G", "ξ′": "𝔤", "η′": "𝔤", "Ω′": "R³"}
+DOMAINS = {"δA": "T_A G", "δ′A": "T_A G", "ξ′": "𝔤", "η′": "𝔤", "Ω′": "ℝ³"}
 PAIRS = {"δ′A": "T_g G", "ξ′": "𝔤"}
 
 

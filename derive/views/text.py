@@ -10,6 +10,7 @@ from itertools import groupby
 from ..language.show import in_quotes, show, show_name, unclear
 from ..printing.escape import NO_BREAK
 from ..printing.line_breaking import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
+from ..printing.sentences import QUOTED
 from ..record.record import Derivation, Equation, Step
 from .entries import TABLE, cell
 from .language import ENGLISH, Language
@@ -53,9 +54,15 @@ def text(d: Derivation, width: int = 100, *, language: Language = ENGLISH) -> st
     return "".join(c for c in lines if c in f"\n{NO_BREAK}" or c.isprintable()) + "\n"
 
 
-def step_text(step: Step, width: int = 100, *, language: Language = ENGLISH) -> str:
-    """One step as text."""
-    lines = _step(step, width, frozenset(), language)
+def step_text(
+    step: Step,
+    width: int = 100,
+    *,
+    language: Language = ENGLISH,
+    quoted: frozenset[str] = frozenset(),
+) -> str:
+    """One step as text, with these parameters in quotes."""
+    lines = _step(step, width, quoted, language)
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
@@ -94,11 +101,17 @@ def clashing(d: Derivation) -> frozenset[str]:
     return unclear(own, [*map(str, declared or ())], symbolic)
 
 
+def unquoted(words: str, quoted: frozenset[str]) -> str:
+    """Words whose parameters stand in quotes, without these but for the parameters ``quoted``."""
+    kept = {*map(show_name, quoted)}
+    return QUOTED.sub(lambda x: x[0] if x[0][1:-1] in kept else x[0][1:-1], words)
+
+
 def _step(step: Step, width: int, quoted: frozenset[str], language: Language) -> Iterator[str]:
     """The lines of a step: heading, sentences, what it uses, equations."""
     head = [step.label, language.word(step.rule), *notes(step, language)]
-    yield from _paragraph("  ·  ".join(head), 0, width)
-    yield from _paragraph(language.of(step.prose), MARGIN, width)
+    yield from _paragraph(unquoted("  ·  ".join(head), quoted), 0, width)
+    yield from _paragraph(unquoted(language.of(step.prose), quoted), MARGIN, width)
     if step.uses:
         used = language.word("From {labels}.", labels=", ".join(step.uses))
         yield from _paragraph(used, MARGIN, width)
@@ -200,7 +213,7 @@ def pieces(formula: str) -> list[Piece]:
             depth -= 1
         elif c == "‖":
             norm = 1 - norm
-        elif c == " " and k > start:
+        elif c in " ·" and k > start:
             after = formula[k - 1] in ",;"
             here = COMMA if after else BREAKS.get(formula[k : k + 3], FACTOR)
             if formula[max(k - 2, 0) : k + 1] in BREAKS:

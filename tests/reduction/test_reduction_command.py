@@ -20,8 +20,12 @@ def said(capsys, *words, code=0):
 def test_it_prints_the_reduction_alone(capsys):
     words = said(capsys, "lagrange_top").out
     assert words.startswith("lagrange_top.momentum_1")
-    assert "𝒱 = mgl A₃₃ + (𝒥₁ − A₃₃ 𝒥₂)²/(2 I1(1 − A₃₃²)) + 𝒥₂²/(2 I3)" in words
+    assert "𝒱 = mgl·A₃₃ + (𝒥₁ − A₃₃ 𝒥₂)²/(2 I1(1 − A₃₃²)) + 𝒥₂²/(2 I3)" in words
     assert "degree 3: the integral\n  is elliptic" in words
+
+
+def test_a_parameter_is_told_from_the_element_of_the_group(capsys):
+    assert "𝒱 = ml‘g’ A₃₃ + " in said(capsys, "spherical_pendulum").out
 
 
 def test_it_speaks_french(capsys):

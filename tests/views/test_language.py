@@ -15,7 +15,8 @@ from derive.command.cli import main
 from derive.command.loading import ready_made
 from derive.paper.printed import PAPER
 from derive.pipeline import discrete, symmetries, walk
-from derive.printing.escape import markdown_text, prose, tex_text
+from derive.printing.escape import markdown_text, tex_text
+from derive.printing.sentences import prose
 from derive.problem.toml import load, problem_of
 from derive.python.api import Aff, Damping, Force, Group, Moments, Points, Problem, Solid, Spring
 from derive.record.discrete_names import DISCRETE
