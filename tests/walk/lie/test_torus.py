@@ -166,12 +166,13 @@ def test_false_equations_are_refused(name):
     assert not verdict.holds
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_an_equation_that_is_false_at_half_of_the_places_is_refused(seed):
-    """Where |n|² is 9, 10, 13 or 18; each time, whatever is drawn."""
+@pytest.mark.parametrize("true", [(1, 2, 4, 5, 8), (9, 10, 13, 18)], ids=["small", "large"])
+@pytest.mark.parametrize("seed", range(2))
+def test_an_equation_that_is_true_at_half_of_the_places_is_refused(seed, true):
+    """Where |n|² is one of some numbers; each time, whatever is drawn."""
     step = record(7)["fluid.motion"]
     (e,) = step.equations
-    else_0 = mul(*(add(("norm2", "𝐧"), -v) for v in (1, 2, 4, 5, 8)))
+    else_0 = mul(*(add(("norm2", "𝐧"), -v) for v in true))
     wrong = Equation(e.lhs, add(e.rhs, mul(else_0, ("call", "ω̂", "𝐧"))))
     assert not Checker(record(7).problem, seed).check(replace(step, equations=(wrong,))).holds
 
