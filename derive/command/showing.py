@@ -11,7 +11,8 @@ from pathlib import Path
 
 from ..record.record import Derivation, Step
 from ..schema.table import nearest
-from ..views.rendering import WIDTH, render, unprinted
+from ..printing.line_breaking import WIDTH
+from ..views.rendering import render, unprinted
 from .encoding import as_in_a_file
 from .guard import one_line
 from .loading import UsageError
