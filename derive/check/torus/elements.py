@@ -12,21 +12,37 @@ from functools import cached_property, reduce
 from itertools import repeat
 from operator import mul
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
+from ...algebra.torus import Torus
 from ...language import rational as q
 from ...language.rational import Matrix
 from ..arithmetic import EvaluationError, Many, Shape
 from ..residue import Residue, _residue
 from .residues import Multiples, Residues
-
-if TYPE_CHECKING:
-    from .torus_model import TorusModel
+from .roots_of_unity import RootsOfUnity
 
 WEIGHTS = 3
 """The degree of the number by which two are compared."""
 Places = list[int]
 """Points of the lattice modulo N, one after the other: n₁N + n₂."""
+
+
+class Lattice(Protocol):
+    """The torus, its roots of unity, and sums Σ a(𝐧) T(𝐧) over its points: a model of it."""
+
+    torus: Torus
+    roots: RootsOfUnity
+
+    @property
+    def drawn(self) -> Drawn:
+        """By what matrices at all points are compared."""
+
+    def coefficients(self, m: Matrix) -> Matrix:
+        """a(𝐧) of a matrix Σ a(𝐧) T(𝐧), over 𝐧 modulo N."""
+
+    def matrix(self, grid: Matrix) -> Matrix:
+        """Σ a(𝐧) T(𝐧), of a(𝐧) over 𝐧 modulo N."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +58,7 @@ class Term:
 class Elements(Many):
     """A sum of terms."""
 
-    def __init__(self, model: TorusModel, terms: Sequence[Term]):
+    def __init__(self, model: Lattice, terms: Sequence[Term]):
         self.model, self.terms = model, terms
 
     @property
@@ -161,7 +177,7 @@ class Wave(tuple[tuple[Residue, ...], ...]):
 class Drawn:
     """A random row, a column, a weight for each point, and what is made of them."""
 
-    def __init__(self, model: TorusModel):
+    def __init__(self, model: Lattice):
         p, N = model.roots.p, model.torus.N
         random = Random(f"{p} weights")
         self.p, self.sums, self.made = (
