@@ -91,10 +91,10 @@ def point(algebra: Algebra, attempt: int) -> Point:
 def monomials(grading: Grading, degree: Fraction) -> list[Exponents]:
     """The monomials of a degree, all of at most this degree where H is not homogeneous, but 1;
     ``TooLargeError`` where there are too many."""
-    count = _count(grading.degree, degree, exactly=grading.homogeneous)
-    if count > MONOMIALS:
+    several = how_many(grading.degree, degree, exactly=grading.homogeneous)
+    if several > MONOMIALS:
         raise TooLargeError(
-            f"degree {degree}: a linear system of {count} unknowns; at most {MONOMIALS}"
+            f"degree {degree}: a linear system of {several} unknowns; at most {MONOMIALS}"
         )
     return [e for e in _monomials(grading.degree, degree, grading.homogeneous) if any(e)]
 
@@ -102,14 +102,14 @@ def monomials(grading: Grading, degree: Fraction) -> list[Exponents]:
 def unknowns(grading: Grading, degree: Fraction) -> int:
     """The most unknowns of one linear system of a degree; of more monomials than are listed, how
     many these are."""
-    count = _count(grading.degree, degree, exactly=grading.homogeneous)
+    count = how_many(grading.degree, degree, exactly=grading.homogeneous)
     if count > MONOMIALS:
         return count
     sizes = Counter(map(grading.block, monomials(grading, degree)))
     return max(sizes.values(), default=0)
 
 
-def _count(weights: Sequence[Fraction], degree: Fraction, *, exactly: bool) -> int:
+def how_many(weights: Sequence[Fraction], degree: Fraction, *, exactly: bool) -> int:
     """How many monomials there are of a degree, or of at most this degree."""
     unit = lcm(*(w.denominator for w in weights))
     most = int(degree * unit)
