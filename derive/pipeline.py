@@ -43,7 +43,7 @@ from .walk.lie import (
     advected, any_lagrangian, basis, expressed, kept_by_any, momentum_side, vorticity,
 )
 from .walk.head import problem_data, symbols
-from .walk.inputs import acts
+from .walk.inputs import acts, by_name
 from .walk.lineage import traced
 from .walk.regularity import supposing_all
 from .walk.specialisation import turns_whole
@@ -235,7 +235,7 @@ def walk(problem: Problem) -> Derivation:
         kinds = {"affine" if group.affine else "linear", *group.relations}
         kinds |= {"element" if problem.advected is None else "reduced"}
         kinds |= {"rotations"} if turns_whole(group) and not group.affine else set()
-        steps += follow(road, values | own, kinds)["steps"]
+        steps += by_name(problem, follow(road, values | own, kinds)["steps"])
     if problem.torus:
         own = {"problem": problem, "c": Chapter(problem.name, problem.torus.name)}
         steps += follow(ON_THE_TORUS, values | own, ())["steps"]
@@ -257,8 +257,8 @@ def discrete(problem: Problem) -> Derivation:
         here = Chapter(problem.name, group.name)
         acting = here.with_input() if acts(problem) else here
         start |= own | {"here": here, "driven": acting}
-    values = follow(DISCRETE, start, {"affine" if affine else "linear"})
-    steps = supposing_all(traced(values["steps"]))
+    steps = follow(DISCRETE, start, {"affine" if affine else "linear"})["steps"]
+    steps = supposing_all(traced(by_name(problem, steps) if group else steps))
     data = problem_data(problem) | {"discrete": True}
     return Derivation(data, symbols(steps, problem, discrete=True), steps)
 

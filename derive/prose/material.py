@@ -236,6 +236,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "input: {forces}",
             "entrée : {forces}",
         ),
+        "numbers": (
+            "{meaning}, {numbers}",
+            "{meaning}, {numbers}",
+        ),
         "covector_force": (
             "{name}, a force on the body's origin, in the body frame",
             "{name}, une force à l’origine du corps, dans le repère du corps",

@@ -80,13 +80,17 @@ class TableReader(ABC):
         return self.whole(Parameter, about, where)
 
     def distinct(self, inputs: Sequence[Input], parameters: Collection[str]) -> None:
-        """No two inputs of one name, and none with the name of a parameter."""
+        """No two inputs of one name, and none with the name of a parameter, nor its numbers."""
         names = [x.name for x in inputs]
         for k, name in enumerate(names, 1):
             if name in names[: k - 1]:
                 raise self.fail(f"input {k}: a second input {name!r}; give each its own name")
             if name in parameters:
                 raise self.fail(f"input {k}: {name!r} is a parameter as well; choose another name")
+            numbers = re.compile(rf"{re.escape(name)}_[1-9][0-9]*")
+            if clash := next(filter(numbers.fullmatch, parameters), None):
+                told = f"{clash!r} is one of its numbers, and a parameter as well"
+                raise self.fail(f"input {k}, {name!r}: {told}; choose another name")
 
     def table(self, slot: Slot) -> Any:
         """Another table."""

@@ -28,6 +28,7 @@ from .outline import (
     PAPER,
     domain,
     moving,
+    named_numbers,
     notes,
     plain_conventions,
     quantified,
@@ -55,7 +56,8 @@ def text(d: Derivation, width: int = WIDTH, *, language: Language = ENGLISH) -> 
         blocks.extend([*_step(step, width, quoted, language)] for step in steps)
     if d.symbols:
         blocks.append([*_underlined(language.word("Names"), "-", width)])
-        named = [(show_name(s.name), language.of(s.meaning)) for s in d.symbols]
+        told = ((s.name, unquoted(language.of(s.meaning), quoted)) for s in d.symbols)
+        named = [(show_name(name), meaning) for name, meaning in told]
         blocks.append([line for name, about in named for line in _named(name, about, width)])
     if declared := [*_parameters(d, quoted, language)]:
         blocks.append([*_underlined(language.word("Parameters"), "-", width)])
@@ -105,10 +107,10 @@ def _parameters(
 
 def clashing(d: Derivation) -> frozenset[str]:
     """The parameters that would read like a name of the walk; text sets them in quotes."""
-    body, declared = d.problem.get("body"), d.problem.get("parameters")
+    body = d.problem.get("body")
     symbolic = isinstance(body, Mapping) and body.get("kind") == "moments"
     own = {"g", *(s.name for s in d.symbols)}
-    return unclear(own, [*map(str, declared or ())], symbolic)
+    return unclear(own, named_numbers(d), symbolic)
 
 
 def unquoted(words: str, quoted: frozenset[str]) -> str:

@@ -64,7 +64,7 @@ MUTATIONS = {
     "text: the metric of a norm left out": (
         SHOW, '(f"_{_below(a[0])}" if len(a) == 2 else "")', '""'),
     "text: rows and entries with one mark": (SHOW, '"; ".join(show(row)', '", ".join(show(row)'),
-    "text: no quotes": (TEXT, "return unclear(own, [*map(str, declared or ())], symbolic)",
+    "text: no quotes": (TEXT, "return unclear(own, named_numbers(d), symbolic)",
                         "return frozenset()"),
     "text: continued lines lost": (
         TEXT, 'lines = [f"{lead} = {first[indent:]}", *others]',
