@@ -9,9 +9,10 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from ..printing.line_breaking import WIDTH
 from ..record.record import Derivation, Step
 from ..schema.table import nearest
-from ..views.rendering import WIDTH, render, unprinted
+from ..views.rendering import render, unprinted
 from .encoding import as_in_a_file
 from .guard import one_line
 from .loading import UsageError

@@ -8,8 +8,8 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 from ..paper.finding import VERDICTS, Finding
+from ..printing.line_breaking import WIDTH
 from .language import ENGLISH, Language
-from .rendering import WIDTH
 
 TOTAL = (
     "{confirmed} confirmed, {sign} in another sign convention, {omission} with an omission, "

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..language.refused import Refused
+from ..printing.line_breaking import WIDTH
 from ..record.record import Derivation
 
 if TYPE_CHECKING:
@@ -65,8 +66,6 @@ MARKUP: dict[str, Callable[[Derivation, Language, Notation, bool], str]] = {
 }
 """Format → its text of a record, or of a record of some steps ``alone``, in a language."""
 FORMATS = ("text", *MARKUP)
-WIDTH = 100
-"""The columns of a text, where nothing else is said."""
 LINKED = ("latex", "html")
 """Formats whose references are links, and whose notation may be chosen."""
 

@@ -9,7 +9,17 @@ from itertools import groupby
 
 from ..language.show import in_quotes, show, show_name, unclear
 from ..printing.escape import NO_BREAK
-from ..printing.line_breaking import COMMA, FACTOR, MARK, SUM, WEDGE, Piece, display_width, fill
+from ..printing.line_breaking import (
+    COMMA,
+    FACTOR,
+    MARK,
+    SUM,
+    WEDGE,
+    WIDTH,
+    Piece,
+    display_width,
+    fill,
+)
 from ..record.record import Derivation, Equation, Step
 from .entries import TABLE, cell
 from .language import ENGLISH, Language
@@ -31,7 +41,7 @@ OPENING, CLOSING = "([⟨", ")]⟩"
 BREAKS = {" + ": SUM, " − ": SUM, " ∧ ": WEDGE}
 
 
-def text(d: Derivation, width: int = 100, *, language: Language = ENGLISH) -> str:
+def text(d: Derivation, width: int = WIDTH, *, language: Language = ENGLISH) -> str:
     """The record as text, no line longer than ``width`` columns (at least 40)."""
     width, quoted = max(width, 40), clashing(d)
     heading = " — ".join(filter(None, (title(d, language), subtitle(d, language))))
@@ -53,13 +63,13 @@ def text(d: Derivation, width: int = 100, *, language: Language = ENGLISH) -> st
     return "".join(c for c in lines if c in f"\n{NO_BREAK}" or c.isprintable()) + "\n"
 
 
-def step_text(step: Step, width: int = 100, *, language: Language = ENGLISH) -> str:
+def step_text(step: Step, width: int = WIDTH, *, language: Language = ENGLISH) -> str:
     """One step as text."""
     lines = _step(step, width, frozenset(), language)
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
-def equation_text(e: Equation, width: int = 100) -> str:
+def equation_text(e: Equation, width: int = WIDTH) -> str:
     """One equation as text, its lines at most ``width`` columns wide."""
     return textwrap.dedent("\n".join(_equations((e,), width, ENGLISH)))
 
