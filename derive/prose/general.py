@@ -107,6 +107,14 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "moment, matrice des moments.",
         ),
     },
+    "volumes": {
+        "trace": (
+            "The variation of a volume of places is Tr ξ times it, by the displacements of the "
+            "points.",
+            "La variation d’un volume de positions est Tr ξ fois ce volume, par les déplacements "
+            "des points.",
+        ),
+    },
     "unique": {
         "elsewhere": (
             "Elsewhere the path is told by its start, if no tangent vector but 0 leaves all the "

@@ -6,6 +6,27 @@ Label of a step, then a name for the sentence: English, French.
 from __future__ import annotations
 
 STEPS: dict[str, dict[str, tuple[str, str]]] = {
+    "unaligned": {
+        "turned": (
+            "Rotations keep vector products. Of two points that are not on one line with the "
+            "fixed point, and of their vector product, which span the space, the images are "
+            "known: A is then unique, if the points are not all on one line through the fixed "
+            "point.",
+            "Les rotations conservent les produits vectoriels. De deux points qui ne sont pas "
+            "alignés avec le point fixe, et de leur produit vectoriel, qui engendrent l’espace, on "
+            "connaît les images : A est alors unique, si les points ne sont pas tous sur une même "
+            "droite passant par le point fixe.",
+        ),
+        "displaced": (
+            "Rotations keep vector products. Of the arms from the centre of mass to two points "
+            "that are not on one line with it, and of their vector product, which span the space, "
+            "the images are known: g_t is then unique, if the points are not all on one line.",
+            "Les rotations conservent les produits vectoriels. Des bras du centre de masse à deux "
+            "points qui ne sont pas alignés avec lui, et de leur produit vectoriel, qui engendrent "
+            "l’espace, on connaît les images : g_t est alors unique, si les points ne sont pas "
+            "tous alignés.",
+        ),
+    },
     "rigid": {
         "orbit": (
             "The body is rigid: C = 𝟏 says that the distances of its points are kept, so that it "
