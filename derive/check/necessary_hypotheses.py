@@ -20,13 +20,13 @@ from ..language.tree import Tree, names, nodes
 from ..record import mass_signs
 from ..record.contract import ANY_GROUP
 from ..record.hypotheses import OF_MASSES, Hypothesis
-from ..record.record import Equation, RecordError, Step
+from ..record.record import RecordError, Step
 from .arithmetic import EvaluationError, is_matrix, scalar
 from .equation_sides import index_bindings
 from .evaluate import Environment, evaluate
+from .forced_velocity import concludes_velocity, unforced_velocity
 from .function_signatures import FORMS, LATTICE
 from .lagrangian.lagrangian_model import LagrangianModel
-from .locus import part_of_velocity
 from .meaning import parts_of
 from .model import Model
 from .rigid_body import axial
@@ -63,14 +63,9 @@ def _number(t: Tree) -> bool:
     return not isinstance(t, str) or t in ("π", "i")
 
 
-def states_velocity(equation: Equation) -> bool:
-    """Does the equation say what part of the velocity of X is, as δA(X) = α?"""
-    return bool(part_of_velocity(equation.lhs, equation.rhs))
-
-
 def needs_metric(step: Step) -> bool:
     """Does a step conclude the velocity of X, or introduce F̃ by its pairing with all δA?"""
-    if any(states_velocity(e) and e in step.given for e in step.equations):
+    if concludes_velocity(step):
         return True
     return any("δA" in e.for_all and "F̃" in {*names(e.lhs)} for e in step.equations)
 
@@ -126,7 +121,8 @@ def false_hypothesis(
 def missing_hypothesis(
     step: Step, problem: Mapping[str, Any], env: Environment, model: Model | LagrangianModel
 ) -> str:
-    """A hypothesis that the equations of a step need and it does not make, in words; "" if none."""
+    """A hypothesis that the equations of a step need and it does not make, in words, or why the
+    velocity of X that it concludes is not forced; "" if none."""
     inverted = {x.of for x in step.hypotheses if x.property in INVERSE}
     for e in step.equations:
         for t in (*denominators(e.lhs), *denominators(e.rhs)):
@@ -139,7 +135,7 @@ def missing_hypothesis(
             return f"it does not suppose that {_shortened(x.of)} is {x.property}"
     if needs_metric(step) and not any(_is_metric(x, env, model) for x in step.hypotheses):
         return f"it does not suppose that {REGULAR}"
-    return ""
+    return unforced_velocity(model) if concludes_velocity(step) else ""
 
 
 def _shortened(t: Tree) -> str:

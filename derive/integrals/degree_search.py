@@ -90,15 +90,15 @@ def point(algebra: Algebra, attempt: int) -> Point:
 def monomials(grading: Grading, degree: Fraction) -> list[Exponents]:
     """The monomials of a degree, all of at most this degree where H is not homogeneous, but 1;
     ``TooLargeError`` where there are too many."""
-    count = _count(grading.degree, degree, exactly=grading.homogeneous)
-    if count > MONOMIALS:
+    several = how_many(grading.degree, degree, exactly=grading.homogeneous)
+    if several > MONOMIALS:
         raise TooLargeError(
-            f"degree {degree}: a linear system of {count} unknowns; at most {MONOMIALS}"
+            f"degree {degree}: a linear system of {several} unknowns; at most {MONOMIALS}"
         )
     return [e for e in _monomials(grading.degree, degree, grading.homogeneous) if any(e)]
 
 
-def _count(weights: Sequence[Fraction], degree: Fraction, *, exactly: bool) -> int:
+def how_many(weights: Sequence[Fraction], degree: Fraction, *, exactly: bool) -> int:
     """How many monomials there are of a degree, or of at most this degree."""
     unit = lcm(*(w.denominator for w in weights))
     most = int(degree * unit)

@@ -7,8 +7,7 @@ rank there is a proof.  Brackets are computed in full.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import combinations
+from dataclasses import dataclass, field
 from math import prod
 from random import Random
 from typing import Any
@@ -48,12 +47,10 @@ def integrability(
     one is given."""
     place = _place(algebra, at, level)
     over = algebra.over_the_field
-    fixed = _independent(place, map(over, casimirs))
-    energies = [algebra.energy, *map(over, integrals)]
-    rows = [differential for _, differential in fixed]
-    fresh = [k for k, _ in _independent(place, energies, rows)]
+    fixed = [row for _, row in _independent(place, map(over, casimirs))]
+    rows = [place.differential(f) for f in (algebra.energy, *map(over, integrals))]
     rank = poisson_rank(algebra, place)
-    chosen = _commuting(algebra, [None, *integrals], fresh, rank // 2, level)
+    chosen = _commuting(_Involution(algebra, integrals, level), fixed, rows, rank // 2, at.p)
     return Integrability(algebra.size, rank, algebra.size - len(fixed) == rank, chosen)
 
 
@@ -129,18 +126,48 @@ def poisson_rank(algebra: Algebra, place: Place) -> int:
     return rank_modulo(rows, place.at.p)
 
 
+@dataclass(frozen=True)
+class _Involution:
+    """Which pairs of H and some integrals, by their places, are in involution."""
+
+    algebra: Algebra
+    integrals: Sequence[Any]
+    level: Level | None
+    known: dict[tuple[int, int], bool] = field(default_factory=dict)
+
+    def __call__(self, i: int, j: int) -> bool:
+        """Are they?  All are with the first, H."""
+        if not i:
+            return True
+        if (i, j) not in self.known:
+            bracket = self.algebra.bracket(self.integrals[i - 1], self.integrals[j - 1])
+            self.known[i, j] = bracket == 0 or (
+                self.level is not None and self.level.contains(bracket)
+            )
+        return self.known[i, j]
+
+
 def _commuting(
-    algebra: Algebra, f: Sequence[Any], among: Sequence[int], several: int, level: Level | None
+    commute: _Involution,
+    fixed: Sequence[list[int]],
+    rows: Sequence[list[int]],
+    several: int,
+    p: int,
 ) -> tuple[int, ...]:
-    """The first ``several`` places ``among`` those of polynomials that are in involution, each with
-    each; () where there are none.  All are in involution with the first, H."""
-    apart = set()
-    for i, j in combinations(among, 2):
-        if i:
-            bracket = algebra.bracket(f[i], f[j])
-            if bracket != 0 and (level is None or not level.contains(bracket)):
-                apart.add((i, j))
-    for chosen in combinations(among, several):
-        if not any(pair in apart for pair in combinations(chosen, 2)):
+    """The first ``several`` places of functions, given by their differentials, that are in
+    involution, and independent of each other and of those ``fixed``; () where there are none."""
+
+    def extended(chosen: tuple[int, ...], left: Sequence[int]) -> tuple[int, ...]:
+        own = [*fixed, *(rows[k] for k in chosen)]
+        if len(chosen) == several:
             return chosen
-    return ()
+        if rank_modulo([*own, *(rows[k] for k in left)], p) < len(fixed) + several:
+            return ()
+        for k, i in enumerate(left):
+            if rank_modulo([*own, rows[i]], p) > len(own):
+                commuting = [j for j in left[k + 1 :] if commute(i, j)]
+                if found := extended((*chosen, i), commuting):
+                    return found
+        return ()
+
+    return extended((), range(len(rows)))

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from fractions import Fraction
 
-from ..language.tree import Tree, mul
+from ..language.tree import Tree, mul, plain
+from ..record.claims import MONOMIALS
 from ..record.record import Equation, Step
 from ..record.sentence import Prose
-from ..walk.chapter import Chapter
-from ..walk.wording import phrase, say
+from ..walk.chapter import Chapter, Draft
+from ..walk.wording import say
 from .all_integrals import Found, OnLevel
+from .degree_search import how_many
 from .independence import Integrability
 from .level import Level
 from .told_conditions import all_conditions, told_conditions
@@ -43,8 +46,19 @@ def _reduced(whole: Found, made_from: Iterable[Step], c: Chapter, *, driven: boo
         equations.append(Equation(rate(x), algebra.field_tree(algebra.flow.get(i, {}))))
     only = len(system.variables) == system.momenta
     kind = "poisson.group" if only else "poisson.advected"
-    prose = draft.claim(kind, dimension=len(system.variables))
+    prose = draft.claim(kind, dimension=len(system.variables)) + _weights(whole, draft)
     return draft.step(equations, prose + (say("poisson.undriven") if driven else ()))
+
+
+def _weights(whole: Found, draft: Draft) -> Prose:
+    """How degrees count, where not all variables are of degree 1."""
+    momenta, weights = whole.system.momenta, whole.grading.degree
+    entries = {*weights[momenta:]}
+    if entries <= {1}:
+        return ()
+    if len(entries) == 1:
+        return draft.claim("poisson.weighted", weight=plain(entries.pop()))
+    return draft.claim("poisson.weights", weights=("row", *map(plain, weights[momenta:])))
 
 
 def rate(x: Tree) -> Tree:
@@ -61,21 +75,15 @@ def _kept(trees: Iterable[Tree]) -> list[Equation]:
 def _casimirs(whole: Found, reduced: Step, c: Chapter) -> Step:
     draft = c.draft("casimirs", "Poisson bracket")
     draft.depends_on(reduced)
-    prose = say("casimirs.kept") + say("casimirs.all", degree=str(whole.degree))
-    return draft.step(
-        _kept(map(whole.system.algebra.tree, whole.casimirs)), prose + _weights(whole)
-    )
+    prose = draft.claim("casimirs.kept")
+    prose += draft.claim(f"casimirs.all{_large(whole)}", degree=whole.degree)
+    return draft.step(_kept(map(whole.system.algebra.tree, whole.casimirs)), prose)
 
 
-def _weights(whole: Found) -> Prose:
-    """How degrees count, where not all variables are of degree 1."""
-    momenta, weights = whole.system.momenta, whole.grading.degree
-    entries = {*weights[momenta:]}
-    if entries <= {1}:
-        return ()
-    if len(entries) == 1:
-        return say("casimirs.weighted", weight=str(entries.pop()))
-    return say("casimirs.weights", weights=", ".join(map(str, weights)))
+def _large(whole: Found) -> str:
+    """How the key of a sentence ends that is not computed again for its size."""
+    weights = whole.grading.degree
+    return "_large" if how_many(weights, Fraction(whole.degree), exactly=False) > MONOMIALS else ""
 
 
 def _integrals(whole: Found, reduced: Step, c: Chapter) -> Step:
@@ -83,23 +91,22 @@ def _integrals(whole: Found, reduced: Step, c: Chapter) -> Step:
     draft = c.draft("first_integrals", "Poisson bracket")
     draft.depends_on(reduced)
     trees = [algebra.field_tree(algebra.hamiltonian), *map(algebra.tree, whole.integrals)]
-    prose = _said(whole) + (all_conditions(whole, whole.conditions) if whole.conditions else ())
+    prose = _said(whole, draft)
+    prose += all_conditions(whole, whole.conditions) if whole.conditions else ()
     return draft.step(_kept(trees), prose)
 
 
-def _said(whole: Found) -> Prose:
+def _said(whole: Found, draft: Draft) -> Prose:
     """What is proved of the integrals."""
     several = bool(whole.integrals)
     prose = say("first_integrals.several" if several else "first_integrals.energy")
     for k, new in enumerate(whole.fresh, 2):
-        prose += () if new else say("first_integrals.dependent", number=str(k))
-    generic = bool(whole.system.parameters)
-    prose += say(
-        "first_integrals.all_generic" if generic else "first_integrals.all",
-        degree=str(whole.degree),
-        these=phrase(THESE[several, bool(whole.casimirs)]),
-    )
-    return prose + _integrability(whole.proved)
+        prose += () if new else draft.claim("first_integrals.dependent", number=k)
+    generic = "_generic" if whole.system.parameters else ""
+    (these,) = draft.claim(THESE[several, bool(whole.casimirs)])
+    key = f"first_integrals.all{generic}{_large(whole)}"
+    prose += draft.claim(key, degree=whole.degree, these=these)
+    return prose + _integrability(whole.proved, draft)
 
 
 THESE = {
@@ -111,20 +118,23 @@ THESE = {
 """What is called so, by whether there are several integrals, and Casimirs."""
 
 
-def _integrability(proved: Integrability) -> Prose:
-    sizes = {"rank": str(proved.rank), "dimension": str(proved.dimension)}
-    if proved.complete and proved.rank == 2 and proved.involution == (0,):
-        return say("first_integrals.complete_by_energy", dimension=sizes["dimension"])
-    half = str(proved.rank // 2)
-    if proved.complete:
-        numbers = ", ".join(str(k + 1) for k in proved.involution)
-        if proved.rank == 2:
-            one = "first_integrals.complete_by_one"
-            return say(one, dimension=sizes["dimension"], number=numbers)
-        return say("first_integrals.complete", **sizes, half=half, numbers=numbers)
+def _integrability(proved: Integrability, draft: Draft) -> Prose:
+    rank, dimension, half = proved.rank, proved.dimension, proved.rank // 2
+    if proved.complete and rank == 2 and proved.involution == (0,):
+        return draft.claim("first_integrals.complete_by_energy", dimension=dimension)
+    if proved.complete and rank == 2:
+        number = proved.involution[0] + 1
+        return draft.claim("first_integrals.complete_by_one", dimension=dimension, number=number)
+    if rank == 0:
+        return draft.claim("first_integrals.still")
     if not proved.proved:
-        return say("first_integrals.unknown_rank")
-    return say("first_integrals.undecided", **sizes, half=half)
+        return draft.claim("first_integrals.unknown_rank")
+    if not proved.complete:
+        return draft.claim("first_integrals.undecided", rank=rank, dimension=dimension, half=half)
+    numbers = ("row", *(k + 1 for k in proved.involution))
+    return draft.claim(
+        "first_integrals.complete", rank=rank, dimension=dimension, half=half, numbers=numbers
+    )
 
 
 # -- on a level ---------------------------------------------------------------------------------
@@ -142,8 +152,8 @@ def _on_level(whole: Found, on: OnLevel, reduced: Step, k: int, c: Chapter) -> S
         factor = level.quotient(algebra.derivative(algebra.over_the_field(f)))
         right = mul(algebra.field_tree(factor), algebra.tree(casimir))
         equations.append(Equation(("call", "d/dt", algebra.tree(f)), right))
-    prose = say("level.multiple")
+    prose = draft.claim("level.multiple", number=on.casimir + 1)
     if on.proved.complete:
         rank = on.proved.rank
-        prose += say("level.complete", rank=str(rank), half=str(rank // 2))
+        prose += draft.claim("level.complete", rank=rank, half=rank // 2)
     return draft.step(equations, prose)

@@ -19,6 +19,16 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Les moments, et ce dont l’énergie dépend en outre, évoluent entre eux : équations de "
             "Lie–Poisson sur le dual d’un produit semi-direct, de dimension {dimension}.",
         ),
+        "weighted": (
+            "In what follows the other variables than momenta count as of degree {weight}.",
+            "Dans la suite, les variables autres que les moments comptent pour le degré {weight}.",
+        ),
+        "weights": (
+            "In what follows the degrees of the other variables than momenta are, in order, "
+            "{weights}.",
+            "Dans la suite, les degrés des variables autres que les moments sont, dans l’ordre, "
+            "{weights}.",
+        ),
         "undriven": (
             "The inputs are left out: they vanish here.",
             "Les entrées sont laissées de côté : elles sont nulles ici.",
@@ -35,13 +45,11 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Every polynomial Casimir of degree at most {degree} is a polynomial in these.",
             "Tout Casimir polynomial de degré au plus {degree} est un polynôme en ceux-ci.",
         ),
-        "weighted": (
-            "The other variables than momenta count as of degree {weight}.",
-            "Les variables autres que les moments comptent pour le degré {weight}.",
-        ),
-        "weights": (
-            "The degrees of the variables are, in order, {weights}.",
-            "Les degrés des variables sont, dans l’ordre, {weights}.",
+        "all_large": (
+            "Every polynomial Casimir of degree at most {degree} is a polynomial in these: the "
+            "search says so, and no check computes it again at this size.",
+            "Tout Casimir polynomial de degré au plus {degree} est un polynôme en ceux-ci : c’est "
+            "la recherche qui le dit, et aucune vérification ne le recalcule à cette taille.",
         ),
     },
     "first_integrals": {
@@ -67,15 +75,30 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "Pour des valeurs génériques des paramètres, tout polynôme de degré au plus {degree} "
             "qui est une intégrale première est un polynôme en {these}.",
         ),
+        "all_large": (
+            "Every polynomial of degree at most {degree} that is an integral is a polynomial in "
+            "{these}: the search says so, and no check computes it again at this size.",
+            "Tout polynôme de degré au plus {degree} qui est une intégrale première est un "
+            "polynôme en {these} : c’est la recherche qui le dit, et aucune vérification ne le "
+            "recalcule à cette taille.",
+        ),
+        "all_generic_large": (
+            "For generic values of the parameters, every polynomial of degree at most {degree} "
+            "that is an integral is a polynomial in {these}: the search says so, and no check "
+            "computes it again at this size.",
+            "Pour des valeurs génériques des paramètres, tout polynôme de degré au plus {degree} "
+            "qui est une intégrale première est un polynôme en {these} : c’est la recherche qui le "
+            "dit, et aucune vérification ne le recalcule à cette taille.",
+        ),
         "it": ("it", "celle-ci"),
         "it_and_casimirs": ("it and the Casimirs", "celle-ci et en les Casimirs"),
         "these": ("these", "celles-ci"),
         "these_and_casimirs": ("these and the Casimirs", "celles-ci et en les Casimirs"),
         "dependent": (
-            "The integral of number {number} is a function of those before, though no polynomial "
-            "in them.",
-            "L’intégrale première de numéro {number} est fonction des précédentes, sans être un "
-            "polynôme en elles.",
+            "The integral of number {number} is a function of those before and of the Casimirs, "
+            "though no polynomial in them.",
+            "L’intégrale première de numéro {number} est fonction des précédentes et des Casimirs, "
+            "sans en être un polynôme.",
         ),
         "complete": (
             "The Poisson tensor has rank {rank} in dimension {dimension}, and {half} of these "
@@ -109,6 +132,11 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
             "{half} intégrales premières en involution, indépendantes entre elles et des Casimirs, "
             "et l’intégrabilité complète reste indécise.",
         ),
+        "still": (
+            "The Poisson tensor vanishes: every function is a Casimir, and the motion keeps all.",
+            "Le tenseur de Poisson est nul : toute fonction est un Casimir, et le mouvement les "
+            "conserve toutes.",
+        ),
         "unknown_rank": (
             "The Casimirs that are found do not prove the rank of the Poisson tensor, and complete "
             "integrability is left open.",
@@ -139,10 +167,10 @@ STEPS: dict[str, dict[str, tuple[str, str]]] = {
     },
     "level": {
         "multiple": (
-            "The rates of these polynomials are multiples of a Casimir: where it vanishes, they "
-            "are integrals.",
-            "Les dérivées de ces polynômes sont des multiples d’un Casimir : là où il s’annule, ce "
-            "sont des intégrales premières.",
+            "The rates of these polynomials are multiples of the Casimir of number {number}: where "
+            "it vanishes, they are integrals.",
+            "Les dérivées de ces polynômes sont des multiples du Casimir de numéro {number} : là "
+            "où il s’annule, ce sont des intégrales premières.",
         ),
         "complete": (
             "On this level, too, the Poisson tensor has rank {rank}, and {half} integrals are in "

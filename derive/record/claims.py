@@ -16,8 +16,21 @@ from ..prose import english
 from . import sentence
 from .sentence import Prose, Sentence
 
-CLAIMS: frozenset[str] = frozenset({"poisson.group", "poisson.advected"})
+KINDS = {
+    "poisson": "group advected weighted weights",
+    "casimirs": "kept all all_large",
+    "first_integrals": (
+        "all all_large all_generic all_generic_large it it_and_casimirs these these_and_casimirs "
+        "dependent complete complete_by_one complete_by_energy undecided still unknown_rank"
+    ),
+    "level": "multiple complete",
+}
+CLAIMS = frozenset(f"{label}.{name}" for label, names in KINDS.items() for name in names.split())
 """The keys of the sentences that are claims."""
+
+MONOMIALS = 10_000
+"""That there are no more polynomials up to a degree is computed again of so many monomials at most;
+of more, the sentence says that it is not."""
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,9 @@ from functools import cache
 import pytest
 
 from derive.check.checker import Checker, check
-from derive.check.model import Direction
+from derive.check.forced_velocity import concludes_velocity, unforced_velocity
+from derive.check.lagrangian.lagrangian_model import LagrangianModel
+from derive.check.model import Direction, Model
 from derive.language import rational as q
 from derive.language.tree import names
 from derive.pipeline import walk
@@ -249,3 +251,33 @@ def test_any_group_has_the_hypotheses_of_the_road():
     regular = Hypothesis("nondegenerate", METRIC, "T_g G")
     assert found["linear.gradient"] == found["linear.second_order"] == (regular,)
     assert found["linear.pullback"] == (Hypothesis("positive", ("at", "m", "i")), regular)
+
+
+@pytest.mark.parametrize("name", ["so3", "se3", "lagrange_top"])
+def test_the_velocity_of_the_motion_is_forced(name, monkeypatch):
+    """Where variations of the velocity alone did not see that of X, it would not be."""
+    d = record(name)
+    steps = [s for s in d.steps if concludes_velocity(s)]
+    assert [v for v in map(Checker(d.problem, SEED).check, steps) if not v.holds] == []
+    for kind in (Model, LagrangianModel):
+        monkeypatch.setattr(kind, "exterior", blind(kind.exterior))
+    reasons = [v.reason for v in map(Checker(d.problem, SEED).check, steps)]
+    assert len(reasons) >= 1
+    assert {*reasons} == {"variations of the velocity do not pair with that of X by the metric"}
+
+
+def blind(exterior):
+    """dϖ without what variations of the velocity alone see."""
+
+    def seen(model, a, b):
+        still = b.time == 0 and all(x == 0 for x in q.flatten(b.xi))
+        return 0 if still else exterior(model, a, b)
+
+    return seen
+
+
+def test_a_singular_metric_forces_nothing():
+    d = record("rod")
+    checker, step = Checker(d.problem, SEED), d["explicit"]
+    (group,) = checker.groups(step.scope)
+    assert unforced_velocity(checker.point(group, step)[0])

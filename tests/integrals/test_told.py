@@ -84,7 +84,8 @@ def test_a_false_rate_is_refused():
     rate = step["equations"][1]
     rate["rhs"] = encode(("mul", 2, decode(rate["rhs"], "")))
     verdicts = check(from_json(json.dumps(data)), SEED)
-    assert [v.label for v in verdicts if not v.holds] == ["lagrange_top.poisson"]
+    wrong = [v.label for v in verdicts if not v.holds]
+    assert wrong == ["lagrange_top.poisson", "lagrange_top.first_integrals"]  # what it claims, too
 
 
 def test_one_integral_is_told_as_one():

@@ -34,6 +34,8 @@ def manakov(a, b):
     return lagrangian(" + ".join(terms), f"SO({len(a)})")
 
 
+APART = {"name": "Apart", "basis": [[[1, 0], [0, 0]], [[0, 0], [0, 1]]]}
+"""The diagonal matrices of the plane: an algebra that commutes."""
 LINE = {"name": "Line", "basis": [[[1, 0], [0, 0]], [[0, 1], [0, 0]]]}
 """The affine maps of a line, as matrices of the plane: no Casimirs."""
 
@@ -60,6 +62,7 @@ def every_case():
     return [
         first_integrals(lagrangian(squares(1, 2), LINE), 2),
         first_integrals(lagrangian(squares(1, 2, 3, 5), LINES), 2),
+        first_integrals(lagrangian(squares(1, 2), APART), 2),
         first_integrals(lagrangian(squares(1, 1, 1)), 2),
         first_integrals(heavy("123", "A_33 + A_11^2", ""), 2),
         first_integrals(heavy("441", "m*A_31", "m"), 3),

@@ -10,7 +10,8 @@ from random import Random
 from ...record.claims import Claim, fault
 from ...record.record import Derivation, RecordError, Step
 from ..problem_group import group_of
-from .reduced_system import ReducedSystem, dimension_fault
+from . import integral_claims
+from .reduced_system import ReducedSystem
 
 
 class ClaimChecker:
@@ -25,7 +26,7 @@ class ClaimChecker:
         group = group_of(self.record.problem)
         if group is None:
             raise RecordError("reduced equations are of a group")
-        return ReducedSystem(self.record, group)
+        return ReducedSystem(self.record, group, self.random)
 
     def fault(self, step: Step) -> str:
         """What is wrong with the claims of a step, or with a sentence that is a claim and has none;
@@ -45,8 +46,13 @@ class ClaimChecker:
 Judge = Callable[[ClaimChecker, Step, Claim], str]
 """What is wrong with a claim of a step, in words; "" if nothing is."""
 
+
+def _of_reduced(judge: integral_claims.Judge) -> Judge:
+    """The judge of a claim about reduced equations, which must be Hamiltonian."""
+    return lambda c, step, x: c.reduced.fault or judge(c.reduced, step, x)
+
+
 JUDGES: dict[str, Judge] = {
-    "poisson.group": lambda c, step, x: dimension_fault(c.reduced, x, momenta_alone=True),
-    "poisson.advected": lambda c, step, x: dimension_fault(c.reduced, x, momenta_alone=False),
+    kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()
 }
 """How each kind of claim is judged."""

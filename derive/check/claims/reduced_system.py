@@ -1,11 +1,20 @@
-"""The reduced equations of a record, read from its step ``poisson``: variables, rates, energy."""
+"""The reduced equations of a record, read from its steps: variables, rates, energy, Casimirs and
+integrals; and exact points of theirs modulo a large prime."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from random import Random
+
 from ...algebra.groups import Group
-from ...language.tree import Tree
-from ...record.claims import Claim
-from ...record.record import Derivation, RecordError
+from ...language.show import show
+from ...language.tree import Tree, nodes
+from ...record.record import Derivation, RecordError, Step
+from ..residue import random_prime
+from .poisson_tensor import PoissonTensor
+from .rational_values import Jet, rank, value
 
 VARIABLE = {"Π̇": "Π", "Ȧ": "A", "Γ̇": "Γ"}
 """The variable that each rate is of."""
@@ -13,37 +22,166 @@ VARIABLE = {"Π̇": "Π", "Ȧ": "A", "Γ̇": "Γ"}
 
 class ReducedSystem:
     """The ``variables`` of the equations, momenta first, their ``rates`` and the ``energy`` as
-    trees; ``group``: whose brackets they have."""
+    trees, the ``casimirs`` and the ``integrals``, the energy first; ``tensor``: their brackets."""
 
-    def __init__(self, d: Derivation, group: Group):
+    def __init__(self, d: Derivation, group: Group, random: Random):
         try:
             energy, *rates = d["poisson"].equations
         except (KeyError, ValueError):
             raise RecordError("no reduced equations: the step poisson is missing") from None
-        self.group = group
+        self.group, self.random = group, random
         self.energy = energy.rhs
-        self.variables = tuple(_variable(e.lhs) for e in rates)
+        self.variables: tuple[Tree, ...] = tuple(_variable(e.lhs) for e in rates)
         self.rates = tuple(e.rhs for e in rates)
+        self.casimirs, self.integrals = (_kept(d, x) for x in ("casimirs", "first_integrals"))
+        self.claims = [x for step in d.steps for x in step.claims]
+        if self.momenta != group.dimension:
+            raise RecordError(f"{self.momenta} momenta of {group.dimension}")
+        self.tensor = PoissonTensor(d.problem, group, self.variables)
 
     @property
     def momenta(self) -> int:
         """How many of the variables are momenta."""
-        return sum(x[1] == "Π" for x in self.variables)
+        return sum(x[1] == "Π" for x in self.variables if isinstance(x, tuple))
+
+    @cached_property
+    def parameters(self) -> list[Tree]:
+        """The parameters in the equations, and π."""
+        trees = (self.energy, *self.rates, *self.casimirs, *self.integrals)
+        found = (x for t in trees for x in nodes(t) if x == "π" or _is_parameter(x))
+        return [*dict.fromkeys(found)]
+
+    # -- points --------------------------------------------------------------------------------
+
+    @cached_property
+    def prime(self) -> int:
+        """A prime of 256 bits: numbers that differ have other residues."""
+        return random_prime(self.random)
+
+    def place(self, level: Tree | None = None, values: Iterable[tuple[Tree, Tree]] = ()) -> Place:
+        """A random point; on the ``level`` where a polynomial vanishes; with these ``values`` of
+        some parameters."""
+        p = self.prime
+        at = {x: self.random.randrange(1, p) for x in (*self.parameters, *self.variables)}
+        for letter, t in values:
+            at[letter] = value(t, at, p)
+        found = Place(self, at)
+        return found if level is None else found.on(level)
+
+    @cached_property
+    def anywhere(self) -> Place:
+        """A random point, the same for all claims."""
+        return self.place()
+
+    @cached_property
+    def fault(self) -> str:
+        """Why these are no Hamiltonian equations of the energy with these Casimirs and integrals;
+        "" where they are."""
+        if len({*self.variables}) != len(self.variables):
+            return "a variable has two rates"
+        here = self.anywhere
+        if here.field(self.energy) != [value(x, here.at, here.p) for x in self.rates]:
+            return "the rates are not the brackets with the energy"
+        if any(any(here.field(x)) for x in self.casimirs):
+            return "a polynomial is no Casimir"
+        if any(here.bracket(x, self.energy) for x in self.integrals):
+            return "a polynomial is no integral, as a function of all variables"
+        if self.integrals[:1] not in ((), (self.energy,)):
+            return "the first of the integrals is not the energy"
+        return ""
 
 
-def _variable(rate: Tree) -> tuple[Tree, ...]:
+@dataclass(frozen=True)
+class Place:
+    """Values of the variables and the parameters of a system, modulo a large prime."""
+
+    system: ReducedSystem
+    at: Mapping[Tree, int]
+
+    @property
+    def p(self) -> int:
+        """The prime."""
+        return self.system.prime
+
+    def on(self, level: Tree) -> Place:
+        """The point with another value of the first variable in which a polynomial is linear, so
+        that it vanishes; ``RecordError`` where there is none."""
+        for x in self.system.variables:
+            a, b, c = (value(level, {**self.at, x: k}, self.p) for k in range(3))
+            if (a - 2 * b + c) % self.p == 0 and (b - a) % self.p:
+                return Place(self.system, {**self.at, x: -a * pow(b - a, -1, self.p) % self.p})
+        raise RecordError(f"no point is known where {show(level)[:80]} vanishes")
+
+    @cached_property
+    def _jets(self) -> dict[Tree, Jet | int]:
+        found: dict[Tree, Jet | int] = {**self.at}
+        for k, x in enumerate(self.system.variables):
+            found[x] = Jet(self.at[x], {k: 1}, self.p)
+        return found
+
+    @cached_property
+    def _gradients(self) -> dict[Tree, list[int]]:
+        return {}
+
+    def gradient(self, f: Tree) -> list[int]:
+        """The derivatives of a polynomial by the variables."""
+        if f not in self._gradients:
+            jet = value(f, self._jets, self.p)
+            slopes = jet.slopes if isinstance(jet, Jet) else {}
+            self._gradients[f] = [slopes.get(k, 0) for k, _ in enumerate(self.system.variables)]
+        return self._gradients[f]
+
+    @cached_property
+    def tensor(self) -> dict[tuple[int, int], int]:
+        """Λ, by its entries."""
+        return self.system.tensor.at([self.at[x] for x in self.system.variables], self.p)
+
+    def field(self, f: Tree) -> list[int]:
+        """The Hamiltonian vector field Λ dF: the rates {x_i, F}."""
+        slopes, found = self.gradient(f), [0] * len(self.system.variables)
+        for (i, j), c in self.tensor.items():
+            found[i] = (found[i] + c * slopes[j]) % self.p
+        return found
+
+    def bracket(self, f: Tree, g: Tree) -> int:
+        """{F, G}."""
+        pairs = zip(self.gradient(f), self.field(g), strict=True)
+        return sum(x * y for x, y in pairs) % self.p
+
+    @cached_property
+    def poisson_rank(self) -> int:
+        """The rank of Λ."""
+        span = range(len(self.system.variables))
+        return rank([[self.tensor.get((i, j), 0) for j in span] for i in span], self.p)
+
+    def rank(self, f: Sequence[Tree]) -> int:
+        """How many of some polynomials are independent of each other."""
+        return rank([self.gradient(x) for x in f], self.p)
+
+    def rank_on_leaves(self, f: Sequence[Tree]) -> int:
+        """How many are independent of each other and of all Casimirs: as many as their fields."""
+        return rank([self.field(x) for x in f], self.p)
+
+
+def _is_parameter(x: Tree) -> bool:
+    return isinstance(x, tuple) and x[0] == "par"
+
+
+def _variable(rate: Tree) -> Tree:
     """The variable that has a rate; ``RecordError`` for what is no rate."""
     if not isinstance(rate, tuple) or str(rate[1]) not in VARIABLE:
         raise RecordError("the step poisson has an equation that is no rate")
     return (rate[0], VARIABLE[str(rate[1])], *rate[2:])
 
 
-def dimension_fault(system: ReducedSystem, claim: Claim, *, momenta_alone: bool) -> str:
-    """Why the equations are not of the dimension that is claimed, or do not move among
-    themselves."""
-    size = len(system.variables)
-    if claim["dimension"] != size or len({*system.variables}) != size:
-        return f"{size} rates"
-    if system.momenta != system.group.dimension:
-        return f"{system.momenta} momenta of {system.group.dimension}"
-    return "" if (system.momenta == size) is momenta_alone else "momenta alone, or not"
+def _kept(d: Derivation, label: str) -> tuple[Tree, ...]:
+    """What the equations of a step say that motions keep; () without the step."""
+    try:
+        return rates_of(d[label])
+    except KeyError:
+        return ()
+
+
+def rates_of(step: Step) -> tuple[Tree, ...]:
+    """The polynomials whose rates the equations of a step are."""
+    return tuple(e.lhs[2] for e in step.equations if isinstance(e.lhs, tuple) and len(e.lhs) == 3)

@@ -1,0 +1,240 @@
+"""The claims about Casimirs and integrals of reduced equations: rank, involution, completeness."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+
+from ...language.tree import Tree
+from ...record.claims import Claim
+from ...record.record import RecordError, Step
+from .no_more import (
+    Completeness,
+    TooLargeError,
+    along_every_field,
+    along_the_motion,
+    degree,
+    monomials,
+)
+from .reduced_system import Place, ReducedSystem, rates_of
+
+Judge = Callable[[ReducedSystem, Step, Claim], str]
+
+
+def listed(t: Tree) -> tuple[Tree, ...]:
+    """The values in a place: those of a row, or the only one."""
+    return t[1:] if isinstance(t, tuple) and t[0] == "row" else (t,)
+
+
+def number(t: Tree) -> Fraction:
+    """A value that is a number; ``RecordError`` for any other."""
+    if not isinstance(t, (int, Fraction)):
+        raise RecordError("a number is expected")
+    return Fraction(t)
+
+
+def _dimension(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    """As many rates as are claimed, of momenta alone or not."""
+    size = len(system.variables)
+    if claim["dimension"] != size:
+        return f"{size} rates"
+    alone = claim.kind == "poisson.group"
+    return "" if (system.momenta == size) is alone else "momenta alone, or not"
+
+
+# -- degrees ------------------------------------------------------------------------------------
+
+
+def weights(system: ReducedSystem) -> list[Fraction]:
+    """The degrees of the variables, as the record says them: 1, where it says nothing."""
+    size, momenta = len(system.variables), system.momenta
+    found = [Fraction(1)] * size
+    for claim in system.claims:
+        if claim.kind == "poisson.weighted":
+            found[momenta:] = [number(claim["weight"])] * (size - momenta)
+        if claim.kind == "poisson.weights":
+            found[momenta:] = map(number, listed(claim["weights"]))
+    if len(found) != size or not all(w > 0 for w in found):
+        raise RecordError("as many positive degrees are needed as there are variables")
+    return found
+
+
+def _degrees(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    """Are there degrees, and are they told once?"""
+    kinds = ("poisson.weighted", "poisson.weights")
+    several = sum(x.kind in kinds for x in system.claims)
+    return "" if weights(system) and several == 1 else "the degrees are told more than once"
+
+
+def _all_casimirs(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    whole = Completeness(system, weights(system), number(claim["degree"]), system.casimirs)
+    return whole.fault(*along_every_field(system))
+
+
+def _all_integrals(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    generators = (*system.casimirs, *system.integrals)
+    whole = Completeness(system, weights(system), number(claim["degree"]), generators)
+    return _generic_fault(system, claim) or whole.fault(*along_the_motion(system))
+
+
+def _generic_fault(system: ReducedSystem, claim: Claim) -> str:
+    if "generic" in claim.kind or not system.parameters:
+        return ""
+    return "there are parameters, and it is not said that they are generic"
+
+
+def _large(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    try:
+        monomials(weights(system), number(claim["degree"]))
+    except TooLargeError:
+        return "" if claim.kind == "casimirs.all_large" else _generic_fault(system, claim)
+    return "it is small enough to be computed again"
+
+
+def _these(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    several = len(system.integrals) > 1
+    name = ("these" if several else "it") + ("_and_casimirs" if system.casimirs else "")
+    return "" if claim.kind == f"first_integrals.{name}" else "others are recorded"
+
+
+def _dependent(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    """A function of those before and of the Casimirs, and no polynomial in them."""
+    k = int(number(claim["number"]))
+    if not 1 < k <= len(system.integrals):
+        return f"there are {len(system.integrals)} integrals"
+    before, f = (*system.casimirs, *system.integrals[: k - 1]), system.integrals[k - 1]
+    here = system.anywhere
+    if here.rank([*before, f]) > here.rank(before):
+        return "it is independent of them"
+    own = weights(system)
+    most = degree(f, dict(zip(system.variables, own, strict=True)))
+    return "it is one" if Completeness(system, own, most, before).contains(f) else ""
+
+
+# -- rank and involution ------------------------------------------------------------------------
+
+
+def _size_fault(here: Place, claim: Claim) -> str:
+    """Why the rank, the dimension or half the rank are not those that are claimed."""
+    rank, size = here.poisson_rank, len(here.system.variables)
+    told = dict(claim.values)
+    if told.get("rank", rank) != rank or rank == 0:
+        return f"the rank is {rank}"
+    if told.get("dimension", size) != size:
+        return f"the dimension is {size}"
+    return "" if told.get("half", Fraction(rank, 2)) == Fraction(rank, 2) else f"half of {rank}"
+
+
+def in_involution(here: Place, f: Sequence[Tree], several: int) -> tuple[Tree, ...] | None:
+    """So many of some functions that are in involution and independent on the leaves; ``None``
+    where there are none."""
+
+    def extended(chosen: tuple[Tree, ...], left: Sequence[Tree]) -> tuple[Tree, ...] | None:
+        if len(chosen) == several:
+            return chosen
+        if here.rank_on_leaves([*chosen, *left]) < several:
+            return None
+        for k, x in enumerate(left):
+            if here.rank_on_leaves([*chosen, x]) > len(chosen):
+                commuting = [y for y in left[k + 1 :] if not here.bracket(x, y)]
+                if found := extended((*chosen, x), commuting):
+                    return found
+        return None
+
+    return extended((), f)
+
+
+def _complete(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    here, told = system.anywhere, dict(claim.values)
+    if reason := _size_fault(here, claim):
+        return reason
+    if "half" not in told and here.poisson_rank != 2:
+        return f"the rank is {here.poisson_rank}"
+    places = listed(told.get("numbers", told.get("number", 1)))
+    if not all(x in range(1, len(system.integrals) + 1) for x in places):
+        return f"there are {len(system.integrals)} integrals"
+    chosen = [system.integrals[int(number(x)) - 1] for x in places]
+    if any(here.bracket(x, y) for k, x in enumerate(chosen) for y in chosen[:k]):
+        return "two of them are not in involution"
+    if 2 * len(chosen) != here.poisson_rank or here.rank_on_leaves(chosen) < len(chosen):
+        return "they are not half as many as the rank, or dependent on each other and the Casimirs"
+    return ""
+
+
+def _undecided(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    here = system.anywhere
+    if reason := _size_fault(here, claim):
+        return reason
+    there = in_involution(here, system.integrals, here.poisson_rank // 2)
+    return "they are among the integrals" if there else ""
+
+
+def _still(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    return "it does not" if system.anywhere.poisson_rank else ""
+
+
+def _unknown_rank(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    here = system.anywhere
+    left = len(system.variables) - here.rank(system.casimirs)
+    return "they do" if left == here.poisson_rank else ""
+
+
+# -- on a level, under a condition ----------------------------------------------------------------
+
+
+def _level_of(system: ReducedSystem, step: Step) -> Tree:
+    (claim,) = (x for x in step.claims if x.kind == "level.multiple")
+    k = int(number(claim["number"]))
+    if not 1 <= k <= len(system.casimirs):
+        raise RecordError(f"there are {len(system.casimirs)} Casimirs")
+    return system.casimirs[k - 1]
+
+
+def _multiple(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    """The rates vanish where the Casimir does."""
+    there = system.place(level=_level_of(system, step))
+    kept = not any(there.bracket(f, system.energy) for f in rates_of(step))
+    return "" if kept else "they are no multiples of it"
+
+
+def _complete_there(there: Place, step: Step, claim: Claim) -> str:
+    """The rank, and half as many in involution among all integrals and those of a step."""
+    if reason := _size_fault(there, claim):
+        return reason
+    every = (*there.system.integrals, *rates_of(step))
+    found = in_involution(there, every, there.poisson_rank // 2)
+    return "" if found else "there are not as many in involution"
+
+
+def _complete_on_level(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    return _complete_there(system.place(level=_level_of(system, step)), step, claim)
+
+
+JUDGES: dict[str, Judge] = {
+    "poisson.group": _dimension,
+    "poisson.advected": _dimension,
+    "casimirs.kept": lambda system, step, claim: "",
+    "casimirs.all": _all_casimirs,
+    "casimirs.all_large": _large,
+    "poisson.weighted": _degrees,
+    "poisson.weights": _degrees,
+    "first_integrals.all": _all_integrals,
+    "first_integrals.all_generic": _all_integrals,
+    "first_integrals.all_large": _large,
+    "first_integrals.all_generic_large": _large,
+    "first_integrals.it": _these,
+    "first_integrals.it_and_casimirs": _these,
+    "first_integrals.these": _these,
+    "first_integrals.these_and_casimirs": _these,
+    "first_integrals.dependent": _dependent,
+    "first_integrals.complete": _complete,
+    "first_integrals.complete_by_one": _complete,
+    "first_integrals.complete_by_energy": _complete,
+    "first_integrals.undecided": _undecided,
+    "first_integrals.still": _still,
+    "first_integrals.unknown_rank": _unknown_rank,
+    "level.multiple": _multiple,
+    "level.complete": _complete_on_level,
+}
+"""How claims are judged of equations that are Hamiltonian, with the Casimirs and the integrals that
+are recorded."""

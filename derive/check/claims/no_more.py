@@ -1,0 +1,241 @@
+"""That there are no more polynomials up to a degree: a proof by ranks modulo a prime.
+
+What derivations take to 0 among the polynomials of a degree at most d is a space V; the products
+of the recorded generators of a degree at most d are in it.  Modulo a prime, with residues for the
+parameters and at points of them, the rank of the products is at most what it is, and the kernel of
+the derivations at least V in dimension (it takes them to 0 at some points alone).  Where the two
+are equal, whatever the prime and the points are, V is what the products span: for generic
+parameters, and for all that have these values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from functools import reduce
+from itertools import islice
+from math import lcm
+from operator import add, mul
+
+from ...algebra.exact_kernel import pivots
+from ...algebra.residue_vectors import PRIMES, Residues, ResidueSource
+from ...language.tree import Tree, operands
+from ...record.claims import MONOMIALS
+from .rational_values import Value, value
+from .reduced_system import ReducedSystem
+
+Exponents = tuple[int, ...]
+
+
+class TooLargeError(ValueError):
+    """More monomials than are tried."""
+
+
+Images = Sequence[Mapping[int, frozenset[Exponents]]]
+"""For each derivation, the monomials of its value on each variable, by the variable's number."""
+ATTEMPTS = 3
+SPARE = 8
+"""So many more points than unknowns."""
+
+
+def degree(t: Tree, weights: Mapping[Tree, Fraction]) -> Fraction:
+    """The degree of a polynomial as it is written, where nothing cancels."""
+    if t in weights:
+        return weights[t]
+    found = [degree(x, weights) for x in operands(t)]
+    if not isinstance(t, tuple) or not found:
+        return Fraction(0)
+    if t[0] == "pow":
+        return sum(found * t[2], Fraction(0))
+    return max(found) if t[0] == "add" else sum(found, Fraction(0))
+
+
+def monomials(weights: Sequence[Fraction], most: Fraction) -> list[Exponents]:
+    """The exponents of monomials, or of products, of a degree above 0, up to one; ``TooLargeError``
+    for too many."""
+    unit = lcm(*(w.denominator for w in weights))
+    found: list[tuple[Exponents, int]] = [((), int(most * unit))]
+    for w in map(int, (w * unit for w in weights)):
+        longer = (((*e, k), left - k * w) for e, left in found for k in range(left // w + 1))
+        found = [*islice(longer, MONOMIALS + 1)]
+        if len(found) > MONOMIALS:
+            raise TooLargeError(f"more than {MONOMIALS} monomials")
+    return [e for e, _ in found if any(e)]
+
+
+def support(t: Tree, place: Mapping[Tree, int]) -> frozenset[Exponents]:
+    """The exponents of the monomials of which a polynomial is made; ``TooLargeError`` for too
+    many."""
+    if t in place:
+        return frozenset([tuple(int(k == place[t]) for k in place.values())])
+    parts = [support(x, place) for x in operands(t)]
+    if not isinstance(t, tuple) or not parts:
+        return frozenset([(0,) * len(place)])
+    if t[0] == "add":
+        return frozenset().union(*parts)
+    return reduce(_product, parts * t[2] if t[0] == "pow" else parts)
+
+
+def _product(a: frozenset[Exponents], b: frozenset[Exponents]) -> frozenset[Exponents]:
+    if len(a) * len(b) > MONOMIALS:
+        raise TooLargeError(f"more than {MONOMIALS} monomials")
+    return frozenset(tuple(map(add, x, y)) for x in a for y in b)
+
+
+def blocks(unknowns: Sequence[Exponents], images: Images) -> Iterator[list[Exponents]]:
+    """The monomials apart, those together of which some images have a monomial in common: what the
+    derivations take to 0 is a sum over these."""
+    root = [*range(len(unknowns))]
+    owner: dict[tuple[int, Exponents], int] = {}
+
+    def top(k: int) -> int:
+        while root[k] != k:
+            root[k] = k = root[root[k]]
+        return k
+
+    for k, e in enumerate(unknowns):
+        for d, image in enumerate(images):
+            for i in (i for i in image if e[i]):
+                rest = (*e[:i], e[i] - 1, *e[i + 1 :])
+                for m in image[i]:
+                    target = tuple(map(add, rest, m))
+                    root[top(k)] = top(owner.setdefault((d, target), k))
+    found: dict[int, list[Exponents]] = {}
+    for k, e in enumerate(unknowns):
+        found.setdefault(top(k), []).append(e)
+    return iter(found.values())
+
+
+class Completeness:
+    """The polynomials of at most a ``degree``, variables counting as of ``weights``, and products
+    of ``generators``, of a system with these ``values`` of some parameters."""
+
+    def __init__(
+        self,
+        system: ReducedSystem,
+        weights: Sequence[Fraction],
+        most: Fraction,
+        generators: Sequence[Tree],
+        values: Sequence[tuple[Tree, Tree]] = (),
+    ):
+        self.system, self.generators, self.values = system, generators, values
+        self.weights, self.most = weights, most
+        own = dict(zip(system.variables, weights, strict=True))
+        self.products = monomials([degree(f, own) for f in generators], most)
+
+    def fault(self, images: Images, rates: Rates) -> str:
+        """What derivations, with these ``images`` of the variables and these ``rates`` at points,
+        take to 0 beside the products, in words; "" where that is nothing."""
+        apart = [*blocks(monomials(self.weights, self.most), images)]
+        for p in PRIMES[:ATTEMPTS]:
+            several = self.kernel(apart, rates, p)
+            known = self.rank(several + SPARE, p)
+            if known == several:
+                return ""
+        return f"a space of dimension {several}, in which the products have the rank {known}"
+
+    def point(self, several: int, p: int) -> dict[Tree, Value]:
+        """So many random points of the variables, at one of the parameters, modulo p."""
+        random = self.system.random
+        at: dict[Tree, Value] = {x: random.randrange(1, p) for x in self.system.parameters}
+        for letter, t in self.values:
+            at[letter] = value(t, at, p)
+        source = ResidueSource(p, several, random.getrandbits(64))
+        return at | {x: source.randint(1, p) for x in self.system.variables}
+
+    def kernel(self, apart: Sequence[Sequence[Exponents]], rates: Rates, p: int) -> int:
+        """The dimension of what derivations take to 0 at random points, 1 among it."""
+        at = self.point(max(map(len, apart), default=0) + SPARE, p)
+        moved = rates(at, p)
+        x = [at[y] for y in self.system.variables]
+        slopes = [moved[i] / y if i in moved else None for i, y in enumerate(x)]
+        return 1 + sum(len(block) - _rank(block, x, slopes, p) for block in apart)
+
+    def rank(self, several: int, p: int) -> int:
+        """The rank of 1 and the products at so many random points."""
+        return len(pivots(self.rows(self.point(several, p), p), several, p))
+
+    def rows(self, at: Mapping[Tree, Value], p: int) -> list[list[int]]:
+        """The values of 1 and the products at points."""
+        f = [value(t, at, p) for t in self.generators]
+        powers = _powers(f, self.products)
+        one = [1] * len(at[self.system.variables[0]].values)
+        return [one, *(_monomial(powers, e).values for e in self.products)]
+
+    def contains(self, f: Tree) -> bool:
+        """Is a polynomial of the degree a combination of 1 and the products?"""
+        p, several = PRIMES[0], len(self.products) + SPARE
+        at = self.point(several, p)
+        rows = self.rows(at, p)
+        both = ([*rows, value(f, at, p).values], rows)
+        more, known = (len(pivots(x, several, p)) for x in both)
+        return more == known
+
+
+Rates = Callable[[Mapping[Tree, Value], int], Mapping[int, Residues]]
+"""The values that a derivation has on the variables at points, by their numbers."""
+
+
+def _rank(
+    block: Sequence[Exponents], x: Sequence[Residues], slopes: Sequence[Residues | None], p: int
+) -> int:
+    """The rank of the values D(x^e) = x^e Σ e_i ẋ_i/x_i at points for the monomials of a block."""
+    few = range(len(block) + SPARE)
+    powers = _powers([y.at(few) for y in x], block)
+    own = [None if y is None else y.at(few) for y in slopes]
+    nothing, rows = Residues([0] * len(few), p), []
+    for e in block:
+        rate = sum((y * k for k, y in zip(e, own, strict=True) if k and y), nothing)
+        rows.append((_monomial(powers, e) * rate).values)
+    return len(pivots(rows, len(few), p))
+
+
+def _powers(x: Sequence[Residues], exponents: Sequence[Exponents]) -> list[list[Residues]]:
+    """The powers of numbers, from the first on, that monomials need."""
+    found = []
+    for k, y in enumerate(x):
+        own, most = [y], max((e[k] for e in exponents), default=0)
+        while len(own) < most:
+            own.append(own[-1] * y)
+        found.append(own)
+    return found
+
+
+def _monomial(powers: Sequence[Sequence[Residues]], e: Exponents) -> Residues:
+    return reduce(mul, (own[k - 1] for own, k in zip(powers, e, strict=True) if k))
+
+
+# -- the two derivations ------------------------------------------------------------------------
+
+
+def along_the_motion(system: ReducedSystem) -> tuple[Images, Rates]:
+    """d/dt."""
+    place = {x: k for k, x in enumerate(system.variables)}
+    images = {k: support(t, place) for k, t in enumerate(system.rates) if t != 0}
+
+    def rates(at: Mapping[Tree, Value], p: int) -> Mapping[int, Residues]:
+        found = {k: value(t, at, p) for k, t in enumerate(system.rates)}
+        return {k: x for k, x in found.items() if isinstance(x, Residues)}
+
+    return [images], rates
+
+
+def along_every_field(system: ReducedSystem) -> tuple[Images, Rates]:
+    """The brackets with all variables; at a point that with a random combination of them."""
+    size = len(system.variables)
+    unit = {k: tuple(int(i == k) for i in range(size)) for k in range(size)}
+    one = (0,) * size
+    images: list[dict[int, frozenset[Exponents]]] = [{} for _ in range(size)]
+    for (i, j), form in system.tensor.forms.items():
+        images[j][i] = frozenset(one if k is None else unit[k] for k in form)
+
+    def rates(at: Mapping[Tree, Value], p: int) -> Mapping[int, Residues]:
+        x = [at[y] for y in system.variables]
+        source = ResidueSource(p, len(x[0].values), system.random.getrandbits(64))
+        w = [source.randint(1, p) for _ in x]
+        found: dict[int, Residues] = {}
+        for (i, j), c in system.tensor.at(x, p).items():
+            found[i] = found[i] + w[j] * c if i in found else w[j] * c
+        return found
+
+    return images, rates

@@ -1,0 +1,158 @@
+"""Claims are judged: what a sentence says beside the equations is data that a checker computes
+again, and neither a changed value nor a sentence without its claim passes."""
+
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+
+import pytest
+
+from derive import first_integrals
+from derive.check.claims import no_more
+from derive.check.claims.claim_checker import JUDGES, ClaimChecker
+from derive.integrals import told
+from derive.language.tree import add
+from derive.prose import english
+from derive.record.claims import CLAIMS, Claim
+from derive.record.json_reader import from_json
+from derive.record.json_writer import to_json
+from derive.record.sentence import Sentence
+from tests.support.lagrangians import APART, LINE, LINES, heavy, lagrangian, squares
+from tests.support.walks import SEED
+
+RECORDS = {
+    "euler_top": lambda: first_integrals("euler_top", 2).record,
+    "lagrange_top": lambda: first_integrals("lagrange_top", 2).record,
+    "gyrostat": lambda: first_integrals("gyrostat", 2).record,
+    "su2": lambda: first_integrals("su2", 2).record,
+    "screw": lambda: first_integrals("screw", 2).record,
+    "so3": lambda: first_integrals("so3", 1, at_defaults=True).record,
+    "line": lambda: first_integrals(lagrangian(squares(1, 2), LINE), 2).record,
+    "lines": lambda: first_integrals(lagrangian(squares(1, 2, 3, 5), LINES), 2).record,
+    "still": lambda: first_integrals(lagrangian(squares(1, 2), APART), 2).record,
+    "a level": lambda: first_integrals(heavy("441", "m*A_31", "m"), 4).record,
+    "large": lambda: large("euler_top"),
+    "large at defaults": lambda: large("euler_top", at_defaults=True),
+}
+"""Records that make claims, of every kind at least one."""
+
+OPEN = {"degree", "weight"}
+"""What may be another number and stay true: a degree up to which there are no more, and by which
+variables count."""
+FALSE = {("first_integrals.complete_by_one", "number"): (1, 0)}
+"""Numbers that make a claim false where another one does not: the energy of a ball is a Casimir."""
+MONOMIALS = 4
+
+
+def large(name, **how):
+    """A record whose claims are too large to be computed again."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(told, "MONOMIALS", MONOMIALS)
+        return first_integrals(name, 2, **how).record
+
+
+@pytest.fixture(autouse=True)
+def small(request, monkeypatch):
+    """The checker's limit, as low as that of what is said to be large."""
+    named = getattr(request.node, "callspec", None)
+    if named and str(named.params.get("name", "")).startswith("large"):
+        monkeypatch.setattr(no_more, "MONOMIALS", MONOMIALS)
+
+
+@cache
+def record(name):
+    return RECORDS[name]()
+
+
+def made(name):
+    """The steps of a record that make claims, with each claim."""
+    return [(step, claim) for step in record(name).steps for claim in step.claims]
+
+
+def judged(name, step):
+    """What is wrong with the claims of a step in the place of the one with its label."""
+    d = record(name)
+    steps = tuple(step if x.label == step.label else x for x in d.steps)
+    return ClaimChecker(replace(d, steps=steps), SEED).fault(step)
+
+
+def test_every_kind_is_judged_and_made():
+    assert set(JUDGES) == CLAIMS
+    assert {claim.kind for name in RECORDS for _, claim in made(name)} == CLAIMS
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_claims_hold_and_are_read_back(name):
+    assert not [x for x in map(ClaimChecker(record(name), SEED).fault, record(name).steps) if x]
+    assert from_json(to_json(record(name))).steps == record(name).steps
+
+
+def changes(claim):
+    """The claim with each value made another."""
+    for k, (name, value) in enumerate(claim.values):
+        several = isinstance(value, tuple) and value[0] == "row"
+        others = [value[:-1], (*value, value[-1])] if several else [_more(value)]
+        others = [] if name in OPEN else FALSE.get((claim.kind, name), others)
+        for other in others:
+            values = (*claim.values[:k], (name, other), *claim.values[k + 1 :])
+            yield Claim(claim.kind, values)
+
+
+def _more(value):
+    return value + 1 if isinstance(value, (int, Fraction)) else add(value, 1)
+
+
+def said(step, old, new):
+    """A step with another claim in the place of one, and its sentence in the place of the other."""
+
+    def rendered_anew(x):
+        places = tuple((k, y if isinstance(y, str) else rendered_anew(y)) for k, y in x.places)
+        if x.message == english(old.kind) and {**dict(places), **old.texts} == dict(places):
+            places = tuple((dict(places) | new.texts).items())
+        return Sentence(x.message, places)
+
+    prose = tuple(map(rendered_anew, step.prose))
+    claims = tuple(new if x == old else x for x in step.claims)
+    return replace(step, prose=prose, claims=claims)
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_another_value_is_refused(name):
+    for step, claim in made(name):
+        for wrong in changes(claim):
+            assert judged(name, said(step, claim, wrong)), wrong
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_sentences_and_claims_go_together(name):
+    for step, claim in made(name):
+        without = tuple(x for x in step.claims if x != claim)
+        assert "none such" in judged(name, replace(step, claims=without))
+        for wrong in changes(claim):
+            assert "not what the sentences say" in judged(
+                name, replace(step, claims=(*without, wrong))
+            )
+
+
+def test_no_degree_with_more_passes():
+    """Kovalevskaya's integral and a Casimir are of degree 4: up to 3 there is nothing else."""
+    d = first_integrals("kovalevskaya_top", 3).record
+    for step in (d["casimirs"], d["first_integrals"]):
+        assert not ClaimChecker(d, SEED).fault(step)
+        (claim,) = (x for x in step.claims if x.kind.split(".")[1].startswith("all"))
+        wrong = said(step, claim, replace(claim, values=(("degree", 4),)))
+        assert "in which the products have the rank" in ClaimChecker(d, SEED).fault(wrong)
+
+
+@pytest.mark.parametrize(
+    ("label", "place"), [("casimirs", 0), ("casimirs", 1), ("first_integrals", 1)]
+)
+def test_no_integral_or_casimir_is_missing(label, place):
+    d = first_integrals("kovalevskaya_top", 4).record
+    own = d[label]
+    left = tuple(e for k, e in enumerate(own.equations) if k != place)
+    claims = tuple(x for x in own.claims if x.kind.split(".")[1].startswith("all"))
+    fewer = replace(own, equations=left, claims=claims, prose=())
+    changed = replace(d, steps=tuple(fewer if x is own else x for x in d.steps))
+    found = JUDGES[claims[0].kind](ClaimChecker(changed, SEED), fewer, claims[0])
+    assert "in which the products have the rank" in found
